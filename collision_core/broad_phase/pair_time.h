@@ -1,0 +1,26 @@
+// The canonical answer: when two agents can first meet.
+#pragma once
+
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision {
+
+/// Seconds after a base instant, rounded down; +infinity: never.
+struct PairTime {
+  Instant base;
+  double seconds;
+
+  /// Rounded down to the nanosecond.
+  Instant instant() const { return AddRoundedDown(base, seconds); }
+};
+
+/// The earliest possible intersection of A and B at or after base = max(from, stamp_A, stamp_B):
+/// the later of the first overlap of the two balls and the first overlap of the two boxes. Never
+/// late: no motion that honours both declarations touches in [base, base + seconds). Not idle:
+/// early by at most max(1e-9 · seconds, what the inputs' rounding forces). The boxes are asked only
+/// where a direction is declared; elsewhere they contain the balls. Agents that cannot meet
+/// (masks), or one of which has expired by base, meet never; after an expiry likewise. Symmetric:
+/// (A, B) and (B, A) give the same bits.
+PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from);
+
+}  // namespace collision

@@ -1,0 +1,192 @@
+#include "collision_core/detection/announcer.h"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "collision_core/detection/judge.h"
+
+namespace collision {
+namespace {
+
+// A pair is dismissed only when it is this much further away than what is announced, so that pairs that
+// travel side by side do not come and go with every state.
+constexpr double kDismissFactor = 1.25;
+
+// A possible event is revised when its earliest time moved by this share of what was left.
+constexpr double kRevisionShare = 0.25;
+
+// A confirmed event is revised when its begin bracket is narrower than this share of the published one.
+constexpr double kNarrowerShare = 0.99;
+
+bool Narrower(const TimeBracket& found, const TimeBracket& published) {
+  return SecondsBetween(found.earliest, found.latest).upper <
+         kNarrowerShare * SecondsBetween(published.earliest, published.latest).lower;
+}
+
+double SecondsLeft(Instant now, Instant t) {
+  if (t.is_never()) return std::numeric_limits<double>::infinity();
+  return t <= now ? 0 : SecondsBetween(now, t).upper;
+}
+
+}  // namespace
+
+struct Announcer::Subject {
+  const AgentRecord& lower;
+  const AgentRecord& higher;
+  std::uint32_t slot;
+  PairTable& pairs;
+  PairRecord& pair;
+};
+
+void Announcer::Start(Instant now) {
+  now_ = now;
+  events_.clear();
+}
+
+bool Announcer::Report(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
+                       const ContactTracker& preview, PairTable* pairs) {
+  const Subject subject{lower, higher, slot, *pairs, (*pairs)[slot]};
+  PairRecord& pair = subject.pair;
+  for (const ContactEpisode& episode : pair.tracker.TakeFinished()) Finish(subject, episode);
+
+  for (const ContactEpisode& episode : preview.finished()) {
+    if (episode.contact) Confirm(subject, episode);
+  }
+  if (preview.in_contact()) {
+    Confirm(subject, preview.episode());
+    return true;
+  }
+  const double left = SecondsLeft(now_, preview.free_until());
+  const bool settled = pair.tracker.free() && preview.free() && preview.finished().empty();
+  if (settled && left > kDismissFactor * options_.announce_within) {
+    if (pair.announced) {
+      Emit(subject, EventStatus::kDismissed);
+      pair.announced = false;
+    }
+    return false;
+  }
+  if (preview.finished().empty() && left <= options_.announce_within) Possible(subject, preview);
+  return true;
+}
+
+void Announcer::Leave(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
+                      PairTable* pairs) {
+  const Subject subject{lower, higher, slot, *pairs, (*pairs)[slot]};
+  PairRecord& pair = subject.pair;
+  if (!pair.announced) return;
+  if (pair.event.status == EventStatus::kConfirmed) {
+    pair.event.end.latest = std::max(now_, pair.event.end.earliest);
+    Emit(subject, EventStatus::kEnded);
+  } else {
+    Emit(subject, EventStatus::kWithdrawn);
+  }
+  pair.announced = false;
+}
+
+void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
+  CollisionEvent& event = subject.pair.event;
+  if (episode.contact) {
+    Confirm(subject, episode);
+    event.begin = episode.begin;
+    event.end = episode.end;
+    event.continuous = episode.continuous;
+    Emit(subject, EventStatus::kEnded);
+  } else {
+    if (!subject.pair.announced) Open(subject, episode.begin.earliest, episode.began_before);
+    event.begin = episode.begin;
+    event.end = episode.end;
+    Evaluate(subject, episode.nearest);
+    Emit(subject, EventStatus::kUndecided);
+  }
+  subject.pair.announced = false;
+}
+
+void Announcer::Possible(const Subject& subject, const ContactTracker& preview) {
+  const PairRecord& pair = subject.pair;
+  const Instant earliest = preview.free_until();
+  if (!pair.announced) {
+    Open(subject, earliest, preview.began_before());
+    return;
+  }
+  CollisionEvent& event = subject.pair.event;
+  if (event.status != EventStatus::kPossible || earliest == event.begin.earliest) return;
+  const double left = SecondsLeft(now_, event.begin.earliest);
+  const double moved = earliest < event.begin.earliest
+                           ? std::numeric_limits<double>::infinity()
+                           : SecondsBetween(event.begin.earliest, earliest).lower;
+  if (moved <= kRevisionShare * left || moved <= options_.temporal_resolution) return;
+  event.begin.earliest = earliest;
+  Emit(subject, EventStatus::kPossible);
+}
+
+// Confirms the contact, or narrows its brackets if that was done already.
+void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
+  if (!subject.pair.announced) Open(subject, episode.begin.earliest, episode.began_before);
+  CollisionEvent& event = subject.pair.event;
+  if (event.status == EventStatus::kConfirmed && !Narrower(episode.begin, event.begin)) return;
+  event.begin = episode.begin;
+  event.end.earliest = episode.end.earliest;
+  event.continuous = episode.continuous;
+  event.began_before = episode.began_before;
+  const Instant at = episode.begin.latest;
+  Evaluate(subject, {at, SeparationOf(subject.lower.history, subject.higher.history, at)});
+  ++subject.pair.work;
+  Emit(subject, EventStatus::kConfirmed);
+}
+
+void Announcer::Open(const Subject& subject, Instant free_until, bool began_before) {
+  PairRecord& pair = subject.pair;
+  pair.announced = true;
+  pair.work = 0;
+  pair.event = CollisionEvent{};
+  pair.event.lower = subject.lower.id;
+  pair.event.higher = subject.higher.id;
+  pair.event.pair_slot = subject.slot;
+  pair.event.contact = subject.pairs.NextContact(pair.lower, pair.higher);
+  pair.event.revision = 0;
+  pair.event.begin.earliest = free_until;
+  pair.event.began_before = began_before;
+  Emit(subject, EventStatus::kPossible);
+}
+
+void Announcer::Emit(const Subject& subject, EventStatus status) {
+  CollisionEvent& event = subject.pair.event;
+  if (event.revision == 0 || event.status != status) ++counters_->events[static_cast<int>(status)];
+  event.status = status;
+  ++event.revision;
+  event.now = now_;
+  event.work = subject.pair.work;
+  event.limited_by = EventLimit::kMotion;
+  events_.push_back(event);
+}
+
+void Announcer::Evaluate(const Subject& subject, const Nearest& nearest) {
+  if (nearest.at.is_never()) return;
+  CollisionEvent& event = subject.pair.event;
+  const SeparationAt& found = nearest.found;
+  event.evaluated_at = nearest.at;
+  event.separation_lower = found.separation.lower;
+  event.separation_upper = found.separation.upper;
+  event.depth_lower = std::max(0.0, -found.separation.upper);
+  const Eigen::Vector3d d = found.p_WB - found.p_WA;
+  const double distance = d.norm();
+  const double error = found.error_A + found.error_B;
+  // The direction of d turns by at most asin(error / distance), and asin x <= π/2 x; the last factor covers
+  // the rounding of these few operations.
+  constexpr double kRounding = 1 + 1e-12;
+  const bool directed = distance > error;
+  event.normal = directed ? Eigen::Vector3d(d / distance) : Eigen::Vector3d(0, 0, 0);
+  event.normal_error =
+      directed ? std::numbers::pi / 2 * (error / distance) * kRounding + 1e-15 : std::numbers::pi;
+  // Half-way between the two surfaces along the normal.
+  const double radius_A = subject.lower.bound().declaration.radius;
+  const double gap = (found.separation.lower + found.separation.upper) / 2;
+  event.p_WC = found.p_WA + event.normal * (radius_A + gap / 2);
+  event.point_error =
+      (found.error_A + found.separation.width() + radius_A * std::min(event.normal_error, 2.0)) *
+          kRounding +
+      1e-15 * found.p_WA.lpNorm<Eigen::Infinity>();
+}
+
+}  // namespace collision

@@ -1,0 +1,46 @@
+// When a pair's news is worth an event, and what it says.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/detection/agent_record.h"
+#include "collision_core/detection/pair_table.h"
+
+namespace collision {
+
+/// Turns what is known of a pair into revisions of events: possible before confirmed, confirmed before ended,
+/// each status once, and further revisions only where a bracket moved enough to matter.
+class Announcer {
+ public:
+  Announcer(const DetectorOptions& options, DetectorCounters* counters)
+      : options_(options), counters_(counters) {}
+
+  /// The events of this step begin.
+  void Start(Instant now);
+  const std::vector<CollisionEvent>& events() const { return events_; }
+
+  /// `preview` is the pair's tracker, run ahead of what is settled. Returns false when the pair is far apart
+  /// again and needs no more tracking.
+  bool Report(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
+              const ContactTracker& preview, PairTable* pairs);
+
+  /// One of the two has left: withdrawn, or ended if the contact was confirmed.
+  void Leave(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot, PairTable* pairs);
+
+ private:
+  struct Subject;  // the pair and its two agents
+
+  void Finish(const Subject& subject, const ContactEpisode& episode);
+  void Possible(const Subject& subject, const ContactTracker& preview);
+  void Confirm(const Subject& subject, const ContactEpisode& episode);
+  void Open(const Subject& subject, Instant free_until, bool began_before);
+  void Emit(const Subject& subject, EventStatus status);
+  void Evaluate(const Subject& subject, const Nearest& at);
+
+  DetectorOptions options_;
+  DetectorCounters* counters_;
+  Instant now_;
+  std::vector<CollisionEvent> events_;
+};
+
+}  // namespace collision

@@ -1,0 +1,93 @@
+#include "collision_core/detection/contact_tracker.h"
+
+#include <algorithm>
+
+namespace collision {
+
+ContactTracker::ContactTracker(Instant free_until, bool began_before)
+    : at_(free_until), began_before_(began_before) {}
+
+void ContactTracker::ExtendFree(Instant until) {
+  if (until <= at_) return;
+  at_ = until;
+  began_before_ = false;
+}
+
+void ContactTracker::RetractFree(Instant until, bool began_before) {
+  if (open_) {
+    episode_.began_before |= began_before;
+    return;
+  }
+  at_ = std::min(at_, until);
+  began_before_ |= began_before;
+}
+
+void ContactTracker::Open(Instant free_until) {
+  open_ = true;
+  episode_ = ContactEpisode{};
+  episode_.begin.earliest = free_until;
+  episode_.began_before = began_before_;
+  began_before_ = false;
+}
+
+void ContactTracker::Close(Instant free_from) {
+  episode_.end.latest = free_from;
+  if (!episode_.contact) {
+    episode_.begin.latest = free_from;
+    episode_.end.earliest = episode_.begin.earliest;
+  }
+  finished_.push_back(episode_);
+  open_ = false;
+  began_before_ = false;
+}
+
+// Contact on [contact_from, contact_to] of a segment that starts at `from`.
+void ContactTracker::Touch(const SegmentVerdict& verdict, Instant from, Instant to) {
+  // Rounded outward: contact has begun by `first`, and lasts at least until `last`.
+  const Instant first = std::min(AddRoundedUp(from, verdict.contact_from), to);
+  const Instant last = std::min(AddRoundedDown(from, verdict.contact_to), to);
+  const bool joins = episode_.contact && contact_until_ >= from && verdict.contact_from <= 0;
+  if (!episode_.contact) {
+    episode_.contact = true;
+    episode_.begin.latest = first;
+    episode_.end.earliest = std::min(AddRoundedDown(from, verdict.contact_from), to);
+  } else if (!joins) {
+    episode_.continuous = false;
+  }
+  if (!verdict.contact_continuous) {
+    episode_.continuous = false;
+    return;
+  }
+  if (episode_.continuous) {
+    contact_until_ = last;
+    episode_.end.earliest = last;
+  }
+}
+
+void ContactTracker::Apply(const SegmentVerdict& verdict, Instant to, const Nearest& nearest) {
+  const Instant from = at_;
+  const Instant free_until = AddRoundedDown(from, verdict.free_until);
+  const bool free_throughout = free_until >= to;
+  const bool free_at_start = verdict.free_until > 0;
+  at_ = to;
+  if (free_at_start) began_before_ = false;
+  if (open_ && free_at_start) Close(from);
+  if (free_throughout) return;
+  if (!open_) Open(std::min(free_until, to));
+  if (!nearest.at.is_never() &&
+      (episode_.nearest.at.is_never() ||
+       nearest.found.separation.upper < episode_.nearest.found.separation.upper)) {
+    episode_.nearest = nearest;
+  }
+  if (verdict.contact_from <= verdict.contact_to) Touch(verdict, from, to);
+  const Instant free_from = AddRoundedUp(from, verdict.free_from);
+  if (free_from < to) Close(free_from);
+}
+
+std::vector<ContactEpisode> ContactTracker::TakeFinished() {
+  std::vector<ContactEpisode> finished;
+  finished.swap(finished_);
+  return finished;
+}
+
+}  // namespace collision

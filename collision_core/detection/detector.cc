@@ -1,0 +1,309 @@
+#include "collision_core/detection/detector.h"
+
+#include <algorithm>
+
+#include "collision_core/detection/detector_implementation.h"
+#include "collision_core/detection/judge.h"
+#include "collision_core/detection/scene_profile.h"
+
+namespace collision {
+
+Detector::Implementation::Implementation(const DetectorOptions& options)
+    : pairs_(options.pairs_max), announcer_(options, &counters_), options_(options) {}
+
+AgentRecord* Detector::Implementation::Find(const AgentId& id) {
+  const auto found = index_.find(id);
+  return found == index_.end() ? nullptr : agents_[found->second].get();
+}
+
+bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& declaration,
+                                     const MotionState& state, Instant effective_from) {
+  if (index_.size() >= options_.agents_max || index_.contains(id)) return false;
+  std::uint32_t agent;
+  if (free_.empty()) {
+    agent = static_cast<std::uint32_t>(agents_.size());
+    agents_.emplace_back();
+  } else {
+    agent = free_.back();
+    free_.pop_back();
+  }
+  agents_[agent] = std::make_unique<AgentRecord>();
+  AgentRecord& record = At(agent);
+  record.id = id;
+  record.declaration = declaration;
+  record.heard = state.stamp;
+  record.history.Push({state, declaration, options_.skew}, Link::kJumped, options_.history_max);
+  index_[id] = agent;
+  Renew(agent, state.stamp, ClearanceCause::kAdmission, effective_from);
+  return true;
+}
+
+UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionState& state,
+                                               Instant effective_from) {
+  const auto found = index_.find(id);
+  if (found == index_.end()) return UpdateOutcome::kUnknown;
+  const std::uint32_t agent = found->second;
+  AgentRecord& record = At(agent);
+  ++counters_.updates;
+  if (state.stamp < record.stamp()) {
+    ++counters_.older;
+    return UpdateOutcome::kOlder;
+  }
+  const SpaceTimeBound next{state, record.declaration, options_.skew};
+  const auto push = [&](Link link) {
+    record.history.Push(next, link, options_.history_max);
+    record.heard = std::max(record.heard, state.stamp);
+    record.changed = true;
+  };
+  if (record.expired) {
+    record.expired = false;
+    record.history.Clear();
+    push(Link::kJumped);
+    Renew(agent, state.stamp, ClearanceCause::kAdmission, effective_from);
+    return UpdateOutcome::kJumped;
+  }
+  if (state.discontinuity) {
+    ++counters_.jumps;
+    push(Link::kJumped);
+    Renew(agent, state.stamp, ClearanceCause::kTeleport, effective_from);
+    return UpdateOutcome::kJumped;
+  }
+  const Instant before = record.stamp();
+  const ContractCheck check = CheckContract(record.bound(), state);
+  switch (check.verdict) {
+    case ContractVerdict::kKept:
+      ++counters_.updates_kept;
+      push(Link::kFollows);
+      Put(agent);
+      return UpdateOutcome::kKept;
+    case ContractVerdict::kWidened:
+      ++counters_.widenings;
+      push(Link::kFollows);
+      Renew(agent, state.stamp, ClearanceCause::kWidening, effective_from);
+      return UpdateOutcome::kWidened;
+    case ContractVerdict::kBreached:
+      break;
+  }
+  ++counters_.breaches;
+  push(Link::kBroken);
+  record.void_from = before;
+  Renew(agent, state.stamp, ClearanceCause::kBreach, effective_from);
+  // Near partners are judged again from the last honest state on: what lies between is unknown.
+  for (const std::uint32_t slot : record.pairs) pairs_[slot].tracker.RetractFree(before, false);
+  return UpdateOutcome::kBreached;
+}
+
+bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
+                                         Instant effective_from) {
+  const auto found = index_.find(id);
+  if (found == index_.end()) return false;
+  AgentRecord& record = At(found->second);
+  record.declaration = declaration;
+  AgentDeclaration& in_force = record.history.newest().declaration;
+  const AgentDeclaration before = in_force;
+  in_force.radius = std::max(before.radius, declaration.radius);
+  in_force.acceleration_max = std::max(before.acceleration_max, declaration.acceleration_max);
+  in_force.time_step = std::max(before.time_step, declaration.time_step);
+  in_force.group = declaration.group;
+  in_force.mask = declaration.mask;
+  record.changed = true;
+  const bool widened = in_force.radius > before.radius ||
+                       in_force.acceleration_max > before.acceleration_max ||
+                       in_force.time_step > before.time_step ||
+                       (in_force.group & ~before.group) != 0 || (in_force.mask & ~before.mask) != 0;
+  if (record.expired) return true;
+  if (widened) {
+    ++counters_.widenings;
+    Renew(found->second, record.stamp(), ClearanceCause::kWidening, effective_from);
+  } else {
+    Put(found->second);
+  }
+  return true;
+}
+
+bool Detector::Implementation::Remove(const AgentId& id) {
+  const auto found = index_.find(id);
+  if (found == index_.end()) return false;
+  leaving_.push_back(found->second);
+  index_.erase(found);
+  return true;
+}
+
+void Detector::Implementation::Hear(const AgentId& id, Instant until) {
+  if (AgentRecord* record = Find(id)) record->heard = std::max(record->heard, until);
+}
+
+void Detector::Implementation::Renew(std::uint32_t agent, Instant from, ClearanceCause cause,
+                                     Instant effective_from) {
+  AgentRecord& record = At(agent);
+  if (!record.renewed_from) renewed_.push_back(agent);
+  record.renewed_from = std::min(record.renewed_from.value_or(from), from);
+  record.renewed_cause = cause;
+  record.effective_from = std::max(record.effective_from, effective_from);
+  record.cause = cause;
+  record.cause_agent = record.id;
+  record.changed = true;
+  Put(agent);
+  SetKey(agent, std::min(record.key, from));
+  for (const std::uint32_t slot : record.pairs) {
+    pairs_[slot].tracker.RetractFree(from, false);
+    Tell(pairs_[slot].lower == agent ? pairs_[slot].higher : pairs_[slot].lower, agent);
+  }
+}
+
+// The partner's clearance may be lowered because of `cause`.
+void Detector::Implementation::Tell(std::uint32_t agent, std::uint32_t cause) {
+  AgentRecord& record = At(agent);
+  const AgentRecord& source = At(cause);
+  record.cause = source.renewed_cause;
+  record.cause_agent = source.id;
+  if (source.renewed_cause == ClearanceCause::kBreach) record.void_from = source.void_from;
+}
+
+void Detector::Implementation::Expire(std::uint32_t agent) {
+  AgentRecord& record = At(agent);
+  record.expired = true;
+  DropPairs(agent);
+  broad_phase_.Remove(agent);
+  queue_.Remove(agent);
+}
+
+void Detector::Implementation::Leave(std::uint32_t agent) {
+  if (!At(agent).expired) Expire(agent);
+  pairs_.Forget(agent);
+  std::erase(renewed_, agent);
+  agents_[agent].reset();
+  free_.push_back(agent);
+}
+
+void Detector::Implementation::DropPairs(std::uint32_t agent) {
+  const std::vector<std::uint32_t> slots = At(agent).pairs;
+  for (const std::uint32_t slot : slots) Drop(slot);
+}
+
+// The two will not meet any more, whatever they do.
+void Detector::Implementation::Drop(std::uint32_t slot) {
+  const PairRecord& pair = pairs_[slot];
+  announcer_.Leave(At(pair.lower), At(pair.higher), slot, &pairs_);
+  std::erase(At(pair.lower).pairs, slot);
+  std::erase(At(pair.higher).pairs, slot);
+  pairs_.Remove(slot);
+}
+
+void Detector::Implementation::Advance(Instant now) {
+  now_ = std::max(now_, now);
+  ++step_;
+  announcer_.Start(now_);
+  for (const std::uint32_t agent : leaving_) Leave(agent);
+  leaving_.clear();
+  for (const auto& [id, agent] : index_) {
+    if (!At(agent).expired && At(agent).bound().state.expiry <= now_) Expire(agent);
+  }
+  AskAll();
+  TurnAll();
+  for (const auto& [id, agent] : index_) TrimHistory(agent);
+}
+
+void Detector::Implementation::TurnAll() {
+  const std::vector<std::uint32_t> slots(pairs_.slots().begin(), pairs_.slots().end());
+  for (const std::uint32_t slot : slots) {
+    const PairRecord& pair = pairs_[slot];
+    const bool news = At(pair.lower).changed || At(pair.higher).changed;
+    const bool soon = pair.clear_until <= AddRoundedDown(now_, options_.temporal_resolution);
+    const bool due = !pair.announced &&
+                     pair.clear_until <= AddRoundedDown(now_, options_.announce_within);
+    if (news || soon || due || pair.in_contact) Turn(slot);
+  }
+}
+
+void Detector::Implementation::Turn(std::uint32_t slot) {
+  PairRecord& pair = pairs_[slot];
+  const AgentRecord& a = At(pair.lower);
+  const AgentRecord& b = At(pair.higher);
+  if (!CanMeet(a.bound().declaration, b.bound().declaration)) {
+    Drop(slot);
+    return;
+  }
+  const auto judge = [&](Instant until, ContactTracker* tracker) {
+    const std::uint64_t segments = Judge(a.history, b.history, until, tracker);
+    counters_.segments += segments;
+    pair.work += segments;
+  };
+  // Settled: both owners' states reach up to here, so that the bounds of both directions count.
+  judge(std::min(a.stamp(), b.stamp()), &pair.tracker);
+  // Heard: no jump that we do not know of lies before.
+  ContactTracker preview = pair.tracker;
+  preview.TakeFinished();
+  judge(std::min({a.heard, b.heard, now_}), &preview);
+  // Promised: free as long as both honour their newest bounds.
+  if (preview.free()) {
+    ContactTracker outlook = preview;
+    judge(std::max(a.stamp(), b.stamp()), &outlook);
+    if (outlook.free() && outlook.finished().size() == preview.finished().size()) {
+      const Instant from = std::min(now_, outlook.at());
+      ++counters_.pair_queries;
+      outlook.ExtendFree(EarliestIntersection(a.bound(), b.bound(), from).instant());
+      preview = outlook;
+      const bool free_throughout = pair.tracker.free() && preview.finished().empty();
+      if (free_throughout) pair.tracker.ExtendFree(preview.at());
+    }
+  }
+  pair.in_contact = preview.in_contact();
+  pair.clear_until = preview.free_until();
+  if (!announcer_.Report(a, b, slot, preview, &pairs_)) Untrack(slot);
+}
+
+// Keeps what the pairs that are not judged up to the newest state still need.
+void Detector::Implementation::TrimHistory(std::uint32_t agent) {
+  AgentRecord& record = At(agent);
+  if (!record.changed) return;
+  record.changed = false;
+  Instant needed = now_;
+  for (const std::uint32_t slot : record.pairs) {
+    needed = std::min(needed, pairs_[slot].tracker.at());
+  }
+  record.history.Trim(needed);
+}
+
+Detector::Profile Detector::Implementation::DescribeScene() const {
+  SceneProfile scene;
+  for (const auto& [id, agent] : index_) scene.Count(*agents_[agent]);
+  return scene.Describe();
+}
+
+Detector::Detector(const DetectorOptions& options)
+    : implementation_(std::make_unique<Implementation>(options)) {}
+Detector::~Detector() = default;
+
+bool Detector::Admit(const AgentId& id, const AgentDeclaration& declaration,
+                     const MotionState& state, Instant effective_from) {
+  return implementation_->Admit(id, declaration, state, effective_from);
+}
+UpdateOutcome Detector::Update(const AgentId& id, const MotionState& state,
+                               Instant effective_from) {
+  return implementation_->Update(id, state, effective_from);
+}
+bool Detector::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
+                         Instant effective_from) {
+  return implementation_->Redeclare(id, declaration, effective_from);
+}
+bool Detector::Remove(const AgentId& id) { return implementation_->Remove(id); }
+void Detector::Hear(const AgentId& id, Instant until) { implementation_->Hear(id, until); }
+void Detector::Advance(Instant now) { implementation_->Advance(now); }
+const std::vector<CollisionEvent>& Detector::events() const {
+  return implementation_->announcer_.events();
+}
+std::vector<AgentClearance> Detector::TakeChangedClearances() {
+  return implementation_->TakeChangedClearances();
+}
+std::optional<AgentClearance> Detector::ClearanceOf(const AgentId& id) const {
+  return implementation_->ClearanceOf(id);
+}
+EarliestAnswer Detector::Earliest() { return implementation_->Earliest(); }
+Instant Detector::now() const { return implementation_->now_; }
+std::size_t Detector::agents() const { return implementation_->index_.size(); }
+std::size_t Detector::pairs_tracked() const { return implementation_->pairs_.size(); }
+const DetectorCounters& Detector::counters() const { return implementation_->counters_; }
+Detector::Profile Detector::profile() const { return implementation_->DescribeScene(); }
+
+}  // namespace collision

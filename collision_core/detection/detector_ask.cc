@@ -1,0 +1,239 @@
+// The detector's questions to the broad phase, and the promises that follow.
+#include <algorithm>
+#include <tuple>
+
+#include "collision_core/detection/detector_implementation.h"
+
+namespace collision {
+namespace {
+
+// The bound under which keys are computed: a little wider than the true one, so that a key from an older state
+// is not later than the canonical answer from a newer one that kept the contract up to rounding. Each kept state
+// may drift by a few units in the last place (2^-52); 2^-40 has room for a thousand of them.
+SpaceTimeBound Grown(SpaceTimeBound bound) {
+  constexpr double kShare = 0x1p-40;
+  const double speed = bound.state.v_WA.norm();
+  bound.state.position_error += kShare * (bound.state.p_WA.norm() + speed + bound.declaration.radius);
+  bound.state.velocity_error += kShare * speed;
+  return bound;
+}
+
+}  // namespace
+
+void Detector::Implementation::Put(std::uint32_t agent) {
+  broad_phase_.Put(agent, Grown(At(agent).bound()));
+}
+
+void Detector::Implementation::SetKey(std::uint32_t agent, Instant key) {
+  At(agent).key = key;
+  queue_.Set(agent, key);
+}
+
+void Detector::Implementation::AskAll() {
+  std::vector<std::uint32_t> renewed;
+  renewed.swap(renewed_);
+  for (const std::uint32_t agent : renewed) {
+    if (!At(agent).expired) Ask(agent);
+  }
+  const Instant until = AddRoundedDown(now_, options_.announce_within);
+  while (!queue_.empty() && queue_.top_key() <= until) Ask(queue_.top());
+  counters_.pair_queries += broad_phase_.pair_queries() - broad_queries_seen_;
+  broad_queries_seen_ = broad_phase_.pair_queries();
+}
+
+bool Detector::Implementation::Tracked(const AgentRecord& agent, std::uint32_t partner) const {
+  return std::any_of(agent.pairs.begin(), agent.pairs.end(), [&](std::uint32_t slot) {
+    return pairs_[slot].lower == partner || pairs_[slot].higher == partner;
+  });
+}
+
+// Finds the agent's meetings anew: those within announce_within become tracked pairs, the earliest of the
+// others its key.
+void Detector::Implementation::Ask(std::uint32_t agent) {
+  AgentRecord& record = At(agent);
+  const bool renewed = record.renewed_from.has_value();
+  const Instant covered = record.renewed_from.value_or(record.key);
+  const Instant until = AddRoundedDown(now_, options_.announce_within);
+  const bool was_saturated = record.saturated;
+  ++counters_.queries;
+  record.asked = step_;
+  record.renewed_from.reset();
+  record.saturated = false;
+  if (renewed || covered < std::max(now_, record.stamp())) TrackUncovered(agent, renewed, covered);
+
+  std::vector<Meeting> meetings;
+  const auto skip = [&](std::uint32_t partner) { return Tracked(record, partner); };
+  broad_phase_.Meetings(agent, std::min(now_, covered), renewed ? Instant::Never() : until, skip,
+                        &meetings);
+  Instant key = Instant::Never();
+  for (const Meeting& meeting : meetings) {
+    const Instant when = meeting.time.instant();
+    if (when.is_never()) continue;
+    if (when <= until) {
+      const bool overlap = meeting.time.seconds <= 0;
+      const bool unknown_before = renewed || was_saturated || At(meeting.partner).saturated;
+      Track(agent, meeting.partner, when, overlap && unknown_before);
+      continue;
+    }
+    key = std::min(key, when);
+    if (when < At(meeting.partner).key) {
+      SetKey(meeting.partner, when);
+      if (renewed) Tell(meeting.partner, agent);
+    }
+  }
+  SetKey(agent, record.saturated ? std::min(key, record.key) : key);
+}
+
+// The broad phase answers from the newest states on. What lies between the instant up to which a pair was
+// covered and those states must be free as well, or the pair is tracked and judged.
+void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
+  const AgentRecord& record = At(agent);
+  for (const auto& [id, partner] : index_) {
+    const AgentRecord& other = At(partner);
+    if (partner == agent || other.expired || Tracked(record, partner) ||
+        !CanMeet(record.bound().declaration, other.bound().declaration)) {
+      continue;
+    }
+    const Instant free_until = renewed ? covered : std::max(covered, other.key);
+    const Instant known_from = std::max(record.stamp(), other.stamp());
+    if (free_until < known_from && !FreeOver(record, other, free_until, known_from)) {
+      Track(agent, partner, free_until, renewed);
+    }
+  }
+}
+
+bool Detector::Implementation::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,
+                                        Instant to) {
+  const SpaceTimeBound* bound_a = a.history.Uninterrupted(from);
+  const SpaceTimeBound* bound_b = b.history.Uninterrupted(from);
+  if (bound_a == nullptr || bound_b == nullptr) return false;
+  ++counters_.pair_queries;
+  return EarliestIntersection(*bound_a, *bound_b, from).instant() >= to;
+}
+
+void Detector::Implementation::Track(std::uint32_t a, std::uint32_t b, Instant free_until,
+                                     bool began_before) {
+  const std::uint32_t lower = At(a).id < At(b).id ? a : b;
+  const std::uint32_t higher = lower == a ? b : a;
+  const auto full = [&](std::uint32_t agent) {
+    return At(agent).pairs.size() >= options_.pairs_per_agent_max;
+  };
+  std::optional<std::uint32_t> slot;
+  if (!full(a) && !full(b)) {
+    slot = pairs_.Add({lower, higher, ContactTracker(free_until, began_before), free_until,
+                       false, false, CollisionEvent{}, 0});
+  }
+  if (slot) {
+    At(a).pairs.push_back(*slot);
+    At(b).pairs.push_back(*slot);
+    return;
+  }
+  // Told as saturated, and asked again in the next step.
+  for (const std::uint32_t agent : {a, b}) {
+    ++counters_.saturations;
+    At(agent).saturated = true;
+    SetKey(agent, AddRoundedUp(AddRoundedDown(now_, options_.announce_within), 1e-9));
+  }
+}
+
+// Both keys cover the pair from now on.
+void Detector::Implementation::Untrack(std::uint32_t slot) {
+  const PairRecord& pair = pairs_[slot];
+  for (const std::uint32_t agent : {pair.lower, pair.higher}) {
+    SetKey(agent, std::min(At(agent).key, pair.clear_until));
+    std::erase(At(agent).pairs, slot);
+  }
+  pairs_.Remove(slot);
+}
+
+AgentClearance Detector::Implementation::Clearance(const AgentRecord& agent) const {
+  AgentClearance clearance;
+  clearance.agent = agent.id;
+  clearance.acknowledged = agent.stamp();
+  clearance.effective_from = agent.effective_from;
+  clearance.saturated = agent.saturated;
+  clearance.clear_until = agent.key;
+  for (const std::uint32_t slot : agent.pairs) {
+    const PairRecord& pair = pairs_[slot];
+    if (!pair.in_contact) {
+      clearance.clear_until = std::min(clearance.clear_until, pair.clear_until);
+    }
+  }
+  if (agent.expired) clearance.clear_until = agent.bound().state.expiry;
+  if (agent.saturated) clearance.clear_until = std::min(clearance.clear_until, now_);
+  clearance.not_clear = clearance.clear_until <= now_;
+  return clearance;
+}
+
+std::vector<AgentClearance> Detector::Implementation::TakeChangedClearances() {
+  std::vector<AgentClearance> changed;
+  for (const auto& [id, agent] : index_) {
+    AgentRecord& record = At(agent);
+    AgentClearance clearance = Clearance(record);
+    const bool first = !record.told;
+    const bool lowered = !first && clearance.clear_until < record.told->clear_until;
+    const bool same = !first && clearance.clear_until == record.told->clear_until &&
+                      clearance.not_clear == record.told->not_clear &&
+                      clearance.saturated == record.told->saturated &&
+                      clearance.effective_from == record.told->effective_from &&
+                      record.void_from.is_never();
+    if (!same) {
+      if (first || lowered || record.cause_agent == record.id) {
+        clearance.cause = record.cause;
+        clearance.cause_agent = record.cause_agent;
+        clearance.void_from = record.void_from;
+      }
+      record.told = clearance;
+      changed.push_back(clearance);
+    }
+    record.cause = ClearanceCause::kNone;
+    record.cause_agent = AgentId{};
+    record.void_from = Instant::Never();
+  }
+  return changed;
+}
+
+std::optional<AgentClearance> Detector::Implementation::ClearanceOf(const AgentId& id) const {
+  const auto found = index_.find(id);
+  if (found == index_.end()) return std::nullopt;
+  return Clearance(*agents_[found->second]);
+}
+
+EarliestAnswer Detector::Implementation::Earliest() {
+  EarliestAnswer best;
+  const auto consider = [&](std::uint32_t a, std::uint32_t b) {
+    ++counters_.pair_queries;
+    const Instant when = EarliestIntersection(At(a).bound(), At(b).bound(), now_).instant();
+    const AgentId lower = std::min(At(a).id, At(b).id);
+    const AgentId higher = std::max(At(a).id, At(b).id);
+    if (when.is_never()) return;
+    if (best.found && std::tie(best.earliest, best.lower, best.higher) <=
+                          std::tie(when, lower, higher)) {
+      return;
+    }
+    best = {true, when, lower, higher};
+  };
+  for (const std::uint32_t slot : pairs_.slots()) {
+    if (!pairs_[slot].in_contact) consider(pairs_[slot].lower, pairs_[slot].higher);
+  }
+  // Keys are lower bounds, so only agents whose key is not later than the best answer can better it.
+  std::vector<std::uint32_t> seen;
+  while (!queue_.empty() && queue_.top_key() <= best.earliest && !queue_.top_key().is_never()) {
+    const std::uint32_t agent = queue_.top();
+    if (At(agent).asked != step_) {
+      Ask(agent);
+      continue;
+    }
+    queue_.Remove(agent);
+    seen.push_back(agent);
+    for (const auto& [id, partner] : index_) {
+      if (partner != agent && !At(partner).expired && !Tracked(At(agent), partner)) {
+        consider(agent, partner);
+      }
+    }
+  }
+  for (const std::uint32_t agent : seen) queue_.Set(agent, At(agent).key);
+  return best;
+}
+
+}  // namespace collision

@@ -1,0 +1,50 @@
+// The states of one agent that are still needed, and what they say about the time between them.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/narrow_phase/ball_contact.h"
+
+namespace collision {
+
+/// How a state follows from the one before it.
+enum class Link {
+  kFollows,  ///< By a motion under the declared bound: between the two both horns hold.
+  kJumped,   ///< A declared discontinuity at its stamp: before it only the earlier horn holds.
+  kBroken    ///< The bound was broken somewhere between the two: nothing is known there.
+};
+
+/// At most `capacity` samples, oldest first; beyond, the oldest goes, and what it covered becomes unknown.
+class History {
+ public:
+  struct Sample {
+    SpaceTimeBound bound;
+    Link link;
+  };
+
+  void Clear() { samples_.clear(); }
+  void Push(const SpaceTimeBound& bound, Link link, std::size_t capacity);
+
+  /// Forgets what is not needed to judge from `since` on. The newest two samples stay.
+  void Trim(Instant since);
+
+  const SpaceTimeBound& newest() const { return samples_.back().bound; }
+  SpaceTimeBound& newest() { return samples_.back().bound; }
+
+  /// The first stamp later than `t`; Never() if there is none.
+  Instant NextStampAfter(Instant t) const;
+
+  /// The sample in force at `t`, if every later one follows from it; else nullptr.
+  const SpaceTimeBound* Uninterrupted(Instant t) const;
+
+  /// What is certain on [from, to], where no stamp lies strictly between. With samples of unequal radius the
+  /// smaller counts, and the difference is added to the uncertainty.
+  BallSegment Over(Instant from, Instant to) const;
+
+ private:
+  std::size_t InForce(Instant t) const;  // index of the last sample with stamp <= t; size() if none
+
+  std::vector<Sample> samples_;
+};
+
+}  // namespace collision

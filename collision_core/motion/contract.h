@@ -1,0 +1,33 @@
+// Does a new state honour what the last one promised?
+#pragma once
+
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision {
+
+enum class ContractVerdict {
+  kKept,      ///< The new horn lies inside the old one, up to the rounding allowance below.
+  kWidened,   ///< The new state could follow from the old, but its errors, direction or expiry
+              ///< promise less.
+  kBreached,  ///< No motion under the declared bound leads from the old state to the new.
+};
+
+struct ContractCheck {
+  ContractVerdict verdict = ContractVerdict::kKept;
+  double position_excess =
+      0;  ///< How far the position lies outside, at least [m]; 0 unless breached.
+  double velocity_excess = 0;  ///< Likewise for the velocity [m/s].
+  /// What rounding may have cost: the new horn lies inside the old one grown by
+  /// `position_drift + velocity_drift * τ'` with τ' counted from the new stamp. 0 where it is
+  /// certified inside.
+  double position_drift = 0;
+  double velocity_drift = 0;
+};
+
+/// Compares `next` with the bound before it (same declaration, next.stamp >= before.state.stamp),
+/// with s = next.stamp − before.stamp:
+///   |p' − c(t0')| <= ½ M s (s + h) + errors  and  |v' − v| <= M s + errors.
+/// A position check alone would let an agent arrive with any velocity. O(1), allocates nothing.
+ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next);
+
+}  // namespace collision

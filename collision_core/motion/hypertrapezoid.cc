@@ -1,0 +1,67 @@
+#include "collision_core/motion/hypertrapezoid.h"
+
+namespace collision {
+namespace {
+
+/// The part of the window, as fractions of it, on which a line from `start` to `end` is <= 0.
+/// Rounded outward; empty if entry > exit.
+struct Span {
+  double entry = 0;
+  double exit = 1;
+};
+
+Span NotPositive(Interval start, Interval end) {
+  const bool at_start = start.lower <= 0, at_end = end.lower <= 0;
+  if (at_start && at_end) return {};
+  if (!at_start && !at_end) return {1, 0};
+  // Exactly one is positive, so their difference cannot be zero.
+  if (at_start) return {0, (-start.lower / (Interval(end.lower) - start.lower)).upper};
+  return {(start.lower / (Interval(start.lower) - end.lower)).lower, 1};
+}
+
+}  // namespace
+
+Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, Instant end) {
+  const bool use_direction = DirectionHoldsFor(bound, end) >= 0;
+  const FaceBox first = BoxAt(bound, start, use_direction);
+  const FaceBox last = BoxAt(bound, end, use_direction);
+  Hypertrapezoid h;
+  h.start = start;
+  h.duration = SecondsBetween(start, end).lower;
+  for (int axis = 0; axis < 3; ++axis) {
+    h.lower_start[axis] = first.lower[axis].lower;
+    h.lower_end[axis] = last.lower[axis].lower;
+    h.upper_start[axis] = first.upper[axis].upper;
+    h.upper_end[axis] = last.upper[axis].upper;
+  }
+  return h;
+}
+
+double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b) {
+  Span overlap;
+  const auto meet = [&overlap](const Hypertrapezoid& below, const Hypertrapezoid& above, int axis) {
+    const Span span = NotPositive(Interval(above.lower_start[axis]) - below.upper_start[axis],
+                                  Interval(above.lower_end[axis]) - below.upper_end[axis]);
+    overlap.entry = std::max(overlap.entry, span.entry);
+    overlap.exit = std::min(overlap.exit, span.exit);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    meet(a, b, axis);
+    meet(b, a, axis);
+  }
+  if (overlap.entry > overlap.exit) return kInfinity;
+  return MultiplyDown(overlap.entry, std::min(a.duration, b.duration));
+}
+
+Hypertrapezoid Unite(const Hypertrapezoid& a, const Hypertrapezoid& b) {
+  Hypertrapezoid h = a;
+  for (int axis = 0; axis < 3; ++axis) {
+    h.lower_start[axis] = std::min(a.lower_start[axis], b.lower_start[axis]);
+    h.lower_end[axis] = std::min(a.lower_end[axis], b.lower_end[axis]);
+    h.upper_start[axis] = std::max(a.upper_start[axis], b.upper_start[axis]);
+    h.upper_end[axis] = std::max(a.upper_end[axis], b.upper_end[axis]);
+  }
+  return h;
+}
+
+}  // namespace collision

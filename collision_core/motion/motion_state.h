@@ -1,0 +1,44 @@
+// What the owner of an agent says about it.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <cstdint>
+
+#include "collision_core/motion/instant.h"
+
+namespace collision {
+
+/// An agent's last state. World frame W, body frame B, SI units. Values are trusted here: the
+/// server refuses bad input at the edge.
+struct MotionState {
+  Instant stamp;                                   ///< When it held at its sender.
+  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< Reference point [m].
+  Eigen::Vector3d v_WA = Eigen::Vector3d::Zero();  ///< Its velocity [m/s].
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< Angular velocity [rad/s].
+  double position_error = 0;                       ///< |true − p_WA| is at most this [m].
+  double velocity_error = 0;                       ///< |true − v_WA| is at most this [m/s].
+  double rotation_error = 0;                       ///< Angle between true and q_WB, at most [rad].
+  /// Unit vector d with acceleration·d >= 0 until `direction_until`; zero: not declared.
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+  Instant direction_until = Instant::Never();
+  Instant expiry = Instant::Never();  ///< Promises exclude the agent from then on.
+  bool discontinuity = false;         ///< The motion jumped here; no breach.
+};
+
+/// What holds from state to state.
+struct AgentDeclaration {
+  double radius = 0;  ///< Ball about the reference point that contains the agent [m], >= 0.
+  double acceleration_max = 0;  ///< M [m/s²], >= 0.
+  double time_step = 0;      ///< h of a semi-implicit Euler integrator [s]; 0: continuous motion.
+  std::uint32_t group = 1;   ///< Bits this agent is.
+  std::uint32_t mask = ~0u;  ///< Bits it can meet.
+};
+
+/// A pair can meet only if each is in a group that the other's mask names.
+inline bool CanMeet(const AgentDeclaration& a, const AgentDeclaration& b) {
+  return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
+}
+
+}  // namespace collision

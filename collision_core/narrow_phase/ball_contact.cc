@@ -1,0 +1,175 @@
+#include "collision_core/narrow_phase/ball_contact.h"
+
+#include <algorithm>
+
+#include "collision_core/broad_phase/first_approach.h"
+
+namespace collision {
+namespace {
+
+/// Ends of certified contact are found to this part of the segment.
+constexpr double kResolution = 1e-13;
+
+/// Steps at most: golden section shrinks its range by 0.62 a step, bisection by half.
+constexpr int kSearchSteps = 80;
+
+/// Rounds in which the choices of bounds may extend each other's freedom.
+constexpr int kRoundsMax = 16;
+
+/// One choice of a bound of each.
+struct Choice {
+  IntervalVector d0;  ///< From A's centre to B's, at base.
+  IntervalVector w;
+  Quadratic u;  ///< Both uncertainties.
+  Interval radii;
+
+  Interval Distance(double delta) const { return Norm(d0 + Interval(delta) * w); }
+
+  /// r − u − |Δc|, concave: touching where it is >= 0, for all motions within the bounds.
+  Interval Depth(double delta) const { return radii - u.At(delta) - Distance(delta); }
+};
+
+std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
+  std::vector<Choice> choices;
+  choices.reserve(a.bounds.size() * b.bounds.size());
+  for (const MovingBall& ball_A : a.bounds) {
+    for (const MovingBall& ball_B : b.bounds) {
+      choices.push_back({ball_B.centre - ball_A.centre, ball_B.velocity - ball_A.velocity,
+                         ball_A.u() + ball_B.u(), Interval(a.radius) + b.radius});
+    }
+  }
+  return choices;
+}
+
+/// Touching is certified on [from, to]; empty if from > to.
+struct Contact {
+  double from = 1;
+  double to = 0;
+};
+
+/// Moves from a certified time towards one that is not, up to the last certified one.
+double LastCertified(const Choice& choice, double certified, double uncertified,
+                     double resolution) {
+  for (int i = 0; i < kSearchSteps && std::abs(uncertified - certified) > resolution; ++i) {
+    const double middle = certified + 0.5 * (uncertified - certified);
+    (choice.Depth(middle).lower >= 0 ? certified : uncertified) = middle;
+  }
+  return certified;
+}
+
+/// When the centres are nearest; about.
+double NearestTime(const Choice& choice, double duration) {
+  const Eigen::Vector3d d0 = choice.d0.middle(), w = choice.w.middle();
+  const double square = w.squaredNorm();
+  return square > 0 ? std::clamp(-d0.dot(w) / square, 0.0, duration) : 0;
+}
+
+/// Where the depth is greatest, or any time at which touching is certified.
+double DeepestTime(const Choice& choice, double duration) {
+  constexpr double kGolden = 0.6180339887498949;
+  double low = 0, high = duration;
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double depth_left = choice.Depth(left).lower, depth_right = choice.Depth(right).lower;
+  for (int i = 0; i < kSearchSteps; ++i) {
+    if (depth_left >= 0) return left;
+    if (depth_right >= 0) return right;
+    if (depth_left < depth_right) {
+      low = left, left = right, depth_left = depth_right;
+      right = low + kGolden * (high - low);
+      depth_right = choice.Depth(right).lower;
+    } else {
+      high = right, right = left, depth_right = depth_left;
+      left = high - kGolden * (high - low);
+      depth_left = choice.Depth(left).lower;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// By concavity all between two certified times is certified.
+Contact ContactOf(const Choice& choice, double duration) {
+  const bool at_start = choice.Depth(0).lower >= 0, at_end = choice.Depth(duration).lower >= 0;
+  double inside = at_start ? 0 : at_end ? duration : NearestTime(choice, duration);
+  if (choice.Depth(inside).lower < 0) {
+    if (choice.Distance(inside).lower > choice.radii.upper) return {};
+    inside = DeepestTime(choice, duration);
+    if (choice.Depth(inside).lower < 0) return {};
+  }
+  const double resolution = kResolution * duration;
+  return {at_start ? 0 : LastCertified(choice, inside, 0, resolution),
+          at_end ? duration : LastCertified(choice, inside, duration, resolution)};
+}
+
+void JudgeContact(const std::vector<Choice>& choices, double duration, SegmentVerdict& verdict) {
+  std::vector<Contact> contacts;
+  for (const Choice& choice : choices) {
+    const Contact contact = ContactOf(choice, duration);
+    if (contact.from <= contact.to) contacts.push_back(contact);
+  }
+  if (contacts.empty()) return;
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& a, const Contact& b) { return a.from < b.from; });
+  verdict.contact_from = contacts.front().from;
+  verdict.contact_to = contacts.front().to;
+  for (const Contact& contact : contacts) {
+    if (contact.from > verdict.contact_to) verdict.contact_continuous = false;
+    verdict.contact_to = std::max(verdict.contact_to, contact.to);
+  }
+}
+
+/// From one end of the segment: how far towards the other the two stay apart. The end itself is the
+/// answer if they may touch there at once; ±infinity if they are apart on all of it, both ends
+/// included. A choice that is certified free from where another gave up carries on from there.
+double FreeFrom(const std::vector<Choice>& choices, double duration, bool backward) {
+  double at = backward ? duration : 0;
+  for (int round = 0; round < kRoundsMax; ++round) {
+    double step = 0;
+    for (const Choice& choice : choices) {
+      const Quadratic reach = Quadratic{choice.radii, 0, 0} + choice.u;
+      const Quadratic seen = backward ? reach.BackwardFrom(at) : reach.From(at);
+      const Approach approach{choice.d0 + Interval(at) * choice.w,
+                              backward ? Interval(-1) * choice.w : choice.w, seen.c0, seen.c1,
+                              seen.c2};
+      step = std::max(step, FirstApproach(approach, backward ? at : AddUp(duration, -at)));
+    }
+    if (step == kInfinity) return backward ? -kInfinity : kInfinity;
+    at = backward ? AddUp(at, -step) : AddDown(at, step);
+    if (step <= kResolution * duration) break;
+  }
+  // Whoever certifies the far end says so by infinity.
+  return backward ? std::max(at, 0.0) : std::min(at, NextDown(duration));
+}
+
+}  // namespace
+
+SegmentVerdict JudgeSegment(const BallSegment& a, const BallSegment& b, double duration) {
+  const std::vector<Choice> choices = ChoicesOf(a, b);
+  SegmentVerdict verdict;
+  JudgeContact(choices, duration, verdict);
+  verdict.free_until = FreeFrom(choices, duration, false);
+  verdict.free_from = FreeFrom(choices, duration, true);
+  return verdict;
+}
+
+SeparationAt JudgeInstant(const BallSegment& a, const BallSegment& b, double delta) {
+  SeparationAt at{{-kInfinity, kInfinity}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  at.error_A = at.error_B = kInfinity;
+  for (const Choice& choice : ChoicesOf(a, b)) {
+    const Interval distance = choice.Distance(delta) - choice.radii, u = choice.u.At(delta);
+    at.separation.lower = std::max(at.separation.lower, (distance - u).lower);
+    at.separation.upper = std::min(at.separation.upper, (distance + u).upper);
+  }
+  const auto locate = [delta](const BallSegment& ball, Eigen::Vector3d& p, double& error) {
+    for (const MovingBall& bound : ball.bounds) {
+      const IntervalVector centre = bound.centre + Interval(delta) * bound.velocity;
+      const Eigen::Vector3d middle = centre.middle();
+      const double off = (bound.u().At(delta) + Norm(centre - IntervalVector(middle))).upper;
+      if (off < error) p = middle, error = off;
+    }
+  };
+  locate(a, at.p_WA, at.error_A);
+  locate(b, at.p_WB, at.error_B);
+  return at;
+}
+
+}  // namespace collision

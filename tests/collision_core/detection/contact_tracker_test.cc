@@ -1,0 +1,95 @@
+// Goal:   verdicts over segments become brackets that contain every begin and end, and nothing certain is lost.
+// Method: hand-made verdicts whose brackets are known; one second a segment.
+#include "collision_core/detection/contact_tracker.h"
+
+#include <gtest/gtest.h>
+
+namespace collision {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+Instant At(double seconds) {
+  return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * kSecond));
+}
+
+SegmentVerdict Free() { return {1, 1, 0, true, 0}; }
+SegmentVerdict Undecided() { return {0, 1, 0, true, 1}; }
+SegmentVerdict Touching() { return {0, 0, 1, true, 1}; }
+
+void Apply(ContactTracker* tracker, const SegmentVerdict& verdict) {
+  tracker->Apply(verdict, AddRoundedDown(tracker->at(), 1), Nearest{});
+}
+
+TEST(ContactTracker, ContactInsideOneSegment) {
+  ContactTracker tracker(At(0), false);
+  Apply(&tracker, {0.25, 0.5, 0.625, true, 0.75});
+  ASSERT_EQ(tracker.finished().size(), 1u);
+  const ContactEpisode episode = tracker.TakeFinished()[0];
+  EXPECT_TRUE(episode.contact);
+  EXPECT_TRUE(episode.continuous);
+  EXPECT_EQ(episode.begin, (TimeBracket{At(0.25), At(0.5)}));
+  EXPECT_EQ(episode.end, (TimeBracket{At(0.625), At(0.75)}));
+  EXPECT_TRUE(tracker.free());
+  EXPECT_EQ(tracker.free_until(), At(1));
+}
+
+TEST(ContactTracker, ContactAcrossSegmentsJoins) {
+  ContactTracker tracker(At(0), false);
+  Apply(&tracker, Free());
+  Apply(&tracker, {0.5, 0.75, 1, true, 1});
+  EXPECT_TRUE(tracker.in_contact());
+  EXPECT_EQ(tracker.episode().begin, (TimeBracket{At(1.5), At(1.75)}));
+  Apply(&tracker, Touching());
+  Apply(&tracker, {0, 0, 0.5, true, 0.75});
+  const ContactEpisode episode = tracker.TakeFinished().at(0);
+  EXPECT_TRUE(episode.continuous);
+  EXPECT_EQ(episode.end, (TimeBracket{At(3.5), At(3.75)}));
+}
+
+// After an uncertain gap the first contact may have ended in it: the end bracket must contain both cases.
+TEST(ContactTracker, GapInContactIsSaid) {
+  ContactTracker tracker(At(0), false);
+  Apply(&tracker, {0.5, 0.75, 1, true, 1});
+  Apply(&tracker, Undecided());
+  Apply(&tracker, {0, 0, 0.25, true, 0.5});
+  const ContactEpisode episode = tracker.TakeFinished().at(0);
+  EXPECT_FALSE(episode.continuous);
+  EXPECT_EQ(episode.end, (TimeBracket{At(1), At(2.5)}));
+}
+
+TEST(ContactTracker, UndecidedBracketIsTheWholeGap) {
+  ContactTracker tracker(At(0), false);
+  Apply(&tracker, {0.5, 1, 0, true, 1});
+  Apply(&tracker, Undecided());
+  EXPECT_FALSE(tracker.free());
+  EXPECT_FALSE(tracker.in_contact());
+  Apply(&tracker, Free());
+  const ContactEpisode episode = tracker.TakeFinished().at(0);
+  EXPECT_FALSE(episode.contact);
+  EXPECT_EQ(episode.begin, (TimeBracket{At(0.5), At(2)}));
+  EXPECT_EQ(episode.end, (TimeBracket{At(0.5), At(2)}));
+}
+
+TEST(ContactTracker, FreeAtStartClosesThere) {
+  ContactTracker tracker(At(0), false);
+  Apply(&tracker, {0.5, 0.75, 1, true, 1});
+  Apply(&tracker, {0.25, 0.5, 1, true, 1});
+  ASSERT_EQ(tracker.finished().size(), 1u);
+  EXPECT_EQ(tracker.finished()[0].end, (TimeBracket{At(1), At(1)}));
+  EXPECT_EQ(tracker.episode().begin, (TimeBracket{At(1.25), At(1.5)}));
+}
+
+TEST(ContactTracker, RetractionMovesFreedomBackOnly) {
+  ContactTracker tracker(At(0), false);
+  tracker.ExtendFree(At(9));
+  tracker.RetractFree(At(3), false);
+  EXPECT_EQ(tracker.free_until(), At(3));
+  tracker.RetractFree(At(5), true);
+  EXPECT_EQ(tracker.free_until(), At(3));
+  Apply(&tracker, Touching());
+  EXPECT_TRUE(tracker.episode().began_before);
+}
+
+}  // namespace
+}  // namespace collision

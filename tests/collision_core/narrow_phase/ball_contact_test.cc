@@ -1,0 +1,233 @@
+#include "collision_core/narrow_phase/ball_contact.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/random.h"
+
+namespace collision {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+SpaceTimeBound Bound(std::int64_t ns, const Eigen::Vector3d& p, const Eigen::Vector3d& v,
+                     double radius, double acceleration_max) {
+  SpaceTimeBound bound;
+  bound.state.stamp = Instant::FromNanoseconds(ns);
+  bound.state.p_WA = p;
+  bound.state.v_WA = v;
+  bound.declaration.radius = radius;
+  bound.declaration.acceleration_max = acceleration_max;
+  return bound;
+}
+
+/// Between two known states, seen from the first.
+BallSegment Between(const SpaceTimeBound& from, const SpaceTimeBound& to) {
+  return {from.declaration.radius,
+          {ForwardBall(from, from.state.stamp), BackwardBall(to, from.state.stamp)}};
+}
+
+/// A motion of pieces of constant acceleration, |a| <= M.
+struct Motion {
+  static constexpr int kPieces = 4;
+  double duration;
+  Eigen::Vector3d p[kPieces + 1], v[kPieces + 1], a[kPieces];
+
+  Motion(Random& random, const Eigen::Vector3d& p0, const Eigen::Vector3d& v0,
+         double acceleration_max, double duration)
+      : duration(duration) {
+    const double dt = duration / kPieces;
+    p[0] = p0, v[0] = v0;
+    for (int i = 0; i < kPieces; ++i) {
+      a[i] = acceleration_max * (1 - 1e-9) * random.UnitVector();
+      p[i + 1] = p[i] + dt * v[i] + 0.5 * dt * dt * a[i];
+      v[i + 1] = v[i] + dt * a[i];
+    }
+  }
+
+  Eigen::Vector3d At(double t) const {
+    const double dt = duration / kPieces;
+    const int i = std::min(kPieces - 1, static_cast<int>(t / dt));
+    const double s = t - i * dt;
+    return p[i] + s * v[i] + 0.5 * s * s * a[i];
+  }
+};
+
+// Goal:   the brackets of the scene's two satellites are as narrow as the project promises.
+// Method: their states at 599 s and 600 s. The spheres meet at 599.734303 s and part at 599.857266
+// s.
+TEST(JudgeSegment, IridiumAndCosmos) {
+  const auto bound = [](std::int64_t s, Eigen::Vector3d p, Eigen::Vector3d v) {
+    return Bound(s * kSecond, p, v, 500, 7.9);
+  };
+  const BallSegment iridium = Between(bound(599, {-1461167.894963, 1588343.591612, 6813639.879114},
+                                            {-6997.162692641, -2452.373365010, -926.768268524}),
+                                      bound(600, {-1468164.258886, 1585890.355353, 6812709.402926},
+                                            {-6995.570957019, -2454.098181711, -934.191656532}));
+  const BallSegment cosmos = Between(bound(599, {-1469851.386510, 1590661.925891, 6811269.616099},
+                                           {3587.992786106, -6164.283214372, 2209.219051206}),
+                                     bound(600, {-1466262.594448, 1584496.775750, 6813475.124589},
+                                           {3589.588165870, -6166.008478261, 2201.796662406}));
+  const SegmentVerdict verdict = JudgeSegment(iridium, cosmos, 1);
+  constexpr double kBegin = 0.734303, kEnd = 0.857266, kGivenTo = 0.5e-6;
+  EXPECT_LE(verdict.free_until, kBegin + kGivenTo);
+  EXPECT_GE(verdict.contact_from, kBegin - kGivenTo);
+  EXPECT_LT(verdict.contact_from - verdict.free_until, 0.2e-3);
+  EXPECT_GE(verdict.free_from, kEnd - kGivenTo);
+  EXPECT_LE(verdict.contact_to, kEnd + kGivenTo);
+  EXPECT_LT(verdict.free_from - verdict.contact_to, 0.1e-3);
+  EXPECT_TRUE(verdict.contact_continuous);
+}
+
+// Goal:   no claim is false for any motion, and claims are made: contact, freedom before, freedom
+// after. Method: random pieces of full acceleration between exact states; the verdict against the
+// sampled motion.
+TEST(JudgeSegment, ClaimsHoldForRandomMotions) {
+  Random random(71);
+  int contacts = 0, frees = 0, partly = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const double T = random.LogUniform(0.1, 2),
+                 M = random.Chance(0.2) ? 0 : random.LogUniform(0.01, 2);
+    const auto motion = [&] {
+      return Motion(random, 3 * random.Uniform(0, 1) * random.UnitVector(),
+                    random.LogUniform(0.1, 10) * random.UnitVector(), M, T);
+    };
+    const Motion a = motion(), b = motion();
+    const auto segment = [&](const Motion& m, double radius) {
+      const auto ns = static_cast<std::int64_t>(std::ceil(T * 1e9));
+      SpaceTimeBound from = Bound(0, m.p[0], m.v[0], radius, M);
+      SpaceTimeBound to = Bound(ns, m.At(ns / 1e9), m.v[Motion::kPieces], radius, M);
+      // What this test's own rounding costs, and the last piece runs on for less than a nanosecond.
+      for (SpaceTimeBound* bound : {&from, &to}) {
+        bound->state.position_error = 1e-12;
+        bound->state.velocity_error = 1e-8;
+      }
+      return Between(from, to);
+    };
+    const double radii[2] = {random.Uniform(0, 1), random.Uniform(0, 1)};
+    const SegmentVerdict verdict = JudgeSegment(segment(a, radii[0]), segment(b, radii[1]), T);
+    contacts += verdict.contact_from <= verdict.contact_to;
+    frees += verdict.free_until == kInfinity;
+    partly += verdict.free_until > 0 && verdict.contact_from <= verdict.contact_to;
+    ASSERT_EQ(verdict.free_until == kInfinity, verdict.free_from == -kInfinity);
+    const auto separation = [&](double t) {
+      return (b.At(t) - a.At(t)).norm() - radii[0] - radii[1];
+    };
+    for (int sample = 0; sample <= 200; ++sample) {
+      const double t = std::min(T, T * sample / 200);
+      if (t < verdict.free_until || t > verdict.free_from) {
+        ASSERT_GT(separation(t), 0) << i << ": " << t;
+      }
+      if (verdict.contact_continuous && verdict.contact_from <= t && t <= verdict.contact_to) {
+        ASSERT_LE(separation(t), 0) << t;
+      }
+    }
+    if (verdict.contact_from <= verdict.contact_to) {
+      ASSERT_LE(separation(verdict.contact_from), 0);
+      ASSERT_LE(separation(verdict.contact_to), 0);
+    }
+  }
+  EXPECT_GT(contacts, 500);
+  EXPECT_GT(frees, 500);
+  EXPECT_GT(partly, 100);
+}
+
+// Goal:   brackets are as narrow as the bounds allow: about M T²/8 per agent over the closing
+// speed. Method: two that glide through each other uniformly while M would allow more; begin and
+// end at mid-way.
+TEST(JudgeSegment, BracketsAreNarrow) {
+  const double M = 0.5, speed = 4;
+  const auto glide = [&](double x0, double v, double radius) {
+    return Between(Bound(0, {x0, 0, 0}, {v, 0, 0}, radius, M),
+                   Bound(kSecond, {x0 + v, 0, 0}, {v, 0, 0}, radius, M));
+  };
+  // Begin at mid-way: the gap of 2 m closes at 4 m/s.
+  const SegmentVerdict begin = JudgeSegment(glide(0, speed, 1), glide(4, 0, 1), 1);
+  const double width = 2 * (M / 8) / speed;
+  EXPECT_LE(begin.free_until, 0.5);
+  EXPECT_GE(begin.free_until, 0.5 - 1.05 * width);
+  EXPECT_GE(begin.contact_from, 0.5);
+  EXPECT_LE(begin.contact_from, 0.5 + 1.05 * width);
+  EXPECT_EQ(begin.contact_to, 1);
+  EXPECT_EQ(begin.free_from, 1);
+  const SegmentVerdict end = JudgeSegment(glide(0, -speed, 1), glide(0, 0, 1), 1);
+  EXPECT_EQ(end.free_until, 0);
+  EXPECT_EQ(end.contact_from, 0);
+  EXPECT_LE(end.contact_to, 0.5);
+  EXPECT_GE(end.contact_to, 0.5 - 1.05 * width);
+  EXPECT_GE(end.free_from, 0.5);
+  EXPECT_LE(end.free_from, 0.5 + 1.05 * width);
+}
+
+// Goal:   freedom that one choice of bounds certifies at the start and another at the end covers
+// the whole. Method: at rest at 1 m, u = ½Mτ² each: apart only before 0.7 s forward and after 0.3 s
+// backward.
+TEST(JudgeSegment, ChoicesExtendEachOther) {
+  const auto rest = [](double x) {
+    return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 0, 2),
+                   Bound(kSecond, {x, 0, 0}, {0, 0, 0}, 0, 2));
+  };
+  EXPECT_EQ(JudgeSegment(rest(0), rest(1), 1).free_until, kInfinity);
+  BallSegment forward = rest(0), other = rest(1);
+  forward.bounds.pop_back();
+  other.bounds.pop_back();
+  EXPECT_NEAR(JudgeSegment(forward, other, 1).free_until, std::sqrt(0.5), 1e-9);
+}
+
+// Goal:   contact at both ends with a middle that is not certified is said to be not continuous; at
+// the exact
+//         values of the bounds.
+// Method: 0.8 m deep at rest, M = 8: each u reaches 1 m mid-way, and only 0.16 m are needed to
+// leave.
+TEST(JudgeSegment, ContactThatMayBreakIsNotContinuous) {
+  const auto rest = [](double x) {
+    return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 0.5, 8),
+                   Bound(kSecond, {x, 0, 0}, {0, 0, 0}, 0.5, 8));
+  };
+  const SegmentVerdict verdict = JudgeSegment(rest(0), rest(0.2), 1);
+  EXPECT_EQ(verdict.contact_from, 0);
+  EXPECT_EQ(verdict.contact_to, 1);
+  EXPECT_FALSE(verdict.contact_continuous);
+}
+
+// Goal:   a segment of no duration and a segment with nothing known are defined.
+TEST(JudgeSegment, InstantAndUnknown) {
+  const auto point = [](double x) {
+    return BallSegment{1, {ForwardBall(Bound(0, {x, 0, 0}, {1, 0, 0}, 1, 3), Instant())}};
+  };
+  const SegmentVerdict touching = JudgeSegment(point(0), point(1.5), 0);
+  EXPECT_EQ(touching.contact_from, 0);
+  EXPECT_EQ(touching.contact_to, 0);
+  EXPECT_LT(touching.free_until, 0);
+  EXPECT_EQ(touching.free_from, 0);
+  const SegmentVerdict apart = JudgeSegment(point(0), point(2.5), 0);
+  EXPECT_GT(apart.contact_from, apart.contact_to);
+  EXPECT_EQ(apart.free_until, kInfinity);
+  EXPECT_EQ(apart.free_from, -kInfinity);
+  const SegmentVerdict unknown = JudgeSegment({1, {}}, point(5), 1);
+  EXPECT_GT(unknown.contact_from, unknown.contact_to);
+  EXPECT_EQ(unknown.free_until, 0);
+  EXPECT_EQ(unknown.free_from, 1);
+}
+
+// Goal:   the separation at an instant is the best that all bounds together allow.
+// Method: mid-way of 1 s with M = 8: u = 1 each; 10 m apart, radii 1: 8 ± 2. A breach crosses the
+// bounds.
+TEST(JudgeInstant, BestOverTheBounds) {
+  const auto rest = [](double x, double then) {
+    return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 1, 8),
+                   Bound(kSecond, {then, 0, 0}, {0, 0, 0}, 1, 8));
+  };
+  const SeparationAt middle = JudgeInstant(rest(0, 0), rest(10, 10), 0.5);
+  EXPECT_NEAR(middle.separation.lower, 6, 1e-12);
+  EXPECT_NEAR(middle.separation.upper, 10, 1e-12);
+  EXPECT_EQ(middle.p_WB.x(), 10);
+  EXPECT_NEAR(middle.error_B, 1, 1e-12);
+  const SeparationAt early = JudgeInstant(rest(0, 0), rest(10, 10), 0.25);
+  EXPECT_NEAR(early.error_A, 0.25, 1e-12);
+  EXPECT_NEAR(early.separation.lower, 7.5, 1e-12);
+  const SeparationAt breach = JudgeInstant(rest(0, 0), rest(10, 20), 0.5);
+  EXPECT_GT(breach.separation.lower, breach.separation.upper);
+}
+
+}  // namespace
+}  // namespace collision
