@@ -1,0 +1,210 @@
+#include "idl/dds/conversion.h"
+
+#include "idl/dds/wire_values.h"
+
+namespace collision::dds {
+namespace {
+
+/// Copies a message field by field: into `wire` if kToWire, else out of it. One of the two is
+/// const.
+template <class Wire>
+struct Fields;
+
+template <class List, class Sequence>
+void PutList(const char* field, std::size_t bound, const List& list, Sequence& to) {
+  Allocate(field, list.size(), bound, to);
+  for (int i = 0; i < list.size(); ++i) {
+    using Element = std::remove_reference_t<decltype(to._buffer[i])>;
+    if constexpr (std::is_array_v<Element>) {
+      PutText(field, list[i], to._buffer[i]);
+    } else {
+      Fields<Element>::template Copy<true>(to._buffer[i], list[i]);
+    }
+  }
+}
+
+template <class Sequence, class List>
+void GetList(const Sequence& from, List* list) {
+  list->Reserve(static_cast<int>(from._length));
+  for (std::uint32_t i = 0; i < from._length; ++i) {
+    using Element = std::remove_reference_t<decltype(from._buffer[i])>;
+    if constexpr (std::is_array_v<Element>) {
+      *list->Add() = GetText(from._buffer[i]);
+    } else {
+      Fields<Element>::template Copy<false>(from._buffer[i], *list->Add());
+    }
+  }
+}
+
+// Below, every field is named once: these turn a name into both directions.
+#define FIELDS(Type, ...)                              \
+  template <>                                          \
+  struct Fields<collision_v1_##Type> {                 \
+    template <bool kToWire, class Wire, class Message> \
+    static void Copy(Wire& wire, Message& message) {   \
+      __VA_ARGS__                                      \
+    }                                                  \
+  };
+#define BOTH(put, get)     \
+  if constexpr (kToWire) { \
+    put;                   \
+  } else {                 \
+    get;                   \
+  }
+#define VALUE(x)                                            \
+  BOTH(wire.x = static_cast<decltype(wire.x)>(message.x()), \
+       message.set_##x(static_cast<decltype(message.x())>(wire.x)))
+#define MESSAGE(x)                                                         \
+  BOTH(Fields<decltype(wire.x)>::template Copy<true>(wire.x, message.x()), \
+       Fields<decltype(wire.x)>::template Copy<false>(wire.x, *message.mutable_##x()))
+#define TEXT(x) BOTH(PutText(#x, message.x(), wire.x), message.set_##x(GetText(wire.x)))
+#define HASH(x) BOTH(PutHash(#x, message.x(), wire.x), message.set_##x(GetHash(wire.x)))
+#define OCTETS(x, bound)                                                  \
+  BOTH(Allocate(#x, message.x().size(), bound, wire.x);                   \
+       std::copy(message.x().begin(), message.x().end(), wire.x._buffer), \
+       message.set_##x(wire.x._buffer, wire.x._length))
+#define LIST(x, bound) \
+  BOTH(PutList(#x, bound, message.x(), wire.x), GetList(wire.x, message.mutable_##x()))
+
+// clang-format off
+FIELDS(Vector3, VALUE(x) VALUE(y) VALUE(z))
+FIELDS(Quaternion, VALUE(w) VALUE(x) VALUE(y) VALUE(z))
+FIELDS(KeyValue, TEXT(key) TEXT(value))
+FIELDS(TimeBracket, VALUE(earliest_ns) VALUE(latest_ns))
+FIELDS(Bracket, VALUE(lower) VALUE(upper))
+FIELDS(AgentId, VALUE(simulator_id) VALUE(run) VALUE(slot) VALUE(generation))
+FIELDS(ServiceStamp, VALUE(service_id) VALUE(term) VALUE(sequence))
+
+FIELDS(AgentDescription,
+       VALUE(simulator_id) VALUE(slot) VALUE(run) VALUE(generation) VALUE(revision) VALUE(sequence)
+       TEXT(simulator_name) TEXT(agent_name) VALUE(radius_m) VALUE(acceleration_max_m_s2)
+       VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s) VALUE(time_step_s) VALUE(group)
+       VALUE(mask) HASH(shape_hash) LIST(extensions, 16))
+
+FIELDS(ShapePart,
+       VALUE(simulator_id) HASH(content_hash) VALUE(part) VALUE(parts) VALUE(run) VALUE(total_bytes)
+       OCTETS(bytes, collision_v1_SHAPE_PART_BYTES_MAX))
+
+FIELDS(AgentState,
+       VALUE(slot) VALUE(generation) VALUE(stamp_ns) VALUE(sequence) MESSAGE(position_m)
+       MESSAGE(velocity_m_s) MESSAGE(orientation) MESSAGE(angular_velocity_rad_s)
+       VALUE(position_error_m) VALUE(velocity_error_m_s) VALUE(rotation_error_rad)
+       MESSAGE(thrust_direction) VALUE(direction_until_ns) VALUE(expiry_ns) VALUE(discontinuity))
+
+FIELDS(AgentStates,
+       VALUE(simulator_id) VALUE(chunk) VALUE(run) LIST(states, collision_v1_STATES_PER_CHUNK_MAX))
+
+FIELDS(SimulatorClock,
+       VALUE(simulator_id) VALUE(run) TEXT(simulator_name) VALUE(clock_ns) VALUE(states_sequence)
+       VALUE(descriptions_sequence) VALUE(agents) VALUE(lock_step))
+
+FIELDS(AgentClearance,
+       VALUE(slot) VALUE(generation) VALUE(clear_until_ns) VALUE(not_clear) VALUE(saturated)
+       VALUE(acknowledged_sequence) VALUE(acknowledged_revision) VALUE(effective_from_ns)
+       VALUE(cause) MESSAGE(cause_agent) VALUE(void_from_ns))
+
+FIELDS(Clearance,
+       VALUE(simulator_id) VALUE(chunk) VALUE(run) MESSAGE(stamp) VALUE(now_ns)
+       VALUE(granted_until_ns) LIST(agents, collision_v1_STATES_PER_CHUNK_MAX))
+
+FIELDS(EarliestIntersection,
+       VALUE(service_id) MESSAGE(stamp) VALUE(now_ns) VALUE(found) VALUE(earliest_ns)
+       MESSAGE(lower) MESSAGE(higher))
+
+FIELDS(CollisionEvent,
+       VALUE(pair_slot) MESSAGE(stamp) VALUE(now_ns) MESSAGE(lower) MESSAGE(higher) VALUE(contact)
+       VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end) VALUE(continuous)
+       VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m) VALUE(depth_lower_m)
+       MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal) VALUE(normal_error_rad) VALUE(level)
+       VALUE(work_units) VALUE(limited_by) LIST(extensions, 8))
+
+FIELDS(Rejection,
+       VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(reason) VALUE(topic)
+       VALUE(slot) VALUE(generation) TEXT(field) TEXT(detail) VALUE(count))
+
+FIELDS(SimulatorStatus,
+       VALUE(simulator_id) VALUE(run) TEXT(name) VALUE(alive) VALUE(clock_ns)
+       VALUE(granted_until_ns) VALUE(agents) VALUE(states) VALUE(rejected))
+
+FIELDS(Counter, TEXT(name) VALUE(value))
+
+FIELDS(ServiceStatus,
+       VALUE(service_id) MESSAGE(stamp) TEXT(version) TEXT(world) VALUE(simulated_clock)
+       VALUE(now_ns) VALUE(agents) VALUE(pairs_tracked) LIST(simulators, 64) LIST(counters, 96)
+       TEXT(broad_phase) TEXT(broad_phase_why) LIST(left_out, 32) LIST(extensions, 32))
+// clang-format on
+
+}  // namespace
+
+template <class Message>
+WireSample<typename Carrier<Message>::Wire> ToWire(const Message& message) {
+  using Wire = typename Carrier<Message>::Wire;
+  const auto release = [](Wire* wire) {
+    dds_sample_free(wire, Row(Carrier<Message>::kTopic).type, DDS_FREE_CONTENTS);
+    delete wire;
+  };
+  WireSample<Wire> sample(new Wire{}, release);
+  Fields<Wire>::template Copy<true>(*sample, message);
+  return sample;
+}
+
+template <class Message>
+void FromWire(const typename Carrier<Message>::Wire& wire, Message* message) {
+  Fields<typename Carrier<Message>::Wire>::template Copy<false>(wire, *message);
+}
+
+namespace {
+
+template <class Message>
+void Get(const void* wire, Message* message) {
+  FromWire(*static_cast<const typename Carrier<Message>::Wire*>(wire), message);
+}
+
+}  // namespace
+
+void FromWire(TopicId topic, const void* wire, v1::Input* input) {
+  switch (topic) {
+    case TopicId::kSimulatorClock:
+      return Get(wire, input->mutable_simulator_clock());
+    case TopicId::kAgentDescription:
+      return Get(wire, input->mutable_agent_description());
+    case TopicId::kShapePart:
+      return Get(wire, input->mutable_shape_part());
+    case TopicId::kAgentStates:
+      return Get(wire, input->mutable_agent_states());
+    default:
+      throw std::logic_error("not a topic of simulators");
+  }
+}
+
+void FromWire(TopicId topic, const void* wire, v1::Output* output) {
+  switch (topic) {
+    case TopicId::kClearance:
+      return Get(wire, output->mutable_clearance());
+    case TopicId::kEarliestIntersection:
+      return Get(wire, output->mutable_earliest_intersection());
+    case TopicId::kCollisionEvent:
+      return Get(wire, output->mutable_collision_event());
+    case TopicId::kRejection:
+      return Get(wire, output->mutable_rejection());
+    case TopicId::kServiceStatus:
+      return Get(wire, output->mutable_service_status());
+    default:
+      throw std::logic_error("not a topic of the service");
+  }
+}
+
+#define BOTH_WAYS(Message)                                                             \
+  template WireSample<collision_v1_##Message> ToWire<v1::Message>(const v1::Message&); \
+  template void FromWire<v1::Message>(const collision_v1_##Message&, v1::Message*);
+BOTH_WAYS(SimulatorClock)
+BOTH_WAYS(AgentDescription)
+BOTH_WAYS(ShapePart)
+BOTH_WAYS(AgentStates)
+BOTH_WAYS(Clearance)
+BOTH_WAYS(EarliestIntersection)
+BOTH_WAYS(CollisionEvent)
+BOTH_WAYS(Rejection)
+BOTH_WAYS(ServiceStatus)
+
+}  // namespace collision::dds

@@ -1,0 +1,95 @@
+#include "idl/dds/endpoints.h"
+
+#include <memory>
+
+namespace collision::dds {
+namespace {
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+Qos MakeQos() { return {dds_create_qos(), &dds_delete_qos}; }
+
+/// What both ends of a topic say. Reliable is said by readers too: their default is best effort.
+Qos TopicQos(const TopicRow& row, int depth) {
+  Qos qos = MakeQos();
+  // A keep-last writer overwrites instead of waiting for a slow reader, so there is nothing to wait
+  // for: 0.
+  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  dds_qset_durability(
+      qos.get(), row.for_late_joiners ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+Qos WriterQos(const TopicRow& row, dds_duration_t lease) {
+  Qos qos = TopicQos(row, row.writer_depth);
+  // A program that ends, however it ends, has not removed anything: only a dispose does.
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  if (row.leased) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, lease);
+  return qos;
+}
+
+class Builder {
+ public:
+  Builder(dds_entity_t participant, const DdsSessionOptions& options)
+      : participant_(participant), options_(options) {}
+
+  void Read(Source source, const std::string& partition) {
+    Qos qos = MakeQos();
+    dds_qset_partition1(qos.get(), partition.c_str());
+    const dds_entity_t subscriber =
+        Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
+    for (const TopicRow& row : Topics()) {
+      if (row.source != source) continue;
+      endpoints_.readers[Index(row)] = Check(
+          dds_create_reader(subscriber, Topic(row), TopicQos(row, row.reader_depth).get(), nullptr),
+          std::string("DDS reader of ") + row.name);
+    }
+  }
+
+  void Write(Source source, const std::string& partition) {
+    Qos qos = MakeQos();
+    dds_qset_partition1(qos.get(), partition.c_str());
+    const dds_entity_t publisher =
+        Check(dds_create_publisher(participant_, qos.get(), nullptr), "DDS publisher");
+    for (const TopicRow& row : Topics()) {
+      if (row.source != source) continue;
+      endpoints_.writers[Index(row)] =
+          Check(dds_create_writer(publisher, Topic(row),
+                                  WriterQos(row, options_.lease.count()).get(), nullptr),
+                std::string("DDS writer of ") + row.name);
+    }
+  }
+
+  Endpoints endpoints() const { return endpoints_; }
+
+ private:
+  static std::size_t Index(const TopicRow& row) { return static_cast<std::size_t>(row.id); }
+
+  dds_entity_t Topic(const TopicRow& row) {
+    return Check(dds_create_topic(participant_, row.type, row.name, nullptr, nullptr),
+                 std::string("DDS topic ") + row.name);
+  }
+
+  const dds_entity_t participant_;
+  const DdsSessionOptions& options_;
+  Endpoints endpoints_;
+};
+
+}  // namespace
+
+Endpoints MakeEndpoints(dds_entity_t participant, const DdsSessionOptions& options) {
+  Builder builder(participant, options);
+  const bool monitor = options.role == DdsRole::kMonitor;
+  const bool service = options.role == DdsRole::kService;
+  const bool simulator = options.role == DdsRole::kSimulator;
+  if (service || (monitor && options.reads_simulators))
+    builder.Read(Source::kSimulators, options.world + ".*");
+  if (simulator || (monitor && options.reads_service))
+    builder.Read(Source::kService, options.world);
+  if (service) builder.Write(Source::kService, options.world);
+  if (simulator) builder.Write(Source::kSimulators, options.world + "." + options.simulator);
+  return builder.endpoints();
+}
+
+}  // namespace collision::dds

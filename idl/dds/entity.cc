@@ -1,0 +1,13 @@
+#include "idl/dds/entity.h"
+
+#include <stdexcept>
+
+namespace collision::dds {
+
+dds_entity_t Check(dds_return_t result, const std::string& what) {
+  if (result >= 0) return result;
+  throw std::runtime_error(what + ": " + dds_strretcode(result) +
+                           " (is the network interface of CYCLONEDDS_URI there?)");
+}
+
+}  // namespace collision::dds

@@ -1,0 +1,182 @@
+#include "idl/dds/session.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+#include "idl/dds/conversion.h"
+#include "idl/dds/endpoints.h"
+#include "idl/dds/intake.h"
+#include "idl/dds/waker.h"
+#include "idl/identity.h"
+
+namespace collision {
+namespace {
+
+using dds::Check;
+
+constexpr std::uint32_t kDomainMax = 230;  // the ports of higher ones lie beyond 65535
+constexpr std::size_t kNameMax = 64;
+
+/// Names are parts of partitions, in which '.' separates and '*' and '?' are wildcards.
+void CheckName(const char* what, const std::string& name) {
+  const auto allowed = [](unsigned char c) {
+    return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '_' ||
+           c == '-';
+  };
+  if (!name.empty() && name.size() <= kNameMax && std::all_of(name.begin(), name.end(), allowed))
+    return;
+  throw std::runtime_error(std::string(what) + " \"" + name +
+                           "\": allowed are 1 to 64 of A-Z a-z 0-9 _ -");
+}
+
+const DdsSessionOptions& Checked(const DdsSessionOptions& options) {
+  CheckName("world", options.world);
+  if (options.role == DdsRole::kSimulator) CheckName("simulator", options.simulator);
+  if (options.domain > kDomainMax) {
+    throw std::runtime_error("DDS domain " + std::to_string(options.domain) +
+                             ": allowed are 0 to 230");
+  }
+  if (options.lease.count() <= 0) throw std::runtime_error("lease: must be longer than 0");
+  return options;
+}
+
+dds_entity_t CreateParticipant(std::uint32_t domain) {
+  const dds_entity_t participant = Check(dds_create_participant(domain, nullptr, nullptr),
+                                         "DDS domain " + std::to_string(domain));
+  // For the whole process, and only for writers made after it: samples gather until Flush().
+  dds_write_set_batch(true);
+  return participant;
+}
+
+}  // namespace
+
+class DdsSession::Implementation {
+ public:
+  explicit Implementation(const DdsSessionOptions& options)
+      : participant_(CreateParticipant(Checked(options).domain)),
+        endpoints_(dds::MakeEndpoints(participant_.get(), options)),
+        waitset_(Check(dds_create_waitset(participant_.get()), "DDS waitset")),
+        guard_(Check(dds_create_guardcondition(participant_.get()), "DDS guard condition")),
+        intake_(options.role == DdsRole::kSimulator ? SimulatorId(options.simulator) : 0) {
+    Check(dds_waitset_attach(waitset_, guard_, 0), "DDS waitset");
+    for (const dds_entity_t reader : endpoints_.readers) {
+      if (reader == 0) continue;
+      const dds_entity_t arrived =
+          Check(dds_create_readcondition(reader, DDS_ANY_STATE), "DDS read condition");
+      Check(dds_waitset_attach(waitset_, arrived, 0), "DDS waitset");
+    }
+    waker_.emplace(guard_);
+  }
+
+  template <class Message>
+  void Write(const Message& message) {
+    const dds_entity_t writer = Writer(dds::Carrier<Message>::kTopic);
+    if (dds_write(writer, dds::ToWire(message).get()) != DDS_RETCODE_OK) ++writes_failed_;
+  }
+
+  void RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot) {
+    collision_v1_AgentDescription key{};
+    key.simulator_id = simulator_id;
+    key.slot = slot;
+    if (dds_dispose(Writer(dds::TopicId::kAgentDescription), &key) != DDS_RETCODE_OK)
+      ++writes_failed_;
+  }
+
+  void Flush() {
+    for (const dds_entity_t writer : endpoints_.writers) {
+      if (writer != 0) dds_write_flush(writer);
+    }
+  }
+
+  std::size_t Receive(std::chrono::nanoseconds timeout, std::size_t limit,
+                      std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs) {
+    dds_waitset_wait(waitset_, nullptr, 0, std::max<dds_duration_t>(timeout.count(), 0));
+    bool woken = false;
+    dds_take_guardcondition(guard_, &woken);
+    std::size_t taken = 0;
+    for (const dds::TopicRow& row : dds::Topics()) {
+      const dds_entity_t reader = endpoints_.readers[static_cast<std::size_t>(row.id)];
+      if (reader != 0) taken += intake_.Take(reader, row, limit - taken, inputs, outputs);
+    }
+    return taken;
+  }
+
+  void Wake() noexcept { waker_->Wake(); }
+
+  bool service_present() const {
+    const dds_entity_t reader =
+        endpoints_.readers[static_cast<std::size_t>(dds::TopicId::kServiceStatus)];
+    dds_liveliness_changed_status_t status{};
+    return reader != 0 && dds_get_liveliness_changed_status(reader, &status) == DDS_RETCODE_OK &&
+           status.alive_count > 0;
+  }
+
+  DdsCounters counters() const {
+    DdsCounters counters;
+    for (const dds_entity_t reader : endpoints_.readers) {
+      if (reader == 0) continue;
+      dds_sample_lost_status_t lost{};
+      dds_sample_rejected_status_t refused{};
+      dds_get_sample_lost_status(reader, &lost);
+      dds_get_sample_rejected_status(reader, &refused);
+      counters.samples_lost += lost.total_count;
+      counters.samples_refused += refused.total_count;
+    }
+    counters.samples_orphaned = intake_.orphaned();
+    counters.writes_failed = writes_failed_;
+    return counters;
+  }
+
+ private:
+  dds_entity_t Writer(dds::TopicId topic) const {
+    const dds_entity_t writer = endpoints_.writers[static_cast<std::size_t>(topic)];
+    if (writer == 0)
+      throw std::logic_error(std::string("this role does not write ") + dds::Row(topic).name);
+    return writer;
+  }
+
+  // First, and the waker last: its thread uses the guard, which lives in the participant.
+  const dds::Entity participant_;
+  const dds::Endpoints endpoints_;
+  const dds_entity_t waitset_;
+  const dds_entity_t guard_;
+  dds::Intake intake_;
+  std::uint64_t writes_failed_ = 0;
+  std::optional<dds::Waker> waker_;
+};
+
+DdsSession::DdsSession(const DdsSessionOptions& options)
+    : implementation_(std::make_unique<Implementation>(options)) {}
+DdsSession::DdsSession(DdsSession&&) noexcept = default;
+DdsSession& DdsSession::operator=(DdsSession&&) noexcept = default;
+DdsSession::~DdsSession() = default;
+
+void DdsSession::Write(const v1::AgentDescription& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::ShapePart& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::AgentStates& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::SimulatorClock& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::Clearance& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::EarliestIntersection& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::CollisionEvent& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->Write(message); }
+
+void DdsSession::RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot) {
+  implementation_->RemoveAgent(simulator_id, slot);
+}
+
+void DdsSession::Flush() { implementation_->Flush(); }
+
+std::size_t DdsSession::Receive(std::chrono::nanoseconds timeout, std::size_t limit,
+                                std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs) {
+  return implementation_->Receive(timeout, limit, inputs, outputs);
+}
+
+void DdsSession::Wake() noexcept { implementation_->Wake(); }
+
+bool DdsSession::service_present() const { return implementation_->service_present(); }
+
+DdsCounters DdsSession::counters() const { return implementation_->counters(); }
+
+}  // namespace collision

@@ -1,0 +1,109 @@
+// One program's place in a world, over DDS.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "idl/messages.pb.h"
+
+namespace collision {
+
+/// What a program writes and reads; ../README.md has the topics.
+enum class DdsRole {
+  kService,    ///< Reads what all simulators of the world write; writes the service's topics.
+  kSimulator,  ///< Writes its agents; reads the service's topics, of clearances and rejections its
+               ///< own.
+  kMonitor,    ///< Writes nothing.
+};
+
+struct DdsSessionOptions {
+  std::string world = "default";  ///< 1-64 of [A-Za-z0-9_-]: worlds are partitions and do not mix.
+  std::uint32_t domain = 0;       ///< DDS domain, 0-230.
+  DdsRole role = DdsRole::kMonitor;
+  std::string simulator;  ///< kSimulator: its unique name, 1-64 of [A-Za-z0-9_-].
+  bool reads_service =
+      true;  ///< kMonitor: status, events, earliest intersection, clearances, rejections.
+  bool reads_simulators = false;  ///< kMonitor: descriptions, shapes, states and clocks.
+
+  /// A clock or a status whose writer the network has not heard of for so long counts as gone.
+  /// Under 50 ms a busy machine gives false alarms.
+  std::chrono::nanoseconds lease{2'000'000'000};
+};
+
+/// What did not become a message. All grow from 0.
+struct DdsCounters {
+  std::uint64_t samples_lost = 0;     ///< The network gave up on them; newer ones came instead.
+  std::uint64_t samples_refused = 0;  ///< The reader had no room.
+  std::uint64_t samples_orphaned =
+      0;  ///< Their writer was gone before anybody could ask who it was.
+  std::uint64_t writes_failed =
+      0;  ///< DDS did not take them; the next sample of that key replaces them.
+};
+
+/// A DDS participant with the readers and writers of its role. Writing never waits for a reader,
+/// and nothing is lost for slowness but what a newer sample replaced: every sample is complete. All
+/// members are for one thread at a time, but Wake(). The environment variable CYCLONEDDS_URI
+/// configures the network (config/cyclonedds-*.xml).
+class DdsSession {
+ public:
+  /// Throws std::runtime_error, with the cause, if an option is out of range or DDS is not to be
+  /// had.
+  explicit DdsSession(const DdsSessionOptions& options);
+  DdsSession(DdsSession&&) noexcept;
+  DdsSession& operator=(DdsSession&&) noexcept;
+
+  /// Leaves the world, after at most a second for what was written to arrive. A simulator's agents
+  /// stay in the service unless removed.
+  ~DdsSession();
+
+  /// Writes a sample; Flush() sends it. Throws std::length_error, naming field and bound, for a
+  /// text, list or byte field longer than the IDL allows, and std::logic_error for a message that
+  /// is not of this role.
+  void Write(const v1::AgentDescription& message);
+  void Write(const v1::ShapePart& message);
+  void Write(const v1::AgentStates& message);
+  void Write(const v1::SimulatorClock& message);
+  void Write(const v1::Clearance& message);
+  void Write(const v1::EarliestIntersection& message);
+  void Write(const v1::CollisionEvent& message);
+  void Write(const v1::Rejection& message);
+  void Write(const v1::ServiceStatus& message);
+
+  /// Removes an agent for good, by disposing of its description. kSimulator only. Flush() sends it.
+  void RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot);
+
+  /// Everything written leaves now.
+  void Flush();
+
+  /// Waits until something arrived, `timeout` is over or Wake() was called; then takes what
+  /// arrived, at most `limit` samples, the rest stays for the next call, and appends a message for
+  /// each. What simulators wrote goes to `inputs`, what the service wrote to `outputs`; nullptr
+  /// where the role reads none. Returns how many samples it took; not all are messages (a
+  /// simulator's session hands on only its own clearances), and a removal or a change of liveliness
+  /// may come as a second message of one sample.
+  ///
+  /// Samples of one key come in the order of their writing; there is no order between keys, topics
+  /// or writers. SimulatorLiveliness: the last writer of a clock left, or its lease ended (false),
+  /// or wrote again after that (true).
+  std::size_t Receive(std::chrono::nanoseconds timeout, std::size_t limit,
+                      std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
+
+  /// Ends a Receive() that waits, or else the next one at once. From any thread and from signal
+  /// handlers.
+  void Wake() noexcept;
+
+  /// Whether a service writes to this world and has kept its lease. For roles that read the
+  /// service.
+  bool service_present() const;
+
+  DdsCounters counters() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace collision

@@ -1,0 +1,31 @@
+#include "idl/dds/topics.h"
+
+namespace collision::dds {
+
+const std::array<TopicRow, kTopics>& Topics() {
+  using enum TopicId;
+  using enum Source;
+  static const std::array<TopicRow, kTopics> rows = {{
+      {kSimulatorClock, "collision/v1/simulator_clock", &collision_v1_SimulatorClock_desc,
+       kSimulators, true, 1, 8, true},
+      {kAgentDescription, "collision/v1/agent_description", &collision_v1_AgentDescription_desc,
+       kSimulators, true, 1, 1, false},
+      {kShapePart, "collision/v1/shape", &collision_v1_ShapePart_desc, kSimulators, true, 1, 1,
+       false},
+      {kAgentStates, "collision/v1/agent_states", &collision_v1_AgentStates_desc, kSimulators, true,
+       1, 32, false},
+      {kClearance, "collision/v1/clearance", &collision_v1_Clearance_desc, kService, true, 1, 1,
+       false},
+      {kEarliestIntersection, "collision/v1/earliest_intersection",
+       &collision_v1_EarliestIntersection_desc, kService, true, 1, 64, false},
+      {kCollisionEvent, "collision/v1/collision_event", &collision_v1_CollisionEvent_desc, kService,
+       true, 1, 64, false},
+      {kRejection, "collision/v1/rejection", &collision_v1_Rejection_desc, kService, false, 64, 64,
+       false},
+      {kServiceStatus, "collision/v1/service_status", &collision_v1_ServiceStatus_desc, kService,
+       true, 1, 1, true},
+  }};
+  return rows;
+}
+
+}  // namespace collision::dds

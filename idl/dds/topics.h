@@ -1,0 +1,44 @@
+// The one table of topics: names, types and QoS. Why each is as it is: ../README.md.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "collision.h"
+#include "dds/dds.h"
+
+namespace collision::dds {
+
+enum class TopicId {
+  kSimulatorClock,
+  kAgentDescription,
+  kShapePart,
+  kAgentStates,
+  kClearance,
+  kEarliestIntersection,
+  kCollisionEvent,
+  kRejection,
+  kServiceStatus,
+};
+inline constexpr std::size_t kTopics = 9;
+
+enum class Source { kSimulators, kService };
+
+struct TopicRow {
+  TopicId id;
+  const char* name;
+  const dds_topic_descriptor_t* type;
+  Source source;
+  bool for_late_joiners;  ///< Transient-local: the writer's newest samples reach who comes later.
+  int writer_depth;       ///< Keep-last, per key.
+  int reader_depth;       ///< Keep-last, per key: how many wait for a reader that is slow.
+  bool leased;            ///< Its writer's silence is noticed within the lease.
+};
+
+/// In the order in which a reader drains them: few before many, so that no flood starves the
+/// clocks.
+const std::array<TopicRow, kTopics>& Topics();
+
+inline const TopicRow& Row(TopicId id) { return Topics()[static_cast<std::size_t>(id)]; }
+
+}  // namespace collision::dds
