@@ -1,0 +1,181 @@
+#include "server/codec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "idl/identity.h"
+#include "server/field_check.h"
+
+namespace collision::server {
+namespace {
+
+Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::optional<Refusal> CheckName(std::uint64_t id, const std::string& name, Refusal where) {
+  FieldCheck check(std::move(where));
+  check.Text("simulator_name", name, kNameMax);
+  if (id != SimulatorId(name)) {
+    check.Refuse(v1::REJECTED_ID_MISMATCH, "simulator_id",
+                 std::to_string(id) + "; the name \"" + name.substr(0, kNameMax) + "\" has " +
+                     std::to_string(SimulatorId(name)));
+  }
+  return check.refusal();
+}
+
+/// INT64_MAX is never; everything else must leave room for differences.
+void CheckLater(const char* field, std::int64_t ns, FieldCheck* check) {
+  if (ns != Instant::Never().nanoseconds()) check->Integer(field, ns, -kInstantMax, kInstantMax);
+}
+
+/// Off by e from unit length, so its components carry an error of about e; across the quaternion
+/// that turns the rotation by up to 2 asin(e) <= 2 e (1 + e²) for e <= 1e-3.
+void TakeOrientation(const v1::Quaternion& wire, FieldCheck* check, MotionState* state) {
+  for (const double component : {wire.w(), wire.x(), wire.y(), wire.z()}) {
+    check->Number("orientation", component, -2, 2);
+  }
+  const double length = std::sqrt(wire.w() * wire.w() + wire.x() * wire.x() + wire.y() * wire.y() +
+                                  wire.z() * wire.z());
+  if (length < kUnitTolerance) {
+    check->Refuse(v1::REJECTED_ZERO_QUATERNION, "orientation",
+                  "length " + Show(length) + "; allowed: 1 within " + Show(kUnitTolerance));
+  }
+  const double off = std::abs(length - 1);
+  if (!(off <= kUnitTolerance)) {
+    check->Refuse(v1::REJECTED_NOT_UNIT, "orientation",
+                  "length " + Show(length) + "; allowed: 1 within " + Show(kUnitTolerance));
+  }
+  if (!check->passed()) return;
+  state->q_WB = Eigen::Quaterniond(wire.w() / length, wire.x() / length, wire.y() / length,
+                                   wire.z() / length);
+  state->rotation_error = std::min(kRotationErrorMax, state->rotation_error + 2.00001 * off);
+}
+
+/// Zero is "not declared". Normalising changes its length, not where it points.
+void TakeDirection(const v1::AgentState& wire, FieldCheck* check, MotionState* state) {
+  check->Vector("thrust_direction", wire.thrust_direction(), 2);
+  if (!check->passed()) return;
+  const Eigen::Vector3d direction = ToVector(wire.thrust_direction());
+  const double length = std::sqrt(direction.dot(direction));
+  if (direction.isZero(0)) return;
+  if (std::abs(length - 1) > kUnitTolerance) {
+    check->Refuse(v1::REJECTED_NOT_UNIT, "thrust_direction",
+                  "length " + Show(length) + "; allowed: 0, or 1 within " + Show(kUnitTolerance));
+  }
+  CheckLater("direction_until_ns", wire.direction_until_ns(), check);
+  state->direction = direction / length;
+  state->direction_until = Instant::FromNanoseconds(wire.direction_until_ns());
+}
+
+void CheckStamp(std::int64_t stamp_ns, const StampRules& rules, FieldCheck* check) {
+  check->Integer("stamp_ns", stamp_ns, -kInstantMax, rules.latest.nanoseconds(),
+                 v1::REJECTED_FUTURE_STAMP);
+}
+
+}  // namespace
+
+std::optional<Refusal> CheckIdentity(const v1::AgentDescription& description) {
+  return CheckName(description.simulator_id(), description.simulator_name(), At(description));
+}
+
+std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock) {
+  return CheckName(clock.simulator_id(), clock.simulator_name(), At(clock));
+}
+
+Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
+  FieldCheck check(At(wire));
+  check.Integer("slot", wire.slot(), 0, kSlotMax);
+  check.Text("agent_name", wire.agent_name(), kNameMax);
+  check.Number("radius_m", wire.radius_m(), 0, kRadiusMax);
+  check.Number("acceleration_max_m_s2", wire.acceleration_max_m_s2(), 0, kAccelerationMax);
+  check.Number("angular_acceleration_max_rad_s2", wire.angular_acceleration_max_rad_s2(),
+               -kAccelerationMax, kAccelerationMax);
+  check.Number("speed_max_m_s", wire.speed_max_m_s(), 0, kSpeedMax);
+  check.Number("time_step_s", wire.time_step_s(), 0, kTimeStepMax);
+  const std::string& hash = wire.shape_hash();
+  if (std::any_of(hash.begin(), hash.end(), [](char byte) { return byte != 0; })) {
+    check.Refuse(v1::REJECTED_BAD_SHAPE, "shape_hash",
+                 "shapes are not served by this version; allowed: all zero (the ball)");
+  }
+  if (!check.passed()) return *check.refusal();
+  return AgentDeclaration{.radius = wire.radius_m(),
+                          .acceleration_max = wire.acceleration_max_m_s2(),
+                          .time_step = wire.time_step_s(),
+                          .group = wire.group(),
+                          .mask = wire.mask()};
+}
+
+std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk) {
+  FieldCheck check(At(chunk));
+  check.Integer("states", chunk.states_size(), 0, kStatesPerChunkMax, v1::REJECTED_CHUNK_TOO_LARGE);
+  check.Integer("chunk", chunk.chunk(), 0, kSlotMax);
+  return check.refusal();
+}
+
+std::optional<Refusal> CheckSlot(const v1::AgentStates& chunk, const v1::AgentState& state) {
+  FieldCheck check(At(chunk, state));
+  check.Integer("slot", state.slot(), 0, kSlotMax);
+  return check.refusal();
+}
+
+Decoded<MotionState> DecodeState(const v1::AgentStates& chunk, const v1::AgentState& wire,
+                                 const StampRules& rules) {
+  FieldCheck check(At(chunk, wire));
+  check.Vector("position_m", wire.position_m(), kCoordinateMax);
+  check.Vector("velocity_m_s", wire.velocity_m_s(), kSpeedMax);
+  check.Vector("angular_velocity_rad_s", wire.angular_velocity_rad_s(), kAngularSpeedMax);
+  check.Number("position_error_m", wire.position_error_m(), 0, kRadiusMax);
+  check.Number("velocity_error_m_s", wire.velocity_error_m_s(), 0, kSpeedMax);
+  check.Number("rotation_error_rad", wire.rotation_error_rad(), 0, kRotationErrorMax);
+  CheckLater("expiry_ns", wire.expiry_ns(), &check);
+  check.Integer("stamp_ns", wire.stamp_ns(), -kInstantMax, kInstantMax);
+  CheckStamp(wire.stamp_ns(), rules, &check);
+  if (wire.discontinuity()) {
+    check.Integer("stamp_ns", wire.stamp_ns(), rules.discontinuity_from.nanoseconds(), kInstantMax,
+                  v1::REJECTED_STALE);
+  }
+
+  MotionState state{.stamp = Instant::FromNanoseconds(wire.stamp_ns()),
+                    .p_WA = ToVector(wire.position_m()),
+                    .v_WA = ToVector(wire.velocity_m_s()),
+                    .w_WB = ToVector(wire.angular_velocity_rad_s()),
+                    .position_error = wire.position_error_m(),
+                    .velocity_error = wire.velocity_error_m_s(),
+                    .rotation_error = wire.rotation_error_rad(),
+                    .expiry = Instant::FromNanoseconds(wire.expiry_ns()),
+                    .discontinuity = wire.discontinuity()};
+  TakeOrientation(wire.orientation(), &check, &state);
+  TakeDirection(wire, &check, &state);
+  if (!check.passed()) return *check.refusal();
+  return state;
+}
+
+std::optional<Refusal> CheckStamp(const AgentId& agent, Instant stamp, const StampRules& rules) {
+  FieldCheck check({.topic = v1::TOPIC_AGENT_STATES,
+                    .simulator_id = agent.simulator,
+                    .run = agent.run,
+                    .slot = agent.slot,
+                    .generation = agent.generation});
+  CheckStamp(stamp.nanoseconds(), rules, &check);
+  return check.refusal();
+}
+
+Decoded<Instant> DecodeClock(const v1::SimulatorClock& wire, const ClockRules& rules) {
+  FieldCheck check(At(wire));
+  check.Integer("clock_ns", wire.clock_ns(), -kInstantMax, kInstantMax);
+  check.Integer("clock_ns", wire.clock_ns(), rules.earliest.nanoseconds(),
+                Instant::Never().nanoseconds(), v1::REJECTED_CLOCK_BACKWARD);
+  check.Integer("clock_ns", wire.clock_ns(), rules.earliest.nanoseconds(),
+                rules.latest.nanoseconds(), v1::REJECTED_CLOCK_BEYOND_GRANT);
+  if (!check.passed()) return *check.refusal();
+  return Instant::FromNanoseconds(wire.clock_ns());
+}
+
+Refusal RefuseShape(const v1::ShapePart& part) {
+  Refusal refusal = At(part);
+  refusal.reason = v1::REJECTED_BAD_SHAPE;
+  refusal.field = "content_hash";
+  refusal.detail = "shapes are not served by this version; every agent is its ball";
+  return refusal;
+}
+
+}  // namespace collision::server

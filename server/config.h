@@ -1,0 +1,40 @@
+// The daemon's configuration: read, completed, checked and printed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "idl/config.pb.h"
+
+namespace collision::server {
+
+struct ConfigResult {
+  v1::Config config;                ///< Complete; valid only if ok().
+  std::vector<std::string> errors;  ///< "file:line: field: what is wrong; allowed: range", by line.
+
+  bool ok() const { return errors.empty(); }
+};
+
+/// Reads protobuf text and fills in the defaults. `name` stands for the file in errors. It goes on
+/// after an error where it can, so that all are reported, one per line of the text.
+ConfigResult ParseConfig(const std::string& text, const std::string& name);
+
+/// ParseConfig of a file's content; a file that cannot be read is an error too.
+ConfigResult LoadConfig(const std::string& path);
+
+/// Fills every field that is not set with its default.
+v1::Config CompleteConfig(v1::Config config);
+
+struct ConfigError {
+  std::string field;  ///< Its path, as in "clock.kind".
+  std::string what;
+};
+
+/// Checks a complete configuration: every field, then fields against each other.
+std::vector<ConfigError> CheckConfig(const v1::Config& complete);
+
+/// A complete configuration as protobuf text that explains itself; ParseConfig() reads back the
+/// same values.
+std::string PrintConfig(const v1::Config& complete);
+
+}  // namespace collision::server

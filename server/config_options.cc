@@ -1,0 +1,194 @@
+#include "server/config_options.h"
+
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace collision::server {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+constexpr ConfigOption kOptions[] = {
+    {"world", "none", "", "", "1 to 64 of A-Z a-z 0-9 _ -", "\"default\"",
+     "Which world this service serves. Worlds do not see each other."},
+    {"domain", "none", "0", "230", "", "0",
+     "DDS domain. Simulators and monitors must use the same."},
+    {"service_id", "none", "1", "18446744073709551615", "", "1",
+     "Stands in everything this instance publishes; no two services of a world share it."},
+    {"term", "none", "1", "4294967295", "", "1",
+     "Grows when another instance takes over; clients drop what comes from a lower term."},
+    {"clock.kind", "none", "", "", "SIMULATED or WALL", "SIMULATED",
+     "SIMULATED: now is the least clock of the live simulators. WALL: now is the time since 1970, "
+     "advanced by "
+     "the monotonic clock."},
+    {"clock.skew_max_s", "s", "0", "60", "", "0",
+     "Bound on the difference between any sender's clock and ours. Bounds are widened by it, and a "
+     "stamp "
+     "further in the future is refused. With WALL it must be greater than 0.",
+     "0.002"},
+    {"clock.simulators_awaited", "simulators", "1", "1024", "", "1",
+     "With SIMULATED, time stands still until so many simulators have published a clock."},
+    {"clock.grant_ahead_max_s", "s", "0.000001", "86400", "", "10",
+     "With SIMULATED, no simulator is allowed to run further ahead than this, however empty the "
+     "scene."},
+    {"clock.on_silent_simulator", "none", "", "", "WAIT or RELEASE", "WAIT",
+     "With SIMULATED, when a simulator's process has died: WAIT stops time for everybody until it "
+     "is back, "
+     "RELEASE removes its agents after release_after_s."},
+    {"clock.release_after_s", "s", "0.1", "86400", "", "5",
+     "How long RELEASE waits. With WAIT it must keep its default."},
+    {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
+     "The least severe lines that are logged."},
+    {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
+     "\"\"", "Where the log goes, appended. Empty: standard error."},
+    {"temporal_resolution_s", "s", "0.000001", "10", "", "0.016666666666666666",
+     "A pair whose earliest possible intersection is nearer than this goes to the narrow phase, at "
+     "most once "
+     "per this time. Contacts shorter than it are found all the same."},
+    {"announce_within_s", "s", "0.000001", "86400", "", "2",
+     "A possible intersection this near gets an event. At least temporal_resolution_s."},
+    {"agents_max", "agents", "1", "1000000", "", "1000",
+     "Agents in the world; a description beyond is refused."},
+    {"simulators_max", "simulators", "1", "1024", "", "64",
+     "Simulators in the world; what another one writes is refused. At least "
+     "clock.simulators_awaited."},
+    {"pairs_max", "pairs", "1", "16777216", "", "65536",
+     "Pairs tracked at once; beyond it agents are published as saturated, with a clearance of "
+     "now."},
+    {"pairs_per_agent_max", "pairs", "1", "1000000", "", "256", "Likewise, of one agent."},
+    {"history_max", "states", "2", "4096", "", "64",
+     "States kept per agent for judging contacts; beyond, the oldest go and brackets widen."},
+    {"inputs_per_batch_max", "messages", "1", "1048576", "", "65536",
+     "Messages taken from the network in one step; the rest waits for the next."},
+    {"undescribed_after_s", "s", "0.1", "3600", "", "5",
+     "States of an agent that nobody has described are kept so long; then their sender is told."},
+    {"status_period_s", "s", "0.05", "10", "", "0.5",
+     "Time between two samples of the service's status, by the monotonic clock."},
+    {"rejections_per_second_max", "messages", "1", "100000", "", "100",
+     "Rejections published per second; what is beyond is counted in the status."},
+};
+
+class Silent final : public google::protobuf::io::ErrorCollector {
+  void AddError(int, google::protobuf::io::ColumnNumber, const std::string&) override {}
+};
+
+/// The message that holds an option's field, and the field.
+template <typename Holder>
+struct Place {
+  Holder* message;
+  const FieldDescriptor* field;
+};
+
+std::string_view LeafOf(std::string_view path) { return path.substr(path.rfind('.') + 1); }
+
+const FieldDescriptor* FieldOf(const Message& message, std::string_view name) {
+  return message.GetDescriptor()->FindFieldByName(std::string(name));
+}
+
+Place<const Message> Find(const v1::Config& config, const ConfigOption& option) {
+  const bool nested = option.path.find('.') != std::string_view::npos;
+  const Message& holder = nested ? static_cast<const Message&>(config.clock()) : config;
+  return {&holder, FieldOf(holder, LeafOf(option.path))};
+}
+
+Place<Message> Find(v1::Config* config, const ConfigOption& option) {
+  const bool nested = option.path.find('.') != std::string_view::npos;
+  Message* holder = nested ? static_cast<Message*>(config->mutable_clock()) : config;
+  return {holder, FieldOf(*holder, LeafOf(option.path))};
+}
+
+bool IsWorldName(std::string_view text) {
+  constexpr std::string_view kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  return !text.empty() && text.size() <= 64 && text.find_first_not_of(kAllowed) == text.npos;
+}
+
+bool IsLogLevel(std::string_view text) {
+  constexpr std::string_view kLevels[] = {"trace", "debug",    "info", "warn",
+                                          "error", "critical", "off"};
+  return std::ranges::find(kLevels, text) != std::end(kLevels);
+}
+
+bool IsAllowedText(std::string_view path, const std::string& text) {
+  if (path == "world") return IsWorldName(text);
+  if (path == "log_level") return IsLogLevel(text);
+  const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
+  return text.size() <= 4096 && std::ranges::all_of(text, printable);
+}
+
+/// Of numbers; what is not a number is in no range. Text to double is exact for every limit in the
+/// table but 2^64 - 1, which no value can exceed.
+bool IsInRange(const std::string& value, const ConfigOption& option) {
+  const double number = std::strtod(value.c_str(), nullptr);
+  return number >= std::strtod(option.least.data(), nullptr) &&
+         number <= std::strtod(option.most.data(), nullptr);
+}
+
+/// Protobuf takes any number for an enum; 0 is "not set".
+bool IsChoice(const FieldDescriptor& field, int value) {
+  return value != 0 && field.enum_type()->FindValueByNumber(value) != nullptr;
+}
+
+bool IsAllowed(const v1::Config& config, const ConfigOption& option) {
+  const auto [message, field] = Find(config, option);
+  switch (field->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_STRING:
+      return IsAllowedText(option.path, message->GetReflection()->GetString(*message, field));
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return IsChoice(*field, message->GetReflection()->GetEnumValue(*message, field));
+    default:
+      return IsInRange(ValueText(config, option), option);
+  }
+}
+
+}  // namespace
+
+std::span<const ConfigOption> ConfigOptions() { return kOptions; }
+
+const ConfigOption* FindConfigOption(std::string_view name) {
+  const auto* found = std::ranges::find_if(
+      kOptions, [&](const ConfigOption& option) { return LeafOf(option.path) == name; });
+  return found == std::end(kOptions) ? nullptr : found;
+}
+
+std::string AllowedRange(const ConfigOption& option) {
+  if (option.least.empty()) return std::string(option.allowed);
+  return std::string(option.least) + " to " + std::string(option.most);
+}
+
+std::string_view DefaultOf(const ConfigOption& option, const v1::Config& config) {
+  const bool wall = config.clock().kind() == v1::Clock::WALL;
+  return wall && !option.wall_value.empty() ? option.wall_value : option.value;
+}
+
+bool IsSet(const v1::Config& config, const ConfigOption& option) {
+  const auto [message, field] = Find(config, option);
+  return message->GetReflection()->HasField(*message, field);
+}
+
+std::string ValueText(const v1::Config& config, const ConfigOption& option) {
+  const auto [message, field] = Find(config, option);
+  std::string text;
+  google::protobuf::TextFormat::PrintFieldValueToString(*message, field, -1, &text);
+  return text;
+}
+
+bool SetValue(v1::Config* config, const ConfigOption& option, std::string_view text) {
+  const auto [message, field] = Find(config, option);
+  Silent silent;  // without it the parser speaks to standard error
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&silent);
+  return parser.ParseFieldValueFromString(std::string(text), field, message);
+}
+
+std::string CheckValue(const v1::Config& config, const ConfigOption& option) {
+  if (IsAllowed(config, option)) return {};
+  const std::string unit = option.unit == "none" ? "" : " [" + std::string(option.unit) + "]";
+  return ValueText(config, option) + " is not allowed; allowed: " + AllowedRange(option) + unit;
+}
+
+}  // namespace collision::server

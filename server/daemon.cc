@@ -1,0 +1,168 @@
+#include "server/daemon.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <utility>
+
+#include "server/batch_order.h"
+#include "server/intake.h"
+#include "server/logging.h"
+#include "server/publisher.h"
+#include "server/recording.h"
+#include "server/status.h"
+
+namespace collision::server {
+namespace {
+
+DetectorOptions OptionsOf(const v1::Config& config) {
+  return {.temporal_resolution = config.temporal_resolution_s(),
+          .announce_within = config.announce_within_s(),
+          .skew = config.clock().skew_max_s(),
+          .agents_max = config.agents_max(),
+          .pairs_max = config.pairs_max(),
+          .pairs_per_agent_max = config.pairs_per_agent_max(),
+          .history_max = config.history_max()};
+}
+
+}  // namespace
+
+class Daemon::Implementation {
+ public:
+  Implementation(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder)
+      : config_(config),
+        bus_(bus),
+        clock_(clock),
+        recorder_(recorder),
+        world_(config_),
+        detector_(OptionsOf(config_)),
+        rejections_(config_.rejections_per_second_max()),
+        intake_(config_, &world_, &detector_, &rejections_),
+        publisher_(config_, &bus_),
+        schedule_(ToNanoseconds(config_.status_period_s())) {}
+
+  bool Step() {
+    std::vector<v1::Input> inputs;
+    const bool goes_on = bus_.Receive(Timeout(), config_.inputs_per_batch_max(), &inputs);
+    if (stopped_ || (!goes_on && inputs.empty())) return false;
+    SortBatch(&inputs);
+    if (!Begin(clock_.Read(), &inputs)) return false;
+    for (const v1::Input& input : inputs) intake_.Apply(input);
+    intake_.EndBatch();
+    if (world_.ReleaseSilent()) {
+      Log(spdlog::level::warn, "simulator released", "silent too long; time goes on without it");
+    }
+    world_.UpdateSimulatedTime();
+    Detect(!inputs.empty());
+    Publish();
+    return goes_on;
+  }
+
+  void Stop() {
+    stopped_ = true;
+    bus_.Wake();
+  }
+
+  const EventLog& event_log() const { return publisher_.event_log(); }
+
+ private:
+  /// Until something falls due without any input. With a wall clock the detector's own times come
+  /// at its temporal resolution.
+  std::chrono::nanoseconds Timeout() const {
+    std::int64_t due = schedule_.next_ns();
+    if (const auto next = intake_.NextDue()) due = std::min(due, *next);
+    if (const auto next = world_.NextRelease()) due = std::min(due, *next);
+    std::int64_t wait = due - world_.monotonic_ns();
+    if (!world_.simulated()) {
+      wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
+    }
+    return std::chrono::nanoseconds(std::max<std::int64_t>(wait, 0));
+  }
+
+  /// Takes the time of this step and keeps what it is about to apply. False: it could not be kept.
+  bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
+    world_.SetReading(reading);
+    ++steps_.batches;
+    steps_.inputs += inputs->size();
+    if (recorder_ == nullptr) return true;
+    v1::RecordedBatch batch;
+    batch.set_wall_ns(reading.wall_ns);
+    batch.set_monotonic_ns(reading.monotonic_ns);
+    for (v1::Input& input : *inputs) *batch.add_inputs() = std::move(input);
+    const bool kept = recorder_->Record(batch);
+    for (std::size_t i = 0; i < inputs->size(); ++i) {
+      (*inputs)[i] = std::move(*batch.mutable_inputs(static_cast<int>(i)));
+    }
+    return kept;
+  }
+
+  /// Brings the detector to the world's time. With a simulated clock nothing changes but by inputs
+  /// and releases.
+  void Detect(bool inputs) {
+    if (!world_.started()) return;
+    if (world_.simulated() && !inputs && world_.now() == advanced_to_) return;
+    advanced_to_ = world_.now();
+    detector_.Advance(world_.now());
+    for (const AgentClearance& clearance : detector_.TakeChangedClearances()) {
+      Keep(clearance);
+    }
+    world_.UpdateGrants();
+    publisher_.PublishEvents(detector_.events());
+    publisher_.PublishEarliest(detector_.Earliest(), world_.now());
+  }
+
+  /// Events leave before the clearances, and with them the grants, that follow from the same step.
+  void Publish() {
+    publisher_.PublishRejections(rejections_.Take());
+    publisher_.PublishClearances(&world_);
+    if (schedule_.Take(world_)) {
+      publisher_.PublishStatus(MakeStatus({.config = config_,
+                                           .world = world_,
+                                           .detector = detector_,
+                                           .intake = intake_,
+                                           .rejections = rejections_,
+                                           .event_log = publisher_.event_log(),
+                                           .steps = steps_}));
+    }
+    bus_.Flush();
+  }
+
+  void Keep(const AgentClearance& clearance) {
+    Simulator* simulator = world_.Find(clearance.agent.simulator);
+    if (simulator == nullptr || simulator->run != clearance.agent.run) return;
+    const auto slot = simulator->slots.find(clearance.agent.slot);
+    if (slot == simulator->slots.end()) return;
+    if (!Simulator::Describes(slot->second, clearance.agent.generation)) return;
+    slot->second.agent->clearance = clearance;
+    simulator->chunks_changed.insert(clearance.agent.slot / kSlotsPerChunk);
+  }
+
+  const v1::Config config_;
+  Bus& bus_;
+  Clock& clock_;
+  BatchSink* const recorder_;
+  World world_;
+  Detector detector_;
+  Rejections rejections_;
+  Intake intake_;
+  Publisher publisher_;
+  StatusSchedule schedule_;
+  StepCounters steps_;
+  std::optional<Instant> advanced_to_;
+  std::atomic<bool> stopped_ = false;
+};
+
+Daemon::Daemon(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder)
+    : implementation_(std::make_unique<Implementation>(config, bus, clock, recorder)) {}
+
+Daemon::~Daemon() = default;
+
+bool Daemon::Step() { return implementation_->Step(); }
+
+void Daemon::Stop() { implementation_->Stop(); }
+
+const EventLog& Daemon::event_log() const { return implementation_->event_log(); }
+
+}  // namespace collision::server

@@ -1,0 +1,41 @@
+// The bus that is a network: DDS.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "idl/dds/session.h"
+#include "server/bus.h"
+
+namespace collision::server {
+
+/// The service's end of one world. Topics, QoS and what the network promises: idl/README.md.
+class DdsBus final : public Bus {
+ public:
+  /// `lease`: a simulator not heard of for so long counts as gone (SimulatorLiveliness), as does
+  /// this service for its clients; each writer sets its own. Throws std::runtime_error, with the
+  /// cause, if the world's name or the domain is out of range or DDS is not to be had.
+  DdsBus(const std::string& world, std::uint32_t domain,
+         std::chrono::nanoseconds lease = std::chrono::seconds(2));
+
+  /// `limit` counts samples; a removal or a change of liveliness may come as a second message of
+  /// one.
+  bool Receive(std::chrono::nanoseconds timeout, std::size_t limit,
+               std::vector<v1::Input>* inputs) override;
+
+  /// Throws std::length_error if a field is longer than the network can carry: a fault of ours.
+  void Publish(const v1::Output& output) override;
+
+  void Flush() override;
+  void Wake() override;
+
+  /// What the network did not deliver, for the status.
+  DdsCounters counters() const;
+
+ private:
+  DdsSession session_;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,17 @@
+// From the core to the wire. Nothing is lost or rounded: the core's values are the published ones.
+#pragma once
+
+#include "collision_core/detection/detector.h"
+#include "idl/messages.pb.h"
+
+namespace collision::server {
+
+v1::AgentId Encode(const AgentId& id);
+v1::CollisionEvent Encode(const CollisionEvent& event);
+v1::EarliestIntersection Encode(const EarliestAnswer& answer);
+
+/// `acknowledged_sequence` and `acknowledged_revision` of what is in force for the agent.
+v1::AgentClearance Encode(const AgentClearance& clearance, std::uint64_t acknowledged_sequence,
+                          std::uint32_t acknowledged_revision);
+
+}  // namespace collision::server

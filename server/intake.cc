@@ -1,0 +1,290 @@
+#include "server/intake.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/logging.h"
+
+namespace collision::server {
+
+Intake::Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections)
+    : agents_max_(config.agents_max()),
+      undescribed_after_ns_(ToNanoseconds(config.undescribed_after_s())),
+      world_(*world),
+      detector_(*detector),
+      rejections_(*rejections) {}
+
+void Intake::Apply(const v1::Input& input) {
+  switch (input.message_case()) {
+    case v1::Input::kAgentDescription:
+      return TakeDescription(input);
+    case v1::Input::kAgentStates:
+      return TakeStates(input);
+    case v1::Input::kSimulatorClock:
+      return TakeClock(input);
+    case v1::Input::kAgentRemoval:
+      return TakeRemoval(input);
+    case v1::Input::kLiveliness:
+      return TakeLiveliness(input);
+    case v1::Input::kShapePart:
+      return Refuse(RefuseShape(input.shape_part()));
+    case v1::Input::MESSAGE_NOT_SET:
+      return;
+  }
+}
+
+Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::string* name) {
+  const Claim claim = world_.ClaimFor(where.simulator_id, input.sender(), where.run, name);
+  if (!claim.accepted) {
+    if (claim.may_wait && claim.simulator->held.size() < kHeldInputsMax) {
+      claim.simulator->held.push_back(input);
+    }
+    where.reason = claim.reason;
+    where.field = claim.reason == v1::REJECTED_OLD_RUN ? "run" : "simulator_id";
+    where.detail = claim.detail;
+    Refuse(where);
+    return nullptr;
+  }
+  if (claim.new_run) {
+    for (const auto& [slot, state] : claim.simulator->slots) RemoveAgent(claim.simulator, slot);
+    claim.simulator->StartRun(input.sender(), where.run);
+  }
+  return claim.simulator;
+}
+
+void Intake::TakeDescription(const v1::Input& input) {
+  const v1::AgentDescription& wire = input.agent_description();
+  ++counters_.descriptions_received;
+  if (const auto refusal = CheckIdentity(wire)) return Refuse(*refusal);
+  Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
+  if (simulator == nullptr) return;
+  simulator->descriptions_seen = std::max(simulator->descriptions_seen, wire.sequence());
+  const Decoded<AgentDeclaration> decoded = DecodeDescription(wire);
+  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return Refuse(*refusal);
+  Describe(simulator, wire, std::get<AgentDeclaration>(decoded));
+}
+
+void Intake::Describe(Simulator* simulator, const v1::AgentDescription& wire,
+                      const AgentDeclaration& declaration) {
+  Slot& slot = simulator->slots[wire.slot()];
+  if (wire.generation() < slot.generations_over) return;
+  if (Simulator::Describes(slot, wire.generation())) {
+    Agent& agent = *slot.agent;
+    if (wire.revision() <= agent.revision) return;
+    agent.revision = wire.revision();
+    agent.declaration = declaration;
+    simulator->chunks_changed.insert(wire.slot() / kSlotsPerChunk);
+    if (agent.admitted) {
+      detector_.Redeclare(simulator->IdOf(wire.slot(), agent.generation), declaration,
+                          world_.EffectiveFrom(agent.stamp));
+    }
+    return;
+  }
+  if (slot.agent) RemoveAgent(simulator, wire.slot());
+  slot.generations_over = wire.generation();
+  slot.agent = Agent{
+      .generation = wire.generation(), .revision = wire.revision(), .declaration = declaration};
+  ++simulator->agents;
+  AdmitIfComplete(simulator, wire.slot());
+}
+
+void Intake::TakeStates(const v1::Input& input) {
+  const v1::AgentStates& chunk = input.agent_states();
+  Simulator* simulator = Claimed(input, At(chunk), nullptr);
+  if (simulator == nullptr) return;
+  // Refused or not, they have arrived: a clock that waits for them must not wait for ever.
+  for (const v1::AgentState& state : chunk.states()) {
+    simulator->states_seen = std::max(simulator->states_seen, state.sequence());
+  }
+  if (const auto refusal = CheckChunk(chunk)) return Refuse(*refusal);
+  for (const v1::AgentState& state : chunk.states()) TakeState(simulator, chunk, state);
+}
+
+void Intake::TakeState(Simulator* simulator, const v1::AgentStates& chunk,
+                       const v1::AgentState& wire) {
+  ++counters_.states_received;
+  if (const auto refusal = CheckSlot(chunk, wire)) return Refuse(*refusal);
+  Slot& slot = simulator->slots[wire.slot()];
+  if (wire.generation() < slot.generations_over) {
+    ++counters_.states_older;
+    return;
+  }
+  const std::pair<std::uint32_t, std::uint64_t> order(wire.generation(), wire.sequence());
+  if (slot.handled && order <= *slot.handled) {
+    ++counters_.states_repeated;
+    return;
+  }
+  slot.handled = order;
+  const bool described = Simulator::Describes(slot, wire.generation());
+  const bool admitted = described && slot.agent->admitted;
+  const Decoded<MotionState> decoded =
+      DecodeState(chunk, wire, world_.RulesForState(*simulator, admitted));
+  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return Refuse(*refusal);
+  const MotionState& state = std::get<MotionState>(decoded);
+  if (admitted) {
+    UpdateAgent(simulator, wire.slot(), &*slot.agent, wire.sequence(), state);
+  } else {
+    KeepWaiting(simulator, wire.slot(), {wire.generation(), wire.sequence(), state});
+  }
+}
+
+void Intake::UpdateAgent(Simulator* simulator, std::uint32_t slot, Agent* agent,
+                         std::uint64_t sequence, const MotionState& state) {
+  const AgentId id = simulator->IdOf(slot, agent->generation);
+  const UpdateOutcome outcome =
+      state.stamp < agent->stamp ? UpdateOutcome::kOlder
+                                 : detector_.Update(id, state, world_.EffectiveFrom(state.stamp));
+  if (outcome == UpdateOutcome::kOlder) {
+    ++counters_.states_older;
+    return;
+  }
+  ++counters_.states_accepted;
+  ++simulator->states;
+  agent->stamp = state.stamp;
+  agent->acknowledged_sequence = sequence;
+  simulator->chunks_changed.insert(slot / kSlotsPerChunk);
+  if (outcome == UpdateOutcome::kBreached) {
+    Log(spdlog::level::warn, "bound broken",
+        fmt::format(
+            "simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns breaks what "
+            "it declared; the new state is taken as the truth",
+            simulator->id, simulator->name, slot, agent->generation, state.stamp.nanoseconds()));
+  }
+}
+
+void Intake::KeepWaiting(Simulator* simulator, std::uint32_t slot_index,
+                         const WaitingState& waiting) {
+  Slot& slot = simulator->slots[slot_index];
+  const bool first = !slot.waiting || slot.waiting->generation != waiting.generation;
+  if (!first && waiting.state.stamp < slot.waiting->state.stamp) {
+    ++counters_.states_older;
+    return;
+  }
+  if (first && !Simulator::Describes(slot, waiting.generation)) {
+    const AgentId id = simulator->IdOf(slot_index, waiting.generation);
+    if (undescribed_.size() >= kUndescribedMax) {
+      return Refuse(NotDescribed(id, fmt::format("not kept: {} wait already", kUndescribedMax)));
+    }
+    undescribed_.push_back({world_.monotonic_ns() + undescribed_after_ns_, id});
+  }
+  slot.waiting = waiting;
+  AdmitIfComplete(simulator, slot_index);
+}
+
+void Intake::AdmitIfComplete(Simulator* simulator, std::uint32_t slot_index) {
+  Slot& slot = simulator->slots[slot_index];
+  if (!slot.agent || slot.agent->admitted || !slot.waiting) return;
+  if (slot.waiting->generation != slot.agent->generation) return;
+  if (world_.simulated() && !simulator->clock) return;
+  Agent& agent = *slot.agent;
+  const AgentId id = simulator->IdOf(slot_index, agent.generation);
+  if (detector_.agents() >= agents_max_) {
+    if (!std::exchange(agent.told_no_room, true)) Refuse(NoRoom(id, agents_max_));
+    return;
+  }
+  const WaitingState waiting = *std::exchange(slot.waiting, std::nullopt);
+  const StampRules rules = world_.RulesForState(*simulator, false);
+  if (const auto refusal = CheckStamp(id, waiting.state.stamp, rules)) return Refuse(*refusal);
+  if (!detector_.Admit(id, agent.declaration, waiting.state,
+                       world_.EffectiveFrom(waiting.state.stamp))) {
+    return;
+  }
+  agent.admitted = true;
+  agent.stamp = waiting.state.stamp;
+  agent.acknowledged_sequence = waiting.sequence;
+  ++counters_.agents_admitted;
+  ++counters_.states_accepted;
+  ++simulator->states;
+  simulator->chunks_changed.insert(slot_index / kSlotsPerChunk);
+  if (simulator->clock) detector_.Hear(id, *simulator->clock);
+}
+
+void Intake::RemoveAgent(Simulator* simulator, std::uint32_t slot_index) {
+  Slot& slot = simulator->slots[slot_index];
+  if (!slot.agent) return;
+  if (slot.agent->admitted) {
+    detector_.Remove(simulator->IdOf(slot_index, slot.agent->generation));
+    ++counters_.agents_removed;
+  }
+  slot.generations_over = std::uint64_t{slot.agent->generation} + 1;
+  if (slot.waiting && slot.waiting->generation < slot.generations_over) slot.waiting.reset();
+  slot.agent.reset();
+  --simulator->agents;
+  simulator->chunks_changed.insert(slot_index / kSlotsPerChunk);
+}
+
+void Intake::TakeClock(const v1::Input& input) {
+  const v1::SimulatorClock& wire = input.simulator_clock();
+  ++counters_.clocks_received;
+  if (const auto refusal = CheckIdentity(wire)) return Refuse(*refusal);
+  Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
+  if (simulator == nullptr) return;
+  const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));
+  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return Refuse(*refusal);
+  simulator->OfferClock({.clock = std::get<Instant>(decoded),
+                         .states_sequence = wire.states_sequence(),
+                         .descriptions_sequence = wire.descriptions_sequence(),
+                         .lock_step = wire.lock_step()});
+}
+
+void Intake::TakeRemoval(const v1::Input& input) {
+  const v1::AgentRemoval& removal = input.agent_removal();
+  Simulator* simulator = world_.Find(removal.simulator_id());
+  if (simulator == nullptr) return;
+  if (simulator->sender != input.sender()) return Refuse(NotItsOwn(removal));
+  const auto slot = simulator->slots.find(removal.slot());
+  if (slot == simulator->slots.end()) return;
+  if (slot->second.agent) return RemoveAgent(simulator, removal.slot());
+  if (!slot->second.waiting) return;
+  slot->second.generations_over = std::uint64_t{slot->second.waiting->generation} + 1;
+  slot->second.waiting.reset();
+}
+
+void Intake::TakeLiveliness(const v1::Input& input) {
+  Simulator* simulator = world_.Find(input.liveliness().simulator_id());
+  if (simulator == nullptr || simulator->sender != input.sender()) return;
+  simulator->alive = input.liveliness().alive();
+  simulator->silent_since_ns = world_.monotonic_ns();
+  if (simulator->alive) {
+    simulator->released = false;
+    return;
+  }
+  for (const v1::Input& held : std::exchange(simulator->held, {})) Apply(held);
+}
+
+void Intake::EndBatch() {
+  for (auto& [id, simulator] : world_.simulators()) {
+    const bool first = !simulator.clock;
+    if (!world_.TakeClock(&simulator)) continue;
+    for (auto& [index, slot] : simulator.slots) {
+      if (first) AdmitIfComplete(&simulator, index);
+      if (!first && slot.agent && slot.agent->admitted) {
+        detector_.Hear(simulator.IdOf(index, slot.agent->generation), *simulator.clock);
+      }
+    }
+  }
+  ReportUndescribed();
+}
+
+void Intake::ReportUndescribed() {
+  while (!undescribed_.empty() && undescribed_.front().due_ns <= world_.monotonic_ns()) {
+    const AgentId id = undescribed_.front().agent;
+    undescribed_.pop_front();
+    const Simulator* simulator = world_.Find(id.simulator);
+    if (simulator == nullptr || simulator->run != id.run) continue;
+    const auto slot = simulator->slots.find(id.slot);
+    if (slot == simulator->slots.end() || !slot->second.waiting) continue;
+    if (slot->second.waiting->generation != id.generation) continue;
+    if (Simulator::Describes(slot->second, id.generation)) continue;
+    Refuse(NotDescribed(id, "kept; nothing has described its agent yet"));
+  }
+}
+
+std::optional<std::int64_t> Intake::NextDue() const {
+  if (undescribed_.empty()) return std::nullopt;
+  return undescribed_.front().due_ns;
+}
+
+}  // namespace collision::server

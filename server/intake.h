@@ -1,0 +1,87 @@
+// From an input to its effect: claims, checks, bookkeeping, the detector.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "collision_core/detection/detector.h"
+#include "server/rejections.h"
+#include "server/world.h"
+
+namespace collision::server {
+
+/// What became of the inputs, since the start.
+struct IntakeCounters {
+  std::uint64_t states_received = 0;
+  std::uint64_t states_accepted = 0;
+  std::uint64_t states_older =
+      0;  ///< Not newer than the newest of their agent, or of a former generation.
+  std::uint64_t states_repeated = 0;  ///< Told again by a chunk, unchanged.
+  std::uint64_t descriptions_received = 0;
+  std::uint64_t clocks_received = 0;
+  std::uint64_t agents_admitted = 0;
+  std::uint64_t agents_removed = 0;
+};
+
+/// States that wait for a description, reported after a while; beyond, they are refused at once. As
+/// many as one simulator has slots, so that no order of arrival after a restart loses any.
+inline constexpr std::size_t kUndescribedMax = kSlotMax + 1;
+
+/// Applies one batch: Apply() for every input in order, then EndBatch(). Everything refused goes to
+/// the rejections; nothing else in the same message or batch is disturbed. One thread.
+class Intake {
+ public:
+  Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections);
+
+  void Apply(const v1::Input& input);
+
+  /// Clocks come into force, agents that waited for them are admitted, overdue descriptions are
+  /// reported.
+  void EndBatch();
+
+  const IntakeCounters& counters() const { return counters_; }
+
+  /// The monotonic time at which the next missing description is reported; nullopt: none is
+  /// missing.
+  std::optional<std::int64_t> NextDue() const;
+
+ private:
+  struct Undescribed {
+    std::int64_t due_ns;
+    AgentId agent;
+  };
+
+  /// The simulator the input speaks for, its former run ended where a new one begins; null:
+  /// refused.
+  Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);
+
+  void TakeDescription(const v1::Input& input);
+  void TakeStates(const v1::Input& input);
+  void TakeState(Simulator* simulator, const v1::AgentStates& chunk, const v1::AgentState& state);
+  void TakeClock(const v1::Input& input);
+  void TakeRemoval(const v1::Input& input);
+  void TakeLiveliness(const v1::Input& input);
+
+  void Describe(Simulator* simulator, const v1::AgentDescription& wire,
+                const AgentDeclaration& declaration);
+  void UpdateAgent(Simulator* simulator, std::uint32_t slot, Agent* agent, std::uint64_t sequence,
+                   const MotionState& state);
+  void KeepWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
+  void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
+  void RemoveAgent(Simulator* simulator, std::uint32_t slot);
+  void ReportUndescribed();
+  void Refuse(const Refusal& refusal) {
+    rejections_.Add(refusal, world_.Find(refusal.simulator_id), world_);
+  }
+
+  const std::uint32_t agents_max_;
+  const std::int64_t undescribed_after_ns_;
+  World& world_;
+  Detector& detector_;
+  Rejections& rejections_;
+  IntakeCounters counters_;
+  std::deque<Undescribed> undescribed_;
+};
+
+}  // namespace collision::server

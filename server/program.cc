@@ -1,0 +1,134 @@
+#include "server/program.h"
+
+#include <google/protobuf/util/json_util.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <exception>
+#include <iostream>
+#include <memory>
+
+#include "server/config.h"
+#include "server/daemon.h"
+#include "server/dds_bus.h"
+#include "server/logging.h"
+#include "server/recording.h"
+#include "server/replay.h"
+#include "server/service_notify.h"
+#include "server/stop_signals.h"
+#include "server/system_clock.h"
+#include "server/version.h"
+
+namespace collision::server {
+namespace {
+
+int Fail(ExitCode code, const std::string& line) {
+  std::cerr << "collisiond: " << line << std::endl;
+  return code;
+}
+
+/// Always said, whatever the log level: two runs are compared by it.
+void TellEventLog(const EventLog& log) {
+  EndLogging();
+  const auto level = spdlog::get_level();
+  spdlog::set_level(spdlog::level::info);
+  spdlog::info("event log: {} events, hash {:016x}", log.count(), log.hash());
+  spdlog::set_level(level);
+}
+
+/// Runs the daemon until something ends it.
+int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder) {
+  SystemClock clock;
+  Daemon daemon(config, bus, clock, recorder);
+  const StopSignalWatcher signals([&daemon] { daemon.Stop(); });
+  ServiceNotifier service_manager;
+  spdlog::info("collisiond {} serves world \"{}\" on domain {}", kVersion, config.world(),
+               config.domain());
+  service_manager.Ready();
+  while (daemon.Step()) service_manager.Alive(std::chrono::steady_clock::now());
+  service_manager.Stopping();
+  TellEventLog(daemon.event_log());
+  if (recorder && !recorder->error().empty()) return Fail(kExitRecording, recorder->error());
+  return signals.stopped() ? kExitOk : Fail(kExitUnavailable, "DDS has ended");
+}
+
+int Serve(const v1::Config& config, const std::string& record_file) {
+  PrepareSignals();
+  std::unique_ptr<RecordingWriter> recorder;
+  try {
+    if (!record_file.empty()) recorder = std::make_unique<RecordingWriter>(record_file, config);
+  } catch (const std::exception& error) {
+    return Fail(kExitRecording, error.what());
+  }
+  std::unique_ptr<DdsBus> bus;
+  try {
+    bus = std::make_unique<DdsBus>(config.world(), config.domain());
+  } catch (const std::exception& error) {
+    return Fail(kExitUnavailable, error.what());
+  }
+  return Serve(config, *bus, recorder.get());
+}
+
+void PrintEvent(const v1::Output& output) {
+  if (!output.has_collision_event()) return;
+  google::protobuf::util::JsonPrintOptions options;
+  options.preserve_proto_field_names = true;
+  options.always_print_primitive_fields = true;
+  std::string line;
+  if (google::protobuf::util::MessageToJsonString(output.collision_event(), &line, options).ok()) {
+    std::cout << line << '\n';
+  }
+}
+
+/// What is complete is replayed, also of a recording that ends too early.
+int Replay(RecordingReader& reader) {
+  ReplaySource source(reader, PrintEvent);
+  Daemon daemon(reader.config(), source, source, nullptr);
+  while (daemon.Step()) {
+  }
+  std::cout.flush();
+  TellEventLog(daemon.event_log());
+  if (!reader.error().empty()) return Fail(kExitRecording, reader.error());
+  return std::cout ? kExitOk : Fail(kExitRecording, "standard output cannot be written");
+}
+
+int Replay(const std::string& file, const std::string& log_level) {
+  StartLogging(log_level, "");  // not where the recorded run logged
+  std::unique_ptr<RecordingReader> reader;
+  try {
+    reader = std::make_unique<RecordingReader>(file);
+  } catch (const std::exception& error) {
+    return Fail(kExitRecording, error.what());
+  }
+  for (const ConfigError& error : CheckConfig(reader->config())) {
+    return Fail(kExitRecording,
+                file + ": byte 0: its configuration: " + error.field + ": " + error.what);
+  }
+  return Replay(*reader);
+}
+
+}  // namespace
+
+int RunProgram(const Options& options) {
+  if (!options.replay_file.empty()) {
+    return Replay(options.replay_file, options.log_level.value_or("info"));
+  }
+  ConfigResult loaded =
+      options.config_file.empty() ? ParseConfig("", "") : LoadConfig(options.config_file);
+  for (const std::string& error : loaded.errors) std::cerr << error << '\n';
+  if (!loaded.ok()) return kExitConfiguration;
+  if (options.domain) loaded.config.set_domain(*options.domain);
+  if (options.log_level) loaded.config.set_log_level(*options.log_level);
+  if (options.print_config) std::cout << PrintConfig(loaded.config);
+  if (options.check_config) std::cout << options.config_file << ": ok\n";
+  if (options.print_config || options.check_config) return kExitOk;
+  try {
+    StartLogging(loaded.config.log_level(), loaded.config.log_file());
+  } catch (const std::exception& error) {
+    return Fail(kExitConfiguration, std::string("log_file: ") + error.what());
+  }
+  return Serve(loaded.config, options.record_file);
+}
+
+}  // namespace collision::server

@@ -1,0 +1,126 @@
+#include "server/status.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <string>
+
+#include "server/version.h"
+
+namespace collision::server {
+namespace {
+
+// Bounds of collision.idl.
+constexpr int kSimulatorsMax = 64;
+constexpr int kLeftOutMax = 32;
+constexpr std::size_t kLeftOutTextMax = 160;
+constexpr std::size_t kWorldTextMax = 64;
+constexpr std::size_t kBroadPhaseTextMax = 64;
+constexpr std::size_t kWhyTextMax = 256;
+
+std::string LowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
+}
+
+void Count(const std::string& name, std::uint64_t value, v1::ServiceStatus* status) {
+  v1::Counter& counter = *status->add_counters();
+  counter.set_name(name);
+  counter.set_value(value);
+}
+
+void AddSimulators(const World& world, v1::ServiceStatus* status) {
+  for (const auto& [id, simulator] : world.simulators()) {
+    if (simulator.has_left() || status->simulators_size() == kSimulatorsMax) continue;
+    v1::SimulatorStatus& wire = *status->add_simulators();
+    wire.set_simulator_id(id);
+    wire.set_run(simulator.run);
+    wire.set_name(simulator.name);
+    wire.set_alive(simulator.alive);
+    wire.set_clock_ns(simulator.clock.value_or(Instant()).nanoseconds());
+    wire.set_granted_until_ns(simulator.granted.value_or(Instant()).nanoseconds());
+    wire.set_agents(static_cast<std::uint32_t>(simulator.agents));
+    wire.set_states(simulator.states);
+    wire.set_rejected(simulator.rejected);
+  }
+}
+
+void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
+  const IntakeCounters& intake = sources.intake.counters();
+  Count("batches", sources.steps.batches, status);
+  Count("inputs", sources.steps.inputs, status);
+  Count("agents_admitted", intake.agents_admitted, status);
+  Count("agents_removed", intake.agents_removed, status);
+  Count("descriptions_received", intake.descriptions_received, status);
+  Count("clocks_received", intake.clocks_received, status);
+  Count("states_received", intake.states_received, status);
+  Count("states_accepted", intake.states_accepted, status);
+  Count("states_older", intake.states_older, status);
+  Count("states_repeated", intake.states_repeated, status);
+  for (int reason = 0; reason < v1::RejectionReason_ARRAYSIZE; ++reason) {
+    const auto value = static_cast<v1::RejectionReason>(reason);
+    Count(LowerCase(v1::RejectionReason_Name(value)), sources.rejections.count(value), status);
+  }
+  Count("rejections_untold", sources.rejections.untold(), status);
+}
+
+void AddDetection(const DetectorCounters& detector, v1::ServiceStatus* status) {
+  for (int kind = 0; kind < v1::EventStatus_ARRAYSIZE; ++kind) {
+    std::string name = LowerCase(v1::EventStatus_Name(static_cast<v1::EventStatus>(kind)));
+    name.replace(0, std::string("event").size(), "events");
+    Count(name, detector.events[kind], status);
+  }
+  Count("updates_kept", detector.updates_kept, status);
+  Count("discontinuities", detector.jumps, status);
+  Count("widenings", detector.widenings, status);
+  Count("breaches", detector.breaches, status);
+  Count("queries", detector.queries, status);
+  Count("pair_queries", detector.pair_queries, status);
+  Count("segments", detector.segments, status);
+  Count("saturations", detector.saturations, status);
+}
+
+void AddExtension(const std::string& key, std::string value, v1::ServiceStatus* status) {
+  v1::KeyValue& extension = *status->add_extensions();
+  extension.set_key(key);
+  extension.set_value(std::move(value));
+}
+
+}  // namespace
+
+v1::ServiceStatus MakeStatus(const StatusSources& sources) {
+  v1::ServiceStatus status;
+  status.set_version(kVersion);
+  status.set_world(sources.config.world().substr(0, kWorldTextMax));
+  status.set_simulated_clock(sources.world.simulated());
+  status.set_now_ns(sources.world.now().nanoseconds());
+  status.set_agents(static_cast<std::uint32_t>(sources.detector.agents()));
+  status.set_pairs_tracked(static_cast<std::uint32_t>(sources.detector.pairs_tracked()));
+  AddSimulators(sources.world, &status);
+  AddIntake(sources, &status);
+  AddDetection(sources.detector.counters(), &status);
+  const Detector::Profile profile = sources.detector.profile();
+  status.set_broad_phase(profile.broad_phase.substr(0, kBroadPhaseTextMax));
+  status.set_broad_phase_why(profile.why.substr(0, kWhyTextMax));
+  for (const std::string& text : profile.left_out) {
+    if (status.left_out_size() < kLeftOutMax) status.add_left_out(text.substr(0, kLeftOutTextMax));
+  }
+  AddExtension("event_log_count", std::to_string(sources.event_log.count()), &status);
+  AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
+  return status;
+}
+
+bool StatusSchedule::Take(const World& world) {
+  std::vector<std::uint64_t> presence;
+  for (const auto& [id, simulator] : world.simulators()) {
+    presence.insert(presence.end(), {id, simulator.run, simulator.alive, simulator.released});
+  }
+  if (world.monotonic_ns() < next_ns_ && presence == presence_) return false;
+  presence_ = std::move(presence);
+  next_ns_ = world.monotonic_ns() + period_ns_;
+  return true;
+}
+
+}  // namespace collision::server
