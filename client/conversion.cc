@@ -1,0 +1,101 @@
+#include "client/conversion.h"
+
+namespace collision::client {
+namespace {
+
+void Set(const Vector3& from, v1::Vector3* to) {
+  to->set_x(from[0]);
+  to->set_y(from[1]);
+  to->set_z(from[2]);
+}
+
+Vector3 FromMessage(const v1::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+TimeBracket FromMessage(const v1::TimeBracket& bracket) {
+  return {bracket.earliest_ns(), bracket.latest_ns()};
+}
+
+}  // namespace
+
+v1::AgentDescription ToMessage(const AgentDescription& description) {
+  v1::AgentDescription message;
+  message.set_agent_name(description.name);
+  message.set_radius_m(description.radius_m);
+  message.set_acceleration_max_m_s2(description.acceleration_max_m_s2);
+  message.set_angular_acceleration_max_rad_s2(description.angular_acceleration_max_rad_s2);
+  message.set_time_step_s(description.time_step_s);
+  message.set_group(description.group);
+  message.set_mask(description.mask);
+  return message;
+}
+
+v1::AgentState ToMessage(const State& state) {
+  v1::AgentState message;
+  message.set_stamp_ns(state.stamp_ns);
+  Set(state.position_m, message.mutable_position_m());
+  Set(state.velocity_m_s, message.mutable_velocity_m_s());
+  v1::Quaternion* orientation = message.mutable_orientation();
+  orientation->set_w(state.orientation[0]);
+  orientation->set_x(state.orientation[1]);
+  orientation->set_y(state.orientation[2]);
+  orientation->set_z(state.orientation[3]);
+  Set(state.angular_velocity_rad_s, message.mutable_angular_velocity_rad_s());
+  message.set_position_error_m(state.position_error_m);
+  message.set_velocity_error_m_s(state.velocity_error_m_s);
+  message.set_rotation_error_rad(state.rotation_error_rad);
+  Set(state.thrust_direction, message.mutable_thrust_direction());
+  message.set_direction_until_ns(state.direction_until_ns);
+  message.set_expiry_ns(state.expiry_ns);
+  message.set_discontinuity(state.discontinuity);
+  return message;
+}
+
+AgentId FromMessage(const v1::AgentId& id) {
+  return {id.simulator_id(), id.run(), id.slot(), id.generation()};
+}
+
+Event FromMessage(const v1::CollisionEvent& message) {
+  Event event;
+  event.lower = FromMessage(message.lower());
+  event.higher = FromMessage(message.higher());
+  event.contact = message.contact();
+  event.revision = message.revision();
+  event.now_ns = message.now_ns();
+  event.status = static_cast<EventStatus>(message.status());
+  event.begin = FromMessage(message.begin());
+  event.end = FromMessage(message.end());
+  event.continuous = message.continuous();
+  event.began_before = message.began_before();
+  event.evaluated_at_ns = message.evaluated_at_ns();
+  event.separation_lower_m = message.separation_m().lower();
+  event.separation_upper_m = message.separation_m().upper();
+  event.depth_lower_m = message.depth_lower_m();
+  event.point_m = FromMessage(message.point_m());
+  event.point_error_m = message.point_error_m();
+  event.normal = FromMessage(message.normal());
+  event.normal_error_rad = message.normal_error_rad();
+  return event;
+}
+
+Clearance FromMessage(const v1::AgentClearance& message) {
+  Clearance clearance;
+  clearance.clear_until_ns = message.clear_until_ns();
+  clearance.not_clear = message.not_clear();
+  clearance.saturated = message.saturated();
+  clearance.effective_from_ns = message.effective_from_ns();
+  if (message.cause() != v1::CAUSE_NONE) clearance.cause = v1::ClearanceCause_Name(message.cause());
+  clearance.cause_agent = FromMessage(message.cause_agent());
+  clearance.void_from_ns = message.void_from_ns();
+  return clearance;
+}
+
+Rejection FromMessage(const v1::Rejection& message) {
+  return {v1::RejectionReason_Name(message.reason()),
+          v1::Topic_Name(message.topic()),
+          message.slot(),
+          message.field(),
+          message.detail(),
+          message.count()};
+}
+
+}  // namespace collision::client

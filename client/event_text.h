@@ -1,0 +1,37 @@
+// Collision events for people to read.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// Gives the name of an agent for a text, or something in its place if it is not known.
+using AgentNamer = std::function<std::string(const v1::AgentId&)>;
+
+enum class Rounding { kDown, kUp };
+
+/// An instant in seconds since `origin_ns` with 0 to 9 decimals, "599.734"; INT64_MAX reads
+/// "never".
+std::string SecondsText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                        Rounding rounding = Rounding::kDown);
+
+/// The text, filled up with spaces to a number of characters (not bytes: names may be UTF-8).
+std::string Padded(std::string text, std::size_t columns);
+
+/// "possible", "confirmed", "dismissed", "undecided", "withdrawn" or "ended".
+const char* StatusText(v1::EventStatus status);
+
+/// The event in one line without a newline, columns in the same places from line to line:
+///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
+///   open  gap ≤ -0.12 m
+/// Times are seconds since `origin_ns` (0 in lock-step); brackets and gap are rounded outward. #1
+/// is the ordinal of the pair's contacts, r3 the revision. `end ≥ t`: still in contact at t. The
+/// gap is the distance of the surfaces where it was last evaluated, negative inside.
+std::string EventLine(const v1::CollisionEvent& event, const AgentNamer& name,
+                      std::int64_t origin_ns);
+
+}  // namespace collision::client

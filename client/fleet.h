@@ -1,0 +1,74 @@
+// The agents of one simulator: their slots, what the service has been told of them, and what waits.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/types.h"
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// Book-keeping only: the messages it returns are for the caller to write, in that order.
+/// A slot is reused, the lowest free one first, with a new generation: ever-new keys would make the
+/// network's histories grow for good.
+class Fleet {
+ public:
+  Fleet(std::string simulator_name, std::uint64_t simulator_id, std::uint32_t run,
+        std::uint32_t chunk_size);
+
+  /// Gives a new agent its slot and stages its first state.
+  AgentId Add(const AgentDescription& description, const State& state);
+
+  /// The current description of an agent that is there, to be written after Add() and Describe().
+  const v1::AgentDescription& description(const AgentId& id) const;
+  void Describe(const AgentId& id, const AgentDescription& description);
+
+  /// Staged until the clock comes to its stamp; a later call replaces what is staged.
+  /// Throws std::invalid_argument if it is older than what has been told.
+  void Stage(const AgentId& id, const State& state);
+
+  v1::AgentRemoval Remove(const AgentId& id);
+  bool Has(const AgentId& id) const;
+
+  /// Would Tell() or a clock sample say anything new at this clock?
+  bool HasNews(std::int64_t clock_ns) const;
+
+  /// Takes over the staged states with stamps up to `clock_ns`: the chunks that changed, each with
+  /// the latest told states of all its agents.
+  std::vector<v1::AgentStates> Tell(std::int64_t clock_ns);
+
+  /// The promise that goes with what has been told so far.
+  v1::SimulatorClock Clock(std::int64_t clock_ns, bool lock_step);
+
+  void Hear(const v1::AgentClearance& clearance);
+  Clearance clearance(const AgentId& id) const;
+
+ private:
+  struct Slot {
+    bool occupied = false;
+    v1::AgentDescription description;  ///< Holds the generation, also of a slot that is free.
+    std::optional<v1::AgentState> told;
+    std::optional<v1::AgentState> staged;
+    Clearance clearance;
+  };
+
+  std::uint32_t FreeSlot();
+  v1::AgentStates Chunk(std::uint32_t chunk) const;
+
+  std::string simulator_name_;
+  std::uint64_t simulator_id_;
+  std::uint32_t run_;
+  std::uint32_t chunk_size_;
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> free_slots_;      ///< A heap, the lowest on top.
+  std::vector<std::uint32_t> staged_slots_;    ///< Of agents with a staged state; some may be gone.
+  std::vector<std::uint32_t> thinned_chunks_;  ///< They have lost an agent since they were told.
+  std::uint32_t agents_ = 0;
+  std::uint64_t states_sequence_ = 0;
+  std::uint64_t descriptions_sequence_ = 0;
+  bool census_changed_ = false;  ///< Descriptions or agents differ from the last clock sample.
+};
+
+}  // namespace collision::client

@@ -1,0 +1,93 @@
+#include "client/monitor.h"
+
+#include <utility>
+
+#include "client/dds_transport.h"
+#include "client/transport.h"
+#include "client/validation.h"
+
+namespace collision::client {
+namespace {
+
+template <typename Message>
+void Call(const std::function<void(const Message&)>& callback, const Message& message) {
+  if (callback) callback(message);
+}
+
+std::unique_ptr<Receiver> Connect(const MonitorOptions& options) {
+  ValidateWorld(options.world, options.domain);
+  return ConnectMonitor(options);
+}
+
+}  // namespace
+
+class Monitor::Implementation {
+ public:
+  Implementation(std::unique_ptr<Receiver> receiver, Callbacks callbacks)
+      : receiver_(std::move(receiver)), callbacks_(std::move(callbacks)) {}
+
+  std::size_t Poll(std::chrono::nanoseconds timeout) {
+    Arrivals arrivals;
+    receiver_->Receive(timeout, &arrivals);
+    for (const v1::Input& input : arrivals.inputs) HandOn(input);
+    for (const v1::Output& output : arrivals.outputs) HandOn(output);
+    return arrivals.inputs.size() + arrivals.outputs.size();
+  }
+
+  bool service_alive() const { return receiver_->service_alive(); }
+
+ private:
+  void HandOn(const v1::Input& input) {
+    switch (input.message_case()) {
+      case v1::Input::kAgentDescription:
+        return Call(callbacks_.description, input.agent_description());
+      case v1::Input::kAgentRemoval:
+        return Call(callbacks_.removal, input.agent_removal());
+      case v1::Input::kAgentStates:
+        return Call(callbacks_.states, input.agent_states());
+      case v1::Input::kSimulatorClock:
+        return Call(callbacks_.clock, input.simulator_clock());
+      default:
+        return;
+    }
+  }
+
+  void HandOn(const v1::Output& output) {
+    switch (output.message_case()) {
+      case v1::Output::kClearance:
+        return Call(callbacks_.clearance, output.clearance());
+      case v1::Output::kEarliestIntersection:
+        return Call(callbacks_.earliest, output.earliest_intersection());
+      case v1::Output::kCollisionEvent:
+        return Call(callbacks_.event, output.collision_event());
+      case v1::Output::kRejection:
+        return Call(callbacks_.rejection, output.rejection());
+      case v1::Output::kServiceStatus:
+        return Call(callbacks_.status, output.service_status());
+      default:
+        return;
+    }
+  }
+
+  std::unique_ptr<Receiver> receiver_;
+  Callbacks callbacks_;
+};
+
+Monitor::Monitor(const MonitorOptions& options, Callbacks callbacks)
+    : Monitor(Connect(options), std::move(callbacks)) {}
+
+Monitor::Monitor(std::unique_ptr<Receiver> receiver, Callbacks callbacks)
+    : implementation_(std::make_unique<Implementation>(std::move(receiver), std::move(callbacks))) {
+}
+
+Monitor::Monitor(Monitor&&) noexcept = default;
+Monitor& Monitor::operator=(Monitor&&) noexcept = default;
+Monitor::~Monitor() = default;
+
+std::size_t Monitor::Poll(std::chrono::nanoseconds timeout) {
+  return implementation_->Poll(timeout);
+}
+
+bool Monitor::service_alive() const { return implementation_->service_alive(); }
+
+}  // namespace collision::client

@@ -1,0 +1,167 @@
+#include <algorithm>
+
+#include "client/simulators/checker/check.h"
+
+namespace collision::checker {
+namespace {
+
+bool In(long double t, std::int64_t earliest_ns, std::int64_t latest_ns) {
+  return earliest_ns - kRootTolerance <= t && t <= latest_ns + kRootTolerance;
+}
+
+bool Confirmed(const v1::CollisionEvent& event) {
+  return event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
+}
+
+// Does this revision say that the contact begins where it does?
+bool Brackets(const v1::CollisionEvent& event, const TrueContact& contact) {
+  const bool whole = event.status() == v1::EVENT_UNDECIDED ||
+                     (Confirmed(event) && (!event.continuous() || event.began_before()));
+  if (whole && In(contact.begin_ns, event.begin().earliest_ns(), event.end().latest_ns())) return true;
+  return Confirmed(event) &&
+         In(contact.begin_ns, event.begin().earliest_ns(), event.begin().latest_ns());
+}
+
+bool TooShortToDemand(const TrueContact& contact) {
+  return contact.end_ns - contact.begin_ns <= 2 * kRootTolerance;
+}
+
+std::string Bracket(const Evidence& evidence, const v1::TimeBracket& bracket) {
+  return "[" + evidence.Time(bracket.earliest_ns()) + ", " + evidence.Time(bracket.latest_ns()) + "]";
+}
+
+std::string Name(const Evidence& evidence, const TrueContact& contact) {
+  return evidence.PairName(contact.a, contact.b) + ", true contact " + evidence.Time(contact.begin_ns) +
+         " to " + evidence.Time(contact.end_ns);
+}
+
+bool IsLeaving(const Evidence& evidence, const TrueContact& contact) {
+  const auto& motions = evidence.motions();
+  const std::int64_t end = std::min(motions[contact.a].end_ns(), motions[contact.b].end_ns());
+  return contact.begin_ns >= end - evidence.facts().leaving_ns;
+}
+
+bool Withdrawn(const EventHistory& history, const TrueContact& contact) {
+  return history.last().status() == v1::EVENT_WITHDRAWN &&
+         contact.begin_ns >= history.last().begin().earliest_ns() - kRootTolerance;
+}
+
+const EventHistory* Find(const Evidence& evidence, const TrueContact& contact) {
+  const bool leaving = IsLeaving(evidence, contact);
+  for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
+    if (Brackets(history->last(), contact) || (leaving && Withdrawn(*history, contact))) return history;
+  }
+  return nullptr;
+}
+
+// Did the service say that changes of one of the two count only from later than the contact's begin?
+bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
+  for (const v1::Clearance& sample : evidence.observations().clearances) {
+    if (sample.now_ns() > contact.begin_ns) continue;
+    for (const v1::AgentClearance& agent : sample.agents()) {
+      if (agent.effective_from_ns() <= contact.begin_ns) continue;
+      v1::AgentId id;
+      id.set_simulator_id(sample.simulator_id());
+      id.set_run(sample.run());
+      id.set_slot(agent.slot());
+      id.set_generation(agent.generation());
+      const auto motion = evidence.MotionOf(id);
+      if (motion == contact.a || motion == contact.b) return true;
+    }
+  }
+  return false;
+}
+
+bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact, const EventHistory& history) {
+  if (history.announced_ns <= contact.begin_ns + kRootTolerance) return true;
+  if (contact.from_start || history.last().began_before()) return true;
+  const std::int64_t transit = evidence.facts().transit_ns;
+  const auto begin = static_cast<std::int64_t>(contact.begin_ns);
+  if (transit > 0 && evidence.Changed(contact, begin, contact.begin_ns)) return true;
+  return InGrantedTime(evidence, contact);
+}
+
+bool Required(const Evidence& evidence, const TrueContact& contact) {
+  return contact.begin_ns <= evidence.judged_until_ns() && !TooShortToDemand(contact);
+}
+
+void CheckEnd(const Evidence& evidence, const TrueContact& contact, const EventHistory& history,
+              Violations* violations) {
+  const v1::CollisionEvent& event = history.last();
+  if (contact.to_end) return;
+  if (event.status() == v1::EVENT_CONFIRMED && contact.end_ns <= evidence.judged_until_ns()) {
+    violations->push_back(Name(evidence, contact) + ": its event was never ended");
+  }
+  if (event.status() != v1::EVENT_ENDED) return;
+  for (const TrueContact* other : evidence.ContactsOf(contact.a)) {
+    if (other->a != contact.a || other->b != contact.b) continue;
+    if (!event.continuous() || other == &contact) {
+      if (In(other->end_ns, event.end().earliest_ns(), event.end().latest_ns())) return;
+    }
+  }
+  violations->push_back(Name(evidence, contact) + ": its end is not in the published bracket " +
+                        Bracket(evidence, event.end()));
+}
+
+void CheckContact(const Evidence& evidence, const TrueContact& contact, Violations* violations) {
+  const EventHistory* history = Find(evidence, contact);
+  if (history == nullptr) {
+    std::string why = "no event of the pair";
+    for (const EventHistory* other : evidence.HistoriesOf(contact.a, contact.b)) {
+      why = "no event brackets its begin; the pair's last: " +
+            v1::EventStatus_Name(other->last().status()) + ", begin " +
+            Bracket(evidence, other->last().begin());
+    }
+    violations->push_back(Name(evidence, contact) + ": " + why);
+    return;
+  }
+  if (!AnnouncedInTime(evidence, contact, *history)) {
+    violations->push_back(Name(evidence, contact) + ": announced late, at " +
+                          evidence.Time(history->announced_ns));
+  }
+  CheckEnd(evidence, contact, *history, violations);
+}
+
+// The first confirmed revision without a true contact.
+void CheckConfirmed(const Evidence& evidence, const EventHistory& history, Violations* violations) {
+  const auto& motions = evidence.motions();
+  const std::int64_t logged = std::min(motions[history.a].end_ns(), motions[history.b].end_ns());
+  for (const v1::CollisionEvent& event : history.revisions) {
+    if (!Confirmed(event) || event.begin().latest_ns() > logged) continue;
+    const auto& contacts = evidence.ContactsOf(history.a);
+    const bool is_true = std::any_of(contacts.begin(), contacts.end(), [&](const TrueContact* contact) {
+      return contact->a == history.a && contact->b == history.b && Brackets(event, *contact);
+    });
+    if (is_true) continue;
+    violations->push_back(evidence.PairName(history.a, history.b) + ": confirmed with begin " +
+                          Bracket(evidence, event.begin()) + ", but no true contact begins there");
+    return;
+  }
+}
+
+}  // namespace
+
+Violations CheckEvents(const Evidence& evidence) {
+  Violations violations;
+  for (const TrueContact& contact : evidence.contacts()) {
+    if (Required(evidence, contact)) CheckContact(evidence, contact, &violations);
+  }
+  for (const EventHistory& history : evidence.histories()) CheckConfirmed(evidence, history, &violations);
+  if (!evidence.strange_events().empty()) {
+    violations.push_back(std::to_string(evidence.strange_events().size()) +
+                         " events name agents that no simulator logged");
+  }
+  return violations;
+}
+
+std::uint64_t ContactsUnannounced(const Evidence& evidence) {
+  std::uint64_t count = 0;
+  for (const TrueContact& contact : evidence.contacts()) {
+    if (!Required(evidence, contact)) continue;
+    const EventHistory* history = Find(evidence, contact);
+    if (history == nullptr || !AnnouncedInTime(evidence, contact, *history)) ++count;
+  }
+  return count;
+}
+
+}  // namespace collision::checker

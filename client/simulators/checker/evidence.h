@@ -1,0 +1,94 @@
+// A run's truth and what was published about it, brought together.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "client/simulators/checker/true_contacts.h"
+#include "idl/messages.pb.h"
+#include "idl/scene.pb.h"
+
+namespace collision::checker {
+
+/// What a monitor received, in the order in which it came.
+struct Observations {
+  std::vector<v1::CollisionEvent> events;
+  std::vector<v1::EarliestIntersection> earliest;
+  std::vector<v1::Clearance> clearances;
+  std::vector<v1::AgentName> names;
+};
+
+/// What the checker is told about the run.
+struct RunFacts {
+  std::int64_t start_ns = 0;    ///< The run's start, from which a scene's times count.
+  /// A contact that begins less than this before one of the two leaves may be withdrawn instead of
+  /// confirmed: simulators may be ahead of the service by what it grants.
+  std::int64_t leaving_ns = 0;
+  /// With a wall clock: how long news may be under way. Changes this recent excuse a promise.
+  std::int64_t transit_ns = 0;
+};
+
+/// All revisions of one contact as published.
+struct EventHistory {
+  std::size_t a = 0;                ///< Indices of the motions, a < b.
+  std::size_t b = 0;
+  std::int64_t announced_ns = 0;    ///< The service's time at the first revision received.
+  std::optional<std::int64_t> confirmed_ns;  ///< ... at the first that was confirmed.
+  std::optional<std::int64_t> closed_ns;     ///< ... at the first that was final.
+  std::vector<v1::CollisionEvent> revisions;  ///< As received; the highest revision last.
+
+  const v1::CollisionEvent& last() const { return revisions.back(); }
+};
+
+class Evidence {
+ public:
+  Evidence(std::vector<AgentMotion> motions, const Observations& observations, const RunFacts& facts);
+
+  const std::vector<AgentMotion>& motions() const { return motions_; }
+  const std::vector<TrueContact>& contacts() const { return contacts_; }
+  const std::vector<EventHistory>& histories() const { return histories_; }
+  const Observations& observations() const { return observations_; }
+  const RunFacts& facts() const { return facts_; }
+
+  /// Contacts of one agent, in order of begin.
+  const std::vector<const TrueContact*>& ContactsOf(std::size_t motion) const { return by_agent_[motion]; }
+
+  /// Histories of the pair a < b.
+  std::vector<const EventHistory*> HistoriesOf(std::size_t a, std::size_t b) const;
+
+  /// The motion of an agent; nullopt if no simulator logged it.
+  std::optional<std::size_t> MotionOf(const v1::AgentId& id) const;
+
+  /// Events of agents that no simulator logged.
+  const std::vector<v1::CollisionEvent>& strange_events() const { return strange_events_; }
+
+  /// What begins later the service may not have judged: the least end of the logs less one piece, and transit.
+  std::int64_t judged_until_ns() const { return judged_until_ns_; }
+
+  /// Did one of the two appear or jump in [from, to]? Promises before cannot have counted on it.
+  bool Changed(const TrueContact& contact, std::int64_t from_ns, long double to_ns) const;
+
+  /// "9 × 11"
+  std::string PairName(std::size_t a, std::size_t b) const;
+
+  /// An instant as seconds since the run's start.
+  std::string Time(long double instant_ns) const;
+
+ private:
+  void Sort(const v1::CollisionEvent& event);
+
+  std::vector<AgentMotion> motions_;
+  const Observations& observations_;
+  RunFacts facts_;
+  std::vector<TrueContact> contacts_;
+  std::vector<std::vector<const TrueContact*>> by_agent_;
+  std::vector<EventHistory> histories_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> histories_of_;
+  std::vector<v1::CollisionEvent> strange_events_;
+  std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>, std::size_t> ids_;
+  std::int64_t judged_until_ns_ = 0;
+};
+
+}  // namespace collision::checker

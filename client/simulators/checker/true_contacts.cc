@@ -1,0 +1,172 @@
+#include "client/simulators/checker/true_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "client/simulators/checker/contact_spans.h"
+
+namespace collision::checker {
+namespace {
+
+constexpr std::int64_t kSlab = 250'000'000;  // [ns]: agents move about a box's size in it
+constexpr std::int64_t kSlabsMax = 4096;     // longer runs take longer slabs
+
+struct Box {
+  double lower[3] = {INFINITY, INFINITY, INFINITY};
+  double upper[3] = {-INFINITY, -INFINITY, -INFINITY};
+
+  void Include(int axis, double x) {
+    lower[axis] = std::min(lower[axis], x);
+    upper[axis] = std::max(upper[axis], x);
+  }
+};
+
+// The box of the piece's Bézier points contains the piece; widened for their rounding.
+void Include(const Piece& piece, double radius, Box* box) {
+  const double h = static_cast<double>(piece.t1_ns - piece.t0_ns) * 1e-9;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& c = piece.p_WA[axis];
+    const double p1 = c[0] + c[1] * h / 3;
+    const double p2 = c[0] + 2 * c[1] * h / 3 + c[2] * h * h / 3;
+    const double p3 = c[0] + h * (c[1] + h * (c[2] + h * c[3]));
+    for (const double p : {c[0], p1, p2, p3}) {
+      const double margin = radius + 1e-9 * (1 + std::fabs(p));
+      box->Include(axis, p - margin);
+      box->Include(axis, p + margin);
+    }
+  }
+}
+
+bool Overlap(const Box& a, const Box& b) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis]) return false;
+  }
+  return true;
+}
+
+// The cubic in seconds since `start_ns` instead of since t0.
+Cubic3 Shifted(const Piece& piece, std::int64_t start_ns) {
+  const long double s = static_cast<long double>(start_ns - piece.t0_ns) * 1e-9L;
+  Cubic3 result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& c = piece.p_WA[axis];
+    result[axis] = {c[0] + s * (c[1] + s * (c[2] + s * c[3])), c[1] + s * (2 * c[2] + s * 3 * c[3]),
+                    c[2] + s * 3 * c[3], c[3]};
+  }
+  return result;
+}
+
+// An agent's pieces within one slab of time.
+struct Slice {
+  std::size_t agent = 0;
+  const Piece* begin = nullptr;
+  const Piece* end = nullptr;
+  Box box;
+};
+
+class ContactFinder {
+ public:
+  explicit ContactFinder(const std::vector<AgentMotion>& motions) : motions_(motions) {}
+
+  std::vector<TrueContact> Find() {
+    std::int64_t begin = std::numeric_limits<std::int64_t>::max();
+    std::int64_t end = std::numeric_limits<std::int64_t>::min();
+    for (const AgentMotion& motion : motions_) {
+      begin = std::min(begin, motion.begin_ns());
+      end = std::max(end, motion.end_ns());
+    }
+    const std::int64_t width = motions_.empty() ? kSlab : std::max(kSlab, (end - begin) / kSlabsMax);
+    for (std::int64_t t = begin; t < end; t += width) SearchSlab(t, std::min(end, t + width));
+    return Finish();
+  }
+
+ private:
+  void SearchSlab(std::int64_t s0, std::int64_t s1) {
+    std::vector<Slice> slices;
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
+      const auto& pieces = motions_[i].pieces;
+      const auto first = std::partition_point(pieces.begin(), pieces.end(),
+                                              [&](const Piece& p) { return p.t1_ns <= s0; });
+      const auto last =
+          std::partition_point(first, pieces.end(), [&](const Piece& p) { return p.t0_ns < s1; });
+      if (first == last) continue;
+      Slice slice{i, &*first, &*first + (last - first), {}};
+      for (const Piece* p = slice.begin; p != slice.end; ++p) Include(*p, motions_[i].radius_m, &slice.box);
+      slices.push_back(slice);
+    }
+    for (std::size_t i = 0; i < slices.size(); ++i) {
+      for (std::size_t j = i + 1; j < slices.size(); ++j) {
+        if (Overlap(slices[i].box, slices[j].box)) SearchPair(slices[i], slices[j], s0, s1);
+      }
+    }
+  }
+
+  void SearchPair(const Slice& a, const Slice& b, std::int64_t s0, std::int64_t s1) {
+    const Piece* pa = a.begin;
+    const Piece* pb = b.begin;
+    while (pa != a.end && pb != b.end) {
+      const std::int64_t from = std::max({pa->t0_ns, pb->t0_ns, s0});
+      const std::int64_t to = std::min({pa->t1_ns, pb->t1_ns, s1});
+      if (from < to) SearchPieces(a.agent, *pa, b.agent, *pb, from, to);
+      if (pa->t1_ns <= pb->t1_ns) {
+        ++pa;
+      } else {
+        ++pb;
+      }
+    }
+  }
+
+  void SearchPieces(std::size_t a, const Piece& pa, std::size_t b, const Piece& pb, std::int64_t from,
+                    std::int64_t to) {
+    Cubic3 d = Shifted(pa, from);
+    const Cubic3 other = Shifted(pb, from);
+    for (int axis = 0; axis < 3; ++axis) {
+      for (int k = 0; k < 4; ++k) d[axis][k] -= other[axis][k];
+    }
+    const long double reach = static_cast<long double>(motions_[a].radius_m) + motions_[b].radius_m;
+    const long double duration = static_cast<long double>(to - from) * 1e-9L;
+    for (const Span& span : SpansWithin(d, duration, reach)) {
+      Add(a, b, from + span.begin * 1e9L, from + span.end * 1e9L);
+    }
+  }
+
+  void Add(std::size_t a, std::size_t b, long double begin_ns, long double end_ns) {
+    auto& contacts = contacts_[{a, b}];
+    if (!contacts.empty() && begin_ns - contacts.back().end_ns <= kRootTolerance) {
+      contacts.back().end_ns = end_ns;
+    } else {
+      contacts.push_back({a, b, begin_ns, end_ns, false, false});
+    }
+  }
+
+  std::vector<TrueContact> Finish() {
+    std::vector<TrueContact> all;
+    for (auto& [pair, contacts] : contacts_) {
+      const AgentMotion& a = motions_[pair.first];
+      const AgentMotion& b = motions_[pair.second];
+      const auto start = static_cast<long double>(std::max(a.begin_ns(), b.begin_ns()));
+      const auto end = static_cast<long double>(std::min(a.end_ns(), b.end_ns()));
+      for (TrueContact& contact : contacts) {
+        contact.from_start = contact.begin_ns <= start + kRootTolerance;
+        contact.to_end = contact.end_ns >= end - kRootTolerance;
+        all.push_back(contact);
+      }
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const TrueContact& x, const TrueContact& y) { return x.begin_ns < y.begin_ns; });
+    return all;
+  }
+
+  const std::vector<AgentMotion>& motions_;
+  std::map<std::pair<std::size_t, std::size_t>, std::vector<TrueContact>> contacts_;
+};
+
+}  // namespace
+
+std::vector<TrueContact> TrueContacts(const std::vector<AgentMotion>& motions) {
+  return ContactFinder(motions).Find();
+}
+
+}  // namespace collision::checker

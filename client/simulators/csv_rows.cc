@@ -1,0 +1,181 @@
+#include "client/simulators/csv_rows.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+namespace collision::client {
+namespace {
+
+// Below this a time in nanoseconds fits its type with room for a start instant added to it.
+constexpr long double kTimeMax = 4e18L;
+
+struct Column {
+  std::size_t index = 0;
+  double scale = 1;  // to SI
+};
+
+struct Columns {
+  std::size_t count = 0;
+  std::size_t agent = 0;
+  std::size_t time = 0;
+  long double nanoseconds = 1e9L;  // per unit of the time column
+  std::optional<Column> position[3];
+  std::optional<Column> velocity[3];
+};
+
+std::vector<std::string_view> Split(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    std::string_view field = line.substr(0, comma);
+    while (!field.empty() && (field.front() == ' ' || field.front() == '\t')) field.remove_prefix(1);
+    while (!field.empty() && (field.back() == ' ' || field.back() == '\t')) field.remove_suffix(1);
+    fields.push_back(field);
+    if (comma == std::string_view::npos) return fields;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+// "x_km" -> 1000 with quantity "x" and suffix ""; nothing if the name is another quantity's.
+std::optional<double> LengthScale(std::string_view name, const std::string& quantity,
+                                  const std::string& suffix) {
+  if (name == quantity + "_m" + suffix) return 1;
+  if (name == quantity + "_km" + suffix) return 1e3;
+  if (name == quantity + "_mm" + suffix) return 1e-3;
+  return std::nullopt;
+}
+
+class Reader {
+ public:
+  Reader(std::istream& text, const std::string& name) : text_(text), name_(name) {}
+
+  CsvRows Read() {
+    ReadHeader();
+    for (std::string line; NextLine(&line);) {
+      if (!line.empty()) ReadRow(line);
+    }
+    if (text_.bad()) Fail("the file cannot be read further");
+    if (result_.rows.empty()) Fail("no rows after the header");
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void Fail(const std::string& what) const {
+    throw CsvError(name_ + ":" + std::to_string(line_) + ": " + what);
+  }
+
+  bool NextLine(std::string* line) {
+    if (!std::getline(text_, *line)) return false;
+    ++line_;
+    if (!line->empty() && line->back() == '\r') line->pop_back();
+    return true;
+  }
+
+  void ReadHeader() {
+    std::string line;
+    if (!NextLine(&line)) {
+      line_ = 1;
+      Fail("the file is empty; its first line names the columns");
+    }
+    const auto names = Split(line);
+    columns_.count = names.size();
+    std::optional<std::size_t> agent, time;
+    for (std::size_t i = 0; i < names.size(); ++i) ReadName(names[i], i, &agent, &time);
+    if (!time) Fail("no column time_s, time_ms or time_ns in the header");
+    if (!agent) Fail("no column agent_id in the header");
+    columns_.agent = *agent;
+    columns_.time = *time;
+    if (!columns_.position[0]) Fail("no column x_m (or x_km, x_mm) in the header");
+    if (!columns_.position[1]) Fail("no column y_m (or y_km, y_mm) in the header");
+    CheckVelocities();
+  }
+
+  void CheckVelocities() {
+    const auto& v = columns_.velocity;
+    result_.velocities = v[0] || v[1] || v[2];
+    for (int axis = 0; result_.velocities && axis < 3; ++axis) {
+      if (v[axis].has_value() == columns_.position[axis].has_value()) continue;
+      Fail(std::string("the header has velocities, but not the same axes as positions: see column v") +
+           "xyz"[axis] + "_m_s");
+    }
+  }
+
+  void ReadName(std::string_view name, std::size_t index, std::optional<std::size_t>* agent,
+                std::optional<std::size_t>* time) {
+    const auto once = [&](bool present) {
+      if (present) Fail("column " + std::string(name) + " is the second of its kind");
+    };
+    if (name == "agent_id") {
+      once(agent->has_value());
+      *agent = index;
+    } else if (name == "time_s" || name == "time_ms" || name == "time_ns") {
+      once(time->has_value());
+      *time = index;
+      columns_.nanoseconds = name == "time_s" ? 1e9L : name == "time_ms" ? 1e6L : 1;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string letter(1, "xyz"[axis]);
+      if (const auto scale = LengthScale(name, letter, "")) {
+        once(columns_.position[axis].has_value());
+        columns_.position[axis] = {index, *scale};
+      }
+      if (const auto scale = LengthScale(name, "v" + letter, "_s")) {
+        once(columns_.velocity[axis].has_value());
+        columns_.velocity[axis] = {index, *scale};
+      }
+    }
+  }
+
+  template <typename Number>
+  Number Finite(std::string_view field, const char* what) const {
+    Number value = 0;
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
+      Fail(std::string(what) + " \"" + std::string(field.substr(0, 40)) + "\" is not a finite number");
+    }
+    return value;
+  }
+
+  void ReadRow(const std::string& line) {
+    const auto fields = Split(line);
+    if (fields.size() != columns_.count) {
+      Fail(std::to_string(fields.size()) + " columns, the header has " + std::to_string(columns_.count));
+    }
+    const std::string agent(fields[columns_.agent]);
+    if (agent.empty()) Fail("agent_id is empty");
+    if (agent.find_first_of(" \t") != std::string::npos) Fail("agent_id has a space in it");
+    CsvRow row;
+    const long double time = Finite<long double>(fields[columns_.time], "time") * columns_.nanoseconds;
+    if (!(std::fabs(time) < kTimeMax)) Fail("time is beyond a century from 0");
+    row.time_ns = std::llround(time);
+    for (int axis = 0; axis < 3; ++axis) {
+      row.position_m[axis] = Value(columns_.position[axis], fields, "position");
+      row.velocity_m_s[axis] = Value(columns_.velocity[axis], fields, "velocity");
+    }
+    auto& rows = result_.rows[agent];
+    if (!rows.empty() && row.time_ns <= rows.back().time_ns) {
+      Fail("time " + std::string(fields[columns_.time]) + " of agent " + agent +
+           " is not later than its row before");
+    }
+    rows.push_back(row);
+  }
+
+  double Value(const std::optional<Column>& column, const std::vector<std::string_view>& fields,
+               const char* what) const {
+    return column ? Finite<double>(fields[column->index], what) * column->scale : 0;
+  }
+
+  std::istream& text_;
+  const std::string& name_;
+  std::size_t line_ = 0;
+  Columns columns_;
+  CsvRows result_;
+};
+
+}  // namespace
+
+CsvRows ReadCsv(std::istream& text, const std::string& name) { return Reader(text, name).Read(); }
+
+}  // namespace collision::client

@@ -1,0 +1,50 @@
+// The exact motion of a simulator's agents, written down for whoever checks the service.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <fstream>
+#include <string>
+
+#include "client/types.h"
+
+namespace collision::client {
+
+/// A cubic per axis over [t0_ns, t1_ns], in seconds since t0_ns, the constant first: exact, by definition.
+struct MotionPiece {
+  std::int64_t t0_ns = 0;
+  std::int64_t t1_ns = 0;
+  std::array<std::array<double, 4>, 3> coefficients{};
+};
+
+struct PositionAndVelocity {
+  Vector3 position_m{};
+  Vector3 velocity_m_s{};
+};
+
+/// Where the piece is at `stamp_ns`.
+PositionAndVelocity Evaluate(const MotionPiece& piece, std::int64_t stamp_ns);
+
+/// A text file, one record per line (README.md). Without a path nothing is written.
+class MotionLog {
+ public:
+  /// Throws std::runtime_error if the file cannot be created.
+  explicit MotionLog(const std::string& path);
+
+  void Agent(const std::string& name, double radius_m);
+
+  /// Pieces of one agent follow each other in time.
+  void Piece(const std::string& name, const MotionPiece& piece);
+
+  /// A state with `discontinuity` was published for this instant.
+  void Jump(const std::string& name, std::int64_t stamp_ns);
+
+  /// Throws std::runtime_error if something could not be written.
+  void Close();
+
+ private:
+  std::string path_;
+  std::ofstream file_;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,105 @@
+#include "client/simulators/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace collision::client {
+namespace {
+
+// One agent on its way from its first row to its last.
+class Part {
+ public:
+  Part(const PlayedAgent& agent, const PlayerOptions& options)
+      : agent_(agent), options_(options) {}
+
+  // States the agent's next state; the first one brings it into the world.
+  void Stage(std::int64_t stamp_ns, World* world, MotionLog* log) {
+    const PositionAndVelocity at = agent_.trajectory.At(stamp_ns);
+    State state;
+    state.stamp_ns = stamp_ns;
+    state.position_m = at.position_m;
+    state.velocity_m_s = at.velocity_m_s;
+    state.position_error_m = options_.position_error_m;
+    if (handle_) {
+      handle_->SetState(state);
+      return;
+    }
+    AgentDescription description;
+    description.name = agent_.name;
+    description.radius_m = options_.radius_m;
+    description.acceleration_max_m_s2 = options_.acceleration_max_m_s2 >= 0
+                                            ? options_.acceleration_max_m_s2
+                                            : agent_.trajectory.AccelerationMax();
+    handle_.emplace(world->AddAgent(description, state));
+    log->Agent(agent_.name, options_.radius_m);
+  }
+
+  // The clock has come to `clock_ns`: what was played is written down, and who has passed its last row leaves.
+  void Passed(std::int64_t clock_ns, MotionLog* log) {
+    const auto& pieces = agent_.trajectory.pieces();
+    for (; logged_ < pieces.size() && pieces[logged_].t1_ns <= clock_ns; ++logged_) {
+      log->Piece(agent_.name, pieces[logged_]);
+    }
+    if (agent_.trajectory.end_ns() < clock_ns) handle_.reset();
+  }
+
+  // The run is over: the piece under way ends here.
+  void Finish(std::int64_t clock_ns, MotionLog* log) {
+    const auto& pieces = agent_.trajectory.pieces();
+    if (logged_ == pieces.size() || pieces[logged_].t0_ns >= clock_ns) return;
+    MotionPiece piece = pieces[logged_];
+    piece.t1_ns = clock_ns;
+    log->Piece(agent_.name, piece);
+  }
+
+ private:
+  const PlayedAgent& agent_;
+  const PlayerOptions& options_;
+  std::optional<Agent> handle_;
+  std::size_t logged_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rate_hz,
+                                        std::int64_t start_ns) {
+  std::vector<std::int64_t> instants;
+  if (rate_hz <= 0) {
+    for (const CsvRow& row : trajectory.rows()) instants.push_back(row.time_ns);
+    return instants;
+  }
+  const double period_ns = 1e9 / rate_hz;
+  instants.push_back(trajectory.begin_ns());
+  auto k = static_cast<std::int64_t>(
+      std::floor(static_cast<double>(trajectory.begin_ns() - start_ns) / period_ns));
+  for (;; ++k) {
+    const std::int64_t stamp = start_ns + std::llround(static_cast<double>(k) * period_ns);
+    if (stamp >= trajectory.end_ns()) break;
+    if (stamp > instants.back()) instants.push_back(stamp);
+  }
+  if (trajectory.end_ns() > instants.back()) instants.push_back(trajectory.end_ns());
+  return instants;
+}
+
+void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, Pace* pace,
+          MotionLog* log) {
+  std::vector<Part> parts;
+  std::map<std::int64_t, std::vector<std::size_t>> due;  // who states something at an instant
+  for (const PlayedAgent& agent : agents) {
+    for (const std::int64_t stamp : StateInstants(agent.trajectory, options.rate_hz, pace->start_ns())) {
+      if (pace->start_ns() <= stamp && stamp <= pace->end_ns()) due[stamp].push_back(parts.size());
+    }
+    parts.emplace_back(agent, options);
+  }
+  due[pace->end_ns()];
+  for (const auto& [stamp, indices] : due) {
+    for (const std::size_t i : indices) parts[i].Stage(stamp, &pace->world(), log);
+    if (!pace->AdvanceTo(stamp)) break;
+    for (Part& part : parts) part.Passed(stamp, log);
+  }
+  for (Part& part : parts) part.Finish(pace->world().clock_ns(), log);
+  pace->Linger();
+}
+
+}  // namespace collision::client

@@ -1,0 +1,54 @@
+// A program started and ended by its id.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace collision::client {
+
+/// Its output goes to a file. The destructor ends it: SIGTERM, and SIGKILL after 2 s. It also gets SIGTERM if
+/// this program dies. It has a process group of its own, so that Ctrl-C reaches only this program, which
+/// then ends it in order.
+class ChildProcess {
+ public:
+  /// Throws std::runtime_error if the program cannot be started.
+  ChildProcess(std::string name, const std::vector<std::string>& arguments, const std::string& output_path);
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+  ~ChildProcess();
+
+  const std::string& name() const { return name_; }
+
+  bool Running();
+
+  /// Asks it to end; returns at once.
+  void Terminate();
+
+  /// Waits until it has ended, at most until `deadline`, then kills it.
+  void Finish(std::chrono::steady_clock::time_point deadline);
+
+  /// Once it has ended: "exit code 1", "signal 11".
+  std::string Ending() const;
+  bool succeeded() const;
+
+  /// Processor time of the ended program, user and system [s].
+  double cpu_seconds() const { return cpu_seconds_; }
+
+  /// The last lines of its output, each indented.
+  std::string LastLines(std::size_t count) const;
+
+ private:
+  bool Reap(int options);
+
+  std::string name_;
+  std::string output_path_;
+  pid_t pid_ = -1;
+  std::optional<int> status_;  // as wait() gives it
+  double cpu_seconds_ = 0;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,36 @@
+// The figures of a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/simulators/checker/check.h"
+
+namespace collision::client {
+
+/// What the runner itself measured.
+struct Measured {
+  double wall_seconds = 0;
+  double simulated_seconds = 0;
+  double service_cpu_seconds = 0;
+  std::vector<double> latencies;  ///< Update -> event [s].
+};
+
+/// The value below which `share` of the values lie; 0 if there are none.
+double Quantile(std::vector<double> values, double share);
+
+v1::Quantiles QuantilesOf(const std::vector<double>& values);
+
+/// Widths of the begin brackets [s], one per confirmed contact.
+std::vector<double> BeginWidthsAtConfirmation(const checker::Evidence& evidence);
+std::vector<double> BeginWidthsFinal(const checker::Evidence& evidence);
+std::vector<double> EndWidthsFinal(const checker::Evidence& evidence);
+
+/// The whole report. begin_width_s is that at confirmation.
+v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evidence,
+                         const checker::Violations& violations, const Measured& measured);
+
+/// The summary as a table for people.
+std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& evidence);
+
+}  // namespace collision::client

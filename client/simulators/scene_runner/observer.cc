@@ -1,0 +1,142 @@
+#include "client/simulators/scene_runner/observer.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "client/event_text.h"
+
+namespace collision::client {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::size_t kStatesKept = 8192;      // samples per simulator: more than an event lags behind
+constexpr std::size_t kRejectionsKept = 20;
+constexpr std::chrono::milliseconds kProgressTerminal{200};
+constexpr std::chrono::seconds kProgressFile{5};
+
+}  // namespace
+
+Observer::Observer(const std::string& world, std::uint32_t domain, std::int64_t origin_ns)
+    : origin_ns_(origin_ns),
+      terminal_(isatty(STDOUT_FILENO) != 0),
+      progress_at_(steady_clock::now()),
+      monitor_({world, domain, true, true}, Callbacks()) {}
+
+Monitor::Callbacks Observer::Callbacks() {
+  Monitor::Callbacks callbacks;
+  callbacks.event = [this](const v1::CollisionEvent& event) { Hear(event); };
+  callbacks.description = [this](const v1::AgentDescription& description) { Hear(description); };
+  callbacks.states = [this](const v1::AgentStates& states) { Hear(states); };
+  callbacks.rejection = [this](const v1::Rejection& rejection) { Hear(rejection); };
+  callbacks.earliest = [this](const v1::EarliestIntersection& sample) {
+    SeeTime(sample.now_ns());
+    observations_.earliest.push_back(sample);
+  };
+  callbacks.clearance = [this](const v1::Clearance& sample) {
+    SeeTime(sample.now_ns());
+    observations_.clearances.push_back(sample);
+  };
+  callbacks.status = [this](const v1::ServiceStatus& status) {
+    if (!status.simulators().empty()) SeeTime(status.now_ns());
+  };
+  return callbacks;
+}
+
+std::size_t Observer::Poll(std::chrono::nanoseconds timeout) {
+  const std::size_t samples = monitor_.Poll(timeout);
+  PrintProgress(false);
+  return samples;
+}
+
+void Observer::SeeTime(std::int64_t now_ns) { now_ns_ = std::max(now_ns, now_ns_.value_or(now_ns)); }
+
+void Observer::Hear(const v1::AgentDescription& description) {
+  v1::AgentName name;
+  name.mutable_id()->set_simulator_id(description.simulator_id());
+  name.mutable_id()->set_run(description.run());
+  name.mutable_id()->set_slot(description.slot());
+  name.mutable_id()->set_generation(description.generation());
+  name.set_simulator(description.simulator_name());
+  name.set_agent(description.agent_name());
+  const bool is_new = names_.emplace(name.id().SerializeAsString(), name.agent()).second;
+  if (is_new) observations_.names.push_back(name);
+}
+
+void Observer::Hear(const v1::AgentStates& states) {
+  std::int64_t newest = std::numeric_limits<std::int64_t>::min();
+  for (const v1::AgentState& state : states.states()) newest = std::max<std::int64_t>(newest, state.stamp_ns());
+  auto& received = states_[states.simulator_id()];
+  received.emplace_back(newest, steady_clock::now());
+  if (received.size() > kStatesKept) received.pop_front();
+}
+
+void Observer::Hear(const v1::Rejection& rejection) {
+  if (rejections_.size() >= kRejectionsKept) return;
+  rejections_.push_back(v1::RejectionReason_Name(rejection.reason()) + " " + rejection.field() + ": " +
+                        rejection.detail());
+}
+
+void Observer::Hear(const v1::CollisionEvent& event) {
+  SeeTime(event.now_ns());
+  observations_.events.push_back(event);
+  const ContactKey key{event.lower().SerializeAsString(), event.higher().SerializeAsString(),
+                       event.contact()};
+  const auto [status, is_new] = statuses_.try_emplace(key, event.status());
+  if (!is_new && status->second == event.status()) return;
+  status->second = event.status();
+  ++counts_[event.status()];
+  TimeEvent(event);
+  ClearProgress();
+  const auto name = [this](const v1::AgentId& id) { return NameOf(id); };
+  std::printf("%s\n", EventLine(event, name, origin_ns_).c_str());
+}
+
+void Observer::TimeEvent(const v1::CollisionEvent& event) {
+  std::optional<Wall> cause;
+  for (const std::uint64_t simulator : {event.lower().simulator_id(), event.higher().simulator_id()}) {
+    const auto& received = states_[simulator];
+    const auto newest = std::find_if(received.rbegin(), received.rend(),
+                                     [&](const auto& sample) { return sample.first <= event.now_ns(); });
+    if (newest == received.rend()) return;
+    cause = std::max(newest->second, cause.value_or(newest->second));
+  }
+  latencies_.push_back(std::chrono::duration<double>(steady_clock::now() - *cause).count());
+}
+
+std::string Observer::NameOf(const v1::AgentId& id) const {
+  const auto found = names_.find(id.SerializeAsString());
+  return found != names_.end() ? found->second : "agent " + std::to_string(id.slot());
+}
+
+void Observer::ClearProgress() {
+  if (!progress_shown_) return;
+  std::printf("\r\033[K");
+  progress_shown_ = false;
+}
+
+void Observer::PrintProgress(bool final) {
+  const auto now = steady_clock::now();
+  const auto period = terminal_ ? std::chrono::duration_cast<steady_clock::duration>(kProgressTerminal)
+                                : std::chrono::duration_cast<steady_clock::duration>(kProgressFile);
+  if (!final && now - progress_at_ < period) return;
+  progress_at_ = now;
+  ClearProgress();
+  if (now_ns_) {
+    const auto time = SecondsText(std::max(*now_ns_, origin_ns_), origin_ns_, 1);
+    std::printf("… %s s, %zu agents, events: %zu possible, %zu confirmed, %zu ended", time.c_str(),
+                names_.size(), counts_[v1::EVENT_POSSIBLE], counts_[v1::EVENT_CONFIRMED],
+                counts_[v1::EVENT_ENDED]);
+  } else {
+    std::printf("… waiting for the simulators");
+  }
+  progress_shown_ = terminal_ && !final;
+  if (!progress_shown_) std::printf("\n");
+  std::fflush(stdout);
+}
+
+void Observer::FinishProgress() { PrintProgress(true); }
+
+}  // namespace collision::client

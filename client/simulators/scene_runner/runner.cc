@@ -1,0 +1,239 @@
+#include "client/simulators/scene_runner/runner.h"
+
+#include <google/protobuf/text_format.h>
+#include <google/protobuf/util/json_util.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "client/simulators/stop_signal.h"
+
+namespace collision::client {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kGrace{2};            // between SIGTERM and SIGKILL
+constexpr std::chrono::seconds kStuck{30};           // without any progress of the service's time
+constexpr std::chrono::nanoseconds kRealTimeLead{3'000'000'000};  // until everybody has found everybody
+constexpr std::int64_t kTransit = 200'000'000;       // [ns] news under way, with a wall clock
+constexpr double kGrantAheadDefault = 10;            // [s] the service's default
+constexpr std::uint32_t kDomains = 200;
+constexpr std::size_t kLinesShown = 12;
+
+double SecondsSince(steady_clock::time_point start) {
+  return std::chrono::duration<double>(steady_clock::now() - start).count();
+}
+
+std::string Text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+void WriteFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+std::string MakeFolder(const std::string& wanted) {
+  if (!wanted.empty()) {
+    fs::create_directories(wanted);
+    return wanted;
+  }
+  std::string name = (fs::temp_directory_path() / "collision-scene-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder can be made");
+  return name;
+}
+
+}  // namespace
+
+Runner::Runner(const RunnerOptions& options)
+    : options_(options),
+      scene_(LoadScene(options.folders, options.scene)),
+      world_(options.scene + "-" + std::to_string(getpid())),
+      domain_(options.domain.value_or(1 + static_cast<std::uint32_t>(getpid()) % kDomains)),
+      folder_(MakeFolder(options.logs)) {
+  if (options.seconds > 0) scene_.set_seconds(options.seconds);
+}
+
+Runner::~Runner() {
+  simulators_.clear();
+  service_.reset();
+  std::error_code ignored;
+  if (options_.logs.empty()) fs::remove_all(folder_, ignored);
+}
+
+std::string Runner::Path(const std::string& file) const { return (fs::path(folder_) / file).string(); }
+
+void Runner::UseLoopback() const {
+  const fs::path profile = fs::absolute(options_.folders.scenes).parent_path() / "cyclonedds-loopback.xml";
+  if (getenv("CYCLONEDDS_URI") != nullptr) return;
+  if (!fs::exists(profile)) throw std::runtime_error(profile.string() + ": the network profile is not there");
+  setenv("CYCLONEDDS_URI", ("file://" + profile.string()).c_str(), 1);
+}
+
+void Runner::StartService() {
+  v1::Config config = scene_.config();
+  config.set_world(world_);
+  config.set_domain(domain_);
+  if (options_.real_time) config.mutable_clock()->set_kind(v1::Clock::WALL);
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(config, &text);
+  WriteFile(Path("collisiond.textproto"), text);
+  service_ = std::make_unique<ChildProcess>(
+      "collisiond",
+      std::vector<std::string>{(fs::path(options_.folders.bin) / "collisiond").string(), "--config",
+                               Path("collisiond.textproto")},
+      Path("collisiond.log"));
+}
+
+void Runner::StartSimulator(const v1::SceneProcess& process) {
+  const std::map<std::string, std::string> values = {{"SECONDS", Text(scene_.seconds())},
+                                                     {"SCENES", options_.folders.scenes},
+                                                     {"DATA", options_.folders.data},
+                                                     {"LOG", Path(process.name() + ".motion")}};
+  std::vector<std::string> arguments = {(fs::path(options_.folders.bin) / process.program()).string()};
+  for (const std::string& argument : process.arguments()) arguments.push_back(Substitute(argument, values));
+  for (const std::string& argument :
+       {std::string("--world"), world_, std::string("--domain"), std::to_string(domain_),
+        std::string("--simulator"), process.name(), std::string("--linger")}) {
+    arguments.push_back(argument);
+  }
+  if (options_.real_time) {
+    arguments.insert(arguments.end(), {"--real-time", "--start-ns", std::to_string(start_ns_)});
+  } else {
+    arguments.push_back("--lock-step");
+  }
+  simulators_.push_back(
+      std::make_unique<ChildProcess>(process.name(), arguments, Path(process.name() + ".log")));
+}
+
+bool Runner::AllRunning() {
+  std::vector<ChildProcess*> processes = {service_.get()};
+  for (const auto& simulator : simulators_) processes.push_back(simulator.get());
+  for (ChildProcess* process : processes) {
+    if (process->Running()) continue;
+    std::fprintf(stderr, "%s ended before the scene did (%s):\n%s", process->name().c_str(),
+                 process->Ending().c_str(), process->LastLines(kLinesShown).c_str());
+    return false;
+  }
+  return true;
+}
+
+Runner::Watch Runner::WatchToEnd() {
+  const std::int64_t end_ns = start_ns_ + std::llround(scene_.seconds() * 1e9);
+  auto progress = steady_clock::now();
+  std::optional<std::int64_t> reached;
+  while (!StopRequested()) {
+    observer_->Poll(milliseconds(20));
+    if (observer_->now_ns() != reached) progress = steady_clock::now();
+    reached = observer_->now_ns();
+    if (reached && *reached >= end_ns) return Watch::kEnded;
+    if (!AllRunning()) return Watch::kFailed;
+    if (steady_clock::now() - progress < kStuck) continue;
+    std::fprintf(stderr, "the service's time has stood still for %lld s:\n%s",
+                 static_cast<long long>(kStuck.count()), service_->LastLines(kLinesShown).c_str());
+    return Watch::kFailed;
+  }
+  return Watch::kInterrupted;
+}
+
+void Runner::Drain(milliseconds quiet, milliseconds longest) {
+  const auto deadline = steady_clock::now() + longest;
+  auto last_event = steady_clock::now();
+  std::size_t events = observer_->observations().events.size();
+  while (steady_clock::now() < deadline && steady_clock::now() - last_event < quiet) {
+    observer_->Poll(milliseconds(20));
+    if (observer_->observations().events.size() == events) continue;
+    events = observer_->observations().events.size();
+    last_event = steady_clock::now();
+  }
+}
+
+void Runner::StopSimulators() {
+  for (const auto& simulator : simulators_) simulator->Terminate();
+  const auto deadline = steady_clock::now() + kGrace;
+  for (const auto& simulator : simulators_) simulator->Finish(deadline);
+}
+
+RunResult Runner::Judge(const Measured& measured) {
+  std::vector<checker::AgentMotion> motions;
+  checker::Violations violations;
+  for (const v1::SceneProcess& process : scene_.processes()) {
+    std::ifstream log(Path(process.name() + ".motion"));
+    if (!log) throw std::runtime_error(process.name() + " wrote no motion log");
+    auto more = checker::ReadMotionLog(log, process.name());
+    std::move(more.begin(), more.end(), std::back_inserter(motions));
+  }
+  const double ahead = scene_.config().clock().has_grant_ahead_max_s()
+                           ? scene_.config().clock().grant_ahead_max_s()
+                           : kGrantAheadDefault;
+  const checker::RunFacts facts{start_ns_, std::llround(ahead * 1e9), options_.real_time ? kTransit : 0};
+  const checker::Evidence evidence(std::move(motions), observer_->observations(), facts);
+  violations = checker::Check(evidence, scene_.expectation());
+  for (const auto& simulator : simulators_) {
+    if (!simulator->succeeded()) violations.push_back(simulator->name() + " ended with " + simulator->Ending());
+  }
+  if (!service_->succeeded()) violations.push_back("collisiond ended with " + service_->Ending());
+  for (const std::string& rejection : observer_->rejections()) {
+    violations.push_back("the service refused a sample: " + rejection);
+  }
+  const v1::RunReport report = MakeReport(options_.scene, evidence, violations, measured);
+  std::printf("%s", SummaryTable(report, evidence).c_str());
+  for (const std::string& violation : violations) std::printf("violation: %s\n", violation.c_str());
+  std::printf("checker: %s\n", violations.empty() ? "satisfied" : "NOT satisfied");
+  if (!options_.json.empty()) {
+    std::string json;
+    google::protobuf::util::JsonPrintOptions json_options;
+    json_options.add_whitespace = true;
+    json_options.always_print_primitive_fields = true;
+    json_options.preserve_proto_field_names = true;
+    if (!google::protobuf::util::MessageToJsonString(report, &json, json_options).ok()) {
+      throw std::runtime_error("the report cannot be written as JSON");
+    }
+    WriteFile(options_.json, json);
+  }
+  return violations.empty() ? kSatisfied : kNotSatisfied;
+}
+
+RunResult Runner::Run() {
+  UseLoopback();
+  std::printf("%s: %s\n", options_.scene.c_str(), scene_.title().c_str());
+  std::fflush(stdout);
+  if (options_.real_time) {
+    const auto now = std::chrono::system_clock::now().time_since_epoch() + kRealTimeLead;
+    start_ns_ = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+  }
+  const auto started = steady_clock::now();
+  observer_ = std::make_unique<Observer>(world_, domain_, start_ns_);
+  StartService();
+  for (const v1::SceneProcess& process : scene_.processes()) StartSimulator(process);
+  const Watch watch = WatchToEnd();
+  if (watch == Watch::kInterrupted) std::printf("\ninterrupted: ending everything\n");
+  if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(2000));
+  Measured measured;
+  measured.wall_seconds = SecondsSince(started);
+  StopSimulators();
+  if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(1000));
+  service_->Terminate();
+  service_->Finish(steady_clock::now() + kGrace);
+  observer_->FinishProgress();
+  if (watch == Watch::kInterrupted) return kInterrupted;
+  if (watch == Watch::kFailed) return kNotSatisfied;
+  measured.simulated_seconds = scene_.seconds();
+  measured.service_cpu_seconds = service_->cpu_seconds();
+  measured.latencies = observer_->latencies();
+  return Judge(measured);
+}
+
+}  // namespace collision::client

@@ -1,0 +1,63 @@
+// A scene from start to verdict.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/simulators/scene_runner/child_process.h"
+#include "client/simulators/scene_runner/metrics.h"
+#include "client/simulators/scene_runner/observer.h"
+#include "client/simulators/scene_runner/scene_file.h"
+
+namespace collision::client {
+
+struct RunnerOptions {
+  std::string scene = "iridium-cosmos";
+  Folders folders = DefaultFolders();
+  double seconds = 0;                  ///< 0: as the scene says.
+  bool real_time = false;
+  std::optional<std::uint32_t> domain; ///< Default: one that depends on this process.
+  std::string json;                    ///< File for the report; empty: none.
+  std::string logs;                    ///< Folder for configuration and logs, kept; empty: a temporary one.
+};
+
+/// Exit codes of a run.
+enum RunResult { kSatisfied = 0, kNotSatisfied = 1, kInterrupted = 130 };
+
+/// Starts collisiond and the scene's simulators on loopback in a world of their own, watches them with a monitor
+/// to the scene's end, ends them all by their ids, and lets the checker judge.
+class Runner {
+ public:
+  explicit Runner(const RunnerOptions& options);
+  ~Runner();
+
+  /// Throws std::runtime_error if the scene cannot be run at all.
+  RunResult Run();
+
+ private:
+  enum class Watch { kEnded, kFailed, kInterrupted };
+
+  std::string Path(const std::string& file) const;
+  void UseLoopback() const;
+  void StartService();
+  void StartSimulator(const v1::SceneProcess& process);
+  Watch WatchToEnd();
+  bool AllRunning();
+  void Drain(std::chrono::milliseconds quiet, std::chrono::milliseconds longest);
+  void StopSimulators();
+  RunResult Judge(const Measured& measured);
+
+  RunnerOptions options_;
+  v1::Scene scene_;
+  std::string world_;
+  std::uint32_t domain_ = 0;
+  std::int64_t start_ns_ = 0;
+  std::string folder_;
+  std::unique_ptr<Observer> observer_;
+  std::unique_ptr<ChildProcess> service_;
+  std::vector<std::unique_ptr<ChildProcess>> simulators_;  // end before the service
+};
+
+}  // namespace collision::client

@@ -1,0 +1,103 @@
+#include "client/simulators/scene_runner/scene_file.h"
+
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
+namespace collision::client {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kSuffix[] = ".textproto";
+
+// Keeps the first error with its line.
+class FirstError : public google::protobuf::io::ErrorCollector {
+ public:
+  explicit FirstError(std::string file) : file_(std::move(file)) {}
+  void AddError(int line, int column, const std::string& message) override {
+    if (!text_.empty()) return;
+    text_ = file_ + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": " + message;
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string file_;
+  std::string text_;
+};
+
+v1::Scene ReadScene(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw std::runtime_error(path + ": no such scene (see --list)");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  FirstError error(path);
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&error);
+  v1::Scene scene;
+  if (!parser.ParseFromString(text, &scene)) throw std::runtime_error(error.text());
+  if (!(scene.seconds() > 0) || !std::isfinite(scene.seconds())) {
+    throw std::runtime_error(path + ": seconds: must be greater than 0");
+  }
+  if (scene.processes().empty()) throw std::runtime_error(path + ": processes: at least one");
+  return scene;
+}
+
+std::string MissingData(const Folders& folders, const v1::Scene& scene) {
+  if (scene.data_file().empty()) return "";
+  if (folders.data.empty()) return "needs the data folder: " + scene.data_file();
+  const fs::path path = fs::path(folders.data) / scene.data_file();
+  return fs::exists(path) ? "" : "needs " + path.string();
+}
+
+}  // namespace
+
+Folders DefaultFolders() {
+  return {COLLISION_SCENES_DIR, COLLISION_DATA_DIR, fs::read_symlink("/proc/self/exe").parent_path()};
+}
+
+v1::Scene LoadScene(const Folders& folders, const std::string& name) {
+  v1::Scene scene = ReadScene((fs::path(folders.scenes) / (name + kSuffix)).string());
+  const std::string missing = MissingData(folders, scene);
+  if (!missing.empty()) throw std::runtime_error("scene " + name + ": " + missing);
+  return scene;
+}
+
+std::string ListScenes(const Folders& folders) {
+  std::set<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folders.scenes)) {
+    if (entry.path().extension() == kSuffix) paths.insert(entry.path());
+  }
+  std::string text;
+  for (const fs::path& path : paths) {
+    const v1::Scene scene = ReadScene(path.string());
+    std::string name = path.stem().string();
+    name.resize(std::max<std::size_t>(name.size(), 16), ' ');
+    const std::string missing = MissingData(folders, scene);
+    text += name + "  " + scene.title() + (missing.empty() ? "" : " (not offered: " + missing + ")") + "\n";
+  }
+  return text;
+}
+
+std::string Substitute(const std::string& text, const std::map<std::string, std::string>& values) {
+  std::string result;
+  std::size_t at = 0;
+  for (;;) {
+    const std::size_t start = text.find("${", at);
+    if (start == std::string::npos) return result + text.substr(at);
+    const std::size_t end = text.find('}', start);
+    const auto value = values.find(text.substr(start + 2, end - start - 2));
+    if (end == std::string::npos || value == values.end()) {
+      throw std::runtime_error("in \"" + text + "\": allowed are ${SECONDS}, ${SCENES}, ${DATA} and ${LOG}");
+    }
+    result += text.substr(at, start - at) + value->second;
+    at = end + 1;
+  }
+}
+
+}  // namespace collision::client

@@ -1,0 +1,50 @@
+#include <cstdarg>
+#include <cstdio>
+
+#include "client/simulators/scene_runner/metrics.h"
+
+namespace collision::client {
+namespace {
+
+[[gnu::format(printf, 2, 3)]] void Row(std::string* text, const char* format, ...) {
+  char line[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line, sizeof line, format, arguments);
+  va_end(arguments);
+  *text += line;
+  *text += '\n';
+}
+
+void WidthRow(std::string* text, const char* what, const v1::Quantiles& widths) {
+  Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms, max %.3g ms (%llu)", what, widths.p50() * 1e3,
+      widths.p99() * 1e3, widths.max() * 1e3, static_cast<unsigned long long>(widths.count()));
+}
+
+}  // namespace
+
+std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& evidence) {
+  const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  std::string text;
+  Row(&text, "\n%s", report.scene().c_str());
+  Row(&text, "  %-30s %.1f s in %.1f s", "simulated, on the wall clock", report.simulated_seconds(),
+      report.wall_seconds());
+  Row(&text, "  %-30s %u", "agents", report.agents());
+  Row(&text, "  %-30s %llu, unannounced %llu", "true contacts", count(report.contacts_true()),
+      count(report.contacts_unannounced()));
+  Row(&text, "  %-30s %llu possible, %llu confirmed, %llu ended", "events", count(report.events_possible()),
+      count(report.events_confirmed()), count(report.events_ended()));
+  Row(&text, "  %-30s %llu dismissed, %llu undecided, %llu withdrawn", "", count(report.events_dismissed()),
+      count(report.events_undecided()), count(report.events_withdrawn()));
+  Row(&text, "  %-30s %.3g", "false alarms per contact", report.false_alarms_per_contact());
+  Row(&text, "  %-30s %.3f", "clear time / true time, median", report.clearance_tightness_median());
+  Row(&text, "  %-30s p50 %.3g ms, p99 %.3g ms", "update to event", report.latency_p50_s() * 1e3,
+      report.latency_p99_s() * 1e3);
+  WidthRow(&text, "begin bracket at confirmation", report.begin_width_s());
+  WidthRow(&text, "begin bracket, final", QuantilesOf(BeginWidthsFinal(evidence)));
+  WidthRow(&text, "end bracket, final", report.end_width_s());
+  Row(&text, "  %-30s %.3g s", "CPU per simulated second", report.cpu_seconds_per_simulated_second());
+  return text;
+}
+
+}  // namespace collision::client

@@ -1,0 +1,149 @@
+#include "client/tools/collisionctl_text.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "client/event_text.h"
+#include "client/types.h"
+
+namespace collision::client {
+namespace {
+
+constexpr std::size_t kLabelColumns = 13;
+
+std::string Line(const std::string& label, const std::string& text) {
+  return Padded(label, kLabelColumns) + text + "\n";
+}
+
+std::string NumberText(double value, const char* format) {
+  char text[48];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// Grants and clearances start at the least instant there is.
+std::string InstantText(std::int64_t instant_ns) {
+  if (instant_ns == std::numeric_limits<std::int64_t>::min()) return "-";
+  const std::string text = SecondsText(instant_ns, 0, 3);
+  return instant_ns == kNever ? text : text + " s";
+}
+
+std::string PositionText(const v1::Vector3& p) {
+  return NumberText(p.x(), "%.3f") + " " + NumberText(p.y(), "%.3f") + " " +
+         NumberText(p.z(), "%.3f");
+}
+
+std::string EarliestText(const WorldView& view) {
+  const auto& earliest = view.earliest();
+  if (!earliest) return "not published yet";
+  if (!earliest->found()) return "never: nobody can touch anybody who is not in contact already";
+  return "not before " + SecondsText(earliest->earliest_ns(), 0, 6) + " s  " +
+         view.Name(earliest->lower()) + " × " + view.Name(earliest->higher());
+}
+
+constexpr const char* kRejected = "rejected_";
+
+/// Counters of refusals, or all others; those that are 0 say nothing.
+std::string CountersText(const v1::ServiceStatus& status, bool rejections) {
+  std::string text;
+  for (const v1::Counter& counter : status.counters()) {
+    const bool is_rejection = counter.name().rfind(kRejected, 0) == 0;
+    if (counter.value() == 0 || is_rejection != rejections) continue;
+    const std::string name =
+        rejections ? counter.name().substr(std::string(kRejected).size()) : counter.name();
+    text += (text.empty() ? "" : ", ") + name + " " + std::to_string(counter.value());
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string SimulatorsTable(const v1::ServiceStatus& status) {
+  std::vector<std::vector<std::string>> rows = {
+      {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
+  for (const v1::SimulatorStatus& simulator : status.simulators()) {
+    rows.push_back({simulator.name(), std::to_string(simulator.run()),
+                    simulator.alive() ? "yes" : "no", InstantText(simulator.clock_ns()),
+                    InstantText(simulator.granted_until_ns()), std::to_string(simulator.agents()),
+                    std::to_string(simulator.states()), std::to_string(simulator.rejected())});
+  }
+  return Table(rows);
+}
+
+std::vector<std::string> AgentRow(const AgentView& agent) {
+  const v1::AgentDescription& description = agent.description;
+  std::vector<std::string> row = {
+      description.simulator_name() + ":" + std::to_string(description.slot()) + "." +
+          std::to_string(description.generation()),
+      description.agent_name(), NumberText(description.radius_m(), "%.6g"),
+      NumberText(description.acceleration_max_m_s2(), "%.6g")};
+  row.push_back(agent.state ? InstantText(agent.state->stamp_ns()) : "-");
+  row.push_back(agent.state ? PositionText(agent.state->position_m()) : "-");
+  if (!agent.clearance) {
+    row.push_back("-");
+  } else {
+    row.push_back(InstantText(agent.clearance->clear_until_ns()) +
+                  (agent.clearance->saturated()   ? " saturated"
+                   : agent.clearance->not_clear() ? " not clear"
+                                                  : ""));
+  }
+  return row;
+}
+
+}  // namespace
+
+std::string StatusPage(const WorldView& view) {
+  const v1::ServiceStatus& status = *view.status();
+  std::string page =
+      Line("service", "collisiond " + status.version() + ", id " +
+                          std::to_string(status.service_id()) + ", term " +
+                          std::to_string(status.stamp().term())) +
+      Line("world", status.world()) +
+      Line("clock", status.simulated_clock() ? "simulated" : "wall") +
+      Line("now", InstantText(status.now_ns())) +
+      Line("agents", std::to_string(status.agents()) + ", " +
+                         std::to_string(status.pairs_tracked()) + " pairs tracked") +
+      Line("earliest", EarliestText(view)) +
+      Line("broad phase", status.broad_phase() + (status.broad_phase_why().empty() ? "" : ": ") +
+                              status.broad_phase_why());
+  std::string label = "left out";
+  for (const std::string& what : status.left_out()) {
+    page += Line(std::exchange(label, ""), what);
+  }
+  page += Line("rejections", CountersText(status, true));
+  page += Line("counters", CountersText(status, false));
+  return page + "\n" + SimulatorsTable(status);
+}
+
+std::string AgentsPage(const WorldView& view) {
+  std::vector<std::vector<std::string>> rows = {
+      {"ID", "NAME", "RADIUS [m]", "M [m/s²]", "STATE AT", "POSITION [m]", "CLEAR UNTIL"}};
+  for (const AgentView& agent : view.Agents()) rows.push_back(AgentRow(agent));
+  return Table(rows);
+}
+
+std::string EarliestPage(const WorldView& view) {
+  std::string page = EarliestText(view) + "\n";
+  if (view.earliest()) page += "as of " + InstantText(view.earliest()->now_ns()) + "\n";
+  return page;
+}
+
+std::string Table(const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths(rows.front().size(), 0);
+  const auto width = [](const std::string& cell) {
+    return std::count_if(cell.begin(), cell.end(), [](char c) { return (c & 0xc0) != 0x80; });
+  };
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      widths[i] = std::max(widths[i], static_cast<std::size_t>(width(row[i])));
+    }
+  }
+  std::string text;
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i + 1 < row.size(); ++i) text += Padded(row[i], widths[i] + 2);
+    text += row.back() + "\n";
+  }
+  return text;
+}
+
+}  // namespace collision::client

@@ -1,0 +1,98 @@
+#include "client/tools/collisionctl_view.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+namespace collision::client {
+
+Monitor::Callbacks WorldView::Callbacks() {
+  Monitor::Callbacks callbacks;
+  callbacks.status = [this](const v1::ServiceStatus& status) { status_ = status; };
+  callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
+  callbacks.event = [this](const v1::CollisionEvent& event) { events_.push_back(event); };
+  callbacks.description = [this](const v1::AgentDescription& message) { Hear(message); };
+  callbacks.removal = [this](const v1::AgentRemoval& removal) {
+    descriptions_.erase({removal.simulator_id(), removal.slot()});
+  };
+  callbacks.states = [this](const v1::AgentStates& message) { Hear(message); };
+  callbacks.clearance = [this](const v1::Clearance& message) { Hear(message); };
+  return callbacks;
+}
+
+std::vector<AgentView> WorldView::Agents() const {
+  std::vector<AgentView> agents;
+  for (const auto& [key, description] : descriptions_) {
+    AgentView& agent = agents.emplace_back();
+    agent.description = description;
+    // What was said of an earlier run, or of an earlier agent in this slot, is of somebody else.
+    const auto take = [&](const auto& said, auto* to) {
+      const auto found = said.find(key);
+      if (found == said.end() || found->second.first != description.run()) return;
+      if (found->second.second.generation() == description.generation()) *to = found->second.second;
+    };
+    take(states_, &agent.state);
+    take(clearances_, &agent.clearance);
+  }
+  return agents;
+}
+
+bool WorldView::knows_all_agents() const {
+  return status_ && descriptions_.size() >= status_->agents();
+}
+
+std::string WorldView::Name(const v1::AgentId& id) const {
+  const auto found = descriptions_.find({id.simulator_id(), id.slot()});
+  if (found != descriptions_.end() && found->second.run() == id.run() &&
+      found->second.generation() == id.generation()) {
+    return found->second.agent_name();
+  }
+  return SimulatorName(id.simulator_id()) + ":" + std::to_string(id.slot());
+}
+
+std::vector<v1::CollisionEvent> WorldView::TakeEvents() {
+  const auto order = [](const v1::CollisionEvent& event) {
+    const v1::ServiceStamp& stamp = event.stamp();
+    return std::tuple(stamp.term(), event.now_ns(), stamp.sequence());
+  };
+  std::stable_sort(events_.begin(), events_.end(),
+                   [&](const auto& a, const auto& b) { return order(a) < order(b); });
+  return std::exchange(events_, {});
+}
+
+void WorldView::Hear(const v1::AgentDescription& description) {
+  const Key first{description.simulator_id(), 0};
+  // A simulator that starts anew leaves its former agents behind.
+  for (auto agent = descriptions_.lower_bound(first);
+       agent != descriptions_.end() && agent->first.first == first.first;) {
+    agent = agent->second.run() < description.run() ? descriptions_.erase(agent) : std::next(agent);
+  }
+  descriptions_[{description.simulator_id(), description.slot()}] = description;
+}
+
+void WorldView::Hear(const v1::AgentStates& states) {
+  for (const v1::AgentState& state : states.states()) {
+    states_[{states.simulator_id(), state.slot()}] = {states.run(), state};
+  }
+}
+
+void WorldView::Hear(const v1::Clearance& clearance) {
+  for (const v1::AgentClearance& agent : clearance.agents()) {
+    clearances_[{clearance.simulator_id(), agent.slot()}] = {clearance.run(), agent};
+  }
+}
+
+std::string WorldView::SimulatorName(std::uint64_t id) const {
+  if (status_) {
+    for (const v1::SimulatorStatus& simulator : status_->simulators()) {
+      if (simulator.simulator_id() == id && !simulator.name().empty()) return simulator.name();
+    }
+  }
+  char text[20];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(id));
+  return text;
+}
+
+}  // namespace collision::client

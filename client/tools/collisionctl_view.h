@@ -1,0 +1,63 @@
+// Everything a monitor has heard of one world, put together.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/monitor.h"
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// One agent, as far as known.
+struct AgentView {
+  v1::AgentDescription description;
+  std::optional<v1::AgentState> state;
+  std::optional<v1::AgentClearance> clearance;
+};
+
+/// Takes messages in any order and keeps the newest of each kind. The callbacks refer to the view:
+/// it must outlive the monitor that has them, and stay where it is.
+class WorldView {
+ public:
+  WorldView() = default;
+  WorldView(const WorldView&) = delete;
+  WorldView& operator=(const WorldView&) = delete;
+
+  Monitor::Callbacks Callbacks();
+
+  const std::optional<v1::ServiceStatus>& status() const { return status_; }
+  const std::optional<v1::EarliestIntersection>& earliest() const { return earliest_; }
+
+  /// All described agents, by simulator and slot.
+  std::vector<AgentView> Agents() const;
+
+  /// Does it know every agent that the service says it has?
+  bool knows_all_agents() const;
+
+  /// The agent's name; "simulator:slot" while it is not described.
+  std::string Name(const v1::AgentId& id) const;
+
+  /// The events that came since the last call, in the order in which the service said them.
+  std::vector<v1::CollisionEvent> TakeEvents();
+
+ private:
+  using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot.
+
+  void Hear(const v1::AgentDescription& description);
+  void Hear(const v1::AgentStates& states);
+  void Hear(const v1::Clearance& clearance);
+  std::string SimulatorName(std::uint64_t id) const;
+
+  std::optional<v1::ServiceStatus> status_;
+  std::optional<v1::EarliestIntersection> earliest_;
+  std::map<Key, v1::AgentDescription> descriptions_;
+  std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;          ///< With their run.
+  std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
+  std::vector<v1::CollisionEvent> events_;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,23 @@
+#include "client/types.h"
+
+namespace collision::client {
+
+const char* Name(EventStatus status) {
+  switch (status) {
+    case EventStatus::kPossible:
+      return "possible";
+    case EventStatus::kConfirmed:
+      return "confirmed";
+    case EventStatus::kDismissed:
+      return "dismissed";
+    case EventStatus::kUndecided:
+      return "undecided";
+    case EventStatus::kWithdrawn:
+      return "withdrawn";
+    case EventStatus::kEnded:
+      return "ended";
+  }
+  return "unknown";
+}
+
+}  // namespace collision::client

@@ -1,0 +1,218 @@
+#include "client/world_implementation.h"
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "client/conversion.h"
+#include "client/deadline.h"
+#include "client/validation.h"
+#include "idl/identity.h"
+
+namespace collision::client {
+namespace {
+
+std::uint32_t SecondsSince1970() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::seconds>(now).count());
+}
+
+template <typename T>
+std::vector<T> TakeAll(std::deque<T>* queue) {
+  std::vector<T> all(std::move_iterator(queue->begin()), std::move_iterator(queue->end()));
+  queue->clear();
+  return all;
+}
+
+/// True while it lives, also if the callback throws.
+class Raised {
+ public:
+  explicit Raised(bool* flag) : flag_(flag) { *flag_ = true; }
+  ~Raised() { *flag_ = false; }
+  Raised(const Raised&) = delete;
+  Raised& operator=(const Raised&) = delete;
+
+ private:
+  bool* flag_;
+};
+
+}  // namespace
+
+World::Implementation::Implementation(const WorldOptions& options,
+                                      std::unique_ptr<Transport> transport)
+    : simulator_id_(SimulatorId(options.simulator)),
+      run_(options.run != 0 ? options.run : SecondsSince1970()),
+      lock_step_(options.lock_step),
+      transport_(std::move(transport)),
+      fleet_(options.simulator, simulator_id_, run_, options.chunk_size) {}
+
+bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
+  RequireOutsideCallback("WaitForService()");
+  const Deadline deadline(timeout);
+  while (!transport_->service_alive()) {
+    const auto remaining = deadline.Remaining();
+    if (remaining.count() == 0) return false;
+    Gather(remaining);
+  }
+  return true;
+}
+
+AgentId World::Implementation::AddAgent(const AgentDescription& description, const State& state) {
+  Validate(description);
+  Validate(state);
+  const AgentId id = fleet_.Add(description, state);
+  WriteDescription(id);
+  return id;
+}
+
+void World::Implementation::SetState(const AgentId& id, const State& state) {
+  Validate(state);
+  fleet_.Stage(id, state);
+}
+
+void World::Implementation::SetDescription(const AgentId& id, const AgentDescription& description) {
+  Validate(description);
+  fleet_.Describe(id, description);
+  WriteDescription(id);
+}
+
+void World::Implementation::RemoveAgent(const AgentId& id) {
+  v1::Input message;
+  *message.mutable_agent_removal() = fleet_.Remove(id);
+  transport_->Write(message);
+  transport_->Flush();
+}
+
+void World::Implementation::Publish(std::int64_t clock_ns) {
+  RequireForward(clock_ns);
+  if (clock_published_ && clock_ns > Reachable()) {
+    throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) +
+                                ", allowed: <= " + std::to_string(Reachable()) + ", as granted");
+  }
+  Tell(clock_ns);
+}
+
+Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout) {
+  RequireOutsideCallback("AdvanceTo()");
+  RequireForward(clock_ns);
+  const Deadline deadline(timeout);
+  Poll(std::chrono::nanoseconds(0));
+  while (!closed_) {
+    Tell(std::min(clock_ns, Reachable()));
+    if (clock_ns_ >= clock_ns) return Advance::kReached;
+    const auto remaining = deadline.Remaining();
+    if (remaining.count() == 0) break;
+    Poll(remaining);
+  }
+  return Advance::kTimeout;
+}
+
+void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
+  RequireOutsideCallback("Poll()");
+  Gather(timeout);
+  Deliver();
+}
+
+std::vector<Event> World::Implementation::TakeEvents() { return TakeAll(&events_); }
+
+std::vector<Rejection> World::Implementation::TakeRejections() { return TakeAll(&rejections_); }
+
+void World::Implementation::RequireOutsideCallback(const char* function) const {
+  if (in_callback_) throw std::logic_error(std::string(function) + " called inside a callback");
+}
+
+void World::Implementation::RequireForward(std::int64_t clock_ns) const {
+  ValidateClock(clock_ns);
+  if (!clock_published_ || clock_ns >= clock_ns_) return;
+  throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) + ", allowed: >= " +
+                              std::to_string(clock_ns_) + ", the last clock published");
+}
+
+std::int64_t World::Implementation::Reachable() const {
+  if (!lock_step_) return kNever;
+  // A run starts at 0 without asking, and what has been published stands.
+  return std::max({granted_until_ns_, clock_ns_, std::int64_t{0}});
+}
+
+void World::Implementation::Tell(std::int64_t clock_ns) {
+  if (clock_published_ && clock_ns == clock_ns_ && !fleet_.HasNews(clock_ns)) return;
+  v1::Input message;
+  for (v1::AgentStates& chunk : fleet_.Tell(clock_ns)) {
+    *message.mutable_agent_states() = std::move(chunk);
+    transport_->Write(message);
+  }
+  *message.mutable_simulator_clock() = fleet_.Clock(clock_ns, lock_step_);
+  transport_->Write(message);
+  transport_->Flush();
+  clock_ns_ = clock_ns;
+  clock_published_ = true;
+}
+
+void World::Implementation::WriteDescription(const AgentId& id) {
+  v1::Input message;
+  *message.mutable_agent_description() = fleet_.description(id);
+  transport_->Write(message);
+}
+
+void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
+  transport_->Flush();  // Descriptions may wait.
+  Arrivals arrivals;
+  transport_->Receive(timeout, &arrivals);
+  for (const v1::Output& output : arrivals.outputs) Hear(output);
+  if (on_event_) return;
+  while (events_.size() > kEventsMax) {
+    events_.pop_front();
+    ++events_lost_;
+  }
+}
+
+void World::Implementation::Hear(const v1::Output& output) {
+  switch (output.message_case()) {
+    case v1::Output::kClearance:
+      if (news_.IsCurrent(output.clearance().stamp())) Hear(output.clearance());
+      break;
+    case v1::Output::kCollisionEvent:
+      if (news_.IsCurrent(output.collision_event().stamp())) Hear(output.collision_event());
+      break;
+    case v1::Output::kRejection: {
+      const v1::Rejection& rejection = output.rejection();
+      if (rejection.simulator_id() != simulator_id_ || rejection.run() != run_) break;
+      if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
+      rejections_.push_back(FromMessage(rejection));
+      break;
+    }
+    case v1::Output::kServiceStatus:
+      news_.IsCurrent(output.service_status().stamp());
+      break;
+    default:
+      break;
+  }
+}
+
+void World::Implementation::Hear(const v1::Clearance& clearance) {
+  if (clearance.simulator_id() != simulator_id_ || clearance.run() != run_) return;
+  granted_until_ns_ = std::max(granted_until_ns_, clearance.granted_until_ns());
+  for (const v1::AgentClearance& agent : clearance.agents()) fleet_.Hear(agent);
+}
+
+void World::Implementation::Hear(const v1::CollisionEvent& event) {
+  if (!IsOwn(event.lower()) && !IsOwn(event.higher())) return;
+  if (news_.IsNew(event)) events_.push_back(FromMessage(event));
+}
+
+bool World::Implementation::IsOwn(const v1::AgentId& id) const {
+  return id.simulator_id() == simulator_id_ && id.run() == run_;
+}
+
+void World::Implementation::Deliver() {
+  while (on_event_ && !closed_ && !events_.empty()) {
+    const Event event = std::move(events_.front());
+    events_.pop_front();
+    const auto callback = on_event_;  // It may replace itself.
+    const Raised raised(&in_callback_);
+    callback(event);
+  }
+}
+
+}  // namespace collision::client
