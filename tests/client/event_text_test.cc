@@ -1,0 +1,89 @@
+// Goal:   a line says what the event says, rounded outward, in columns.
+// Method: whole lines compared; instants at the ends of their range.
+#include "client/event_text.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "client/types.h"
+
+namespace collision::client {
+namespace {
+
+std::string NameOf(const v1::AgentId& id) { return id.slot() == 0 ? "iridium-33" : "cosmos-2251"; }
+
+v1::CollisionEvent Confirmed() {
+  v1::CollisionEvent event;
+  event.set_now_ns(599'734'999'999);
+  event.mutable_higher()->set_slot(1);
+  event.set_contact(1);
+  event.set_revision(3);
+  event.set_status(v1::EVENT_CONFIRMED);
+  event.mutable_begin()->set_earliest_ns(599'734'236'999);
+  event.mutable_begin()->set_latest_ns(599'734'369'001);
+  event.mutable_end()->set_earliest_ns(599'734'369'001);
+  event.mutable_end()->set_latest_ns(kNever);
+  event.set_evaluated_at_ns(599'734'370'000);
+  event.mutable_separation_m()->set_lower(-3);
+  event.mutable_separation_m()->set_upper(-0.1234);
+  return event;
+}
+
+TEST(EventText, AConfirmedEvent) {
+  EXPECT_EQ(EventLine(Confirmed(), NameOf, 0),
+            "    599.734 s  confirmed  iridium-33 × cosmos-2251      #1 r3  "
+            "begin [599.734236, 599.734370]  end open  gap ≤ -0.123 m");
+}
+
+TEST(EventText, APossibleEventWithOpenBeginOnAWallClock) {
+  v1::CollisionEvent event = Confirmed();
+  event.set_status(v1::EVENT_POSSIBLE);
+  event.mutable_begin()->set_latest_ns(kNever);
+  event.mutable_separation_m()->set_lower(0.012345);
+  event.mutable_separation_m()->set_upper(1234.5);
+  EXPECT_EQ(EventLine(event, NameOf, 599'000'000'000),
+            "      0.734 s  possible   iridium-33 × cosmos-2251      #1 r3  "
+            "begin [0.734236, open]  end open  gap [0.0123, 1.24e+03] m");
+}
+
+TEST(EventText, AnEndSaysWhatIsKnownOfIt) {
+  v1::CollisionEvent event = Confirmed();
+  event.clear_separation_m();
+  event.mutable_end()->set_earliest_ns(599'734'400'000);
+  EXPECT_NE(EventLine(event, NameOf, 0).find("  end ≥ 599.734400"), std::string::npos);
+  event.mutable_end()->set_latest_ns(599'857'266'001);
+  const std::string line = EventLine(event, NameOf, 0);
+  EXPECT_EQ(line.substr(line.find("  end")), "  end [599.734400, 599.857267]");
+}
+
+TEST(EventText, SecondsRoundTheWayAskedForAtAnyInstant) {
+  constexpr auto kLeast = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(SecondsText(1'999'999'999, 0, 3, Rounding::kDown), "1.999");
+  EXPECT_EQ(SecondsText(1'999'000'001, 0, 3, Rounding::kUp), "2.000");
+  EXPECT_EQ(SecondsText(1'999'000'000, 0, 3, Rounding::kUp), "1.999");
+  EXPECT_EQ(SecondsText(-1, 0, 3, Rounding::kDown), "-0.001");
+  EXPECT_EQ(SecondsText(-1, 0, 3, Rounding::kUp), "0.000");
+  EXPECT_EQ(SecondsText(1'500'000'000, 0, 0, Rounding::kUp), "2");
+  EXPECT_EQ(SecondsText(5, 0, 9), "0.000000005");
+  EXPECT_EQ(SecondsText(kNever, 5, 3), "never");
+  EXPECT_EQ(SecondsText(kNever - 1, kLeast, 9), "18446744073.709551614");
+  EXPECT_EQ(SecondsText(kLeast, kNever, 9), "-18446744073.709551615");
+}
+
+TEST(EventText, PaddingCountsCharacters) {
+  EXPECT_EQ(Padded("a×b", 5), "a×b  ");
+  EXPECT_EQ(Padded("long", 2), "long");
+}
+
+TEST(EventText, EveryStatusHasAName) {
+  EXPECT_STREQ(StatusText(v1::EVENT_POSSIBLE), "possible");
+  EXPECT_STREQ(StatusText(v1::EVENT_CONFIRMED), "confirmed");
+  EXPECT_STREQ(StatusText(v1::EVENT_DISMISSED), "dismissed");
+  EXPECT_STREQ(StatusText(v1::EVENT_UNDECIDED), "undecided");
+  EXPECT_STREQ(StatusText(v1::EVENT_WITHDRAWN), "withdrawn");
+  EXPECT_STREQ(StatusText(v1::EVENT_ENDED), "ended");
+}
+
+}  // namespace
+}  // namespace collision::client

@@ -1,0 +1,96 @@
+// A bus and a clock whose every step the test writes.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/bus.h"
+#include "server/clock.h"
+#include "server/config.h"
+#include "server/daemon.h"
+
+namespace collision::server {
+
+class ScriptedBus final : public Bus, public Clock {
+ public:
+  bool Receive(std::chrono::nanoseconds timeout, std::size_t,
+               std::vector<v1::Input>* inputs) override {
+    timeout_ns = timeout.count();
+    *inputs = std::exchange(next, {});
+    return !ended;
+  }
+  void Publish(const v1::Output& output) override { outputs.push_back(output); }
+  void Flush() override { ++flushes; }
+  void Wake() override { woken = true; }
+  ClockReading Read() override { return {.wall_ns = wall_ns, .monotonic_ns = monotonic_ns}; }
+
+  std::vector<v1::Input> next;
+  std::vector<v1::Output> outputs;
+  std::int64_t wall_ns = 1'700'000'000'000'000'000;
+  std::int64_t monotonic_ns = 0;
+  std::int64_t timeout_ns = -1;
+  int flushes = 0;
+  bool ended = false;
+  bool woken = false;
+};
+
+/// A daemon on a scripted bus.
+class ScriptedDaemon {
+ public:
+  explicit ScriptedDaemon(v1::Config config, BatchSink* recorder = nullptr)
+      : daemon_(CompleteConfig(std::move(config)), bus_, bus_, recorder) {}
+
+  /// One step `seconds` later with these inputs.
+  void Step(std::vector<v1::Input> inputs, double seconds = 0) {
+    bus_.monotonic_ns += static_cast<std::int64_t>(seconds * 1e9);
+    bus_.next = std::move(inputs);
+    if (!daemon_.Step()) throw std::logic_error("the daemon has ended");
+  }
+
+  ScriptedBus& bus() { return bus_; }
+  Daemon& daemon() { return daemon_; }
+
+  std::vector<v1::Rejection> rejections() const {
+    std::vector<v1::Rejection> all;
+    for (const v1::Output& output : bus_.outputs) {
+      if (output.has_rejection()) all.push_back(output.rejection());
+    }
+    return all;
+  }
+
+  /// The newest clearance sample of a chunk; throws if there is none.
+  v1::Clearance clearance(std::uint64_t simulator_id, std::uint32_t chunk = 0) const {
+    for (auto output = bus_.outputs.rbegin(); output != bus_.outputs.rend(); ++output) {
+      if (!output->has_clearance()) continue;
+      const v1::Clearance& clearance = output->clearance();
+      if (clearance.simulator_id() == simulator_id && clearance.chunk() == chunk) return clearance;
+    }
+    throw std::logic_error("no clearance was published");
+  }
+
+  /// A status of now: a period later.
+  v1::ServiceStatus status() {
+    Step({}, 1);
+    for (auto output = bus_.outputs.rbegin(); output != bus_.outputs.rend(); ++output) {
+      if (output->has_service_status()) return output->service_status();
+    }
+    throw std::logic_error("no status was published");
+  }
+
+  std::uint64_t counter(const std::string& name) {
+    const v1::ServiceStatus now = status();
+    for (const v1::Counter& counter : now.counters()) {
+      if (counter.name() == name) return counter.value();
+    }
+    throw std::logic_error("no counter " + name);
+  }
+
+ private:
+  ScriptedBus bus_;
+  Daemon daemon_;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,78 @@
+#include "server/status.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/server/messages.h"
+#include "tests/server/scripted_bus.h"
+
+namespace collision::server {
+namespace {
+
+v1::Config Simulated() {
+  v1::Config config;
+  config.set_world("harbour");
+  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  return config;
+}
+
+// Goal:   a status names the world, its simulators, what was counted, the method and the event log,
+// each
+//         counter once, within the bounds of collision.idl.
+TEST(Status, TellsWhatTheServiceKnows) {
+  ScriptedDaemon daemon(Simulated());
+  daemon.Step({From(1, Description("alpha", 0)), From(1, State(0, 0, 1), "alpha"),
+               From(1, ClockOf("alpha", 0))});
+  const v1::ServiceStatus status = daemon.status();
+  EXPECT_EQ(status.world(), "harbour");
+  EXPECT_TRUE(status.simulated_clock());
+  EXPECT_EQ(status.agents(), 1u);
+  EXPECT_EQ(status.service_id(), 1u);
+  EXPECT_FALSE(status.version().empty());
+  EXPECT_FALSE(status.broad_phase().empty());
+  ASSERT_EQ(status.simulators_size(), 1);
+  EXPECT_EQ(status.simulators(0).name(), "alpha");
+  EXPECT_TRUE(status.simulators(0).alive());
+  EXPECT_EQ(status.simulators(0).agents(), 1u);
+  EXPECT_EQ(status.simulators(0).states(), 1u);
+  EXPECT_EQ(status.simulators(0).granted_until_ns(), 10'000'000'000);
+  EXPECT_LE(status.counters_size(), 96);
+  std::set<std::string> names;
+  for (const v1::Counter& counter : status.counters()) {
+    EXPECT_TRUE(names.insert(counter.name()).second) << counter.name();
+    EXPECT_LE(counter.name().size(), 64u);
+  }
+  for (const char* name : {"events_possible", "events_ended", "rejected_not_finite", "breaches",
+                           "states_older", "states_repeated", "queries", "batches"}) {
+    EXPECT_TRUE(names.contains(name)) << name;
+  }
+  ASSERT_EQ(status.extensions_size(), 2);
+  EXPECT_EQ(status.extensions(0).key(), "event_log_count");
+  EXPECT_EQ(status.extensions(1).value(), "cbf29ce484222325");
+}
+
+// Goal:   a status comes at once when who is there changes, else once per period.
+TEST(Status, ComesWhenSomethingChangesAndOncePerPeriod) {
+  ScriptedDaemon daemon(Simulated());
+  const auto count = [&daemon] {
+    int statuses = 0;
+    for (const v1::Output& output : daemon.bus().outputs) statuses += output.has_service_status();
+    return statuses;
+  };
+  daemon.Step({});
+  EXPECT_EQ(count(), 1);
+  daemon.Step({}, 0.4);
+  EXPECT_EQ(count(), 1);
+  daemon.Step({From(1, Description("alpha", 0))});
+  EXPECT_EQ(count(), 2);
+  daemon.Step({From(1, State(0, 0, 1), "alpha")}, 0.4);
+  EXPECT_EQ(count(), 2);
+  daemon.Step({Liveliness(1, "alpha", false)});
+  EXPECT_EQ(count(), 3);
+  daemon.Step({}, 0.5);
+  EXPECT_EQ(count(), 4);
+}
+
+}  // namespace
+}  // namespace collision::server

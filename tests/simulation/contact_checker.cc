@@ -1,0 +1,166 @@
+#include "tests/simulation/contact_checker.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace collision::server {
+namespace {
+
+using PairKey = std::tuple<AgentId, AgentId>;
+
+/// One contact as the service told it: the first time it spoke of it, and its last word.
+struct Story {
+  std::int64_t first_now_ns = 0;
+  v1::CollisionEvent last;
+};
+
+struct Body {
+  AgentId id;
+  const SimulatedAgent* agent;
+};
+
+AgentId ToId(const v1::AgentId& wire) {
+  return {wire.simulator_id(), wire.slot(), wire.run(), wire.generation()};
+}
+
+std::map<PairKey, std::map<std::uint32_t, Story>> StoriesOf(
+    const std::vector<v1::Output>& published) {
+  std::map<PairKey, std::map<std::uint32_t, Story>> stories;
+  for (const v1::Output& output : published) {
+    if (!output.has_collision_event()) continue;
+    const v1::CollisionEvent& event = output.collision_event();
+    auto& contacts = stories[{ToId(event.lower()), ToId(event.higher())}];
+    const auto [story, added] = contacts.try_emplace(event.contact());
+    if (added) story->second.first_now_ns = event.now_ns();
+    story->second.last = event;
+  }
+  return stories;
+}
+
+bool Confirmed(const v1::CollisionEvent& event) {
+  return event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
+}
+
+bool Holds(const v1::TimeBracket& bracket, std::int64_t t_ns, std::int64_t tolerance_ns) {
+  return bracket.earliest_ns() <= t_ns + tolerance_ns && t_ns - tolerance_ns <= bracket.latest_ns();
+}
+
+std::string Show(const Body& a, const Body& b, const Meeting& meeting) {
+  return "slots " + std::to_string(a.id.slot) + " and " + std::to_string(b.id.slot) +
+         " touch in [" + std::to_string(meeting.begin_ns) + ", " + std::to_string(meeting.end_ns) +
+         "] ns, " + std::to_string(meeting.depth) + " m deep";
+}
+
+/// The story that covers the meeting: its begin bracket, or all that is not certified free, holds
+/// the begin.
+const Story* Find(const std::map<std::uint32_t, Story>& stories, const Meeting& meeting,
+                  std::int64_t tolerance_ns) {
+  for (const auto& [contact, story] : stories) {
+    const v1::CollisionEvent& event = story.last;
+    if (event.status() == v1::EVENT_DISMISSED) continue;
+    if (Confirmed(event) ? Holds(event.begin(), meeting.begin_ns, tolerance_ns)
+                         : event.begin().earliest_ns() <= meeting.begin_ns + tolerance_ns &&
+                               meeting.begin_ns - tolerance_ns <= event.end().latest_ns()) {
+      return &story;
+    }
+  }
+  return nullptr;
+}
+
+void CheckMeeting(const Body& a, const Body& b, const Meeting& meeting,
+                  const std::map<std::uint32_t, Story>& stories, const CheckerOptions& options,
+                  CheckerResult* result) {
+  const auto violate = [&](const std::string& what) {
+    result->violations.push_back(Show(a, b, meeting) + ": " + what);
+  };
+  ++result->contacts;
+  const Story* story = Find(stories, meeting, options.time_tolerance_ns);
+  if (story == nullptr) {
+    // What began by a jump or an admission begins for the service when it saw it.
+    if (meeting.begins_in_motion) violate("no event holds its begin");
+    return;
+  }
+  if (meeting.begins_in_motion &&
+      story->first_now_ns > meeting.begin_ns + options.time_tolerance_ns) {
+    violate("announced only at " + std::to_string(story->first_now_ns));
+  }
+  if (!Confirmed(story->last)) return;
+  ++result->confirmed;
+  const v1::TimeBracket& begin = story->last.begin();
+  result->begin_width_greatest =
+      std::max(result->begin_width_greatest,
+               static_cast<double>(begin.latest_ns() - begin.earliest_ns()) * 1e-9);
+  if (meeting.ends_in_motion && story->last.status() == v1::EVENT_ENDED &&
+      !Holds(story->last.end(), meeting.end_ns, options.time_tolerance_ns)) {
+    violate("its end is not in [" + std::to_string(story->last.end().earliest_ns()) + ", " +
+            std::to_string(story->last.end().latest_ns()) + "]");
+  }
+}
+
+/// A confirmed event without a meeting that touches its certified part is false.
+void CheckConfirmed(const Body& a, const Body& b, const std::vector<Meeting>& meetings,
+                    const std::map<std::uint32_t, Story>& stories, CheckerResult* result) {
+  for (const auto& [contact, story] : stories) {
+    if (!Confirmed(story.last)) continue;
+    const std::int64_t certified = story.last.begin().latest_ns();
+    const bool is_true = std::any_of(meetings.begin(), meetings.end(), [&](const Meeting& m) {
+      return m.begin_ns - 100 <= certified && certified <= m.end_ns + 100;
+    });
+    if (is_true) continue;
+    result->violations.push_back("slots " + std::to_string(a.id.slot) + " and " +
+                                 std::to_string(b.id.slot) + ": confirmed in contact at " +
+                                 std::to_string(certified) + ", and are not");
+  }
+}
+
+}  // namespace
+
+CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simulators,
+                            const std::vector<v1::Output>& published, std::int64_t end_ns,
+                            const CheckerOptions& options) {
+  CheckerResult result;
+  const auto stories = StoriesOf(published);
+  std::vector<Body> bodies;
+  for (const SimulatedSimulator* simulator : simulators) {
+    for (std::uint32_t slot = 0; slot < simulator->agents().size(); ++slot) {
+      bodies.push_back({simulator->AgentAt(slot), &simulator->agents()[slot]});
+    }
+  }
+  std::sort(bodies.begin(), bodies.end(), [](const Body& a, const Body& b) { return a.id < b.id; });
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+      const Body &a = bodies[i], &b = bodies[j];
+      const std::int64_t from = std::max(a.agent->from_ns, b.agent->from_ns);
+      const std::int64_t to = std::min({a.agent->until_ns, b.agent->until_ns, end_ns});
+      const std::vector<Meeting> meetings =
+          Meetings(a.agent->motion, b.agent->motion, a.agent->radius + b.agent->radius, from, to);
+      const auto found = stories.find({a.id, b.id});
+      const auto& told = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
+      for (const Meeting& meeting : meetings) {
+        if (meeting.depth < options.grazing) continue;
+        CheckMeeting(a, b, meeting, told, options, &result);
+      }
+      CheckConfirmed(a, b, meetings, told, &result);
+    }
+  }
+  return result;
+}
+
+std::vector<int> CountStatuses(const std::vector<v1::Output>& published) {
+  std::vector<int> counts(v1::EventStatus_ARRAYSIZE, 0);
+  std::map<std::tuple<AgentId, AgentId, std::uint32_t>, v1::EventStatus> last;
+  for (const v1::Output& output : published) {
+    if (!output.has_collision_event()) continue;
+    const v1::CollisionEvent& event = output.collision_event();
+    const auto [known, added] = last.try_emplace(
+        {ToId(event.lower()), ToId(event.higher()), event.contact()}, event.status());
+    if (!added && known->second == event.status()) continue;
+    known->second = event.status();
+    ++counts[event.status()];
+  }
+  return counts;
+}
+
+}  // namespace collision::server

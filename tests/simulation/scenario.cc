@@ -1,0 +1,74 @@
+#include "tests/simulation/scenario.h"
+
+#include <stdexcept>
+#include <utility>
+
+namespace collision::server {
+
+v1::Config ConfigFor(std::size_t simulators) {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_simulators_awaited(static_cast<std::uint32_t>(simulators));
+  return CompleteConfig(config);
+}
+
+Scenario::Scenario(const v1::Config& config, const NetworkOptions& network)
+    : config_(config), network_(network), clock_(&network_) {}
+
+SimulatedSimulator& Scenario::Add(const SimulatorOptions& options,
+                                  std::vector<SimulatedAgent> agents) {
+  simulators_.push_back(
+      std::make_unique<SimulatedSimulator>(options, std::move(agents), &network_));
+  return *simulators_.back();
+}
+
+void Scenario::StartService(BatchSink* recorder) {
+  earlier_ = published();
+  daemon_.reset();
+  bus_.reset();
+  bus_ = std::make_unique<SimulatedBus>(&network_);
+  daemon_ = std::make_unique<Daemon>(config_, *bus_, clock_, recorder);
+}
+
+void Scenario::Run(std::int64_t until_ns) {
+  while (network_.now_ns() < until_ns && daemon_->Step()) {
+  }
+}
+
+std::vector<v1::Output> Scenario::published() const {
+  std::vector<v1::Output> all = earlier_;
+  if (bus_) all.insert(all.end(), bus_->published().begin(), bus_->published().end());
+  return all;
+}
+
+std::vector<v1::CollisionEvent> Scenario::events() const {
+  std::vector<v1::CollisionEvent> events;
+  for (const v1::Output& output : published()) {
+    if (output.has_collision_event()) events.push_back(output.collision_event());
+  }
+  return events;
+}
+
+v1::ServiceStatus Scenario::status() const {
+  const auto& outputs = bus_->published();
+  for (auto output = outputs.rbegin(); output != outputs.rend(); ++output) {
+    if (output->has_service_status()) return output->service_status();
+  }
+  throw std::logic_error("no status was published");
+}
+
+std::uint64_t Scenario::counter(const std::string& name) const {
+  const v1::ServiceStatus newest = status();
+  for (const v1::Counter& counter : newest.counters()) {
+    if (counter.name() == name) return counter.value();
+  }
+  throw std::logic_error("no counter " + name);
+}
+
+std::vector<const SimulatedSimulator*> Scenario::simulators() const {
+  std::vector<const SimulatedSimulator*> all;
+  for (const auto& simulator : simulators_) all.push_back(simulator.get());
+  return all;
+}
+
+}  // namespace collision::server

@@ -1,0 +1,121 @@
+#include "tests/source/include_rules.h"
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+namespace collision::source {
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// Files under `folder` may include ours only from `ours`. The first folder that fits counts.
+struct Layer {
+  std::string folder;
+  Names ours;
+};
+
+const std::vector<Layer>& Layers() {
+  static const std::string core = "collision_core/";
+  static const std::vector<Layer> layers = {
+      {core + "numeric/", {core + "numeric/"}},
+      {core + "motion/", {core + "numeric/", core + "motion/"}},
+      {core + "shape/", {core + "numeric/", core + "motion/", core + "shape/"}},
+      {core + "broad_phase/",
+       {core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/"}},
+      {core + "narrow_phase/",
+       {core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/",
+        core + "narrow_phase/"}},
+      {core, {core}},
+      {"idl/", {"idl/"}},
+      {"server/", {core, "idl/", "server/"}},
+      {"client/world.h", {"client/types.h"}},
+      {"client/monitor.h", {"client/types.h"}},
+      {"client/types.h", {}},
+      {"client/", {"idl/", "client/"}},
+      {"tests/", {core, "idl/", "server/", "client/", "tests/"}},
+  };
+  return layers;
+}
+
+bool StartsWith(const std::string& text, const std::string& start) {
+  return text.rfind(start, 0) == 0;
+}
+
+bool StartsWithAny(const std::string& text, const Names& starts) {
+  return std::any_of(starts.begin(), starts.end(),
+                     [&](const auto& start) { return StartsWith(text, start); });
+}
+
+/// A header of the C++ standard library has no folder and no ending.
+bool IsStandard(const std::string& name) { return name.find_first_of("/.") == std::string::npos; }
+
+/// What the core may have of the standard library: no files, threads, clocks or output.
+bool IsForCore(const std::string& name) {
+  static const Names refused = {"atomic", "chrono",       "condition_variable",
+                                "ctime",  "filesystem",   "fstream",
+                                "future", "iostream",     "mutex",
+                                "random", "shared_mutex", "thread"};
+  return StartsWith(name, "Eigen/") ||
+         (IsStandard(name) && std::find(refused.begin(), refused.end(), name) == refused.end());
+}
+
+/// Cyclone DDS itself, and what idlc makes of collision.idl.
+bool IsDds(const std::string& name) {
+  return StartsWith(name, "dds/") || StartsWith(name, "ddsc/") || name == "collision.h" ||
+         name == "idl/collision.h";
+}
+
+bool IsPublicClientHeader(const std::string& path) {
+  return path == "client/world.h" || path == "client/monitor.h" || path == "client/types.h";
+}
+
+std::string Complaint(const std::string& path, const Include& include) {
+  if (IsDds(include.name)) {
+    return StartsWithAny(path, {"idl/dds/", "tests/idl/"}) ? "" : "only idl/dds knows DDS";
+  }
+  if (!include.quoted) {
+    if (StartsWith(path, "collision_core/") && !IsForCore(include.name)) {
+      return "the core has nothing but Eigen and the standard library, without files, threads and "
+             "clocks";
+    }
+    if (IsPublicClientHeader(path) && !IsStandard(include.name)) {
+      return "users of the client see nothing but the standard library";
+    }
+    return "";
+  }
+  for (const Layer& layer : Layers()) {
+    if (!StartsWith(path, layer.folder)) continue;
+    return StartsWithAny(include.name, layer.ours) ? "" : "not from " + layer.folder;
+  }
+  return "belongs to no layer";
+}
+
+}  // namespace
+
+std::vector<Include> Includes(const std::string& text) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*([<"])([^">]+)[">])");
+  std::vector<Include> includes;
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    std::smatch match;
+    if (std::regex_search(line, match, pattern)) {
+      includes.push_back({number, match[2], match[1] == "\""});
+    }
+  }
+  return includes;
+}
+
+std::vector<std::string> Violations(const std::string& path, const std::string& text) {
+  std::vector<std::string> violations;
+  for (const Include& include : Includes(text)) {
+    const std::string complaint = Complaint(path, include);
+    if (complaint.empty()) continue;
+    violations.push_back(path + ":" + std::to_string(include.line) + ": includes " + include.name +
+                         ": " + complaint);
+  }
+  return violations;
+}
+
+}  // namespace collision::source

@@ -1,0 +1,70 @@
+// Goal:   files stay readable, finished, and free of the machine they were written on.
+// Method: read every file of the project; each finding is first tried on a text that has it.
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "tests/source/source_tree.h"
+
+namespace collision::source {
+namespace {
+
+constexpr int kLinesMax = 450;
+
+// Built from pieces, so that this file does not find itself.
+const std::string kLeftovers = std::string("\\b(TO") + "DO|FIX" + "ME|X" + "XX)\\b";
+const std::string kMachinePaths =
+    std::string("(^|[^A-Za-z0-9_.}])/(wo") + "rk|ho" + "me|ro" + "ot|fa" + "rm)/";
+const std::string kWeakTests =
+    std::string("DISAB") + "LED_|GTEST_" + "SKIP|sleep_" + "for|sleep_" + "until|\\busle" + "ep\\b";
+
+bool Finds(const std::string& pattern, const std::string& text) {
+  return std::regex_search(text, std::regex(pattern));
+}
+
+void ExpectNowhere(const std::string& pattern, const std::vector<SourceFile>& files) {
+  const std::regex compiled(pattern);
+  for (const SourceFile& file : files) {
+    std::smatch match;
+    if (std::regex_search(file.text, match, compiled)) {
+      ADD_FAILURE() << file.path << ":" << CountLines(match.prefix()) + 1 << ": " << match.str();
+    }
+  }
+}
+
+TEST(Style, TheFindingsFind) {
+  EXPECT_TRUE(Finds(kLeftovers, std::string("// TO") + "DO: later"));
+  EXPECT_FALSE(Finds(kLeftovers, "a TODOS list"));
+  EXPECT_TRUE(Finds(kMachinePaths, std::string("open(\"/ho") + "me/me/data.csv\")"));
+  EXPECT_FALSE(Finds(kMachinePaths, std::string("the frame") + "work/ of home/"));
+  EXPECT_TRUE(Finds(kWeakTests, std::string("std::this_thread::sleep_") + "for(1s)"));
+  EXPECT_EQ(CountLines("a\nb\n"), 2);
+}
+
+TEST(Style, FilesAreOfReadableLength) {
+  for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
+    EXPECT_LT(CountLines(file.text), kLinesMax) << file.path;
+  }
+}
+
+TEST(Style, NothingIsLeftOver) {
+  ExpectNowhere(kLeftovers,
+                SourceFiles({".h", ".cc", ".idl", ".proto", ".textproto", ".txt", ".md"}));
+}
+
+TEST(Style, NoFileNamesTheMachineItWasWrittenOn) {
+  ExpectNowhere(kMachinePaths, SourceFiles({".h", ".cc", ".idl", ".proto", ".textproto", ".txt",
+                                            ".md", ".xml", ".service"}));
+}
+
+TEST(Style, NoTestSleepsOrIsSwitchedOff) {
+  std::vector<SourceFile> tests;
+  for (SourceFile& file : SourceFiles({".h", ".cc"})) {
+    if (file.path.rfind("tests/", 0) == 0) tests.push_back(std::move(file));
+  }
+  ASSERT_FALSE(tests.empty());
+  ExpectNowhere(kWeakTests, tests);
+}
+
+}  // namespace
+}  // namespace collision::source

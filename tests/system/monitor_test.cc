@@ -1,0 +1,57 @@
+// Goal:   collisionctl shows a live world as it is, and says so when there is none.
+// Method: two simulators fly head-on and stay at the end; everything it can be asked is known.
+#include <gtest/gtest.h>
+
+#include "tests/system/test_world.h"
+
+namespace collision::system_test {
+namespace {
+
+void ExpectAll(const std::string& text, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    EXPECT_NE(text.find(part), std::string::npos) << "no " << part << " in\n" << text;
+  }
+}
+
+TEST(Monitor, ShowsALiveWorld) {
+  const TestWorld world(62);
+  const auto daemon = world.StartDaemon();
+  const auto events = world.StartMonitor({"events", "--follow"});
+  const auto left = world.StartSimulator(kLeft, {"--linger"});
+  const auto right = world.StartSimulator(kRight, {"--linger"});
+  ASSERT_TRUE(events->WaitForOutput("ended")) << events->out() << events->err();
+  ExpectAll(events->out(), {"possible", "confirmed", "left", "right"});
+
+  const Outcome status = world.Monitor({"status", "--json"});
+  EXPECT_EQ(status.status, 0) << status.err;
+  ExpectAll(status.out, {"left-sim", "right-sim"});
+  const Outcome agents = world.Monitor({"agents", "--json"});
+  EXPECT_EQ(agents.status, 0) << agents.err;
+  ExpectAll(agents.out, {"\"left\"", "\"right\""});
+  const Outcome happened = world.Monitor({"events", "--json"});
+  EXPECT_EQ(happened.status, 0) << happened.err;
+  ExpectAll(happened.out, {"EVENT_ENDED"});
+  const Outcome earliest = world.Monitor({"earliest", "--json"});
+  EXPECT_EQ(earliest.status, 0) << earliest.err;
+  ExpectAll(earliest.out, {"earliest_ns"});
+  for (const char* word : {"status", "agents", "events", "earliest"}) {
+    const Outcome text = world.Monitor({word});
+    EXPECT_EQ(text.status, 0) << word << text.err;
+    EXPECT_NE(text.out, "") << word;
+  }
+}
+
+TEST(Monitor, SaysWhenThereIsNoService) {
+  const TestWorld world(63);
+  const Outcome outcome = world.Monitor({"status"});
+  EXPECT_EQ(outcome.status, 69);
+  EXPECT_NE(outcome.err, "");
+}
+
+TEST(Monitor, WrongWordsAreAUsageError) {
+  EXPECT_EQ(RunToEnd({Program("collisionctl"), "no-such-word"}).status, 2);
+  EXPECT_EQ(RunToEnd({Program("collisionctl"), "status", "--no-such-option"}).status, 2);
+}
+
+}  // namespace
+}  // namespace collision::system_test

@@ -1,0 +1,120 @@
+#include "tests/system/test_world.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace collision::system_test {
+namespace {
+
+/// Positions at 10 Hz, as a user would have them in a file.
+std::string Table(const Flight& flight) {
+  std::ostringstream table;
+  table << "time_s,agent_id,x_m,y_m,z_m,vx_m_s,vy_m_s,vz_m_s\n";
+  for (int row = 0; row <= 10 * flight.seconds; ++row) {
+    const double time = row / 10.0;
+    table << time << "," << flight.name << "," << flight.x_m + flight.velocity_m_s * time << ",0,0,"
+          << flight.velocity_m_s << ",0,0\n";
+  }
+  return table.str();
+}
+
+std::vector<std::string> Joined(std::vector<std::string> words,
+                                const std::vector<std::string>& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+}  // namespace
+
+std::string ConfigFile(const std::string& name) {
+  return std::string(COLLISION_SOURCE_DIR) + "/config/" + name;
+}
+
+std::string Program(const std::string& name) { return std::string(COLLISION_BIN_DIR) + "/" + name; }
+
+Folder::Folder() {
+  std::string path = std::filesystem::temp_directory_path() / "collision-XXXXXX";
+  if (mkdtemp(path.data()) == nullptr) throw std::runtime_error("no folder at " + path);
+  path_ = path;
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string Folder::Write(const std::string& name, const std::string& text) const {
+  std::ofstream file(Path(name), std::ios::binary);
+  if (!(file << text) || !file.flush()) throw std::runtime_error("cannot write " + Path(name));
+  return Path(name);
+}
+
+TestWorld::TestWorld(int domain, const std::string& clock)
+    : domain_(std::to_string(domain)), name_("test-" + domain_ + "-" + std::to_string(getpid())) {
+  config_file_ =
+      folder_.Write("collisiond.textproto",
+                    "world: \"" + name_ + "\"\ndomain: " + domain_ + "\nclock { " + clock + " }\n");
+  variables_ = {"CYCLONEDDS_URI=file://" + ConfigFile("cyclonedds-loopback.xml")};
+}
+
+void TestWorld::MoveTo(const TwoHosts& hosts, int host) {
+  hosts_ = &hosts;
+  host_ = host;
+  // The cable is the only network there is: the profile needs no adapting to find it.
+  variables_ = {"CYCLONEDDS_URI=file://" + ConfigFile("cyclonedds-lan.xml")};
+}
+
+std::vector<std::string> TestWorld::OnHost(std::vector<std::string> command) const {
+  return hosts_ ? hosts_->On(host_, std::move(command)) : command;
+}
+
+std::unique_ptr<Process> TestWorld::StartDaemon(const std::vector<std::string>& options) const {
+  auto daemon = std::make_unique<Process>(
+      OnHost(Joined({Program("collisiond"), "--config", config_file_}, options)), variables_);
+  if (!daemon->WaitForOutput("serves world"))
+    throw std::runtime_error("collisiond: " + daemon->err());
+  return daemon;
+}
+
+std::unique_ptr<Process> TestWorld::StartSimulator(const Flight& flight,
+                                                   const std::vector<std::string>& options) const {
+  const std::string table = folder_.Write(flight.name + ".csv", Table(flight));
+  const std::vector<std::string> words = {
+      table, "--simulator", flight.name + "-sim", "--radius", "0.5", "--acceleration-max", "0.01"};
+  return std::make_unique<Process>(InWorld("trajectory-player", Joined(words, options)),
+                                   variables_);
+}
+
+std::unique_ptr<Process> TestWorld::StartMonitor(const std::vector<std::string>& words) const {
+  return std::make_unique<Process>(InWorld("collisionctl", words), variables_);
+}
+
+Outcome TestWorld::Monitor(const std::vector<std::string>& words) const {
+  return RunToEnd(InWorld("collisionctl", words), variables_);
+}
+
+bool TestWorld::MonitorComesToSay(const std::vector<std::string>& words,
+                                  const std::string& text) const {
+  const auto deadline = std::chrono::steady_clock::now() + kPatience;
+  while (std::chrono::steady_clock::now() < deadline) {
+    if (Monitor(words).out.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> TestWorld::InWorld(const std::string& program,
+                                            const std::vector<std::string>& words) const {
+  return OnHost(Joined(Joined({Program(program)}, words), {"--world", name_, "--domain", domain_}));
+}
+
+std::string EventLogLine(const std::string& log) {
+  const auto begin = log.rfind("event log:");
+  return begin == std::string::npos ? "" : log.substr(begin, log.find('\n', begin) - begin);
+}
+
+}  // namespace collision::system_test

@@ -1,0 +1,94 @@
+// A world of its own for one test: a folder, a DDS domain, a configuration, and the programs in it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/system/process.h"
+#include "tests/system/two_hosts.h"
+
+namespace collision::system_test {
+
+/// The path of one of our programs.
+std::string Program(const std::string& name);
+
+/// The path of a file of the project's config folder.
+std::string ConfigFile(const std::string& name);
+
+/// A folder for the files of one test, empty at first; removed, with what is in it, at the end.
+class Folder {
+ public:
+  Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder();
+
+  std::string Path(const std::string& name) const { return path_ + "/" + name; }
+
+  /// Writes a file and returns its path.
+  std::string Write(const std::string& name, const std::string& text) const;
+
+ private:
+  std::string path_;
+};
+
+/// A ball of radius 0.5 m that flies along x at constant velocity.
+struct Flight {
+  std::string name;  ///< Of the agent, and with "-sim" of its simulator.
+  double x_m = 0;    ///< At the start.
+  double velocity_m_s = 0;
+  int seconds = 10;  ///< Then its simulator ends.
+};
+
+/// Two that meet head-on: the balls touch from 4.5 s to 5.5 s. Each is a simulator of its own.
+const Flight kLeft{"left", -5, 1};
+const Flight kRight{"right", 5, -1};
+
+class TestWorld {
+ public:
+  /// `domain` is the test's own, so that tests can run at once. `clock` is what stands in the field
+  /// clock {}.
+  explicit TestWorld(int domain, const std::string& clock = "simulators_awaited: 2");
+
+  /// From here on programs start on this host, with the profile for several hosts. `hosts` must
+  /// outlive them.
+  void MoveTo(const TwoHosts& hosts, int host);
+
+  const Folder& folder() const { return folder_; }
+
+  /// Starts collisiond in this world and waits until it serves.
+  std::unique_ptr<Process> StartDaemon(const std::vector<std::string>& options = {}) const;
+
+  /// Starts a trajectory-player for one flight; `options` go on its command line.
+  std::unique_ptr<Process> StartSimulator(const Flight& flight,
+                                          const std::vector<std::string>& options = {}) const;
+
+  /// Starts collisionctl with these words, in this world.
+  std::unique_ptr<Process> StartMonitor(const std::vector<std::string>& words) const;
+
+  /// Runs it to its end.
+  Outcome Monitor(const std::vector<std::string>& words) const;
+
+  /// Asks collisionctl again and again until it prints `text`; false when the patience is over.
+  bool MonitorComesToSay(const std::vector<std::string>& words, const std::string& text) const;
+
+ private:
+  std::vector<std::string> OnHost(std::vector<std::string> command) const;
+  std::vector<std::string> InWorld(const std::string& program,
+                                   const std::vector<std::string>& words) const;
+
+  Folder folder_;
+  std::string domain_;
+  std::string name_;
+  std::string config_file_;
+  std::vector<std::string> variables_;
+  const TwoHosts* hosts_ = nullptr;
+  int host_ = 0;
+};
+
+/// The line of collisiond's log that sums up the events, from "event log:" to its end; empty if
+/// there is none.
+std::string EventLogLine(const std::string& log);
+
+}  // namespace collision::system_test
