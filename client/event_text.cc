@@ -18,7 +18,7 @@ std::string MetresText(double value, Rounding rounding) {
     value = (rounding == Rounding::kUp ? std::ceil(value / unit) : std::floor(value / unit)) * unit;
   }
   char text[32];
-  std::snprintf(text, sizeof text, "%.3g", value);
+  std::snprintf(text, sizeof text, "%.3g", value + 0.0);  // -0 becomes 0.
   return text;
 }
 

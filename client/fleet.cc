@@ -89,6 +89,22 @@ bool Fleet::HasNews(std::int64_t clock_ns) const {
   return census_changed_ || std::any_of(staged_slots_.begin(), staged_slots_.end(), due);
 }
 
+std::vector<v1::AgentDescription> Fleet::Descriptions() const {
+  std::vector<v1::AgentDescription> descriptions;
+  for (const Slot& slot : slots_) {
+    if (slot.occupied) descriptions.push_back(slot.description);
+  }
+  return descriptions;
+}
+
+std::vector<v1::AgentStates> Fleet::Told() const {
+  std::vector<v1::AgentStates> chunks;
+  for (std::uint32_t chunk = 0; chunk * chunk_size_ < slots_.size(); ++chunk) {
+    chunks.push_back(Chunk(chunk));
+  }
+  return chunks;
+}
+
 std::vector<v1::AgentStates> Fleet::Tell(std::int64_t clock_ns) {
   std::set<std::uint32_t> chunks(thinned_chunks_.begin(), thinned_chunks_.end());
   thinned_chunks_.clear();

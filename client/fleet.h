@@ -35,6 +35,10 @@ class Fleet {
   /// Would Tell() or a clock sample say anything new at this clock?
   bool HasNews(std::int64_t clock_ns) const;
 
+  /// Everything that has been said and still holds, to say it anew.
+  std::vector<v1::AgentDescription> Descriptions() const;
+  std::vector<v1::AgentStates> Told() const;
+
   /// Takes over the staged states with stamps up to `clock_ns`: the chunks that changed, each with
   /// the latest told states of all its agents.
   std::vector<v1::AgentStates> Tell(std::int64_t clock_ns);

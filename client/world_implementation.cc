@@ -103,7 +103,9 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
     if (clock_ns_ >= clock_ns) return Advance::kReached;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) break;
-    Poll(remaining);
+    const Deadline repeat(kRepeatPeriod);
+    Poll(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
+    if (repeat.Remaining().count() == 0) Repeat();
   }
   return Advance::kTimeout;
 }
@@ -136,8 +138,9 @@ std::int64_t World::Implementation::Reachable() const {
 }
 
 void World::Implementation::Tell(std::int64_t clock_ns) {
-  if (clock_published_ && clock_ns == clock_ns_ && !fleet_.HasNews(clock_ns)) return;
+  if (clock_published_ && clock_ns == clock_ns_ && !fleet_.HasNews(clock_ns) && !refused_) return;
   v1::Input message;
+  if (refused_) Introduce();
   for (v1::AgentStates& chunk : fleet_.Tell(clock_ns)) {
     *message.mutable_agent_states() = std::move(chunk);
     transport_->Write(message);
@@ -147,6 +150,28 @@ void World::Implementation::Tell(std::int64_t clock_ns) {
   transport_->Flush();
   clock_ns_ = clock_ns;
   clock_published_ = true;
+}
+
+void World::Implementation::Repeat() {
+  if (!clock_published_ || closed_) return;
+  v1::Input message;
+  if (refused_) Introduce();
+  *message.mutable_simulator_clock() = fleet_.Clock(clock_ns_, lock_step_);
+  transport_->Write(message);
+  transport_->Flush();
+}
+
+void World::Implementation::Introduce() {
+  refused_ = false;
+  v1::Input message;
+  for (const v1::AgentDescription& description : fleet_.Descriptions()) {
+    *message.mutable_agent_description() = description;
+    transport_->Write(message);
+  }
+  for (v1::AgentStates& chunk : fleet_.Told()) {
+    *message.mutable_agent_states() = std::move(chunk);
+    transport_->Write(message);
+  }
 }
 
 void World::Implementation::WriteDescription(const AgentId& id) {
@@ -178,6 +203,7 @@ void World::Implementation::Hear(const v1::Output& output) {
     case v1::Output::kRejection: {
       const v1::Rejection& rejection = output.rejection();
       if (rejection.simulator_id() != simulator_id_ || rejection.run() != run_) break;
+      refused_ |= rejection.reason() == v1::REJECTED_ID_OWNED;
       if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
       rejections_.push_back(FromMessage(rejection));
       break;

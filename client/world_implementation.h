@@ -1,6 +1,7 @@
 // What stands behind World and Agent.
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -15,6 +16,10 @@ namespace collision::client {
 
 inline constexpr std::size_t kEventsMax = 65536;     ///< That gather without a callback.
 inline constexpr std::size_t kRejectionsMax = 1024;  ///< That gather until they are taken.
+
+/// While a grant is awaited the clock is repeated this often: a service that took us for dead (we were stopped
+/// for longer than the liveliness lease) notices that we are back.
+inline constexpr std::chrono::milliseconds kRepeatPeriod(500);
 
 class World::Implementation {
  public:
@@ -52,6 +57,10 @@ class World::Implementation {
 
   /// Writes what is due at this clock, then the clock, unless all of it is known already.
   void Tell(std::int64_t clock_ns);
+  void Repeat();
+  /// Says everything anew: the service refused us while another program of our name, perhaps our own
+  /// predecessor, still counted as alive.
+  void Introduce();
   void WriteDescription(const AgentId& id);
 
   /// Takes what arrives within `timeout`, without callbacks.
@@ -74,6 +83,7 @@ class World::Implementation {
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();
   bool clock_published_ = false;
+  bool refused_ = false;  ///< Since the last Introduce(): our name belongs to another sender.
 
   std::function<void(const Event&)> on_event_;
   std::deque<Event> events_;

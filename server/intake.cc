@@ -1,11 +1,7 @@
 #include "server/intake.h"
 
-#include <spdlog/fmt/fmt.h>
-
 #include <algorithm>
 #include <utility>
-
-#include "server/logging.h"
 
 namespace collision::server {
 
@@ -130,91 +126,6 @@ void Intake::TakeState(Simulator* simulator, const v1::AgentStates& chunk,
   }
 }
 
-void Intake::UpdateAgent(Simulator* simulator, std::uint32_t slot, Agent* agent,
-                         std::uint64_t sequence, const MotionState& state) {
-  const AgentId id = simulator->IdOf(slot, agent->generation);
-  const UpdateOutcome outcome =
-      state.stamp < agent->stamp ? UpdateOutcome::kOlder
-                                 : detector_.Update(id, state, world_.EffectiveFrom(state.stamp));
-  if (outcome == UpdateOutcome::kOlder) {
-    ++counters_.states_older;
-    return;
-  }
-  ++counters_.states_accepted;
-  ++simulator->states;
-  agent->stamp = state.stamp;
-  agent->acknowledged_sequence = sequence;
-  simulator->chunks_changed.insert(slot / kSlotsPerChunk);
-  if (outcome == UpdateOutcome::kBreached) {
-    Log(spdlog::level::warn, "bound broken",
-        fmt::format(
-            "simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns breaks what "
-            "it declared; the new state is taken as the truth",
-            simulator->id, simulator->name, slot, agent->generation, state.stamp.nanoseconds()));
-  }
-}
-
-void Intake::KeepWaiting(Simulator* simulator, std::uint32_t slot_index,
-                         const WaitingState& waiting) {
-  Slot& slot = simulator->slots[slot_index];
-  const bool first = !slot.waiting || slot.waiting->generation != waiting.generation;
-  if (!first && waiting.state.stamp < slot.waiting->state.stamp) {
-    ++counters_.states_older;
-    return;
-  }
-  if (first && !Simulator::Describes(slot, waiting.generation)) {
-    const AgentId id = simulator->IdOf(slot_index, waiting.generation);
-    if (undescribed_.size() >= kUndescribedMax) {
-      return Refuse(NotDescribed(id, fmt::format("not kept: {} wait already", kUndescribedMax)));
-    }
-    undescribed_.push_back({world_.monotonic_ns() + undescribed_after_ns_, id});
-  }
-  slot.waiting = waiting;
-  AdmitIfComplete(simulator, slot_index);
-}
-
-void Intake::AdmitIfComplete(Simulator* simulator, std::uint32_t slot_index) {
-  Slot& slot = simulator->slots[slot_index];
-  if (!slot.agent || slot.agent->admitted || !slot.waiting) return;
-  if (slot.waiting->generation != slot.agent->generation) return;
-  if (world_.simulated() && !simulator->clock) return;
-  Agent& agent = *slot.agent;
-  const AgentId id = simulator->IdOf(slot_index, agent.generation);
-  if (detector_.agents() >= agents_max_) {
-    if (!std::exchange(agent.told_no_room, true)) Refuse(NoRoom(id, agents_max_));
-    return;
-  }
-  const WaitingState waiting = *std::exchange(slot.waiting, std::nullopt);
-  const StampRules rules = world_.RulesForState(*simulator, false);
-  if (const auto refusal = CheckStamp(id, waiting.state.stamp, rules)) return Refuse(*refusal);
-  if (!detector_.Admit(id, agent.declaration, waiting.state,
-                       world_.EffectiveFrom(waiting.state.stamp))) {
-    return;
-  }
-  agent.admitted = true;
-  agent.stamp = waiting.state.stamp;
-  agent.acknowledged_sequence = waiting.sequence;
-  ++counters_.agents_admitted;
-  ++counters_.states_accepted;
-  ++simulator->states;
-  simulator->chunks_changed.insert(slot_index / kSlotsPerChunk);
-  if (simulator->clock) detector_.Hear(id, *simulator->clock);
-}
-
-void Intake::RemoveAgent(Simulator* simulator, std::uint32_t slot_index) {
-  Slot& slot = simulator->slots[slot_index];
-  if (!slot.agent) return;
-  if (slot.agent->admitted) {
-    detector_.Remove(simulator->IdOf(slot_index, slot.agent->generation));
-    ++counters_.agents_removed;
-  }
-  slot.generations_over = std::uint64_t{slot.agent->generation} + 1;
-  if (slot.waiting && slot.waiting->generation < slot.generations_over) slot.waiting.reset();
-  slot.agent.reset();
-  --simulator->agents;
-  simulator->chunks_changed.insert(slot_index / kSlotsPerChunk);
-}
-
 void Intake::TakeClock(const v1::Input& input) {
   const v1::SimulatorClock& wire = input.simulator_clock();
   ++counters_.clocks_received;
@@ -266,25 +177,6 @@ void Intake::EndBatch() {
     }
   }
   ReportUndescribed();
-}
-
-void Intake::ReportUndescribed() {
-  while (!undescribed_.empty() && undescribed_.front().due_ns <= world_.monotonic_ns()) {
-    const AgentId id = undescribed_.front().agent;
-    undescribed_.pop_front();
-    const Simulator* simulator = world_.Find(id.simulator);
-    if (simulator == nullptr || simulator->run != id.run) continue;
-    const auto slot = simulator->slots.find(id.slot);
-    if (slot == simulator->slots.end() || !slot->second.waiting) continue;
-    if (slot->second.waiting->generation != id.generation) continue;
-    if (Simulator::Describes(slot->second, id.generation)) continue;
-    Refuse(NotDescribed(id, "kept; nothing has described its agent yet"));
-  }
-}
-
-std::optional<std::int64_t> Intake::NextDue() const {
-  if (undescribed_.empty()) return std::nullopt;
-  return undescribed_.front().due_ns;
 }
 
 }  // namespace collision::server

@@ -161,9 +161,10 @@ void World::UpdateGrants() {
     if (!simulator.clock) continue;
     Instant clear = greatest;
     for (const auto& [slot, state] : simulator.slots) {
-      if (state.agent && state.agent->clearance) {
-        clear = std::min(clear, state.agent->clearance->clear_until);
-      }
+      if (!state.agent || !state.agent->clearance) continue;
+      clear = std::min(clear, state.agent->clearance->clear_until);
+      // The end of a contact is news too: nobody runs ahead of it.
+      if (state.agent->clearance->in_contact) clear = std::min(clear, least);
     }
     const Instant grant = std::max({simulator.granted.value_or(Instant::Always()), least, clear});
     if (simulator.granted == grant) continue;

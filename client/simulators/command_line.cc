@@ -10,7 +10,8 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
       ->check(CLI::Range(0, 230))
       ->capture_default_str();
   auto* real_time = app->add_flag("--real-time", options->real_time, "Stamps of the wall clock");
-  app->add_flag_callback("--lock-step", [] {}, "The clock moves as the service grants it (the default)")
+  app->add_flag_callback(
+         "--lock-step", [] {}, "The clock moves as the service grants it (the default)")
       ->excludes(real_time);
   app->add_option("--speed", options->speed,
                   "Lock-step: at most X simulated seconds per second; 0: as fast as granted")
@@ -19,8 +20,10 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
   app->add_option("--start-ns", options->start_ns,
                   "With --real-time: the run's start in nanoseconds since 1970; default: now")
       ->check(CLI::NonNegativeNumber);
-  app->add_option("--motion-log", options->motion_log, "File for the exact motion, for motion-checker");
-  app->add_flag("--linger", options->linger, "At the end wait for SIGTERM before leaving the world");
+  app->add_option("--motion-log", options->motion_log,
+                  "File for the exact motion, for motion-checker");
+  app->add_flag("--linger", options->linger,
+                "At the end wait for SIGTERM before leaving the world");
 }
 
 std::optional<int> ParseCommandLine(CLI::App* app, int argc, char** argv) {

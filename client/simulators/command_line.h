@@ -9,7 +9,13 @@
 namespace collision::client {
 
 /// sysexits(3).
-enum ExitCode { kExitOk = 0, kExitUsage = 2, kExitBadData = 65, kExitNoInput = 66, kExitUnavailable = 69 };
+enum ExitCode {
+  kExitOk = 0,
+  kExitUsage = 2,
+  kExitBadData = 65,
+  kExitNoInput = 66,
+  kExitUnavailable = 69
+};
 
 /// Adds --world, --simulator, --domain, --lock-step, --real-time, ... to the command line.
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options);

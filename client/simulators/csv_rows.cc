@@ -30,7 +30,8 @@ std::vector<std::string_view> Split(std::string_view line) {
   for (;;) {
     const std::size_t comma = line.find(',');
     std::string_view field = line.substr(0, comma);
-    while (!field.empty() && (field.front() == ' ' || field.front() == '\t')) field.remove_prefix(1);
+    while (!field.empty() && (field.front() == ' ' || field.front() == '\t'))
+      field.remove_prefix(1);
     while (!field.empty() && (field.back() == ' ' || field.back() == '\t')) field.remove_suffix(1);
     fields.push_back(field);
     if (comma == std::string_view::npos) return fields;
@@ -97,7 +98,8 @@ class Reader {
     result_.velocities = v[0] || v[1] || v[2];
     for (int axis = 0; result_.velocities && axis < 3; ++axis) {
       if (v[axis].has_value() == columns_.position[axis].has_value()) continue;
-      Fail(std::string("the header has velocities, but not the same axes as positions: see column v") +
+      Fail(std::string(
+               "the header has velocities, but not the same axes as positions: see column v") +
            "xyz"[axis] + "_m_s");
     }
   }
@@ -133,7 +135,8 @@ class Reader {
     Number value = 0;
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
     if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(value)) {
-      Fail(std::string(what) + " \"" + std::string(field.substr(0, 40)) + "\" is not a finite number");
+      Fail(std::string(what) + " \"" + std::string(field.substr(0, 40)) +
+           "\" is not a finite number");
     }
     return value;
   }
@@ -141,13 +144,15 @@ class Reader {
   void ReadRow(const std::string& line) {
     const auto fields = Split(line);
     if (fields.size() != columns_.count) {
-      Fail(std::to_string(fields.size()) + " columns, the header has " + std::to_string(columns_.count));
+      Fail(std::to_string(fields.size()) + " columns, the header has " +
+           std::to_string(columns_.count));
     }
     const std::string agent(fields[columns_.agent]);
     if (agent.empty()) Fail("agent_id is empty");
     if (agent.find_first_of(" \t") != std::string::npos) Fail("agent_id has a space in it");
     CsvRow row;
-    const long double time = Finite<long double>(fields[columns_.time], "time") * columns_.nanoseconds;
+    const long double time =
+        Finite<long double>(fields[columns_.time], "time") * columns_.nanoseconds;
     if (!(std::fabs(time) < kTimeMax)) Fail("time is beyond a century from 0");
     row.time_ns = std::llround(time);
     for (int axis = 0; axis < 3; ++axis) {

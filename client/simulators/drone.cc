@@ -7,8 +7,8 @@
 namespace collision::client {
 namespace {
 
-// Forces stay inside M by this much. Rounding p and v (below 1 km and 1 km/s, half an ulp is 6e-14) then never
-// makes a step of 1 ms or longer break the bound: M h² 1e-6 / 2 >= 2.5e-12 for M = 5.
+// Forces stay inside M by this much. Rounding p and v (below 1 km and 1 km/s, half an ulp is 6e-14)
+// then never makes a step of 1 ms or longer break the bound: M h² 1e-6 / 2 >= 2.5e-12 for M = 5.
 constexpr double kInside = 1 - 1e-6;
 
 constexpr int kAttemptsPerDrone = 10000;
@@ -19,7 +19,9 @@ constexpr int kThinkSteps[] = {20, 80};  // between changes of mind
 
 double Norm(const Vector3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-Vector3 Scaled(const Vector3& v, double factor) { return {v[0] * factor, v[1] * factor, v[2] * factor}; }
+Vector3 Scaled(const Vector3& v, double factor) {
+  return {v[0] * factor, v[1] * factor, v[2] * factor};
+}
 
 Vector3 PointIn(const Vector3& box, double margin_share, SeededRandom* random) {
   Vector3 point;
@@ -53,10 +55,12 @@ Vector3 Drone::Force(double step) {
   Vector3 force;
   for (int axis = 0; axis < 3; ++axis) {
     force[axis] = gust_[axis] + away[axis] / distance * force_max * (1 - kGustShare);
-    // A wall nearer than twice the way to brake: brake.
+    // A wall nearer than 2.5 times the way to brake (on three axes at once it takes √3 of it) and
+    // what the step itself may add: brake.
     const double v = velocity_m_s_[axis];
     const double room = v > 0 ? limits_.box_m[axis] - position_m_[axis] : position_m_[axis];
-    if (v * v / force_max > room) force[axis] = v > 0 ? -force_max : force_max;
+    const double margin = 2 * step * (std::fabs(v) + force_max * step);
+    if (1.25 * v * v / force_max + margin > room) force[axis] = v > 0 ? -force_max : force_max;
   }
   const double size = Norm(force);
   if (size > force_max) force = Scaled(force, force_max / size);
@@ -87,19 +91,22 @@ bool Drone::Bounce(const Vector3& normal, int side) {
   const double length = Norm(normal);
   if (!(length > 0)) return false;
   const Vector3 n = Scaled(normal, side / length);
-  const double approach = velocity_m_s_[0] * n[0] + velocity_m_s_[1] * n[1] + velocity_m_s_[2] * n[2];
+  const double approach =
+      velocity_m_s_[0] * n[0] + velocity_m_s_[1] * n[1] + velocity_m_s_[2] * n[2];
   if (approach <= 0) return false;
   for (int axis = 0; axis < 3; ++axis) velocity_m_s_[axis] -= 2 * approach * n[axis];
   return true;
 }
 
-std::vector<Vector3> StartPositions(const DroneLimits& limits, std::size_t count, std::uint64_t seed) {
+std::vector<Vector3> StartPositions(const DroneLimits& limits, std::size_t count,
+                                    std::uint64_t seed) {
   SeededRandom random(seed);
   const double distance_min = 4 * limits.radius_m;
   std::vector<Vector3> positions;
   int attempts = 0;
   while (positions.size() < count) {
-    if (++attempts > kAttemptsPerDrone) throw std::runtime_error("the box is too small for the drones");
+    if (++attempts > kAttemptsPerDrone)
+      throw std::runtime_error("the box is too small for the drones");
     const Vector3 point = PointIn(limits.box_m, 0.05, &random);
     const bool clear = std::none_of(positions.begin(), positions.end(), [&](const Vector3& other) {
       return Norm({point[0] - other[0], point[1] - other[1], point[2] - other[2]}) < distance_min;

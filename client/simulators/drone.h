@@ -10,13 +10,15 @@
 namespace collision::client {
 
 struct DroneLimits {
-  Vector3 box_m{200, 200, 50};      ///< It steers to stay in [0, box] on each axis; a bounce may carry it out.
+  Vector3 box_m{200, 200,
+                50};  ///< It steers to stay in [0, box] on each axis; a bounce may carry it out.
   double radius_m = 0.5;
-  double speed_max_m_s = 15;        ///< Never exceeded by its own forces.
-  double acceleration_max_m_s2 = 5; ///< M: never exceeded, |Δv| <= M h also in exact arithmetic.
+  double speed_max_m_s = 15;         ///< Never exceeded by its own forces.
+  double acceleration_max_m_s2 = 5;  ///< M: never exceeded, |Δv| <= M h also in exact arithmetic.
 };
 
-/// Moves in steps with a constant acceleration in each, in closed form: p += v h + ½ a h², v += a h.
+/// Moves in steps with a constant acceleration in each, in closed form: p += v h + ½ a h², v += a
+/// h.
 class Drone {
  public:
   Drone(const DroneLimits& limits, const Vector3& position_m, std::uint64_t seed);
@@ -24,7 +26,8 @@ class Drone {
   /// The motion from `t0_ns` to `t1_ns`, a step of at most 0.1 s.
   MotionPiece Step(std::int64_t t0_ns, std::int64_t t1_ns);
 
-  /// Reflects the velocity at a wall with this normal, if the drone moves along it (`side` +1) or against it
+  /// Reflects the velocity at a wall with this normal, if the drone moves along it (`side` +1) or
+  /// against it
   /// (-1), that is towards the wall. False: it does not, or the normal is zero; nothing changes.
   bool Bounce(const Vector3& normal, int side);
 
@@ -43,9 +46,10 @@ class Drone {
   int steps_left_ = 0;  // until it thinks again
 };
 
-/// Where `count` drones start: inside the box, no two nearer than twice their diameter. The first n are the
-/// same for every count >= n, so processes that share a seed take slices. Throws std::runtime_error if
-/// the box is too small for them.
-std::vector<Vector3> StartPositions(const DroneLimits& limits, std::size_t count, std::uint64_t seed);
+/// Where `count` drones start: inside the box, no two nearer than twice their diameter. The first n
+/// are the same for every count >= n, so processes that share a seed take slices. Throws
+/// std::runtime_error if the box is too small for them.
+std::vector<Vector3> StartPositions(const DroneLimits& limits, std::size_t count,
+                                    std::uint64_t seed);
 
 }  // namespace collision::client

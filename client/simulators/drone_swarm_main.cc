@@ -10,9 +10,13 @@ int main(int argc, char** argv) {
   using namespace collision::client;
   SimulatorOptions simulator;
   SwarmOptions swarm;
-  CLI::App app("Flies drones under random forces in a world of the collision service.", "drone-swarm");
-  app.add_option("--drones", swarm.drones, "How many")->check(CLI::Range(1, 100000))->capture_default_str();
-  app.add_option("--first", swarm.first, "Number of the first: each process of a swarm takes a slice")
+  CLI::App app("Flies drones under random forces in a world of the collision service.",
+               "drone-swarm");
+  app.add_option("--drones", swarm.drones, "How many")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--first", swarm.first,
+                 "Number of the first: each process of a swarm takes a slice")
       ->capture_default_str();
   app.add_option("--seed", swarm.seed, "Same for all processes of a swarm")->capture_default_str();
   app.add_option("--box", swarm.limits.box_m, "Size of the space [m]: x y z")
@@ -27,11 +31,15 @@ int main(int argc, char** argv) {
   app.add_option("--acceleration-max", swarm.limits.acceleration_max_m_s2, "Of a drone [m/s2]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--rate", swarm.rate_hz, "Steps per second")->check(CLI::Range(10, 1000))->capture_default_str();
+  app.add_option("--rate", swarm.rate_hz, "Steps per second")
+      ->check(CLI::Range(10, 1000))
+      ->capture_default_str();
   app.add_option("--state-every", swarm.state_every, "Steps between two states")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  app.add_option("--seconds", simulator.seconds, "Length of the run")->required()->check(CLI::PositiveNumber);
+  app.add_option("--seconds", simulator.seconds, "Length of the run")
+      ->required()
+      ->check(CLI::PositiveNumber);
   AddSimulatorOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   CatchStopSignals();

@@ -1,4 +1,5 @@
-// motion-checker: compares the events of a run with the true contacts of the simulators' motion logs.
+// motion-checker: compares the events of a run with the true contacts of the simulators' motion
+// logs.
 
 #include <google/protobuf/util/json_util.h>
 
@@ -26,7 +27,8 @@ std::ifstream Open(const std::string& path) {
   return file;
 }
 
-int Run(const std::string& report_path, const std::vector<std::string>& logs, const RunFacts& facts) {
+int Run(const std::string& report_path, const std::vector<std::string>& logs,
+        const RunFacts& facts) {
   std::vector<AgentMotion> motions;
   for (const std::string& path : logs) {
     std::ifstream file = Open(path);
@@ -44,7 +46,8 @@ int Run(const std::string& report_path, const std::vector<std::string>& logs, co
     observations.names = {report.names().begin(), report.names().end()};
   }
   const Evidence evidence(std::move(motions), observations, facts);
-  std::printf("%zu agents, %zu true contacts\n", evidence.motions().size(), evidence.contacts().size());
+  std::printf("%zu agents, %zu true contacts\n", evidence.motions().size(),
+              evidence.contacts().size());
   if (report_path.empty()) {
     for (const TrueContact& contact : evidence.contacts()) {
       std::printf("%s  %s to %s\n", evidence.PairName(contact.a, contact.b).c_str(),
@@ -71,7 +74,8 @@ int main(int argc, char** argv) {
   CLI::App app("Computes all true contacts of motion logs and compares a run's events with them.",
                "motion-checker");
   app.add_option("logs", logs, "Motion logs, each named after its simulator")->required();
-  app.add_option("--report", report, "What scene-runner --json wrote; without it the true contacts are listed");
+  app.add_option("--report", report,
+                 "What scene-runner --json wrote; without it the true contacts are listed");
   app.add_option("--leaving", leaving,
                  "Contacts that begin this many seconds before an agent leaves may be withdrawn")
       ->check(CLI::NonNegativeNumber);

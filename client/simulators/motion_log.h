@@ -10,7 +10,8 @@
 
 namespace collision::client {
 
-/// A cubic per axis over [t0_ns, t1_ns], in seconds since t0_ns, the constant first: exact, by definition.
+/// A cubic per axis over [t0_ns, t1_ns], in seconds since t0_ns, the constant first: exact, by
+/// definition.
 struct MotionPiece {
   std::int64_t t0_ns = 0;
   std::int64_t t1_ns = 0;

@@ -39,7 +39,8 @@ Pace::Pace(const SimulatorOptions& options) : options_(options), world_(Connect(
   start_ = steady_clock::now();
   if (!options_.real_time) return;
   const std::int64_t now_ns =
-      std::chrono::duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+      std::chrono::duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
   start_ns_ = options_.start_ns >= 0 ? options_.start_ns : now_ns;
   start_ += nanoseconds(start_ns_ - now_ns);
 }

@@ -16,9 +16,9 @@ struct SimulatorOptions {
   std::uint32_t domain = 0;
   bool real_time = false;      ///< Wall-clock stamps; otherwise lock-step.
   std::int64_t start_ns = -1;  ///< Wall clock: the run's start since 1970; -1: now.
-  double speed = 0;            ///< Lock-step: at most this many simulated seconds a second; 0: as granted.
-  double seconds = 0;          ///< Length of the run.
-  bool linger = false;         ///< At the end wait for SIGTERM, so that the service can judge everything.
+  double speed = 0;     ///< Lock-step: at most this many simulated seconds a second; 0: as granted.
+  double seconds = 0;   ///< Length of the run.
+  bool linger = false;  ///< At the end wait for SIGTERM, so that the service can judge everything.
   std::string motion_log;
 };
 
@@ -35,8 +35,9 @@ class Pace {
   /// The run's end.
   std::int64_t end_ns() const;
 
-  /// Publishes what was set for instants up to `clock_ns` and moves the clock there; events come meanwhile.
-  /// False: asked to stop. Throws std::runtime_error if the service grants nothing for 30 s.
+  /// Publishes what was set for instants up to `clock_ns` and moves the clock there; events come
+  /// meanwhile. False: asked to stop. Throws std::runtime_error if the service grants nothing for
+  /// 30 s.
   bool AdvanceTo(std::int64_t clock_ns);
 
   /// With `linger` waits, receiving, until asked to stop.

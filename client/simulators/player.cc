@@ -10,8 +10,7 @@ namespace {
 // One agent on its way from its first row to its last.
 class Part {
  public:
-  Part(const PlayedAgent& agent, const PlayerOptions& options)
-      : agent_(agent), options_(options) {}
+  Part(const PlayedAgent& agent, const PlayerOptions& options) : agent_(agent), options_(options) {}
 
   // States the agent's next state; the first one brings it into the world.
   void Stage(std::int64_t stamp_ns, World* world, MotionLog* log) {
@@ -35,7 +34,8 @@ class Part {
     log->Agent(agent_.name, options_.radius_m);
   }
 
-  // The clock has come to `clock_ns`: what was played is written down, and who has passed its last row leaves.
+  // The clock has come to `clock_ns`: what was played is written down, and who has passed its last
+  // row leaves.
   void Passed(std::int64_t clock_ns, MotionLog* log) {
     const auto& pieces = agent_.trajectory.pieces();
     for (; logged_ < pieces.size() && pieces[logged_].t1_ns <= clock_ns; ++logged_) {
@@ -87,7 +87,8 @@ void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, 
   std::vector<Part> parts;
   std::map<std::int64_t, std::vector<std::size_t>> due;  // who states something at an instant
   for (const PlayedAgent& agent : agents) {
-    for (const std::int64_t stamp : StateInstants(agent.trajectory, options.rate_hz, pace->start_ns())) {
+    for (const std::int64_t stamp :
+         StateInstants(agent.trajectory, options.rate_hz, pace->start_ns())) {
       if (pace->start_ns() <= stamp && stamp <= pace->end_ns()) due[stamp].push_back(parts.size());
     }
     parts.emplace_back(agent, options);

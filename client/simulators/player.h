@@ -15,7 +15,7 @@ struct PlayerOptions {
   double radius_m = 0;
   double acceleration_max_m_s2 = -1;  ///< < 0: derived from each trajectory.
   double position_error_m = 0;
-  double rate_hz = 0;                 ///< States at this rate; 0: at the rows' times.
+  double rate_hz = 0;  ///< States at this rate; 0: at the rows' times.
 };
 
 /// One agent to play.
@@ -24,12 +24,14 @@ struct PlayedAgent {
   Trajectory trajectory;
 };
 
-/// When the states of a trajectory are published: at its rows, or at its ends and whole multiples of 1/rate
-/// since `start_ns` between them. Increasing.
+/// When the states of a trajectory are published: at its rows, or at its ends and whole multiples
+/// of 1/rate since `start_ns` between them. Increasing.
 std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rate_hz,
                                         std::int64_t start_ns);
 
-/// Each agent appears with its first row and leaves after its last. Ends at pace.end_ns() or when asked to stop.
-void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, Pace* pace, MotionLog* log);
+/// Each agent appears with its first row and leaves after its last. Ends at pace.end_ns() or when
+/// asked to stop.
+void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, Pace* pace,
+          MotionLog* log);
 
 }  // namespace collision::client

@@ -16,17 +16,18 @@ namespace collision::client {
 struct SwarmOptions {
   DroneLimits limits;
   std::size_t drones = 50;
-  std::size_t first = 0;       ///< Number of the first: slices of one swarm in several processes.
+  std::size_t first = 0;  ///< Number of the first: slices of one swarm in several processes.
   std::uint64_t seed = 1;
-  double rate_hz = 60;         ///< Steps of the motion.
-  std::size_t state_every = 1; ///< Steps between two states of a drone.
+  double rate_hz = 60;          ///< Steps of the motion.
+  std::size_t state_every = 1;  ///< Steps between two states of a drone.
 };
 
-/// Flies the drones of one process. A confirmed event of one of them turns it back once, at its next step,
-/// with a state marked as a discontinuity.
+/// Flies the drones of one process. A confirmed event of one of them turns it back once, at its
+/// next step, with a state marked as a discontinuity.
 class Swarm {
  public:
-  /// Everything outlives the swarm. Throws std::runtime_error if the drones do not fit into the box.
+  /// Everything outlives the swarm. Throws std::runtime_error if the drones do not fit into the
+  /// box.
   Swarm(const SwarmOptions& options, Pace* pace, MotionLog* log);
 
   /// To pace.end_ns(), or until asked to stop; then lingers.
@@ -39,7 +40,8 @@ class Swarm {
     std::string name;
     Drone drone;
     std::optional<Agent> agent;
-    std::deque<std::pair<Vector3, int>> bounces;  // normals, and on which side of them this drone is
+    std::deque<std::pair<Vector3, int>>
+        bounces;  // normals, and on which side of them this drone is
   };
 
   void Hear(const Event& event);

@@ -7,12 +7,12 @@
 namespace collision::client {
 namespace {
 
-// The second derivative is computed from differences of doubles with a handful of roundings; rounding it up
-// by this much more than covers them.
+// The second derivative is computed from differences of doubles with a handful of roundings;
+// rounding it up by this much more than covers them.
 constexpr double kRelativeMargin = 1e-9;
 
-// Half an ulp in each of a state's coordinates looks like an acceleration of ulp / h² over a piece of h. Three
-// axes, two states and the evaluation between them stay below 16 roundings.
+// Half an ulp in each of a state's coordinates looks like an acceleration of ulp / h² over a piece
+// of h. Three axes, two states and the evaluation between them stay below 16 roundings.
 constexpr double kRoundings = 16;
 
 double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
@@ -75,7 +75,8 @@ double Trajectory::AccelerationMax() const {
     const double length = std::max(Norm(rows_[i].position_m), Norm(rows_[i + 1].position_m));
     const double speed = std::max(Norm(rows_[i].velocity_m_s), Norm(rows_[i + 1].velocity_m_s));
     const double rounding = kRoundings * kUlp * (length / (h * h) + speed / h);
-    greatest = std::max(greatest, std::max(Norm(first), Norm(last)) * (1 + kRelativeMargin) + rounding);
+    greatest =
+        std::max(greatest, std::max(Norm(first), Norm(last)) * (1 + kRelativeMargin) + rounding);
   }
   return greatest;
 }

@@ -9,12 +9,13 @@
 
 namespace collision::client {
 
-/// The cubic Hermite curve through rows of positions and velocities: positions and velocities are continuous,
-/// the acceleration is linear on each piece and largest at one of its ends.
+/// The cubic Hermite curve through rows of positions and velocities: positions and velocities are
+/// continuous, the acceleration is linear on each piece and largest at one of its ends.
 class Trajectory {
  public:
-  /// At least one row, times strictly increasing. Without `velocities` they are central differences, one-sided
-  /// at the ends (and zero for a single row). `offset_ns` is added to every time.
+  /// At least one row, times strictly increasing. Without `velocities` they are central
+  /// differences, one-sided at the ends (and zero for a single row). `offset_ns` is added to every
+  /// time.
   Trajectory(std::vector<CsvRow> rows, bool velocities, std::int64_t offset_ns);
 
   std::int64_t begin_ns() const { return rows_.front().time_ns; }

@@ -23,7 +23,8 @@ struct Options {
 };
 
 // The chosen agents as name -> rows. Throws CsvError if one is not in the file.
-std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file, std::int64_t start_ns) {
+std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file,
+                                std::int64_t start_ns) {
   std::vector<std::string> chosen = options.agents;
   if (chosen.empty()) {
     for (const auto& [id, rows] : file.rows) chosen.push_back(id);
@@ -33,7 +34,8 @@ std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file, std
     const std::size_t equals = choice.find('=');
     const std::string id = choice.substr(0, equals);
     const auto rows = file.rows.find(id);
-    if (rows == file.rows.end()) throw CsvError(options.file + ": no agent \"" + id + "\" in the file");
+    if (rows == file.rows.end())
+      throw CsvError(options.file + ": no agent \"" + id + "\" in the file");
     agents.push_back({equals == std::string::npos ? id : choice.substr(equals + 1),
                       Trajectory(rows->second, file.velocities, start_ns)});
   }
@@ -46,7 +48,8 @@ void Print(const Options& options, const std::vector<PlayedAgent>& agents) {
   double greatest = 0;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const Trajectory& trajectory = agents[i].trajectory;
-    const double bound = derived ? trajectory.AccelerationMax() : options.player.acceleration_max_m_s2;
+    const double bound =
+        derived ? trajectory.AccelerationMax() : options.player.acceleration_max_m_s2;
     greatest = std::max(greatest, bound);
     if (i >= kAgentsPrinted) continue;
     std::printf("agent %s: %zu rows, acceleration at most %.6g m/s2%s\n", agents[i].name.c_str(),
@@ -90,8 +93,10 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Plays agents' positions from a CSV file into a world of the collision service.",
                "trajectory-player");
-  app.add_option("file", options.file, "CSV: time_s, agent_id, x_m, y_m [, z_m] [, vx_m_s, ...]")->required();
-  app.add_option("--agents", options.agents, "Agents to play, ID or ID=NAME, separated by commas; default: all")
+  app.add_option("file", options.file, "CSV: time_s, agent_id, x_m, y_m [, z_m] [, vx_m_s, ...]")
+      ->required();
+  app.add_option("--agents", options.agents,
+                 "Agents to play, ID or ID=NAME, separated by commas; default: all")
       ->delimiter(',');
   app.add_option("--radius", options.player.radius_m, "Bounding radius of every agent [m]")
       ->required()
@@ -101,9 +106,11 @@ int main(int argc, char** argv) {
       ->check(CLI::NonNegativeNumber);
   app.add_option("--position-error", options.player.position_error_m, "Of every state [m]")
       ->check(CLI::NonNegativeNumber);
-  app.add_option("--rate", options.player.rate_hz, "States per second on the curve; default: at the rows")
+  app.add_option("--rate", options.player.rate_hz,
+                 "States per second on the curve; default: at the rows")
       ->check(CLI::PositiveNumber);
-  app.add_option("--seconds", options.simulator.seconds, "Length of the run; default: to the last row")
+  app.add_option("--seconds", options.simulator.seconds,
+                 "Length of the run; default: to the last row")
       ->check(CLI::PositiveNumber);
   app.add_flag("--quiet", options.quiet, "Print nothing");
   AddSimulatorOptions(&app, &options.simulator);

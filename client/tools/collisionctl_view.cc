@@ -14,9 +14,7 @@ Monitor::Callbacks WorldView::Callbacks() {
   callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
   callbacks.event = [this](const v1::CollisionEvent& event) { events_.push_back(event); };
   callbacks.description = [this](const v1::AgentDescription& message) { Hear(message); };
-  callbacks.removal = [this](const v1::AgentRemoval& removal) {
-    descriptions_.erase({removal.simulator_id(), removal.slot()});
-  };
+  callbacks.removal = [this](const v1::AgentRemoval& message) { Hear(message); };
   callbacks.states = [this](const v1::AgentStates& message) { Hear(message); };
   callbacks.clearance = [this](const v1::Clearance& message) { Hear(message); };
   return callbacks;
@@ -44,10 +42,12 @@ bool WorldView::knows_all_agents() const {
 }
 
 std::string WorldView::Name(const v1::AgentId& id) const {
-  const auto found = descriptions_.find({id.simulator_id(), id.slot()});
-  if (found != descriptions_.end() && found->second.run() == id.run() &&
-      found->second.generation() == id.generation()) {
-    return found->second.agent_name();
+  for (const auto* agents : {&descriptions_, &former_}) {
+    const auto found = agents->find({id.simulator_id(), id.slot()});
+    if (found != agents->end() && found->second.run() == id.run() &&
+        found->second.generation() == id.generation()) {
+      return found->second.agent_name();
+    }
   }
   return SimulatorName(id.simulator_id()) + ":" + std::to_string(id.slot());
 }
@@ -70,6 +70,14 @@ void WorldView::Hear(const v1::AgentDescription& description) {
     agent = agent->second.run() < description.run() ? descriptions_.erase(agent) : std::next(agent);
   }
   descriptions_[{description.simulator_id(), description.slot()}] = description;
+}
+
+void WorldView::Hear(const v1::AgentRemoval& removal) {
+  const Key key{removal.simulator_id(), removal.slot()};
+  const auto agent = descriptions_.find(key);
+  if (agent == descriptions_.end()) return;
+  former_[key] = agent->second;
+  descriptions_.erase(agent);
 }
 
 void WorldView::Hear(const v1::AgentStates& states) {

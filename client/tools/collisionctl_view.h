@@ -38,7 +38,7 @@ class WorldView {
   /// Does it know every agent that the service says it has?
   bool knows_all_agents() const;
 
-  /// The agent's name; "simulator:slot" while it is not described.
+  /// The agent's name, also after it has left; "simulator:slot" if it never was described.
   std::string Name(const v1::AgentId& id) const;
 
   /// The events that came since the last call, in the order in which the service said them.
@@ -48,6 +48,7 @@ class WorldView {
   using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot.
 
   void Hear(const v1::AgentDescription& description);
+  void Hear(const v1::AgentRemoval& removal);
   void Hear(const v1::AgentStates& states);
   void Hear(const v1::Clearance& clearance);
   std::string SimulatorName(std::uint64_t id) const;
@@ -55,6 +56,7 @@ class WorldView {
   std::optional<v1::ServiceStatus> status_;
   std::optional<v1::EarliestIntersection> earliest_;
   std::map<Key, v1::AgentDescription> descriptions_;
+  std::map<Key, v1::AgentDescription> former_;  ///< The last of each slot that left: for its name.
   std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;          ///< With their run.
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
   std::vector<v1::CollisionEvent> events_;

@@ -8,8 +8,8 @@
 
 namespace collision {
 
-/// Asks the canonical routine for every partner: the oracle of the other methods, and below about a thousand
-/// agents as fast as any.
+/// Asks the canonical routine for every partner: the oracle of the other methods, and below about a
+/// thousand agents as fast as any.
 class AllPairs : public BroadPhase {
  public:
   void Put(std::uint32_t agent, const SpaceTimeBound& bound) override;

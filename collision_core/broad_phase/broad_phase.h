@@ -15,8 +15,9 @@ struct Meeting {
   PairTime time;
 };
 
-/// Holds the bounds of all agents by index and finds their earliest meetings. Methods differ in cost, never
-/// in what they answer: each value is EarliestIntersection() of the two bounds, bit for bit.
+/// Holds the bounds of all agents by index and finds their earliest meetings. Methods differ in
+/// cost, never in what they answer: each value is EarliestIntersection() of the two bounds, bit for
+/// bit.
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
@@ -25,8 +26,8 @@ class BroadPhase {
   virtual void Put(std::uint32_t agent, const SpaceTimeBound& bound) = 0;
   virtual void Remove(std::uint32_t agent) = 0;
 
-  /// Appends each partner that `agent` may first meet, at or after `from`, by `until`, and of the later
-  /// meetings at least the earliest. Partners for which `skip` holds are left out.
+  /// Appends each partner that `agent` may first meet, at or after `from`, by `until`, and of the
+  /// later meetings at least the earliest. Partners for which `skip` holds are left out.
   virtual void Meetings(std::uint32_t agent, Instant from, Instant until,
                         const std::function<bool(std::uint32_t)>& skip,
                         std::vector<Meeting>* meetings) const = 0;

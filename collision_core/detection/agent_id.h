@@ -6,8 +6,8 @@
 
 namespace collision {
 
-/// A slot is reused with a new generation; a simulator that rewinds starts a higher run. The order decides
-/// which agent of a pair is the lower one; normals point from lower to higher.
+/// A slot is reused with a new generation; a simulator that rewinds starts a higher run. The order
+/// decides which agent of a pair is the lower one; normals point from lower to higher.
 struct AgentId {
   std::uint64_t simulator = 0;
   std::uint32_t slot = 0;

@@ -11,18 +11,19 @@ namespace collision {
 
 struct AgentRecord {
   AgentId id;
-  AgentDeclaration declaration;     ///< Counts for the next state on; the newest bound has its own.
+  AgentDeclaration declaration;  ///< Counts for the next state on; the newest bound has its own.
   History history;
   Instant heard = Instant::Always();  ///< The owner has told everything up to here.
   bool expired = false;
 
   /// Certified free of every partner that is not tracked up to here.
   Instant key = Instant::Always();
-  /// Nothing promised before holds from here on (admission, jump, breach, widening): ask everybody anew.
+  /// Nothing promised before holds from here on (admission, jump, breach, widening): ask everybody
+  /// anew.
   std::optional<Instant> renewed_from;
   ClearanceCause renewed_cause = ClearanceCause::kNone;
-  std::uint64_t asked = 0;          ///< The step in which it was last asked.
-  bool changed = true;              ///< Since the last step.
+  std::uint64_t asked = 0;  ///< The step in which it was last asked.
+  bool changed = true;      ///< Since the last step.
   bool saturated = false;
   std::vector<std::uint32_t> pairs;  ///< Slots of the tracked pairs.
 

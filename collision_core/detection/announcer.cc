@@ -9,14 +9,15 @@
 namespace collision {
 namespace {
 
-// A pair is dismissed only when it is this much further away than what is announced, so that pairs that
-// travel side by side do not come and go with every state.
+// A pair is dismissed only when it is this much further away than what is announced, so that pairs
+// that travel side by side do not come and go with every state.
 constexpr double kDismissFactor = 1.25;
 
 // A possible event is revised when its earliest time moved by this share of what was left.
 constexpr double kRevisionShare = 0.25;
 
-// A confirmed event is revised when its begin bracket is narrower than this share of the published one.
+// A confirmed event is revised when its begin bracket is narrower than this share of the published
+// one.
 constexpr double kNarrowerShare = 0.99;
 
 bool Narrower(const TimeBracket& found, const TimeBracket& published) {
@@ -166,14 +167,17 @@ void Announcer::Evaluate(const Subject& subject, const Nearest& nearest) {
   CollisionEvent& event = subject.pair.event;
   const SeparationAt& found = nearest.found;
   event.evaluated_at = nearest.at;
-  event.separation_lower = found.separation.lower;
-  event.separation_upper = found.separation.upper;
-  event.depth_lower = std::max(0.0, -found.separation.upper);
+  // Bounds of two states that agree only up to rounding may contradict each other by as much.
+  const Interval separation(std::min(found.separation.lower, found.separation.upper),
+                            std::max(found.separation.lower, found.separation.upper));
+  event.separation_lower = separation.lower;
+  event.separation_upper = separation.upper;
+  event.depth_lower = std::max(0.0, -separation.upper);
   const Eigen::Vector3d d = found.p_WB - found.p_WA;
   const double distance = d.norm();
   const double error = found.error_A + found.error_B;
-  // The direction of d turns by at most asin(error / distance), and asin x <= π/2 x; the last factor covers
-  // the rounding of these few operations.
+  // The direction of d turns by at most asin(error / distance), and asin x <= π/2 x; the last
+  // factor covers the rounding of these few operations.
   constexpr double kRounding = 1 + 1e-12;
   const bool directed = distance > error;
   event.normal = directed ? Eigen::Vector3d(d / distance) : Eigen::Vector3d(0, 0, 0);
@@ -181,10 +185,10 @@ void Announcer::Evaluate(const Subject& subject, const Nearest& nearest) {
       directed ? std::numbers::pi / 2 * (error / distance) * kRounding + 1e-15 : std::numbers::pi;
   // Half-way between the two surfaces along the normal.
   const double radius_A = subject.lower.bound().declaration.radius;
-  const double gap = (found.separation.lower + found.separation.upper) / 2;
+  const double gap = separation.middle();
   event.p_WC = found.p_WA + event.normal * (radius_A + gap / 2);
   event.point_error =
-      (found.error_A + found.separation.width() + radius_A * std::min(event.normal_error, 2.0)) *
+      (found.error_A + separation.width() + radius_A * std::min(event.normal_error, 2.0)) *
           kRounding +
       1e-15 * found.p_WA.lpNorm<Eigen::Infinity>();
 }

@@ -8,8 +8,9 @@
 
 namespace collision {
 
-/// Turns what is known of a pair into revisions of events: possible before confirmed, confirmed before ended,
-/// each status once, and further revisions only where a bracket moved enough to matter.
+/// Turns what is known of a pair into revisions of events: possible before confirmed, confirmed
+/// before ended, each status once, and further revisions only where a bracket moved enough to
+/// matter.
 class Announcer {
  public:
   Announcer(const DetectorOptions& options, DetectorCounters* counters)
@@ -19,13 +20,14 @@ class Announcer {
   void Start(Instant now);
   const std::vector<CollisionEvent>& events() const { return events_; }
 
-  /// `preview` is the pair's tracker, run ahead of what is settled. Returns false when the pair is far apart
-  /// again and needs no more tracking.
+  /// `preview` is the pair's tracker, run ahead of what is settled. Returns false when the pair is
+  /// far apart again and needs no more tracking.
   bool Report(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
               const ContactTracker& preview, PairTable* pairs);
 
   /// One of the two has left: withdrawn, or ended if the contact was confirmed.
-  void Leave(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot, PairTable* pairs);
+  void Leave(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
+             PairTable* pairs);
 
  private:
   struct Subject;  // the pair and its two agents

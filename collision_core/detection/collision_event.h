@@ -22,31 +22,32 @@ struct TimeBracket {
   friend bool operator==(const TimeBracket&, const TimeBracket&) = default;
 };
 
-/// One revision of one contact of one pair. (lower, higher, contact) names the contact; a higher revision
-/// replaces a lower one.
+/// One revision of one contact of one pair. (lower, higher, contact) names the contact; a higher
+/// revision replaces a lower one.
 struct CollisionEvent {
   AgentId lower;
   AgentId higher;
-  std::uint32_t pair_slot = 0;   ///< Key on the wire; reused after the pair is no longer tracked.
-  std::uint32_t contact = 1;     ///< Ordinal of the pair's contacts.
+  std::uint32_t pair_slot = 0;  ///< Key on the wire; reused after the pair is no longer tracked.
+  std::uint32_t contact = 1;    ///< Ordinal of the pair's contacts.
   std::uint32_t revision = 1;
-  Instant now;                   ///< The service's time when it said so.
+  Instant now;  ///< The service's time when it said so.
   EventStatus status = EventStatus::kPossible;
   /// Begin lies in [freedom certified continuously up to, first certified contact]. Undecided: the
   /// whole interval that is not certified free is [begin.earliest, end.latest].
   TimeBracket begin;
   TimeBracket end;
-  bool continuous = true;        ///< No gap in certified contact from begin.latest to end.earliest.
-  bool began_before = false;     ///< They may have touched before one was admitted, jumped or broke its bound.
+  bool continuous = true;  ///< No gap in certified contact from begin.latest to end.earliest.
+  bool began_before =
+      false;  ///< They may have touched before one was admitted, jumped or broke its bound.
   Instant evaluated_at = Instant::Never();  ///< The rest holds then; Never(): not evaluated.
-  double separation_lower = 0;   ///< Distance of the surfaces [m]; <= 0: in contact.
+  double separation_lower = 0;              ///< Distance of the surfaces [m]; <= 0: in contact.
   double separation_upper = 0;
-  double depth_lower = 0;        ///< Translational penetration depth is at least this [m].
+  double depth_lower = 0;  ///< Translational penetration depth is at least this [m].
   Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();  ///< Contact point [m], within `point_error`.
   double point_error = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Unit, from lower to higher.
-  double normal_error = 0;       ///< Angle [rad].
-  std::uint64_t work = 0;        ///< Segments and instants judged for this contact.
+  double normal_error = 0;                           ///< Angle [rad].
+  std::uint64_t work = 0;  ///< Segments and instants judged for this contact.
   EventLimit limited_by = EventLimit::kMotion;
 };
 

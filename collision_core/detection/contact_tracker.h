@@ -18,15 +18,16 @@ struct Nearest {
 struct ContactEpisode {
   bool contact = false;  ///< Certified at some instant; false: undecided.
   TimeBracket begin;     ///< {freedom certified up to, first certified contact}.
-  TimeBracket end;       ///< {contact certified up to, first certified freedom}; latest open until it ends.
+  TimeBracket
+      end;  ///< {contact certified up to, first certified freedom}; latest open until it ends.
   bool continuous = true;
   bool began_before = false;
   /// Where, of the instants looked at, the surfaces were certified to be nearest.
   Nearest nearest;
 };
 
-/// Follows one pair through time, segment after segment without a gap. Copyable: a copy that runs ahead of
-/// what is settled is a preview.
+/// Follows one pair through time, segment after segment without a gap. Copyable: a copy that runs
+/// ahead of what is settled is a preview.
 class ContactTracker {
  public:
   /// The pair is certified free up to `free_until`. `began_before`: what came earlier is not known.

@@ -210,8 +210,8 @@ void Detector::Implementation::TurnAll() {
     const PairRecord& pair = pairs_[slot];
     const bool news = At(pair.lower).changed || At(pair.higher).changed;
     const bool soon = pair.clear_until <= AddRoundedDown(now_, options_.temporal_resolution);
-    const bool due = !pair.announced &&
-                     pair.clear_until <= AddRoundedDown(now_, options_.announce_within);
+    const bool due =
+        !pair.announced && pair.clear_until <= AddRoundedDown(now_, options_.announce_within);
     if (news || soon || due || pair.in_contact) Turn(slot);
   }
 }

@@ -15,12 +15,13 @@ namespace collision {
 /// Every bound of the detector, with what happens at it.
 struct DetectorOptions {
   double temporal_resolution = 1.0 / 60;  ///< Δt [s]: nearer than this a pair could overlap.
-  double announce_within = 2.0;           ///< A meeting this near [s] is announced; >= temporal_resolution.
-  double skew = 0;                        ///< κ [s] between any sender's clock and ours.
-  std::uint32_t agents_max = 1000;        ///< Admit() refuses beyond.
-  std::uint32_t pairs_max = 65536;        ///< Tracked at once; beyond, both agents are saturated.
+  double announce_within = 2.0;  ///< A meeting this near [s] is announced; >= temporal_resolution.
+  double skew = 0;               ///< κ [s] between any sender's clock and ours.
+  std::uint32_t agents_max = 1000;          ///< Admit() refuses beyond.
+  std::uint32_t pairs_max = 65536;          ///< Tracked at once; beyond, both agents are saturated.
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
-  std::uint32_t history_max = 64;         ///< States kept for judging; beyond, the oldest go and brackets widen.
+  std::uint32_t history_max =
+      64;  ///< States kept for judging; beyond, the oldest go and brackets widen.
 };
 
 /// Why a clearance was lowered.
@@ -31,12 +32,14 @@ struct AgentClearance {
   AgentId agent;
   Instant clear_until = Instant::Never();  ///< No new contact begins before.
   bool not_clear = false;                  ///< It has come: something may touch.
+  bool in_contact = false;                 ///< A contact is confirmed and has not ended.
   bool saturated = false;                  ///< More partners than are tracked for one agent.
   Instant acknowledged;                    ///< Stamp of the newest state in force.
-  Instant effective_from = Instant::Always();  ///< Promises count the latest admission, jump or widening from here.
+  Instant effective_from =
+      Instant::Always();  ///< Promises count the latest admission, jump or widening from here.
   ClearanceCause cause = ClearanceCause::kNone;  ///< Of the last lowering.
   AgentId cause_agent;
-  Instant void_from = Instant::Never();    ///< With kBreach: earlier promises are void from here.
+  Instant void_from = Instant::Never();  ///< With kBreach: earlier promises are void from here.
 };
 
 /// What became of a state.
@@ -60,40 +63,42 @@ struct EarliestAnswer {
 /// Counted work and occurrences since the start.
 struct DetectorCounters {
   std::uint64_t updates = 0, updates_kept = 0, jumps = 0, widenings = 0, breaches = 0, older = 0;
-  std::uint64_t queries = 0;        ///< Agents asked for their earliest meetings.
-  std::uint64_t pair_queries = 0;   ///< Pairs given to the canonical routine.
-  std::uint64_t segments = 0;       ///< Segments judged by the narrow phase.
+  std::uint64_t queries = 0;       ///< Agents asked for their earliest meetings.
+  std::uint64_t pair_queries = 0;  ///< Pairs given to the canonical routine.
+  std::uint64_t segments = 0;      ///< Segments judged by the narrow phase.
   std::uint64_t saturations = 0;
-  std::uint64_t events[6] = {};     ///< Published revisions that changed the status, by EventStatus.
+  std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.
 };
 
-/// Holds every agent's space-time bound, keeps the earliest possible intersections current, judges pairs
-/// that could overlap, and tells what follows as values. Single-threaded; knows no clock: time is an argument.
-/// Same calls, same bits. The paper's loop (Hubbard 1995, section 4) kept per pair: README.md.
+/// Holds every agent's space-time bound, keeps the earliest possible intersections current, judges
+/// pairs that could overlap, and tells what follows as values. Single-threaded; knows no clock:
+/// time is an argument. Same calls, same bits. The paper's loop (Hubbard 1995, section 4) kept per
+/// pair: README.md.
 ///
-/// Between two calls of Advance() any number of Admit, Update, Redeclare, Remove and Hear may come, in a
-/// deterministic order; their effects show after the next Advance().
+/// Between two calls of Advance() any number of Admit, Update, Redeclare, Remove and Hear may come,
+/// in a deterministic order; their effects show after the next Advance().
 class Detector {
  public:
   explicit Detector(const DetectorOptions& options);
   ~Detector();
 
-  /// False if `agents_max` is reached or the id is present. `effective_from`: the greatest time granted to
-  /// anybody it can meet (simulated clock), else the state's stamp.
+  /// False if `agents_max` is reached or the id is present. `effective_from`: the greatest time
+  /// granted to anybody it can meet (simulated clock), else the state's stamp.
   bool Admit(const AgentId& id, const AgentDeclaration& declaration, const MotionState& state,
              Instant effective_from);
 
   /// `effective_from` is used where the state jumps, widens or breaches.
   UpdateOutcome Update(const AgentId& id, const MotionState& state, Instant effective_from);
 
-  /// A new declaration. What widens counts at once (and is told as effective from `effective_from`); what
-  /// narrows counts from the next state on. False: unknown agent.
+  /// A new declaration. What widens counts at once (and is told as effective from
+  /// `effective_from`); what narrows counts from the next state on. False: unknown agent.
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
 
   /// Open events of the agent are withdrawn (ended, where confirmed). False: unknown agent.
   bool Remove(const AgentId& id);
 
-  /// The owner has told everything it knows of this agent up to `until`; contacts are judged up to there.
+  /// The owner has told everything it knows of this agent up to `until`; contacts are judged up to
+  /// there.
   void Hear(const AgentId& id, Instant until);
 
   /// Brings everything to `now` (never backward): afterwards every pair that may meet before

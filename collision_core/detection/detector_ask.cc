@@ -7,14 +7,19 @@
 namespace collision {
 namespace {
 
-// The bound under which keys are computed: a little wider than the true one, so that a key from an older state
-// is not later than the canonical answer from a newer one that kept the contract up to rounding. Each kept state
-// may drift by a few units in the last place (2^-52); 2^-40 has room for a thousand of them.
+// The bound under which keys are computed: a little wider than the true one, so that a key from an
+// older state is not later than the canonical answer from a newer one that kept the contract up to
+// rounding. Such a state may lie off by a few units in the last place (2^-52; 2^-40 has room for a
+// thousand of them) and by what the rounding of its stamp to the nanosecond moves it.
 SpaceTimeBound Grown(SpaceTimeBound bound) {
   constexpr double kShare = 0x1p-40;
+  constexpr double kStampRounding = 4e-9;
   const double speed = bound.state.v_WA.norm();
-  bound.state.position_error += kShare * (bound.state.p_WA.norm() + speed + bound.declaration.radius);
-  bound.state.velocity_error += kShare * speed;
+  const double acceleration_max = bound.declaration.acceleration_max;
+  bound.state.position_error +=
+      kShare * (bound.state.p_WA.norm() + speed + bound.declaration.radius) +
+      kStampRounding * speed;
+  bound.state.velocity_error += kShare * speed + kStampRounding * acceleration_max;
   return bound;
 }
 
@@ -47,8 +52,8 @@ bool Detector::Implementation::Tracked(const AgentRecord& agent, std::uint32_t p
   });
 }
 
-// Finds the agent's meetings anew: those within announce_within become tracked pairs, the earliest of the
-// others its key.
+// Finds the agent's meetings anew: those within announce_within become tracked pairs, the earliest
+// of the others its key.
 void Detector::Implementation::Ask(std::uint32_t agent) {
   AgentRecord& record = At(agent);
   const bool renewed = record.renewed_from.has_value();
@@ -84,8 +89,8 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
   SetKey(agent, record.saturated ? std::min(key, record.key) : key);
 }
 
-// The broad phase answers from the newest states on. What lies between the instant up to which a pair was
-// covered and those states must be free as well, or the pair is tracked and judged.
+// The broad phase answers from the newest states on. What lies between the instant up to which a
+// pair was covered and those states must be free as well, or the pair is tracked and judged.
 void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
   const AgentRecord& record = At(agent);
   for (const auto& [id, partner] : index_) {
@@ -120,8 +125,8 @@ void Detector::Implementation::Track(std::uint32_t a, std::uint32_t b, Instant f
   };
   std::optional<std::uint32_t> slot;
   if (!full(a) && !full(b)) {
-    slot = pairs_.Add({lower, higher, ContactTracker(free_until, began_before), free_until,
-                       false, false, CollisionEvent{}, 0});
+    slot = pairs_.Add({lower, higher, ContactTracker(free_until, began_before), free_until, false,
+                       false, CollisionEvent{}, 0});
   }
   if (slot) {
     At(a).pairs.push_back(*slot);
@@ -155,7 +160,9 @@ AgentClearance Detector::Implementation::Clearance(const AgentRecord& agent) con
   clearance.clear_until = agent.key;
   for (const std::uint32_t slot : agent.pairs) {
     const PairRecord& pair = pairs_[slot];
-    if (!pair.in_contact) {
+    if (pair.in_contact) {
+      clearance.in_contact = true;
+    } else {
       clearance.clear_until = std::min(clearance.clear_until, pair.clear_until);
     }
   }
@@ -174,6 +181,7 @@ std::vector<AgentClearance> Detector::Implementation::TakeChangedClearances() {
     const bool lowered = !first && clearance.clear_until < record.told->clear_until;
     const bool same = !first && clearance.clear_until == record.told->clear_until &&
                       clearance.not_clear == record.told->not_clear &&
+                      clearance.in_contact == record.told->in_contact &&
                       clearance.saturated == record.told->saturated &&
                       clearance.effective_from == record.told->effective_from &&
                       record.void_from.is_never();
@@ -207,8 +215,8 @@ EarliestAnswer Detector::Implementation::Earliest() {
     const AgentId lower = std::min(At(a).id, At(b).id);
     const AgentId higher = std::max(At(a).id, At(b).id);
     if (when.is_never()) return;
-    if (best.found && std::tie(best.earliest, best.lower, best.higher) <=
-                          std::tie(when, lower, higher)) {
+    if (best.found &&
+        std::tie(best.earliest, best.lower, best.higher) <= std::tie(when, lower, higher)) {
       return;
     }
     best = {true, when, lower, higher};
@@ -216,7 +224,8 @@ EarliestAnswer Detector::Implementation::Earliest() {
   for (const std::uint32_t slot : pairs_.slots()) {
     if (!pairs_[slot].in_contact) consider(pairs_[slot].lower, pairs_[slot].higher);
   }
-  // Keys are lower bounds, so only agents whose key is not later than the best answer can better it.
+  // Keys are lower bounds, so only agents whose key is not later than the best answer can better
+  // it.
   std::vector<std::uint32_t> seen;
   while (!queue_.empty() && queue_.top_key() <= best.earliest && !queue_.top_key().is_never()) {
     const std::uint32_t agent = queue_.top();

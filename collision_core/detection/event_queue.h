@@ -8,8 +8,9 @@
 
 namespace collision {
 
-/// A binary heap of (key, agent), with each agent's place known so that its key can change in O(log n).
-/// Equal keys come in the order of the agents' indices, so that the order never depends on history.
+/// A binary heap of (key, agent), with each agent's place known so that its key can change in O(log
+/// n). Equal keys come in the order of the agents' indices, so that the order never depends on
+/// history.
 class EventQueue {
  public:
   /// Adds the agent, or moves it to its new key.

@@ -17,8 +17,24 @@ AgentDeclaration Widest(const AgentDeclaration& a, const AgentDeclaration& b) {
 }  // namespace
 
 void History::Push(const SpaceTimeBound& bound, Link link, std::size_t capacity) {
+  if (samples_.size() >= capacity) Thin();
+  // Where nothing can be spared, the oldest goes, and what it covered becomes unknown.
   if (samples_.size() >= capacity) samples_.erase(samples_.begin());
   samples_.push_back({bound, link});
+}
+
+void History::Thin() {
+  const auto spared = [this](std::size_t i) {
+    return samples_[i].link == Link::kFollows && samples_[i + 1].link == Link::kFollows &&
+           samples_[i].bound.declaration == samples_[i - 1].bound.declaration &&
+           samples_[i].bound.declaration == samples_[i + 1].bound.declaration;
+  };
+  std::vector<Sample> kept;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    if (i % 2 == 1 && i + 1 < samples_.size() && spared(i)) continue;
+    kept.push_back(samples_[i]);
+  }
+  samples_.swap(kept);
 }
 
 void History::Trim(Instant since) {
@@ -56,8 +72,7 @@ BallSegment History::Over(Instant from, Instant to) const {
   SpaceTimeBound last = samples_[k].bound;
   SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
   segment.radius = std::min(last.declaration.radius, next.declaration.radius);
-  const double spread =
-      std::max(last.declaration.radius, next.declaration.radius) - segment.radius;
+  const double spread = std::max(last.declaration.radius, next.declaration.radius) - segment.radius;
   last.declaration = next.declaration = Widest(last.declaration, next.declaration);
 
   const bool broken = has_next && samples_[k + 1].link == Link::kBroken;

@@ -14,7 +14,8 @@ enum class Link {
   kBroken    ///< The bound was broken somewhere between the two: nothing is known there.
 };
 
-/// At most `capacity` samples, oldest first; beyond, the oldest goes, and what it covered becomes unknown.
+/// At most `capacity` samples, oldest first; beyond, the oldest goes, and what it covered becomes
+/// unknown.
 class History {
  public:
   struct Sample {
@@ -37,11 +38,12 @@ class History {
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
   const SpaceTimeBound* Uninterrupted(Instant t) const;
 
-  /// What is certain on [from, to], where no stamp lies strictly between. With samples of unequal radius the
-  /// smaller counts, and the difference is added to the uncertainty.
+  /// What is certain on [from, to], where no stamp lies strictly between. With samples of unequal
+  /// radius the smaller counts, and the difference is added to the uncertainty.
   BallSegment Over(Instant from, Instant to) const;
 
  private:
+  void Thin();
   std::size_t InForce(Instant t) const;  // index of the last sample with stamp <= t; size() if none
 
   std::vector<Sample> samples_;

@@ -5,16 +5,13 @@
 namespace collision {
 namespace {
 
-// Where the two were certified to be nearest: looked for at the ends and where the centres' lines are nearest.
+// Where the two were certified to be nearest: looked for at the ends and where the centres' lines
+// are nearest.
 Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, double duration) {
   Nearest nearest;
   if (a.bounds.empty() || b.bounds.empty()) return nearest;
-  const auto middle = [](const IntervalVector& v) {
-    return Eigen::Vector3d((v.x.lower + v.x.upper) / 2, (v.y.lower + v.y.upper) / 2,
-                           (v.z.lower + v.z.upper) / 2);
-  };
-  const Eigen::Vector3d d = middle(b.bounds[0].centre - a.bounds[0].centre);
-  const Eigen::Vector3d w = middle(b.bounds[0].velocity - a.bounds[0].velocity);
+  const Eigen::Vector3d d = (b.bounds[0].centre - a.bounds[0].centre).middle();
+  const Eigen::Vector3d w = (b.bounds[0].velocity - a.bounds[0].velocity).middle();
   const double speed_squared = w.squaredNorm();
   const double bottom = speed_squared > 0 ? -d.dot(w) / speed_squared : 0;
   for (const double delta : {0.0, std::clamp(bottom, 0.0, duration), duration}) {

@@ -17,16 +17,16 @@ namespace collision {
 struct PairRecord {
   std::uint32_t lower;
   std::uint32_t higher;
-  ContactTracker tracker;           ///< Judged as far as both owners' states reach.
-  Instant clear_until;              ///< No contact begins before; the past while undecided.
+  ContactTracker tracker;  ///< Judged as far as both owners' states reach.
+  Instant clear_until;     ///< No contact begins before; the past while undecided.
   bool in_contact = false;
-  bool announced = false;           ///< `event` is open and was published.
-  CollisionEvent event;             ///< The last revision published.
-  std::uint64_t work = 0;           ///< Segments and instants judged since the contact's number was given.
+  bool announced = false;  ///< `event` is open and was published.
+  CollisionEvent event;    ///< The last revision published.
+  std::uint64_t work = 0;  ///< Segments and instants judged since the contact's number was given.
 };
 
-/// Slots are reused in the order in which they were freed, and only after others have been freed since, so
-/// that a slot's last sample on the wire stays readable for a while.
+/// Slots are reused in the order in which they were freed, and only after others have been freed
+/// since, so that a slot's last sample on the wire stays readable for a while.
 class PairTable {
  public:
   /// Freed slots that rest before one of them is reused.
@@ -44,7 +44,8 @@ class PairTable {
   const PairRecord& operator[](std::uint32_t slot) const { return *pairs_[slot]; }
   std::size_t size() const { return used_.size(); }
 
-  /// The number of the pair's next contact, from 1; it goes on after the pair was no longer tracked.
+  /// The number of the pair's next contact, from 1; it goes on after the pair was no longer
+  /// tracked.
   std::uint32_t NextContact(std::uint32_t lower, std::uint32_t higher);
   /// Forgets the numbers of all pairs of an agent that has left.
   void Forget(std::uint32_t agent);

@@ -17,7 +17,8 @@ void SceneProfile::Count(const AgentRecord& agent) {
 Detector::Profile SceneProfile::Describe() const {
   Detector::Profile profile;
   profile.broad_phase = "all pairs";
-  profile.why = std::to_string(agents_) + " agents: asking every partner is the method for up to about 1000";
+  profile.why =
+      std::to_string(agents_) + " agents: asking every partner is the method for up to about 1000";
   const auto leave_out = [&](bool unused, const char* what) {
     if (unused) profile.left_out.emplace_back(what);
   };

@@ -8,8 +8,8 @@
 
 namespace collision {
 
-/// Counts, agent by agent, which parts of the mathematics the scene uses. Chosen by counted features, never by
-/// measured time, so that the same scene gives the same choice everywhere.
+/// Counts, agent by agent, which parts of the mathematics the scene uses. Chosen by counted
+/// features, never by measured time, so that the same scene gives the same choice everywhere.
 class SceneProfile {
  public:
   void Count(const AgentRecord& agent);

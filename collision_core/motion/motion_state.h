@@ -34,6 +34,8 @@ struct AgentDeclaration {
   double time_step = 0;      ///< h of a semi-implicit Euler integrator [s]; 0: continuous motion.
   std::uint32_t group = 1;   ///< Bits this agent is.
   std::uint32_t mask = ~0u;  ///< Bits it can meet.
+
+  friend bool operator==(const AgentDeclaration&, const AgentDeclaration&) = default;
 };
 
 /// A pair can meet only if each is in a group that the other's mask names.

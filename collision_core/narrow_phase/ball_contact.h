@@ -41,7 +41,7 @@ struct SeparationAt {
   Interval separation;
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< Most likely centre of A [m].
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< Likewise of B.
-  double error_A = 0, error_B = 0;  ///< Within these of the true centres.
+  double error_A = 0, error_B = 0;                 ///< Within these of the true centres.
 };
 SeparationAt JudgeInstant(const BallSegment& a, const BallSegment& b, double delta);
 

@@ -154,11 +154,18 @@ TEST_F(CollisionctlTest, WhatIsOfAFormerAgentOrRunIsNotShown) {
   EXPECT_FALSE(view_.Agents()[0].state);
 }
 
-TEST_F(CollisionctlTest, RemovedAgentsGo) {
+TEST_F(CollisionctlTest, RemovedAgentsGoAndTheirNamesStay) {
   Describe("ball", 7, 0);
   next_.inputs.emplace_back().mutable_agent_removal()->set_simulator_id(5);
   Poll(2);
   EXPECT_TRUE(view_.Agents().empty());
+  v1::AgentId id;
+  id.set_simulator_id(5);
+  id.set_run(7);
+  id.set_generation(1);
+  EXPECT_EQ(view_.Name(id), "ball");
+  id.set_generation(2);
+  EXPECT_EQ(view_.Name(id), "0000000000000005:0");
 }
 
 TEST_F(CollisionctlTest, EarliestPage) {

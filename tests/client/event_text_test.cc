@@ -47,6 +47,13 @@ TEST(EventText, APossibleEventWithOpenBeginOnAWallClock) {
             "begin [0.734236, open]  end open  gap [0.0123, 1.24e+03] m");
 }
 
+TEST(EventText, AGapOfNothingHasNoSign) {
+  v1::CollisionEvent event = Confirmed();
+  event.mutable_separation_m()->set_upper(-0.0);
+  const std::string line = EventLine(event, NameOf, 0);
+  EXPECT_EQ(line.substr(line.find("gap")), "gap ≤ 0 m");
+}
+
 TEST(EventText, AnEndSaysWhatIsKnownOfIt) {
   v1::CollisionEvent event = Confirmed();
   event.clear_separation_m();

@@ -5,6 +5,7 @@
 // them.
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <stdexcept>
 
 #include "client/world_implementation.h"
@@ -202,10 +203,12 @@ TEST_F(EventsTest, ACallbackMayReplaceItself) {
 
 TEST_F(EventsTest, NoCallbackComesAfterTheWorldHasEnded) {
   std::optional<World> world = std::move(world_);
+  Agent ball = world->AddAgent({.name = "ball"}, {});
   int called = 0;
   world->OnEvent([&](const Event&) {
     ++called;
     world.reset();
+    EXPECT_NO_THROW(ball.SetState({.position_error_m = -1}));
   });
   Arrive(OwnEvent(1, 1, 1));
   Arrive(OwnEvent(1, 2, 2));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "client/world_implementation.h"
@@ -35,6 +36,26 @@ class WorldTest : public testing::Test {
 
   std::shared_ptr<FakeNetwork> network_ = std::make_shared<FakeNetwork>();
 };
+
+// A killed program's successor is refused until the service has given up its predecessor; it must not stay so.
+TEST_F(WorldTest, RefusedForItsNameItSaysEverythingAgain) {
+  World world = ConnectTo(network_);
+  const Agent ball = world.AddAgent(Ball(), At(0, 3));
+  world.Publish(0);
+  network_->written.clear();
+  v1::Rejection* rejection = network_->arriving.emplace_back().mutable_rejection();
+  rejection->set_simulator_id(SimulatorId(kSimulator));
+  rejection->set_run(kRun);
+  rejection->set_reason(v1::REJECTED_ID_OWNED);
+  world.Poll();
+  world.Publish(0);
+  ASSERT_EQ(network_->written.size(), 3u);
+  EXPECT_EQ(network_->written[0].agent_description().agent_name(), "ball");
+  EXPECT_EQ(network_->written[1].agent_states().states(0).position_m().x(), 3);
+  EXPECT_EQ(network_->written[2].simulator_clock().descriptions_sequence(), 1u);
+  world.Publish(0);
+  EXPECT_EQ(network_->written.size(), 3u) << "once is enough until it is refused again";
+}
 
 TEST_F(WorldTest, AnAgentIsDescribedThenPlacedThenPromised) {
   World world = ConnectTo(network_);
@@ -166,6 +187,17 @@ TEST_F(WorldTest, WaitsAreBoundedByWhatIsLeftOfTheTimeout) {
     EXPECT_GT(network_->waits[i], nanoseconds(0));
     EXPECT_LE(network_->waits[i], i == 1 ? nanoseconds(hours(1)) : network_->waits[i - 1]);
   }
+}
+
+// A service that answers, but never grants enough, must not keep anybody for good.
+TEST_F(WorldTest, AnswersDoNotProlongTheTimeout) {
+  World world = ConnectTo(network_);
+  network_->on_wait = [](FakeNetwork* network) {
+    if (network->waits.size() > 1'000'000) throw std::logic_error("it waits for ever");
+    network->Grant(1);
+  };
+  EXPECT_EQ(world.AdvanceTo(5, nanoseconds(1)), Advance::kTimeout);
+  EXPECT_FALSE(world.WaitForService(nanoseconds(1)));
 }
 
 TEST_F(WorldTest, TheLongestTimeoutThereIsDoesNotOverflow) {

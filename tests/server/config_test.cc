@@ -173,7 +173,7 @@ TEST(Config, WordsAreChecked) {
 TEST(Config, TellsAllErrorsWithTheirLines) {
   const std::string text =
       "world: \"bad world\"\n"
-      "nosuch: 5\n"
+      "nosuch { kind: 5 }\n"
       "clock {\n"
       "  kind: FOO\n"
       "  bogus: 7\n"
@@ -193,6 +193,7 @@ TEST(Config, TellsAllErrorsWithTheirLines) {
   ASSERT_EQ(errors.size(), expected.size());
   for (std::size_t i = 0; i < errors.size(); ++i) {
     EXPECT_TRUE(errors[i].starts_with("a/F.textproto:" + expected[i])) << errors[i];
+    EXPECT_EQ(errors[i].find(".;"), std::string::npos) << errors[i];
   }
 }
 

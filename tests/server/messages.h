@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "idl/identity.h"
 #include "idl/messages.pb.h"
@@ -105,6 +106,24 @@ inline v1::Input Liveliness(std::uint64_t sender, const std::string& simulator, 
   input.mutable_liveliness()->set_simulator_id(SimulatorId(simulator));
   input.mutable_liveliness()->set_alive(alive);
   return input;
+}
+
+/// A clock that vouches for everything up to these sequences.
+inline v1::SimulatorClock ClockAfter(const std::string& simulator, std::int64_t clock_ns,
+                                     std::uint64_t states, std::uint64_t descriptions) {
+  v1::SimulatorClock clock = ClockOf(simulator, clock_ns);
+  clock.set_states_sequence(states);
+  clock.set_descriptions_sequence(descriptions);
+  return clock;
+}
+
+/// Alpha with agents in slots 0 and 1, 100 m apart, and its clock at 0.
+inline std::vector<v1::Input> AlphaJoins(std::uint64_t sender) {
+  v1::AgentStates chunk = Chunk("alpha");
+  *chunk.add_states() = State(0, 0, 1);
+  *chunk.add_states() = State(1, 0, 2);
+  return {From(sender, Description("alpha", 0)), From(sender, Description("alpha", 1)),
+          From(sender, chunk), From(sender, ClockAfter("alpha", 0, 2, 2))};
 }
 
 }  // namespace collision::server

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -69,14 +70,67 @@ const Story* Find(const std::map<std::uint32_t, Story>& stories, const Meeting& 
   return nullptr;
 }
 
+/// What was promised to each agent, and when.
+struct Promise {
+  std::int64_t now_ns;
+  std::int64_t clear_until_ns;
+};
+using Promises = std::map<AgentId, std::vector<Promise>>;
+
+Promises PromisesOf(const std::vector<v1::Output>& published) {
+  Promises promises;
+  for (const v1::Output& output : published) {
+    if (!output.has_clearance()) continue;
+    const v1::Clearance& sample = output.clearance();
+    for (const v1::AgentClearance& agent : sample.agents()) {
+      promises[{sample.simulator_id(), agent.slot(), sample.run(), agent.generation()}].push_back(
+          {sample.now_ns(), agent.clear_until_ns()});
+    }
+  }
+  return promises;
+}
+
+/// Up to this instant neither was new in any way that a promise could not have known.
+std::int64_t LastSurprise(const Body& body, std::int64_t before_ns) {
+  std::int64_t last = body.agent->from_ns;
+  for (const std::int64_t jump : body.agent->motion.jumps_ns) {
+    if (jump <= before_ns) last = std::max(last, jump);
+  }
+  return last;
+}
+
+void CheckPromises(const Body& a, const Body& b, const Meeting& meeting, const Story* story,
+                   const Promises& promises, CheckerResult* result) {
+  const std::int64_t announced =
+      story == nullptr ? std::numeric_limits<std::int64_t>::max() : story->first_now_ns;
+  const std::int64_t known_from =
+      std::max(LastSurprise(a, meeting.begin_ns), LastSurprise(b, meeting.begin_ns));
+  for (const AgentId& id : {a.id, b.id}) {
+    const auto told = promises.find(id);
+    if (told == promises.end()) continue;
+    for (const Promise& promise : told->second) {
+      const bool binds = promise.now_ns > known_from && promise.now_ns < meeting.begin_ns &&
+                         promise.now_ns < announced;
+      if (!binds) continue;
+      ++result->promises;
+      if (promise.clear_until_ns <= meeting.begin_ns) continue;
+      result->violations.push_back(Show(a, b, meeting) + ": at " + std::to_string(promise.now_ns) +
+                                   " slot " + std::to_string(id.slot) + " was clear until " +
+                                   std::to_string(promise.clear_until_ns));
+      return;
+    }
+  }
+}
+
 void CheckMeeting(const Body& a, const Body& b, const Meeting& meeting,
-                  const std::map<std::uint32_t, Story>& stories, const CheckerOptions& options,
-                  CheckerResult* result) {
+                  const std::map<std::uint32_t, Story>& stories, const Promises& promises,
+                  const CheckerOptions& options, CheckerResult* result) {
   const auto violate = [&](const std::string& what) {
     result->violations.push_back(Show(a, b, meeting) + ": " + what);
   };
   ++result->contacts;
   const Story* story = Find(stories, meeting, options.time_tolerance_ns);
+  if (meeting.begins_in_motion) CheckPromises(a, b, meeting, story, promises, result);
   if (story == nullptr) {
     // What began by a jump or an admission begins for the service when it saw it.
     if (meeting.begins_in_motion) violate("no event holds its begin");
@@ -122,6 +176,7 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
                             const CheckerOptions& options) {
   CheckerResult result;
   const auto stories = StoriesOf(published);
+  const Promises promises = PromisesOf(published);
   std::vector<Body> bodies;
   for (const SimulatedSimulator* simulator : simulators) {
     for (std::uint32_t slot = 0; slot < simulator->agents().size(); ++slot) {
@@ -140,7 +195,7 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
       const auto& told = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
       for (const Meeting& meeting : meetings) {
         if (meeting.depth < options.grazing) continue;
-        CheckMeeting(a, b, meeting, told, options, &result);
+        CheckMeeting(a, b, meeting, told, promises, options, &result);
       }
       CheckConfirmed(a, b, meetings, told, &result);
     }

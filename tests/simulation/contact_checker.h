@@ -19,6 +19,7 @@ struct CheckerOptions {
 struct CheckerResult {
   std::size_t contacts = 0;         ///< True ones that were checked.
   std::size_t confirmed = 0;        ///< Of them, confirmed by the service.
+  std::size_t promises = 0;         ///< Clearances held against a contact.
   double begin_width_greatest = 0;  ///< Of the confirmed ones [s].
   std::vector<std::string> violations;
 };

@@ -66,7 +66,7 @@ TEST(Faults, ATeleportIsNoBreach) {
   SimulatedAgent mover = At(0);
   mover.motion.pieces = {
       {.start_ns = 0, .end_ns = 3 * kSecond, .p = {1000, 0, 0}},
-      {.start_ns = 3 * kSecond, .end_ns = kEnd, .p = {20, 0, 0}, .v = {-10, 0, 0}}};
+      {.start_ns = 3 * kSecond, .end_ns = kEnd, .p = {52, 0, 0}, .v = {-10, 0, 0}}};
   mover.motion.jumps_ns = {3 * kSecond};
   auto& alpha = scenario.Add({.name = "alpha", .sender = 1, .end_ns = kEnd}, {At(0)});
   auto& beta = scenario.Add({.name = "beta", .sender = 2, .end_ns = kEnd}, {mover});

@@ -30,6 +30,10 @@ void Scenario::StartService(BatchSink* recorder) {
   daemon_ = std::make_unique<Daemon>(config_, *bus_, clock_, recorder);
 }
 
+void Scenario::StartSimulators() {
+  for (const auto& simulator : simulators_) simulator->Start();
+}
+
 void Scenario::Run(std::int64_t until_ns) {
   while (network_.now_ns() < until_ns && daemon_->Step()) {
   }

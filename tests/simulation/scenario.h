@@ -28,6 +28,9 @@ class Scenario {
   /// A new daemon with an empty memory, in place of the one before.
   void StartService(BatchSink* recorder = nullptr);
 
+  /// Lets all simulators write their first samples.
+  void StartSimulators();
+
   /// Steps until nothing is left to happen, or the virtual time has come.
   void Run(std::int64_t until_ns = std::numeric_limits<std::int64_t>::max());
 

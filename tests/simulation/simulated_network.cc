@@ -66,9 +66,9 @@ void SimulatedNetwork::Transmit(const WriterKey& key, const std::string& instanc
     const auto writer = writers_.find(key);
     if (writer == writers_.end()) return;
     if (lost && writer->second.history[instance].version != version) return;
-    Deliver(message);
+    Deliver(message, false);
     if (random_.Chance(options_.duplicate)) {
-      At(now_ns_ + options_.resend_ns, [this, message] { Deliver(message); });
+      At(now_ns_ + options_.resend_ns, [this, message] { Deliver(message, true); });
     }
   });
 }
@@ -80,7 +80,7 @@ void SimulatedNetwork::Kill(std::uint64_t sender, std::uint64_t simulator_id) {
     input.set_sender(sender);
     input.mutable_liveliness()->set_simulator_id(simulator_id);
     input.mutable_liveliness()->set_alive(false);
-    Deliver(input);
+    Deliver(input, false);
   });
 }
 
@@ -88,7 +88,7 @@ void SimulatedNetwork::Subscribe(std::function<void(const v1::Output&)> handler)
   handlers_.push_back(std::move(handler));
 }
 
-void SimulatedNetwork::Attach(std::function<void(const v1::Input&)> reader) {
+void SimulatedNetwork::Attach(std::function<void(const v1::Input&, bool)> reader) {
   reader_ = std::move(reader);
   for (auto& [key, writer] : writers_) {
     for (auto& [instance, sample] : writer.history) {
@@ -114,16 +114,17 @@ bool SimulatedNetwork::RunOne(std::int64_t deadline_ns) {
 }
 
 SimulatedBus::SimulatedBus(SimulatedNetwork* network) : network_(*network) {
-  network_.Attach([this](const v1::Input& message) { Take(message); });
+  network_.Attach([this](const v1::Input& message, bool duplicate) { Take(message, duplicate); });
 }
 
-void SimulatedBus::Take(const v1::Input& message) {
+void SimulatedBus::Take(const v1::Input& message, bool duplicate) {
   const auto same = [&message](const v1::Input& other) {
     return other.sender() == message.sender() && other.message_case() == message.message_case() &&
            !message.has_agent_removal() && !message.has_liveliness() &&
            AddressOf(other) == AddressOf(message);
   };
-  std::erase_if(inbox_, same);
+  // A late duplicate is older than what it would replace.
+  if (!duplicate) std::erase_if(inbox_, same);
   inbox_.push_back(message);
 }
 

@@ -52,7 +52,8 @@ class SimulatedNetwork {
   // ---- the service's side ----
 
   /// Connects a service: everything the living writers hold is delivered to it.
-  void Attach(std::function<void(const v1::Input&)> reader);
+  /// `reader` also hears whether a sample is a late duplicate.
+  void Attach(std::function<void(const v1::Input&, bool duplicate)> reader);
   void Detach() { reader_ = nullptr; }
 
   void PublishToAll(const v1::Output& output);
@@ -84,8 +85,8 @@ class SimulatedNetwork {
 
   void Transmit(const WriterKey& key, const std::string& instance, const v1::Input& message,
                 std::uint64_t version);
-  void Deliver(const v1::Input& message) {
-    if (reader_) reader_(message);
+  void Deliver(const v1::Input& message, bool duplicate) {
+    if (reader_) reader_(message, duplicate);
   }
   std::int64_t Delay();
 
@@ -98,7 +99,7 @@ class SimulatedNetwork {
   std::priority_queue<Occurrence> occurrences_;
   std::map<WriterKey, Writer> writers_;
   std::vector<std::function<void(const v1::Output&)>> handlers_;
-  std::function<void(const v1::Input&)> reader_;
+  std::function<void(const v1::Input&, bool)> reader_;
 };
 
 /// The service's end of the network. Several samples of one instance that wait for Receive()
@@ -119,7 +120,7 @@ class SimulatedBus final : public Bus {
   const std::vector<v1::Output>& published() const { return published_; }
 
  private:
-  void Take(const v1::Input& message);
+  void Take(const v1::Input& message, bool duplicate);
 
   SimulatedNetwork& network_;
   std::deque<v1::Input> inbox_;

@@ -113,7 +113,7 @@ void SimulatedSimulator::PublishAt(std::int64_t clock_ns) {
     const SimulatedAgent& agent = agents_[slot];
     const bool lives = agent.from_ns <= clock_ns_ && clock_ns_ < agent.until_ns;
     if (lives && !present_.contains(slot)) Describe(slot);
-    if ((!lives || ends) && present_.contains(slot) && !ends) Remove(slot);
+    if (!lives && !ends && present_.contains(slot)) Remove(slot);
   }
   WriteChunks();
   WriteClock();
@@ -127,7 +127,7 @@ void SimulatedSimulator::PublishAt(std::int64_t clock_ns) {
 }
 
 void SimulatedSimulator::Describe(std::uint32_t slot) {
-  v1::Input input = Message();
+  v1::Input input;
   *input.mutable_agent_description() =
       DescriptionOf(options_.name, options_.run, slot, agents_[slot]);
   input.mutable_agent_description()->set_sequence(++descriptions_sequence_);
@@ -137,7 +137,7 @@ void SimulatedSimulator::Describe(std::uint32_t slot) {
 }
 
 void SimulatedSimulator::Remove(std::uint32_t slot) {
-  v1::Input input = Message();
+  v1::Input input;
   input.mutable_agent_removal()->set_simulator_id(id_);
   input.mutable_agent_removal()->set_slot(slot);
   network_.Write(options_.sender, input);
@@ -167,16 +167,6 @@ v1::AgentState SimulatedSimulator::StateOf(std::uint32_t slot) {
   return state;
 }
 
-void SimulatedSimulator::WriteState(const v1::AgentState& state) {
-  v1::Input input = Message();
-  v1::AgentStates& chunk = *input.mutable_agent_states();
-  chunk.set_simulator_id(id_);
-  chunk.set_chunk(state.slot() / options_.chunk_size);
-  chunk.set_run(options_.run);
-  *chunk.add_states() = state;
-  network_.Write(options_.sender, input);
-}
-
 void SimulatedSimulator::WriteChunks() {
   std::map<std::uint32_t, v1::Input> chunks;
   for (const std::uint32_t slot : present_) {
@@ -190,7 +180,7 @@ void SimulatedSimulator::WriteChunks() {
 }
 
 void SimulatedSimulator::WriteClock() {
-  v1::Input input = Message();
+  v1::Input input;
   v1::SimulatorClock& clock = *input.mutable_simulator_clock();
   clock.set_simulator_id(id_);
   clock.set_run(options_.run);

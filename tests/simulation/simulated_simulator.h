@@ -46,11 +46,6 @@ class SimulatedSimulator {
   /// Ends without a word.
   void Kill();
 
-  /// Writes one state of a slot over the truth, as a faulty simulator would.
-  void WriteState(const v1::AgentState& state);
-
-  v1::AgentState StateOf(std::uint32_t slot);
-
   std::uint64_t id() const { return id_; }
   AgentId AgentAt(std::uint32_t slot) const { return {id_, slot, options_.run, 1}; }
   std::int64_t clock_ns() const { return clock_ns_; }
@@ -70,7 +65,7 @@ class SimulatedSimulator {
   void Remove(std::uint32_t slot);
   void WriteChunks();
   void WriteClock();
-  v1::Input Message() const { return {}; }
+  v1::AgentState StateOf(std::uint32_t slot);
 
   const SimulatorOptions options_;
   const std::uint64_t id_;

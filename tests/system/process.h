@@ -13,7 +13,7 @@ namespace collision::system_test {
 
 /// Longer than anything takes on a busy machine under a sanitizer: a test that waits so long has
 /// failed.
-inline constexpr std::chrono::seconds kPatience{120};
+inline constexpr std::chrono::seconds kPatience{240};
 
 /// A running program. Its output is gathered while somebody waits; its process group is killed, by
 /// its id, at the latest in the destructor. Used from one thread.

@@ -1,24 +1,48 @@
-// Goal:   each scene runs to its end and its checker is satisfied.
-// Method: as ./run demo does it: the scene runner's exit status is the checker's judgement.
+// Goal:   each scene runs to its end and its checker is satisfied; interrupted, it leaves nothing
+// running. Method: as ./run demo does it: the scene runner's exit status is the checker's
+// judgement.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 
 #include "tests/system/test_world.h"
 
 namespace collision::system_test {
 namespace {
 
-void ExpectSceneSucceeds(std::vector<std::string> words) {
+std::vector<std::string> SceneRunner(std::vector<std::string> words) {
   words.insert(words.begin(), Program("scene-runner"));
   words.insert(words.end(), {"--scenes", ConfigFile("scenes"), "--bin", COLLISION_BIN_DIR});
   const std::string data = COLLISION_DATA_DIR;
   if (!data.empty()) words.insert(words.end(), {"--data", data});
-  const Outcome outcome = RunToEnd(words);
+  return words;
+}
+
+const std::vector<std::string> kLoopback = {"CYCLONEDDS_URI=file://" +
+                                            ConfigFile("cyclonedds-loopback.xml")};
+
+void ExpectSceneSucceeds(const std::vector<std::string>& words) {
+  const Outcome outcome = RunToEnd(SceneRunner(words), kLoopback);
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
 }
 
 TEST(Scenes, IridiumCosmos) { ExpectSceneSucceeds({"iridium-cosmos"}); }
 
 TEST(Scenes, Swarm100) { ExpectSceneSucceeds({"swarm-100", "--seconds", "5"}); }
+
+TEST(Scenes, InterruptedRunLeavesNobodyBehind) {
+  // Orphans of our children become ours, so that they can be seen.
+  ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Process runner(SceneRunner({"swarm-100", "--real-time", "--seconds", "60"}), kLoopback);
+    ASSERT_TRUE(runner.WaitForOutput("possible")) << runner.out() << runner.err();
+    runner.Signal(signal);
+    ASSERT_TRUE(runner.WaitForExit().has_value());
+    EXPECT_NE(runner.WaitForExit(), 0);
+    EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "a process was left behind";
+  }
+}
 
 TEST(ScenesWithData, Corridor) { ExpectSceneSucceeds({"corridor"}); }
 

@@ -8,20 +8,23 @@
 
 namespace collision::checker {
 
-/// Every sentence names the pair or agent, the times and the rule that was broken; empty: satisfied.
+/// Every sentence names the pair or agent, the times and the rule that was broken; empty:
+/// satisfied.
 using Violations = std::vector<std::string>;
 
-/// Every true contact has an event that brackets its begin, announced no later than it began; ended events
-/// bracket its end; no confirmed event is without a true contact. Excused: what begins after
-/// evidence.judged_until_ns(), what is withdrawn as an agent leaves, what an appearance or jump brought about
-/// inside time already granted.
+/// Every true contact has an event that brackets its begin, announced no later than it began; ended
+/// events bracket its end; no confirmed event is without a true contact. Excused: what begins after
+/// evidence.judged_until_ns(), what is withdrawn as an agent leaves, what an appearance or jump
+/// brought about inside time already granted.
 Violations CheckEvents(const Evidence& evidence);
 
-/// No true contact of an agent begins before a clear_until published earlier, unless the pair was announced by
-/// then, or one of the two appeared or jumped since. No promise is void: these simulators break no bound.
+/// No true contact of an agent begins before a clear_until published earlier, unless the pair was
+/// announced by then, or one of the two appeared or jumped since. No promise is void: these
+/// simulators break no bound.
 Violations CheckClearances(const Evidence& evidence);
 
-/// No pair that was not in contact touches before a published earliest intersection, with the same excuse.
+/// No pair that was not in contact touches before a published earliest intersection, with the same
+/// excuse.
 Violations CheckEarliest(const Evidence& evidence);
 
 /// What the scene demands beyond.

@@ -26,12 +26,13 @@ Sextic SquaredDistance(const Cubic3& d, long double duration, long double reach)
   return g;
 }
 
-// The Bernstein coefficients on [0, 1]: the polynomial lies between the least and the greatest of them.
+// The Bernstein coefficients on [0, 1]: the polynomial lies between the least and the greatest of
+// them.
 Sextic Bernstein(const Sextic& powers) {
-  static constexpr long double kBinomial[7][7] = {
-      {1, 0, 0, 0, 0, 0, 0},  {1, 1, 0, 0, 0, 0, 0},   {1, 2, 1, 0, 0, 0, 0},
-      {1, 3, 3, 1, 0, 0, 0},  {1, 4, 6, 4, 1, 0, 0},   {1, 5, 10, 10, 5, 1, 0},
-      {1, 6, 15, 20, 15, 6, 1}};
+  static constexpr long double kBinomial[7][7] = {{1, 0, 0, 0, 0, 0, 0},   {1, 1, 0, 0, 0, 0, 0},
+                                                  {1, 2, 1, 0, 0, 0, 0},   {1, 3, 3, 1, 0, 0, 0},
+                                                  {1, 4, 6, 4, 1, 0, 0},   {1, 5, 10, 10, 5, 1, 0},
+                                                  {1, 6, 15, 20, 15, 6, 1}};
   Sextic b{};
   for (int i = 0; i <= kDegree; ++i) {
     for (int k = 0; k <= i; ++k) b[i] += kBinomial[i][k] / kBinomial[kDegree][k] * powers[k];
@@ -92,7 +93,8 @@ std::vector<Span> SpansWithin(const Cubic3& d, long double duration, long double
   SpanFinder finder(noise, kWidthMin / duration);
   finder.Search(Bernstein(powers), 0, 1);
   std::vector<Span> spans;
-  for (const Span& span : finder.spans()) spans.push_back({span.begin * duration, span.end * duration});
+  for (const Span& span : finder.spans())
+    spans.push_back({span.begin * duration, span.end * duration});
   return spans;
 }
 

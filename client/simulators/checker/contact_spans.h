@@ -15,9 +15,10 @@ struct Span {
   long double end = 0;
 };
 
-/// The spans of [0, duration] in which |d(t)| <= reach, in order and apart. The sextic |d|² - reach² in
-/// Bernstein form bounds itself on every part; parts are halved until the sign is certain or they are shorter
-/// than 1e-12 s, which is how exact the spans' ends are. Values within rounding of zero count as contact.
+/// The spans of [0, duration] in which |d(t)| <= reach, in order and apart. The sextic |d|² -
+/// reach² in Bernstein form bounds itself on every part; parts are halved until the sign is certain
+/// or they are shorter than 1e-12 s, which is how exact the spans' ends are. Values within rounding
+/// of zero count as contact.
 std::vector<Span> SpansWithin(const Cubic3& d, long double duration, long double reach);
 
 }  // namespace collision::checker

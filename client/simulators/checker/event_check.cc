@@ -17,7 +17,8 @@ bool Confirmed(const v1::CollisionEvent& event) {
 bool Brackets(const v1::CollisionEvent& event, const TrueContact& contact) {
   const bool whole = event.status() == v1::EVENT_UNDECIDED ||
                      (Confirmed(event) && (!event.continuous() || event.began_before()));
-  if (whole && In(contact.begin_ns, event.begin().earliest_ns(), event.end().latest_ns())) return true;
+  if (whole && In(contact.begin_ns, event.begin().earliest_ns(), event.end().latest_ns()))
+    return true;
   return Confirmed(event) &&
          In(contact.begin_ns, event.begin().earliest_ns(), event.begin().latest_ns());
 }
@@ -27,12 +28,13 @@ bool TooShortToDemand(const TrueContact& contact) {
 }
 
 std::string Bracket(const Evidence& evidence, const v1::TimeBracket& bracket) {
-  return "[" + evidence.Time(bracket.earliest_ns()) + ", " + evidence.Time(bracket.latest_ns()) + "]";
+  return "[" + evidence.Time(bracket.earliest_ns()) + ", " + evidence.Time(bracket.latest_ns()) +
+         "]";
 }
 
 std::string Name(const Evidence& evidence, const TrueContact& contact) {
-  return evidence.PairName(contact.a, contact.b) + ", true contact " + evidence.Time(contact.begin_ns) +
-         " to " + evidence.Time(contact.end_ns);
+  return evidence.PairName(contact.a, contact.b) + ", true contact " +
+         evidence.Time(contact.begin_ns) + " to " + evidence.Time(contact.end_ns);
 }
 
 bool IsLeaving(const Evidence& evidence, const TrueContact& contact) {
@@ -49,12 +51,14 @@ bool Withdrawn(const EventHistory& history, const TrueContact& contact) {
 const EventHistory* Find(const Evidence& evidence, const TrueContact& contact) {
   const bool leaving = IsLeaving(evidence, contact);
   for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
-    if (Brackets(history->last(), contact) || (leaving && Withdrawn(*history, contact))) return history;
+    if (Brackets(history->last(), contact) || (leaving && Withdrawn(*history, contact)))
+      return history;
   }
   return nullptr;
 }
 
-// Did the service say that changes of one of the two count only from later than the contact's begin?
+// Did the service say that changes of one of the two count only from later than the contact's
+// begin?
 bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
   for (const v1::Clearance& sample : evidence.observations().clearances) {
     if (sample.now_ns() > contact.begin_ns) continue;
@@ -72,7 +76,8 @@ bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
   return false;
 }
 
-bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact, const EventHistory& history) {
+bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact,
+                     const EventHistory& history) {
   if (history.announced_ns <= contact.begin_ns + kRootTolerance) return true;
   if (contact.from_start || history.last().began_before()) return true;
   const std::int64_t transit = evidence.facts().transit_ns;
@@ -129,9 +134,10 @@ void CheckConfirmed(const Evidence& evidence, const EventHistory& history, Viola
   for (const v1::CollisionEvent& event : history.revisions) {
     if (!Confirmed(event) || event.begin().latest_ns() > logged) continue;
     const auto& contacts = evidence.ContactsOf(history.a);
-    const bool is_true = std::any_of(contacts.begin(), contacts.end(), [&](const TrueContact* contact) {
-      return contact->a == history.a && contact->b == history.b && Brackets(event, *contact);
-    });
+    const bool is_true =
+        std::any_of(contacts.begin(), contacts.end(), [&](const TrueContact* contact) {
+          return contact->a == history.a && contact->b == history.b && Brackets(event, *contact);
+        });
     if (is_true) continue;
     violations->push_back(evidence.PairName(history.a, history.b) + ": confirmed with begin " +
                           Bracket(evidence, event.begin()) + ", but no true contact begins there");
@@ -146,7 +152,8 @@ Violations CheckEvents(const Evidence& evidence) {
   for (const TrueContact& contact : evidence.contacts()) {
     if (Required(evidence, contact)) CheckContact(evidence, contact, &violations);
   }
-  for (const EventHistory& history : evidence.histories()) CheckConfirmed(evidence, history, &violations);
+  for (const EventHistory& history : evidence.histories())
+    CheckConfirmed(evidence, history, &violations);
   if (!evidence.strange_events().empty()) {
     violations.push_back(std::to_string(evidence.strange_events().size()) +
                          " events name agents that no simulator logged");

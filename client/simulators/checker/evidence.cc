@@ -15,10 +15,13 @@ auto Key(const v1::AgentId& id) {
 std::int64_t JudgedUntil(const std::vector<AgentMotion>& motions, std::int64_t transit_ns) {
   std::map<std::string, std::int64_t> end, period;
   for (const AgentMotion& motion : motions) {
-    const Piece& last = motion.pieces.back();
     end.try_emplace(motion.simulator, std::numeric_limits<std::int64_t>::min());
-    end[motion.simulator] = std::max(end[motion.simulator], last.t1_ns);
-    period[motion.simulator] = std::max(period[motion.simulator], last.t1_ns - last.t0_ns);
+    end[motion.simulator] = std::max(end[motion.simulator], motion.end_ns());
+    // The last piece may be cut short by the run's end: the one before counts too.
+    for (std::size_t i = motion.pieces.size(); i-- > 0 && i + 2 >= motion.pieces.size();) {
+      const std::int64_t length = motion.pieces[i].t1_ns - motion.pieces[i].t0_ns;
+      period[motion.simulator] = std::max(period[motion.simulator], length);
+    }
   }
   std::int64_t until = std::numeric_limits<std::int64_t>::max();
   for (const auto& [simulator, end_ns] : end) until = std::min(until, end_ns - period[simulator]);
@@ -112,7 +115,8 @@ std::string Evidence::PairName(std::size_t a, std::size_t b) const {
 }
 
 std::string Evidence::Time(long double instant_ns) const {
-  if (instant_ns >= static_cast<long double>(std::numeric_limits<std::int64_t>::max())) return "never";
+  if (instant_ns >= static_cast<long double>(std::numeric_limits<std::int64_t>::max()))
+    return "never";
   char text[64];
   std::snprintf(text, sizeof text, "%.9Lf s", (instant_ns - facts_.start_ns) * 1e-9L);
   return text;

@@ -1,6 +1,7 @@
 // A run's truth and what was published about it, brought together.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <optional>
 #include <tuple>
@@ -22,7 +23,9 @@ struct Observations {
 
 /// What the checker is told about the run.
 struct RunFacts {
-  std::int64_t start_ns = 0;    ///< The run's start, from which a scene's times count.
+  std::int64_t start_ns = 0;  ///< The run's start, from which a scene's times count.
+  /// Its end: what a scene expects for later is not demanded.
+  std::int64_t end_ns = std::numeric_limits<std::int64_t>::max();
   /// A contact that begins less than this before one of the two leaves may be withdrawn instead of
   /// confirmed: simulators may be ahead of the service by what it grants.
   std::int64_t leaving_ns = 0;
@@ -32,9 +35,9 @@ struct RunFacts {
 
 /// All revisions of one contact as published.
 struct EventHistory {
-  std::size_t a = 0;                ///< Indices of the motions, a < b.
+  std::size_t a = 0;  ///< Indices of the motions, a < b.
   std::size_t b = 0;
-  std::int64_t announced_ns = 0;    ///< The service's time at the first revision received.
+  std::int64_t announced_ns = 0;             ///< The service's time at the first revision received.
   std::optional<std::int64_t> confirmed_ns;  ///< ... at the first that was confirmed.
   std::optional<std::int64_t> closed_ns;     ///< ... at the first that was final.
   std::vector<v1::CollisionEvent> revisions;  ///< As received; the highest revision last.
@@ -44,7 +47,8 @@ struct EventHistory {
 
 class Evidence {
  public:
-  Evidence(std::vector<AgentMotion> motions, const Observations& observations, const RunFacts& facts);
+  Evidence(std::vector<AgentMotion> motions, const Observations& observations,
+           const RunFacts& facts);
 
   const std::vector<AgentMotion>& motions() const { return motions_; }
   const std::vector<TrueContact>& contacts() const { return contacts_; }
@@ -53,7 +57,9 @@ class Evidence {
   const RunFacts& facts() const { return facts_; }
 
   /// Contacts of one agent, in order of begin.
-  const std::vector<const TrueContact*>& ContactsOf(std::size_t motion) const { return by_agent_[motion]; }
+  const std::vector<const TrueContact*>& ContactsOf(std::size_t motion) const {
+    return by_agent_[motion];
+  }
 
   /// Histories of the pair a < b.
   std::vector<const EventHistory*> HistoriesOf(std::size_t a, std::size_t b) const;
@@ -64,7 +70,8 @@ class Evidence {
   /// Events of agents that no simulator logged.
   const std::vector<v1::CollisionEvent>& strange_events() const { return strange_events_; }
 
-  /// What begins later the service may not have judged: the least end of the logs less one piece, and transit.
+  /// What begins later the service may not have judged: the least end of the logs less one piece,
+  /// and transit.
   std::int64_t judged_until_ns() const { return judged_until_ns_; }
 
   /// Did one of the two appear or jump in [from, to]? Promises before cannot have counted on it.
@@ -87,7 +94,8 @@ class Evidence {
   std::vector<EventHistory> histories_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> histories_of_;
   std::vector<v1::CollisionEvent> strange_events_;
-  std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>, std::size_t> ids_;
+  std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>, std::size_t>
+      ids_;
   std::int64_t judged_until_ns_ = 0;
 };
 

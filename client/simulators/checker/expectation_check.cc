@@ -16,14 +16,25 @@ class ExpectationCheck {
       : evidence_(evidence), expectation_(expectation) {}
 
   Violations Run() {
-    for (const v1::ExpectedContact& contact : expectation_.contacts()) CheckContact(contact);
+    for (const v1::ExpectedContact& contact : expectation_.contacts()) {
+      if (WithinRun(contact.end_s())) CheckContact(contact);
+    }
     if (expectation_.no_other_contact()) CheckOthers();
-    for (const v1::EarliestExpectation& earliest : expectation_.earliest()) CheckEarliest(earliest);
+    for (const v1::EarliestExpectation& earliest : expectation_.earliest()) {
+      if (WithinRun(earliest.from_s())) CheckEarliest(earliest);
+    }
     return std::move(violations_);
   }
 
  private:
-  long double Nanoseconds(double seconds) const { return evidence_.facts().start_ns + seconds * 1e9L; }
+  long double Nanoseconds(double seconds) const {
+    return evidence_.facts().start_ns + seconds * 1e9L;
+  }
+
+  // The user may have asked for a shorter run than the scene's.
+  bool WithinRun(double seconds) const {
+    return Nanoseconds(seconds) < static_cast<long double>(evidence_.facts().end_ns);
+  }
 
   // The bracket reaches into seconds ± tolerance.
   bool Meets(const v1::TimeBracket& bracket, double seconds, double tolerance) const {
@@ -54,10 +65,12 @@ class ExpectationCheck {
   void CheckWidth(const char* which, const v1::TimeBracket& bracket, double width_max,
                   const v1::ExpectedContact& expected) {
     const double width =
-        (static_cast<double>(bracket.latest_ns()) - static_cast<double>(bracket.earliest_ns())) * 1e-9;
+        (static_cast<double>(bracket.latest_ns()) - static_cast<double>(bracket.earliest_ns())) *
+        1e-9;
     if (width_max <= 0 || width < width_max) return;
-    violations_.push_back(Name(expected) + ": the " + which + " bracket is " + std::to_string(width) +
-                          " s wide, expected less than " + std::to_string(width_max) + " s");
+    violations_.push_back(Name(expected) + ": the " + which + " bracket is " +
+                          std::to_string(width) + " s wide, expected less than " +
+                          std::to_string(width_max) + " s");
   }
 
   std::string Name(const v1::ExpectedContact& expected) const {
@@ -86,7 +99,8 @@ class ExpectationCheck {
       }
       ++samples;
       const auto earliest = static_cast<long double>(sample.earliest_ns());
-      if (earliest >= Nanoseconds(expected.at_least_s()) && earliest <= Nanoseconds(expected.at_most_s())) {
+      if (earliest >= Nanoseconds(expected.at_least_s()) &&
+          earliest <= Nanoseconds(expected.at_most_s())) {
         continue;
       }
       violations_.push_back("at " + evidence_.Time(now) + " the earliest intersection was " +
@@ -115,8 +129,9 @@ Violations CheckExpectation(const Evidence& evidence, const v1::SceneExpectation
 
 Violations Check(const Evidence& evidence, const v1::SceneExpectation& expectation) {
   Violations all;
-  for (const Violations& some : {CheckEvents(evidence), CheckClearances(evidence), CheckEarliest(evidence),
-                                 CheckExpectation(evidence, expectation)}) {
+  for (const Violations& some :
+       {CheckEvents(evidence), CheckClearances(evidence), CheckEarliest(evidence),
+        CheckExpectation(evidence, expectation)}) {
     all.insert(all.end(), some.begin(), some.end());
   }
   return all;

@@ -10,7 +10,8 @@ namespace {
 
 class LogReader {
  public:
-  LogReader(std::istream& text, const std::string& simulator) : text_(text), simulator_(simulator) {}
+  LogReader(std::istream& text, const std::string& simulator)
+      : text_(text), simulator_(simulator) {}
 
   std::vector<AgentMotion> Read() {
     std::string line;
@@ -58,7 +59,8 @@ class LogReader {
   void ReadAgent(std::istringstream& fields, const std::string& name) {
     AgentMotion motion{simulator_, name, 0, {}, {}};
     if (!(fields >> motion.radius_m) || !(motion.radius_m >= 0)) Fail("an agent needs a radius");
-    if (!index_.emplace(name, motions_.size()).second) Fail("agent \"" + name + "\" is there twice");
+    if (!index_.emplace(name, motions_.size()).second)
+      Fail("agent \"" + name + "\" is there twice");
     motions_.push_back(std::move(motion));
   }
 
@@ -75,7 +77,8 @@ class LogReader {
     for (auto& axis : piece.p_WA) {
       for (double& coefficient : axis) {
         coefficient = std::strtod(at, &end);
-        if (end == at || !std::isfinite(coefficient)) Fail("a piece needs twelve finite coefficients");
+        if (end == at || !std::isfinite(coefficient))
+          Fail("a piece needs twelve finite coefficients");
         at = end;
       }
     }

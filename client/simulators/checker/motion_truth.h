@@ -1,6 +1,7 @@
 // What the agents of a run really did, read from the simulators' motion logs.
 //
-// The checker shares no code with the service nor with the simulators: a mistake of theirs must not be its own.
+// The checker shares no code with the service nor with the simulators: a mistake of theirs must not
+// be its own.
 #pragma once
 
 #include <array>
@@ -30,8 +31,8 @@ struct AgentMotion {
   std::int64_t end_ns() const { return pieces.back().t1_ns; }
 };
 
-/// Reads one motion log (../README.md). Agents without pieces are left out. Throws std::runtime_error with
-/// "simulator:line: what" if it is malformed.
+/// Reads one motion log (../README.md). Agents without pieces are left out. Throws
+/// std::runtime_error with "simulator:line: what" if it is malformed.
 std::vector<AgentMotion> ReadMotionLog(std::istream& text, const std::string& simulator);
 
 }  // namespace collision::checker

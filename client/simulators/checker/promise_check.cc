@@ -49,13 +49,14 @@ void CheckClearance(const Evidence& evidence, std::size_t motion, std::int64_t n
   for (auto it = FirstAfter(contacts, now_ns); it != contacts.end(); ++it) {
     const TrueContact& contact = **it;
     if (contact.begin_ns >= agent.clear_until_ns() - kRootTolerance) return;
-    if (evidence.Changed(contact, now_ns, contact.begin_ns) || Announced(evidence, contact, now_ns)) {
+    if (evidence.Changed(contact, now_ns, contact.begin_ns) ||
+        Announced(evidence, contact, now_ns)) {
       continue;
     }
     violations->push_back(evidence.motions()[motion].agent + ": at " + evidence.Time(now_ns) +
-                          " clear until " + evidence.Time(agent.clear_until_ns()) + " was promised, but " +
-                          evidence.PairName(contact.a, contact.b) + " touch at " +
-                          evidence.Time(contact.begin_ns));
+                          " clear until " + evidence.Time(agent.clear_until_ns()) +
+                          " was promised, but " + evidence.PairName(contact.a, contact.b) +
+                          " touch at " + evidence.Time(contact.begin_ns));
     return;
   }
 }
@@ -71,7 +72,8 @@ Violations CheckClearances(const Evidence& evidence) {
       if (!motion) continue;
       if (agent.cause() == v1::CAUSE_BREACH &&
           agent.void_from_ns() != std::numeric_limits<std::int64_t>::max()) {
-        violations.push_back(evidence.motions()[*motion].agent + ": promises published as void from " +
+        violations.push_back(evidence.motions()[*motion].agent +
+                             ": promises published as void from " +
                              evidence.Time(agent.void_from_ns()) + ", but nobody broke a bound");
       }
       CheckClearance(evidence, *motion, sample.now_ns(), agent, &violations);
@@ -89,10 +91,10 @@ Violations CheckEarliest(const Evidence& evidence) {
       if (sample.found() && contact.begin_ns >= sample.earliest_ns() - kRootTolerance) break;
       if (evidence.Changed(contact, sample.now_ns(), contact.begin_ns)) continue;
       if (InContact(evidence, contact, sample.now_ns())) continue;
-      violations.push_back("at " + evidence.Time(sample.now_ns()) + " the earliest intersection was " +
-                           (sample.found() ? evidence.Time(sample.earliest_ns()) : std::string("none")) +
-                           ", but " + evidence.PairName(contact.a, contact.b) + " touch at " +
-                           evidence.Time(contact.begin_ns));
+      violations.push_back(
+          "at " + evidence.Time(sample.now_ns()) + " the earliest intersection was " +
+          (sample.found() ? evidence.Time(sample.earliest_ns()) : std::string("none")) + ", but " +
+          evidence.PairName(contact.a, contact.b) + " touch at " + evidence.Time(contact.begin_ns));
       break;
     }
   }
@@ -109,7 +111,8 @@ std::vector<double> ClearanceTightness(const Evidence& evidence) {
       const auto next = FirstAfter(contacts, sample.now_ns());
       if (next == contacts.end()) continue;
       if (evidence.Changed(**next, sample.now_ns(), (*next)->begin_ns)) continue;
-      const long double promised = static_cast<long double>(agent.clear_until_ns()) - sample.now_ns();
+      const long double promised =
+          static_cast<long double>(agent.clear_until_ns()) - sample.now_ns();
       const long double truth = (*next)->begin_ns - sample.now_ns();
       ratios.push_back(static_cast<double>(std::clamp(promised / truth, 0.0L, 1.0L)));
     }

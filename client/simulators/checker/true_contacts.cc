@@ -77,7 +77,8 @@ class ContactFinder {
       begin = std::min(begin, motion.begin_ns());
       end = std::max(end, motion.end_ns());
     }
-    const std::int64_t width = motions_.empty() ? kSlab : std::max(kSlab, (end - begin) / kSlabsMax);
+    const std::int64_t width =
+        motions_.empty() ? kSlab : std::max(kSlab, (end - begin) / kSlabsMax);
     for (std::int64_t t = begin; t < end; t += width) SearchSlab(t, std::min(end, t + width));
     return Finish();
   }
@@ -93,7 +94,8 @@ class ContactFinder {
           std::partition_point(first, pieces.end(), [&](const Piece& p) { return p.t0_ns < s1; });
       if (first == last) continue;
       Slice slice{i, &*first, &*first + (last - first), {}};
-      for (const Piece* p = slice.begin; p != slice.end; ++p) Include(*p, motions_[i].radius_m, &slice.box);
+      for (const Piece* p = slice.begin; p != slice.end; ++p)
+        Include(*p, motions_[i].radius_m, &slice.box);
       slices.push_back(slice);
     }
     for (std::size_t i = 0; i < slices.size(); ++i) {
@@ -118,8 +120,8 @@ class ContactFinder {
     }
   }
 
-  void SearchPieces(std::size_t a, const Piece& pa, std::size_t b, const Piece& pb, std::int64_t from,
-                    std::int64_t to) {
+  void SearchPieces(std::size_t a, const Piece& pa, std::size_t b, const Piece& pb,
+                    std::int64_t from, std::int64_t to) {
     Cubic3 d = Shifted(pa, from);
     const Cubic3 other = Shifted(pb, from);
     for (int axis = 0; axis < 3; ++axis) {
@@ -154,8 +156,9 @@ class ContactFinder {
         all.push_back(contact);
       }
     }
-    std::stable_sort(all.begin(), all.end(),
-                     [](const TrueContact& x, const TrueContact& y) { return x.begin_ns < y.begin_ns; });
+    std::stable_sort(all.begin(), all.end(), [](const TrueContact& x, const TrueContact& y) {
+      return x.begin_ns < y.begin_ns;
+    });
     return all;
   }
 

@@ -19,11 +19,13 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kGrace{2};           // between SIGTERM and SIGKILL
+constexpr std::chrono::seconds kGrace{2};  // between SIGTERM and SIGKILL
 constexpr std::chrono::milliseconds kReapPeriod{5};
 constexpr int kCannotExecute = 127;
 
-double Seconds(const timeval& time) { return static_cast<double>(time.tv_sec) + 1e-6 * time.tv_usec; }
+double Seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * time.tv_usec;
+}
 
 // In the child: only calls that are safe after fork().
 [[noreturn]] void Execute(char* const* argv, int output, pid_t parent) {

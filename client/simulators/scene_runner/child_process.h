@@ -10,13 +10,14 @@
 
 namespace collision::client {
 
-/// Its output goes to a file. The destructor ends it: SIGTERM, and SIGKILL after 2 s. It also gets SIGTERM if
-/// this program dies. It has a process group of its own, so that Ctrl-C reaches only this program, which
-/// then ends it in order.
+/// Its output goes to a file. The destructor ends it: SIGTERM, and SIGKILL after 2 s. It also gets
+/// SIGTERM if this program dies. It has a process group of its own, so that Ctrl-C reaches only
+/// this program, which then ends it in order.
 class ChildProcess {
  public:
   /// Throws std::runtime_error if the program cannot be started.
-  ChildProcess(std::string name, const std::vector<std::string>& arguments, const std::string& output_path);
+  ChildProcess(std::string name, const std::vector<std::string>& arguments,
+               const std::string& output_path);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();

@@ -8,7 +8,8 @@ namespace collision::client {
 namespace {
 
 double Width(const v1::TimeBracket& bracket) {
-  return (static_cast<double>(bracket.latest_ns()) - static_cast<double>(bracket.earliest_ns())) * 1e-9;
+  return (static_cast<double>(bracket.latest_ns()) - static_cast<double>(bracket.earliest_ns())) *
+         1e-9;
 }
 
 bool IsOpen(const v1::TimeBracket& bracket) {
@@ -18,9 +19,9 @@ bool IsOpen(const v1::TimeBracket& bracket) {
 // How many contacts ever had, or ended with, a status.
 void CountEvents(const checker::Evidence& evidence, v1::RunReport* report) {
   for (const checker::EventHistory& history : evidence.histories()) {
-    const auto possible = std::any_of(history.revisions.begin(), history.revisions.end(), [](const auto& e) {
-      return e.status() == v1::EVENT_POSSIBLE;
-    });
+    const auto possible =
+        std::any_of(history.revisions.begin(), history.revisions.end(),
+                    [](const auto& e) { return e.status() == v1::EVENT_POSSIBLE; });
     const v1::EventStatus last = history.last().status();
     report->set_events_possible(report->events_possible() + possible);
     report->set_events_confirmed(report->events_confirmed() + history.confirmed_ns.has_value());
@@ -35,7 +36,8 @@ void CountEvents(const checker::Evidence& evidence, v1::RunReport* report) {
 
 double Quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto rank = static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
+  const auto rank =
+      static_cast<std::ptrdiff_t>(std::floor(share * static_cast<double>(values.size() - 1) + 0.5));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[rank];
 }
@@ -99,7 +101,8 @@ v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evid
   *report.mutable_begin_width_s() = QuantilesOf(BeginWidthsAtConfirmation(evidence));
   *report.mutable_end_width_s() = QuantilesOf(EndWidthsFinal(evidence));
   if (measured.simulated_seconds > 0) {
-    report.set_cpu_seconds_per_simulated_second(measured.service_cpu_seconds / measured.simulated_seconds);
+    report.set_cpu_seconds_per_simulated_second(measured.service_cpu_seconds /
+                                                measured.simulated_seconds);
   }
   for (const std::string& violation : violations) report.add_violations()->set_what(violation);
   const checker::Observations& seen = evidence.observations();

@@ -12,18 +12,22 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::size_t kStatesKept = 8192;      // samples per simulator: more than an event lags behind
+constexpr std::size_t kStatesKept = 8192;  // samples per simulator: more than an event lags behind
 constexpr std::size_t kRejectionsKept = 20;
+constexpr std::size_t kQuietLines = 200;  // events without a decision printed: more hide the others
 constexpr std::chrono::milliseconds kProgressTerminal{200};
 constexpr std::chrono::seconds kProgressFile{5};
 
 }  // namespace
 
-Observer::Observer(const std::string& world, std::uint32_t domain, std::int64_t origin_ns)
-    : origin_ns_(origin_ns),
+Observer::Observer(const ObserverOptions& options)
+    : origin_ns_(options.origin_ns),
+      end_ns_(options.end_ns),
+      real_time_(options.real_time),
+      every_event_(options.every_event),
       terminal_(isatty(STDOUT_FILENO) != 0),
       progress_at_(steady_clock::now()),
-      monitor_({world, domain, true, true}, Callbacks()) {}
+      monitor_({options.world, options.domain, true, true}, Callbacks()) {}
 
 Monitor::Callbacks Observer::Callbacks() {
   Monitor::Callbacks callbacks;
@@ -48,10 +52,13 @@ Monitor::Callbacks Observer::Callbacks() {
 std::size_t Observer::Poll(std::chrono::nanoseconds timeout) {
   const std::size_t samples = monitor_.Poll(timeout);
   PrintProgress(false);
+  std::fflush(stdout);  // also into a pipe, events show as they come
   return samples;
 }
 
-void Observer::SeeTime(std::int64_t now_ns) { now_ns_ = std::max(now_ns, now_ns_.value_or(now_ns)); }
+void Observer::SeeTime(std::int64_t now_ns) {
+  now_ns_ = std::max(now_ns, now_ns_.value_or(now_ns));
+}
 
 void Observer::Hear(const v1::AgentDescription& description) {
   v1::AgentName name;
@@ -67,7 +74,8 @@ void Observer::Hear(const v1::AgentDescription& description) {
 
 void Observer::Hear(const v1::AgentStates& states) {
   std::int64_t newest = std::numeric_limits<std::int64_t>::min();
-  for (const v1::AgentState& state : states.states()) newest = std::max<std::int64_t>(newest, state.stamp_ns());
+  for (const v1::AgentState& state : states.states())
+    newest = std::max<std::int64_t>(newest, state.stamp_ns());
   auto& received = states_[states.simulator_id()];
   received.emplace_back(newest, steady_clock::now());
   if (received.size() > kStatesKept) received.pop_front();
@@ -75,8 +83,8 @@ void Observer::Hear(const v1::AgentStates& states) {
 
 void Observer::Hear(const v1::Rejection& rejection) {
   if (rejections_.size() >= kRejectionsKept) return;
-  rejections_.push_back(v1::RejectionReason_Name(rejection.reason()) + " " + rejection.field() + ": " +
-                        rejection.detail());
+  rejections_.push_back(v1::RejectionReason_Name(rejection.reason()) + " " + rejection.field() +
+                        ": " + rejection.detail());
 }
 
 void Observer::Hear(const v1::CollisionEvent& event) {
@@ -89,20 +97,36 @@ void Observer::Hear(const v1::CollisionEvent& event) {
   status->second = event.status();
   ++counts_[event.status()];
   TimeEvent(event);
+  Print(event);
+}
+
+void Observer::Print(const v1::CollisionEvent& event) {
+  const bool decided = event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED ||
+                       event.status() == v1::EVENT_UNDECIDED;
+  if (!decided && !every_event_ && quiet_lines_ >= kQuietLines) return;
   ClearProgress();
   const auto name = [this](const v1::AgentId& id) { return NameOf(id); };
   std::printf("%s\n", EventLine(event, name, origin_ns_).c_str());
+  if (decided || every_event_ || ++quiet_lines_ < kQuietLines) return;
+  std::printf(
+      "… further possible, dismissed and withdrawn events are only counted (--every-event shows "
+      "them)\n");
 }
 
 void Observer::TimeEvent(const v1::CollisionEvent& event) {
+  // These follow from no state.
+  if (event.status() == v1::EVENT_WITHDRAWN || event.now_ns() > end_ns_) return;
   std::optional<Wall> cause;
-  for (const std::uint64_t simulator : {event.lower().simulator_id(), event.higher().simulator_id()}) {
-    const auto& received = states_[simulator];
-    const auto newest = std::find_if(received.rbegin(), received.rend(),
-                                     [&](const auto& sample) { return sample.first <= event.now_ns(); });
-    if (newest == received.rend()) return;
-    cause = std::max(newest->second, cause.value_or(newest->second));
+  for (const auto& [simulator, received] : states_) {
+    const bool owner =
+        simulator == event.lower().simulator_id() || simulator == event.higher().simulator_id();
+    if (real_time_ && !owner) continue;
+    const auto newest = std::find_if(received.rbegin(), received.rend(), [&](const auto& sample) {
+      return sample.first <= event.now_ns();
+    });
+    if (newest != received.rend()) cause = std::max(newest->second, cause.value_or(newest->second));
   }
+  if (!cause) return;
   latencies_.push_back(std::chrono::duration<double>(steady_clock::now() - *cause).count());
 }
 
@@ -119,8 +143,9 @@ void Observer::ClearProgress() {
 
 void Observer::PrintProgress(bool final) {
   const auto now = steady_clock::now();
-  const auto period = terminal_ ? std::chrono::duration_cast<steady_clock::duration>(kProgressTerminal)
-                                : std::chrono::duration_cast<steady_clock::duration>(kProgressFile);
+  const auto period = terminal_
+                          ? std::chrono::duration_cast<steady_clock::duration>(kProgressTerminal)
+                          : std::chrono::duration_cast<steady_clock::duration>(kProgressFile);
   if (!final && now - progress_at_ < period) return;
   progress_at_ = now;
   ClearProgress();

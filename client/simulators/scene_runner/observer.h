@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <deque>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -15,14 +16,24 @@
 
 namespace collision::client {
 
+struct ObserverOptions {
+  std::string world;
+  std::uint32_t domain = 0;
+  std::int64_t origin_ns = 0;  ///< Times are printed since it.
+  std::int64_t end_ns =
+      std::numeric_limits<std::int64_t>::max();  ///< The run's: later events are not timed.
+  bool real_time = false;                        ///< The world has a wall clock.
+  bool every_event = false;  ///< Print also the 201st possible, dismissed or withdrawn one.
+};
+
 /// An ordinary, read-only subscriber. One thread.
 class Observer {
  public:
-  /// `origin_ns`: times are printed since it. Throws std::runtime_error if DDS is not to be had.
-  Observer(const std::string& world, std::uint32_t domain, std::int64_t origin_ns);
+  /// Throws std::runtime_error if DDS is not to be had.
+  explicit Observer(const ObserverOptions& options);
 
-  /// Takes what arrives within `timeout`; prints a line for every event that changes its status, and from
-  /// time to time a line of progress. Returns the number of samples.
+  /// Takes what arrives within `timeout`; prints a line for every event that changes its status,
+  /// and from time to time a line of progress. Returns the number of samples.
   std::size_t Poll(std::chrono::nanoseconds timeout);
 
   /// Prints the last line of progress for good.
@@ -33,9 +44,11 @@ class Observer {
   /// The service's latest time; nullopt before it has told any.
   std::optional<std::int64_t> now_ns() const { return now_ns_; }
 
-  /// Update -> event [s]: from when this monitor received the newest states that the event can follow from (of
-  /// both agents' owners, stamped not later than its now; the later of the two) to when it received the event.
-  /// One for every event that changed its status.
+  /// Update -> event [s]: from when this monitor received the newest states that the event can
+  /// follow from to when it received the event. Those are the newest states stamped not later than
+  /// its now: with a wall clock of both agents' owners, in lock-step of all simulators (the
+  /// service's time comes there with the last of them); the latest of them counts. One for every
+  /// change of status but withdrawals.
   const std::vector<double>& latencies() const { return latencies_; }
 
   const std::vector<std::string>& rejections() const { return rejections_; }
@@ -51,19 +64,25 @@ class Observer {
   void Hear(const v1::Rejection& rejection);
   void SeeTime(std::int64_t now_ns);
   void TimeEvent(const v1::CollisionEvent& event);
+  void Print(const v1::CollisionEvent& event);
   void PrintProgress(bool final);
   void ClearProgress();
   std::string NameOf(const v1::AgentId& id) const;
 
   std::int64_t origin_ns_;
+  std::int64_t end_ns_;
+  bool real_time_;
+  bool every_event_;
   bool terminal_;
+  std::size_t quiet_lines_ = 0;
   bool progress_shown_ = false;
   Wall progress_at_;
   checker::Observations observations_;
-  std::map<std::string, std::string> names_;           // by the serialised id
+  std::map<std::string, std::string> names_;  // by the serialised id
   std::map<ContactKey, v1::EventStatus> statuses_;
   std::map<v1::EventStatus, std::size_t> counts_;
-  std::map<std::uint64_t, std::deque<std::pair<std::int64_t, Wall>>> states_;  // newest stamp, received
+  std::map<std::uint64_t, std::deque<std::pair<std::int64_t, Wall>>>
+      states_;  // newest stamp, received
   std::optional<std::int64_t> now_ns_;
   std::vector<double> latencies_;
   std::vector<std::string> rejections_;

@@ -20,11 +20,12 @@ namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kGrace{2};            // between SIGTERM and SIGKILL
-constexpr std::chrono::seconds kStuck{30};           // without any progress of the service's time
-constexpr std::chrono::nanoseconds kRealTimeLead{3'000'000'000};  // until everybody has found everybody
-constexpr std::int64_t kTransit = 200'000'000;       // [ns] news under way, with a wall clock
-constexpr double kGrantAheadDefault = 10;            // [s] the service's default
+constexpr std::chrono::seconds kGrace{2};   // between SIGTERM and SIGKILL
+constexpr std::chrono::seconds kStuck{30};  // without any progress of the service's time
+constexpr std::chrono::nanoseconds kRealTimeLead{
+    3'000'000'000};                             // until everybody has found everybody
+constexpr std::int64_t kTransit = 200'000'000;  // [ns] news under way, with a wall clock
+constexpr double kGrantAheadDefault = 10;       // [s] the service's default
 constexpr std::uint32_t kDomains = 200;
 constexpr std::size_t kLinesShown = 12;
 
@@ -73,12 +74,16 @@ Runner::~Runner() {
   if (options_.logs.empty()) fs::remove_all(folder_, ignored);
 }
 
-std::string Runner::Path(const std::string& file) const { return (fs::path(folder_) / file).string(); }
+std::string Runner::Path(const std::string& file) const {
+  return (fs::path(folder_) / file).string();
+}
 
 void Runner::UseLoopback() const {
-  const fs::path profile = fs::absolute(options_.folders.scenes).parent_path() / "cyclonedds-loopback.xml";
+  const fs::path profile =
+      fs::absolute(options_.folders.scenes).parent_path() / "cyclonedds-loopback.xml";
   if (getenv("CYCLONEDDS_URI") != nullptr) return;
-  if (!fs::exists(profile)) throw std::runtime_error(profile.string() + ": the network profile is not there");
+  if (!fs::exists(profile))
+    throw std::runtime_error(profile.string() + ": the network profile is not there");
   setenv("CYCLONEDDS_URI", ("file://" + profile.string()).c_str(), 1);
 }
 
@@ -102,8 +107,10 @@ void Runner::StartSimulator(const v1::SceneProcess& process) {
                                                      {"SCENES", options_.folders.scenes},
                                                      {"DATA", options_.folders.data},
                                                      {"LOG", Path(process.name() + ".motion")}};
-  std::vector<std::string> arguments = {(fs::path(options_.folders.bin) / process.program()).string()};
-  for (const std::string& argument : process.arguments()) arguments.push_back(Substitute(argument, values));
+  std::vector<std::string> arguments = {
+      (fs::path(options_.folders.bin) / process.program()).string()};
+  for (const std::string& argument : process.arguments())
+    arguments.push_back(Substitute(argument, values));
   for (const std::string& argument :
        {std::string("--world"), world_, std::string("--domain"), std::to_string(domain_),
         std::string("--simulator"), process.name(), std::string("--linger")}) {
@@ -130,15 +137,16 @@ bool Runner::AllRunning() {
   return true;
 }
 
+std::int64_t Runner::EndTime() const { return start_ns_ + std::llround(scene_.seconds() * 1e9); }
+
 Runner::Watch Runner::WatchToEnd() {
-  const std::int64_t end_ns = start_ns_ + std::llround(scene_.seconds() * 1e9);
   auto progress = steady_clock::now();
   std::optional<std::int64_t> reached;
   while (!StopRequested()) {
     observer_->Poll(milliseconds(20));
     if (observer_->now_ns() != reached) progress = steady_clock::now();
     reached = observer_->now_ns();
-    if (reached && *reached >= end_ns) return Watch::kEnded;
+    if (reached && *reached >= EndTime()) return Watch::kEnded;
     if (!AllRunning()) return Watch::kFailed;
     if (steady_clock::now() - progress < kStuck) continue;
     std::fprintf(stderr, "the service's time has stood still for %lld s:\n%s",
@@ -168,7 +176,6 @@ void Runner::StopSimulators() {
 
 RunResult Runner::Judge(const Measured& measured) {
   std::vector<checker::AgentMotion> motions;
-  checker::Violations violations;
   for (const v1::SceneProcess& process : scene_.processes()) {
     std::ifstream log(Path(process.name() + ".motion"));
     if (!log) throw std::runtime_error(process.name() + " wrote no motion log");
@@ -178,11 +185,13 @@ RunResult Runner::Judge(const Measured& measured) {
   const double ahead = scene_.config().clock().has_grant_ahead_max_s()
                            ? scene_.config().clock().grant_ahead_max_s()
                            : kGrantAheadDefault;
-  const checker::RunFacts facts{start_ns_, std::llround(ahead * 1e9), options_.real_time ? kTransit : 0};
+  const checker::RunFacts facts{start_ns_, EndTime(), std::llround(ahead * 1e9),
+                                options_.real_time ? kTransit : 0};
   const checker::Evidence evidence(std::move(motions), observer_->observations(), facts);
-  violations = checker::Check(evidence, scene_.expectation());
+  checker::Violations violations = checker::Check(evidence, scene_.expectation());
   for (const auto& simulator : simulators_) {
-    if (!simulator->succeeded()) violations.push_back(simulator->name() + " ended with " + simulator->Ending());
+    if (!simulator->succeeded())
+      violations.push_back(simulator->name() + " ended with " + simulator->Ending());
   }
   if (!service_->succeeded()) violations.push_back("collisiond ended with " + service_->Ending());
   for (const std::string& rejection : observer_->rejections()) {
@@ -215,16 +224,17 @@ RunResult Runner::Run() {
     start_ns_ = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
   }
   const auto started = steady_clock::now();
-  observer_ = std::make_unique<Observer>(world_, domain_, start_ns_);
+  observer_ = std::make_unique<Observer>(ObserverOptions{world_, domain_, start_ns_, EndTime(),
+                                                         options_.real_time, options_.every_event});
   StartService();
   for (const v1::SceneProcess& process : scene_.processes()) StartSimulator(process);
   const Watch watch = WatchToEnd();
   if (watch == Watch::kInterrupted) std::printf("\ninterrupted: ending everything\n");
-  if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(2000));
+  if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(500));
   Measured measured;
   measured.wall_seconds = SecondsSince(started);
   StopSimulators();
-  if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(1000));
+  if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(500));
   service_->Terminate();
   service_->Finish(steady_clock::now() + kGrace);
   observer_->FinishProgress();

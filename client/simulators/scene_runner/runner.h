@@ -16,18 +16,19 @@ namespace collision::client {
 struct RunnerOptions {
   std::string scene = "iridium-cosmos";
   Folders folders = DefaultFolders();
-  double seconds = 0;                  ///< 0: as the scene says.
+  double seconds = 0;  ///< 0: as the scene says.
   bool real_time = false;
-  std::optional<std::uint32_t> domain; ///< Default: one that depends on this process.
-  std::string json;                    ///< File for the report; empty: none.
-  std::string logs;                    ///< Folder for configuration and logs, kept; empty: a temporary one.
+  std::optional<std::uint32_t> domain;  ///< Default: one that depends on this process.
+  bool every_event = false;             ///< Print every event, however many.
+  std::string json;                     ///< File for the report; empty: none.
+  std::string logs;  ///< Folder for configuration and logs, kept; empty: a temporary one.
 };
 
 /// Exit codes of a run.
 enum RunResult { kSatisfied = 0, kNotSatisfied = 1, kInterrupted = 130 };
 
-/// Starts collisiond and the scene's simulators on loopback in a world of their own, watches them with a monitor
-/// to the scene's end, ends them all by their ids, and lets the checker judge.
+/// Starts collisiond and the scene's simulators on loopback in a world of their own, watches them
+/// with a monitor to the scene's end, ends them all by their ids, and lets the checker judge.
 class Runner {
  public:
   explicit Runner(const RunnerOptions& options);
@@ -43,6 +44,7 @@ class Runner {
   void UseLoopback() const;
   void StartService();
   void StartSimulator(const v1::SceneProcess& process);
+  std::int64_t EndTime() const;
   Watch WatchToEnd();
   bool AllRunning();
   void Drain(std::chrono::milliseconds quiet, std::chrono::milliseconds longest);

@@ -23,7 +23,8 @@ class FirstError : public google::protobuf::io::ErrorCollector {
   explicit FirstError(std::string file) : file_(std::move(file)) {}
   void AddError(int line, int column, const std::string& message) override {
     if (!text_.empty()) return;
-    text_ = file_ + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": " + message;
+    text_ =
+        file_ + ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) + ": " + message;
   }
   const std::string& text() const { return text_; }
 
@@ -58,7 +59,8 @@ std::string MissingData(const Folders& folders, const v1::Scene& scene) {
 }  // namespace
 
 Folders DefaultFolders() {
-  return {COLLISION_SCENES_DIR, COLLISION_DATA_DIR, fs::read_symlink("/proc/self/exe").parent_path()};
+  return {COLLISION_SCENES_DIR, COLLISION_DATA_DIR,
+          fs::read_symlink("/proc/self/exe").parent_path()};
 }
 
 v1::Scene LoadScene(const Folders& folders, const std::string& name) {
@@ -79,7 +81,8 @@ std::string ListScenes(const Folders& folders) {
     std::string name = path.stem().string();
     name.resize(std::max<std::size_t>(name.size(), 16), ' ');
     const std::string missing = MissingData(folders, scene);
-    text += name + "  " + scene.title() + (missing.empty() ? "" : " (not offered: " + missing + ")") + "\n";
+    text += name + "  " + scene.title() +
+            (missing.empty() ? "" : " (not offered: " + missing + ")") + "\n";
   }
   return text;
 }
@@ -93,7 +96,8 @@ std::string Substitute(const std::string& text, const std::map<std::string, std:
     const std::size_t end = text.find('}', start);
     const auto value = values.find(text.substr(start + 2, end - start - 2));
     if (end == std::string::npos || value == values.end()) {
-      throw std::runtime_error("in \"" + text + "\": allowed are ${SECONDS}, ${SCENES}, ${DATA} and ${LOG}");
+      throw std::runtime_error("in \"" + text +
+                               "\": allowed are ${SECONDS}, ${SCENES}, ${DATA} and ${LOG}");
     }
     result += text.substr(at, start - at) + value->second;
     at = end + 1;

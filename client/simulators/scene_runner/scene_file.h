@@ -19,8 +19,8 @@ struct Folders {
 /// The folders of the build this program belongs to.
 Folders DefaultFolders();
 
-/// Throws std::runtime_error with file, line and field if the scene is not there, malformed, or its data is
-/// not there.
+/// Throws std::runtime_error with file, line and field if the scene is not there, malformed, or its
+/// data is not there.
 v1::Scene LoadScene(const Folders& folders, const std::string& name);
 
 /// "name  title" of every scene, one a line, with why it is not offered where it is not.

@@ -10,19 +10,24 @@ int main(int argc, char** argv) {
   using namespace collision::client;
   RunnerOptions options;
   bool list = false;
-  CLI::App app("Runs a scene: collisiond, simulators and a monitor on loopback, judged by the checker.",
-               "scene-runner");
+  CLI::App app(
+      "Runs a scene: collisiond, simulators and a monitor on loopback, judged by the checker.",
+      "scene-runner");
   app.add_option("scene", options.scene, "Name of the scene")->capture_default_str();
   app.add_flag("--list", list, "List the scenes");
   app.add_option("--seconds", options.seconds, "Simulated length; default: as the scene says")
       ->check(CLI::PositiveNumber);
   app.add_flag("--real-time", options.real_time, "With the wall clock instead of lock-step");
+  app.add_flag("--every-event", options.every_event,
+               "Print every possible, dismissed and withdrawn event");
   app.add_option("--json", options.json, "Write the report (v1::RunReport) to this file");
   app.add_option("--logs", options.logs, "Keep configuration, logs and motion logs in this folder");
   app.add_option("--scenes", options.folders.scenes, "Folder of the scenes")->capture_default_str();
-  app.add_option("--data", options.folders.data, "Folder of the real data sets")->capture_default_str();
+  app.add_option("--data", options.folders.data, "Folder of the real data sets")
+      ->capture_default_str();
   app.add_option("--bin", options.folders.bin, "Folder of the programs")->capture_default_str();
-  app.add_option("--domain", options.domain, "DDS domain; default: one of its own")->check(CLI::Range(0, 230));
+  app.add_option("--domain", options.domain, "DDS domain; default: one of its own")
+      ->check(CLI::Range(0, 230));
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   CatchStopSignals();
   try {

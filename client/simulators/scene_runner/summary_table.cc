@@ -32,10 +32,12 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   Row(&text, "  %-30s %u", "agents", report.agents());
   Row(&text, "  %-30s %llu, unannounced %llu", "true contacts", count(report.contacts_true()),
       count(report.contacts_unannounced()));
-  Row(&text, "  %-30s %llu possible, %llu confirmed, %llu ended", "events", count(report.events_possible()),
-      count(report.events_confirmed()), count(report.events_ended()));
-  Row(&text, "  %-30s %llu dismissed, %llu undecided, %llu withdrawn", "", count(report.events_dismissed()),
-      count(report.events_undecided()), count(report.events_withdrawn()));
+  Row(&text, "  %-30s %llu possible, %llu confirmed, %llu ended", "events",
+      count(report.events_possible()), count(report.events_confirmed()),
+      count(report.events_ended()));
+  Row(&text, "  %-30s %llu dismissed, %llu undecided, %llu withdrawn", "",
+      count(report.events_dismissed()), count(report.events_undecided()),
+      count(report.events_withdrawn()));
   Row(&text, "  %-30s %.3g", "false alarms per contact", report.false_alarms_per_contact());
   Row(&text, "  %-30s %.3f", "clear time / true time, median", report.clearance_tightness_median());
   Row(&text, "  %-30s p50 %.3g ms, p99 %.3g ms", "update to event", report.latency_p50_s() * 1e3,
@@ -43,7 +45,8 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   WidthRow(&text, "begin bracket at confirmation", report.begin_width_s());
   WidthRow(&text, "begin bracket, final", QuantilesOf(BeginWidthsFinal(evidence)));
   WidthRow(&text, "end bracket, final", report.end_width_s());
-  Row(&text, "  %-30s %.3g s", "CPU per simulated second", report.cpu_seconds_per_simulated_second());
+  Row(&text, "  %-30s %.3g s", "CPU per simulated second",
+      report.cpu_seconds_per_simulated_second());
   return text;
 }
 

@@ -11,8 +11,8 @@ namespace {
 constexpr std::int64_t kOpen = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-// Two balls of 0.5 m on the x axis: a rests at 10 m, b comes from 0 at 1 m/s and goes on for 20 s, in pieces of
-// one second. They touch from 9 s to 11 s. c is far away.
+// Two balls of 0.5 m on the x axis: a rests at 10 m, b comes from 0 at 1 m/s and goes on for 20 s,
+// in pieces of one second. They touch from 9 s to 11 s. c is far away.
 class CheckTest : public testing::Test {
  protected:
   CheckTest() {
@@ -51,8 +51,8 @@ class CheckTest : public testing::Test {
     return seconds < 0 ? kOpen : static_cast<std::int64_t>(seconds * 1e9);
   }
 
-  void Add(std::uint32_t revision, std::int64_t now_ns, v1::EventStatus status, double begin_earliest,
-           double begin_latest, double end_earliest, double end_latest) {
+  void Add(std::uint32_t revision, std::int64_t now_ns, v1::EventStatus status,
+           double begin_earliest, double begin_latest, double end_earliest, double end_latest) {
     v1::CollisionEvent event;
     *event.mutable_lower() = Id(0);
     *event.mutable_higher() = Id(1);
@@ -106,9 +106,9 @@ class CheckTest : public testing::Test {
 
 // Goal:   an honest run satisfies it, and its truth is the closed form.
 TEST_F(CheckTest, HonestRunIsSatisfied) {
-  AddClearance(0, 0, 9 * kSecond);
-  AddClearance(2, 0, 20 * kSecond);
-  AddEarliest(0, true, 9 * kSecond);
+  AddClearance(0, kSecond, 5 * kSecond);
+  AddClearance(2, kSecond, 20 * kSecond);
+  AddEarliest(kSecond, true, 9 * kSecond);
   EXPECT_EQ(Verdict(), "");
   const Evidence evidence(motions_, observations_, facts_);
   ASSERT_EQ(evidence.contacts().size(), 1u);
@@ -117,7 +117,7 @@ TEST_F(CheckTest, HonestRunIsSatisfied) {
   EXPECT_EQ(ContactsUnannounced(evidence), 0u);
   const auto tightness = ClearanceTightness(evidence);
   ASSERT_EQ(tightness.size(), 1u);
-  EXPECT_NEAR(tightness[0], 1, 1e-9);
+  EXPECT_NEAR(tightness[0], 0.5, 1e-9);
 }
 
 TEST_F(CheckTest, MissingEventIsNoticed) {
@@ -140,7 +140,8 @@ TEST_F(CheckTest, LateAnnouncementIsNoticed) {
   EXPECT_NE(Verdict().find("announced late, at 9.000000010 s"), std::string::npos);
 }
 
-// Goal:   what a late admission or jump brought about inside granted time is excused, if it was published.
+// Goal:   what a late admission or jump brought about inside granted time is excused, if it was
+// published.
 TEST_F(CheckTest, LateAnnouncementInGrantedTimeIsExcused) {
   observations_.events[0].set_now_ns(9 * kSecond + 10);
   AddClearance(1, 8 * kSecond, 8 * kSecond);
@@ -150,11 +151,13 @@ TEST_F(CheckTest, LateAnnouncementInGrantedTimeIsExcused) {
   EXPECT_NE(Verdict(), "");
 }
 
-// Goal:   brackets that miss their truth by more than the checker's own tolerance are noticed, on either side.
+// Goal:   brackets that miss their truth by more than the checker's own tolerance are noticed, on
+// either side.
 TEST_F(CheckTest, WrongBeginBracketIsNoticed) {
-  for (const auto& [earliest, latest, good] :
-       {std::tuple{9 * kSecond, 10 * kSecond, true}, {8 * kSecond, 9 * kSecond, true},
-        {9 * kSecond + 5, 10 * kSecond, false}, {8 * kSecond, 9 * kSecond - 5, false}}) {
+  for (const auto& [earliest, latest, good] : {std::tuple{9 * kSecond, 10 * kSecond, true},
+                                               {8 * kSecond, 9 * kSecond, true},
+                                               {9 * kSecond + 5, 10 * kSecond, false},
+                                               {8 * kSecond, 9 * kSecond - 5, false}}) {
     for (int i = 1; i < 3; ++i) {
       observations_.events[i].mutable_begin()->set_earliest_ns(earliest);
       observations_.events[i].mutable_begin()->set_latest_ns(latest);
@@ -199,7 +202,8 @@ TEST_F(CheckTest, FalseConfirmIsNoticed) {
 // Goal:   a clearance that reaches past a contact is a lie, unless the pair was announced by then.
 TEST_F(CheckTest, BrokenClearanceIsNoticed) {
   AddClearance(1, 6 * kSecond, 9 * kSecond + 10);
-  EXPECT_NE(Verdict().find("b: at 6.000000000 s clear until 9.000000010 s was promised"), std::string::npos);
+  EXPECT_NE(Verdict().find("b: at 6.000000000 s clear until 9.000000010 s was promised"),
+            std::string::npos);
   observations_.clearances.clear();
   AddClearance(1, 8 * kSecond, 12 * kSecond);
   EXPECT_EQ(Verdict(), "");
@@ -231,7 +235,8 @@ TEST_F(CheckTest, LateEarliestIsNoticed) {
   EXPECT_NE(Verdict().find("the earliest intersection was none"), std::string::npos);
 }
 
-// Goal:   what a scene expects is demanded: the contact, its brackets' widths, no other, the earliest times.
+// Goal:   what a scene expects is demanded: the contact, its brackets' widths, no other, the
+// earliest times.
 TEST_F(CheckTest, SceneExpectationIsDemanded) {
   AddEarliest(3 * kSecond, true, Instant(8.5));
   v1::SceneExpectation expectation;
@@ -257,6 +262,13 @@ TEST_F(CheckTest, SceneExpectationIsDemanded) {
   contact->set_begin_s(9.1);
   EXPECT_NE(Verdict(expectation).find("no confirmed event brackets it"), std::string::npos);
   EXPECT_NE(Verdict(expectation).find("expects no such contact"), std::string::npos);
+
+  observations_.events.clear();
+  expectation.clear_no_other_contact();
+  facts_.end_ns = 12 * kSecond;
+  EXPECT_NE(Verdict(expectation).find("no confirmed event brackets it"), std::string::npos);
+  facts_.end_ns = 10 * kSecond;
+  EXPECT_EQ(Verdict(expectation).find("no confirmed event brackets it"), std::string::npos);
 }
 
 // Goal:   what the service had no time to judge is not demanded.

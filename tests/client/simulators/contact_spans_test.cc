@@ -21,7 +21,8 @@ TEST(ContactSpans, StraightLinesMeetExactly) {
 }
 
 // Goal:   a pair that touches, parts and returns within one piece gives each span.
-// Method: x = (t-1)(t-2)(t-3) · 10: |x| <= 1 around each root; the sextic's six roots against bisection.
+// Method: x = (t-1)(t-2)(t-3) · 10: |x| <= 1 around each root; the sextic's six roots against
+// bisection.
 TEST(ContactSpans, ThreeMeetingsInOnePiece) {
   const Cubic3 d = {{{-60, 110, -60, 10}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
   const auto spans = SpansWithin(d, 4, 1);
@@ -54,28 +55,48 @@ TEST(ContactSpans, RestingContactIsOneSpan) {
   EXPECT_TRUE(SpansWithin({{{0.7L, 0, 0, 0}, {0.8L, 0, 0, 0}, {0, 0, 0, 0}}}, 1000, 1).empty());
 }
 
-// Goal:   contacts are found across pieces that are cut at different times, boxes cull nothing true.
-// Method: the same random cubic motion cut at random instants gives the same contacts as uncut.
+// Goal:   culling does not lose a motion that bulges between its ends.
+// Method: x = 27 t (1-t)² is 0 at both ends and 4 at t = 1/3; its mirror in time at 2/3. Another
+// ball waits there.
+TEST(TrueContacts, BulgesBetweenEndsAreSeen) {
+  const std::array<double, 4> bulges[] = {{0, 27, -54, 27}, {0, 0, 27, -27}};
+  for (int i = 0; i < 2; ++i) {
+    Piece moving{0, 1'000'000'000, {}}, waiting = moving;
+    moving.p_WA[0] = bulges[i];
+    waiting.p_WA[0] = {4.999, 0, 0, 0};
+    const auto contacts =
+        TrueContacts({{"s", "a", 0.5, {moving}, {}}, {"s", "b", 0.5, {waiting}, {}}});
+    ASSERT_EQ(contacts.size(), 1u);
+    const auto middle = static_cast<double>((contacts[0].begin_ns + contacts[0].end_ns) / 2);
+    EXPECT_NEAR(middle * 1e-9, (i + 1) / 3.0, 1e-3);
+  }
+}
+
+// Goal:   contacts are found across pieces that are cut at different times, boxes cull nothing
+// true. Method: the same random cubic motion cut at random instants gives the same contacts as
+// uncut.
 TEST(TrueContacts, CuttingMotionIntoPiecesChangesNothing) {
   Random random(11);
   std::size_t found = 0;
-  for (int run = 0; run < 300; ++run) {
+  for (int run = 0; run < 600; ++run) {
     AgentMotion whole[2], cut[2];
     for (int agent = 0; agent < 2; ++agent) {
       Piece piece{0, 4'000'000'000, {}};
       for (auto& axis : piece.p_WA) {
-        axis = {random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-1, 1), random.Uniform(-0.2, 0.2)};
+        axis = {random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(-1, 1),
+                random.Uniform(-0.2, 0.2)};
       }
       whole[agent] = {"s", std::to_string(agent), 0.5, {piece}, {}};
       cut[agent] = {"s", std::to_string(agent), 0.5, {}, {}};
       for (std::int64_t t = 0; t < 4'000'000'000;) {
-        const std::int64_t next = std::min<std::int64_t>(4'000'000'000, t + 1 + random.Below(900'000'000));
+        const std::int64_t next =
+            std::min<std::int64_t>(4'000'000'000, t + 1 + random.Below(900'000'000));
         Piece part{t, next, {}};
         const double s = static_cast<double>(t) * 1e-9;
         for (int axis = 0; axis < 3; ++axis) {
           const auto& c = piece.p_WA[axis];
-          part.p_WA[axis] = {c[0] + s * (c[1] + s * (c[2] + s * c[3])), c[1] + s * (2 * c[2] + s * 3 * c[3]),
-                             c[2] + 3 * s * c[3], c[3]};
+          part.p_WA[axis] = {c[0] + s * (c[1] + s * (c[2] + s * c[3])),
+                             c[1] + s * (2 * c[2] + s * 3 * c[3]), c[2] + 3 * s * c[3], c[3]};
         }
         cut[agent].pieces.push_back(part);
         t = next;

@@ -23,11 +23,12 @@ std::string ErrorOf(const std::string& text) {
 
 // Goal:   columns are found by name, in any order, units converted, agents' rows interleaved.
 TEST(CsvRows, ColumnsComeInAnyOrderAndUnit) {
-  const CsvRows file = Read("note,y_km,agent_id,x_mm,time_ms,vy_km_s,vx_m_s\r\n"
-                            "hi,2,b,1500,250,0.003,4\n"
-                            "ho,1,a,0,0,0,0\n"
-                            "\n"
-                            "he,2,b,1500,250.5,0,0\n");
+  const CsvRows file = Read(
+      "note,y_km,agent_id,x_mm,time_ms,vy_km_s,vx_m_s\r\n"
+      "hi,2,b,1500,250,0.003,4\n"
+      "ho,1,a,0,0,0,0\n"
+      "\n"
+      "he,2,b,1500,250.5,0,0\n");
   EXPECT_TRUE(file.velocities);
   ASSERT_EQ(file.rows.size(), 2u);
   const auto& b = file.rows.at("b");
@@ -40,7 +41,8 @@ TEST(CsvRows, ColumnsComeInAnyOrderAndUnit) {
 
 // Goal:   decimal seconds become the nearest nanosecond, far from zero too.
 TEST(CsvRows, TimesAreRoundedToNanoseconds) {
-  const auto rows = Read("time_s,agent_id,x_m,y_m\n0.1,a,0,0\n1234567890.123456789,a,0,0\n").rows.at("a");
+  const auto rows =
+      Read("time_s,agent_id,x_m,y_m\n0.1,a,0,0\n1234567890.123456789,a,0,0\n").rows.at("a");
   EXPECT_EQ(rows[0].time_ns, 100'000'000);
   EXPECT_EQ(rows[1].time_ns, 1'234'567'890'123'456'789);
 }
@@ -48,12 +50,16 @@ TEST(CsvRows, TimesAreRoundedToNanoseconds) {
 // Goal:   a malformed file is told with file, line and what is wrong.
 TEST(CsvRows, MalformedHeadersAreToldWithTheirLine) {
   EXPECT_EQ(ErrorOf(""), "file.csv:1: the file is empty; its first line names the columns");
-  EXPECT_EQ(ErrorOf("agent_id,x_m,y_m\n"), "file.csv:1: no column time_s, time_ms or time_ns in the header");
+  EXPECT_EQ(ErrorOf("agent_id,x_m,y_m\n"),
+            "file.csv:1: no column time_s, time_ms or time_ns in the header");
   EXPECT_EQ(ErrorOf("time_s,x_m,y_m\n"), "file.csv:1: no column agent_id in the header");
-  EXPECT_EQ(ErrorOf("time_s,agent_id,x,y_m\n"), "file.csv:1: no column x_m (or x_km, x_mm) in the header");
-  EXPECT_EQ(ErrorOf("time_s,agent_id,x_m,x_km,y_m\n"), "file.csv:1: column x_km is the second of its kind");
+  EXPECT_EQ(ErrorOf("time_s,agent_id,x,y_m\n"),
+            "file.csv:1: no column x_m (or x_km, x_mm) in the header");
+  EXPECT_EQ(ErrorOf("time_s,agent_id,x_m,x_km,y_m\n"),
+            "file.csv:1: column x_km is the second of its kind");
   EXPECT_EQ(ErrorOf("time_s,agent_id,x_m,y_m,z_m,vx_m_s,vy_m_s\n"),
-            "file.csv:1: the header has velocities, but not the same axes as positions: see column vz_m_s");
+            "file.csv:1: the header has velocities, but not the same axes as positions: see column "
+            "vz_m_s");
   EXPECT_EQ(ErrorOf("time_s,agent_id,x_m,y_m\n"), "file.csv:1: no rows after the header");
 }
 

@@ -13,10 +13,13 @@ constexpr int kSteps = 6000;
 
 std::int64_t StepTime(int step) { return std::llround(step * 1e9 / 60); }
 
-Exact Square(const Vector3& v) { return Exact(v[0]) * v[0] + Exact(v[1]) * v[1] + Exact(v[2]) * v[2]; }
+Exact Square(const Vector3& v) {
+  return Exact(v[0]) * v[0] + Exact(v[1]) * v[1] + Exact(v[2]) * v[2];
+}
 
 // Goal:   the declared M holds without any tolerance, and is used to the full.
-// Method: 100 s of flight; |Δv|² <= (M h)² and the deviation from the straight line squared <= (½ M h²)², both
+// Method: 100 s of flight; |Δv|² <= (M h)² and the deviation from the straight line squared <= (½ M
+// h²)², both
 //         in rationals; some step comes within 1 % of M.
 TEST(Drone, HonoursItsBoundExactly) {
   const DroneLimits limits;
@@ -63,7 +66,8 @@ TEST(Drone, StaysInTheBoxBelowItsSpeedCap) {
   EXPECT_GE(fastest, 0.8 * limits.speed_max_m_s);
 }
 
-// Goal:   a bounce turns the normal component back and leaves the rest; leaving already, nothing changes.
+// Goal:   a bounce turns the normal component back and leaves the rest; leaving already, nothing
+// changes.
 TEST(Drone, BouncesOffTheOtherSide) {
   Drone drone(DroneLimits(), {100, 100, 25}, 7);
   for (int step = 0; step < 60; ++step) drone.Step(StepTime(step), StepTime(step + 1));

@@ -4,7 +4,8 @@ namespace collision::client {
 namespace {
 
 // Goal:   the checker's own truth is that of the literature, both for the begin and the end.
-// Method: 500 m spheres around both satellites, cubic Hermite curves through their rows; the published times have
+// Method: 500 m spheres around both satellites, cubic Hermite curves through their rows; the
+// published times have
 //         six decimals.
 TEST(IridiumTruth, SpheresMeetAndPartWhenTheDataSaysSo) {
   const auto motions = MotionsOf(COLLISION_SCENES_DIR "/iridium33_cosmos2251_2009-02-10.csv", 500);

@@ -36,22 +36,23 @@ TEST(Trajectory, HermiteReproducesACubic) {
   EXPECT_LE(curve.AccelerationMax(), 12 * (1 + 2e-9));
 }
 
-// Goal:   a state never leaves what the state before allows: |v' - v| <= M s and |p' - p - v s| <= ½ M s².
-// Method: random walks; also steady motion, where the data's own M would be mere rounding.
+// Goal:   a state never leaves what the state before allows: |v' - v| <= M s and |p' - p - v s| <=
+// ½ M s². Method: random walks; also steady motion, where the data's own M would be mere rounding.
 TEST(Trajectory, StatesHonourTheDerivedBound) {
   Random random(3);
   for (int run = 0; run < 200; ++run) {
     std::vector<CsvRow> rows;
-    for (int i = 0; i < 20; ++i) {
+    for (int i = 0; i < (run % 3 == 2 ? 2 : 20); ++i) {
       const double walk = run % 2 == 0 ? random.Uniform(-1, 1) : 0.1 * i;
-      rows.push_back(Row(i * 0.0625, 1000 + walk));
+      rows.push_back(Row(i * 0.07, 1000 + walk));
     }
     const Trajectory curve(rows, false, 0);
     const long double bound = curve.AccelerationMax();
     for (std::size_t i = 1; i < rows.size(); ++i) {
       const CsvRow &a = curve.rows()[i - 1], &b = curve.rows()[i];
       const long double s = (b.time_ns - a.time_ns) * 1e-9L;
-      const long double dv = std::fabs(static_cast<long double>(b.velocity_m_s[0]) - a.velocity_m_s[0]);
+      const long double dv =
+          std::fabs(static_cast<long double>(b.velocity_m_s[0]) - a.velocity_m_s[0]);
       const long double dp = std::fabs(static_cast<long double>(b.position_m[0]) - a.position_m[0] -
                                        a.velocity_m_s[0] * s);
       ASSERT_LE(dv, bound * s);
@@ -63,7 +64,8 @@ TEST(Trajectory, StatesHonourTheDerivedBound) {
 // Goal:   states at the rows, or at both ends and the multiples of the period between them.
 TEST(StateInstants, FollowRowsOrRate) {
   const Trajectory curve({Row(0.3, 0), Row(0.5, 1), Row(1.0, 2)}, false, 0);
-  EXPECT_EQ(StateInstants(curve, 0, 0), (std::vector<std::int64_t>{300'000'000, 500'000'000, 1'000'000'000}));
+  EXPECT_EQ(StateInstants(curve, 0, 0),
+            (std::vector<std::int64_t>{300'000'000, 500'000'000, 1'000'000'000}));
   EXPECT_EQ(StateInstants(curve, 4, 0),
             (std::vector<std::int64_t>{300'000'000, 500'000'000, 750'000'000, 1'000'000'000}));
   EXPECT_EQ(StateInstants(curve, 2, 100'000'000),

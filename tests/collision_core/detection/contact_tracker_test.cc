@@ -1,5 +1,5 @@
-// Goal:   verdicts over segments become brackets that contain every begin and end, and nothing certain is lost.
-// Method: hand-made verdicts whose brackets are known; one second a segment.
+// Goal:   verdicts over segments become brackets that contain every begin and end, and nothing
+// certain is lost. Method: hand-made verdicts whose brackets are known; one second a segment.
 #include "collision_core/detection/contact_tracker.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +47,8 @@ TEST(ContactTracker, ContactAcrossSegmentsJoins) {
   EXPECT_EQ(episode.end, (TimeBracket{At(3.5), At(3.75)}));
 }
 
-// After an uncertain gap the first contact may have ended in it: the end bracket must contain both cases.
+// After an uncertain gap the first contact may have ended in it: the end bracket must contain both
+// cases.
 TEST(ContactTracker, GapInContactIsSaid) {
   ContactTracker tracker(At(0), false);
   Apply(&tracker, {0.5, 0.75, 1, true, 1});

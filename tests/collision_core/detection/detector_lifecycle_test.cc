@@ -1,5 +1,5 @@
-// Goal:   each event goes through its life, with brackets that contain the truth, and every cause is told.
-// Method: few agents on lines, whose meetings are exact; states every 1/16 s, one clock.
+// Goal:   each event goes through its life, with brackets that contain the truth, and every cause
+// is told. Method: few agents on lines, whose meetings are exact; states every 1/16 s, one clock.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +25,8 @@ MotionState State(double t, const Vector3d& p, const Vector3d& v) {
   return state;
 }
 
-// Agents that move on lines under a declared bound of 1 m/s², in a detector that hears of them 16 times a second.
+// Agents that move on lines under a declared bound of 1 m/s², in a detector that hears of them 16
+// times a second.
 class Line {
  public:
   explicit Line(DetectorOptions options = {}) : detector(options) {}
@@ -104,7 +105,8 @@ TEST(Detector, PassingThroughIsPossibleConfirmedEnded) {
   EXPECT_TRUE(ended[0].continuous);
 }
 
-// Passing at 2.5 m with radii 1: the bounds of 1 m/s² reach each other beforehand, the motion does not.
+// Passing at 2.5 m with radii 1: the bounds of 1 m/s² reach each other beforehand, the motion does
+// not.
 TEST(Detector, PassingByIsDismissed) {
   Line line;
   line.Add(1, {-6, 0, 0}, {1, 0, 0});
@@ -117,7 +119,8 @@ TEST(Detector, PassingByIsDismissed) {
   EXPECT_EQ(line.detector.pairs_tracked(), 0u);
 }
 
-// Surfaces that pass within a tenth of a millimetre of touching cannot be told from touching between states.
+// Surfaces that pass within a tenth of a millimetre of touching cannot be told from touching
+// between states.
 TEST(Detector, GrazingIsUndecidedWithItsDistance) {
   Line line;
   line.Add(1, {-6.03, 0, 0}, {1, 0, 0});
@@ -170,9 +173,8 @@ TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
             UpdateOutcome::kBreached);
   line.detector.Advance(At(next));
   const auto changed = line.detector.TakeChangedClearances();
-  const auto partner = std::find_if(changed.begin(), changed.end(), [](const AgentClearance& c) {
-    return c.agent == Id(2);
-  });
+  const auto partner = std::find_if(changed.begin(), changed.end(),
+                                    [](const AgentClearance& c) { return c.agent == Id(2); });
   ASSERT_NE(partner, changed.end());
   EXPECT_EQ(partner->cause, ClearanceCause::kBreach);
   EXPECT_EQ(partner->cause_agent, Id(1));
@@ -287,7 +289,8 @@ TEST(Detector, DismissedPairIsNotForgotten) {
   EXPECT_FALSE(line.With(EventStatus::kConfirmed).empty());
 }
 
-// Without acceleration the meeting at 5 s is known from the start; it is announced 2 s ahead, not when it comes.
+// Without acceleration the meeting at 5 s is known from the start; it is announced 2 s ahead, not
+// when it comes.
 TEST(Detector, AnnouncesAsFarAheadAsAsked) {
   Detector detector{DetectorOptions{}};
   detector.Admit(Id(1), {1, 0, 0, 1, ~0u}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
@@ -322,6 +325,50 @@ TEST(Detector, ConfirmsBetweenStatesUpToWhatWasHeard) {
   }
 }
 
+// What was confirmed stays confirmed, and ends, although the states after it were lost for seconds.
+TEST(Detector, ConfirmedContactEndsAfterLostStates) {
+  DetectorOptions options;
+  options.history_max = 8;
+  Detector detector{options};
+  std::vector<CollisionEvent> events;
+  const AgentDeclaration ball{0.5, 0.1, 0, 1, ~0u};
+  const auto speak = [&](double t) {
+    detector.Update(Id(1), State(t, {-20 + 2 * t, 0, 0}, {2, 0, 0}), At(t));
+    detector.Update(Id(2), State(t, {20 - 2 * t, 0, 0}, {-2, 0, 0}), At(t));
+  };
+  const auto step = [&](double now) {
+    detector.Hear(Id(1), At(now));
+    detector.Hear(Id(2), At(now));
+    detector.Advance(At(now));
+    events.insert(events.end(), detector.events().begin(), detector.events().end());
+  };
+  detector.Admit(Id(1), ball, State(0, {-20, 0, 0}, {2, 0, 0}), At(0));
+  detector.Admit(Id(2), ball, State(0, {20, 0, 0}, {-2, 0, 0}), At(0));
+  for (double now = 0; now <= 9.75; now += 0.25) {
+    speak(now);
+    step(now);
+  }
+  step(9.78125);
+  ASSERT_EQ(events.back().status, EventStatus::kConfirmed);
+  // The first agent's states come all at once, more than are kept; of the second's only the last.
+  for (double t = 10; t < 16.5; t += 0.125) {
+    detector.Update(Id(1), State(t, {-20 + 2 * t, 0, 0}, {2, 0, 0}), At(t));
+  }
+  speak(16.5);
+  step(16.5);
+  step(16.75);
+  const auto ended = std::find_if(events.begin(), events.end(), [](const auto& event) {
+    return event.status == EventStatus::kEnded;
+  });
+  ASSERT_NE(ended, events.end());
+  EXPECT_LE(ended->begin.earliest, At(9.75));
+  EXPECT_GE(ended->begin.latest, At(9.75));
+  EXPECT_LE(ended->end.earliest, At(10.25));
+  EXPECT_GE(ended->end.latest, At(10.25));
+  EXPECT_GE(ended->end.earliest, At(10.2));
+  EXPECT_LE(ended->end.latest, At(10.5));
+}
+
 // A contact just before a declared jump counts, although the state after the jump lies far away.
 TEST(Detector, JumpDoesNotUndoWhatCameBefore) {
   Line line;
@@ -342,7 +389,8 @@ TEST(Detector, JumpDoesNotUndoWhatCameBefore) {
   EXPECT_GE(confirmed.back().begin.latest, At(1.03));
 }
 
-// News of a jump comes late: what the jumped agent met before the partner's newest state is found as well.
+// News of a jump comes late: what the jumped agent met before the partner's newest state is found
+// as well.
 TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
   Detector detector{DetectorOptions{}};
   std::vector<CollisionEvent> events;
@@ -378,8 +426,10 @@ TEST(Detector, LimitsAndStrangers) {
   options.agents_max = 1;
   Line line(options);
   EXPECT_TRUE(line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
-  EXPECT_FALSE(line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
-  EXPECT_FALSE(line.detector.Admit(Id(2), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(
+      line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(
+      line.detector.Admit(Id(2), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
   EXPECT_EQ(line.detector.Update(Id(2), State(0, {0, 0, 0}, {0, 0, 0}), At(0)),
             UpdateOutcome::kUnknown);
   EXPECT_EQ(line.detector.Update(Id(1), State(-1, {0, 0, 0}, {0, 0, 0}), At(0)),

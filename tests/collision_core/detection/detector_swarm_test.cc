@@ -1,6 +1,8 @@
-// Goal:   in a crowd no contact is late, none is made up, brackets contain the truth and are nearly tight,
+// Goal:   in a crowd no contact is late, none is made up, brackets contain the truth and are nearly
+// tight,
 //         and the lazily kept earliest intersection is the one asked from scratch.
-// Method: seeded crowds under forces that honour M exactly, with states of unequal rate; the truth is the
+// Method: seeded crowds under forces that honour M exactly, with states of unequal rate; the truth
+// is the
 //         closed-form motion, sampled eight times a step and bisected.
 #include <gtest/gtest.h>
 
@@ -40,13 +42,15 @@ class Crowd {
     for (std::size_t i = 0; i < agents; ++i) {
       Knot knot{{offset + random.Uniform(0, box), offset + random.Uniform(0, box),
                  offset + random.Uniform(0, box)},
-                random.UnitVector() * random.Uniform(0, 8), {}};
+                random.UnitVector() * random.Uniform(0, 8),
+                {}};
       std::vector<Knot> motion;
       for (int k = 0; k < steps; ++k) {
         // Towards the middle, and at random; shortened a little, so that rounding cannot pass M.
         const Vector3d pull = (middle - knot.p) / box * kAccelerationMax;
         knot.a = pull + random.UnitVector() * kAccelerationMax;
-        knot.a *= random.Uniform(0, 1 - 1e-12) * kAccelerationMax / std::max(knot.a.norm(), kAccelerationMax);
+        knot.a *= random.Uniform(0, 1 - 1e-12) * kAccelerationMax /
+                  std::max(knot.a.norm(), kAccelerationMax);
         motion.push_back(knot);
         knot.p += knot.v * kStep + knot.a * (kStep * kStep / 2);
         knot.v += knot.a * kStep;
@@ -210,14 +214,16 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
     const auto explained = std::any_of(run.events.begin(), run.events.end(),
                                        [&](const auto& event) { return Explains(event, contact); });
     EXPECT_TRUE(explained) << contact.a << "-" << contact.b << " at " << contact.begin;
-    const auto announced = std::any_of(run.events.begin(), run.events.end(), [&](const auto& event) {
-      return event.lower == Id(contact.a) && event.higher == Id(contact.b) &&
-             Seconds(event.now) <= contact.begin && event.status == EventStatus::kPossible;
-    });
+    const auto announced =
+        std::any_of(run.events.begin(), run.events.end(), [&](const auto& event) {
+          return event.lower == Id(contact.a) && event.higher == Id(contact.b) &&
+                 Seconds(event.now) <= contact.begin && event.status == EventStatus::kPossible;
+        });
     EXPECT_TRUE(announced) << contact.a << "-" << contact.b << " at " << contact.begin;
     for (const std::size_t agent : {contact.a, contact.b}) {
       for (const RunLog::Promise& promise : run.promises[agent]) {
-        const bool broken = promise.now <= contact.begin && contact.begin < promise.clear_until - 1e-9;
+        const bool broken =
+            promise.now <= contact.begin && contact.begin < promise.clear_until - 1e-9;
         if (!broken) continue;
         // Only a pair in contact is exempt: the earlier contact of the same two had not ended.
         EXPECT_LE(crowd.Gap(contact.a, contact.b, promise.now), 0)
@@ -243,7 +249,8 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
       EXPECT_GT(crowd.Gap(a, b, Seconds(event.now)), 0);
     }
   }
-  // Between states T <= 1/16 s apart two bounds of 5 m/s² meet at 2.5 mm; bodies close at metres a second.
+  // Between states T <= 1/16 s apart two bounds of 5 m/s² meet at 2.5 mm; bodies close at metres a
+  // second.
   ASSERT_FALSE(widths.empty());
   std::sort(widths.begin(), widths.end());
   EXPECT_LT(widths[widths.size() / 2], 0.01);
@@ -255,8 +262,9 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, DetectorSwarm, testing::Range(0, 4));
 
-// Pairs that all meet at the same time, far from the origin: rounding alone decides which is first, and it turns
-// out anew with every state. A key kept from an older state must not hide the pair that is first now.
+// Pairs that all meet at the same time, far from the origin: rounding alone decides which is first,
+// and it turns out anew with every state. A key kept from an older state must not hide the pair
+// that is first now.
 TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
   Random random(31);
   Detector detector{DetectorOptions{}};
@@ -264,7 +272,8 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
   const AgentDeclaration still{1, 0, 0, 1, ~0u};
   std::vector<Knot> start;
   for (std::size_t i = 0; i < kPairs; ++i) {
-    const Vector3d middle = random.UnitVector() * random.Uniform(1e6, 9e6) + Vector3d(1e5, 0, 0) * i;
+    const Vector3d middle =
+        random.UnitVector() * random.Uniform(1e6, 9e6) + Vector3d(1e5, 0, 0) * i;
     const Vector3d n = random.UnitVector();
     start.push_back({middle - n * 51, n * 0.5, Vector3d::Zero()});
     start.push_back({middle + n * 51, n * -0.5, Vector3d::Zero()});

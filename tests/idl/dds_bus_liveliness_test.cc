@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "idl/identity.h"
-#include "tests/server/dds_bus_support.h"
+#include "tests/idl/dds_bus_support.h"
 
 namespace collision::server {
 namespace {
@@ -19,6 +20,13 @@ std::vector<bool> Livelinesses(const std::vector<v1::Input>& inputs, const std::
     }
   }
   return all;
+}
+
+/// Whether a simulator's end was told in the name of whoever wrote its clock.
+bool OneSender(const std::vector<v1::Input>& inputs) {
+  std::set<std::uint64_t> senders;
+  for (const v1::Input& input : inputs) senders.insert(input.sender());
+  return senders.size() == 1 && *senders.begin() != 0;
 }
 
 void PublishStatus(DdsBus& bus) {
@@ -74,6 +82,9 @@ TEST(DdsBusLiveliness, ASimulatorThatLeavesAndReturnsIsToldOnceEachAndItsAgentsS
     }
     ASSERT_TRUE(ReceiveUntil(bus, &inputs,
                              [&] { return Livelinesses(inputs, "a").size() >= 2 * visit - 1; }));
+    if (visit == 1) {
+      EXPECT_TRUE(OneSender(inputs));
+    }
   }
   EXPECT_EQ(Livelinesses(inputs, "a"), (std::vector<bool>{false, true, false}));
   EXPECT_EQ(Count(inputs, v1::Input::kAgentRemoval), 0u);
@@ -90,6 +101,7 @@ TEST(DdsBusLiveliness, AKilledSimulatorIsGoneAfterItsLeaseAndItsAgentsStay) {
   child.Kill();
   ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !Livelinesses(inputs, "child").empty(); }));
   EXPECT_EQ(Livelinesses(inputs, "child"), std::vector<bool>{false});
+  EXPECT_TRUE(OneSender(inputs));
   EXPECT_EQ(Count(inputs, v1::Input::kAgentRemoval), 0u);
 }
 

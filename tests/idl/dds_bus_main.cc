@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "tests/server/dds_bus_support.h"
+#include "tests/idl/dds_bus_support.h"
 
 int main(int argc, char** argv) {
   // A participant's own lease (10 s unless told) must not be what notices a death: only a writer's

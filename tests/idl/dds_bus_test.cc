@@ -14,8 +14,8 @@
 #include <stdexcept>
 
 #include "idl/identity.h"
+#include "tests/idl/dds_bus_support.h"
 #include "tests/idl/random_message.h"
-#include "tests/server/dds_bus_support.h"
 
 namespace collision::server {
 namespace {

@@ -1,7 +1,8 @@
-#include "tests/server/dds_bus_support.h"
+#include "tests/idl/dds_bus_support.h"
 
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -120,6 +121,7 @@ void ChildSimulator::Stop() {
 void ChildSimulator::Continue() { kill(process_, SIGCONT); }
 
 int RunChildSimulator(std::uint32_t domain, const std::string& world, std::size_t events) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive a test that is itself killed
   DdsSessionOptions options = SimulatorOptions("child");
   options.domain = domain;
   options.world = world;
