@@ -117,6 +117,8 @@ std::vector<v1::AgentStates> Fleet::Tell(std::int64_t clock_ns) {
     }
     slot.told = std::exchange(slot.staged, std::nullopt);
     slot.told->set_sequence(++states_sequence_);
+    if (slot.told->discontinuity()) slot.jump = states_sequence_;
+    slot.told->set_discontinuity(slot.jump != 0);
     chunks.insert(index / chunk_size_);
   }
   staged_slots_ = std::move(waiting);
@@ -144,6 +146,7 @@ void Fleet::Hear(const v1::AgentClearance& clearance) {
   Slot& slot = slots_[clearance.slot()];
   if (!slot.occupied || slot.description.generation() != clearance.generation()) return;
   slot.clearance = FromMessage(clearance);
+  if (clearance.acknowledged_sequence() >= slot.jump) slot.jump = 0;
 }
 
 Clearance Fleet::clearance(const AgentId& id) const { return slots_.at(id.slot).clearance; }

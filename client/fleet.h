@@ -55,6 +55,9 @@ class Fleet {
     v1::AgentDescription description;  ///< Holds the generation, also of a slot that is free.
     std::optional<v1::AgentState> told;
     std::optional<v1::AgentState> staged;
+    /// Sequence of the last jump until the service has acknowledged it; 0: none. Histories keep only the
+    /// newest sample, so every state until then says that the motion jumped.
+    std::uint64_t jump = 0;
     Clearance clearance;
   };
 

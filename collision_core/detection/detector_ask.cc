@@ -78,6 +78,7 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
       const bool overlap = meeting.time.seconds <= 0;
       const bool unknown_before = renewed || was_saturated || At(meeting.partner).saturated;
       Track(agent, meeting.partner, when, overlap && unknown_before);
+      if (renewed) Tell(meeting.partner, agent);
       continue;
     }
     key = std::min(key, when);
@@ -209,9 +210,13 @@ std::optional<AgentClearance> Detector::Implementation::ClearanceOf(const AgentI
 
 EarliestAnswer Detector::Implementation::Earliest() {
   EarliestAnswer best;
-  const auto consider = [&](std::uint32_t a, std::uint32_t b) {
+  const auto consider = [&](std::uint32_t a, std::uint32_t b, Instant judged) {
     ++counters_.pair_queries;
-    const Instant when = EarliestIntersection(At(a).bound(), At(b).bound(), now_).instant();
+    Instant when = EarliestIntersection(At(a).bound(), At(b).bound(), now_).instant();
+    // The canonical answer begins at the newer state. Where that lies ahead of now (its owner was granted more
+    // time than others), the pair must be certified free until there.
+    const Instant known_from = std::max(At(a).stamp(), At(b).stamp());
+    if (judged < known_from) when = std::min(when, std::max(now_, judged));
     const AgentId lower = std::min(At(a).id, At(b).id);
     const AgentId higher = std::max(At(a).id, At(b).id);
     if (when.is_never()) return;
@@ -222,7 +227,8 @@ EarliestAnswer Detector::Implementation::Earliest() {
     best = {true, when, lower, higher};
   };
   for (const std::uint32_t slot : pairs_.slots()) {
-    if (!pairs_[slot].in_contact) consider(pairs_[slot].lower, pairs_[slot].higher);
+    const PairRecord& pair = pairs_[slot];
+    if (!pair.in_contact) consider(pair.lower, pair.higher, pair.clear_until);
   }
   // Keys are lower bounds, so only agents whose key is not later than the best answer can better
   // it.
@@ -237,7 +243,7 @@ EarliestAnswer Detector::Implementation::Earliest() {
     seen.push_back(agent);
     for (const auto& [id, partner] : index_) {
       if (partner != agent && !At(partner).expired && !Tracked(At(agent), partner)) {
-        consider(agent, partner);
+        consider(agent, partner, Instant::Never());  // covered: keys are not earlier than states
       }
     }
   }

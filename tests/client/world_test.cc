@@ -37,6 +37,40 @@ class WorldTest : public testing::Test {
   std::shared_ptr<FakeNetwork> network_ = std::make_shared<FakeNetwork>();
 };
 
+// A jump may be overwritten by the next state before the service has read it: until it is acknowledged, every state
+// says that the motion jumped.
+TEST_F(WorldTest, JumpIsToldUntilItIsAcknowledged) {
+  World world = ConnectTo(network_, {.lock_step = false});
+  Agent ball = world.AddAgent(Ball(), At(0));
+  world.Publish(0);
+  State jump = At(1, 50);
+  jump.discontinuity = true;
+  ball.SetState(jump);
+  world.Publish(1);
+  ball.SetState(At(2, 50));
+  world.Publish(2);
+  EXPECT_TRUE(network_->States().back().states(0).discontinuity());
+  v1::Clearance* clearance = network_->arriving.emplace_back().mutable_clearance();
+  clearance->set_simulator_id(SimulatorId(kSimulator));
+  clearance->set_run(kRun);
+  v1::AgentClearance* agent = clearance->add_agents();
+  agent->set_generation(1);
+  agent->set_acknowledged_sequence(1);
+  world.Poll();
+  ball.SetState(At(3, 50));
+  world.Publish(3);
+  EXPECT_TRUE(network_->States().back().states(0).discontinuity()) << "only its predecessor was";
+  agent = network_->arriving.emplace_back().mutable_clearance()->add_agents();
+  network_->arriving.back().mutable_clearance()->set_simulator_id(SimulatorId(kSimulator));
+  network_->arriving.back().mutable_clearance()->set_run(kRun);
+  agent->set_generation(1);
+  agent->set_acknowledged_sequence(2);
+  world.Poll();
+  ball.SetState(At(4, 50));
+  world.Publish(4);
+  EXPECT_FALSE(network_->States().back().states(0).discontinuity());
+}
+
 // A killed program's successor is refused until the service has given up its predecessor; it must not stay so.
 TEST_F(WorldTest, RefusedForItsNameItSaysEverythingAgain) {
   World world = ConnectTo(network_);
