@@ -27,8 +27,8 @@ class Drone {
   MotionPiece Step(std::int64_t t0_ns, std::int64_t t1_ns);
 
   /// Reflects the velocity at a wall with this normal, if the drone moves along it (`side` +1) or
-  /// against it
-  /// (-1), that is towards the wall. False: it does not, or the normal is zero; nothing changes.
+  /// against it (-1), that is towards the wall. False: it does not, or the normal is zero;
+  /// nothing changes.
   bool Bounce(const Vector3& normal, int side);
 
   const Vector3& position_m() const { return position_m_; }

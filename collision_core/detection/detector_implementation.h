@@ -15,9 +15,8 @@
 namespace collision {
 
 /// What keeps never-late true between two steps:
-///  - every two agents that can meet are either a tracked pair, whose tracker says up to when they
-///  are certified
-///    free, or covered: certified free up to the greater of their two keys;
+///  - every two agents that can meet are either a tracked pair, whose tracker says up to when
+///    they are certified free, or covered: certified free up to the greater of their two keys;
 ///  - after a step every key is later than now + announce_within (or its agent is saturated).
 class Detector::Implementation {
  public:

@@ -1,7 +1,7 @@
 // Goal:   over real DDS a World and a service hear each other, and a Monitor hears both.
 // Method: a service made by hand from a DDS session on loopback, in this process and thread: it
-// grants, reports
-//         one event, and looks at what it was told. Every wait is for an arrival, with a bound.
+//         grants, reports one event, and looks at what it was told. Every wait is for an arrival,
+//         with a bound.
 #include <gtest/gtest.h>
 
 #include <algorithm>

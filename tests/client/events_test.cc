@@ -1,6 +1,5 @@
 // Goal:   every revision of an event of ours comes once, on the caller's thread and inside its
-// call, and none
-//         after the end; without a callback they wait, up to a bound.
+//         call, and none after the end; without a callback they wait, up to a bound.
 // Method: events put on a network in the test's hands, with repeats, strangers and late ones among
 // them.
 #include <gtest/gtest.h>

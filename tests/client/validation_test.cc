@@ -1,6 +1,5 @@
 // Goal:   what the service would refuse never leaves the simulator, and the message says which
-// field, which
-//         value and what is allowed; what the service takes passes.
+//         field, which value and what is allowed; what the service takes passes.
 // Method: every field at its limits, beyond them, and not a number; the limits are compared with
 // the service's.
 #include "client/validation.h"

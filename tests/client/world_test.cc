@@ -1,6 +1,5 @@
 // Goal:   what a World writes is complete, in order, and never ahead of what it promises or was
-// granted; what
-//         it hears reaches the right callback once, and nobody after the end.
+//         granted; what it hears reaches the right callback once, and nobody after the end.
 // Method: a network that the test holds in its hands; every sample written is looked at.
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
-// Goal:   collision.idl and messages.proto say the same: every struct is a message, every field has
-// the same
-//         name, place and kind, every enumerator the same number.
+// Goal:   collision.idl and messages.proto say the same: every struct is a message, every field
+//         has the same name, place and kind, every enumerator the same number.
 // Method: the IDL file, read as text, against protobuf's descriptors.
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>

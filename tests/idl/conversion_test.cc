@@ -1,9 +1,8 @@
 // Goal:   a message survives the way to its C type and back bit for bit, up to the bounds of the
-// IDL; beyond a
-//         bound it is refused, naming field and bound.
+//         IDL; beyond a bound it is refused, naming field and bound.
 // Method: every field of every message filled at random (fixed seeds), NaN, infinities and
-// denormals among
-//         them; lengths short, at the bound, and one over the bound for each bounded field in turn.
+//         denormals among them; lengths short, at the bound, and one over the bound for each
+//         bounded field in turn.
 #include "idl/dds/conversion.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,7 @@
-// Goal:   what one program writes reaches the others as DESIGN.md section 6 says: complete, from a
-// known
-//         sender, to those of its world only.
+// Goal:   what one program writes reaches the others as idl/README.md says: complete, from
+//         a known sender, to those of its world only.
 // Method: real DDS on loopback, several participants in one process, each test in a domain and
-// world of its
-//         own; waiting loops with a deadline.
+//         world of its own; waiting loops with a deadline.
 #include "server/dds_bus.h"
 
 #include <gtest/gtest.h>

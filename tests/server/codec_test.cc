@@ -118,8 +118,7 @@ TEST(Codec, NormalisesTheThrustDirection) {
 }
 
 // Goal:   stamps beyond what is granted and jumps before the clock told are refused, each for its
-// reason; the
-//         last allowed nanosecond passes.
+//         reason; the last allowed nanosecond passes.
 TEST(Codec, ChecksStamps) {
   const StampRules rules{.latest = Instant::FromNanoseconds(100),
                          .discontinuity_from = Instant::FromNanoseconds(50)};

@@ -88,9 +88,8 @@ TEST(ConfigOptions, CoverEveryField) {
   EXPECT_EQ(leaves.size(), paths.size()) << "errors find an option by its last name";
 }
 
-// Goal:   the documented file tells the truth: every field with its unit, range and default, and it
-// loads to
-//         exactly the defaults.
+// Goal:   the documented file tells the truth: every field with its unit, range and default, and
+//         it loads to exactly the defaults.
 // Method: against the table, and as a whole against --print-config.
 TEST(Config, ExampleFileDocumentsEveryField) {
   const std::string path = COLLISION_CONFIG_DIR "/collisiond.textproto";
@@ -129,8 +128,7 @@ TEST(Config, Defaults) {
 }
 
 // Goal:   each number's range is closed: its limits are accepted, what is just beyond is refused,
-// with the
-//         field's line and range; what is not a number is refused too.
+//         with the field's line and range; what is not a number is refused too.
 TEST(Config, RangesAreClosedOnBothSides) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const ConfigOption& option : ConfigOptions()) {
@@ -197,9 +195,8 @@ TEST(Config, TellsAllErrorsWithTheirLines) {
   }
 }
 
-// Goal:   fields that contradict each other are refused at the line of the one that is set, and at
-// equality,
-//         or when they agree, they are not.
+// Goal:   fields that contradict each other are refused at the line of the one that is set, and
+//         at equality, or when they agree, they are not.
 TEST(Config, FieldsAgree) {
   const std::pair<const char*, const char*> cases[] = {
       {"announce_within_s: 0.016", "F:1: announce_within_s: "},

@@ -21,8 +21,7 @@ std::uint64_t HashOf(const std::vector<v1::CollisionEvent>& events) {
 
 // Goal:   the hash is the FNV-1a that others compute.
 // Method: the published values for no bytes and for one zero byte, the length of an empty event;
-// and the three bytes
-//         02 08 01 by the definition.
+//         and the three bytes 02 08 01 by the definition.
 TEST(EventLog, IsFnv1a) {
   EXPECT_EQ(HashOf({}), 0xcbf29ce484222325);
   EXPECT_EQ(HashOf({v1::CollisionEvent()}), 0xaf63bd4c8601b7df);

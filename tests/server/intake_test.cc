@@ -84,8 +84,7 @@ std::vector<BadInput> BadInputs() {
 }
 
 // Goal:   every bad input is refused for its reason, told to its sender, counted, and disturbs
-// nothing: agents
-//         present stay, a good state in the same batch is taken, time goes on.
+//         nothing: agents present stay, a good state in the same batch is taken, time goes on.
 // Method: each bad input in a world of its own, in one batch with a good state.
 TEST(Intake, RefusesBadInputAndNothingElse) {
   for (const BadInput& bad : BadInputs()) {
@@ -140,8 +139,7 @@ TEST(Intake, ABadStateInAChunkCostsItsSlotOnly) {
 }
 
 // Goal:   states of an agent that nothing describes are kept, reported once after
-// undescribed_after_s, and
-//         used when the description comes.
+//         undescribed_after_s, and used when the description comes.
 TEST(Intake, KeepsStatesOfUndescribedAgents) {
   ScriptedDaemon daemon(Simulated());
   daemon.Step({From(kAlpha, State(0, 0, 1), "alpha"), From(kAlpha, ClockAfter("alpha", 0, 1, 0))});
@@ -199,8 +197,7 @@ TEST(Intake, SlotsAreReusedByGeneration) {
 }
 
 // Goal:   a successor that comes before its predecessor's death is noticed is told so, and takes
-// over then: its
-//         samples were written once and will not come again.
+//         over then: its samples were written once and will not come again.
 TEST(Intake, ASuccessorWaitsForItsPredecessorsEnd) {
   ScriptedDaemon daemon(Simulated());
   daemon.Step(AlphaJoins(kAlpha));

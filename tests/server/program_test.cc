@@ -158,9 +158,9 @@ TEST_F(ProgramTest, Replays) {
   EXPECT_EQ(Lines(), 1) << text_;
 }
 
-// Goal:   the service tells its manager when it is ready and when it stops; SIGTERM and SIGINT end
-// it with 0, the
-//         last line is its event log, and the recording is complete and replays to the same.
+// Goal:   the service tells its manager when it is ready and when it stops; SIGTERM and SIGINT
+//         end it with 0, the last line is its event log, and the recording is complete and
+//         replays to the same.
 TEST_F(ProgramTest, ServesUntilASignal) {
   for (const int signal : {SIGTERM, SIGINT}) {
     const int manager = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);

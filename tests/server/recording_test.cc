@@ -82,9 +82,8 @@ class RecordingTest : public testing::Test {
   const std::string path_ = testing::TempDir() + "recording_test." + std::to_string(getpid());
 };
 
-// Goal:   what was recorded is read back, configuration included, and each batch is in the file as
-// soon as
-//         Record() has returned.
+// Goal:   what was recorded is read back, configuration included, and each batch is in the file
+//         as soon as Record() has returned.
 TEST_F(RecordingTest, ReadsBackWhatWasWritten) {
   const std::vector<std::size_t> ends = WriteBatches(20);
   for (std::size_t i = 1; i < ends.size(); ++i) EXPECT_GT(ends[i], ends[i - 1]);
@@ -96,8 +95,7 @@ TEST_F(RecordingTest, ReadsBackWhatWasWritten) {
 }
 
 // Goal:   a recording cut off anywhere gives every complete batch, and an error with the byte
-// offset of the
-//         first incomplete one; cut between two entries it is simply shorter.
+//         offset of the first incomplete one; cut between two entries it is simply shorter.
 // Method: every length of a recording of eight batches.
 TEST_F(RecordingTest, CutOffAnywhereGivesWhatIsComplete) {
   const std::vector<std::size_t> ends = WriteBatches(8);
@@ -116,8 +114,7 @@ TEST_F(RecordingTest, CutOffAnywhereGivesWhatIsComplete) {
 }
 
 // Goal:   damage never makes a program of the reader's fail: it ends in batches, then perhaps one
-// error with a
-//         byte offset.
+//         error with a byte offset.
 // Method: 300 recordings with up to four random bytes changed.
 TEST_F(RecordingTest, DamageIsAnErrorAtMost) {
   WriteBatches(8);
@@ -167,8 +164,7 @@ TEST_F(RecordingTest, RefusesOtherFiles) {
 }
 
 // Goal:   an entry of 64 MiB is read as far as it is there; one byte more is refused before
-// anything is
-//         allocated for it.
+//         anything is allocated for it.
 TEST_F(RecordingTest, BoundsTheSizeOfAnEntry) {
   EXPECT_EQ(RefusalOf(std::string("\x80\x80\x80\x20", 4)), path_ + ": byte 0: cut off");
   EXPECT_EQ(RefusalOf(std::string("\x81\x80\x80\x20", 4)),
@@ -196,8 +192,7 @@ TEST_F(RecordingTest, FailsAtOnceWhereNothingCanBeWritten) {
 }
 
 // Goal:   when the disk is full later on, Record() says so and keeps saying so, and what was
-// recorded before
-//         remains readable.
+//         recorded before remains readable.
 // Method: a limit on the size of files stands for the disk.
 TEST_F(RecordingTest, FullDiskEndsTheRecording) {
   std::signal(SIGXFSZ, SIG_IGN);

@@ -29,8 +29,7 @@ class ReplayTest : public testing::Test {
 };
 
 // Goal:   each Receive() is one recorded batch, whatever its limit, and Read() gives that batch's
-// times until
-//         the next one; before the first it gives the first one's.
+//         times until the next one; before the first it gives the first one's.
 TEST_F(ReplayTest, RepeatsBatchesAndTimes) {
   RecordingReader reader(path_);
   ReplaySource source(reader);

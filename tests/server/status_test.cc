@@ -17,9 +17,8 @@ v1::Config Simulated() {
   return config;
 }
 
-// Goal:   a status names the world, its simulators, what was counted, the method and the event log,
-// each
-//         counter once, within the bounds of collision.idl.
+// Goal:   a status names the world, its simulators, what was counted, the method and the event
+//         log, each counter once, within the bounds of collision.idl.
 TEST(Status, TellsWhatTheServiceKnows) {
   ScriptedDaemon daemon(Simulated());
   daemon.Step({From(1, Description("alpha", 0)), From(1, State(0, 0, 1), "alpha"),

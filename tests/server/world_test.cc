@@ -178,8 +178,7 @@ TEST(World, GrantsWhatIsClear) {
 }
 
 // Goal:   stamps and clocks are allowed up to what is granted; before a grant, as far as any
-// service may
-//         have granted; who does not step in lock-step, as far as grants ever reach.
+//         service may have granted; who does not step in lock-step, as far as grants ever reach.
 TEST(World, AllowsWhatIsGranted) {
   World world(Simulated(1));
   const std::string name = "a";

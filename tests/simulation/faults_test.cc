@@ -83,9 +83,8 @@ TEST(Faults, ATeleportIsNoBreach) {
   EXPECT_EQ(result.confirmed, 1u);
 }
 
-// Goal:   an agent admitted in the middle of the run, on a collision course, is announced before it
-// touches, and
-//         nothing that was granted before is withdrawn.
+// Goal:   an agent admitted in the middle of the run, on a collision course, is announced before
+//         it touches, and nothing that was granted before is withdrawn.
 TEST(Faults, ALateAdmissionTakesEffectAtTheGreatestGrant) {
   Scenario scenario(ConfigFor(2), {});
   SimulatedAgent late = At(0);
@@ -157,8 +156,7 @@ TEST(Faults, ASilentSimulatorIsWaitedForOrReleased) {
 }
 
 // Goal:   a simulator that comes back with a higher run starts anew: its old agents are gone, and
-// the world goes
-//         on to the end without losing or doubling anything.
+//         the world goes on to the end without losing or doubling anything.
 TEST(Faults, AHigherRunStartsAnew) {
   Scenario scenario(ConfigFor(2), {});
   auto& alpha = scenario.Add({.name = "alpha", .sender = 1, .end_ns = kEnd}, {At(0)});

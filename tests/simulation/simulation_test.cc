@@ -44,10 +44,9 @@ std::string Join(const std::vector<std::string>& lines) {
   return text;
 }
 
-// Goal:   no contact comes unannounced, every bracket holds its truth, nothing is confirmed that is
-// not true,
-//         on a good network and on bad ones; and the answers are of use: most contacts are
-//         confirmed, narrowly.
+// Goal:   no contact comes unannounced, every bracket holds its truth, nothing is confirmed that
+//         is not true, on a good network and on bad ones; and the answers are of use: most
+//         contacts are confirmed, narrowly.
 // Method: three simulators in lock-step with exact motion; the truth from polynomials.
 TEST(Simulation, IsNeverLateOnAnyNetwork) {
   for (const std::uint64_t seed : {1, 2, 3}) {

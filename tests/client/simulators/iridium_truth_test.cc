@@ -5,8 +5,7 @@ namespace {
 
 // Goal:   the checker's own truth is that of the literature, both for the begin and the end.
 // Method: 500 m spheres around both satellites, cubic Hermite curves through their rows; the
-// published times have
-//         six decimals.
+//         published times have six decimals.
 TEST(IridiumTruth, SpheresMeetAndPartWhenTheDataSaysSo) {
   const auto motions = MotionsOf(COLLISION_SCENES_DIR "/iridium33_cosmos2251_2009-02-10.csv", 500);
   ASSERT_EQ(motions.size(), 2u);

@@ -1,9 +1,7 @@
-// Goal:   in a crowd no contact is late, none is made up, brackets contain the truth and are nearly
-// tight,
-//         and the lazily kept earliest intersection is the one asked from scratch.
-// Method: seeded crowds under forces that honour M exactly, with states of unequal rate; the truth
-// is the
-//         closed-form motion, sampled eight times a step and bisected.
+// Goal:   in a crowd no contact is late, none is made up, brackets contain the truth and are
+//         nearly tight, and the lazily kept earliest intersection is the one asked from scratch.
+// Method: seeded crowds under forces that honour M exactly, with states of unequal rate; the
+//         truth is the closed-form motion, sampled eight times a step and bisected.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -26,9 +26,8 @@ MotionState After(const SpaceTimeBound& before, std::int64_t ns) {
 
 // Goal:   an integrator that honours M exactly in double arithmetic is never told it breached.
 // Method: full thrust, the worst case, in one to 1000 steps of any length, near and far from the
-// origin; the
-//         excess is reported as drift, and the new horn lies inside the old one grown by it
-//         (exactly).
+//         origin; the excess is reported as drift, and the new horn lies inside the old one grown
+//         by it (exactly).
 TEST(Contract, HonestIntegratorsAreKept) {
   Random random(51);
   for (int i = 0; i < 3000; ++i) {
@@ -144,8 +143,7 @@ TEST(Contract, SkewCountsTwice) {
 }
 
 // Goal:   a direction lost, changed or shortened widens, one that had ended or is kept does not,
-// and a motion
-//         against it is a breach.
+//         and a motion against it is a breach.
 TEST(Contract, Directions) {
   SpaceTimeBound before = Resting(2);
   before.state.direction = {1, 0, 0};

@@ -173,9 +173,8 @@ TEST(JudgeSegment, ChoicesExtendEachOther) {
   EXPECT_NEAR(JudgeSegment(forward, other, 1).free_until, std::sqrt(0.5), 1e-9);
 }
 
-// Goal:   contact at both ends with a middle that is not certified is said to be not continuous; at
-// the exact
-//         values of the bounds.
+// Goal:   contact at both ends with a middle that is not certified is said to be not continuous;
+//         at the exact values of the bounds.
 // Method: 0.8 m deep at rest, M = 8: each u reaches 1 m mid-way, and only 0.16 m are needed to
 // leave.
 TEST(JudgeSegment, ContactThatMayBreakIsNotContinuous) {
