@@ -20,8 +20,8 @@ class DdsBus final : public Bus {
   DdsBus(const std::string& world, std::uint32_t domain,
          std::chrono::nanoseconds lease = std::chrono::seconds(2));
 
-  /// `limit` counts samples; a removal or a change of liveliness may come as a second message of
-  /// one.
+  /// `limit` counts samples; a removal may come as a second message of one, and changes of
+  /// liveliness on top.
   bool Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                std::vector<v1::Input>* inputs) override;
 

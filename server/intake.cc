@@ -144,7 +144,11 @@ void Intake::TakeRemoval(const v1::Input& input) {
   const v1::AgentRemoval& removal = input.agent_removal();
   Simulator* simulator = world_.Find(removal.simulator_id());
   if (simulator == nullptr) return;
-  if (simulator->sender != input.sender()) return Refuse(NotItsOwn(removal));
+  // Without a sender it is the description itself that says it: nobody is left to ask for its owner.
+  if (input.sender() != 0 && simulator->sender != input.sender()) {
+    if (!HoldBehindItsLike(simulator, input)) Refuse(NotItsOwn(removal));
+    return;
+  }
   const auto slot = simulator->slots.find(removal.slot());
   if (slot == simulator->slots.end()) return;
   if (slot->second.agent) return RemoveAgent(simulator, removal.slot());
@@ -155,7 +159,13 @@ void Intake::TakeRemoval(const v1::Input& input) {
 
 void Intake::TakeLiveliness(const v1::Input& input) {
   Simulator* simulator = world_.Find(input.liveliness().simulator_id());
-  if (simulator == nullptr || simulator->sender != input.sender()) return;
+  if (simulator == nullptr) return;
+  // Without a sender it is the clock itself that says it has no writer: its owner's, if that told one.
+  const bool deserted = input.sender() == 0 && simulator->told > Instant::Always();
+  if (simulator->sender != input.sender() && !deserted) {
+    HoldBehindItsLike(simulator, input);
+    return;
+  }
   simulator->alive = input.liveliness().alive();
   simulator->silent_since_ns = world_.monotonic_ns();
   if (simulator->alive) {
@@ -163,6 +173,16 @@ void Intake::TakeLiveliness(const v1::Input& input) {
     return;
   }
   for (const v1::Input& held : std::exchange(simulator->held, {})) Apply(held);
+}
+
+bool Intake::HoldBehindItsLike(Simulator* simulator, const v1::Input& input) {
+  std::vector<v1::Input>& held = simulator->held;
+  const auto same = [&input](const v1::Input& other) { return other.sender() == input.sender(); };
+  if (std::none_of(held.begin(), held.end(), same)) return false;
+  // The newest replaces the last, so that the end of whoever waits is never lost.
+  if (held.size() == kHeldInputsMax) held.pop_back();
+  held.push_back(input);
+  return true;
 }
 
 void Intake::EndBatch() {

@@ -56,6 +56,10 @@ class Intake {
   /// refused.
   Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);
 
+  /// What a successor that waits for the simulator's id removes, or its own end, waits with what it
+  /// wrote before. False: its sender does not wait.
+  bool HoldBehindItsLike(Simulator* simulator, const v1::Input& input);
+
   void TakeDescription(const v1::Input& input);
   void TakeStates(const v1::Input& input);
   void TakeState(Simulator* simulator, const v1::AgentStates& chunk, const v1::AgentState& state);

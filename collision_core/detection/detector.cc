@@ -241,8 +241,13 @@ void Detector::Implementation::Turn(std::uint32_t slot) {
     judge(std::max(a.stamp(), b.stamp()), &outlook);
     if (outlook.free() && outlook.finished().size() == preview.finished().size()) {
       const Instant from = std::min(now_, outlook.at());
+      const Instant earliest = EarliestIntersection(a.bound(), b.bound(), from).instant();
       ++counters_.pair_queries;
-      outlook.ExtendFree(EarliestIntersection(a.bound(), b.bound(), from).instant());
+      if (from == now_) {
+        pair.earliest = earliest;
+        pair.asked = step_;
+      }
+      outlook.ExtendFree(earliest);
       preview = outlook;
       const bool free_throughout = pair.tracker.free() && preview.finished().empty();
       if (free_throughout) pair.tracker.ExtendFree(preview.at());

@@ -126,8 +126,10 @@ void Detector::Implementation::Track(std::uint32_t a, std::uint32_t b, Instant f
   };
   std::optional<std::uint32_t> slot;
   if (!full(a) && !full(b)) {
-    slot = pairs_.Add({lower, higher, ContactTracker(free_until, began_before), free_until, false,
-                       false, CollisionEvent{}, 0});
+    slot = pairs_.Add({.lower = lower,
+                       .higher = higher,
+                       .tracker = ContactTracker(free_until, began_before),
+                       .clear_until = free_until});
   }
   if (slot) {
     At(a).pairs.push_back(*slot);
@@ -210,13 +212,7 @@ std::optional<AgentClearance> Detector::Implementation::ClearanceOf(const AgentI
 
 EarliestAnswer Detector::Implementation::Earliest() {
   EarliestAnswer best;
-  const auto consider = [&](std::uint32_t a, std::uint32_t b, Instant judged) {
-    ++counters_.pair_queries;
-    Instant when = EarliestIntersection(At(a).bound(), At(b).bound(), now_).instant();
-    // The canonical answer begins at the newer state. Where that lies ahead of now (its owner was granted more
-    // time than others), the pair must be certified free until there.
-    const Instant known_from = std::max(At(a).stamp(), At(b).stamp());
-    if (judged < known_from) when = std::min(when, std::max(now_, judged));
+  const auto offer = [&](std::uint32_t a, std::uint32_t b, Instant when) {
     const AgentId lower = std::min(At(a).id, At(b).id);
     const AgentId higher = std::max(At(a).id, At(b).id);
     if (when.is_never()) return;
@@ -226,9 +222,23 @@ EarliestAnswer Detector::Implementation::Earliest() {
     }
     best = {true, when, lower, higher};
   };
+  const auto canonical = [&](std::uint32_t a, std::uint32_t b) {
+    ++counters_.pair_queries;
+    return EarliestIntersection(At(a).bound(), At(b).bound(), now_).instant();
+  };
   for (const std::uint32_t slot : pairs_.slots()) {
-    const PairRecord& pair = pairs_[slot];
-    if (!pair.in_contact) consider(pair.lower, pair.higher, pair.clear_until);
+    PairRecord& pair = pairs_[slot];
+    if (pair.in_contact) continue;
+    if (pair.asked != step_) {
+      pair.earliest = canonical(pair.lower, pair.higher);
+      pair.asked = step_;
+    }
+    // The canonical answer begins at the newer state. Where that lies ahead of now (its owner was granted more
+    // time than others), the pair must be certified free until there.
+    const Instant known_from = std::max(At(pair.lower).stamp(), At(pair.higher).stamp());
+    const bool known = pair.clear_until >= known_from;
+    offer(pair.lower, pair.higher,
+          known ? pair.earliest : std::min(pair.earliest, std::max(now_, pair.clear_until)));
   }
   // Keys are lower bounds, so only agents whose key is not later than the best answer can better
   // it.
@@ -243,7 +253,7 @@ EarliestAnswer Detector::Implementation::Earliest() {
     seen.push_back(agent);
     for (const auto& [id, partner] : index_) {
       if (partner != agent && !At(partner).expired && !Tracked(At(agent), partner)) {
-        consider(agent, partner, Instant::Never());  // covered: keys are not earlier than states
+        offer(agent, partner, canonical(agent, partner));  // covered: keys are later than states
       }
     }
   }

@@ -19,9 +19,12 @@ struct PairRecord {
   std::uint32_t higher;
   ContactTracker tracker;  ///< Judged as far as both owners' states reach.
   Instant clear_until;     ///< No contact begins before; the past while undecided.
+  /// The canonical earliest intersection from `now` on, as of step `asked`.
+  Instant earliest = Instant::Never();
+  std::uint64_t asked = 0;
   bool in_contact = false;
   bool announced = false;  ///< `event` is open and was published.
-  CollisionEvent event;    ///< The last revision published.
+  CollisionEvent event{};  ///< The last revision published.
   std::uint64_t work = 0;  ///< Segments and instants judged since the contact's number was given.
 };
 

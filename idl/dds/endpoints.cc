@@ -34,16 +34,17 @@ class Builder {
   Builder(dds_entity_t participant, const DdsSessionOptions& options)
       : participant_(participant), options_(options) {}
 
-  void Read(Source source, const std::string& partition) {
+  void Read(Source source, const std::string& partition, const dds_listener_t* listener) {
     Qos qos = MakeQos();
     dds_qset_partition1(qos.get(), partition.c_str());
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
     for (const TopicRow& row : Topics()) {
       if (row.source != source) continue;
-      endpoints_.readers[Index(row)] = Check(
-          dds_create_reader(subscriber, Topic(row), TopicQos(row, row.reader_depth).get(), nullptr),
-          std::string("DDS reader of ") + row.name);
+      endpoints_.readers[Index(row)] =
+          Check(dds_create_reader(subscriber, Topic(row), TopicQos(row, row.reader_depth).get(),
+                                  listener),
+                std::string("DDS reader of ") + row.name);
     }
   }
 
@@ -78,15 +79,16 @@ class Builder {
 
 }  // namespace
 
-Endpoints MakeEndpoints(dds_entity_t participant, const DdsSessionOptions& options) {
+Endpoints MakeEndpoints(dds_entity_t participant, const DdsSessionOptions& options,
+                        const dds_listener_t* listener) {
   Builder builder(participant, options);
   const bool monitor = options.role == DdsRole::kMonitor;
   const bool service = options.role == DdsRole::kService;
   const bool simulator = options.role == DdsRole::kSimulator;
   if (service || (monitor && options.reads_simulators))
-    builder.Read(Source::kSimulators, options.world + ".*");
+    builder.Read(Source::kSimulators, options.world + ".*", listener);
   if (simulator || (monitor && options.reads_service))
-    builder.Read(Source::kService, options.world);
+    builder.Read(Source::kService, options.world, nullptr);
   if (service) builder.Write(Source::kService, options.world);
   if (simulator) builder.Write(Source::kSimulators, options.world + "." + options.simulator);
   return builder.endpoints();

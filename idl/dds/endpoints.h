@@ -16,7 +16,9 @@ struct Endpoints {
   std::array<dds_entity_t, kTopics> writers{};
 };
 
-/// Makes what `options.role` reads and writes, in its partitions. Throws std::runtime_error.
-Endpoints MakeEndpoints(dds_entity_t participant, const DdsSessionOptions& options);
+/// Makes what `options.role` reads and writes, in its partitions; `listener` is that of the readers
+/// of what simulators write. Throws std::runtime_error.
+Endpoints MakeEndpoints(dds_entity_t participant, const DdsSessionOptions& options,
+                        const dds_listener_t* listener);
 
 }  // namespace collision::dds

@@ -2,19 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <string_view>
+#include <optional>
+#include <utility>
 
 #include "idl/dds/conversion.h"
-#include "idl/identity.h"
 
 namespace collision::dds {
 namespace {
 
 constexpr std::size_t kLoan = 256;  // samples at a time: bounds the loan, nothing else
-constexpr std::size_t kWritersMax =
-    4096;  // four per simulator, many simulators; beyond it, ask again
-constexpr std::size_t kSimulatorsMax =
-    4096;  // beyond it, a return is not announced: its clock says it
 
 /// Samples borrowed from a reader, given back at the end.
 class Loan {
@@ -44,19 +40,24 @@ const Wire& As(const void* sample) {
   return *static_cast<const Wire*>(sample);
 }
 
-}  // namespace
-
-std::optional<std::uint64_t> Senders::Of(dds_entity_t reader, dds_instance_handle_t writer) {
-  if (const auto known = known_.find(writer); known != known_.end()) return known->second;
-  dds_builtintopic_endpoint_t* endpoint = dds_get_matched_publication_data(reader, writer);
-  if (endpoint == nullptr) return std::nullopt;
-  const auto* guid = reinterpret_cast<const char*>(endpoint->participant_key.v);
-  const std::uint64_t sender = Fnv1a({guid, sizeof endpoint->participant_key.v});
-  dds_builtintopic_free_endpoint(endpoint);
-  if (known_.size() == kWritersMax) known_.clear();
-  known_.emplace(writer, sender);
-  return sender;
+void AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
+                   std::vector<v1::Input>* inputs) {
+  v1::Input& input = inputs->emplace_back();
+  input.set_sender(sender);
+  input.mutable_liveliness()->set_simulator_id(simulator);
+  input.mutable_liveliness()->set_alive(alive);
 }
+
+/// The simulator that a sample names itself: descriptions and clocks do, which makes them claims.
+std::optional<std::uint64_t> ClaimedBy(TopicId topic, const void* sample) {
+  if (topic == TopicId::kAgentDescription)
+    return As<collision_v1_AgentDescription>(sample).simulator_id;
+  if (topic == TopicId::kSimulatorClock)
+    return As<collision_v1_SimulatorClock>(sample).simulator_id;
+  return std::nullopt;
+}
+
+}  // namespace
 
 std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t limit,
                          std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs) {
@@ -81,9 +82,7 @@ void Intake::Receive(dds_entity_t reader, const TopicRow& row, const void* sampl
                      const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
   if (info.valid_data) ReceiveData(reader, row, sample, info, inputs);
   if (info.sample_rank > 0 || info.instance_state == DDS_ALIVE_INSTANCE_STATE) return;
-  const bool disposed = info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE;
-  ReceiveEnd(row, sample, disposed, senders_.Of(reader, info.publication_handle).value_or(0),
-             inputs);
+  ReceiveEnd(reader, row, sample, info, inputs);
 }
 
 void Intake::ReceiveData(dds_entity_t reader, const TopicRow& row, const void* sample,
@@ -93,37 +92,40 @@ void Intake::ReceiveData(dds_entity_t reader, const TopicRow& row, const void* s
     ++orphaned_;
     return;
   }
-  if (row.id == TopicId::kSimulatorClock) {
-    const std::uint64_t simulator = As<collision_v1_SimulatorClock>(sample).simulator_id;
-    if (gone_.erase(simulator) > 0) {
-      v1::Input& input = inputs->emplace_back();
-      input.set_sender(*sender);
-      input.mutable_liveliness()->set_simulator_id(simulator);
-      input.mutable_liveliness()->set_alive(true);
-    }
-  }
   v1::Input& input = inputs->emplace_back();
   input.set_sender(*sender);
   FromWire(row.id, sample, &input);
+  const std::optional<std::uint64_t> simulator = ClaimedBy(row.id, sample);
+  if (simulator && !senders_.Note(*sender, *simulator)) left_behind_.emplace(*sender, *simulator);
 }
 
-void Intake::ReceiveEnd(const TopicRow& row, const void* sample, bool disposed,
-                        std::uint64_t sender, std::vector<v1::Input>* inputs) {
-  if (row.id == TopicId::kAgentDescription && disposed) {
+void Intake::ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sample,
+                        const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
+  const std::optional<std::uint64_t> sender = senders_.Of(reader, info.publication_handle);
+  if (row.id == TopicId::kAgentDescription &&
+      info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
+    const auto& key = As<collision_v1_AgentDescription>(sample);
     v1::Input& input = inputs->emplace_back();
-    input.set_sender(sender);
-    input.mutable_agent_removal()->set_simulator_id(
-        As<collision_v1_AgentDescription>(sample).simulator_id);
-    input.mutable_agent_removal()->set_slot(As<collision_v1_AgentDescription>(sample).slot);
+    input.set_sender(sender.value_or(0));
+    input.mutable_agent_removal()->set_simulator_id(key.simulator_id);
+    input.mutable_agent_removal()->set_slot(key.slot);
   }
-  if (row.id == TopicId::kSimulatorClock) {
-    const std::uint64_t simulator = As<collision_v1_SimulatorClock>(sample).simulator_id;
-    if (gone_.size() == kSimulatorsMax) gone_.clear();
-    if (!gone_.insert(simulator).second) return;
-    v1::Input& input = inputs->emplace_back();
-    input.set_sender(sender);
-    input.mutable_liveliness()->set_simulator_id(simulator);
-    input.mutable_liveliness()->set_alive(false);
+  // Follow() tells of those who are known, and of each on its own.
+  if (row.id == TopicId::kSimulatorClock && !sender) {
+    AddLiveliness(0, As<collision_v1_SimulatorClock>(sample).simulator_id, false, inputs);
+  }
+}
+
+void Intake::Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs) {
+  for (const WriterChange& change : changes) {
+    const std::optional<std::uint64_t> sender = senders_.Of(change.reader, change.writer);
+    if (!sender || !senders_.SetAlive(*sender, change.alive)) continue;
+    for (const std::uint64_t simulator : senders_.SimulatorsOf(*sender)) {
+      AddLiveliness(*sender, simulator, change.alive, inputs);
+    }
+  }
+  for (const auto& [sender, simulator] : std::exchange(left_behind_, {})) {
+    if (!senders_.alive(sender)) AddLiveliness(sender, simulator, false, inputs);
   }
 }
 

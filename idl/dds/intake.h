@@ -2,26 +2,16 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <unordered_map>
-#include <unordered_set>
+#include <set>
+#include <utility>
 #include <vector>
 
+#include "idl/dds/senders.h"
 #include "idl/dds/topics.h"
+#include "idl/dds/writer_watch.h"
 #include "idl/messages.pb.h"
 
 namespace collision::dds {
-
-/// Which program wrote a sample: the hash of its participant's GUID. Remembers the answers, since a
-/// writer that has gone can no longer be asked for while its last samples still wait.
-class Senders {
- public:
-  /// Nothing if the writer went before it was ever asked for.
-  std::optional<std::uint64_t> Of(dds_entity_t reader, dds_instance_handle_t writer);
-
- private:
-  std::unordered_map<dds_instance_handle_t, std::uint64_t> known_;
-};
 
 /// Takes samples from readers, by loan, and turns them into messages.
 class Intake {
@@ -33,6 +23,10 @@ class Intake {
   std::size_t Take(dds_entity_t reader, const TopicRow& row, std::size_t limit,
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
+  /// Tells of each program that left, fell silent or is back, for every simulator for which it has
+  /// spoken. After Take(): what somebody wrote comes before the end.
+  void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
+
   std::uint64_t orphaned() const { return orphaned_; }
 
  private:
@@ -40,13 +34,15 @@ class Intake {
                const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
   void ReceiveData(dds_entity_t reader, const TopicRow& row, const void* sample,
                    const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
-  void ReceiveEnd(const TopicRow& row, const void* sample, bool disposed, std::uint64_t sender,
-                  std::vector<v1::Input>* inputs);
+  void ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sample,
+                  const dds_sample_info_t& info, std::vector<v1::Input>* inputs);
   bool Wanted(const TopicRow& row, const void* sample) const;
 
   const std::uint64_t own_;
   Senders senders_;
-  std::unordered_set<std::uint64_t> gone_;  // simulators whose clock has no writer
+  /// Senders and simulators of samples that outlasted their writer in the reader: whoever takes them
+  /// in has to hear of the end again.
+  std::set<std::pair<std::uint64_t, std::uint64_t>> left_behind_;
   std::uint64_t orphaned_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "idl/dds/endpoints.h"
 #include "idl/dds/intake.h"
 #include "idl/dds/waker.h"
+#include "idl/dds/writer_watch.h"
 #include "idl/identity.h"
 
 namespace collision {
@@ -55,9 +56,9 @@ class DdsSession::Implementation {
  public:
   explicit Implementation(const DdsSessionOptions& options)
       : participant_(CreateParticipant(Checked(options).domain)),
-        endpoints_(dds::MakeEndpoints(participant_.get(), options)),
-        waitset_(Check(dds_create_waitset(participant_.get()), "DDS waitset")),
         guard_(Check(dds_create_guardcondition(participant_.get()), "DDS guard condition")),
+        endpoints_(dds::MakeEndpoints(participant_.get(), options, watch_.Listen(guard_))),
+        waitset_(Check(dds_create_waitset(participant_.get()), "DDS waitset")),
         intake_(options.role == DdsRole::kSimulator ? SimulatorId(options.simulator) : 0) {
     Check(dds_waitset_attach(waitset_, guard_, 0), "DDS waitset");
     for (const dds_entity_t reader : endpoints_.readers) {
@@ -99,6 +100,7 @@ class DdsSession::Implementation {
       const dds_entity_t reader = endpoints_.readers[static_cast<std::size_t>(row.id)];
       if (reader != 0) taken += intake_.Take(reader, row, limit - taken, inputs, outputs);
     }
+    intake_.Follow(watch_.Take(), inputs);
     return taken;
   }
 
@@ -136,11 +138,13 @@ class DdsSession::Implementation {
     return writer;
   }
 
-  // First, and the waker last: its thread uses the guard, which lives in the participant.
+  // The watch first: the readers call it until they end with the participant. The waker last: its
+  // thread uses the guard, which lives in the participant.
+  dds::WriterWatch watch_;
   const dds::Entity participant_;
+  const dds_entity_t guard_;
   const dds::Endpoints endpoints_;
   const dds_entity_t waitset_;
-  const dds_entity_t guard_;
   dds::Intake intake_;
   std::uint64_t writes_failed_ = 0;
   std::optional<dds::Waker> waker_;

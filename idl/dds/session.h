@@ -82,12 +82,14 @@ class DdsSession {
   /// arrived, at most `limit` samples, the rest stays for the next call, and appends a message for
   /// each. What simulators wrote goes to `inputs`, what the service wrote to `outputs`; nullptr
   /// where the role reads none. Returns how many samples it took; not all are messages (a
-  /// simulator's session hands on only its own clearances), and a removal or a change of liveliness
-  /// may come as a second message of one sample.
+  /// simulator's session hands on only its own clearances), a removal may come as a second message
+  /// of one sample, and changes of liveliness come on top.
   ///
   /// Samples of one key come in the order of their writing; there is no order between keys, topics
-  /// or writers. SimulatorLiveliness: the last writer of a clock left, or its lease ended (false),
-  /// or wrote again after that (true).
+  /// or writers. SimulatorLiveliness: its sender, who has described the simulator's agents or told
+  /// its clock, left or its lease ended (false), or is back (true). It comes after what that sender
+  /// wrote; of several senders of one simulator each is told. Sender 0, false: the clock has no
+  /// writer left, and of the last one it is not known who it was.
   std::size_t Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                       std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <future>
+#include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "idl/identity.h"
 #include "tests/idl/dds_bus_support.h"
@@ -20,6 +23,24 @@ std::vector<bool> Livelinesses(const std::vector<v1::Input>& inputs, const std::
     }
   }
   return all;
+}
+
+/// The senders whose end was told.
+std::vector<std::uint64_t> Gone(const std::vector<v1::Input>& inputs) {
+  std::vector<std::uint64_t> all;
+  for (const v1::Input& input : inputs) {
+    if (input.has_liveliness() && !input.liveliness().alive()) all.push_back(input.sender());
+  }
+  return all;
+}
+
+/// The sender of a clock of this time; throws if there is none.
+std::uint64_t SenderOfClock(const std::vector<v1::Input>& inputs, std::int64_t clock_ns) {
+  for (const v1::Input& input : inputs) {
+    if (input.has_simulator_clock() && input.simulator_clock().clock_ns() == clock_ns)
+      return input.sender();
+  }
+  throw std::logic_error("no such clock");
 }
 
 /// Whether a simulator's end was told in the name of whoever wrote its clock.
@@ -68,26 +89,53 @@ TEST(DdsBusLiveliness, ARemovalBeforeAnybodyReadComesAfterTheDescription) {
   EXPECT_EQ(inputs.back().agent_removal().slot(), 3u);
 }
 
-TEST(DdsBusLiveliness, ASimulatorThatLeavesAndReturnsIsToldOnceEachAndItsAgentsStay) {
+TEST(DdsBusLiveliness, EachProgramThatLeavesIsToldOnceAndItsAgentsStay) {
   DdsBus bus(TestWorld(), TestDomain());
   std::vector<v1::Input> inputs;
   for (std::size_t visit = 1; visit <= 2; ++visit) {
     {
       DdsSession simulator(SimulatorOptions("a"));
       simulator.Write(Description("a", 0));
-      simulator.Write(SimulatorTime("a", 1));
+      simulator.Write(SimulatorTime("a", visit));
       simulator.Flush();
       ASSERT_TRUE(ReceiveUntil(bus, &inputs,
                                [&] { return Count(inputs, v1::Input::kSimulatorClock) == visit; }));
     }
-    ASSERT_TRUE(ReceiveUntil(bus, &inputs,
-                             [&] { return Livelinesses(inputs, "a").size() >= 2 * visit - 1; }));
+    ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return Gone(inputs).size() >= visit; }));
     if (visit == 1) {
       EXPECT_TRUE(OneSender(inputs));
     }
   }
-  EXPECT_EQ(Livelinesses(inputs, "a"), (std::vector<bool>{false, true, false}));
+  EXPECT_EQ(Gone(inputs),
+            (std::vector<std::uint64_t>{SenderOfClock(inputs, 1), SenderOfClock(inputs, 2)}));
+  EXPECT_EQ(Livelinesses(inputs, "a"), (std::vector<bool>{false, false}));
   EXPECT_EQ(Count(inputs, v1::Input::kAgentRemoval), 0u);
+}
+
+TEST(DdsBusLiveliness, WhoOnlyDescribedAgentsIsToldToo) {
+  DdsBus bus(TestWorld(), TestDomain());
+  std::vector<v1::Input> inputs;
+  {
+    DdsSession simulator(SimulatorOptions("a"));
+    simulator.Write(Description("a", 0));
+    simulator.Flush();
+    ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !inputs.empty(); }));
+  }
+  ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !Gone(inputs).empty(); }));
+  EXPECT_TRUE(OneSender(inputs));
+}
+
+TEST(DdsBusLiveliness, AClockWhoseWriterNobodyKnewIsToldWithoutASender) {
+  DdsBus bus(TestWorld(), TestDomain());
+  {
+    DdsSession simulator(SimulatorOptions("a"));
+    simulator.Write(SimulatorTime("a", 1));
+    simulator.Flush();
+  }
+  std::vector<v1::Input> inputs;
+  ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !Gone(inputs).empty(); }));
+  EXPECT_EQ(Gone(inputs), std::vector<std::uint64_t>{0});
+  EXPECT_EQ(bus.counters().samples_orphaned, 1u);
 }
 
 TEST(DdsBusLiveliness, AKilledSimulatorIsGoneAfterItsLeaseAndItsAgentsStay) {
@@ -103,6 +151,64 @@ TEST(DdsBusLiveliness, AKilledSimulatorIsGoneAfterItsLeaseAndItsAgentsStay) {
   EXPECT_EQ(Livelinesses(inputs, "child"), std::vector<bool>{false});
   EXPECT_TRUE(OneSender(inputs));
   EXPECT_EQ(Count(inputs, v1::Input::kAgentRemoval), 0u);
+}
+
+// The clock never lacks a writer here: only the dead one's own end says that it is gone. Two at once,
+// since a status tells the last of several changes only.
+TEST(DdsBusLiveliness, KilledSimulatorsAreToldThoughTheirSuccessorsAreThere) {
+  DdsBus bus(TestWorld(), TestDomain());
+  PublishStatus(bus);
+  ChildSimulator child(0), other(0);
+  std::vector<v1::Input> inputs;
+  ASSERT_TRUE(
+      ReceiveUntil(bus, &inputs, [&] { return Count(inputs, v1::Input::kSimulatorClock) >= 4; }));
+  std::set<std::uint64_t> old;
+  for (const v1::Input& input : inputs) old.insert(input.sender());
+  ASSERT_EQ(old.size(), 2u);
+  DdsSession successor(SimulatorOptions("child"));
+  successor.Write(SimulatorTime("child", 3));
+  successor.Flush();
+  child.Kill();
+  other.Kill();
+  const auto heard = [&] { return Count(inputs, v1::Input::kSimulatorClock) == 5; };
+  ASSERT_TRUE(ReceiveUntil(bus, &inputs, heard));
+  EXPECT_TRUE(Gone(inputs).empty());
+  ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return Gone(inputs).size() >= 2; }));
+  // The old ones were heard of last before their successor's clock, so this is longer than its
+  // lease.
+  successor.Write(SimulatorTime("child", 4));
+  successor.Flush();
+  ASSERT_TRUE(
+      ReceiveUntil(bus, &inputs, [&] { return Count(inputs, v1::Input::kSimulatorClock) == 6; }));
+  const std::vector<std::uint64_t> gone = Gone(inputs);
+  EXPECT_EQ(gone.size(), 2u);
+  EXPECT_EQ(std::set<std::uint64_t>(gone.begin(), gone.end()), old);
+  EXPECT_EQ(Livelinesses(inputs, "child"), (std::vector<bool>{false, false}));
+}
+
+TEST(DdsBusLiveliness, AnEndEndsAReceiveThatWaits) {
+  DdsBus bus(TestWorld(), TestDomain());
+  std::vector<v1::Input> inputs;
+  DdsSession first(SimulatorOptions("a"));
+  std::optional<DdsSession> second(SimulatorOptions("a"));
+  for (DdsSession* session : {&first, &*second}) {
+    session->Write(SimulatorTime("a", session == &first ? 1 : 2));
+    session->Flush();
+  }
+  ASSERT_TRUE(
+      ReceiveUntil(bus, &inputs, [&] { return Count(inputs, v1::Input::kSimulatorClock) == 2; }));
+  auto waiting = std::async(std::launch::async, [&] {
+    while (Gone(inputs).empty()) bus.Receive(std::chrono::nanoseconds::max(), 1, &inputs);
+  });
+  second.reset();
+  const auto ended = waiting.wait_for(kDeadline);
+  EXPECT_EQ(ended, std::future_status::ready);
+  if (ended != std::future_status::ready) {
+    first.Write(Description("a", 0));  // wakes it
+    first.Flush();
+  }
+  waiting.get();
+  EXPECT_EQ(Gone(inputs), std::vector<std::uint64_t>{SenderOfClock(inputs, 2)});
 }
 
 // A process that stands still acknowledges nothing: unless told otherwise, Cyclone DDS makes the
@@ -123,6 +229,7 @@ TEST(DdsBusLiveliness, AStoppedProcessHoldsUpNobodyAndCatchesUp) {
   };
   ASSERT_TRUE(ReceiveUntil(bus, &inputs, clock(1)));
   child.Stop();
+  ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !Gone(inputs).empty(); }));
   std::vector<v1::Output> outputs;
   for (std::uint32_t slot = 0; slot < kEvents; ++slot) {
     v1::Output output;
@@ -137,6 +244,8 @@ TEST(DdsBusLiveliness, AStoppedProcessHoldsUpNobodyAndCatchesUp) {
                            [&] { return Count(outputs, v1::Output::kCollisionEvent) == kEvents; }));
   child.Continue();
   EXPECT_TRUE(ReceiveUntil(bus, &inputs, clock(2)));
+  EXPECT_EQ(Livelinesses(inputs, "child"), (std::vector<bool>{false, true}));
+  EXPECT_TRUE(OneSender(inputs));
 }
 
 TEST(DdsBusLiveliness, AClientKnowsWhetherAServiceIsThere) {

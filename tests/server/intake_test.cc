@@ -213,6 +213,66 @@ TEST(Intake, ASuccessorWaitsForItsPredecessorsEnd) {
   EXPECT_EQ(daemon.clearance(SimulatorId("alpha")).run(), 2u);
 }
 
+// Goal:   whoever waits for an id and dies before it gets it leaves the id to the next.
+TEST(Intake, ASuccessorThatDiesWaitingIsSucceeded) {
+  constexpr std::uint64_t kGamma = 30;
+  ScriptedDaemon daemon(Simulated());
+  daemon.Step(AlphaJoins(kAlpha));
+  daemon.Step({From(kBeta, Description("alpha", 0, 2)), From(kBeta, ClockOf("alpha", 0, 2))});
+  daemon.Step({Liveliness(kBeta, "alpha", false)});
+  daemon.Step({From(kGamma, Description("alpha", 0, 3)), From(kGamma, ClockOf("alpha", 0, 3))});
+  EXPECT_EQ(daemon.status().simulators(0).run(), 1u);
+  daemon.Step({Liveliness(kAlpha, "alpha", false)});
+  const v1::ServiceStatus status = daemon.status();
+  EXPECT_EQ(status.simulators(0).run(), 3u);
+  EXPECT_TRUE(status.simulators(0).alive());
+}
+
+// Goal:   the same if it is the owner's death that is told last, and nobody else comes: the
+// successor's end is not forgotten, nor what it removed.
+TEST(Intake, ASuccessorThatDiesWaitingIsTakenForDead) {
+  ScriptedDaemon daemon(Simulated());
+  daemon.Step(AlphaJoins(kAlpha));
+  daemon.Step({From(kBeta, Description("alpha", 0, 2)), From(kBeta, Description("alpha", 1, 2)),
+               From(kBeta, ClockOf("alpha", 0, 2))});
+  daemon.Step({Removal(kBeta, "alpha", 1), Liveliness(kBeta, "alpha", false)});
+  EXPECT_EQ(daemon.rejections().size(), 3u);
+  EXPECT_TRUE(daemon.status().simulators(0).alive());
+  daemon.Step({Liveliness(kAlpha, "alpha", false)});
+  const v1::ServiceStatus status = daemon.status();
+  EXPECT_EQ(status.simulators(0).run(), 2u);
+  EXPECT_FALSE(status.simulators(0).alive());
+  EXPECT_EQ(status.simulators(0).agents(), 1u);
+}
+
+// Goal:   the end of a successor that waits is kept when nothing else is: beyond the limit too.
+TEST(Intake, ASuccessorsEndIsKeptBeyondTheLimit) {
+  ScriptedDaemon daemon(Simulated());
+  daemon.Step(AlphaJoins(kAlpha));
+  daemon.Step(std::vector<v1::Input>(kHeldInputsMax + 1, From(kBeta, Description("alpha", 0, 2))));
+  daemon.Step({Liveliness(kBeta, "alpha", false)});
+  daemon.Step({Liveliness(kAlpha, "alpha", false)});
+  const v1::ServiceStatus status = daemon.status();
+  EXPECT_EQ(status.simulators(0).run(), 2u);
+  EXPECT_FALSE(status.simulators(0).alive());
+}
+
+// Goal:   what an instance says without a sender counts: a description removed, a clock without a
+// writer. Of an owner that has told no clock, the clock says nothing.
+TEST(Intake, WhatHasNoSenderCounts) {
+  ScriptedDaemon daemon(Simulated());
+  daemon.Step(AlphaJoins(kAlpha));
+  daemon.Step({From(kBeta, Description("beta", 0))});
+  daemon.Step(
+      {Removal(0, "alpha", 1), Liveliness(0, "alpha", false), Liveliness(0, "beta", false)});
+  EXPECT_TRUE(daemon.rejections().empty());
+  const v1::ServiceStatus status = daemon.status();
+  EXPECT_EQ(status.agents(), 1u);
+  for (const v1::SimulatorStatus& simulator : status.simulators()) {
+    EXPECT_EQ(simulator.alive(), simulator.name() == "beta") << simulator.name();
+  }
+}
+
 // Goal:   a flood of bad input is counted whole and told only up to the limit per second.
 TEST(Intake, TellsABoundedNumberOfRejections) {
   v1::Config config = Simulated();

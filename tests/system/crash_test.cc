@@ -27,6 +27,24 @@ TEST(Crash, KilledSimulatorIsWaitedFor) {
   EXPECT_EQ(right->WaitForExit(), 0) << right->err() << daemon->err();
 }
 
+// Within the lease the old one still counts as alive, and its successor as a stranger.
+TEST(Crash, SuccessorThatStartsAtOnceTakesOver) {
+  const TestWorld world(69);
+  const auto daemon = world.StartDaemon();
+  const auto left = world.StartSimulator(kShortLeft, {"--linger"});
+  const auto right = world.StartSimulator(kRight);
+  ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
+  ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
+  // A run's number is the second of its start.
+  EXPECT_FALSE(right->WaitForExit(std::chrono::seconds(1)).has_value()) << right->err();
+  left->Signal(SIGKILL);
+  const auto left_again = world.StartSimulator(kLeft);
+  EXPECT_TRUE(daemon->WaitForOutput("ID_OWNED")) << daemon->err();
+  ASSERT_EQ(left->WaitForExit(), 128 + SIGKILL);
+  EXPECT_EQ(left_again->WaitForExit(), 0) << left_again->err() << daemon->err();
+  EXPECT_EQ(right->WaitForExit(), 0) << right->err() << daemon->err();
+}
+
 TEST(Crash, KilledSimulatorIsReleased) {
   const TestWorld world(65,
                         "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 0.5");

@@ -1,0 +1,55 @@
+// Which program wrote a sample, for which simulators it speaks, and whether it is still there.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <unordered_map>
+
+#include "dds/dds.h"
+
+namespace collision::dds {
+
+/// A sender is a program: the hash of its participant's GUID. Remembers the answers, since a writer
+/// that has gone can no longer be asked for while its last samples still wait. One thread.
+class Senders {
+ public:
+  /// Nothing if the writer went before it was ever asked for.
+  std::optional<std::uint64_t> Of(dds_entity_t reader, dds_instance_handle_t writer);
+
+  /// Notes that a known sender speaks for a simulator. Returns whether the sender is alive.
+  bool Note(std::uint64_t sender, std::uint64_t simulator);
+
+  /// Notes that a known sender is alive or not. Returns whether that is new.
+  bool SetAlive(std::uint64_t sender, bool alive);
+
+  /// False also for one that was forgotten since: only who is gone is.
+  bool alive(std::uint64_t sender) const {
+    const auto program = programs_.find(sender);
+    return program != programs_.end() && program->second.alive;
+  }
+
+  /// The simulators for which a known sender has spoken.
+  const std::set<std::uint64_t>& SimulatorsOf(std::uint64_t sender) const {
+    return programs_.at(sender).simulators;
+  }
+
+ private:
+  struct Writer {
+    dds_entity_t reader;  // whose writer it is
+    std::uint64_t sender;
+  };
+  struct Program {
+    std::set<std::uint64_t> simulators;
+    bool alive = true;
+  };
+
+  void ForgetTheGone();
+
+  std::unordered_map<dds_instance_handle_t, Writer> writers_;
+  std::unordered_map<std::uint64_t, Program> programs_;  // of every sender in writers_
+  std::size_t writers_until_cleaning_ = 0;
+};
+
+}  // namespace collision::dds
