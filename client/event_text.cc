@@ -22,21 +22,67 @@ std::string MetresText(double value, Rounding rounding) {
   return text;
 }
 
-std::string BracketText(const v1::TimeBracket& bracket, std::int64_t origin_ns) {
-  const std::string latest = bracket.latest_ns() == kNever
-                                 ? "open"
-                                 : SecondsText(bracket.latest_ns(), origin_ns, 6, Rounding::kUp);
-  return "[" + SecondsText(bracket.earliest_ns(), origin_ns, 6) + ", " + latest + "]";
+constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
+// Later instants are of a wall clock: 1973 and on, or three years of simulation.
+constexpr std::int64_t kWallClock = 100'000'000 * kSecond;
+
+std::string WithFraction(std::uint64_t whole, std::uint64_t fraction, int decimals) {
+  if (decimals == 0) return std::to_string(whole);
+  const std::string digits = std::to_string(fraction);
+  return std::to_string(whole) + "." + std::string(decimals - digits.size(), '0') + digits;
+}
+
+/// How many nanoseconds the last of so many decimals of a second is worth.
+std::int64_t Unit(int decimals) {
+  std::int64_t unit = kSecond;
+  for (int i = 0; i < decimals; ++i) unit /= 10;
+  return unit;
+}
+
+/// The difference of two instants in units; it needs 65 bits before it is divided.
+__int128 Units(std::int64_t instant_ns, std::int64_t origin_ns, std::int64_t unit,
+               Rounding rounding) {
+  const __int128 difference = static_cast<__int128>(instant_ns) - origin_ns;
+  const __int128 units = difference / unit;
+  if (units * unit == difference) return units;
+  if (rounding == Rounding::kUp && difference > 0) return units + 1;
+  return rounding == Rounding::kDown && difference < 0 ? units - 1 : units;
+}
+
+std::string LatestText(std::int64_t instant_ns, std::int64_t origin_ns) {
+  return instant_ns == kNever ? "open" : TimeText(instant_ns, origin_ns, 6, Rounding::kUp);
+}
+
+std::string BracketText(std::int64_t earliest_ns, std::int64_t latest_ns, std::int64_t origin_ns) {
+  return "[" + TimeText(earliest_ns, origin_ns, 6) + ", " + LatestText(latest_ns, origin_ns) + "]";
+}
+
+/// Of a contact that may be older than the pair nothing is known about a time before.
+std::string BeginText(const v1::CollisionEvent& event, std::int64_t origin_ns) {
+  const v1::TimeBracket& begin = event.begin();
+  if (!event.began_before()) return BracketText(begin.earliest_ns(), begin.latest_ns(), origin_ns);
+  const std::string latest = LatestText(begin.latest_ns(), origin_ns);
+  return (begin.latest_ns() == kNever ? latest : "≤ " + latest) + " (began before)";
 }
 
 /// An end without an upper limit only says until when the contact is known to last, if that is
 /// known.
 std::string EndText(const v1::CollisionEvent& event, std::int64_t origin_ns) {
   const v1::TimeBracket& end = event.end();
-  if (end.latest_ns() != kNever) return BracketText(end, origin_ns);
+  if (end.latest_ns() != kNever) return BracketText(end.earliest_ns(), end.latest_ns(), origin_ns);
   const bool known_to_last = event.begin().latest_ns() != kNever && end.earliest_ns() != kNever &&
                              end.earliest_ns() > event.begin().latest_ns();
-  return known_to_last ? "≥ " + SecondsText(end.earliest_ns(), origin_ns, 6) : "open";
+  return known_to_last ? "≥ " + TimeText(end.earliest_ns(), origin_ns, 6) : "open";
+}
+
+/// Whether an undecided pair touched at all is not known: it has neither begin nor end.
+std::string WhenText(const v1::CollisionEvent& event, std::int64_t origin_ns) {
+  if (event.status() != v1::EVENT_UNDECIDED) {
+    return "begin " + BeginText(event, origin_ns) + "  end " + EndText(event, origin_ns);
+  }
+  return "not certified free in " +
+         BracketText(event.begin().earliest_ns(), event.end().latest_ns(), origin_ns) +
+         (event.began_before() ? " (began before)" : "");
 }
 
 std::string GapText(const v1::CollisionEvent& event) {
@@ -59,20 +105,38 @@ std::string Padded(std::string text, std::size_t columns) {
 std::string SecondsText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
                         Rounding rounding) {
   if (instant_ns == kNever) return "never";
-  std::int64_t unit = 1'000'000'000;
-  for (int i = 0; i < decimals; ++i) unit /= 10;
-  // A difference of two int64 needs 65 bits.
-  const __int128 difference = static_cast<__int128>(instant_ns) - origin_ns;
-  __int128 units = difference / unit;
-  const bool exact = units * unit == difference;
-  if (!exact && rounding == Rounding::kUp && difference > 0) ++units;
-  if (!exact && rounding == Rounding::kDown && difference < 0) --units;
-  const std::int64_t per_second = 1'000'000'000 / unit;
+  const std::int64_t unit = Unit(decimals);
+  const __int128 units = Units(instant_ns, origin_ns, unit, rounding);
+  const std::uint64_t per_second = kSecond / unit;
   const auto magnitude = static_cast<std::uint64_t>(units < 0 ? -units : units);
-  std::string result = (units < 0 ? "-" : "") + std::to_string(magnitude / per_second);
-  if (decimals == 0) return result;
-  const std::string fraction = std::to_string(magnitude % per_second);
-  return result + "." + std::string(decimals - fraction.size(), '0') + fraction;
+  return (units < 0 ? "-" : "") +
+         WithFraction(magnitude / per_second, magnitude % per_second, decimals);
+}
+
+bool IsTimeOfDay(std::int64_t instant_ns, std::int64_t origin_ns) {
+  return origin_ns == 0 && instant_ns > kWallClock && instant_ns != kNever;
+}
+
+std::string TimeText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                     Rounding rounding) {
+  if (!IsTimeOfDay(instant_ns, origin_ns)) {
+    return SecondsText(instant_ns, origin_ns, decimals, rounding);
+  }
+  const std::int64_t unit = Unit(decimals);
+  const std::uint64_t per_second = kSecond / unit;
+  const auto units = static_cast<std::uint64_t>(Units(instant_ns, 0, unit, rounding));
+  const std::uint64_t seconds = units / per_second % 86400;
+  char minutes[16];
+  std::snprintf(minutes, sizeof minutes, "%02d:%02d:", static_cast<int>(seconds / 3600),
+                static_cast<int>(seconds / 60 % 60));
+  return minutes + std::string(seconds % 60 < 10 ? "0" : "") +
+         WithFraction(seconds % 60, units % per_second, decimals);
+}
+
+std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals) {
+  const std::string text = TimeText(instant_ns, origin_ns, decimals);
+  if (instant_ns == kNever) return text;
+  return text + (IsTimeOfDay(instant_ns, origin_ns) ? " UTC" : " s");
 }
 
 const char* StatusText(v1::EventStatus status) {
@@ -97,12 +161,11 @@ const char* StatusText(v1::EventStatus status) {
 std::string EventLine(const v1::CollisionEvent& event, const AgentNamer& name,
                       std::int64_t origin_ns) {
   char head[64];
-  std::snprintf(head, sizeof head, "%11s s  %-9s  ",
-                SecondsText(event.now_ns(), origin_ns, 3).c_str(), StatusText(event.status()));
+  std::snprintf(head, sizeof head, "%13s  %-9s  ",
+                InstantText(event.now_ns(), origin_ns, 3).c_str(), StatusText(event.status()));
   return head + Padded(name(event.lower()) + " × " + name(event.higher()), kPairColumns) + "  #" +
-         std::to_string(event.contact()) + " r" + std::to_string(event.revision()) + "  begin " +
-         BracketText(event.begin(), origin_ns) + "  end " + EndText(event, origin_ns) +
-         GapText(event);
+         std::to_string(event.contact()) + " r" + std::to_string(event.revision()) + "  " +
+         WhenText(event, origin_ns) + GapText(event);
 }
 
 }  // namespace collision::client

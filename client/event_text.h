@@ -19,6 +19,14 @@ enum class Rounding { kDown, kUp };
 std::string SecondsText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
                         Rounding rounding = Rounding::kDown);
 
+/// The same of a lock-step world. Without an origin an instant beyond 1e17 ns, of a wall clock,
+/// reads as its time of day in UTC: "22:24:55.022".
+std::string TimeText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                     Rounding rounding = Rounding::kDown);
+
+/// TimeText() with its unit: "599.734 s", "22:24:55.022 UTC", "never".
+std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals);
+
 /// The text, filled up with spaces to a number of characters (not bytes: names may be UTF-8).
 std::string Padded(std::string text, std::size_t columns);
 
@@ -28,9 +36,12 @@ const char* StatusText(v1::EventStatus status);
 /// The event in one line without a newline, columns in the same places from line to line:
 ///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
 ///   open  gap ≤ -0.12 m
-/// Times are seconds since `origin_ns` (0 in lock-step); brackets and gap are rounded outward. #1
-/// is the ordinal of the pair's contacts, r3 the revision. `end ≥ t`: still in contact at t. The
-/// gap is the distance of the surfaces where it was last evaluated, negative inside.
+/// Times are seconds since `origin_ns` (0 in lock-step), or times of day as TimeText() has them;
+/// brackets and gap are rounded outward. #1 is the ordinal of the pair's contacts, r3 the revision.
+/// `begin ≤ b (began before)`: they may have touched before the pair was known, or before one of
+/// them jumped. `end ≥ t`: still in contact at t. An undecided event has neither, but
+/// `not certified free in [a, b]`. The gap is the distance of the surfaces where it was last
+/// evaluated, negative inside.
 std::string EventLine(const v1::CollisionEvent& event, const AgentNamer& name,
                       std::int64_t origin_ns);
 

@@ -57,7 +57,9 @@ void Fleet::Stage(const AgentId& id, const State& state) {
                                 ", the stamp of the agent's last state");
   }
   if (!slot.staged) staged_slots_.push_back(id.slot);
+  const bool jumps = state.discontinuity || (slot.staged && slot.staged->discontinuity());
   slot.staged = ToMessage(state);
+  slot.staged->set_discontinuity(jumps);
   slot.staged->set_slot(id.slot);
   slot.staged->set_generation(id.generation);
 }

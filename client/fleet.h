@@ -25,8 +25,8 @@ class Fleet {
   const v1::AgentDescription& description(const AgentId& id) const;
   void Describe(const AgentId& id, const AgentDescription& description);
 
-  /// Staged until the clock comes to its stamp; a later call replaces what is staged.
-  /// Throws std::invalid_argument if it is older than what has been told.
+  /// Staged until the clock comes to its stamp; a later call replaces what is staged, but a jump
+  /// that was staged stays told. Throws std::invalid_argument if it is older than what has been told.
   void Stage(const AgentId& id, const State& state);
 
   v1::AgentRemoval Remove(const AgentId& id);

@@ -53,6 +53,8 @@ std::int64_t World::clock_ns() const { return implementation_->clock_ns(); }
 
 std::int64_t World::granted_until_ns() const { return implementation_->granted_until_ns(); }
 
+std::optional<bool> World::simulated_clock() const { return implementation_->simulated_clock(); }
+
 void World::Poll(std::chrono::nanoseconds timeout) {
   const auto alive = implementation_;  // A callback may end this World.
   alive->Poll(timeout);

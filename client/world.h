@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ struct WorldOptions {
       {};  ///< Unique in the world, 1-64 of [A-Za-z0-9_-]; names your agents' owner.
   std::uint32_t domain = 0;  ///< DDS domain, 0-230.
   bool lock_step = true;     ///< False: stamps are wall-clock time and nobody waits.
-  std::uint32_t run = 0;     ///< A restart takes a higher one; 0: seconds since 1970.
+  /// A restart takes a higher one; 0: tenths of a second since 2020 began (UTC), modulo 2^32, which
+  /// grow until 2033.
+  std::uint32_t run = 0;
   std::uint32_t chunk_size =
       64;  ///< States per sample: 1 for rare updates, 8 on lossy links, 64 at full speed.
 };
@@ -76,6 +79,9 @@ class World {
   /// Grows only; INT64_MIN before the first grant.
   std::int64_t granted_until_ns() const;
 
+  /// Has the service a simulated clock, as lock-step needs it? Nullopt before it has told.
+  std::optional<bool> simulated_clock() const;
+
   /// Takes what has arrived, waiting at most `timeout` for something; runs the callbacks.
   void Poll(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
 
@@ -109,8 +115,8 @@ class Agent {
   const AgentId& id() const;
 
   /// Stages a state: Publish() or AdvanceTo() carries it when the clock comes to its stamp; of
-  /// several staged only the last. Throws std::invalid_argument as AddAgent() does, and for a stamp
-  /// before the last one told.
+  /// several staged only the last, with a discontinuity if any of them had one. Throws
+  /// std::invalid_argument as AddAgent() does, and for a stamp before the last one told.
   void SetState(const State& state);
 
   /// Announces a changed description; what widens holds after the service has acknowledged it, from

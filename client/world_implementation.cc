@@ -13,9 +13,12 @@
 namespace collision::client {
 namespace {
 
-std::uint32_t SecondsSince1970() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return static_cast<std::uint32_t>(std::chrono::duration_cast<std::chrono::seconds>(now).count());
+/// Finer than two starts of one simulator follow each other. The service takes a lower run for old.
+std::uint32_t RunByClock() {
+  using namespace std::chrono;
+  using Tenths = duration<std::int64_t, std::deci>;
+  const auto since_2020 = system_clock::now() - sys_days(year(2020) / January / 1);
+  return static_cast<std::uint32_t>(duration_cast<Tenths>(since_2020).count());
 }
 
 template <typename T>
@@ -42,7 +45,7 @@ class Raised {
 World::Implementation::Implementation(const WorldOptions& options,
                                       std::unique_ptr<Transport> transport)
     : simulator_id_(SimulatorId(options.simulator)),
-      run_(options.run != 0 ? options.run : SecondsSince1970()),
+      run_(options.run != 0 ? options.run : RunByClock()),
       lock_step_(options.lock_step),
       transport_(std::move(transport)),
       fleet_(options.simulator, simulator_id_, run_, options.chunk_size) {}
@@ -209,7 +212,8 @@ void World::Implementation::Hear(const v1::Output& output) {
       break;
     }
     case v1::Output::kServiceStatus:
-      news_.IsCurrent(output.service_status().stamp());
+      if (!news_.IsCurrent(output.service_status().stamp())) break;
+      simulated_clock_ = output.service_status().simulated_clock();
       break;
     default:
       break;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "client/fleet.h"
@@ -42,6 +43,8 @@ class World::Implementation {
 
   std::int64_t clock_ns() const { return clock_ns_; }
   std::int64_t granted_until_ns() const { return granted_until_ns_; }
+
+  std::optional<bool> simulated_clock() const { return simulated_clock_; }
 
   void OnEvent(std::function<void(const Event&)> callback) { on_event_ = std::move(callback); }
   std::vector<Event> TakeEvents();
@@ -82,6 +85,7 @@ class World::Implementation {
 
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::optional<bool> simulated_clock_;
   bool clock_published_ = false;
   bool refused_ = false;  ///< Since the last Introduce(): our name belongs to another sender.
 

@@ -7,12 +7,13 @@
 
 namespace collision::server {
 
-/// Sorts a batch by simulator; within one: descriptions and removals by slot, shapes, states by
-/// chunk, clocks, liveliness. What is equal in all of that keeps its order of arrival, which the
-/// network keeps per writer: a slot's removal stays before the description that reuses it. Sorting
-/// twice changes nothing.
+/// Sorts a batch by simulator; within one: descriptions by slot, shapes, states by chunk, clocks,
+/// removals by slot, liveliness. What is equal in all of that keeps its order of arrival, which the
+/// network keeps per writer. A removal whose slot a later message of the batch describes anew goes
+/// with the descriptions, and so stays before that one. Sorting twice changes nothing.
 ///
-/// A clock follows what it vouches for, and a simulator's end follows everything it wrote.
+/// A clock follows what it vouches for, an agent's end follows its last state, and a simulator's end
+/// follows everything it wrote.
 void SortBatch(std::vector<v1::Input>* batch);
 
 }  // namespace collision::server

@@ -26,6 +26,10 @@ class Bus {
 
   /// Ends a Receive() that waits. May be called from any thread and from signal handlers.
   virtual void Wake() = 0;
+
+  /// What the network did not deliver or take, for the status. Names as in collision.idl's Counter,
+  /// each once.
+  virtual std::vector<v1::Counter> network_counters() const { return {}; }
 };
 
 }  // namespace collision::server

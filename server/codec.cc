@@ -161,6 +161,14 @@ std::optional<Refusal> CheckStamp(const AgentId& agent, Instant stamp, const Sta
 
 Decoded<Instant> DecodeClock(const v1::SimulatorClock& wire, const ClockRules& rules) {
   FieldCheck check(At(wire));
+  if (wire.lock_step() != rules.lock_step) {
+    check.Refuse(v1::REJECTED_OUT_OF_RANGE, "lock_step",
+                 rules.lock_step
+                     ? "false (wall clock); this world runs on simulated time: start the "
+                       "simulator in lock-step, or the service with clock kind WALL"
+                     : "true (simulated time); this world runs on the wall clock: start the "
+                       "simulator without lock-step, or the service with clock kind SIMULATED");
+  }
   check.Integer("clock_ns", wire.clock_ns(), -kInstantMax, kInstantMax);
   check.Integer("clock_ns", wire.clock_ns(), rules.earliest.nanoseconds(),
                 Instant::Never().nanoseconds(), v1::REJECTED_CLOCK_BACKWARD);

@@ -69,6 +69,7 @@ std::optional<Refusal> CheckStamp(const AgentId& agent, Instant stamp, const Sta
 struct ClockRules {
   Instant earliest = Instant::Always();  ///< The clock told last in this run.
   Instant latest = Instant::Never();     ///< The greatest time granted, or now + κ.
+  bool lock_step = true;                 ///< The world's time is simulated.
 };
 
 Decoded<Instant> DecodeClock(const v1::SimulatorClock& clock, const ClockRules& rules);

@@ -38,7 +38,8 @@ constexpr ConfigOption kOptions[] = {
     {"clock.on_silent_simulator", "none", "", "", "WAIT or RELEASE", "WAIT",
      "With SIMULATED, when a simulator's process has died: WAIT stops time for everybody until it "
      "is back, "
-     "RELEASE removes its agents after release_after_s."},
+     "RELEASE goes on without it after release_after_s. Its agents stay either way, as all that "
+     "they could do by then."},
     {"clock.release_after_s", "s", "0.1", "86400", "", "5",
      "How long RELEASE waits. With WAIT it must keep its default."},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",

@@ -9,7 +9,7 @@
 
 #include "server/batch_order.h"
 #include "server/intake.h"
-#include "server/logging.h"
+#include "server/names_log.h"
 #include "server/publisher.h"
 #include "server/recording.h"
 #include "server/status.h"
@@ -51,9 +51,7 @@ class Daemon::Implementation {
     if (!Begin(clock_.Read(), &inputs)) return false;
     for (const v1::Input& input : inputs) intake_.Apply(input);
     intake_.EndBatch();
-    if (world_.ReleaseSilent()) {
-      Log(spdlog::level::warn, "simulator released", "silent too long; time goes on without it");
-    }
+    TellSilence(world_.ReleaseSilent());
     world_.UpdateSimulatedTime();
     Detect(!inputs.empty());
     Publish();
@@ -98,6 +96,20 @@ class Daemon::Implementation {
     return kept;
   }
 
+  /// Every death that concerns the world's time is told by name, once.
+  void TellSilence(const std::vector<std::string>& released) {
+    std::vector<std::string> waited_for = world_.WaitedFor();
+    for (const std::string& name : waited_for) {
+      if (std::find(waited_for_.begin(), waited_for_.end(), name) == waited_for_.end()) {
+        waits_.Add(name);
+      }
+    }
+    waited_for_ = std::move(waited_for);
+    for (const std::string& name : released) releases_.Add(name);
+    waits_.Tell(world_.monotonic_ns());
+    releases_.Tell(world_.monotonic_ns());
+  }
+
   /// Brings the detector to the world's time. With a simulated clock nothing changes but by inputs
   /// and releases.
   void Detect(bool inputs) {
@@ -124,7 +136,8 @@ class Daemon::Implementation {
                                            .intake = intake_,
                                            .rejections = rejections_,
                                            .event_log = publisher_.event_log(),
-                                           .steps = steps_}));
+                                           .steps = steps_,
+                                           .network = bus_.network_counters()}));
     }
     bus_.Flush();
   }
@@ -150,6 +163,9 @@ class Daemon::Implementation {
   Publisher publisher_;
   StatusSchedule schedule_;
   StepCounters steps_;
+  std::vector<std::string> waited_for_;  ///< Told already.
+  NamesLog waits_{"waits for simulator {}: its process has gone"};
+  NamesLog releases_{"time goes on without simulator {}: its process has gone"};
   std::optional<Instant> advanced_to_;
   std::atomic<bool> stopped_ = false;
 };

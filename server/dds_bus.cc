@@ -13,6 +13,13 @@ DdsSessionOptions Options(const std::string& world, std::uint32_t domain,
   return options;
 }
 
+v1::Counter CounterOf(const std::string& name, std::uint64_t value) {
+  v1::Counter counter;
+  counter.set_name(name);
+  counter.set_value(value);
+  return counter;
+}
+
 }  // namespace
 
 DdsBus::DdsBus(const std::string& world, std::uint32_t domain, std::chrono::nanoseconds lease)
@@ -44,6 +51,14 @@ void DdsBus::Publish(const v1::Output& output) {
 void DdsBus::Flush() { session_.Flush(); }
 
 void DdsBus::Wake() { session_.Wake(); }
+
+std::vector<v1::Counter> DdsBus::network_counters() const {
+  const DdsCounters counted = counters();
+  return {CounterOf("dds_samples_lost", counted.samples_lost),
+          CounterOf("dds_samples_refused", counted.samples_refused),
+          CounterOf("dds_samples_orphaned", counted.samples_orphaned),
+          CounterOf("dds_writes_failed", counted.writes_failed)};
+}
 
 DdsCounters DdsBus::counters() const { return session_.counters(); }
 

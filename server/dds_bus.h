@@ -31,7 +31,10 @@ class DdsBus final : public Bus {
   void Flush() override;
   void Wake() override;
 
-  /// What the network did not deliver, for the status.
+  /// counters(), each with "dds_" before its name.
+  std::vector<v1::Counter> network_counters() const override;
+
+  /// What the network did not deliver or take.
   DdsCounters counters() const;
 
  private:

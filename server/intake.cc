@@ -44,9 +44,10 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     return nullptr;
   }
   if (claim.new_run) {
-    for (const auto& [slot, state] : claim.simulator->slots) RemoveAgent(claim.simulator, slot);
+    RemoveAgents(claim.simulator);
     claim.simulator->StartRun(input.sender(), where.run);
   }
+  claim.simulator->taken_over = false;
   return claim.simulator;
 }
 
@@ -133,7 +134,15 @@ void Intake::TakeClock(const v1::Input& input) {
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
   const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));
-  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return Refuse(*refusal);
+  if (const auto* refusal = std::get_if<Refusal>(&decoded)) {
+    // With a wall clock its agents need not have waited for it.
+    if (wire.lock_step() != world_.simulated() && simulator->told == Instant::Always()) {
+      simulator->other_time = true;
+      if (!world_.simulated()) RemoveAgents(simulator);
+    }
+    return Refuse(*refusal);
+  }
+  simulator->other_time = false;
   simulator->OfferClock({.clock = std::get<Instant>(decoded),
                          .states_sequence = wire.states_sequence(),
                          .descriptions_sequence = wire.descriptions_sequence(),
@@ -144,7 +153,7 @@ void Intake::TakeRemoval(const v1::Input& input) {
   const v1::AgentRemoval& removal = input.agent_removal();
   Simulator* simulator = world_.Find(removal.simulator_id());
   if (simulator == nullptr) return;
-  // Without a sender it is the description itself that says it: nobody is left to ask for its owner.
+  // Without a sender it is the description itself that says it.
   if (input.sender() != 0 && simulator->sender != input.sender()) {
     if (!HoldBehindItsLike(simulator, input)) Refuse(NotItsOwn(removal));
     return;
@@ -160,10 +169,14 @@ void Intake::TakeRemoval(const v1::Input& input) {
 void Intake::TakeLiveliness(const v1::Input& input) {
   Simulator* simulator = world_.Find(input.liveliness().simulator_id());
   if (simulator == nullptr) return;
-  // Without a sender it is the clock itself that says it has no writer: its owner's, if that told one.
+  // Without a sender it is the clock itself that says it: the owner's, if that has told one.
   const bool deserted = input.sender() == 0 && simulator->told > Instant::Always();
   if (simulator->sender != input.sender() && !deserted) {
-    HoldBehindItsLike(simulator, input);
+    // What the dead wrote is not to come to life when the owner goes.
+    if (!input.liveliness().alive()) {
+      std::erase_if(simulator->held,
+                    [&input](const v1::Input& held) { return held.sender() == input.sender(); });
+    }
     return;
   }
   simulator->alive = input.liveliness().alive();
@@ -172,21 +185,30 @@ void Intake::TakeLiveliness(const v1::Input& input) {
     simulator->released = false;
     return;
   }
-  for (const v1::Input& held : std::exchange(simulator->held, {})) Apply(held);
+  // It died while it waited, and its death was told last: nobody has ever waited for its agents.
+  if (simulator->taken_over) RemoveAgents(simulator);
 }
 
 bool Intake::HoldBehindItsLike(Simulator* simulator, const v1::Input& input) {
   std::vector<v1::Input>& held = simulator->held;
   const auto same = [&input](const v1::Input& other) { return other.sender() == input.sender(); };
   if (std::none_of(held.begin(), held.end(), same)) return false;
-  // The newest replaces the last, so that the end of whoever waits is never lost.
+  // The newest replaces the last, so that a removal is never lost.
   if (held.size() == kHeldInputsMax) held.pop_back();
   held.push_back(input);
   return true;
 }
 
+/// At the end of the batch: those who wait may have ended in the same one.
+void Intake::HandOver(Simulator* simulator) {
+  if (simulator->alive || simulator->held.empty()) return;
+  for (const v1::Input& held : std::exchange(simulator->held, {})) Apply(held);
+  simulator->taken_over = simulator->alive;
+}
+
 void Intake::EndBatch() {
   for (auto& [id, simulator] : world_.simulators()) {
+    HandOver(&simulator);
     const bool first = !simulator.clock;
     if (!world_.TakeClock(&simulator)) continue;
     for (auto& [index, slot] : simulator.slots) {

@@ -36,8 +36,8 @@ class Intake {
 
   void Apply(const v1::Input& input);
 
-  /// Clocks come into force, agents that waited for them are admitted, overdue descriptions are
-  /// reported.
+  /// Successors take over, clocks come into force, agents that waited for them are admitted, overdue
+  /// descriptions are reported.
   void EndBatch();
 
   const IntakeCounters& counters() const { return counters_; }
@@ -56,8 +56,8 @@ class Intake {
   /// refused.
   Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);
 
-  /// What a successor that waits for the simulator's id removes, or its own end, waits with what it
-  /// wrote before. False: its sender does not wait.
+  /// What a successor that waits for the simulator's id removes waits with what it wrote before.
+  /// False: its sender does not wait.
   bool HoldBehindItsLike(Simulator* simulator, const v1::Input& input);
 
   void TakeDescription(const v1::Input& input);
@@ -74,6 +74,10 @@ class Intake {
   void KeepWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
   void RemoveAgent(Simulator* simulator, std::uint32_t slot);
+  void RemoveAgents(Simulator* simulator);
+
+  /// Whoever waits for the id of a simulator that has gone gets it.
+  void HandOver(Simulator* simulator);
   void ReportUndescribed();
   void Refuse(const Refusal& refusal) {
     rejections_.Add(refusal, world_.Find(refusal.simulator_id), world_);

@@ -55,7 +55,7 @@ void Intake::AdmitIfComplete(Simulator* simulator, std::uint32_t slot_index) {
   Slot& slot = simulator->slots[slot_index];
   if (!slot.agent || slot.agent->admitted || !slot.waiting) return;
   if (slot.waiting->generation != slot.agent->generation) return;
-  if (world_.simulated() && !simulator->clock) return;
+  if (simulator->other_time || (world_.simulated() && !simulator->clock)) return;
   Agent& agent = *slot.agent;
   const AgentId id = simulator->IdOf(slot_index, agent.generation);
   if (detector_.agents() >= agents_max_) {
@@ -91,6 +91,10 @@ void Intake::RemoveAgent(Simulator* simulator, std::uint32_t slot_index) {
   slot.agent.reset();
   --simulator->agents;
   simulator->chunks_changed.insert(slot_index / kSlotsPerChunk);
+}
+
+void Intake::RemoveAgents(Simulator* simulator) {
+  for (const auto& [slot, state] : simulator->slots) RemoveAgent(simulator, slot);
 }
 
 void Intake::ReportUndescribed() {

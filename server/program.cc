@@ -1,10 +1,8 @@
 #include "server/program.h"
 
 #include <google/protobuf/util/json_util.h>
-#include <spdlog/fmt/fmt.h>
-#include <spdlog/spdlog.h>
+#include <spdlog/common.h>
 
-#include <chrono>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -15,43 +13,11 @@
 #include "server/logging.h"
 #include "server/recording.h"
 #include "server/replay.h"
-#include "server/service_notify.h"
+#include "server/serve.h"
 #include "server/stop_signals.h"
-#include "server/system_clock.h"
-#include "server/version.h"
 
 namespace collision::server {
 namespace {
-
-int Fail(ExitCode code, const std::string& line) {
-  std::cerr << "collisiond: " << line << std::endl;
-  return code;
-}
-
-/// Always said, whatever the log level: two runs are compared by it.
-void TellEventLog(const EventLog& log) {
-  EndLogging();
-  const auto level = spdlog::get_level();
-  spdlog::set_level(spdlog::level::info);
-  spdlog::info("event log: {} events, hash {:016x}", log.count(), log.hash());
-  spdlog::set_level(level);
-}
-
-/// Runs the daemon until something ends it.
-int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder) {
-  SystemClock clock;
-  Daemon daemon(config, bus, clock, recorder);
-  const StopSignalWatcher signals([&daemon] { daemon.Stop(); });
-  ServiceNotifier service_manager;
-  spdlog::info("collisiond {} serves world \"{}\" on domain {}", kVersion, config.world(),
-               config.domain());
-  service_manager.Ready();
-  while (daemon.Step()) service_manager.Alive(std::chrono::steady_clock::now());
-  service_manager.Stopping();
-  TellEventLog(daemon.event_log());
-  if (recorder && !recorder->error().empty()) return Fail(kExitRecording, recorder->error());
-  return signals.stopped() ? kExitOk : Fail(kExitUnavailable, "DDS has ended");
-}
 
 int Serve(const v1::Config& config, const std::string& record_file) {
   PrepareSignals();

@@ -71,6 +71,7 @@ bool RecordingWriter::Write(const v1::RecordingEntry& entry) {
     google::protobuf::io::StringOutputStream stream(&bytes);
     google::protobuf::util::SerializeDelimitedToZeroCopyStream(entry, &stream);
   }
+  const std::lock_guard lock(writing_);
   if (const int error_number = WriteAll(file_, bytes)) {
     error_ = where + "cannot be written: " + CauseOf(error_number);
     return false;

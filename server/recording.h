@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -22,7 +23,7 @@ class BatchSink {
 
 /// Writes a recording to a file. Each batch is with the operating system when Record() returns: a
 /// crash of the daemon loses nothing, a crash of the machine at most its page cache. Used by one
-/// thread.
+/// thread, but for HoldWrites().
 class RecordingWriter final : public BatchSink {
  public:
   /// Replaces the file and writes the header; `config` is complete. Throws std::runtime_error if it
@@ -37,9 +38,14 @@ class RecordingWriter final : public BatchSink {
   /// One line on why Record() failed: file, offset, cause. Empty while all is well.
   const std::string& error() const { return error_; }
 
+  /// Waits for the write that goes on, if any; while the lock is held none begins. For another
+  /// thread that is about to end the process: the file then ends with a whole batch.
+  [[nodiscard]] std::unique_lock<std::mutex> HoldWrites() { return std::unique_lock(writing_); }
+
  private:
   bool Write(const v1::RecordingEntry& entry);
 
+  std::mutex writing_;
   std::string path_;
   int file_ = -1;
   std::uint64_t offset_ = 0;

@@ -70,16 +70,17 @@ struct Simulator {
   std::uint64_t descriptions_seen = 0;  ///< Likewise.
   Instant told = Instant::Always();     ///< The newest clock that has arrived.
   std::deque<PendingClock> pending;
-  std::optional<Instant> clock;    ///< The newest clock in force.
-  std::optional<Instant> granted;  ///< By this service, in this run.
-  bool lock_step = true;           ///< It waits for grants, as its newest clock says.
-  /// A clock that does not begin at the run's start was granted by a service before this one; up to
-  /// here.
-  Instant inherited_grant = Instant::Always();
+  std::optional<Instant> first_clock;  ///< The one this service first brought into force.
+  std::optional<Instant> clock;        ///< The newest clock in force.
+  std::optional<Instant> granted;      ///< By this service, in this run.
+  bool lock_step = true;               ///< It waits for grants, as its newest clock says.
 
   std::map<std::uint32_t, Slot> slots;
+  /// It has told clocks of the other kind only: its stamps mean nothing here.
+  bool other_time = false;
   std::size_t agents = 0;       ///< Described.
   std::vector<v1::Input> held;  ///< Of whoever wants to take over.
+  bool taken_over = false;      ///< With what was held; its new owner has said nothing since.
 
   std::set<std::uint32_t> chunks_changed;  ///< Clearance samples to publish.
   std::uint64_t states = 0;                ///< Accepted, in all runs.
@@ -94,7 +95,7 @@ struct Simulator {
     return {.simulator = id, .slot = slot, .run = run, .generation = generation};
   }
 
-  /// Gone for good: it said so by removing all its agents.
+  /// Gone for good: it said so by removing all its agents, or never described any.
   bool has_left() const { return !alive && agents == 0; }
 
   /// Whether the world's time waits for it.

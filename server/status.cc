@@ -17,6 +17,7 @@ constexpr std::size_t kLeftOutTextMax = 160;
 constexpr std::size_t kWorldTextMax = 64;
 constexpr std::size_t kBroadPhaseTextMax = 64;
 constexpr std::size_t kWhyTextMax = 256;
+constexpr std::size_t kExtensionTextMax = 256;
 
 std::string LowerCase(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(), [](char c) {
@@ -32,8 +33,13 @@ void Count(const std::string& name, std::uint64_t value, v1::ServiceStatus* stat
 }
 
 void AddSimulators(const World& world, v1::ServiceStatus* status) {
+  std::uint64_t unlisted = 0;
   for (const auto& [id, simulator] : world.simulators()) {
-    if (simulator.has_left() || status->simulators_size() == kSimulatorsMax) continue;
+    if (simulator.has_left()) continue;
+    if (status->simulators_size() == kSimulatorsMax) {
+      ++unlisted;
+      continue;
+    }
     v1::SimulatorStatus& wire = *status->add_simulators();
     wire.set_simulator_id(id);
     wire.set_run(simulator.run);
@@ -45,6 +51,7 @@ void AddSimulators(const World& world, v1::ServiceStatus* status) {
     wire.set_states(simulator.states);
     wire.set_rejected(simulator.rejected);
   }
+  Count("simulators_unlisted", unlisted, status);
 }
 
 void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
@@ -101,6 +108,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddSimulators(sources.world, &status);
   AddIntake(sources, &status);
   AddDetection(sources.detector.counters(), &status);
+  for (const v1::Counter& counter : sources.network) *status.add_counters() = counter;
   const Detector::Profile profile = sources.detector.profile();
   status.set_broad_phase(profile.broad_phase.substr(0, kBroadPhaseTextMax));
   status.set_broad_phase_why(profile.why.substr(0, kWhyTextMax));
@@ -109,6 +117,10 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   }
   AddExtension("event_log_count", std::to_string(sources.event_log.count()), &status);
   AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
+  if (const auto names = sources.world.WaitedFor(); !names.empty()) {
+    const std::string text = fmt::format("{}", fmt::join(names, ", "));
+    AddExtension("waiting_for", text.substr(0, kExtensionTextMax), &status);
+  }
   return status;
 }
 

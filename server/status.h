@@ -25,6 +25,7 @@ struct StatusSources {
   const Rejections& rejections;
   const EventLog& event_log;
   StepCounters steps;
+  std::vector<v1::Counter> network;  ///< Bus::network_counters().
 };
 
 /// Without service id and stamp. Texts are cut to the bounds of collision.idl.

@@ -3,6 +3,8 @@
 #include <pthread.h>
 
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <utility>
 
 namespace collision::server {
@@ -25,8 +27,12 @@ void PrepareSignals() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-StopSignalWatcher::StopSignalWatcher(std::function<void()> stop)
-    : stop_(std::move(stop)), thread_([this] { Watch(); }) {}
+StopSignalWatcher::StopSignalWatcher(std::function<void()> stop, std::chrono::nanoseconds patience,
+                                     std::function<void()> give_up)
+    : stop_(std::move(stop)),
+      patience_(patience),
+      give_up_(std::move(give_up)),
+      thread_([this] { Watch(); }) {}
 
 StopSignalWatcher::~StopSignalWatcher() {
   ending_ = true;
@@ -36,10 +42,26 @@ StopSignalWatcher::~StopSignalWatcher() {
 
 void StopSignalWatcher::Watch() {
   const sigset_t set = StopSignalSet();
-  for (int signal = 0; sigwait(&set, &signal) == 0 && !ending_;) {
-    stopped_ = true;
-    stop_();
+  int signal = 0;
+  if (sigwait(&set, &signal) != 0 || ending_) return;
+  stopped_ = true;
+  stop_();
+  if (!EndsInTime()) give_up_();
+}
+
+/// Whether the destructor's signal comes; those of others change nothing.
+bool StopSignalWatcher::EndsInTime() const {
+  using Clock = std::chrono::steady_clock;
+  const sigset_t set = StopSignalSet();
+  const Clock::time_point end = Clock::now() + patience_;
+  while (!ending_) {
+    const auto left = std::chrono::nanoseconds(end - Clock::now()).count();
+    if (left <= 0) return false;
+    constexpr std::int64_t kSecond = 1'000'000'000;
+    const timespec wait{.tv_sec = left / kSecond, .tv_nsec = left % kSecond};
+    sigtimedwait(&set, nullptr, &wait);
   }
+  return true;
 }
 
 }  // namespace collision::server

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <thread>
 
@@ -12,17 +13,20 @@ namespace collision::server {
 /// with a cause and not the end. To be called before any thread is made, that is before DDS.
 void PrepareSignals();
 
-/// Calls a function, on a thread of its own, for each SIGTERM or SIGINT that the process gets.
+/// Calls a function, on a thread of its own, when the process gets SIGTERM or SIGINT, and another one
+/// if that does not help.
 ///
 /// A thread and not a handler: a handler may call next to nothing (no mutex, no allocation, so no
-/// DDS), and may run on any thread of DDS in the middle of anything. Here the function may do
+/// DDS), and may run on any thread of DDS in the middle of anything. Here the functions may do
 /// whatever a thread may.
 class StopSignalWatcher {
  public:
-  /// PrepareSignals() was called. A signal that came since then counts.
-  explicit StopSignalWatcher(std::function<void()> stop);
+  /// `stop` asks for the end. If the watcher still lives `patience` after a signal, it calls
+  /// `give_up` too, once. PrepareSignals() was called; a signal that came since then counts.
+  StopSignalWatcher(std::function<void()> stop, std::chrono::nanoseconds patience,
+                    std::function<void()> give_up);
 
-  /// After it, the function is not called any more.
+  /// After it, no function is called any more.
   ~StopSignalWatcher();
   StopSignalWatcher(const StopSignalWatcher&) = delete;
   StopSignalWatcher& operator=(const StopSignalWatcher&) = delete;
@@ -32,8 +36,11 @@ class StopSignalWatcher {
 
  private:
   void Watch();
+  bool EndsInTime() const;
 
-  std::function<void()> stop_;
+  const std::function<void()> stop_;
+  const std::chrono::nanoseconds patience_;
+  const std::function<void()> give_up_;
   std::atomic<bool> stopped_ = false;
   std::atomic<bool> ending_ = false;
   std::thread thread_;

@@ -26,8 +26,9 @@ Simulator* World::Find(std::uint64_t id) {
 
 Simulator* World::MakeRoomFor(std::uint64_t id) {
   if (simulators_.size() >= simulators_max_) {
-    const auto left = std::find_if(simulators_.begin(), simulators_.end(),
-                                   [](const auto& entry) { return entry.second.has_left(); });
+    const auto left = std::find_if(simulators_.begin(), simulators_.end(), [](const auto& entry) {
+      return entry.second.has_left() && entry.second.held.empty();
+    });
     if (left == simulators_.end()) return nullptr;
     simulators_.erase(left);
   }
@@ -92,22 +93,32 @@ void World::UpdateSimulatedTime() {
   started_ = true;
 }
 
-bool World::ReleaseSilent() {
-  if (!simulated_ || !releases_silent_) return false;
-  bool released = false;
+std::vector<std::string> World::ReleaseSilent() {
+  std::vector<std::string> released;
+  if (!simulated_ || !releases_silent_) return released;
   for (auto& [id, simulator] : simulators_) {
-    if (simulator.alive || simulator.released) continue;
+    if (simulator.alive || !simulator.holds_time()) continue;
     if (monotonic_ns() - simulator.silent_since_ns < release_after_ns_) continue;
-    simulator.released = released = true;
+    simulator.released = true;
+    released.push_back(simulator.name);
   }
   return released;
+}
+
+std::vector<std::string> World::WaitedFor() const {
+  std::vector<std::string> names;
+  if (!simulated_) return names;
+  for (const auto& [id, simulator] : simulators_) {
+    if (!simulator.alive && simulator.holds_time()) names.push_back(simulator.name);
+  }
+  return names;
 }
 
 std::optional<std::int64_t> World::NextRelease() const {
   std::optional<std::int64_t> next;
   if (!simulated_ || !releases_silent_) return next;
   for (const auto& [id, simulator] : simulators_) {
-    if (simulator.alive || simulator.released) continue;
+    if (simulator.alive || !simulator.holds_time()) continue;
     const std::int64_t due = simulator.silent_since_ns + release_after_ns_;
     next = next ? std::min(*next, due) : due;
   }
@@ -115,23 +126,22 @@ std::optional<std::int64_t> World::NextRelease() const {
 }
 
 bool World::TakeClock(Simulator* simulator) {
-  const bool first = !simulator->clock;
   if (!simulator->TakeClock()) return false;
-  if (first && *simulator->clock > Instant()) {
-    simulator->inherited_grant = AddRoundedDown(*simulator->clock, grant_ahead_max_);
-  }
+  if (!simulator->first_clock) simulator->first_clock = simulator->clock;
   return true;
 }
 
 Instant World::LatestAllowed(const Simulator& simulator) const {
   if (!simulated_) return AddRoundedDown(now_, skew_);
-  if (simulator.granted && simulator.lock_step) {
-    return std::max(*simulator.granted, simulator.inherited_grant);
+  const bool waits = simulator.lock_step && simulator.granted;
+  if (!started_ && !waits && !simulator.first_clock) return Instant::Never();
+  Instant latest = simulator.granted.value_or(Instant::Always());
+  if (started_ && !waits) latest = std::max(latest, AddRoundedDown(now_, grant_ahead_max_));
+  // A clock that does not begin at the run's start was granted by a service before this one.
+  if (simulator.first_clock && (!waits || *simulator.first_clock > Instant())) {
+    latest = std::max(latest, AddRoundedDown(*simulator.first_clock, grant_ahead_max_));
   }
-  Instant base = started_ ? now_ : Instant::Always();
-  if (simulator.clock) base = std::max(base, *simulator.clock);
-  if (base == Instant::Always()) return Instant::Never();
-  return AddRoundedDown(base, grant_ahead_max_);
+  return latest;
 }
 
 StampRules World::RulesForState(const Simulator& simulator, bool admitted) const {
@@ -141,7 +151,7 @@ StampRules World::RulesForState(const Simulator& simulator, bool admitted) const
 }
 
 ClockRules World::RulesForClock(const Simulator& simulator) const {
-  return {.earliest = simulator.told, .latest = LatestAllowed(simulator)};
+  return {.earliest = simulator.told, .latest = LatestAllowed(simulator), .lock_step = simulated_};
 }
 
 Instant World::EffectiveFrom(Instant stamp) const {

@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "idl/config.pb.h"
 #include "server/clock.h"
@@ -49,9 +50,12 @@ class World {
   /// force.
   void UpdateSimulatedTime();
 
-  /// Simulated clock: who has been silent for `release_after_s` no longer holds time. True if
-  /// anybody was released.
-  bool ReleaseSilent();
+  /// Simulated clock: who has been silent for `release_after_s` no longer holds time. Returns the
+  /// names of those released now.
+  std::vector<std::string> ReleaseSilent();
+
+  /// Simulated clock: the names of those whose process has gone and who hold time all the same.
+  std::vector<std::string> WaitedFor() const;
 
   bool simulated() const { return simulated_; }
   /// Nothing happens before: there is no `now` yet.

@@ -1,5 +1,7 @@
 #include "client/simulators/command_line.h"
 
+#include <cstdio>
+
 namespace collision::client {
 
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
@@ -15,7 +17,7 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
       ->excludes(real_time);
   app->add_option("--speed", options->speed,
                   "Lock-step: at most X simulated seconds per second; 0: as fast as granted")
-      ->check(CLI::NonNegativeNumber)
+      ->check(Finite(1e9, true))
       ->excludes(real_time);
   app->add_option("--start-ns", options->start_ns,
                   "With --real-time: the run's start in nanoseconds since 1970; default: now")
@@ -24,6 +26,18 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
                   "File for the exact motion, for motion-checker");
   app->add_flag("--linger", options->linger,
                 "At the end wait for SIGTERM before leaving the world");
+}
+
+CLI::Validator Finite(double greatest, bool zero) {
+  char range[48];
+  std::snprintf(range, sizeof range, "0 %s x <= %.9g", zero ? "<=" : "<", greatest);
+  const auto check = [greatest, zero, range = std::string(range)](const std::string& text) {
+    double value = 0;
+    const bool parsed = CLI::detail::lexical_cast(text, value);
+    const bool allowed = parsed && (zero ? value >= 0 : value > 0) && value <= greatest;
+    return allowed ? std::string() : text + ", allowed: " + range;
+  };
+  return CLI::Validator(check, range);
 }
 
 std::optional<int> ParseCommandLine(CLI::App* app, int argc, char** argv) {

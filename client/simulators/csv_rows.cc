@@ -1,5 +1,6 @@
 #include "client/simulators/csv_rows.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -25,18 +26,37 @@ struct Columns {
   std::optional<Column> velocity[3];
 };
 
-std::vector<std::string_view> Split(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (;;) {
-    const std::size_t comma = line.find(',');
-    std::string_view field = line.substr(0, comma);
-    while (!field.empty() && (field.front() == ' ' || field.front() == '\t'))
-      field.remove_prefix(1);
-    while (!field.empty() && (field.back() == ' ' || field.back() == '\t')) field.remove_suffix(1);
-    fields.push_back(field);
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+constexpr const char* kBlanks = " \t";
+
+std::string_view Trimmed(std::string_view text) {
+  text.remove_prefix(std::min(text.find_first_not_of(kBlanks), text.size()));
+  return text.substr(0, text.find_last_not_of(kBlanks) + 1);
+}
+
+/// Takes the first field off the line, "a,b" in quotes being one; a doubled quote inside stands for
+/// one. Nothing: a quote does not end, or more follows it. `more`: a comma came after the field.
+std::optional<std::string> TakeField(std::string_view* line, bool* more) {
+  std::string field;
+  const std::size_t start = line->find_first_not_of(kBlanks);
+  const bool quoted = start != std::string_view::npos && (*line)[start] == '"';
+  if (quoted) {
+    std::size_t quote = start;
+    do {
+      const std::size_t next = line->find('"', quote + 1);
+      if (next == std::string_view::npos) return std::nullopt;
+      field += line->substr(quote + 1, next - quote - 1);
+      line->remove_prefix(next + 1);
+      quote = 0;
+      if (!line->empty() && line->front() == '"') field += '"';
+    } while (!line->empty() && line->front() == '"');
   }
+  const std::size_t comma = line->find(',');
+  const std::string_view rest = Trimmed(line->substr(0, comma));
+  *more = comma != std::string_view::npos;
+  line->remove_prefix(*more ? comma + 1 : line->size());
+  if (!quoted) return std::string(rest);
+  return rest.empty() ? std::optional(field) : std::nullopt;
 }
 
 // "x_km" -> 1000 with quantity "x" and suffix ""; nothing if the name is another quantity's.
@@ -74,12 +94,23 @@ class Reader {
     return true;
   }
 
+  std::vector<std::string> Split(std::string_view line) const {
+    std::vector<std::string> fields;
+    for (bool more = true; more;) {
+      const auto field = TakeField(&line, &more);
+      if (!field) Fail("a quote is not closed, or is followed by something else than a comma");
+      fields.push_back(*field);
+    }
+    return fields;
+  }
+
   void ReadHeader() {
     std::string line;
     if (!NextLine(&line)) {
       line_ = 1;
       Fail("the file is empty; its first line names the columns");
     }
+    if (line.starts_with(kByteOrderMark)) line.erase(0, kByteOrderMark.size());
     const auto names = Split(line);
     columns_.count = names.size();
     std::optional<std::size_t> agent, time;
@@ -147,10 +178,11 @@ class Reader {
       Fail(std::to_string(fields.size()) + " columns, the header has " +
            std::to_string(columns_.count));
     }
-    const std::string agent(fields[columns_.agent]);
+    const std::string& agent = fields[columns_.agent];
     if (agent.empty()) Fail("agent_id is empty");
     if (agent.find_first_of(" \t") != std::string::npos) Fail("agent_id has a space in it");
     CsvRow row;
+    row.line = line_;
     const long double time =
         Finite<long double>(fields[columns_.time], "time") * columns_.nanoseconds;
     if (!(std::fabs(time) < kTimeMax)) Fail("time is beyond a century from 0");
@@ -161,13 +193,13 @@ class Reader {
     }
     auto& rows = result_.rows[agent];
     if (!rows.empty() && row.time_ns <= rows.back().time_ns) {
-      Fail("time " + std::string(fields[columns_.time]) + " of agent " + agent +
+      Fail("time " + fields[columns_.time] + " of agent " + agent +
            " is not later than its row before");
     }
     rows.push_back(row);
   }
 
-  double Value(const std::optional<Column>& column, const std::vector<std::string_view>& fields,
+  double Value(const std::optional<Column>& column, const std::vector<std::string>& fields,
                const char* what) const {
     return column ? Finite<double>(fields[column->index], what) * column->scale : 0;
   }

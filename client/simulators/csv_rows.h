@@ -1,6 +1,7 @@
 // Agents' positions over time, from a user's CSV file.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <istream>
 #include <map>
@@ -16,6 +17,7 @@ struct CsvRow {
   std::int64_t time_ns = 0;  ///< File time, rounded to the nearest nanosecond.
   Vector3 position_m{};
   Vector3 velocity_m_s{};  ///< Zero without velocity columns.
+  std::size_t line = 0;    ///< Of the file, from 1.
 };
 
 struct CsvRows {
@@ -32,7 +34,7 @@ class CsvError : public std::runtime_error {
 /// Reads a file whose first line names the columns, units in the names, in any order:
 ///   time_s | time_ms | time_ns,  agent_id,  x_m, y_m [, z_m],  [vx_m_s, vy_m_s [, vz_m_s]]
 /// Lengths may be in mm, m or km (x_km, vx_km_s). Other columns are ignored; z without a column is
-/// 0. Rows of different agents come in any order. `name` is used in messages. Throws CsvError: a
+/// 0. A byte-order mark is skipped, names and values may stand in double quotes. Rows of different agents come in any order. `name` is used in messages. Throws CsvError: a
 /// missing or doubled column, a wrong number of columns, no finite number, a time that does not
 /// grow, no rows.
 CsvRows ReadCsv(std::istream& text, const std::string& name);

@@ -5,6 +5,7 @@
 #include "client/simulators/command_line.h"
 #include "client/simulators/stop_signal.h"
 #include "client/simulators/swarm.h"
+#include "client/validation.h"
 
 int main(int argc, char** argv) {
   using namespace collision::client;
@@ -20,16 +21,16 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seed", swarm.seed, "Same for all processes of a swarm")->capture_default_str();
   app.add_option("--box", swarm.limits.box_m, "Size of the space [m]: x y z")
-      ->check(CLI::PositiveNumber)
+      ->check(Finite(kCoordinateMax, false))
       ->capture_default_str();
   app.add_option("--radius", swarm.limits.radius_m, "Of a drone [m]")
-      ->check(CLI::PositiveNumber)
+      ->check(Finite(kRadiusMax, false))
       ->capture_default_str();
   app.add_option("--speed-max", swarm.limits.speed_max_m_s, "Of a drone [m/s]")
-      ->check(CLI::PositiveNumber)
+      ->check(Finite(kSpeedMax, false))
       ->capture_default_str();
   app.add_option("--acceleration-max", swarm.limits.acceleration_max_m_s2, "Of a drone [m/s2]")
-      ->check(CLI::PositiveNumber)
+      ->check(Finite(kAccelerationMax, false))
       ->capture_default_str();
   app.add_option("--rate", swarm.rate_hz, "Steps per second")
       ->check(CLI::Range(10, 1000))
@@ -39,7 +40,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--seconds", simulator.seconds, "Length of the run")
       ->required()
-      ->check(CLI::PositiveNumber);
+      ->check(Finite(kRunSecondsMax, false));
   AddSimulatorOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   CatchStopSignals();
@@ -50,7 +51,11 @@ int main(int argc, char** argv) {
     flight.Fly();
     log.Close();
     std::printf("%zu bounces\n", flight.bounces());
+    pace.CheckRefusals();
     return kExitOk;
+  } catch (const RefusedError& error) {
+    std::fprintf(stderr, "drone-swarm: %s\n", error.what());
+    return kExitRefused;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "drone-swarm: %s\n", error.what());
     return kExitUnavailable;

@@ -1,9 +1,13 @@
 #include "client/simulators/pace.h"
 
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <stdexcept>
 
+#include "client/event_text.h"
 #include "client/simulators/stop_signal.h"
+#include "client/simulators/wait_notice.h"
 
 namespace collision::client {
 namespace {
@@ -25,12 +29,22 @@ World Connect(const SimulatorOptions& options) {
   return World::Connect(world);
 }
 
+std::string GrantedText(std::int64_t granted_ns) {
+  if (granted_ns == std::numeric_limits<std::int64_t>::min()) return "";
+  return " beyond " + InstantText(granted_ns, 0, 3);
+}
+
 }  // namespace
 
-Pace::Pace(const SimulatorOptions& options) : options_(options), world_(Connect(options)) {
+Pace::Pace(const SimulatorOptions& options)
+    : options_(options), world_(Connect(options)), refusals_(options.simulator) {
+  WaitNotice notice(steady_clock::now());
   const auto deadline = steady_clock::now() + kServiceTimeout;
   while (!world_.WaitForService(kStopCheck)) {
     if (StopRequested()) break;
+    notice.Tick(steady_clock::now(), options.simulator + ": waiting for the service of world " +
+                                         options.world + " on domain " +
+                                         std::to_string(options.domain) + " ...");
     if (steady_clock::now() > deadline) {
       throw std::runtime_error("no service in world \"" + options.world + "\", domain " +
                                std::to_string(options.domain));
@@ -52,6 +66,7 @@ bool Pace::WaitForWall(steady_clock::time_point until) {
     const auto left = until - steady_clock::now();
     if (left <= nanoseconds(0)) return true;
     world_.Poll(std::min<nanoseconds>(left, kStopCheck));
+    HearRefusals();
   }
   return false;
 }
@@ -62,6 +77,7 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
     if (!WaitForWall(start_ + nanoseconds(elapsed_ns))) return false;
     world_.Publish(clock_ns);
     world_.Poll();
+    HearRefusals();
     return true;
   }
   if (options_.speed > 0) {
@@ -69,23 +85,62 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
     if (!WaitForWall(start_ + due)) return false;
   }
   auto deadline = steady_clock::now() + kGrantTimeout;
+  WaitNotice notice(steady_clock::now());
   std::int64_t granted_ns = world_.granted_until_ns();
   while (!StopRequested()) {
-    if (world_.AdvanceTo(clock_ns, kStopCheck) == Advance::kReached) return true;
+    const bool reached = world_.AdvanceTo(clock_ns, kStopCheck) == Advance::kReached;
+    HearRefusals();
+    if (reached) return true;
     if (world_.granted_until_ns() != granted_ns) {
       granted_ns = world_.granted_until_ns();
       deadline = steady_clock::now() + kGrantTimeout;
+      notice = WaitNotice(steady_clock::now());
     }
-    if (steady_clock::now() > deadline) {
-      throw std::runtime_error("the service granted no time beyond " + std::to_string(granted_ns) +
-                               " ns for 30 s");
-    }
+    const std::string beyond = GrantedText(granted_ns);
+    notice.Tick(steady_clock::now(), options_.simulator + ": waiting for the service of world " +
+                                         options_.world + " to grant time" + beyond +
+                                         " (do its other simulators lag?) ...");
+    if (steady_clock::now() <= deadline) continue;
+    RequireAgentsTaken();
+    throw std::runtime_error("the service granted no time" + beyond + " for 30 s");
   }
   return false;
 }
 
+void Pace::HearRefusals() {
+  refusals_.Hear(world_.TakeRejections(), steady_clock::now());
+  if (world_.granted_until_ns() > granted_ns_) refusals_.Granted();
+  granted_ns_ = world_.granted_until_ns();
+  RequireClock();
+}
+
+void Pace::RequireClock() const {
+  const auto simulated = world_.simulated_clock();
+  if (!simulated || *simulated != options_.real_time) return;
+  throw RefusedError("the service of world " + options_.world +
+                     (*simulated ? " has a simulated clock: not with --real-time"
+                                 : " has a wall clock: only with --real-time"));
+}
+
+void Pace::RequireAgentsTaken() const {
+  const auto reason = refusals_.fatal(steady_clock::now());
+  if (reason) throw RefusedError("the service refused this simulator's agents: " + *reason);
+}
+
+void Pace::CheckRefusals() {
+  world_.Poll();
+  HearRefusals();
+  const std::string summary = refusals_.Summary();
+  if (summary.empty()) return;
+  std::fprintf(stderr, "%s: %s\n", options_.simulator.c_str(), summary.c_str());
+  RequireAgentsTaken();
+}
+
 void Pace::Linger() {
-  while (options_.linger && !StopRequested()) world_.Poll(kStopCheck);
+  while (options_.linger && !StopRequested()) {
+    world_.Poll(kStopCheck);
+    HearRefusals();
+  }
 }
 
 }  // namespace collision::client

@@ -3,8 +3,10 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <string>
 
+#include "client/simulators/refusals.h"
 #include "client/world.h"
 
 namespace collision::client {
@@ -24,7 +26,8 @@ struct SimulatorOptions {
 
 class Pace {
  public:
-  /// Connects and waits for the service, 20 s at most. Throws std::runtime_error.
+  /// Connects and waits for the service, 20 s at most; says so if it takes longer. Throws
+  /// std::runtime_error.
   explicit Pace(const SimulatorOptions& options);
 
   World& world() { return world_; }
@@ -36,18 +39,27 @@ class Pace {
   std::int64_t end_ns() const;
 
   /// Publishes what was set for instants up to `clock_ns` and moves the clock there; events come
-  /// meanwhile. False: asked to stop. Throws std::runtime_error if the service grants nothing for
-  /// 30 s.
+  /// meanwhile, refusals are printed. False: asked to stop. Throws std::runtime_error if the service
+  /// grants nothing for 30 s, RefusedError if that is because it refused the agents, or if its
+  /// clock is of the other kind.
   bool AdvanceTo(std::int64_t clock_ns);
 
   /// With `linger` waits, receiving, until asked to stop.
   void Linger();
 
+  /// At the end: prints how much was refused. Throws RefusedError if that were the agents.
+  void CheckRefusals();
+
  private:
   bool WaitForWall(std::chrono::steady_clock::time_point until);
+  void HearRefusals();
+  void RequireClock() const;
+  void RequireAgentsTaken() const;
 
   SimulatorOptions options_;
   World world_;
+  Refusals refusals_;
+  std::int64_t granted_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t start_ns_ = 0;
   std::chrono::steady_clock::time_point start_;  // the same moment
 };

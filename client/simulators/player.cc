@@ -3,9 +3,31 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
+
+#include "client/validation.h"
 
 namespace collision::client {
 namespace {
+
+State StateAt(const PositionAndVelocity& at, std::int64_t stamp_ns, const PlayerOptions& options) {
+  State state;
+  state.stamp_ns = stamp_ns;
+  state.position_m = at.position_m;
+  state.velocity_m_s = at.velocity_m_s;
+  state.position_error_m = options.position_error_m;
+  return state;
+}
+
+AgentDescription Description(const PlayedAgent& agent, const PlayerOptions& options) {
+  AgentDescription description;
+  description.name = agent.name;
+  description.radius_m = options.radius_m;
+  description.acceleration_max_m_s2 = options.acceleration_max_m_s2 >= 0
+                                          ? options.acceleration_max_m_s2
+                                          : agent.trajectory.AccelerationMax();
+  return description;
+}
 
 // One agent on its way from its first row to its last.
 class Part {
@@ -14,23 +36,12 @@ class Part {
 
   // States the agent's next state; the first one brings it into the world.
   void Stage(std::int64_t stamp_ns, World* world, MotionLog* log) {
-    const PositionAndVelocity at = agent_.trajectory.At(stamp_ns);
-    State state;
-    state.stamp_ns = stamp_ns;
-    state.position_m = at.position_m;
-    state.velocity_m_s = at.velocity_m_s;
-    state.position_error_m = options_.position_error_m;
+    const State state = StateAt(agent_.trajectory.At(stamp_ns), stamp_ns, options_);
     if (handle_) {
       handle_->SetState(state);
       return;
     }
-    AgentDescription description;
-    description.name = agent_.name;
-    description.radius_m = options_.radius_m;
-    description.acceleration_max_m_s2 = options_.acceleration_max_m_s2 >= 0
-                                            ? options_.acceleration_max_m_s2
-                                            : agent_.trajectory.AccelerationMax();
-    handle_.emplace(world->AddAgent(description, state));
+    handle_.emplace(world->AddAgent(Description(agent_, options_), state));
     log->Agent(agent_.name, options_.radius_m);
   }
 
@@ -61,6 +72,22 @@ class Part {
 };
 
 }  // namespace
+
+void RequirePlayable(const PlayedAgent& agent, const PlayerOptions& options,
+                     const std::string& file) {
+  std::size_t line = 0;
+  try {
+    for (const CsvRow& row : agent.trajectory.rows()) {
+      line = row.line;
+      Validate(StateAt({row.position_m, row.velocity_m_s}, row.time_ns, options));
+    }
+    line = agent.trajectory.rows().front().line;
+    Validate(Description(agent, options));
+  } catch (const std::invalid_argument& error) {
+    throw CsvError(file + ":" + std::to_string(line) + ": agent " + agent.name + ": " +
+                   error.what());
+  }
+}
 
 std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rate_hz,
                                         std::int64_t start_ns) {

@@ -24,6 +24,11 @@ struct PlayedAgent {
   Trajectory trajectory;
 };
 
+/// Throws CsvError, "file:line: what", if the client library would refuse a state at a row, or
+/// what the agent declares.
+void RequirePlayable(const PlayedAgent& agent, const PlayerOptions& options,
+                     const std::string& file);
+
 /// When the states of a trajectory are published: at its rows, or at its ends and whole multiples
 /// of 1/rate since `start_ns` between them. Increasing.
 std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rate_hz,

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
+#include <stdexcept>
 
 #include "client/simulators/command_line.h"
 #include "client/simulators/csv_rows.h"
 #include "client/simulators/player.h"
 #include "client/simulators/stop_signal.h"
+#include "client/validation.h"
 
 namespace collision::client {
 namespace {
@@ -67,14 +70,34 @@ double FileSeconds(const CsvRows& file) {
   return static_cast<double>(last) * 1e-9;
 }
 
+// Complains before anything is connected.
+void CheckAgents(const Options& options, const CsvRows& file) {
+  std::size_t rows = 0, before = 0;
+  for (const PlayedAgent& agent : Choose(options, file, 0)) {
+    RequirePlayable(agent, options.player, options.file);
+    for (const CsvRow& row : agent.trajectory.rows()) before += row.time_ns < 0;
+    rows += agent.trajectory.rows().size();
+  }
+  if (before == 0) return;
+  const std::string what = options.file + ": " + std::to_string(before) + " of " +
+                           std::to_string(rows) + " rows are before the run's start, time 0";
+  if (before == rows) throw CsvError(what);
+  std::fprintf(stderr, "trajectory-player: %s, and are not told\n", what.c_str());
+}
+
 int Run(Options options) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(options.file, ignored)) {
+    std::fprintf(stderr, "trajectory-player: %s: is a directory\n", options.file.c_str());
+    return kExitNoInput;
+  }
   std::ifstream stream(options.file);
   if (!stream) {
     std::fprintf(stderr, "trajectory-player: %s: cannot be read\n", options.file.c_str());
     return kExitNoInput;
   }
   const CsvRows file = ReadCsv(stream, options.file);
-  Choose(options, file, 0);  // complains before anything is connected
+  CheckAgents(options, file);
   if (options.simulator.seconds <= 0) options.simulator.seconds = FileSeconds(file);
   MotionLog log(options.simulator.motion_log);
   Pace pace(options.simulator);
@@ -82,6 +105,7 @@ int Run(Options options) {
   Print(options, agents);
   Play(agents, options.player, &pace, &log);
   log.Close();
+  pace.CheckRefusals();
   return kExitOk;
 }
 
@@ -100,18 +124,18 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--radius", options.player.radius_m, "Bounding radius of every agent [m]")
       ->required()
-      ->check(CLI::NonNegativeNumber);
+      ->check(Finite(kRadiusMax, true));
   app.add_option("--acceleration-max", options.player.acceleration_max_m_s2,
                  "Of every agent [m/s2]; default: derived from the data, per agent")
-      ->check(CLI::NonNegativeNumber);
+      ->check(Finite(kAccelerationMax, true));
   app.add_option("--position-error", options.player.position_error_m, "Of every state [m]")
-      ->check(CLI::NonNegativeNumber);
+      ->check(Finite(kRadiusMax, true));
   app.add_option("--rate", options.player.rate_hz,
                  "States per second on the curve; default: at the rows")
-      ->check(CLI::PositiveNumber);
+      ->check(Finite(1e9, false));
   app.add_option("--seconds", options.simulator.seconds,
                  "Length of the run; default: to the last row")
-      ->check(CLI::PositiveNumber);
+      ->check(Finite(kRunSecondsMax, false));
   app.add_flag("--quiet", options.quiet, "Print nothing");
   AddSimulatorOptions(&app, &options.simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
@@ -121,6 +145,12 @@ int main(int argc, char** argv) {
   } catch (const CsvError& error) {
     std::fprintf(stderr, "trajectory-player: %s\n", error.what());
     return kExitBadData;
+  } catch (const std::invalid_argument& error) {  // A state between two rows is out of range.
+    std::fprintf(stderr, "trajectory-player: %s: %s\n", options.file.c_str(), error.what());
+    return kExitBadData;
+  } catch (const RefusedError& error) {
+    std::fprintf(stderr, "trajectory-player: %s\n", error.what());
+    return kExitRefused;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "trajectory-player: %s\n", error.what());
     return kExitUnavailable;

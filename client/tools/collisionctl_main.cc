@@ -1,10 +1,12 @@
 // collisionctl: what a running world looks like, from outside.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <csignal>
 #include <iostream>
 #include <stdexcept>
 
 #include "client/deadline.h"
+#include "client/event_hold.h"
 #include "client/event_text.h"
 #include "client/tools/collisionctl_json.h"
 #include "client/tools/collisionctl_text.h"
@@ -17,6 +19,7 @@ using std::chrono::milliseconds;
 
 constexpr int kUsage = 2;
 constexpr int kUnavailable = 69;          // EX_UNAVAILABLE of sysexits.h.
+constexpr int kOutputFailed = 74;         // EX_IOERR of sysexits.h.
 constexpr milliseconds kQuiet{150};       // Nothing new for so long: the picture is complete.
 constexpr milliseconds kFollowWait{250};  // How soon Ctrl-C is noticed.
 constexpr int kPollsMax = 8;  // In a world that is never quiet, the picture is complete enough.
@@ -50,19 +53,28 @@ bool WaitForService(Monitor* monitor, const WorldView& view, const Deadline& dea
   return view.status().has_value();
 }
 
-void PrintEvents(WorldView* view, bool json) {
-  const AgentNamer name = [view](const v1::AgentId& id) { return view->Name(id); };
-  for (const v1::CollisionEvent& event : view->TakeEvents()) {
+void PrintEvents(const std::vector<v1::CollisionEvent>& events, const WorldView& view, bool json) {
+  const AgentNamer name = [&view](const v1::AgentId& id) { return view.Name(id); };
+  for (const v1::CollisionEvent& event : events) {
     std::cout << (json ? Json(event) : EventLine(event, name, 0)) << '\n';
   }
   std::cout.flush();
 }
 
+/// A line for people waits for its names, JSON has none.
+std::vector<v1::CollisionEvent> Named(WorldView* view, EventHold* hold, bool json) {
+  if (json) return view->TakeEvents();
+  const auto now = std::chrono::steady_clock::now();
+  for (const v1::CollisionEvent& event : view->TakeEvents()) hold->Add(event, now);
+  return hold->Take([view](const v1::AgentId& id) { return view->IsNamed(id); }, now);
+}
+
 void Follow(Monitor* monitor, WorldView* view, bool json) {
+  EventHold hold;
   bool alive = true;
   while (stopped == 0 && std::cout) {
+    PrintEvents(Named(view, &hold, json), *view, json);
     monitor->Poll(kFollowWait);
-    PrintEvents(view, json);
     if (monitor->service_alive() == alive) continue;
     alive = !alive;
     std::cerr << (alive ? "the service is back\n" : "the service is gone; waiting for it\n");
@@ -70,7 +82,7 @@ void Follow(Monitor* monitor, WorldView* view, bool json) {
 }
 
 void Print(const std::string& command, const Options& options, WorldView* view) {
-  if (command == "events") return PrintEvents(view, options.json);
+  if (command == "events") return PrintEvents(view->TakeEvents(), *view, options.json);
   if (command == "status") {
     std::cout << (options.json ? Json(*view->status()) + "\n" : StatusPage(*view));
   } else if (command == "agents") {
@@ -94,9 +106,15 @@ int Run(const std::string& command, const Options& options) {
     return kUnavailable;
   }
   Gather(&monitor, deadline, [&view] { return view.knows_all_agents(); });
-  Print(command, options, &view);
-  if (options.follow) Follow(&monitor, &view, options.json);
-  return 0;
+  if (options.follow) {
+    Follow(&monitor, &view, options.json);
+  } else {
+    Print(command, options, &view);
+  }
+  std::cout.flush();
+  if (std::cout) return 0;
+  std::cerr << "collisionctl: the output cannot be written\n";
+  return kOutputFailed;
 }
 
 constexpr const char* kExamples = R"(
@@ -109,7 +127,8 @@ Examples:
   collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
 
 It only reads. The network is that of Cyclone DDS, set by CYCLONEDDS_URI.
-Exit codes: 0 done, 2 usage, 69 no service within the timeout or no DDS.)";
+Exit codes: 0 done, 2 usage, 69 no service within the timeout or no DDS, 74 the output
+cannot be written.)";
 
 int Main(int argc, char** argv) {
   CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
@@ -132,6 +151,10 @@ int Main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  if (!std::isfinite(options.timeout_s)) {  // CLI::Range takes it for in range.
+    std::cerr << "collisionctl: --timeout: " << options.timeout_s << ", allowed: 0 to 1e6\n";
+    return kUsage;
   }
   try {
     ValidateWorld(options.monitor.world, options.monitor.domain);

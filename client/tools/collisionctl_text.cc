@@ -24,10 +24,9 @@ std::string NumberText(double value, const char* format) {
 }
 
 /// Grants and clearances start at the least instant there is.
-std::string InstantText(std::int64_t instant_ns) {
+std::string SinceText(std::int64_t instant_ns) {
   if (instant_ns == std::numeric_limits<std::int64_t>::min()) return "-";
-  const std::string text = SecondsText(instant_ns, 0, 3);
-  return instant_ns == kNever ? text : text + " s";
+  return InstantText(instant_ns, 0, 3);
 }
 
 std::string PositionText(const v1::Vector3& p) {
@@ -39,7 +38,7 @@ std::string EarliestText(const WorldView& view) {
   const auto& earliest = view.earliest();
   if (!earliest) return "not published yet";
   if (!earliest->found()) return "never: nobody can touch anybody who is not in contact already";
-  return "not before " + SecondsText(earliest->earliest_ns(), 0, 6) + " s  " +
+  return "not before " + InstantText(earliest->earliest_ns(), 0, 6) + "  " +
          view.Name(earliest->lower()) + " × " + view.Name(earliest->higher());
 }
 
@@ -63,8 +62,8 @@ std::string SimulatorsTable(const v1::ServiceStatus& status) {
       {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
   for (const v1::SimulatorStatus& simulator : status.simulators()) {
     rows.push_back({simulator.name(), std::to_string(simulator.run()),
-                    simulator.alive() ? "yes" : "no", InstantText(simulator.clock_ns()),
-                    InstantText(simulator.granted_until_ns()), std::to_string(simulator.agents()),
+                    simulator.alive() ? "yes" : "no", SinceText(simulator.clock_ns()),
+                    SinceText(simulator.granted_until_ns()), std::to_string(simulator.agents()),
                     std::to_string(simulator.states()), std::to_string(simulator.rejected())});
   }
   return Table(rows);
@@ -77,12 +76,12 @@ std::vector<std::string> AgentRow(const AgentView& agent) {
           std::to_string(description.generation()),
       description.agent_name(), NumberText(description.radius_m(), "%.6g"),
       NumberText(description.acceleration_max_m_s2(), "%.6g")};
-  row.push_back(agent.state ? InstantText(agent.state->stamp_ns()) : "-");
+  row.push_back(agent.state ? SinceText(agent.state->stamp_ns()) : "-");
   row.push_back(agent.state ? PositionText(agent.state->position_m()) : "-");
   if (!agent.clearance) {
     row.push_back("-");
   } else {
-    row.push_back(InstantText(agent.clearance->clear_until_ns()) +
+    row.push_back(SinceText(agent.clearance->clear_until_ns()) +
                   (agent.clearance->saturated()   ? " saturated"
                    : agent.clearance->not_clear() ? " not clear"
                                                   : ""));
@@ -100,7 +99,7 @@ std::string StatusPage(const WorldView& view) {
                           std::to_string(status.stamp().term())) +
       Line("world", status.world()) +
       Line("clock", status.simulated_clock() ? "simulated" : "wall") +
-      Line("now", InstantText(status.now_ns())) +
+      Line("now", SinceText(status.now_ns())) +
       Line("agents", std::to_string(status.agents()) + ", " +
                          std::to_string(status.pairs_tracked()) + " pairs tracked") +
       Line("earliest", EarliestText(view)) +
@@ -124,7 +123,7 @@ std::string AgentsPage(const WorldView& view) {
 
 std::string EarliestPage(const WorldView& view) {
   std::string page = EarliestText(view) + "\n";
-  if (view.earliest()) page += "as of " + InstantText(view.earliest()->now_ns()) + "\n";
+  if (view.earliest()) page += "as of " + SinceText(view.earliest()->now_ns()) + "\n";
   return page;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
-#include <tuple>
 #include <utility>
 
 namespace collision::client {
@@ -42,14 +41,13 @@ bool WorldView::knows_all_agents() const {
 }
 
 std::string WorldView::Name(const v1::AgentId& id) const {
-  for (const auto* agents : {&descriptions_, &former_}) {
-    const auto found = agents->find({id.simulator_id(), id.slot()});
-    if (found != agents->end() && found->second.run() == id.run() &&
-        found->second.generation() == id.generation()) {
-      return found->second.agent_name();
-    }
-  }
+  const auto found = names_.find({id.simulator_id(), id.run(), id.slot(), id.generation()});
+  if (found != names_.end()) return found->second;
   return SimulatorName(id.simulator_id()) + ":" + std::to_string(id.slot());
+}
+
+bool WorldView::IsNamed(const v1::AgentId& id) const {
+  return names_.contains({id.simulator_id(), id.run(), id.slot(), id.generation()});
 }
 
 std::vector<v1::CollisionEvent> WorldView::TakeEvents() {
@@ -63,6 +61,10 @@ std::vector<v1::CollisionEvent> WorldView::TakeEvents() {
 }
 
 void WorldView::Hear(const v1::AgentDescription& description) {
+  names_.try_emplace(
+      {description.simulator_id(), description.run(), description.slot(), description.generation()},
+      description.agent_name());
+  if (names_.size() > kNamesMax) names_.erase(names_.begin());
   const Key first{description.simulator_id(), 0};
   // A simulator that starts anew leaves its former agents behind.
   for (auto agent = descriptions_.lower_bound(first);
@@ -73,11 +75,7 @@ void WorldView::Hear(const v1::AgentDescription& description) {
 }
 
 void WorldView::Hear(const v1::AgentRemoval& removal) {
-  const Key key{removal.simulator_id(), removal.slot()};
-  const auto agent = descriptions_.find(key);
-  if (agent == descriptions_.end()) return;
-  former_[key] = agent->second;
-  descriptions_.erase(agent);
+  descriptions_.erase({removal.simulator_id(), removal.slot()});
 }
 
 void WorldView::Hear(const v1::AgentStates& states) {

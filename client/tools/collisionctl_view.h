@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct AgentView {
 /// it must outlive the monitor that has them, and stay where it is.
 class WorldView {
  public:
+  /// Names kept; beyond, those of the lowest simulator and run go first.
+  static constexpr std::size_t kNamesMax = 1'000'000;
+
   WorldView() = default;
   WorldView(const WorldView&) = delete;
   WorldView& operator=(const WorldView&) = delete;
@@ -38,8 +42,10 @@ class WorldView {
   /// Does it know every agent that the service says it has?
   bool knows_all_agents() const;
 
-  /// The agent's name, also after it has left; "simulator:slot" if it never was described.
+  /// The agent's name, also after it or its simulator has left, as it was described first;
+  /// "simulator:slot" if it never was.
   std::string Name(const v1::AgentId& id) const;
+  bool IsNamed(const v1::AgentId& id) const;
 
   /// The events that came since the last call, in the order in which the service said them.
   std::vector<v1::CollisionEvent> TakeEvents();
@@ -56,7 +62,9 @@ class WorldView {
   std::optional<v1::ServiceStatus> status_;
   std::optional<v1::EarliestIntersection> earliest_;
   std::map<Key, v1::AgentDescription> descriptions_;
-  std::map<Key, v1::AgentDescription> former_;  ///< The last of each slot that left: for its name.
+  /// By simulator, run, slot and generation; also of agents that left.
+  std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>, std::string>
+      names_;
   std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;          ///< With their run.
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
   std::vector<v1::CollisionEvent> events_;

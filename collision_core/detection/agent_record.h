@@ -13,7 +13,8 @@ struct AgentRecord {
   AgentId id;
   AgentDeclaration declaration;  ///< Counts for the next state on; the newest bound has its own.
   History history;
-  Instant heard = Instant::Always();  ///< The owner has told everything up to here.
+  Instant heard = Instant::Always();          ///< The owner has told everything up to here.
+  Instant admitted_from = Instant::Always();  ///< Nothing is known, or promised, of it before.
   bool expired = false;
 
   /// Certified free of every partner that is not tracked up to here.
@@ -23,7 +24,10 @@ struct AgentRecord {
   std::optional<Instant> renewed_from;
   ClearanceCause renewed_cause = ClearanceCause::kNone;
   std::uint64_t asked = 0;  ///< The step in which it was last asked.
-  bool changed = true;      ///< Since the last step.
+  /// How far kept states may lie off by rounding, summed since the last renewal.
+  double position_drift = 0;
+  double velocity_drift = 0;
+  bool changed = true;  ///< Since the last step.
   bool saturated = false;
   std::vector<std::uint32_t> pairs;  ///< Slots of the tracked pairs.
 

@@ -51,15 +51,17 @@ bool Announcer::Report(const AgentRecord& lower, const AgentRecord& higher, std:
   PairRecord& pair = subject.pair;
   for (const ContactEpisode& episode : pair.tracker.TakeFinished()) Finish(subject, episode);
 
-  for (const ContactEpisode& episode : preview.finished()) {
-    if (episode.contact) Confirm(subject, episode);
+  // What is not settled yet may hold several episodes; the event tells of the first, until that is settled.
+  if (!preview.finished().empty()) {
+    if (preview.finished().front().contact) Confirm(subject, preview.finished().front());
+    return true;
   }
   if (preview.in_contact()) {
     Confirm(subject, preview.episode());
     return true;
   }
   const double left = SecondsLeft(now_, preview.free_until());
-  const bool settled = pair.tracker.free() && preview.free() && preview.finished().empty();
+  const bool settled = pair.tracker.free() && preview.free();
   if (settled && left > kDismissFactor * options_.announce_within) {
     if (pair.announced) {
       Emit(subject, EventStatus::kDismissed);
@@ -67,17 +69,17 @@ bool Announcer::Report(const AgentRecord& lower, const AgentRecord& higher, std:
     }
     return false;
   }
-  if (preview.finished().empty() && left <= options_.announce_within) Possible(subject, preview);
+  if (left <= options_.announce_within) Possible(subject, preview);
   return true;
 }
 
 void Announcer::Leave(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
-                      PairTable* pairs) {
+                      bool gone, PairTable* pairs) {
   const Subject subject{lower, higher, slot, *pairs, (*pairs)[slot]};
   PairRecord& pair = subject.pair;
   if (!pair.announced) return;
   if (pair.event.status == EventStatus::kConfirmed) {
-    pair.event.end.latest = std::max(now_, pair.event.end.earliest);
+    if (gone) pair.event.end.latest = std::max(now_, pair.event.end.earliest);
     Emit(subject, EventStatus::kEnded);
   } else {
     Emit(subject, EventStatus::kWithdrawn);
@@ -92,6 +94,11 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     event.begin = episode.begin;
     event.end = episode.end;
     event.continuous = episode.continuous;
+    Emit(subject, EventStatus::kEnded);
+  } else if (subject.pair.announced && event.status == EventStatus::kConfirmed) {
+    // A bound was broken since: what was confirmed under it cannot be repeated, and ends in doubt.
+    event.end.latest = episode.end.latest;
+    event.continuous = false;
     Emit(subject, EventStatus::kEnded);
   } else {
     if (!subject.pair.announced) Open(subject, episode.begin.earliest, episode.began_before);

@@ -25,8 +25,9 @@ class Announcer {
   bool Report(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
               const ContactTracker& preview, PairTable* pairs);
 
-  /// One of the two has left: withdrawn, or ended if the contact was confirmed.
-  void Leave(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
+  /// Nobody watches the two any more: withdrawn, or ended if the contact was confirmed; by now if one of them
+  /// is `gone`, else (expired, masked) nobody knows when.
+  void Leave(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot, bool gone,
              PairTable* pairs);
 
  private:

@@ -32,6 +32,7 @@ bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& 
   record.id = id;
   record.declaration = declaration;
   record.heard = state.stamp;
+  record.admitted_from = state.stamp;
   record.history.Push({state, declaration, options_.skew}, Link::kJumped, options_.history_max);
   index_[id] = agent;
   Renew(agent, state.stamp, ClearanceCause::kAdmission, effective_from);
@@ -57,6 +58,7 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionSt
   };
   if (record.expired) {
     record.expired = false;
+    record.admitted_from = state.stamp;
     record.history.Clear();
     push(Link::kJumped);
     Renew(agent, state.stamp, ClearanceCause::kAdmission, effective_from);
@@ -65,7 +67,9 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionSt
   if (state.discontinuity) {
     ++counters_.jumps;
     push(Link::kJumped);
-    Renew(agent, state.stamp, ClearanceCause::kTeleport, effective_from);
+    // By our clock the jump may have come earlier by the skew.
+    Renew(agent, AddRoundedDown(state.stamp, -options_.skew), ClearanceCause::kTeleport,
+          effective_from);
     return UpdateOutcome::kJumped;
   }
   const Instant before = record.stamp();
@@ -74,7 +78,15 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionSt
     case ContractVerdict::kKept:
       ++counters_.updates_kept;
       push(Link::kFollows);
+      record.position_drift += check.position_drift;
+      record.velocity_drift += check.velocity_drift;
+      if (DriftedBeyondKeys(record)) {
+        Renew(agent, state.stamp, ClearanceCause::kWidening, effective_from);
+        return UpdateOutcome::kKept;
+      }
       Put(agent);
+      // A state beyond the agent's key (it was granted more time before the key was lowered): ask at once.
+      if (record.key < state.stamp) queue_.Set(agent, Instant::Always());
       return UpdateOutcome::kKept;
     case ContractVerdict::kWidened:
       ++counters_.widenings;
@@ -124,6 +136,10 @@ bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclarati
 bool Detector::Implementation::Remove(const AgentId& id) {
   const auto found = index_.find(id);
   if (found == index_.end()) return false;
+  // It was there until its owner last spoke of it; partners are judged up to then.
+  AgentRecord& record = At(found->second);
+  Instant& expiry = record.history.newest().state.expiry;
+  expiry = std::min(expiry, record.heard);
   leaving_.push_back(found->second);
   index_.erase(found);
   return true;
@@ -138,10 +154,11 @@ void Detector::Implementation::Renew(std::uint32_t agent, Instant from, Clearanc
   AgentRecord& record = At(agent);
   if (!record.renewed_from) renewed_.push_back(agent);
   record.renewed_from = std::min(record.renewed_from.value_or(from), from);
-  record.renewed_cause = cause;
+  if (record.renewed_cause != ClearanceCause::kBreach) record.renewed_cause = cause;
   record.effective_from = std::max(record.effective_from, effective_from);
-  record.cause = cause;
+  record.cause = record.renewed_cause;
   record.cause_agent = record.id;
+  record.position_drift = record.velocity_drift = 0;
   record.changed = true;
   Put(agent);
   SetKey(agent, std::min(record.key, from));
@@ -160,31 +177,32 @@ void Detector::Implementation::Tell(std::uint32_t agent, std::uint32_t cause) {
   if (source.renewed_cause == ClearanceCause::kBreach) record.void_from = source.void_from;
 }
 
-void Detector::Implementation::Expire(std::uint32_t agent) {
+// Promises exclude the agent from here on. What is known of its pairs is judged a last time.
+void Detector::Implementation::Expire(std::uint32_t agent, bool gone) {
   AgentRecord& record = At(agent);
+  const std::vector<std::uint32_t> slots = record.pairs;
+  for (const std::uint32_t slot : slots) {
+    Turn(slot, true);
+    if (pairs_.slots().contains(slot)) Drop(slot, gone);
+  }
   record.expired = true;
-  DropPairs(agent);
+  record.renewed_from.reset();
+  std::erase(renewed_, agent);
   broad_phase_.Remove(agent);
   queue_.Remove(agent);
 }
 
 void Detector::Implementation::Leave(std::uint32_t agent) {
-  if (!At(agent).expired) Expire(agent);
+  if (!At(agent).expired) Expire(agent, true);
   pairs_.Forget(agent);
-  std::erase(renewed_, agent);
   agents_[agent].reset();
   free_.push_back(agent);
 }
 
-void Detector::Implementation::DropPairs(std::uint32_t agent) {
-  const std::vector<std::uint32_t> slots = At(agent).pairs;
-  for (const std::uint32_t slot : slots) Drop(slot);
-}
-
 // The two will not meet any more, whatever they do.
-void Detector::Implementation::Drop(std::uint32_t slot) {
+void Detector::Implementation::Drop(std::uint32_t slot, bool gone) {
   const PairRecord& pair = pairs_[slot];
-  announcer_.Leave(At(pair.lower), At(pair.higher), slot, &pairs_);
+  announcer_.Leave(At(pair.lower), At(pair.higher), slot, gone, &pairs_);
   std::erase(At(pair.lower).pairs, slot);
   std::erase(At(pair.higher).pairs, slot);
   pairs_.Remove(slot);
@@ -194,14 +212,17 @@ void Detector::Implementation::Advance(Instant now) {
   now_ = std::max(now_, now);
   ++step_;
   announcer_.Start(now_);
-  for (const std::uint32_t agent : leaving_) Leave(agent);
-  leaving_.clear();
+  std::erase_if(leaving_, [this](std::uint32_t agent) {
+    const bool over = At(agent).bound().state.expiry <= now_;
+    if (over) Leave(agent);
+    return over;
+  });
   for (const auto& [id, agent] : index_) {
-    if (!At(agent).expired && At(agent).bound().state.expiry <= now_) Expire(agent);
+    if (!At(agent).expired && At(agent).bound().state.expiry <= now_) Expire(agent, false);
   }
   AskAll();
   TurnAll();
-  for (const auto& [id, agent] : index_) TrimHistory(agent);
+  TrimHistories();
 }
 
 void Detector::Implementation::TurnAll() {
@@ -212,16 +233,24 @@ void Detector::Implementation::TurnAll() {
     const bool soon = pair.clear_until <= AddRoundedDown(now_, options_.temporal_resolution);
     const bool due =
         !pair.announced && pair.clear_until <= AddRoundedDown(now_, options_.announce_within);
-    if (news || soon || due || pair.in_contact) Turn(slot);
+    if (news || soon || due || pair.in_contact) Turn(slot, false);
   }
 }
 
-void Detector::Implementation::Turn(std::uint32_t slot) {
+// Up to here no later state of the agent is waited for. States of its own rate may still narrow what is known;
+// an agent that speaks seldom, or once, is not waited for longer than twice its last interval.
+Instant Detector::Implementation::SettledUntil(const AgentRecord& agent) const {
+  const double patience = std::max(options_.announce_within, 2 * agent.history.LastInterval());
+  return std::max(agent.stamp(), std::min(agent.heard, AddRoundedDown(now_, -patience)));
+}
+
+// `last`: no more states will come, so that everything known is settled.
+void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   PairRecord& pair = pairs_[slot];
   const AgentRecord& a = At(pair.lower);
   const AgentRecord& b = At(pair.higher);
   if (!CanMeet(a.bound().declaration, b.bound().declaration)) {
-    Drop(slot);
+    Drop(slot, false);
     return;
   }
   const auto judge = [&](Instant until, ContactTracker* tracker) {
@@ -230,15 +259,17 @@ void Detector::Implementation::Turn(std::uint32_t slot) {
     pair.work += segments;
   };
   // Settled: both owners' states reach up to here, so that the bounds of both directions count.
-  judge(std::min(a.stamp(), b.stamp()), &pair.tracker);
+  const Instant there = std::min(a.bound().state.expiry, b.bound().state.expiry);
+  const Instant heard = std::min({a.heard, b.heard, now_, there});
+  judge(last ? heard : std::min({SettledUntil(a), SettledUntil(b), there}), &pair.tracker);
   // Heard: no jump that we do not know of lies before.
   ContactTracker preview = pair.tracker;
   preview.TakeFinished();
-  judge(std::min({a.heard, b.heard, now_}), &preview);
+  judge(heard, &preview);
   // Promised: free as long as both honour their newest bounds.
-  if (preview.free()) {
+  if (preview.free() && !last) {
     ContactTracker outlook = preview;
-    judge(std::max(a.stamp(), b.stamp()), &outlook);
+    judge(std::min(std::max(a.stamp(), b.stamp()), there), &outlook);
     if (outlook.free() && outlook.finished().size() == preview.finished().size()) {
       const Instant from = std::min(now_, outlook.at());
       const Instant earliest = EarliestIntersection(a.bound(), b.bound(), from).instant();
@@ -258,16 +289,23 @@ void Detector::Implementation::Turn(std::uint32_t slot) {
   if (!announcer_.Report(a, b, slot, preview, &pairs_)) Untrack(slot);
 }
 
-// Keeps what the pairs that are not judged up to the newest state still need.
-void Detector::Implementation::TrimHistory(std::uint32_t agent) {
-  AgentRecord& record = At(agent);
-  if (!record.changed) return;
-  record.changed = false;
-  Instant needed = now_;
-  for (const std::uint32_t slot : record.pairs) {
-    needed = std::min(needed, pairs_[slot].tracker.at());
+// Keeps what is still needed: for pairs that are not judged up to the newest state, and for news that may come
+// late, from the agent whose newest state is the oldest.
+void Detector::Implementation::TrimHistories() {
+  Instant oldest = now_;
+  for (const auto& [id, agent] : index_) {
+    if (!At(agent).expired) oldest = std::min(oldest, At(agent).stamp());
   }
-  record.history.Trim(needed);
+  for (const auto& [id, agent] : index_) {
+    AgentRecord& record = At(agent);
+    if (!record.changed) continue;
+    record.changed = false;
+    Instant needed = oldest;
+    for (const std::uint32_t slot : record.pairs) {
+      needed = std::min(needed, pairs_[slot].tracker.at());
+    }
+    record.history.Trim(needed);
+  }
 }
 
 Detector::Profile Detector::Implementation::DescribeScene() const {

@@ -7,19 +7,33 @@
 namespace collision {
 namespace {
 
-// The bound under which keys are computed: a little wider than the true one, so that a key from an
-// older state is not later than the canonical answer from a newer one that kept the contract up to
-// rounding. Such a state may lie off by a few units in the last place (2^-52; 2^-40 has room for a
-// thousand of them) and by what the rounding of its stamp to the nanosecond moves it.
-SpaceTimeBound Grown(SpaceTimeBound bound) {
+// Keys are computed under bounds a little wider than the true ones, so that a key from an older state is not later
+// than the canonical answer from a newer one that kept the contract up to rounding. Such a state may lie off by a
+// few units in the last place (2^-52; 2^-40 has room for a thousand of them) and by what the rounding of its stamp
+// to the nanosecond moves it.
+struct Growth {
+  double position;
+  double velocity;
+};
+
+Growth GrowthOf(const SpaceTimeBound& bound) {
   constexpr double kShare = 0x1p-40;
   constexpr double kStampRounding = 4e-9;
   const double speed = bound.state.v_WA.norm();
-  const double acceleration_max = bound.declaration.acceleration_max;
-  bound.state.position_error +=
-      kShare * (bound.state.p_WA.norm() + speed + bound.declaration.radius) +
-      kStampRounding * speed;
-  bound.state.velocity_error += kShare * speed + kStampRounding * acceleration_max;
+  const double magnitude = bound.state.p_WA.norm() + speed + bound.declaration.radius;
+  return {kShare * magnitude + kStampRounding * speed,
+          kShare * speed + kStampRounding * bound.declaration.acceleration_max};
+}
+
+SpaceTimeBound Grown(SpaceTimeBound bound) {
+  const Growth growth = GrowthOf(bound);
+  bound.state.position_error += growth.position;
+  bound.state.velocity_error += growth.velocity;
+  if (bound.state.discontinuity && bound.skew > 0) {
+    // The jump may have come earlier by the skew: where it has been since then belongs to the bound.
+    const double speed = bound.state.v_WA.norm() + bound.declaration.acceleration_max * bound.skew;
+    bound.state.position_error += 2 * speed * bound.skew;
+  }
   return bound;
 }
 
@@ -27,6 +41,11 @@ SpaceTimeBound Grown(SpaceTimeBound bound) {
 
 void Detector::Implementation::Put(std::uint32_t agent) {
   broad_phase_.Put(agent, Grown(At(agent).bound()));
+}
+
+bool Detector::Implementation::DriftedBeyondKeys(const AgentRecord& agent) {
+  const Growth room = GrowthOf(agent.bound());
+  return agent.position_drift > room.position || agent.velocity_drift > room.velocity;
 }
 
 void Detector::Implementation::SetKey(std::uint32_t agent, Instant key) {
@@ -64,7 +83,7 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
   record.asked = step_;
   record.renewed_from.reset();
   record.saturated = false;
-  if (renewed || covered < std::max(now_, record.stamp())) TrackUncovered(agent, renewed, covered);
+  TrackUncovered(agent, renewed, covered);
 
   std::vector<Meeting> meetings;
   const auto skip = [&](std::uint32_t partner) { return Tracked(record, partner); };
@@ -72,10 +91,13 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
                         &meetings);
   Instant key = Instant::Never();
   for (const Meeting& meeting : meetings) {
-    const Instant when = meeting.time.instant();
+    Instant when = meeting.time.instant();
     if (when.is_never()) continue;
     if (when <= until) {
       const bool overlap = meeting.time.seconds <= 0;
+      // They may have met before: as far back as is not covered, and both were there.
+      if (overlap && renewed)
+        when = std::min(when, UncoveredFrom(record, At(meeting.partner), covered));
       const bool unknown_before = renewed || was_saturated || At(meeting.partner).saturated;
       Track(agent, meeting.partner, when, overlap && unknown_before);
       if (renewed) Tell(meeting.partner, agent);
@@ -88,6 +110,7 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
     }
   }
   SetKey(agent, record.saturated ? std::min(key, record.key) : key);
+  record.renewed_cause = ClearanceCause::kNone;
 }
 
 // The broad phase answers from the newest states on. What lies between the instant up to which a
@@ -100,12 +123,19 @@ void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed,
         !CanMeet(record.bound().declaration, other.bound().declaration)) {
       continue;
     }
-    const Instant free_until = renewed ? covered : std::max(covered, other.key);
+    const Instant free_until =
+        renewed ? UncoveredFrom(record, other, covered) : std::max(covered, other.key);
     const Instant known_from = std::max(record.stamp(), other.stamp());
     if (free_until < known_from && !FreeOver(record, other, free_until, known_from)) {
       Track(agent, partner, free_until, renewed);
     }
   }
+}
+
+// Nothing is promised of an agent before it was admitted.
+Instant Detector::Implementation::UncoveredFrom(const AgentRecord& a, const AgentRecord& b,
+                                                Instant covered) const {
+  return std::max({covered, a.admitted_from, b.admitted_from});
 }
 
 bool Detector::Implementation::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,

@@ -15,8 +15,9 @@
 namespace collision {
 
 /// What keeps never-late true between two steps:
-///  - every two agents that can meet are either a tracked pair, whose tracker says up to when
-///    they are certified free, or covered: certified free up to the greater of their two keys;
+///  - every two agents that can meet are either a tracked pair, whose tracker says up to when they are certified
+///    free, or covered: certified free up to the greater of their two keys, which is later than both newest
+///    states;
 ///  - after a step every key is later than now + announce_within (or its agent is saturated).
 class Detector::Implementation {
  public:
@@ -48,27 +49,29 @@ class Detector::Implementation {
 
   // Updates.
   void Put(std::uint32_t agent);
+  static bool DriftedBeyondKeys(const AgentRecord& agent);
   void Renew(std::uint32_t agent, Instant from, ClearanceCause cause, Instant effective_from);
   void Tell(std::uint32_t agent, std::uint32_t cause);
-  void Expire(std::uint32_t agent);
+  void Expire(std::uint32_t agent, bool gone);
   void Leave(std::uint32_t agent);
-  void TrimHistory(std::uint32_t agent);
+  void TrimHistories();
 
   // Asking the broad phase.
   void AskAll();
   void Ask(std::uint32_t agent);
   void TrackUncovered(std::uint32_t agent, bool renewed, Instant covered);
+  Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covered) const;
   bool FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from, Instant to);
   void SetKey(std::uint32_t agent, Instant key);
 
   // Tracked pairs.
   void TurnAll();
-  void Turn(std::uint32_t slot);
+  void Turn(std::uint32_t slot, bool last);
+  Instant SettledUntil(const AgentRecord& agent) const;
   bool Tracked(const AgentRecord& agent, std::uint32_t partner) const;
   void Track(std::uint32_t a, std::uint32_t b, Instant free_until, bool began_before);
   void Untrack(std::uint32_t slot);
-  void Drop(std::uint32_t slot);
-  void DropPairs(std::uint32_t agent);
+  void Drop(std::uint32_t slot, bool gone);
 
   DetectorOptions options_;
   std::vector<std::unique_ptr<AgentRecord>> agents_;  // by index; null: free
@@ -76,7 +79,7 @@ class Detector::Implementation {
   AllPairs broad_phase_;
   EventQueue queue_;
   std::vector<std::uint32_t> renewed_;  // in the order of their renewal
-  std::vector<std::uint32_t> leaving_;  // removed since the last step
+  std::vector<std::uint32_t> leaving_;  // removed, but what they told reaches beyond now
   std::uint64_t broad_queries_seen_ = 0;
   std::uint64_t step_ = 0;
 };

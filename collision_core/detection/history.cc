@@ -23,6 +23,7 @@ void History::Push(const SpaceTimeBound& bound, Link link, std::size_t capacity)
   samples_.push_back({bound, link});
 }
 
+// Only the older half: what is being judged lies in the newer one.
 void History::Thin() {
   const auto spared = [this](std::size_t i) {
     return samples_[i].link == Link::kFollows && samples_[i + 1].link == Link::kFollows &&
@@ -31,7 +32,8 @@ void History::Thin() {
   };
   std::vector<Sample> kept;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    if (i % 2 == 1 && i + 1 < samples_.size() && spared(i)) continue;
+    const bool old = i % 2 == 1 && i < (samples_.size() + 1) / 2 && i + 1 < samples_.size();
+    if (old && spared(i)) continue;
     kept.push_back(samples_[i]);
   }
   samples_.swap(kept);
@@ -49,10 +51,27 @@ std::size_t History::InForce(Instant t) const {
   return k == 0 ? samples_.size() : k - 1;
 }
 
-Instant History::NextStampAfter(Instant t) const {
-  const std::size_t k = InForce(t);
-  const std::size_t next = k == samples_.size() ? 0 : k + 1;
-  return next < samples_.size() ? samples_[next].bound.state.stamp : Instant::Never();
+double History::LastInterval() const {
+  if (samples_.size() < 2) return 0;
+  return SecondsBetween(samples_[samples_.size() - 2].bound.state.stamp, newest().state.stamp)
+      .upper;
+}
+
+Instant History::NextCutAfter(Instant t) const {
+  Instant next = Instant::Never();
+  const auto cut = [&](Instant at) {
+    if (at > t) next = std::min(next, at);
+  };
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const SpaceTimeBound& bound = samples_[i].bound;
+    cut(bound.state.stamp);
+    cut(bound.state.expiry);
+    if (i > 0 && samples_[i].link == Link::kJumped && bound.skew > 0) {
+      cut(AddRoundedDown(bound.state.stamp, -bound.skew));
+      cut(AddRoundedUp(bound.state.stamp, bound.skew));
+    }
+  }
+  return next;
 }
 
 const SpaceTimeBound* History::Uninterrupted(Instant t) const {
@@ -64,15 +83,48 @@ const SpaceTimeBound* History::Uninterrupted(Instant t) const {
   return &samples_[k].bound;
 }
 
+bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
+  const SpaceTimeBound& bound = samples_[i].bound;
+  return samples_[i].link == Link::kJumped && bound.skew > 0 &&
+         AddRoundedDown(bound.state.stamp, -bound.skew) <= from &&
+         to <= AddRoundedUp(bound.state.stamp, bound.skew);
+}
+
+// By our clock the jump may have come anywhere within the skew: the agent moves as before it, or as after it, so
+// that one ball must contain both. With c, u of before and c', u' of after, all of both lies within
+//   u + u' + |c' − c| <= u + u' + |Δc| + |Δv| δ   about c(δ).
+BallSegment History::OverJump(std::size_t i, Instant from, Instant to) const {
+  BallSegment segment;
+  for (std::size_t other = i + 1; other < samples_.size(); ++other) {
+    if (JumpsNear(other, from, to)) return segment;  // more than two motions: nothing is said
+  }
+  const SpaceTimeBound& before = samples_[i - 1].bound;
+  const SpaceTimeBound& after = samples_[i].bound;
+  if (from < before.state.stamp || after.declaration != before.declaration) return segment;
+  MovingBall ball = ForwardBall(before, from);
+  const MovingBall jumped =
+      from >= after.state.stamp ? ForwardBall(after, from) : BackwardBall(after, from);
+  ball.u0 = ball.u0 + jumped.u0 + Norm(jumped.centre - ball.centre);
+  ball.u1 = ball.u1 + jumped.u1 + Norm(jumped.velocity - ball.velocity);
+  ball.u2 = ball.u2 + jumped.u2;
+  segment.radius = before.declaration.radius;
+  segment.bounds.push_back(ball);
+  return segment;
+}
+
 BallSegment History::Over(Instant from, Instant to) const {
   BallSegment segment;
   const std::size_t k = InForce(from);
   if (k == samples_.size()) return segment;
+  for (std::size_t i = 1; i < samples_.size(); ++i) {
+    if (JumpsNear(i, from, to)) return OverJump(i, from, to);
+  }
   const bool has_next = k + 1 < samples_.size();
   SpaceTimeBound last = samples_[k].bound;
   SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
   segment.radius = std::min(last.declaration.radius, next.declaration.radius);
-  const double spread = std::max(last.declaration.radius, next.declaration.radius) - segment.radius;
+  const Interval spread =
+      Interval(std::max(last.declaration.radius, next.declaration.radius)) - segment.radius;
   last.declaration = next.declaration = Widest(last.declaration, next.declaration);
 
   const bool broken = has_next && samples_[k + 1].link == Link::kBroken;
@@ -83,7 +135,7 @@ BallSegment History::Over(Instant from, Instant to) const {
   if (has_next && samples_[k + 1].link == Link::kFollows) {
     segment.bounds.push_back(BackwardBall(next, from));
   }
-  for (MovingBall& ball : segment.bounds) ball.u0 = ball.u0 + Interval(spread);
+  for (MovingBall& ball : segment.bounds) ball.u0 = ball.u0 + spread;
   return segment;
 }
 

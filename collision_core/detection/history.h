@@ -26,24 +26,31 @@ class History {
   void Clear() { samples_.clear(); }
   void Push(const SpaceTimeBound& bound, Link link, std::size_t capacity);
 
-  /// Forgets what is not needed to judge from `since` on. The newest two samples stay.
+  /// Forgets what is not needed from `since` on: later calls of Uninterrupted() and Over() may not go before
+  /// it. The newest two samples stay.
   void Trim(Instant since);
 
   const SpaceTimeBound& newest() const { return samples_.back().bound; }
   SpaceTimeBound& newest() { return samples_.back().bound; }
 
-  /// The first stamp later than `t`; Never() if there is none.
-  Instant NextStampAfter(Instant t) const;
+  /// The seconds between the newest two samples; 0 if there is only one.
+  double LastInterval() const;
+
+  /// The first instant later than `t` at which other bounds begin to hold: a stamp, an expiry, the edge of the
+  /// skew about a jump. Never() if there is none.
+  Instant NextCutAfter(Instant t) const;
 
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
   const SpaceTimeBound* Uninterrupted(Instant t) const;
 
-  /// What is certain on [from, to], where no stamp lies strictly between. With samples of unequal
+  /// What is certain on [from, to], where no cut lies strictly between. With samples of unequal
   /// radius the smaller counts, and the difference is added to the uncertainty.
   BallSegment Over(Instant from, Instant to) const;
 
  private:
   void Thin();
+  bool JumpsNear(std::size_t i, Instant from, Instant to) const;
+  BallSegment OverJump(std::size_t i, Instant from, Instant to) const;
   std::size_t InForce(Instant t) const;  // index of the last sample with stamp <= t; size() if none
 
   std::vector<Sample> samples_;

@@ -29,7 +29,7 @@ std::uint64_t Judge(const History& a, const History& b, Instant until, ContactTr
   std::uint64_t segments = 0;
   while (tracker->at() < until) {
     const Instant from = tracker->at();
-    const Instant to = std::min({until, a.NextStampAfter(from), b.NextStampAfter(from)});
+    const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
     const double duration = SecondsBetween(from, to).upper;
     const BallSegment of_a = a.Over(from, to);
     const BallSegment of_b = b.Over(from, to);

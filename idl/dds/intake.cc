@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <utility>
 
 #include "idl/dds/conversion.h"
 
@@ -96,7 +95,10 @@ void Intake::ReceiveData(dds_entity_t reader, const TopicRow& row, const void* s
   input.set_sender(*sender);
   FromWire(row.id, sample, &input);
   const std::optional<std::uint64_t> simulator = ClaimedBy(row.id, sample);
-  if (simulator && !senders_.Note(*sender, *simulator)) left_behind_.emplace(*sender, *simulator);
+  // Samples may outlast their writer in the reader: its end comes after them.
+  if (simulator && senders_.Note(*sender, *simulator) && !senders_.alive(*sender)) {
+    AddLiveliness(*sender, *simulator, false, inputs);
+  }
 }
 
 void Intake::ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sample,
@@ -123,9 +125,6 @@ void Intake::Follow(const std::vector<WriterChange>& changes, std::vector<v1::In
     for (const std::uint64_t simulator : senders_.SimulatorsOf(*sender)) {
       AddLiveliness(*sender, simulator, change.alive, inputs);
     }
-  }
-  for (const auto& [sender, simulator] : std::exchange(left_behind_, {})) {
-    if (!senders_.alive(sender)) AddLiveliness(sender, simulator, false, inputs);
   }
 }
 

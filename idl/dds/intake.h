@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "idl/dds/senders.h"
@@ -40,9 +38,6 @@ class Intake {
 
   const std::uint64_t own_;
   Senders senders_;
-  /// Senders and simulators of samples that outlasted their writer in the reader: whoever takes them
-  /// in has to hear of the end again.
-  std::set<std::pair<std::uint64_t, std::uint64_t>> left_behind_;
   std::uint64_t orphaned_ = 0;
 };
 

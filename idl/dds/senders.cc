@@ -35,9 +35,8 @@ std::optional<std::uint64_t> Senders::Of(dds_entity_t reader, dds_instance_handl
 }
 
 bool Senders::Note(std::uint64_t sender, std::uint64_t simulator) {
-  Program& program = programs_.at(sender);
-  if (program.simulators.size() < kSimulatorsPerProgramMax) program.simulators.insert(simulator);
-  return program.alive;
+  std::set<std::uint64_t>& simulators = programs_.at(sender).simulators;
+  return simulators.size() < kSimulatorsPerProgramMax && simulators.insert(simulator).second;
 }
 
 bool Senders::SetAlive(std::uint64_t sender, bool alive) {

@@ -18,17 +18,14 @@ class Senders {
   /// Nothing if the writer went before it was ever asked for.
   std::optional<std::uint64_t> Of(dds_entity_t reader, dds_instance_handle_t writer);
 
-  /// Notes that a known sender speaks for a simulator. Returns whether the sender is alive.
+  /// Notes that a known sender speaks for a simulator. Returns whether that is new.
   bool Note(std::uint64_t sender, std::uint64_t simulator);
 
   /// Notes that a known sender is alive or not. Returns whether that is new.
   bool SetAlive(std::uint64_t sender, bool alive);
 
-  /// False also for one that was forgotten since: only who is gone is.
-  bool alive(std::uint64_t sender) const {
-    const auto program = programs_.find(sender);
-    return program != programs_.end() && program->second.alive;
-  }
+  /// Of a known sender.
+  bool alive(std::uint64_t sender) const { return programs_.at(sender).alive; }
 
   /// The simulators for which a known sender has spoken.
   const std::set<std::uint64_t>& SimulatorsOf(std::uint64_t sender) const {

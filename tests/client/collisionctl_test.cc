@@ -164,8 +164,29 @@ TEST_F(CollisionctlTest, RemovedAgentsGoAndTheirNamesStay) {
   id.set_run(7);
   id.set_generation(1);
   EXPECT_EQ(view_.Name(id), "ball");
+  EXPECT_TRUE(view_.IsNamed(id));
   id.set_generation(2);
+  EXPECT_FALSE(view_.IsNamed(id));
   EXPECT_EQ(view_.Name(id), "0000000000000005:0");
+}
+
+// A restart, or somebody who pretends to be one, does not take the names from the events before.
+TEST_F(CollisionctlTest, NamesStayWhenAnotherRunComes) {
+  Describe("ball", 7, 0);
+  Describe("impostor", 8, 0);
+  Describe("renamed", 7, 0);
+  Poll(3);
+  v1::AgentId id;
+  id.set_simulator_id(5);
+  id.set_run(7);
+  id.set_generation(1);
+  EXPECT_EQ(view_.Name(id), "ball");
+}
+
+TEST_F(CollisionctlTest, AWallClockReadsAsTheTimeOfDay) {
+  Status()->set_now_ns(1'795'229'895'022'000'000);
+  Poll(1);
+  EXPECT_NE(StatusPage(view_).find("now          02:58:15.022 UTC\n"), std::string::npos);
 }
 
 TEST_F(CollisionctlTest, EarliestPage) {

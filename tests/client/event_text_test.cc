@@ -47,6 +47,49 @@ TEST(EventText, APossibleEventWithOpenBeginOnAWallClock) {
             "begin [0.734236, open]  end open  gap [0.0123, 1.24e+03] m");
 }
 
+// What may be older than the pair has no time before which they did not touch.
+TEST(EventText, AContactThatBeganBeforeHasNoEarliestBegin) {
+  v1::CollisionEvent event = Confirmed();
+  event.set_began_before(true);
+  event.clear_separation_m();
+  std::string line = EventLine(event, NameOf, 0);
+  EXPECT_EQ(line.substr(line.find("  begin")), "  begin ≤ 599.734370 (began before)  end open");
+  event.mutable_begin()->set_latest_ns(kNever);
+  line = EventLine(event, NameOf, 0);
+  EXPECT_EQ(line.substr(line.find("  begin")), "  begin open (began before)  end open");
+}
+
+// Whether they touched at all is not known.
+TEST(EventText, AnUndecidedEventHasNeitherBeginNorEnd) {
+  v1::CollisionEvent event = Confirmed();
+  event.set_status(v1::EVENT_UNDECIDED);
+  event.mutable_end()->set_latest_ns(599'857'266'001);
+  event.mutable_separation_m()->set_lower(-0.5);
+  event.mutable_separation_m()->set_upper(0.5);
+  EXPECT_EQ(EventLine(event, NameOf, 0),
+            "    599.734 s  undecided  iridium-33 × cosmos-2251      #1 r3  "
+            "not certified free in [599.734236, 599.857267]  gap [-0.5, 0.5] m");
+  event.set_began_before(true);
+  event.mutable_end()->set_latest_ns(kNever);
+  const std::string line = EventLine(event, NameOf, 0);
+  EXPECT_EQ(line.substr(line.find("  not")),
+            "  not certified free in [599.734236, open] (began before)  gap [-0.5, 0.5] m");
+}
+
+TEST(EventText, AWallClockReadsAsTheTimeOfDay) {
+  constexpr std::int64_t kStamp = 1'795'229'895'022'000'001;
+  EXPECT_EQ(InstantText(kStamp, 0, 3), "02:58:15.022 UTC");
+  EXPECT_EQ(TimeText(kStamp, 0, 6, Rounding::kUp), "02:58:15.022001");
+  EXPECT_EQ(InstantText(kStamp, kStamp - 1'000'000'000, 3), "1.000 s");
+  EXPECT_EQ(TimeText(1'795'305'599'999'999'999, 0, 3, Rounding::kUp), "00:00:00.000");
+  EXPECT_EQ(InstantText(100'000'000'000'000'000, 0, 0), "100000000 s");
+  EXPECT_EQ(InstantText(kNever, 0, 3), "never");
+  v1::CollisionEvent event = Confirmed();
+  event.set_now_ns(kStamp);
+  event.mutable_begin()->set_earliest_ns(kStamp);
+  EXPECT_EQ(EventLine(event, NameOf, 0).substr(0, 29), "02:58:15.022 UTC  confirmed  ");
+}
+
 TEST(EventText, AGapOfNothingHasNoSign) {
   v1::CollisionEvent event = Confirmed();
   event.mutable_separation_m()->set_upper(-0.0);

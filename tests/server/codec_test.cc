@@ -218,5 +218,27 @@ TEST(BatchOrder, SortsByWhatItStates) {
   }
 }
 
+// Goal:   an agent's end comes after the last that its simulator told, and before the description
+//         that reuses its slot; its simulator's end comes last.
+TEST(BatchOrder, AnAgentEndsAfterItsLastState) {
+  const std::vector<v1::Input> arrived = {
+      Removal(1, "a", 3),           Liveliness(1, "a", false),    Removal(2, "a", 1),
+      From(1, State(0, 0, 1), "a"), From(1, ClockOf("a", 0)),     Removal(1, "a", 0),
+      From(1, Description("a", 1)), From(1, Description("b", 0)), From(1, Description("b", 3)),
+      Removal(3, "a", 1),
+  };
+  std::vector<int> order = {2, 6, 3, 4, 5, 9, 0, 1};
+  const std::vector<int> of_b = {7, 8};
+  order.insert(SimulatorId("a") < SimulatorId("b") ? order.end() : order.begin(), of_b.begin(),
+               of_b.end());
+  std::vector<v1::Input> batch = arrived;
+  for (int times = 0; times < 2; ++times) {
+    SortBatch(&batch);
+    for (std::size_t i = 0; i < batch.size(); ++i) {
+      EXPECT_EQ(batch[i].SerializeAsString(), arrived[order[i]].SerializeAsString()) << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace collision::server

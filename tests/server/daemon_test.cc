@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
 
+#include "server/logging.h"
 #include "server/recording.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
@@ -56,6 +60,47 @@ TEST(Daemon, WallClockFindsAContact) {
   EXPECT_GE(announced, start + 1 * kSecond);
   EXPECT_EQ(status, v1::EVENT_CONFIRMED);
   EXPECT_EQ(daemon.counter("breaches"), 0u);
+}
+
+// Goal:   whoever is dead and holds up the world is named: in the log once per death, also if two
+//         die within a second, and in the status while it is waited for. So is who is released.
+TEST(Daemon, NamesTheDeadThatHoldUpTheWorld) {
+  const std::string path = testing::TempDir() + "daemon_test.log";
+  StartLogging("info", path);
+  v1::Config config = Simulated();
+  config.mutable_clock()->set_on_silent_simulator(v1::Clock::RELEASE);
+  ScriptedDaemon daemon(config);
+  for (const char* name : {"alpha", "beta"}) {
+    daemon.Step(
+        {From(SimulatorId(name), Description(name, 0)), From(SimulatorId(name), ClockOf(name, 0))});
+  }
+  const auto waiting_for = [&daemon] {
+    const v1::ServiceStatus status = daemon.status();
+    for (const v1::KeyValue& extension : status.extensions()) {
+      if (extension.key() == "waiting_for") return extension.value();
+    }
+    return std::string();
+  };
+  EXPECT_EQ(waiting_for(), "");
+  daemon.Step({Liveliness(SimulatorId("alpha"), "alpha", false)});
+  daemon.Step({Liveliness(SimulatorId("beta"), "beta", false)}, 0.1);
+  const std::string waited_for = waiting_for();
+  EXPECT_NE(waited_for.find("alpha"), std::string::npos) << waited_for;
+  EXPECT_NE(waited_for.find("beta"), std::string::npos) << waited_for;
+  for (int step = 0; step < 10; ++step) daemon.Step({}, 1);
+  EXPECT_EQ(waiting_for(), "");
+  EndLogging();
+  StartLogging("info", "");
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::remove(path.c_str());
+  const std::string log = text.str();
+  for (const char* line : {"waits for simulator \"alpha\"", "waits for simulator \"beta\"",
+                           "goes on without simulator"}) {
+    EXPECT_NE(log.find(line), std::string::npos) << log;
+    EXPECT_EQ(log.find(line), log.rfind(line)) << log;
+  }
+  EXPECT_NE(log.find("without simulator \"alpha\", \"beta\": "), std::string::npos) << log;
 }
 
 // Goal:   a description that widens is acknowledged, lowers the clearance, and says so.

@@ -196,6 +196,17 @@ TEST(Intake, SlotsAreReusedByGeneration) {
   EXPECT_TRUE(daemon.rejections().empty());
 }
 
+// Goal:   an agent's last state counts although its removal came in the same batch.
+TEST(Intake, TheLastStateOfAnAgentCounts) {
+  ScriptedDaemon daemon(Simulated());
+  daemon.Step(AlphaJoins(kAlpha));
+  daemon.Step({From(kAlpha, State(1, kSecond, 3), "alpha"),
+               From(kAlpha, ClockAfter("alpha", kSecond, 3, 2)), Removal(kAlpha, "alpha", 1)});
+  EXPECT_EQ(daemon.status().agents(), 1u);
+  EXPECT_EQ(daemon.counter("states_accepted"), 3u);
+  EXPECT_EQ(daemon.counter("states_older"), 0u);
+}
+
 // Goal:   a successor that comes before its predecessor's death is noticed is told so, and takes
 //         over then: its samples were written once and will not come again.
 TEST(Intake, ASuccessorWaitsForItsPredecessorsEnd) {
@@ -228,33 +239,75 @@ TEST(Intake, ASuccessorThatDiesWaitingIsSucceeded) {
   EXPECT_TRUE(status.simulators(0).alive());
 }
 
-// Goal:   the same if it is the owner's death that is told last, and nobody else comes: the
-// successor's end is not forgotten, nor what it removed.
-TEST(Intake, ASuccessorThatDiesWaitingIsTakenForDead) {
-  ScriptedDaemon daemon(Simulated());
-  daemon.Step(AlphaJoins(kAlpha));
-  daemon.Step({From(kBeta, Description("alpha", 0, 2)), From(kBeta, Description("alpha", 1, 2)),
-               From(kBeta, ClockOf("alpha", 0, 2))});
-  daemon.Step({Removal(kBeta, "alpha", 1), Liveliness(kBeta, "alpha", false)});
-  EXPECT_EQ(daemon.rejections().size(), 3u);
-  EXPECT_TRUE(daemon.status().simulators(0).alive());
-  daemon.Step({Liveliness(kAlpha, "alpha", false)});
-  const v1::ServiceStatus status = daemon.status();
-  EXPECT_EQ(status.simulators(0).run(), 2u);
-  EXPECT_FALSE(status.simulators(0).alive());
-  EXPECT_EQ(status.simulators(0).agents(), 1u);
+// Goal:   nothing of a successor that dies waiting comes to life when the owner goes, also if both
+//         ends come in one batch, the owner's first: the world has the owner's run, and waits for it
+//         if it has not left.
+TEST(Intake, NothingOfASuccessorThatDiesWaitingIsAdmitted) {
+  for (const bool at_once : {false, true}) {
+    ScriptedDaemon daemon(Simulated());
+    daemon.Step(AlphaJoins(kAlpha));
+    daemon.Step({From(kBeta, Description("alpha", 7, 2)), From(kBeta, State(7, 0, 1), "alpha", 2),
+                 From(kBeta, ClockOf("alpha", 0, 2))});
+    if (!at_once) daemon.Step({Liveliness(kBeta, "alpha", false)});
+    std::vector<v1::Input> end = {Liveliness(kAlpha, "alpha", false)};
+    if (at_once) end.push_back(Liveliness(kBeta, "alpha", false));
+    daemon.Step(end);
+    const v1::ServiceStatus status = daemon.status();
+    EXPECT_EQ(status.agents(), 2u);
+    EXPECT_EQ(status.simulators(0).run(), 1u);
+    EXPECT_FALSE(status.simulators(0).alive());
+  }
 }
 
-// Goal:   the end of a successor that waits is kept when nothing else is: beyond the limit too.
-TEST(Intake, ASuccessorsEndIsKeptBeyondTheLimit) {
-  ScriptedDaemon daemon(Simulated());
-  daemon.Step(AlphaJoins(kAlpha));
-  daemon.Step(std::vector<v1::Input>(kHeldInputsMax + 1, From(kBeta, Description("alpha", 0, 2))));
-  daemon.Step({Liveliness(kBeta, "alpha", false)});
-  daemon.Step({Liveliness(kAlpha, "alpha", false)});
-  const v1::ServiceStatus status = daemon.status();
-  EXPECT_EQ(status.simulators(0).run(), 2u);
-  EXPECT_FALSE(status.simulators(0).alive());
+// Goal:   a successor whose own death is told only after it has taken over from an owner that left
+//         holds nobody up: its agents go. One that has spoken since is waited for.
+TEST(Intake, ADeadSuccessorHoldsNobodyUp) {
+  for (const bool spoke : {false, true}) {
+    ScriptedDaemon daemon(Simulated());
+    std::vector<v1::Input> inputs = AlphaJoins(kAlpha);
+    inputs.push_back(From(30, ClockOf("gamma", 5 * kSecond)));
+    daemon.Step(inputs);
+    daemon.Step({From(kBeta, Description("alpha", 7, 2)), From(kBeta, State(7, 0, 1), "alpha", 2),
+                 From(kBeta, ClockOf("alpha", 0, 2))});
+    daemon.Step({Removal(kAlpha, "alpha", 0), Removal(kAlpha, "alpha", 1),
+                 Liveliness(kAlpha, "alpha", false)});
+    EXPECT_EQ(daemon.status().agents(), 1u);
+    if (spoke) daemon.Step({From(kBeta, ClockOf("alpha", kSecond, 2))});
+    daemon.Step({Liveliness(kBeta, "alpha", false)});
+    EXPECT_EQ(daemon.status().agents(), spoke ? 1u : 0u);
+    EXPECT_EQ(daemon.status().now_ns(), (spoke ? 1 : 5) * kSecond);
+  }
+}
+
+// Goal:   a clock of the other kind is refused by name, with what to do, and not used; none of its
+//         agents is admitted, whatever comes first. A clock of the world's kind mends it.
+TEST(Intake, RefusesClocksOfTheOtherKind) {
+  for (const bool simulated : {true, false}) {
+    v1::Config config = Simulated();
+    if (!simulated) {
+      config.mutable_clock()->set_kind(v1::Clock::WALL);
+      config.mutable_clock()->set_skew_max_s(0.002);
+    }
+    ScriptedDaemon daemon(config);
+    v1::SimulatorClock clock = ClockAfter("alpha", 0, 1, 1);
+    clock.set_lock_step(!simulated);
+    daemon.Step({From(kAlpha, Description("alpha", 0)), From(kAlpha, State(0, 0, 1), "alpha")});
+    daemon.Step({From(kAlpha, clock)});
+    daemon.Step({From(kAlpha, Description("alpha", 1)), From(kAlpha, State(1, 0, 2), "alpha")});
+    EXPECT_EQ(daemon.status().agents(), 0u);
+    ASSERT_EQ(daemon.rejections().size(), 1u);
+    const v1::Rejection rejection = daemon.rejections()[0];
+    EXPECT_EQ(rejection.reason(), v1::REJECTED_OUT_OF_RANGE);
+    EXPECT_EQ(rejection.topic(), v1::TOPIC_SIMULATOR_CLOCK);
+    EXPECT_EQ(rejection.field(), "lock_step");
+    EXPECT_LE(rejection.detail().size(), 256u);
+    EXPECT_NE(rejection.detail().find(simulated ? "simulated time" : "wall clock"),
+              std::string::npos);
+    clock.set_lock_step(simulated);
+    daemon.Step({From(kAlpha, clock)});
+    daemon.Step({From(kAlpha, Description("alpha", 2)), From(kAlpha, State(2, 0, 3), "alpha")});
+    EXPECT_EQ(daemon.status().agents(), simulated ? 3u : 2u);  // the one admitted before is gone
+  }
 }
 
 // Goal:   what an instance says without a sender counts: a description removed, a clock without a

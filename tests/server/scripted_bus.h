@@ -25,10 +25,12 @@ class ScriptedBus final : public Bus, public Clock {
   void Publish(const v1::Output& output) override { outputs.push_back(output); }
   void Flush() override { ++flushes; }
   void Wake() override { woken = true; }
+  std::vector<v1::Counter> network_counters() const override { return counters; }
   ClockReading Read() override { return {.wall_ns = wall_ns, .monotonic_ns = monotonic_ns}; }
 
   std::vector<v1::Input> next;
   std::vector<v1::Output> outputs;
+  std::vector<v1::Counter> counters;
   std::int64_t wall_ns = 1'700'000'000'000'000'000;
   std::int64_t monotonic_ns = 0;
   std::int64_t timeout_ns = -1;

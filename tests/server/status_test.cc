@@ -51,6 +51,30 @@ TEST(Status, TellsWhatTheServiceKnows) {
   EXPECT_EQ(status.extensions(1).value(), "cbf29ce484222325");
 }
 
+// Goal:   what the network did not deliver stands among the counters, as the bus tells it.
+TEST(Status, TellsTheNetworksCounters) {
+  ScriptedDaemon daemon(Simulated());
+  v1::Counter& lost = daemon.bus().counters.emplace_back();
+  lost.set_name("network_samples_lost");
+  for (const std::uint64_t value : {3, 4}) {
+    lost.set_value(value);
+    EXPECT_EQ(daemon.counter("network_samples_lost"), value);
+  }
+}
+
+// Goal:   of more simulators than a status can list, those left out are counted.
+TEST(Status, CountsTheSimulatorsItCannotList) {
+  v1::Config config = Simulated();
+  config.set_simulators_max(100);
+  ScriptedDaemon daemon(config);
+  for (std::uint64_t i = 1; i <= 67; ++i) {
+    if (i == 65) EXPECT_EQ(daemon.counter("simulators_unlisted"), 0u);
+    daemon.Step({From(i, Description("simulator " + std::to_string(i), 0))});
+  }
+  EXPECT_EQ(daemon.status().simulators_size(), 64);
+  EXPECT_EQ(daemon.counter("simulators_unlisted"), 3u);
+}
+
 // Goal:   a status comes at once when who is there changes, else once per period.
 TEST(Status, ComesWhenSomethingChangesAndOncePerPeriod) {
   ScriptedDaemon daemon(Simulated());

@@ -136,12 +136,16 @@ TEST(World, ASilentSimulatorHoldsTimeUntilReleased) {
     silent.alive = false;
     silent.silent_since_ns = kSecond;
     world.SetReading({.monotonic_ns = 6 * kSecond - 1});
-    EXPECT_FALSE(world.ReleaseSilent());
+    EXPECT_TRUE(world.ReleaseSilent().empty());
+    EXPECT_EQ(world.WaitedFor(), std::vector<std::string>{"simulator 2"});
     world.SetReading({.monotonic_ns = 6 * kSecond});
-    EXPECT_EQ(world.ReleaseSilent(), policy == v1::Clock::RELEASE);
+    EXPECT_EQ(world.ReleaseSilent().size(), policy == v1::Clock::RELEASE ? 1u : 0u);
+    EXPECT_EQ(world.WaitedFor().size(), policy == v1::Clock::RELEASE ? 0u : 1u);
+    EXPECT_EQ(world.ReleaseSilent().size(), 0u);
     world.UpdateSimulatedTime();
     EXPECT_EQ(world.now(), At(policy == v1::Clock::RELEASE ? 7 : 3));
     silent.agents = 0;
+    EXPECT_TRUE(world.WaitedFor().empty());
     world.UpdateSimulatedTime();
     EXPECT_EQ(world.now(), At(7));
   }
@@ -199,6 +203,34 @@ TEST(World, AllowsWhatIsGranted) {
   inherited.lock_step = true;
   inherited.granted = At(1 * kSecond);
   EXPECT_EQ(world.RulesForClock(inherited).latest, At(17 * kSecond));
+}
+
+// Goal:   who does not step in lock-step may run ahead by grant_ahead_max and no further, however
+//         often it moves its clock: of now, or before the run has started, of its first clock.
+TEST(World, NobodyRunsFurtherAheadThanAllowed) {
+  World world(Simulated(2));
+  Simulator& a = Join(&world, 1, 10, 3 * kSecond);
+  const auto advance_to = [&world, &a](std::int64_t clock_ns) {
+    a.OfferClock({.clock = At(clock_ns)});
+    EXPECT_TRUE(world.TakeClock(&a));
+    world.UpdateSimulatedTime();
+    world.UpdateGrants();
+  };
+  advance_to(12 * kSecond);
+  EXPECT_EQ(world.RulesForClock(a).latest, At(13 * kSecond));
+
+  Simulator& b = Join(&world, 2, 20, 4 * kSecond);
+  advance_to(13 * kSecond);
+  ASSERT_EQ(world.now(), At(4 * kSecond));
+  EXPECT_EQ(world.RulesForClock(a).latest, At(14 * kSecond));
+  advance_to(14 * kSecond);
+  EXPECT_EQ(world.RulesForClock(a).latest, At(14 * kSecond));
+  EXPECT_EQ(world.RulesForState(a, true).latest, At(14 * kSecond));
+
+  b.OfferClock({.clock = At(6 * kSecond)});
+  world.TakeClock(&b);
+  world.UpdateSimulatedTime();
+  EXPECT_EQ(world.RulesForClock(a).latest, At(16 * kSecond));
 }
 
 TEST(World, WallTimeFollowsTheMonotonicClock) {

@@ -13,7 +13,7 @@ namespace {
 
 /// Changes with the detector's answers, and only then: when it does, say why in the change that
 /// does it.
-constexpr std::uint64_t kGoldenHash = 0x5348dd4f12425a3a;
+constexpr std::uint64_t kGoldenHash = 0xfb6df4a00442154d;
 
 constexpr std::int64_t kEnd = 40 * kSecond;
 

@@ -3,6 +3,12 @@
 // known.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
 
 #include "tests/system/test_world.h"
 
@@ -13,6 +19,39 @@ Outcome Collisiond(std::vector<std::string> options) {
   options.insert(options.begin(), Program("collisiond"));
   return RunToEnd(options);
 }
+
+/// As systemd is for a service: its end of NOTIFY_SOCKET, for programs started while it exists.
+class ServiceManager {
+ public:
+  explicit ServiceManager(const std::string& path) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+    EXPECT_EQ(bind(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0) << path;
+    setenv("NOTIFY_SOCKET", path.c_str(), 1);
+  }
+  ~ServiceManager() {
+    unsetenv("NOTIFY_SOCKET");
+    close(socket_);
+  }
+  ServiceManager(const ServiceManager&) = delete;
+  ServiceManager& operator=(const ServiceManager&) = delete;
+
+  /// The next message, which has arrived already; empty: none.
+  std::string Next() {
+    char message[64];
+    const ssize_t size = recv(socket_, message, sizeof message, MSG_DONTWAIT);
+    return size < 0 ? "" : std::string(message, static_cast<std::size_t>(size));
+  }
+
+ private:
+  int socket_ = socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+};
+
+/// A network that is not there.
+const std::vector<std::string> kNoNetwork = {
+    "CYCLONEDDS_URI=<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface "
+    "name=\"no-such-one\"/></Interfaces></General></Domain></CycloneDDS>"};
 
 bool Contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
@@ -40,10 +79,14 @@ TEST(CommandLine, GoodConfigurationIsFine) {
 
 TEST(CommandLine, PrintedConfigurationCanBeReadAgain) {
   const Folder folder;
-  const Outcome printed = Collisiond({"--print-config"});
+  const Outcome printed =
+      RunToEnd({Program("collisiond"), "--print-config", "--domain", "7"}, kNoNetwork);
   ASSERT_EQ(printed.status, 0) << printed.err;
+  EXPECT_TRUE(Contains(printed.out, "\ndomain: 7\n")) << printed.out;
   const std::string file = folder.Write("printed.textproto", printed.out);
-  EXPECT_EQ(Collisiond({"--config", file, "--check-config"}).status, 0);
+  const Outcome checked = Collisiond({"--config", file, "--check-config"});
+  EXPECT_EQ(checked.status, 0);
+  EXPECT_EQ(checked.out, file + ": ok\n");
   EXPECT_EQ(Collisiond({"--config", file, "--print-config"}).out, printed.out);
 }
 
@@ -58,6 +101,8 @@ TEST(CommandLine, BadConfigurationNamesFileLineFieldAndRange) {
       {"temporal_resolution_s: nan\n", {":1: temporal_resolution_s:", " to "}},
       {"# nothing\nno_such_field: 1\n", {":2:", "no_such_field"}},
       {"world: 7\n", {":1:"}},
+      {"domain: 231\nworld: \"\"\n",
+       {":1: domain: 231 is not allowed; allowed: 0 to 230\n", ":2: world:"}},
   };
   for (const Mistake& mistake : mistakes) {
     const Folder folder;
@@ -68,6 +113,7 @@ TEST(CommandLine, BadConfigurationNamesFileLineFieldAndRange) {
       EXPECT_TRUE(Contains(outcome.err, told)) << outcome.err;
     EXPECT_TRUE(Contains(outcome.err, file)) << outcome.err;
     EXPECT_EQ(Collisiond({"--config", file}).status, 78) << "served with " << mistake.text;
+    EXPECT_EQ(Collisiond({"--config", file, "--print-config"}).status, 78) << mistake.text;
   }
 }
 
@@ -79,21 +125,34 @@ TEST(CommandLine, MissingConfigurationIsOneClearLine) {
 }
 
 TEST(CommandLine, WithoutDdsItSaysSo) {
-  const Outcome outcome = RunToEnd(
-      {Program("collisiond")},
-      {"CYCLONEDDS_URI=<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface "
-       "name=\"no-such-one\"/></Interfaces></General></Domain></CycloneDDS>"});
+  const Outcome outcome = RunToEnd({Program("collisiond")}, kNoNetwork);
   EXPECT_EQ(outcome.status, 69);
   EXPECT_TRUE(Contains(outcome.err, "collisiond: ")) << outcome.err;
+}
+
+TEST(CommandLine, AFileThatCannotBeWrittenIsOneClearLine) {
+  const Outcome recording = Collisiond({"--record", "/dev/full"});
+  EXPECT_EQ(recording.status, 74);
+  EXPECT_EQ(recording.err,
+            "collisiond: /dev/full: byte 0: cannot be written: No space left on device\n");
+  const Folder folder;
+  const Outcome log =
+      Collisiond({"--config", folder.Write("log.textproto", "log_file: \"/dev/null/log\"")});
+  EXPECT_EQ(log.status, 78);
+  EXPECT_EQ(log.err.rfind("collisiond: log_file: ", 0), 0u) << log.err;
 }
 
 TEST(CommandLine, AskedToStopItEndsCleanly) {
   const TestWorld world(60);
   for (const int signal : {SIGTERM, SIGINT}) {
+    ServiceManager manager(world.folder().Path("manager-" + std::to_string(signal)));
     const auto daemon = world.StartDaemon();
     daemon->Signal(signal);
     EXPECT_EQ(daemon->WaitForExit(), 0) << daemon->err();
-    EXPECT_TRUE(Contains(daemon->err(), "event log: 0 events, hash ")) << daemon->err();
+    EXPECT_EQ(EventLogLine(daemon->err()), "event log: 0 events, hash cbf29ce484222325");
+    EXPECT_TRUE(daemon->err().ends_with("hash cbf29ce484222325\n")) << daemon->err();
+    EXPECT_EQ(manager.Next(), "READY=1");
+    EXPECT_EQ(manager.Next(), "STOPPING=1");
   }
 }
 

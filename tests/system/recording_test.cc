@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <fstream>
+
 #include "tests/system/test_world.h"
 
 namespace collision::system_test {
@@ -33,11 +35,37 @@ TEST(Recording, ReplayGivesTheSameEventLog) {
 TEST(Recording, WhatCannotBeReplayedIsOneClearLine) {
   const Folder folder;
   const std::string garbage = folder.Write("garbage.rec", "this is no recording");
-  for (const std::string& file : {garbage, folder.Path("none.rec")}) {
+  // An entry of four bytes, a header with a format and no more: no field of the configuration is
+  // set.
+  const std::string unconfigured =
+      folder.Write("unconfigured.rec", std::string("\x04\x0a\x02\x08\x01", 5));
+  for (const std::string& file : {garbage, unconfigured, folder.Path("none.rec")}) {
     const Outcome replay = RunToEnd({Program("collisiond"), "--replay", file});
     EXPECT_EQ(replay.status, 74) << file;
-    EXPECT_NE(replay.err.find(file), std::string::npos) << replay.err;
+    EXPECT_EQ(replay.err.rfind("collisiond: " + file + ": ", 0), 0u) << replay.err;
+    EXPECT_EQ(replay.err.find('\n'), replay.err.size() - 1) << replay.err;
+    EXPECT_EQ(replay.err.find(": byte 0: its configuration: ") != std::string::npos,
+              file == unconfigured)
+        << replay.err;
   }
+}
+
+// Goal:   a recording that is cut off is replayed as far as it goes, without a network; then one
+// line says so.
+TEST(Recording, WhatIsCutOffIsReplayedAsFarAsItGoes) {
+  const TestWorld world(70);
+  const std::string recording = world.folder().Path("run.rec");
+  const auto daemon = world.StartDaemon({"--record", recording});
+  daemon->Signal(SIGTERM);
+  ASSERT_EQ(daemon->WaitForExit(), 0) << daemon->err();
+  // The length of an entry that never came.
+  std::ofstream(recording, std::ios::binary | std::ios::app) << '\x05';
+  const Outcome replay =
+      RunToEnd({Program("collisiond"), "--replay", recording, "--log-level", "error"},
+               {"CYCLONEDDS_URI=no configuration"});
+  EXPECT_EQ(replay.status, 74);
+  EXPECT_EQ(EventLogLine(replay.err), "event log: 0 events, hash cbf29ce484222325");
+  EXPECT_TRUE(replay.err.ends_with(": cut off\n")) << replay.err;
 }
 
 }  // namespace

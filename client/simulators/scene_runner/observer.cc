@@ -51,6 +51,7 @@ Monitor::Callbacks Observer::Callbacks() {
 
 std::size_t Observer::Poll(std::chrono::nanoseconds timeout) {
   const std::size_t samples = monitor_.Poll(timeout);
+  PrintEvents(steady_clock::now());
   PrintProgress(false);
   std::fflush(stdout);  // also into a pipe, events show as they come
   return samples;
@@ -97,7 +98,14 @@ void Observer::Hear(const v1::CollisionEvent& event) {
   status->second = event.status();
   ++counts_[event.status()];
   TimeEvent(event);
-  Print(event);
+  hold_.Add(event, steady_clock::now());
+}
+
+void Observer::PrintEvents(Wall now) {
+  const auto named = [this](const v1::AgentId& id) {
+    return names_.contains(id.SerializeAsString());
+  };
+  for (const v1::CollisionEvent& event : hold_.Take(named, now)) Print(event);
 }
 
 void Observer::Print(const v1::CollisionEvent& event) {
@@ -149,8 +157,10 @@ void Observer::PrintProgress(bool final) {
   if (!final && now - progress_at_ < period) return;
   progress_at_ = now;
   ClearProgress();
-  if (now_ns_) {
-    const auto time = SecondsText(std::max(*now_ns_, origin_ns_), origin_ns_, 1);
+  if (now_ns_ && *now_ns_ < origin_ns_) {
+    std::printf("… starting at %s", InstantText(origin_ns_, 0, 3).c_str());
+  } else if (now_ns_) {
+    const auto time = SecondsText(*now_ns_, origin_ns_, 1);
     std::printf("… %s s, %zu agents, events: %zu possible, %zu confirmed, %zu ended", time.c_str(),
                 names_.size(), counts_[v1::EVENT_POSSIBLE], counts_[v1::EVENT_CONFIRMED],
                 counts_[v1::EVENT_ENDED]);
@@ -162,6 +172,9 @@ void Observer::PrintProgress(bool final) {
   std::fflush(stdout);
 }
 
-void Observer::FinishProgress() { PrintProgress(true); }
+void Observer::FinishProgress() {
+  PrintEvents(Wall::max());
+  PrintProgress(true);
+}
 
 }  // namespace collision::client

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "client/event_hold.h"
 #include "client/monitor.h"
 #include "client/simulators/checker/evidence.h"
 
@@ -32,11 +33,12 @@ class Observer {
   /// Throws std::runtime_error if DDS is not to be had.
   explicit Observer(const ObserverOptions& options);
 
-  /// Takes what arrives within `timeout`; prints a line for every event that changes its status,
-  /// and from time to time a line of progress. Returns the number of samples.
+  /// Takes what arrives within `timeout`; prints a line for every event that changes its status, as
+  /// soon as its agents' names are known or a second later, and from time to time a line of
+  /// progress. Returns the number of samples.
   std::size_t Poll(std::chrono::nanoseconds timeout);
 
-  /// Prints the last line of progress for good.
+  /// Prints the events that still wait, and the last line of progress for good.
   void FinishProgress();
 
   const checker::Observations& observations() const { return observations_; }
@@ -64,6 +66,7 @@ class Observer {
   void Hear(const v1::Rejection& rejection);
   void SeeTime(std::int64_t now_ns);
   void TimeEvent(const v1::CollisionEvent& event);
+  void PrintEvents(Wall now);
   void Print(const v1::CollisionEvent& event);
   void PrintProgress(bool final);
   void ClearProgress();
@@ -79,6 +82,7 @@ class Observer {
   Wall progress_at_;
   checker::Observations observations_;
   std::map<std::string, std::string> names_;  // by the serialised id
+  EventHold hold_;
   std::map<ContactKey, v1::EventStatus> statuses_;
   std::map<v1::EventStatus, std::size_t> counts_;
   std::map<std::uint64_t, std::deque<std::pair<std::int64_t, Wall>>>

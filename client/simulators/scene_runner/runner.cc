@@ -11,6 +11,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "client/event_text.h"
 #include "client/simulators/stop_signal.h"
 
 namespace collision::client {
@@ -222,6 +223,8 @@ RunResult Runner::Run() {
   if (options_.real_time) {
     const auto now = std::chrono::system_clock::now().time_since_epoch() + kRealTimeLead;
     start_ns_ = std::chrono::duration_cast<std::chrono::nanoseconds>(now).count();
+    std::printf("starting at %s\n", InstantText(start_ns_, 0, 3).c_str());
+    std::fflush(stdout);
   }
   const auto started = steady_clock::now();
   observer_ = std::make_unique<Observer>(ObserverOptions{world_, domain_, start_ns_, EndTime(),

@@ -35,7 +35,7 @@ class FirstError : public google::protobuf::io::ErrorCollector {
 
 v1::Scene ReadScene(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + ": no such scene (see --list)");
+  if (!file) throw std::runtime_error(path + ": cannot be read");
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   FirstError error(path);
   google::protobuf::TextFormat::Parser parser;
@@ -56,6 +56,23 @@ std::string MissingData(const Folders& folders, const v1::Scene& scene) {
   return fs::exists(path) ? "" : "needs " + path.string();
 }
 
+std::set<fs::path> ScenePaths(const Folders& folders) {
+  std::set<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folders.scenes)) {
+    if (entry.path().extension() == kSuffix) paths.insert(entry.path());
+  }
+  return paths;
+}
+
+void RequireScene(const Folders& folders, const std::string& name) {
+  std::string names;
+  for (const fs::path& path : ScenePaths(folders)) {
+    if (path.stem() == name) return;
+    names += (names.empty() ? "" : ", ") + path.stem().string();
+  }
+  throw NoSuchScene("no scene \"" + name + "\"; there are: " + names);
+}
+
 }  // namespace
 
 Folders DefaultFolders() {
@@ -64,6 +81,7 @@ Folders DefaultFolders() {
 }
 
 v1::Scene LoadScene(const Folders& folders, const std::string& name) {
+  RequireScene(folders, name);
   v1::Scene scene = ReadScene((fs::path(folders.scenes) / (name + kSuffix)).string());
   const std::string missing = MissingData(folders, scene);
   if (!missing.empty()) throw std::runtime_error("scene " + name + ": " + missing);
@@ -71,12 +89,8 @@ v1::Scene LoadScene(const Folders& folders, const std::string& name) {
 }
 
 std::string ListScenes(const Folders& folders) {
-  std::set<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folders.scenes)) {
-    if (entry.path().extension() == kSuffix) paths.insert(entry.path());
-  }
   std::string text;
-  for (const fs::path& path : paths) {
+  for (const fs::path& path : ScenePaths(folders)) {
     const v1::Scene scene = ReadScene(path.string());
     std::string name = path.stem().string();
     name.resize(std::max<std::size_t>(name.size(), 16), ' ');

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,14 @@ struct Folders {
 /// The folders of the build this program belongs to.
 Folders DefaultFolders();
 
-/// Throws std::runtime_error with file, line and field if the scene is not there, malformed, or its
-/// data is not there.
+/// There is no scene of that name; the text names those there are.
+class NoSuchScene : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws NoSuchScene, or std::runtime_error with file, line and field if the scene is malformed or
+/// its data is not there.
 v1::Scene LoadScene(const Folders& folders, const std::string& name);
 
 /// "name  title" of every scene, one a line, with why it is not offered where it is not.

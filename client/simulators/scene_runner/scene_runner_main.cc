@@ -1,10 +1,29 @@
 // scene-runner: runs a scene of separate processes and judges it.
 
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 
 #include "client/simulators/command_line.h"
 #include "client/simulators/scene_runner/runner.h"
 #include "client/simulators/stop_signal.h"
+
+namespace collision::client {
+namespace {
+
+constexpr double kSecondsMax = 3600;
+
+/// Before a run that may be long. Leaves no file behind that was not there.
+bool IsWritable(const std::string& path) {
+  const bool was_there = std::filesystem::exists(path);
+  const bool writable = std::ofstream(path, std::ios::app).is_open();
+  std::error_code ignored;
+  if (writable && !was_there) std::filesystem::remove(path, ignored);
+  return writable;
+}
+
+}  // namespace
+}  // namespace collision::client
 
 int main(int argc, char** argv) {
   using namespace collision::client;
@@ -16,7 +35,7 @@ int main(int argc, char** argv) {
   app.add_option("scene", options.scene, "Name of the scene")->capture_default_str();
   app.add_flag("--list", list, "List the scenes");
   app.add_option("--seconds", options.seconds, "Simulated length; default: as the scene says")
-      ->check(CLI::PositiveNumber);
+      ->check(Finite(kSecondsMax, false));
   app.add_flag("--real-time", options.real_time, "With the wall clock instead of lock-step");
   app.add_flag("--every-event", options.every_event,
                "Print every possible, dismissed and withdrawn event");
@@ -29,6 +48,10 @@ int main(int argc, char** argv) {
   app.add_option("--domain", options.domain, "DDS domain; default: one of its own")
       ->check(CLI::Range(0, 230));
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
+  if (!options.json.empty() && !IsWritable(options.json)) {
+    std::fprintf(stderr, "scene-runner: --json: %s cannot be written\n", options.json.c_str());
+    return kExitUsage;
+  }
   CatchStopSignals();
   try {
     if (list) {
@@ -36,6 +59,9 @@ int main(int argc, char** argv) {
       return kSatisfied;
     }
     return Runner(options).Run();
+  } catch (const NoSuchScene& error) {
+    std::fprintf(stderr, "scene-runner: %s\n", error.what());
+    return kExitUsage;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "scene-runner: %s\n", error.what());
     return kNotSatisfied;

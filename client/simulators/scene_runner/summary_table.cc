@@ -17,8 +17,26 @@ namespace {
 }
 
 void WidthRow(std::string* text, const char* what, const v1::Quantiles& widths) {
+  if (widths.count() == 0) return Row(text, "  %-30s –", what);
   Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms, max %.3g ms (%llu)", what, widths.p50() * 1e3,
       widths.p99() * 1e3, widths.max() * 1e3, static_cast<unsigned long long>(widths.count()));
+}
+
+void RatioRows(std::string* text, const v1::RunReport& report) {
+  if (report.contacts_true() == 0) {
+    Row(text, "  %-30s –", "false alarms per contact");
+    Row(text, "  %-30s –", "clear time / true time, median");
+  } else {
+    Row(text, "  %-30s %.3g", "false alarms per contact", report.false_alarms_per_contact());
+    Row(text, "  %-30s %.3f", "clear time / true time, median",
+        report.clearance_tightness_median());
+  }
+  if (report.latency_p99_s() > 0) {
+    Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms", "update to event", report.latency_p50_s() * 1e3,
+        report.latency_p99_s() * 1e3);
+  } else {
+    Row(text, "  %-30s –", "update to event");
+  }
 }
 
 }  // namespace
@@ -38,10 +56,7 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   Row(&text, "  %-30s %llu dismissed, %llu undecided, %llu withdrawn", "",
       count(report.events_dismissed()), count(report.events_undecided()),
       count(report.events_withdrawn()));
-  Row(&text, "  %-30s %.3g", "false alarms per contact", report.false_alarms_per_contact());
-  Row(&text, "  %-30s %.3f", "clear time / true time, median", report.clearance_tightness_median());
-  Row(&text, "  %-30s p50 %.3g ms, p99 %.3g ms", "update to event", report.latency_p50_s() * 1e3,
-      report.latency_p99_s() * 1e3);
+  RatioRows(&text, report);
   WidthRow(&text, "begin bracket at confirmation", report.begin_width_s());
   WidthRow(&text, "begin bracket, final", QuantilesOf(BeginWidthsFinal(evidence)));
   WidthRow(&text, "end bracket, final", report.end_width_s());

@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "client/simulators/player.h"
+
 namespace collision::client {
 namespace {
 
@@ -37,6 +39,49 @@ TEST(CsvRows, ColumnsComeInAnyOrderAndUnit) {
   EXPECT_EQ(b[1].time_ns, 250'500'000);
   EXPECT_EQ(b[0].position_m, (Vector3{1.5, 2000, 0}));
   EXPECT_EQ(b[0].velocity_m_s, (Vector3{4, 3, 0}));
+}
+
+// Goal:   what spreadsheets write is read: a byte-order mark, quotes around names and values.
+TEST(CsvRows, ByteOrderMarkAndQuotesAreTaken) {
+  const CsvRows file = Read(
+      "\xef\xbb\xbf\"time_s\",\"agent_id\" , x_m,\"y_m\",\"a \"\"note\"\", long\"\n"
+      "\"1\",\"a\"\"b,c\",\"2\", 3 ,\"\"\r\n"
+      "2,d,\"4\",5,\n");
+  const auto& quoted = file.rows.at("a\"b,c");
+  EXPECT_EQ(quoted[0].time_ns, 1'000'000'000);
+  EXPECT_EQ(quoted[0].position_m, (Vector3{2, 3, 0}));
+  EXPECT_EQ(quoted[0].line, 2u);
+  EXPECT_EQ(file.rows.at("d")[0].position_m, (Vector3{4, 5, 0}));
+  EXPECT_EQ(file.rows.at("d")[0].line, 3u);
+}
+
+TEST(CsvRows, BrokenQuotesAreTold) {
+  const std::string header = "time_s,agent_id,x_m,y_m\n";
+  const std::string what =
+      "file.csv:2: a quote is not closed, or is followed by something else than a comma";
+  EXPECT_EQ(ErrorOf(header + "1,\"a,0,0\n"), what);
+  EXPECT_EQ(ErrorOf(header + "1,\"a\"b,0,0\n"), what);
+  EXPECT_EQ(ErrorOf(header + "1,\"\"\",0,0\n"), what);
+  EXPECT_EQ(ErrorOf(header + "1,\"\",0,0\n"), "file.csv:2: agent_id is empty");
+}
+
+// Goal:   what the client library would refuse is told with its line before anything is played.
+TEST(CsvRows, ValuesOutOfRangeAreToldWithTheirLine) {
+  const auto error = [](const std::string& rows, const PlayerOptions& options) {
+    const CsvRows file = Read("time_s,agent_id,x_m,y_m\n" + rows);
+    try {
+      RequirePlayable({"a", Trajectory(file.rows.at("a"), file.velocities, 0)}, options, "f.csv");
+    } catch (const CsvError& refused) {
+      return std::string(refused.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_EQ(error("0,a,0,0\n1,a,1,1\n", {}), "no error");
+  EXPECT_EQ(error("0,a,0,0\n1,a,0,2e15\n", {.acceleration_max_m_s2 = 1}).substr(0, 40),
+            "f.csv:2: agent a: velocity_m_s.y: 2e+15,");
+  EXPECT_EQ(error("0,a,2e15,0\n", {}).substr(0, 38), "f.csv:2: agent a: position_m.x: 2e+15,");
+  EXPECT_EQ(error("0,a,0,0\n0.000000001,a,0.9,0\n0.000000002,a,0,0\n", {}).substr(0, 41),
+            "f.csv:2: agent a: acceleration_max_m_s2: ");
 }
 
 // Goal:   decimal seconds become the nearest nanosecond, far from zero too.

@@ -59,6 +59,18 @@ TEST_F(SceneFileTest, ErrorsNameTheirPlace) {
   EXPECT_EQ(ErrorOf(good + "data_file: \"x.csv\"\n"), "test: needs the data folder: x.csv");
 }
 
+// Goal:   whoever mistypes a name is told those there are.
+TEST_F(SceneFileTest, AnUnknownSceneNamesThoseThereAre) {
+  folders_.scenes = COLLISION_SCENES_DIR;
+  try {
+    LoadScene(folders_, "iridium");
+    ADD_FAILURE();
+  } catch (const NoSuchScene& error) {
+    EXPECT_STREQ(error.what(),
+                 "no scene \"iridium\"; there are: corridor, iridium-cosmos, swarm-100");
+  }
+}
+
 TEST(Substitute, ReplacesKnownNamesOnly) {
   EXPECT_EQ(Substitute("${A}/x${B}", {{"A", "1"}, {"B", "2"}}), "1/x2");
   EXPECT_THROW(Substitute("${C}", {{"A", "1"}}), std::runtime_error);

@@ -1,0 +1,281 @@
+// Goal:   whatever changes the rules (a breach, a jump, a mask, an expiry, a limit) is told with its cause, and no
+//         meeting is lost by it.
+// Method: few agents on lines, whose meetings are exact; states every 1/16 s, one clock.
+#include <gtest/gtest.h>
+
+#include "tests/collision_core/detection/line.h"
+
+namespace collision {
+namespace {
+
+TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {1000, 0, 0}, {0, 0, 0});
+  line.RunTo(1);
+  line.detector.TakeChangedClearances();
+  // 990 m in a sixteenth of a second is more than 1 m/s² allows.
+  const double next = line.now + 1.0 / 16;
+  EXPECT_EQ(line.detector.Update(Id(1), State(next, {990, 0, 0}, {0, 0, 0}), At(next)),
+            UpdateOutcome::kBreached);
+  line.detector.Advance(At(next));
+  const auto changed = line.detector.TakeChangedClearances();
+  const auto partner = std::find_if(changed.begin(), changed.end(),
+                                    [](const AgentClearance& c) { return c.agent == Id(2); });
+  ASSERT_NE(partner, changed.end());
+  EXPECT_EQ(partner->cause, ClearanceCause::kBreach);
+  EXPECT_EQ(partner->cause_agent, Id(1));
+  EXPECT_EQ(partner->void_from, At(1));
+  EXPECT_LT(partner->clear_until, At(6));
+  EXPECT_EQ(line.detector.counters().breaches, 1u);
+}
+
+TEST(Detector, DeclaredJumpIsNoBreach) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {1000, 0, 0}, {0, 0, 0});
+  line.RunTo(1);
+  MotionState jump = State(line.now, {997.5, 0, 0}, {0, 0, 0});
+  jump.discontinuity = true;
+  EXPECT_EQ(line.detector.Update(Id(1), jump, At(line.now)), UpdateOutcome::kJumped);
+  line.Step();
+  EXPECT_EQ(line.detector.counters().breaches, 0u);
+  ASSERT_EQ(line.With(EventStatus::kPossible).size(), 1u);
+  EXPECT_EQ(line.detector.ClearanceOf(Id(2))->clear_until,
+            line.With(EventStatus::kPossible)[0].begin.earliest);
+}
+
+TEST(Detector, MasksKeepApart) {
+  Line line;
+  line.detector.Admit(Id(1), {1, 1, 0, 1, 2}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(2), {1, 1, 0, 1, 2}, State(0, {1, 0, 0}, {0, 0, 0}), At(0));
+  line.Step();
+  EXPECT_TRUE(line.events.empty());
+  EXPECT_FALSE(line.detector.Earliest().found);
+  // A widened mask is a new danger; they overlap already.
+  line.detector.Redeclare(Id(1), {1, 1, 0, 3, 3}, At(0));
+  line.detector.Redeclare(Id(2), {1, 1, 0, 3, 3}, At(0));
+  line.Step();
+  EXPECT_EQ(line.With(EventStatus::kPossible).size(), 1u);
+  EXPECT_EQ(line.With(EventStatus::kConfirmed).size(), 0u) << "not heard beyond the first state";
+  EXPECT_TRUE(line.With(EventStatus::kPossible)[0].began_before);
+}
+
+TEST(Detector, WiderBoundLowersThePartnersClearance) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {1000, 0, 0}, {0, 0, 0});
+  line.Step();
+  line.detector.TakeChangedClearances();
+  const Instant before = line.detector.ClearanceOf(Id(2))->clear_until;
+  line.detector.Redeclare(Id(1), {1, 100, 0, 1, ~0u}, At(3));
+  line.Step();
+  const auto changed = line.detector.TakeChangedClearances();
+  ASSERT_EQ(changed.size(), 2u);
+  EXPECT_LT(changed[1].clear_until, before);
+  EXPECT_EQ(changed[1].cause, ClearanceCause::kWidening);
+  EXPECT_EQ(changed[1].cause_agent, Id(1));
+  EXPECT_EQ(changed[0].effective_from, At(3));
+}
+
+TEST(Detector, ExpiredAgentsLeaveThePromises) {
+  Line line;
+  MotionState state = State(0, {0, 0, 0}, {0, 0, 0});
+  state.expiry = At(2);
+  line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, state, At(0));
+  line.detector.Admit(Id(2), {1, 1, 0, 1, ~0u}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
+  line.Step();
+  ASSERT_EQ(line.With(EventStatus::kPossible).size(), 1u);
+  line.now = 2;
+  line.Step();
+  EXPECT_EQ(line.With(EventStatus::kWithdrawn).size(), 1u);
+  EXPECT_EQ(line.detector.ClearanceOf(Id(2))->clear_until, Instant::Never());
+  // It speaks again: promises count it from here on.
+  line.detector.Update(Id(1), State(3, {0, 0, 0}, {0, 0, 0}), At(3));
+  line.now = 3;
+  line.Step();
+  EXPECT_EQ(line.With(EventStatus::kPossible).size(), 2u);
+}
+
+TEST(Detector, BeyondItsPairsAnAgentIsSaturatedNotSilent) {
+  DetectorOptions options;
+  options.pairs_per_agent_max = 3;
+  Line line(options);
+  for (std::uint32_t slot = 0; slot < 8; ++slot) line.Add(slot, {2.5 * slot, 0, 0}, {0, 0, 0});
+  line.Step();
+  line.RunTo(0.5);
+  std::size_t saturated = 0;
+  for (std::uint32_t slot = 0; slot < 8; ++slot) {
+    const AgentClearance clearance = *line.detector.ClearanceOf(Id(slot));
+    saturated += clearance.saturated;
+    if (clearance.saturated) {
+      EXPECT_TRUE(clearance.not_clear);
+      EXPECT_LE(clearance.clear_until, line.detector.now());
+    }
+  }
+  EXPECT_GT(saturated, 0u);
+  EXPECT_LE(line.detector.pairs_tracked(), 8u * 3 / 2);
+}
+
+// After it was dismissed a pair is covered by its agents' keys again: they turn round and meet.
+TEST(Detector, DismissedPairIsNotForgotten) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {3.5, 0, 0}, {0.9, 0, 0});
+  line.RunTo(8);
+  ASSERT_FALSE(line.With(EventStatus::kDismissed).empty());
+  ASSERT_EQ(line.detector.pairs_tracked(), 0u);
+  EXPECT_LT(line.detector.ClearanceOf(Id(1))->clear_until, At(20));
+  // A jump of the velocity alone, told as such.
+  MotionState turn = State(line.now, line.agents[1].p + line.agents[1].v * line.now, {-0.9, 0, 0});
+  turn.discontinuity = true;
+  line.detector.Update(Id(2), turn, At(line.now));
+  line.agents[1] = {2, turn.p_WA, turn.v_WA, line.now};
+  line.Step();
+  line.RunTo(20);
+  EXPECT_FALSE(line.With(EventStatus::kConfirmed).empty());
+}
+
+// A contact just before a declared jump counts, although the state after the jump lies far away.
+TEST(Detector, JumpDoesNotUndoWhatCameBefore) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {3.03, 0, 0}, {-1, 0, 0});
+  line.RunTo(1);
+  MotionState jump = State(line.now + 1.0 / 16, {500, 0, 0}, {0, 0, 0});
+  jump.discontinuity = true;
+  line.now += 1.0 / 16;
+  line.detector.Update(Id(1), State(line.now, {0, 0, 0}, {0, 0, 0}), At(line.now));
+  line.detector.Update(Id(2), jump, At(line.now));
+  line.agents.pop_back();
+  line.Step();
+  line.RunTo(1.25);
+  const auto confirmed = line.With(EventStatus::kConfirmed);
+  ASSERT_FALSE(confirmed.empty());
+  EXPECT_LE(confirmed.back().begin.earliest, At(1.03));
+  EXPECT_GE(confirmed.back().begin.latest, At(1.03));
+}
+
+// News of a jump comes late: what the jumped agent met before the partner's newest state is found
+// as well.
+TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
+  Detector detector{DetectorOptions{}};
+  std::vector<CollisionEvent> events;
+  const auto step = [&](double now) {
+    detector.Advance(At(now));
+    events.insert(events.end(), detector.events().begin(), detector.events().end());
+  };
+  const Vector3d fast(1000, 0, 0);
+  detector.Admit(Id(1), {1, 0, 0, 1, ~0u}, State(0, {5000, 9000, 0}, {0, 0, 0}), At(0));
+  detector.Admit(Id(2), {1, 0, 0, 1, ~0u}, State(0, {0, 0, 0}, fast), At(0));
+  step(0);
+  detector.Update(Id(2), State(1.0, {1000, 0, 0}, fast), At(1));
+  step(1);
+  detector.Update(Id(2), State(1.0625, {1062.5, 0, 0}, fast), At(1.0625));
+  step(1.0625);
+  // At 1 s it jumped to where the other passed at 1.03 s; told at 1.1 s.
+  MotionState jump = State(1, {1030, 0, 0}, {0, 0, 0});
+  jump.discontinuity = true;
+  detector.Update(Id(1), jump, At(1.1));
+  detector.Hear(Id(1), At(1.0625));
+  detector.Hear(Id(2), At(1.0625));
+  step(1.125);
+  const auto confirmed = std::find_if(events.begin(), events.end(), [](const auto& event) {
+    return event.status == EventStatus::kConfirmed;
+  });
+  ASSERT_NE(confirmed, events.end());
+  EXPECT_LE(confirmed->begin.earliest, At(1.028));
+  EXPECT_GE(confirmed->begin.latest, At(1.028));
+}
+
+// One was granted time up to 10 s and used it; then the other's jump made them meet at 4.5 s. Nothing asked in
+// between may lose that, in whichever order they were admitted.
+TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
+  for (const bool first_jumps : {true, false}) {
+    Detector detector{DetectorOptions{}};
+    std::vector<CollisionEvent> events;
+    const AgentId jumper = first_jumps ? Id(1) : Id(2), runner = first_jumps ? Id(2) : Id(1);
+    const AgentDeclaration ball{1, 0, 0, 1, ~0u};
+    const auto step = [&](double now) {
+      detector.Advance(At(now));
+      events.insert(events.end(), detector.events().begin(), detector.events().end());
+      return detector.Earliest();
+    };
+    detector.Admit(Id(1), ball, State(0, {0, first_jumps ? 500.0 : 0.0, 0}, {0, 0, 0}), At(0));
+    detector.Admit(Id(2), ball, State(0, {0, first_jumps ? 0.0 : 500.0, 0}, {0, 0, 0}), At(0));
+    step(0);
+    MotionState jump = State(1, {-16, 0, 0}, {4, 0, 0});
+    jump.discontinuity = true;
+    detector.Update(jumper, jump, At(10));
+    step(1);
+    detector.Update(runner, State(10, {0, 0, 0}, {0, 0, 0}), At(10));
+    detector.Hear(runner, At(10));
+    detector.Hear(jumper, At(2));
+    const EarliestAnswer earliest = step(2);
+    ASSERT_TRUE(earliest.found);
+    EXPECT_LE(earliest.earliest, At(4.5));
+    for (double now = 2; now <= 8; now += 0.5) {
+      if (now > 2)
+        detector.Update(jumper, State(now, {-16 + 4 * (now - 1), 0, 0}, {4, 0, 0}), At(10));
+      detector.Hear(jumper, At(now));
+      step(now);
+    }
+    const auto confirmed = std::find_if(events.begin(), events.end(), [](const auto& event) {
+      return event.status == EventStatus::kConfirmed;
+    });
+    ASSERT_NE(confirmed, events.end()) << "first jumps: " << first_jumps;
+    EXPECT_LE(confirmed->begin.earliest, At(4.5));
+    EXPECT_GE(confirmed->begin.latest, At(4.5));
+  }
+}
+
+// With clocks that differ by 10 ms a jump may have come 10 ms before or after its stamp: what depends on which is
+// neither confirmed nor denied.
+TEST(Detector, NothingIsCertainWithinTheSkewAboutAJump) {
+  for (const bool jumps_onto : {true, false}) {
+    DetectorOptions options;
+    options.skew = 0.01;
+    Detector detector{options};
+    std::vector<CollisionEvent> events;
+    const AgentDeclaration ball{1, 0, 0, 1, ~0u};
+    const Vector3d here(0, 0, 0), away(0, 100, 0);
+    detector.Admit(Id(1), ball, State(0, jumps_onto ? away : here, {0, 0, 0}), At(0));
+    // The other passes the origin, touching only within 5 ms about 1 s.
+    detector.Admit(Id(2), ball, State(0, {-1000, 0, 0}, {1000, 0, 0}), At(0));
+    for (double now = 0.0625; now <= 2; now += 0.0625) {
+      MotionState state = State(now, (now >= 1) == jumps_onto ? here : away, {0, 0, 0});
+      state.discontinuity = now == 1;
+      detector.Update(Id(1), state, At(now));
+      detector.Update(Id(2), State(now, {-1000 + 1000 * now, 0, 0}, {1000, 0, 0}), At(now));
+      detector.Hear(Id(1), At(now));
+      detector.Hear(Id(2), At(now));
+      detector.Advance(At(now));
+      events.insert(events.end(), detector.events().begin(), detector.events().end());
+    }
+    bool undecided = false;
+    for (const CollisionEvent& event : events) {
+      EXPECT_NE(event.status, EventStatus::kConfirmed) << "jumps onto: " << jumps_onto;
+      undecided |= event.status == EventStatus::kUndecided && event.begin.earliest <= At(0.998) &&
+                   event.end.latest >= At(1.002);
+    }
+    EXPECT_TRUE(undecided) << "jumps onto: " << jumps_onto;
+  }
+}
+
+TEST(Detector, LimitsAndStrangers) {
+  DetectorOptions options;
+  options.agents_max = 1;
+  Line line(options);
+  EXPECT_TRUE(line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(
+      line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(
+      line.detector.Admit(Id(2), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_EQ(line.detector.Update(Id(2), State(0, {0, 0, 0}, {0, 0, 0}), At(0)),
+            UpdateOutcome::kUnknown);
+  EXPECT_EQ(line.detector.Update(Id(1), State(-1, {0, 0, 0}, {0, 0, 0}), At(0)),
+            UpdateOutcome::kOlder);
+}
+
+}  // namespace
+}  // namespace collision

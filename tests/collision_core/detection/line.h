@@ -1,0 +1,74 @@
+// Few agents on lines, told to a detector: what the tests of the detector share.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "collision_core/detection/detector.h"
+
+namespace collision {
+
+using Eigen::Vector3d;
+
+inline Instant At(double seconds) {
+  return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * 1e9));
+}
+
+inline AgentId Id(std::uint32_t slot) { return {1, slot, 1, 1}; }
+
+inline MotionState State(double t, const Vector3d& p, const Vector3d& v) {
+  MotionState state;
+  state.stamp = At(t);
+  state.p_WA = p;
+  state.v_WA = v;
+  return state;
+}
+
+// Agents that move on lines under a declared bound of 1 m/s², in a detector that hears of them 16
+// times a second.
+class Line {
+ public:
+  explicit Line(DetectorOptions options = {}) : detector(options) {}
+
+  void Add(std::uint32_t slot, const Vector3d& p, const Vector3d& v, double radius = 1) {
+    detector.Admit(Id(slot), {radius, 1, 0, 1, ~0u}, State(now, p, v), At(now));
+    agents.push_back({slot, p, v, now});
+  }
+
+  void RunTo(double end) {
+    while (now < end) {
+      now += 1.0 / 16;
+      for (const Mover& agent : agents) {
+        const double dt = now - agent.since;
+        detector.Update(Id(agent.slot), State(now, agent.p + agent.v * dt, agent.v), At(now));
+        detector.Hear(Id(agent.slot), At(now));
+      }
+      Step();
+    }
+  }
+
+  void Step() {
+    detector.Advance(At(now));
+    events.insert(events.end(), detector.events().begin(), detector.events().end());
+  }
+
+  std::vector<CollisionEvent> With(EventStatus status) const {
+    std::vector<CollisionEvent> found;
+    std::copy_if(events.begin(), events.end(), std::back_inserter(found),
+                 [&](const CollisionEvent& event) { return event.status == status; });
+    return found;
+  }
+
+  struct Mover {
+    std::uint32_t slot;
+    Vector3d p, v;
+    double since;
+  };
+  Detector detector;
+  std::vector<Mover> agents;
+  std::vector<CollisionEvent> events;
+  double now = 0;
+};
+
+}  // namespace collision
