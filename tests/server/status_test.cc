@@ -68,7 +68,9 @@ TEST(Status, CountsTheSimulatorsItCannotList) {
   config.set_simulators_max(100);
   ScriptedDaemon daemon(config);
   for (std::uint64_t i = 1; i <= 67; ++i) {
-    if (i == 65) EXPECT_EQ(daemon.counter("simulators_unlisted"), 0u);
+    if (i == 65) {
+      EXPECT_EQ(daemon.counter("simulators_unlisted"), 0u);
+    }
     daemon.Step({From(i, Description("simulator " + std::to_string(i), 0))});
   }
   EXPECT_EQ(daemon.status().simulators_size(), 64);
