@@ -46,7 +46,7 @@ void Announcer::Start(Instant now) {
 }
 
 bool Announcer::Report(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
-                       const ContactTracker& preview, PairTable* pairs) {
+                       const ContactTracker& preview, bool last, PairTable* pairs) {
   const Subject subject{lower, higher, slot, *pairs, (*pairs)[slot]};
   PairRecord& pair = subject.pair;
   for (const ContactEpisode& episode : pair.tracker.TakeFinished()) Finish(subject, episode);
@@ -60,6 +60,7 @@ bool Announcer::Report(const AgentRecord& lower, const AgentRecord& higher, std:
     Confirm(subject, preview.episode());
     return true;
   }
+  if (last) return true;
   const double left = SecondsLeft(now_, preview.free_until());
   const bool settled = pair.tracker.free() && preview.free();
   if (settled && left > kDismissFactor * options_.announce_within) {

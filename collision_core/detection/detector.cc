@@ -212,6 +212,8 @@ void Detector::Implementation::Advance(Instant now) {
   now_ = std::max(now_, now);
   ++step_;
   announcer_.Start(now_);
+  // First: whoever leaves or expires may have met somebody since the last step.
+  AskAll();
   std::erase_if(leaving_, [this](std::uint32_t agent) {
     const bool over = At(agent).bound().state.expiry <= now_;
     if (over) Leave(agent);
@@ -220,7 +222,6 @@ void Detector::Implementation::Advance(Instant now) {
   for (const auto& [id, agent] : index_) {
     if (!At(agent).expired && At(agent).bound().state.expiry <= now_) Expire(agent, false);
   }
-  AskAll();
   TurnAll();
   TrimHistories();
 }
@@ -286,7 +287,7 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   }
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
-  if (!announcer_.Report(a, b, slot, preview, &pairs_)) Untrack(slot);
+  if (!announcer_.Report(a, b, slot, preview, last, &pairs_)) Untrack(slot);
 }
 
 // Keeps what is still needed: for pairs that are not judged up to the newest state, and for news that may come

@@ -117,9 +117,10 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
 // pair was covered and those states must be free as well, or the pair is tracked and judged.
 void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
   const AgentRecord& record = At(agent);
-  for (const auto& [id, partner] : index_) {
+  for (std::uint32_t partner = 0; partner < agents_.size(); ++partner) {
+    if (partner == agent || !agents_[partner]) continue;
     const AgentRecord& other = At(partner);
-    if (partner == agent || other.expired || Tracked(record, partner) ||
+    if (other.expired || Tracked(record, partner) ||
         !CanMeet(record.bound().declaration, other.bound().declaration)) {
       continue;
     }

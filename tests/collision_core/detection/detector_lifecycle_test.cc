@@ -85,6 +85,27 @@ TEST(Detector, RemovalWithdraws) {
   EXPECT_EQ(line.detector.ClearanceOf(Id(1))->clear_until, Instant::Never());
 }
 
+// They touched from 2.1 to 2.4 s and leave together at 3 s, known at 0 and 3 s only: the contact ends, and what could
+// come after they have left is no news.
+TEST(Detector, RemovalAnnouncesNothingNew) {
+  Detector detector{DetectorOptions{}};
+  const AgentDeclaration ball{0.3, 0, 0, 1, ~0u};
+  detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {2, 0, 0}), At(0));
+  detector.Admit(Id(2), ball, State(0, {9, 0, 0}, {-2, 0, 0}), At(0));
+  detector.Advance(At(0));
+  for (const std::uint32_t slot : {1u, 2u}) {
+    detector.Update(Id(slot),
+                    State(3, {slot == 1 ? 6.0 : 3.0, 0, 0}, {slot == 1 ? 2.0 : -2.0, 0, 0}), At(3));
+    detector.Hear(Id(slot), At(3));
+    detector.Remove(Id(slot));
+  }
+  detector.Advance(At(3));
+  ASSERT_FALSE(detector.events().empty());
+  EXPECT_EQ(detector.events().back().status, EventStatus::kEnded);
+  EXPECT_EQ(detector.events().back().contact, 1u);
+  EXPECT_LE(detector.events().back().end.latest, At(2.4 + 1e-6));
+}
+
 // An agent that leaves while in contact ends it.
 TEST(Detector, RemovalInContactEnds) {
   Line line;
