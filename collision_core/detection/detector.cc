@@ -45,11 +45,7 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionSt
   if (found == index_.end()) return UpdateOutcome::kUnknown;
   const std::uint32_t agent = found->second;
   AgentRecord& record = At(agent);
-  ++counters_.updates;
-  if (state.stamp < record.stamp()) {
-    ++counters_.older;
-    return UpdateOutcome::kOlder;
-  }
+  if (state.stamp < record.stamp()) return UpdateOutcome::kOlder;
   const SpaceTimeBound next{state, record.declaration, options_.skew};
   const auto push = [&](Link link) {
     record.history.Push(next, link, options_.history_max);

@@ -34,7 +34,6 @@ struct AgentClearance {
   bool not_clear = false;                  ///< It has come: something may touch.
   bool in_contact = false;                 ///< A contact is confirmed and has not ended.
   bool saturated = false;                  ///< More partners than are tracked for one agent.
-  Instant acknowledged;                    ///< Stamp of the newest state in force.
   Instant effective_from =
       Instant::Always();  ///< Promises count the latest admission, jump or widening from here.
   ClearanceCause cause = ClearanceCause::kNone;  ///< Of the last lowering.
@@ -62,7 +61,7 @@ struct EarliestAnswer {
 
 /// Counted work and occurrences since the start.
 struct DetectorCounters {
-  std::uint64_t updates = 0, updates_kept = 0, jumps = 0, widenings = 0, breaches = 0, older = 0;
+  std::uint64_t updates_kept = 0, jumps = 0, widenings = 0, breaches = 0;
   std::uint64_t queries = 0;       ///< Agents asked for their earliest meetings.
   std::uint64_t pair_queries = 0;  ///< Pairs given to the canonical routine.
   std::uint64_t segments = 0;      ///< Segments judged by the narrow phase.

@@ -188,7 +188,6 @@ void Detector::Implementation::Untrack(std::uint32_t slot) {
 AgentClearance Detector::Implementation::Clearance(const AgentRecord& agent) const {
   AgentClearance clearance;
   clearance.agent = agent.id;
-  clearance.acknowledged = agent.stamp();
   clearance.effective_from = agent.effective_from;
   clearance.saturated = agent.saturated;
   clearance.clear_until = agent.key;

@@ -37,8 +37,6 @@ Interval Sqrt(Interval a);
 Interval Abs(Interval a);
 Interval Max(Interval a, Interval b);
 Interval Min(Interval a, Interval b);
-/// The smallest interval that contains both.
-Interval Hull(Interval a, Interval b);
 
 /// A vector of intervals.
 struct IntervalVector {

@@ -62,10 +62,6 @@ inline Interval Min(Interval a, Interval b) {
   return {std::min(a.lower, b.lower), std::min(a.upper, b.upper)};
 }
 
-inline Interval Hull(Interval a, Interval b) {
-  return {std::min(a.lower, b.lower), std::max(a.upper, b.upper)};
-}
-
 inline IntervalVector operator+(const IntervalVector& a, const IntervalVector& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
