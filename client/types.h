@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
 
 using Vector3 = std::array<double, 3>;     ///< x, y, z in the world frame W.
 using Quaternion = std::array<double, 4>;  ///< w, x, y, z, body to world.
+
+class Shape;
 
 struct AgentId {
   std::uint64_t simulator = 0;
@@ -33,6 +36,8 @@ struct AgentDescription {
   double time_step_s = 0;    ///< h of a semi-implicit Euler integrator; 0: continuous motion.
   std::uint32_t group = 1;   ///< Bits this agent is.
   std::uint32_t mask = ~0u;  ///< Bits it can meet.
+  /// Its shape (client/shape.h), within the ball of `radius_m`; null: the ball itself.
+  std::shared_ptr<const Shape> shape = nullptr;
 };
 
 struct State {
@@ -60,6 +65,13 @@ enum class EventStatus { kPossible, kConfirmed, kDismissed, kUndecided, kWithdra
 /// "possible", "confirmed", ...
 const char* Name(EventStatus status);
 
+/// What kept the brackets from being narrower: the work allowed, the uncertainty of the motion, or
+/// what the shapes' trees resolve.
+enum class EventLimit { kNone, kBudget, kMotion, kGeometry };
+
+/// "none", "budget", ...
+const char* Name(EventLimit limit);
+
 /// One revision of one contact; (lower, higher, contact) names it, a higher revision replaces a
 /// lower one.
 struct Event {
@@ -81,6 +93,9 @@ struct Event {
   double point_error_m = 0;
   Vector3 normal{};  ///< Unit, from lower to higher.
   double normal_error_rad = 0;
+  std::uint32_t level = 0;  ///< Of the sphere trees, down to which it was decided; 0: balls.
+  std::uint64_t work_units = 0;
+  EventLimit limited_by = EventLimit::kNone;
 };
 
 /// A sample the service refused, and why.

@@ -4,10 +4,13 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 
 #include "collision_core/motion/instant.h"
 
 namespace collision {
+
+class Shape;
 
 /// An agent's last state. World frame W, body frame B, SI units. Values are trusted here: the
 /// server refuses bad input at the edge.
@@ -34,6 +37,13 @@ struct AgentDeclaration {
   double time_step = 0;      ///< h of a semi-implicit Euler integrator [s]; 0: continuous motion.
   std::uint32_t group = 1;   ///< Bits this agent is.
   std::uint32_t mask = ~0u;  ///< Bits it can meet.
+  /// α >= |angular acceleration| [rad/s²], gyroscopic terms included; < 0: not declared, then
+  /// nothing is known of the orientation between two states. Counts for shapes only.
+  double angular_acceleration_max = -1;
+  std::shared_ptr<const Shape> shape;  ///< Within the ball of `radius`; null: the ball itself.
+  /// Its shape is not known yet: somewhere within the ball, which then excludes contacts but
+  /// confirms none. `shape` is null.
+  bool shape_awaited = false;
 
   friend bool operator==(const AgentDeclaration&, const AgentDeclaration&) = default;
 };

@@ -1,0 +1,42 @@
+// Two triangles: how far apart, and whether they certainly cross.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "collision_core/numeric/interval.h"
+
+namespace collision {
+
+using TrianglePoints = std::array<Eigen::Vector3d, 3>;
+
+/// The distance of two triangles whose corners are exactly as given.
+struct TriangleDistance {
+  Interval distance;  ///< Contains the exact distance; [0, small] where they touch or cross.
+  /// On the triangles, about where they are nearest: |b − a| <= distance.upper.
+  Eigen::Vector3d a, b;
+};
+TriangleDistance DistanceOf(const TrianglePoints& a, const TrianglePoints& b);
+
+/// The distance of a point to a triangle, with the nearest point of the triangle in `b`.
+TriangleDistance DistanceOf(const Eigen::Vector3d& point, const TrianglePoints& triangle);
+
+/// Where an edge of one passes through the inside of the other.
+struct Crossing {
+  Eigen::Vector3d point;  ///< A point common to both lies within `error` of it.
+  double error = 0;
+  /// Of the triangle that is passed through: its normal, unit, about; and whether that is `b`.
+  Eigen::Vector3d normal;
+  bool through_b = true;
+};
+
+/// A crossing that persists wherever each of the six corners lies within `uncertainty` of where it
+/// is given; nullopt if none is certain. Of several the one that is certain by the widest margin.
+std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TrianglePoints& b,
+                                        double uncertainty);
+
+/// A lower bound on the greatest uncertainty for which CertainCrossing() succeeds; below 0 if it
+/// does not even for 0.
+double CrossingMargin(const TrianglePoints& a, const TrianglePoints& b);
+
+}  // namespace collision
