@@ -47,7 +47,9 @@ struct CollisionEvent {
   double point_error = 0;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Unit, from lower to higher.
   double normal_error = 0;                           ///< Angle [rad].
-  std::uint64_t work = 0;  ///< Segments and instants judged for this contact.
+  /// Of the sphere trees, down to which the pair was looked at; 0: balls.
+  std::uint32_t level = 0;
+  std::uint64_t work = 0;  ///< Work units spent on this contact.
   EventLimit limited_by = EventLimit::kMotion;
 };
 

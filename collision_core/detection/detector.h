@@ -22,6 +22,9 @@ struct DetectorOptions {
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
   std::uint32_t history_max =
       64;  ///< States kept for judging; beyond, the oldest go and brackets widen.
+  /// Work that the narrow phase may spend on two shapes in one turn (narrow_phase/work.h); beyond,
+  /// brackets stay wider and say that the budget limited them.
+  std::uint64_t work_units_per_turn = 10000;
 };
 
 /// Why a clearance was lowered.
@@ -65,6 +68,7 @@ struct DetectorCounters {
   std::uint64_t queries = 0;       ///< Agents asked for their earliest meetings.
   std::uint64_t pair_queries = 0;  ///< Pairs given to the canonical routine.
   std::uint64_t segments = 0;      ///< Segments judged by the narrow phase.
+  std::uint64_t work_units = 0;    ///< Spent by the narrow phase.
   std::uint64_t saturations = 0;
   std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.
 };
