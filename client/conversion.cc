@@ -1,5 +1,7 @@
 #include "client/conversion.h"
 
+#include "client/shape.h"
+
 namespace collision::client {
 namespace {
 
@@ -26,6 +28,7 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
   message.set_time_step_s(description.time_step_s);
   message.set_group(description.group);
   message.set_mask(description.mask);
+  if (description.shape) message.set_shape_hash(description.shape->hash());
   return message;
 }
 
@@ -74,6 +77,9 @@ Event FromMessage(const v1::CollisionEvent& message) {
   event.point_error_m = message.point_error_m();
   event.normal = FromMessage(message.normal());
   event.normal_error_rad = message.normal_error_rad();
+  event.level = message.level();
+  event.work_units = message.work_units();
+  event.limited_by = static_cast<EventLimit>(message.limited_by());
   return event;
 }
 

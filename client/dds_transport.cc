@@ -1,5 +1,6 @@
 #include "client/dds_transport.h"
 
+#include <map>
 #include <utility>
 
 #include "idl/dds/session.h"
@@ -34,7 +35,7 @@ class DdsTransport : public Transport {
       case v1::Input::kAgentDescription:
         return session_.Write(message.agent_description());
       case v1::Input::kShapePart:
-        return session_.Write(message.shape_part());
+        return WritePart(message.shape_part());
       case v1::Input::kAgentStates:
         return session_.Write(message.agent_states());
       case v1::Input::kSimulatorClock:
@@ -42,6 +43,8 @@ class DdsTransport : public Transport {
       case v1::Input::kAgentRemoval:
         return session_.RemoveAgent(message.agent_removal().simulator_id(),
                                     message.agent_removal().slot());
+      case v1::Input::kShapeRemoval:
+        return RemoveShape(message.shape_removal());
       default:
         return;
     }
@@ -50,7 +53,21 @@ class DdsTransport : public Transport {
   void Flush() override { session_.Flush(); }
 
  private:
+  void WritePart(const v1::ShapePart& part) {
+    parts_[part.content_hash()] = part.parts();
+    session_.Write(part);
+  }
+
+  /// Each part is an instance of its own; the message does not say how many there are.
+  void RemoveShape(const v1::ShapeRemoval& removal) {
+    const auto parts = parts_.find(removal.content_hash());
+    if (parts == parts_.end()) return;
+    session_.RemoveShape(removal.simulator_id(), removal.content_hash(), parts->second);
+    parts_.erase(parts);
+  }
+
   DdsSession session_;
+  std::map<std::string, std::uint32_t> parts_;  ///< Of each shape written, by its hash.
 };
 
 }  // namespace

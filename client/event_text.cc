@@ -85,8 +85,56 @@ std::string WhenText(const v1::CollisionEvent& event, std::int64_t origin_ns) {
          (event.began_before() ? " (began before)" : "");
 }
 
+constexpr double kDegrees = 57.29577951308233;        // of a radian, rounded up
+constexpr double kHalfDiagonal = 0.8660254037844387;  // of a cube of side 1, rounded up
+constexpr int kDecimalsMax = 9;
+
+std::string VectorText(const v1::Vector3& vector, int decimals) {
+  char text[128];
+  std::snprintf(text, sizeof text, "(%.*f, %.*f, %.*f)", decimals, vector.x() + 0.0, decimals,
+                vector.y() + 0.0, decimals, vector.z() + 0.0);
+  return text;
+}
+
+/// With as many decimals as make sense for its error, which grows by what the digits leave out.
+std::string PointText(const v1::CollisionEvent& event) {
+  double unit = 1;
+  int decimals = 0;
+  for (; decimals < kDecimalsMax && unit > event.point_error_m() / 10; ++decimals) unit /= 10;
+  return "  at " + VectorText(event.point_m(), decimals) + " ± " +
+         MetresText(event.point_error_m() + kHalfDiagonal * unit, Rounding::kUp) + " m";
+}
+
+/// A normal that may point anywhere says nothing.
+std::string NormalText(const v1::CollisionEvent& event) {
+  const double degrees = event.normal_error_rad() * kDegrees;
+  if (degrees >= 180) return "";
+  // Three decimals turn a unit vector by less than 0.05 degrees.
+  return "  normal " + VectorText(event.normal(), 3) + " ± " +
+         MetresText(degrees + 0.05, Rounding::kUp) + "°";
+}
+
+/// What spheres have found out about shapes. Of balls the gap says all.
+std::string ShapesText(const v1::CollisionEvent& event) {
+  std::string text;
+  if (event.separation_m().upper() <= 0) {
+    if (event.depth_lower_m() > 0) {
+      text += "  depth ≥ " + MetresText(event.depth_lower_m(), Rounding::kDown) + " m";
+    }
+    text += PointText(event) + NormalText(event);
+  }
+  text += "  level " + std::to_string(event.level()) + ", " + std::to_string(event.work_units()) +
+          " units";
+  if (event.limited_by() == v1::LIMIT_NONE) return text;
+  return text + ", limited by " + Name(static_cast<EventLimit>(event.limited_by()));
+}
+
 std::string GapText(const v1::CollisionEvent& event) {
   if (event.evaluated_at_ns() == kNever || !event.has_separation_m()) return "";
+  if (event.level() > 0) {
+    return "  gap [" + MetresText(event.separation_m().lower(), Rounding::kDown) + ", " +
+           MetresText(event.separation_m().upper(), Rounding::kUp) + "] m" + ShapesText(event);
+  }
   const std::string upper = MetresText(event.separation_m().upper(), Rounding::kUp);
   if (event.separation_m().upper() <= 0) return "  gap ≤ " + upper + " m";
   return "  gap [" + MetresText(event.separation_m().lower(), Rounding::kDown) + ", " + upper +

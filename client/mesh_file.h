@@ -10,11 +10,16 @@ namespace collision::client {
 
 enum class UpAxis { kX, kY, kZ };
 
-/// What a file does not say, or says in a way nobody reads: stated, never guessed.
+/// Bytes of a mesh file; five million triangles as text take about half of it.
+inline constexpr std::size_t kMeshFileBytesMax = std::size_t{1} << 30;
+
+/// What a file does not say, or says in a way nobody reads: stated, never guessed. That holds for
+/// glTF as well, which is metres and y up by definition: unit 1, UpAxis::kY.
 struct MeshFileOptions {
   double unit_m = 0;       ///< One unit of the file in metres, > 0; required.
   UpAxis up = UpAxis::kZ;  ///< The file's axis that is the body's +z; the others follow cyclically.
   Vector3 reference_m{};   ///< The reference point in the body's axes, after scaling.
+  bool centre = false;     ///< The reference point is the centre of the mesh's box instead.
 };
 
 /// What was read, for people.
@@ -32,6 +37,10 @@ struct MeshFileReport {
 /// Whether mesh files can be read in this build.
 bool MeshFilesSupported();
 
+/// Reads all faces of a file, as its nodes place them. The ending says the format: obj, stl, ply,
+/// gltf, glb. Coordinates have the 24 bits of a float, as the library holds them. Skins, morphs and
+/// animations are not applied; points and lines are left out. A text that is cut off between two faces
+/// is a smaller mesh, in an OBJ file (open, most likely: see the report).
 /// Throws std::invalid_argument (options), std::runtime_error with the file's name and the cause: no
 /// such file, format unknown, truncated or malformed, no triangles, not finite, an index out of
 /// range, too many, too large or small for the unit stated.

@@ -43,6 +43,10 @@ class Monitor::Implementation {
         return Call(callbacks_.description, input.agent_description());
       case v1::Input::kAgentRemoval:
         return Call(callbacks_.removal, input.agent_removal());
+      case v1::Input::kShapePart:
+        return Call(callbacks_.shape_part, input.shape_part());
+      case v1::Input::kShapeRemoval:
+        return Call(callbacks_.shape_removal, input.shape_removal());
       case v1::Input::kAgentStates:
         return Call(callbacks_.states, input.agent_states());
       case v1::Input::kSimulatorClock:

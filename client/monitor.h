@@ -14,6 +14,8 @@ class EarliestIntersection;
 class ServiceStatus;
 class AgentDescription;
 class AgentRemoval;
+class ShapePart;
+class ShapeRemoval;
 class AgentStates;
 class SimulatorClock;
 class Clearance;
@@ -29,7 +31,7 @@ struct MonitorOptions {
   std::uint32_t domain = 0;       ///< DDS domain, 0-230.
   bool service = true;  ///< Status, events, earliest intersection, clearances, rejections.
   bool simulators =
-      false;  ///< Descriptions, removals, states and clocks of all simulators as well.
+      false;  ///< Descriptions, removals, shapes, states and clocks of all simulators as well.
 };
 
 /// Receives everything in one world and writes nothing: only readers are created. The callbacks
@@ -44,6 +46,8 @@ class Monitor {
     std::function<void(const v1::ServiceStatus&)> status = {};
     std::function<void(const v1::AgentDescription&)> description = {};
     std::function<void(const v1::AgentRemoval&)> removal = {};
+    std::function<void(const v1::ShapePart&)> shape_part = {};
+    std::function<void(const v1::ShapeRemoval&)> shape_removal = {};
     std::function<void(const v1::AgentStates&)> states = {};
     std::function<void(const v1::SimulatorClock&)> clock = {};
     std::function<void(const v1::Clearance&)> clearance = {};

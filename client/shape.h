@@ -24,7 +24,8 @@ class Shape {
  public:
   /// Throws std::invalid_argument, naming what is wrong and the allowed range, on what the service
   /// would refuse: no triangles, not finite, an index out of range, too many, a size that is a point
-  /// or a planet. Degenerate triangles are dropped, and counted.
+  /// or a planet. Degenerate triangles are dropped, and counted; vertices at the same position
+  /// become one and those that no triangle uses go, which changes no point of the surface.
   static std::shared_ptr<const Shape> Make(Triangles triangles);
 
   const Triangles& triangles() const { return triangles_; }
@@ -47,5 +48,8 @@ class Shape {
   std::string bytes_;
   std::string hash_;
 };
+
+/// A hash as people read it: two hexadecimal digits a byte.
+std::string HexText(const std::string& bytes);
 
 }  // namespace collision::client

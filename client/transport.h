@@ -29,7 +29,8 @@ class Receiver {
 /// Speaks for one simulator as well.
 class Transport : public Receiver {
  public:
-  /// A description, states, a clock or a removal. Never waits for a reader.
+  /// A description, states, a clock, a part of a shape, or a removal of an agent or a shape. Never
+  /// waits for a reader.
   virtual void Write(const v1::Input& message) = 0;
 
   /// Everything written leaves now.

@@ -20,4 +20,18 @@ const char* Name(EventStatus status) {
   return "unknown";
 }
 
+const char* Name(EventLimit limit) {
+  switch (limit) {
+    case EventLimit::kNone:
+      return "none";
+    case EventLimit::kBudget:
+      return "budget";
+    case EventLimit::kMotion:
+      return "motion";
+    case EventLimit::kGeometry:
+      return "geometry";
+  }
+  return "unknown";
+}
+
 }  // namespace collision::client

@@ -6,6 +6,8 @@
 #include <span>
 #include <stdexcept>
 
+#include "client/shape.h"
+
 namespace collision::client {
 namespace {
 
@@ -52,6 +54,17 @@ void CheckLater(const std::string& field, std::int64_t instant_ns) {
   if (instant_ns != kNever) CheckInstant(field, instant_ns);
 }
 
+/// The ball of an agent must hold its shape. The numbers are close to each other: all digits show.
+void CheckHolds(double radius, const Shape& shape) {
+  if (shape.radius_m() <= radius * (1 + kShapeRadiusTolerance)) return;
+  char text[96];
+  std::snprintf(text, sizeof text, ">= %.17g, the radius of its shape (shape->radius_m())",
+                shape.radius_m());
+  char value[32];
+  std::snprintf(value, sizeof value, "%.17g", radius);
+  Refuse("radius_m", value, text);
+}
+
 bool IsIdentifier(const std::string& name) {
   const auto allowed = [](unsigned char c) {
     return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
@@ -83,6 +96,7 @@ void Validate(const AgentDescription& description) {
   CheckNumber("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2,
               -kAccelerationMax, kAccelerationMax);
   CheckNumber("time_step_s", description.time_step_s, 0, kTimeStepMax);
+  if (description.shape) CheckHolds(description.radius_m, *description.shape);
 }
 
 void Validate(const State& state) {

@@ -23,6 +23,9 @@ inline constexpr double kUnitTolerance = 1e-3;                      ///< Of a le
 inline constexpr std::int64_t kInstantMax = std::int64_t{1} << 62;  ///< [ns] 146 years.
 inline constexpr std::uint32_t kAgentsMax = 65536;                  ///< Of one simulator.
 inline constexpr std::uint32_t kChunkSizeMax = 64;                  ///< As in the IDL.
+inline constexpr std::size_t kShapeTrianglesMax = 5'000'000;  ///< The most a service can allow.
+/// Relative: a shape may stand out of its agent's ball by what rounding makes of a radius.
+inline constexpr double kShapeRadiusTolerance = 1e-9;
 inline constexpr std::uint32_t kDomainMax = 230;  ///< Beyond, RTPS has no ports left.
 
 /// Each throws std::invalid_argument, "field: value, allowed: range", at the first value out of

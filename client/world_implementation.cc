@@ -48,7 +48,8 @@ World::Implementation::Implementation(const WorldOptions& options,
       run_(options.run != 0 ? options.run : RunByClock()),
       lock_step_(options.lock_step),
       transport_(std::move(transport)),
-      fleet_(options.simulator, simulator_id_, run_, options.chunk_size) {}
+      fleet_(options.simulator, simulator_id_, run_, options.chunk_size),
+      shapes_(simulator_id_, run_) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
@@ -65,6 +66,7 @@ AgentId World::Implementation::AddAgent(const AgentDescription& description, con
   Validate(description);
   Validate(state);
   const AgentId id = fleet_.Add(description, state);
+  shapes_.Add(description.shape, Writer());
   WriteDescription(id);
   return id;
 }
@@ -76,14 +78,19 @@ void World::Implementation::SetState(const AgentId& id, const State& state) {
 
 void World::Implementation::SetDescription(const AgentId& id, const AgentDescription& description) {
   Validate(description);
+  const std::string former = fleet_.description(id).shape_hash();
   fleet_.Describe(id, description);
+  shapes_.Add(description.shape, Writer());
   WriteDescription(id);
+  shapes_.Remove(former, Writer());
 }
 
 void World::Implementation::RemoveAgent(const AgentId& id) {
+  const std::string former = fleet_.description(id).shape_hash();
   v1::Input message;
   *message.mutable_agent_removal() = fleet_.Remove(id);
   transport_->Write(message);
+  shapes_.Remove(former, Writer());
   transport_->Flush();
 }
 
@@ -166,6 +173,7 @@ void World::Implementation::Repeat() {
 
 void World::Implementation::Introduce() {
   refused_ = false;
+  shapes_.WriteAll(Writer());
   v1::Input message;
   for (const v1::AgentDescription& description : fleet_.Descriptions()) {
     *message.mutable_agent_description() = description;
@@ -181,6 +189,10 @@ void World::Implementation::WriteDescription(const AgentId& id) {
   v1::Input message;
   *message.mutable_agent_description() = fleet_.description(id);
   transport_->Write(message);
+}
+
+ShapeBook::Writer World::Implementation::Writer() {
+  return [this](const v1::Input& message) { transport_->Write(message); };
 }
 
 void World::Implementation::Gather(std::chrono::nanoseconds timeout) {

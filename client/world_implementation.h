@@ -10,6 +10,7 @@
 
 #include "client/fleet.h"
 #include "client/news.h"
+#include "client/shape_book.h"
 #include "client/transport.h"
 #include "client/world.h"
 
@@ -66,6 +67,9 @@ class World::Implementation {
   void Introduce();
   void WriteDescription(const AgentId& id);
 
+  /// Hands messages to the network.
+  ShapeBook::Writer Writer();
+
   /// Takes what arrives within `timeout`, without callbacks.
   void Gather(std::chrono::nanoseconds timeout);
   void Hear(const v1::Output& output);
@@ -81,6 +85,7 @@ class World::Implementation {
   const bool lock_step_;
   std::unique_ptr<Transport> transport_;
   Fleet fleet_;
+  ShapeBook shapes_;
   News news_;
 
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -27,6 +27,10 @@ class Bus {
   /// Ends a Receive() that waits. May be called from any thread and from signal handlers.
   virtual void Wake() = 0;
 
+  /// Its batches are those of a recording, with all that the recorded daemon added to them: nothing
+  /// is added again.
+  virtual bool recorded() const { return false; }
+
   /// What the network did not deliver or take, for the status. Names as in collision.idl's Counter,
   /// each once.
   virtual std::vector<v1::Counter> network_counters() const { return {}; }

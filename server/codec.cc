@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "idl/identity.h"
+#include "idl/shape_bytes.h"
 #include "server/field_check.h"
 
 namespace collision::server {
@@ -91,17 +92,22 @@ Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
                -kAccelerationMax, kAccelerationMax);
   check.Number("speed_max_m_s", wire.speed_max_m_s(), 0, kSpeedMax);
   check.Number("time_step_s", wire.time_step_s(), 0, kTimeStepMax);
-  const std::string& hash = wire.shape_hash();
-  if (std::any_of(hash.begin(), hash.end(), [](char byte) { return byte != 0; })) {
-    check.Refuse(v1::REJECTED_BAD_SHAPE, "shape_hash",
-                 "shapes are not served by this version; allowed: all zero (the ball)");
+  const std::string hash = ShapeHashOf(wire);
+  if (!hash.empty() && hash.size() != kShapeHashBytes) {
+    check.Refuse(
+        v1::REJECTED_BAD_SHAPE, "shape_hash",
+        std::to_string(hash.size()) + " bytes; allowed: 0 or " + std::to_string(kShapeHashBytes));
   }
   if (!check.passed()) return *check.refusal();
+  const double alpha = wire.angular_acceleration_max_rad_s2();
   return AgentDeclaration{.radius = wire.radius_m(),
                           .acceleration_max = wire.acceleration_max_m_s2(),
                           .time_step = wire.time_step_s(),
                           .group = wire.group(),
-                          .mask = wire.mask()};
+                          .mask = wire.mask(),
+                          .angular_acceleration_max = alpha < 0 ? -1 : alpha,
+                          .shape = nullptr,
+                          .shape_awaited = !hash.empty()};
 }
 
 std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk) {
@@ -178,12 +184,44 @@ Decoded<Instant> DecodeClock(const v1::SimulatorClock& wire, const ClockRules& r
   return Instant::FromNanoseconds(wire.clock_ns());
 }
 
-Refusal RefuseShape(const v1::ShapePart& part) {
-  Refusal refusal = At(part);
-  refusal.reason = v1::REJECTED_BAD_SHAPE;
-  refusal.field = "content_hash";
-  refusal.detail = "shapes are not served by this version; every agent is its ball";
-  return refusal;
+std::string ShapeHashOf(const v1::AgentDescription& description) {
+  const std::string& hash = description.shape_hash();
+  const bool none = std::all_of(hash.begin(), hash.end(), [](char byte) { return byte == 0; });
+  return none ? std::string() : hash;
+}
+
+std::optional<Refusal> CheckShapePart(const v1::ShapePart& part) {
+  FieldCheck check(At(part));
+  const auto refuse = [&check](const char* field, const std::string& detail) {
+    check.Refuse(v1::REJECTED_BAD_SHAPE, field, detail);
+  };
+  if (part.content_hash().size() != kShapeHashBytes) {
+    refuse("content_hash",
+           std::to_string(part.content_hash().size()) +
+               " bytes that are not all zero; allowed: " + std::to_string(kShapeHashBytes));
+  }
+  const std::uint64_t total = part.total_bytes();
+  if (total < kShapeHeaderBytes) {
+    refuse("total_bytes",
+           std::to_string(total) + "; a shape has at least " + std::to_string(kShapeHeaderBytes));
+  }
+  const std::uint64_t parts = ShapeParts(total);
+  const std::string of_all = std::to_string(parts) + " parts of " + std::to_string(kShapePartBytes);
+  if (part.parts() != parts) {
+    refuse("parts", std::to_string(part.parts()) + "; " + std::to_string(total) + " bytes make " +
+                        of_all + ", the last one shorter");
+  }
+  if (part.part() >= part.parts()) {
+    refuse("part", std::to_string(part.part()) + "; allowed: 0 to " +
+                       std::to_string(std::int64_t{part.parts()} - 1));
+  }
+  const bool last = part.part() + std::uint64_t{1} == parts;
+  const std::uint64_t bytes = last ? total - part.part() * kShapePartBytes : kShapePartBytes;
+  if (part.bytes().size() != bytes) {
+    refuse("bytes", std::to_string(part.bytes().size()) + "; part " + std::to_string(part.part()) +
+                        " of " + of_all + " has " + std::to_string(bytes));
+  }
+  return check.refusal();
 }
 
 }  // namespace collision::server

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <variant>
 
 #include "collision_core/motion/motion_state.h"
@@ -30,7 +31,6 @@ inline constexpr double kUnitTolerance = 1e-3;  ///< A unit vector or quaternion
 inline constexpr std::uint32_t kSlotMax = 65535;  ///< Slots are reused, so they stay few.
 inline constexpr int kStatesPerChunkMax = 64;     ///< As in collision.idl.
 inline constexpr std::size_t kNameMax = 64;       ///< Characters, as in collision.idl.
-inline constexpr std::size_t kShapeHashBytes = 32;
 
 template <typename Value>
 using Decoded = std::variant<Value, Refusal>;
@@ -40,9 +40,8 @@ using Decoded = std::variant<Value, Refusal>;
 std::optional<Refusal> CheckIdentity(const v1::AgentDescription& description);
 std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock);
 
-/// The declaration of an agent. Angular acceleration and speed cap are checked and, as long as
-/// every agent is a ball, not used: a bound without them is wider, never late. A shape is refused:
-/// shapes are not served yet.
+/// The declaration of an agent. The speed cap is checked and not used: a bound without it is wider,
+/// never late. Whoever names a shape awaits it: only the intake knows what has arrived.
 Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
 
 /// What is known about the times a state may carry.
@@ -74,7 +73,10 @@ struct ClockRules {
 
 Decoded<Instant> DecodeClock(const v1::SimulatorClock& clock, const ClockRules& rules);
 
-/// Shapes are not served by this version; the part is refused and its sender told.
-Refusal RefuseShape(const v1::ShapePart& part);
+/// The hash of the agent's shape; empty: the ball is its shape.
+std::string ShapeHashOf(const v1::AgentDescription& description);
+
+/// Whether a part is one of as many as its shape makes, and of the length that it has among them.
+std::optional<Refusal> CheckShapePart(const v1::ShapePart& part);
 
 }  // namespace collision::server

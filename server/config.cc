@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <fstream>
 #include <map>
 #include <memory>
@@ -218,6 +219,11 @@ v1::Config CompleteConfig(v1::Config config) {
     if (!IsSet(config, option)) SetValue(&config, option, DefaultOf(option, config));
   }
   return config;
+}
+
+std::uint64_t WorkUnitsPerTurn(const v1::Config& complete) {
+  return static_cast<std::uint64_t>(
+      std::llround(complete.time_budget_us() * complete.work_units_per_us()));
 }
 
 std::vector<ConfigError> CheckConfig(const v1::Config& complete) {

@@ -1,6 +1,7 @@
 // The daemon's configuration: read, completed, checked and printed.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct ConfigError {
 
 /// Checks a complete configuration: every field, then fields against each other.
 std::vector<ConfigError> CheckConfig(const v1::Config& complete);
+
+/// What the narrow phase may spend on one pair in one turn.
+std::uint64_t WorkUnitsPerTurn(const v1::Config& complete);
 
 /// A complete configuration as protobuf text that explains itself; ParseConfig() reads back the
 /// same values.

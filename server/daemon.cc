@@ -8,10 +8,12 @@
 #include <utility>
 
 #include "server/batch_order.h"
+#include "server/config.h"
 #include "server/intake.h"
 #include "server/names_log.h"
 #include "server/publisher.h"
 #include "server/recording.h"
+#include "server/shape_store.h"
 #include "server/status.h"
 
 namespace collision::server {
@@ -24,22 +26,28 @@ DetectorOptions OptionsOf(const v1::Config& config) {
           .agents_max = config.agents_max(),
           .pairs_max = config.pairs_max(),
           .pairs_per_agent_max = config.pairs_per_agent_max(),
-          .history_max = config.history_max()};
+          .history_max = config.history_max(),
+          .work_units_per_turn = WorkUnitsPerTurn(config)};
 }
 
 }  // namespace
 
 class Daemon::Implementation {
  public:
-  Implementation(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder)
+  Implementation(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder,
+                 std::unique_ptr<ShapeBuilder> shape_builder)
       : config_(config),
         bus_(bus),
         clock_(clock),
         recorder_(recorder),
+        shape_builder_(shape_builder
+                           ? std::move(shape_builder)
+                           : std::make_unique<InlineShapeBuilder>(config_.shape_triangles_max())),
+        shapes_(config_, shape_builder_.get()),
         world_(config_),
         detector_(OptionsOf(config_)),
         rejections_(config_.rejections_per_second_max()),
-        intake_(config_, &world_, &detector_, &rejections_),
+        intake_(config_, &world_, &detector_, &rejections_, &shapes_),
         publisher_(config_, &bus_),
         schedule_(ToNanoseconds(config_.status_period_s())) {}
 
@@ -47,6 +55,7 @@ class Daemon::Implementation {
     std::vector<v1::Input> inputs;
     const bool goes_on = bus_.Receive(Timeout(), config_.inputs_per_batch_max(), &inputs);
     if (stopped_ || (!goes_on && inputs.empty())) return false;
+    if (!bus_.recorded()) AddReadyShapes(&inputs);
     SortBatch(&inputs);
     if (!Begin(clock_.Read(), &inputs)) return false;
     for (const v1::Input& input : inputs) intake_.Apply(input);
@@ -66,9 +75,18 @@ class Daemon::Implementation {
   const EventLog& event_log() const { return publisher_.event_log(); }
 
  private:
+  /// When a tree is finished is up to the machine; the step at which it counts becomes an input like
+  /// any other.
+  void AddReadyShapes(std::vector<v1::Input>* inputs) {
+    for (const std::string& hash : shape_builder_->TakeFinished()) {
+      inputs->emplace_back().mutable_shape_ready()->set_content_hash(hash);
+    }
+  }
+
   /// Until something falls due without any input. With a wall clock the detector's own times come
   /// at its temporal resolution.
   std::chrono::nanoseconds Timeout() const {
+    if (shape_builder_->has_finished()) return std::chrono::nanoseconds(0);
     std::int64_t due = schedule_.next_ns();
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
     if (const auto next = world_.NextRelease()) due = std::min(due, *next);
@@ -134,6 +152,7 @@ class Daemon::Implementation {
                                            .world = world_,
                                            .detector = detector_,
                                            .intake = intake_,
+                                           .shapes = shapes_,
                                            .rejections = rejections_,
                                            .event_log = publisher_.event_log(),
                                            .steps = steps_,
@@ -156,6 +175,8 @@ class Daemon::Implementation {
   Bus& bus_;
   Clock& clock_;
   BatchSink* const recorder_;
+  const std::unique_ptr<ShapeBuilder> shape_builder_;
+  ShapeStore shapes_;
   World world_;
   Detector detector_;
   Rejections rejections_;
@@ -170,8 +191,10 @@ class Daemon::Implementation {
   std::atomic<bool> stopped_ = false;
 };
 
-Daemon::Daemon(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder)
-    : implementation_(std::make_unique<Implementation>(config, bus, clock, recorder)) {}
+Daemon::Daemon(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder,
+               std::unique_ptr<ShapeBuilder> shape_builder)
+    : implementation_(std::make_unique<Implementation>(config, bus, clock, recorder,
+                                                       std::move(shape_builder))) {}
 
 Daemon::~Daemon() = default;
 

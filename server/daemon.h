@@ -7,6 +7,7 @@
 #include "server/bus.h"
 #include "server/clock.h"
 #include "server/event_log.h"
+#include "server/shape_builder.h"
 
 namespace collision::server {
 
@@ -18,8 +19,10 @@ class BatchSink;
 class Daemon {
  public:
   /// `config` is complete (CompleteConfig()) and valid. `recorder` gets every batch as it is
-  /// applied; it may be null. Everything passed in outlives the daemon.
-  Daemon(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder);
+  /// applied; it may be null. Everything passed in by reference outlives the daemon. Without a
+  /// `shape_builder` shapes are built in the step after they have arrived.
+  Daemon(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder,
+         std::unique_ptr<ShapeBuilder> shape_builder = nullptr);
   ~Daemon();
 
   /// Waits until something arrives or is due, and deals with it. False: the bus has ended, or

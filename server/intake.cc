@@ -5,12 +5,14 @@
 
 namespace collision::server {
 
-Intake::Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections)
+Intake::Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections,
+               ShapeStore* shapes)
     : agents_max_(config.agents_max()),
       undescribed_after_ns_(ToNanoseconds(config.undescribed_after_s())),
       world_(*world),
       detector_(*detector),
-      rejections_(*rejections) {}
+      rejections_(*rejections),
+      shapes_(*shapes) {}
 
 void Intake::Apply(const v1::Input& input) {
   switch (input.message_case()) {
@@ -25,7 +27,11 @@ void Intake::Apply(const v1::Input& input) {
     case v1::Input::kLiveliness:
       return TakeLiveliness(input);
     case v1::Input::kShapePart:
-      return Refuse(RefuseShape(input.shape_part()));
+      return TakeShapePart(input);
+    case v1::Input::kShapeRemoval:
+      return TakeShapeRemoval(input);
+    case v1::Input::kShapeReady:
+      return TakeShapeReady(input.shape_ready());
     case v1::Input::MESSAGE_NOT_SET:
       return;
   }
@@ -34,9 +40,7 @@ void Intake::Apply(const v1::Input& input) {
 Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::string* name) {
   const Claim claim = world_.ClaimFor(where.simulator_id, input.sender(), where.run, name);
   if (!claim.accepted) {
-    if (claim.may_wait && claim.simulator->held.size() < kHeldInputsMax) {
-      claim.simulator->held.push_back(input);
-    }
+    if (claim.may_wait) Hold(claim.simulator, input);
     where.reason = claim.reason;
     where.field = claim.reason == v1::REJECTED_OLD_RUN ? "run" : "simulator_id";
     where.detail = claim.detail;
@@ -45,6 +49,7 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
   }
   if (claim.new_run) {
     RemoveAgents(claim.simulator);
+    shapes_.Release(claim.simulator->id);
     claim.simulator->StartRun(input.sender(), where.run);
   }
   claim.simulator->taken_over = false;
@@ -72,9 +77,10 @@ void Intake::Describe(Simulator* simulator, const v1::AgentDescription& wire,
     if (wire.revision() <= agent.revision) return;
     agent.revision = wire.revision();
     agent.declaration = declaration;
+    ReferTo(ShapeHashOf(wire), simulator, wire.slot(), &agent);
     simulator->chunks_changed.insert(wire.slot() / kSlotsPerChunk);
     if (agent.admitted) {
-      detector_.Redeclare(simulator->IdOf(wire.slot(), agent.generation), declaration,
+      detector_.Redeclare(simulator->IdOf(wire.slot(), agent.generation), agent.declaration,
                           world_.EffectiveFrom(agent.stamp));
     }
     return;
@@ -83,6 +89,7 @@ void Intake::Describe(Simulator* simulator, const v1::AgentDescription& wire,
   slot.generations_over = wire.generation();
   slot.agent = Agent{
       .generation = wire.generation(), .revision = wire.revision(), .declaration = declaration};
+  ReferTo(ShapeHashOf(wire), simulator, wire.slot(), &*slot.agent);
   ++simulator->agents;
   AdmitIfComplete(simulator, wire.slot());
 }
@@ -176,6 +183,7 @@ void Intake::TakeLiveliness(const v1::Input& input) {
     if (!input.liveliness().alive()) {
       std::erase_if(simulator->held,
                     [&input](const v1::Input& held) { return held.sender() == input.sender(); });
+      CountHeldBytes();
     }
     return;
   }
@@ -196,13 +204,16 @@ bool Intake::HoldBehindItsLike(Simulator* simulator, const v1::Input& input) {
   // The newest replaces the last, so that a removal is never lost.
   if (held.size() == kHeldInputsMax) held.pop_back();
   held.push_back(input);
+  CountHeldBytes();
   return true;
 }
 
 /// At the end of the batch: those who wait may have ended in the same one.
 void Intake::HandOver(Simulator* simulator) {
   if (simulator->alive || simulator->held.empty()) return;
-  for (const v1::Input& held : std::exchange(simulator->held, {})) Apply(held);
+  const std::vector<v1::Input> held = std::exchange(simulator->held, {});
+  CountHeldBytes();
+  for (const v1::Input& input : held) Apply(input);
   simulator->taken_over = simulator->alive;
 }
 
@@ -218,7 +229,9 @@ void Intake::EndBatch() {
       }
     }
   }
+  ReleaseShapes();
   ReportUndescribed();
+  ReportMissingShapes();
 }
 
 }  // namespace collision::server

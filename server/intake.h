@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 
 #include "collision_core/detection/detector.h"
 #include "server/rejections.h"
+#include "server/shape_store.h"
 #include "server/world.h"
 
 namespace collision::server {
@@ -32,24 +34,27 @@ inline constexpr std::size_t kUndescribedMax = kSlotMax + 1;
 /// the rejections; nothing else in the same message or batch is disturbed. One thread.
 class Intake {
  public:
-  Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections);
+  /// Everything passed in outlives this.
+  Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections,
+         ShapeStore* shapes);
 
   void Apply(const v1::Input& input);
 
   /// Successors take over, clocks come into force, agents that waited for them are admitted, overdue
-  /// descriptions are reported.
+  /// descriptions and shapes are reported, what those who left had written is freed.
   void EndBatch();
 
   const IntakeCounters& counters() const { return counters_; }
 
-  /// The monotonic time at which the next missing description is reported; nullopt: none is
-  /// missing.
+  /// The monotonic time at which the next missing description or shape is reported; nullopt: none
+  /// is missing.
   std::optional<std::int64_t> NextDue() const;
 
  private:
   struct Undescribed {
     std::int64_t due_ns;
     AgentId agent;
+    std::string shape = {};  ///< Its hash, where it is the shape that is missing.
   };
 
   /// The simulator the input speaks for, its former run ended where a new one begins; null:
@@ -66,9 +71,18 @@ class Intake {
   void TakeClock(const v1::Input& input);
   void TakeRemoval(const v1::Input& input);
   void TakeLiveliness(const v1::Input& input);
+  void TakeShapePart(const v1::Input& input);
+  void TakeShapeRemoval(const v1::Input& input);
+  void TakeShapeReady(const v1::ShapeReady& ready);
 
   void Describe(Simulator* simulator, const v1::AgentDescription& wire,
                 const AgentDeclaration& declaration);
+
+  /// The agent refers to this shape from now on, and to no other; empty: to none.
+  void ReferTo(const std::string& hash, Simulator* simulator, std::uint32_t slot, Agent* agent);
+
+  /// Gives the agent its shape if that is visible and fits. Else it stays its ball.
+  void GiveShape(Simulator* simulator, std::uint32_t slot, Agent* agent);
   void UpdateAgent(Simulator* simulator, std::uint32_t slot, Agent* agent, std::uint64_t sequence,
                    const MotionState& state);
   void KeepWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
@@ -79,6 +93,17 @@ class Intake {
   /// Whoever waits for the id of a simulator that has gone gets it.
   void HandOver(Simulator* simulator);
   void ReportUndescribed();
+  void AwaitShape(const AgentId& id, const std::string& hash);
+  void ReportMissingShapes();
+  void ReportMissingShape(const AgentId& id, const std::string& hash);
+
+  /// Frees the shapes of those who left.
+  void ReleaseShapes();
+
+  /// False: no room; a successor's parts are bounded like everybody's.
+  bool Hold(Simulator* simulator, const v1::Input& input);
+  void CountHeldBytes();
+
   void Refuse(const Refusal& refusal) {
     rejections_.Add(refusal, world_.Find(refusal.simulator_id), world_);
   }
@@ -88,8 +113,11 @@ class Intake {
   World& world_;
   Detector& detector_;
   Rejections& rejections_;
+  ShapeStore& shapes_;
   IntakeCounters counters_;
   std::deque<Undescribed> undescribed_;
+  std::deque<Undescribed> shapes_awaited_;
+  std::uint64_t held_shape_bytes_ = 0;  ///< Of all simulators.
 };
 
 }  // namespace collision::server

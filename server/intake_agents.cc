@@ -1,6 +1,7 @@
 // The life of an agent: states kept until it is complete, admission, updates, removal.
 #include <spdlog/fmt/fmt.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "server/intake.h"
@@ -86,6 +87,7 @@ void Intake::RemoveAgent(Simulator* simulator, std::uint32_t slot_index) {
     detector_.Remove(simulator->IdOf(slot_index, slot.agent->generation));
     ++counters_.agents_removed;
   }
+  ReferTo({}, simulator, slot_index, &*slot.agent);
   slot.generations_over = std::uint64_t{slot.agent->generation} + 1;
   if (slot.waiting && slot.waiting->generation < slot.generations_over) slot.waiting.reset();
   slot.agent.reset();
@@ -112,8 +114,12 @@ void Intake::ReportUndescribed() {
 }
 
 std::optional<std::int64_t> Intake::NextDue() const {
-  if (undescribed_.empty()) return std::nullopt;
-  return undescribed_.front().due_ns;
+  std::optional<std::int64_t> next;
+  for (const auto* queue : {&undescribed_, &shapes_awaited_}) {
+    if (!queue->empty())
+      next = std::min(next.value_or(queue->front().due_ns), queue->front().due_ns);
+  }
+  return next;
 }
 
 }  // namespace collision::server

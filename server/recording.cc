@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "server/config.h"
 #include "server/version.h"
 
 namespace collision::server {
@@ -92,7 +93,8 @@ RecordingReader::RecordingReader(const std::string& path)
     throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
                              "; this program reads format " + std::to_string(kFormat));
   }
-  config_ = std::move(*entry.mutable_header()->mutable_config());
+  // What an older version did not know yet has its default.
+  config_ = CompleteConfig(std::move(*entry.mutable_header()->mutable_config()));
 }
 
 std::optional<v1::RecordedBatch> RecordingReader::Next() {

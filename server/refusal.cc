@@ -62,4 +62,23 @@ Refusal NotItsOwn(const v1::AgentRemoval& wire) {
           .detail = "a removal by another sender; allowed: by its owner"};
 }
 
+Refusal NotItsOwn(const v1::ShapeRemoval& wire) {
+  return {.reason = v1::REJECTED_ID_OWNED,
+          .topic = v1::TOPIC_SHAPE,
+          .simulator_id = wire.simulator_id(),
+          .field = "simulator_id",
+          .detail = "a removal by another sender; allowed: by its owner"};
+}
+
+Refusal ShapeRefusal(const AgentId& agent, v1::Topic topic, std::string field, std::string detail) {
+  return {.reason = v1::REJECTED_BAD_SHAPE,
+          .topic = topic,
+          .simulator_id = agent.simulator,
+          .run = agent.run,
+          .slot = agent.slot,
+          .generation = agent.generation,
+          .field = std::move(field),
+          .detail = detail.substr(0, kDetailMax)};
+}
+
 }  // namespace collision::server

@@ -36,5 +36,12 @@ Refusal NoRoom(const AgentId& agent, std::uint32_t agents_max);
 
 /// A removal that does not come from the owner.
 Refusal NotItsOwn(const v1::AgentRemoval& wire);
+Refusal NotItsOwn(const v1::ShapeRemoval& wire);
+
+/// What the owner of an agent is told of its shape; of an agent that refers to it, or of none.
+Refusal ShapeRefusal(const AgentId& agent, v1::Topic topic, std::string field, std::string detail);
+
+/// Texts on the wire are bounded.
+inline constexpr std::size_t kDetailMax = 256;
 
 }  // namespace collision::server

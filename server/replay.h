@@ -28,6 +28,7 @@ class ReplaySource final : public Bus, public Clock {
   void Publish(const v1::Output& output) override;
   void Flush() override {}
   void Wake() override {}
+  bool recorded() const override { return true; }
 
   /// The times of the last batch handed out; before that, those of the first.
   ClockReading Read() override { return now_; }

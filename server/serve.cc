@@ -5,13 +5,16 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
 #include <mutex>
 
+#include "server/config.h"
 #include "server/daemon.h"
 #include "server/logging.h"
 #include "server/service_notify.h"
 #include "server/stop_signals.h"
 #include "server/system_clock.h"
+#include "server/threaded_shape_builder.h"
 #include "server/version.h"
 
 namespace collision::server {
@@ -47,12 +50,16 @@ void TellEventLog(const EventLog& log) {
 
 int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder) {
   SystemClock clock;
-  Daemon daemon(config, bus, clock, recorder);
+  Daemon daemon(
+      config, bus, clock, recorder,
+      std::make_unique<ThreadedShapeBuilder>(config.shape_triangles_max(), [&bus] { bus.Wake(); }));
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
                                   [recorder] { EndInTheStep(recorder); });
   ServiceNotifier service_manager;
   spdlog::info("collisiond {} serves world \"{}\" on domain {}", kVersion, config.world(),
                config.domain());
+  spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and turn",
+               config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerTurn(config));
   service_manager.Ready();
   while (daemon.Step()) service_manager.Alive(std::chrono::steady_clock::now());
   service_manager.Stopping();

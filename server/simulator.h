@@ -19,6 +19,7 @@ struct Agent {
   std::uint32_t generation = 0;
   std::uint32_t revision = 0;
   AgentDeclaration declaration;
+  std::string shape_hash = {};  ///< Empty: the ball is its shape.
   bool admitted = false;
   bool told_no_room = false;
   Instant stamp = Instant::Always();             ///< Of the newest state in force.

@@ -73,6 +73,18 @@ void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
   Count("rejections_untold", sources.rejections.untold(), status);
 }
 
+void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
+  Count("shapes", shapes.visible, status);
+  Count("shapes_gathering", shapes.gathering, status);
+  Count("shapes_refused", shapes.refused, status);
+  Count("shape_parts_received", shapes.parts_received, status);
+  Count("shape_bytes", shapes.bytes, status);
+  Count("tree_nodes", shapes.tree_nodes, status);
+  Count("tree_bytes", shapes.tree_bytes, status);
+  Count("tree_build_us", shapes.builder.microseconds, status);
+  Count("trees_building", shapes.builder.building, status);
+}
+
 void AddDetection(const DetectorCounters& detector, v1::ServiceStatus* status) {
   for (int kind = 0; kind < v1::EventStatus_ARRAYSIZE; ++kind) {
     std::string name = LowerCase(v1::EventStatus_Name(static_cast<v1::EventStatus>(kind)));
@@ -86,6 +98,7 @@ void AddDetection(const DetectorCounters& detector, v1::ServiceStatus* status) {
   Count("queries", detector.queries, status);
   Count("pair_queries", detector.pair_queries, status);
   Count("segments", detector.segments, status);
+  Count("work_units", detector.work_units, status);
   Count("saturations", detector.saturations, status);
 }
 
@@ -107,6 +120,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_pairs_tracked(static_cast<std::uint32_t>(sources.detector.pairs_tracked()));
   AddSimulators(sources.world, &status);
   AddIntake(sources, &status);
+  AddShapes(sources.shapes.counters(), &status);
   AddDetection(sources.detector.counters(), &status);
   for (const v1::Counter& counter : sources.network) *status.add_counters() = counter;
   const Detector::Profile profile = sources.detector.profile();

@@ -6,6 +6,7 @@
 #include "server/event_log.h"
 #include "server/intake.h"
 #include "server/rejections.h"
+#include "server/shape_store.h"
 #include "server/world.h"
 
 namespace collision::server {
@@ -22,6 +23,7 @@ struct StatusSources {
   const World& world;
   const Detector& detector;
   const Intake& intake;
+  const ShapeStore& shapes;
   const Rejections& rejections;
   const EventLog& event_log;
   StepCounters steps;

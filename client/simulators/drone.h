@@ -31,6 +31,9 @@ class Drone {
   /// nothing changes.
   bool Bounce(const Vector3& normal, int side);
 
+  /// After another kind of bounce.
+  void SetVelocity(const Vector3& velocity_m_s) { velocity_m_s_ = velocity_m_s; }
+
   const Vector3& position_m() const { return position_m_; }
   const Vector3& velocity_m_s() const { return velocity_m_s_; }
 

@@ -46,16 +46,22 @@ int Run(const std::string& report_path, const std::vector<std::string>& logs,
     observations.names = {report.names().begin(), report.names().end()};
   }
   const Evidence evidence(std::move(motions), observations, facts);
-  std::printf("%zu agents, %zu true contacts\n", evidence.motions().size(),
-              evidence.contacts().size());
+  const std::size_t certain = evidence.contacts_certain();
+  std::printf("%zu agents, %zu true contacts", evidence.motions().size(), certain);
+  const std::size_t grazes = evidence.contacts().size() - certain;
+  if (grazes > 0) std::printf(", %zu grazes", grazes);
+  std::printf("\n");
   if (report_path.empty()) {
     for (const TrueContact& contact : evidence.contacts()) {
-      std::printf("%s  %s to %s\n", evidence.PairName(contact.a, contact.b).c_str(),
-                  evidence.Time(contact.begin_ns).c_str(), evidence.Time(contact.end_ns).c_str());
+      std::printf("%s  %s to %s%s\n", evidence.PairName(contact.a, contact.b).c_str(),
+                  evidence.Time(contact.begin_ns).c_str(), evidence.Time(contact.end_ns).c_str(),
+                  contact.certain ? "" : "  (a graze)");
     }
     return 0;
   }
-  const Violations violations = CheckEvents(evidence);
+  Violations violations = CheckEvents(evidence);
+  const Violations of_geometry = CheckGeometry(evidence);
+  violations.insert(violations.end(), of_geometry.begin(), of_geometry.end());
   for (const std::string& violation : violations) std::printf("violation: %s\n", violation.c_str());
   std::printf("%zu events checked: %s\n", evidence.histories().size(),
               violations.empty() ? "satisfied" : "NOT satisfied");

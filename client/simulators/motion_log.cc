@@ -3,7 +3,19 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "client/shape.h"
+
 namespace collision::client {
+namespace {
+
+// Seventeen digits name a double.
+void Write(double number, std::ofstream* file) {
+  char text[32];
+  std::snprintf(text, sizeof text, " %.17g", number);
+  *file << text;
+}
+
+}  // namespace
 
 PositionAndVelocity Evaluate(const MotionPiece& piece, std::int64_t stamp_ns) {
   const double t = static_cast<double>(stamp_ns - piece.t0_ns) * 1e-9;
@@ -20,26 +32,50 @@ MotionLog::MotionLog(const std::string& path) : path_(path) {
   if (path_.empty()) return;
   file_.open(path_);
   if (!file_) throw std::runtime_error(path_ + ": cannot be created");
-  file_ << "motion-log 1\n";
+  file_ << "motion-log 2\n";
 }
 
-void MotionLog::Agent(const std::string& name, double radius_m) {
+std::string MotionLog::MeshName(const Shape& shape) {
+  const auto [mesh, is_new] =
+      meshes_.try_emplace(shape.hash(), "mesh-" + std::to_string(meshes_.size() + 1));
+  if (!is_new) return mesh->second;
+  const Triangles& triangles = shape.triangles();
+  file_ << "mesh " << mesh->second << ' ' << triangles.vertices_m.size() << ' '
+        << triangles.indices.size();
+  for (const Vector3& vertex : triangles.vertices_m) {
+    for (const double x : vertex) Write(x, &file_);
+  }
+  for (const auto& triangle : triangles.indices) {
+    for (const std::uint32_t index : triangle) file_ << ' ' << index;
+  }
+  file_ << '\n';
+  return mesh->second;
+}
+
+void MotionLog::Agent(const std::string& name, double radius_m,
+                      const std::shared_ptr<const Shape>& shape) {
   if (path_.empty()) return;
-  char number[32];
-  std::snprintf(number, sizeof number, "%.17g", radius_m);
-  file_ << "agent " << name << ' ' << number << '\n';
+  const std::string mesh = shape ? " " + MeshName(*shape) : "";
+  file_ << "agent " << name;
+  Write(radius_m, &file_);
+  file_ << mesh << '\n';
 }
 
 void MotionLog::Piece(const std::string& name, const MotionPiece& piece) {
   if (path_.empty()) return;
   file_ << "piece " << name << ' ' << piece.t0_ns << ' ' << piece.t1_ns;
   for (const auto& axis : piece.coefficients) {
-    for (const double c : axis) {
-      char number[32];
-      std::snprintf(number, sizeof number, " %.17g", c);
-      file_ << number;
-    }
+    for (const double c : axis) Write(c, &file_);
   }
+  file_ << '\n';
+}
+
+void MotionLog::Turn(const std::string& name, const TurnPiece& turn) {
+  if (path_.empty()) return;
+  file_ << "turn " << name << ' ' << turn.t0_ns << ' ' << turn.t1_ns;
+  for (const double c : turn.orientation) Write(c, &file_);
+  for (const double c : turn.angular_velocity_rad_s) Write(c, &file_);
+  for (const double c : turn.angular_acceleration_rad_s2) Write(c, &file_);
   file_ << '\n';
 }
 

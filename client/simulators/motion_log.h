@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <string>
 
 #include "client/types.h"
@@ -26,16 +28,33 @@ struct PositionAndVelocity {
 /// Where the piece is at `stamp_ns`.
 PositionAndVelocity Evaluate(const MotionPiece& piece, std::int64_t stamp_ns);
 
+/// The rotation over [t0_ns, t1_ns]: the solution of q' = ½ ω q from `orientation` with
+/// ω(t) = angular_velocity + angular_acceleration (t − t0), both in W: exact, by definition.
+struct TurnPiece {
+  std::int64_t t0_ns = 0;
+  std::int64_t t1_ns = 0;
+  Quaternion orientation{1, 0, 0, 0};
+  Vector3 angular_velocity_rad_s{};
+  Vector3 angular_acceleration_rad_s2{};
+};
+
 /// A text file, one record per line (README.md). Without a path nothing is written.
 class MotionLog {
  public:
   /// Throws std::runtime_error if the file cannot be created.
   explicit MotionLog(const std::string& path);
 
-  void Agent(const std::string& name, double radius_m);
+  /// Without a shape the agent is a ball. A shape is written down before the first agent that has
+  /// it.
+  void Agent(const std::string& name, double radius_m,
+             const std::shared_ptr<const Shape>& shape = nullptr);
 
   /// Pieces of one agent follow each other in time.
   void Piece(const std::string& name, const MotionPiece& piece);
+
+  /// Over the same interval as the agent's last piece. An agent that never turns needs none: its
+  /// axes are the world's.
+  void Turn(const std::string& name, const TurnPiece& turn);
 
   /// A state with `discontinuity` was published for this instant.
   void Jump(const std::string& name, std::int64_t stamp_ns);
@@ -44,8 +63,11 @@ class MotionLog {
   void Close();
 
  private:
+  std::string MeshName(const Shape& shape);
+
   std::string path_;
   std::ofstream file_;
+  std::map<std::string, std::string> meshes_;  // name, by content hash
 };
 
 }  // namespace collision::client

@@ -26,6 +26,8 @@ AgentDescription Description(const PlayedAgent& agent, const PlayerOptions& opti
   description.acceleration_max_m_s2 = options.acceleration_max_m_s2 >= 0
                                           ? options.acceleration_max_m_s2
                                           : agent.trajectory.AccelerationMax();
+  description.shape = options.shape;
+  if (options.shape) description.angular_acceleration_max_rad_s2 = 0;
   return description;
 }
 
@@ -42,7 +44,7 @@ class Part {
       return;
     }
     handle_.emplace(world->AddAgent(Description(agent_, options_), state));
-    log->Agent(agent_.name, options_.radius_m);
+    log->Agent(agent_.name, options_.radius_m, options_.shape);
   }
 
   // The clock has come to `clock_ns`: what was played is written down, and who has passed its last

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct PlayerOptions {
   double acceleration_max_m_s2 = -1;  ///< < 0: derived from each trajectory.
   double position_error_m = 0;
   double rate_hz = 0;  ///< States at this rate; 0: at the rows' times.
+  /// Of every agent; it never turns, its axes are the world's. Null: a ball.
+  std::shared_ptr<const Shape> shape = nullptr;
 };
 
 /// One agent to play.

@@ -8,6 +8,7 @@
 
 #include "client/simulators/command_line.h"
 #include "client/simulators/csv_rows.h"
+#include "client/simulators/mesh_option.h"
 #include "client/simulators/player.h"
 #include "client/simulators/stop_signal.h"
 #include "client/validation.h"
@@ -20,6 +21,7 @@ constexpr std::size_t kAgentsPrinted = 10;
 struct Options {
   SimulatorOptions simulator;
   PlayerOptions player;
+  MeshOptions mesh;
   std::string file;
   std::vector<std::string> agents;  // ID or ID=NAME; none: all
   bool quiet = false;
@@ -85,6 +87,22 @@ void CheckAgents(const Options& options, const CsvRows& file) {
   std::fprintf(stderr, "trajectory-player: %s, and are not told\n", what.c_str());
 }
 
+// Each agent has the mesh, within the ball that was asked for or in the smallest one. False: it is
+// not fit, which has been said.
+bool TakeMesh(Options* options) {
+  try {
+    options->player.shape = LoadMesh(options->mesh, options->quiet);
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "trajectory-player: %s\n", error.what());
+    return false;
+  }
+  const bool radius_given = options->player.radius_m >= 0;
+  if (options->player.shape && !radius_given) {
+    options->player.radius_m = options->player.shape->radius_m();
+  }
+  return true;
+}
+
 int Run(Options options) {
   std::error_code ignored;
   if (std::filesystem::is_directory(options.file, ignored)) {
@@ -97,6 +115,7 @@ int Run(Options options) {
     return kExitNoInput;
   }
   const CsvRows file = ReadCsv(stream, options.file);
+  if (!TakeMesh(&options)) return kExitBadData;
   CheckAgents(options, file);
   if (options.simulator.seconds <= 0) options.simulator.seconds = FileSeconds(file);
   MotionLog log(options.simulator.motion_log);
@@ -122,9 +141,10 @@ int main(int argc, char** argv) {
   app.add_option("--agents", options.agents,
                  "Agents to play, ID or ID=NAME, separated by commas; default: all")
       ->delimiter(',');
-  app.add_option("--radius", options.player.radius_m, "Bounding radius of every agent [m]")
-      ->required()
-      ->check(Finite(kRadiusMax, true));
+  options.player.radius_m = -1;
+  auto* radius = app.add_option("--radius", options.player.radius_m,
+                                "Bounding radius of every agent [m]; default: that of --mesh")
+                     ->check(Finite(kRadiusMax, true));
   app.add_option("--acceleration-max", options.player.acceleration_max_m_s2,
                  "Of every agent [m/s2]; default: derived from the data, per agent")
       ->check(Finite(kAccelerationMax, true));
@@ -137,8 +157,13 @@ int main(int argc, char** argv) {
                  "Length of the run; default: to the last row")
       ->check(Finite(kRunSecondsMax, false));
   app.add_flag("--quiet", options.quiet, "Print nothing");
+  AddMeshOptions(&app, &options.mesh);
   AddSimulatorOptions(&app, &options.simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
+  if (radius->empty() && options.mesh.file.empty()) {
+    std::fprintf(stderr, "trajectory-player: --radius is required without --mesh\n");
+    return kExitUsage;
+  }
   CatchStopSignals();
   try {
     return Run(options);

@@ -1,8 +1,11 @@
 #include "client/tools/collisionctl_json.h"
 
+#include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <utility>
+
+#include "client/shape.h"
 
 namespace collision::client {
 
@@ -23,6 +26,23 @@ std::string AgentsJson(const WorldView& view) {
     if (agent.state) json += ",\"state\":" + Json(*agent.state);
     if (agent.clearance) json += ",\"clearance\":" + Json(*agent.clearance);
     json += "}";
+  }
+  return json + "]}";
+}
+
+std::string ShapesJson(const WorldView& view) {
+  std::string json = "{\"shapes\":[";
+  const char* separator = "";
+  for (const ShapeView& shape : view.Shapes()) {
+    google::protobuf::Value name;  // For its quotes and escapes.
+    name.set_string_value(shape.simulator);
+    json += std::exchange(separator, ",");
+    json += "{\"hash\":\"" + HexText(shape.hash) + "\",\"simulator\":" + Json(name) +
+            ",\"agents\":" + std::to_string(shape.agents) +
+            ",\"triangles\":" + (shape.triangles ? std::to_string(*shape.triangles) : "null") +
+            ",\"bytes\":" + std::to_string(shape.bytes) +
+            ",\"parts\":" + std::to_string(shape.parts) +
+            ",\"parts_seen\":" + std::to_string(shape.parts_seen.size()) + "}";
   }
   return json + "]}";
 }

@@ -87,6 +87,8 @@ void Print(const std::string& command, const Options& options, WorldView* view) 
     std::cout << (options.json ? Json(*view->status()) + "\n" : StatusPage(*view));
   } else if (command == "agents") {
     std::cout << (options.json ? AgentsJson(*view) + "\n" : AgentsPage(*view));
+  } else if (command == "shapes") {
+    std::cout << (options.json ? ShapesJson(*view) + "\n" : ShapesPage(*view));
   } else if (options.json) {
     std::cout << (view->earliest() ? Json(*view->earliest()) : "{}") << '\n';
   } else {
@@ -122,6 +124,7 @@ Examples:
   collisionctl status                   is it well, who is there, what has been refused
   collisionctl earliest                 who can touch whom first, and not before when
   collisionctl agents                   every agent, and how long it is clear
+  collisionctl shapes                   every mesh: whose, how many triangles, all there?
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
   collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
@@ -144,6 +147,7 @@ int Main(int argc, char** argv) {
   app.footer(kExamples);
   app.add_subcommand("status", "Service, clock, simulators, broad phase and why, refusals");
   app.add_subcommand("agents", "Table of all agents");
+  app.add_subcommand("shapes", "Table of all shapes that agents have");
   app.add_subcommand("earliest", "The earliest intersection that is possible now");
   app.add_subcommand("events", "The current events")
       ->add_flag("--follow", options.follow, "Go on with every revision as it comes");

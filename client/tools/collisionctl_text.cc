@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/event_text.h"
+#include "client/shape.h"
 #include "client/types.h"
 
 namespace collision::client {
@@ -69,13 +70,21 @@ std::string SimulatorsTable(const v1::ServiceStatus& status) {
   return Table(rows);
 }
 
+/// The first digits name a shape among the few there are.
+std::string ShapeText(const std::string& hash) {
+  constexpr std::size_t kBytesShown = 4;
+  if (hash.empty()) return "ball";
+  return HexText(hash.substr(0, kBytesShown));
+}
+
 std::vector<std::string> AgentRow(const AgentView& agent) {
   const v1::AgentDescription& description = agent.description;
-  std::vector<std::string> row = {
-      description.simulator_name() + ":" + std::to_string(description.slot()) + "." +
-          std::to_string(description.generation()),
-      description.agent_name(), NumberText(description.radius_m(), "%.6g"),
-      NumberText(description.acceleration_max_m_s2(), "%.6g")};
+  std::vector<std::string> row = {description.simulator_name() + ":" +
+                                      std::to_string(description.slot()) + "." +
+                                      std::to_string(description.generation()),
+                                  description.agent_name(), ShapeText(description.shape_hash()),
+                                  NumberText(description.radius_m(), "%.6g"),
+                                  NumberText(description.acceleration_max_m_s2(), "%.6g")};
   row.push_back(agent.state ? SinceText(agent.state->stamp_ns()) : "-");
   row.push_back(agent.state ? PositionText(agent.state->position_m()) : "-");
   if (!agent.clearance) {
@@ -116,8 +125,21 @@ std::string StatusPage(const WorldView& view) {
 
 std::string AgentsPage(const WorldView& view) {
   std::vector<std::vector<std::string>> rows = {
-      {"ID", "NAME", "RADIUS [m]", "M [m/s²]", "STATE AT", "POSITION [m]", "CLEAR UNTIL"}};
+      {"ID", "NAME", "SHAPE", "RADIUS [m]", "M [m/s²]", "STATE AT", "POSITION [m]", "CLEAR UNTIL"}};
   for (const AgentView& agent : view.Agents()) rows.push_back(AgentRow(agent));
+  return Table(rows);
+}
+
+std::string ShapesPage(const WorldView& view) {
+  std::vector<std::vector<std::string>> rows = {
+      {"SHAPE", "SIMULATOR", "AGENTS", "TRIANGLES", "BYTES", "PARTS"}};
+  for (const ShapeView& shape : view.Shapes()) {
+    const std::string parts =
+        std::to_string(shape.parts_seen.size()) + " of " + std::to_string(shape.parts);
+    rows.push_back({ShapeText(shape.hash), shape.simulator, std::to_string(shape.agents),
+                    shape.triangles ? std::to_string(*shape.triangles) : "-",
+                    std::to_string(shape.bytes), parts});
+  }
   return Table(rows);
 }
 

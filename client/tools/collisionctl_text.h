@@ -15,6 +15,10 @@ std::string StatusPage(const WorldView& view);
 /// A table of all agents: identity, declaration, newest state, how long they are clear.
 std::string AgentsPage(const WorldView& view);
 
+/// A table of all shapes that simulators have told: whose, of how many agents, how large, and how
+/// much of it has been seen.
+std::string ShapesPage(const WorldView& view);
+
 /// Who can touch whom first, and not before when.
 std::string EarliestPage(const WorldView& view);
 

@@ -14,6 +14,10 @@ Monitor::Callbacks WorldView::Callbacks() {
   callbacks.event = [this](const v1::CollisionEvent& event) { events_.push_back(event); };
   callbacks.description = [this](const v1::AgentDescription& message) { Hear(message); };
   callbacks.removal = [this](const v1::AgentRemoval& message) { Hear(message); };
+  callbacks.shape_part = [this](const v1::ShapePart& message) { Hear(message); };
+  callbacks.shape_removal = [this](const v1::ShapeRemoval& message) {
+    shapes_.erase({message.simulator_id(), message.content_hash()});
+  };
   callbacks.states = [this](const v1::AgentStates& message) { Hear(message); };
   callbacks.clearance = [this](const v1::Clearance& message) { Hear(message); };
   return callbacks;
@@ -34,6 +38,19 @@ std::vector<AgentView> WorldView::Agents() const {
     take(clearances_, &agent.clearance);
   }
   return agents;
+}
+
+std::vector<ShapeView> WorldView::Shapes() const {
+  std::vector<ShapeView> shapes;
+  for (const auto& [key, view] : shapes_) {
+    ShapeView& shape = shapes.emplace_back(view);
+    shape.hash = key.second;
+    shape.simulator = SimulatorName(key.first);
+    for (const auto& [agent, description] : descriptions_) {
+      shape.agents += agent.first == key.first && description.shape_hash() == key.second;
+    }
+  }
+  return shapes;
 }
 
 bool WorldView::knows_all_agents() const {
@@ -71,11 +88,29 @@ void WorldView::Hear(const v1::AgentDescription& description) {
        agent != descriptions_.end() && agent->first.first == first.first;) {
     agent = agent->second.run() < description.run() ? descriptions_.erase(agent) : std::next(agent);
   }
+  std::erase_if(shapes_, [&](const auto& shape) {
+    return shape.first.first == description.simulator_id() && shape.second.run < description.run();
+  });
   descriptions_[{description.simulator_id(), description.slot()}] = description;
 }
 
 void WorldView::Hear(const v1::AgentRemoval& removal) {
   descriptions_.erase({removal.simulator_id(), removal.slot()});
+}
+
+void WorldView::Hear(const v1::ShapePart& part) {
+  constexpr std::size_t kTrianglesAt = 12;  // idl/shape_bytes.h: format, vertices, triangles.
+  ShapeView& shape = shapes_[{part.simulator_id(), part.content_hash()}];
+  shape.run = std::max(shape.run, part.run());
+  shape.bytes = part.total_bytes();
+  shape.parts = part.parts();
+  shape.parts_seen.insert(part.part());
+  if (part.part() != 0 || part.bytes().size() < kTrianglesAt + 4) return;
+  std::uint32_t triangles = 0;
+  for (int i = 3; i >= 0; --i) {
+    triangles = triangles << 8 | static_cast<unsigned char>(part.bytes()[kTrianglesAt + i]);
+  }
+  shape.triangles = triangles;
 }
 
 void WorldView::Hear(const v1::AgentStates& states) {

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -18,6 +19,18 @@ struct AgentView {
   v1::AgentDescription description;
   std::optional<v1::AgentState> state;
   std::optional<v1::AgentClearance> clearance;
+};
+
+/// One shape of one simulator, as far as its parts have come.
+struct ShapeView {
+  std::string hash;
+  std::string simulator;
+  std::uint32_t run = 0;
+  std::size_t agents = 0;  ///< Of this simulator that have it.
+  std::uint64_t bytes = 0;
+  std::uint32_t parts = 0;
+  std::set<std::uint32_t> parts_seen;
+  std::optional<std::uint32_t> triangles;  ///< As its first part says.
 };
 
 /// Takes messages in any order and keeps the newest of each kind. The callbacks refer to the view:
@@ -39,6 +52,9 @@ class WorldView {
   /// All described agents, by simulator and slot.
   std::vector<AgentView> Agents() const;
 
+  /// All shapes, by simulator and hash.
+  std::vector<ShapeView> Shapes() const;
+
   /// Does it know every agent that the service says it has?
   bool knows_all_agents() const;
 
@@ -55,6 +71,7 @@ class WorldView {
 
   void Hear(const v1::AgentDescription& description);
   void Hear(const v1::AgentRemoval& removal);
+  void Hear(const v1::ShapePart& part);
   void Hear(const v1::AgentStates& states);
   void Hear(const v1::Clearance& clearance);
   std::string SimulatorName(std::uint64_t id) const;
@@ -67,6 +84,7 @@ class WorldView {
       names_;
   std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;          ///< With their run.
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
+  std::map<std::pair<std::uint64_t, std::string>, ShapeView> shapes_;  ///< By simulator and hash.
   std::vector<v1::CollisionEvent> events_;
 };
 

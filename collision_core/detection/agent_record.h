@@ -16,6 +16,7 @@ struct AgentRecord {
   Instant heard = Instant::Always();          ///< The owner has told everything up to here.
   Instant admitted_from = Instant::Always();  ///< Nothing is known, or promised, of it before.
   bool expired = false;
+  bool reshaped = false;  ///< Its shape was declared anew since the newest state.
 
   /// Certified free of every partner that is not tracked up to here.
   Instant key = Instant::Always();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <numbers>
 
 #include "collision_core/detection/judge.h"
 
@@ -105,7 +104,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     if (!subject.pair.announced) Open(subject, episode.begin.earliest, episode.began_before);
     event.begin = episode.begin;
     event.end = episode.end;
-    Evaluate(subject, episode.nearest);
+    Evaluate(subject, episode.nearest, episode.normal);
     Emit(subject, EventStatus::kUndecided);
   }
   subject.pair.announced = false;
@@ -139,8 +138,12 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   event.continuous = episode.continuous;
   event.began_before = episode.began_before;
   const Instant at = episode.begin.latest;
-  Evaluate(subject, {at, SeparationOf(subject.lower.history, subject.higher.history, at)});
-  ++subject.pair.work;
+  Work work(options_.work_units_per_turn);
+  const History& lower = subject.lower.history;
+  const History& higher = subject.higher.history;
+  Evaluate(subject, {at, ProximityOf(lower, higher, at, &work)}, episode.normal);
+  subject.pair.work += work.spent();
+  counters_->work_units += work.spent();
   Emit(subject, EventStatus::kConfirmed);
 }
 
@@ -166,39 +169,26 @@ void Announcer::Emit(const Subject& subject, EventStatus status) {
   ++event.revision;
   event.now = now_;
   event.work = subject.pair.work;
-  event.limited_by = EventLimit::kMotion;
   events_.push_back(event);
 }
 
-void Announcer::Evaluate(const Subject& subject, const Nearest& nearest) {
+void Announcer::Evaluate(const Subject& subject, const Nearest& nearest,
+                         const ContactNormal& normal) {
   if (nearest.at.is_never()) return;
   CollisionEvent& event = subject.pair.event;
-  const SeparationAt& found = nearest.found;
+  const Proximity& found = nearest.found;
   event.evaluated_at = nearest.at;
-  // Bounds of two states that agree only up to rounding may contradict each other by as much.
-  const Interval separation(std::min(found.separation.lower, found.separation.upper),
-                            std::max(found.separation.lower, found.separation.upper));
-  event.separation_lower = separation.lower;
-  event.separation_upper = separation.upper;
-  event.depth_lower = std::max(0.0, -separation.upper);
-  const Eigen::Vector3d d = found.p_WB - found.p_WA;
-  const double distance = d.norm();
-  const double error = found.error_A + found.error_B;
-  // The direction of d turns by at most asin(error / distance), and asin x <= π/2 x; the last
-  // factor covers the rounding of these few operations.
-  constexpr double kRounding = 1 + 1e-12;
-  const bool directed = distance > error;
-  event.normal = directed ? Eigen::Vector3d(d / distance) : Eigen::Vector3d(0, 0, 0);
-  event.normal_error =
-      directed ? std::numbers::pi / 2 * (error / distance) * kRounding + 1e-15 : std::numbers::pi;
-  // Half-way between the two surfaces along the normal.
-  const double radius_A = subject.lower.bound().declaration.radius;
-  const double gap = separation.middle();
-  event.p_WC = found.p_WA + event.normal * (radius_A + gap / 2);
-  event.point_error =
-      (found.error_A + separation.width() + radius_A * std::min(event.normal_error, 2.0)) *
-          kRounding +
-      1e-15 * found.p_WA.lpNorm<Eigen::Infinity>();
+  event.separation_lower = found.separation.lower;
+  event.separation_upper = found.separation.upper;
+  event.depth_lower = found.depth_lower;
+  event.p_WC = found.p_WC;
+  event.point_error = found.point_error;
+  // Bodies that overlap have no shortest way between them: the one by which they came near tells.
+  const bool approached = normal.known && normal.error < found.normal_error;
+  event.normal = approached ? normal.normal : found.normal;
+  event.normal_error = approached ? normal.error : found.normal_error;
+  event.level = found.level;
+  event.limited_by = found.limited_by;
 }
 
 }  // namespace collision

@@ -39,7 +39,7 @@ class Announcer {
   void Confirm(const Subject& subject, const ContactEpisode& episode);
   void Open(const Subject& subject, Instant free_until, bool began_before);
   void Emit(const Subject& subject, EventStatus status);
-  void Evaluate(const Subject& subject, const Nearest& at);
+  void Evaluate(const Subject& subject, const Nearest& at, const ContactNormal& normal);
 
   DetectorOptions options_;
   DetectorCounters* counters_;

@@ -6,14 +6,12 @@
 
 #include "collision_core/detection/agent_id.h"
 #include "collision_core/motion/instant.h"
+#include "collision_core/narrow_phase/proximity.h"
 
 namespace collision {
 
 /// possible -> confirmed | dismissed | undecided | withdrawn;  confirmed -> ended.
 enum class EventStatus { kPossible, kConfirmed, kDismissed, kUndecided, kWithdrawn, kEnded };
-
-/// What kept the brackets from being narrower.
-enum class EventLimit { kNone, kBudget, kMotion, kGeometry };
 
 /// A closed bracket, rounded outward; `latest` is Never() while it is open.
 struct TimeBracket {

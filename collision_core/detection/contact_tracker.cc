@@ -27,6 +27,7 @@ void ContactTracker::Open(Instant free_until) {
   episode_ = ContactEpisode{};
   episode_.begin.earliest = free_until;
   episode_.began_before = began_before_;
+  episode_.normal = normal_;
   began_before_ = false;
 }
 
@@ -64,7 +65,8 @@ void ContactTracker::Touch(const SegmentVerdict& verdict, Instant from, Instant 
   }
 }
 
-void ContactTracker::Apply(const SegmentVerdict& verdict, Instant to, const Nearest& nearest) {
+void ContactTracker::Apply(const SegmentVerdict& verdict, Instant to, const Nearest& nearest,
+                           const ContactNormal& normal) {
   const Instant from = at_;
   const Instant free_until = AddRoundedDown(from, verdict.free_until);
   const bool free_throughout = free_until >= to;
@@ -72,6 +74,7 @@ void ContactTracker::Apply(const SegmentVerdict& verdict, Instant to, const Near
   at_ = to;
   if (free_at_start) began_before_ = false;
   if (open_ && free_at_start) Close(from);
+  if (!open_) normal_ = normal;
   if (free_throughout) return;
   if (!open_) Open(std::min(free_until, to));
   if (!nearest.at.is_never() &&

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "collision_core/detection/collision_event.h"
-#include "collision_core/narrow_phase/ball_contact.h"
+#include "collision_core/narrow_phase/shape_contact.h"
 
 namespace collision {
 
-/// The separation at one instant.
+/// How near the two are at one instant.
 struct Nearest {
   Instant at = Instant::Never();  ///< Never(): none.
-  SeparationAt found;
+  Proximity found;
 };
 
 /// One stretch of time in which a pair was not certified free.
@@ -24,6 +24,8 @@ struct ContactEpisode {
   bool began_before = false;
   /// Where, of the instants looked at, the surfaces were certified to be nearest.
   Nearest nearest;
+  /// Of shapes: how they came near each other.
+  ContactNormal normal;
 };
 
 /// Follows one pair through time, segment after segment without a gap. Copyable: a copy that runs
@@ -51,8 +53,10 @@ class ContactTracker {
   void ExtendFree(Instant until);
   void RetractFree(Instant until, bool began_before);
 
-  /// The verdict on [at(), to]; `nearest` is given where the verdict is not all free.
-  void Apply(const SegmentVerdict& verdict, Instant to, const Nearest& nearest);
+  /// The verdict on [at(), to]; `nearest` is given where the verdict is not all free, `normal` where
+  /// shapes came near each other.
+  void Apply(const SegmentVerdict& verdict, Instant to, const Nearest& nearest,
+             const ContactNormal& normal);
 
   /// Episodes that have ended since the last call.
   std::vector<ContactEpisode> TakeFinished();
@@ -68,6 +72,7 @@ class ContactTracker {
   bool began_before_;
   Instant contact_until_ = Instant::Always();  // contact certified without a gap up to here
   ContactEpisode episode_;
+  ContactNormal normal_;  // the last that was known
   std::vector<ContactEpisode> finished_;
 };
 

@@ -7,6 +7,36 @@
 #include "collision_core/detection/scene_profile.h"
 
 namespace collision {
+namespace {
+
+// Shapes are looked at so far ahead, in units of announce_within: a little beyond what the announcer takes for
+// "far apart again".
+constexpr double kLookAhead = 1.3;
+
+// Of the work that is left in a turn: for what is settled, then for what is heard; the rest is for what is promised.
+constexpr double kSettledShare = 0.6;
+constexpr double kHeardShare = 0.6;
+
+// What is in force until the next state. A shape that was awaited has been there since the state that it is in force
+// with; one that the owner changed since, or changes now, is somewhere within the ball until the next state.
+void Reshape(const AgentDeclaration& before, const AgentDeclaration& declaration,
+             AgentRecord* record) {
+  AgentDeclaration& in_force = record->history.newest().declaration;
+  const bool arrived = before.shape_awaited && declaration.shape != nullptr;
+  const bool same =
+      declaration.shape == before.shape && declaration.shape_awaited == before.shape_awaited;
+  if (arrived && !record->reshaped) {
+    in_force.shape = declaration.shape;
+    in_force.shape_awaited = false;
+  } else if (!same && !arrived) {
+    in_force.shape = nullptr;
+    in_force.shape_awaited = true;
+  }
+  // Awaited before and after: it may be another one.
+  if (!arrived && (!same || declaration.shape_awaited)) record->reshaped = true;
+}
+
+}  // namespace
 
 Detector::Implementation::Implementation(const DetectorOptions& options)
     : pairs_(options.pairs_max), announcer_(options, &counters_), options_(options) {}
@@ -49,6 +79,7 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionSt
   const SpaceTimeBound next{state, record.declaration, options_.skew};
   const auto push = [&](Link link) {
     record.history.Push(next, link, options_.history_max);
+    record.reshaped = false;
     record.heard = std::max(record.heard, state.stamp);
     record.changed = true;
   };
@@ -112,12 +143,17 @@ bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclarati
   in_force.radius = std::max(before.radius, declaration.radius);
   in_force.acceleration_max = std::max(before.acceleration_max, declaration.acceleration_max);
   in_force.time_step = std::max(before.time_step, declaration.time_step);
+  in_force.angular_acceleration_max =
+      WiderAngularBound(before.angular_acceleration_max, declaration.angular_acceleration_max);
+  const bool spins_faster = in_force.angular_acceleration_max != before.angular_acceleration_max;
+  Reshape(before, declaration, &record);
   in_force.group = declaration.group;
   in_force.mask = declaration.mask;
   record.changed = true;
   const bool widened = in_force.radius > before.radius ||
                        in_force.acceleration_max > before.acceleration_max ||
                        in_force.time_step > before.time_step ||
+                       (before.shape && (in_force.shape != before.shape || spins_faster)) ||
                        (in_force.group & ~before.group) != 0 || (in_force.mask & ~before.mask) != 0;
   if (record.expired) return true;
   if (widened) {
@@ -250,19 +286,25 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
     Drop(slot, false);
     return;
   }
+  // One budget for all that this turn looks at, what is settled first.
+  Work work(options_.work_units_per_turn);
   const auto judge = [&](Instant until, ContactTracker* tracker) {
-    const std::uint64_t segments = Judge(a.history, b.history, until, tracker);
-    counters_.segments += segments;
-    pair.work += segments;
+    counters_.segments += Judge(a.history, b.history, until, &work, tracker);
   };
   // Settled: both owners' states reach up to here, so that the bounds of both directions count.
   const Instant there = std::min(a.bound().state.expiry, b.bound().state.expiry);
   const Instant heard = std::min({a.heard, b.heard, now_, there});
-  judge(last ? heard : std::min({SettledUntil(a), SettledUntil(b), there}), &pair.tracker);
+  {
+    const WorkShare share(last ? 1 : kSettledShare, &work);
+    judge(last ? heard : std::min({SettledUntil(a), SettledUntil(b), there}), &pair.tracker);
+  }
   // Heard: no jump that we do not know of lies before.
   ContactTracker preview = pair.tracker;
   preview.TakeFinished();
-  judge(heard, &preview);
+  {
+    const WorkShare share(kHeardShare, &work);
+    judge(heard, &preview);
+  }
   // Promised: free as long as both honour their newest bounds.
   if (preview.free() && !last) {
     ContactTracker outlook = preview;
@@ -276,11 +318,19 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
         pair.asked = step_;
       }
       outlook.ExtendFree(earliest);
+      if (HaveShapes(a.history, b.history)) {
+        // Balls that overlap need not touch: as far ahead as decides what is announced.
+        const Instant ahead = AddRoundedDown(now_, kLookAhead * options_.announce_within);
+        outlook.ExtendFree(
+            ShapesFreeAhead(a.history, b.history, outlook.at(), std::min(ahead, there), &work));
+      }
       preview = outlook;
       const bool free_throughout = pair.tracker.free() && preview.finished().empty();
       if (free_throughout) pair.tracker.ExtendFree(preview.at());
     }
   }
+  pair.work += work.spent();
+  counters_.work_units += work.spent();
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
   if (!announcer_.Report(a, b, slot, preview, last, &pairs_)) Untrack(slot);

@@ -267,8 +267,10 @@ EarliestAnswer Detector::Implementation::Earliest() {
     // time than others), the pair must be certified free until there.
     const Instant known_from = std::max(At(pair.lower).stamp(), At(pair.higher).stamp());
     const bool known = pair.clear_until >= known_from;
+    // Where balls may overlap, their shapes may be certified apart for longer.
+    const Instant earliest = std::max(pair.earliest, known ? pair.clear_until : Instant::Always());
     offer(pair.lower, pair.higher,
-          known ? pair.earliest : std::min(pair.earliest, std::max(now_, pair.clear_until)));
+          known ? earliest : std::min(pair.earliest, std::max(now_, pair.clear_until)));
   }
   // Keys are lower bounds, so only agents whose key is not later than the best answer can better
   // it.

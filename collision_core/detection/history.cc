@@ -11,7 +11,13 @@ AgentDeclaration Widest(const AgentDeclaration& a, const AgentDeclaration& b) {
   widest.radius = std::max(a.radius, b.radius);
   widest.acceleration_max = std::max(a.acceleration_max, b.acceleration_max);
   widest.time_step = std::max(a.time_step, b.time_step);
+  widest.angular_acceleration_max =
+      WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max);
   return widest;
+}
+
+bool HasShape(const AgentDeclaration& declaration) {
+  return declaration.shape != nullptr || declaration.shape_awaited;
 }
 
 }  // namespace
@@ -93,13 +99,14 @@ bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
 // By our clock the jump may have come anywhere within the skew: the agent moves as before it, or as after it, so
 // that one ball must contain both. With c, u of before and c', u' of after, all of both lies within
 //   u + u' + |c' − c| <= u + u' + |Δc| + |Δv| δ   about c(δ).
-BallSegment History::OverJump(std::size_t i, Instant from, Instant to) const {
-  BallSegment segment;
+BodySegment History::OverJump(std::size_t i, Instant from, Instant to) const {
+  BodySegment segment;
   for (std::size_t other = i + 1; other < samples_.size(); ++other) {
     if (JumpsNear(other, from, to)) return segment;  // more than two motions: nothing is said
   }
   const SpaceTimeBound& before = samples_[i - 1].bound;
   const SpaceTimeBound& after = samples_[i].bound;
+  segment.awaited = HasShape(before.declaration) || HasShape(after.declaration);
   if (from < before.state.stamp || after.declaration != before.declaration) return segment;
   MovingBall ball = ForwardBall(before, from);
   const MovingBall jumped =
@@ -107,13 +114,13 @@ BallSegment History::OverJump(std::size_t i, Instant from, Instant to) const {
   ball.u0 = ball.u0 + jumped.u0 + Norm(jumped.centre - ball.centre);
   ball.u1 = ball.u1 + jumped.u1 + Norm(jumped.velocity - ball.velocity);
   ball.u2 = ball.u2 + jumped.u2;
-  segment.radius = before.declaration.radius;
-  segment.bounds.push_back(ball);
+  segment.ball.radius = before.declaration.radius;
+  segment.ball.bounds.push_back(ball);
   return segment;
 }
 
-BallSegment History::Over(Instant from, Instant to) const {
-  BallSegment segment;
+BodySegment History::Over(Instant from, Instant to) const {
+  BodySegment segment;
   const std::size_t k = InForce(from);
   if (k == samples_.size()) return segment;
   for (std::size_t i = 1; i < samples_.size(); ++i) {
@@ -122,20 +129,25 @@ BallSegment History::Over(Instant from, Instant to) const {
   const bool has_next = k + 1 < samples_.size();
   SpaceTimeBound last = samples_[k].bound;
   SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
-  segment.radius = std::min(last.declaration.radius, next.declaration.radius);
+  BallSegment& ball = segment.ball;
+  ball.radius = std::min(last.declaration.radius, next.declaration.radius);
   const Interval spread =
-      Interval(std::max(last.declaration.radius, next.declaration.radius)) - segment.radius;
+      Interval(std::max(last.declaration.radius, next.declaration.radius)) - ball.radius;
+  if (last.declaration.shape == next.declaration.shape) segment.shape = last.declaration.shape;
+  segment.awaited = !segment.shape && (HasShape(last.declaration) || HasShape(next.declaration));
   last.declaration = next.declaration = Widest(last.declaration, next.declaration);
 
   const bool broken = has_next && samples_[k + 1].link == Link::kBroken;
   const bool at_last = to == last.state.stamp;
   if (to <= last.state.expiry && (!broken || at_last)) {
-    segment.bounds.push_back(ForwardBall(last, from));
+    ball.bounds.push_back(ForwardBall(last, from));
+    if (segment.shape) segment.turns.push_back(ForwardTurn(last, from));
   }
   if (has_next && samples_[k + 1].link == Link::kFollows) {
-    segment.bounds.push_back(BackwardBall(next, from));
+    ball.bounds.push_back(BackwardBall(next, from));
+    if (segment.shape) segment.turns.push_back(BackwardTurn(next, from));
   }
-  for (MovingBall& ball : segment.bounds) ball.u0 = ball.u0 + spread;
+  for (MovingBall& bound : ball.bounds) bound.u0 = bound.u0 + spread;
   return segment;
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision_core/narrow_phase/ball_contact.h"
+#include "collision_core/narrow_phase/body_segment.h"
 
 namespace collision {
 
@@ -44,13 +44,14 @@ class History {
   const SpaceTimeBound* Uninterrupted(Instant t) const;
 
   /// What is certain on [from, to], where no cut lies strictly between. With samples of unequal
-  /// radius the smaller counts, and the difference is added to the uncertainty.
-  BallSegment Over(Instant from, Instant to) const;
+  /// radius the smaller counts, and the difference is added to the uncertainty; with samples of
+  /// unequal shape, and about a jump, the shape counts as awaited.
+  BodySegment Over(Instant from, Instant to) const;
 
  private:
   void Thin();
   bool JumpsNear(std::size_t i, Instant from, Instant to) const;
-  BallSegment OverJump(std::size_t i, Instant from, Instant to) const;
+  BodySegment OverJump(std::size_t i, Instant from, Instant to) const;
   std::size_t InForce(Instant t) const;  // index of the last sample with stamp <= t; size() if none
 
   std::vector<Sample> samples_;

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "collision_core/narrow_phase/ball_proximity.h"
+
 namespace collision {
 namespace {
 
-// Where the two were certified to be nearest: looked for at the ends and where the centres' lines
+// Where two balls were certified to be nearest: looked for at the ends and where the centres' lines
 // are nearest.
 Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, double duration) {
   Nearest nearest;
@@ -15,7 +17,7 @@ Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, doub
   const double speed_squared = w.squaredNorm();
   const double bottom = speed_squared > 0 ? -d.dot(w) / speed_squared : 0;
   for (const double delta : {0.0, std::clamp(bottom, 0.0, duration), duration}) {
-    const SeparationAt found = JudgeInstant(a, b, delta);
+    const Proximity found = BallProximity(a, b, delta);
     if (nearest.at.is_never() || found.separation.upper < nearest.found.separation.upper) {
       nearest = {AddRoundedDown(from, delta), found};
     }
@@ -23,27 +25,81 @@ Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, doub
   return nearest;
 }
 
+// Of a shape that has not arrived only the ball is known: it can exclude a contact, not confirm
+// one, nor how near the two are.
+Nearest AwaitedNearest(Nearest nearest) {
+  nearest.found.separation.upper = kInfinity;
+  nearest.found.depth_lower = 0;
+  nearest.found.point_error = kInfinity;
+  nearest.found.normal_error = std::numbers::pi;
+  nearest.found.limited_by = EventLimit::kGeometry;
+  return nearest;
+}
+
+void JudgeOne(const BodySegment& a, const BodySegment& b, Instant from, Instant to, Work* work,
+              ContactTracker* tracker) {
+  const double duration = SecondsBetween(from, to).upper;
+  SegmentVerdict times = JudgeSegment(a.ball, b.ball, duration);
+  work->Spend(1);
+  Nearest nearest;
+  ContactNormal normal;
+  if (times.free_until < duration) {
+    if (a.awaited || b.awaited) {
+      times.contact_from = 1, times.contact_to = 0;
+      nearest = AwaitedNearest(NearestOf(a.ball, b.ball, from, duration));
+    } else if (a.is_ball() && b.is_ball()) {
+      nearest = NearestOf(a.ball, b.ball, from, duration);
+    } else {
+      const ShapeVerdict verdict = JudgeShapes(a, b, duration, times, work);
+      times = verdict.times;
+      normal = verdict.normal;
+      if (verdict.looked) {
+        nearest = {std::min(AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest};
+      }
+    }
+  }
+  tracker->Apply(times, to, nearest, normal);
+}
+
 }  // namespace
 
-std::uint64_t Judge(const History& a, const History& b, Instant until, ContactTracker* tracker) {
+std::uint64_t Judge(const History& a, const History& b, Instant until, Work* work,
+                    ContactTracker* tracker) {
   std::uint64_t segments = 0;
   while (tracker->at() < until) {
     const Instant from = tracker->at();
     const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
-    const double duration = SecondsBetween(from, to).upper;
-    const BallSegment of_a = a.Over(from, to);
-    const BallSegment of_b = b.Over(from, to);
-    const SegmentVerdict verdict = JudgeSegment(of_a, of_b, duration);
-    Nearest nearest;
-    if (verdict.free_until < duration) nearest = NearestOf(of_a, of_b, from, duration);
-    tracker->Apply(verdict, to, nearest);
+    JudgeOne(a.Over(from, to), b.Over(from, to), from, to, work, tracker);
     ++segments;
   }
   return segments;
 }
 
-SeparationAt SeparationOf(const History& a, const History& b, Instant at) {
-  return JudgeInstant(a.Over(at, at), b.Over(at, at), 0);
+bool HaveShapes(const History& a, const History& b) {
+  return a.newest().declaration.shape || b.newest().declaration.shape;
+}
+
+Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
+                        Work* work) {
+  until = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
+  if (until <= from) return from;
+  const BodySegment of_a = a.Over(from, until);
+  const BodySegment of_b = b.Over(from, until);
+  if (of_a.awaited || of_b.awaited || (of_a.is_ball() && of_b.is_ball())) return from;
+  const double duration = SecondsBetween(from, until).upper;
+  const double free = FreeAhead(of_a, of_b, 0, duration, work);
+  return std::min(until, AddRoundedDown(from, free));
+}
+
+Proximity ProximityOf(const History& a, const History& b, Instant at, Work* work) {
+  work->Spend(1);
+  const BodySegment of_a = a.Over(at, at);
+  const BodySegment of_b = b.Over(at, at);
+  if (of_a.is_ball() && of_b.is_ball()) return BallProximity(of_a.ball, of_b.ball, 0);
+  if (of_a.awaited || of_b.awaited) {
+    return AwaitedNearest({at, BallProximity(of_a.ball, of_b.ball, 0)}).found;
+  }
+  return ShapeProximity(of_a, of_b, 0, work);
 }
 
 }  // namespace collision

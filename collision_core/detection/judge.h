@@ -3,14 +3,24 @@
 
 #include "collision_core/detection/contact_tracker.h"
 #include "collision_core/detection/history.h"
+#include "collision_core/narrow_phase/work.h"
 
 namespace collision {
 
 /// Judges everything from tracker->at() to `until`, stamp by stamp, with whatever the two histories
-/// know. Returns the number of segments judged.
-std::uint64_t Judge(const History& a, const History& b, Instant until, ContactTracker* tracker);
+/// know, and shapes as closely as the work allows. Returns the number of segments judged.
+std::uint64_t Judge(const History& a, const History& b, Instant until, Work* work,
+                    ContactTracker* tracker);
 
-/// The two balls at one instant; what the event says of point, normal and depth.
-SeparationAt SeparationOf(const History& a, const History& b, Instant at);
+/// Whether either is more than a ball from `from` on.
+bool HaveShapes(const History& a, const History& b);
+
+/// From `from` on, at or after both newest states: up to when the shapes are apart for all motions
+/// within the newest bounds, `until` at most; `from` if they may touch at once.
+Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
+                        Work* work);
+
+/// The two at one instant; what the event says of point, normal and depth.
+Proximity ProximityOf(const History& a, const History& b, Instant at, Work* work);
 
 }  // namespace collision

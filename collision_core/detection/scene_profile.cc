@@ -12,6 +12,10 @@ void SceneProfile::Count(const AgentRecord& agent) {
   expiring_ += !bound.state.expiry.is_never();
   masked_ += bound.declaration.group != 1 || bound.declaration.mask != ~0u;
   skewed_ |= bound.skew > 0;
+  const bool shaped = bound.declaration.shape || bound.declaration.shape_awaited;
+  shaped_ += shaped;
+  turning_ +=
+      shaped && (bound.declaration.angular_acceleration_max != 0 || !bound.state.w_WB.isZero());
 }
 
 Detector::Profile SceneProfile::Describe() const {
@@ -29,7 +33,8 @@ Detector::Profile SceneProfile::Describe() const {
   leave_out(!skewed_, "clock skew: all clocks are one");
   leave_out(expiring_ == 0, "expiry: no agent declares one");
   leave_out(masked_ == 0, "masks: everybody can meet everybody");
-  leave_out(true, "sphere trees and rotation: every agent is a ball");
+  leave_out(shaped_ == 0, "sphere trees and rotation: every agent is a ball");
+  leave_out(shaped_ > 0 && turning_ == 0, "rotation of sphere trees: no agent with a shape turns");
   return profile;
 }
 

@@ -25,6 +25,8 @@ class SceneProfile {
   std::size_t uncertain_ = 0;
   std::size_t expiring_ = 0;
   std::size_t masked_ = 0;
+  std::size_t shaped_ = 0;
+  std::size_t turning_ = 0;
   bool skewed_ = false;
 };
 

@@ -48,6 +48,9 @@ struct AgentDeclaration {
   friend bool operator==(const AgentDeclaration&, const AgentDeclaration&) = default;
 };
 
+/// The one of two angular acceleration bounds that holds wherever either does; < 0: none.
+inline double WiderAngularBound(double a, double b) { return a < 0 || b < 0 ? -1 : a < b ? b : a; }
+
 /// A pair can meet only if each is in a group that the other's mask names.
 inline bool CanMeet(const AgentDeclaration& a, const AgentDeclaration& b) {
   return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;

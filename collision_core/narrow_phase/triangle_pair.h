@@ -10,10 +10,13 @@ namespace collision {
 
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
-/// The distance of two triangles whose corners are exactly as given.
+/// The distance of two triangles whose corners are exactly as given. The interval is about
+/// 4e-15 (S_a + S_b) wide, S their greatest coordinates seen from the first corner: the distance
+/// from the origin does not count. Degenerate triangles (segments, points) are taken.
 struct TriangleDistance {
   Interval distance;  ///< Contains the exact distance; [0, small] where they touch or cross.
-  /// On the triangles, about where they are nearest: |b − a| <= distance.upper.
+  /// About where the two are nearest: on the triangles and distance.upper apart, both but for the
+  /// rounding of the points' own coordinates.
   Eigen::Vector3d a, b;
 };
 TriangleDistance DistanceOf(const TrianglePoints& a, const TrianglePoints& b);
@@ -32,6 +35,7 @@ struct Crossing {
 
 /// A crossing that persists wherever each of the six corners lies within `uncertainty` of where it
 /// is given; nullopt if none is certain. Of several the one that is certain by the widest margin.
+/// Requires uncertainty >= 0.
 std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TrianglePoints& b,
                                         double uncertainty);
 

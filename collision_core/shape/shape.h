@@ -2,20 +2,15 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "collision_core/numeric/interval.h"
+#include "collision_core/shape/octree_builder.h"
 #include "collision_core/shape/sphere_tree.h"
 #include "collision_core/shape/triangle_mesh.h"
 
 namespace collision {
-
-struct ShapeOptions {
-  std::uint32_t triangles_per_leaf = 4;  ///< A node with so few is not divided.
-  std::uint32_t levels_max = 12;         ///< Octants are halved at most so often.
-  /// The tree's nodes, about: beyond, nodes become leaves with more triangles.
-  std::size_t nodes_max = std::size_t{1} << 20;
-};
 
 /// A mesh with its sphere tree. Immutable once built; shared by all agents of that shape, and
 /// between threads.

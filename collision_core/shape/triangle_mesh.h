@@ -24,6 +24,13 @@ struct TriangleMesh {
 inline constexpr double kMeshSizeMin = 1e-6;
 inline constexpr double kMeshSizeMax = 1e7;
 
+/// No coordinate may be farther from the reference point [m]: a body that far from the point it is
+/// said to turn about is a mistake of frames.
+inline constexpr double kMeshReachMax = 1e7;
+
+/// Corners of one face: cutting a polygon costs the cube of them at worst.
+inline constexpr std::size_t kPolygonCornersMax = 1024;
+
 /// Faces with any number of corners: `corners` holds them one after the other, `sizes` how many
 /// each has.
 struct PolygonMesh {
@@ -39,8 +46,9 @@ struct MeshRepair {
 };
 
 /// Cuts polygons into triangles (ear clipping in the polygon's plane, so that non-convex ones keep
-/// their shape) and drops degenerate faces, counted. Vertices stay as they are. Requires indices
-/// within range.
+/// their shape) and drops degenerate faces, counted. Vertices stay as they are. A polygon that
+/// crosses itself becomes some triangles with the same boundary. Requires a mesh that passed
+/// RefusalOf().
 TriangleMesh Triangulate(const PolygonMesh& polygons, MeshRepair* repair);
 
 /// Drops degenerate triangles: two equal corners (by index or by position), or certified without
@@ -48,8 +56,9 @@ TriangleMesh Triangulate(const PolygonMesh& polygons, MeshRepair* repair);
 std::size_t DropDegenerate(TriangleMesh* mesh);
 
 /// Why a mesh cannot be an agent's shape, as a sentence with the value and the allowed range:
-/// no triangles, not finite, an index out of range, more than `triangles_max`, size out of range.
-/// nullopt: it can.
+/// no triangles, not finite, an index out of range, more than `triangles_max`, size or place out of
+/// range, a face with too many corners. nullopt: it can. A mesh that was repaired is to be asked
+/// again: nothing may be left of it.
 std::optional<std::string> RefusalOf(const TriangleMesh& mesh, std::size_t triangles_max);
 std::optional<std::string> RefusalOf(const PolygonMesh& mesh, std::size_t triangles_max);
 
@@ -60,8 +69,15 @@ struct MeshFacts {
   bool closed = false;
   std::size_t components = 0;    ///< Connected through vertices (by position).
   double radius = 0;             ///< Of the ball about the origin that contains it, rounded up [m].
-  Eigen::Vector3d lower, upper;  ///< Its box.
+  Eigen::Vector3d lower, upper;  ///< Its box. Vertices without a triangle count nowhere.
 };
 MeshFacts FactsOf(const TriangleMesh& mesh);
+
+/// One vertex of each connected component, the one with the greatest x (of equal ones, the greatest
+/// y, then z); components in the order of their first triangles.
+std::vector<Eigen::Vector3d> ComponentPoints(const TriangleMesh& mesh);
+
+/// For each vertex the first one at the same position.
+std::vector<std::uint32_t> MergedVertices(const TriangleMesh& mesh);
 
 }  // namespace collision

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "idl/dds/conversion.h"
+#include "idl/dds/wire_values.h"
 
 namespace collision::dds {
 namespace {
@@ -45,6 +46,25 @@ void AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
   input.set_sender(sender);
   input.mutable_liveliness()->set_simulator_id(simulator);
   input.mutable_liveliness()->set_alive(alive);
+}
+
+/// Of what its writer disposed of. The sample holds the key, and nothing else that counts.
+void AddRemoval(TopicId topic, const void* sample, std::uint64_t sender,
+                std::vector<v1::Input>* inputs) {
+  if (topic == TopicId::kAgentDescription) {
+    const auto& key = As<collision_v1_AgentDescription>(sample);
+    v1::Input& input = inputs->emplace_back();
+    input.set_sender(sender);
+    input.mutable_agent_removal()->set_simulator_id(key.simulator_id);
+    input.mutable_agent_removal()->set_slot(key.slot);
+  } else if (topic == TopicId::kShapePart) {
+    const auto& key = As<collision_v1_ShapePart>(sample);
+    v1::Input& input = inputs->emplace_back();
+    input.set_sender(sender);
+    input.mutable_shape_removal()->set_simulator_id(key.simulator_id);
+    input.mutable_shape_removal()->set_content_hash(GetHash(key.content_hash));
+    input.mutable_shape_removal()->set_part(key.part);
+  }
 }
 
 /// The simulator that a sample names itself: descriptions and clocks do, which makes them claims.
@@ -104,13 +124,8 @@ void Intake::ReceiveData(dds_entity_t reader, const TopicRow& row, const void* s
 void Intake::ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sample,
                         const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
   const std::optional<std::uint64_t> sender = senders_.Of(reader, info.publication_handle);
-  if (row.id == TopicId::kAgentDescription &&
-      info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
-    const auto& key = As<collision_v1_AgentDescription>(sample);
-    v1::Input& input = inputs->emplace_back();
-    input.set_sender(sender.value_or(0));
-    input.mutable_agent_removal()->set_simulator_id(key.simulator_id);
-    input.mutable_agent_removal()->set_slot(key.slot);
+  if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
+    AddRemoval(row.id, sample, sender.value_or(0), inputs);
   }
   // Follow() tells of those who are known, and of each on its own.
   if (row.id == TopicId::kSimulatorClock && !sender) {

@@ -8,6 +8,7 @@
 #include "idl/dds/endpoints.h"
 #include "idl/dds/intake.h"
 #include "idl/dds/waker.h"
+#include "idl/dds/wire_values.h"
 #include "idl/dds/writer_watch.h"
 #include "idl/identity.h"
 
@@ -84,6 +85,17 @@ class DdsSession::Implementation {
       ++writes_failed_;
   }
 
+  void RemoveShape(std::uint64_t simulator_id, const std::string& content_hash,
+                   std::uint32_t parts) {
+    const dds_entity_t writer = Writer(dds::TopicId::kShapePart);
+    collision_v1_ShapePart key{};
+    key.simulator_id = simulator_id;
+    dds::PutHash("content_hash", content_hash, key.content_hash);
+    for (key.part = 0; key.part < parts; ++key.part) {
+      if (dds_dispose(writer, &key) != DDS_RETCODE_OK) ++writes_failed_;
+    }
+  }
+
   void Flush() {
     for (const dds_entity_t writer : endpoints_.writers) {
       if (writer != 0) dds_write_flush(writer);
@@ -98,7 +110,8 @@ class DdsSession::Implementation {
     std::size_t taken = 0;
     for (const dds::TopicRow& row : dds::Topics()) {
       const dds_entity_t reader = endpoints_.readers[static_cast<std::size_t>(row.id)];
-      if (reader != 0) taken += intake_.Take(reader, row, limit - taken, inputs, outputs);
+      const std::size_t most = std::min(limit - taken, row.take_max);
+      if (reader != 0) taken += intake_.Take(reader, row, most, inputs, outputs);
     }
     intake_.Follow(watch_.Take(), inputs);
     return taken;
@@ -168,6 +181,11 @@ void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->Writ
 
 void DdsSession::RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot) {
   implementation_->RemoveAgent(simulator_id, slot);
+}
+
+void DdsSession::RemoveShape(std::uint64_t simulator_id, const std::string& content_hash,
+                             std::uint32_t parts) {
+  implementation_->RemoveShape(simulator_id, content_hash, parts);
 }
 
 void DdsSession::Flush() { implementation_->Flush(); }

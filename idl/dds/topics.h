@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include "collision.h"
 #include "dds/dds.h"
@@ -33,7 +34,13 @@ struct TopicRow {
   int writer_depth;       ///< Keep-last, per key.
   int reader_depth;       ///< Keep-last, per key: how many wait for a reader that is slow.
   bool leased;            ///< Its writer's silence is noticed within the lease.
+  /// Taken at once; the rest stays in the reader until the next Receive(). It bounds what large
+  /// samples may fill of one step, of one recorded batch and of memory beside the reader's.
+  std::size_t take_max;
 };
+
+inline constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+inline constexpr std::size_t kShapePartsAtOnce = 256;  ///< 12.6 MB.
 
 /// In the order in which a reader drains them: few before many, so that no flood starves the
 /// clocks.

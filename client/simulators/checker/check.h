@@ -18,6 +18,11 @@ using Violations = std::vector<std::string>;
 /// brought about inside time already granted.
 Violations CheckEvents(const Evidence& evidence);
 
+/// What events say of the bodies at one instant holds there: the separation bracket contains the
+/// true distance, the depth is not more than it can be, the point is as near to both as it says, the
+/// normal is a direction. (geometry_check.cc)
+Violations CheckGeometry(const Evidence& evidence);
+
 /// No true contact of an agent begins before a clear_until published earlier, unless the pair was
 /// announced by then, or one of the two appeared or jumped since. No promise is void: these
 /// simulators break no bound.
@@ -30,7 +35,7 @@ Violations CheckEarliest(const Evidence& evidence);
 /// What the scene demands beyond.
 Violations CheckExpectation(const Evidence& evidence, const v1::SceneExpectation& expectation);
 
-/// All four.
+/// All five.
 Violations Check(const Evidence& evidence, const v1::SceneExpectation& expectation);
 
 /// True contacts that were required but had no event by the time they began.

@@ -5,22 +5,46 @@
 namespace collision::checker {
 namespace {
 
-bool In(long double t, std::int64_t earliest_ns, std::int64_t latest_ns) {
-  return earliest_ns - kRootTolerance <= t && t <= latest_ns + kRootTolerance;
+bool In(long double t, long double tolerance, std::int64_t earliest_ns, std::int64_t latest_ns) {
+  return earliest_ns - tolerance <= t && t <= latest_ns + tolerance;
+}
+
+// Does the bracket reach into a stretch of the contact in which a gap may have stayed unseen?
+bool InBlind(const TrueContact& contact, const v1::TimeBracket& bracket) {
+  return std::any_of(contact.blind.begin(), contact.blind.end(), [&](const Span& span) {
+    return bracket.earliest_ns() - kRootTolerance <= span.end &&
+           span.begin <= bracket.latest_ns() + kRootTolerance;
+  });
 }
 
 bool Confirmed(const v1::CollisionEvent& event) {
   return event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
 }
 
+bool BeginsIn(const TrueContact& contact, std::int64_t earliest_ns, std::int64_t latest_ns) {
+  return In(contact.begin_ns, contact.begin_tolerance_ns, earliest_ns, latest_ns);
+}
+
 // Does this revision say that the contact begins where it does?
 bool Brackets(const v1::CollisionEvent& event, const TrueContact& contact) {
   const bool whole = event.status() == v1::EVENT_UNDECIDED ||
                      (Confirmed(event) && (!event.continuous() || event.began_before()));
-  if (whole && In(contact.begin_ns, event.begin().earliest_ns(), event.end().latest_ns()))
-    return true;
+  if (whole && BeginsIn(contact, event.begin().earliest_ns(), event.end().latest_ns())) return true;
   return Confirmed(event) &&
-         In(contact.begin_ns, event.begin().earliest_ns(), event.begin().latest_ns());
+         BeginsIn(contact, event.begin().earliest_ns(), event.begin().latest_ns());
+}
+
+// Is it, if not the contact that this revision speaks of, one that it does not deny? The two may
+// touch again where the end is still sought; and a possible contact stays open while the agents'
+// balls overlap.
+bool Covers(const Evidence& evidence, const v1::CollisionEvent& event, const TrueContact& contact) {
+  if (Confirmed(event)) {
+    return BeginsIn(contact, event.end().earliest_ns(), event.end().latest_ns()) &&
+           contact.end_ns <= event.end().latest_ns() + contact.end_tolerance_ns;
+  }
+  return event.status() == v1::EVENT_POSSIBLE && evidence.HasMesh(contact.a, contact.b) &&
+         event.begin().earliest_ns() <= contact.begin_ns + contact.begin_tolerance_ns &&
+         contact.balls_until_ns >= evidence.judged_until_ns();
 }
 
 bool TooShortToDemand(const TrueContact& contact) {
@@ -45,7 +69,7 @@ bool IsLeaving(const Evidence& evidence, const TrueContact& contact) {
 
 bool Withdrawn(const EventHistory& history, const TrueContact& contact) {
   return history.last().status() == v1::EVENT_WITHDRAWN &&
-         contact.begin_ns >= history.last().begin().earliest_ns() - kRootTolerance;
+         contact.begin_ns >= history.last().begin().earliest_ns() - contact.begin_tolerance_ns;
 }
 
 const EventHistory* Find(const Evidence& evidence, const TrueContact& contact) {
@@ -53,6 +77,9 @@ const EventHistory* Find(const Evidence& evidence, const TrueContact& contact) {
   for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
     if (Brackets(history->last(), contact) || (leaving && Withdrawn(*history, contact)))
       return history;
+  }
+  for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
+    if (Covers(evidence, history->last(), contact)) return history;
   }
   return nullptr;
 }
@@ -78,7 +105,7 @@ bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
 
 bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact,
                      const EventHistory& history) {
-  if (history.announced_ns <= contact.begin_ns + kRootTolerance) return true;
+  if (history.announced_ns <= contact.begin_ns + contact.begin_tolerance_ns) return true;
   if (contact.from_start || history.last().began_before()) return true;
   const std::int64_t transit = evidence.facts().transit_ns;
   const auto begin = static_cast<std::int64_t>(contact.begin_ns);
@@ -87,21 +114,28 @@ bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact,
 }
 
 bool Required(const Evidence& evidence, const TrueContact& contact) {
-  return contact.begin_ns <= evidence.judged_until_ns() && !TooShortToDemand(contact);
+  return contact.certain && contact.begin_ns <= evidence.judged_until_ns() &&
+         !TooShortToDemand(contact);
 }
 
+// An event ends with any of the contacts that begin where it does: which one it means, nobody can
+// tell.
 void CheckEnd(const Evidence& evidence, const TrueContact& contact, const EventHistory& history,
               Violations* violations) {
   const v1::CollisionEvent& event = history.last();
-  if (contact.to_end) return;
-  if (event.status() == v1::EVENT_CONFIRMED && contact.end_ns <= evidence.judged_until_ns()) {
+  if (contact.to_end || !Brackets(event, contact)) return;
+  if (event.status() == v1::EVENT_CONFIRMED &&
+      contact.balls_until_ns <= evidence.judged_until_ns()) {
     violations->push_back(Name(evidence, contact) + ": its event was never ended");
   }
   if (event.status() != v1::EVENT_ENDED) return;
   for (const TrueContact* other : evidence.ContactsOf(contact.a)) {
     if (other->a != contact.a || other->b != contact.b) continue;
-    if (!event.continuous() || other == &contact) {
-      if (In(other->end_ns, event.end().earliest_ns(), event.end().latest_ns())) return;
+    if (event.continuous() && !Brackets(event, *other)) continue;
+    if (In(other->end_ns, other->end_tolerance_ns, event.end().earliest_ns(),
+           event.end().latest_ns()) ||
+        InBlind(*other, event.end())) {
+      return;
     }
   }
   violations->push_back(Name(evidence, contact) + ": its end is not in the published bracket " +
@@ -127,18 +161,27 @@ void CheckContact(const Evidence& evidence, const TrueContact& contact, Violatio
   CheckEnd(evidence, contact, *history, violations);
 }
 
+// Is there a contact, or what may be one, that begins where the confirmed event says?
+bool IsTrue(const Evidence& evidence, const EventHistory& history,
+            const v1::CollisionEvent& event) {
+  for (const TrueContact* contact : evidence.ContactsOf(history.a)) {
+    if (contact->a != history.a || contact->b != history.b) continue;
+    if (Brackets(event, *contact) || InBlind(*contact, event.begin())) return true;
+    if (!contact->certain && contact->begin_ns <= event.begin().latest_ns() + kRootTolerance &&
+        contact->end_ns >= event.begin().earliest_ns() - kRootTolerance) {
+      return true;
+    }
+  }
+  return false;
+}
+
 // The first confirmed revision without a true contact.
 void CheckConfirmed(const Evidence& evidence, const EventHistory& history, Violations* violations) {
   const auto& motions = evidence.motions();
   const std::int64_t logged = std::min(motions[history.a].end_ns(), motions[history.b].end_ns());
   for (const v1::CollisionEvent& event : history.revisions) {
     if (!Confirmed(event) || event.begin().latest_ns() > logged) continue;
-    const auto& contacts = evidence.ContactsOf(history.a);
-    const bool is_true =
-        std::any_of(contacts.begin(), contacts.end(), [&](const TrueContact* contact) {
-          return contact->a == history.a && contact->b == history.b && Brackets(event, *contact);
-        });
-    if (is_true) continue;
+    if (IsTrue(evidence, history, event)) continue;
     violations->push_back(evidence.PairName(history.a, history.b) + ": confirmed with begin " +
                           Bracket(evidence, event.begin()) + ", but no true contact begins there");
     return;

@@ -99,9 +99,15 @@ std::optional<std::size_t> Evidence::MotionOf(const v1::AgentId& id) const {
   return found->second;
 }
 
-bool Evidence::Changed(const TrueContact& contact, std::int64_t from_ns, long double to_ns) const {
+std::size_t Evidence::contacts_certain() const {
+  return static_cast<std::size_t>(std::count_if(contacts_.begin(), contacts_.end(),
+                                                [](const TrueContact& c) { return c.certain; }));
+}
+
+bool Evidence::Changed(std::size_t a, std::size_t b, std::int64_t from_ns,
+                       long double to_ns) const {
   const std::int64_t from = from_ns - facts_.transit_ns;
-  for (const std::size_t i : {contact.a, contact.b}) {
+  for (const std::size_t i : {a, b}) {
     const AgentMotion& motion = motions_[i];
     if (motion.begin_ns() >= from && motion.begin_ns() <= to_ns) return true;
     const auto jump = std::lower_bound(motion.jumps_ns.begin(), motion.jumps_ns.end(), from);

@@ -19,6 +19,7 @@ struct Observations {
   std::vector<v1::EarliestIntersection> earliest;
   std::vector<v1::Clearance> clearances;
   std::vector<v1::AgentName> names;
+  v1::ServiceStatus status;  ///< The last.
 };
 
 /// What the checker is told about the run.
@@ -75,7 +76,18 @@ class Evidence {
   std::int64_t judged_until_ns() const { return judged_until_ns_; }
 
   /// Did one of the two appear or jump in [from, to]? Promises before cannot have counted on it.
-  bool Changed(const TrueContact& contact, std::int64_t from_ns, long double to_ns) const;
+  bool Changed(const TrueContact& contact, std::int64_t from_ns, long double to_ns) const {
+    return Changed(contact.a, contact.b, from_ns, to_ns);
+  }
+  bool Changed(std::size_t a, std::size_t b, std::int64_t from_ns, long double to_ns) const;
+
+  /// Is one of the two more than a ball?
+  bool HasMesh(std::size_t a, std::size_t b) const {
+    return motions_[a].mesh != nullptr || motions_[b].mesh != nullptr;
+  }
+
+  /// True contacts that are more than grazes.
+  std::size_t contacts_certain() const;
 
   /// "9 × 11"
   std::string PairName(std::size_t a, std::size_t b) const;

@@ -1,12 +1,62 @@
 #include "client/simulators/checker/motion_truth.h"
 
 #include <cmath>
+#include <cstdlib>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 namespace collision::checker {
 namespace {
+
+// The fields of one line. strtod reads what the writer wrote to the last bit, and is much faster
+// than a stream.
+class Fields {
+ public:
+  explicit Fields(const std::string& line) : at_(line.c_str()) {}
+
+  std::string Word() {
+    while (*at_ == ' ') ++at_;
+    const char* begin = at_;
+    while (*at_ != '\0' && *at_ != ' ') ++at_;
+    return {begin, at_};
+  }
+
+  bool Number(double* value) {
+    char* end = nullptr;
+    *value = std::strtod(at_, &end);
+    return Advance(end) && std::isfinite(*value);
+  }
+
+  bool Whole(std::int64_t* value) {
+    char* end = nullptr;
+    *value = std::strtoll(at_, &end, 10);
+    return Advance(end) && (*at_ == ' ' || *at_ == '\0');
+  }
+
+  template <std::size_t n>
+  bool Numbers(std::array<double, n>* values) {
+    for (double& value : *values) {
+      if (!Number(&value)) return false;
+    }
+    return true;
+  }
+
+  bool AtEnd() {
+    while (*at_ == ' ' || *at_ == '\r') ++at_;
+    return *at_ == '\0';
+  }
+
+ private:
+  bool Advance(const char* end) {
+    const bool read = end != at_;
+    at_ = end;
+    return read;
+  }
+
+  const char* at_;
+};
+
+double LengthOf(const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); }
 
 class LogReader {
  public:
@@ -15,11 +65,14 @@ class LogReader {
 
   std::vector<AgentMotion> Read() {
     std::string line;
-    if (!NextLine(&line) || line != "motion-log 1") Fail("the first line is not \"motion-log 1\"");
+    if (!NextLine(&line) || (line != "motion-log 1" && line != "motion-log 2"))
+      Fail("the first line is neither \"motion-log 1\" nor \"motion-log 2\"");
     while (NextLine(&line)) ReadRecord(line);
     std::vector<AgentMotion> moved;
     for (AgentMotion& motion : motions_) {
-      if (!motion.pieces.empty()) moved.push_back(std::move(motion));
+      if (motion.pieces.empty()) continue;
+      CheckTurned(motion);
+      moved.push_back(std::move(motion));
     }
     return moved;
   }
@@ -35,57 +88,125 @@ class LogReader {
   }
 
   void ReadRecord(const std::string& line) {
-    std::istringstream fields(line);
-    std::string kind, name;
-    fields >> kind >> name;
+    Fields fields(line);
+    const std::string kind = fields.Word(), name = fields.Word();
     if (kind == "agent") {
-      ReadAgent(fields, name);
-      return;
+      ReadAgent(&fields, name);
+    } else if (kind == "mesh") {
+      ReadMesh(&fields, name);
+    } else {
+      const auto found = index_.find(name);
+      if (found == index_.end()) Fail("agent \"" + name + "\" has no agent line before");
+      ReadMotion(kind, &fields, &motions_[found->second]);
     }
-    const auto found = index_.find(name);
-    if (found == index_.end()) Fail("agent \"" + name + "\" has no agent line before");
-    AgentMotion& motion = motions_[found->second];
+    if (!fields.AtEnd()) Fail("the " + kind + " has more fields than it should");
+  }
+
+  void ReadMotion(const std::string& kind, Fields* fields, AgentMotion* motion) {
     if (kind == "piece") {
-      ReadPiece(line, &motion);
+      ReadPiece(fields, motion);
+    } else if (kind == "turn") {
+      ReadTurn(fields, motion);
     } else if (kind == "jump") {
       std::int64_t stamp_ns = 0;
-      if (!(fields >> stamp_ns)) Fail("a jump needs an instant");
-      motion.jumps_ns.push_back(stamp_ns);
+      if (!fields->Whole(&stamp_ns)) Fail("a jump needs an instant");
+      motion->jumps_ns.push_back(stamp_ns);
     } else {
       Fail("unknown record \"" + kind + "\"");
     }
   }
 
-  void ReadAgent(std::istringstream& fields, const std::string& name) {
+  void ReadAgent(Fields* fields, const std::string& name) {
     AgentMotion motion{simulator_, name, 0, {}, {}};
-    if (!(fields >> motion.radius_m) || !(motion.radius_m >= 0)) Fail("an agent needs a radius");
+    if (!fields->Number(&motion.radius_m) || !(motion.radius_m >= 0))
+      Fail("an agent needs a radius");
+    const std::string mesh = fields->Word();
+    if (!mesh.empty()) {
+      const auto found = meshes_.find(mesh);
+      if (found == meshes_.end()) Fail("mesh \"" + mesh + "\" has no mesh line before");
+      motion.mesh = found->second;
+      if (motion.mesh->radius_m() > motion.radius_m * (1 + 1e-9))
+        Fail("mesh \"" + mesh + "\" reaches " + std::to_string(motion.mesh->radius_m()) +
+             " m, beyond the agent's radius of " + std::to_string(motion.radius_m) + " m");
+    }
     if (!index_.emplace(name, motions_.size()).second)
       Fail("agent \"" + name + "\" is there twice");
     motions_.push_back(std::move(motion));
   }
 
-  // strtod reads what the writer wrote to the last bit, and is much faster than a stream.
-  void ReadPiece(const std::string& line, AgentMotion* motion) const {
-    const char* at = line.c_str() + std::string("piece ").size() + motion->agent.size();
-    char* end = nullptr;
-    Piece piece;
-    for (std::int64_t* time : {&piece.t0_ns, &piece.t1_ns}) {
-      *time = std::strtoll(at, &end, 10);
-      if (end == at) Fail("a piece needs two instants");
-      at = end;
+  std::size_t Count(Fields* fields, const char* what) const {
+    std::int64_t count = 0;
+    if (!fields->Whole(&count) || count < 1 || count > static_cast<std::int64_t>(kMeshItemsMax))
+      Fail(std::string("a mesh needs 1 to ") + std::to_string(kMeshItemsMax) + " " + what);
+    return static_cast<std::size_t>(count);
+  }
+
+  void ReadMesh(Fields* fields, const std::string& name) {
+    std::vector<Vector> vertices(Count(fields, "vertices"));
+    std::vector<std::array<std::uint32_t, 3>> triangles(Count(fields, "triangles"));
+    for (Vector& v : vertices) {
+      if (!fields->Number(&v.x) || !fields->Number(&v.y) || !fields->Number(&v.z))
+        Fail("a vertex needs three finite coordinates");
     }
-    for (auto& axis : piece.p_WA) {
-      for (double& coefficient : axis) {
-        coefficient = std::strtod(at, &end);
-        if (end == at || !std::isfinite(coefficient))
-          Fail("a piece needs twelve finite coefficients");
-        at = end;
+    for (auto& triangle : triangles) {
+      for (std::uint32_t& index : triangle) {
+        std::int64_t value = 0;
+        if (!fields->Whole(&value)) Fail("a triangle needs three indices");
+        if (value < 0 || value >= static_cast<std::int64_t>(vertices.size()))
+          Fail("index " + std::to_string(value) + " is not one of the mesh's " +
+               std::to_string(vertices.size()) + " vertices");
+        index = static_cast<std::uint32_t>(value);
       }
+    }
+    std::shared_ptr<const Mesh> mesh;
+    try {
+      mesh = std::make_shared<Mesh>(std::move(vertices), triangles);
+    } catch (const std::runtime_error& error) {
+      Fail(error.what());
+    }
+    if (!meshes_.emplace(name, mesh).second) Fail("mesh \"" + name + "\" is there twice");
+  }
+
+  void ReadPiece(Fields* fields, AgentMotion* motion) const {
+    Piece piece;
+    if (!fields->Whole(&piece.t0_ns) || !fields->Whole(&piece.t1_ns))
+      Fail("a piece needs two instants");
+    for (auto& axis : piece.p_WA) {
+      if (!fields->Numbers(&axis)) Fail("a piece needs twelve finite coefficients");
     }
     if (piece.t1_ns < piece.t0_ns || (!motion->pieces.empty() && piece.t0_ns < motion->end_ns())) {
       Fail("the piece goes back in time");
     }
+    CheckTurned(*motion);
     motion->pieces.push_back(piece);
+  }
+
+  // An agent that turns in one piece has a turn in each.
+  void CheckTurned(const AgentMotion& motion) const {
+    if (motion.pieces.empty() || !motion.pieces.front().turn || motion.pieces.back().turn) return;
+    Fail("agent \"" + motion.agent + "\" turned before, but its last piece has no turn");
+  }
+
+  void ReadTurn(Fields* fields, AgentMotion* motion) const {
+    std::int64_t t0_ns = 0, t1_ns = 0;
+    if (!fields->Whole(&t0_ns) || !fields->Whole(&t1_ns)) Fail("a turn needs two instants");
+    Turn turn;
+    if (!fields->Numbers(&turn.q) || !fields->Numbers(&turn.w) || !fields->Numbers(&turn.b))
+      Fail("a turn needs ten finite numbers");
+    const double norm =
+        std::hypot(std::hypot(turn.q[0], turn.q[1]), std::hypot(turn.q[2], turn.q[3]));
+    if (!(std::fabs(norm - 1) < 1e-6)) Fail("the turn's quaternion is not of unit length");
+    if (motion->pieces.empty() || motion->pieces.back().turn)
+      Fail("a turn follows the piece that it belongs to");
+    if (t0_ns != motion->pieces.back().t0_ns || t1_ns != motion->pieces.back().t1_ns)
+      Fail("the turn's instants are not those of the piece before it");
+    if (motion->pieces.size() > 1 && !motion->pieces.front().turn)
+      Fail("earlier pieces of agent \"" + motion->agent + "\" have no turn");
+    const double seconds = static_cast<double>(t1_ns - t0_ns) * 1e-9;
+    const double angle = (LengthOf(turn.w) + LengthOf(turn.b) * seconds) * seconds;
+    if (!(angle <= kTurnMax))
+      Fail("the turn is " + std::to_string(angle) + " rad, more than " + std::to_string(kTurnMax));
+    motion->pieces.back().turn = turn;
   }
 
   std::istream& text_;
@@ -93,6 +214,7 @@ class LogReader {
   std::size_t line_ = 0;
   std::vector<AgentMotion> motions_;
   std::map<std::string, std::size_t> index_;
+  std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
 };
 
 }  // namespace

@@ -7,16 +7,28 @@
 #include <array>
 #include <cstdint>
 #include <istream>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "client/simulators/checker/mesh.h"
+
 namespace collision::checker {
+
+/// How an agent turns during a piece.
+struct Turn {
+  std::array<double, 4> q{1, 0, 0, 0};  ///< w x y z, body to world, at the piece's begin; unit.
+  std::array<double, 3> w{};            ///< Angular velocity then, in the world's axes [rad/s].
+  std::array<double, 3> b{};            ///< Its constant change [rad/s²].
+};
 
 /// A cubic per axis over [t0_ns, t1_ns], in seconds since t0_ns, the constant first.
 struct Piece {
   std::int64_t t0_ns = 0;
   std::int64_t t1_ns = 0;
   std::array<std::array<double, 4>, 3> p_WA{};
+  std::optional<Turn> turn = std::nullopt;  ///< None: the body's axes are the world's.
 };
 
 /// One agent's whole motion.
@@ -24,14 +36,19 @@ struct AgentMotion {
   std::string simulator;
   std::string agent;
   double radius_m = 0;
-  std::vector<Piece> pieces;           ///< In order of time.
-  std::vector<std::int64_t> jumps_ns;  ///< Published discontinuities, in order.
+  std::vector<Piece> pieces;                   ///< In order of time.
+  std::vector<std::int64_t> jumps_ns;          ///< Published discontinuities, in order.
+  std::shared_ptr<const Mesh> mesh = nullptr;  ///< Null: a ball.
 
   std::int64_t begin_ns() const { return pieces.front().t0_ns; }
   std::int64_t end_ns() const { return pieces.back().t1_ns; }
 };
 
-/// Reads one motion log (../README.md). Agents without pieces are left out. Throws
+/// What is more is refused: a mistake, most likely.
+inline constexpr std::size_t kMeshItemsMax = 20'000'000;  ///< Vertices, and triangles, of a mesh.
+inline constexpr double kTurnMax = 1000;                  ///< Within one piece [rad].
+
+/// Reads one motion log of format 1 or 2 (../README.md). Agents without pieces are left out. Throws
 /// std::runtime_error with "simulator:line: what" if it is malformed.
 std::vector<AgentMotion> ReadMotionLog(std::istream& text, const std::string& simulator);
 

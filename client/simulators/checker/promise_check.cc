@@ -9,6 +9,8 @@ namespace {
 // One broken promise is broken again by every sample that repeats it; the first few tell enough.
 constexpr std::size_t kRepeatsMax = 20;
 
+constexpr long double kForEver = std::numeric_limits<long double>::infinity();
+
 v1::AgentId IdOf(const v1::Clearance& sample, const v1::AgentClearance& agent) {
   v1::AgentId id;
   id.set_simulator_id(sample.simulator_id());
@@ -43,12 +45,19 @@ bool InContact(const Evidence& evidence, const TrueContact& contact, std::int64_
   return false;
 }
 
+// Does this contact certainly break a promise that nothing begins to touch in (from, until)?
+bool Breaks(const TrueContact& contact, std::int64_t from_ns, long double until_ns) {
+  return contact.certain && contact.begin_ns > from_ns + contact.begin_tolerance_ns &&
+         contact.begin_ns < until_ns - contact.begin_tolerance_ns;
+}
+
 void CheckClearance(const Evidence& evidence, std::size_t motion, std::int64_t now_ns,
                     const v1::AgentClearance& agent, Violations* violations) {
   const auto& contacts = evidence.ContactsOf(motion);
   for (auto it = FirstAfter(contacts, now_ns); it != contacts.end(); ++it) {
     const TrueContact& contact = **it;
     if (contact.begin_ns >= agent.clear_until_ns() - kRootTolerance) return;
+    if (!Breaks(contact, now_ns, agent.clear_until_ns())) continue;
     if (evidence.Changed(contact, now_ns, contact.begin_ns) ||
         Announced(evidence, contact, now_ns)) {
       continue;
@@ -87,8 +96,9 @@ Violations CheckEarliest(const Evidence& evidence) {
   for (const v1::EarliestIntersection& sample : evidence.observations().earliest) {
     for (const TrueContact& contact : evidence.contacts()) {
       if (violations.size() >= kRepeatsMax) return violations;
-      if (contact.begin_ns <= sample.now_ns() + kRootTolerance) continue;
-      if (sample.found() && contact.begin_ns >= sample.earliest_ns() - kRootTolerance) break;
+      const long double until = sample.found() ? sample.earliest_ns() : kForEver;
+      if (contact.begin_ns >= until - kRootTolerance) break;
+      if (!Breaks(contact, sample.now_ns(), until)) continue;
       if (evidence.Changed(contact, sample.now_ns(), contact.begin_ns)) continue;
       if (InContact(evidence, contact, sample.now_ns())) continue;
       violations.push_back(
@@ -108,7 +118,8 @@ std::vector<double> ClearanceTightness(const Evidence& evidence) {
       const auto motion = evidence.MotionOf(IdOf(sample, agent));
       if (!motion) continue;
       const auto& contacts = evidence.ContactsOf(*motion);
-      const auto next = FirstAfter(contacts, sample.now_ns());
+      const auto next = std::find_if(FirstAfter(contacts, sample.now_ns()), contacts.end(),
+                                     [](const TrueContact* contact) { return contact->certain; });
       if (next == contacts.end()) continue;
       if (evidence.Changed(**next, sample.now_ns(), (*next)->begin_ns)) continue;
       const long double promised =

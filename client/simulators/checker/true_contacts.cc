@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "client/simulators/checker/contact_spans.h"
+#include "client/simulators/checker/contact_assembly.h"
 
 namespace collision::checker {
 namespace {
@@ -46,18 +46,6 @@ bool Overlap(const Box& a, const Box& b) {
   return true;
 }
 
-// The cubic in seconds since `start_ns` instead of since t0.
-Cubic3 Shifted(const Piece& piece, std::int64_t start_ns) {
-  const long double s = static_cast<long double>(start_ns - piece.t0_ns) * 1e-9L;
-  Cubic3 result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto& c = piece.p_WA[axis];
-    result[axis] = {c[0] + s * (c[1] + s * (c[2] + s * c[3])), c[1] + s * (2 * c[2] + s * 3 * c[3]),
-                    c[2] + s * 3 * c[3], c[3]};
-  }
-  return result;
-}
-
 // An agent's pieces within one slab of time.
 struct Slice {
   std::size_t agent = 0;
@@ -65,6 +53,10 @@ struct Slice {
   const Piece* end = nullptr;
   Box box;
 };
+
+// Bodies with triangles are looked at while their balls overlap, these a little enlarged [m, and of
+// their size]: whether they touch is for the triangles to say.
+constexpr long double kSpare = 1e-9L;
 
 class ContactFinder {
  public:
@@ -122,39 +114,35 @@ class ContactFinder {
 
   void SearchPieces(std::size_t a, const Piece& pa, std::size_t b, const Piece& pb,
                     std::int64_t from, std::int64_t to) {
-    Cubic3 d = Shifted(pa, from);
-    const Cubic3 other = Shifted(pb, from);
-    for (int axis = 0; axis < 3; ++axis) {
-      for (int k = 0; k < 4; ++k) d[axis][k] -= other[axis][k];
-    }
-    const long double reach = static_cast<long double>(motions_[a].radius_m) + motions_[b].radius_m;
+    const Body body_a{motions_[a].mesh.get(), motions_[a].radius_m};
+    const Body body_b{motions_[b].mesh.get(), motions_[b].radius_m};
+    const bool balls = body_a.mesh == nullptr && body_b.mesh == nullptr;
+    const PairMotion motion(pa, pb, from);
+    const long double reach = static_cast<long double>(body_a.reach()) + body_b.reach();
     const long double duration = static_cast<long double>(to - from) * 1e-9L;
-    for (const Span& span : SpansWithin(d, duration, reach)) {
-      Add(a, b, from + span.begin * 1e9L, from + span.end * 1e9L);
-    }
-  }
-
-  void Add(std::size_t a, std::size_t b, long double begin_ns, long double end_ns) {
-    auto& contacts = contacts_[{a, b}];
-    if (!contacts.empty() && begin_ns - contacts.back().end_ns <= kRootTolerance) {
-      contacts.back().end_ns = end_ns;
-    } else {
-      contacts.push_back({a, b, begin_ns, end_ns, false, false});
+    const long double spare = balls ? 0 : kSpare * (1 + reach);
+    const auto instant = [&](long double seconds) { return from + seconds * 1e9L; };
+    for (const Span& span : SpansWithin(motion.difference(), duration, reach + spare)) {
+      ContactAssembly& pair = pairs_[{a, b}];
+      pair.AddBalls(instant(span.begin), instant(span.end));
+      if (balls) {
+        pair.Add(Stretch::Kind::kContact, true, instant(span.begin), instant(span.end));
+        continue;
+      }
+      for (const Stretch& s : StretchesOf(body_a, body_b, motion, span.begin, span.end))
+        pair.Add(s.kind, s.deep, instant(s.begin), instant(s.end));
     }
   }
 
   std::vector<TrueContact> Finish() {
     std::vector<TrueContact> all;
-    for (auto& [pair, contacts] : contacts_) {
+    for (auto& [pair, assembly] : pairs_) {
       const AgentMotion& a = motions_[pair.first];
       const AgentMotion& b = motions_[pair.second];
       const auto start = static_cast<long double>(std::max(a.begin_ns(), b.begin_ns()));
       const auto end = static_cast<long double>(std::min(a.end_ns(), b.end_ns()));
-      for (TrueContact& contact : contacts) {
-        contact.from_start = contact.begin_ns <= start + kRootTolerance;
-        contact.to_end = contact.end_ns >= end - kRootTolerance;
-        all.push_back(contact);
-      }
+      const auto contacts = assembly.Contacts(pair.first, pair.second, start, end);
+      all.insert(all.end(), contacts.begin(), contacts.end());
     }
     std::stable_sort(all.begin(), all.end(), [](const TrueContact& x, const TrueContact& y) {
       return x.begin_ns < y.begin_ns;
@@ -163,7 +151,7 @@ class ContactFinder {
   }
 
   const std::vector<AgentMotion>& motions_;
-  std::map<std::pair<std::size_t, std::size_t>, std::vector<TrueContact>> contacts_;
+  std::map<std::pair<std::size_t, std::size_t>, ContactAssembly> pairs_;
 };
 
 }  // namespace

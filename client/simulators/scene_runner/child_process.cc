@@ -28,11 +28,15 @@ double Seconds(const timeval& time) {
 }
 
 // In the child: only calls that are safe after fork().
-[[noreturn]] void Execute(char* const* argv, int output, pid_t parent) {
-  setpgid(0, 0);
+[[noreturn]] void Execute(char* const* argv, int output, pid_t parent, Streams streams) {
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(kCannotExecute);
-  dup2(output, STDOUT_FILENO);
+  if (streams == Streams::kFile) {
+    setpgid(0, 0);
+    const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+    if (nothing >= 0) dup2(nothing, STDIN_FILENO);
+    dup2(output, STDOUT_FILENO);
+  }
   dup2(output, STDERR_FILENO);
   execv(argv[0], argv);
   const char* error = std::strerror(errno);
@@ -46,7 +50,7 @@ double Seconds(const timeval& time) {
 }  // namespace
 
 ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& arguments,
-                           const std::string& output_path)
+                           const std::string& output_path, Streams streams)
     : name_(std::move(name)), output_path_(output_path) {
   std::vector<char*> argv;
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
@@ -55,7 +59,7 @@ ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& arg
   if (output < 0) throw std::runtime_error(output_path + ": " + std::strerror(errno));
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ == 0) Execute(argv.data(), output, parent);
+  if (pid_ == 0) Execute(argv.data(), output, parent, streams);
   close(output);
   if (pid_ < 0) throw std::runtime_error(name_ + ": cannot be started: " + std::strerror(errno));
 }

@@ -10,14 +10,20 @@
 
 namespace collision::client {
 
-/// Its output goes to a file. The destructor ends it: SIGTERM, and SIGKILL after 2 s. It also gets
-/// SIGTERM if this program dies. It has a process group of its own, so that Ctrl-C reaches only
-/// this program, which then ends it in order.
+/// Which of the standard streams a child has.
+enum class Streams {
+  kFile,     ///< All output goes to a file, nothing comes in.
+  kTerminal  ///< In and out are this program's own, errors go to the file.
+};
+
+/// The destructor ends it: SIGTERM, and SIGKILL after 2 s. It also gets SIGTERM if this program
+/// dies. It has a process group of its own, so that Ctrl-C reaches only this program, which then
+/// ends it in order; but with the terminal it stays in our group, or it could not read.
 class ChildProcess {
  public:
   /// Throws std::runtime_error if the program cannot be started.
   ChildProcess(std::string name, const std::vector<std::string>& arguments,
-               const std::string& output_path);
+               const std::string& output_path, Streams streams = Streams::kFile);
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
   ~ChildProcess();

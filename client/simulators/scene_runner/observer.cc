@@ -111,6 +111,7 @@ void Observer::PrintEvents(Wall now) {
 void Observer::Print(const v1::CollisionEvent& event) {
   const bool decided = event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED ||
                        event.status() == v1::EVENT_UNDECIDED;
+  if (quiet_) return;
   if (!decided && !every_event_ && quiet_lines_ >= kQuietLines) return;
   ClearProgress();
   const auto name = [this](const v1::AgentId& id) { return NameOf(id); };
@@ -150,6 +151,7 @@ void Observer::ClearProgress() {
 }
 
 void Observer::PrintProgress(bool final) {
+  if (quiet_) return;
   const auto now = steady_clock::now();
   const auto period = terminal_
                           ? std::chrono::duration_cast<steady_clock::duration>(kProgressTerminal)

@@ -38,6 +38,9 @@ class Observer {
   /// progress. Returns the number of samples.
   std::size_t Poll(std::chrono::nanoseconds timeout);
 
+  /// While quiet nothing is printed, nor later: somebody else has the terminal.
+  void SetQuiet(bool quiet) { quiet_ = quiet; }
+
   /// Prints the events that still wait, and the last line of progress for good.
   void FinishProgress();
 
@@ -77,6 +80,7 @@ class Observer {
   bool real_time_;
   bool every_event_;
   bool terminal_;
+  bool quiet_ = false;
   std::size_t quiet_lines_ = 0;
   bool progress_shown_ = false;
   Wall progress_at_;

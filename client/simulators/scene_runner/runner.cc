@@ -4,6 +4,7 @@
 #include <google/protobuf/util/json_util.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -13,6 +14,7 @@
 
 #include "client/event_text.h"
 #include "client/simulators/stop_signal.h"
+#include "client/simulators/terminal.h"
 
 namespace collision::client {
 namespace {
@@ -27,6 +29,7 @@ constexpr std::chrono::nanoseconds kRealTimeLead{
     3'000'000'000};                             // until everybody has found everybody
 constexpr std::int64_t kTransit = 200'000'000;  // [ns] news under way, with a wall clock
 constexpr double kGrantAheadDefault = 10;       // [s] the service's default
+constexpr double kPersonSeconds = 300;  // a person flies at most so long, if nobody says how long
 constexpr std::uint32_t kDomains = 200;
 constexpr std::size_t kLinesShown = 12;
 
@@ -65,6 +68,11 @@ Runner::Runner(const RunnerOptions& options)
       world_(options.scene + "-" + std::to_string(getpid())),
       domain_(options.domain.value_or(1 + static_cast<std::uint32_t>(getpid()) % kDomains)),
       folder_(MakeFolder(options.logs)) {
+  const auto& processes = scene_.processes();
+  const bool person =
+      HasTerminal() && std::any_of(processes.begin(), processes.end(),
+                                   [](const auto& process) { return process.terminal(); });
+  if (person) scene_.set_seconds(kPersonSeconds);
   if (options.seconds > 0) scene_.set_seconds(options.seconds);
 }
 
@@ -122,8 +130,12 @@ void Runner::StartSimulator(const v1::SceneProcess& process) {
   } else {
     arguments.push_back("--lock-step");
   }
+  const bool person = process.terminal() && HasTerminal();
+  if (person) observer_->SetQuiet(true);
   simulators_.push_back(
-      std::make_unique<ChildProcess>(process.name(), arguments, Path(process.name() + ".log")));
+      std::make_unique<ChildProcess>(process.name(), arguments, Path(process.name() + ".log"),
+                                     person ? Streams::kTerminal : Streams::kFile));
+  if (person) person_ = simulators_.back().get();
 }
 
 bool Runner::AllRunning() {
@@ -131,6 +143,7 @@ bool Runner::AllRunning() {
   for (const auto& simulator : simulators_) processes.push_back(simulator.get());
   for (ChildProcess* process : processes) {
     if (process->Running()) continue;
+    TakeTerminal();
     std::fprintf(stderr, "%s ended before the scene did (%s):\n%s", process->name().c_str(),
                  process->Ending().c_str(), process->LastLines(kLinesShown).c_str());
     return false;
@@ -138,7 +151,20 @@ bool Runner::AllRunning() {
   return true;
 }
 
-std::int64_t Runner::EndTime() const { return start_ns_ + std::llround(scene_.seconds() * 1e9); }
+std::int64_t Runner::EndTime() const {
+  return left_ns_.value_or(start_ns_ + std::llround(scene_.seconds() * 1e9));
+}
+
+bool Runner::PersonLeft() {
+  return person_ != nullptr && !person_->Running() && person_->succeeded() && !StopRequested();
+}
+
+// Before anything is said: what is printed onto the person's screen goes with it.
+void Runner::TakeTerminal() {
+  if (person_ == nullptr) return;
+  person_->Terminate();
+  person_->Finish(steady_clock::now() + kGrace);
+}
 
 Runner::Watch Runner::WatchToEnd() {
   auto progress = steady_clock::now();
@@ -148,8 +174,13 @@ Runner::Watch Runner::WatchToEnd() {
     if (observer_->now_ns() != reached) progress = steady_clock::now();
     reached = observer_->now_ns();
     if (reached && *reached >= EndTime()) return Watch::kEnded;
+    if (PersonLeft()) {
+      left_ns_ = reached.value_or(start_ns_);
+      return Watch::kLeft;
+    }
     if (!AllRunning()) return Watch::kFailed;
     if (steady_clock::now() - progress < kStuck) continue;
+    TakeTerminal();
     std::fprintf(stderr, "the service's time has stood still for %lld s:\n%s",
                  static_cast<long long>(kStuck.count()), service_->LastLines(kLinesShown).c_str());
     return Watch::kFailed;
@@ -232,18 +263,24 @@ RunResult Runner::Run() {
   StartService();
   for (const v1::SceneProcess& process : scene_.processes()) StartSimulator(process);
   const Watch watch = WatchToEnd();
-  if (watch == Watch::kInterrupted) std::printf("\ninterrupted: ending everything\n");
+  // The others fly on without the ship: nobody wants to see how.
+  if (watch == Watch::kLeft) StopSimulators();
+  if (watch == Watch::kInterrupted) {
+    TakeTerminal();
+    std::printf("\ninterrupted: ending everything\n");
+  }
   if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(500));
   Measured measured;
   measured.wall_seconds = SecondsSince(started);
   StopSimulators();
-  if (watch == Watch::kEnded) Drain(milliseconds(200), milliseconds(500));
+  if (watch == Watch::kEnded || watch == Watch::kLeft) Drain(milliseconds(200), milliseconds(500));
   service_->Terminate();
   service_->Finish(steady_clock::now() + kGrace);
+  observer_->SetQuiet(false);
   observer_->FinishProgress();
   if (watch == Watch::kInterrupted) return kInterrupted;
   if (watch == Watch::kFailed) return kNotSatisfied;
-  measured.simulated_seconds = scene_.seconds();
+  measured.simulated_seconds = static_cast<double>(EndTime() - start_ns_) * 1e-9;
   measured.service_cpu_seconds = service_->cpu_seconds();
   measured.latencies = observer_->latencies();
   return Judge(measured);

@@ -14,7 +14,7 @@
 namespace collision::client {
 
 struct RunnerOptions {
-  std::string scene = "iridium-cosmos";
+  std::string scene = "spaceships";
   Folders folders = DefaultFolders();
   double seconds = 0;  ///< 0: as the scene says.
   bool real_time = false;
@@ -28,7 +28,9 @@ struct RunnerOptions {
 enum RunResult { kSatisfied = 0, kNotSatisfied = 1, kInterrupted = 130 };
 
 /// Starts collisiond and the scene's simulators on loopback in a world of their own, watches them
-/// with a monitor to the scene's end, ends them all by their ids, and lets the checker judge.
+/// with a monitor to the scene's end, ends them all by their ids, and lets the checker judge. Where
+/// there is a terminal, a scene may give it to one of its programs; the run then ends with that
+/// program, and what was flown is judged.
 class Runner {
  public:
   explicit Runner(const RunnerOptions& options);
@@ -38,7 +40,7 @@ class Runner {
   RunResult Run();
 
  private:
-  enum class Watch { kEnded, kFailed, kInterrupted };
+  enum class Watch { kEnded, kLeft, kFailed, kInterrupted };
 
   std::string Path(const std::string& file) const;
   void UseLoopback() const;
@@ -47,6 +49,8 @@ class Runner {
   std::int64_t EndTime() const;
   Watch WatchToEnd();
   bool AllRunning();
+  bool PersonLeft();
+  void TakeTerminal();
   void Drain(std::chrono::milliseconds quiet, std::chrono::milliseconds longest);
   void StopSimulators();
   RunResult Judge(const Measured& measured);
@@ -56,10 +60,12 @@ class Runner {
   std::string world_;
   std::uint32_t domain_ = 0;
   std::int64_t start_ns_ = 0;
+  std::optional<std::int64_t> left_ns_;  // the service's time when the person ended the run
   std::string folder_;
   std::unique_ptr<Observer> observer_;
   std::unique_ptr<ChildProcess> service_;
   std::vector<std::unique_ptr<ChildProcess>> simulators_;  // end before the service
+  ChildProcess* person_ = nullptr;  // among them, the program that has the terminal
 };
 
 }  // namespace collision::client

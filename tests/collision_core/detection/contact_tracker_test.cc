@@ -18,7 +18,7 @@ SegmentVerdict Undecided() { return {0, 1, 0, true, 1}; }
 SegmentVerdict Touching() { return {0, 0, 1, true, 1}; }
 
 void Apply(ContactTracker* tracker, const SegmentVerdict& verdict) {
-  tracker->Apply(verdict, AddRoundedDown(tracker->at(), 1), Nearest{});
+  tracker->Apply(verdict, AddRoundedDown(tracker->at(), 1), Nearest{}, ContactNormal{});
 }
 
 TEST(ContactTracker, ContactInsideOneSegment) {

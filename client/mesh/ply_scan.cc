@@ -1,0 +1,239 @@
+#include <bit>
+#include <cstring>
+#include <map>
+#include <vector>
+
+#include "client/mesh/scan.h"
+#include "client/mesh/words.h"
+
+namespace collision::client {
+namespace {
+
+struct Property {
+  std::string name;
+  std::size_t count_bytes = 0;  ///< Of the count before a list; 0: one value.
+  std::string count_type;
+  std::string type;
+};
+
+struct Element {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<Property> properties;
+};
+
+std::size_t BytesOf(const Words& words, const std::string& type) {
+  static const std::map<std::string, std::size_t> sizes = {
+      {"char", 1},  {"uchar", 1},  {"short", 2},   {"ushort", 2}, {"int", 4},   {"uint", 4},
+      {"float", 4}, {"double", 8}, {"int8", 1},    {"uint8", 1},  {"int16", 2}, {"uint16", 2},
+      {"int32", 4}, {"uint32", 4}, {"float32", 4}, {"float64", 8}};
+  const auto size = sizes.find(type);
+  if (size == sizes.end()) words.Fail("type " + Quoted(type) + " of a property is unknown");
+  return size->second;
+}
+
+bool IsFloat(const std::string& type) { return type[0] == 'f' || type[0] == 'd'; }
+bool IsUnsigned(const std::string& type) { return type[0] == 'u'; }
+bool IsIndices(const Property& property) {
+  return property.count_bytes > 0 &&
+         (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+struct Header {
+  enum class Format { kNone, kText, kLittle, kBig } format = Format::kNone;
+  std::vector<Element> elements;
+  std::size_t body = 0;  ///< Where it begins.
+};
+
+/// Where the line of "end_header" is over.
+std::size_t HeaderEnd(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    std::size_t end = text.find('\n', at);
+    if (end == text.npos) break;
+    std::string_view line = text.substr(at, end - at);
+    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    at = end + 1;
+    if (line == "end_header") return at;
+  }
+  throw std::runtime_error("the header has no end_header: not a PLY file, or cut off");
+}
+
+Property ReadProperty(Words* words) {
+  Property property;
+  property.type = words->Next();
+  if (property.type == "list") {
+    property.count_type = words->Next();
+    property.count_bytes = BytesOf(*words, property.count_type);
+    if (IsFloat(property.count_type)) words->Fail("a list is counted in floating point");
+    property.type = words->Next();
+  }
+  BytesOf(*words, property.type);
+  property.name = words->Next();
+  if (IsIndices(property) && IsFloat(property.type)) words->Fail("indices in floating point");
+  return property;
+}
+
+Element ReadElement(Words* words) {
+  Element element;
+  element.name = words->Next();
+  const std::string_view count = words->Next();
+  const auto number = NumberOf<std::uint64_t>(count);
+  if (!number) words->Fail("number of elements " + Quoted(count) + ", allowed: 0 and more");
+  element.count = *number;
+  return element;
+}
+
+Header ReadHeader(std::string_view text) {
+  Header header;
+  if (text.substr(0, 3) != "ply") throw std::runtime_error("not a PLY file");
+  header.body = HeaderEnd(text);
+  Words words(text.substr(0, header.body));
+  for (std::string_view word = words.Next(); word != "end_header"; word = words.Next()) {
+    if (word.empty()) words.Fail("the header ends within a line");
+    if (word == "format") {
+      const std::string_view format = words.Next();
+      if (format == "ascii") header.format = Header::Format::kText;
+      if (format == "binary_little_endian") header.format = Header::Format::kLittle;
+      if (format == "binary_big_endian") header.format = Header::Format::kBig;
+      if (header.format == Header::Format::kNone) words.Fail("unknown format " + Quoted(format));
+    } else if (word == "element") {
+      header.elements.push_back(ReadElement(&words));
+    } else if (word == "property") {
+      if (header.elements.empty()) words.Fail("a property of no element");
+      header.elements.back().properties.push_back(ReadProperty(&words));
+      continue;  // Its name is read, and anything behind it is not ours.
+    }
+    words.SkipLine();
+  }
+  if (header.format == Header::Format::kNone) throw std::runtime_error("the header has no format");
+  return header;
+}
+
+/// Reads the body's values one after the other.
+class Body {
+ public:
+  virtual ~Body() = default;
+  virtual double Value(const std::string& type) = 0;
+  /// Skips so many elements of so many bytes each at once, if it can.
+  virtual bool Skip(std::uint64_t, std::size_t) { return false; }
+  /// What is told of where the reading is.
+  virtual std::string Where() const = 0;
+};
+
+class TextBody : public Body {
+ public:
+  explicit TextBody(std::string_view text) : words_(text) {}
+  double Value(const std::string&) override {
+    const std::string_view word = words_.Next();
+    if (word.empty())
+      throw std::runtime_error("the file is cut off: values are missing at its end");
+    const auto number = NumberOf<double>(word);
+    if (!number) throw std::runtime_error(Where() + ": " + Quoted(word) + " is not a number");
+    return *number;
+  }
+  std::string Where() const override {
+    return "line " + std::to_string(words_.line()) + " after the header";
+  }
+
+ private:
+  Words words_;
+};
+
+class BinaryBody : public Body {
+ public:
+  BinaryBody(std::string_view bytes, bool big) : bytes_(bytes), big_(big) {}
+  double Value(const std::string& type) override {
+    const std::size_t size = BytesOf(Words(""), type);
+    Require(size <= bytes_.size() - at_);
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const std::size_t place = at_ + (big_ ? i : size - 1 - i);
+      bits = bits << 8 | static_cast<unsigned char>(bytes_[place]);
+    }
+    at_ += size;
+    if (IsFloat(type)) {
+      return size == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(bits))
+                       : std::bit_cast<double>(bits);
+    }
+    if (IsUnsigned(type)) return static_cast<double>(bits);
+    const int shift = static_cast<int>(64 - 8 * size);
+    return static_cast<double>(static_cast<std::int64_t>(bits << shift) >> shift);
+  }
+  bool Skip(std::uint64_t count, std::size_t size) override {
+    Require(size == 0 || count <= (bytes_.size() - at_) / size);
+    at_ += count * size;
+    return true;
+  }
+  std::string Where() const override { return "byte " + std::to_string(at_) + " after the header"; }
+
+ private:
+  void Require(bool there) const {
+    if (!there) throw std::runtime_error("the file is cut off: values are missing at its end");
+  }
+  std::string_view bytes_;
+  bool big_;
+  std::size_t at_ = 0;
+};
+
+/// Counts the corners of one face and looks at their indices.
+void ScanFace(const Element& element, std::uint64_t vertices, Body* body, MeshScan* scan) {
+  std::uint64_t corners = 0;
+  for (const Property& property : element.properties) {
+    const double values = property.count_bytes == 0 ? 1 : body->Value(property.count_type);
+    if (!(values >= 0)) throw std::runtime_error(body->Where() + ": a list of less than nothing");
+    const bool indices = element.name == "face" && IsIndices(property);
+    for (double i = 0; i < values; ++i) {
+      const double value = body->Value(property.type);
+      if (!indices || (value >= 0 && value < static_cast<double>(vertices))) continue;
+      throw std::runtime_error(body->Where() + ": a face names vertex " +
+                               std::to_string(static_cast<std::int64_t>(value)) +
+                               ", allowed: 0 to " + std::to_string(vertices) + " - 1");
+    }
+    if (indices) corners = static_cast<std::uint64_t>(values);
+  }
+  ++(corners < 3 ? scan->thin : scan->faces);
+}
+
+void ScanOther(const Element& element, Body* body) {
+  std::size_t bytes = 0;
+  bool lists = false;
+  for (const Property& property : element.properties) {
+    lists = lists || property.count_bytes > 0;
+    bytes += BytesOf(Words(""), property.type);
+  }
+  if (!lists && body->Skip(element.count, bytes)) return;
+  MeshScan ignored;
+  // Without a property an element has no bytes, however many there are.
+  const std::uint64_t count = element.properties.empty() ? 0 : element.count;
+  for (std::uint64_t i = 0; i < count; ++i) ScanFace(element, ~std::uint64_t{0}, body, &ignored);
+}
+
+bool HasIndices(const Element& element) {
+  for (const Property& property : element.properties) {
+    if (IsIndices(property)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+MeshScan ScanPly(std::string_view text) {
+  const Header header = ReadHeader(text);
+  TextBody words(text.substr(header.body));
+  BinaryBody bytes(text.substr(header.body), header.format == Header::Format::kBig);
+  Body* const body = header.format == Header::Format::kText ? static_cast<Body*>(&words) : &bytes;
+  MeshScan scan;
+  std::uint64_t vertices = 0;
+  for (const Element& element : header.elements) {
+    if (element.name == "vertex") vertices = element.count;
+    if (element.name == "face" && HasIndices(element)) {
+      for (std::uint64_t i = 0; i < element.count; ++i) ScanFace(element, vertices, body, &scan);
+    } else {
+      ScanOther(element, body);
+    }
+  }
+  if (scan.faces == 0) throw std::runtime_error("no faces (elements \"face\" with vertex_indices)");
+  return scan;
+}
+
+}  // namespace collision::client

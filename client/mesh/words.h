@@ -1,0 +1,78 @@
+// Words and numbers of text formats.
+#pragma once
+
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace collision::client {
+
+/// Cuts a text into words between blanks, counting lines.
+class Words {
+ public:
+  explicit Words(std::string_view text) : text_(text) {}
+
+  /// Empty at the end.
+  std::string_view Next() {
+    while (at_ < text_.size() && IsBlank(text_[at_])) Step();
+    const std::size_t first = at_;
+    while (at_ < text_.size() && !IsBlank(text_[at_])) ++at_;
+    return text_.substr(first, at_ - first);
+  }
+
+  /// Goes to the end of the line.
+  void SkipLine() {
+    while (at_ < text_.size() && text_[at_] != '\n') ++at_;
+  }
+
+  std::size_t line() const { return line_; }
+
+  /// Throws with the line of the last word.
+  [[noreturn]] void Fail(const std::string& cause) const {
+    throw std::runtime_error("line " + std::to_string(line_) + ": " + cause);
+  }
+
+ private:
+  static bool IsBlank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f' || c == '\v';
+  }
+  void Step() { line_ += text_[at_++] == '\n' ? 1 : 0; }
+
+  std::string_view text_;
+  std::size_t at_ = 0;
+  std::size_t line_ = 1;
+};
+
+/// The whole word as a number, also "inf" and "nan"; nullopt: it is none.
+template <typename Number>
+std::optional<Number> NumberOf(std::string_view word) {
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  Number number{};
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return number;
+}
+
+/// A word for a message: short and printable.
+inline std::string Quoted(std::string_view word) {
+  std::string text = "\"";
+  for (const char c : word.substr(0, 40)) text += c < 0x20 || c == 0x7f ? '?' : c;
+  return text + (word.size() > 40 ? "..." : "") + "\"";
+}
+
+/// A coordinate: throws unless it is a finite number. A double that underflows counts as 0.
+inline void RequireFinite(const Words& words, std::string_view word) {
+  double number = 0;
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+  const bool whole = !word.empty() && end == word.data() + word.size();
+  const bool tiny = error == std::errc::result_out_of_range && std::abs(number) < 1;
+  if (whole && (error == std::errc() || tiny) && std::isfinite(number)) return;
+  words.Fail("a coordinate: " + Quoted(word) + ", allowed: a finite number");
+}
+
+}  // namespace collision::client

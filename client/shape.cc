@@ -1,0 +1,91 @@
+#include "client/shape.h"
+
+#include <cstring>
+#include <stdexcept>
+#include <unordered_map>
+#include <utility>
+
+#include "client/validation.h"
+#include "collision_core/shape/triangle_mesh.h"
+#include "idl/shape_bytes.h"
+
+namespace collision::client {
+namespace {
+
+struct PositionHash {
+  std::size_t operator()(const Vector3& position) const {
+    std::uint64_t hash = 0;
+    for (const double value : position) {
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &value, sizeof bits);
+      hash = (hash ^ bits) * 0x9e3779b97f4a7c15u;
+      hash ^= hash >> 32;
+    }
+    return hash;
+  }
+};
+
+TriangleMesh MeshOf(const Triangles& triangles) {
+  TriangleMesh mesh;
+  mesh.vertices.reserve(triangles.vertices_m.size());
+  for (const Vector3& p : triangles.vertices_m) mesh.vertices.emplace_back(p[0], p[1], p[2]);
+  mesh.triangles = triangles.indices;
+  return mesh;
+}
+
+/// Each position that a triangle uses, once, in the order of use.
+Triangles Compact(const TriangleMesh& mesh) {
+  Triangles compact;
+  compact.indices.reserve(mesh.triangles.size());
+  std::unordered_map<Vector3, std::uint32_t, PositionHash> seen;
+  for (const Triangle& triangle : mesh.triangles) {
+    Triangle& indices = compact.indices.emplace_back();
+    for (int i = 0; i < 3; ++i) {
+      const auto& v = mesh.vertices[triangle[i]];
+      const Vector3 position{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};  // -0 becomes 0.
+      const auto next = static_cast<std::uint32_t>(compact.vertices_m.size());
+      const auto [found, is_new] = seen.try_emplace(position, next);
+      if (is_new) compact.vertices_m.push_back(position);
+      indices[i] = found->second;
+    }
+  }
+  return compact;
+}
+
+void RequireFit(const TriangleMesh& mesh) {
+  if (const auto refusal = RefusalOf(mesh, kShapeTrianglesMax)) {
+    throw std::invalid_argument(*refusal);
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const Shape> Shape::Make(Triangles triangles) {
+  TriangleMesh mesh = MeshOf(triangles);
+  RequireFit(mesh);
+  const std::shared_ptr<Shape> shape(new Shape);
+  shape->dropped_ = DropDegenerate(&mesh);
+  if (mesh.triangles.empty()) {
+    throw std::invalid_argument("triangles: all " + std::to_string(shape->dropped_) +
+                                " are degenerate, allowed: 1 to " +
+                                std::to_string(kShapeTrianglesMax) + " with an area");
+  }
+  shape->triangles_ = Compact(mesh);
+  mesh = MeshOf(shape->triangles_);
+  RequireFit(mesh);  // Without the vertices that no triangle uses it may be a point.
+  const MeshFacts facts = FactsOf(mesh);
+  shape->radius_m_ = facts.radius;
+  shape->closed_ = facts.closed;
+  shape->bytes_ = EncodeShape({shape->triangles_.vertices_m, shape->triangles_.indices});
+  shape->hash_ = Sha256(shape->bytes_);
+  return shape;
+}
+
+std::string HexText(const std::string& bytes) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (const unsigned char byte : bytes) text += {kDigits[byte >> 4], kDigits[byte & 15]};
+  return text;
+}
+
+}  // namespace collision::client

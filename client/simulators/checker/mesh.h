@@ -1,0 +1,63 @@
+// A body's triangles, with boxes around groups of them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "client/simulators/checker/triangles.h"
+
+namespace collision::checker {
+
+/// About the body's reference point, in its own axes [m]. Immutable.
+class Mesh {
+ public:
+  /// A box around the triangles [first, first + triangles), or around its two children.
+  struct Node {
+    Vector centre;
+    Vector half;                  ///< Half its extent along each axis.
+    std::uint32_t child = 0;      ///< The first child; the second follows it. Of a leaf: 0.
+    std::uint32_t first = 0;      ///< Of a leaf.
+    std::uint32_t triangles = 0;  ///< 0: not a leaf.
+  };
+
+  /// Triangles without area are dropped. Throws std::runtime_error if none is left, a number is not
+  /// finite or an index names no vertex.
+  Mesh(std::vector<Vector> vertices, const std::vector<std::array<std::uint32_t, 3>>& indices);
+
+  /// The root first.
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Triangle>& triangles() const { return triangles_; }
+  const std::vector<Vector>& vertices() const { return vertices_; }
+
+  /// Every edge is passed as often one way as the other, vertices at one place taken as one: the
+  /// surface bounds a solid, the points of winding number other than 0.
+  bool closed() const { return closed_; }
+
+  /// One vertex of each connected part.
+  const std::vector<Vector>& part_points() const { return part_points_; }
+
+  /// Of the ball about the reference point that contains it [m].
+  double radius_m() const { return radius_m_; }
+
+  /// How often the surface winds around a point off it, by the solid angles of its triangles
+  /// (van Oosterom and Strackee, 1983). Requires closed().
+  int WindingNumber(const Vector& point) const;
+
+  /// Is the point inside the solid? False for an open surface.
+  bool Contains(const Vector& point) const;
+
+ private:
+  void FindEdges(const std::vector<std::array<std::uint32_t, 3>>& indices);
+  void Build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
+
+  std::vector<Vector> vertices_;
+  std::vector<Triangle> triangles_;
+  std::vector<Node> nodes_;
+  std::vector<Vector> part_points_;
+  bool closed_ = false;
+  double radius_m_ = 0;
+};
+
+}  // namespace collision::checker

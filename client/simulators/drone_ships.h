@@ -1,0 +1,75 @@
+// Drone ships: meshes under random forces and torques that bounce off what they hit.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "client/simulators/drone.h"
+#include "client/simulators/pace.h"
+#include "client/simulators/ship_agent.h"
+
+namespace collision::client {
+
+struct DroneShipOptions {
+  DroneLimits limits;                  ///< The radius counts where there is no shape.
+  TurnLimits turn;                     ///< α and the greatest turn rate.
+  std::shared_ptr<const Shape> shape;  ///< Null: balls.
+  std::size_t drones = 20;
+  std::size_t first = 0;  ///< Number of the first: slices of one swarm in several processes.
+  std::uint64_t seed = 1;
+  double rate_hz = 60;          ///< Steps of the motion; at least 10.
+  std::size_t state_every = 1;  ///< Steps between two states of a drone.
+};
+
+/// A box in which so many drones of 2 m meet now and then: 1600 m³ for each, half as high as wide.
+Vector3 BoxFor(std::size_t drones);
+
+/// Thrusters all round: any acceleration up to M, any angular acceleration up to α.
+class DroneShip {
+ public:
+  DroneShip(const DroneLimits& limits, const TurnLimits& turn, const Vector3& position_m,
+            std::uint64_t seed);
+
+  /// A step of at most kRigidStepMax under random forces and torques.
+  RigidStep Step(std::int64_t t0_ns, std::int64_t t1_ns);
+
+  const RigidState& state() const { return state_; }
+
+  /// After a bounce.
+  void SetVelocities(const Vector3& velocity_m_s, const Vector3& angular_velocity_rad_s);
+
+ private:
+  Drone drone_;  // how it flies
+  TurnLimits turn_;
+  SeededRandom random_;
+  RigidState state_;
+  Vector3 turn_wanted_{};
+  int steps_left_ = 0;  // until it wants another
+};
+
+/// Flies the drones of one process.
+class DroneShips {
+ public:
+  /// Everything outlives it. Throws std::runtime_error if the drones do not fit into the box.
+  DroneShips(const DroneShipOptions& options, Pace* pace, MotionLog* log);
+
+  /// To pace.end_ns(), or until asked to stop; then lingers.
+  void Fly();
+
+  std::size_t bounces() const { return bounces_; }
+
+ private:
+  struct Member {
+    DroneShip ship;
+    ShipAgent agent;
+  };
+
+  void StepTo(std::int64_t t0_ns, std::int64_t t1_ns, bool states);
+
+  DroneShipOptions options_;
+  Pace* pace_;
+  std::vector<Member> members_;
+  std::size_t bounces_ = 0;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,46 @@
+#include "client/simulators/mesh_option.h"
+
+#include <cstdio>
+
+#include "client/simulators/command_line.h"
+
+namespace collision::client {
+namespace {
+
+constexpr double kUnitMax = 1e12;  ///< [m]
+
+}  // namespace
+
+void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::string& up,
+                         const std::string& centre, MeshFileOptions* options) {
+  app->add_option(unit, options->unit_m, "One unit of the mesh file in metres: nothing is guessed")
+      ->check(Finite(kUnitMax, false));
+  const auto set = [options](const std::string& axis) {
+    options->up = axis == "x" ? UpAxis::kX : axis == "y" ? UpAxis::kY : UpAxis::kZ;
+  };
+  app->add_option_function<std::string>(up, set, "The file's axis that points up; default: z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
+  app->add_flag(centre, options->centre,
+                "The reference point is the centre of the mesh's box, not the file's origin");
+}
+
+void AddMeshOptions(CLI::App* app, MeshOptions* options) {
+  auto* mesh = app->add_option("--mesh", options->file, "OBJ, STL, PLY, glTF or GLB to fly");
+  AddMeshFrameOptions(app, "--mesh-unit", "--mesh-up", "--mesh-centre", &options->frame);
+  mesh->needs("--mesh-unit");
+  for (const char* name : {"--mesh-unit", "--mesh-up", "--mesh-centre"}) {
+    app->get_option(name)->needs(mesh);
+  }
+}
+
+std::shared_ptr<const Shape> LoadMesh(const MeshOptions& options, bool quiet) {
+  if (options.file.empty()) return nullptr;
+  MeshFileReport report;
+  auto shape = LoadShape(options.file, options.frame, &report);
+  if (quiet) return shape;
+  std::printf("%s\n", report.Text(options.file).c_str());
+  std::fflush(stdout);
+  return shape;
+}
+
+}  // namespace collision::client

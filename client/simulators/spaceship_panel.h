@@ -1,0 +1,32 @@
+// What the pilot of a spaceship sees: instruments, radar, events.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/simulators/radar.h"
+#include "client/simulators/spaceship_helm.h"
+
+namespace collision::client {
+
+struct SpaceshipPanel {
+  double time_s = 0;
+  double speed_m_s = 0;
+  double thrust = 0;  ///< Share of the engine's power.
+  double turn_rate_rad_s = 0;
+  bool braking = false;
+  std::string clearance;  ///< "clear for 1.20 s"; empty: the service has not said.
+  std::string earliest;   ///< Who may touch whom first, of all.
+  std::string nearest;    ///< "drone-3, 12.1 m".
+  RadarPicture radar;
+  int zoom = 0;
+  std::vector<std::string> events;  ///< The newest last.
+  std::size_t bounces = 0;
+  bool help = false;
+};
+
+/// The screen in lines: two of instruments, the radar, the newest events, the keys. What does not
+/// fit goes, the events first: a terminal of any size gives some picture.
+std::vector<std::string> PanelLines(SpaceshipPanel panel, std::size_t columns, std::size_t rows);
+
+}  // namespace collision::client

@@ -1,0 +1,101 @@
+#include "collision_core/narrow_phase/relative_pose.h"
+
+#include <algorithm>
+
+namespace collision {
+namespace {
+
+// 2^-53: each operation on doubles is off by at most this share of its result.
+constexpr double kUnit = 0x1p-53;
+
+// A product of two matrices of norm at most 1 + 2^-20, entry by entry three products and two sums:
+// each entry is off by less than 3.1 units, the matrix as a whole by less than three times as much.
+constexpr double kProductRounding = 16 * kUnit;
+
+// matrix x + offset, entry by entry three products and three sums, of terms below 1.1 |x| and
+// |offset|: less than 8 units of |x| + |offset| on each axis, and √3 times that in length.
+constexpr double kPosingRounding = 16 * kUnit;
+
+struct Orientation {
+  Rotation rotation;
+  double chord = 0;
+};
+
+// A ball looks the same however it is turned.
+Orientation OrientationOf(const BodySegment& body, std::size_t bound, double delta) {
+  if (!body.shape) return {};
+  const MovingTurn& turn = body.turns[bound];
+  Orientation orientation{RotationOf(turn.OrientationAt(delta)), 2};
+  const double angle = std::max(0.0, turn.off_angle.At(delta).upper);
+  // 2 sin(θ/2) <= θ; the difference matters for large angles only.
+  if (angle <= 0.125) orientation.chord = angle;
+  if (angle > 0.125 && angle < 3.14159) {
+    orientation.chord = std::min(2.0, 2 * SinCosOf(Interval(angle / 2)).sin.upper);
+  }
+  return orientation;
+}
+
+double Uncertainty(const BodySegment& body, std::size_t bound, double delta) {
+  const double turned =
+      body.shape ? std::min(2.0, body.turns[bound].off_angle.At(delta).upper) * ReachOf(body) : 0;
+  return body.ball.bounds[bound].u().At(delta).upper + turned;
+}
+
+std::size_t LeastUncertain(const BodySegment& body, double delta) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < body.ball.bounds.size(); ++i) {
+    if (Uncertainty(body, i, delta) < Uncertainty(body, best, delta)) best = i;
+  }
+  return best;
+}
+
+IntervalVector CentreAt(const MovingBall& ball, double delta) {
+  return ball.centre + Interval(delta) * ball.velocity;
+}
+
+double Width(const IntervalVector& v, const Eigen::Vector3d& middle) {
+  return Norm(v - IntervalVector(middle)).upper;
+}
+
+}  // namespace
+
+BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta) {
+  if (a.ball.bounds.empty() || b.ball.bounds.empty()) return {};
+  return {LeastUncertain(a, delta), LeastUncertain(b, delta), true};
+}
+
+RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta) {
+  const MovingBall& ball_A = a.ball.bounds[choice.of_A];
+  const MovingBall& ball_B = b.ball.bounds[choice.of_B];
+  const Orientation of_A = OrientationOf(a, choice.of_A, delta);
+  const Orientation of_B = OrientationOf(b, choice.of_B, delta);
+  // Positions are subtracted first: far from the origin nothing is lost but what the states lost.
+  const IntervalVector d =
+      (ball_B.centre - ball_A.centre) + Interval(delta) * (ball_B.velocity - ball_A.velocity);
+  const Eigen::Vector3d middle = d.middle();
+  const double length = Norm(IntervalVector(middle)).upper;
+
+  RelativePose pose;
+  pose.matrix = of_A.rotation.matrix.transpose() * of_B.rotation.matrix;
+  pose.offset = of_A.rotation.matrix.transpose() * middle;
+  const double errors = AddUp(of_A.rotation.error, of_B.rotation.error);
+  pose.matrix_error = AddUp(AddUp(errors, MultiplyUp(of_A.rotation.error, of_B.rotation.error)),
+                            kProductRounding + kPosingRounding);
+  pose.offset_error =
+      AddUp(Width(d, middle),
+            MultiplyUp(AddUp(of_A.rotation.error, kProductRounding + kPosingRounding), length));
+  pose.translation = std::max(0.0, (ball_A.u().At(delta) + ball_B.u().At(delta)).upper);
+  pose.chord_A = of_A.chord;
+  pose.chord_B = of_B.chord;
+
+  const IntervalVector centre_A = CentreAt(ball_A, delta);
+  pose.p_WA = centre_A.middle();
+  pose.matrix_WA = of_A.rotation.matrix;
+  const double rounding =
+      MultiplyUp(kPosingRounding, AddUp(Norm(centre_A).upper, a.ball.radius + length));
+  pose.error_A = AddUp(AddUp(ball_A.u().At(delta).upper, Width(centre_A, pose.p_WA)),
+                       AddUp(rounding, MultiplyUp(of_A.rotation.error, ReachOf(a))));
+  return pose;
+}
+
+}  // namespace collision

@@ -1,0 +1,70 @@
+// The certified bracket of the distance between two posed bodies, by their sphere trees.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/narrow_phase/relative_pose.h"
+#include "collision_core/narrow_phase/triangle_pair.h"
+#include "collision_core/narrow_phase/work.h"
+
+namespace collision {
+
+/// A body as the traversal sees it: the nodes of its tree, or one node for a ball.
+class Surface {
+ public:
+  explicit Surface(const BodySegment& body);
+
+  const SphereNode& node(std::uint32_t index) const {
+    return shape_ ? shape_->tree().nodes[index] : ball_;
+  }
+  const Shape* shape() const { return shape_; }  ///< Null: a ball.
+  double reach() const { return reach_; }        ///< Of its points about the reference point [m].
+  double turning_reach() const { return shape_ ? reach_ : 0; }
+
+ private:
+  const Shape* shape_;
+  SphereNode ball_;
+  double reach_;
+};
+
+/// How far a look goes before it ends of itself.
+enum class Goal {
+  kDecision,  ///< Certainly apart, with at least half of the distance; certainly in contact; or
+              ///< neither can become certain at this pose.
+  kNearest    ///< Down to the triangles, so that the shortest way between the two is known.
+};
+
+/// A way between the two surfaces that may be the shortest one; in A's body frame.
+struct NearestWay {
+  Eigen::Vector3d a, b;
+  double lower, upper;  ///< Its length, the turning of both counted in.
+};
+
+/// What one look at a pose tells. The uncertainty of rounding and turning is counted in, that of
+/// translation is not: the true distance lies in [lower − translation, upper + translation].
+struct Look {
+  double lower = -kInfinity;  ///< The surfaces are apart by at least this.
+  double upper = kInfinity;   ///< At most; below 0: the bodies overlap by at least −upper.
+  /// Crossing triangles: contact is certain while no corner of theirs moves further than this.
+  double crossing_margin = -kInfinity;
+  std::uint32_t level = 0;
+  bool resolved = false;   ///< `lower` comes from triangles: looking further does not raise it.
+  bool exhausted = false;  ///< The work allowed is spent.
+
+  /// A point common to both where contact is certain, else half-way between them where they are
+  /// nearest; A's body frame. Within `point_error`, uncertainty of translation aside.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double point_error = kInfinity;
+  std::vector<NearestWay> ways;  ///< With Goal::kNearest: one of them is the shortest way.
+};
+
+/// Best-first over pairs of nodes: the pair that may be nearest is opened next, ties by node number,
+/// so that a look may end at any moment with a bracket that only became narrower. `uncertainty`:
+/// how far one body may be off relative to the other by translation [m].
+Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work);
+
+/// Surfaces that are certainly apart: is neither solid inside the other? One point of each connected
+/// component decides, since the components are apart.
+bool NeitherInside(const Surface& a, const Surface& b, const RelativePose& pose, Work* work);
+
+}  // namespace collision

@@ -1,0 +1,256 @@
+#include "collision_core/narrow_phase/shape_contact.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "collision_core/narrow_phase/shape_motion.h"
+
+namespace collision {
+namespace {
+
+using Instance = ShapeMotion::Instance;
+
+// Steps of one advance through time at most; each uses up half of the gap or more.
+constexpr int kStepsMax = 32;
+
+// An advance ends where its steps are shorter than this share of the segment.
+constexpr double kResolution = 1e-6;
+
+// The direction is told where the gap is this many times what is uncertain, if there is such an
+// instant: nearer it is not known, farther it is of another time.
+constexpr double kTellingGap = 8;
+
+// Of the work that is left: for how long the two are free from the start, then from the end, then
+// for contact; the rest is for the direction in which they came near.
+constexpr double kForwardShare = 0.4;
+constexpr double kBackwardShare = 0.3;
+constexpr double kContactShare = 0.75;
+
+// A bound on the angle whose sine is x (1 + 1e-12 covers the few roundings); π where x is no sine.
+double AngleOfSine(double x) {
+  if (!(x < 1)) return std::numbers::pi;
+  return std::min(std::numbers::pi, x / std::sqrt(1 - x * x) * (1 + 1e-12));
+}
+
+// The shortest way between two convex sets is unique. Where points of the sets are displaced by at
+// most u relative to each other it changes, as a vector, by at most u + 2 √(u (d + u)): with v, v'
+// the shortest differences before and after, some difference w before lies within u of v', and
+// v·(w − v) >= 0, so |w − v|² <= |w|² − |v|² <= (|v| + 2u)² − |v|². Likewise a way of length
+// at most U differs from the shortest one, at least L long, by at most √(U² − L²).
+double DeviationOf(const NearestWay& way, double translation) {
+  const double lower = std::max(0.0, way.lower), upper = std::max(lower, way.upper);
+  const double u = translation + (upper - lower);
+  return std::sqrt((upper - lower) * (upper + lower)) + u + 2 * std::sqrt(u * (upper + u));
+}
+
+// One of the ways is the shortest: how far may it point away from the one taken?
+ContactNormal NormalOf(const Instance& instance) {
+  ContactNormal normal;
+  const std::vector<NearestWay>& ways = instance.look.ways;
+  if (ways.empty()) return normal;
+  const auto shortest = std::min_element(
+      ways.begin(), ways.end(), [](const auto& x, const auto& y) { return x.upper < y.upper; });
+  const Eigen::Vector3d taken = (shortest->b - shortest->a).normalized();
+  double error = 0;
+  for (const NearestWay& way : ways) {
+    const Eigen::Vector3d v = way.b - way.a;
+    const double length = v.norm();
+    if (!(length > 0)) return normal;
+    const double half_chord = (v / length - taken).norm() / 2;
+    const double apart = 2 * AngleOfSine(half_chord);
+    error =
+        std::max(error, apart + AngleOfSine(DeviationOf(way, instance.pose.translation) / length));
+  }
+  normal.known = true;
+  normal.normal = instance.pose.matrix_WA * taken;
+  normal.error = std::min(std::numbers::pi, error + instance.pose.matrix_error + 1e-12);
+  return normal;
+}
+
+EventLimit LimitOf(const Instance& instance, double size) {
+  if (instance.look.exhausted) return EventLimit::kBudget;
+  // What rounding makes of an exact motion is less.
+  return instance.uncertainty > 1e-12 * size ? EventLimit::kMotion : EventLimit::kGeometry;
+}
+
+Proximity ProximityFrom(const Instance& instance, double size) {
+  Proximity proximity;
+  if (!instance.choice.certain) return proximity;
+  const RelativePose& pose = instance.pose;
+  const Look& look = instance.look;
+  proximity.separation = {AddDown(look.lower, -pose.translation),
+                          AddUp(look.upper, pose.translation)};
+  if (instance.touching()) {
+    proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
+    proximity.separation.lower = std::min(proximity.separation.lower, 0.0);
+  }
+  proximity.depth_lower = std::max(0.0, -proximity.separation.upper);
+  proximity.p_WC = pose.p_WA + pose.matrix_WA * look.point;
+  proximity.point_error =
+      AddUp(AddUp(look.point_error, pose.error_A),
+            AddUp(pose.translation, MultiplyUp(pose.chord_A, AddUp(look.point.norm(), 1e-12))));
+  // A guess, and told as one.
+  const Eigen::Vector3d between = pose.matrix_WA * pose.offset;
+  if (between.norm() > 0) proximity.normal = between.normalized();
+  proximity.level = look.level;
+  proximity.limited_by = LimitOf(instance, size);
+  return proximity;
+}
+
+class Judgement {
+ public:
+  Judgement(const BodySegment& a, const BodySegment& b, double duration, Work* work)
+      : motion_(a, b, work),
+        duration_(duration),
+        size_(a.ball.radius + b.ball.radius),
+        work_(*work) {}
+
+  /// From `at` on, towards the end or the start: how far the two stay apart. ±infinity: throughout.
+  double FreeFrom(double at, bool backward) {
+    for (int step = 0; step < kStepsMax; ++step) {
+      const Instance instance = Look(at, backward);
+      if (!instance.apart()) return at;
+      // The insides need to be asked once: later they are apart continuously.
+      if (step == 0 && !motion_.NeitherInside(instance)) return at;
+      if (!backward) RememberTelling(instance);
+      const double free = motion_.FreeStep(instance, backward);
+      const double reached = backward ? AddUp(at, -free) : AddDown(at, free);
+      if (backward && (reached < 0 || free == kInfinity)) return -kInfinity;
+      if (!backward && (reached > duration_ || free == kInfinity)) return kInfinity;
+      at = reached;
+      if (free <= kResolution * duration_ || work_.exhausted()) break;
+    }
+    return at;
+  }
+
+  /// Certain contact in [f, g], which is not certified free.
+  void FindContact(double f, double g, SegmentVerdict* times) {
+    const double width = g - f;
+    const double places[] = {f, g, f + width / 2, f + width / 4, f + 3 * width / 4};
+    for (const double place : places) {
+      if (work_.exhausted()) return;
+      const Instance instance = Look(place, place == g);
+      if (!instance.touching()) continue;
+      times->contact_from = Extend(instance, true);
+      times->contact_to = Extend(instance, false);
+      if (times->contact_to < g && g >= duration_) LookAtEnd(times);
+      return;
+    }
+  }
+
+  ContactNormal Normal() {
+    if (!telling_) return {};
+    return NormalOf(motion_.LookAt(telling_->at, Goal::kNearest));
+  }
+
+  const std::optional<Instance>& nearest() const { return nearest_; }
+  double size() const { return size_; }
+
+ private:
+  // Both advances end where contact is looked for first.
+  Instance Look(double at, bool backward) {
+    std::optional<Instance>& last = backward ? last_backward_ : last_forward_;
+    if (last && last->at == at) return *last;
+    last = motion_.LookAt(at, Goal::kDecision);
+    if (last->choice.certain && (!nearest_ || last->look.upper < nearest_->look.upper)) {
+      nearest_ = last;
+    }
+    return *last;
+  }
+
+  void RememberTelling(const Instance& instance) {
+    const double telling = kTellingGap * instance.uncertainty;
+    if (!telling_ || instance.look.lower >= telling) telling_ = instance;
+  }
+
+  // How far contact is certain from here on, without a gap.
+  double Extend(Instance instance, bool backward) {
+    double at = instance.at;
+    for (int step = 0; step < kStepsMax && !work_.exhausted(); ++step) {
+      const double lasts = motion_.ContactStep(instance, backward);
+      const double reached = backward ? AddUp(at, -lasts) : AddDown(at, lasts);
+      if (backward && reached <= 0) return 0;
+      if (!backward && reached >= duration_) return duration_;
+      at = reached;
+      if (lasts <= kResolution * duration_) break;
+      instance = motion_.LookAt(at, Goal::kDecision);
+      if (!instance.touching()) break;
+    }
+    return at;
+  }
+
+  // Contact at the end belongs to the next segment's, even where it is not certain throughout.
+  void LookAtEnd(SegmentVerdict* times) {
+    const Instance end = Look(duration_, true);
+    if (!end.touching()) return;
+    const double from = Extend(end, true);
+    times->contact_continuous = from <= times->contact_to;
+    times->contact_to = duration_;
+  }
+
+  const ShapeMotion motion_;
+  const double duration_;
+  const double size_;
+  Work& work_;
+  std::optional<Instance> last_forward_, last_backward_;
+  std::optional<Instance> nearest_;  // least upper bound of the distance
+  std::optional<Instance> telling_;  // apart, and near
+};
+
+}  // namespace
+
+ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double duration,
+                         const SegmentVerdict& balls, Work* work) {
+  Judgement judgement(a, b, duration, work);
+  ShapeVerdict verdict;
+  SegmentVerdict& times = verdict.times;
+  const double from = std::max(0.0, balls.free_until);
+  times.free_until = [&] {
+    const WorkShare share(kForwardShare, work);
+    return judgement.FreeFrom(from, false);
+  }();
+  if (balls.free_until < 0 && times.free_until == from) times.free_until = balls.free_until;
+  if (times.free_until == kInfinity) {
+    times.free_from = -kInfinity;
+    return verdict;
+  }
+  const double until = std::min(duration, balls.free_from);
+  times.free_from = [&] {
+    const WorkShare share(kBackwardShare, work);
+    return judgement.FreeFrom(until, true);
+  }();
+  if (times.free_from == -kInfinity) {  // the same from the other side
+    times.free_until = kInfinity;
+    return verdict;
+  }
+  if (times.free_from < times.free_until) {  // the two advances met
+    times.free_until = kInfinity;
+    times.free_from = -kInfinity;
+    return verdict;
+  }
+  times.free_until = std::min(times.free_until, NextDown(duration));
+  {
+    const WorkShare share(kContactShare, work);
+    judgement.FindContact(std::max(0.0, times.free_until), times.free_from, &times);
+  }
+  verdict.normal = judgement.Normal();
+  if (judgement.nearest()) {
+    verdict.looked = true;
+    verdict.nearest_at = judgement.nearest()->at;
+    verdict.nearest = ProximityFrom(*judgement.nearest(), judgement.size());
+  }
+  return verdict;
+}
+
+double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double duration,
+                 Work* work) {
+  return Judgement(a, b, duration, work).FreeFrom(from, false);
+}
+
+Proximity ShapeProximity(const BodySegment& a, const BodySegment& b, double delta, Work* work) {
+  const Instance instance = ShapeMotion(a, b, work).LookAt(delta, Goal::kDecision);
+  return ProximityFrom(instance, a.ball.radius + b.ball.radius);
+}
+
+}  // namespace collision

@@ -1,0 +1,31 @@
+// The reference builder of sphere trees: octants of the bounding cube.
+#pragma once
+
+#include <cstdint>
+
+#include "collision_core/shape/sphere_tree.h"
+#include "collision_core/shape/triangle_mesh.h"
+
+namespace collision {
+
+struct ShapeOptions {
+  std::uint32_t triangles_per_leaf = 4;  ///< A node with so few is not divided.
+  std::uint32_t levels_max = 12;         ///< Octants are halved at most so often.
+  /// The tree's nodes at most: beyond, nodes become leaves with more triangles.
+  std::size_t nodes_max = std::size_t{1} << 20;
+};
+
+/// An octant with more triangles is divided even if they all meet in one corner, which no division
+/// takes apart: this many times triangles_per_leaf.
+inline constexpr std::uint32_t kFanFactor = 4;
+
+/// Centres, radii, levels and leaves; every signed_distance is left at the radius, which is an upper
+/// bound of the distance (the ball contains some of the surface). Requires a mesh that passed
+/// RefusalOf().
+///
+/// A node's part is what of the surface lies in its octant, about: triangles are cut at the octants'
+/// faces, and the two pieces are exactly the whole, because the cut is *defined* by its rounded
+/// place on each edge. What the corners of a piece may be off is in the radius (kCutError).
+SphereTree BuildOctree(const TriangleMesh& mesh, const ShapeOptions& options);
+
+}  // namespace collision
