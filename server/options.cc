@@ -22,6 +22,7 @@ Examples:
   collisiond --config collisiond.textproto      serve as configured
   collisiond --config F --check-config          check F; every error with its line
   collisiond --print-config > F                 write all defaults, explained
+  collisiond --calibrate                        how fast the narrow phase is on this machine
   collisiond --domain 7 --log-level debug       override two settings
   collisiond --record run.rec                   serve, and keep every input
   collisiond --replay run.rec > events.jsonl    repeat that run without a network
@@ -62,6 +63,9 @@ void Define(CLI::App* app, Options* options) {
                               "Check the configuration, tell every error, and end");
   auto* print = app->add_flag("--print-config", options->print_config,
                               "Print the configuration in effect, explained, and end");
+  auto* calibrate = app->add_flag(
+      "--calibrate", options->calibrate,
+      "Measure work_units_per_us on this machine, print the line for the configuration, and end");
   app->set_version_flag("--version", std::string("collisiond ") + kVersion,
                         "Print the version and end");
   auto* domain =
@@ -79,6 +83,7 @@ void Define(CLI::App* app, Options* options) {
   check->needs(config)->excludes(print);
   for (auto* other : {config, check, print, domain, record}) replay->excludes(other);
   for (auto* other : {check, print}) record->excludes(other);
+  for (auto* other : {config, check, print, domain, record, replay}) calibrate->excludes(other);
 }
 
 }  // namespace

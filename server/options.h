@@ -20,6 +20,7 @@ struct Options {
   std::string config_file;  ///< Empty: the defaults.
   bool check_config = false;
   bool print_config = false;
+  bool calibrate = false;
   std::optional<std::uint32_t> domain;   ///< Over the configuration's.
   std::optional<std::string> log_level;  ///< Likewise.
   std::string record_file;               ///< Empty: nothing is recorded.

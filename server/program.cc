@@ -3,10 +3,13 @@
 #include <google/protobuf/util/json_util.h>
 #include <spdlog/common.h>
 
+#include <algorithm>
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <memory>
 
+#include "server/calibrate.h"
 #include "server/config.h"
 #include "server/daemon.h"
 #include "server/dds_bus.h"
@@ -74,9 +77,16 @@ int Replay(const std::string& file, const std::string& log_level) {
   return Replay(*reader);
 }
 
+int Calibrate() {
+  const double rate = std::max(MeasureWorkUnitsPerUs(), 1.0);
+  std::cout << "work_units_per_us: " << std::llround(rate) << '\n';
+  return kExitOk;
+}
+
 }  // namespace
 
 int RunProgram(const Options& options) {
+  if (options.calibrate) return Calibrate();
   if (!options.replay_file.empty()) {
     return Replay(options.replay_file, options.log_level.value_or("info"));
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -60,6 +61,10 @@ class Collector {
     }
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D& v = mesh.mVertices[i];
+      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
+        throw std::runtime_error(
+            "a vertex's coordinate is not a finite number (of a float's range)");
+      }
       const Eigen::Vector4d p = matrix * Eigen::Vector4d(v.x, v.y, v.z, 1);
       polygons_.vertices.push_back({p.x(), p.y(), p.z()});
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -79,13 +80,13 @@ class GltfScan {
     Accessors();
     Nodes();
     const auto meshes = List(document_, "meshes");
-    for (std::size_t i = 0; i < meshes.size(); ++i) {
+    for (const std::uint64_t i : MeshesShown()) {
       const Struct& mesh = ObjectOf(*meshes[i], Named("mesh", i));
       for (const Value* primitive : List(mesh, "primitives")) {
         Primitive(ObjectOf(*primitive, "a primitive of " + Named("mesh", i)), Named("mesh", i));
       }
     }
-    if (scan_.faces == 0) Fail("no faces (primitives of mode 4, 5 or 6)");
+    if (scan_.faces == 0) Fail("no faces (primitives of mode 4, 5 or 6) in its scene");
     return scan_;
   }
 
@@ -209,7 +210,7 @@ class GltfScan {
     const std::size_t meshes = List(document_, "meshes").size();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const Struct& node = ObjectOf(*nodes[i], Named("node", i));
-      if (Count(node, "mesh", 0) >= std::max<std::size_t>(meshes, 1)) {
+      if (Find(node, "mesh") != nullptr && Count(node, "mesh", 0) >= meshes) {
         Fail(Named("node", i) + " names a mesh that is not there");
       }
       for (const Value* value : List(node, "children")) {
@@ -237,6 +238,23 @@ class GltfScan {
              " nodes, or its own parent");
       }
     }
+  }
+
+  /// The meshes that the scene's nodes name: the library reads no others.
+  std::set<std::uint64_t> MeshesShown() const {
+    const auto nodes = List(document_, "nodes");
+    const Value& scene = *List(document_, "scenes")[Count(document_, "scene", 0)];
+    std::vector<const Value*> waiting = List(ObjectOf(scene, "a scene"), "nodes");
+    std::set<std::uint64_t> meshes, seen;
+    while (!waiting.empty()) {
+      const std::uint64_t index = CountOf(*waiting.back(), "a node");
+      waiting.pop_back();
+      if (!seen.insert(index).second) continue;
+      const Struct& node = ObjectOf(*nodes[index], Named("node", index));
+      for (const Value* child : List(node, "children")) waiting.push_back(child);
+      if (Find(node, "mesh") != nullptr) meshes.insert(Count(node, "mesh", 0));
+    }
+    return meshes;
   }
 
   const Accessor& AccessorOf(const Value& value, const std::string& what) const {

@@ -69,7 +69,8 @@ class ObjScan {
     }
     scan_.plain += '\n';
     const std::string_view weight = words->Next();
-    if (weight.empty() || !words->Next().empty()) return;  // Without one, or with a colour.
+    if (weight.empty() || weight[0] == '#' || !words->Next().empty())
+      return;  // Without one, or with a colour.
     if (NumberOf<double>(weight) != 1.0) {
       Fail(line_, "a vertex's weight: " + Quoted(weight) + ", allowed: none, or 1");
     }

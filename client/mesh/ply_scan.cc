@@ -1,4 +1,5 @@
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <vector>
@@ -9,11 +10,17 @@
 namespace collision::client {
 namespace {
 
+/// A number's kind, as the header names it.
+struct Type {
+  std::size_t bytes = 0;
+  enum class Kind { kSigned, kUnsigned, kFloat } kind = Kind::kSigned;
+};
+
 struct Property {
   std::string name;
-  std::size_t count_bytes = 0;  ///< Of the count before a list; 0: one value.
-  std::string count_type;
-  std::string type;
+  bool is_list = false;
+  Type count;  ///< Before a list.
+  Type value;
 };
 
 struct Element {
@@ -22,21 +29,24 @@ struct Element {
   std::vector<Property> properties;
 };
 
-std::size_t BytesOf(const Words& words, const std::string& type) {
-  static const std::map<std::string, std::size_t> sizes = {
-      {"char", 1},  {"uchar", 1},  {"short", 2},   {"ushort", 2}, {"int", 4},   {"uint", 4},
-      {"float", 4}, {"double", 8}, {"int8", 1},    {"uint8", 1},  {"int16", 2}, {"uint16", 2},
-      {"int32", 4}, {"uint32", 4}, {"float32", 4}, {"float64", 8}};
-  const auto size = sizes.find(type);
-  if (size == sizes.end()) words.Fail("type " + Quoted(type) + " of a property is unknown");
-  return size->second;
+Type TypeOf(const Words& words, std::string_view name) {
+  using Kind = Type::Kind;
+  static const std::map<std::string_view, Type> types = {
+      {"char", {1, Kind::kSigned}},     {"int8", {1, Kind::kSigned}},
+      {"uchar", {1, Kind::kUnsigned}},  {"uint8", {1, Kind::kUnsigned}},
+      {"short", {2, Kind::kSigned}},    {"int16", {2, Kind::kSigned}},
+      {"ushort", {2, Kind::kUnsigned}}, {"uint16", {2, Kind::kUnsigned}},
+      {"int", {4, Kind::kSigned}},      {"int32", {4, Kind::kSigned}},
+      {"uint", {4, Kind::kUnsigned}},   {"uint32", {4, Kind::kUnsigned}},
+      {"float", {4, Kind::kFloat}},     {"float32", {4, Kind::kFloat}},
+      {"double", {8, Kind::kFloat}},    {"float64", {8, Kind::kFloat}}};
+  const auto type = types.find(name);
+  if (type == types.end()) words.Fail("type " + Quoted(name) + " of a property is unknown");
+  return type->second;
 }
 
-bool IsFloat(const std::string& type) { return type[0] == 'f' || type[0] == 'd'; }
-bool IsUnsigned(const std::string& type) { return type[0] == 'u'; }
 bool IsIndices(const Property& property) {
-  return property.count_bytes > 0 &&
-         (property.name == "vertex_indices" || property.name == "vertex_index");
+  return property.is_list && (property.name == "vertex_indices" || property.name == "vertex_index");
 }
 
 struct Header {
@@ -60,17 +70,19 @@ std::size_t HeaderEnd(std::string_view text) {
 
 Property ReadProperty(Words* words) {
   Property property;
-  property.type = words->Next();
-  if (property.type == "list") {
-    property.count_type = words->Next();
-    property.count_bytes = BytesOf(*words, property.count_type);
-    if (IsFloat(property.count_type)) words->Fail("a list is counted in floating point");
-    property.type = words->Next();
+  std::string_view type = words->Next();
+  property.is_list = type == "list";
+  if (property.is_list) {
+    property.count = TypeOf(*words, words->Next());
+    type = words->Next();
   }
-  BytesOf(*words, property.type);
+  property.value = TypeOf(*words, type);
   property.name = words->Next();
-  if (IsIndices(property) && IsFloat(property.type)) words->Fail("indices in floating point");
-  return property;
+  const bool counted = property.count.kind != Type::Kind::kFloat;
+  if (counted && !(IsIndices(property) && property.value.kind == Type::Kind::kFloat)) {
+    return property;
+  }
+  words->Fail("a list of " + Quoted(property.name) + " with floating-point counts or indices");
 }
 
 Element ReadElement(Words* words) {
@@ -113,7 +125,7 @@ Header ReadHeader(std::string_view text) {
 class Body {
  public:
   virtual ~Body() = default;
-  virtual double Value(const std::string& type) = 0;
+  virtual double Value(const Type& type) = 0;
   /// Skips so many elements of so many bytes each at once, if it can.
   virtual bool Skip(std::uint64_t, std::size_t) { return false; }
   /// What is told of where the reading is.
@@ -123,7 +135,7 @@ class Body {
 class TextBody : public Body {
  public:
   explicit TextBody(std::string_view text) : words_(text) {}
-  double Value(const std::string&) override {
+  double Value(const Type&) override {
     const std::string_view word = words_.Next();
     if (word.empty())
       throw std::runtime_error("the file is cut off: values are missing at its end");
@@ -142,21 +154,20 @@ class TextBody : public Body {
 class BinaryBody : public Body {
  public:
   BinaryBody(std::string_view bytes, bool big) : bytes_(bytes), big_(big) {}
-  double Value(const std::string& type) override {
-    const std::size_t size = BytesOf(Words(""), type);
-    Require(size <= bytes_.size() - at_);
+  double Value(const Type& type) override {
+    Require(type.bytes <= bytes_.size() - at_);
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::size_t place = at_ + (big_ ? i : size - 1 - i);
+    for (std::size_t i = 0; i < type.bytes; ++i) {
+      const std::size_t place = at_ + (big_ ? i : type.bytes - 1 - i);
       bits = bits << 8 | static_cast<unsigned char>(bytes_[place]);
     }
-    at_ += size;
-    if (IsFloat(type)) {
-      return size == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(bits))
-                       : std::bit_cast<double>(bits);
+    at_ += type.bytes;
+    if (type.kind == Type::Kind::kFloat) {
+      return type.bytes == 4 ? std::bit_cast<float>(static_cast<std::uint32_t>(bits))
+                             : std::bit_cast<double>(bits);
     }
-    if (IsUnsigned(type)) return static_cast<double>(bits);
-    const int shift = static_cast<int>(64 - 8 * size);
+    if (type.kind == Type::Kind::kUnsigned) return static_cast<double>(bits);
+    const int shift = static_cast<int>(64 - 8 * type.bytes);
     return static_cast<double>(static_cast<std::int64_t>(bits << shift) >> shift);
   }
   bool Skip(std::uint64_t count, std::size_t size) override {
@@ -179,14 +190,14 @@ class BinaryBody : public Body {
 void ScanFace(const Element& element, std::uint64_t vertices, Body* body, MeshScan* scan) {
   std::uint64_t corners = 0;
   for (const Property& property : element.properties) {
-    const double values = property.count_bytes == 0 ? 1 : body->Value(property.count_type);
+    const double values = property.is_list ? body->Value(property.count) : 1;
     if (!(values >= 0)) throw std::runtime_error(body->Where() + ": a list of less than nothing");
     const bool indices = element.name == "face" && IsIndices(property);
     for (double i = 0; i < values; ++i) {
-      const double value = body->Value(property.type);
-      if (!indices || (value >= 0 && value < static_cast<double>(vertices))) continue;
-      throw std::runtime_error(body->Where() + ": a face names vertex " +
-                               std::to_string(static_cast<std::int64_t>(value)) +
+      const double value = body->Value(property.value);
+      const bool whole = value == std::floor(value);
+      if (!indices || (whole && value >= 0 && value < static_cast<double>(vertices))) continue;
+      throw std::runtime_error(body->Where() + ": a face names vertex " + std::to_string(value) +
                                ", allowed: 0 to " + std::to_string(vertices) + " - 1");
     }
     if (indices) corners = static_cast<std::uint64_t>(values);
@@ -198,8 +209,8 @@ void ScanOther(const Element& element, Body* body) {
   std::size_t bytes = 0;
   bool lists = false;
   for (const Property& property : element.properties) {
-    lists = lists || property.count_bytes > 0;
-    bytes += BytesOf(Words(""), property.type);
+    lists = lists || property.is_list;
+    bytes += property.value.bytes;
   }
   if (!lists && body->Skip(element.count, bytes)) return;
   MeshScan ignored;

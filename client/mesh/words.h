@@ -4,10 +4,12 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace collision::client {
 
@@ -47,14 +49,19 @@ class Words {
   std::size_t line_ = 1;
 };
 
-/// The whole word as a number, also "inf" and "nan"; nullopt: it is none.
+/// The whole word as a number, also "inf" and "nan"; nullopt: it is none. One that is too large for a
+/// double is infinite, one that is too small 0.
 template <typename Number>
 std::optional<Number> NumberOf(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   Number number{};
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
-  return number;
+  if (end != word.data() + word.size() || word.empty()) return std::nullopt;
+  if (error == std::errc()) return number;
+  if constexpr (std::is_floating_point_v<Number>) {
+    return std::strtod(std::string(word).c_str(), nullptr);
+  }
+  return std::nullopt;
 }
 
 /// A word for a message: short and printable.
@@ -64,15 +71,11 @@ inline std::string Quoted(std::string_view word) {
   return text + (word.size() > 40 ? "..." : "") + "\"";
 }
 
-/// A coordinate: throws unless it is a finite number. A double that underflows counts as 0.
+/// Throws unless the word is a finite number.
 inline void RequireFinite(const Words& words, std::string_view word) {
-  double number = 0;
-  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-  const bool whole = !word.empty() && end == word.data() + word.size();
-  const bool tiny = error == std::errc::result_out_of_range && std::abs(number) < 1;
-  if (whole && (error == std::errc() || tiny) && std::isfinite(number)) return;
-  words.Fail("a coordinate: " + Quoted(word) + ", allowed: a finite number");
+  const auto number = NumberOf<double>(word);
+  if (number && std::isfinite(*number)) return;
+  words.Fail("a vertex's coordinate: " + Quoted(word) + ", allowed: a finite number");
 }
 
 }  // namespace collision::client

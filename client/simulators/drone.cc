@@ -12,7 +12,6 @@ namespace {
 constexpr double kInside = 1 - 1e-6;
 
 constexpr int kAttemptsPerDrone = 10000;
-constexpr int kTargets = 5;              // places the drones fly to: where they meet
 constexpr double kReached = 10;          // a target is reached within this many metres
 constexpr double kGustShare = 0.5;       // of M; the rest pulls to the target
 constexpr int kThinkSteps[] = {20, 80};  // between changes of mind
@@ -32,9 +31,9 @@ Vector3 PointIn(const Vector3& box, double margin_share, SeededRandom* random) {
 }
 
 // The same few places for all drones of a box: a fixed seed.
-Vector3 Target(const Vector3& box, std::uint64_t index) {
-  SeededRandom random(index % kTargets);
-  return PointIn(box, 0.3, &random);
+Vector3 Target(const DroneLimits& limits, std::uint64_t index) {
+  SeededRandom random(index % limits.places);
+  return PointIn(limits.box_m, 0.3, &random);
 }
 
 }  // namespace
@@ -49,7 +48,7 @@ Vector3 Drone::Force(double step) {
   if (steps_left_-- <= 0 || Norm(away) < kReached) {
     steps_left_ = static_cast<int>(random_.Uniform(kThinkSteps[0], kThinkSteps[1]));
     gust_ = Scaled(random_.InUnitBall(), kGustShare * force_max);
-    target_m_ = Target(limits_.box_m, random_.Next());
+    target_m_ = Target(limits_, random_.Next());
   }
   const double distance = std::max(Norm(away), kReached);
   Vector3 force;

@@ -14,6 +14,7 @@ struct DroneLimits {
                 50};  ///< It steers to stay in [0, box] on each axis; a bounce may carry it out.
   double radius_m = 0.5;
   double speed_max_m_s = 15;         ///< Never exceeded by its own forces.
+  std::uint64_t places = 5;          ///< It flies from one of them to another: where drones meet.
   double acceleration_max_m_s2 = 5;  ///< M: never exceeded, |Δv| <= M h also in exact arithmetic.
 };
 

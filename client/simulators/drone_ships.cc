@@ -8,7 +8,8 @@
 namespace collision::client {
 namespace {
 
-constexpr double kSpaceOfOne = 1600;       // [m³]
+constexpr double kSpaceOfOne = 8000;       // [m³]
+constexpr std::size_t kMeetAtOne = 4;      // drones to a place where they meet, at rest
 constexpr int kTurnSteps[] = {15, 90};     // between changes of mind
 constexpr std::uint64_t kTurnSeed = 0x7e;  // torques and forces draw different numbers
 
@@ -18,6 +19,8 @@ Vector3 BoxFor(std::size_t drones) {
   const double width = std::cbrt(2 * kSpaceOfOne * static_cast<double>(drones));
   return {width, width, width / 2};
 }
+
+std::uint64_t PlacesFor(std::size_t drones) { return 1 + drones / kMeetAtOne; }
 
 DroneShip::DroneShip(const DroneLimits& limits, const TurnLimits& turn, const Vector3& position_m,
                      std::uint64_t seed)
@@ -47,6 +50,7 @@ void DroneShip::SetVelocities(const Vector3& velocity_m_s, const Vector3& angula
 DroneShips::DroneShips(const DroneShipOptions& options, Pace* pace, MotionLog* log)
     : options_(options), pace_(pace) {
   if (options_.shape) options_.limits.radius_m = options_.shape->radius_m();
+  options_.limits.places = PlacesFor(options_.first + options_.drones);
   const auto starts =
       StartPositions(options_.limits, options_.first + options_.drones, options_.seed);
   for (std::size_t i = options_.first; i < starts.size(); ++i) {

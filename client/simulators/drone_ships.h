@@ -21,8 +21,11 @@ struct DroneShipOptions {
   std::size_t state_every = 1;  ///< Steps between two states of a drone.
 };
 
-/// A box in which so many drones of 2 m meet now and then: 1600 m³ for each, half as high as wide.
+/// A box in which so many drones of 2 m meet now and then: 8000 m³ for each, half as high as wide.
 Vector3 BoxFor(std::size_t drones);
+
+/// In how many places of that box: ever the same throng.
+std::uint64_t PlacesFor(std::size_t drones);
 
 /// Thrusters all round: any acceleration up to M, any angular acceleration up to α.
 class DroneShip {

@@ -21,7 +21,7 @@ void AddFlightOptions(CLI::App* app, DroneShipOptions* options) {
   app->add_option("--seed", options->seed, "Same for all processes of a swarm")
       ->capture_default_str();
   app->add_option("--box", options->limits.box_m,
-                  "Size of the space [m]: x y z; default: 1600 m3 for each drone up to the last. "
+                  "Size of the space [m]: x y z; default: 8000 m3 for each drone up to the last. "
                   "Same for all processes of a swarm")
       ->check(Finite(kCoordinateMax, false));
   app->add_option("--radius", options->limits.radius_m, "Of a drone without a mesh [m]")
@@ -68,6 +68,7 @@ int main(int argc, char** argv) {
   DroneShipOptions options;
   options.limits.radius_m = 1.2;
   options.limits.speed_max_m_s = 8;
+  options.limits.acceleration_max_m_s2 = 4;
   MeshOptions mesh;
   CLI::App app(
       "Flies drone ships under random forces and torques in a world of the collision service.",

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/numeric/rotation.h"
+
 namespace collision {
 namespace {
 
@@ -14,7 +16,13 @@ constexpr double kRoundingPerStep = 0x1p-52;
 /// Two stamps, each rounded to the nearest nanosecond: s is off by at most this [s].
 constexpr double kStampRounding = 1e-9;
 
-/// What rounding at an honest sender may add to the deviations of position and velocity.
+/// Angle [rad] that a step of an integrator may lose: exp(ω h) is a sine and a cosine, each a unit
+/// in the last place off, its product with q four terms a component. That is less than 8 · 2^-53 of
+/// the quaternion, and twice as much of the angle.
+constexpr double kTurnRoundingPerStep = 0x1p-49;
+
+/// What rounding at an honest sender may add to the deviations of position and velocity (or of
+/// orientation and angular velocity).
 struct Allowance {
   double position;
   double velocity;
@@ -102,47 +110,124 @@ bool LosesDirection(const SpaceTimeBound& before, const MotionState& next) {
   return next.direction != old.direction || next.direction_until < old.direction_until;
 }
 
-}  // namespace
+/// `length` certainly exceeds `limit` by this much; 0 if by less than rounding may have cost.
+double Excess(Interval length, Interval limit, double allowed) {
+  const double least = (length - limit).lower;
+  return least > allowed ? least : 0;
+}
 
-ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next) {
-  const Interval s = SecondsBetween(before.state.stamp, next.stamp);
+/// Fills the excesses and drifts of position and velocity. False if the drifts exceed what rounding
+/// explains.
+bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, Interval s,
+                      ContractCheck* check) {
   const Allowance allowance = RoundingAllowance(before, next, s.upper);
   const Deviations deviations = DeviationsOf(before, next, s);
   const Against against = AgainstDirection(before, next, deviations);
-  ContractCheck check;
 
   // Errors and skew may explain a deviation against the direction, acceleration may not.
   const Limits motion = LimitsOfMotion(before, next, s);
   SpaceTimeBound at_rest = before;
   at_rest.declaration.acceleration_max = 0;
   const Limits errors = LimitsOfMotion(at_rest, next, s);
-  const auto excess = [](Interval length, Interval limit, double allowed) {
-    const double least = (length - limit).lower;
-    return least > allowed ? least : 0;
-  };
-  check.position_excess =
-      std::max(excess(deviations.position_length, motion.position, allowance.position),
-               excess(against.position, errors.position, allowance.position));
-  check.velocity_excess =
-      std::max(excess(deviations.velocity_length, motion.velocity, allowance.velocity),
-               excess(against.velocity, errors.velocity, allowance.velocity));
-  if (check.position_excess > 0 || check.velocity_excess > 0) {
-    check.verdict = ContractVerdict::kBreached;
-    return check;
-  }
+  check->position_excess =
+      std::max(Excess(deviations.position_length, motion.position, allowance.position),
+               Excess(against.position, errors.position, allowance.position));
+  check->velocity_excess =
+      std::max(Excess(deviations.velocity_length, motion.velocity, allowance.velocity),
+               Excess(against.velocity, errors.velocity, allowance.velocity));
 
   const Limits horn = LimitsOfHorn(before, next, s);
-  const double position_drift =
+  check->position_drift =
       (Max(0, deviations.position_length - horn.position) + against.position).upper;
-  const double velocity_drift =
+  check->velocity_drift =
       (Max(0, deviations.velocity_length - horn.velocity) + against.velocity).upper;
-  if (position_drift > 2 * allowance.position || velocity_drift > 2 * allowance.velocity ||
-      next.expiry > before.state.expiry || LosesDirection(before, next)) {
-    check.verdict = ContractVerdict::kWidened;
-    return check;
+  return check->position_drift <= 2 * allowance.position &&
+         check->velocity_drift <= 2 * allowance.velocity;
+}
+
+// Rotation. Let Φ(R, R̂) be the angle of R R̂ᵀ, a metric on rotations that no rotation applied to both,
+// from either side, changes. R turns at ω(t), R̂ at the constant ω, both in W. In a short dt, by the
+// triangle inequality through exp(ω dt) R,
+//   Φ(exp(ω(t) dt) R, exp(ω dt) R̂) <= Φ(exp(ω(t) dt), exp(ω dt)) + Φ(R, R̂) = |ω(t) − ω| dt + Φ(R, R̂)
+// to first order: Φ grows at most at the rate |ω(t) − ω| <= α τ, so Φ <= ½ α τ². An integrator of step
+// h turns by exp(ω_k h) with ω_k = ω_{k−1} + a_k h, |a_k| <= α: step k adds at most α k h · h, and
+// after n steps Φ <= ½ α h² n (n + 1) = ½ α τ (τ + h). An error of the orientation at the start stays
+// what it is; stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
+
+/// Whether the declaration says anything of the orientation that matters.
+bool BoundsRotation(const AgentDeclaration& declaration) {
+  const bool has_shape = declaration.shape != nullptr || declaration.shape_awaited;
+  return has_shape && declaration.angular_acceleration_max >= 0;
+}
+
+/// No true motion turns further: the orientation, then the angular velocity.
+Limits LimitsOfTurning(const SpaceTimeBound& before, const MotionState& next, Interval s) {
+  const Interval skew = Interval(2) * before.skew, sigma = s + skew;
+  const Interval acceleration_max = before.declaration.angular_acceleration_max;
+  return {Interval(before.state.rotation_error) + next.rotation_error +
+              Norm(IntervalVector(before.state.w_WB)) * skew +
+              Interval(0.5) * acceleration_max * sigma * (sigma + before.declaration.time_step),
+          acceleration_max * sigma};
+}
+
+/// Within these the new bound on the orientation lies inside the old one, as LimitsOfHorn().
+Limits LimitsOfTurningHorn(const SpaceTimeBound& before, const MotionState& next, Interval s) {
+  const MotionState& old = before.state;
+  const Interval skew = before.skew;
+  const Interval acceleration_max = before.declaration.angular_acceleration_max;
+  const Interval less_speed = Norm(IntervalVector(old.w_WB)) - Norm(IntervalVector(next.w_WB));
+  return {Interval(old.rotation_error) - next.rotation_error + less_speed * skew +
+              Interval(0.5) * acceleration_max * s *
+                  (s + Interval(2) * skew + before.declaration.time_step),
+          acceleration_max * s};
+}
+
+/// As RoundingAllowance(), of orientation and angular velocity.
+Allowance TurnRoundingAllowance(const SpaceTimeBound& before, const MotionState& next, double s) {
+  const double acceleration_max = before.declaration.angular_acceleration_max;
+  const double speed = std::max(before.state.w_WB.norm(), next.w_WB.norm()) + acceleration_max * s;
+  const double velocity =
+      kStepsBetweenStates * kRoundingPerStep * speed + kStampRounding * acceleration_max;
+  return {kStepsBetweenStates * kTurnRoundingPerStep + velocity * s + kStampRounding * speed,
+          velocity};
+}
+
+/// As CheckTranslation(), of orientation and angular velocity.
+bool CheckRotation(const SpaceTimeBound& before, const MotionState& next, Interval s,
+                   ContractCheck* check) {
+  const MotionState& old = before.state;
+  const Interval angle = AngleBetween(Turned(old.q_WB, old.w_WB, s), UnitQuaternion(next.q_WB));
+  const Interval change = Norm(IntervalVector(next.w_WB) - IntervalVector(old.w_WB));
+  const Allowance allowance = TurnRoundingAllowance(before, next, s.upper);
+  const Limits motion = LimitsOfTurning(before, next, s);
+  check->rotation_excess = Excess(angle, motion.position, allowance.position);
+  check->angular_velocity_excess = Excess(change, motion.velocity, allowance.velocity);
+  const Limits horn = LimitsOfTurningHorn(before, next, s);
+  check->rotation_drift = Max(0, angle - horn.position).upper;
+  check->angular_velocity_drift = Max(0, change - horn.velocity).upper;
+  return check->rotation_drift <= 2 * allowance.position &&
+         check->angular_velocity_drift <= 2 * allowance.velocity;
+}
+
+}  // namespace
+
+ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next) {
+  const Interval s = SecondsBetween(before.state.stamp, next.stamp);
+  ContractCheck check;
+  bool is_inside = CheckTranslation(before, next, s, &check);
+  if (BoundsRotation(before.declaration)) {
+    is_inside = CheckRotation(before, next, s, &check) && is_inside;
   }
-  check.position_drift = position_drift;
-  check.velocity_drift = velocity_drift;
+  if (check.position_excess > 0 || check.velocity_excess > 0 || check.rotation_excess > 0 ||
+      check.angular_velocity_excess > 0) {
+    check.verdict = ContractVerdict::kBreached;
+  } else if (!is_inside || next.expiry > before.state.expiry || LosesDirection(before, next)) {
+    check.verdict = ContractVerdict::kWidened;
+  }
+  if (check.verdict != ContractVerdict::kKept) {
+    check.position_drift = check.velocity_drift = 0;
+    check.rotation_drift = check.angular_velocity_drift = 0;
+  }
   return check;
 }
 

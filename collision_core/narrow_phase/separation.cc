@@ -58,6 +58,7 @@ class Traversal {
         break;
       }
       Open(Pop());
+      if (margin_until_ == kNotTouching && Touching()) margin_until_ = work_.spent() + kMarginUnits;
     }
     const double unopened = heap_.empty() ? kInfinity : heap_.front().lower;
     look_.lower = std::min(resolved_lower_, unopened);
@@ -89,11 +90,15 @@ class Traversal {
       if (look_.upper <= 0 || look_.ways.size() > kWaysMax) return true;
       return lower > 0 && front.lower > look_.upper + 2 * pose_.translation;
     }
-    if (look_.upper <= -pose_.translation || look_.crossing_margin >= pose_.translation / 2) {
-      return true;
+    if (Touching()) {
+      return goal_ == Goal::kDecision || front.lower > 0 || work_.spent() > margin_until_;
     }
     if (front.resolved && lower > 0) return true;
     return lower > pose_.translation && lower >= kEnoughOfUpper * look_.upper;
+  }
+
+  bool Touching() const {
+    return look_.upper <= -pose_.translation || look_.crossing_margin >= pose_.translation / 2;
   }
 
   Candidate Pop() {
@@ -151,15 +156,21 @@ class Traversal {
   void CommonPoint(const SphereNode& a, const SphereNode& b, const Eigen::Vector3d& c_b,
                    double distance, double slack) {
     const double s_a = a.signed_distance, s_b = b.signed_distance;
-    look_.point_error = std::max({0.0, s_a, s_b}) + slack;
+    const double error = std::max({0.0, s_a, s_b}) + slack;
     if (s_a >= 0) {
-      look_.point = a.centre;
+      KeepPoint(a.centre, error);
     } else if (s_b >= 0 || distance == 0) {
-      look_.point = c_b;
+      KeepPoint(c_b, error);
     } else {
       const double from = std::max(0.0, distance + s_b), to = std::min(distance, -s_a);
-      look_.point = a.centre + (c_b - a.centre) * ((from + to) / (2 * distance));
+      KeepPoint(a.centre + (c_b - a.centre) * ((from + to) / (2 * distance)), error);
     }
+  }
+
+  void KeepPoint(const Eigen::Vector3d& point, double error) {
+    if (!(error < look_.point_error)) return;
+    look_.point = point;
+    look_.point_error = error;
   }
 
   TrianglePoints CornersOfA(std::uint32_t triangle) const {
@@ -228,8 +239,7 @@ class Traversal {
     }
     const double lower = distance.lower - radius - slack, upper = distance.upper - radius + slack;
     if (upper <= -pose_.translation && upper < look_.upper) {
-      look_.point = ball_is_a ? on_b : on_a;  // of the surface, within the ball
-      look_.point_error = slack;
+      KeepPoint(ball_is_a ? on_b : on_a, slack);  // of the surface, within the ball
     }
     KeepWay({a, b, lower, upper});
     return lower;
@@ -272,16 +282,14 @@ class Traversal {
   void Cross(const TrianglePoints& a, const TrianglePoints& b, double turning) {
     const double margin = CrossingMargin(a, b) - turning;
     if (!(margin > look_.crossing_margin)) return;
-    look_.crossing_margin = margin;
-    if (margin < pose_.translation / 2) return;
-    const std::optional<Crossing> crossing = CertainCrossing(a, b, turning + pose_.translation / 2);
-    if (!crossing) {
-      look_.crossing_margin = -kInfinity;
-      return;
+    if (margin >= pose_.translation / 2) {
+      const std::optional<Crossing> crossing =
+          CertainCrossing(a, b, turning + pose_.translation / 2);
+      if (!crossing) return;  // the margin was a matter of rounding
+      KeepPoint(crossing->point, crossing->error);
+      look_.upper = std::min(look_.upper, -pose_.translation);
     }
-    look_.upper = std::min(look_.upper, -pose_.translation);
-    look_.point = crossing->point;
-    look_.point_error = crossing->error;
+    look_.crossing_margin = margin;
   }
 
   void KeepWay(const NearestWay& way) {
@@ -289,17 +297,27 @@ class Traversal {
     const double reach = look_.upper + 2 * pose_.translation;
     if (way.lower > reach) return;
     if (goal_ == Goal::kNearest) {
+      // A triangle may stand in several leaves.
+      const bool known = std::any_of(look_.ways.begin(), look_.ways.end(), [&](const auto& other) {
+        return other.a == way.a && other.b == way.b && other.upper == way.upper;
+      });
+      if (known) return;
       look_.ways.push_back(way);
+      if (look_.ways.size() > kWaysMax) DropLonger();
     } else if (look_.ways.empty() || way.upper < look_.ways.front().upper) {
       look_.ways.assign(1, way);
     }
   }
 
-  // Of the ways kept, those that may still be the shortest.
-  void KeepShortest() {
+  void DropLonger() {
     const double reach = look_.upper + 2 * pose_.translation;
     std::erase_if(look_.ways, [reach](const NearestWay& way) { return way.lower > reach; });
-    if (goal_ == Goal::kDecision || look_.exhausted || look_.ways.size() > kWaysMax) {
+  }
+
+  // Of the ways kept, those that may still be the shortest.
+  void KeepShortest() {
+    DropLonger();
+    if (goal_ != Goal::kNearest || look_.exhausted || look_.ways.size() > kWaysMax) {
       look_.ways.clear();
     }
   }
@@ -313,11 +331,14 @@ class Traversal {
     look_.point_error = std::max(0.0, shortest->upper);
   }
 
+  static constexpr std::uint64_t kNotTouching = ~std::uint64_t{0};
+
   const Surface& a_;
   const Surface& b_;
   const RelativePose& pose_;
   const Goal goal_;
   Work& work_;
+  std::uint64_t margin_until_ = kNotTouching;
   double slack_;
   double resolved_lower_ = kInfinity;  // of the pairs that were looked at to the end
   std::vector<Candidate> heap_;

@@ -31,8 +31,13 @@ class Surface {
 enum class Goal {
   kDecision,  ///< Certainly apart, with at least half of the distance; certainly in contact; or
               ///< neither can become certain at this pose.
+  kContact,   ///< Likewise, but where contact is certain the look goes on for a while: the wider the
+              ///< margin, the longer contact lasts.
   kNearest    ///< Down to the triangles, so that the shortest way between the two is known.
 };
+
+/// Units for which Goal::kContact looks for a wider margin.
+inline constexpr std::uint64_t kMarginUnits = 1000;
 
 /// A way between the two surfaces that may be the shortest one; in A's body frame.
 struct NearestWay {

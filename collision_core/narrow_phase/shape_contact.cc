@@ -11,15 +11,19 @@ namespace {
 
 using Instance = ShapeMotion::Instance;
 
-// Steps of one advance through time at most; each uses up half of the gap or more.
-constexpr int kStepsMax = 32;
+// Steps of one advance through time at most; the work allowed ends it before, as a rule.
+constexpr int kStepsMax = 4096;
 
 // An advance ends where its steps are shorter than this share of the segment.
 constexpr double kResolution = 1e-6;
 
 // The direction is told where the gap is this many times what is uncertain, if there is such an
-// instant: nearer it is not known, farther it is of another time.
-constexpr double kTellingGap = 8;
+// instant: nearer it is not known, farther it is of another time. DeviationOf() makes it 0.19 rad.
+constexpr double kTellingGap = 128;
+
+// What is not certified free is searched for contact at its ends, and at the halves, quarters, … of
+// it from either end: down to 1/2^kSearchDepth.
+constexpr int kSearchDepth = 8;
 
 // Of the work that is left: for how long the two are free from the start, then from the end, then
 // for contact; the rest is for the direction in which they came near.
@@ -74,6 +78,13 @@ EventLimit LimitOf(const Instance& instance, double size) {
   return instance.uncertainty > 1e-12 * size ? EventLimit::kMotion : EventLimit::kGeometry;
 }
 
+// Moved by so much along the line of their reference points, two bodies within balls of radii that
+// add up to `size` are apart (1 + 1e-12 and 1e-12 size cover the roundings).
+double DepthMax(const RelativePose& pose, double size) {
+  const double off = pose.offset_error + pose.translation;
+  return std::max(0.0, size * (1 + 1e-12) + off - pose.offset.norm() * (1 - 1e-12));
+}
+
 Proximity ProximityFrom(const Instance& instance, double size) {
   Proximity proximity;
   if (!instance.choice.certain) return proximity;
@@ -83,7 +94,8 @@ Proximity ProximityFrom(const Instance& instance, double size) {
                           AddUp(look.upper, pose.translation)};
   if (instance.touching()) {
     proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
-    proximity.separation.lower = std::min(proximity.separation.lower, 0.0);
+    proximity.separation.lower =
+        std::min({proximity.separation.lower, proximity.separation.upper, -DepthMax(pose, size)});
   }
   proximity.depth_lower = std::max(0.0, -proximity.separation.upper);
   proximity.p_WC = pose.p_WA + pose.matrix_WA * look.point;
@@ -119,23 +131,19 @@ class Judgement {
       if (backward && (reached < 0 || free == kInfinity)) return -kInfinity;
       if (!backward && (reached > duration_ || free == kInfinity)) return kInfinity;
       at = reached;
-      if (free <= kResolution * duration_ || work_.exhausted()) break;
+      if (Exhausted() || free <= kResolution * duration_) break;
     }
     return at;
   }
 
   /// Certain contact in [f, g], which is not certified free.
   void FindContact(double f, double g, SegmentVerdict* times) {
-    const double width = g - f;
-    const double places[] = {f, g, f + width / 2, f + width / 4, f + 3 * width / 4};
-    for (const double place : places) {
-      if (work_.exhausted()) return;
-      const Instance instance = Look(place, place == g);
-      if (!instance.touching()) continue;
-      times->contact_from = Extend(instance, true);
-      times->contact_to = Extend(instance, false);
-      if (times->contact_to < g && g >= duration_) LookAtEnd(times);
-      return;
+    if (TryContact(f, g, f, times) || TryContact(f, g, g, times)) return;
+    double width = g - f;
+    for (int depth = 1; depth <= kSearchDepth; ++depth) {
+      width /= 2;
+      if (TryContact(f, g, f + width, times)) return;
+      if (depth > 1 && TryContact(f, g, g - width, times)) return;
     }
   }
 
@@ -146,16 +154,24 @@ class Judgement {
 
   const std::optional<Instance>& nearest() const { return nearest_; }
   double size() const { return size_; }
+  bool exhausted() const { return exhausted_; }
 
  private:
+  // Is contact certain at `place`? Then so it is for some time before and after.
+  bool TryContact(double f, double g, double place, SegmentVerdict* times) {
+    if (Exhausted() || !Look(place, place != f).touching()) return false;
+    times->contact_from = Extend(place, true);
+    times->contact_to = Extend(place, false);
+    if (times->contact_to < g && g >= duration_) LookAtEnd(times);
+    return true;
+  }
+
   // Both advances end where contact is looked for first.
   Instance Look(double at, bool backward) {
     std::optional<Instance>& last = backward ? last_backward_ : last_forward_;
     if (last && last->at == at) return *last;
     last = motion_.LookAt(at, Goal::kDecision);
-    if (last->choice.certain && (!nearest_ || last->look.upper < nearest_->look.upper)) {
-      nearest_ = last;
-    }
+    RememberNearest(*last);
     return *last;
   }
 
@@ -165,26 +181,37 @@ class Judgement {
   }
 
   // How far contact is certain from here on, without a gap.
-  double Extend(Instance instance, bool backward) {
-    double at = instance.at;
-    for (int step = 0; step < kStepsMax && !work_.exhausted(); ++step) {
+  double Extend(double at, bool backward) {
+    for (int step = 0; step < kStepsMax && !Exhausted(); ++step) {
+      const Instance instance = motion_.LookAt(at, Goal::kContact);
+      if (!instance.touching()) break;
+      RememberNearest(instance);
       const double lasts = motion_.ContactStep(instance, backward);
       const double reached = backward ? AddUp(at, -lasts) : AddDown(at, lasts);
       if (backward && reached <= 0) return 0;
       if (!backward && reached >= duration_) return duration_;
       at = reached;
       if (lasts <= kResolution * duration_) break;
-      instance = motion_.LookAt(at, Goal::kDecision);
-      if (!instance.touching()) break;
     }
     return at;
+  }
+
+  void RememberNearest(const Instance& instance) {
+    if (instance.choice.certain && (!nearest_ || instance.look.upper < nearest_->look.upper)) {
+      nearest_ = instance;
+    }
+  }
+
+  bool Exhausted() {
+    exhausted_ = exhausted_ || work_.exhausted();
+    return work_.exhausted();
   }
 
   // Contact at the end belongs to the next segment's, even where it is not certain throughout.
   void LookAtEnd(SegmentVerdict* times) {
     const Instance end = Look(duration_, true);
     if (!end.touching()) return;
-    const double from = Extend(end, true);
+    const double from = Extend(duration_, true);
     times->contact_continuous = from <= times->contact_to;
     times->contact_to = duration_;
   }
@@ -193,6 +220,7 @@ class Judgement {
   const double duration_;
   const double size_;
   Work& work_;
+  bool exhausted_ = false;  // Something was not looked at for want of work.
   std::optional<Instance> last_forward_, last_backward_;
   std::optional<Instance> nearest_;  // least upper bound of the distance
   std::optional<Instance> telling_;  // apart, and near
@@ -239,6 +267,8 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
     verdict.looked = true;
     verdict.nearest_at = judgement.nearest()->at;
     verdict.nearest = ProximityFrom(*judgement.nearest(), judgement.size());
+    const bool contact = times.contact_from <= times.contact_to;
+    if (!contact && judgement.exhausted()) verdict.nearest.limited_by = EventLimit::kBudget;
   }
   return verdict;
 }

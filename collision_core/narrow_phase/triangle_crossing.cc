@@ -37,8 +37,9 @@ constexpr double kVolumeUnderflow = 0x1p-900;
 /// The four cross products are off by at most 7.1ε ℓ² each.
 constexpr double kAreaRounding = 32 * kEpsilon;
 
-/// Sums, products and quotients of positive numbers, a few dozen of them, up and down.
-constexpr double kGrow = 1 + 0x1p-40, kShrink = 1 - 0x1p-40;
+/// Sums, products, quotients and roots of positive numbers, at most a dozen one after the other, up
+/// and down.
+constexpr double kGrow = 1 + 0x1p-48, kShrink = 1 - 0x1p-48;
 
 constexpr int kNext[3] = {1, 2, 0};
 

@@ -65,8 +65,8 @@ int LongestEdge(const TriangleCorners& corners) {
 }
 
 /// About the nearest point. Any point of the triangle would do for a certified bound: this one makes
-/// it tight. The triangle is measured along its longest edge and across it, so that for a sliver the
-/// error of the part across is small against the sliver's height times 1 / share.
+/// it tight. The triangle is measured along its longest edge and across it: the part across is wrong
+/// by a share of a sliver's small height, and the part along makes up for it.
 Candidate Nearest(const Vector3d& p, const TriangleCorners& corners, int longest) {
   Candidate best;
   const int next = (longest + 1) % 3, last = (longest + 2) % 3;
@@ -124,9 +124,10 @@ double LowerOf(const Vector3d& p, const TriangleCorners& corners, const Vector3d
   constexpr double kGoodEnough = 1 - 1e-14;
   double lower = LowerAlong(p - nearest, p, corners);
   if (lower >= kGoodEnough * upper) return lower;
-  const Vector3d across = Across(normal, LongestEdge(corners));
-  lower =
-      std::max(lower, LowerAlong(across.dot(p - corners[0]) < 0 ? -across : across, p, corners));
+  const Vector3d edge = corners[(longest + 1) % 3] - corners[longest];
+  const Vector3d normal = Across(edge.cross(corners[(longest + 2) % 3] - corners[longest]), edge);
+  const bool is_below = normal.dot(p - corners[longest]) < 0;
+  lower = std::max(lower, LowerAlong(is_below ? Vector3d(-normal) : normal, p, corners));
   for (int i = 0; i < 3 && lower < kGoodEnough * upper; ++i) {
     const Vector3d side = corners[(i + 1) % 3] - corners[i];
     lower = std::max(lower, LowerAlong(Across(p - nearest, side), p, corners));

@@ -15,8 +15,7 @@ struct PointTriangleDistance {
 };
 
 /// The distance of a point to a triangle whose corners are exactly as given. Width: a few units in
-/// the last place of the coordinates' differences, also for slivers; for a triangle without area it
-/// is the distance to its longest side, to the same width.
+/// the last place of the coordinates, also for slivers; a triangle without area is its longest side.
 PointTriangleDistance DistanceToTriangle(const Eigen::Vector3d& point,
                                          const TriangleCorners& corners);
 

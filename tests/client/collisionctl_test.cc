@@ -132,8 +132,60 @@ TEST_F(CollisionctlTest, AgentsPageIsTheSameInAnyOrderOfArrival) {
   Describe("ball", 7, 0);
   Poll(3);
   EXPECT_EQ(AgentsPage(view_),
-            "ID       NAME  RADIUS [m]  M [m/s²]  STATE AT  POSITION [m]       CLEAR UNTIL\n"
-            "sim:0.1  ball  0.5         7.9       2.000 s   1.500 0.000 0.000  never\n");
+            "ID       NAME  SHAPE  RADIUS [m]  M [m/s²]  STATE AT  POSITION [m]       CLEAR UNTIL\n"
+            "sim:0.1  ball  ball   0.5         7.9       2.000 s   1.500 0.000 0.000  never\n");
+}
+
+TEST_F(CollisionctlTest, ShapesPageShowsWhatHasComeOfEach) {
+  const std::string hash = "\x01\xab\xcd\xef" + std::string(28, '\7');
+  for (const std::uint32_t slot : {0, 1}) Describe("ship", 7, slot)->set_shape_hash(hash);
+  Describe("ball", 7, 2);
+  const auto part = [&](std::uint32_t number, std::uint32_t run) {
+    v1::ShapePart* message = next_.inputs.emplace_back().mutable_shape_part();
+    message->set_simulator_id(5);
+    message->set_content_hash(hash);
+    message->set_run(run);
+    message->set_part(number);
+    message->set_parts(3);
+    message->set_total_bytes(100'000);
+    message->set_bytes(number > 0 ? "" : std::string("CSHAPE\0\1\x10\0\0\0\x39\x30\0\0", 16));
+  };
+  part(2, 7);
+  part(2, 7);
+  Poll(5);
+  EXPECT_NE(AgentsPage(view_).find("ship  01abcdef  0.5"), std::string::npos) << AgentsPage(view_);
+  constexpr const char* kHeading = "SHAPE     SIMULATOR         AGENTS  TRIANGLES  BYTES   PARTS\n";
+  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       -       "
+                                                      "   100000  1 of 3\n"));
+  part(0, 7);
+  Poll(1);
+  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       12345   "
+                                                      "   100000  2 of 3\n"));
+  std::string digits = "01abcdef";
+  for (int i = 0; i < 28; ++i) digits += "07";
+  EXPECT_EQ(ShapesJson(view_),
+            "{\"shapes\":[{\"hash\":\"" + digits +
+                "\",\"simulator\":\"0000000000000005\",\"agents\":2,\"triangles\":12345,"
+                "\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
+  v1::ShapeRemoval* removal = next_.inputs.emplace_back().mutable_shape_removal();
+  removal->set_simulator_id(5);
+  removal->set_content_hash(hash);
+  Poll(1);
+  EXPECT_TRUE(view_.Shapes().empty());
+}
+
+// A simulator that starts anew leaves its shapes behind, unless it tells them again.
+TEST_F(CollisionctlTest, ShapesOfAFormerRunAreNotShown) {
+  for (const auto& [hash, run] : {std::pair("old", 6), {"told again", 7}}) {
+    v1::ShapePart* message = next_.inputs.emplace_back().mutable_shape_part();
+    message->set_simulator_id(5);
+    message->set_content_hash(hash);
+    message->set_run(run);
+  }
+  Describe("ball", 7, 0);
+  Poll(3);
+  ASSERT_EQ(view_.Shapes().size(), 1u);
+  EXPECT_EQ(view_.Shapes()[0].hash, "told again");
 }
 
 TEST_F(CollisionctlTest, WhatIsOfAFormerAgentOrRunIsNotShown) {

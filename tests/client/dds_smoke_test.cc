@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <map>
 
 #include "client/monitor.h"
+#include "client/shape.h"
 #include "client/world.h"
 #include "idl/dds/session.h"
 #include "idl/identity.h"
@@ -112,6 +114,57 @@ TEST_F(DdsSmokeTest, ASimulatorAServiceAndAMonitorMeet) {
     return events_monitored > 0 && descriptions_monitored > 0;
   }));
   EXPECT_TRUE(monitor.service_alive());
+}
+
+// Goal:   a shape arrives whole, and its removal too, as often as it comes and goes.
+// Method: 20,000 triangles, told twice; a late monitor must be given them as well.
+TEST_F(DdsSmokeTest, AShapeComesAndGoes) {
+  DdsSession service = Service();
+  World world = World::Connect(
+      {.world = kWorld, .simulator = "shapes", .domain = kDomain, .run = kRun, .chunk_size = 8});
+  Triangles strip;
+  for (std::uint32_t i = 0; i < 20'002; ++i) strip.vertices_m.push_back({0.01 * i, i % 2 * 0.5, 0});
+  for (std::uint32_t i = 0; i < 20'000; ++i) strip.indices.push_back({i, i + 1, i + 2});
+  const auto shape = Shape::Make(strip);
+  std::vector<v1::Input> inputs;
+  for (int round = 0; round < 2; ++round) {
+    inputs.clear();
+    std::map<std::uint32_t, std::string> parts;
+    std::size_t seen = 0, removals = 0;
+    const auto hear = [&] {
+      world.Poll();
+      service.Receive(milliseconds(10), 100, &inputs, nullptr);
+      for (; seen < inputs.size(); ++seen) {
+        const v1::Input& input = inputs[seen];
+        if (input.has_shape_part()) parts[input.shape_part().part()] = input.shape_part().bytes();
+        removals +=
+            input.has_shape_removal() && input.shape_removal().content_hash() == shape->hash();
+      }
+    };
+    Agent ship = world.AddAgent({.name = "ship", .radius_m = 300, .shape = shape}, {});
+    ASSERT_TRUE(Until([&] {
+      hear();
+      return parts.size() == shape->bytes().size() / 49152 + 1;
+    }));
+    std::string bytes;
+    for (const auto& [part, content] : parts) bytes += content;
+    EXPECT_EQ(bytes, shape->bytes());
+    std::size_t monitored = 0;
+    Monitor::Callbacks callbacks;
+    callbacks.shape_part = [&](const v1::ShapePart&) { ++monitored; };
+    Monitor monitor({.world = kWorld, .domain = kDomain, .simulators = true}, callbacks);
+    EXPECT_TRUE(Until([&] {
+      world.Poll();
+      monitor.Poll(milliseconds(10));
+      return monitored >= parts.size();
+    }));
+    EXPECT_EQ(removals, 0u);
+    { const Agent gone = std::move(ship); }
+    EXPECT_TRUE(Until([&] {
+      hear();
+      return removals > 0;
+    }));
+  }
 }
 
 }  // namespace

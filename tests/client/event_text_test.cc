@@ -47,6 +47,60 @@ TEST(EventText, APossibleEventWithOpenBeginOnAWallClock) {
             "begin [0.734236, open]  end open  gap [0.0123, 1.24e+03] m");
 }
 
+v1::CollisionEvent OfShapes() {
+  v1::CollisionEvent event = Confirmed();
+  event.set_depth_lower_m(0.2345);
+  event.mutable_point_m()->set_x(1.25);
+  event.mutable_point_m()->set_y(-1234.56789);
+  event.mutable_point_m()->set_z(-0.0);
+  event.set_point_error_m(0.16);
+  event.mutable_normal()->set_x(0.6);
+  event.mutable_normal()->set_y(-0.8);
+  event.set_normal_error_rad(0.0873);
+  event.set_level(6);
+  event.set_work_units(1840);
+  event.set_limited_by(v1::LIMIT_BUDGET);
+  return event;
+}
+
+std::string FromGap(const v1::CollisionEvent& event) {
+  const std::string line = EventLine(event, NameOf, 0);
+  return line.substr(line.find("  gap"));
+}
+
+// Digits that are left out count to the error: 0.87 of a hundredth of a metre, 0.05 degrees.
+TEST(EventText, AContactOfShapesSaysWhereHowDeepAndWhatLimitedIt) {
+  EXPECT_EQ(FromGap(OfShapes()),
+            "  gap [-3, -0.123] m  depth ≥ 0.234 m  at (1.25, -1234.57, 0.00) ± 0.169 m  "
+            "normal (0.600, -0.800, 0.000) ± 5.06°  level 6, 1840 units, limited by budget");
+}
+
+TEST(EventText, OfShapesOnlyWhatIsKnownIsSaid) {
+  v1::CollisionEvent event = OfShapes();
+  event.set_normal_error_rad(3.1415926535897936);
+  event.set_depth_lower_m(0);
+  event.set_point_error_m(0);
+  event.set_limited_by(v1::LIMIT_NONE);
+  EXPECT_EQ(FromGap(event),
+            "  gap [-3, -0.123] m  at (1.250000000, -1234.567890000, 0.000000000) ± 8.67e-10 m  "
+            "level 6, 1840 units");
+  event.set_point_error_m(1e6);
+  EXPECT_NE(FromGap(event).find("  at (1, -1235, 0) ± 1.01e+06 m"), std::string::npos)
+      << FromGap(event);
+  event.mutable_separation_m()->set_upper(0.5);
+  event.set_limited_by(v1::LIMIT_GEOMETRY);
+  EXPECT_EQ(FromGap(event), "  gap [-3, 0.5] m  level 6, 1840 units, limited by geometry");
+  event.set_limited_by(v1::LIMIT_MOTION);
+  EXPECT_NE(FromGap(event).find(", limited by motion"), std::string::npos);
+}
+
+// A ball's surface is known: nothing was searched.
+TEST(EventText, BallsHaveNoLevel) {
+  v1::CollisionEvent event = OfShapes();
+  event.set_level(0);
+  EXPECT_EQ(FromGap(event), "  gap ≤ -0.123 m");
+}
+
 // What may be older than the pair has no time before which they did not touch.
 TEST(EventText, AContactThatBeganBeforeHasNoEarliestBegin) {
   v1::CollisionEvent event = Confirmed();

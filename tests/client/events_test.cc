@@ -64,6 +64,9 @@ TEST_F(EventsTest, AllFieldsArrive) {
   event.set_point_error_m(10);
   event.mutable_normal()->set_z(1);
   event.set_normal_error_rad(11);
+  event.set_level(12);
+  event.set_work_units(13);
+  event.set_limited_by(v1::LIMIT_GEOMETRY);
   Arrive(event);
   world_.Poll();
   const Event heard = world_.TakeEvents().at(0);
@@ -87,6 +90,10 @@ TEST_F(EventsTest, AllFieldsArrive) {
   EXPECT_EQ(heard.point_error_m, 10);
   EXPECT_EQ(heard.normal, (Vector3{0, 0, 1}));
   EXPECT_EQ(heard.normal_error_rad, 11);
+  EXPECT_EQ(heard.level, 12u);
+  EXPECT_EQ(heard.work_units, 13u);
+  EXPECT_EQ(heard.limited_by, EventLimit::kGeometry);
+  EXPECT_STREQ(Name(heard.limited_by), "geometry");
 }
 
 // A restarted service counts from 1 again, in sequences and in revisions.

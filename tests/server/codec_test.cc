@@ -7,8 +7,9 @@
 #include <limits>
 #include <vector>
 
+#include "idl/shape_bytes.h"
 #include "server/batch_order.h"
-#include "tests/server/messages.h"
+#include "tests/server/shapes.h"
 
 namespace collision::server {
 namespace {
@@ -89,7 +90,25 @@ TEST(Codec, AcceptsTheLimits) {
   description.set_radius_m(0);
   description.set_acceleration_max_m_s2(kAccelerationMax);
   description.set_shape_hash(std::string(kShapeHashBytes, '\0'));
-  EXPECT_TRUE(std::holds_alternative<AgentDeclaration>(DecodeDescription(description)));
+  const auto ball = DecodeDescription(description);
+  ASSERT_TRUE(std::holds_alternative<AgentDeclaration>(ball));
+  EXPECT_FALSE(std::get<AgentDeclaration>(ball).shape_awaited);
+  description.set_shape_hash(std::string(kShapeHashBytes, 'h'));
+  description.set_angular_acceleration_max_rad_s2(kAccelerationMax);
+  const auto shaped = DecodeDescription(description);
+  ASSERT_TRUE(std::holds_alternative<AgentDeclaration>(shaped));
+  EXPECT_TRUE(std::get<AgentDeclaration>(shaped).shape_awaited);
+  EXPECT_EQ(std::get<AgentDeclaration>(shaped).angular_acceleration_max, kAccelerationMax);
+}
+
+// Goal:   an angular acceleration that is not declared is one number, whatever was sent for it.
+TEST(Codec, TakesTheAngularAcceleration) {
+  v1::AgentDescription description = Description("a", 1);
+  for (const auto& [sent, taken] : {std::pair(-7.0, -1.0), {-0.0, 0.0}, {0.0, 0.0}, {2.5, 2.5}}) {
+    description.set_angular_acceleration_max_rad_s2(sent);
+    const auto decoded = std::get<AgentDeclaration>(DecodeDescription(description));
+    EXPECT_EQ(decoded.angular_acceleration_max, taken);
+  }
 }
 
 // Goal:   a quaternion off by less than 1e-3 is normalised, and its error covers what that may
@@ -236,6 +255,44 @@ TEST(BatchOrder, AnAgentEndsAfterItsLastState) {
     SortBatch(&batch);
     for (std::size_t i = 0; i < batch.size(); ++i) {
       EXPECT_EQ(batch[i].SerializeAsString(), arrived[order[i]].SerializeAsString()) << i;
+    }
+  }
+}
+
+v1::Input ReadyOf(const std::string& hash) {
+  v1::Input input;
+  input.mutable_shape_ready()->set_content_hash(hash);
+  return input;
+}
+
+// Goal:   a shape that is ready counts for everything in its batch; shapes come after descriptions;
+//         removals of shapes come after those of agents, but for parts that are written anew.
+TEST(BatchOrder, ShapesThatAreReadyComeFirst) {
+  const std::vector<v1::ShapePart> parts = PartsOf("a", EncodeShape(Cube(1, UnusedFor(2))));
+  const std::vector<v1::Input> removals = RemovalsOf(1, parts);
+  const std::vector<v1::Input> sorted = {
+      ReadyOf("h"),
+      ReadyOf("g"),
+      From(1, Description("a", 0)),
+      removals[1],
+      From(1, parts[1]),
+      From(1, parts[0]),
+      From(1, State(0, 0, 1), "a"),
+      From(1, ClockOf("a", 0)),
+      Removal(1, "a", 3),
+      removals[0],
+      removals[2],
+      Liveliness(1, "a", false),
+  };
+  for (const std::vector<int>& order : std::vector<std::vector<int>>{
+           {11, 8, 3, 4, 5, 9, 7, 6, 2, 10, 0, 1}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}}) {
+    std::vector<v1::Input> batch;
+    for (const int i : order) batch.push_back(sorted[i]);
+    for (int times = 0; times < 2; ++times) {
+      SortBatch(&batch);
+      for (std::size_t i = 0; i < batch.size(); ++i) {
+        EXPECT_EQ(batch[i].SerializeAsString(), sorted[i].SerializeAsString()) << i;
+      }
     }
   }
 }

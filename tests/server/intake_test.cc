@@ -68,6 +68,7 @@ std::vector<BadInput> BadInputs() {
   v1::Input part;
   part.set_sender(kAlpha);
   part.mutable_shape_part()->set_simulator_id(SimulatorId("alpha"));
+  part.mutable_shape_part()->set_run(1);
   add(v1::REJECTED_BAD_SHAPE, part);
   v1::AgentStates large = Chunk("alpha");
   for (int i = 0; i < 65; ++i) *large.add_states() = State(0, 0, 7);

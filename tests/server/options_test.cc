@@ -32,6 +32,7 @@ TEST(Options, AreTaken) {
 
   EXPECT_TRUE(Parse({"--config", "F", "--check-config"}).options->check_config);
   EXPECT_TRUE(Parse({"--print-config"}).options->print_config);
+  EXPECT_TRUE(Parse({"--calibrate"}).options->calibrate);
   EXPECT_EQ(Parse({"--replay", "R", "--log-level", "off"}).options->replay_file, "R");
 }
 
@@ -53,6 +54,8 @@ TEST(Options, WrongOnesAreUsageErrors) {
       {"--replay", "R", "--config", "F"},
       {"--replay", "R", "--record", "S"},
       {"--replay", "R", "--domain", "1"},
+      {"--calibrate", "--config", "F"},
+      {"--calibrate", "--replay", "R"},
       {"--config", "F", "--config", "G"}};
   for (const auto& arguments : cases) {
     const OptionsResult result = Parse(arguments);
@@ -69,9 +72,10 @@ TEST(Options, HelpAndVersion) {
   const OptionsResult help = Parse({"--help"});
   EXPECT_FALSE(help.options);
   EXPECT_EQ(help.exit_code, kExitOk);
-  for (const char* part : {"--config FILE", "--check-config", "--print-config", "--version",
-                           "--domain", "--log-level", "--record FILE", "--replay FILE", "Examples:",
-                           "\n   0  ", "\n   2  ", "\n  69  ", "\n  74  ", "\n  78  "}) {
+  for (const char* part :
+       {"--config FILE", "--check-config", "--print-config", "--calibrate", "--version", "--domain",
+        "--log-level", "--record FILE", "--replay FILE", "Examples:", "\n   0  ", "\n   2  ",
+        "\n  69  ", "\n  74  ", "\n  78  "}) {
     EXPECT_NE(help.output.find(part), std::string::npos) << part;
   }
   const OptionsResult version = Parse({"--version"});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -42,8 +43,10 @@ class ScriptedBus final : public Bus, public Clock {
 /// A daemon on a scripted bus.
 class ScriptedDaemon {
  public:
-  explicit ScriptedDaemon(v1::Config config, BatchSink* recorder = nullptr)
-      : daemon_(CompleteConfig(std::move(config)), bus_, bus_, recorder) {}
+  explicit ScriptedDaemon(v1::Config config, BatchSink* recorder = nullptr,
+                          std::unique_ptr<ShapeBuilder> shape_builder = nullptr)
+      : daemon_(CompleteConfig(std::move(config)), bus_, bus_, recorder, std::move(shape_builder)) {
+  }
 
   /// One step `seconds` later with these inputs.
   void Step(std::vector<v1::Input> inputs, double seconds = 0) {

@@ -42,8 +42,10 @@ TEST(Status, TellsWhatTheServiceKnows) {
     EXPECT_TRUE(names.insert(counter.name()).second) << counter.name();
     EXPECT_LE(counter.name().size(), 64u);
   }
-  for (const char* name : {"events_possible", "events_ended", "rejected_not_finite", "breaches",
-                           "states_older", "states_repeated", "queries", "batches"}) {
+  for (const char* name :
+       {"events_possible", "events_ended", "rejected_not_finite", "breaches", "states_older",
+        "states_repeated", "queries", "batches", "shapes", "shapes_refused", "shape_bytes",
+        "tree_nodes", "tree_bytes", "trees_building", "tree_build_us", "work_units"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   ASSERT_EQ(status.extensions_size(), 2);

@@ -20,7 +20,8 @@ const std::vector<Layer>& Layers() {
   static const std::vector<Layer> layers = {
       {core + "numeric/", {core + "numeric/"}},
       {core + "motion/", {core + "numeric/", core + "motion/"}},
-      {core + "shape/", {core + "numeric/", core + "motion/", core + "shape/"}},
+      // A shape does not know that it moves.
+      {core + "shape/", {core + "numeric/", core + "shape/"}},
       {core + "broad_phase/",
        {core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/"}},
       {core + "narrow_phase/",

@@ -18,7 +18,7 @@ std::vector<Include> Includes(const std::string& text);
 
 /// One sentence, "path:line: ...", for each include of the file `path` (relative to the project's
 /// root, with '/') that breaks the layers of DESIGN, section 4:
-///   numeric <- motion <- shape <- broad_phase <- narrow_phase <- detection <- server, and client
+///   numeric <- motion, shape <- broad_phase <- narrow_phase <- detection <- server, and client
 ///   -> idl <- server.
 std::vector<std::string> Violations(const std::string& path, const std::string& text);
 

@@ -22,6 +22,8 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
   const Planted bad[] = {
       {"collision_core/numeric/a.h", "\"collision_core/motion/instant.h\""},
       {"collision_core/motion/a.h", "\"collision_core/broad_phase/pair_time.h\""},
+      {"collision_core/shape/a.h", "\"collision_core/motion/instant.h\""},
+      {"collision_core/shape/a.cc", "\"collision_core/narrow_phase/triangle_pair.h\""},
       {"collision_core/broad_phase/a.cc", "\"collision_core/narrow_phase/a.h\""},
       {"collision_core/narrow_phase/a.cc", "\"collision_core/detection/a.h\""},
       {"collision_core/detection/a.h", "\"idl/messages.pb.h\""},
@@ -53,6 +55,8 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
 TEST(Layering, GoodIncludesAreLeftAlone) {
   const Planted good[] = {
       {"collision_core/motion/a.h", "\"collision_core/numeric/interval.h\""},
+      {"collision_core/shape/a.cc", "\"collision_core/numeric/interval.h\""},
+      {"collision_core/narrow_phase/a.h", "\"collision_core/shape/sphere_tree.h\""},
       {"collision_core/detection/a.h", "\"collision_core/broad_phase/a.h\""},
       {"collision_core/numeric/a.h", "<Eigen/Core>"},
       {"collision_core/numeric/a.h", "<cmath>"},

@@ -12,7 +12,7 @@ constexpr long double kStepMin = 1e-12L;       // [s]
 // Two that stay very near, or hardly in contact, for long would take for ever: below this margin [m]
 // a step is at least this share of the time for which it has been so small. That is paid with
 // longer stretches of kNear and kBlind.
-constexpr double kSlowMargin = 1e-6;
+constexpr double kSlowMargin = 1e-5;
 constexpr long double kSlowShare = 1.0L / 256;
 
 class Advancement {
@@ -33,7 +33,7 @@ class Advancement {
         Add(KindOf(now, certain), t, next);
       } else {
         const long double change = ChangeIn(t, next, now.contact);
-        Add(KindOf(now, false), t, change);
+        Add(KindOf(now, certain), t, change);  // certain: rounding, at the step's end
         Add(KindOf(then, false), change, next);
       }
       if (then.contact) LookDeeper(next);

@@ -118,8 +118,7 @@ std::string ComplaintOf(const Evidence& evidence, const EventHistory& history,
   const AgentMotion& a = evidence.motions()[history.a];
   const AgentMotion& b = evidence.motions()[history.b];
   if (at == std::numeric_limits<std::int64_t>::max()) return "";
-  const bool unheard = at > event.now_ns() || evidence.facts().transit_ns > 0;
-  if (unheard && evidence.Changed(history.a, history.b, event.now_ns(), at)) return "";
+  if (evidence.Changed(history.a, history.b, event.now_ns(), at)) return "";
   const Claim claim(event, a, b);
   std::string complaint = claim.OfNormal();
   if (!complaint.empty()) return complaint;

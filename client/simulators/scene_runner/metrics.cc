@@ -83,6 +83,54 @@ std::vector<double> EndWidthsFinal(const checker::Evidence& evidence) {
   return widths;
 }
 
+namespace {
+
+void AddFinite(double value, std::vector<double>* values) {
+  if (std::isfinite(value)) values->push_back(value);
+}
+
+// What is said of the bodies at one instant.
+void AddClaim(const v1::CollisionEvent& event, ShapeFigures* figures) {
+  if (event.evaluated_at_ns() == std::numeric_limits<std::int64_t>::max()) return;
+  AddFinite(event.separation_m().upper() - event.separation_m().lower(),
+            &figures->separation_widths_m);
+  AddFinite(event.point_error_m(), &figures->point_errors_m);
+  AddFinite(event.normal_error_rad(), &figures->normal_errors_rad);
+}
+
+bool HasClaim(const v1::CollisionEvent& event) {
+  return event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED ||
+         event.status() == v1::EVENT_UNDECIDED;
+}
+
+void FillShapes(const checker::Evidence& evidence, v1::RunReport* report) {
+  const ShapeFigures figures = FiguresOfShapes(evidence);
+  *report->mutable_separation_width_m() = QuantilesOf(figures.separation_widths_m);
+  *report->mutable_point_error_m() = QuantilesOf(figures.point_errors_m);
+  *report->mutable_normal_error_rad() = QuantilesOf(figures.normal_errors_rad);
+  *report->mutable_work_units() = QuantilesOf(figures.work_units);
+  *report->mutable_counters() = evidence.observations().status.counters();
+}
+
+}  // namespace
+
+ShapeFigures FiguresOfShapes(const checker::Evidence& evidence) {
+  ShapeFigures figures;
+  for (const checker::EventHistory& history : evidence.histories()) {
+    if (!evidence.HasMesh(history.a, history.b)) continue;
+    const auto first = std::find_if(history.revisions.begin(), history.revisions.end(), HasClaim);
+    if (first != history.revisions.end()) AddClaim(*first, &figures);
+    if (!history.confirmed_ns && !history.closed_ns) continue;
+    ++figures.closed;
+    figures.confirmed += history.confirmed_ns.has_value();
+    figures.undecided += history.last().status() == v1::EVENT_UNDECIDED;
+    figures.dismissed += history.last().status() == v1::EVENT_DISMISSED;
+    if (history.closed_ns)
+      figures.work_units.push_back(static_cast<double>(history.last().work_units()));
+  }
+  return figures;
+}
+
 v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evidence,
                          const checker::Violations& violations, const Measured& measured) {
   v1::RunReport report;
@@ -91,7 +139,7 @@ v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evid
   report.set_wall_seconds(measured.wall_seconds);
   report.set_agents(static_cast<std::uint32_t>(evidence.motions().size()));
   CountEvents(evidence, &report);
-  report.set_contacts_true(evidence.contacts().size());
+  report.set_contacts_true(evidence.contacts_certain());
   report.set_contacts_unannounced(checker::ContactsUnannounced(evidence));
   const auto contacts = static_cast<double>(std::max<std::uint64_t>(1, report.contacts_true()));
   report.set_false_alarms_per_contact(static_cast<double>(report.events_dismissed()) / contacts);
@@ -100,6 +148,7 @@ v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evid
   report.set_latency_p99_s(Quantile(measured.latencies, 0.99));
   *report.mutable_begin_width_s() = QuantilesOf(BeginWidthsAtConfirmation(evidence));
   *report.mutable_end_width_s() = QuantilesOf(EndWidthsFinal(evidence));
+  FillShapes(evidence, &report);
   if (measured.simulated_seconds > 0) {
     report.set_cpu_seconds_per_simulated_second(measured.service_cpu_seconds /
                                                 measured.simulated_seconds);

@@ -26,6 +26,19 @@ std::vector<double> BeginWidthsAtConfirmation(const checker::Evidence& evidence)
 std::vector<double> BeginWidthsFinal(const checker::Evidence& evidence);
 std::vector<double> EndWidthsFinal(const checker::Evidence& evidence);
 
+/// Of the events in which one of the two has a mesh.
+struct ShapeFigures {
+  // As first confirmed, or closed as undecided:
+  std::vector<double> separation_widths_m;  ///< upper - lower, where both are finite.
+  std::vector<double> point_errors_m;       ///< Where finite.
+  std::vector<double> normal_errors_rad;
+  // As closed:
+  std::vector<double> work_units;
+  std::size_t closed = 0;  ///< Decided or left: confirmed ones need not have ended.
+  std::size_t confirmed = 0, undecided = 0, dismissed = 0;  ///< Of these; the rest was withdrawn.
+};
+ShapeFigures FiguresOfShapes(const checker::Evidence& evidence);
+
 /// The whole report. begin_width_s is that at confirmation.
 v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evidence,
                          const checker::Violations& violations, const Measured& measured);

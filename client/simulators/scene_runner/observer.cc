@@ -44,6 +44,7 @@ Monitor::Callbacks Observer::Callbacks() {
     observations_.clearances.push_back(sample);
   };
   callbacks.status = [this](const v1::ServiceStatus& status) {
+    observations_.status = status;
     if (!status.simulators().empty()) SeeTime(status.now_ns());
   };
   return callbacks;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 
@@ -20,6 +21,54 @@ void WidthRow(std::string* text, const char* what, const v1::Quantiles& widths) 
   if (widths.count() == 0) return Row(text, "  %-30s –", what);
   Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms, max %.3g ms (%llu)", what, widths.p50() * 1e3,
       widths.p99() * 1e3, widths.max() * 1e3, static_cast<unsigned long long>(widths.count()));
+}
+
+void LengthRow(std::string* text, const char* what, const v1::Quantiles& lengths) {
+  if (lengths.count() == 0) return Row(text, "  %-30s –", what);
+  Row(text, "  %-30s p50 %.3g mm, p99 %.3g mm, max %.3g mm (%llu)", what, lengths.p50() * 1e3,
+      lengths.p99() * 1e3, lengths.max() * 1e3, static_cast<unsigned long long>(lengths.count()));
+}
+
+double Percent(std::size_t part, std::size_t whole) {
+  return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
+}
+
+bool IsOfShapes(const std::string& counter) {
+  for (const char* word : {"shape", "tree", "work_unit"}) {
+    if (counter.find(word) != std::string::npos) return true;
+  }
+  return false;
+}
+
+// The service's own counts of shapes, trees and work.
+void CounterRows(std::string* text, const v1::RunReport& report) {
+  for (const v1::Counter& counter : report.counters()) {
+    if (!IsOfShapes(counter.name())) continue;
+    Row(text, "  %-30s %llu", counter.name().c_str(),
+        static_cast<unsigned long long>(counter.value()));
+  }
+}
+
+void ShapeRows(std::string* text, const v1::RunReport& report, const checker::Evidence& evidence) {
+  const auto& motions = evidence.motions();
+  if (std::none_of(motions.begin(), motions.end(),
+                   [](const checker::AgentMotion& motion) { return motion.mesh != nullptr; })) {
+    return;
+  }
+  const ShapeFigures figures = FiguresOfShapes(evidence);
+  Row(text, "  %-30s %.1f %% confirmed, %.1f %% undecided, %.1f %% dismissed (%zu)",
+      "events about shapes", Percent(figures.confirmed, figures.closed),
+      Percent(figures.undecided, figures.closed), Percent(figures.dismissed, figures.closed),
+      figures.closed);
+  LengthRow(text, "separation bracket", report.separation_width_m());
+  LengthRow(text, "contact point, error", report.point_error_m());
+  const v1::Quantiles& normals = report.normal_error_rad();
+  Row(text, "  %-30s p50 %.3g rad, p99 %.3g rad (%llu)", "normal, error", normals.p50(),
+      normals.p99(), static_cast<unsigned long long>(normals.count()));
+  const v1::Quantiles& work = report.work_units();
+  Row(text, "  %-30s p50 %.0f, p99 %.0f, max %.0f (%llu)", "work units, of a closed event",
+      work.p50(), work.p99(), work.max(), static_cast<unsigned long long>(work.count()));
+  CounterRows(text, report);
 }
 
 void RatioRows(std::string* text, const v1::RunReport& report) {
@@ -60,6 +109,7 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   WidthRow(&text, "begin bracket at confirmation", report.begin_width_s());
   WidthRow(&text, "begin bracket, final", QuantilesOf(BeginWidthsFinal(evidence)));
   WidthRow(&text, "end bracket, final", report.end_width_s());
+  ShapeRows(&text, report, evidence);
   Row(&text, "  %-30s %.3g s", "CPU per simulated second",
       report.cpu_seconds_per_simulated_second());
   return text;

@@ -61,6 +61,7 @@ class CheckTest : public testing::Test {
     event.set_now_ns(now_ns);
     event.set_status(status);
     event.set_continuous(true);
+    event.set_evaluated_at_ns(kOpen);
     event.mutable_begin()->set_earliest_ns(Instant(begin_earliest));
     event.mutable_begin()->set_latest_ns(Instant(begin_latest));
     event.mutable_end()->set_earliest_ns(Instant(end_earliest));
@@ -280,25 +281,6 @@ TEST_F(CheckTest, ContactAtTheRunsEndIsNotDemanded) {
     motion.pieces.back().t1_ns = 9'500'000'000;
   }
   EXPECT_EQ(Verdict(), "");
-}
-
-TEST(MotionLogReading, MalformedLogsAreToldWithTheirLine) {
-  const auto error = [](const std::string& text) -> std::string {
-    std::istringstream stream(text);
-    try {
-      ReadMotionLog(stream, "sim");
-    } catch (const std::runtime_error& e) {
-      return e.what();
-    }
-    return "no error";
-  };
-  EXPECT_EQ(error("hello\n"), "sim:1: the first line is not \"motion-log 1\"");
-  EXPECT_EQ(error("motion-log 1\npiece a 0 1\n"), "sim:2: agent \"a\" has no agent line before");
-  EXPECT_EQ(error("motion-log 1\nagent a 1\npiece a 0 1 0\n"),
-            "sim:3: a piece needs twelve finite coefficients");
-  EXPECT_EQ(error("motion-log 1\nagent a 1\npiece a 5 1 0 0 0 0 0 0 0 0 0 0 0 0\n"),
-            "sim:3: the piece goes back in time");
-  EXPECT_EQ(error("motion-log 1\nagent a 1\nhop a 5\n"), "sim:3: unknown record \"hop\"");
 }
 
 }  // namespace

@@ -14,6 +14,13 @@ namespace {
 double Begin(const TrueContact& contact) { return static_cast<double>(contact.begin_ns) * 1e-9; }
 double End(const TrueContact& contact) { return static_cast<double>(contact.end_ns) * 1e-9; }
 
+// The time within a contact in which a gap may have stayed unseen [s].
+double BlindTime(const TrueContact& contact) {
+  long double sum = 0;
+  for (const Span& span : contact.blind) sum += span.end - span.begin;
+  return static_cast<double>(sum) * 1e-9;
+}
+
 // Goal:   face to face, times are exact and so is what is said of them.
 // Method: cubes of half a metre, 9 m apart, 1 m/s: from 8 s to 10 s; other edges do not cross.
 TEST(MeshContacts, CubesPassThroughEachOther) {
@@ -28,22 +35,45 @@ TEST(MeshContacts, CubesPassThroughEachOther) {
   EXPECT_FALSE(contacts[0].to_end);
   EXPECT_LE(contacts[0].begin_tolerance_ns, 100);
   EXPECT_LE(contacts[0].end_tolerance_ns, 100);
+  EXPECT_LE(BlindTime(contacts[0]), 1e-5);
   // Balls of √¾ m overlap until the centres, 0.36 m aside, are 2 √¾ m apart.
-  EXPECT_NEAR(static_cast<double>(contacts[0].balls_until_ns) * 1e-9,
-              9 + std::sqrt(3 - 0.13), 1e-6);
+  EXPECT_NEAR(static_cast<double>(contacts[0].balls_until_ns) * 1e-9, 9 + std::sqrt(3 - 0.13),
+              1e-6);
+}
+
+// Goal:   nothing tunnels, however thin and fast.
+// Method: a bullet of 2 mm at 800 m/s through a sheet of 2 mm: 4 mm long in contact.
+TEST(MeshContacts, BulletThroughASheet) {
+  const Mesh sheet = BoxMesh(0.001, 5, 5), bullet = BoxMesh(0.001, 0.001, 0.001);
+  const auto contacts =
+      TrueContacts({Moving("sheet", sheet, {}, {}, 1),
+                    Moving("bullet", bullet, {-400.25, 0.2, 0.3}, {800, 0.1, 0}, 1)});
+  ASSERT_EQ(contacts.size(), 1u);
+  EXPECT_NEAR(Begin(contacts[0]), 400.248 / 800, 1e-9);
+  EXPECT_NEAR(End(contacts[0]), 400.252 / 800, 1e-9);
 }
 
 // Goal:   balls that overlap are no contact of the bodies in them.
 TEST(MeshContacts, CubesPassBesideEachOther) {
   const Mesh cube = BoxMesh(0.5, 0.5, 0.5);
   const auto at = [&](double y) {
-    return TrueContacts({Moving("a", cube, {0, 0, 0}, {1, 0, 0}, 20),
-                         Moving("b", cube, {9, y, 0}, {0, 0, 0}, 20)});
+    return TrueContacts(
+        {Moving("a", cube, {0, 0, 0}, {1, 0, 0}, 20), Moving("b", cube, {9, y, 0}, {0, 0, 0}, 20)});
   };
-  EXPECT_TRUE(at(1 + 1e-6).empty());
-  ASSERT_EQ(at(1 - 1e-5).size(), 1u);
-  EXPECT_TRUE(at(1 - 1e-5)[0].certain);
-  for (const TrueContact& graze : at(1 - 1e-7)) EXPECT_FALSE(graze.certain);
+  EXPECT_TRUE(at(1 + 1e-4).empty());
+  const auto deep = at(1 - 1e-4);
+  ASSERT_EQ(deep.size(), 1u);
+  EXPECT_TRUE(deep[0].certain);
+  EXPECT_LE(deep[0].begin_tolerance_ns, 100);
+  for (const double y : {1 - 1e-7, 1 + 1e-7}) {
+    const auto grazes = at(y);
+    EXPECT_GE(grazes.size(), 1u) << y;
+    for (const TrueContact& graze : grazes) {
+      EXPECT_FALSE(graze.certain) << y;
+      EXPECT_GE(Begin(graze), 8 - 1e-3) << y;
+      EXPECT_LE(End(graze), 10 + 1e-2) << y;
+    }
+  }
 }
 
 // Goal:   a turning rod hits at the angle that geometry says, and leaves likewise.
@@ -73,8 +103,7 @@ TEST(MeshContacts, RodTurnsFasterAndFaster) {
   const double h = 0.05, e = 0.01;
   AgentMotion rod = Moving("rod", BoxMesh(2, h, h), {}, {}, 3);
   rod.pieces[0].turn = Turn{{1, 0, 0, 0}, {0, 0, 0}, {0, 0, -1}};
-  const auto contacts =
-      TrueContacts({rod, Moving("post", BoxMesh(e, e, 3), {0, -1.9, 0}, {}, 3)});
+  const auto contacts = TrueContacts({rod, Moving("post", BoxMesh(e, e, 3), {0, -1.9, 0}, {}, 3)});
   const double angle = std::min(std::atan2(1.9 - e, e) - std::asin(h / std::hypot(e, 1.9 - e)),
                                 std::atan2(1.9 + e, e) - std::asin(h / std::hypot(e, 1.9 + e)));
   ASSERT_EQ(contacts.size(), 1u);
@@ -95,9 +124,9 @@ TEST(MeshContacts, TurnedCubeComesEdgeFirst) {
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(Begin(contacts[0]), 2.5 - std::sqrt(0.5), 1e-9);
 
-  // x = 1.45 + 0.4 (t - 1)²: nearest at t = 1, when it has turned by 45 degrees to be flat.
+  // x = 1.9 - ½ (t - 1)²: nearest at t = 1, when it has turned by 45 degrees to be flat.
   turned.pieces[0].t1_ns = 2'000'000'000;
-  turned.pieces[0].p_WA[0] = {1.95 - 0.5, 1, -0.5, 0};
+  turned.pieces[0].p_WA[0] = {1.4, 1, -0.5, 0};
   turned.pieces[0].turn->w = {0, 0, std::numbers::pi / 4};
   EXPECT_TRUE(TrueContacts({turned, still}).empty());
   turned.pieces[0].turn->w = {0, 0, 0};
@@ -110,8 +139,8 @@ TEST(MeshContacts, TurnedCubeComesEdgeFirst) {
 // is out when its back face has passed the wall.
 TEST(MeshContacts, ContainedIsContact) {
   const Mesh small = BoxMesh(0.25, 0.25, 0.25), large = BoxMesh(4, 4, 4);
-  auto contacts = TrueContacts({Moving("a", small, {0.1, 0.2, 0.3}, {1, 0, 0}, 10),
-                                Moving("b", large, {}, {}, 10)});
+  auto contacts = TrueContacts(
+      {Moving("a", small, {0.1, 0.2, 0.3}, {1, 0, 0}, 10), Moving("b", large, {}, {}, 10)});
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_TRUE(contacts[0].from_start);
   EXPECT_TRUE(contacts[0].certain);
@@ -134,8 +163,8 @@ TEST(MeshContacts, ContainedIsContact) {
 // than the cube, is inside it; two squares only touch while they cross.
 TEST(MeshContacts, OpenSurfaces) {
   const Mesh square = SquareMesh(0.25), cube = BoxMesh(1, 1, 1);
-  auto contacts = TrueContacts(
-      {Moving("a", square, {0, 0, 3}, {0, 0, -1}, 6), Moving("b", cube, {}, {}, 6)});
+  auto contacts =
+      TrueContacts({Moving("a", square, {0, 0, 3}, {0, 0, -1}, 6), Moving("b", cube, {}, {}, 6)});
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(Begin(contacts[0]), 2, 1e-8);
   EXPECT_NEAR(End(contacts[0]), 4, 1e-8);
@@ -165,6 +194,7 @@ TEST(MeshContacts, BallAgainstCube) {
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_NEAR(Begin(contacts[0]), 1.75, 1e-9);
   EXPECT_NEAR(End(contacts[0]), 4.25, 1e-9);
+  EXPECT_LE(BlindTime(contacts[0]), 1e-5);
 
   // Along a diagonal, to the corner at √3; 1/√3 m/s on each axis.
   const double v = 1 / std::sqrt(3.0);
@@ -251,8 +281,8 @@ TEST(MeshContacts, AgreeWithSampling) {
     }
     const auto contacts = TrueContacts({m[0], m[1]});
     const PairMotion motion(m[0].pieces[0], m[1].pieces[0], 0);
-    for (int i = 0; i <= 2000; ++i) {
-      const long double t = i * 1e-3L;
+    for (int i = 0; i <= 500; ++i) {
+      const long double t = i * 4e-3L;
       const Pose pose = motion.At(t);
       double distance = INFINITY;
       for (const Triangle& x : m[0].mesh->triangles()) {
@@ -266,10 +296,10 @@ TEST(MeshContacts, AgreeWithSampling) {
           std::any_of(contacts.begin(), contacts.end(), [&](const TrueContact& contact) {
             return contact.begin_ns - 10 <= t * 1e9L && t * 1e9L <= contact.end_ns + 10;
           });
-      ASSERT_EQ(known, touching) << "run " << run << " at " << i << " ms";
+      ASSERT_EQ(known, touching) << "run " << run << " at " << 4 * i << " ms";
     }
   }
-  EXPECT_GE(inside, 1000u);
+  EXPECT_GE(inside, 250u);
 }
 
 }  // namespace

@@ -232,6 +232,10 @@ TEST(Rotation, AnglesAboutOneAxisAreTight) {
     const Real exact = 2 * atan2(Real(s), Real(c));
     ASSERT_TRUE(Holds(angle, exact)) << s << " " << c;
     ASSERT_LE(angle.width(), 5e-15 * static_cast<double>(exact));
+    // Of (1, s) nothing is rounded before the arc tangent.
+    const double t = std::min(s, 1.0);
+    const Interval tight = AngleBetween({1, 0, 0, 0}, {1, 0, t, 0});
+    ASSERT_TRUE(Holds(tight, 2 * atan(Real(t)))) << t;
   }
 }
 

@@ -1,0 +1,37 @@
+#include "server/calibrate.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "server/config.h"
+
+namespace collision::server {
+namespace {
+
+// Goal:   what is measured is a number that the configuration takes, on any machine and in any
+//         build.
+TEST(Calibrate, MeasuresARateThatCanBeConfigured) {
+  v1::Config config = CompleteConfig({});
+  const double rate = MeasureWorkUnitsPerUs();
+  EXPECT_GT(rate, 0);
+  config.set_work_units_per_us(std::max(rate, 1.0));
+  EXPECT_TRUE(CheckConfig(config).empty()) << rate;
+}
+
+// Goal:   the budget in time becomes the nearest whole number of units, exactly at the defaults and
+//         at the ends of both ranges.
+TEST(Calibrate, ABudgetBecomesWorkUnits) {
+  v1::Config config = CompleteConfig({});
+  EXPECT_EQ(WorkUnitsPerTurn(config), 10'000u);
+  config.set_time_budget_us(0);
+  EXPECT_EQ(WorkUnitsPerTurn(config), 0u);
+  config.set_time_budget_us(0.03);
+  EXPECT_EQ(WorkUnitsPerTurn(config), 2u);
+  config.set_time_budget_us(1e6);
+  config.set_work_units_per_us(1e6);
+  EXPECT_EQ(WorkUnitsPerTurn(config), 1'000'000'000'000u);
+}
+
+}  // namespace
+}  // namespace collision::server
