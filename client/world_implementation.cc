@@ -173,6 +173,7 @@ void World::Implementation::Repeat() {
 
 void World::Implementation::Introduce() {
   refused_ = false;
+  shapes_.WriteAll(Writer());
   v1::Input message;
   for (const v1::AgentDescription& description : fleet_.Descriptions()) {
     *message.mutable_agent_description() = description;

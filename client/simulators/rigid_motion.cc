@@ -6,8 +6,9 @@ namespace collision::client {
 namespace {
 
 // Terms of the series. They are at most those of exp(½ |ω| h + ¼ α h²), with the limits of the
-// header exp(0.75): after the sixteenth less than 0.75^17 / 17! · 2 = 5e-17 is left.
-constexpr int kTerms = 16;
+// header the coefficients of exp(x/2 + x²/4), which do not fall faster than those of exp(x²/4): the
+// ones after the 26th sum to 7e-18.
+constexpr int kTerms = 26;
 
 // Changes stay inside α by this much. Rounding ω (below 10 rad/s, half an ulp is 9e-16) then never
 // makes a step of 1 ms or longer break it: α h 1e-6 >= 1e-10 for α = 0.1.

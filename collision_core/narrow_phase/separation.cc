@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "collision_core/narrow_phase/boxed_triangle.h"
+
 namespace collision {
 namespace {
 
@@ -20,22 +22,16 @@ double RoundingOf(const Surface& a, const Surface& b, const RelativePose& pose) 
   return MultiplyUp(0x1p-49, a.reach() + b.reach() + offset);
 }
 
-// A triangle with its box.
-struct BoxedTriangle {
-  explicit BoxedTriangle(const TrianglePoints& points)
-      : corners(points),
-        lower(points[0].cwiseMin(points[1]).cwiseMin(points[2])),
-        upper(points[0].cwiseMax(points[1]).cwiseMax(points[2])) {}
+// What rounding may have made of a distance at this pose.
+double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose) {
+  return AddUp(RoundingOf(a, b, pose),
+               AddUp(pose.offset_error, MultiplyUp(pose.matrix_error, b.reach())));
+}
 
-  TrianglePoints corners;
-  Eigen::Vector3d lower, upper;
-};
-
-// At most the distance of the triangles, but for the rounding that the traversal allows for.
-double BoxDistance(const BoxedTriangle& a, const BoxedTriangle& b) {
-  const Eigen::Vector3d gap =
-      (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(Eigen::Vector3d::Zero());
-  return gap.norm();
+// What posing may be off, and what computing with it adds.
+double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose) {
+  return AddUp(RoundingOf(a, b, pose),
+               AddUp(pose.offset_error, MultiplyUp(pose.matrix_error, b.reach())));
 }
 
 double Greatest(const TrianglePoints& t) {
@@ -45,10 +41,7 @@ double Greatest(const TrianglePoints& t) {
 class Traversal {
  public:
   Traversal(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work)
-      : a_(a), b_(b), pose_(pose), goal_(goal), work_(*work) {
-    slack_ = AddUp(RoundingOf(a, b, pose),
-                   AddUp(pose.offset_error, MultiplyUp(pose.matrix_error, b.reach())));
-  }
+      : a_(a), b_(b), pose_(pose), goal_(goal), work_(*work), slack_(SlackOf(a, b, pose)) {}
 
   Look Run() {
     Offer(0, 0, -kInfinity);
@@ -65,6 +58,14 @@ class Traversal {
     look_.resolved = resolved_lower_ <= unopened || heap_.front().resolved;
     if (look_.point_error == kInfinity) PointBetween();
     KeepShortest();
+    return std::move(look_);
+  }
+
+  /// Nothing but this evidence of contact.
+  Look RunAgain(const Evidence& evidence) {
+    LookAgainAt(evidence);
+    look_.lower = -kInfinity;
+    look_.resolved = false;
     return std::move(look_);
   }
 
@@ -141,7 +142,10 @@ class Traversal {
     const double upper = distance + a.signed_distance + b.signed_distance + slack;
     if (upper < look_.upper) {
       look_.upper = upper;
-      if (upper <= -pose_.translation) CommonPoint(a, b, c_b, distance, slack);
+      if (upper <= -pose_.translation) {
+        CommonPoint(a, b, c_b, distance, slack);
+        look_.evidence = {Evidence::Kind::kNodes, index_a, index_b};
+      }
     }
     const double lower = std::max(parent, distance - a.radius - b.radius - slack);
     // Something else is nearer for certain: this pair need never be opened.
@@ -150,6 +154,32 @@ class Traversal {
       return;
     }
     Push({lower, index_a, index_b, false});
+  }
+
+  void LookAgainAt(const Evidence& evidence) {
+    const bool meshes = a_.shape() && b_.shape();
+    switch (evidence.kind) {
+      case Evidence::Kind::kNone:
+        return;
+      case Evidence::Kind::kNodes:
+        return Offer(evidence.a, evidence.b, -kInfinity);
+      case Evidence::Kind::kTriangles:
+        if (meshes) return CrossAgain(evidence.a, evidence.b);
+        BallAndTriangle(evidence.a);
+        return;
+      case Evidence::Kind::kLeaves:
+        if (!meshes) return Resolve({0, evidence.a, evidence.b, false});
+        for (const std::uint32_t a : a_.shape()->tree().TrianglesOf(a_.node(evidence.a))) {
+          for (const std::uint32_t b : b_.shape()->tree().TrianglesOf(b_.node(evidence.b))) {
+            CrossAgain(a, b);
+          }
+        }
+    }
+  }
+
+  void CrossAgain(std::uint32_t a, std::uint32_t b) {
+    work_.Spend(kCrossingUnits);
+    Cross({a, CornersOfA(a)}, {b, CornersOfB(b)});
   }
 
   // Where a ball inside a solid, or the surface near a centre, overlaps the other one's.
@@ -174,16 +204,11 @@ class Traversal {
   }
 
   TrianglePoints CornersOfA(std::uint32_t triangle) const {
-    const TriangleMesh& mesh = a_.shape()->mesh();
-    const Triangle& t = mesh.triangles[triangle];
-    return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    return CornersOf(*a_.shape(), triangle);
   }
 
   TrianglePoints CornersOfB(std::uint32_t triangle) const {
-    const TriangleMesh& mesh = b_.shape()->mesh();
-    const Triangle& t = mesh.triangles[triangle];
-    return {pose_.ToA(mesh.vertices[t[0]]), pose_.ToA(mesh.vertices[t[1]]),
-            pose_.ToA(mesh.vertices[t[2]])};
+    return CornersOf(*b_.shape(), triangle, pose_);
   }
 
   // How far the corners of a triangle of B move by its turning: they are |x − offset| from its
@@ -205,27 +230,33 @@ class Traversal {
     double lower = kInfinity;
     if (a_.shape() && b_.shape()) {
       lower = ResolveTriangles(a, b);
-    } else if (a_.shape()) {
-      for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
-        const TrianglePoints corners = CornersOfA(t);
-        const TriangleDistance found = DistanceOf(pose_.offset, corners);
-        lower = std::min(lower, Count(found.b, found.a, found.distance, b.radius, false,
-                                      slack_ + TurnOfA(corners)));
-      }
     } else {
-      for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b)) {
-        const TrianglePoints corners = CornersOfB(t);
-        const TriangleDistance found = DistanceOf(Eigen::Vector3d(0, 0, 0), corners);
-        lower = std::min(lower, Count(found.a, found.b, found.distance, a.radius, true,
-                                      slack_ + TurnOfB(corners)));
+      const SphereNode& meshed = a_.shape() ? a : b;
+      for (const std::uint32_t t : MeshOf().tree().TrianglesOf(meshed)) {
+        lower = std::min(lower, BallAndTriangle(t));
       }
     }
     Push({std::max(pair.lower, lower), pair.a, pair.b, true});
   }
 
+  // Where one of the two is a ball: the shape of the other.
+  const Shape& MeshOf() const { return a_.shape() ? *a_.shape() : *b_.shape(); }
+
+  double BallAndTriangle(std::uint32_t t) {
+    if (a_.shape()) {
+      const TrianglePoints corners = CornersOfA(t);
+      const TriangleDistance found = DistanceOf(pose_.offset, corners);
+      return Count(t, found.b, found.a, found.distance, b_.reach(), false,
+                   slack_ + TurnOfA(corners));
+    }
+    const TrianglePoints corners = CornersOfB(t);
+    const TriangleDistance found = DistanceOf(Eigen::Vector3d(0, 0, 0), corners);
+    return Count(t, found.a, found.b, found.distance, a_.reach(), true, slack_ + TurnOfB(corners));
+  }
+
   // A ball and a triangle: the ball is A's (`ball_is_a`) or B's. Returns the lower bound.
-  double Count(const Eigen::Vector3d& on_a, const Eigen::Vector3d& on_b, Interval distance,
-               double radius, bool ball_is_a, double slack) {
+  double Count(std::uint32_t triangle, const Eigen::Vector3d& on_a, const Eigen::Vector3d& on_b,
+               Interval distance, double radius, bool ball_is_a, double slack) {
     work_.Spend(kTrianglePairUnits / 2);
     Eigen::Vector3d a = on_a, b = on_b;
     const double length = (b - a).norm();
@@ -240,6 +271,7 @@ class Traversal {
     const double lower = distance.lower - radius - slack, upper = distance.upper - radius + slack;
     if (upper <= -pose_.translation && upper < look_.upper) {
       KeepPoint(ball_is_a ? on_b : on_a, slack);  // of the surface, within the ball
+      look_.evidence = {Evidence::Kind::kTriangles, triangle, triangle};
     }
     KeepWay({a, b, lower, upper});
     return lower;
@@ -250,10 +282,10 @@ class Traversal {
     std::vector<BoxedTriangle> triangles_of_b;
     triangles_of_b.reserve(b.triangles);
     for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b)) {
-      triangles_of_b.emplace_back(CornersOfB(t));
+      triangles_of_b.emplace_back(t, CornersOfB(t));
     }
     for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
-      const BoxedTriangle of_a(CornersOfA(t));
+      const BoxedTriangle of_a(t, CornersOfA(t));
       for (const BoxedTriangle& of_b : triangles_of_b) lower = std::min(lower, Pair(of_a, of_b));
     }
     return lower;
@@ -273,21 +305,23 @@ class Traversal {
     if (FarEnough(boxes)) return boxes;
     work_.Spend(kTrianglePairUnits);
     const TriangleDistance found = DistanceOf(a.corners, b.corners);
-    if (found.distance.lower <= 0) Cross(a.corners, b.corners, slack_ + std::max(turn_A, turn_B));
+    if (found.distance.lower <= 0) Cross(a, b);
     const double lower = found.distance.lower - slack;
     KeepWay({found.a, found.b, lower, found.distance.upper + slack});
     return lower;
   }
 
-  void Cross(const TrianglePoints& a, const TrianglePoints& b, double turning) {
-    const double margin = CrossingMargin(a, b) - turning;
+  void Cross(const BoxedTriangle& a, const BoxedTriangle& b) {
+    const double turning = slack_ + std::max(TurnOfA(a.corners), TurnOfB(b.corners));
+    const double margin = CrossingMargin(a.corners, b.corners) - turning;
     if (!(margin > look_.crossing_margin)) return;
     if (margin >= pose_.translation / 2) {
       const std::optional<Crossing> crossing =
-          CertainCrossing(a, b, turning + pose_.translation / 2);
+          CertainCrossing(a.corners, b.corners, turning + pose_.translation / 2);
       if (!crossing) return;  // the margin was a matter of rounding
       KeepPoint(crossing->point, crossing->error);
       look_.upper = std::min(look_.upper, -pose_.translation);
+      look_.evidence = {Evidence::Kind::kTriangles, a.index, b.index};
     }
     look_.crossing_margin = margin;
   }
@@ -338,30 +372,30 @@ class Traversal {
   const RelativePose& pose_;
   const Goal goal_;
   Work& work_;
+  const double slack_;
   std::uint64_t margin_until_ = kNotTouching;
-  double slack_;
   double resolved_lower_ = kInfinity;  // of the pairs that were looked at to the end
   std::vector<Candidate> heap_;
   Look look_;
 };
 
-// One point of each component of `of`, given in the frame of the other.
-template <typename ToOther>
-bool AllOutside(const Surface& of, const Surface& other, ToOther to_other, Work* work) {
-  if (other.shape() == nullptr || !other.shape()->closed()) return true;  // a ball is a solid node
-  const auto outside = [&](const Eigen::Vector3d& point) {
-    const MeshFacts& facts = other.shape()->facts();
-    if ((point.array() > facts.upper.array()).any() ||
-        (point.array() < facts.lower.array()).any()) {
-      return true;
-    }
-    work->Spend(kWindingUnits);
-    return other.shape()->WindingNumberAt(point) == 0;
-  };
-  if (of.shape() == nullptr) return outside(to_other(Eigen::Vector3d(0, 0, 0)));
-  const auto& points = of.shape()->component_points();
-  return std::all_of(points.begin(), points.end(),
-                     [&](const Eigen::Vector3d& point) { return outside(to_other(point)); });
+enum class Side { kOutside, kInside, kUnknown };
+
+Side SideOf(const Eigen::Vector3d& point, const Surface& of, Work* work) {
+  if (of.shape() == nullptr || !of.shape()->closed()) return Side::kOutside;  // a ball's node is solid
+  const MeshFacts& facts = of.shape()->facts();
+  const bool off = (point.array() > facts.upper.array()).any() ||
+                   (point.array() < facts.lower.array()).any();
+  if (off) return Side::kOutside;
+  work->Spend(kWindingUnits);
+  const std::optional<int> winding = of.shape()->WindingNumberAt(point);
+  if (!winding) return Side::kUnknown;
+  return *winding == 0 ? Side::kOutside : Side::kInside;
+}
+
+std::vector<Eigen::Vector3d> PointsOf(const Surface& surface) {
+  if (surface.shape() == nullptr) return {Eigen::Vector3d(0, 0, 0)};
+  return surface.shape()->component_points();
 }
 
 }  // namespace
@@ -376,11 +410,31 @@ Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal g
   return Traversal(a, b, pose, goal, work).Run();
 }
 
-bool NeitherInside(const Surface& a, const Surface& b, const RelativePose& pose, Work* work) {
-  return AllOutside(
-             b, a, [&](const Eigen::Vector3d& x) { return pose.ToA(x); }, work) &&
-         AllOutside(
-             a, b, [&](const Eigen::Vector3d& x) { return pose.ToB(x); }, work);
+Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,
+               const Evidence& evidence, Work* work) {
+  return Traversal(a, b, pose, Goal::kDecision, work).RunAgain(evidence);
+}
+
+Nesting NestingOf(const Surface& a, const Surface& b, const RelativePose& pose, Work* work) {
+  Nesting nesting;
+  nesting.neither = true;
+  const double turning = AddUp(MultiplyUp(pose.chord_A, a.turning_reach()),
+                               MultiplyUp(pose.chord_B, b.turning_reach()));
+  const double slack = AddUp(turning, SlackOf(a, b, pose));
+  const auto judge = [&](Side side, const Eigen::Vector3d& point) {
+    if (side != Side::kOutside) nesting.neither = false;
+    if (side == Side::kInside) nesting.point = point, nesting.point_error = slack;
+  };
+  for (const Eigen::Vector3d& x_B : PointsOf(b)) {
+    const Eigen::Vector3d x_A = pose.ToA(x_B);
+    judge(SideOf(x_A, a, work), x_A);
+    if (!nesting.neither) return nesting;
+  }
+  for (const Eigen::Vector3d& x_A : PointsOf(a)) {
+    judge(SideOf(pose.ToB(x_A), b, work), x_A);
+    if (!nesting.neither) return nesting;
+  }
+  return nesting;
 }
 
 }  // namespace collision

@@ -31,13 +31,26 @@ class Surface {
 enum class Goal {
   kDecision,  ///< Certainly apart, with at least half of the distance; certainly in contact; or
               ///< neither can become certain at this pose.
-  kContact,   ///< Likewise, but where contact is certain the look goes on for a while: the wider the
-              ///< margin, the longer contact lasts.
-  kNearest    ///< Down to the triangles, so that the shortest way between the two is known.
+  kContact,  ///< Likewise, but where contact is certain the look goes on for a while: the wider the
+             ///< margin, the longer contact lasts.
+  kNearest   ///< Down to the triangles, so that the shortest way between the two is known.
 };
 
 /// Units for which Goal::kContact looks for a wider margin.
 inline constexpr std::uint64_t kMarginUnits = 1000;
+
+/// What makes contact certain at a pose, to be looked at again at the next one.
+struct Evidence {
+  enum class Kind {
+    kNone,
+    kNodes,      ///< Balls within the solids, or about the surface, that overlap.
+    kTriangles,  ///< Two triangles that cross, or one that reaches into a ball.
+    kLeaves      ///< Any triangles of two leaves.
+  };
+  Kind kind = Kind::kNone;
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+};
 
 /// A way between the two surfaces that may be the shortest one; in A's body frame.
 struct NearestWay {
@@ -52,6 +65,7 @@ struct Look {
   double upper = kInfinity;   ///< At most; below 0: the bodies overlap by at least −upper.
   /// Crossing triangles: contact is certain while no corner of theirs moves further than this.
   double crossing_margin = -kInfinity;
+  Evidence evidence;  ///< Of contact, where it is certain.
   std::uint32_t level = 0;
   bool resolved = false;   ///< `lower` comes from triangles: looking further does not raise it.
   bool exhausted = false;  ///< The work allowed is spent.
@@ -64,12 +78,24 @@ struct Look {
 };
 
 /// Best-first over pairs of nodes: the pair that may be nearest is opened next, ties by node number,
-/// so that a look may end at any moment with a bracket that only became narrower. `uncertainty`:
-/// how far one body may be off relative to the other by translation [m].
+/// so that a look may end at any moment with a bracket that only became narrower.
 Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work);
 
-/// Surfaces that are certainly apart: is neither solid inside the other? One point of each connected
-/// component decides, since the components are apart.
-bool NeitherInside(const Surface& a, const Surface& b, const RelativePose& pose, Work* work);
+/// Nothing but this evidence: of contact all is said, of the distance nothing below.
+Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,
+               const Evidence& evidence, Work* work);
+
+/// Solids whose surfaces are certainly apart. One point of each connected component decides, since
+/// the components are apart.
+struct Nesting {
+  bool neither = false;  ///< Certainly neither is inside the other, not even in part.
+  /// A point of one that is certainly inside the other, in A's body frame, within `point_error`;
+  /// +infinity: there is none.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double point_error = kInfinity;
+
+  bool certain() const { return point_error < kInfinity; }
+};
+Nesting NestingOf(const Surface& a, const Surface& b, const RelativePose& pose, Work* work);
 
 }  // namespace collision

@@ -11,7 +11,10 @@ namespace {
 
 using Instance = ShapeMotion::Instance;
 
-// Steps of one advance through time at most; the work allowed ends it before, as a rule.
+// Sweeps of one advance through time at most; each goes on where the last one stalled.
+constexpr int kSweepsMax = 64;
+
+// Steps along a contact at most; the work allowed ends them before, as a rule.
 constexpr int kStepsMax = 4096;
 
 // An advance ends where its steps are shorter than this share of the segment.
@@ -21,15 +24,29 @@ constexpr double kResolution = 1e-6;
 // instant: nearer it is not known, farther it is of another time. DeviationOf() makes it 0.19 rad.
 constexpr double kTellingGap = 128;
 
+// At least so long before the first possible touch, as a share of the segment.
+constexpr double kNormalBefore = 1e-3;
+
+// With a greater error [rad] an earlier instant is asked as well.
+constexpr double kGoodNormal = 0.3;
+
+// Contact is looked for from this share of the segment after the last certain freedom on, and when
+// it is found between two looks, so often half-way between them.
+constexpr double kFirstStep = 1e-5;
+constexpr int kHalvings = 5;
+
+// Evidence of contact that lasts for less than this share of the step before is not the best one.
+constexpr double kFallenShort = 0.25;
+
 // What is not certified free is searched for contact at its ends, and at the halves, quarters, … of
 // it from either end: down to 1/2^kSearchDepth.
 constexpr int kSearchDepth = 8;
 
 // Of the work that is left: for how long the two are free from the start, then from the end, then
-// for contact; the rest is for the direction in which they came near.
+// for the direction in which they came near; the rest is for contact.
 constexpr double kForwardShare = 0.4;
 constexpr double kBackwardShare = 0.3;
-constexpr double kContactShare = 0.75;
+constexpr double kDirectionShare = 0.6;
 
 // A bound on the angle whose sine is x (1 + 1e-12 covers the few roundings); π where x is no sine.
 double AngleOfSine(double x) {
@@ -120,17 +137,22 @@ class Judgement {
 
   /// From `at` on, towards the end or the start: how far the two stay apart. ±infinity: throughout.
   double FreeFrom(double at, bool backward) {
-    for (int step = 0; step < kStepsMax; ++step) {
-      const Instance instance = Look(at, backward);
-      if (!instance.apart()) return at;
+    const double start = at;
+    for (int sweeps = 0; sweeps < kSweepsMax; ++sweeps) {
+      const double left = backward ? at : AddUp(duration_, -at);
+      const double span = motion_.SpanFrom(at, left, backward, duration_);
+      const ShapeMotion::Sweep sweep = motion_.SweepFrom(at, span, backward);
+      if (!sweep.known) return at;
+      const double free = std::min(span, sweep.touch.seconds);
       // The insides need to be asked once: later they are apart continuously.
-      if (step == 0 && !motion_.NeitherInside(instance)) return at;
-      if (!backward) RememberTelling(instance);
-      const double free = motion_.FreeStep(instance, backward);
-      const double reached = backward ? AddUp(at, -free) : AddDown(at, free);
-      if (backward && (reached < 0 || free == kInfinity)) return -kInfinity;
-      if (!backward && (reached > duration_ || free == kInfinity)) return kInfinity;
-      at = reached;
+      if (sweeps == 0 && free > 0 && !motion_.NeitherInside(sweep.pose)) {
+        nested_ = true;
+        return at;
+      }
+      if (sweep.touch.seconds > span && span >= left) return backward ? -kInfinity : kInfinity;
+      at = backward ? AddUp(at, -free) : AddDown(at, free);
+      if (sweep.touch.seconds > span) continue;
+      if (!backward) Remember(sweep.touch, start, at);
       if (Exhausted() || free <= kResolution * duration_) break;
     }
     return at;
@@ -138,6 +160,7 @@ class Judgement {
 
   /// Certain contact in [f, g], which is not certified free.
   void FindContact(double f, double g, SegmentVerdict* times) {
+    if (FollowLeaves(f, g, times)) return;
     if (TryContact(f, g, f, times) || TryContact(f, g, g, times)) return;
     double width = g - f;
     for (int depth = 1; depth <= kSearchDepth; ++depth) {
@@ -147,9 +170,18 @@ class Judgement {
     }
   }
 
+  /// Of an instant shortly before the two may have touched for the first time.
   ContactNormal Normal() {
-    if (!telling_) return {};
-    return NormalOf(motion_.LookAt(telling_->at, Goal::kNearest));
+    if (!approach_) return {};
+    const Instance end = motion_.LookAgain(approach_->to, {});
+    if (!end.choice.certain) return {};
+    const double gap = kTellingGap * end.uncertainty;
+    const double back = std::max(kNormalBefore * duration_, gap / motion_.SpeedAt(end));
+    const double before = std::max(approach_->from, approach_->to - back);
+    const ContactNormal near = NormalOf(motion_.LookAt(before, Goal::kNearest));
+    if ((near.known && near.error < kGoodNormal) || before == approach_->from) return near;
+    const ContactNormal far = NormalOf(motion_.LookAt(approach_->from, Goal::kNearest));
+    return far.known && (!near.known || far.error < near.error) ? far : near;
   }
 
   const std::optional<Instance>& nearest() const { return nearest_; }
@@ -157,40 +189,86 @@ class Judgement {
   bool exhausted() const { return exhausted_; }
 
  private:
-  // Is contact certain at `place`? Then so it is for some time before and after.
-  bool TryContact(double f, double g, double place, SegmentVerdict* times) {
-    if (Exhausted() || !Look(place, place != f).touching()) return false;
+  struct Approach {
+    double from, to;  // apart in between
+  };
+
+  void Remember(const FirstTouch& touch, double start, double at) {
+    if (touch.resolved) leaves_ = {Evidence::Kind::kLeaves, touch.leaf_A, touch.leaf_B};
+    if (at > start) approach_ = Approach{start, at};
+  }
+
+  // The leaves that may touch first are likely to: when do their triangles cross for certain? Looked
+  // for at growing distances from f, then nearer to it by halves.
+  bool FollowLeaves(double f, double g, SegmentVerdict* times) {
+    if (leaves_.kind == Evidence::Kind::kNone) return false;
+    double before = f, at = f;
+    Evidence evidence;
+    const auto touches = [&](double place) {
+      const Instance instance = motion_.LookAgain(place, leaves_);
+      if (instance.touching()) evidence = instance.look.evidence;
+      return instance.touching();
+    };
+    for (double step = kFirstStep * duration_; evidence.kind == Evidence::Kind::kNone; step *= 2) {
+      if (at >= g || Exhausted()) return false;
+      before = at;
+      at = std::min(g, f + step);
+      touches(at);
+    }
+    for (int i = 0; i < kHalvings && !Exhausted(); ++i) {
+      const double middle = before + (at - before) / 2;
+      (touches(middle) ? at : before) = middle;
+    }
+    touches(at);
+    evidence_ = evidence;
+    TakeContact(at, g, times);
+    return true;
+  }
+
+  void TakeContact(double place, double g, SegmentVerdict* times) {
     times->contact_from = Extend(place, true);
     times->contact_to = Extend(place, false);
     if (times->contact_to < g && g >= duration_) LookAtEnd(times);
+  }
+
+  // Is contact certain at `place`? Then so it is for some time before and after.
+  bool TryContact(double f, double g, double place, SegmentVerdict* times) {
+    if (Exhausted()) return false;
+    const Instance instance = Look(place, place != f);
+    if (!instance.touching()) return false;
+    evidence_ = instance.look.evidence;
+    TakeContact(place, g, times);
     return true;
   }
 
   // Both advances end where contact is looked for first.
-  Instance Look(double at, bool backward) {
+  Instance& Look(double at, bool backward) {
     std::optional<Instance>& last = backward ? last_backward_ : last_forward_;
     if (last && last->at == at) return *last;
-    last = motion_.LookAt(at, Goal::kDecision);
+    last = motion_.LookAt(at, nested_ ? Goal::kContact : Goal::kDecision);
     RememberNearest(*last);
     return *last;
   }
 
-  void RememberTelling(const Instance& instance) {
-    const double telling = kTellingGap * instance.uncertainty;
-    if (!telling_ || instance.look.lower >= telling) telling_ = instance;
-  }
-
-  // How far contact is certain from here on, without a gap.
+  // How far contact is certain from here on, without a gap. What makes it certain at one instant is
+  // looked at again at the next; where that falls short something else is looked for.
   double Extend(double at, bool backward) {
+    Evidence evidence = evidence_;
+    double last = 0;
     for (int step = 0; step < kStepsMax && !Exhausted(); ++step) {
-      const Instance instance = motion_.LookAt(at, Goal::kContact);
-      if (!instance.touching()) break;
-      RememberNearest(instance);
-      const double lasts = motion_.ContactStep(instance, backward);
-      const double reached = backward ? AddUp(at, -lasts) : AddDown(at, lasts);
-      if (backward && reached <= 0) return 0;
-      if (!backward && reached >= duration_) return duration_;
-      at = reached;
+      Instance instance = motion_.LookAgain(at, evidence);
+      double lasts = instance.touching() ? motion_.ContactStep(instance, backward) : 0;
+      if (lasts <= kFallenShort * last || lasts <= kResolution * duration_) {
+        instance = motion_.LookAt(at, Goal::kContact);
+        RememberNearest(instance);
+        if (!instance.touching()) break;
+        evidence = instance.look.evidence;
+        lasts = motion_.ContactStep(instance, backward);
+      }
+      last = lasts;
+      at = backward ? AddUp(at, -lasts) : AddDown(at, lasts);
+      if (backward && at <= 0) return 0;
+      if (!backward && at >= duration_) return duration_;
       if (lasts <= kResolution * duration_) break;
     }
     return at;
@@ -211,6 +289,7 @@ class Judgement {
   void LookAtEnd(SegmentVerdict* times) {
     const Instance end = Look(duration_, true);
     if (!end.touching()) return;
+    evidence_ = end.look.evidence;
     const double from = Extend(duration_, true);
     times->contact_continuous = from <= times->contact_to;
     times->contact_to = duration_;
@@ -220,10 +299,13 @@ class Judgement {
   const double duration_;
   const double size_;
   Work& work_;
+  bool nested_ = false;     // One may be inside the other.
   bool exhausted_ = false;  // Something was not looked at for want of work.
   std::optional<Instance> last_forward_, last_backward_;
   std::optional<Instance> nearest_;  // least upper bound of the distance
-  std::optional<Instance> telling_;  // apart, and near
+  std::optional<Approach> approach_;
+  Evidence leaves_;    // that may touch first
+  Evidence evidence_;  // of contact, where it was last certain
 };
 
 }  // namespace
@@ -259,10 +341,10 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
   }
   times.free_until = std::min(times.free_until, NextDown(duration));
   {
-    const WorkShare share(kContactShare, work);
-    judgement.FindContact(std::max(0.0, times.free_until), times.free_from, &times);
+    const WorkShare share(kDirectionShare, work);
+    verdict.normal = judgement.Normal();
   }
-  verdict.normal = judgement.Normal();
+  judgement.FindContact(std::max(0.0, times.free_until), times.free_from, &times);
   if (judgement.nearest()) {
     verdict.looked = true;
     verdict.nearest_at = judgement.nearest()->at;
@@ -279,7 +361,9 @@ double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double
 }
 
 Proximity ShapeProximity(const BodySegment& a, const BodySegment& b, double delta, Work* work) {
-  const Instance instance = ShapeMotion(a, b, work).LookAt(delta, Goal::kDecision);
+  const ShapeMotion motion(a, b, work);
+  Instance instance = motion.LookAt(delta, Goal::kContact);
+  motion.LookInside(&instance);
   return ProximityFrom(instance, a.ball.radius + b.ball.radius);
 }
 

@@ -1,7 +1,7 @@
 // How fast a gap between two bodies can be used up.
 #pragma once
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/swept_pair.h"
 
 namespace collision {
 
@@ -28,20 +28,43 @@ class ShapeMotion {
     double uncertainty = 0;
   };
 
+  /// With Goal::kContact surfaces that are apart are contact, too, where one solid is certainly inside
+  /// the other: no way shorter than from surface to surface takes it out again.
   Instance LookAt(double at, Goal goal) const;
 
+  /// Nothing but what made contact certain at another instant.
+  Instance LookAgain(double at, const Evidence& evidence) const;
+
+  /// How soon the two may touch from an instant on, towards later or earlier times, within `span`
+  /// seconds; `known` is false where nothing is known of one of them.
+  struct Sweep {
+    bool known = false;
+    RelativePose pose;  ///< At its start.
+    FirstTouch touch;
+  };
+  Sweep SweepFrom(double at, double span, bool backward) const;
+
+  /// Over so many of the `left` seconds one sweep is worth its while: beyond, tangents leave their
+  /// curves and other bounds may be the narrower ones.
+  double SpanFrom(double at, double left, bool backward, double duration) const;
+
   /// Where the surfaces are apart: so are the solids.
-  bool NeitherInside(const Instance& instance) const;
+  bool NeitherInside(const RelativePose& pose) const;
 
-  /// Seconds for which the two stay apart from `instance` on, towards later or earlier times;
-  /// +infinity: for ever. Requires apart().
-  double FreeStep(const Instance& instance, bool backward) const;
+  /// Where a look found the surfaces apart: one solid inside the other is contact, as deep as they
+  /// are apart.
+  void LookInside(Instance* instance) const;
 
-  /// Likewise for contact. Requires touching().
+  /// Seconds for which contact lasts from `instance` on, towards later or earlier times; +infinity:
+  /// for ever. Requires touching().
   double ContactStep(const Instance& instance, bool backward) const;
+
+  /// No two points of the bodies move faster relative to each other, as predicted [m/s].
+  double SpeedAt(const Instance& instance) const;
 
  private:
   struct Drift;
+  Instance InstanceAt(double at) const;
   Drift DriftFrom(const Instance& instance, bool backward) const;
 
   const BodySegment& a_;

@@ -41,7 +41,7 @@ TEST(BounceOff, HeadOnTurnsTheVelocityRound) {
 // Hit off centre the ship keeps its energy, turns, and the point leaves as fast as it came. Struck
 // at its left it turns to the left: the side that was stopped stays behind.
 TEST(BounceOff, OffCentreItTurnsAndKeepsItsEnergy) {
-  RigidState state = Moving({5, 0, 0}, {0, 0, 0.25});
+  RigidState state = Moving({20, 0, 0}, {0, 0, 0.25});
   const Vector3 point = {11, 1, 0.5};
   const double before = PointVelocity(state, point)[0], energy = Energy(state);
   EXPECT_TRUE(BounceOff({point, {1, 0, 0}}, kRadius, &state));

@@ -1,0 +1,137 @@
+// Goal:   the relative pose of two bodies is off by no more than it says, in rounding and in motion, and its bounds are
+//         not much wider than needed.
+// Method: the same pose in long double, near and far from the origin; motions with the greatest accelerations.
+#include "collision_core/narrow_phase/relative_pose.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "tests/support/meshes.h"
+
+namespace collision {
+namespace {
+
+const Instant kBase = Instant::FromNanoseconds(0);
+
+std::shared_ptr<const Shape> UnitCube() {
+  static const std::shared_ptr<const Shape> cube = Shape::Build(Cube(1));
+  return cube;
+}
+
+BodySegment Forward(const SpaceTimeBound& bound) {
+  BodySegment segment;
+  segment.shape = bound.declaration.shape;
+  segment.ball.radius = bound.declaration.radius;
+  segment.ball.bounds.push_back(ForwardBall(bound, kBase));
+  if (segment.shape) segment.turns.push_back(ForwardTurn(bound, kBase));
+  return segment;
+}
+
+SpaceTimeBound RandomBound(Random& random, double from_origin) {
+  SpaceTimeBound bound;
+  bound.state.stamp = kBase;
+  bound.state.p_WA = from_origin * Eigen::Vector3d(1, 0.5, 0.25) + 10 * random.UnitVector();
+  bound.state.v_WA = random.LogUniform(1e-3, 100) * random.UnitVector();
+  bound.state.w_WB = random.LogUniform(1e-3, 10) * random.UnitVector();
+  const Quaternion q = RandomTurn(random);
+  const double scale = random.LogUniform(0.5, 2);  // a quaternion need not be a unit one
+  bound.state.q_WB = Eigen::Quaterniond(scale * double(q.w()), scale * double(q.x()), scale * double(q.y()),
+                                        scale * double(q.z()));
+  bound.declaration.angular_acceleration_max = 0;
+  bound.declaration.shape = UnitCube();
+  bound.declaration.radius = UnitCube()->facts().radius;
+  return bound;
+}
+
+TruePose PoseOf(const SpaceTimeBound& bound, Real t) {
+  TruePose pose;
+  pose.p = bound.state.p_WA.cast<Real>() + t * bound.state.v_WA.cast<Real>();
+  const Vector turn = t * bound.state.w_WB.cast<Real>();
+  const Quaternion start = bound.state.q_WB.cast<Real>().normalized();
+  pose.q = Exponential(turn) * start;
+  return pose;
+}
+
+TEST(RelativePose, RoundingIsWithinItsBound) {
+  Random random(3);
+  for (const double from_origin : {0.0, 1e3, 1e12}) {
+    for (int i = 0; i < 200; ++i) {
+      const SpaceTimeBound a = RandomBound(random, from_origin), b = RandomBound(random, from_origin);
+      const BodySegment of_a = Forward(a), of_b = Forward(b);
+      const double delta = i % 4 == 0 ? 0 : random.Uniform(0, 2);
+      const RelativePose pose = PoseAt(of_a, of_b, {0, 0, true}, delta);
+      const TruePose true_a = PoseOf(a, delta), true_b = PoseOf(b, delta);
+      EXPECT_EQ(pose.chord_A, 0);
+      EXPECT_EQ(pose.chord_B, 0);
+      EXPECT_EQ(pose.translation, 0);
+      EXPECT_LT(pose.matrix_error, 1e-13);
+      EXPECT_LT(pose.offset_error, 1e-11);  // far away, too: differences come first
+      const Eigen::Vector3d x = 2 * random.UnitVector();
+      // Differences first here as well: long double has 64 bits.
+      const Vector d = (b.state.p_WA - a.state.p_WA).cast<Real>() +
+                       Real(delta) * (b.state.v_WA.cast<Real>() - a.state.v_WA.cast<Real>());
+      const Vector x_A = true_a.q.conjugate() * Vector(d + true_b.q * x.cast<Real>().eval());
+      const double allowed = pose.offset_error + pose.matrix_error * x.norm();
+      EXPECT_LE((pose.ToA(x).cast<Real>() - x_A).norm(), allowed);
+      EXPECT_LE((pose.ToB(pose.ToA(x)) - x).norm(), 4 * allowed);
+      const Vector in_world = pose.p_WA.cast<Real>() + pose.matrix_WA.cast<Real>() * x.cast<Real>().eval();
+      EXPECT_LE((in_world - true_a.p - true_a.q * x.cast<Real>().eval()).norm(), 2 * pose.error_A + 1e-4 * (from_origin > 1e6));
+    }
+  }
+}
+
+TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
+  Random random(4);
+  for (int i = 0; i < 300; ++i) {
+    SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
+    const double alpha = random.LogUniform(1e-3, 8);
+    a.declaration.angular_acceleration_max = b.declaration.angular_acceleration_max = alpha;
+    const double delta = random.Uniform(0, 1);
+    const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, delta);
+    const double angle = 0.5 * alpha * delta * delta;
+    const double chord = angle < std::numbers::pi ? 2 * std::sin(angle / 2) : 2;
+    EXPECT_GE(pose.chord_A, chord * (1 - 1e-12));
+    EXPECT_LE(pose.chord_A, chord * 1.001 + 1e-12);
+    EXPECT_EQ(pose.chord_A, pose.chord_B);
+  }
+  SpaceTimeBound unknown = RandomBound(random, 0);
+  unknown.declaration.angular_acceleration_max = -1;
+  const RelativePose pose = PoseAt(Forward(unknown), Forward(RandomBound(random, 0)), {0, 0, true}, 0.5);
+  EXPECT_EQ(pose.chord_A, 2);
+  EXPECT_EQ(pose.chord_B, 0);
+}
+
+TEST(RelativePose, ABallDoesNotTurn) {
+  Random random(5);
+  SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
+  a.declaration.shape = nullptr;
+  a.declaration.angular_acceleration_max = -1;
+  const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, 1);
+  EXPECT_EQ(pose.chord_A, 0);
+  EXPECT_EQ(ReachOf(Forward(a)), 0);
+}
+
+// Near the next state its bound is the better one; of each body by itself.
+TEST(RelativePose, TheLeastUncertainBoundsAreTaken) {
+  SpaceTimeBound a;
+  a.state.stamp = kBase;
+  a.declaration.shape = UnitCube();
+  a.declaration.acceleration_max = 1;
+  a.declaration.angular_acceleration_max = 1;
+  SpaceTimeBound next = a;
+  next.state.stamp = Instant::FromNanoseconds(1000000000);
+  BodySegment both = Forward(a);
+  both.ball.bounds.push_back(BackwardBall(next, kBase));
+  both.turns.push_back(BackwardTurn(next, kBase));
+  const BodySegment first = Forward(a);
+  const BoundChoice early = BestBounds(both, first, 0.25), late = BestBounds(first, both, 0.75);
+  EXPECT_EQ(early.of_A, 0u);
+  EXPECT_EQ(late.of_A, 0u);
+  EXPECT_EQ(late.of_B, 1u);
+  EXPECT_TRUE(late.certain);
+  EXPECT_NEAR(PoseAt(first, both, late, 0.75).translation, 0.5 * (0.75 * 0.75 + 0.25 * 0.25), 1e-12);
+  EXPECT_FALSE(BestBounds(BodySegment(), first, 0).certain);
+}
+
+}  // namespace
+}  // namespace collision
