@@ -28,12 +28,6 @@ double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose) {
                AddUp(pose.offset_error, MultiplyUp(pose.matrix_error, b.reach())));
 }
 
-// What posing may be off, and what computing with it adds.
-double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose) {
-  return AddUp(RoundingOf(a, b, pose),
-               AddUp(pose.offset_error, MultiplyUp(pose.matrix_error, b.reach())));
-}
-
 double Greatest(const TrianglePoints& t) {
   return std::sqrt(std::max({t[0].squaredNorm(), t[1].squaredNorm(), t[2].squaredNorm()}));
 }

@@ -245,7 +245,8 @@ class Judgement {
   Instance& Look(double at, bool backward) {
     std::optional<Instance>& last = backward ? last_backward_ : last_forward_;
     if (last && last->at == at) return *last;
-    last = motion_.LookAt(at, nested_ ? Goal::kContact : Goal::kDecision);
+    last = motion_.LookAt(at, Goal::kDecision);
+    if (nested_) motion_.LookInside(&*last);
     RememberNearest(*last);
     return *last;
   }
@@ -260,16 +261,18 @@ class Judgement {
       double lasts = instance.touching() ? motion_.ContactStep(instance, backward) : 0;
       if (lasts <= kFallenShort * last || lasts <= kResolution * duration_) {
         instance = motion_.LookAt(at, Goal::kContact);
+        if (nested_) motion_.LookInside(&instance);
         RememberNearest(instance);
         if (!instance.touching()) break;
         evidence = instance.look.evidence;
         lasts = motion_.ContactStep(instance, backward);
       }
-      last = lasts;
       at = backward ? AddUp(at, -lasts) : AddDown(at, lasts);
       if (backward && at <= 0) return 0;
       if (!backward && at >= duration_) return duration_;
-      if (lasts <= kResolution * duration_) break;
+      // Away from where contact began the steps grow, however short the first ones are.
+      if (lasts <= kResolution * duration_ && step > 0 && lasts <= last) break;
+      last = lasts;
     }
     return at;
   }

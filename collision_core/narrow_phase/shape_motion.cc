@@ -68,15 +68,7 @@ ShapeMotion::Instance ShapeMotion::InstanceAt(double at) const {
 ShapeMotion::Instance ShapeMotion::LookAt(double at, Goal goal) const {
   Instance instance = InstanceAt(at);
   if (!instance.choice.certain) return instance;
-  Look& look = instance.look;
-  look = collision::LookAt(surface_a_, surface_b_, instance.pose, goal, &work_);
-  if (goal != Goal::kContact || !(look.lower > instance.pose.translation)) return instance;
-  const Nesting nesting = NestingOf(surface_a_, surface_b_, instance.pose, &work_);
-  if (nesting.certain() && -look.lower < look.upper) {
-    look.upper = -look.lower;
-    look.point = nesting.point;
-    look.point_error = nesting.point_error;
-  }
+  instance.look = collision::LookAt(surface_a_, surface_b_, instance.pose, goal, &work_);
   return instance;
 }
 
@@ -135,6 +127,16 @@ double ShapeMotion::SpanFrom(double at, double left, bool backward, double durat
     }
   }
   return span;
+}
+
+void ShapeMotion::LookInside(Instance* instance) const {
+  Look& look = instance->look;
+  if (!instance->choice.certain || !(look.lower > instance->pose.translation)) return;
+  const Nesting nesting = NestingOf(surface_a_, surface_b_, instance->pose, &work_);
+  if (!nesting.certain() || look.upper <= -look.lower) return;
+  look.upper = -look.lower;
+  look.point = nesting.point;
+  look.point_error = nesting.point_error;
 }
 
 bool ShapeMotion::NeitherInside(const RelativePose& pose) const {

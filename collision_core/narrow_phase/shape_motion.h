@@ -28,8 +28,6 @@ class ShapeMotion {
     double uncertainty = 0;
   };
 
-  /// With Goal::kContact surfaces that are apart are contact, too, where one solid is certainly inside
-  /// the other: no way shorter than from surface to surface takes it out again.
   Instance LookAt(double at, Goal goal) const;
 
   /// Nothing but what made contact certain at another instant.
@@ -52,7 +50,7 @@ class ShapeMotion {
   bool NeitherInside(const RelativePose& pose) const;
 
   /// Where a look found the surfaces apart: one solid inside the other is contact, as deep as they
-  /// are apart.
+  /// are apart, since no shorter way takes it out again.
   void LookInside(Instance* instance) const;
 
   /// Seconds for which contact lasts from `instance` on, towards later or earlier times; +infinity:

@@ -1,6 +1,9 @@
 #include "collision_core/narrow_phase/swept_pair.h"
 
 #include <algorithm>
+#include <span>
+#include <tuple>
+#include <unordered_set>
 
 #include "collision_core/narrow_phase/boxed_triangle.h"
 
@@ -9,6 +12,9 @@ namespace {
 
 // Tangent steps for one pair of balls; each goes on from where the last one ended.
 constexpr int kTangentSteps = 4;
+
+// Likewise for a pair of triangles, each step only when no other pair may touch earlier.
+constexpr int kTriangleSteps = 16;
 
 // Steps shorter than this share of the duration are not worth another.
 constexpr double kStepWorth = 1e-3;
@@ -71,10 +77,10 @@ class Search {
     while (!heap_.empty()) {
       const Candidate front = heap_.front();
       found.seconds = front.time;
-      if (front.resolved) {
+      if (front.kind == Kind::kResolved) {
         found.resolved = true;
-        found.leaf_A = front.a;
-        found.leaf_B = front.b;
+        found.leaf_A = front.leaf_a;
+        found.leaf_B = front.leaf_b;
         return found;
       }
       if (work_.exhausted()) {
@@ -83,23 +89,25 @@ class Search {
       }
       std::pop_heap(heap_.begin(), heap_.end());
       heap_.pop_back();
-      Open(front);
+      front.kind == Kind::kNodes ? Open(front) : Step(front);
     }
     found.seconds = kInfinity;
     return found;
   }
 
  private:
+  enum class Kind { kNodes, kTriangles, kResolved };
+
   struct Candidate {
     double time;
-    std::uint32_t a, b;
-    bool resolved;
+    Kind kind;
+    int steps;           // along tangents, of triangles
+    std::uint32_t a, b;  // nodes or triangles
+    std::uint32_t leaf_a, leaf_b;
 
-    // A heap's front is the greatest: the earliest, of equals the first nodes.
+    // A heap's front is the greatest: the earliest, of equals the first of the bodies.
     friend bool operator<(const Candidate& x, const Candidate& y) {
-      if (x.time != y.time) return x.time > y.time;
-      if (x.a != y.a) return x.a > y.a;
-      return x.b > y.b;
+      return std::tie(x.time, x.a, x.b, x.kind) > std::tie(y.time, y.a, y.b, y.kind);
     }
   };
 
@@ -113,11 +121,28 @@ class Search {
     const SphereNode& a = a_.node(pair.a);
     const SphereNode& b = b_.node(pair.b);
     if (a.children == 0 && b.children == 0) {
-      Push({std::max(pair.time, LeavesTouch(a, b)), pair.a, pair.b, true});
+      OfferTriangles(pair, a, b);
     } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
       for (std::uint32_t i = 0; i < a.children; ++i) Offer(a.first_child + i, pair.b, pair.time);
     } else {
       for (std::uint32_t i = 0; i < b.children; ++i) Offer(pair.a, b.first_child + i, pair.time);
+    }
+  }
+
+  // A triangle may stand in several leaves, and need be looked at once only: its time is the same.
+  void OfferTriangles(const Candidate& pair, const SphereNode& a, const SphereNode& b) {
+    const auto offer = [&](std::uint32_t of_a, std::uint32_t of_b) {
+      work_.Spend(1);
+      if (!seen_.insert(std::uint64_t{of_a} << 32 | of_b).second) return;
+      Push({pair.time, Kind::kTriangles, 0, of_a, of_b, pair.a, pair.b});
+    };
+    const std::uint32_t ball[] = {0};
+    const std::span<const std::uint32_t> of_a =
+        a_.shape() ? a_.shape()->tree().TrianglesOf(a) : ball;
+    const std::span<const std::uint32_t> of_b =
+        b_.shape() ? b_.shape()->tree().TrianglesOf(b) : ball;
+    for (const std::uint32_t t : of_a) {
+      for (const std::uint32_t u : of_b) offer(t, u);
     }
   }
 
@@ -146,34 +171,7 @@ class Search {
     const Reach reach = ReachOf(a.radius + b.radius, a.centre.norm(), b.centre.norm());
     const double time =
         BallsTouch(c_b - a.centre, VelocityOfB(c_b) - VelocityOfA(a.centre), reach, duration_);
-    Push({std::max(parent, time), index_a, index_b, false});
-  }
-
-  double LeavesTouch(const SphereNode& a, const SphereNode& b) {
-    double time = kInfinity;
-    if (a_.shape() && b_.shape()) {
-      corners_of_b_.clear();
-      for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b)) {
-        corners_of_b_.emplace_back(t, CornersOf(*b_.shape(), t, swept_.pose));
-      }
-      for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
-        const BoxedTriangle of_a(t, CornersOf(*a_.shape(), t));
-        for (const BoxedTriangle& of_b : corners_of_b_) {
-          time = std::min(time, TrianglesTouch(of_a, of_b));
-        }
-      }
-    } else if (a_.shape()) {
-      for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
-        const TrianglePoints corners = CornersOf(*a_.shape(), t);
-        time = std::min(time, BallTouches(swept_.pose.offset, b.radius, corners, false));
-      }
-    } else {
-      for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b)) {
-        const TrianglePoints corners = CornersOf(*b_.shape(), t, swept_.pose);
-        time = std::min(time, BallTouches({0, 0, 0}, a.radius, corners, true));
-      }
-    }
-    return time;
+    Push({std::max(parent, time), Kind::kNodes, 0, index_a, index_b, 0, 0});
   }
 
   double FarOfB(const TrianglePoints& corners) const {
@@ -237,49 +235,38 @@ class Search {
                   reach.c2);
   }
 
-  // As BallsTouch(), with the directions in which `nearest` finds them apart.
-  template <std::size_t kA, std::size_t kB, typename Nearest>
-  double ConvexTouch(const Moving<kA>& a, const Moving<kB>& b, const Reach& reach,
-                     Nearest nearest) {
-    double h = 0;
-    for (int step = 0; step < kTangentSteps; ++step) {
-      work_.Spend(kTrianglePairUnits);
-      const double further = Further(nearest(a.At(h), b.At(h)), a, b, reach, h);
-      h += further;
-      if (h > duration_) return kInfinity;
-      if (further < kStepWorth * duration_) break;
+  // One tangent step, as in BallsTouch(): from where the pair is known to be apart up to.
+  void Step(Candidate pair) {
+    work_.Spend(kTrianglePairUnits);
+    const double further = FurtherApart(pair.a, pair.b, pair.time);
+    pair.time += further;
+    if (++pair.steps == kTriangleSteps || further < kStepWorth * duration_) {
+      pair.kind = Kind::kResolved;
     }
-    return h;
+    Push(pair);
   }
 
-  double TrianglesTouch(const BoxedTriangle& a, const BoxedTriangle& b) {
-    work_.Spend(kBoxPairUnits);
-    const double far_a = FarOfA(a.corners), far_b = FarOfB(b.corners);
-    const Reach reach = ReachOf(0, far_a, far_b);
-    const double fastest = swept_.velocity.norm() + swept_.spin_A.norm() * far_a +
-                           swept_.spin_B.norm() * far_b + reach.c1;
-    if (RootOf(BoxDistance(a, b) - reach.c0, fastest, reach.c2) > duration_) return kInfinity;
-    return ConvexTouch(OfA(a.corners), OfB(b.corners), reach,
-                       [](const TrianglePoints& x, const TrianglePoints& y) {
-                         const TriangleDistance found = DistanceOf(x, y);
-                         return Eigen::Vector3d(found.b - found.a);
-                       });
-  }
-
-  double BallTouches(const Eigen::Vector3d& centre, double radius, const TrianglePoints& corners,
-                     bool ball_is_a) {
+  double FurtherApart(std::uint32_t of_a, std::uint32_t of_b, double h) const {
     using Point = std::array<Eigen::Vector3d, 1>;
-    const auto to_triangle = [](const Point& point, const TrianglePoints& triangle) {
-      return Eigen::Vector3d(DistanceOf(point[0], triangle).b - point[0]);
-    };
-    if (ball_is_a) {
-      return ConvexTouch(OfA(Point{centre}), OfB(corners), ReachOf(radius, 0, FarOfB(corners)),
-                         to_triangle);
+    const Eigen::Vector3d& offset = swept_.pose.offset;
+    if (!a_.shape()) {
+      const TrianglePoints corners = CornersOf(*b_.shape(), of_b, swept_.pose);
+      const auto ball = OfA(Point{Eigen::Vector3d(0, 0, 0)});
+      const auto b = OfB(corners);
+      const Eigen::Vector3d nearest = DistanceOf(ball.At(h)[0], b.At(h)).b - ball.At(h)[0];
+      return Further(nearest, ball, b, ReachOf(a_.reach(), 0, FarOfB(corners)), h);
     }
-    return ConvexTouch(OfA(corners), OfB(Point{centre}), ReachOf(radius, FarOfA(corners), 0),
-                       [&](const TrianglePoints& triangle, const Point& point) {
-                         return Eigen::Vector3d(-to_triangle(point, triangle));
-                       });
+    const TrianglePoints corners_a = CornersOf(*a_.shape(), of_a);
+    const auto a = OfA(corners_a);
+    if (!b_.shape()) {
+      const auto ball = OfB(Point{offset});
+      const Eigen::Vector3d nearest = ball.At(h)[0] - DistanceOf(ball.At(h)[0], a.At(h)).b;
+      return Further(nearest, a, ball, ReachOf(b_.reach(), FarOfA(corners_a), 0), h);
+    }
+    const TrianglePoints corners_b = CornersOf(*b_.shape(), of_b, swept_.pose);
+    const auto b = OfB(corners_b);
+    const TriangleDistance found = DistanceOf(a.At(h), b.At(h));
+    return Further(found.b - found.a, a, b, ReachOf(0, FarOfA(corners_a), FarOfB(corners_b)), h);
   }
 
   const Surface& a_;
@@ -289,7 +276,7 @@ class Search {
   Work& work_;
   double slack_;
   std::vector<Candidate> heap_;
-  std::vector<BoxedTriangle> corners_of_b_;
+  std::unordered_set<std::uint64_t> seen_;
 };
 
 }  // namespace

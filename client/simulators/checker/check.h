@@ -12,7 +12,7 @@ namespace collision::checker {
 /// satisfied.
 using Violations = std::vector<std::string>;
 
-/// Every true contact has an event that brackets its begin, announced no later than it began; ended
+/// Every true contact has an event that brackets its begin, the pair announced by then; ended
 /// events bracket its end; no confirmed event is without a true contact. Excused: what begins after
 /// evidence.judged_until_ns(), what is withdrawn as an agent leaves, what an appearance or jump
 /// brought about inside time already granted.

@@ -103,9 +103,22 @@ bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
   return false;
 }
 
+// Did an event of the pair stand when the contact began? One that was told of an earlier contact and
+// not yet closed is enough: the pair was reported.
+bool Reported(const Evidence& evidence, const TrueContact& contact) {
+  for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
+    const long double tolerance = contact.begin_tolerance_ns;
+    if (history->announced_ns <= contact.begin_ns + tolerance &&
+        (!history->closed_ns || *history->closed_ns >= contact.begin_ns - tolerance)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact,
                      const EventHistory& history) {
-  if (history.announced_ns <= contact.begin_ns + contact.begin_tolerance_ns) return true;
+  if (Reported(evidence, contact)) return true;
   if (contact.from_start || history.last().began_before()) return true;
   const std::int64_t transit = evidence.facts().transit_ns;
   const auto begin = static_cast<std::int64_t>(contact.begin_ns);

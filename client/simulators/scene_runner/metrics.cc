@@ -120,12 +120,11 @@ ShapeFigures FiguresOfShapes(const checker::Evidence& evidence) {
     if (!evidence.HasMesh(history.a, history.b)) continue;
     const auto first = std::find_if(history.revisions.begin(), history.revisions.end(), HasClaim);
     if (first != history.revisions.end()) AddClaim(*first, &figures);
-    if (!history.confirmed_ns && !history.closed_ns) continue;
-    ++figures.closed;
+    const v1::EventStatus last = history.last().status();
     figures.confirmed += history.confirmed_ns.has_value();
-    figures.undecided += history.last().status() == v1::EVENT_UNDECIDED;
-    figures.dismissed += history.last().status() == v1::EVENT_DISMISSED;
-    if (history.closed_ns)
+    figures.undecided += last == v1::EVENT_UNDECIDED;
+    figures.dismissed += last == v1::EVENT_DISMISSED;
+    if (history.closed_ns && last != v1::EVENT_WITHDRAWN)
       figures.work_units.push_back(static_cast<double>(history.last().work_units()));
   }
   return figures;

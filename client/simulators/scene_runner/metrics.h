@@ -32,10 +32,11 @@ struct ShapeFigures {
   std::vector<double> separation_widths_m;  ///< upper - lower, where both are finite.
   std::vector<double> point_errors_m;       ///< Where finite.
   std::vector<double> normal_errors_rad;
-  // As closed:
-  std::vector<double> work_units;
-  std::size_t closed = 0;  ///< Decided or left: confirmed ones need not have ended.
-  std::size_t confirmed = 0, undecided = 0, dismissed = 0;  ///< Of these; the rest was withdrawn.
+  std::vector<double> work_units;  ///< As closed, but not withdrawn.
+  /// Of the contacts that were decided, or given up; the rest is still open, or was withdrawn.
+  std::size_t confirmed = 0, undecided = 0, dismissed = 0;
+
+  std::size_t decided() const { return confirmed + undecided + dismissed; }
 };
 ShapeFigures FiguresOfShapes(const checker::Evidence& evidence);
 

@@ -57,9 +57,9 @@ void ShapeRows(std::string* text, const v1::RunReport& report, const checker::Ev
   }
   const ShapeFigures figures = FiguresOfShapes(evidence);
   Row(text, "  %-30s %.1f %% confirmed, %.1f %% undecided, %.1f %% dismissed (%zu)",
-      "events about shapes", Percent(figures.confirmed, figures.closed),
-      Percent(figures.undecided, figures.closed), Percent(figures.dismissed, figures.closed),
-      figures.closed);
+      "events about shapes", Percent(figures.confirmed, figures.decided()),
+      Percent(figures.undecided, figures.decided()), Percent(figures.dismissed, figures.decided()),
+      figures.decided());
   LengthRow(text, "separation bracket", report.separation_width_m());
   LengthRow(text, "contact point, error", report.point_error_m());
   const v1::Quantiles& normals = report.normal_error_rad();

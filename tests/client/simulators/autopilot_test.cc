@@ -33,6 +33,14 @@ TEST(Autopilot, TurnsToAnyDirectionAndStopsThere) {
   }
 }
 
+TEST(Autopilot, PushesOnlyWhenItPointsThere) {
+  const Ship ship(ShipLimits(), {});
+  EXPECT_EQ(FlyAt(ship, {0, 5, 0}, 0.1).thrust, 0);
+  EXPECT_EQ(FlyAt(ship, {-5, 0, 0}, 0.1).thrust, 0);
+  EXPECT_EQ(FlyAt(ship, {5, 0.1, 0}, 0.1).thrust, 1);
+  EXPECT_EQ(FlyAt(ship, {0.05, 0, 0}, 0.1).thrust, 0);
+}
+
 TEST(Autopilot, StopsAShipThatHasNoReverse) {
   RigidState state;
   state.velocity_m_s = {9, -5, 4};

@@ -85,7 +85,8 @@ TEST(Ship, PushesNowhereAgainstTheHeadingTold) {
   std::vector<Told> told;
   ShipCommand command;
   for (int step = 0; step < kSteps; ++step) {
-    if (step % 40 == 0) command = {1, Scaled(random.InUnitBall(), 4)};
+    // A pilot may ask for reverse; there is none.
+    if (step % 40 == 0) command = {random.Uniform(-1, 3), Scaled(random.InUnitBall(), 4)};
     const std::int64_t now_ns = StepTime(step);
     told.push_back({ship.heading(), now_ns + ship.HeadingHoldsFor()});
     const Vector3 a = AccelerationOf(ship.Step(command, now_ns, StepTime(step + 1)));

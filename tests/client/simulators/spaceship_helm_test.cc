@@ -21,6 +21,7 @@ TEST(HelmKeys, AreFoundAmongOthers) {
             (std::vector<HelmKey>{HelmKey::kThrust, HelmKey::kYawLeft, HelmKey::kQuit}));
   // Page up and a shifted arrow are none of ours, and no letter of theirs is.
   EXPECT_EQ(KeysOf("\033[5~\033[1;2Ab"), (std::vector<HelmKey>{HelmKey::kBrake}));
+  EXPECT_EQ(KeysOf("\033q"), (std::vector<HelmKey>{HelmKey::kQuit})) << "escape, then q";
   EXPECT_EQ(KeysOf("\033OC"), (std::vector<HelmKey>{HelmKey::kYawRight}));
 }
 
