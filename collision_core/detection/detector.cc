@@ -36,6 +36,12 @@ void Reshape(const AgentDeclaration& before, const AgentDeclaration& declaration
   if (!arrived && (!same || declaration.shape_awaited)) record->reshaped = true;
 }
 
+// Of the freedom that was found at `looked`, has half passed? Then it is time to look again.
+bool WearsOut(Instant looked, Instant now, Instant free_until) {
+  if (looked == Instant::Always() || free_until <= now) return true;
+  return free_until.nanoseconds() - now.nanoseconds() <= now.nanoseconds() - looked.nanoseconds();
+}
+
 }  // namespace
 
 Detector::Implementation::Implementation(const DetectorOptions& options)
@@ -318,7 +324,8 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
         pair.asked = step_;
       }
       outlook.ExtendFree(earliest);
-      if (HaveShapes(a.history, b.history)) {
+      if (HaveShapes(a.history, b.history) && WearsOut(pair.looked_ahead, now_, outlook.at())) {
+        pair.looked_ahead = now_;
         // Balls that overlap need not touch: as far ahead as decides what is announced.
         const Instant ahead = AddRoundedDown(now_, kLookAhead * options_.announce_within);
         outlook.ExtendFree(

@@ -22,6 +22,8 @@ struct PairRecord {
   /// The canonical earliest intersection from `now` on, as of step `asked`.
   Instant earliest = Instant::Never();
   std::uint64_t asked = 0;
+  /// When shapes were last asked how long they stay apart.
+  Instant looked_ahead = Instant::Always();
   bool in_contact = false;
   bool announced = false;  ///< `event` is open and was published.
   CollisionEvent event{};  ///< The last revision published.

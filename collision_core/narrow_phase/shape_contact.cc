@@ -160,6 +160,9 @@ class Judgement {
 
   /// Certain contact in [f, g], which is not certified free.
   void FindContact(double f, double g, SegmentVerdict* times) {
+    // Contact that goes on from before is certain at the start by anything, not by the leaves that
+    // may touch first.
+    if (f <= 0 && TryContact(f, g, f, times)) return;
     if (FollowLeaves(f, g, times)) return;
     if (TryContact(f, g, f, times) || TryContact(f, g, g, times)) return;
     double width = g - f;
@@ -182,6 +185,11 @@ class Judgement {
     if ((near.known && near.error < kGoodNormal) || before == approach_->from) return near;
     const ContactNormal far = NormalOf(motion_.LookAt(approach_->from, Goal::kNearest));
     return far.known && (!near.known || far.error < near.error) ? far : near;
+  }
+
+  /// Something is said of an instant, however little may be spent.
+  void LookOnce(double at) {
+    if (!nearest_) Look(at, false);
   }
 
   const std::optional<Instance>& nearest() const { return nearest_; }
@@ -348,6 +356,7 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
     verdict.normal = judgement.Normal();
   }
   judgement.FindContact(std::max(0.0, times.free_until), times.free_from, &times);
+  judgement.LookOnce(std::max(0.0, times.free_until));
   if (judgement.nearest()) {
     verdict.looked = true;
     verdict.nearest_at = judgement.nearest()->at;

@@ -16,6 +16,9 @@ constexpr int kTangentSteps = 4;
 // Likewise for a pair of triangles, each step only when no other pair may touch earlier.
 constexpr int kTriangleSteps = 16;
 
+// Spheres are opened while they are larger than this share of the uncertainty of the motion.
+constexpr double kFineEnough = 0.25;
+
 // Steps shorter than this share of the duration are not worth another.
 constexpr double kStepWorth = 1e-3;
 
@@ -78,7 +81,7 @@ class Search {
       const Candidate front = heap_.front();
       found.seconds = front.time;
       if (front.kind == Kind::kResolved) {
-        found.resolved = true;
+        found.resolved = front.steps > 0;
         found.leaf_A = front.leaf_a;
         found.leaf_B = front.leaf_b;
         return found;
@@ -117,10 +120,21 @@ class Search {
     std::push_heap(heap_.begin(), heap_.end());
   }
 
+  // Finer than this share of what is not known of the motion spheres need not be.
+  bool FineEnough(const SphereNode& a, const SphereNode& b, double time) const {
+    const Reach unknown = ReachOf(0, a_.turning_reach(), b_.turning_reach());
+    return a.radius + b.radius <=
+           kFineEnough * (unknown.c0 + time * (unknown.c1 + time * unknown.c2));
+  }
+
   void Open(const Candidate& pair) {
     const SphereNode& a = a_.node(pair.a);
     const SphereNode& b = b_.node(pair.b);
-    if (a.children == 0 && b.children == 0) {
+    if (FineEnough(a, b, pair.time)) {
+      Candidate resolved = pair;
+      resolved.kind = Kind::kResolved;
+      Push(resolved);
+    } else if (a.children == 0 && b.children == 0) {
       OfferTriangles(pair, a, b);
     } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
       for (std::uint32_t i = 0; i < a.children; ++i) Offer(a.first_child + i, pair.b, pair.time);

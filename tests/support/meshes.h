@@ -6,14 +6,13 @@
 namespace collision {
 
 /// Closed, 12 triangles, about the origin.
-inline TriangleMesh Cube(double half) {
-  return Box({-half, -half, -half}, {half, half, half});
-}
+inline TriangleMesh Cube(double half) { return Box({-half, -half, -half}, {half, half, half}); }
 
 /// Closed, 4 triangles; corners on every second corner of the cube.
 inline TriangleMesh Tetrahedron(double half) {
   TriangleMesh mesh;
-  mesh.vertices = {{half, half, half}, {half, -half, -half}, {-half, half, -half}, {-half, -half, half}};
+  mesh.vertices = {
+      {half, half, half}, {half, -half, -half}, {-half, half, -half}, {-half, -half, half}};
   mesh.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
   return mesh;
 }
@@ -28,7 +27,8 @@ inline TriangleMesh Rod(double half_length, double half_width) {
 inline TriangleMesh LShape() {
   TriangleMesh mesh;
   for (const double z : {-0.5, 0.5}) {
-    mesh.vertices.insert(mesh.vertices.end(), {{-1, -1, z}, {1, -1, z}, {1, 0, z}, {0, 0, z}, {0, 1, z}, {-1, 1, z}});
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {{-1, -1, z}, {1, -1, z}, {1, 0, z}, {0, 0, z}, {0, 1, z}, {-1, 1, z}});
   }
   const Triangle caps[] = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}};
   for (const Triangle& t : caps) {

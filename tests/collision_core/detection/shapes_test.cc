@@ -10,6 +10,9 @@
 namespace collision {
 namespace {
 
+// Enough for twenty triangles face to face, of which many pairs are equally near.
+constexpr std::uint64_t kUnits = 100000;
+
 const std::shared_ptr<const Shape>& Ship() {
   static const auto ship = Shape::Build(LShape());
   return ship;
@@ -33,9 +36,16 @@ AgentDeclaration Awaited(double radius) {
 // Agents on lines that do not turn; the detector hears of them 64 times a second.
 class Scene : public Line {
  public:
-  explicit Scene(DetectorOptions options = {}) : Line(options) {}
+  explicit Scene(std::uint64_t units = kUnits) : Line(WithBudget(units)) {}
 
-  void Put(std::uint32_t slot, const AgentDeclaration& declaration, const Vector3d& p, const Vector3d& v) {
+  static DetectorOptions WithBudget(std::uint64_t units) {
+    DetectorOptions options;
+    options.work_units_per_turn = units;
+    return options;
+  }
+
+  void Put(std::uint32_t slot, const AgentDeclaration& declaration, const Vector3d& p,
+           const Vector3d& v) {
     detector.Admit(Id(slot), declaration, State(now, p, v), At(now));
     agents.push_back({slot, p, v, now});
   }
@@ -211,9 +221,7 @@ TEST(DetectorShapes, TurningFasterThanDeclaredIsABreach) {
 }
 
 std::vector<CollisionEvent> EventsWith(std::uint64_t units, int* not_clear = nullptr) {
-  DetectorOptions options;
-  options.work_units_per_turn = units;
-  Scene scene(options);
+  Scene scene(units);
   scene.Put(1, Declared(Ship(), 2), {0, 0, 0}, {0, 0, 0});
   scene.Put(2, Declared(Ship(), 2), {8, 0.3, 0.1}, {-2, 0, 0});
   scene.Put(3, Declared(Ship(), 2), {0, 9, 0.1}, {0, -2, 0.1});
@@ -247,8 +255,10 @@ TEST(DetectorShapes, WithoutBudgetNothingIsWrong) {
         EXPECT_LE(event.end.earliest, At(5)) << units;
         EXPECT_GE(event.end.latest, At(5)) << units;
       }
-      if (event.status == EventStatus::kUndecided) EXPECT_EQ(event.limited_by, EventLimit::kBudget) << units;
-      const bool over = event.status == EventStatus::kUndecided || event.status == EventStatus::kEnded;
+      if (event.status == EventStatus::kUndecided)
+        EXPECT_EQ(event.limited_by, EventLimit::kBudget) << units;
+      const bool over =
+          event.status == EventStatus::kUndecided || event.status == EventStatus::kEnded;
       covered |= over && event.begin.earliest <= At(3) && event.end.latest >= At(5);
     }
     EXPECT_TRUE(covered) << units;

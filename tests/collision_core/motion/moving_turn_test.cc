@@ -33,8 +33,12 @@ TEST(MovingTurn, AngleIsHalfAlphaTimesTheSquareOfTheTime) {
     EXPECT_NEAR(forward.off_angle.At(delta).upper, 0.125 * (1 + delta) * (1 + delta), 1e-14);
     EXPECT_NEAR(backward.off_angle.At(delta).upper, 0.125 * (2 - delta) * (2 - delta), 1e-14);
     // The prediction: turned by ω from the stamp on.
-    EXPECT_LT(AngleBetweenTrue(Exponential({0, 0, 0.5L * (1 + delta)}), forward.OrientationAt(delta)), 1e-15L);
-    EXPECT_LT(AngleBetweenTrue(Exponential({0, 0, 0.5L * (delta - 2)}), backward.OrientationAt(delta)), 1e-15L);
+    EXPECT_LT(
+        AngleBetweenTrue(Exponential({0, 0, 0.5L * (1 + delta)}), forward.OrientationAt(delta)),
+        1e-15L);
+    EXPECT_LT(
+        AngleBetweenTrue(Exponential({0, 0, 0.5L * (delta - 2)}), backward.OrientationAt(delta)),
+        1e-15L);
   }
 }
 
@@ -68,7 +72,8 @@ TEST(MovingTurn, NoMotionWithinTheBoundIsOutside) {
     TrueMotion motion;
     motion.start.q = RandomTurn(random);
     motion.start.w = random.LogUniform(1e-2, 5) * RandomUnit(random);
-    const Vector axis = random.Chance(0.3) ? Vector(motion.start.w.normalized()) : RandomUnit(random);
+    const Vector axis =
+        random.Chance(0.3) ? Vector(motion.start.w.normalized()) : RandomUnit(random);
     motion.pieces = {{random.Uniform(0, 3), Vector::Zero(), alpha * axis},
                      {3, Vector::Zero(), -alpha * axis}};
     AgentDeclaration declaration;

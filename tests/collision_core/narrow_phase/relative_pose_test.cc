@@ -35,8 +35,8 @@ SpaceTimeBound RandomBound(Random& random, double from_origin) {
   bound.state.w_WB = random.LogUniform(1e-3, 10) * random.UnitVector();
   const Quaternion q = RandomTurn(random);
   const double scale = random.LogUniform(0.5, 2);  // a quaternion need not be a unit one
-  bound.state.q_WB = Eigen::Quaterniond(scale * double(q.w()), scale * double(q.x()), scale * double(q.y()),
-                                        scale * double(q.z()));
+  bound.state.q_WB = Eigen::Quaterniond(scale * double(q.w()), scale * double(q.x()),
+                                        scale * double(q.y()), scale * double(q.z()));
   bound.declaration.angular_acceleration_max = 0;
   bound.declaration.shape = UnitCube();
   bound.declaration.radius = UnitCube()->facts().radius;
@@ -56,7 +56,8 @@ TEST(RelativePose, RoundingIsWithinItsBound) {
   Random random(3);
   for (const double from_origin : {0.0, 1e3, 1e12}) {
     for (int i = 0; i < 200; ++i) {
-      const SpaceTimeBound a = RandomBound(random, from_origin), b = RandomBound(random, from_origin);
+      const SpaceTimeBound a = RandomBound(random, from_origin),
+                           b = RandomBound(random, from_origin);
       const BodySegment of_a = Forward(a), of_b = Forward(b);
       const double delta = i % 4 == 0 ? 0 : random.Uniform(0, 2);
       const RelativePose pose = PoseAt(of_a, of_b, {0, 0, true}, delta);
@@ -74,8 +75,10 @@ TEST(RelativePose, RoundingIsWithinItsBound) {
       const double allowed = pose.offset_error + pose.matrix_error * x.norm();
       EXPECT_LE((pose.ToA(x).cast<Real>() - x_A).norm(), allowed);
       EXPECT_LE((pose.ToB(pose.ToA(x)) - x).norm(), 4 * allowed);
-      const Vector in_world = pose.p_WA.cast<Real>() + pose.matrix_WA.cast<Real>() * x.cast<Real>().eval();
-      EXPECT_LE((in_world - true_a.p - true_a.q * x.cast<Real>().eval()).norm(), 2 * pose.error_A + 1e-4 * (from_origin > 1e6));
+      const Vector in_world =
+          pose.p_WA.cast<Real>() + pose.matrix_WA.cast<Real>() * x.cast<Real>().eval();
+      EXPECT_LE((in_world - true_a.p - true_a.q * x.cast<Real>().eval()).norm(),
+                2 * pose.error_A + 1e-4 * (from_origin > 1e6));
     }
   }
 }
@@ -96,7 +99,8 @@ TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
   }
   SpaceTimeBound unknown = RandomBound(random, 0);
   unknown.declaration.angular_acceleration_max = -1;
-  const RelativePose pose = PoseAt(Forward(unknown), Forward(RandomBound(random, 0)), {0, 0, true}, 0.5);
+  const RelativePose pose =
+      PoseAt(Forward(unknown), Forward(RandomBound(random, 0)), {0, 0, true}, 0.5);
   EXPECT_EQ(pose.chord_A, 2);
   EXPECT_EQ(pose.chord_B, 0);
 }
@@ -129,7 +133,8 @@ TEST(RelativePose, TheLeastUncertainBoundsAreTaken) {
   EXPECT_EQ(late.of_A, 0u);
   EXPECT_EQ(late.of_B, 1u);
   EXPECT_TRUE(late.certain);
-  EXPECT_NEAR(PoseAt(first, both, late, 0.75).translation, 0.5 * (0.75 * 0.75 + 0.25 * 0.25), 1e-12);
+  EXPECT_NEAR(PoseAt(first, both, late, 0.75).translation, 0.5 * (0.75 * 0.75 + 0.25 * 0.25),
+              1e-12);
   EXPECT_FALSE(BestBounds(BodySegment(), first, 0).certain);
 }
 

@@ -2,9 +2,10 @@
 //         between two states is seen.
 // Method: motions whose contacts are known in closed form, told without uncertainty; then with it, as between two
 //         states of a simulator.
+#include "collision_core/narrow_phase/shape_contact.h"
+
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/shape_contact.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 
@@ -42,7 +43,8 @@ struct Body {
       if (at_end && !both) continue;
       const SpaceTimeBound bound = BoundAt(motion, at_end ? duration : 0, declaration);
       segment.ball.bounds.push_back(at_end ? BackwardBall(bound, base) : ForwardBall(bound, base));
-      if (shape) segment.turns.push_back(at_end ? BackwardTurn(bound, base) : ForwardTurn(bound, base));
+      if (shape)
+        segment.turns.push_back(at_end ? BackwardTurn(bound, base) : ForwardTurn(bound, base));
     }
     return segment;
   }
@@ -118,7 +120,8 @@ TEST(ShapeContact, ContactMuchShorterThanTheSegment) {
   const auto cube = Shape::Build(Cube(0.0625));
   for (const double speed : {10.0, 100.0, 1000.0}) {
     const double middle = 0.4375;  // of the second of the segment
-    const ShapeVerdict verdict = Verdict({cube, {0, 0, 0}}, {cube, {speed * middle, 0.03, 0.02}, {-speed, 0, 0}}, 1);
+    const ShapeVerdict verdict =
+        Verdict({cube, {0, 0, 0}}, {cube, {speed * middle, 0.03, 0.02}, {-speed, 0, 0}}, 1);
     ExpectContact(verdict.times, middle - 0.125 / speed, middle + 0.125 / speed, 3e-6);
   }
 }
@@ -176,7 +179,8 @@ TEST(ShapeContact, SpikeThroughASheet) {
   spike.vertices = {{0, 0, -1}, {0.3, 0, 1}, {-0.2, 0.3, 1}, {-0.2, -0.3, 1}};
   spike.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
   const Body sheet{Shape::Build(Sheet(2, 3)), {0, 0, 0}};
-  const ShapeVerdict verdict = Verdict(sheet, {Shape::Build(spike), {0.1, 0.2, 3}, {0, 0, -4}}, 1.5);
+  const ShapeVerdict verdict =
+      Verdict(sheet, {Shape::Build(spike), {0.1, 0.2, 3}, {0, 0, -4}}, 1.5);
   ExpectContact(verdict.times, 0.5, 1, 1e-3);
   ASSERT_TRUE(verdict.looked);
   EXPECT_LE(verdict.nearest.separation.upper, 0);
@@ -186,7 +190,8 @@ TEST(ShapeContact, SpikeThroughASheet) {
 // A state 60 times a second, 1 m/s² each.
 TEST(ShapeContact, DirectionIsKnownBetweenStates) {
   const double step = 1.0 / 64;
-  Body a{Shape::Build(LShape()), {0, 0, 0}}, b{Shape::Build(Cube(0.5)), {1.52, -0.5, 0.1}, {-3, 0, 0}};
+  Body a{Shape::Build(LShape()), {0, 0, 0}},
+      b{Shape::Build(Cube(0.5)), {1.52, -0.5, 0.1}, {-3, 0, 0}};
   a.acceleration_max = b.acceleration_max = 1;
   a.angular_acceleration_max = b.angular_acceleration_max = 0.5;
   for (const bool both : {false, true}) {
@@ -214,7 +219,8 @@ TEST(ShapeContact, InsideTheOther) {
   }
   // In a hole it is free.
   const Body hollow{Shape::Build(HollowCube(4, 3)), {0, 0, 0}};
-  EXPECT_EQ(Verdict(hollow, {Shape::Build(LShape()), {0, 0, 0}, {0.5, 0, 0}}, 1).times.free_until, kInfinity);
+  EXPECT_EQ(Verdict(hollow, {Shape::Build(LShape()), {0, 0, 0}, {0.5, 0, 0}}, 1).times.free_until,
+            kInfinity);
 }
 
 TEST(ShapeContact, SpentBudgetSaysSoAndClaimsNothingWrong) {
@@ -222,7 +228,8 @@ TEST(ShapeContact, SpentBudgetSaysSoAndClaimsNothingWrong) {
     Random random(5);
     return Shape::Build(Star(2, random));
   }();
-  const Body a{star, {0, 0, 0}, {0, 0, 0}, {0.1, 0.2, 0.3}}, b{star, {4, 0.1, 0.2}, {-2, 0, 0}, {0, 0.3, 0.1}};
+  const Body a{star, {0, 0, 0}, {0, 0, 0}, {0.1, 0.2, 0.3}},
+      b{star, {4, 0.1, 0.2}, {-2, 0, 0}, {0, 0.3, 0.1}};
   const ShapeVerdict best = Verdict(a, b, 3, 100000000);
   ASSERT_LE(best.times.contact_from, best.times.contact_to);
   bool some = false;

@@ -89,7 +89,8 @@ inline Real ToTriangle(const Vector& p, const TrueTriangle& t) {
 }
 
 inline Real OfSegments(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
-  Real least = std::min({ToSegment(a, c, d), ToSegment(b, c, d), ToSegment(c, a, b), ToSegment(d, a, b)});
+  Real least =
+      std::min({ToSegment(a, c, d), ToSegment(b, c, d), ToSegment(c, a, b), ToSegment(d, a, b)});
   const Vector n = (b - a).cross(d - c), r = c - a;
   const Real square = n.squaredNorm();
   if (!(square > 0)) return least;
@@ -115,7 +116,8 @@ inline Real OfTriangles(const TrueTriangle& a, const TrueTriangle& b) {
     const int n = (i + 1) % 3;
     if (Pierces(a[i], a[n], b) || Pierces(b[i], b[n], a)) return 0;
     least = std::min({least, ToTriangle(a[i], b), ToTriangle(b[i], a)});
-    for (int j = 0; j < 3; ++j) least = std::min(least, OfSegments(a[i], a[n], b[j], b[(j + 1) % 3]));
+    for (int j = 0; j < 3; ++j)
+      least = std::min(least, OfSegments(a[i], a[n], b[j], b[(j + 1) % 3]));
   }
   return least;
 }
@@ -155,7 +157,8 @@ struct TrueBody {
     for (const TrueTriangle& t : triangles) {
       const Vector a = t[0] - p, b = t[1] - p, c = t[2] - p;
       const Real la = a.norm(), lb = b.norm(), lc = c.norm();
-      sum += 2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+      sum += 2 * std::atan2(a.dot(b.cross(c)),
+                            la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
     }
     return std::abs(sum) > 2 * 3.14159L;
   }
@@ -178,9 +181,11 @@ inline Real SurfaceDistance(const TrueBody& a, const TrueBody& b) {
   Real least = INFINITY;
   for (const TrueTriangle& t : a.triangles) {
     if (b.triangles.empty()) least = std::min(least, ToTriangle(b.centre, t) - b.radius);
-    const Vector lower = t[0].cwiseMin(t[1]).cwiseMin(t[2]), upper = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
+    const Vector lower = t[0].cwiseMin(t[1]).cwiseMin(t[2]),
+                 upper = t[0].cwiseMax(t[1]).cwiseMax(t[2]);
     for (const TrueTriangle& u : b.triangles) {
-      const Vector low = u[0].cwiseMin(u[1]).cwiseMin(u[2]), up = u[0].cwiseMax(u[1]).cwiseMax(u[2]);
+      const Vector low = u[0].cwiseMin(u[1]).cwiseMin(u[2]),
+                   up = u[0].cwiseMax(u[1]).cwiseMax(u[2]);
       const Vector gap = (lower - up).cwiseMax(low - upper).cwiseMax(Vector::Zero());
       if (gap.norm() < least) least = std::min(least, OfTriangles(t, u));
       if (least == 0) return 0;
@@ -212,10 +217,12 @@ inline Quaternion RandomTurn(Random& random) {
 
 /// An agent that moves so, as told by a state at `stamp` seconds, with what rounding to doubles
 /// costs declared.
-inline SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp, const AgentDeclaration& declaration) {
+inline SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
+                              const AgentDeclaration& declaration) {
   const TruePose pose = motion.At(stamp);
   SpaceTimeBound bound;
-  bound.state.stamp = Instant::FromNanoseconds(static_cast<std::int64_t>(std::llround(stamp * 1e9)));
+  bound.state.stamp =
+      Instant::FromNanoseconds(static_cast<std::int64_t>(std::llround(stamp * 1e9)));
   bound.state.p_WA = pose.p.cast<double>();
   bound.state.v_WA = pose.v.cast<double>();
   bound.state.q_WB = pose.q.cast<double>();

@@ -1,0 +1,144 @@
+// Goal:   the bracket contains the true distance at every budget, only narrows with more of it, and closes where the
+//         two are apart; what is inside what is told right.
+// Method: random poses of convex, hollow, open and spiky surfaces of sizes from 1e-6 to 1e6 m, against brute force over
+//         all pairs of triangles in long double.
+#include "collision_core/narrow_phase/separation.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "tests/support/meshes.h"
+
+namespace collision {
+namespace {
+
+struct Posed {
+  std::shared_ptr<const Shape> shape;
+  double radius = 0;
+  TruePose pose;
+
+  BodySegment Segment() const {
+    TrueMotion motion;
+    motion.start = pose;
+    AgentDeclaration declaration;
+    declaration.shape = shape;
+    declaration.radius = radius;
+    declaration.angular_acceleration_max = 0;
+    const SpaceTimeBound bound = BoundAt(motion, 0, declaration);
+    BodySegment segment;
+    segment.shape = shape;
+    segment.ball.radius = radius;
+    const Instant base = Instant::FromNanoseconds(0);
+    segment.ball.bounds.push_back(ForwardBall(bound, base));
+    if (shape) segment.turns.push_back(ForwardTurn(bound, base));
+    return segment;
+  }
+  TrueBody Body() const { return {shape.get(), radius, pose}; }
+};
+
+Posed RandomBody(Random& random, double size, const Vector& p) {
+  const TriangleMesh meshes[] = {Cube(1),         Tetrahedron(1), LShape(),    Sheet(1, 3),
+                                 Star(1, random), Frame(),        Rod(3, 0.01)};
+  Posed posed;
+  const std::uint64_t kind = random.Below(8);
+  if (kind < 7) posed.shape = Shape::Build(Scaled(meshes[kind], size));
+  posed.radius = posed.shape ? posed.shape->facts().radius : size;
+  posed.pose.p = p;
+  posed.pose.q = RandomTurn(random);
+  return posed;
+}
+
+Look LookOf(const Posed& a, const Posed& b, Goal goal, Work* work) {
+  const BodySegment of_a = a.Segment(), of_b = b.Segment();
+  return LookAt(Surface(of_a), Surface(of_b), PoseAt(of_a, of_b, {0, 0, true}, 0), goal, work);
+}
+
+TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
+  int apart = 0, deep = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const double size = random.LogUniform(1e-6, 1e6);
+    const Posed a = RandomBody(random, size, Vector::Zero());
+    const double other = std::clamp(size * random.LogUniform(1e-2, 1e2), 1e-6, 1e6);
+    const Posed b =
+        RandomBody(random, other, (size + other) * random.Uniform(0, 2) * RandomUnit(random));
+    if (!a.shape && !b.shape) continue;
+    const TrueBody body_a = a.Body(), body_b = b.Body();
+    const Real surfaces = SurfaceDistance(body_a, body_b);
+    const Real tolerance = 1e-16L * (a.radius + b.radius);
+    double lower = -kInfinity, upper = kInfinity;
+    for (std::uint64_t units = 0; units < 3000000; units = 4 * units + 50) {
+      Work work(units);
+      const Look look = LookOf(a, b, Goal::kDecision, &work);
+      if (look.upper > 0) EXPECT_LE(look.lower, surfaces + tolerance);
+      EXPECT_GE(std::max(0.0, look.upper), SolidDistance(body_a, body_b) - tolerance);
+      EXPECT_GE(look.lower, lower);
+      EXPECT_LE(look.upper, upper);
+      if (look.upper <= 0) {
+        ++deep;
+        const Vector by = (-look.upper * 0.999L) * RandomUnit(random);
+        EXPECT_EQ(SolidDistance(body_a, body_b.Moved(by)), 0);
+      }
+      lower = look.lower, upper = look.upper;
+      if (!look.exhausted) break;
+    }
+    Work unlimited(100000000);
+    const Look nearest = LookOf(a, b, Goal::kNearest, &unlimited);
+    // Of one inside the other `upper` speaks of the solids.
+    if (nearest.lower <= 0 || SolidDistance(body_a, body_b) == 0) continue;
+    ++apart;
+    EXPECT_LE(nearest.upper - nearest.lower,
+              1e-9 * surfaces + 1e-13 * (a.radius + b.radius + b.pose.p.norm()));
+    EXPECT_NEAR(static_cast<double>(surfaces), nearest.upper,
+                1e-9 * surfaces + 1e-13 * (a.radius + b.radius + b.pose.p.norm()));
+  }
+  EXPECT_GT(apart, 100);
+  EXPECT_GT(deep, 20);
+}
+
+TEST(Separation, SameLookSameBits) {
+  Random random(9);
+  const Posed a = RandomBody(random, 1, Vector::Zero()),
+              b = RandomBody(random, 1, Vector(2.5L, 0.1L, 0));
+  Work once(1000), twice(1000);
+  const Look x = LookOf(a, b, Goal::kNearest, &once), y = LookOf(a, b, Goal::kNearest, &twice);
+  EXPECT_EQ(x.lower, y.lower);
+  EXPECT_EQ(x.upper, y.upper);
+  EXPECT_EQ(x.point, y.point);
+  EXPECT_EQ(once.spent(), twice.spent());
+}
+
+Nesting NestingOf(const TriangleMesh& a, const TriangleMesh& b, const Vector& p, bool swapped) {
+  Posed of_a, of_b;
+  of_a.shape = Shape::Build(swapped ? b : a);
+  of_b.shape = Shape::Build(swapped ? a : b);
+  of_b.pose.p = swapped ? Vector(-p) : p;
+  const BodySegment x = of_a.Segment(), y = of_b.Segment();
+  Work work(1000000);
+  return collision::NestingOf(Surface(x), Surface(y), PoseAt(x, y, {0, 0, true}, 0), &work);
+}
+
+TEST(Separation, WhatIsInsideWhat) {
+  const TriangleMesh small = Cube(0.1);
+  for (const bool swapped : {false, true}) {
+    EXPECT_TRUE(NestingOf(Cube(1), small, {0.8L, 0.8L, 0.8L}, swapped).certain());
+    EXPECT_TRUE(NestingOf(Cube(1), small, {1.2L, 0, 0}, swapped).neither);
+    EXPECT_TRUE(NestingOf(HollowCube(1, 0.5), small, {0, 0, 0}, swapped).neither);
+    EXPECT_TRUE(NestingOf(HollowCube(1, 0.5), small, {0.75L, 0, 0}, swapped).certain());
+    EXPECT_TRUE(NestingOf(Frame(), small, {0, 0, 0}, swapped).neither)
+        << "through the hole is outside";
+    EXPECT_TRUE(NestingOf(Frame(), small, {1.5L, 0, 0}, swapped).certain());
+    EXPECT_TRUE(NestingOf(Sheet(1, 2), small, {0, 0, 0.5L}, swapped).neither) << "open: no inside";
+    // The L's box contains it, the L does not.
+    EXPECT_TRUE(NestingOf(LShape(), small, {0.5L, 0.5L, 0}, swapped).neither);
+    // One of several components is inside, not the first.
+    const TriangleMesh two = Joined(Moved(small, {30, 0, 0}), small);
+    EXPECT_TRUE(NestingOf(Cube(1), two, {0, 0, 0}, swapped).certain());
+    EXPECT_FALSE(NestingOf(Cube(1), two, {0, 0, 0}, swapped).neither);
+    EXPECT_TRUE(NestingOf(Cube(1), two, {0, 5, 0}, swapped).neither);
+  }
+}
+
+}  // namespace
+}  // namespace collision
