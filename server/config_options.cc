@@ -71,11 +71,11 @@ constexpr ConfigOption kOptions[] = {
      "Time between two samples of the service's status, by the monotonic clock."},
     {"rejections_per_second_max", "messages", "1", "100000", "", "100",
      "Rejections published per second; what is beyond is counted in the status."},
-    {"time_budget_us", "us", "0", "1000000", "", "200",
+    {"time_budget_us", "us", "0", "1000000", "", "1000",
      "What the narrow phase may spend on two agents of which one has a shape, in one turn; beyond, "
      "brackets stay wider and say so. 0: their sphere trees are not refined at all. It is counted "
      "in work units, so that a replay stops where the recorded run did, on any machine."},
-    {"work_units_per_us", "work units", "1", "1000000", "", "50",
+    {"work_units_per_us", "work units", "1", "1000000", "", "20",
      "Turns time_budget_us into work units. collisiond --calibrate measures it on this machine."},
     {"shape_triangles_max", "triangles", "1", "5000000", "", "200000",
      "Triangles of one shape; a shape of more is refused."},

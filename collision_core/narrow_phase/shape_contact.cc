@@ -27,6 +27,9 @@ constexpr double kTellingGap = 128;
 // At least so long before the first possible touch, as a share of the segment.
 constexpr double kNormalBefore = 1e-3;
 
+// An instant whose pose is so many times better known is preferred, though it is earlier.
+constexpr double kMuchBetter = 16;
+
 // With a greater error [rad] an earlier instant is asked as well.
 constexpr double kGoodNormal = 0.3;
 
@@ -153,7 +156,7 @@ class Judgement {
       at = backward ? AddUp(at, -free) : AddDown(at, free);
       if (sweep.touch.seconds > span) continue;
       if (!backward) Remember(sweep.touch, start, at);
-      if (Exhausted() || free <= kResolution * duration_) break;
+      if (sweep.final || Exhausted() || free <= kResolution * duration_) break;
     }
     return at;
   }
@@ -178,6 +181,11 @@ class Judgement {
     if (!approach_) return {};
     const Instance end = motion_.LookAgain(approach_->to, {});
     if (!end.choice.certain) return {};
+    // At a state's stamp the pose is known much better than between two states.
+    const Instance start = motion_.LookAgain(approach_->from, {});
+    if (start.choice.certain && kMuchBetter * start.uncertainty <= end.uncertainty) {
+      return NormalOf(motion_.LookAt(approach_->from, Goal::kNearest));
+    }
     const double gap = kTellingGap * end.uncertainty;
     const double back = std::max(kNormalBefore * duration_, gap / motion_.SpeedAt(end));
     const double before = std::max(approach_->from, approach_->to - back);

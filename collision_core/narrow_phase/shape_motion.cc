@@ -40,6 +40,14 @@ SweptPose::Growth GrowthOf(const BodySegment& body, std::size_t bound, double at
   return {chord, std::max(0.0, angle.c1.upper), std::max(0.0, (Max(0, angle.c2) + bend).upper)};
 }
 
+// Half of the acceleration of the point that turning moves the most [m/s²].
+double BendOf(const BodySegment& body, std::size_t bound) {
+  return body.shape ? 0.5 * body.turns[bound].w_WB.squaredNorm() * ReachOf(body) : 0;
+}
+
+// What tangents leave their circles by matters beyond this share of the bodies' size.
+constexpr double kFineBend = 1e-6;
+
 // Within so small a turn [rad] a tangent leaves its circle by 3 % of the radius.
 constexpr double kTurnOfSweep = 0.25;
 
@@ -110,6 +118,14 @@ ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, bool backward)
   swept.turning_A = GrowthOf(a_, choice.of_A, at, backward, sweep.pose.chord_A);
   swept.turning_B = GrowthOf(b_, choice.of_B, at, backward, sweep.pose.chord_B);
   sweep.touch = TouchOf(surface_a_, surface_b_, swept, span, &work_);
+  if (sweep.touch.resolved) {
+    const double h = sweep.touch.seconds;
+    const double bend = BendOf(a_, choice.of_A) + BendOf(b_, choice.of_B);
+    const double unknown =
+        swept.translation.c0 + h * (swept.translation.c1 + h * swept.translation.c2);
+    sweep.final =
+        bend * h * h <= std::max(unknown, kFineBend * (surface_a_.reach() + surface_b_.reach()));
+  }
   return sweep;
 }
 

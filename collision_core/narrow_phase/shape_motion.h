@@ -39,6 +39,8 @@ class ShapeMotion {
     bool known = false;
     RelativePose pose;  ///< At its start.
     FirstTouch touch;
+    /// The search went down to what is known of the motion: another one from there leads no further.
+    bool final = false;
   };
   Sweep SweepFrom(double at, double span, bool backward) const;
 

@@ -1,7 +1,6 @@
 #include "collision_core/narrow_phase/swept_pair.h"
 
 #include <algorithm>
-#include <span>
 #include <tuple>
 #include <unordered_set>
 
@@ -70,6 +69,9 @@ class Search {
                           duration * (swept.velocity.cwiseAbs().sum() +
                                       a.turning_reach() * swept.spin_A.cwiseAbs().sum() +
                                       b.turning_reach() * swept.spin_B.cwiseAbs().sum());
+    // 1 + 2^-40 for its own rounding.
+    fastest_ = (1 + 0x1p-40) * (swept.velocity.norm() + a.turning_reach() * swept.spin_A.norm() +
+                                b.turning_reach() * swept.spin_B.norm());
     slack_ = AddUp(MultiplyUp(0x1p-48, extent),
                    AddUp(pose.offset_error, MultiplyUp(pose.matrix_error, b.reach())));
   }
@@ -145,19 +147,38 @@ class Search {
 
   // A triangle may stand in several leaves, and need be looked at once only: its time is the same.
   void OfferTriangles(const Candidate& pair, const SphereNode& a, const SphereNode& b) {
-    const auto offer = [&](std::uint32_t of_a, std::uint32_t of_b) {
-      work_.Spend(1);
-      if (!seen_.insert(std::uint64_t{of_a} << 32 | of_b).second) return;
-      Push({pair.time, Kind::kTriangles, 0, of_a, of_b, pair.a, pair.b});
-    };
-    const std::uint32_t ball[] = {0};
-    const std::span<const std::uint32_t> of_a =
-        a_.shape() ? a_.shape()->tree().TrianglesOf(a) : ball;
-    const std::span<const std::uint32_t> of_b =
-        b_.shape() ? b_.shape()->tree().TrianglesOf(b) : ball;
-    for (const std::uint32_t t : of_a) {
-      for (const std::uint32_t u : of_b) offer(t, u);
+    boxes_of_b_.clear();
+    if (b_.shape()) {
+      for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b)) {
+        boxes_of_b_.emplace_back(t, CornersOf(*b_.shape(), t, swept_.pose));
+      }
+    } else {
+      boxes_of_b_.push_back(BoxOfBall(swept_.pose.offset, b_.reach()));
     }
+    const auto offer = [&](const BoxedTriangle& of_a) {
+      for (const BoxedTriangle& of_b : boxes_of_b_) OfferBoxes(pair, of_a, of_b);
+    };
+    if (!a_.shape()) return offer(BoxOfBall({0, 0, 0}, a_.reach()));
+    for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
+      offer({t, CornersOf(*a_.shape(), t)});
+    }
+  }
+
+  // In place of a triangle: a point, in the box of the ball about it.
+  static BoxedTriangle BoxOfBall(const Eigen::Vector3d& centre, double radius) {
+    BoxedTriangle box(0, {centre, centre, centre});
+    box.lower.array() -= radius;
+    box.upper.array() += radius;
+    return box;
+  }
+
+  // Boxes that are far apart cannot meet at the greatest speed of any two points.
+  void OfferBoxes(const Candidate& pair, const BoxedTriangle& a, const BoxedTriangle& b) {
+    work_.Spend(kBoxPairUnits);
+    const Reach reach = ReachOf(0, a_.turning_reach(), b_.turning_reach());
+    const double time = RootOf(BoxDistance(a, b) - reach.c0, fastest_ + reach.c1, reach.c2);
+    if (time > duration_ || !seen_.insert(std::uint64_t{a.index} << 32 | b.index).second) return;
+    Push({std::max(pair.time, time), Kind::kTriangles, 0, a.index, b.index, pair.a, pair.b});
   }
 
   // What may be used up of a gap between points of A at most `far_a` from its reference point, and
@@ -289,8 +310,10 @@ class Search {
   const double duration_;
   Work& work_;
   double slack_;
+  double fastest_;  // any two points, relative to each other
   std::vector<Candidate> heap_;
   std::unordered_set<std::uint64_t> seen_;
+  std::vector<BoxedTriangle> boxes_of_b_;
 };
 
 }  // namespace
