@@ -71,7 +71,7 @@ constexpr ConfigOption kOptions[] = {
      "Time between two samples of the service's status, by the monotonic clock."},
     {"rejections_per_second_max", "messages", "1", "100000", "", "100",
      "Rejections published per second; what is beyond is counted in the status."},
-    {"time_budget_us", "us", "0", "1000000", "", "1000",
+    {"time_budget_us", "us", "0", "1000000", "", "2000",
      "What the narrow phase may spend on two agents of which one has a shape, in one turn; beyond, "
      "brackets stay wider and say so. 0: their sphere trees are not refined at all. It is counted "
      "in work units, so that a replay stops where the recorded run did, on any machine."},

@@ -14,8 +14,8 @@ namespace {
 constexpr double kLookAhead = 1.3;
 
 // Of the work that is left in a turn: for what is settled, then for what is heard; the rest is for what is promised.
-constexpr double kSettledShare = 0.6;
-constexpr double kHeardShare = 0.6;
+constexpr double kSettledShare = 0.5;
+constexpr double kHeardShare = 0.8;
 
 // What is in force until the next state. A shape that was awaited has been there since the state that it is in force
 // with; one that the owner changed since, or changes now, is somewhere within the ball until the next state.

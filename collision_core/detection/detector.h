@@ -24,7 +24,7 @@ struct DetectorOptions {
       64;  ///< States kept for judging; beyond, the oldest go and brackets widen.
   /// Work that the narrow phase may spend on two shapes in one turn (narrow_phase/work.h); beyond,
   /// brackets stay wider and say that the budget limited them.
-  std::uint64_t work_units_per_turn = 20000;
+  std::uint64_t work_units_per_turn = 40000;
 };
 
 /// Why a clearance was lowered.

@@ -37,7 +37,9 @@ class Traversal {
   Traversal(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work)
       : a_(a), b_(b), pose_(pose), goal_(goal), work_(*work), slack_(SlackOf(a, b, pose)) {}
 
-  Look Run() {
+  Look Run(const Evidence& hint) {
+    if (hint.kind == Evidence::Kind::kLeaves) Resolve({-kInfinity, hint.a, hint.b, false});
+    heap_.clear();  // the leaves are met again in their turn
     Offer(0, 0, -kInfinity);
     while (!heap_.empty() && !Decided(heap_.front())) {
       if (work_.exhausted()) {
@@ -376,10 +378,11 @@ class Traversal {
 enum class Side { kOutside, kInside, kUnknown };
 
 Side SideOf(const Eigen::Vector3d& point, const Surface& of, Work* work) {
-  if (of.shape() == nullptr || !of.shape()->closed()) return Side::kOutside;  // a ball's node is solid
+  if (of.shape() == nullptr || !of.shape()->closed())
+    return Side::kOutside;  // a ball's node is solid
   const MeshFacts& facts = of.shape()->facts();
-  const bool off = (point.array() > facts.upper.array()).any() ||
-                   (point.array() < facts.lower.array()).any();
+  const bool off =
+      (point.array() > facts.upper.array()).any() || (point.array() < facts.lower.array()).any();
   if (off) return Side::kOutside;
   work->Spend(kWindingUnits);
   const std::optional<int> winding = of.shape()->WindingNumberAt(point);
@@ -400,8 +403,9 @@ Surface::Surface(const BodySegment& body)
   ball_.signed_distance = -body.ball.radius;
 }
 
-Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work) {
-  return Traversal(a, b, pose, goal, work).Run();
+Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work,
+            const Evidence& hint) {
+  return Traversal(a, b, pose, goal, work).Run(hint);
 }
 
 Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,

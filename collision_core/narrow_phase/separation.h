@@ -79,7 +79,10 @@ struct Look {
 
 /// Best-first over pairs of nodes: the pair that may be nearest is opened next, ties by node number,
 /// so that a look may end at any moment with a bracket that only became narrower.
-Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work);
+/// `hint`: leaves that are likely to be the nearest; what is further away then need not be looked
+/// at so closely.
+Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work,
+            const Evidence& hint = {});
 
 /// Nothing but this evidence: of contact all is said, of the distance nothing below.
 Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,

@@ -20,6 +20,9 @@ constexpr int kStepsMax = 4096;
 // An advance ends where its steps are shorter than this share of the segment.
 constexpr double kResolution = 1e-6;
 
+// Contact that is certain for less than this share of the segment is followed no further.
+constexpr double kShortestStep = 1e-10;
+
 // The direction is told where the gap is this many times what is uncertain, if there is such an
 // instant: nearer it is not known, farther it is of another time. DeviationOf() makes it 0.19 rad.
 constexpr double kTellingGap = 128;
@@ -35,7 +38,8 @@ constexpr double kGoodNormal = 0.3;
 
 // Contact is looked for from this share of the segment after the last certain freedom on, and when
 // it is found between two looks, so often half-way between them.
-constexpr double kFirstStep = 1e-5;
+constexpr double kFirstStep = 1e-4;
+constexpr double kStepGrowth = 4;
 constexpr int kHalvings = 5;
 
 // Evidence of contact that lasts for less than this share of the step before is not the best one.
@@ -163,9 +167,6 @@ class Judgement {
 
   /// Certain contact in [f, g], which is not certified free.
   void FindContact(double f, double g, SegmentVerdict* times) {
-    // Contact that goes on from before is certain at the start by anything, not by the leaves that
-    // may touch first.
-    if (f <= 0 && TryContact(f, g, f, times)) return;
     if (FollowLeaves(f, g, times)) return;
     if (TryContact(f, g, f, times) || TryContact(f, g, g, times)) return;
     double width = g - f;
@@ -184,14 +185,14 @@ class Judgement {
     // At a state's stamp the pose is known much better than between two states.
     const Instance start = motion_.LookAgain(approach_->from, {});
     if (start.choice.certain && kMuchBetter * start.uncertainty <= end.uncertainty) {
-      return NormalOf(motion_.LookAt(approach_->from, Goal::kNearest));
+      return NormalOf(motion_.LookAt(approach_->from, Goal::kNearest, leaves_));
     }
     const double gap = kTellingGap * end.uncertainty;
     const double back = std::max(kNormalBefore * duration_, gap / motion_.SpeedAt(end));
     const double before = std::max(approach_->from, approach_->to - back);
-    const ContactNormal near = NormalOf(motion_.LookAt(before, Goal::kNearest));
+    const ContactNormal near = NormalOf(motion_.LookAt(before, Goal::kNearest, leaves_));
     if ((near.known && near.error < kGoodNormal) || before == approach_->from) return near;
-    const ContactNormal far = NormalOf(motion_.LookAt(approach_->from, Goal::kNearest));
+    const ContactNormal far = NormalOf(motion_.LookAt(approach_->from, Goal::kNearest, leaves_));
     return far.known && (!near.known || far.error < near.error) ? far : near;
   }
 
@@ -214,35 +215,36 @@ class Judgement {
     if (at > start) approach_ = Approach{start, at};
   }
 
-  // The leaves that may touch first are likely to: when do their triangles cross for certain? Looked
-  // for at growing distances from f, then nearer to it by halves.
+  // The leaves that may touch first are likely to: when do their triangles cross for certain? At f,
+  // where contact goes on from before; else at growing distances from it, then nearer by halves.
   bool FollowLeaves(double f, double g, SegmentVerdict* times) {
     if (leaves_.kind == Evidence::Kind::kNone) return false;
-    double before = f, at = f;
-    Evidence evidence;
+    evidence_ = {};
     const auto touches = [&](double place) {
       const Instance instance = motion_.LookAgain(place, leaves_);
-      if (instance.touching()) evidence = instance.look.evidence;
+      if (instance.touching()) evidence_ = instance.look.evidence;
       return instance.touching();
     };
-    for (double step = kFirstStep * duration_; evidence.kind == Evidence::Kind::kNone; step *= 2) {
+    double before = f, at = f;
+    bool found = touches(f);
+    const bool at_once = found;
+    for (double step = kFirstStep * duration_; !found; step *= kStepGrowth) {
       if (at >= g || Exhausted()) return false;
       before = at;
       at = std::min(g, f + step);
-      touches(at);
+      found = touches(at);
     }
-    for (int i = 0; i < kHalvings && !Exhausted(); ++i) {
+    for (int i = 0; i < kHalvings && !at_once && !Exhausted(); ++i) {
       const double middle = before + (at - before) / 2;
       (touches(middle) ? at : before) = middle;
     }
-    touches(at);
-    evidence_ = evidence;
-    TakeContact(at, g, times);
+    TakeContact(at, at, g, times);
     return true;
   }
 
-  void TakeContact(double place, double g, SegmentVerdict* times) {
-    times->contact_from = Extend(place, true);
+  // Contact is certain at `place`, and on from `from` to there.
+  void TakeContact(double from, double place, double g, SegmentVerdict* times) {
+    times->contact_from = from;
     times->contact_to = Extend(place, false);
     if (times->contact_to < g && g >= duration_) LookAtEnd(times);
   }
@@ -253,7 +255,7 @@ class Judgement {
     const Instance instance = Look(place, place != f);
     if (!instance.touching()) return false;
     evidence_ = instance.look.evidence;
-    TakeContact(place, g, times);
+    TakeContact(Extend(place, true), place, g, times);
     return true;
   }
 
@@ -271,24 +273,28 @@ class Judgement {
   // looked at again at the next; where that falls short something else is looked for.
   double Extend(double at, bool backward) {
     Evidence evidence = evidence_;
-    double last = 0;
+    double longest = 0;
     for (int step = 0; step < kStepsMax && !Exhausted(); ++step) {
       Instance instance = motion_.LookAgain(at, evidence);
       double lasts = instance.touching() ? motion_.ContactStep(instance, backward) : 0;
-      if (lasts <= kFallenShort * last || lasts <= kResolution * duration_) {
+      if (lasts <= kFallenShort * longest || lasts == 0) {
         instance = motion_.LookAt(at, Goal::kContact);
         if (nested_) motion_.LookInside(&instance);
         RememberNearest(instance);
         if (!instance.touching()) break;
         evidence = instance.look.evidence;
-        lasts = motion_.ContactStep(instance, backward);
+        const double other = motion_.ContactStep(instance, backward);
+        // Nothing else lasts longer: where contact ends.
+        if (other <= lasts && other <= kResolution * duration_) break;
+        lasts = std::max(lasts, other);
+        longest = 0;
       }
+      longest = std::max(longest, lasts);
       at = backward ? AddUp(at, -lasts) : AddDown(at, lasts);
       if (backward && at <= 0) return 0;
       if (!backward && at >= duration_) return duration_;
       // Away from where contact began the steps grow, however short the first ones are.
-      if (lasts <= kResolution * duration_ && step > 0 && lasts <= last) break;
-      last = lasts;
+      if (lasts <= kShortestStep * duration_) break;
     }
     return at;
   }

@@ -73,10 +73,10 @@ ShapeMotion::Instance ShapeMotion::InstanceAt(double at) const {
   return instance;
 }
 
-ShapeMotion::Instance ShapeMotion::LookAt(double at, Goal goal) const {
+ShapeMotion::Instance ShapeMotion::LookAt(double at, Goal goal, const Evidence& hint) const {
   Instance instance = InstanceAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look = collision::LookAt(surface_a_, surface_b_, instance.pose, goal, &work_);
+  instance.look = collision::LookAt(surface_a_, surface_b_, instance.pose, goal, &work_, hint);
   return instance;
 }
 

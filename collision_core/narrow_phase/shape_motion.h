@@ -28,7 +28,7 @@ class ShapeMotion {
     double uncertainty = 0;
   };
 
-  Instance LookAt(double at, Goal goal) const;
+  Instance LookAt(double at, Goal goal, const Evidence& hint = {}) const;
 
   /// Nothing but what made contact certain at another instant.
   Instance LookAgain(double at, const Evidence& evidence) const;

@@ -169,6 +169,32 @@ TEST(DetectorShapes, ChangedShapeIsUnknownUntilTheNextState) {
   ExpectBracket(ended[0].end, 5.5, 1e-3);
 }
 
+// Both stand where the ships overlap; nothing but declarations comes after the first states.
+struct Standing : Scene {
+  explicit Standing(const AgentDeclaration& second) {
+    Put(1, Declared(Ship(), 2), {0, 0, 0}, {0, 0, 0});
+    Put(2, second, {1.5, 0, 0.1}, {0, 0, 0});
+    Step();
+  }
+
+  std::size_t ConfirmedAfter(const AgentDeclaration& second) {
+    detector.Redeclare(Id(2), second, At(now));
+    detector.Hear(Id(1), At(now + 0.0625));
+    detector.Hear(Id(2), At(now + 0.0625));
+    now += 0.0625;
+    Step();
+    return With(EventStatus::kConfirmed).size();
+  }
+};
+
+TEST(DetectorShapes, WithoutAStateOnlyAnArrivalCounts) {
+  EXPECT_EQ(Standing(Awaited(2)).ConfirmedAfter(Declared(Ship(), 2)), 1u);
+  EXPECT_EQ(Standing(Awaited(2)).ConfirmedAfter(Awaited(2)), 0u);
+  // Thin and far up it touches nothing; from when on it is a ship instead nobody knows.
+  const auto rod = Shape::Build(Moved(Rod(0.5, 0.01), {0, 0, 1.5}));
+  EXPECT_EQ(Standing(Declared(rod, 2)).ConfirmedAfter(Declared(Ship(), 2)), 0u);
+}
+
 TEST(DetectorShapes, BallsBuildNothing) {
   Scene scene;
   scene.Put(1, Declared(nullptr, 1), {0, 0, 0}, {0, 0, 0});
@@ -255,8 +281,9 @@ TEST(DetectorShapes, WithoutBudgetNothingIsWrong) {
         EXPECT_LE(event.end.earliest, At(5)) << units;
         EXPECT_GE(event.end.latest, At(5)) << units;
       }
-      if (event.status == EventStatus::kUndecided)
+      if (event.status == EventStatus::kUndecided) {
         EXPECT_EQ(event.limited_by, EventLimit::kBudget) << units;
+      }
       const bool over =
           event.status == EventStatus::kUndecided || event.status == EventStatus::kEnded;
       covered |= over && event.begin.earliest <= At(3) && event.end.latest >= At(5);

@@ -71,7 +71,9 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
     for (std::uint64_t units = 0; units < 3000000; units = 4 * units + 50) {
       Work work(units);
       const Look look = LookOf(a, b, Goal::kDecision, &work);
-      if (look.upper > 0) EXPECT_LE(look.lower, surfaces + tolerance);
+      if (look.upper > 0) {
+        EXPECT_LE(look.lower, surfaces + tolerance);
+      }
       EXPECT_GE(std::max(0.0, look.upper), SolidDistance(body_a, body_b) - tolerance);
       EXPECT_GE(look.lower, lower);
       EXPECT_LE(look.upper, upper);
@@ -97,6 +99,39 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
   EXPECT_GT(deep, 20);
 }
 
+// Each body turned about its reference point, so that its points move by up to the chord.
+TEST(Separation, TurningIsCountedInAtEveryBudget) {
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    Posed a = RandomBody(random, 1, Vector::Zero());
+    Posed b = RandomBody(random, 1, random.Uniform(1, 4) * RandomUnit(random));
+    const BodySegment of_a = a.Segment(), of_b = b.Segment();
+    RelativePose pose = PoseAt(of_a, of_b, {0, 0, true}, 0);
+    const double angle_A = a.shape ? random.Uniform(0, 0.5) : 0;
+    const double angle_B = b.shape ? random.Uniform(0, 0.5) : 0;
+    pose.chord_A = 2 * std::sin(angle_A / 2) + 1e-15;
+    pose.chord_B = 2 * std::sin(angle_B / 2) + 1e-15;
+    std::vector<Real> distances;
+    for (int i = 0; i < 20; ++i) {
+      Posed turned_a = a, turned_b = b;
+      turned_a.pose.q = Exponential(angle_A * RandomUnit(random)) * a.pose.q;
+      turned_b.pose.q = Exponential(angle_B * RandomUnit(random)) * b.pose.q;
+      distances.push_back(SolidDistance(turned_a.Body(), turned_b.Body()));
+    }
+    for (const std::uint64_t units : {0, 10, 30, 100, 1000, 1000000}) {
+      Work work(units);
+      const Look look = LookAt(Surface(of_a), Surface(of_b), pose, Goal::kDecision, &work);
+      for (const Real distance : distances) {
+        if (look.upper > 0 && distance > 0) {
+          EXPECT_LE(look.lower, distance + 1e-15L) << units;
+        }
+        EXPECT_GE(std::max(0.0, look.upper), distance - 1e-15L) << units;
+      }
+    }
+  }
+}
+
 TEST(Separation, SameLookSameBits) {
   Random random(9);
   const Posed a = RandomBody(random, 1, Vector::Zero()),
@@ -107,6 +142,19 @@ TEST(Separation, SameLookSameBits) {
   EXPECT_EQ(x.upper, y.upper);
   EXPECT_EQ(x.point, y.point);
   EXPECT_EQ(once.spent(), twice.spent());
+}
+
+TEST(WorkShare, LeavesTheRestForWhatComesAfter) {
+  Work work(1000);
+  work.Spend(200);
+  {
+    const WorkShare share(0.5, &work);
+    EXPECT_EQ(work.left(), 400u);
+    work.Spend(500);
+    EXPECT_TRUE(work.exhausted());
+  }
+  EXPECT_FALSE(work.exhausted());
+  EXPECT_EQ(work.left(), 300u);
 }
 
 Nesting NestingOf(const TriangleMesh& a, const TriangleMesh& b, const Vector& p, bool swapped) {
