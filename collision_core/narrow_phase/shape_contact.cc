@@ -228,6 +228,8 @@ class Judgement {
     double before = f, at = f;
     bool found = touches(f);
     const bool at_once = found;
+    // Contact that goes on from before may be certain at the start by anything else.
+    if (f <= 0 && !found && TryContact(f, g, f, times)) return true;
     for (double step = kFirstStep * duration_; !found; step *= kStepGrowth) {
       if (at >= g || Exhausted()) return false;
       before = at;

@@ -6,7 +6,7 @@
 namespace collision {
 
 /// Units of work. A pair of spheres is the unit; the others cost about as many as they take time.
-inline constexpr std::uint64_t kTrianglePairUnits = 20;
+inline constexpr std::uint64_t kTrianglePairUnits = 10;
 inline constexpr std::uint64_t kBoxPairUnits = 1;    ///< The boxes of two triangles.
 inline constexpr std::uint64_t kCrossingUnits = 4;   ///< Whether two triangles cross.
 inline constexpr std::uint64_t kWindingUnits = 100;  ///< One winding number.
