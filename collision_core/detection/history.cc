@@ -80,6 +80,13 @@ Instant History::NextCutAfter(Instant t) const {
   return next;
 }
 
+Instant History::LastStampBefore(Instant t) const {
+  for (std::size_t i = samples_.size(); i-- > 0;) {
+    if (samples_[i].bound.state.stamp < t) return samples_[i].bound.state.stamp;
+  }
+  return Instant::Never();
+}
+
 const SpaceTimeBound* History::Uninterrupted(Instant t) const {
   const std::size_t k = InForce(t);
   if (k == samples_.size()) return nullptr;

@@ -40,6 +40,9 @@ class History {
   /// skew about a jump. Never() if there is none.
   Instant NextCutAfter(Instant t) const;
 
+  /// The last stamp earlier than `t`; Never() if there is none.
+  Instant LastStampBefore(Instant t) const;
+
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
   const SpaceTimeBound* Uninterrupted(Instant t) const;
 

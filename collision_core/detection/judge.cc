@@ -7,6 +7,9 @@
 namespace collision {
 namespace {
 
+// With a greater error [rad] the direction of an earlier instant is asked as well.
+constexpr double kGoodNormal = 0.3;
+
 // Where two balls were certified to be nearest: looked for at the ends and where the centres' lines
 // are nearest.
 Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, double duration) {
@@ -36,8 +39,18 @@ Nearest AwaitedNearest(Nearest nearest) {
   return nearest;
 }
 
-void JudgeOne(const BodySegment& a, const BodySegment& b, Instant from, Instant to, Work* work,
-              ContactTracker* tracker) {
+// They may touch as soon as the segment begins: then the direction is that of the last state before,
+// whose pose is known better than any other's.
+ContactNormal NormalBefore(const History& a, const History& b, Instant from, Work* work) {
+  const Instant of_a = a.LastStampBefore(from), of_b = b.LastStampBefore(from);
+  if (of_a.is_never() || of_b.is_never()) return {};
+  const Instant before = std::max(of_a, of_b);
+  return NormalAt(a.Over(before, from), b.Over(before, from), 0, work);
+}
+
+void JudgeOne(const History& history_a, const History& history_b, Instant from, Instant to,
+              Work* work, ContactTracker* tracker) {
+  const BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
   const double duration = SecondsBetween(from, to).upper;
   SegmentVerdict times = JudgeSegment(a.ball, b.ball, duration);
   work->Spend(1);
@@ -53,6 +66,11 @@ void JudgeOne(const BodySegment& a, const BodySegment& b, Instant from, Instant 
       const ShapeVerdict verdict = JudgeShapes(a, b, duration, times, work);
       times = verdict.times;
       normal = verdict.normal;
+      const bool told = normal.known && normal.error < kGoodNormal;
+      if (tracker->free() && times.free_until < duration && !told) {
+        const ContactNormal before = NormalBefore(history_a, history_b, from, work);
+        if (before.known && (!normal.known || before.error < normal.error)) normal = before;
+      }
       if (verdict.looked) {
         nearest = {std::min(AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest};
       }
@@ -69,7 +87,7 @@ std::uint64_t Judge(const History& a, const History& b, Instant until, Work* wor
   while (tracker->at() < until) {
     const Instant from = tracker->at();
     const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
-    JudgeOne(a.Over(from, to), b.Over(from, to), from, to, work, tracker);
+    JudgeOne(a, b, from, to, work, tracker);
     ++segments;
   }
   return segments;

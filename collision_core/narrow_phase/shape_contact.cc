@@ -388,6 +388,10 @@ double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double
   return Judgement(a, b, duration, work).FreeFrom(from, false);
 }
 
+ContactNormal NormalAt(const BodySegment& a, const BodySegment& b, double delta, Work* work) {
+  return NormalOf(ShapeMotion(a, b, work).LookAt(delta, Goal::kNearest));
+}
+
 Proximity ShapeProximity(const BodySegment& a, const BodySegment& b, double delta, Work* work) {
   const ShapeMotion motion(a, b, work);
   Instance instance = motion.LookAt(delta, Goal::kContact);

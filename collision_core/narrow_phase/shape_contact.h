@@ -38,6 +38,9 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
 double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double duration,
                  Work* work);
 
+/// The direction of the shortest way between the two at δ, where they are apart.
+ContactNormal NormalAt(const BodySegment& a, const BodySegment& b, double delta, Work* work);
+
 /// At δ.
 Proximity ShapeProximity(const BodySegment& a, const BodySegment& b, double delta, Work* work);
 
