@@ -93,6 +93,9 @@ RecordingReader::RecordingReader(const std::string& path)
     throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
                              "; this program reads format " + std::to_string(kFormat));
   }
+  if (!entry.header().has_config()) {
+    throw std::runtime_error(path + ": byte 0: its configuration: missing");
+  }
   // What an older version did not know yet has its default.
   config_ = CompleteConfig(std::move(*entry.mutable_header()->mutable_config()));
 }

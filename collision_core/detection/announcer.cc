@@ -24,6 +24,14 @@ bool Narrower(const TimeBracket& found, const TimeBracket& published) {
          kNarrowerShare * SecondsBetween(published.earliest, published.latest).lower;
 }
 
+// `doubted`: the event tells of a doubt before this episode as well.
+void TakeBrackets(const ContactEpisode& episode, bool doubted, CollisionEvent* event) {
+  const Instant doubt = event->begin.earliest;
+  event->begin = episode.begin;
+  if (doubted) event->begin.earliest = std::min(doubt, episode.begin.earliest);
+  event->continuous = episode.continuous && !doubted;
+}
+
 double SecondsLeft(Instant now, Instant t) {
   if (t.is_never()) return std::numeric_limits<double>::infinity();
   return t <= now ? 0 : SecondsBetween(now, t).upper;
@@ -91,13 +99,19 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
   CollisionEvent& event = subject.pair.event;
   if (episode.contact) {
     Confirm(subject, episode);
-    event.begin = episode.begin;
+    TakeBrackets(episode, subject.pair.doubted, &event);
     event.end = episode.end;
-    event.continuous = episode.continuous;
     Emit(subject, EventStatus::kEnded);
   } else if (subject.pair.announced && event.status == EventStatus::kConfirmed) {
+    if (episode.end.latest <= event.begin.latest) {
+      // Before the contact that was confirmed lies a doubt, and certain freedom between the two. The event tells of
+      // both: its begin bracket still covers the doubt.
+      subject.pair.doubted = true;
+      return;
+    }
     // A bound was broken since: what was confirmed under it cannot be repeated, and ends in doubt.
     event.end.latest = episode.end.latest;
+    event.end.earliest = std::min(event.end.earliest, event.end.latest);
     event.continuous = false;
     Emit(subject, EventStatus::kEnded);
   } else {
@@ -133,9 +147,8 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   if (!subject.pair.announced) Open(subject, episode.begin.earliest, episode.began_before);
   CollisionEvent& event = subject.pair.event;
   if (event.status == EventStatus::kConfirmed && !Narrower(episode.begin, event.begin)) return;
-  event.begin = episode.begin;
+  TakeBrackets(episode, subject.pair.doubted, &event);
   event.end.earliest = episode.end.earliest;
-  event.continuous = episode.continuous;
   event.began_before = episode.began_before;
   const Instant at = episode.begin.latest;
   Work work(options_.work_units_per_turn);
@@ -150,6 +163,7 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
 void Announcer::Open(const Subject& subject, Instant free_until, bool began_before) {
   PairRecord& pair = subject.pair;
   pair.announced = true;
+  pair.doubted = false;
   pair.work = 0;
   pair.event = CollisionEvent{};
   pair.event.lower = subject.lower.id;

@@ -26,6 +26,7 @@ struct PairRecord {
   Instant looked_ahead = Instant::Always();
   bool in_contact = false;
   bool announced = false;  ///< `event` is open and was published.
+  bool doubted = false;    ///< It tells of a doubt that lies before its contact, and apart from it.
   CollisionEvent event{};  ///< The last revision published.
   std::uint64_t work = 0;  ///< Segments and instants judged since the contact's number was given.
 };

@@ -23,10 +23,10 @@ TEST(Calibrate, MeasuresARateThatCanBeConfigured) {
 //         at the ends of both ranges.
 TEST(Calibrate, ABudgetBecomesWorkUnits) {
   v1::Config config = CompleteConfig({});
-  EXPECT_EQ(WorkUnitsPerTurn(config), 10'000u);
+  EXPECT_EQ(WorkUnitsPerTurn(config), 40'000u);
   config.set_time_budget_us(0);
   EXPECT_EQ(WorkUnitsPerTurn(config), 0u);
-  config.set_time_budget_us(0.03);
+  config.set_time_budget_us(0.08);
   EXPECT_EQ(WorkUnitsPerTurn(config), 2u);
   config.set_time_budget_us(1e6);
   config.set_work_units_per_us(1e6);

@@ -44,7 +44,8 @@ Monitor::Callbacks Observer::Callbacks() {
     observations_.clearances.push_back(sample);
   };
   callbacks.status = [this](const v1::ServiceStatus& status) {
-    observations_.status = status;
+    // The last one with agents: what the scene holds is gone when they have left.
+    if (status.agents() > 0 || observations_.status.agents() == 0) observations_.status = status;
     if (!status.simulators().empty()) SeeTime(status.now_ns());
   };
   return callbacks;

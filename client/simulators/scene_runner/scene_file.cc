@@ -56,8 +56,12 @@ std::string MissingData(const Folders& folders, const v1::Scene& scene) {
   return fs::exists(path) ? "" : "needs " + path.string();
 }
 
-std::set<fs::path> ScenePaths(const Folders& folders) {
-  std::set<fs::path> paths;
+struct ByName {
+  bool operator()(const fs::path& a, const fs::path& b) const { return a.stem() < b.stem(); }
+};
+
+std::set<fs::path, ByName> ScenePaths(const Folders& folders) {
+  std::set<fs::path, ByName> paths;
   for (const auto& entry : fs::directory_iterator(folders.scenes)) {
     if (entry.path().extension() == kSuffix) paths.insert(entry.path());
   }

@@ -67,7 +67,8 @@ TEST_F(SceneFileTest, AnUnknownSceneNamesThoseThereAre) {
     ADD_FAILURE();
   } catch (const NoSuchScene& error) {
     EXPECT_STREQ(error.what(),
-                 "no scene \"iridium\"; there are: corridor, iridium-cosmos, swarm-100");
+                 "no scene \"iridium\"; there are: corridor, iridium-cosmos, spaceships, "
+                 "spaceships-100, spaceships-500, swarm-100");
   }
 }
 
