@@ -74,6 +74,7 @@ Runner::Runner(const RunnerOptions& options)
                                    [](const auto& process) { return process.terminal(); });
   if (person) scene_.set_seconds(kPersonSeconds);
   if (options.seconds > 0) scene_.set_seconds(options.seconds);
+  ChangeConfig(options.config, &scene_);
 }
 
 Runner::~Runner() {

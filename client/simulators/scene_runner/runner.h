@@ -19,9 +19,10 @@ struct RunnerOptions {
   double seconds = 0;  ///< 0: as the scene says.
   bool real_time = false;
   std::optional<std::uint32_t> domain;  ///< Default: one that depends on this process.
-  bool every_event = false;             ///< Print every event, however many.
-  std::string json;                     ///< File for the report; empty: none.
-  std::string logs;  ///< Folder for configuration and logs, kept; empty: a temporary one.
+  std::string config;        ///< Fields over the scene's configuration, as protobuf text.
+  bool every_event = false;  ///< Print every event, however many.
+  std::string json;          ///< File for the report; empty: none.
+  std::string logs;          ///< Folder for configuration and logs, kept; empty: a temporary one.
 };
 
 /// Exit codes of a run.

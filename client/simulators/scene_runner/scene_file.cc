@@ -92,6 +92,16 @@ v1::Scene LoadScene(const Folders& folders, const std::string& name) {
   return scene;
 }
 
+void ChangeConfig(const std::string& text, v1::Scene* scene) {
+  const google::protobuf::LogSilencer silent;  // the error below says it
+  google::protobuf::TextFormat::Parser parser;
+  if (!parser.MergeFromString(text, scene->mutable_config())) {
+    throw std::invalid_argument("--config: \"" + text +
+                                "\" is not protobuf text of a configuration; example: "
+                                "'time_budget_us: 100'");
+  }
+}
+
 std::string ListScenes(const Folders& folders) {
   std::string text;
   for (const fs::path& path : ScenePaths(folders)) {

@@ -30,6 +30,10 @@ class NoSuchScene : public std::runtime_error {
 /// its data is not there.
 v1::Scene LoadScene(const Folders& folders, const std::string& name);
 
+/// Sets fields of the service's configuration over the scene's own. Throws std::invalid_argument if
+/// `text` is not the protobuf text of some.
+void ChangeConfig(const std::string& text, v1::Scene* scene);
+
 /// "name  title" of every scene, one a line, with why it is not offered where it is not.
 std::string ListScenes(const Folders& folders);
 

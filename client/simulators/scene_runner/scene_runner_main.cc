@@ -37,6 +37,9 @@ int main(int argc, char** argv) {
   app.add_option("--seconds", options.seconds, "Simulated length; default: as the scene says")
       ->check(Finite(kSecondsMax, false));
   app.add_flag("--real-time", options.real_time, "With the wall clock instead of lock-step");
+  app.add_option("--config", options.config,
+                 "Fields of the service's configuration over the scene's own, as protobuf text: "
+                 "'time_budget_us: 100'");
   app.add_flag("--every-event", options.every_event,
                "Print every possible, dismissed and withdrawn event");
   app.add_option("--json", options.json, "Write the report (v1::RunReport) to this file");
@@ -60,6 +63,9 @@ int main(int argc, char** argv) {
     }
     return Runner(options).Run();
   } catch (const NoSuchScene& error) {
+    std::fprintf(stderr, "scene-runner: %s\n", error.what());
+    return kExitUsage;
+  } catch (const std::invalid_argument& error) {
     std::fprintf(stderr, "scene-runner: %s\n", error.what());
     return kExitUsage;
   } catch (const std::exception& error) {

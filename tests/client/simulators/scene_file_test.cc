@@ -72,6 +72,17 @@ TEST_F(SceneFileTest, AnUnknownSceneNamesThoseThereAre) {
   }
 }
 
+TEST(ChangeConfig, SetsFieldsOverTheScenesOwn) {
+  v1::Scene scene;
+  scene.mutable_config()->set_agents_max(7);
+  scene.mutable_config()->set_time_budget_us(2000);
+  ChangeConfig("time_budget_us: 100 clock { skew_max_s: 0.25 }", &scene);
+  EXPECT_EQ(scene.config().agents_max(), 7u);
+  EXPECT_EQ(scene.config().time_budget_us(), 100);
+  EXPECT_EQ(scene.config().clock().skew_max_s(), 0.25);
+  EXPECT_THROW(ChangeConfig("time_budgte_us: 100", &scene), std::invalid_argument);
+}
+
 TEST(Substitute, ReplacesKnownNamesOnly) {
   EXPECT_EQ(Substitute("${A}/x${B}", {{"A", "1"}, {"B", "2"}}), "1/x2");
   EXPECT_THROW(Substitute("${C}", {{"A", "1"}}), std::runtime_error);

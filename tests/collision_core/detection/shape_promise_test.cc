@@ -1,0 +1,230 @@
+// Goal:   what the detector promises of two shapes holds for every motion within their bounds, however far it looks
+//         ahead; directions of contact are those of the true approach, or not told.
+// Method: two bodies that move and turn as hard as they may, towards each other and away; the true first contact in
+//         long double, by steps that no motion can outrun. Every clearance and every event is held against it.
+#include <gtest/gtest.h>
+
+#include "collision_core/detection/detector.h"
+#include "tests/collision_core/detection/line.h"
+#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "tests/support/meshes.h"
+
+namespace collision {
+namespace {
+
+constexpr double kEnd = 4;
+
+struct Ship {
+  AgentDeclaration declaration;
+  TrueMotion motion;
+  int states_per_second = 64;
+};
+
+std::shared_ptr<const Shape> RandomShape(Random& random) {
+  static const std::shared_ptr<const Shape> shapes[] = {
+      Shape::Build(LShape()), Shape::Build(Rod(2, 0.1)), Shape::Build(Cube(0.7)),
+      Shape::Build(Sheet(1, 2)), nullptr};
+  return shapes[random.Below(5)];
+}
+
+Ship RandomShip(Random& random) {
+  Ship ship;
+  AgentDeclaration& declared = ship.declaration;
+  declared.shape = RandomShape(random);
+  declared.radius = declared.shape ? declared.shape->facts().radius : 0.8;
+  declared.acceleration_max = random.Chance(0.3) ? 0 : random.LogUniform(0.05, 4);
+  declared.angular_acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(0.05, 2);
+  ship.states_per_second = 1 << random.Below(7);
+  ship.motion.start.q = RandomTurn(random);
+  if (random.Chance(0.8)) ship.motion.start.w = random.LogUniform(0.05, 2) * RandomUnit(random);
+  return ship;
+}
+
+// As hard as allowed, most often towards where the other one is.
+std::vector<TrueMotion::Piece> Pieces(Random& random, const AgentDeclaration& declared,
+                                      const Vector& towards) {
+  std::vector<TrueMotion::Piece> pieces;
+  for (double at = 0; at < kEnd;) {
+    at = std::min(kEnd, at + random.LogUniform(0.25, 2));
+    const double M = (1 - 1e-9) * declared.acceleration_max;
+    const double alpha = (1 - 1e-9) * declared.angular_acceleration_max;
+    const Vector a = random.Chance(0.6) ? towards : RandomUnit(random);
+    pieces.push_back({at, M * a, alpha * RandomUnit(random)});
+  }
+  return pieces;
+}
+
+struct Encounter {
+  Ship ships[2];
+
+  TrueBody Body(int i, Real t) const {
+    const AgentDeclaration& declared = ships[i].declaration;
+    return {declared.shape.get(), declared.radius, ships[i].motion.At(t)};
+  }
+  Real Distance(Real t) const { return SolidDistance(Body(0, t), Body(1, t)); }
+
+  // No two points move faster relative to each other.
+  Real SpeedMax() const {
+    Real speed = 0;
+    for (const Ship& ship : ships) {
+      const AgentDeclaration& declared = ship.declaration;
+      const TruePose& start = ship.motion.start;
+      speed += start.v.norm() + kEnd * declared.acceleration_max +
+               (start.w.norm() + kEnd * declared.angular_acceleration_max) * declared.radius;
+    }
+    return speed;
+  }
+
+  // Of the first contact: apart up to `free`, together at `touching`; infinity: there is none.
+  struct First {
+    double free = kInfinity, touching = kInfinity;
+  };
+  First FirstContact() const {
+    const Real speed = SpeedMax();
+    Real t = 0;
+    while (t <= kEnd) {
+      const Real distance = Distance(t);
+      if (distance == 0) return {static_cast<double>(t - 1e-4L), static_cast<double>(t)};
+      t += std::max<Real>(distance / speed, 1e-5L);
+    }
+    return {};
+  }
+};
+
+Encounter RandomEncounter(Random& random) {
+  Encounter met;
+  for (Ship& ship : met.ships) ship = RandomShip(random);
+  if (!met.ships[0].declaration.shape && !met.ships[1].declaration.shape) {
+    met.ships[0].declaration.shape = Shape::Build(LShape());
+    met.ships[0].declaration.radius = 1.6;
+  }
+  const double reach = met.ships[0].declaration.radius + met.ships[1].declaration.radius;
+  const Vector direction = RandomUnit(random);
+  // Within the balls, or outside of them.
+  met.ships[1].motion.start.p = reach * random.Uniform(0.4, 2.5) * direction;
+  const Vector aim = -direction + 0.5 * RandomUnit(random);
+  met.ships[1].motion.start.v = random.Uniform(0, 1.5) * reach * aim / 2;
+  met.ships[0].motion.pieces = Pieces(random, met.ships[0].declaration, direction);
+  met.ships[1].motion.pieces = Pieces(random, met.ships[1].declaration, -direction);
+  return met;
+}
+
+struct Outcome {
+  int contacts = 0, promised = 0, far_ahead = 0, confirmed = 0, directions = 0;
+};
+
+void CheckEvents(const std::vector<CollisionEvent>& events, const Encounter& met,
+                 const Encounter::First& first, Outcome* outcome) {
+  for (const CollisionEvent& event : events) {
+    const bool told = event.status == EventStatus::kConfirmed || event.status == EventStatus::kEnded;
+    if (!told || event.contact != 1 || event.began_before) continue;
+    ++outcome->confirmed;
+    EXPECT_GE(event.begin.latest, At(first.free));
+    // The separating direction of a contact that was just approached: along it the two are apart, about.
+    if (event.normal_error > 0.3 || event.begin.earliest < At(first.free - 0.02)) continue;
+    ++outcome->directions;
+    const Real t = first.free - 1e-3;
+    const TrueBody a = met.Body(0, t), b = met.Body(1, t);
+    const Real near = SolidDistance(a, b);
+    if (near == 0) continue;
+    const Vector n = event.normal.cast<Real>();
+    // To move apart along the direction told never brings them together.
+    EXPECT_GT(SolidDistance(a, b.Moved(0.02L * n)), near - 1e-3L);
+  }
+}
+
+void CheckEncounter(std::uint64_t seed, Outcome* outcome) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  Random random(seed);
+  const Encounter met = RandomEncounter(random);
+  if (met.Distance(0) == 0) return;
+  const Encounter::First first = met.FirstContact();
+  outcome->contacts += first.touching < kInfinity;
+  DetectorOptions options;
+  if (random.Chance(0.4)) options.work_units_per_turn = random.Below(4000);
+  Detector detector(options);
+  std::vector<CollisionEvent> events;
+  for (int tick = 0; tick <= 64 * kEnd; ++tick) {
+    const double now = tick / 64.0;
+    for (int i = 0; i < 2; ++i) {
+      const Ship& ship = met.ships[i];
+      const AgentId id = Id(static_cast<std::uint32_t>(i));
+      if (tick % (64 / ship.states_per_second) == 0) {
+        const MotionState state = BoundAt(ship.motion, now, ship.declaration).state;
+        if (tick == 0) {
+          detector.Admit(id, ship.declaration, state, At(0));
+        } else {
+          EXPECT_EQ(detector.Update(id, state, At(now)), UpdateOutcome::kKept);
+        }
+      }
+      detector.Hear(id, At(now));
+    }
+    detector.Advance(At(now));
+    events.insert(events.end(), detector.events().begin(), detector.events().end());
+    if (now >= first.free) continue;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+      const AgentClearance clearance = *detector.ClearanceOf(Id(i));
+      EXPECT_FALSE(clearance.in_contact) << now;
+      ++outcome->promised;
+      outcome->far_ahead += !clearance.clear_until.is_never() && clearance.clear_until > At(now + 0.2);
+      if (first.touching == kInfinity) continue;
+      EXPECT_LE(clearance.clear_until, At(first.touching)) << now;
+    }
+  }
+  if (first.touching < kEnd - 0.1) {
+    const bool covered = std::any_of(events.begin(), events.end(), [&](const CollisionEvent& event) {
+      return event.status != EventStatus::kDismissed && event.begin.earliest <= At(first.touching);
+    });
+    EXPECT_TRUE(covered);
+  }
+  CheckEvents(events, met, first, outcome);
+}
+
+TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) {
+  Outcome outcome;
+  for (std::uint64_t seed = 1; seed <= 80 && !HasFailure(); ++seed) CheckEncounter(seed, &outcome);
+  EXPECT_GT(outcome.contacts, 25);
+  EXPECT_GT(outcome.confirmed, 20);
+  EXPECT_GT(outcome.promised, 2000);
+  // Looking ahead is of use.
+  EXPECT_GT(outcome.far_ahead, outcome.promised / 4);
+  EXPECT_GT(outcome.directions, 5);
+}
+
+// The declaration changes between two states, and the first state under the new one is followed by contact whose
+// direction cannot be told from that state on: nor can it from the segment before, of which only balls are known.
+TEST(DetectorShapePromise, NoDirectionFromBeforeAShapeWasKnown) {
+  const auto cube = Shape::Build(Cube(0.5));
+  for (const bool other_is_ball : {true, false}) {
+    Detector detector({});
+    AgentDeclaration still{.radius = 1, .acceleration_max = 0};
+    if (!other_is_ball) still.shape = cube;
+    AgentDeclaration mover{.radius = 1, .acceleration_max = 0.1};
+    detector.Admit(Id(1), still, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+    detector.Admit(Id(2), mover, State(0, {5, 0.3, 0}, {-1, 0, 0}), At(0));
+    const auto tell = [&](double t) {
+      detector.Update(Id(1), State(t, {0, 0, 0}, {0, 0, 0}), At(t));
+      detector.Update(Id(2), State(t, {5 - t, 0.3, 0}, {-1, 0, 0}), At(t));
+      detector.Hear(Id(1), At(t));
+      detector.Hear(Id(2), At(t));
+      detector.Advance(At(t));
+    };
+    std::vector<CollisionEvent> events;
+    for (int tick = 1; tick <= 24; ++tick) {
+      const double t = 0.25 * tick;
+      // Nothing is known of how it turns: of its shape no direction can be told.
+      mover.shape = cube;
+      if (tick == 11) detector.Redeclare(Id(2), mover, At(t - 0.25));
+      tell(t);
+      events.insert(events.end(), detector.events().begin(), detector.events().end());
+    }
+    ASSERT_FALSE(events.empty());
+    for (const CollisionEvent& event : events) {
+      if (event.status == EventStatus::kPossible) continue;
+      EXPECT_LE((event.normal - Vector3d(1, 0, 0)).norm(), event.normal_error + 0.3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace collision
