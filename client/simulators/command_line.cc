@@ -40,6 +40,22 @@ CLI::Validator Finite(double greatest, bool zero) {
   return CLI::Validator(check, range);
 }
 
+int RunProgram(const char* program, const std::function<int()>& run) {
+  const auto fail = [program](const std::exception& error, int code) {
+    std::fprintf(stderr, "%s: %s\n", program, error.what());
+    return code;
+  };
+  try {
+    return run();
+  } catch (const RefusedError& error) {
+    return fail(error, kExitRefused);
+  } catch (const BadInput& error) {
+    return fail(error, kExitBadData);
+  } catch (const std::exception& error) {
+    return fail(error, kExitUnavailable);
+  }
+}
+
 std::optional<int> ParseCommandLine(CLI::App* app, int argc, char** argv) {
   try {
     app->parse(argc, argv);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <optional>
+#include <stdexcept>
 
 #include "client/simulators/pace.h"
 
@@ -27,6 +29,16 @@ CLI::Validator Finite(double greatest, bool zero);
 
 /// The longest run of a simulator, three years [s].
 inline constexpr double kRunSecondsMax = 1e8;
+
+/// Runs a program's `run`; what it throws is told with the program's name, and becomes its exit code:
+/// RefusedError kExitRefused, BadInput kExitBadData, all else kExitUnavailable.
+int RunProgram(const char* program, const std::function<int()>& run);
+
+/// Thrown where what the user gave is of no use.
+class BadInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
 
 /// Parses; std::nullopt: go on, else the exit code (0 after --help, 2 for a wrong option).
 std::optional<int> ParseCommandLine(CLI::App* app, int argc, char** argv);

@@ -82,19 +82,8 @@ int main(int argc, char** argv) {
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   if (app.count("--box") == 0) options.limits.box_m = BoxFor(options.first + options.drones);
   CatchStopSignals();
-  try {
+  return RunProgram("drone-ships", [&] {
     options.shape = LoadMesh(mesh);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "drone-ships: %s\n", error.what());
-    return kExitBadData;
-  }
-  try {
     return Run(simulator, options);
-  } catch (const RefusedError& error) {
-    std::fprintf(stderr, "drone-ships: %s\n", error.what());
-    return kExitRefused;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "drone-ships: %s\n", error.what());
-    return kExitUnavailable;
-  }
+  });
 }

@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
   AddSimulatorOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   CatchStopSignals();
-  try {
+  return RunProgram("drone-swarm", [&] {
     MotionLog log(simulator.motion_log);
     Pace pace(simulator);
     Swarm flight(swarm, &pace, &log);
@@ -52,12 +52,6 @@ int main(int argc, char** argv) {
     log.Close();
     std::printf("%zu bounces\n", flight.bounces());
     pace.CheckRefusals();
-    return kExitOk;
-  } catch (const RefusedError& error) {
-    std::fprintf(stderr, "drone-swarm: %s\n", error.what());
-    return kExitRefused;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "drone-swarm: %s\n", error.what());
-    return kExitUnavailable;
-  }
+    return static_cast<int>(kExitOk);
+  });
 }

@@ -36,7 +36,12 @@ void AddMeshOptions(CLI::App* app, MeshOptions* options) {
 std::shared_ptr<const Shape> LoadMesh(const MeshOptions& options, bool quiet) {
   if (options.file.empty()) return nullptr;
   MeshFileReport report;
-  auto shape = LoadShape(options.file, options.frame, &report);
+  std::shared_ptr<const Shape> shape;
+  try {
+    shape = LoadShape(options.file, options.frame, &report);
+  } catch (const std::exception& error) {
+    throw BadInput(error.what());
+  }
   if (quiet) return shape;
   std::printf("%s\n", report.Text(options.file).c_str());
   std::fflush(stdout);

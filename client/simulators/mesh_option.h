@@ -22,7 +22,7 @@ void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::stri
                          const std::string& centre, MeshFileOptions* options);
 
 /// The mesh of --mesh, null without one; prints what was read, unless `quiet`. Throws
-/// std::runtime_error, with the file's name, as LoadShape() does.
+/// BadInput, with the file's name, where LoadShape() throws.
 std::shared_ptr<const Shape> LoadMesh(const MeshOptions& options, bool quiet = false);
 
 }  // namespace collision::client

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -43,6 +44,12 @@ class Pace {
   /// grants nothing for 30 s, RefusedError if that is because it refused the agents, or if its
   /// clock is of the other kind.
   bool AdvanceTo(std::int64_t clock_ns);
+
+  /// The loop of a simulator that steps `rate_hz` times a second: `step(t0, t1, told)` computes the
+  /// motion from t0 to t1 and, where `told`, sets the states at t1: at every `state_every`-th step and
+  /// at the end. Ends there, or when `step` returns false or the program is asked to stop.
+  void Fly(double rate_hz, std::size_t state_every,
+           const std::function<bool(std::int64_t, std::int64_t, bool)>& step);
 
   /// With `linger` waits, receiving, until asked to stop.
   void Linger();

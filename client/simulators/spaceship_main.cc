@@ -86,19 +86,8 @@ int main(int argc, char** argv) {
   // A person flies at the pace of life.
   if (person && app.count("--speed") == 0) simulator.speed = 1;
   CatchStopSignals();
-  try {
+  return RunProgram("spaceship", [&] {
     options.shape = LoadMesh(mesh, person);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "spaceship: %s\n", error.what());
-    return kExitBadData;
-  }
-  try {
     return Run(simulator, options, person);
-  } catch (const RefusedError& error) {
-    std::fprintf(stderr, "spaceship: %s\n", error.what());
-    return kExitRefused;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "spaceship: %s\n", error.what());
-    return kExitUnavailable;
-  }
+  });
 }

@@ -59,15 +59,12 @@ void Swarm::StepTo(std::int64_t t0_ns, std::int64_t t1_ns, bool states) {
 }
 
 void Swarm::Fly() {
-  std::int64_t t0_ns = pace_->start_ns();
-  for (Member& member : members_) Stage(&member, t0_ns, false);
-  for (std::size_t step = 1; pace_->AdvanceTo(t0_ns) && t0_ns < pace_->end_ns(); ++step) {
-    const std::int64_t elapsed_ns =
-        std::llround(static_cast<double>(step) * 1e9 / options_.rate_hz);
-    const std::int64_t t1_ns = std::min(pace_->end_ns(), pace_->start_ns() + elapsed_ns);
-    StepTo(t0_ns, t1_ns, step % options_.state_every == 0 || t1_ns == pace_->end_ns());
-    t0_ns = t1_ns;
-  }
+  for (Member& member : members_) Stage(&member, pace_->start_ns(), false);
+  pace_->Fly(options_.rate_hz, options_.state_every,
+             [this](std::int64_t t0_ns, std::int64_t t1_ns, bool told) {
+               StepTo(t0_ns, t1_ns, told);
+               return true;
+             });
   pace_->Linger();
 }
 

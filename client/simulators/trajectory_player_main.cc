@@ -87,20 +87,13 @@ void CheckAgents(const Options& options, const CsvRows& file) {
   std::fprintf(stderr, "trajectory-player: %s, and are not told\n", what.c_str());
 }
 
-// Each agent has the mesh, within the ball that was asked for or in the smallest one. False: it is
-// not fit, which has been said.
-bool TakeMesh(Options* options) {
-  try {
-    options->player.shape = LoadMesh(options->mesh, options->quiet);
-  } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "trajectory-player: %s\n", error.what());
-    return false;
-  }
+// Each agent has the mesh, within the ball that was asked for or in the smallest one.
+void TakeMesh(Options* options) {
+  options->player.shape = LoadMesh(options->mesh, options->quiet);
   const bool radius_given = options->player.radius_m >= 0;
   if (options->player.shape && !radius_given) {
     options->player.radius_m = options->player.shape->radius_m();
   }
-  return true;
 }
 
 int Run(Options options) {
@@ -115,7 +108,7 @@ int Run(Options options) {
     return kExitNoInput;
   }
   const CsvRows file = ReadCsv(stream, options.file);
-  if (!TakeMesh(&options)) return kExitBadData;
+  TakeMesh(&options);
   CheckAgents(options, file);
   if (options.simulator.seconds <= 0) options.simulator.seconds = FileSeconds(file);
   MotionLog log(options.simulator.motion_log);
@@ -165,19 +158,13 @@ int main(int argc, char** argv) {
     return kExitUsage;
   }
   CatchStopSignals();
-  try {
-    return Run(options);
-  } catch (const CsvError& error) {
-    std::fprintf(stderr, "trajectory-player: %s\n", error.what());
-    return kExitBadData;
-  } catch (const std::invalid_argument& error) {  // A state between two rows is out of range.
-    std::fprintf(stderr, "trajectory-player: %s: %s\n", options.file.c_str(), error.what());
-    return kExitBadData;
-  } catch (const RefusedError& error) {
-    std::fprintf(stderr, "trajectory-player: %s\n", error.what());
-    return kExitRefused;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "trajectory-player: %s\n", error.what());
-    return kExitUnavailable;
-  }
+  return RunProgram("trajectory-player", [&options]() -> int {
+    try {
+      return Run(options);
+    } catch (const CsvError& error) {
+      throw BadInput(error.what());
+    } catch (const std::invalid_argument& error) {  // A state between two rows is out of range.
+      throw BadInput(options.file + ": " + error.what());
+    }
+  });
 }

@@ -33,20 +33,20 @@ double Percent(std::size_t part, std::size_t whole) {
   return whole > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-bool IsOfShapes(const std::string& counter) {
-  for (const char* word : {"shape", "tree", "work_unit"}) {
-    if (counter.find(word) != std::string::npos) return true;
+unsigned long long CounterOf(const v1::RunReport& report, const char* name) {
+  for (const v1::Counter& counter : report.counters()) {
+    if (counter.name() == name) return counter.value();
   }
-  return false;
+  return 0;
 }
 
-// The service's own counts of shapes, trees and work.
-void CounterRows(std::string* text, const v1::RunReport& report) {
-  for (const v1::Counter& counter : report.counters()) {
-    if (!IsOfShapes(counter.name())) continue;
-    Row(text, "  %-30s %llu", counter.name().c_str(),
-        static_cast<unsigned long long>(counter.value()));
-  }
+// The service's own counts.
+void TreeRows(std::string* text, const v1::RunReport& report) {
+  Row(text, "  %-30s %llu shapes, %llu spheres, %.3g MB, built in %.3g s", "sphere trees",
+      CounterOf(report, "shapes"), CounterOf(report, "tree_nodes"),
+      static_cast<double>(CounterOf(report, "tree_bytes")) * 1e-6,
+      static_cast<double>(CounterOf(report, "tree_build_us")) * 1e-6);
+  Row(text, "  %-30s %llu", "work units, in all", CounterOf(report, "work_units"));
 }
 
 void ShapeRows(std::string* text, const v1::RunReport& report, const checker::Evidence& evidence) {
@@ -68,7 +68,7 @@ void ShapeRows(std::string* text, const v1::RunReport& report, const checker::Ev
   const v1::Quantiles& work = report.work_units();
   Row(text, "  %-30s p50 %.0f, p99 %.0f, max %.0f (%llu)", "work units, of a closed event",
       work.p50(), work.p99(), work.max(), static_cast<unsigned long long>(work.count()));
-  CounterRows(text, report);
+  TreeRows(text, report);
 }
 
 void RatioRows(std::string* text, const v1::RunReport& report) {

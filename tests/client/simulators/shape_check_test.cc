@@ -281,7 +281,7 @@ TEST_F(ShapeCheckTest, FiguresOfTheReport) {
   EXPECT_NE(table.find("100.0 % confirmed, 0.0 % undecided, 0.0 % dismissed (1)"),
             std::string::npos)
       << table;
-  EXPECT_NE(table.find("tree_nodes                     77"), std::string::npos) << table;
+  EXPECT_NE(table.find("0 shapes, 77 spheres"), std::string::npos) << table;
 
   for (AgentMotion& motion : motions_) motion.mesh = nullptr;
   const Evidence balls(motions_, observations_, facts_);
