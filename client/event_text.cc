@@ -114,6 +114,11 @@ std::string NormalText(const v1::CollisionEvent& event) {
          MetresText(degrees + 0.05, Rounding::kUp) + "°";
 }
 
+std::string LimitText(const v1::CollisionEvent& event) {
+  if (event.limited_by() == v1::LIMIT_NONE) return "";
+  return std::string(", limited by ") + Name(static_cast<EventLimit>(event.limited_by()));
+}
+
 /// What spheres have found out about shapes. Of balls the gap says all.
 std::string ShapesText(const v1::CollisionEvent& event) {
   std::string text;
@@ -125,8 +130,7 @@ std::string ShapesText(const v1::CollisionEvent& event) {
   }
   text += "  level " + std::to_string(event.level()) + ", " + std::to_string(event.work_units()) +
           " units";
-  if (event.limited_by() == v1::LIMIT_NONE) return text;
-  return text + ", limited by " + Name(static_cast<EventLimit>(event.limited_by()));
+  return text + LimitText(event);
 }
 
 std::string GapText(const v1::CollisionEvent& event) {
@@ -137,8 +141,11 @@ std::string GapText(const v1::CollisionEvent& event) {
   }
   const std::string upper = MetresText(event.separation_m().upper(), Rounding::kUp);
   if (event.separation_m().upper() <= 0) return "  gap ≤ " + upper + " m";
+  // Balls are limited by motion alone; shapes that were not looked at, or awaited, by something else.
+  const bool told =
+      event.limited_by() == v1::LIMIT_BUDGET || event.limited_by() == v1::LIMIT_GEOMETRY;
   return "  gap [" + MetresText(event.separation_m().lower(), Rounding::kDown) + ", " + upper +
-         "] m";
+         "] m" + (told ? LimitText(event) : "");
 }
 
 }  // namespace

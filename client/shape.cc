@@ -3,7 +3,6 @@
 #include <cstring>
 #include <stdexcept>
 #include <unordered_map>
-#include <utility>
 
 #include "client/validation.h"
 #include "collision_core/shape/triangle_mesh.h"

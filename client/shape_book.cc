@@ -1,7 +1,5 @@
 #include "client/shape_book.h"
 
-#include <algorithm>
-
 namespace collision::client {
 
 void ShapeBook::Add(const std::shared_ptr<const Shape>& shape, const Writer& write) {

@@ -3,7 +3,6 @@
 #include <Eigen/Dense>
 #include <assimp/Importer.hpp>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "client/mesh/reader.h"

@@ -1,6 +1,5 @@
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <vector>
 

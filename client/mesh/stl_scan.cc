@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cstring>
 
 #include "client/mesh/scan.h"
 #include "client/mesh/words.h"

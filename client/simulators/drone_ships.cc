@@ -1,6 +1,5 @@
 #include "client/simulators/drone_ships.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "client/shape.h"

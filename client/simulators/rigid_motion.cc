@@ -1,7 +1,5 @@
 #include "client/simulators/rigid_motion.h"
 
-#include <algorithm>
-
 namespace collision::client {
 namespace {
 

@@ -1,9 +1,7 @@
 // A ship as an agent of the world: what is told of it, and what is written down.
 #pragma once
 
-#include <memory>
 #include <optional>
-#include <string>
 
 #include "client/simulators/motion_log.h"
 #include "client/simulators/pace.h"

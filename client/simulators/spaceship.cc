@@ -1,7 +1,5 @@
 #include "client/simulators/spaceship.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "client/event_text.h"

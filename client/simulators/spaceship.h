@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "client/simulators/autopilot.h"
 #include "client/simulators/pace.h"

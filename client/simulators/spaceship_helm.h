@@ -1,7 +1,6 @@
 // What a person's keys do to a ship.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "client/simulators/spaceship_screen.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 

@@ -5,7 +5,6 @@
 #include <deque>
 #include <set>
 #include <string>
-#include <tuple>
 
 #include "client/event_hold.h"
 #include "client/monitor.h"

@@ -6,7 +6,6 @@
 
 #include <csignal>
 #include <cstdio>
-#include <cstring>
 #include <stdexcept>
 
 #include "client/simulators/radar.h"

@@ -8,6 +8,9 @@
 namespace collision {
 namespace {
 
+// To evaluate a contact when it is confirmed this part of a turn's work is allowed, beside what the turn took.
+constexpr std::uint64_t kEvaluationShare = 8;
+
 // A pair is dismissed only when it is this much further away than what is announced, so that pairs
 // that travel side by side do not come and go with every state.
 constexpr double kDismissFactor = 1.25;
@@ -24,12 +27,23 @@ bool Narrower(const TimeBracket& found, const TimeBracket& published) {
          kNarrowerShare * SecondsBetween(published.earliest, published.latest).lower;
 }
 
-// `doubted`: the event tells of a doubt before this episode as well.
-void TakeBrackets(const ContactEpisode& episode, bool doubted, CollisionEvent* event) {
-  const Instant doubt = event->begin.earliest;
-  event->begin = episode.begin;
-  if (doubted) event->begin.earliest = std::min(doubt, episode.begin.earliest);
-  event->continuous = episode.continuous && !doubted;
+// A later look may tell less than an earlier one (its work was spent elsewhere). Both are certain, unless a bound
+// was broken since: what either tells of the contact holds.
+void TakeBrackets(const ContactEpisode& episode, const PairRecord& pair, CollisionEvent* event) {
+  TimeBracket begin = episode.begin;
+  Instant end = episode.end.earliest;
+  if (event->status == EventStatus::kConfirmed && !pair.broken) {
+    // What was certain of a later contact says nothing of where this one ends.
+    const bool same = event->begin.latest <= episode.end.latest;
+    if (same && event->continuous) end = std::max(end, event->end.earliest);
+    begin.latest = std::min(begin.latest, event->begin.latest);
+    begin.earliest = std::min(std::max(begin.earliest, event->begin.earliest), begin.latest);
+  }
+  // The event tells of a doubt before this contact as well.
+  if (pair.doubted) begin.earliest = std::min(event->begin.earliest, episode.begin.earliest);
+  event->begin = begin;
+  event->end.earliest = std::min(end, episode.end.latest);
+  event->continuous = episode.continuous && !pair.doubted;
 }
 
 double SecondsLeft(Instant now, Instant t) {
@@ -60,7 +74,12 @@ bool Announcer::Report(const AgentRecord& lower, const AgentRecord& higher, std:
 
   // What is not settled yet may hold several episodes; the event tells of the first, until that is settled.
   if (!preview.finished().empty()) {
-    if (preview.finished().front().contact) Confirm(subject, preview.finished().front());
+    const ContactEpisode& first = preview.finished().front();
+    if (first.contact) {
+      Confirm(subject, first);
+    } else if (!pair.announced && !last) {
+      Open(subject, first.begin.earliest, first.began_before);
+    }
     return true;
   }
   if (preview.in_contact()) {
@@ -89,6 +108,12 @@ void Announcer::Leave(const AgentRecord& lower, const AgentRecord& higher, std::
   if (pair.event.status == EventStatus::kConfirmed) {
     if (gone) pair.event.end.latest = std::max(now_, pair.event.end.earliest);
     Emit(subject, EventStatus::kEnded);
+  } else if (!pair.tracker.free()) {
+    // What was heard of the two does not exclude that they touched.
+    const ContactEpisode& open = pair.tracker.episode();
+    pair.event.begin = pair.event.end = {open.begin.earliest, std::max(now_, open.begin.earliest)};
+    Evaluate(subject, open.nearest, open.normal);
+    Emit(subject, EventStatus::kUndecided);
   } else {
     Emit(subject, EventStatus::kWithdrawn);
   }
@@ -99,8 +124,9 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
   CollisionEvent& event = subject.pair.event;
   if (episode.contact) {
     Confirm(subject, episode);
-    TakeBrackets(episode, subject.pair.doubted, &event);
-    event.end = episode.end;
+    TakeBrackets(episode, subject.pair, &event);
+    event.end.latest = episode.end.latest;
+    if (episode.exhausted) event.limited_by = EventLimit::kBudget;
     Emit(subject, EventStatus::kEnded);
   } else if (subject.pair.announced && event.status == EventStatus::kConfirmed) {
     if (episode.end.latest <= event.begin.latest) {
@@ -119,6 +145,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     event.begin = episode.begin;
     event.end = episode.end;
     Evaluate(subject, episode.nearest, episode.normal);
+    if (episode.exhausted) event.limited_by = EventLimit::kBudget;
     Emit(subject, EventStatus::kUndecided);
   }
   subject.pair.announced = false;
@@ -147,14 +174,14 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   if (!subject.pair.announced) Open(subject, episode.begin.earliest, episode.began_before);
   CollisionEvent& event = subject.pair.event;
   if (event.status == EventStatus::kConfirmed && !Narrower(episode.begin, event.begin)) return;
-  TakeBrackets(episode, subject.pair.doubted, &event);
-  event.end.earliest = episode.end.earliest;
+  TakeBrackets(episode, subject.pair, &event);
   event.began_before = episode.began_before;
   const Instant at = episode.begin.latest;
-  Work work(options_.work_units_per_turn);
+  Work work(options_.work_units_per_turn / kEvaluationShare);
   const History& lower = subject.lower.history;
   const History& higher = subject.higher.history;
   Evaluate(subject, {at, ProximityOf(lower, higher, at, &work)}, episode.normal);
+  if (episode.exhausted) event.limited_by = EventLimit::kBudget;
   subject.pair.work += work.spent();
   counters_->work_units += work.spent();
   Emit(subject, EventStatus::kConfirmed);
@@ -163,7 +190,7 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
 void Announcer::Open(const Subject& subject, Instant free_until, bool began_before) {
   PairRecord& pair = subject.pair;
   pair.announced = true;
-  pair.doubted = false;
+  pair.doubted = pair.broken = false;
   pair.work = 0;
   pair.event = CollisionEvent{};
   pair.event.lower = subject.lower.id;

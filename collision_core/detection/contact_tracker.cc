@@ -22,12 +22,12 @@ void ContactTracker::RetractFree(Instant until, bool began_before) {
   began_before_ |= began_before;
 }
 
-void ContactTracker::Open(Instant free_until) {
+void ContactTracker::Open(Instant free_until, const ContactNormal& normal) {
   open_ = true;
   episode_ = ContactEpisode{};
   episode_.begin.earliest = free_until;
   episode_.began_before = began_before_;
-  episode_.normal = normal_;
+  episode_.normal = normal;
   began_before_ = false;
 }
 
@@ -74,9 +74,9 @@ void ContactTracker::Apply(const SegmentVerdict& verdict, Instant to, const Near
   at_ = to;
   if (free_at_start) began_before_ = false;
   if (open_ && free_at_start) Close(from);
-  if (!open_) normal_ = normal;
   if (free_throughout) return;
-  if (!open_) Open(std::min(free_until, to));
+  if (!open_) Open(std::min(free_until, to), normal);
+  episode_.exhausted |= nearest.exhausted;
   if (!nearest.at.is_never() &&
       (episode_.nearest.at.is_never() ||
        nearest.found.separation.upper < episode_.nearest.found.separation.upper)) {

@@ -12,6 +12,7 @@ namespace collision {
 struct Nearest {
   Instant at = Instant::Never();  ///< Never(): none.
   Proximity found;
+  bool exhausted = false;  ///< For want of work something was not looked at.
 };
 
 /// One stretch of time in which a pair was not certified free.
@@ -22,6 +23,7 @@ struct ContactEpisode {
       end;  ///< {contact certified up to, first certified freedom}; latest open until it ends.
   bool continuous = true;
   bool began_before = false;
+  bool exhausted = false;  ///< For want of work something was not looked at.
   /// Where, of the instants looked at, the surfaces were certified to be nearest.
   Nearest nearest;
   /// Of shapes: how they came near each other.
@@ -63,7 +65,7 @@ class ContactTracker {
   const std::vector<ContactEpisode>& finished() const { return finished_; }
 
  private:
-  void Open(Instant free_until);
+  void Open(Instant free_until, const ContactNormal& normal);
   void Close(Instant free_from);
   void Touch(const SegmentVerdict& verdict, Instant from, Instant to);
 
@@ -72,7 +74,6 @@ class ContactTracker {
   bool began_before_;
   Instant contact_until_ = Instant::Always();  // contact certified without a gap up to here
   ContactEpisode episode_;
-  ContactNormal normal_;  // the last that was known
   std::vector<ContactEpisode> finished_;
 };
 

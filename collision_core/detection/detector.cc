@@ -134,7 +134,10 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionSt
   record.void_from = before;
   Renew(agent, state.stamp, ClearanceCause::kBreach, effective_from);
   // Near partners are judged again from the last honest state on: what lies between is unknown.
-  for (const std::uint32_t slot : record.pairs) pairs_[slot].tracker.RetractFree(before, false);
+  for (const std::uint32_t slot : record.pairs) {
+    pairs_[slot].tracker.RetractFree(before, false);
+    pairs_[slot].broken = true;
+  }
   return UpdateOutcome::kBreached;
 }
 
@@ -283,6 +286,19 @@ Instant Detector::Implementation::SettledUntil(const AgentRecord& agent) const {
   return std::max(agent.stamp(), std::min(agent.heard, AddRoundedDown(now_, -patience)));
 }
 
+// States may reach beyond now: then contacts that have not begun yet are known, and their ends.
+void Detector::Implementation::NoteAhead(const ContactTracker& preview, PairRecord* pair) const {
+  if (pair->ahead_until <= now_) pair->ahead_from = pair->ahead_until = Instant::Never();
+  for (const std::vector<ContactEpisode>* episodes :
+       {&pair->tracker.finished(), &preview.finished()}) {
+    for (const ContactEpisode& episode : *episodes) {
+      if (episode.end.latest <= now_ || pair->ahead_from <= episode.begin.earliest) continue;
+      pair->ahead_from = episode.begin.earliest;
+      pair->ahead_until = episode.end.latest;
+    }
+  }
+}
+
 // `last`: no more states will come, so that everything known is settled.
 void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   PairRecord& pair = pairs_[slot];
@@ -338,6 +354,7 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   }
   pair.work += work.spent();
   counters_.work_units += work.spent();
+  NoteAhead(preview, &pair);
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
   if (!announcer_.Report(a, b, slot, preview, last, &pairs_)) Untrack(slot);

@@ -267,6 +267,10 @@ EarliestAnswer Detector::Implementation::Earliest() {
     // time than others), the pair must be certified free until there.
     const Instant known_from = std::max(At(pair.lower).stamp(), At(pair.higher).stamp());
     const bool known = pair.clear_until >= known_from;
+    // States that lie ahead may tell of a contact that begins and ends before them.
+    if (!pair.ahead_from.is_never() && pair.ahead_until > now_) {
+      offer(pair.lower, pair.higher, std::max(now_, pair.ahead_from));
+    }
     // Where balls may overlap, their shapes may be certified apart for longer.
     const Instant earliest = std::max(pair.earliest, known ? pair.clear_until : Instant::Always());
     offer(pair.lower, pair.higher,

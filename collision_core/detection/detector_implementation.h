@@ -67,6 +67,7 @@ class Detector::Implementation {
   // Tracked pairs.
   void TurnAll();
   void Turn(std::uint32_t slot, bool last);
+  void NoteAhead(const ContactTracker& preview, PairRecord* pair) const;
   Instant SettledUntil(const AgentRecord& agent) const;
   bool Tracked(const AgentRecord& agent, std::uint32_t partner) const;
   void Track(std::uint32_t a, std::uint32_t b, Instant free_until, bool began_before);

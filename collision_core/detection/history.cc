@@ -82,7 +82,9 @@ Instant History::NextCutAfter(Instant t) const {
 
 Instant History::LastStampBefore(Instant t) const {
   for (std::size_t i = samples_.size(); i-- > 0;) {
-    if (samples_[i].bound.state.stamp < t) return samples_[i].bound.state.stamp;
+    const Instant stamp = samples_[i].bound.state.stamp;
+    if (stamp < t) return stamp;
+    if (stamp == t && samples_[i].link != Link::kFollows) break;
   }
   return Instant::Never();
 }

@@ -40,7 +40,8 @@ class History {
   /// skew about a jump. Never() if there is none.
   Instant NextCutAfter(Instant t) const;
 
-  /// The last stamp earlier than `t`; Never() if there is none.
+  /// The last stamp earlier than `t` from which the motion went on to `t`; Never() if there is none, or a jump or a
+  /// breach ends at `t`.
   Instant LastStampBefore(Instant t) const;
 
   /// The sample in force at `t`, if every later one follows from it; else nullptr.

@@ -40,12 +40,16 @@ Nearest AwaitedNearest(Nearest nearest) {
 }
 
 // They may touch as soon as the segment begins: then the direction is that of the last state before,
-// whose pose is known better than any other's.
+// whose pose is known better than any other's. None where a jump lies between, or where a shape was not
+// known then.
 ContactNormal NormalBefore(const History& a, const History& b, Instant from, Work* work) {
   const Instant of_a = a.LastStampBefore(from), of_b = b.LastStampBefore(from);
   if (of_a.is_never() || of_b.is_never()) return {};
   const Instant before = std::max(of_a, of_b);
-  return NormalAt(a.Over(before, from), b.Over(before, from), 0, work);
+  const Instant to = std::min({from, a.NextCutAfter(before), b.NextCutAfter(before)});
+  const BodySegment body_a = a.Over(before, to), body_b = b.Over(before, to);
+  if (body_a.awaited || body_b.awaited || (body_a.is_ball() && body_b.is_ball())) return {};
+  return NormalAt(body_a, body_b, 0, work);
 }
 
 void JudgeOne(const History& history_a, const History& history_b, Instant from, Instant to,
@@ -72,7 +76,8 @@ void JudgeOne(const History& history_a, const History& history_b, Instant from, 
         if (before.known && (!normal.known || before.error < normal.error)) normal = before;
       }
       if (verdict.looked) {
-        nearest = {std::min(AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest};
+        nearest = {std::min(AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest,
+                   verdict.exhausted};
       }
     }
   }

@@ -27,6 +27,10 @@ struct PairRecord {
   bool in_contact = false;
   bool announced = false;  ///< `event` is open and was published.
   bool doubted = false;    ///< It tells of a doubt that lies before its contact, and apart from it.
+  bool broken = false;     ///< A bound was broken since it was opened: what it told may be void.
+  /// A contact, or a doubt, that is heard of but lies after `now`: [from, until].
+  Instant ahead_from = Instant::Never();
+  Instant ahead_until = Instant::Never();
   CollisionEvent event{};  ///< The last revision published.
   std::uint64_t work = 0;  ///< Segments and instants judged since the contact's number was given.
 };

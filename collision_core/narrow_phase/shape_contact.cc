@@ -152,7 +152,7 @@ class Judgement {
       if (!sweep.known) return at;
       const double free = std::min(span, sweep.touch.seconds);
       // The insides need to be asked once: later they are apart continuously.
-      if (sweeps == 0 && free > 0 && !motion_.NeitherInside(sweep.pose)) {
+      if (sweeps == 0 && sweep.touch.seconds > 0 && !motion_.NeitherInside(sweep.pose)) {
         nested_ = true;
         return at;
       }
@@ -342,6 +342,11 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
   Judgement judgement(a, b, duration, work);
   ShapeVerdict verdict;
   SegmentVerdict& times = verdict.times;
+  if (balls.free_until == kInfinity || balls.free_from == -kInfinity) {
+    times.free_until = kInfinity;
+    times.free_from = -kInfinity;
+    return verdict;
+  }
   const double from = std::max(0.0, balls.free_until);
   times.free_until = [&] {
     const WorkShare share(kForwardShare, work);
@@ -373,6 +378,7 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
   }
   judgement.FindContact(std::max(0.0, times.free_until), times.free_from, &times);
   judgement.LookOnce(std::max(0.0, times.free_until));
+  verdict.exhausted = judgement.exhausted();
   if (judgement.nearest()) {
     verdict.looked = true;
     verdict.nearest_at = judgement.nearest()->at;

@@ -19,6 +19,7 @@ struct ShapeVerdict {
   ContactNormal normal;  ///< Of the last instant before `times.free_until` that tells it well.
   /// Of the instants looked at, the one with the least upper bound of the distance.
   bool looked = false;
+  bool exhausted = false;  ///< For want of work something was not looked at.
   double nearest_at = 0;
   Proximity nearest;
 };
@@ -34,7 +35,8 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
                          const SegmentVerdict& balls, Work* work);
 
 /// How far from `from` on the two stay apart for certain, up to `duration`; `from` itself if they may
-/// touch at once. +infinity: throughout, the end included.
+/// touch at once. +infinity: throughout, the end included. Like the others below it requires that one
+/// of the two has a shape and neither is awaited.
 double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double duration,
                  Work* work);
 

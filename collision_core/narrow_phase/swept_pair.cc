@@ -64,11 +64,14 @@ class Search {
       : a_(a), b_(b), swept_(swept), duration_(duration), work_(*work) {
     const RelativePose& pose = swept.pose;
     // All positions within the duration are sums of a few of these; compare RoundingOf() in
-    // separation.cc.
-    const double extent = a.reach() + b.reach() + pose.offset.cwiseAbs().sum() +
+    // separation.cc. The offset counts in what turns as well: a point of B is seen from B's
+    // reference point only after both were posed, each with its rounding. What is not known of the
+    // motion needs no share: where it is more than the bodies are apart, they may touch anyway.
+    const double offset = pose.offset.cwiseAbs().sum();
+    const double extent = a.reach() + b.reach() + offset +
                           duration * (swept.velocity.cwiseAbs().sum() +
                                       a.turning_reach() * swept.spin_A.cwiseAbs().sum() +
-                                      b.turning_reach() * swept.spin_B.cwiseAbs().sum());
+                                      (b.turning_reach() + offset) * swept.spin_B.cwiseAbs().sum());
     // 1 + 2^-40 for its own rounding.
     fastest_ = (1 + 0x1p-40) * (swept.velocity.norm() + a.turning_reach() * swept.spin_A.norm() +
                                 b.turning_reach() * swept.spin_B.norm());
@@ -145,7 +148,11 @@ class Search {
     }
   }
 
-  // A triangle may stand in several leaves, and need be looked at once only: its time is the same.
+  // Triangles are taken whole: each may stand in several leaves, with a part of it in each, and two
+  // of them need be looked at once only. They do not touch before the time of this first pair of
+  // leaves, although it is that of their parts here only: pairs are opened in the order of their
+  // times (a child's is not before its parent's), so that the times of the other leaves, which hold
+  // the other parts, are not before this one.
   void OfferTriangles(const Candidate& pair, const SphereNode& a, const SphereNode& b) {
     boxes_of_b_.clear();
     if (b_.shape()) {

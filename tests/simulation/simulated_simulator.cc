@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "idl/identity.h"
+#include "idl/sha256.h"
 
 namespace collision::server {
 namespace {
@@ -30,7 +31,8 @@ v1::AgentDescription DescriptionOf(const std::string& simulator, std::uint32_t r
   wire.set_agent_name(simulator + "-" + std::to_string(slot));
   wire.set_radius_m(agent.radius);
   wire.set_acceleration_max_m_s2(agent.acceleration_max);
-  wire.set_angular_acceleration_max_rad_s2(-1);
+  wire.set_angular_acceleration_max_rad_s2(agent.shape_bytes.empty() ? -1 : 0);
+  if (!agent.shape_bytes.empty()) wire.set_shape_hash(Sha256(agent.shape_bytes));
   wire.set_group(1);
   wire.set_mask(~0u);
   return wire;
@@ -126,7 +128,22 @@ void SimulatedSimulator::PublishAt(std::int64_t clock_ns) {
   });
 }
 
+void SimulatedSimulator::WriteShape(const std::string& bytes) {
+  const std::string hash = Sha256(bytes);
+  if (bytes.empty() || !written_.insert(hash).second) return;
+  v1::Input input;
+  v1::ShapePart& part = *input.mutable_shape_part();
+  part.set_simulator_id(id_);
+  part.set_run(options_.run);
+  part.set_content_hash(hash);
+  part.set_parts(1);
+  part.set_total_bytes(bytes.size());
+  part.set_bytes(bytes);
+  network_.Write(options_.sender, input);
+}
+
 void SimulatedSimulator::Describe(std::uint32_t slot) {
+  WriteShape(agents_[slot].shape_bytes);
   v1::Input input;
   *input.mutable_agent_description() =
       DescriptionOf(options_.name, options_.run, slot, agents_[slot]);

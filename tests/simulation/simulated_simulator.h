@@ -20,6 +20,7 @@ struct SimulatedAgent {
   double position_error = 0;
   std::int64_t from_ns = 0;                                          ///< Admitted then.
   std::int64_t until_ns = std::numeric_limits<std::int64_t>::max();  ///< Removed then.
+  std::string shape_bytes;  ///< As it travels; of one part. Empty: a ball. Shapes do not turn.
 };
 
 struct SimulatorOptions {
@@ -63,6 +64,7 @@ class SimulatedSimulator {
   void PublishAt(std::int64_t clock_ns);
   void Describe(std::uint32_t slot);
   void Remove(std::uint32_t slot);
+  void WriteShape(const std::string& bytes);
   void WriteChunks();
   void WriteClock();
   v1::AgentState StateOf(std::uint32_t slot);
@@ -73,6 +75,7 @@ class SimulatedSimulator {
   SimulatedNetwork& network_;
   std::set<std::int64_t> stops_;
   std::set<std::uint32_t> present_;
+  std::set<std::string> written_;                   ///< Hashes of shapes.
   std::map<std::uint32_t, std::uint64_t> awaited_;  ///< Slot -> sequence that must be acknowledged.
   std::int64_t clock_ns_ = 0;
   std::int64_t granted_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -1,6 +1,5 @@
 #include "client/simulators/checker/bodies.h"
 
-#include <limits>
 #include <utility>
 #include <vector>
 

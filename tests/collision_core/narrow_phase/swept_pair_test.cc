@@ -168,7 +168,8 @@ Count ExpectNeverLate(Wish wish, std::uint64_t first, int cases, std::uint64_t u
 }
 
 TEST(SweptPair, NeverLate) {
-  for (const Wish wish : {Wish{false, false}, Wish{true, false}, Wish{false, true}, Wish{true, true}}) {
+  for (const Wish wish :
+       {Wish{false, false}, Wish{true, false}, Wish{false, true}, Wish{true, true}}) {
     const Count count = ExpectNeverLate(wish, 1, 120, kPlenty);
     EXPECT_GT(count.touching, 30);
     EXPECT_GT(count.never, 10);
@@ -279,6 +280,30 @@ TEST(SweptPair, ExactPasses) {
   }
 }
 
+// Small bodies pass far off while what is not known of them grows: several tangents, each at a time at which the
+// uncertainty grows faster than before. Touch is where |offset + velocity h| = sizes + growth h².
+TEST(SweptPair, TangentsOfAPassWhileTheUncertaintyGrows) {
+  Case c;
+  c.a = BodyOf(Shape::Build(Cube(0.001)));
+  c.b = BodyOf(nullptr, 0.001);
+  c.duration = 3;
+  c.swept.velocity = {-10, 0, 0};
+  for (const double aside : {1.0, 3.0, 6.0, 9.0}) {
+    for (const double growth : {1.0, 4.0, 16.0}) {
+      c.swept.pose.offset = {10, aside, 0};
+      c.swept.translation = {0, 0, growth};
+      double apart = 0, touching = kInfinity;
+      for (double h = 0; h <= c.duration && touching == kInfinity; h += 1e-3) {
+        const double distance = (c.swept.pose.offset + h * c.swept.velocity).norm();
+        (distance > 0.002 + growth * h * h ? apart : touching) = h;
+      }
+      const FirstTouch touch = c.Touch();
+      EXPECT_LE(touch.seconds, touching) << aside << " " << growth;
+      EXPECT_GE(touch.seconds, apart - 0.05) << aside << " " << growth;
+    }
+  }
+}
+
 // The end of the duration belongs to it; nothing after it does.
 TEST(SweptPair, TheEndIncluded) {
   Case c;
@@ -306,7 +331,7 @@ TEST(SweptPair, OverflowIsNotFreedom) {
   c.swept.pose.offset = {5, 0, 0};
   c.duration = 1;
   for (const double speed : {1e150, 1e160, 1e200, 1e300}) {
-    c.swept.velocity = {speed, 0, 0};        // away from each other, but
+    c.swept.velocity = {speed, 0, 0};         // away from each other, but
     c.swept.translation = {0, 0, 2 * speed};  // uncertain by more
     EXPECT_LE(c.Touch().seconds, 0.51) << speed;
     c.swept.velocity = {-speed, 0, 0};
