@@ -20,7 +20,7 @@ struct SimulatedAgent {
   double position_error = 0;
   std::int64_t from_ns = 0;                                          ///< Admitted then.
   std::int64_t until_ns = std::numeric_limits<std::int64_t>::max();  ///< Removed then.
-  std::string shape_bytes;  ///< As it travels; of one part. Empty: a ball. Shapes do not turn.
+  std::string shape_bytes = {};  ///< As it travels; of one part. Empty: a ball. Shapes do not turn.
 };
 
 struct SimulatorOptions {
