@@ -34,6 +34,10 @@ void RequireOptions(const MeshFileOptions& options) {
     throw std::invalid_argument("unit_m: " + NumberText(options.unit_m) +
                                 ", allowed: a finite number > 0, one unit of the file in metres");
   }
+  if (!options.up) {
+    throw std::invalid_argument(
+        "up: not stated, allowed: the file's axis x, y or z that points up");
+  }
   for (const double value : options.reference_m) {
     if (std::abs(value) <= kRadiusMax) continue;
     throw std::invalid_argument("reference_m: " + NumberText(value) + ", allowed: within " +
@@ -112,7 +116,7 @@ Vector3 BoxCentre(const FilePolygons& polygons) {
 
 PolygonMesh InBodyFrame(FilePolygons polygons, const MeshFileOptions& options) {
   for (Vector3& p : polygons.vertices) {
-    p = InBodyAxes(p, options.up);
+    p = InBodyAxes(p, *options.up);
     for (double& x : p) x *= options.unit_m;
   }
   const Vector3 origin = options.centre ? BoxCentre(polygons) : options.reference_m;

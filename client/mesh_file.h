@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "client/shape.h"
@@ -16,10 +17,11 @@ inline constexpr std::size_t kMeshFileBytesMax = std::size_t{1} << 30;
 /// What a file does not say, or says in a way nobody reads: stated, never guessed. That holds for
 /// glTF as well, which is metres and y up by definition: unit 1, UpAxis::kY.
 struct MeshFileOptions {
-  double unit_m = 0;       ///< One unit of the file in metres, > 0; required.
-  UpAxis up = UpAxis::kZ;  ///< The file's axis that is the body's +z; the others follow cyclically.
-  Vector3 reference_m{};   ///< The reference point in the body's axes, after scaling.
-  bool centre = false;     ///< The reference point is the centre of the mesh's box instead.
+  double unit_m = 0;  ///< One unit of the file in metres, > 0; required.
+  /// The file's axis that is the body's +z; the others follow cyclically. Required.
+  std::optional<UpAxis> up = {};
+  Vector3 reference_m{};  ///< The reference point in the body's axes, after scaling.
+  bool centre = false;    ///< The reference point is the centre of the mesh's box instead.
 };
 
 /// What was read, for people.

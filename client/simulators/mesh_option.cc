@@ -18,7 +18,8 @@ void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::stri
   const auto set = [options](const std::string& axis) {
     options->up = axis == "x" ? UpAxis::kX : axis == "y" ? UpAxis::kY : UpAxis::kZ;
   };
-  app->add_option_function<std::string>(up, set, "The file's axis that points up; default: z")
+  app->add_option_function<std::string>(up, set,
+                                        "The file's axis that points up: nothing is guessed")
       ->check(CLI::IsMember({"x", "y", "z"}));
   app->add_flag(centre, options->centre,
                 "The reference point is the centre of the mesh's box, not the file's origin");
@@ -28,6 +29,7 @@ void AddMeshOptions(CLI::App* app, MeshOptions* options) {
   auto* mesh = app->add_option("--mesh", options->file, "OBJ, STL, PLY, glTF or GLB to fly");
   AddMeshFrameOptions(app, "--mesh-unit", "--mesh-up", "--mesh-centre", &options->frame);
   mesh->needs("--mesh-unit");
+  mesh->needs("--mesh-up");
   for (const char* name : {"--mesh-unit", "--mesh-up", "--mesh-centre"}) {
     app->get_option(name)->needs(mesh);
   }

@@ -14,7 +14,7 @@ struct MeshOptions {
   MeshFileOptions frame;
 };
 
-/// Adds --mesh FILE, --mesh-unit METRES (required with --mesh), --mesh-up x|y|z and --mesh-centre.
+/// Adds --mesh FILE, --mesh-unit METRES and --mesh-up x|y|z (both required with --mesh) and --mesh-centre.
 void AddMeshOptions(CLI::App* app, MeshOptions* options);
 
 /// Unit, up-axis and centre alone, under these names.

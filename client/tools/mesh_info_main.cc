@@ -41,6 +41,7 @@ int Main(int argc, char** argv) {
   app.add_option("file", file, "OBJ, STL, PLY, glTF or GLB")->required();
   AddMeshFrameOptions(&app, "--unit-m", "--up", "--centre", &options);
   app.get_option("--unit-m")->required();
+  app.get_option("--up")->required();
   app.footer(kFooter);
   try {
     app.parse(argc, argv);

@@ -40,7 +40,8 @@ struct AgentDeclaration {
   /// α >= |angular acceleration| [rad/s²], gyroscopic terms included; < 0: not declared, then
   /// nothing is known of the orientation between two states. Counts for shapes only.
   double angular_acceleration_max = -1;
-  std::shared_ptr<const Shape> shape = nullptr;  ///< Within the ball of `radius`; null: the ball itself.
+  std::shared_ptr<const Shape> shape =
+      nullptr;  ///< Within the ball of `radius`; null: the ball itself.
   /// Its shape is not known yet: somewhere within the ball, which then excludes contacts but
   /// confirms none. `shape` is null.
   bool shape_awaited = false;

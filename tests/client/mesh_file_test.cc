@@ -34,7 +34,7 @@ class MeshFileTest : public testing::Test {
   }
 
   std::shared_ptr<const Shape> Load(const std::string& name, const std::string& bytes,
-                                    MeshFileOptions options = {.unit_m = 1}) {
+                                    MeshFileOptions options = {.unit_m = 1, .up = UpAxis::kZ}) {
     return LoadShape(Write(name, bytes), options, &report_);
   }
 
@@ -42,7 +42,7 @@ class MeshFileTest : public testing::Test {
   std::string Refusal(const std::string& name, const std::string& bytes) {
     const std::string path = Write(name, bytes);
     try {
-      LoadShape(path, {.unit_m = 1}, nullptr);
+      LoadShape(path, {.unit_m = 1, .up = UpAxis::kZ}, nullptr);
     } catch (const std::runtime_error& error) {
       const std::string cause = error.what();
       EXPECT_EQ(cause.rfind(path + ": ", 0), 0u) << cause;
@@ -126,11 +126,12 @@ TEST_F(MeshFileTest, UnitAxisAndReferencePointAreThoseStated) {
     return std::array<Vector3, 2>{lower, upper};
   };
   using Sides = std::array<Vector3, 2>;
-  EXPECT_EQ(sides({.unit_m = 1}), (Sides{{{0, 0, 0}, {1, 2, 4}}}));
+  EXPECT_EQ(sides({.unit_m = 1, .up = UpAxis::kZ}), (Sides{{{0, 0, 0}, {1, 2, 4}}}));
   EXPECT_EQ(sides({.unit_m = 0.5, .up = UpAxis::kZ}), (Sides{{{0, 0, 0}, {0.5, 1, 2}}}));
   EXPECT_EQ(sides({.unit_m = 1, .up = UpAxis::kY}), (Sides{{{0, 0, 0}, {4, 1, 2}}}));
   EXPECT_EQ(sides({.unit_m = 1, .up = UpAxis::kX}), (Sides{{{0, 0, 0}, {2, 4, 1}}}));
-  EXPECT_EQ(sides({.unit_m = 1, .reference_m = {1, 2, 3}}), (Sides{{{-1, -2, -3}, {0, 0, 1}}}));
+  EXPECT_EQ(sides({.unit_m = 1, .up = UpAxis::kZ, .reference_m = {1, 2, 3}}),
+            (Sides{{{-1, -2, -3}, {0, 0, 1}}}));
   EXPECT_EQ(sides({.unit_m = 2, .up = UpAxis::kY, .centre = true}),
             (Sides{{{-4, -1, -2}, {4, 1, 2}}}));
   Write("cube.bin", CubeBuffer());
@@ -149,16 +150,20 @@ TEST_F(MeshFileTest, UnitAxisAndReferencePointAreThoseStated) {
 TEST_F(MeshFileTest, OptionsOutOfRangeAreNamed) {
   const std::string path = Write("cube.obj", CubeObj());
   for (const double unit : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(LoadShape(path, {.unit_m = unit}, nullptr), std::invalid_argument);
+    EXPECT_THROW(LoadShape(path, {.unit_m = unit, .up = UpAxis::kZ}, nullptr),
+                 std::invalid_argument);
   }
-  EXPECT_THROW(LoadShape(path, {.unit_m = 1, .reference_m = {std::nan(""), 0, 0}}, nullptr),
+  EXPECT_THROW(LoadShape(path, {.unit_m = 1}, nullptr), std::invalid_argument);
+  EXPECT_THROW(LoadShape(path, {.unit_m = 1, .up = UpAxis::kZ, .reference_m = {std::nan(""), 0, 0}},
+                         nullptr),
                std::invalid_argument);
 }
 
 TEST_F(MeshFileTest, AWrongUnitMakesAPointOrAPlanet) {
   const std::string path = Write("cube.obj", CubeObj());
   for (const double unit : {1e-300, 1e-9, 1e9, 1e300}) {
-    EXPECT_THROW(LoadShape(path, {.unit_m = unit}, nullptr), std::runtime_error) << unit;
+    EXPECT_THROW(LoadShape(path, {.unit_m = unit, .up = UpAxis::kZ}, nullptr), std::runtime_error)
+        << unit;
   }
 }
 
@@ -184,8 +189,9 @@ TEST_F(MeshFileTest, OnlyWhatTheSceneShowsIsRead) {
 }
 
 TEST_F(MeshFileTest, NoFileNoFormatNoBytes) {
-  EXPECT_THROW(LoadShape(folder_ / "none.obj", {.unit_m = 1}, nullptr), std::runtime_error);
-  EXPECT_THROW(LoadShape(folder_, {.unit_m = 1}, nullptr), std::runtime_error);
+  EXPECT_THROW(LoadShape(folder_ / "none.obj", {.unit_m = 1, .up = UpAxis::kZ}, nullptr),
+               std::runtime_error);
+  EXPECT_THROW(LoadShape(folder_, {.unit_m = 1, .up = UpAxis::kZ}, nullptr), std::runtime_error);
   ExpectRefusal("cube.fbx", CubeObj(), "format \".fbx\" is unknown, allowed: .obj");
   ExpectRefusal("cube", CubeObj(), "is unknown");
   EXPECT_EQ(Load("CUBE.OBJ", CubeObj())->triangles().indices.size(), 12u);
@@ -212,7 +218,7 @@ TEST_F(MeshFileTest, CutOffAnywhereIsRefused) {
   for (std::size_t length = 1; length + 8 < obj.size(); length += 3) {
     const std::string path = Write("cube.obj", obj.substr(0, length));
     try {
-      EXPECT_FALSE(LoadShape(path, {.unit_m = 1}, nullptr)->closed()) << length;
+      EXPECT_FALSE(LoadShape(path, {.unit_m = 1, .up = UpAxis::kZ}, nullptr)->closed()) << length;
     } catch (const std::runtime_error&) {
     }
   }

@@ -21,6 +21,7 @@ struct Face {
 std::shared_ptr<const Shape> Load(const std::string& name) {
   MeshFileOptions options;
   options.unit_m = 1;
+  options.up = UpAxis::kZ;
   MeshFileReport report;
   auto shape = LoadShape(std::string(COLLISION_SCENES_DIR) + "/" + name, options, &report);
   EXPECT_EQ(report.dropped, 0u);
