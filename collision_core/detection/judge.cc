@@ -7,9 +7,6 @@
 namespace collision {
 namespace {
 
-// With a greater error [rad] the direction of an earlier instant is asked as well.
-constexpr double kGoodNormal = 0.3;
-
 // Where two balls were certified to be nearest: looked for at the ends and where the centres' lines
 // are nearest.
 Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, double duration) {
@@ -70,8 +67,7 @@ void JudgeOne(const History& history_a, const History& history_b, Instant from, 
       const ShapeVerdict verdict = JudgeShapes(a, b, duration, times, work);
       times = verdict.times;
       normal = verdict.normal;
-      const bool told = normal.known && normal.error < kGoodNormal;
-      if (tracker->free() && times.free_until < duration && !told) {
+      if (tracker->free() && times.free_until < duration && !normal.tells()) {
         const ContactNormal before = NormalBefore(history_a, history_b, from, work);
         if (before.known && (!normal.known || before.error < normal.error)) normal = before;
       }

@@ -51,7 +51,6 @@ class Traversal {
     }
     const double unopened = heap_.empty() ? kInfinity : heap_.front().lower;
     look_.lower = std::min(resolved_lower_, unopened);
-    look_.resolved = resolved_lower_ <= unopened || heap_.front().resolved;
     if (look_.point_error == kInfinity) PointBetween();
     KeepShortest();
     return std::move(look_);
@@ -61,7 +60,6 @@ class Traversal {
   Look RunAgain(const Evidence& evidence) {
     LookAgainAt(evidence);
     look_.lower = -kInfinity;
-    look_.resolved = false;
     return std::move(look_);
   }
 

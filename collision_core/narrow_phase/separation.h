@@ -67,7 +67,6 @@ struct Look {
   double crossing_margin = -kInfinity;
   Evidence evidence;  ///< Of contact, where it is certain.
   std::uint32_t level = 0;
-  bool resolved = false;   ///< `lower` comes from triangles: looking further does not raise it.
   bool exhausted = false;  ///< The work allowed is spent.
 
   /// A point common to both where contact is certain, else half-way between them where they are

@@ -33,9 +33,6 @@ constexpr double kNormalBefore = 1e-3;
 // An instant whose pose is so many times better known is preferred, though it is earlier.
 constexpr double kMuchBetter = 16;
 
-// With a greater error [rad] an earlier instant is asked as well.
-constexpr double kGoodNormal = 0.3;
-
 // Contact is looked for from this share of the segment after the last certain freedom on, and when
 // it is found between two looks, so often half-way between them.
 constexpr double kFirstStep = 1e-4;
@@ -103,7 +100,7 @@ EventLimit LimitOf(const Instance& instance, double size) {
 }
 
 // Moved by so much along the line of their reference points, two bodies within balls of radii that
-// add up to `size` are apart (1 + 1e-12 and 1e-12 size cover the roundings).
+// add up to `size` are apart (1 ± 1e-12 cover the roundings).
 double DepthMax(const RelativePose& pose, double size) {
   const double off = pose.offset_error + pose.translation;
   return std::max(0.0, size * (1 + 1e-12) + off - pose.offset.norm() * (1 - 1e-12));
@@ -191,7 +188,7 @@ class Judgement {
     const double back = std::max(kNormalBefore * duration_, gap / motion_.SpeedAt(end));
     const double before = std::max(approach_->from, approach_->to - back);
     const ContactNormal near = NormalOf(motion_.LookAt(before, Goal::kNearest, leaves_));
-    if ((near.known && near.error < kGoodNormal) || before == approach_->from) return near;
+    if (near.tells() || before == approach_->from) return near;
     const ContactNormal far = NormalOf(motion_.LookAt(approach_->from, Goal::kNearest, leaves_));
     return far.known && (!near.known || far.error < near.error) ? far : near;
   }

@@ -7,19 +7,25 @@
 
 namespace collision {
 
+/// A direction that is known better than this tells whom to bounce where [rad].
+inline constexpr double kGoodNormal = 0.3;
+
 /// The direction of the shortest way between two surfaces, shortly before they may touch.
 struct ContactNormal {
   bool known = false;
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< As in Proximity.
   double error = 0;
+
+  /// Well enough; else an earlier instant is asked as well.
+  bool tells() const { return known && error < kGoodNormal; }
 };
 
 struct ShapeVerdict {
   SegmentVerdict times;
   ContactNormal normal;  ///< Of the last instant before `times.free_until` that tells it well.
+  bool exhausted = false;  ///< For want of work something was not looked at.
   /// Of the instants looked at, the one with the least upper bound of the distance.
   bool looked = false;
-  bool exhausted = false;  ///< For want of work something was not looked at.
   double nearest_at = 0;
   Proximity nearest;
 };
