@@ -16,7 +16,7 @@ namespace {
 
 const std::filesystem::path kRoot = COLLISION_SOURCE_DIR;
 constexpr const char* kDockerfile = "docker/Dockerfile";
-constexpr const char* kCompose = "compose.yaml";
+constexpr const char* kCompose = "docker/compose.yaml";
 
 /// What the first group of `pattern` matches, everywhere in `text`.
 std::vector<std::string> All(const std::string& text, const std::string& pattern) {
