@@ -22,7 +22,7 @@ struct ContactNormal {
 
 struct ShapeVerdict {
   SegmentVerdict times;
-  ContactNormal normal;  ///< Of the last instant before `times.free_until` that tells it well.
+  ContactNormal normal;    ///< Of the last instant before `times.free_until` that tells it well.
   bool exhausted = false;  ///< For want of work something was not looked at.
   /// Of the instants looked at, the one with the least upper bound of the distance.
   bool looked = false;
