@@ -61,8 +61,8 @@ void Detector::Implementation::AskAll() {
   }
   const Instant until = AddRoundedDown(now_, options_.announce_within);
   while (!queue_.empty() && queue_.top_key() <= until) Ask(queue_.top());
-  counters_.pair_queries += broad_phase_.pair_queries() - broad_queries_seen_;
-  broad_queries_seen_ = broad_phase_.pair_queries();
+  counters_.pair_queries += broad_phase_.work().pair_queries - broad_queries_seen_;
+  broad_queries_seen_ = broad_phase_.work().pair_queries;
 }
 
 bool Detector::Implementation::Tracked(const AgentRecord& agent, std::uint32_t partner) const {
@@ -87,8 +87,8 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
 
   std::vector<Meeting> meetings;
   const auto skip = [&](std::uint32_t partner) { return Tracked(record, partner); };
-  broad_phase_.Meetings(agent, std::min(now_, covered), renewed ? Instant::Never() : until, skip,
-                        &meetings);
+  broad_phase_.Meetings(agent, std::min(now_, covered), renewed ? Instant::Never() : until,
+                        Instant::Never(), skip, &meetings);
   Instant key = Instant::Never();
   for (const Meeting& meeting : meetings) {
     Instant when = meeting.time.instant();
