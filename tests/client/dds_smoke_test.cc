@@ -107,7 +107,8 @@ TEST_F(DdsSmokeTest, ASimulatorAServiceAndAMonitorMeet) {
   { const Agent gone = std::move(ball); }
   ASSERT_TRUE(Until([&] {
     service.Receive(milliseconds(10), 100, &inputs, nullptr);
-    return inputs.back().has_agent_removal();
+    return std::any_of(inputs.begin(), inputs.end(),
+                       [](const v1::Input& input) { return input.has_agent_removal(); });
   }));
   ASSERT_TRUE(Until([&] {
     monitor.Poll(milliseconds(10));
