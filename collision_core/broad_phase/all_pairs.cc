@@ -1,58 +1,69 @@
 #include "collision_core/broad_phase/all_pairs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace collision {
+namespace {
 
-void AllPairs::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
-  if (bounds_.size() <= agent) bounds_.resize(agent + 1);
-  bounds_[agent] = bound;
+// What two positions, as seen from a corner so far away, lose in single precision.
+float LostAt(const double* offset) {
+  return static_cast<float>((std::abs(offset[0]) + std::abs(offset[1]) + std::abs(offset[2])) *
+                            0x1p-22);
 }
 
-void AllPairs::Remove(std::uint32_t agent) { bounds_[agent].reset(); }
+}  // namespace
 
-void AllPairs::OfferMeetings(std::uint32_t agent, std::uint32_t first, const BroadQuery& query,
-                             std::optional<PairMeeting>* best) {
-  for (std::uint32_t partner = first; partner < bounds_.size(); ++partner) {
-    if (partner == agent || !bounds_[partner]) continue;
-    ++work_.pair_queries;
-    const PairMeeting meeting{std::min(agent, partner), std::max(agent, partner),
-                              MeetingTime(query, *bounds_[agent], *bounds_[partner])};
-    if (meeting.time.instant().is_never()) continue;
-    if (!*best || meeting < **best) *best = meeting;
+void AllPairs::PlaceAll() {
+  lanes_.Resize(table().size());
+  bool first = true;
+  for (std::uint32_t agent = 0; agent < table().size(); ++agent) {
+    lanes_.Vacate(agent);
+    if (!table().contains(agent) || table().row(agent).wild || placing_.blind()) continue;
+    if (first) std::copy_n(placing_.Place(table(), agent).c, 3, corner_);
+    first = false;
+    PlaceOne(agent);
   }
 }
 
-std::optional<PairMeeting> AllPairs::Earliest(const BroadQuery& query) {
-  std::optional<PairMeeting> best;
-  for (std::uint32_t agent = 0; agent < bounds_.size(); ++agent) {
-    if (bounds_[agent]) OfferMeetings(agent, agent + 1, query, &best);
-  }
-  return best;
+void AllPairs::PlaceOne(std::uint32_t agent) {
+  if (lanes_.size() <= agent) lanes_.Resize(agent + 1);
+  const PlacedHorn horn = placing_.Place(table(), agent);
+  const double offset[3] = {horn.c[0] - corner_[0], horn.c[1] - corner_[1], horn.c[2] - corner_[2]};
+  lanes_.Set(agent, horn, corner_, LostAt(offset));
 }
 
-std::optional<PairMeeting> AllPairs::EarliestOf(std::uint32_t agent, const BroadQuery& query) {
-  std::optional<PairMeeting> best;
-  OfferMeetings(agent, 0, query, &best);
-  return best;
+void AllPairs::Unplace(std::uint32_t agent) { lanes_.Vacate(agent); }
+
+void AllPairs::Scan(const LaneQuery& query, const LaneRange& range) {
+  work_.filter_tests += range.end - range.begin;
+  ++work_.visits;
+  ranges_.assign(1, range);
+  ScanInto(lanes_, query, ranges_, &hits_, &near_);
 }
 
-void AllPairs::Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
-                        const Skip& skip, std::vector<Meeting>* meetings) {
-  const SpaceTimeBound& asked = *bounds_[agent];
-  std::optional<Meeting> next;
-  for (std::uint32_t partner = 0; partner < bounds_.size(); ++partner) {
-    if (partner == agent || !bounds_[partner] || skip(partner)) continue;
-    const Meeting meeting{partner, EarliestIntersection(asked, *bounds_[partner], from)};
-    ++work_.pair_queries;
-    const Instant when = meeting.time.instant();
-    if (when <= until) {
-      meetings->push_back(meeting);
-    } else if (!when.is_never() && when <= horizon && (!next || when < next->time.instant())) {
-      next = meeting;
-    }
+void AllPairs::Join(Stretch stretch, BestMeeting* best) {
+  for (std::uint32_t agent = 0; agent < lanes_.size(); ++agent) {
+    if (lanes_.agent(agent) == Lanes::kNobody) continue;
+    near_.clear();
+    Scan(lanes_.QueryOf(agent, placing_, stretch),
+         {agent + 1, lanes_.size(), lanes_.x()[agent], lanes_.y()[agent], lanes_.z()[agent]});
+    for (const std::uint32_t other : near_) best->Offer(agent, other);
   }
-  if (next) meetings->push_back(*next);
+}
+
+void AllPairs::FindNear(const PlacedHorn& horn, Stretch stretch) {
+  LaneRange all{0, lanes_.size(), 0, 0, 0};
+  float* const at[3] = {&all.x, &all.y, &all.z};
+  double offset[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    offset[axis] = horn.c[axis] - corner_[axis];
+    *at[axis] = static_cast<float>(offset[axis]);
+  }
+  LaneQuery query = QueryOf(horn, placing_, stretch);
+  query.reach += LostAt(offset);
+  Scan(query, all);
+  if (stretch.first > placing_.window()) wasted_ += near_.size();
 }
 
 }  // namespace collision

@@ -13,7 +13,8 @@ PairTime MeetingTime(const BroadQuery& query, const SpaceTimeBound& a, const Spa
     return time;
   }
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
-  if (!CanMeet(a.declaration, b.declaration) || expiry <= query.from) {
+  if (!CanMeet(a.declaration, b.declaration) || (NeverMoves(a) && NeverMoves(b)) ||
+      expiry <= query.from) {
     return {query.from, kInfinity};
   }
   PairTime time{query.from, FirstOverlap(MakeHypertrapezoid(a, query.from, query.until),

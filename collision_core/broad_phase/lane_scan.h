@@ -1,0 +1,60 @@
+// Which of many moving balls may touch a given one: the filter of every method, in wide vectors.
+#pragma once
+
+#include <cstdint>
+
+namespace collision {
+
+/// Balls in arrays, in single precision: at u seconds each has its centre at p + v u, and for
+/// u <= `time` all of it lies within s0 + time (s1 + time s2) of there. Positions are relative to a
+/// corner near them.
+struct LaneView {
+  const float *x, *y, *z;
+  const float *vx, *vy, *vz;
+  const float *s0, *s1, *s2;
+};
+
+/// Balls [begin, end), and where the asker is as seen from their corner.
+struct LaneRange {
+  std::uint32_t begin, end;
+  float x, y, z;
+};
+
+/// The asker, and when: u in [first, last], reaches at `time`.
+struct LaneQuery {
+  float vx, vy, vz;
+  float reach;
+  float first, last;
+  float time;
+};
+
+/// Writes the indices k, range by range and in order, whose centre comes within the sum of the two
+/// reaches of the asker's (or where that is not a number), and returns how many. `hits` has room for
+/// all of the ranges and kLanesMax more.
+///
+/// With d and w the differences, the least |d + w u| is looked for at u* = −d·w / w·w, held within
+/// [first, last]. What rounding takes, with D = |d|, W = |w| max |u|, R the sum of the reaches:
+///   d, w, w u* and their sum are off by less than 2^-22 (D + W) together; u* by 2^-21 (|u*| + D/|w|),
+///   which moves the point by less than 2^-21 (W + D); squares and R lose 2^-21 of themselves.
+/// Where D > 4 (R + W) the two are apart by far, whatever rounding does. Else all of this is less
+/// than 2^-17 (R + W): reaches are to be made larger by kLaneSlack of themselves and of the way that
+/// their own centre goes. Below kReachLeast squares lose digits to underflow: reaches, and speeds
+/// that nobody would notice, are to count as at least that. A square that overflows is infinite, and
+/// less than no other.
+using LaneScan = std::uint32_t (*)(const LaneView& balls, const LaneQuery& query,
+                                   const LaneRange* ranges, std::uint32_t range_count,
+                                   std::uint32_t* hits);
+
+inline constexpr float kLaneSlack = 0x1p-16f;
+inline constexpr float kReachLeast = 0x1p-60f;
+inline constexpr std::uint32_t kLanesMax = 16;
+
+/// The widest that this processor has. All give the same hits.
+LaneScan WidestLaneScan();
+
+/// Each on its own, for tests; null where the processor or the compiler has none.
+LaneScan PlainLaneScan();
+LaneScan Avx2LaneScan();
+LaneScan Avx512LaneScan();
+
+}  // namespace collision

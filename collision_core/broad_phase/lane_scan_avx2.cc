@@ -1,0 +1,68 @@
+// Eight balls at once. Nothing that others share is included: this file is built for processors
+// that not everybody has.
+#include "collision_core/broad_phase/lane_scan.h"
+
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
+
+namespace collision {
+
+#ifdef __x86_64__
+namespace {
+
+using Lanes = __m256;
+
+__attribute__((target("avx2"))) std::uint32_t Scan(const LaneView& balls, const LaneQuery& query,
+                                                   const LaneRange* ranges,
+                                                   std::uint32_t range_count, std::uint32_t* hits) {
+  const Lanes own_vx = _mm256_set1_ps(query.vx), own_vy = _mm256_set1_ps(query.vy),
+              own_vz = _mm256_set1_ps(query.vz);
+  const Lanes reach = _mm256_set1_ps(query.reach), time = _mm256_set1_ps(query.time);
+  const Lanes first = _mm256_set1_ps(query.first), last = _mm256_set1_ps(query.last);
+  std::uint32_t count = 0;
+  for (std::uint32_t r = 0; r < range_count; ++r) {
+    const LaneRange& range = ranges[r];
+    const Lanes at_x = _mm256_set1_ps(range.x), at_y = _mm256_set1_ps(range.y),
+                at_z = _mm256_set1_ps(range.z);
+    for (std::uint32_t k = range.begin; k < range.end; k += 8) {
+      Lanes x = _mm256_sub_ps(_mm256_loadu_ps(balls.x + k), at_x);
+      Lanes y = _mm256_sub_ps(_mm256_loadu_ps(balls.y + k), at_y);
+      Lanes z = _mm256_sub_ps(_mm256_loadu_ps(balls.z + k), at_z);
+      const Lanes vx = _mm256_sub_ps(_mm256_loadu_ps(balls.vx + k), own_vx);
+      const Lanes vy = _mm256_sub_ps(_mm256_loadu_ps(balls.vy + k), own_vy);
+      const Lanes vz = _mm256_sub_ps(_mm256_loadu_ps(balls.vz + k), own_vz);
+      const Lanes away = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, vx), _mm256_mul_ps(y, vy)),
+                                       _mm256_mul_ps(z, vz));
+      const Lanes square = _mm256_add_ps(
+          _mm256_add_ps(_mm256_mul_ps(vx, vx), _mm256_mul_ps(vy, vy)), _mm256_mul_ps(vz, vz));
+      const Lanes free = _mm256_div_ps(_mm256_sub_ps(_mm256_setzero_ps(), away), square);
+      const Lanes u = _mm256_min_ps(_mm256_max_ps(free, first), last);
+      x = _mm256_add_ps(x, _mm256_mul_ps(vx, u));
+      y = _mm256_add_ps(y, _mm256_mul_ps(vy, u));
+      z = _mm256_add_ps(z, _mm256_mul_ps(vz, u));
+      const Lanes squared = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)),
+                                          _mm256_mul_ps(z, z));
+      const Lanes slope = _mm256_add_ps(_mm256_loadu_ps(balls.s1 + k),
+                                        _mm256_mul_ps(time, _mm256_loadu_ps(balls.s2 + k)));
+      const Lanes own = _mm256_add_ps(_mm256_loadu_ps(balls.s0 + k), _mm256_mul_ps(time, slope));
+      const Lanes both = _mm256_add_ps(reach, own);
+      unsigned mask = static_cast<unsigned>(
+          _mm256_movemask_ps(_mm256_cmp_ps(squared, _mm256_mul_ps(both, both), _CMP_NGT_UQ)));
+      if (range.end - k < 8) mask &= (1u << (range.end - k)) - 1;
+      for (; mask != 0; mask &= mask - 1) {
+        hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
+      }
+    }
+  }
+  return count;
+}
+
+}  // namespace
+
+LaneScan Avx2LaneScan() { return __builtin_cpu_supports("avx2") ? &Scan : nullptr; }
+#else
+LaneScan Avx2LaneScan() { return nullptr; }
+#endif
+
+}  // namespace collision

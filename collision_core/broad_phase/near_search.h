@@ -1,0 +1,65 @@
+// What all methods that place agents have in common: windows of time that grow until the next
+// answer must lie beyond them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/best_meeting.h"
+#include "collision_core/broad_phase/lanes.h"
+#include "collision_core/broad_phase/placing.h"
+
+namespace collision {
+
+/// Every agent is placed once, with the reach that its horn and its way give it from then on; a
+/// bound inside the old one leaves the placing valid. Questions look ahead in windows, and ask the
+/// canonical routine only of pairs that a filter does not rule out. Agents too large or too far for
+/// filters ("wild") are asked directly.
+class NearSearch : public BroadPhase {
+ public:
+  NearSearch() = default;
+  NearSearch(const NearSearch&) = delete;
+  NearSearch& operator=(const NearSearch&) = delete;
+
+  void Put(std::uint32_t agent, const SpaceTimeBound& bound) override;
+  void Narrow(std::uint32_t agent, const SpaceTimeBound& bound) override;
+  void Remove(std::uint32_t agent) override;
+  std::optional<PairMeeting> Earliest(const BroadQuery& query) override;
+  std::optional<PairMeeting> EarliestOf(std::uint32_t agent, const BroadQuery& query) override;
+  void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
+                std::vector<Meeting>* meetings) override;
+  BroadPhaseWork work() const override { return work_; }
+
+ protected:
+  /// Places everybody who is not wild anew, for placing_.
+  virtual void PlaceAll() = 0;
+  /// Places one who is not wild, since the last PlaceAll().
+  virtual void PlaceOne(std::uint32_t agent) = 0;
+  /// Forgets where he was placed, if he was.
+  virtual void Unplace(std::uint32_t agent) = 0;
+  /// Offers all placed pairs that come within reach of each other during the stretch, and others.
+  virtual void Join(Stretch stretch, BestMeeting* best) = 0;
+  /// Appends to near_ all who are placed and come within reach of `horn` during the stretch.
+  virtual void FindNear(const PlacedHorn& horn, Stretch stretch) = 0;
+
+  const HornTable& table() const { return table_; }
+
+  Placing placing_;
+  BroadPhaseWork work_;
+  std::uint64_t wasted_ = 0;  ///< Tests that a fresh placing would have saved, since the last.
+  std::vector<std::uint32_t> near_;
+
+ private:
+  bool IsWild(std::uint32_t agent) const;
+  void PlaceAnew(const Placing& placing);
+  void Refresh(Instant from);
+  void FindNear(std::uint32_t agent, Instant from, double seconds);
+
+  HornTable table_;
+  bool placed_ = false;
+  std::vector<std::uint32_t> wild_;
+  std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that told of it.
+  std::uint64_t question_ = 0;
+};
+
+}  // namespace collision

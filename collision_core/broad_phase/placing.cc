@@ -1,0 +1,131 @@
+#include "collision_core/broad_phase/placing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision_core/broad_phase/lane_scan.h"
+#include "collision_core/numeric/cube_root.h"
+
+namespace collision {
+namespace {
+
+/// Agents looked at to choose frame and window.
+constexpr std::uint32_t kSampleMax = 1024;
+
+/// Places that come within reach of an agent's own during the first window: as many are looked at
+/// for want of smaller cells.
+constexpr double kNearPerAgent = 16;
+
+/// Where agents are that near already, the window lets reaches grow by this part.
+constexpr double kGrowthMin = 0.25;
+
+double Length(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+
+float Up(double x) {
+  return static_cast<float>(x * (1 + static_cast<double>(kLaneSlack))) * (1 + 0x1p-22f);
+}
+
+/// What agents are like on the average.
+struct Sample {
+  double v[3] = {};
+  double speed = 0;  ///< As seen from a frame that moves with v.
+  double s0 = 0, s1 = 0, s2 = 0;
+  double volume = 0;  ///< Of the box around one, if they filled the box around all.
+};
+
+Sample TakeSample(const HornTable& table, Instant from) {
+  Sample sample;
+  const std::uint32_t stride = table.size() / kSampleMax + 1;
+  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  double speed = 0, count = 0;
+  for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
+    if (!table.contains(agent) || table.row(agent).wild) continue;
+    const HornAt horn = table.At(agent, from);
+    count += 1;
+    speed += Length(horn.v[0], horn.v[1], horn.v[2]);
+    sample.s0 += horn.s0, sample.s1 += horn.s1, sample.s2 += horn.s2;
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.v[axis] += horn.v[axis];
+      low[axis] = std::min(low[axis], horn.c[axis]);
+      high[axis] = std::max(high[axis], horn.c[axis]);
+    }
+  }
+  if (count == 0) return sample;
+  for (double* sum : {&sample.v[0], &sample.v[1], &sample.v[2], &sample.s0, &sample.s1, &sample.s2})
+    *sum /= count;
+  for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
+    if (!table.contains(agent) || table.row(agent).wild) continue;
+    const double* v = table.row(agent).v;
+    sample.speed += Length(v[0] - sample.v[0], v[1] - sample.v[1], v[2] - sample.v[2]);
+  }
+  // A single fast agent would drag a mean along with it.
+  if (sample.speed > 0.5 * speed) {
+    std::fill_n(sample.v, 3, 0.0);
+    sample.speed = speed;
+  }
+  sample.speed /= count;
+  sample.volume = 1 / static_cast<double>(table.count());
+  for (int axis = 0; axis < 3; ++axis) {
+    sample.volume *= std::max(high[axis] - low[axis], 4 * sample.s0);
+  }
+  return sample;
+}
+
+/// The time in which reaches grow so far that kNearPerAgent places lie within two of them: in a
+/// ball of (4/3) π (2 R)³. The way counts half, as the middle is what it is measured from.
+double WindowOf(const Sample& sample) {
+  constexpr double kBall = 33.5;
+  const double reach = CubeRoot(std::max(kNearPerAgent / kBall * sample.volume, 1e-300));
+  const double growth = std::max(reach - sample.s0, kGrowthMin * sample.s0);
+  const double rate = sample.s1 + 0.5 * sample.speed;
+  if (!(rate > 0) && !(sample.s2 > 0)) return kWindowMax;
+  const double window = 2 * growth / (rate + std::sqrt(rate * rate + 4 * sample.s2 * growth));
+  return std::clamp(window, kWindowMin, kWindowMax);
+}
+
+double SignedSeconds(Instant from, Instant to) {
+  return to < from ? -SecondsBetween(to, from).upper : SecondsBetween(from, to).upper;
+}
+
+}  // namespace
+
+Placing::Placing(const HornTable& table, const BroadQuery& query, double seconds_max)
+    : query_(query) {
+  window_ = std::clamp(seconds_max, kWindowMin, kWindowMax);
+  if (blind()) return;
+  const Sample sample = TakeSample(table, query.from);
+  std::copy_n(sample.v, 3, v_);
+  window_ = std::min(window_, WindowOf(sample));
+  middle_ = 0.5 * window_;
+}
+
+PlacedHorn Placing::Place(const HornTable& table, std::uint32_t agent) const {
+  HornAt at = table.At(agent, query_.from);
+  PlacedHorn horn;
+  double v[3];
+  for (int axis = 0; axis < 3; ++axis) {
+    v[axis] = at.v[axis] - v_[axis];
+    horn.c[axis] = at.c[axis] + v[axis] * middle_;
+    horn.v[axis] = static_cast<float>(v[axis]);
+  }
+  const double speed = Length(v[0], v[1], v[2]) * (1 + 0x1p-40);
+  if (query_.bound == BoundKind::kHypertrapezoid) {
+    at = BoxReach(at, SignedSeconds(query_.from, query_.until));
+  }
+  // The slack of the way, before the middle and after it, and what the frame's own way loses.
+  const double slack = static_cast<double>(kLaneSlack) * speed;
+  const double least = static_cast<double>(kReachLeast);
+  horn.s0 = Up(at.s0 + slack * middle_ + least * (1 + middle_) + 0x1p-48 * speed * middle_);
+  horn.s1 = Up(at.s1 + slack + least);
+  horn.s2 = Up(at.s2);
+  horn.speed = Up(speed);
+  horn.agent = agent;
+  return horn;
+}
+
+Stretch Placing::After(Instant from, double seconds) const {
+  const double first = SignedSeconds(query_.from, from);
+  return {first, std::max(first, 0.0) + seconds};
+}
+
+}  // namespace collision
