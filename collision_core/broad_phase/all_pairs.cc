@@ -46,6 +46,7 @@ void AllPairs::Join(Stretch stretch, BestMeeting* best) {
   for (std::uint32_t agent = 0; agent < lanes_.size(); ++agent) {
     if (lanes_.agent(agent) == Lanes::kNobody) continue;
     near_.clear();
+    stretch.last = std::min(stretch.last, std::max(stretch.first, best->limit()));
     Scan(lanes_.QueryOf(agent, placing_, stretch),
          {agent + 1, lanes_.size(), lanes_.x()[agent], lanes_.y()[agent], lanes_.z()[agent]});
     for (const std::uint32_t other : near_) best->Offer(agent, other);

@@ -29,6 +29,7 @@ class BestMeeting {
   BroadQuery query_;
   BroadPhaseWork* work_;
   std::optional<PairMeeting> best_;
+  Instant when_ = Instant::Never();  ///< Of best_.
   double limit_ = kInfinity;
 };
 

@@ -40,7 +40,8 @@ class GridLevel {
   /// The rows are those of a box, and ForEachPlace() can be asked.
   bool in_rows() const { return !hashed_; }
 
-  /// Goes through the places in order, row by row: Ranges(..., place) of each.
+  /// Goes through the places in order, row by row: Ranges(..., place) of each. Calls
+  /// visit(place, stretch, ranges), which returns when the stretch may end from now on.
   template <typename Visit>
   void ForEachPlace(Stretch stretch, Visit visit) const;
 
@@ -65,21 +66,23 @@ class GridLevel {
   double origin_[3] = {}, extent_[3] = {};
   double cell_ = 0, cell_min_ = 0, per_cell_ = 0;
   bool hashed_ = false;
-  std::int64_t cells_[3] = {};        // of the box around all
-  std::int64_t row_cells_ = 0;        // of one row of the table
-  std::uint32_t rows_ = 0;            // of the table; a power of two where hashed
-  std::vector<std::uint32_t> begin_;  // by cell of the table, and one more
+  std::int64_t cells_[3] = {};                 // of the box around all
+  std::int64_t row_cells_ = 0;                 // of one row of the table
+  std::uint32_t rows_ = 0;                     // of the table; a power of two where hashed
+  std::vector<std::uint32_t> begin_;           // by cell of the table, and one more
   std::vector<std::uint32_t> places_, order_;  // place by agent given, and the other way round
   Lanes lanes_;
 };
 
-/// Calls visit(place, ranges) for every place in order; `ranges` lives as long as the call. Single
-/// precision is enough: what it loses is made up for by a thousandth of a cell.
+/// Single precision is enough: what it loses is made up for by a thousandth of a cell.
 template <typename Visit>
 void GridLevel::ForEachPlace(Stretch stretch, Visit visit) const {
   std::vector<LaneRange> ranges;
   const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
-  const float most = static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-10f;
+  const auto most_after = [&] {
+    return static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-10f;
+  };
+  float most = most_after();
   const auto across = [&](float at, float half, std::int64_t own, std::int64_t cells, int* from,
                           int* to) {
     // Within the box, and down: counted from a cell that is not above the box's first.
@@ -113,7 +116,11 @@ void GridLevel::ForEachPlace(Stretch stretch, Visit visit) const {
                               at_z - static_cast<float>(step_z) * cell});
           }
         }
-        visit(place, ranges);
+        const double last = visit(place, stretch, ranges);
+        if (last < stretch.last) {
+          stretch.last = last;
+          most = most_after();
+        }
       }
     }
   }

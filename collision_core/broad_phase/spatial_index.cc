@@ -6,13 +6,15 @@
 namespace collision {
 namespace {
 
-/// The level an agent belongs to: of one level, reaches differ by a factor of 4 at most. Odd for
-/// those that never move.
-constexpr int kKeys = 256;
-std::uint8_t KeyOf(double reach, bool still) {
+/// The level an agent belongs to, larger ones later: counted down from the greatest reach in powers
+/// of 4, so that agents that are all alike share one. Odd for those that never move.
+constexpr int kLevelsMax = 120;
+constexpr int kKeys = 2 * kLevelsMax + 2;
+std::uint8_t KeyOf(float reach, float greatest, bool still) {
   int exponent;
-  std::frexp(reach, &exponent);
-  return static_cast<std::uint8_t>((std::clamp(exponent, -126, 126) + 126) / 2 * 2 + still);
+  std::frexp(greatest / reach, &exponent);
+  return static_cast<std::uint8_t>(2 * (kLevelsMax - std::clamp(exponent / 2, 0, kLevelsMax)) +
+                                   still);
 }
 
 }  // namespace
@@ -26,11 +28,20 @@ void SpatialIndex::PlaceAll() {
     level_count_ = 0;
     return;
   }
+  unsorted_.reserve(table().count());
+  reaches_.clear();
+  reaches_.reserve(table().count());
+  float greatest = 0;
   for (std::uint32_t agent = 0; agent < table().size(); ++agent) {
     if (!table().contains(agent) || table().row(agent).wild) continue;
     unsorted_.push_back(placing_.Place(table(), agent));
-    const double reach = placing_.Reach(unsorted_.back(), {0, placing_.window()});
-    keys_.push_back(KeyOf(reach, table().row(agent).still));
+    const PlacedHorn& horn = unsorted_.back();
+    reaches_.push_back(static_cast<float>(placing_.Reach(horn, {0, placing_.window()})));
+    greatest = std::max(greatest, reaches_.back());
+  }
+  keys_.resize(reaches_.size());
+  for (std::size_t k = 0; k < keys_.size(); ++k) {
+    keys_[k] = KeyOf(reaches_[k], greatest, table().row(unsorted_[k].agent).still);
   }
   FillLevels();
 }
@@ -97,18 +108,21 @@ void SpatialIndex::Take(const GridLevel& grid) {
 
 void SpatialIndex::JoinRows(const Level& level, Stretch stretch, BestMeeting* best) {
   const Lanes& lanes = level.grid.lanes();
-  level.grid.ForEachPlace(stretch, [&](std::uint32_t place, const std::vector<LaneRange>& ranges) {
+  const auto visit = [&](std::uint32_t place, Stretch ahead, const std::vector<LaneRange>& ranges) {
     near_.clear();
     work_.visits += ranges.size();
-    ScanInto(lanes, lanes.QueryOf(place, placing_, stretch), ranges, &hits_, &near_);
+    ScanInto(lanes, lanes.QueryOf(place, placing_, ahead), ranges, &hits_, &near_);
     for (const std::uint32_t other : near_) best->Offer(lanes.agent(place), other);
-  });
+    return best->limit();
+  };
+  level.grid.ForEachPlace(stretch, visit);
 }
 
 void SpatialIndex::JoinCells(const Level& level, const Level& other, Stretch stretch,
                              BestMeeting* best) {
   for (std::uint32_t k = 0; k < level.grid.size(); ++k) {
     const PlacedHorn& horn = horns_[level.first + k];
+    stretch.last = std::min(stretch.last, std::max(stretch.first, best->limit()));
     const std::uint32_t after = &level == &other ? level.grid.place(k) : Lanes::kNobody;
     near_.clear();
     ranges_.clear();

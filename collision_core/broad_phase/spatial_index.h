@@ -47,6 +47,7 @@ class SpatialIndex : public NearSearch {
   double loose_corner_[3] = {};
 
   std::vector<PlacedHorn> unsorted_;
+  std::vector<float> reaches_;  ///< Of unsorted_, like the keys of their levels.
   std::vector<std::uint8_t> keys_;
   std::vector<LaneRange> ranges_;
   std::vector<std::uint32_t> hits_;
