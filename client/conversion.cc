@@ -25,6 +25,7 @@ v1::AgentDescription ToMessage(const AgentDescription& description) {
   message.set_radius_m(description.radius_m);
   message.set_acceleration_max_m_s2(description.acceleration_max_m_s2);
   message.set_angular_acceleration_max_rad_s2(description.angular_acceleration_max_rad_s2);
+  message.set_speed_max_m_s(description.speed_max_m_s);
   message.set_time_step_s(description.time_step_s);
   message.set_group(description.group);
   message.set_mask(description.mask);
@@ -92,6 +93,7 @@ Clearance FromMessage(const v1::AgentClearance& message) {
   if (message.cause() != v1::CAUSE_NONE) clearance.cause = v1::ClearanceCause_Name(message.cause());
   clearance.cause_agent = FromMessage(message.cause_agent());
   clearance.void_from_ns = message.void_from_ns();
+  clearance.state_wanted_ns = message.state_wanted_ns();
   return clearance;
 }
 

@@ -33,6 +33,7 @@ struct AgentDescription {
   double radius_m = 0;               ///< Ball about the reference point that contains the agent.
   double acceleration_max_m_s2 = 0;  ///< Never exceeded between two states without a discontinuity.
   double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
+  double speed_max_m_s = 0;  ///< Of the reference point, never exceeded; 0: not declared.
   double time_step_s = 0;    ///< h of a semi-implicit Euler integrator; 0: continuous motion.
   std::uint32_t group = 1;   ///< Bits this agent is.
   std::uint32_t mask = ~0u;  ///< Bits it can meet.
@@ -118,6 +119,17 @@ struct Clearance {
   std::string cause;  ///< Why it was lowered, as in the IDL; empty: it was not.
   AgentId cause_agent;
   std::int64_t void_from_ns = kNever;
+  /// When the service next needs a state of the agent: not after its own time, at every step; kNever:
+  /// none. A World tells those states by itself (WorldOptions::on_demand).
+  std::int64_t state_wanted_ns = std::numeric_limits<std::int64_t>::min();
+};
+
+/// What a World has sent since its beginning.
+struct Traffic {
+  std::uint64_t states_set = 0;    ///< By the simulator: what a stream would send.
+  std::uint64_t states_sent = 0;   ///< Of them, those that were told.
+  std::uint64_t samples_sent = 0;  ///< On the network, of agent_states.
+  std::uint64_t bytes_sent = 0;    ///< Of these samples, without the network's own.
 };
 
 }  // namespace collision::client

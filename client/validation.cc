@@ -23,18 +23,26 @@ std::string Text(double value) {
 }
 
 /// Written so that what is not a number fails, too.
-void CheckNumber(const std::string& field, double value, double least, double greatest) {
-  if (value >= least && value <= greatest) return;
+bool IsWithin(double value, double least, double greatest) {
+  return value >= least && value <= greatest;
+}
+
+// Every state that is set comes through here: texts are made for what is refused only.
+void CheckNumber(const char* field, double value, double least, double greatest) {
+  if (IsWithin(value, least, greatest)) return;
   Refuse(field, Text(value), Text(least) + " to " + Text(greatest));
 }
 
-void CheckVector(const std::string& field, const Vector3& vector, double greatest) {
+void CheckVector(const char* field, const Vector3& vector, double greatest) {
   constexpr const char* kAxes[] = {".x", ".y", ".z"};
-  for (int i = 0; i < 3; ++i) CheckNumber(field + kAxes[i], vector[i], -greatest, greatest);
+  for (int i = 0; i < 3; ++i) {
+    if (IsWithin(vector[i], -greatest, greatest)) continue;
+    CheckNumber((std::string(field) + kAxes[i]).c_str(), vector[i], -greatest, greatest);
+  }
 }
 
 /// Components are checked first, so that squares neither overflow nor vanish.
-void CheckUnit(const std::string& field, std::span<const double> values, const char* range) {
+void CheckUnit(const char* field, std::span<const double> values, const char* range) {
   double squares = 0;
   for (const double value : values) {
     CheckNumber(field, value, -2, 2);
@@ -44,13 +52,13 @@ void CheckUnit(const std::string& field, std::span<const double> values, const c
   if (std::abs(length - 1) > kUnitTolerance) Refuse(field, "length " + Text(length), range);
 }
 
-void CheckInstant(const std::string& field, std::int64_t instant_ns) {
+void CheckInstant(const char* field, std::int64_t instant_ns) {
   if (instant_ns >= -kInstantMax && instant_ns <= kInstantMax) return;
   Refuse(field, std::to_string(instant_ns),
          std::to_string(-kInstantMax) + " to " + std::to_string(kInstantMax));
 }
 
-void CheckLater(const std::string& field, std::int64_t instant_ns) {
+void CheckLater(const char* field, std::int64_t instant_ns) {
   if (instant_ns != kNever) CheckInstant(field, instant_ns);
 }
 
@@ -95,6 +103,7 @@ void Validate(const AgentDescription& description) {
   CheckNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, 0, kAccelerationMax);
   CheckNumber("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2,
               -kAccelerationMax, kAccelerationMax);
+  CheckNumber("speed_max_m_s", description.speed_max_m_s, 0, kSpeedMax);
   CheckNumber("time_step_s", description.time_step_s, 0, kTimeStepMax);
   if (description.shape) CheckHolds(description.radius_m, *description.shape);
 }
@@ -120,9 +129,13 @@ void ValidateClock(std::int64_t clock_ns) { CheckInstant("clock_ns", clock_ns); 
 void Validate(const WorldOptions& options) {
   ValidateWorld(options.world, options.domain);
   RequireIdentifier("simulator", options.simulator);
-  if (options.chunk_size >= 1 && options.chunk_size <= kChunkSizeMax) return;
-  throw std::runtime_error("chunk_size: " + std::to_string(options.chunk_size) +
-                           ", allowed: 1 to 64");
+  if (options.chunk_size > kChunkSizeMax) {
+    throw std::runtime_error("chunk_size: " + std::to_string(options.chunk_size) +
+                             ", allowed: 1 to 64, or 0");
+  }
+  if (options.lead >= std::chrono::nanoseconds(0) && options.lead <= kLeadMax) return;
+  throw std::runtime_error("lead: " + std::to_string(options.lead.count()) +
+                           " ns, allowed: 0 to 1 h");
 }
 
 void ValidateWorld(const std::string& world, std::uint32_t domain) {

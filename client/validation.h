@@ -2,6 +2,7 @@
 // less clearly. The limits are those of the service.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -26,6 +27,7 @@ inline constexpr std::uint32_t kChunkSizeMax = 64;                  ///< As in t
 inline constexpr std::size_t kShapeTrianglesMax = 5'000'000;  ///< The most a service can allow.
 /// Relative: a shape may stand out of its agent's ball by what rounding makes of a radius.
 inline constexpr double kShapeRadiusTolerance = 1e-9;
+inline constexpr std::chrono::hours kLeadMax{1};  ///< Longer than any way there and back.
 inline constexpr std::uint32_t kDomainMax = 230;  ///< Beyond, RTPS has no ports left.
 
 /// Each throws std::invalid_argument, "field: value, allowed: range", at the first value out of

@@ -22,8 +22,18 @@ struct WorldOptions {
   /// A restart takes a higher one; 0: tenths of a second since 2020 began (UTC), modulo 2^32, which
   /// grow until 2033.
   std::uint32_t run = 0;
-  std::uint32_t chunk_size =
-      64;  ///< States per sample: 1 for rare updates, 8 on lossy links, 64 at full speed.
+  /// States go out when the service needs them (Clearance::state_wanted_ns), or when the last one told
+  /// no longer stands in for them: the agent jumped, was described anew, declares something else,
+  /// or leaves what it promised. A simulator sets every state all the same. False: each state set is
+  /// sent, a stream.
+  bool on_demand = true;
+  /// Without lock-step: states leave so much before they are wanted. It covers the way there and back
+  /// on a busy local network (10 ms each at most, but for one in a hundred) and the step of the
+  /// service in between. In lock-step the world's time waits for both.
+  std::chrono::nanoseconds lead{50'000'000};
+  /// States per sample, 1 to 64: 1 for rare updates, 8 on lossy links, 64 at full speed. 0: 1 on demand,
+  /// else 64.
+  std::uint32_t chunk_size = 0;
 };
 
 enum class Advance { kReached, kTimeout };
@@ -36,8 +46,9 @@ class Transport;
 /// and AdvanceTo() only, so none comes after the destructor. Leaving without removing agents keeps
 /// them growing in the service; an Agent's destructor removes it.
 ///
-/// A staged state goes out with the first clock that is not less than its stamp. In lock-step the
-/// loop is: compute the states at t, Agent::SetState() them, AdvanceTo(t).
+/// A staged state goes out with the first clock that is not less than its stamp, if it is needed by
+/// then (WorldOptions::on_demand). In lock-step the loop is: compute the states at t,
+/// Agent::SetState() them, AdvanceTo(t).
 class World {
  public:
   /// Throws std::runtime_error if the options are out of range or DDS is not to be had.
@@ -93,6 +104,9 @@ class World {
   std::vector<Event> TakeEvents();
   std::uint64_t events_lost() const;
 
+  /// What has been set and sent so far.
+  const Traffic& traffic() const;
+
   /// What the service refused since the last call; of more than 1024 the oldest are gone.
   std::vector<Rejection> TakeRejections();
 
@@ -114,8 +128,8 @@ class Agent {
 
   const AgentId& id() const;
 
-  /// Stages a state: Publish() or AdvanceTo() carries it when the clock comes to its stamp; of
-  /// several staged only the last, with a discontinuity if any of them had one. Throws
+  /// Stages a state: Publish() or AdvanceTo() carries it when the clock comes to its stamp, on demand
+  /// when it is needed after that, unless a newer one has taken its place; of several staged only the last, with a discontinuity if any of them had one. Throws
   /// std::invalid_argument as AddAgent() does, and for a stamp before the last one told.
   void SetState(const State& state);
 

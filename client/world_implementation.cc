@@ -21,6 +21,13 @@ std::uint32_t RunByClock() {
   return static_cast<std::uint32_t>(duration_cast<Tenths>(since_2020).count());
 }
 
+Telling TellingOf(const WorldOptions& options) {
+  const std::uint32_t chunk_size = options.on_demand ? 1 : kChunkSizeMax;
+  return {.on_demand = options.on_demand,
+          .lead_ns = options.lock_step ? 0 : options.lead.count(),
+          .chunk_size = options.chunk_size > 0 ? options.chunk_size : chunk_size};
+}
+
 template <typename T>
 std::vector<T> TakeAll(std::deque<T>* queue) {
   std::vector<T> all(std::move_iterator(queue->begin()), std::move_iterator(queue->end()));
@@ -48,7 +55,7 @@ World::Implementation::Implementation(const WorldOptions& options,
       run_(options.run != 0 ? options.run : RunByClock()),
       lock_step_(options.lock_step),
       transport_(std::move(transport)),
-      fleet_(options.simulator, simulator_id_, run_, options.chunk_size),
+      fleet_(options.simulator, simulator_id_, run_, TellingOf(options)),
       shapes_(simulator_id_, run_) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
@@ -234,8 +241,14 @@ void World::Implementation::Hear(const v1::Output& output) {
 
 void World::Implementation::Hear(const v1::Clearance& clearance) {
   if (clearance.simulator_id() != simulator_id_ || clearance.run() != run_) return;
-  granted_until_ns_ = std::max(granted_until_ns_, clearance.granted_until_ns());
-  for (const v1::AgentClearance& agent : clearance.agents()) fleet_.Hear(agent);
+  // All carry the grant; the service writes chunk 0 behind the others, so that with time come the
+  // clearances as of then, and with them what is wanted.
+  if (clearance.chunk() == 0) {
+    granted_until_ns_ = std::max(granted_until_ns_, clearance.granted_until_ns());
+  }
+  for (const v1::AgentClearance& agent : clearance.agents()) {
+    fleet_.Hear(agent, clearance.now_ns());
+  }
 }
 
 void World::Implementation::Hear(const v1::CollisionEvent& event) {

@@ -51,6 +51,7 @@ class World::Implementation {
   std::vector<Event> TakeEvents();
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
+  const Traffic& traffic() const { return fleet_.traffic(); }
 
  private:
   void RequireOutsideCallback(const char* function) const;

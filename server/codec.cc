@@ -100,9 +100,11 @@ Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
   }
   if (!check.passed()) return *check.refusal();
   const double alpha = wire.angular_acceleration_max_rad_s2();
+  const double cap = wire.speed_max_m_s();
   return AgentDeclaration{.radius = wire.radius_m(),
                           .acceleration_max = wire.acceleration_max_m_s2(),
                           .time_step = wire.time_step_s(),
+                          .speed_max = cap > 0 ? cap : kInfinity,
                           .group = wire.group(),
                           .mask = wire.mask(),
                           .angular_acceleration_max = alpha < 0 ? -1 : alpha,

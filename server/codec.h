@@ -40,8 +40,8 @@ using Decoded = std::variant<Value, Refusal>;
 std::optional<Refusal> CheckIdentity(const v1::AgentDescription& description);
 std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock);
 
-/// The declaration of an agent. The speed cap is checked and not used: a bound without it is wider,
-/// never late. Whoever names a shape awaits it: only the intake knows what has arrived.
+/// The declaration of an agent. A speed cap of 0 is none: what was recorded before there was one, or
+/// left the field out, says nothing about speed. Whoever names a shape awaits it: only the intake knows what has arrived.
 Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
 
 /// What is known about the times a state may carry.

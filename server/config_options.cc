@@ -85,6 +85,10 @@ constexpr ConfigOption kOptions[] = {
     {"shape_bytes_max", "bytes", "1048576", "1099511627776", "", "268435456",
      "Of all shapes together: parts that have arrived, and meshes. What does not fit is refused. "
      "Their trees come on top (tree_bytes in the status)."},
+    {"broad_phase", "none", "", "", "AUTO, ALL_PAIRS, FACE_SWEEP or SPATIAL_INDEX", "AUTO",
+     "How it is found who may meet. All methods tell the same; they differ in what they cost. AUTO "
+     "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and between them what does less "
+     "work."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

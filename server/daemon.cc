@@ -19,6 +19,20 @@
 namespace collision::server {
 namespace {
 
+/// Not set: a recording from before the field.
+BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
+  switch (method) {
+    case v1::Config::ALL_PAIRS:
+      return BroadPhaseMethod::kAllPairs;
+    case v1::Config::FACE_SWEEP:
+      return BroadPhaseMethod::kFaceSweep;
+    case v1::Config::SPATIAL_INDEX:
+      return BroadPhaseMethod::kSpatialIndex;
+    default:
+      return BroadPhaseMethod::kAuto;
+  }
+}
+
 DetectorOptions OptionsOf(const v1::Config& config) {
   return {.temporal_resolution = config.temporal_resolution_s(),
           .announce_within = config.announce_within_s(),
@@ -27,7 +41,8 @@ DetectorOptions OptionsOf(const v1::Config& config) {
           .pairs_max = config.pairs_max(),
           .pairs_per_agent_max = config.pairs_per_agent_max(),
           .history_max = config.history_max(),
-          .work_units_per_turn = WorkUnitsPerTurn(config)};
+          .work_units_per_turn = WorkUnitsPerTurn(config),
+          .broad_phase = MethodOf(config.broad_phase())};
 }
 
 }  // namespace
@@ -156,6 +171,8 @@ class Daemon::Implementation {
                                            .rejections = rejections_,
                                            .event_log = publisher_.event_log(),
                                            .steps = steps_,
+                                           .queries_per_second = query_rate_.Take(
+                                               detector_.counters().queries, world_.monotonic_ns()),
                                            .network = bus_.network_counters()}));
     }
     bus_.Flush();
@@ -183,6 +200,7 @@ class Daemon::Implementation {
   Intake intake_;
   Publisher publisher_;
   StatusSchedule schedule_;
+  Rate query_rate_;
   StepCounters steps_;
   std::vector<std::string> waited_for_;  ///< Told already.
   NamesLog waits_{"waits for simulator {}: its process has gone"};

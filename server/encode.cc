@@ -73,7 +73,7 @@ v1::EarliestIntersection Encode(const EarliestAnswer& answer) {
 }
 
 v1::AgentClearance Encode(const AgentClearance& clearance, std::uint64_t acknowledged_sequence,
-                          std::uint32_t acknowledged_revision) {
+                          std::uint32_t acknowledged_revision, Instant state_wanted) {
   v1::AgentClearance wire;
   wire.set_slot(clearance.agent.slot);
   wire.set_generation(clearance.agent.generation);
@@ -86,6 +86,7 @@ v1::AgentClearance Encode(const AgentClearance& clearance, std::uint64_t acknowl
   wire.set_cause(static_cast<v1::ClearanceCause>(clearance.cause));
   *wire.mutable_cause_agent() = Encode(clearance.cause_agent);
   wire.set_void_from_ns(clearance.void_from.nanoseconds());
+  wire.set_state_wanted_ns(state_wanted.nanoseconds());
   return wire;
 }
 

@@ -10,8 +10,9 @@ v1::AgentId Encode(const AgentId& id);
 v1::CollisionEvent Encode(const CollisionEvent& event);
 v1::EarliestIntersection Encode(const EarliestAnswer& answer);
 
-/// `acknowledged_sequence` and `acknowledged_revision` of what is in force for the agent.
+/// `acknowledged_sequence` and `acknowledged_revision` of what is in force for the agent;
+/// `state_wanted` as StateDemand tells.
 v1::AgentClearance Encode(const AgentClearance& clearance, std::uint64_t acknowledged_sequence,
-                          std::uint32_t acknowledged_revision);
+                          std::uint32_t acknowledged_revision, Instant state_wanted);
 
 }  // namespace collision::server

@@ -29,6 +29,9 @@ void FieldCheck::Integer(const char* field, std::int64_t value, std::int64_t lea
 }
 
 void FieldCheck::Vector(const char* field, const v1::Vector3& value, double greatest) {
+  // Written so that what is not a number fails; names are built for what is refused only.
+  const auto within = [greatest](double x) { return x >= -greatest && x <= greatest; };
+  if (within(value.x()) && within(value.y()) && within(value.z())) return;
   const std::string name = field;
   Number((name + ".x").c_str(), value.x(), -greatest, greatest);
   Number((name + ".y").c_str(), value.y(), -greatest, greatest);

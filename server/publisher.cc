@@ -1,5 +1,6 @@
 #include "server/publisher.h"
 
+#include <set>
 #include <utility>
 
 #include "server/encode.h"
@@ -7,7 +8,7 @@
 namespace collision::server {
 
 Publisher::Publisher(const v1::Config& config, Bus* bus)
-    : service_id_(config.service_id()), term_(config.term()), bus_(*bus) {}
+    : service_id_(config.service_id()), term_(config.term()), demand_(config), bus_(*bus) {}
 
 v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
@@ -21,8 +22,10 @@ void Publisher::PublishClearances(World* world) {
   if (!world->started()) return;
   for (auto& [id, simulator] : world->simulators()) {
     if (world->simulated() && !simulator.granted) continue;
-    for (const std::uint32_t chunk : std::exchange(simulator.chunks_changed, {})) {
-      PublishChunk(*world, simulator, chunk);
+    // Chunk 0 last: whoever waits for the grant in it then has all the others.
+    const std::set<std::uint32_t> chunks = std::exchange(simulator.chunks_changed, {});
+    for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
+      PublishChunk(*world, simulator, *chunk);
     }
   }
 }
@@ -40,8 +43,9 @@ void Publisher::PublishChunk(const World& world, const Simulator& simulator, std
   for (auto slot = simulator.slots.lower_bound(chunk * kSlotsPerChunk); slot != end; ++slot) {
     const auto& agent = slot->second.agent;
     if (!agent || !agent->clearance) continue;
+    const Instant wanted = demand_.WantedAt(*agent->clearance, agent->stamp, world.now());
     *clearance.add_agents() =
-        Encode(*agent->clearance, agent->acknowledged_sequence, agent->revision);
+        Encode(*agent->clearance, agent->acknowledged_sequence, agent->revision, wanted);
   }
   bus_.Publish(output);
 }

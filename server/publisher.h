@@ -7,6 +7,7 @@
 #include "idl/config.pb.h"
 #include "server/bus.h"
 #include "server/event_log.h"
+#include "server/state_demand.h"
 #include "server/world.h"
 
 namespace collision::server {
@@ -17,7 +18,7 @@ class Publisher {
   /// The bus outlives the publisher.
   Publisher(const v1::Config& config, Bus* bus);
 
-  /// The chunks marked as changed, each complete. Simulators without a place in time yet keep their
+  /// The chunks marked as changed, each complete, chunk 0 last. Simulators without a place in time yet keep their
   /// marks.
   void PublishClearances(World* world);
 
@@ -39,6 +40,7 @@ class Publisher {
 
   const std::uint64_t service_id_;
   const std::uint32_t term_;
+  const StateDemand demand_;
   Bus& bus_;
   std::uint64_t sequence_ = 0;
   EventLog event_log_;

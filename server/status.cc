@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "server/version.h"
@@ -85,7 +86,8 @@ void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
   Count("trees_building", shapes.builder.building, status);
 }
 
-void AddDetection(const DetectorCounters& detector, v1::ServiceStatus* status) {
+void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
+  const DetectorCounters& detector = sources.detector.counters();
   for (int kind = 0; kind < v1::EventStatus_ARRAYSIZE; ++kind) {
     std::string name = LowerCase(v1::EventStatus_Name(static_cast<v1::EventStatus>(kind)));
     name.replace(0, std::string("event").size(), "events");
@@ -95,8 +97,12 @@ void AddDetection(const DetectorCounters& detector, v1::ServiceStatus* status) {
   Count("discontinuities", detector.jumps, status);
   Count("widenings", detector.widenings, status);
   Count("breaches", detector.breaches, status);
+  Count("queued", sources.detector.queued(), status);
   Count("queries", detector.queries, status);
+  Count("queries_per_second", sources.queries_per_second, status);
   Count("pair_queries", detector.pair_queries, status);
+  Count("filter_tests", detector.filter_tests, status);
+  Count("method_changes", detector.method_changes, status);
   Count("segments", detector.segments, status);
   Count("work_units", detector.work_units, status);
   Count("saturations", detector.saturations, status);
@@ -121,7 +127,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddSimulators(sources.world, &status);
   AddIntake(sources, &status);
   AddShapes(sources.shapes.counters(), &status);
-  AddDetection(sources.detector.counters(), &status);
+  AddDetection(sources, &status);
   for (const v1::Counter& counter : sources.network) *status.add_counters() = counter;
   const Detector::Profile profile = sources.detector.profile();
   status.set_broad_phase(profile.broad_phase.substr(0, kBroadPhaseTextMax));
@@ -136,6 +142,16 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
     AddExtension("waiting_for", text.substr(0, kExtensionTextMax), &status);
   }
   return status;
+}
+
+std::uint64_t Rate::Take(std::uint64_t count, std::int64_t monotonic_ns) {
+  const double seconds = 1e-9 * static_cast<double>(monotonic_ns - at_ns_);
+  const double more = static_cast<double>(count - count_);
+  const bool known = taken_ && seconds > 0;
+  taken_ = true;
+  count_ = count;
+  at_ns_ = monotonic_ns;
+  return known ? static_cast<std::uint64_t>(std::llround(more / seconds)) : 0;
 }
 
 bool StatusSchedule::Take(const World& world) {

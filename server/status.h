@@ -27,11 +27,25 @@ struct StatusSources {
   const Rejections& rejections;
   const EventLog& event_log;
   StepCounters steps;
-  std::vector<v1::Counter> network;  ///< Bus::network_counters().
+  std::uint64_t queries_per_second = 0;  ///< Of the detector, since the last status.
+  std::vector<v1::Counter> network;      ///< Bus::network_counters().
 };
 
 /// Without service id and stamp. Texts are cut to the bounds of collision.idl.
 v1::ServiceStatus MakeStatus(const StatusSources& sources);
+
+/// How fast a counter grows.
+class Rate {
+ public:
+  /// Per second since the last call, rounded to the nearest; 0 at the first, and if no time has
+  /// passed.
+  std::uint64_t Take(std::uint64_t count, std::int64_t monotonic_ns);
+
+ private:
+  bool taken_ = false;
+  std::uint64_t count_ = 0;
+  std::int64_t at_ns_ = 0;
+};
 
 /// Says when the next status is due: after every period, and at once when something important has
 /// changed: who is there, who is alive, which run.

@@ -22,6 +22,10 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
   app->add_option("--start-ns", options->start_ns,
                   "With --real-time: the run's start in nanoseconds since 1970; default: now")
       ->check(CLI::NonNegativeNumber);
+  app->add_flag("--stream", options->stream,
+                "Send every state, not only those that the service needs");
+  app->add_option("--traffic", options->traffic,
+                  "File for how many states were set and sent (message SimulatorTraffic)");
   app->add_option("--motion-log", options->motion_log,
                   "File for the exact motion, for motion-checker");
   app->add_flag("--linger", options->linger,

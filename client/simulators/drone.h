@@ -32,7 +32,10 @@ class Drone {
   /// nothing changes.
   bool Bounce(const Vector3& normal, int side);
 
-  /// After another kind of bounce.
+  /// Goes on from here: its last step was cut short.
+  void SetPosition(const Vector3& position_m) { position_m_ = position_m; }
+
+  /// After another kind of bounce, likewise.
   void SetVelocity(const Vector3& velocity_m_s) { velocity_m_s_ = velocity_m_s; }
 
   const Vector3& position_m() const { return position_m_; }

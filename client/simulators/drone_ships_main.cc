@@ -55,6 +55,7 @@ int Run(const SimulatorOptions& simulator, const DroneShipOptions& options) {
   flight.Fly();
   log.Close();
   std::printf("%zu bounces\n", flight.bounces());
+  pace.ReportTraffic();
   pace.CheckRefusals();
   return kExitOk;
 }

@@ -38,11 +38,27 @@ int main(int argc, char** argv) {
   app.add_option("--state-every", swarm.state_every, "Steps between two states")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_flag("--declare-speed", swarm.declares_speed,
+               "Tell the service the greatest speed: a little fewer states, more work for it");
+  app.add_option("--force-every", swarm.force_every,
+                 "Steps for which a drone holds a force; together at most 0.1 s")
+      ->check(CLI::Range(1, 100))
+      ->capture_default_str();
+  app.add_option("--places", swarm.limits.places,
+                 "Between so many places they fly: many of them spread the drones out")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   app.add_option("--seconds", simulator.seconds, "Length of the run")
       ->required()
       ->check(Finite(kRunSecondsMax, false));
   AddSimulatorOptions(&app, &simulator);
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
+  if (static_cast<double>(swarm.force_every) > kForceHeldMax * swarm.rate_hz * (1 + 1e-9)) {
+    std::fprintf(stderr,
+                 "drone-swarm: --force-every: %zu steps of 1/%g s, allowed: 0.1 s at most\n",
+                 swarm.force_every, swarm.rate_hz);
+    return kExitUsage;
+  }
   CatchStopSignals();
   return RunProgram("drone-swarm", [&] {
     MotionLog log(simulator.motion_log);
@@ -51,6 +67,7 @@ int main(int argc, char** argv) {
     flight.Fly();
     log.Close();
     std::printf("%zu bounces\n", flight.bounces());
+    pace.ReportTraffic();
     pace.CheckRefusals();
     return static_cast<int>(kExitOk);
   });

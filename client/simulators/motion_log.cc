@@ -1,6 +1,6 @@
 #include "client/simulators/motion_log.h"
 
-#include <cstdio>
+#include <charconv>
 #include <stdexcept>
 
 #include "client/shape.h"
@@ -8,11 +8,11 @@
 namespace collision::client {
 namespace {
 
-// Seventeen digits name a double.
+// The fewest digits that name a double: a swarm writes millions.
 void Write(double number, std::ofstream* file) {
-  char text[32];
-  std::snprintf(text, sizeof text, " %.17g", number);
-  *file << text;
+  char text[32] = " ";
+  const auto end = std::to_chars(text + 1, text + sizeof text, number).ptr;
+  file->write(text, end - text);
 }
 
 }  // namespace

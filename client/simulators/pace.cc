@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 
 #include "client/event_text.h"
 #include "client/simulators/stop_signal.h"
 #include "client/simulators/wait_notice.h"
+#include "idl/scene.pb.h"
 
 namespace collision::client {
 namespace {
@@ -26,6 +28,7 @@ World Connect(const SimulatorOptions& options) {
   world.simulator = options.simulator;
   world.domain = options.domain;
   world.lock_step = !options.real_time;
+  world.on_demand = !options.stream;
   return World::Connect(world);
 }
 
@@ -125,6 +128,26 @@ void Pace::RequireClock() const {
 void Pace::RequireAgentsTaken() const {
   const auto reason = refusals_.fatal(steady_clock::now());
   if (reason) throw RefusedError("the service refused this simulator's agents: " + *reason);
+}
+
+void Pace::ReportTraffic(bool quiet) const {
+  const Traffic& traffic = world_.traffic();
+  const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  if (!quiet) {
+    std::printf("states: %llu set, %llu sent in %llu samples\n", count(traffic.states_set),
+                count(traffic.states_sent), count(traffic.samples_sent));
+  }
+  if (options_.traffic.empty()) return;
+  v1::SimulatorTraffic report;
+  report.set_simulator(options_.simulator);
+  report.set_states_set(traffic.states_set);
+  report.set_states_sent(traffic.states_sent);
+  report.set_samples_sent(traffic.samples_sent);
+  report.set_bytes_sent(traffic.bytes_sent);
+  std::ofstream file(options_.traffic);
+  file << report.Utf8DebugString();
+  file.close();
+  if (!file) throw std::runtime_error(options_.traffic + ": could not be written");
 }
 
 void Pace::CheckRefusals() {

@@ -22,7 +22,9 @@ struct SimulatorOptions {
   double speed = 0;     ///< Lock-step: at most this many simulated seconds a second; 0: as granted.
   double seconds = 0;   ///< Length of the run.
   bool linger = false;  ///< At the end wait for SIGTERM, so that the service can judge everything.
+  bool stream = false;  ///< Every state is sent, not only those that the service needs.
   std::string motion_log;
+  std::string traffic;  ///< File for what was set and sent; empty: none.
 };
 
 class Pace {
@@ -53,6 +55,9 @@ class Pace {
 
   /// With `linger` waits, receiving, until asked to stop.
   void Linger();
+
+  /// At the end: what was set and sent, as a line, unless `quiet`, and into the file for it.
+  void ReportTraffic(bool quiet = false) const;
 
   /// At the end: prints how much was refused. Throws RefusedError if that were the agents.
   void CheckRefusals();

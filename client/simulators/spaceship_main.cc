@@ -58,6 +58,7 @@ int Run(const SimulatorOptions& simulator, const SpaceshipOptions& options, bool
   log.Close();
   screen.reset();  // from here on the terminal is as it was
   std::printf("%zu bounces\n", bounces);
+  pace.ReportTraffic();
   pace.CheckRefusals();
   return kExitOk;
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <set>
 #include <tuple>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "client/simulators/drone.h"
@@ -20,7 +22,12 @@ struct SwarmOptions {
   std::uint64_t seed = 1;
   double rate_hz = 60;          ///< Steps of the motion.
   std::size_t state_every = 1;  ///< Steps between two states of a drone.
+  bool declares_speed = false;  ///< The greatest speed is told: tighter bounds, dearer to ask.
+  std::size_t force_every = 1;  ///< Steps for which a drone holds a force; together 0.1 s at most.
 };
+
+/// The longest that a drone may hold a force [s], as Drone::Step() has it.
+inline constexpr double kForceHeldMax = 0.1;
 
 /// Flies the drones of one process. A confirmed event of one of them turns it back once, at its
 /// next step, with a state marked as a discontinuity.
@@ -37,23 +44,32 @@ class Swarm {
 
  private:
   struct Member {
+    Member(std::string its_name, const Drone& its_drone)
+        : name(std::move(its_name)), drone(its_drone) {}
+
     std::string name;
     Drone drone;
+    MotionPiece piece{};  // under one force; its end may lie ahead, where `drone` is already
     std::optional<Agent> agent;
     std::deque<std::pair<Vector3, int>>
         bounces;  // normals, and on which side of them this drone is
   };
 
   void Hear(const Event& event);
-  void Stage(Member* member, std::int64_t stamp_ns, bool discontinuity);
+  void Add(Member* member);
+  void Stage(Member* member, std::int64_t stamp_ns, bool bounced);
+  std::int64_t HeldUntil(std::size_t member) const;
+  bool Bounce(Member* member, std::int64_t stamp_ns);
   void StepTo(std::int64_t t0_ns, std::int64_t t1_ns, bool states);
 
   SwarmOptions options_;
   Pace* pace_;
   MotionLog* log_;
   std::vector<Member> members_;
+  std::unordered_map<std::uint32_t, std::size_t> by_slot_;
   std::set<std::tuple<AgentId, AgentId, std::uint32_t>> heard_;  // contacts already answered
   std::size_t bounces_ = 0;
+  std::size_t step_ = 0;  // from 1, as Pace::Fly() counts
 };
 
 }  // namespace collision::client

@@ -117,6 +117,7 @@ int Run(Options options) {
   Print(options, agents);
   Play(agents, options.player, &pace, &log);
   log.Close();
+  pace.ReportTraffic(options.quiet);
   pace.CheckRefusals();
   return kExitOk;
 }

@@ -58,6 +58,33 @@ std::string CountersText(const v1::ServiceStatus& status, bool rejections) {
   return text.empty() ? "none" : text;
 }
 
+std::uint64_t CounterOf(const v1::ServiceStatus& status, const std::string& name) {
+  for (const v1::Counter& counter : status.counters()) {
+    if (counter.name() == name) return counter.value();
+  }
+  return 0;
+}
+
+/// What the broad phase is asked, and what waits for its time.
+std::string QuestionsText(const v1::ServiceStatus& status) {
+  return std::to_string(CounterOf(status, "queries_per_second")) + " a second, " +
+         std::to_string(CounterOf(status, "queries")) + " so far; " +
+         std::to_string(CounterOf(status, "queued")) + " events in the queue";
+}
+
+/// How many states stayed inside what was promised, so that nothing had to be asked.
+std::string UpdatesText(const v1::ServiceStatus& status) {
+  const std::uint64_t kept = CounterOf(status, "updates_kept");
+  std::uint64_t all = kept;
+  for (const char* name : {"discontinuities", "widenings", "breaches"}) {
+    all += CounterOf(status, name);
+  }
+  if (all == 0) return "none so far";
+  const double share = 100 * static_cast<double>(kept) / static_cast<double>(all);
+  return std::to_string(kept) + " of " + std::to_string(all) + " cost nothing (" +
+         NumberText(share, "%.1f") + " %)";
+}
+
 std::string SimulatorsTable(const v1::ServiceStatus& status) {
   std::vector<std::vector<std::string>> rows = {
       {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
@@ -113,7 +140,8 @@ std::string StatusPage(const WorldView& view) {
                          std::to_string(status.pairs_tracked()) + " pairs tracked") +
       Line("earliest", EarliestText(view)) +
       Line("broad phase", status.broad_phase() + (status.broad_phase_why().empty() ? "" : ": ") +
-                              status.broad_phase_why());
+                              status.broad_phase_why()) +
+      Line("questions", QuestionsText(status)) + Line("updates", UpdatesText(status));
   std::string label = "left out";
   for (const std::string& what : status.left_out()) {
     page += Line(std::exchange(label, ""), what);

@@ -1,6 +1,7 @@
 // Who could meet whom: the interface of every method.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -15,6 +16,12 @@ struct Meeting {
   std::uint32_t partner;
   PairTime time;
 };
+
+/// From the one at `first` on.
+inline void SortByPartner(std::size_t first, std::vector<Meeting>* meetings) {
+  std::sort(meetings->begin() + static_cast<std::ptrdiff_t>(first), meetings->end(),
+            [](const Meeting& a, const Meeting& b) { return a.partner < b.partner; });
+}
 
 /// Counted work since the start.
 struct BroadPhaseWork {
@@ -47,7 +54,7 @@ class BroadPhase {
   virtual std::optional<PairMeeting> EarliestOf(std::uint32_t agent, const BroadQuery& query) = 0;
 
   /// Appends each partner that `agent` may first meet (horns), at or after `from`, by `until`, and
-  /// of the later meetings at least the earliest, if it is not later than `horizon`; in any order.
+  /// of the later meetings the earliest, if it is not later than `horizon`; in the order of partners.
   /// Partners for which `skip` holds are left out.
   virtual void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
                         const Skip& skip, std::vector<Meeting>* meetings) = 0;

@@ -83,8 +83,8 @@ double FirstZeroWithin(const GapBound& bound, double x_max) {
 
 }  // namespace
 
-double FirstApproach(const Approach& approach, double limit) {
-  double delta = 0;
+double FirstApproach(const Approach& approach, double limit, double start) {
+  double delta = start;
   double last_step = 0;
   for (int count = 0; count < kStepsMax; ++count) {
     const View view(approach, delta);

@@ -22,7 +22,7 @@ struct Approach {
 /// Method: at δ with certified gap g > 0 along the unit vector n, |d| >= n·d, so the gap stays
 /// positive until the positive root of a quadratic, computed rounded down: Newton's step on a lower
 /// bound, hence never past the root. It ends where the gap is not certified positive within a
-/// relative 1e-9 ahead.
-double FirstApproach(const Approach& approach, double limit);
+/// relative 1e-9 ahead. `start`: nothing reaches it before that, as is known already.
+double FirstApproach(const Approach& approach, double limit, double start = 0);
 
 }  // namespace collision

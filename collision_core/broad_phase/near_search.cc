@@ -138,8 +138,7 @@ void NearSearch::Meetings(std::uint32_t agent, Instant from, Instant until, Inst
     const PairMeeting& best = *next.best();
     meetings->push_back({best.lower == agent ? best.higher : best.lower, best.time});
   }
-  std::sort(meetings->begin() + static_cast<std::ptrdiff_t>(told), meetings->end(),
-            [](const Meeting& a, const Meeting& b) { return a.partner < b.partner; });
+  SortByPartner(told, meetings);
 }
 
 }  // namespace collision

@@ -2,129 +2,51 @@
 
 #include <algorithm>
 
-#include "collision_core/broad_phase/first_approach.h"
+#include "collision_core/broad_phase/pair_time_boxes.h"
+#include "collision_core/broad_phase/pair_time_capped.h"
+#include "collision_core/broad_phase/pair_time_glance.h"
+#include "collision_core/broad_phase/pair_time_parts.h"
+#include "collision_core/broad_phase/pair_time_quick.h"
 
 namespace collision {
 namespace {
 
-Interval Component(const IntervalVector& v, int axis) {
-  return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-}
-
-/// Both agents seen from the base instant. Every operation gives the same bits (or the negated
-/// ones) when A and B change places: negation is exact, and a + b is b + a.
-struct Pair {
-  const SpaceTimeBound& a;
-  const SpaceTimeBound& b;
-  Instant base;
-  IntervalVector d0;  ///< From A's centre to B's.
-  IntervalVector w;
-  Quadratic u_A, u_B;
-  Interval radii;
-
-  Pair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base) : a(a), b(b), base(base) {
-    const MovingBall ball_A = ForwardBall(a, base), ball_B = ForwardBall(b, base);
-    // Positions first: a scene far from the origin loses only what its inputs lost.
-    d0 = IntervalVector(b.state.p_WA) - IntervalVector(a.state.p_WA) +
-         (SecondsBetween(b.state.stamp, base) * ball_B.velocity -
-          SecondsBetween(a.state.stamp, base) * ball_A.velocity);
-    w = ball_B.velocity - ball_A.velocity;
-    u_A = ball_A.u();
-    u_B = ball_B.u();
-    radii = Interval(a.declaration.radius) + b.declaration.radius;
-  }
-
-  double BallTime(double limit) const {
-    const Quadratic u = u_A + u_B;
-    return FirstApproach({d0, w, radii + u.c0, u.c1, u.c2}, limit);
-  }
-};
-
-/// One agent's part in the boxes' extents: what a direction takes away from the ball's.
-struct Extent {
-  Quadratic u;
-  Quadratic deviation;
-  DirectionalReach reach;
-
-  /// u without the part that the direction forbids.
-  Quadratic Towards(bool up, int axis) const {
-    const Interval fraction = up ? reach.upward[axis] : reach.downward[axis];
-    return u + (fraction - Interval(1)) * deviation;
-  }
-};
-
-/// Six conditions, each a convex quadratic that must be >= 0 for the boxes to overlap; so each
-/// fails on one interval of time at most.
-struct BoxConditions {
-  Quadratic overlap[6];
-
-  BoxConditions(const Pair& pair, const Extent& extent_A, const Extent& extent_B) {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Quadratic away{Component(pair.d0, axis), Component(pair.w, axis), 0};
-      const Quadratic still{pair.radii, 0, 0};
-      overlap[axis] = Interval(-1) * away + still +
-                      (extent_A.Towards(true, axis) + extent_B.Towards(false, axis));
-      overlap[axis + 3] =
-          away + still + (extent_A.Towards(false, axis) + extent_B.Towards(true, axis));
-    }
-  }
-
-  /// The first time from `start` on at which all may hold, rounded down; may be +infinity. A
-  /// condition that has recovered never fails again, so six rounds find the end of the last
-  /// failure.
-  double FirstFrom(double start) const {
-    double time = start;
-    for (int round = 0; round < 6; ++round) {
-      double next = time;
-      for (const Quadratic& condition : overlap) {
-        const Quadratic seen = condition.From(time);
-        const double step = FirstZero(-seen.c0.upper, seen.c1.upper, std::max(0.0, seen.c2.upper));
-        if (step == kInfinity) return kInfinity;
-        next = std::max(next, AddDown(time, step));
-      }
-      if (next == time) return time;
-      time = next;
-    }
-    return time;
-  }
-};
-
-/// The first overlap of the two boxes, piece by piece between the ends of the directions.
-double BoxTime(const Pair& pair, double limit) {
-  const double end_A = DirectionHoldsFor(pair.a, pair.base);
-  const double end_B = DirectionHoldsFor(pair.b, pair.base);
-  Extent extent_A{pair.u_A, ForwardDeviation(pair.a, pair.base), {}};
-  Extent extent_B{pair.u_B, ForwardDeviation(pair.b, pair.base), {}};
-  double start = 0;
-  while (start <= limit) {
-    const bool A_holds = end_A > start, B_holds = end_B > start;
-    extent_A.reach = A_holds ? ReachOfDirection(pair.a.state) : DirectionalReach();
-    extent_B.reach = B_holds ? ReachOfDirection(pair.b.state) : DirectionalReach();
-    const double end = std::min(A_holds ? end_A : kInfinity, B_holds ? end_B : kInfinity);
-    const double time = BoxConditions(pair, extent_A, extent_B).FirstFrom(start);
-    if (time < end || end == kInfinity) return time;
-    start = end;
-  }
-  return kInfinity;
-}
-
-bool DirectionMatters(const SpaceTimeBound& bound, Instant base) {
-  return bound.declaration.acceleration_max > 0 && DirectionHoldsFor(bound, base) > 0;
+/// The first overlap of the two horns' balls: decided in plain doubles, or with intervals from where
+/// they gave up.
+double BallTime(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double limit) {
+  const QuickAnswer quick = QuickFirstApproach(QuickPair(a, b, base), limit);
+  if (quick.decided) return quick.delta;
+  return FirstApproach(ApproachOf(HornPart(a, base), HornPart(b, base)), limit, quick.delta);
 }
 
 }  // namespace
 
 PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from) {
+  return EarliestIntersection(a, b, from, Instant::Never());
+}
+
+PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from,
+                              Instant until) {
   const Instant base = std::max({from, a.state.stamp, b.state.stamp});
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
-  if (!CanMeet(a.declaration, b.declaration) || expiry <= base) return {base, kInfinity};
-  const double limit = expiry.is_never() ? kInfinity : SecondsBetween(base, expiry).upper;
-  const Pair pair(a, b, base);
-  double time = pair.BallTime(limit);
-  if (time < limit && (DirectionMatters(a, base) || DirectionMatters(b, base))) {
-    time = std::max(time, BoxTime(pair, limit));
+  const PairTime never{base, kInfinity};
+  if (!CanMeet(a.declaration, b.declaration) || expiry <= base || base > until) return never;
+  if (NeverMoves(a) && NeverMoves(b)) return never;
+  // A meeting within the nanosecond of `until` rounds down to it.
+  const Instant end = until.is_never() ? expiry : std::min(expiry, AddRoundedUp(until, 2e-9));
+  const double limit = end.is_never() ? kInfinity : SecondsBetween(base, end).upper;
+  PairTime time{base, BallTime(a, b, base, limit)};
+  // The horns' balls say it all unless a direction or a cap is declared.
+  if (time.seconds < limit && BoxesMatter(a, b, base)) {
+    const auto stands = [&] { return SeemToOverlap(a, b, base, time.seconds); };
+    if (!stands()) {
+      time.seconds = LaterOfCappedBalls(a, b, base, time.seconds, limit);
+      if (time.seconds < limit && !stands()) {
+        time.seconds = LaterOfBoxes(a, b, base, time.seconds, limit);
+      }
+    }
   }
-  return {base, time < limit ? time : kInfinity};
+  return time.seconds < limit && time.instant() <= until ? time : never;
 }
 
 }  // namespace collision

@@ -15,12 +15,18 @@ struct PairTime {
 };
 
 /// The earliest possible intersection of A and B at or after base = max(from, stamp_A, stamp_B):
-/// the later of the first overlap of the two balls and the first overlap of the two boxes. Never
-/// late: no motion that honours both declarations touches in [base, base + seconds). Not idle:
-/// early by at most max(1e-9 · seconds, what the inputs' rounding forces). The boxes are asked only
-/// where a direction is declared; elsewhere they contain the balls. Agents that cannot meet
-/// (masks), or one of which has expired by base, meet never; after an expiry likewise. Symmetric:
-/// (A, B) and (B, A) give the same bits.
+/// the latest of the first overlap of the two balls, of the two boxes and, where a speed cap is
+/// declared, of the capped balls (speed_cap.h). Never late: no motion that honours both declarations
+/// touches in [base, base + seconds). Not idle: early by at most max(1e-9 · seconds, what the
+/// inputs' rounding forces). The boxes are asked only where a direction or a cap is declared;
+/// elsewhere they contain the balls. Agents that cannot meet (masks), or one of which has expired by
+/// base, meet never; after an expiry likewise. Two that never move never meet, even where they
+/// overlap. Symmetric: (A, B) and (B, A) give the same bits.
 PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from);
+
+/// The same bits where the answer's instant is not later than `until`, else never: it can stop
+/// looking there.
+PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from,
+                              Instant until);
 
 }  // namespace collision

@@ -37,11 +37,11 @@ void SpatialIndex::PlaceAll() {
     unsorted_.push_back(placing_.Place(table(), agent));
     const PlacedHorn& horn = unsorted_.back();
     reaches_.push_back(static_cast<float>(placing_.Reach(horn, {0, placing_.window()})));
+    keys_.push_back(table().row(agent).still);
     greatest = std::max(greatest, reaches_.back());
   }
-  keys_.resize(reaches_.size());
   for (std::size_t k = 0; k < keys_.size(); ++k) {
-    keys_[k] = KeyOf(reaches_[k], greatest, table().row(unsorted_[k].agent).still);
+    keys_[k] = KeyOf(reaches_[k], greatest, keys_[k] != 0);
   }
   FillLevels();
 }

@@ -6,6 +6,8 @@
 
 #include "collision_core/detection/detector.h"
 #include "collision_core/detection/history.h"
+#include "collision_core/detection/key_margin.h"
+#include "collision_core/detection/scene_profile.h"
 
 namespace collision {
 
@@ -16,21 +18,26 @@ struct AgentRecord {
   Instant heard = Instant::Always();          ///< The owner has told everything up to here.
   Instant admitted_from = Instant::Always();  ///< Nothing is known, or promised, of it before.
   bool expired = false;
+  /// Removed, as the how manieth, but what it told reaches beyond now; 0: not removed.
+  std::uint64_t leaving = 0;
   bool reshaped = false;  ///< Its shape was declared anew since the newest state.
 
-  /// Certified free of every partner that is not tracked up to here.
+  /// Certified free of every partner that is not tracked up to here; of a saturated agent nothing.
   Instant key = Instant::Always();
+  std::uint32_t next_partner = 0;  ///< A partner that may be met at `key`, as far as is known.
   /// Nothing promised before holds from here on (admission, jump, breach, widening): ask everybody
   /// anew.
   std::optional<Instant> renewed_from;
   ClearanceCause renewed_cause = ClearanceCause::kNone;
-  std::uint64_t asked = 0;  ///< The step in which it was last asked.
-  /// How far kept states may lie off by rounding, summed since the last renewal.
-  double position_drift = 0;
-  double velocity_drift = 0;
-  bool changed = true;  ///< Since the last step.
-  bool saturated = false;
+  std::uint64_t asked = 0;           ///< The step in which it was last asked.
+  KeyMargin margin;                  ///< What is left of it since the last renewal.
+  bool changed = false;              ///< Since the last step: listed as such.
+  bool touched = false;              ///< Its clearance may have changed: listed as such.
+  bool ahead = false;                ///< Its newest state lies beyond its key: listed as such.
+  bool saturated = false;            ///< Listed as such.
+  std::uint32_t crowded_with = 0;    ///< Saturated: a partner that could not be tracked.
   std::vector<std::uint32_t> pairs;  ///< Slots of the tracked pairs.
+  SceneProfile::Features features = 0;
 
   /// What was last told, and why it was lowered since.
   std::optional<AgentClearance> told;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collision_core/broad_phase/chosen_broad_phase.h"
 #include "collision_core/detection/collision_event.h"
 #include "collision_core/motion/contract.h"
 #include "collision_core/motion/motion_state.h"
@@ -25,6 +26,8 @@ struct DetectorOptions {
   /// Work that the narrow phase may spend on two shapes in one turn (narrow_phase/work.h); beyond,
   /// brackets stay wider and say that the budget limited them.
   std::uint64_t work_units_per_turn = 40000;
+  /// The method that finds who may meet; changes what it costs, never what is told.
+  BroadPhaseMethod broad_phase = BroadPhaseMethod::kAuto;
 };
 
 /// Why a clearance was lowered.
@@ -67,8 +70,10 @@ struct DetectorCounters {
   std::uint64_t updates_kept = 0, jumps = 0, widenings = 0, breaches = 0;
   std::uint64_t queries = 0;       ///< Agents asked for their earliest meetings.
   std::uint64_t pair_queries = 0;  ///< Pairs given to the canonical routine.
-  std::uint64_t segments = 0;      ///< Segments judged by the narrow phase.
-  std::uint64_t work_units = 0;    ///< Spent by the narrow phase.
+  std::uint64_t filter_tests = 0;  ///< Pairs that the broad phase ruled out, or not, more cheaply.
+  std::uint64_t method_changes = 0;  ///< Times the broad phase took another method.
+  std::uint64_t segments = 0;        ///< Segments judged by the narrow phase.
+  std::uint64_t work_units = 0;      ///< Spent by the narrow phase.
   std::uint64_t saturations = 0;
   std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.
 };
@@ -123,6 +128,8 @@ class Detector {
   Instant now() const;
   std::size_t agents() const;
   std::size_t pairs_tracked() const;
+  /// Events that wait for their time: agents to be asked again, pairs to be judged, expiries.
+  std::size_t queued() const;
   const DetectorCounters& counters() const;
 
   /// The broad-phase method in use, why, and what this scene does not need.

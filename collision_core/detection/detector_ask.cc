@@ -1,74 +1,85 @@
-// The detector's questions to the broad phase, and the promises that follow.
+// The detector's questions to the broad phase, and the keys that follow.
 #include <algorithm>
-#include <tuple>
 
 #include "collision_core/detection/detector_implementation.h"
 
 namespace collision {
 namespace {
 
-// Keys are computed under bounds a little wider than the true ones, so that a key from an older state is not later
-// than the canonical answer from a newer one that kept the contract up to rounding. Such a state may lie off by a
-// few units in the last place (2^-52; 2^-40 has room for a thousand of them) and by what the rounding of its stamp
-// to the nanosecond moves it.
-struct Growth {
-  double position;
-  double velocity;
-};
+/// So many of the latest keys are looked at one by one when an agent is renewed, so that a few
+/// agents that are clear for long do not make everybody's renewal look far ahead.
+constexpr std::size_t kKeysAside = 32;
 
-Growth GrowthOf(const SpaceTimeBound& bound) {
-  constexpr double kShare = 0x1p-40;
-  constexpr double kStampRounding = 4e-9;
-  const double speed = bound.state.v_WA.norm();
-  const double magnitude = bound.state.p_WA.norm() + speed + bound.declaration.radius;
-  return {kShare * magnitude + kStampRounding * speed,
-          kShare * speed + kStampRounding * bound.declaration.acceleration_max};
-}
+/// A saturated agent is asked again after this share of announce_within.
+constexpr double kSaturatedShare = 0.125;
 
-SpaceTimeBound Grown(SpaceTimeBound bound) {
-  const Growth growth = GrowthOf(bound);
-  bound.state.position_error += growth.position;
-  bound.state.velocity_error += growth.velocity;
-  if (bound.state.discontinuity && bound.skew > 0) {
-    // The jump may have come earlier by the skew: where it has been since then belongs to the bound.
-    const double speed = bound.state.v_WA.norm() + bound.declaration.acceleration_max * bound.skew;
-    bound.state.position_error += 2 * speed * bound.skew;
-  }
-  return bound;
-}
+/// The order of ~key is that of the keys from the last to the first.
+Instant Reversed(Instant key) { return Instant::FromNanoseconds(~key.nanoseconds()); }
+
+constexpr std::uint32_t kNobody = ~0u;
+
+bool ByPartner(const Meeting& a, const Meeting& b) { return a.partner < b.partner; }
 
 }  // namespace
 
-void Detector::Implementation::Put(std::uint32_t agent) {
-  broad_phase_.Put(agent, Grown(At(agent).bound()));
-}
-
-bool Detector::Implementation::DriftedBeyondKeys(const AgentRecord& agent) {
-  const Growth room = GrowthOf(agent.bound());
-  return agent.position_drift > room.position || agent.velocity_drift > room.velocity;
-}
-
 void Detector::Implementation::SetKey(std::uint32_t agent, Instant key) {
-  At(agent).key = key;
+  AgentRecord& record = At(agent);
+  if (record.saturated) {
+    queue_.Set(agent, AnnounceUntil());  // something has changed: asked again in the next step
+    return;
+  }
+  record.key = key;
   queue_.Set(agent, key);
+  if (latest_.Contains(agent)) latest_.Set(agent, Reversed(key));
+  if (key < record.stamp()) NoteAhead(agent);
+  Touch(agent);
+}
+
+// Its newest state lies beyond its key.
+void Detector::Implementation::NoteAhead(std::uint32_t agent) {
+  if (At(agent).ahead) return;
+  At(agent).ahead = true;
+  ahead_.push_back(agent);
 }
 
 void Detector::Implementation::AskAll() {
-  std::vector<std::uint32_t> renewed;
-  renewed.swap(renewed_);
-  for (const std::uint32_t agent : renewed) {
-    if (!At(agent).expired) Ask(agent);
+  // By index only as far as it goes: a renewal may come while others wait for theirs.
+  for (const std::uint32_t agent : renewed_) {
+    if (agents_[agent] && At(agent).renewed_from) Ask(agent);
   }
-  const Instant until = AddRoundedDown(now_, options_.announce_within);
+  renewed_.clear();
+  const Instant until = AnnounceUntil();
   while (!queue_.empty() && queue_.top_key() <= until) Ask(queue_.top());
-  counters_.pair_queries += broad_phase_.work().pair_queries - broad_queries_seen_;
-  broad_queries_seen_ = broad_phase_.work().pair_queries;
+  SettleKeys();
 }
 
-bool Detector::Implementation::Tracked(const AgentRecord& agent, std::uint32_t partner) const {
-  return std::any_of(agent.pairs.begin(), agent.pairs.end(), [&](std::uint32_t slot) {
-    return pairs_[slot].lower == partner || pairs_[slot].higher == partner;
-  });
+// Keys that were set in this step may be lowered by what is renewed from now on.
+void Detector::Implementation::SettleKeys() {
+  for (const std::uint32_t agent : fresh_) {
+    if (!agents_[agent]) continue;
+    const AgentRecord& record = At(agent);
+    if (record.expired || record.saturated || record.renewed_from) continue;
+    latest_.Set(agent, Reversed(At(agent).key));
+  }
+  fresh_.clear();
+  const BroadPhaseWork work = broad_phase_.work();
+  counters_.pair_queries += work.pair_queries - broad_queries_seen_;
+  counters_.filter_tests = work.filter_tests;
+  counters_.method_changes = broad_phase_.changes();
+  broad_queries_seen_ = work.pair_queries;
+}
+
+void Detector::Implementation::MarkTracked(const AgentRecord& agent) {
+  ++mark_;
+  for (const std::uint32_t slot : agent.pairs) {
+    marks_[pairs_[slot].lower] = marks_[pairs_[slot].higher] = mark_;
+  }
+}
+
+std::size_t Detector::Implementation::RoomFor(const AgentRecord& agent) const {
+  const std::size_t taken = agent.pairs.size();
+  if (taken >= options_.pairs_per_agent_max) return 0;
+  return std::min(options_.pairs_per_agent_max - taken, pairs_.room());
 }
 
 // Finds the agent's meetings anew: those within announce_within become tracked pairs, the earliest
@@ -76,225 +87,208 @@ bool Detector::Implementation::Tracked(const AgentRecord& agent, std::uint32_t p
 void Detector::Implementation::Ask(std::uint32_t agent) {
   AgentRecord& record = At(agent);
   const bool renewed = record.renewed_from.has_value();
-  const Instant covered = record.renewed_from.value_or(record.key);
-  const Instant until = AddRoundedDown(now_, options_.announce_within);
   const bool was_saturated = record.saturated;
+  const Instant covered = record.renewed_from.value_or(record.key);
   ++counters_.queries;
   record.asked = step_;
   record.renewed_from.reset();
-  record.saturated = false;
-  TrackUncovered(agent, renewed, covered);
-
-  std::vector<Meeting> meetings;
-  const auto skip = [&](std::uint32_t partner) { return Tracked(record, partner); };
-  broad_phase_.Meetings(agent, std::min(now_, covered), renewed ? Instant::Never() : until,
-                        Instant::Never(), skip, &meetings);
-  Instant key = Instant::Never();
-  for (const Meeting& meeting : meetings) {
-    Instant when = meeting.time.instant();
-    if (when.is_never()) continue;
-    if (when <= until) {
-      const bool overlap = meeting.time.seconds <= 0;
-      // They may have met before: as far back as is not covered, and both were there.
-      if (overlap && renewed)
-        when = std::min(when, UncoveredFrom(record, At(meeting.partner), covered));
-      const bool unknown_before = renewed || was_saturated || At(meeting.partner).saturated;
-      Track(agent, meeting.partner, when, overlap && unknown_before);
-      if (renewed) Tell(meeting.partner, agent);
-      continue;
-    }
-    key = std::min(key, when);
-    if (when < At(meeting.partner).key) {
-      SetKey(meeting.partner, when);
-      if (renewed) Tell(meeting.partner, agent);
-    }
+  if (was_saturated) {
+    record.saturated = false;
+    std::erase(saturated_, agent);
   }
-  SetKey(agent, record.saturated ? std::min(key, record.key) : key);
+  latest_.Remove(agent);
+  fresh_.push_back(agent);
+  MarkTracked(record);
+  // A saturated agent was promised nothing.
+  if (renewed || !was_saturated) TrackUncovered(agent, renewed, covered);
+  const Instant from = std::min(now_, covered);
+  // In a crowd most agents are saturated, and need no key.
+  const bool crowd = crowd_ || was_saturated;
+  FindMeetings(agent, from, crowd ? AnnounceUntil() : Instant::Never());
+  crowd_ = record.saturated;
+  TakeMeetings(agent, renewed, was_saturated, covered);
+  if (crowd && !record.saturated) FindKey(agent, from);
+  if (renewed) LowerKeys(agent, from);
   record.renewed_cause = ClearanceCause::kNone;
 }
 
-// The broad phase answers from the newest states on. What lies between the instant up to which a
-// pair was covered and those states must be free as well, or the pair is tracked and judged.
-void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
+// Into found_, by partner: whom the agent may meet within announce_within, and the earliest of the
+// others. Of more than there is room for the first by index, and none that has no room itself: then
+// the agent is saturated. What is not needed for that is not asked, and what is found depends on
+// nobody's order of asking.
+void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, Instant horizon) {
+  const Instant until = AnnounceUntil();
+  const std::size_t room = RoomFor(At(agent));
+  std::uint32_t first_full = kNobody;
+  first_.clear();
+  std::size_t seen = 0;
+  const auto look = [&] {
+    for (; seen < found_.size(); ++seen) {
+      if (found_[seen].time.instant() > until) continue;
+      const std::uint32_t partner = found_[seen].partner;
+      if (IsFull(partner)) {
+        first_full = std::min(first_full, partner);
+        continue;
+      }
+      first_.push_back(partner);
+      std::push_heap(first_.begin(), first_.end());
+      if (first_.size() <= room + 1) continue;
+      std::pop_heap(first_.begin(), first_.end());
+      first_.pop_back();
+    }
+  };
+  const auto skip = [&](std::uint32_t partner) {
+    look();
+    if (Marked(partner)) return true;
+    if (IsFull(partner)) return partner > first_full;
+    return first_.size() > room && partner > first_.front();
+  };
+  found_.clear();
+  broad_phase_.Meetings(agent, from, until, horizon, skip, &found_);
+  look();
+  if (first_.size() > room) first_full = std::min(first_full, first_.front());
+  const std::uint32_t end = first_.size() > room ? first_.front() : kNobody;
+  std::erase_if(found_, [&](const Meeting& meeting) {
+    return meeting.time.instant() <= until && (IsFull(meeting.partner) || meeting.partner >= end);
+  });
+  std::sort(found_.begin(), found_.end(), ByPartner);
+  if (first_full != kNobody) Saturate(agent, first_full);
+}
+
+// Tracks who may be met soon; the earliest of the others is the agent's key.
+void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, bool was_saturated,
+                                            Instant covered) {
   const AgentRecord& record = At(agent);
-  for (std::uint32_t partner = 0; partner < agents_.size(); ++partner) {
-    if (partner == agent || !agents_[partner]) continue;
+  const Instant until = AnnounceUntil();
+  for (const Meeting& meeting : found_) {
+    Instant when = meeting.time.instant();
+    if (when > until) continue;
+    const AgentRecord& partner = At(meeting.partner);
+    const bool overlap = meeting.time.seconds <= 0;
+    // They may have met before: as far back as is not covered, and both were there.
+    if (overlap && renewed) when = std::min(when, UncoveredFrom(record, partner, covered));
+    const bool unknown_before = renewed || was_saturated || partner.saturated;
+    Track(agent, meeting.partner, when, overlap && unknown_before);
+    marks_[meeting.partner] = mark_;
+    if (renewed) Tell(meeting.partner, agent);
+  }
+  TakeKey(agent);
+}
+
+// The earliest of found_ that is not tracked.
+void Detector::Implementation::TakeKey(std::uint32_t agent) {
+  AgentRecord& record = At(agent);
+  if (record.saturated) return;
+  Instant key = Instant::Never();
+  for (const Meeting& meeting : found_) {
+    if (Marked(meeting.partner) || meeting.time.instant() >= key) continue;
+    key = meeting.time.instant();
+    record.next_partner = meeting.partner;
+  }
+  SetKey(agent, key);
+}
+
+void Detector::Implementation::FindKey(std::uint32_t agent, Instant from) {
+  const auto skip = [this](std::uint32_t partner) { return Marked(partner); };
+  found_.clear();
+  broad_phase_.Meetings(agent, from, AnnounceUntil(), Instant::Never(), skip, &found_);
+  std::sort(found_.begin(), found_.end(), ByPartner);
+  TakeKey(agent);
+}
+
+// Every partner whose key is later than its meeting with the renewed agent gets the earlier one.
+// Only keys of earlier steps can be: whoever is asked in this step is asked about the new bound.
+void Detector::Implementation::LowerKeys(std::uint32_t agent, Instant from) {
+  const Instant until = AnnounceUntil();
+  latest_.First(kKeysAside + 1, &aside_);
+  Instant horizon = until;
+  if (aside_.size() > kKeysAside) {
+    horizon = std::max(until, At(aside_.back()).key);
+    aside_.pop_back();
+    const auto skip = [&](std::uint32_t partner) {
+      return Marked(partner) || !latest_.Contains(partner) || At(partner).saturated ||
+             CertainlyLater(At(agent), partner);
+    };
+    found_.clear();
+    broad_phase_.Meetings(agent, from, horizon, horizon, skip, &found_);
+    std::sort(found_.begin(), found_.end(), ByPartner);
+    for (const Meeting& meeting : found_) {
+      LowerKey(meeting.partner, agent, meeting.time.instant());
+    }
+  }
+  const SpaceTimeBound bound = At(agent).margin.Widen(At(agent).bound());
+  std::sort(aside_.begin(), aside_.end());
+  for (const std::uint32_t partner : aside_) {
     const AgentRecord& other = At(partner);
-    if (other.expired || Tracked(record, partner) ||
-        !CanMeet(record.bound().declaration, other.bound().declaration)) {
-      continue;
-    }
-    const Instant free_until =
-        renewed ? UncoveredFrom(record, other, covered) : std::max(covered, other.key);
-    const Instant known_from = std::max(record.stamp(), other.stamp());
-    if (free_until < known_from && !FreeOver(record, other, free_until, known_from)) {
-      Track(agent, partner, free_until, renewed);
-    }
-  }
-}
-
-// Nothing is promised of an agent before it was admitted.
-Instant Detector::Implementation::UncoveredFrom(const AgentRecord& a, const AgentRecord& b,
-                                                Instant covered) const {
-  return std::max({covered, a.admitted_from, b.admitted_from});
-}
-
-bool Detector::Implementation::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,
-                                        Instant to) {
-  const SpaceTimeBound* bound_a = a.history.Uninterrupted(from);
-  const SpaceTimeBound* bound_b = b.history.Uninterrupted(from);
-  if (bound_a == nullptr || bound_b == nullptr) return false;
-  ++counters_.pair_queries;
-  return EarliestIntersection(*bound_a, *bound_b, from).instant() >= to;
-}
-
-void Detector::Implementation::Track(std::uint32_t a, std::uint32_t b, Instant free_until,
-                                     bool began_before) {
-  const std::uint32_t lower = At(a).id < At(b).id ? a : b;
-  const std::uint32_t higher = lower == a ? b : a;
-  const auto full = [&](std::uint32_t agent) {
-    return At(agent).pairs.size() >= options_.pairs_per_agent_max;
-  };
-  std::optional<std::uint32_t> slot;
-  if (!full(a) && !full(b)) {
-    slot = pairs_.Add({.lower = lower,
-                       .higher = higher,
-                       .tracker = ContactTracker(free_until, began_before),
-                       .clear_until = free_until});
-  }
-  if (slot) {
-    At(a).pairs.push_back(*slot);
-    At(b).pairs.push_back(*slot);
-    return;
-  }
-  // Told as saturated, and asked again in the next step.
-  for (const std::uint32_t agent : {a, b}) {
-    ++counters_.saturations;
-    At(agent).saturated = true;
-    SetKey(agent, AddRoundedUp(AddRoundedDown(now_, options_.announce_within), 1e-9));
-  }
-}
-
-// Both keys cover the pair from now on.
-void Detector::Implementation::Untrack(std::uint32_t slot) {
-  const PairRecord& pair = pairs_[slot];
-  for (const std::uint32_t agent : {pair.lower, pair.higher}) {
-    SetKey(agent, std::min(At(agent).key, pair.clear_until));
-    std::erase(At(agent).pairs, slot);
-  }
-  pairs_.Remove(slot);
-}
-
-AgentClearance Detector::Implementation::Clearance(const AgentRecord& agent) const {
-  AgentClearance clearance;
-  clearance.agent = agent.id;
-  clearance.effective_from = agent.effective_from;
-  clearance.saturated = agent.saturated;
-  clearance.clear_until = agent.key;
-  for (const std::uint32_t slot : agent.pairs) {
-    const PairRecord& pair = pairs_[slot];
-    if (pair.in_contact) {
-      clearance.in_contact = true;
-    } else {
-      clearance.clear_until = std::min(clearance.clear_until, pair.clear_until);
-    }
-  }
-  if (agent.expired) clearance.clear_until = agent.bound().state.expiry;
-  if (agent.saturated) clearance.clear_until = std::min(clearance.clear_until, now_);
-  clearance.not_clear = clearance.clear_until <= now_;
-  return clearance;
-}
-
-std::vector<AgentClearance> Detector::Implementation::TakeChangedClearances() {
-  std::vector<AgentClearance> changed;
-  for (const auto& [id, agent] : index_) {
-    AgentRecord& record = At(agent);
-    AgentClearance clearance = Clearance(record);
-    const bool first = !record.told;
-    const bool lowered = !first && clearance.clear_until < record.told->clear_until;
-    const bool same = !first && clearance.clear_until == record.told->clear_until &&
-                      clearance.not_clear == record.told->not_clear &&
-                      clearance.in_contact == record.told->in_contact &&
-                      clearance.saturated == record.told->saturated &&
-                      clearance.effective_from == record.told->effective_from &&
-                      record.void_from.is_never();
-    if (!same) {
-      if (first || lowered || record.cause_agent == record.id) {
-        clearance.cause = record.cause;
-        clearance.cause_agent = record.cause_agent;
-        clearance.void_from = record.void_from;
-      }
-      record.told = clearance;
-      changed.push_back(clearance);
-    }
-    record.cause = ClearanceCause::kNone;
-    record.cause_agent = AgentId{};
-    record.void_from = Instant::Never();
-  }
-  return changed;
-}
-
-std::optional<AgentClearance> Detector::Implementation::ClearanceOf(const AgentId& id) const {
-  const auto found = index_.find(id);
-  if (found == index_.end()) return std::nullopt;
-  return Clearance(*agents_[found->second]);
-}
-
-EarliestAnswer Detector::Implementation::Earliest() {
-  EarliestAnswer best;
-  const auto offer = [&](std::uint32_t a, std::uint32_t b, Instant when) {
-    const AgentId lower = std::min(At(a).id, At(b).id);
-    const AgentId higher = std::max(At(a).id, At(b).id);
-    if (when.is_never()) return;
-    if (best.found &&
-        std::tie(best.earliest, best.lower, best.higher) <= std::tie(when, lower, higher)) {
-      return;
-    }
-    best = {true, when, lower, higher};
-  };
-  const auto canonical = [&](std::uint32_t a, std::uint32_t b) {
+    if (Marked(partner) || other.saturated || CertainlyLater(At(agent), partner)) continue;
     ++counters_.pair_queries;
-    return EarliestIntersection(At(a).bound(), At(b).bound(), now_).instant();
+    const SpaceTimeBound bound_of_other = other.margin.Widen(other.bound());
+    LowerKey(partner, agent, EarliestIntersection(bound, bound_of_other, from).instant());
+  }
+}
+
+void Detector::Implementation::LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when) {
+  if (when >= At(partner).key) return;
+  if (when <= AnnounceUntil()) {
+    Saturate(partner, agent);  // there was no room to track the two
+  } else {
+    At(partner).next_partner = agent;
+    SetKey(partner, when);
+  }
+  Tell(partner, agent);
+}
+
+// Whether the two are certain not to meet before the partner's key: a cheap test that spares most
+// questions. The centres' difference moves on a segment, which stays away from the origin by more
+// than both can reach until then.
+bool Detector::Implementation::CertainlyLater(const AgentRecord& agent,
+                                              std::uint32_t partner) const {
+  constexpr double kRoundings = 0x1p-40;
+  const AgentRecord& other = At(partner);
+  const Instant from = std::max(agent.stamp(), other.stamp());
+  if (other.key <= from) return true;
+  if (other.key.is_never()) return false;
+  const auto seconds = [](Instant from, Instant to) {
+    return 1e-9 * (static_cast<double>(to.nanoseconds()) - static_cast<double>(from.nanoseconds()));
   };
-  for (const std::uint32_t slot : pairs_.slots()) {
-    PairRecord& pair = pairs_[slot];
-    if (pair.in_contact) continue;
-    if (pair.asked != step_) {
-      pair.earliest = canonical(pair.lower, pair.higher);
-      pair.asked = step_;
+  double reach = 0, magnitude = 0;
+  Eigen::Vector3d d = Eigen::Vector3d::Zero(), w = Eigen::Vector3d::Zero();
+  for (const AgentRecord* record : {&agent, &other}) {
+    const MotionState& state = record->bound().state;
+    const AgentDeclaration& declaration = record->bound().declaration;
+    const double tau = seconds(state.stamp, other.key) + options_.skew;
+    const double speed = state.v_WA.norm();
+    reach += declaration.radius + state.position_error + speed * options_.skew +
+             state.velocity_error * tau +
+             declaration.acceleration_max * tau * (tau + declaration.time_step) / 2;
+    if (state.discontinuity) {
+      reach += 2 * (speed + declaration.acceleration_max * options_.skew) * options_.skew;
     }
-    // The canonical answer begins at the newer state. Where that lies ahead of now (its owner was granted more
-    // time than others), the pair must be certified free until there.
-    const Instant known_from = std::max(At(pair.lower).stamp(), At(pair.higher).stamp());
-    const bool known = pair.clear_until >= known_from;
-    // States that lie ahead may tell of a contact that begins and ends before them.
-    if (!pair.ahead_from.is_never() && pair.ahead_until > now_) {
-      offer(pair.lower, pair.higher, std::max(now_, pair.ahead_from));
-    }
-    // Where balls may overlap, their shapes may be certified apart for longer.
-    const Instant earliest = std::max(pair.earliest, known ? pair.clear_until : Instant::Always());
-    offer(pair.lower, pair.higher,
-          known ? earliest : std::min(pair.earliest, std::max(now_, pair.clear_until)));
+    magnitude += state.p_WA.norm() + speed * (tau + 1) + 1e-6 * speed;
+    const double sign = record == &agent ? -1 : 1;
+    d += sign * (state.p_WA + state.v_WA * seconds(state.stamp, from));
+    w += sign * state.v_WA;
   }
-  // Keys are lower bounds, so only agents whose key is not later than the best answer can better
-  // it.
-  std::vector<std::uint32_t> seen;
-  while (!queue_.empty() && queue_.top_key() <= best.earliest && !queue_.top_key().is_never()) {
-    const std::uint32_t agent = queue_.top();
-    if (At(agent).asked != step_) {
-      Ask(agent);
-      continue;
-    }
-    queue_.Remove(agent);
-    seen.push_back(agent);
-    for (const auto& [id, partner] : index_) {
-      if (partner != agent && !At(partner).expired && !Tracked(At(agent), partner)) {
-        offer(agent, partner, canonical(agent, partner));  // covered: keys are later than states
-      }
-    }
-  }
-  for (const std::uint32_t agent : seen) queue_.Set(agent, At(agent).key);
-  return best;
+  const double duration = seconds(from, other.key);
+  const double nearest = std::clamp(-d.dot(w) / std::max(w.squaredNorm(), 1e-300), 0.0, duration);
+  const double margin = kRoundings * (magnitude + reach) + 1e-8 * (w.norm() + 1);
+  return (d + w * nearest).norm() > reach + margin;
+}
+
+// Told as saturated: it may touch at any time. Asked again a little later; until then its key
+// promises nothing, and no question depends on it.
+void Detector::Implementation::Saturate(std::uint32_t agent, std::uint32_t partner) {
+  AgentRecord& record = At(agent);
+  record.crowded_with = partner;
+  record.key = std::max(now_, record.stamp());
+  latest_.Remove(agent);
+  Touch(agent);
+  const double rest = kSaturatedShare * options_.announce_within;
+  queue_.Set(agent, AddRoundedUp(AddRoundedDown(AnnounceUntil(), rest), 1e-9));
+  if (record.saturated) return;
+  ++counters_.saturations;
+  record.saturated = true;
+  saturated_.push_back(agent);
 }
 
 }  // namespace collision

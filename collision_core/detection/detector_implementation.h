@@ -1,24 +1,28 @@
 // The detector's insides. Only detector*.cc include this.
 #pragma once
 
-#include <map>
 #include <memory>
+#include <unordered_map>
 #include <vector>
 
-#include "collision_core/broad_phase/all_pairs.h"
+#include "collision_core/broad_phase/chosen_broad_phase.h"
 #include "collision_core/detection/agent_record.h"
 #include "collision_core/detection/announcer.h"
 #include "collision_core/detection/detector.h"
 #include "collision_core/detection/event_queue.h"
+#include "collision_core/detection/former_motions.h"
 #include "collision_core/detection/pair_table.h"
+#include "collision_core/detection/scene_extremes.h"
 
 namespace collision {
 
 /// What keeps never-late true between two steps:
-///  - every two agents that can meet are either a tracked pair, whose tracker says up to when they are certified
-///    free, or covered: certified free up to the greater of their two keys, which is later than both newest
-///    states;
+///  - every two agents that can meet are either a tracked pair, whose tracker says up to when they
+///    are certified free, or covered: certified free up to the greater of their two keys, which is
+///    later than both newest states; or both are told as saturated;
 ///  - after a step every key is later than now + announce_within (or its agent is saturated).
+/// No step walks over all agents or pairs: what must be looked at stands in a queue by the time at
+/// which it is due, or in a list of what has changed.
 class Detector::Implementation {
  public:
   explicit Implementation(const DetectorOptions& options);
@@ -36,53 +40,120 @@ class Detector::Implementation {
   std::optional<AgentClearance> ClearanceOf(const AgentId& id) const;
   EarliestAnswer Earliest();
   Profile DescribeScene() const;
+  std::size_t agents() const { return index_.size(); }
+  std::size_t queued() const { return queue_.size() + pairs_due_.size() + expiries_.size(); }
 
   Instant now_ = Instant::Always();
   DetectorCounters counters_;
-  std::map<AgentId, std::uint32_t> index_;
   PairTable pairs_;
   Announcer announcer_;
 
  private:
+  struct IdHash {
+    std::size_t operator()(const AgentId& id) const;
+  };
+  struct EarliestSearch;  // in detector_earliest.cc
+
   AgentRecord* Find(const AgentId& id);
   AgentRecord& At(std::uint32_t agent) { return *agents_[agent]; }
+  const AgentRecord& At(std::uint32_t agent) const { return *agents_[agent]; }
+  Instant AnnounceUntil() const { return AddRoundedDown(now_, options_.announce_within); }
 
-  // Updates.
+  // Updates (detector_update.cc).
+  void Store(std::uint32_t agent, const SpaceTimeBound& bound, Link link);
+  UpdateOutcome Return(std::uint32_t agent, const SpaceTimeBound& next, Instant effective_from);
+  UpdateOutcome Jump(std::uint32_t agent, const SpaceTimeBound& next, Instant effective_from);
+  UpdateOutcome Keep(std::uint32_t agent, const SpaceTimeBound& next, const ContractCheck& check,
+                     Instant effective_from);
+  void Break(std::uint32_t agent, const SpaceTimeBound& next, Instant effective_from);
   void Put(std::uint32_t agent);
-  static bool DriftedBeyondKeys(const AgentRecord& agent);
+  void Narrow(std::uint32_t agent);
+  void NoteBound(std::uint32_t agent);
+  void NoteChanged(std::uint32_t agent);
+  void Touch(std::uint32_t agent);
   void Renew(std::uint32_t agent, Instant from, ClearanceCause cause, Instant effective_from);
   void Tell(std::uint32_t agent, std::uint32_t cause);
+
+  // One step (detector_step.cc).
+  void ExpireAll();
   void Expire(std::uint32_t agent, bool gone);
   void Leave(std::uint32_t agent);
-  void TrimHistories();
+  void ForgetPast();
 
-  // Asking the broad phase.
+  // Asking the broad phase (detector_ask.cc).
   void AskAll();
   void Ask(std::uint32_t agent);
+  void FindMeetings(std::uint32_t agent, Instant from, Instant horizon);
+  void FindKey(std::uint32_t agent, Instant from);
+  void TakeKey(std::uint32_t agent);
+  void TakeMeetings(std::uint32_t agent, bool renewed, bool was_saturated, Instant covered);
+  void LowerKeys(std::uint32_t agent, Instant from);
+  void LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when);
+  bool CertainlyLater(const AgentRecord& agent, std::uint32_t partner) const;
+  void SetKey(std::uint32_t agent, Instant key);
+  void NoteAhead(std::uint32_t agent);
+  void SettleKeys();
+  void Saturate(std::uint32_t agent, std::uint32_t partner);
+  std::size_t RoomFor(const AgentRecord& agent) const;
+  bool IsFull(std::uint32_t agent) const { return full_[agent] || pairs_.room() == 0; }
+  void NoteFull(std::uint32_t agent);
+  void MarkTracked(const AgentRecord& agent);
+  bool Marked(std::uint32_t partner) const { return marks_[partner] == mark_; }
+
+  // What lies before the newest states (detector_uncovered.cc).
   void TrackUncovered(std::uint32_t agent, bool renewed, Instant covered);
+  void TrackIfUncovered(std::uint32_t agent, std::uint32_t partner, bool renewed, Instant covered);
+  void FindAround(std::uint32_t agent, Instant from);
+  SpaceTimeBound Around(const SpaceTimeBound& motion, Instant from) const;
   Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covered) const;
   bool FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from, Instant to);
-  void SetKey(std::uint32_t agent, Instant key);
 
-  // Tracked pairs.
+  // Tracked pairs (detector_pairs.cc).
   void TurnAll();
   void Turn(std::uint32_t slot, bool last);
-  void NoteAhead(const ContactTracker& preview, PairRecord* pair) const;
+  void Judge(std::uint32_t slot, bool last, ContactTracker* preview, Work* work);
+  void NoteContactAhead(const ContactTracker& preview, PairRecord* pair) const;
+  void NoteDue(std::uint32_t slot);
   Instant SettledUntil(const AgentRecord& agent) const;
-  bool Tracked(const AgentRecord& agent, std::uint32_t partner) const;
   void Track(std::uint32_t a, std::uint32_t b, Instant free_until, bool began_before);
   void Untrack(std::uint32_t slot);
   void Drop(std::uint32_t slot, bool gone);
+  void Release(std::uint32_t slot);
 
   DetectorOptions options_;
-  std::vector<std::unique_ptr<AgentRecord>> agents_;  // by index; null: free
+  std::unordered_map<AgentId, std::uint32_t, IdHash> index_;  // never walked over
+  std::vector<std::unique_ptr<AgentRecord>> agents_;          // by index; null: free
   std::vector<std::uint32_t> free_;
-  AllPairs broad_phase_;
-  EventQueue queue_;
-  std::vector<std::uint32_t> renewed_;  // in the order of their renewal
-  std::vector<std::uint32_t> leaving_;  // removed, but what they told reaches beyond now
+  ChosenBroadPhase broad_phase_;
   std::uint64_t broad_queries_seen_ = 0;
+  FormerMotions former_;
+  SceneExtremes extremes_;
+  SceneProfile scene_;
   std::uint64_t step_ = 0;
+  std::uint64_t removals_ = 0;
+
+  EventQueue queue_;  // agents by the time at which they must be asked again
+  /// Agents by key, the latest first (as ~key), of those not asked and not renewed in this step.
+  EventQueue latest_;
+  EventQueue expiries_;        // agents by expiry
+  EventQueue pairs_due_;       // pairs by the time from which they are judged every step
+  EventQueue pairs_earliest_;  // pairs by PairRecord::not_before, of those not in contact
+
+  // What has happened since the last step, or the last TakeChangedClearances().
+  std::vector<std::uint32_t> renewed_;  // in the order of their renewal
+  std::vector<std::uint32_t> changed_;
+  std::vector<std::uint32_t> touched_;
+  std::vector<std::uint32_t> ahead_;
+  std::vector<std::uint32_t> saturated_;
+  std::vector<std::uint32_t> fresh_;  // asked since the last SettleKeys()
+
+  // Kept for their memory.
+  std::vector<Meeting> found_;
+  std::vector<std::uint32_t> candidates_, slots_, aside_, first_;
+  std::vector<std::uint64_t> marks_;  // by agent: == mark_ if a tracked partner of who asks
+  std::uint64_t mark_ = 0;
+  bool crowd_ = false;              // the agent last asked was saturated
+  std::vector<std::uint8_t> full_;  // by agent: as many tracked pairs as it may have
 };
 
 }  // namespace collision

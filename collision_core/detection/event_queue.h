@@ -1,4 +1,4 @@
-// Agents ordered by the time at which they must be asked again.
+// Indices ordered by the time at which something must be done about them.
 #pragma once
 
 #include <cstdint>
@@ -8,24 +8,30 @@
 
 namespace collision {
 
-/// A binary heap of (key, agent), with each agent's place known so that its key can change in O(log
-/// n). Equal keys come in the order of the agents' indices, so that the order never depends on
-/// history.
+/// A binary heap of (key, index), with each index's place known so that its key can change in O(log
+/// n). Equal keys come in the order of the indices, so that the order never depends on history.
 class EventQueue {
  public:
-  /// Adds the agent, or moves it to its new key.
-  void Set(std::uint32_t agent, Instant key);
-  void Remove(std::uint32_t agent);
+  /// Adds the index, or moves it to its new key. O(1) if the key is the one it has.
+  void Set(std::uint32_t index, Instant key);
+  void Remove(std::uint32_t index);
 
   bool empty() const { return heap_.empty(); }
   std::size_t size() const { return heap_.size(); }
-  std::uint32_t top() const { return heap_.front().agent; }
+  std::uint32_t top() const { return heap_.front().index; }
   Instant top_key() const { return heap_.front().key; }
+  bool Contains(std::uint32_t index) const {
+    return index < place_.size() && place_[index] != kAbsent;
+  }
+
+  /// Replaces `first` by the first `count` indices in order (all, if there are fewer), in
+  /// O(count log count) whatever the size.
+  void First(std::size_t count, std::vector<std::uint32_t>* first) const;
 
  private:
   struct Entry {
     Instant key;
-    std::uint32_t agent;
+    std::uint32_t index;
     friend auto operator<=>(const Entry&, const Entry&) = default;
   };
   static constexpr std::uint32_t kAbsent = ~0u;
@@ -35,7 +41,8 @@ class EventQueue {
   void SiftDown(std::size_t at);
 
   std::vector<Entry> heap_;
-  std::vector<std::uint32_t> place_;  // by agent
+  std::vector<std::uint32_t> place_;             // by index
+  mutable std::vector<std::uint32_t> frontier_;  // of First(): places, kept for their memory
 };
 
 }  // namespace collision

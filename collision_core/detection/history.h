@@ -1,6 +1,7 @@
 // The states of one agent that are still needed, and what they say about the time between them.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "collision_core/narrow_phase/body_segment.h"
@@ -46,6 +47,24 @@ class History {
 
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
   const SpaceTimeBound* Uninterrupted(Instant t) const;
+
+  /// Calls `use` with the last bound of each motion since `from`: a jump or a breach begins a new
+  /// one. Radius and acceleration are the greatest so far.
+  template <typename Use>
+  void ForEachMotion(Instant from, const Use& use) const {
+    const std::size_t in_force = InForce(from);
+    double radius = 0, acceleration_max = 0;
+    for (std::size_t i = in_force < samples_.size() ? in_force : 0; i < samples_.size(); ++i) {
+      const AgentDeclaration& declaration = samples_[i].bound.declaration;
+      radius = std::max(radius, declaration.radius);
+      acceleration_max = std::max(acceleration_max, declaration.acceleration_max);
+      if (i + 1 < samples_.size() && samples_[i + 1].link == Link::kFollows) continue;
+      SpaceTimeBound motion = samples_[i].bound;
+      motion.declaration.radius = radius;
+      motion.declaration.acceleration_max = acceleration_max;
+      use(motion);
+    }
+  }
 
   /// What is certain on [from, to], where no cut lies strictly between. With samples of unequal
   /// radius the smaller counts, and the difference is added to the uncertainty; with samples of

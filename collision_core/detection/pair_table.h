@@ -3,10 +3,7 @@
 
 #include <cstdint>
 #include <deque>
-#include <map>
 #include <optional>
-#include <set>
-#include <utility>
 #include <vector>
 
 #include "collision_core/detection/contact_tracker.h"
@@ -22,6 +19,9 @@ struct PairRecord {
   /// The canonical earliest intersection from `now` on, as of step `asked`.
   Instant earliest = Instant::Never();
   std::uint64_t asked = 0;
+  std::uint64_t turned = 0;  ///< The step in which it was last judged.
+  /// What it can add to the earliest intersection is not earlier; Always(): not computed.
+  Instant not_before = Instant::Always();
   /// When shapes were last asked how long they stay apart.
   Instant looked_ahead = Instant::Always();
   bool in_contact = false;
@@ -41,6 +41,8 @@ class PairTable {
  public:
   /// Freed slots that rest before one of them is reused.
   static constexpr std::size_t kSlotsResting = 1024;
+  /// Partners per agent whose contact numbers are kept one by one.
+  static constexpr std::size_t kNumbersPerAgentMax = 1024;
 
   explicit PairTable(std::uint32_t pairs_max) : pairs_max_(pairs_max) {}
 
@@ -48,24 +50,40 @@ class PairTable {
   std::optional<std::uint32_t> Add(const PairRecord& pair);
   void Remove(std::uint32_t slot);
 
-  /// The slots in use, in increasing order.
-  const std::set<std::uint32_t>& slots() const { return used_; }
+  bool Contains(std::uint32_t slot) const {
+    return slot < pairs_.size() && pairs_[slot].has_value();
+  }
   PairRecord& operator[](std::uint32_t slot) { return *pairs_[slot]; }
   const PairRecord& operator[](std::uint32_t slot) const { return *pairs_[slot]; }
-  std::size_t size() const { return used_.size(); }
+  std::size_t size() const { return size_; }
+  std::size_t room() const { return pairs_max_ - size_; }
 
   /// The number of the pair's next contact, from 1; it goes on after the pair was no longer
-  /// tracked.
+  /// tracked. Beyond kNumbersPerAgentMax partners the number of the one longest without a contact is
+  /// given up: that pair goes on above every number given up so far, so that none comes twice.
   std::uint32_t NextContact(std::uint32_t lower, std::uint32_t higher);
   /// Forgets the numbers of all pairs of an agent that has left.
   void Forget(std::uint32_t agent);
 
  private:
+  struct Number {
+    std::uint32_t partner;
+    std::uint32_t last;
+  };
+  /// The numbers of one agent's pairs, each kept with both agents; the latest contact stands last.
+  struct Numbers {
+    std::vector<Number> known;
+    std::uint32_t given_up = 0;  ///< No number given up was higher.
+  };
+
+  std::uint32_t TakeNumber(std::uint32_t agent, std::uint32_t partner);
+  void KeepNumber(std::uint32_t agent, std::uint32_t partner, std::uint32_t number);
+
   std::uint32_t pairs_max_;
-  std::set<std::uint32_t> used_;
   std::vector<std::optional<PairRecord>> pairs_;
+  std::size_t size_ = 0;
   std::deque<std::uint32_t> free_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> contacts_;
+  std::vector<Numbers> numbers_;  // by agent
 };
 
 }  // namespace collision

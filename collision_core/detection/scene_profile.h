@@ -1,33 +1,36 @@
 // What a scene needs, and what it can do without.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "collision_core/detection/agent_record.h"
+#include "collision_core/motion/space_time_bound.h"
 
 namespace collision {
 
-/// Counts, agent by agent, which parts of the mathematics the scene uses. Chosen by counted
-/// features, never by measured time, so that the same scene gives the same choice everywhere.
+/// Counts which parts of the mathematics the scene uses; by what the agents declare and say, never
+/// by measured time, so that the same scene gives the same profile everywhere. O(1) per change.
 class SceneProfile {
  public:
-  void Count(const AgentRecord& agent);
+  /// One bit for each part that an agent needs.
+  using Features = std::uint16_t;
 
-  /// The method, why, and a line for each part that is left out, with the reason.
-  Detector::Profile Describe() const;
+  static Features Of(const SpaceTimeBound& bound);
+
+  void Add(Features features) { Count(features, 1); }
+  void Remove(Features features) { Count(features, -1); }
+
+  /// A line for each part that is left out, with the reason.
+  std::vector<std::string> LeftOut() const;
 
  private:
-  std::size_t agents_ = 0;
-  std::size_t accelerating_ = 0;
-  std::size_t directed_ = 0;
-  std::size_t stepping_ = 0;
-  std::size_t uncertain_ = 0;
-  std::size_t expiring_ = 0;
-  std::size_t masked_ = 0;
-  std::size_t shaped_ = 0;
-  std::size_t turning_ = 0;
-  bool skewed_ = false;
+  static constexpr int kFeatures = 11;
+
+  void Count(Features features, int change);
+
+  std::array<std::int64_t, kFeatures> counts_{};
 };
 
 }  // namespace collision

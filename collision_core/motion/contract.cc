@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision_core/motion/contract_cap.h"
 #include "collision_core/numeric/rotation.h"
 
 namespace collision {
@@ -141,6 +142,15 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, Int
       (Max(0, deviations.position_length - horn.position) + against.position).upper;
   check->velocity_drift =
       (Max(0, deviations.velocity_length - horn.velocity) + against.velocity).upper;
+  if (HasSpeedCap(before.declaration)) {
+    const CapCheck cap = CheckCap(before, next);
+    const auto exceed = [](double excess, double allowed, double* of) {
+      if (excess > allowed) *of = std::max(*of, excess);
+    };
+    exceed(cap.position_excess, allowance.position, &check->position_excess);
+    exceed(cap.velocity_excess, allowance.velocity, &check->velocity_excess);
+    check->position_drift = std::max(check->position_drift, cap.position_drift);
+  }
   return check->position_drift <= 2 * allowance.position &&
          check->velocity_drift <= 2 * allowance.velocity;
 }

@@ -32,7 +32,9 @@ struct ContractCheck {
 /// Compares `next` with the bound before it (same declaration, next.stamp >= before.state.stamp),
 /// with s = next.stamp − before.stamp:
 ///   |p' − c(t0')| <= ½ M s (s + h) + errors  and  |v' − v| <= M s + errors.
-/// A position check alone would let an agent arrive with any velocity. For an agent that has a shape
+/// A position check alone would let an agent arrive with any velocity. Under a speed cap V also
+/// |v'| <= V, and p' in the old capped ball and box (speed_cap.h); the declaration and with it the
+/// cap must be the same. For an agent that has a shape
 /// (or will have) and declares α, with Φ the angle between two orientations, likewise
 ///   Φ(q', exp(ω s) q) <= ½ α s (s + h) + errors  and  |ω' − ω| <= α s + errors;
 /// of a ball the rotation is not looked at. O(1), allocates nothing.

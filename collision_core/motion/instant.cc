@@ -31,6 +31,13 @@ Instant Add(Instant from, double seconds, bool up) {
 }  // namespace
 
 Interval SecondsBetween(Instant from, Instant to) {
+  // Up to three months a double holds the nanoseconds exactly.
+  constexpr std::int64_t kExactMax = std::int64_t{1} << 53;
+  std::int64_t ns;
+  if (!__builtin_sub_overflow(to.nanoseconds(), from.nanoseconds(), &ns) && ns <= kExactMax &&
+      ns >= -kExactMax) {
+    return Interval(static_cast<double>(ns)) / Interval(kNanosecondsPerSecond);
+  }
   // Seconds and nanoseconds apart, so that nothing overflows; of one sign, so that nothing cancels.
   std::int64_t seconds =
       to.nanoseconds() / kNanosecondsPerSecond - from.nanoseconds() / kNanosecondsPerSecond;

@@ -1,5 +1,7 @@
 #include "collision_core/motion/space_time_bound.h"
 
+#include "collision_core/motion/speed_cap.h"
+
 namespace collision {
 namespace {
 
@@ -42,6 +44,14 @@ MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed, Interval since_sta
 
 bool HasDirection(const MotionState& state) { return !state.direction.isZero(0); }
 
+/// How far the face with the normal `sign` times the axis has come from p_WA by t, less the radius,
+/// if the cap has taken over before; else nothing is changed.
+void CapReach(const SpaceTimeBound& bound, int axis, int sign, Interval fraction, Instant t,
+              Interval* reach) {
+  const CappedFace face = CapFace(bound, axis, sign, fraction);
+  if (face.from < t) *reach = face.shift + face.UFrom(t).c0;
+}
+
 }  // namespace
 
 MovingBall ForwardBall(const SpaceTimeBound& bound, Instant base) {
@@ -54,6 +64,10 @@ MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base) {
 
 Quadratic ForwardDeviation(const SpaceTimeBound& bound, Instant base) {
   return Deviation(bound.declaration, ForwardFrom(bound, base));
+}
+
+Quadratic ForwardErrors(const SpaceTimeBound& bound, Instant base) {
+  return Errors(bound, ForwardFrom(bound, base));
 }
 
 DirectionalReach ReachOfDirection(const MotionState& state) {
@@ -82,15 +96,23 @@ FaceBox BoxAt(const SpaceTimeBound& bound, Instant t) {
 
 FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, bool use_direction) {
   const Elapsed elapsed = ForwardFrom(bound, t);
-  const IntervalVector centre = ForwardBall(bound, t).centre;
-  const Interval centres[3] = {centre.x, centre.y, centre.z};
-  const Interval still = bound.declaration.radius + Errors(bound, elapsed).c0;
+  const Interval since = SecondsBetween(bound.state.stamp, t);
+  const Interval errors = Errors(bound, elapsed).c0;
   const Interval deviation = Deviation(bound.declaration, elapsed).c0;
   const DirectionalReach reach = use_direction ? ReachOfDirection(bound.state) : DirectionalReach();
+  const bool capped = HasSpeedCap(bound.declaration);
+  const Interval radius = bound.declaration.radius;
   FaceBox box;
   for (int axis = 0; axis < 3; ++axis) {
-    box.lower[axis] = centres[axis] - (still + reach.downward[axis] * deviation);
-    box.upper[axis] = centres[axis] + (still + reach.upward[axis] * deviation);
+    const Interval shift = since * Interval(bound.state.v_WA[axis]);
+    Interval down = errors + reach.downward[axis] * deviation - shift;
+    Interval up = errors + reach.upward[axis] * deviation + shift;
+    if (capped) {
+      CapReach(bound, axis, -1, reach.downward[axis], t, &down);
+      CapReach(bound, axis, 1, reach.upward[axis], t, &up);
+    }
+    box.lower[axis] = Interval(bound.state.p_WA[axis]) - (radius + down);
+    box.upper[axis] = Interval(bound.state.p_WA[axis]) + (radius + up);
   }
   return box;
 }

@@ -20,6 +20,13 @@ struct SpaceTimeBound {
   double skew = 0;  ///< κ [s], >= 0: the sender's clock is off by at most this.
 };
 
+/// Whether the agent stays where it is, wherever that is: at rest for certain, and not able to
+/// accelerate, or not allowed to move. Two such agents never meet.
+inline bool NeverMoves(const SpaceTimeBound& bound) {
+  return bound.state.v_WA.isZero(0) && bound.state.velocity_error == 0 &&
+         (bound.declaration.acceleration_max == 0 || bound.declaration.speed_max == 0);
+}
+
 /// u of a bound, as a quadratic in the seconds δ >= 0 after a base instant, with the centre's line:
 ///   centre(δ) = centre + velocity δ,   u(δ) = u0 + u1 δ + u2 δ²  (convex: u2 >= 0).
 /// Each coefficient's interval contains the exact one.
@@ -41,6 +48,9 @@ MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base);
 /// The part ½ M σ (σ + h) of u alone, which a direction makes smaller. Requires base >=
 /// state.stamp.
 Quadratic ForwardDeviation(const SpaceTimeBound& bound, Instant base);
+
+/// The rest of u.
+Quadratic ForwardErrors(const SpaceTimeBound& bound, Instant base);
 
 /// How far the deviation reaches along each axis while the declared direction d holds, as a
 /// fraction of ½ M σ(σ + h): towards +x it is 1 if d_x >= 0, else √(d_y² + d_z²); towards −x as if

@@ -101,7 +101,7 @@ FIELDS(SimulatorClock,
 FIELDS(AgentClearance,
        VALUE(slot) VALUE(generation) VALUE(clear_until_ns) VALUE(not_clear) VALUE(saturated)
        VALUE(acknowledged_sequence) VALUE(acknowledged_revision) VALUE(effective_from_ns)
-       VALUE(cause) MESSAGE(cause_agent) VALUE(void_from_ns))
+       VALUE(cause) MESSAGE(cause_agent) VALUE(void_from_ns) VALUE(state_wanted_ns))
 
 FIELDS(Clearance,
        VALUE(simulator_id) VALUE(chunk) VALUE(run) MESSAGE(stamp) VALUE(now_ns)

@@ -89,7 +89,17 @@ TEST_F(CollisionctlTest, StatusPage) {
   v1::Counter* counter = status->add_counters();
   counter->set_name("rejected_not_finite");
   counter->set_value(2);
-  status->add_counters()->set_name("breaches");
+  const auto count = [status](const char* name, std::uint64_t value) {
+    v1::Counter* counter = status->add_counters();
+    counter->set_name(name);
+    counter->set_value(value);
+  };
+  count("queries_per_second", 56);
+  count("queries", 789);
+  count("queued", 12);
+  count("updates_kept", 199);
+  count("discontinuities", 0);
+  count("breaches", 1);
   v1::SimulatorStatus* simulator = status->add_simulators();
   simulator->set_name("sim");
   simulator->set_run(7);
@@ -109,21 +119,25 @@ TEST_F(CollisionctlTest, StatusPage) {
   EXPECT_FALSE(view_.knows_all_agents());
   Poll(3);
   EXPECT_TRUE(view_.knows_all_agents());
-  EXPECT_EQ(StatusPage(view_),
-            "service      collisiond 0.1.0, id 1, term 2\n"
-            "world        lab\n"
-            "clock        simulated\n"
-            "now          12.345 s\n"
-            "agents       1, 3 pairs tracked\n"
-            "earliest     not before 13.000000 s  ball × 0000000000000006:4\n"
-            "broad phase  all pairs: 1 agent\n"
-            "left out     rotation: every agent is a ball\n"
-            "             a second line\n"
-            "rejections   not_finite 2\n"
-            "counters     none\n"
-            "\n"
-            "SIMULATOR  RUN  ALIVE  CLOCK     GRANTED  AGENTS  STATES  REJECTED\n"
-            "sim        7    yes    12.000 s  -        1       0       0\n");
+  EXPECT_EQ(
+      StatusPage(view_),
+      "service      collisiond 0.1.0, id 1, term 2\n"
+      "world        lab\n"
+      "clock        simulated\n"
+      "now          12.345 s\n"
+      "agents       1, 3 pairs tracked\n"
+      "earliest     not before 13.000000 s  ball × 0000000000000006:4\n"
+      "broad phase  all pairs: 1 agent\n"
+      "questions    56 a second, 789 so far; 12 events in the queue\n"
+      "updates      199 of 200 cost nothing (99.5 %)\n"
+      "left out     rotation: every agent is a ball\n"
+      "             a second line\n"
+      "rejections   not_finite 2\n"
+      "counters     queries_per_second 56, queries 789, queued 12, updates_kept 199, breaches "
+      "1\n"
+      "\n"
+      "SIMULATOR  RUN  ALIVE  CLOCK     GRANTED  AGENTS  STATES  REJECTED\n"
+      "sim        7    yes    12.000 s  -        1       0       0\n");
 }
 
 TEST_F(CollisionctlTest, AgentsPageIsTheSameInAnyOrderOfArrival) {

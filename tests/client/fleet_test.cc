@@ -8,7 +8,7 @@ namespace {
 
 // A jump that a later state replaces before the clock comes to it has happened all the same.
 TEST(Fleet, OfSeveralStagedStatesOneThatJumpsIsTold) {
-  Fleet fleet("simulator", 1, 1, 64);
+  Fleet fleet("simulator", 1, 1, {});
   const AgentId ball = fleet.Add({.name = "ball"}, {.stamp_ns = 0});
   EXPECT_FALSE(fleet.Tell(0).at(0).states(0).discontinuity());
   fleet.Stage(ball, {.stamp_ns = 1, .discontinuity = true});

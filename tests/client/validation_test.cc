@@ -55,6 +55,7 @@ TEST(Validation, DescriptionLimits) {
                  [](D* d, double x) { d->acceleration_max_m_s2 = x; });
   CheckLimits<D>(good, "angular_acceleration_max_rad_s2", -kAccelerationMax, kAccelerationMax,
                  [](D* d, double x) { d->angular_acceleration_max_rad_s2 = x; });
+  CheckLimits<D>(good, "speed_max_m_s", 0, kSpeedMax, [](D* d, double x) { d->speed_max_m_s = x; });
   CheckLimits<D>(good, "time_step_s", 0, kTimeStepMax, [](D* d, double x) { d->time_step_s = x; });
 }
 

@@ -161,7 +161,7 @@ TEST_F(WorldShapeTest, RefusedForItsNameItSaysShapesAgainToo) {
   rejection->set_reason(v1::REJECTED_ID_OWNED);
   world_.Poll();
   world_.Publish(0);
-  EXPECT_EQ(Kinds(), "pddsc");
+  EXPECT_EQ(Kinds(), "pddssc");
 }
 
 // The end of a world leaves its agents to the service, and so their shapes.

@@ -293,7 +293,7 @@ TEST_F(WorldTest, LowerTermsAreDropped) {
 }
 
 TEST_F(WorldTest, ARemovedAgentLeavesItsChunkAndItsSlotToANewGeneration) {
-  World world = ConnectTo(network_);
+  World world = ConnectTo(network_, {.chunk_size = 64});
   const Agent stays = world.AddAgent(Ball(), At(0));
   {
     const Agent leaves = world.AddAgent(Ball(), At(0));
@@ -422,7 +422,7 @@ TEST_F(WorldTest, OptionsOutOfRangeAreRefused) {
   EXPECT_THROW(connect({.simulator = std::string(65, 'a')}), std::runtime_error);
   EXPECT_THROW(connect({.world = "*", .simulator = "a"}), std::runtime_error);
   EXPECT_THROW(connect({.simulator = "a", .domain = 231}), std::runtime_error);
-  EXPECT_THROW(connect({.simulator = "a", .chunk_size = 0}), std::runtime_error);
+  EXPECT_THROW(connect({.simulator = "a", .lead = nanoseconds(-1)}), std::runtime_error);
   EXPECT_THROW(connect({.simulator = "a", .chunk_size = 65}), std::runtime_error);
 }
 

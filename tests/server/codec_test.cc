@@ -111,6 +111,25 @@ TEST(Codec, TakesTheAngularAcceleration) {
   }
 }
 
+// Goal:   a speed cap reaches the core as it is; none is no cap, also where the field was not there yet.
+// Method: the least and the greatest; a description as it was recorded before there was the field.
+TEST(Codec, TakesTheSpeedCap) {
+  v1::AgentDescription description = Description("a", 1);
+  for (const auto& [sent, taken] : {std::pair(15.0, 15.0),
+                                    {1e-300, 1e-300},
+                                    {kSpeedMax, kSpeedMax},
+                                    {0.0, kInf},
+                                    {-0.0, kInf}}) {
+    description.set_speed_max_m_s(sent);
+    EXPECT_EQ(std::get<AgentDeclaration>(DecodeDescription(description)).speed_max, taken) << sent;
+  }
+  description.set_speed_max_m_s(7);
+  v1::AgentDescription recorded;
+  ASSERT_TRUE(recorded.ParseFromString(description.SerializeAsString()));
+  recorded.clear_speed_max_m_s();
+  EXPECT_EQ(std::get<AgentDeclaration>(DecodeDescription(recorded)).speed_max, kInf);
+}
+
 // Goal:   a quaternion off by less than 1e-3 is normalised, and its error covers what that may
 // hide;
 //         an exact one gains no more than rounding.
@@ -171,6 +190,9 @@ TEST(Codec, RefusesBadDescriptionsByField) {
       {"angular_acceleration_max_rad_s2", odd,
        [](D* d) { d->set_angular_acceleration_max_rad_s2(kNaN); }},
       {"speed_max_m_s", far, [](D* d) { d->set_speed_max_m_s(-1); }},
+      {"speed_max_m_s", far, [](D* d) { d->set_speed_max_m_s(1.001e9); }},
+      {"speed_max_m_s", odd, [](D* d) { d->set_speed_max_m_s(kNaN); }},
+      {"speed_max_m_s", odd, [](D* d) { d->set_speed_max_m_s(kInf); }},
       {"time_step_s", far, [](D* d) { d->set_time_step_s(-1e-3); }},
       {"slot", far, [](D* d) { d->set_slot(kSlotMax + 1); }},
       {"agent_name", far, [](D* d) { d->set_agent_name(std::string(65, 'x')); }},

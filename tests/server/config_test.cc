@@ -165,6 +165,13 @@ TEST(Config, WordsAreChecked) {
   for (const char* bad : {"UNSET", "MONOTONIC", "7"}) {
     EXPECT_EQ(ErrorsOf(*FindConfigOption("kind"), bad), 1) << bad;
   }
+  const ConfigOption& method = *FindConfigOption("broad_phase");
+  for (const char* good : {"AUTO", "ALL_PAIRS", "FACE_SWEEP", "SPATIAL_INDEX"}) {
+    EXPECT_EQ(ErrorsOf(method, good), 0) << good;
+  }
+  for (const char* bad : {"BROAD_PHASE_UNSET", "OCTREE", "0", "\"AUTO\""}) {
+    EXPECT_EQ(ErrorsOf(method, bad), 1) << bad;
+  }
 }
 
 // Goal:   all errors of a file are told, each at its line, whatever kind they are of.
@@ -226,6 +233,7 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   if (option.path == "log_level") return "\"debug\"";
   if (option.path == "log_file") return "\"/a b\\\"\\\\\"";
   if (option.path == "clock.kind") return random.Chance(0.5) ? "WALL" : "SIMULATED";
+  if (option.path == "broad_phase") return random.Chance(0.5) ? "AUTO" : "FACE_SWEEP";
   if (option.least.empty()) return "RELEASE";
   const double least = std::max(std::stod(std::string(option.least)), 1e-6);
   const double most = std::min(std::stod(std::string(option.most)), 1e15);

@@ -42,10 +42,13 @@ TEST(Status, TellsWhatTheServiceKnows) {
     EXPECT_TRUE(names.insert(counter.name()).second) << counter.name();
     EXPECT_LE(counter.name().size(), 64u);
   }
-  for (const char* name :
-       {"events_possible", "events_ended", "rejected_not_finite", "breaches", "states_older",
-        "states_repeated", "queries", "batches", "shapes", "shapes_refused", "shape_bytes",
-        "tree_nodes", "tree_bytes", "trees_building", "tree_build_us", "work_units"}) {
+  for (const char* name : {"events_possible", "events_ended",   "rejected_not_finite",
+                           "breaches",        "states_older",   "states_repeated",
+                           "queries",         "batches",        "shapes",
+                           "shapes_refused",  "shape_bytes",    "tree_nodes",
+                           "tree_bytes",      "trees_building", "tree_build_us",
+                           "work_units",      "queued",         "queries_per_second",
+                           "updates_kept",    "filter_tests",   "method_changes"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
   ASSERT_EQ(status.extensions_size(), 2);
@@ -62,6 +65,39 @@ TEST(Status, TellsTheNetworksCounters) {
     lost.set_value(value);
     EXPECT_EQ(daemon.counter("network_samples_lost"), value);
   }
+}
+
+// Goal:   the method is the one that the configuration asks for, and says so; AUTO says why by the
+//         number of agents. What was asked, what waits and what cost nothing is counted.
+TEST(Status, TellsTheMethodAndWhatItCost) {
+  const std::pair<v1::Config::BroadPhase, const char*> methods[] = {
+      {v1::Config::AUTO, "all pairs"},
+      {v1::Config::ALL_PAIRS, "all pairs"},
+      {v1::Config::FACE_SWEEP, "face sweep"},
+      {v1::Config::SPATIAL_INDEX, "spatial index"}};
+  for (const auto& [method, name] : methods) {
+    v1::Config config = Simulated();
+    config.set_broad_phase(method);
+    ScriptedDaemon daemon(config);
+    daemon.Step({From(1, Description("alpha", 0)), From(1, State(0, 0, 1), "alpha"),
+                 From(1, ClockOf("alpha", 0))});
+    EXPECT_EQ(daemon.status().broad_phase(), name);
+    EXPECT_EQ(daemon.status().broad_phase_why(), method == v1::Config::AUTO
+                                                     ? "1 agents: up to 512 it costs least"
+                                                     : "1 agents; the configuration asks for it");
+    EXPECT_EQ(daemon.counter("queries"), 1u);
+    EXPECT_EQ(daemon.counter("queries_per_second"), 0u) << "nothing to compare with yet";
+    EXPECT_EQ(daemon.counter("queued"), 1u);
+    EXPECT_EQ(daemon.counter("updates_kept"), 0u);
+  }
+}
+
+TEST(Status, ARateIsPerSecondSinceTheLastCall) {
+  Rate rate;
+  EXPECT_EQ(rate.Take(50, 7'000'000'000), 0u);
+  EXPECT_EQ(rate.Take(60, 7'500'000'000), 20u);
+  EXPECT_EQ(rate.Take(60, 8'500'000'000), 0u);
+  EXPECT_EQ(rate.Take(64, 8'500'000'000), 0u) << "no time has passed";
 }
 
 // Goal:   of more simulators than a status can list, those left out are counted.

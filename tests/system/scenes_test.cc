@@ -5,6 +5,11 @@
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
 
 #include "tests/system/test_world.h"
 
@@ -30,6 +35,36 @@ void ExpectSceneSucceeds(const std::vector<std::string>& words) {
 TEST(Scenes, IridiumCosmos) { ExpectSceneSucceeds({"iridium-cosmos"}); }
 
 TEST(Scenes, Swarm100) { ExpectSceneSucceeds({"swarm-100", "--seconds", "5"}); }
+
+/// Of a report, as --json writes it; -1: it is not there.
+double NumberIn(const std::string& json, const std::string& field) {
+  const std::string key = "\"" + field + "\": ";
+  const std::size_t at = json.find(key);
+  return at == std::string::npos ? -1 : std::stod(json.substr(at + key.size()));
+}
+
+// As dense as the swarm of 10,000. Drones start at rest, so that the first seconds are its quietest:
+// what counts here is that both figures are told and that nothing was late.
+TEST(Scenes, SwarmSendsWhatIsNeeded) {
+  const std::string path = testing::TempDir() + "swarm." + std::to_string(getpid()) + ".json";
+  ExpectSceneSucceeds({"swarm-1000", "--seconds", "3", "--json", path});
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::remove(path.c_str());
+  const std::string json = text.str();
+  EXPECT_GE(NumberIn(json, "message_ratio"), 10);
+  EXPECT_EQ(NumberIn(json, "agents"), 1000);
+  EXPECT_GT(NumberIn(json, "real_time_fraction"), 0);
+}
+
+TEST(Scenes, AStreamSendsEverything) {
+  const std::string path = testing::TempDir() + "stream." + std::to_string(getpid()) + ".json";
+  ExpectSceneSucceeds({"swarm-100", "--seconds", "2", "--stream", "--json", path});
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::remove(path.c_str());
+  EXPECT_EQ(NumberIn(text.str(), "message_ratio"), 1);
+}
 
 TEST(Scenes, InterruptedRunLeavesNobodyBehind) {
   // Orphans of our children become ours, so that they can be seen.

@@ -7,9 +7,8 @@
 namespace collision::checker {
 namespace {
 
-auto Key(const v1::AgentId& id) {
-  return std::make_tuple(std::uint64_t{id.simulator_id()}, std::uint32_t{id.run()},
-                         std::uint32_t{id.slot()}, std::uint32_t{id.generation()});
+AgentKey Key(const v1::AgentId& id) {
+  return {id.simulator_id(), id.run(), id.slot(), id.generation()};
 }
 
 std::int64_t JudgedUntil(const std::vector<AgentMotion>& motions, std::int64_t transit_ns) {

@@ -1,10 +1,12 @@
 // A run's truth and what was published about it, brought together.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
-#include <tuple>
+#include <unordered_map>
 #include <vector>
 
 #include "client/simulators/checker/true_contacts.h"
@@ -44,6 +46,24 @@ struct EventHistory {
   std::vector<v1::CollisionEvent> revisions;  ///< As received; the highest revision last.
 
   const v1::CollisionEvent& last() const { return revisions.back(); }
+};
+
+/// An agent's id. Every promise of every agent is looked up by it.
+struct AgentKey {
+  std::uint64_t simulator = 0;
+  std::uint32_t run = 0, slot = 0, generation = 0;
+
+  friend bool operator==(const AgentKey&, const AgentKey&) = default;
+  struct Hash {
+    std::size_t operator()(const AgentKey& key) const {
+      constexpr std::uint64_t kOdd = 0x9e3779b97f4a7c15;  // 2^64 over the golden ratio
+      std::uint64_t hash = key.simulator;
+      for (const std::uint32_t part : {key.run, key.slot, key.generation}) {
+        hash = (hash ^ (hash >> 32) ^ part) * kOdd;
+      }
+      return hash;
+    }
+  };
 };
 
 class Evidence {
@@ -106,8 +126,7 @@ class Evidence {
   std::vector<EventHistory> histories_;
   std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> histories_of_;
   std::vector<v1::CollisionEvent> strange_events_;
-  std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>, std::size_t>
-      ids_;
+  std::unordered_map<AgentKey, std::size_t, AgentKey::Hash> ids_;
   std::int64_t judged_until_ns_ = 0;
 };
 

@@ -90,9 +90,21 @@ class ContactFinder {
         Include(*p, motions_[i].radius_m, &slice.box);
       slices.push_back(slice);
     }
+    // Along x only those whose boxes reach each other are compared: crowds are wide.
+    std::stable_sort(slices.begin(), slices.end(), [](const Slice& x, const Slice& y) {
+      return x.box.lower[0] < y.box.lower[0];
+    });
     for (std::size_t i = 0; i < slices.size(); ++i) {
+      const Slice& a = slices[i];
       for (std::size_t j = i + 1; j < slices.size(); ++j) {
-        if (Overlap(slices[i].box, slices[j].box)) SearchPair(slices[i], slices[j], s0, s1);
+        const Slice& b = slices[j];
+        if (b.box.lower[0] > a.box.upper[0]) break;
+        if (!Overlap(a.box, b.box)) continue;
+        if (a.agent < b.agent) {
+          SearchPair(a, b, s0, s1);
+        } else {
+          SearchPair(b, a, s0, s1);
+        }
       }
     }
   }

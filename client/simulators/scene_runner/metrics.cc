@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace collision::client {
 namespace {
@@ -112,6 +113,38 @@ void FillShapes(const checker::Evidence& evidence, v1::RunReport* report) {
   *report->mutable_counters() = evidence.observations().status.counters();
 }
 
+// A stream at the simulators' rate sends in each step the chunks of 64 of all agents, complete.
+void AddStream(const v1::SimulatorTraffic& traffic, std::uint64_t agents, v1::RunReport* report) {
+  constexpr std::uint64_t kChunk = 64, kSampleBytes = 20, kStateBytes = 200;  // idl/README.md
+  if (agents == 0) return;
+  const std::uint64_t steps = (traffic.states_set() + agents - 1) / agents;
+  const std::uint64_t samples = steps * ((agents + kChunk - 1) / kChunk);
+  report->set_stream_samples(report->stream_samples() + samples);
+  report->set_stream_bytes(report->stream_bytes() + samples * kSampleBytes +
+                           traffic.states_set() * kStateBytes);
+}
+
+void FillTraffic(const checker::Evidence& evidence, const Measured& measured,
+                 v1::RunReport* report) {
+  std::map<std::string, std::uint64_t> agents;
+  for (const checker::AgentMotion& motion : evidence.motions()) ++agents[motion.simulator];
+  for (const v1::SimulatorTraffic& traffic : measured.traffic) {
+    *report->add_traffic() = traffic;
+    report->set_states_set(report->states_set() + traffic.states_set());
+    report->set_states_sent(report->states_sent() + traffic.states_sent());
+    report->set_samples_sent(report->samples_sent() + traffic.samples_sent());
+    report->set_sample_bytes(report->sample_bytes() + traffic.bytes_sent());
+    AddStream(traffic, agents[traffic.simulator()], report);
+  }
+  if (report->states_sent() > 0) {
+    report->set_message_ratio(static_cast<double>(report->states_set()) /
+                              static_cast<double>(report->states_sent()));
+  }
+  if (measured.running_seconds > 0) {
+    report->set_real_time_fraction(measured.simulated_seconds / measured.running_seconds);
+  }
+}
+
 }  // namespace
 
 ShapeFigures FiguresOfShapes(const checker::Evidence& evidence) {
@@ -148,6 +181,7 @@ v1::RunReport MakeReport(const std::string& scene, const checker::Evidence& evid
   *report.mutable_begin_width_s() = QuantilesOf(BeginWidthsAtConfirmation(evidence));
   *report.mutable_end_width_s() = QuantilesOf(EndWidthsFinal(evidence));
   FillShapes(evidence, &report);
+  FillTraffic(evidence, measured, &report);
   if (measured.simulated_seconds > 0) {
     report.set_cpu_seconds_per_simulated_second(measured.service_cpu_seconds /
                                                 measured.simulated_seconds);

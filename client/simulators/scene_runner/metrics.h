@@ -12,8 +12,10 @@ namespace collision::client {
 struct Measured {
   double wall_seconds = 0;
   double simulated_seconds = 0;
+  double running_seconds = 0;  ///< Wall time that they took; 0: the run did not come to its end.
   double service_cpu_seconds = 0;
   std::vector<double> latencies;  ///< Update -> event [s].
+  std::vector<v1::SimulatorTraffic> traffic;
 };
 
 /// The value below which `share` of the values lie; 0 if there are none.

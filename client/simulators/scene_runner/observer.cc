@@ -42,6 +42,10 @@ Monitor::Callbacks Observer::Callbacks() {
   callbacks.clearance = [this](const v1::Clearance& sample) {
     SeeTime(sample.now_ns());
     observations_.clearances.push_back(sample);
+    // A swarm's fill the memory: most have no cause.
+    for (v1::AgentClearance& agent : *observations_.clearances.back().mutable_agents()) {
+      if (agent.cause() == v1::CAUSE_NONE) agent.clear_cause_agent();
+    }
   };
   callbacks.status = [this](const v1::ServiceStatus& status) {
     // The last one with agents: what the scene holds is gone when they have left.
@@ -61,6 +65,13 @@ std::size_t Observer::Poll(std::chrono::nanoseconds timeout) {
 
 void Observer::SeeTime(std::int64_t now_ns) {
   now_ns_ = std::max(now_ns, now_ns_.value_or(now_ns));
+  if (!began_at_ && *now_ns_ >= origin_ns_) began_at_ = steady_clock::now();
+  if (!ended_at_ && *now_ns_ >= end_ns_) ended_at_ = steady_clock::now();
+}
+
+double Observer::running_seconds() const {
+  if (!began_at_ || !ended_at_) return 0;
+  return std::chrono::duration<double>(*ended_at_ - *began_at_).count();
 }
 
 void Observer::Hear(const v1::AgentDescription& description) {

@@ -56,6 +56,10 @@ class Observer {
   /// change of status but withdrawals.
   const std::vector<double>& latencies() const { return latencies_; }
 
+  /// Wall time from the service's first instant at or after the run's start to its first at or
+  /// after the end [s]; 0 before that.
+  double running_seconds() const;
+
   const std::vector<std::string>& rejections() const { return rejections_; }
 
  private:
@@ -92,6 +96,7 @@ class Observer {
   std::map<std::uint64_t, std::deque<std::pair<std::int64_t, Wall>>>
       states_;  // newest stamp, received
   std::optional<std::int64_t> now_ns_;
+  std::optional<Wall> began_at_, ended_at_;  // the run, as now_ns_ shows
   std::vector<double> latencies_;
   std::vector<std::string> rejections_;
   Monitor monitor_;  // last: its callbacks use the rest

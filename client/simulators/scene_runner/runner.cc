@@ -50,6 +50,10 @@ void WriteFile(const std::string& path, const std::string& text) {
   if (!file) throw std::runtime_error(path + ": cannot be written");
 }
 
+bool HasOption(const std::vector<std::string>& arguments, const std::string& option) {
+  return std::find(arguments.begin(), arguments.end(), option) != arguments.end();
+}
+
 std::string MakeFolder(const std::string& wanted) {
   if (!wanted.empty()) {
     fs::create_directories(wanted);
@@ -123,9 +127,11 @@ void Runner::StartSimulator(const v1::SceneProcess& process) {
     arguments.push_back(Substitute(argument, values));
   for (const std::string& argument :
        {std::string("--world"), world_, std::string("--domain"), std::to_string(domain_),
-        std::string("--simulator"), process.name(), std::string("--linger")}) {
+        std::string("--simulator"), process.name(), std::string("--linger"),
+        std::string("--traffic"), Path(process.name() + ".traffic")}) {
     arguments.push_back(argument);
   }
+  if (options_.stream && !HasOption(arguments, "--stream")) arguments.push_back("--stream");
   if (options_.real_time) {
     arguments.insert(arguments.end(), {"--real-time", "--start-ns", std::to_string(start_ns_)});
   } else {
@@ -207,6 +213,18 @@ void Runner::StopSimulators() {
   for (const auto& simulator : simulators_) simulator->Finish(deadline);
 }
 
+// Whoever was killed has told nothing.
+void Runner::ReadTraffic(Measured* measured) const {
+  for (const v1::SceneProcess& process : scene_.processes()) {
+    std::ifstream file(Path(process.name() + ".traffic"));
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    v1::SimulatorTraffic traffic;
+    if (!text.empty() && google::protobuf::TextFormat::ParseFromString(text, &traffic)) {
+      measured->traffic.push_back(traffic);
+    }
+  }
+}
+
 RunResult Runner::Judge(const Measured& measured) {
   std::vector<checker::AgentMotion> motions;
   for (const v1::SceneProcess& process : scene_.processes()) {
@@ -284,6 +302,8 @@ RunResult Runner::Run() {
   measured.simulated_seconds = static_cast<double>(EndTime() - start_ns_) * 1e-9;
   measured.service_cpu_seconds = service_->cpu_seconds();
   measured.latencies = observer_->latencies();
+  measured.running_seconds = observer_->running_seconds();
+  ReadTraffic(&measured);
   return Judge(measured);
 }
 

@@ -18,6 +18,7 @@ struct RunnerOptions {
   Folders folders = DefaultFolders();
   double seconds = 0;  ///< 0: as the scene says.
   bool real_time = false;
+  bool stream = false;  ///< Simulators send every state, not only those that the service needs.
   std::optional<std::uint32_t> domain;  ///< Default: one that depends on this process.
   std::string config;        ///< Fields over the scene's configuration, as protobuf text.
   bool every_event = false;  ///< Print every event, however many.
@@ -54,6 +55,7 @@ class Runner {
   void TakeTerminal();
   void Drain(std::chrono::milliseconds quiet, std::chrono::milliseconds longest);
   void StopSimulators();
+  void ReadTraffic(Measured* measured) const;
   RunResult Judge(const Measured& measured);
 
   RunnerOptions options_;

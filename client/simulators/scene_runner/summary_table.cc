@@ -88,6 +88,16 @@ void RatioRows(std::string* text, const v1::RunReport& report) {
   }
 }
 
+void TrafficRows(std::string* text, const v1::RunReport& report) {
+  const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  if (report.states_sent() == 0) return;
+  Row(text, "  %-30s %llu sent; a fixed stream sends %llu, %.1f times as many", "states",
+      count(report.states_sent()), count(report.states_set()), report.message_ratio());
+  Row(text, "  %-30s %llu of %.3g MB in all; the stream %llu of %.3g MB", "their samples",
+      count(report.samples_sent()), static_cast<double>(report.sample_bytes()) * 1e-6,
+      count(report.stream_samples()), static_cast<double>(report.stream_bytes()) * 1e-6);
+}
+
 }  // namespace
 
 std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& evidence) {
@@ -96,7 +106,11 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   Row(&text, "\n%s", report.scene().c_str());
   Row(&text, "  %-30s %.1f s in %.1f s", "simulated, on the wall clock", report.simulated_seconds(),
       report.wall_seconds());
+  if (report.real_time_fraction() > 0) {
+    Row(&text, "  %-30s %.3g of real time", "", report.real_time_fraction());
+  }
   Row(&text, "  %-30s %u", "agents", report.agents());
+  TrafficRows(&text, report);
   Row(&text, "  %-30s %llu, unannounced %llu", "true contacts", count(report.contacts_true()),
       count(report.contacts_unannounced()));
   Row(&text, "  %-30s %llu possible, %llu confirmed, %llu ended", "events",

@@ -34,7 +34,7 @@ class SceneFileTest : public testing::Test {
 TEST_F(SceneFileTest, ShippedScenesLoad) {
   folders_.scenes = COLLISION_SCENES_DIR;
   const std::string list = ListScenes(folders_);
-  for (const std::string name : {"iridium-cosmos", "swarm-100", "corridor"}) {
+  for (const std::string name : {"iridium-cosmos", "swarm-100", "swarm-1000", "swarm", "corridor"}) {
     EXPECT_NE(list.find(name + " "), std::string::npos);
     if (name == "corridor") continue;  // not offered without the data folder
     const v1::Scene scene = LoadScene(folders_, name);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/all_pairs.h"
+#include "collision_core/broad_phase/face_sweep.h"
 #include "collision_core/broad_phase/spatial_index.h"
 #include "tests/support/random.h"
 
@@ -25,7 +26,8 @@ std::unique_ptr<BroadPhase> MakeMethod() {
 }
 
 inline const NamedMethod kMethods[] = {{"AllPairs", &MakeMethod<AllPairs>},
-                                       {"SpatialIndex", &MakeMethod<SpatialIndex>}};
+                                       {"SpatialIndex", &MakeMethod<SpatialIndex>},
+                                       {"FaceSweep", &MakeMethod<FaceSweep>}};
 
 inline SpaceTimeBound BoundIn(double extent, double radius, double speed, double acceleration_max,
                               Random* random) {

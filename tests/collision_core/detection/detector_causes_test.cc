@@ -47,14 +47,18 @@ TEST(Detector, DeclaredJumpIsNoBreach) {
 
 TEST(Detector, MasksKeepApart) {
   Line line;
-  line.detector.Admit(Id(1), {1, 1, 0, 1, 2}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
-  line.detector.Admit(Id(2), {1, 1, 0, 1, 2}, State(0, {1, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(1), {.radius = 1, .acceleration_max = 1, .group = 1, .mask = 2},
+                      State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(2), {.radius = 1, .acceleration_max = 1, .group = 1, .mask = 2},
+                      State(0, {1, 0, 0}, {0, 0, 0}), At(0));
   line.Step();
   EXPECT_TRUE(line.events.empty());
   EXPECT_FALSE(line.detector.Earliest().found);
   // A widened mask is a new danger; they overlap already.
-  line.detector.Redeclare(Id(1), {1, 1, 0, 3, 3}, At(0));
-  line.detector.Redeclare(Id(2), {1, 1, 0, 3, 3}, At(0));
+  line.detector.Redeclare(Id(1), {.radius = 1, .acceleration_max = 1, .group = 3, .mask = 3},
+                          At(0));
+  line.detector.Redeclare(Id(2), {.radius = 1, .acceleration_max = 1, .group = 3, .mask = 3},
+                          At(0));
   line.Step();
   EXPECT_EQ(line.With(EventStatus::kPossible).size(), 1u);
   EXPECT_EQ(line.With(EventStatus::kConfirmed).size(), 0u) << "not heard beyond the first state";
@@ -68,7 +72,7 @@ TEST(Detector, WiderBoundLowersThePartnersClearance) {
   line.Step();
   line.detector.TakeChangedClearances();
   const Instant before = line.detector.ClearanceOf(Id(2))->clear_until;
-  line.detector.Redeclare(Id(1), {1, 100, 0, 1, ~0u}, At(3));
+  line.detector.Redeclare(Id(1), {1, 100}, At(3));
   line.Step();
   const auto changed = line.detector.TakeChangedClearances();
   ASSERT_EQ(changed.size(), 2u);
@@ -82,8 +86,8 @@ TEST(Detector, ExpiredAgentsLeaveThePromises) {
   Line line;
   MotionState state = State(0, {0, 0, 0}, {0, 0, 0});
   state.expiry = At(2);
-  line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, state, At(0));
-  line.detector.Admit(Id(2), {1, 1, 0, 1, ~0u}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(1), {1, 1}, state, At(0));
+  line.detector.Admit(Id(2), {1, 1}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
   line.Step();
   ASSERT_EQ(line.With(EventStatus::kPossible).size(), 1u);
   line.now = 2;
@@ -166,8 +170,8 @@ TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
     events.insert(events.end(), detector.events().begin(), detector.events().end());
   };
   const Vector3d fast(1000, 0, 0);
-  detector.Admit(Id(1), {1, 0, 0, 1, ~0u}, State(0, {5000, 9000, 0}, {0, 0, 0}), At(0));
-  detector.Admit(Id(2), {1, 0, 0, 1, ~0u}, State(0, {0, 0, 0}, fast), At(0));
+  detector.Admit(Id(1), {1, 0}, State(0, {5000, 9000, 0}, {0, 0, 0}), At(0));
+  detector.Admit(Id(2), {1, 0}, State(0, {0, 0, 0}, fast), At(0));
   step(0);
   detector.Update(Id(2), State(1.0, {1000, 0, 0}, fast), At(1));
   step(1);
@@ -195,7 +199,7 @@ TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
     Detector detector{DetectorOptions{}};
     std::vector<CollisionEvent> events;
     const AgentId jumper = first_jumps ? Id(1) : Id(2), runner = first_jumps ? Id(2) : Id(1);
-    const AgentDeclaration ball{1, 0, 0, 1, ~0u};
+    const AgentDeclaration ball{1, 0};
     const auto step = [&](double now) {
       detector.Advance(At(now));
       events.insert(events.end(), detector.events().begin(), detector.events().end());
@@ -237,7 +241,7 @@ TEST(Detector, NothingIsCertainWithinTheSkewAboutAJump) {
     options.skew = 0.01;
     Detector detector{options};
     std::vector<CollisionEvent> events;
-    const AgentDeclaration ball{1, 0, 0, 1, ~0u};
+    const AgentDeclaration ball{1, 0};
     const Vector3d here(0, 0, 0), away(0, 100, 0);
     detector.Admit(Id(1), ball, State(0, jumps_onto ? away : here, {0, 0, 0}), At(0));
     // The other passes the origin, touching only within 5 ms about 1 s.
@@ -266,11 +270,9 @@ TEST(Detector, LimitsAndStrangers) {
   DetectorOptions options;
   options.agents_max = 1;
   Line line(options);
-  EXPECT_TRUE(line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
-  EXPECT_FALSE(
-      line.detector.Admit(Id(1), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
-  EXPECT_FALSE(
-      line.detector.Admit(Id(2), {1, 1, 0, 1, ~0u}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_TRUE(line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(line.detector.Admit(Id(2), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
   EXPECT_EQ(line.detector.Update(Id(2), State(0, {0, 0, 0}, {0, 0, 0}), At(0)),
             UpdateOutcome::kUnknown);
   EXPECT_EQ(line.detector.Update(Id(1), State(-1, {0, 0, 0}, {0, 0, 0}), At(0)),

@@ -89,7 +89,7 @@ TEST(Detector, RemovalWithdraws) {
 // come after they have left is no news.
 TEST(Detector, RemovalAnnouncesNothingNew) {
   Detector detector{DetectorOptions{}};
-  const AgentDeclaration ball{0.3, 0, 0, 1, ~0u};
+  const AgentDeclaration ball{0.3, 0};
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {2, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {9, 0, 0}, {-2, 0, 0}), At(0));
   detector.Advance(At(0));
@@ -122,8 +122,8 @@ TEST(Detector, RemovalInContactEnds) {
 // when it comes.
 TEST(Detector, AnnouncesAsFarAheadAsAsked) {
   Detector detector{DetectorOptions{}};
-  detector.Admit(Id(1), {1, 0, 0, 1, ~0u}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
-  detector.Admit(Id(2), {1, 0, 0, 1, ~0u}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
+  detector.Admit(Id(1), {1, 0}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
+  detector.Admit(Id(2), {1, 0}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
   detector.Advance(At(2.9375));
   EXPECT_TRUE(detector.events().empty());
   EXPECT_GE(detector.ClearanceOf(Id(1))->clear_until, At(5 - 1e-6));
@@ -138,8 +138,8 @@ TEST(Detector, ConfirmsBetweenStatesUpToWhatWasHeard) {
   for (const bool heard : {true, false}) {
     Detector detector{DetectorOptions{}};
     std::size_t confirmed = 0;
-    detector.Admit(Id(1), {1, 0.01, 0, 1, ~0u}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
-    detector.Admit(Id(2), {1, 0.01, 0, 1, ~0u}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
+    detector.Admit(Id(1), {1, 0.01}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
+    detector.Admit(Id(2), {1, 0.01}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
     for (double now = 0; now <= 6; now += 1.0 / 16) {
       if (heard) {
         detector.Hear(Id(1), At(now));
@@ -160,7 +160,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   options.history_max = 8;
   Detector detector{options};
   std::vector<CollisionEvent> events;
-  const AgentDeclaration ball{0.5, 0.1, 0, 1, ~0u};
+  const AgentDeclaration ball{0.5, 0.1};
   const auto speak = [&](double t) {
     detector.Update(Id(1), State(t, {-20 + 2 * t, 0, 0}, {2, 0, 0}), At(t));
     detector.Update(Id(2), State(t, {20 - 2 * t, 0, 0}, {-2, 0, 0}), At(t));
@@ -202,7 +202,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
 TEST(Detector, TwoContactsBetweenStatesAreTwoEvents) {
   Detector detector{DetectorOptions{}};
   std::vector<CollisionEvent> events;
-  const AgentDeclaration ball{1, 0, 0, 1, ~0u};
+  const AgentDeclaration ball{1, 0};
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {12, 0, 0}, {-40, 0, 0}), At(0));
   for (double now = 0.0625; now <= 3; now += 0.0625) {

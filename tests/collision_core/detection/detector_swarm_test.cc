@@ -134,7 +134,7 @@ RunLog Simulate(const Crowd& crowd, int steps) {
   Detector detector{DetectorOptions{}};
   std::vector<SpaceTimeBound> newest(crowd.size());
   std::map<std::pair<AgentId, AgentId>, EventStatus> last;
-  const AgentDeclaration declaration{kRadius, kAccelerationMax, 0, 1, ~0u};
+  const AgentDeclaration declaration{kRadius, kAccelerationMax};
   for (int step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < crowd.size(); ++i) {
       if (step > 0 && !Speaks(i, step)) continue;
@@ -267,7 +267,7 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
   Random random(31);
   Detector detector{DetectorOptions{}};
   constexpr std::size_t kPairs = 24;
-  const AgentDeclaration still{1, 0, 0, 1, ~0u};
+  const AgentDeclaration still{1, 0};
   std::vector<Knot> start;
   for (std::size_t i = 0; i < kPairs; ++i) {
     const Vector3d middle =

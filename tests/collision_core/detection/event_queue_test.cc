@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <vector>
 
 #include "tests/support/random.h"
 
@@ -32,6 +34,26 @@ TEST(EventQueue, HeadIsTheLeastAfterEveryChange) {
     for (const auto& [a, k] : keys) ordered.insert({k, a});
     ASSERT_EQ(queue.top_key(), ordered.begin()->first);
     ASSERT_EQ(queue.top(), ordered.begin()->second);
+  }
+}
+
+// Goal:   the first few come in order, whatever the count.
+// Method: 1000 keys with many ties, beside a sorted copy.
+TEST(EventQueue, FirstFewAreThoseThatWouldBeTaken) {
+  Random random(4);
+  EventQueue queue;
+  std::vector<std::pair<Instant, std::uint32_t>> sorted;
+  for (std::uint32_t index = 0; index < 1000; ++index) {
+    const Instant key = Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(300)));
+    queue.Set(index, key);
+    sorted.emplace_back(key, index);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint32_t> first;
+  for (const std::size_t count : {0, 1, 2, 33, 999, 1000, 1001}) {
+    queue.First(count, &first);
+    ASSERT_EQ(first.size(), std::min<std::size_t>(count, 1000));
+    for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i], sorted[i].second);
   }
 }
 

@@ -1,0 +1,131 @@
+#include "client/contract.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace collision::client {
+namespace {
+
+/// Half of what the service allows for rounding: a thousand integration steps between two states,
+/// half a unit in the last place each.
+constexpr double kRounding = 1000 * 0x1p-53;
+
+/// Likewise of an angle: a step of an integrator of orientations loses more.
+constexpr double kTurnRounding = 1000 * 0x1p-50;
+
+/// Stamps are whole nanoseconds: half of the one by which the service lets them be off [s].
+constexpr double kStampRounding = 0.5e-9;
+
+double Dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+double Norm(const Vector3& v) { return std::sqrt(Dot(v, v)); }
+
+Vector3 Minus(const Vector3& a, const Vector3& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+Quaternion Product(const Quaternion& a, const Quaternion& b) {
+  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
+          a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
+          a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
+}
+
+/// The orientation after `s` seconds at a constant rate in W.
+Quaternion Turned(const Quaternion& q, const Vector3& w, double s) {
+  const double rate = Norm(w);
+  const double half = rate * s / 2;
+  const double scale = rate > 0 ? std::sin(half) / rate : 0;
+  return Product({std::cos(half), w[0] * scale, w[1] * scale, w[2] * scale}, q);
+}
+
+/// Also of quaternions of nearly unit length.
+double AngleBetween(const Quaternion& a, const Quaternion& b) {
+  const Quaternion d = Product(a, {b[0], -b[1], -b[2], -b[3]});
+  return 2 * std::atan2(Norm({d[1], d[2], d[3]}), std::fabs(d[0]));
+}
+
+/// How far two states may be apart: rounding that is not the sender's fault, and all together.
+struct Room {
+  double position_rounding;
+  double velocity_rounding;
+  double position;
+  double velocity;
+};
+
+/// `range`: the greatest coordinate on the way. What is false of a number that is none is refused
+/// by the caller.
+Room RoomFor(double acceleration_max, double time_step, double speed, double range, double s) {
+  Room room;
+  room.velocity_rounding = kRounding * speed + kStampRounding * acceleration_max;
+  room.position_rounding = kRounding * range + room.velocity_rounding * s + kStampRounding * speed;
+  room.velocity = acceleration_max * s + room.velocity_rounding;
+  room.position = 0.5 * acceleration_max * s * (s + time_step) + room.position_rounding;
+  return room;
+}
+
+bool SameDeclaration(const State& told, const State& next) {
+  return !next.discontinuity && next.position_error_m <= told.position_error_m &&
+         next.velocity_error_m_s <= told.velocity_error_m_s &&
+         next.rotation_error_rad <= told.rotation_error_rad &&
+         next.thrust_direction == told.thrust_direction &&
+         next.direction_until_ns == told.direction_until_ns && next.expiry_ns == told.expiry_ns;
+}
+
+bool PathStandsIn(const MotionBounds& bounds, const State& told, const State& next, double s) {
+  const double speed_told = Norm(told.velocity_m_s), speed_next = Norm(next.velocity_m_s);
+  const double speed = std::max(speed_told, speed_next);
+  const double range = std::max(Norm(told.position_m), Norm(next.position_m)) + speed * s;
+  const Room room = RoomFor(bounds.acceleration_max_m_s2, bounds.time_step_s, speed, range, s);
+  const double velocity_error = told.velocity_error_m_s + next.velocity_error_m_s;
+  const double position_error =
+      told.position_error_m + next.position_error_m + told.velocity_error_m_s * s;
+  Vector3 moved = Minus(next.position_m, told.position_m);
+  for (int axis = 0; axis < 3; ++axis) moved[axis] -= told.velocity_m_s[axis] * s;
+  const Vector3 sped = Minus(next.velocity_m_s, told.velocity_m_s);
+  if (!(Norm(moved) <= room.position + position_error)) return false;
+  if (!(Norm(sped) <= room.velocity + velocity_error)) return false;
+  if (bounds.speed_max_m_s > 0 &&
+      !(speed_next <= bounds.speed_max_m_s + kRounding * speed + next.velocity_error_m_s)) {
+    return false;
+  }
+  const Vector3& direction = told.thrust_direction;
+  if (direction == Vector3{} || told.direction_until_ns < next.stamp_ns) return true;
+  return -Dot(moved, direction) <= position_error + room.position_rounding &&
+         -Dot(sped, direction) <= velocity_error + room.velocity_rounding;
+}
+
+bool TurnStandsIn(const MotionBounds& bounds, const State& told, const State& next, double s) {
+  const double alpha = bounds.angular_acceleration_max_rad_s2;
+  if (!bounds.turns || alpha < 0) return true;
+  const double rate =
+      std::max(Norm(told.angular_velocity_rad_s), Norm(next.angular_velocity_rad_s));
+  const Room room = RoomFor(alpha, bounds.time_step_s, rate, 0, s);
+  const double angle =
+      AngleBetween(Turned(told.orientation, told.angular_velocity_rad_s, s), next.orientation);
+  const double change = Norm(Minus(next.angular_velocity_rad_s, told.angular_velocity_rad_s));
+  return angle <=
+             room.position + kTurnRounding + told.rotation_error_rad + next.rotation_error_rad &&
+         change <= room.velocity;
+}
+
+}  // namespace
+
+MotionBounds BoundsOf(const AgentDescription& description) {
+  return {.acceleration_max_m_s2 = description.acceleration_max_m_s2,
+          .angular_acceleration_max_rad_s2 = description.angular_acceleration_max_rad_s2,
+          .speed_max_m_s = description.speed_max_m_s,
+          .time_step_s = description.time_step_s,
+          .turns = description.shape != nullptr};
+}
+
+bool StandsIn(const MotionBounds& bounds, const State& told, const State& next) {
+  if (!SameDeclaration(told, next) || next.stamp_ns < told.stamp_ns) return false;
+  // Of two stamps the difference fits only in an unsigned number.
+  const auto ns =
+      static_cast<std::uint64_t>(next.stamp_ns) - static_cast<std::uint64_t>(told.stamp_ns);
+  const double s = static_cast<double>(ns) * 1e-9;
+  return PathStandsIn(bounds, told, next, s) && TurnStandsIn(bounds, told, next, s);
+}
+
+}  // namespace collision::client

@@ -1,0 +1,100 @@
+// The broad phase that suits the scene, by counted work.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/horn_table.h"
+
+namespace collision {
+
+enum class BroadPhaseMethod { kAuto, kAllPairs, kFaceSweep, kSpatialIndex };
+
+/// "all pairs", "face sweep", "spatial index", "chosen by the scene".
+const char* Name(BroadPhaseMethod method);
+
+/// One method, or whichever of all pairs and the spatial index costs less for the scene as it is
+/// now. Work is counted, never timed, so that the same calls choose the same everywhere; and as all
+/// methods give the same answers, nothing but cost depends on the choice.
+///
+/// Up to kFewAgents all pairs, beyond kManyAgents the index. Between them the index is tried beside
+/// all pairs for kTrialQuestions, and taken if it did less than kWorthIt of the work; once taken its
+/// work is compared with what all pairs would do (N tests a question) every kPeriodQuestions. What a
+/// scene has decided is decided anew only after ever more questions, or when the number of agents
+/// has changed by half. A new method is filled kMoves agents a call beside the old one, which
+/// answers until it is full: no call takes longer than the others. The face sweep has to be asked
+/// for: of one agent it asks every partner, and of a whole scene its crossings grow as N² t.
+class ChosenBroadPhase : public BroadPhase {
+ public:
+  static constexpr std::size_t kFewAgents = 512;
+  static constexpr std::size_t kManyAgents = 2048;
+  static constexpr std::uint64_t kTrialQuestions = 32;
+  static constexpr std::uint64_t kPeriodQuestions = 256;
+  static constexpr double kWorthIt = 0.8;
+  static constexpr std::uint32_t kMoves = 8;
+
+  explicit ChosenBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);
+  ~ChosenBroadPhase() override;
+
+  void Put(std::uint32_t agent, const SpaceTimeBound& bound) override;
+  void Narrow(std::uint32_t agent, const SpaceTimeBound& bound) override;
+  void Remove(std::uint32_t agent) override;
+  std::optional<PairMeeting> Earliest(const BroadQuery& query) override;
+  std::optional<PairMeeting> EarliestOf(std::uint32_t agent, const BroadQuery& query) override;
+  void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
+                std::vector<Meeting>* meetings) override;
+
+  /// Of all methods together, trials included.
+  BroadPhaseWork work() const override;
+
+  /// Which method answers now, and why, in one sentence with the counts.
+  BroadPhaseMethod method() const { return method_.kind; }
+  std::string why() const;
+  std::uint64_t changes() const { return changes_; }
+
+ private:
+  struct Method {
+    BroadPhaseMethod kind = BroadPhaseMethod::kAuto;
+    std::unique_ptr<BroadPhase> phase;
+    const HornTable* table = nullptr;  ///< Its bounds; of the face sweep null.
+  };
+
+  static Method Make(BroadPhaseMethod kind);
+  double Units(const Method& method, const BroadPhaseWork& since) const;
+  bool Filled() const { return next_.phase && filled_ >= method_.table->size(); }
+  bool Follows(std::uint32_t agent) const { return next_.phase && agent < filled_; }
+  bool OnTrial() const;
+  void Start(BroadPhaseMethod kind);
+  void Drop();
+  void Switch();
+  void Fill();
+  void Choose();
+  void ChooseFromAllPairs();
+  void ChooseFromIndex();
+  void EndQuestion();
+  void Settle();
+
+  const BroadPhaseMethod asked_;
+  Method method_;
+  Method next_;               ///< Being filled, or on trial; its phase null: none.
+  std::uint32_t filled_ = 0;  ///< Agents below this index are in next_ as well.
+  std::size_t agents_ = 0;    ///< Held.
+  std::vector<bool> held_;    ///< By agent.
+  BroadPhaseWork before_{};   ///< Of methods that are gone.
+
+  std::uint64_t questions_ = 0;    ///< Since the last decision, or the trial's begin.
+  BroadPhaseWork method_since_{};  ///< Work of method_ when questions_ was 0.
+  BroadPhaseWork next_since_{};    ///< Likewise of next_.
+  std::uint64_t patience_ = 0;     ///< Questions until the next trial.
+  std::size_t decided_with_ = 0;   ///< Agents at the last decision.
+  double units_ = 0;               ///< Of the method, a question, at the last decision.
+  double units_of_other_ = 0;      ///< Of the other one then.
+  std::uint64_t changes_ = 0;
+  std::vector<Meeting> tried_;  // kept for its memory
+};
+
+}  // namespace collision

@@ -1,0 +1,63 @@
+#include "collision_core/broad_phase/pair_time_capped.h"
+
+#include <algorithm>
+
+#include "collision_core/broad_phase/pair_time_parts.h"
+
+namespace collision {
+namespace {
+
+/// An agent's ball over time: the horn's, and under the cap another from `start` on (which may lie
+/// before the base).
+struct Timeline {
+  BallPart horn, cap;
+  double start = kInfinity;
+
+  Timeline(const SpaceTimeBound& bound, Instant base) : horn(HornPart(bound, base)), cap(horn) {
+    if (!HasSpeedCap(bound.declaration)) return;
+    const CappedBall ball = CapBall(bound);
+    if (ball.from.is_never()) return;
+    start = SecondsBetween(base, ball.from).lower;
+    cap.shift = ball.shift;
+    cap.velocity = IntervalVector(0, 0, 0);
+    cap.u = ball.UFrom(base);
+  }
+
+  Timeline WithoutCap() const {
+    Timeline horn_only = *this;
+    horn_only.start = kInfinity;
+    return horn_only;
+  }
+
+  const BallPart& at(double delta) const { return delta < start ? horn : cap; }
+};
+
+/// The first overlap, piece by piece.
+double FirstOverlap(const Timeline& a, const Timeline& b, double limit) {
+  const double first = std::max(0.0, std::min(a.start, b.start));
+  const double second = std::max(first, std::max(a.start, b.start));
+  // Before `first` they are the horns, which do not overlap then.
+  if (first > limit) return kInfinity;
+  const double end = std::min(second, limit);
+  const double time = FirstApproach(ApproachOf(a.at(first), b.at(first)), end, first);
+  if (time < kInfinity || second > limit) return time;
+  return FirstApproach(ApproachOf(a.at(second), b.at(second)), limit, second);
+}
+
+}  // namespace
+
+double LaterOfCappedBalls(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base,
+                          double time, double limit) {
+  const Timeline line_A(a, base), line_B(b, base);
+  const auto wait = [&](const Timeline& first, const Timeline& second) {
+    if (time > std::min(first.start, second.start)) {
+      time = std::max(time, FirstOverlap(first, second, limit));
+    }
+  };
+  wait(line_A, line_B.WithoutCap());
+  wait(line_A.WithoutCap(), line_B);
+  wait(line_A, line_B);
+  return time;
+}
+
+}  // namespace collision

@@ -1,0 +1,13 @@
+// A first look at what directions and speed caps change, in plain doubles.
+#pragma once
+
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision {
+
+/// Do the capped balls and the boxes overlap too, `time` seconds after `base`, when the balls of the
+/// horns do? The answer may be wrong by rounding: "yes" lets a certified time stand, "no" asks the
+/// certified routines for a later one. Symmetric.
+bool SeemToOverlap(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double time);
+
+}  // namespace collision

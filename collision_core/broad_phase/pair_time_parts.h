@@ -1,0 +1,32 @@
+// Two balls in certified arithmetic, as the root finder takes them.
+#pragma once
+
+#include "collision_core/broad_phase/first_approach.h"
+#include "collision_core/motion/speed_cap.h"
+
+namespace collision {
+
+/// One agent's ball seen from a base instant: about p_WA + shift + velocity δ, of radius + u(δ).
+struct BallPart {
+  IntervalVector p_WA, shift, velocity;
+  Interval radius;
+  Quadratic u;
+};
+
+/// The forward horn's.
+inline BallPart HornPart(const SpaceTimeBound& bound, Instant base) {
+  const IntervalVector velocity(bound.state.v_WA);
+  return {IntervalVector(bound.state.p_WA), SecondsBetween(bound.state.stamp, base) * velocity,
+          velocity, bound.declaration.radius, ForwardBall(bound, base).u()};
+}
+
+/// From A to B. Positions first: a scene far from the origin loses only what its inputs lost.
+/// Every operation gives the same bits (or the negated ones) when A and B change places: negation
+/// is exact, and a + b is b + a.
+inline Approach ApproachOf(const BallPart& a, const BallPart& b) {
+  const Quadratic u = a.u + b.u;
+  return {(b.p_WA - a.p_WA) + (b.shift - a.shift), b.velocity - a.velocity,
+          (a.radius + b.radius) + u.c0, u.c1, u.c2};
+}
+
+}  // namespace collision

@@ -1,0 +1,213 @@
+// The pairs that may meet soon: who is tracked, when it is judged, what follows.
+#include <algorithm>
+
+#include "collision_core/detection/detector_implementation.h"
+#include "collision_core/detection/judge.h"
+
+namespace collision {
+namespace {
+
+// Shapes are looked at so far ahead, in units of announce_within: a little beyond what the announcer takes for
+// "far apart again".
+constexpr double kLookAhead = 1.3;
+
+// Of the work that is left in a turn: for what is settled, then for what is heard; the rest is for what is promised.
+constexpr double kSettledShare = 0.5;
+constexpr double kHeardShare = 0.8;
+
+// Of the freedom that was found at `looked`, has half passed? Then it is time to look again.
+bool WearsOut(Instant looked, Instant now, Instant free_until) {
+  if (looked == Instant::Always() || free_until <= now) return true;
+  return free_until.nanoseconds() - now.nanoseconds() <= now.nanoseconds() - looked.nanoseconds();
+}
+
+}  // namespace
+
+// A pair is judged when one of its agents has news, and when it is due. In the order of the slots,
+// which is the order of the events.
+void Detector::Implementation::TurnAll() {
+  slots_.clear();
+  for (const std::uint32_t agent : changed_) {
+    if (agents_[agent] == nullptr) continue;
+    slots_.insert(slots_.end(), At(agent).pairs.begin(), At(agent).pairs.end());
+  }
+  while (!pairs_due_.empty() && pairs_due_.top_key() <= now_) {
+    slots_.push_back(pairs_due_.top());
+    pairs_due_.Remove(slots_.back());
+  }
+  std::sort(slots_.begin(), slots_.end());
+  slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
+  for (const std::uint32_t slot : slots_) Turn(slot, false);
+}
+
+// The time from which the pair is judged every step: while in contact, when contact is nearer than
+// Δt, when it is to be announced.
+void Detector::Implementation::NoteDue(std::uint32_t slot) {
+  const PairRecord& pair = pairs_[slot];
+  const double ahead = pair.announced ? options_.temporal_resolution : options_.announce_within;
+  // Rounded as now + ahead is: clear_until <= now + ahead exactly if due <= now.
+  const Instant due = AddRoundedUp(pair.clear_until, -ahead);
+  pairs_due_.Set(slot, pair.in_contact ? Instant::Always() : due);
+}
+
+// Up to here no later state of the agent is waited for. States of its own rate may still narrow what is known;
+// an agent that speaks seldom, or once, is not waited for longer than twice its last interval.
+Instant Detector::Implementation::SettledUntil(const AgentRecord& agent) const {
+  const double patience = std::max(options_.announce_within, 2 * agent.history.LastInterval());
+  return std::max(agent.stamp(), std::min(agent.heard, AddRoundedDown(now_, -patience)));
+}
+
+// States may reach beyond now: then contacts that have not begun yet are known, and their ends.
+void Detector::Implementation::NoteContactAhead(const ContactTracker& preview,
+                                                PairRecord* pair) const {
+  if (pair->ahead_until <= now_) pair->ahead_from = pair->ahead_until = Instant::Never();
+  for (const std::vector<ContactEpisode>* episodes :
+       {&pair->tracker.finished(), &preview.finished()}) {
+    for (const ContactEpisode& episode : *episodes) {
+      if (episode.end.latest <= now_ || pair->ahead_from <= episode.begin.earliest) continue;
+      pair->ahead_from = episode.begin.earliest;
+      pair->ahead_until = episode.end.latest;
+    }
+  }
+}
+
+// `last`: no more states will come, so that everything known is settled.
+void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
+  PairRecord& pair = pairs_[slot];
+  const AgentRecord& a = At(pair.lower);
+  const AgentRecord& b = At(pair.higher);
+  if (!CanMeet(a.bound().declaration, b.bound().declaration)) {
+    Drop(slot, false);
+    return;
+  }
+  // One budget for all that this turn looks at, what is settled first.
+  Work work(options_.work_units_per_turn);
+  ContactTracker preview = pair.tracker;
+  Judge(slot, last, &preview, &work);
+  pair.work += work.spent();
+  counters_.work_units += work.spent();
+  NoteContactAhead(preview, &pair);
+  pair.in_contact = preview.in_contact();
+  pair.clear_until = preview.free_until();
+  pair.turned = step_;
+  Touch(pair.lower);
+  Touch(pair.higher);
+  if (!announcer_.Report(a, b, slot, preview, last, &pairs_)) {
+    Untrack(slot);
+    return;
+  }
+  NoteDue(slot);
+  pair.not_before = Instant::Always();
+  if (pair.in_contact) {
+    pairs_earliest_.Remove(slot);
+  } else {
+    pairs_earliest_.Set(slot, pair.not_before);
+  }
+}
+
+// Judges the pair's three horizons one after the other; `preview` ends at the last that holds.
+void Detector::Implementation::Judge(std::uint32_t slot, bool last, ContactTracker* preview,
+                                     Work* work) {
+  PairRecord& pair = pairs_[slot];
+  const AgentRecord& a = At(pair.lower);
+  const AgentRecord& b = At(pair.higher);
+  const auto judge = [&](Instant until, ContactTracker* tracker) {
+    counters_.segments += collision::Judge(a.history, b.history, until, work, tracker);
+  };
+  // Settled: both owners' states reach up to here, so that the bounds of both directions count.
+  const Instant there = std::min(a.bound().state.expiry, b.bound().state.expiry);
+  const Instant heard = std::min({a.heard, b.heard, now_, there});
+  {
+    const WorkShare share(last ? 1 : kSettledShare, work);
+    judge(last ? heard : std::min({SettledUntil(a), SettledUntil(b), there}), &pair.tracker);
+  }
+  // Heard: no jump that we do not know of lies before.
+  *preview = pair.tracker;
+  preview->TakeFinished();
+  {
+    const WorkShare share(kHeardShare, work);
+    judge(heard, preview);
+  }
+  // Promised: free as long as both honour their newest bounds.
+  if (!preview->free() || last) return;
+  ContactTracker outlook = *preview;
+  judge(std::min(std::max(a.stamp(), b.stamp()), there), &outlook);
+  if (!outlook.free() || outlook.finished().size() != preview->finished().size()) return;
+  const Instant from = std::min(now_, outlook.at());
+  const Instant earliest = EarliestIntersection(a.bound(), b.bound(), from).instant();
+  ++counters_.pair_queries;
+  if (from == now_) {
+    pair.earliest = earliest;
+    pair.asked = step_;
+  }
+  outlook.ExtendFree(earliest);
+  if (HaveShapes(a.history, b.history) && WearsOut(pair.looked_ahead, now_, outlook.at())) {
+    pair.looked_ahead = now_;
+    // Balls that overlap need not touch: as far ahead as decides what is announced.
+    const Instant ahead = AddRoundedDown(now_, kLookAhead * options_.announce_within);
+    outlook.ExtendFree(
+        ShapesFreeAhead(a.history, b.history, outlook.at(), std::min(ahead, there), work));
+  }
+  *preview = outlook;
+  const bool free_throughout = pair.tracker.free() && preview->finished().empty();
+  if (free_throughout) pair.tracker.ExtendFree(preview->at());
+}
+
+void Detector::Implementation::Track(std::uint32_t a, std::uint32_t b, Instant free_until,
+                                     bool began_before) {
+  const std::uint32_t lower = At(a).id < At(b).id ? a : b;
+  const std::uint32_t higher = lower == a ? b : a;
+  std::optional<std::uint32_t> slot;
+  if (RoomFor(At(a)) > 0 && RoomFor(At(b)) > 0) {
+    slot = pairs_.Add({.lower = lower,
+                       .higher = higher,
+                       .tracker = ContactTracker(free_until, began_before),
+                       .clear_until = free_until});
+  }
+  if (!slot) {
+    Saturate(a, b);
+    Saturate(b, a);
+    return;
+  }
+  for (const std::uint32_t agent : {a, b}) {
+    At(agent).pairs.push_back(*slot);
+    NoteFull(agent);
+    Touch(agent);
+  }
+  NoteDue(*slot);
+  pairs_earliest_.Set(*slot, Instant::Always());
+}
+
+void Detector::Implementation::NoteFull(std::uint32_t agent) {
+  full_[agent] = At(agent).pairs.size() >= options_.pairs_per_agent_max;
+}
+
+// Both keys cover the pair from now on.
+void Detector::Implementation::Untrack(std::uint32_t slot) {
+  const PairRecord& pair = pairs_[slot];
+  for (const std::uint32_t agent : {pair.lower, pair.higher}) {
+    SetKey(agent, std::min(At(agent).key, pair.clear_until));
+  }
+  Release(slot);
+}
+
+// The two will not meet any more, whatever they do.
+void Detector::Implementation::Drop(std::uint32_t slot, bool gone) {
+  const PairRecord& pair = pairs_[slot];
+  announcer_.Leave(At(pair.lower), At(pair.higher), slot, gone, &pairs_);
+  Release(slot);
+}
+
+void Detector::Implementation::Release(std::uint32_t slot) {
+  const PairRecord& pair = pairs_[slot];
+  for (const std::uint32_t agent : {pair.lower, pair.higher}) {
+    std::erase(At(agent).pairs, slot);
+    NoteFull(agent);
+    Touch(agent);
+  }
+  pairs_due_.Remove(slot);
+  pairs_earliest_.Remove(slot);
+  pairs_.Remove(slot);
+}
+
+}  // namespace collision

@@ -1,0 +1,115 @@
+// What lies between the time up to which pairs are covered and their newest states.
+//
+// The broad phase answers from the newest states on. Where those lie ahead (an owner was granted more
+// time than others, news came out of order), what lies before must be free as well, or the pair is
+// tracked and judged.
+#include <algorithm>
+
+#include "collision_core/detection/detector_implementation.h"
+
+namespace collision {
+
+void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
+  const AgentRecord& record = At(agent);
+  candidates_.clear();
+  if (renewed || record.stamp() > covered) {
+    const Instant from = renewed ? std::max(covered, record.admitted_from) : covered;
+    if (extremes_.bounds().newest > from) FindAround(agent, from);
+  } else {
+    // Covered beyond its own newest state: only partners whose states lie beyond both keys count.
+    std::erase_if(ahead_, [this](std::uint32_t partner) {
+      AgentRecord& other = At(partner);
+      other.ahead = other.key < other.stamp() && !other.saturated && !other.expired;
+      return !other.ahead;
+    });
+    candidates_ = ahead_;
+  }
+  std::sort(candidates_.begin(), candidates_.end());
+  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+  for (const std::uint32_t partner : candidates_) {
+    TrackIfUncovered(agent, partner, renewed, covered);
+  }
+}
+
+void Detector::Implementation::TrackIfUncovered(std::uint32_t agent, std::uint32_t partner,
+                                                bool renewed, Instant covered) {
+  if (partner == agent || !agents_[partner]) return;
+  const AgentRecord& record = At(agent);
+  const AgentRecord& other = At(partner);
+  if (other.expired || Marked(partner) ||
+      !CanMeet(record.bound().declaration, other.bound().declaration)) {
+    return;
+  }
+  const Instant free_until =
+      renewed ? UncoveredFrom(record, other, covered) : std::max(covered, other.key);
+  const Instant known_from = std::max(record.stamp(), other.stamp());
+  if (free_until >= known_from || FreeOver(record, other, free_until, known_from)) return;
+  Track(agent, partner, free_until, renewed);
+  marks_[partner] = mark_;
+}
+
+// Appends to candidates_ whoever may have met the agent between `from` and its own, or the agent's,
+// newest state. Each of the agent's motions since then (there is a new one after each jump) is
+// replaced by a ball at rest that holds it all the time, and is wider by as far as anybody else may
+// move in that time; so whoever met it overlaps that ball with its newest bound, or with what it had
+// before it jumped.
+void Detector::Implementation::FindAround(std::uint32_t agent, Instant from) {
+  const Instant newest = extremes_.bounds().newest;
+  const auto skip = [this](std::uint32_t partner) { return Marked(partner); };
+  At(agent).history.ForEachMotion(from, [&](const SpaceTimeBound& motion) {
+    SpaceTimeBound around = Around(motion, from);
+    around.declaration.group = At(agent).bound().declaration.group;
+    around.declaration.mask = At(agent).bound().declaration.mask;
+    broad_phase_.Put(agent, around);
+    found_.clear();
+    broad_phase_.Meetings(agent, from, newest, newest, skip, &found_);
+    for (const Meeting& meeting : found_) candidates_.push_back(meeting.partner);
+    former_.Find(around, from, newest, &candidates_);
+  });
+  Put(agent);
+}
+
+SpaceTimeBound Detector::Implementation::Around(const SpaceTimeBound& motion, Instant from) const {
+  const SceneExtremes::Bounds& scene = extremes_.bounds();
+  // Twice the skew: of either clock. |v| t + M t (t + h) is more than the path that either direction
+  // of the horn allows, and has room for the rounding of all this.
+  const auto path = [](double speed, double acceleration_max, double time_step, double t) {
+    return 1.000001 * (speed + acceleration_max * (t + time_step)) * t;
+  };
+  const auto span = [&](Instant a, Instant b) {
+    return b <= a ? 0 : SecondsBetween(a, b).upper + 2 * options_.skew;
+  };
+  const MotionState& state = motion.state;
+  const double own_time =
+      std::max({span(from, state.stamp), span(state.stamp, scene.newest), 2 * options_.skew});
+  const double own = state.position_error + path(state.v_WA.norm() + state.velocity_error,
+                                                 motion.declaration.acceleration_max,
+                                                 motion.declaration.time_step, own_time);
+  const double others =
+      2 * scene.position_error_max +
+      path(scene.speed_max, scene.acceleration_max, scene.time_step_max, span(from, scene.newest));
+  SpaceTimeBound around;
+  around.state.stamp = from;
+  around.state.p_WA = state.p_WA;
+  around.state.position_error = std::min(own + others, 1e300);
+  around.declaration.radius = motion.declaration.radius;
+  around.declaration.acceleration_max = 1e-30;  // not at rest for ever: it stands for what moves
+  return around;
+}
+
+// Nothing is promised of an agent before it was admitted.
+Instant Detector::Implementation::UncoveredFrom(const AgentRecord& a, const AgentRecord& b,
+                                                Instant covered) const {
+  return std::max({covered, a.admitted_from, b.admitted_from});
+}
+
+bool Detector::Implementation::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,
+                                        Instant to) {
+  const SpaceTimeBound* bound_a = a.history.Uninterrupted(from);
+  const SpaceTimeBound* bound_b = b.history.Uninterrupted(from);
+  if (bound_a == nullptr || bound_b == nullptr) return false;
+  ++counters_.pair_queries;
+  return EarliestIntersection(*bound_a, *bound_b, from).instant() >= to;
+}
+
+}  // namespace collision

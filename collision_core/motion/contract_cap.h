@@ -1,0 +1,19 @@
+// The part of the contract that a speed cap adds.
+#pragma once
+
+#include "collision_core/motion/speed_cap.h"
+
+namespace collision {
+
+/// How `next` stands against the cap of the bound before it; before any allowance for rounding.
+struct CapCheck {
+  double position_excess = 0;  ///< No motion under the cap leads this far, at least by this [m].
+  double velocity_excess = 0;  ///< The speed exceeds the cap, at least by this [m/s].
+  /// The new capped ball and box lie inside the old ones grown by this [m].
+  double position_drift = 0;
+};
+
+/// Requires a cap and next.stamp >= before.state.stamp. O(1), allocates nothing.
+CapCheck CheckCap(const SpaceTimeBound& before, const MotionState& next);
+
+}  // namespace collision

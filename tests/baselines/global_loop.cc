@@ -1,0 +1,37 @@
+#include "tests/baselines/global_loop.h"
+
+#include "tests/baselines/frame_bounds.h"
+
+namespace collision::baselines {
+namespace {
+
+/// How far ahead is asked [frames]: two seconds.
+constexpr int kHorizonFrames = 120;
+
+}  // namespace
+
+std::optional<CubePair> GlobalLoop::Look(const MovingCubes& cubes) {
+  const Instant now = InstantOf(cubes);
+  if (now < t_end_) return std::nullopt;
+  for (std::uint32_t cube = 0; cube < cubes.count(); ++cube) {
+    phase_->Put(cube, BoundOf(cubes, cube));
+  }
+  work_.rebuilds += cubes.count();
+  const BroadQuery query{BoundKind::kHorn, now, InstantOf(cubes, kHorizonFrames)};
+  const auto earliest = phase_->Earliest(query);
+  ++work_.questions;
+  t_end_ = earliest ? earliest->time.instant() : query.until;
+  const Instant next_frame = InstantOf(cubes, 1);
+  if (t_end_ > next_frame) return std::nullopt;
+  t_end_ = next_frame;
+  could_overlap_.clear();
+  AllMeetings(phase_.get(), cubes.count(), now, now, &could_overlap_);
+  work_.questions += cubes.count();
+  std::optional<CubePair> first;
+  for (const PairMeeting& meeting : could_overlap_) {
+    Test(cubes, meeting.lower, meeting.higher, &first);
+  }
+  return first;
+}
+
+}  // namespace collision::baselines

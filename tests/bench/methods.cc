@@ -1,0 +1,79 @@
+#include "tests/bench/methods.h"
+
+#include <algorithm>
+
+#include "collision_core/broad_phase/all_pairs.h"
+#include "collision_core/broad_phase/chosen_broad_phase.h"
+#include "collision_core/broad_phase/face_sweep.h"
+#include "collision_core/broad_phase/spatial_index.h"
+#include "tests/baselines/ball_bound.h"
+#include "tests/bench/contestant.h"
+#include "tests/bench/measure.h"
+#include "tests/bench/peers.h"
+
+namespace collision::bench {
+namespace {
+
+template <typename Type>
+Method MethodOf(const char* name) {
+  return {name, [] { return std::make_unique<Type>(); }};
+}
+
+/// A new object for each question, filled by Put().
+class MethodContestant : public Contestant {
+ public:
+  explicit MethodContestant(const Method& method) : method_(method) {}
+
+  Timed Ask(const baselines::BallScene& scene, double horizon) override {
+    Timed timed;
+    const CpuStopwatch filling;
+    const auto method = method_.make();
+    for (std::size_t i = 0; i < scene.size(); ++i) {
+      method->Put(static_cast<std::uint32_t>(i), baselines::BoundOf(scene[i]));
+    }
+    timed.fill = filling.seconds();
+    const CpuStopwatch asking;
+    BroadQuery query;
+    query.until = AddRoundedDown(query.from, horizon);
+    const auto meeting = method->Earliest(query);
+    timed.answer_in = asking.seconds();
+    if (meeting) {
+      timed.answer = {true, meeting->lower, meeting->higher, meeting->time.instant().nanoseconds()};
+    }
+    return timed;
+  }
+
+ private:
+  Method method_;
+};
+
+}  // namespace
+
+const std::vector<Method>& OurMethods() {
+  static const std::vector<Method> methods = {
+      MethodOf<AllPairs>("all-pairs"),
+      MethodOf<FaceSweep>("face-sweep"),
+      MethodOf<SpatialIndex>("spatial-index"),
+      MethodOf<ChosenBroadPhase>("chosen"),
+  };
+  return methods;
+}
+
+const Method& OurChoice() { return OurMethods().back(); }
+
+bool IsOurs(const std::string& contestant) {
+  return std::any_of(OurMethods().begin(), OurMethods().end(),
+                     [&](const Method& method) { return method.name == contestant; });
+}
+
+std::vector<Entrant> Entrants() {
+  std::vector<Entrant> entrants;
+  for (const Method& method : OurMethods()) {
+    entrants.push_back(
+        {method.name, true, [&method] { return std::make_unique<MethodContestant>(method); }});
+  }
+  for (Entrant& peer : Peers()) entrants.push_back(std::move(peer));
+  return entrants;
+}
+
+}  // namespace collision::bench

@@ -1,0 +1,92 @@
+// A daemon and simulators in one thread, with a network that is late as the test wants.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/transport.h"
+#include "client/world.h"
+#include "idl/identity.h"
+#include "tests/server/scripted_bus.h"
+
+namespace collision::client {
+
+/// Takes what simulators write to the daemon, and what it says to whom it concerns; keeps a copy.
+class InProcessService {
+ public:
+  /// `late`: so many steps of the daemon pass before what it says arrives.
+  InProcessService(const v1::Config& config, std::size_t late) : daemon_(config), late_(late) {}
+
+  void Send(std::uint64_t sender, const v1::Input& message) {
+    inputs_.push_back(message);
+    inputs_.back().set_sender(sender);
+  }
+
+  /// One step of the daemon, `seconds` of monotonic time after the last.
+  void Step(double seconds) {
+    daemon_.Step(std::exchange(inputs_, {}), seconds);
+    steps_.push_back(std::exchange(daemon_.bus().outputs, {}));
+    for (const v1::Output& output : steps_.back()) said_.push_back(output);
+    if (steps_.size() <= late_) return;
+    for (const v1::Output& output : steps_.front()) {
+      for (auto& [sender, inbox] : inboxes_) inbox.push_back(output);
+    }
+    steps_.pop_front();
+  }
+
+  /// A world over this service, of a simulator that speaks as `sender`.
+  World Connect(std::uint64_t sender, WorldOptions options);
+
+  const std::vector<v1::Output>& said() const { return said_; }
+
+ private:
+  class Line;
+
+  server::ScriptedDaemon daemon_;
+  std::size_t late_;
+  std::vector<v1::Input> inputs_;
+  std::deque<std::vector<v1::Output>> steps_;
+  std::map<std::uint64_t, std::vector<v1::Output>> inboxes_;
+  std::vector<v1::Output> said_;
+};
+
+/// Whoever waits lets the daemon step.
+class InProcessService::Line : public Transport {
+ public:
+  Line(InProcessService* service, std::uint64_t sender, std::uint64_t simulator)
+      : service_(*service), sender_(sender), simulator_(simulator) {
+    service_.inboxes_[sender];
+  }
+
+  void Write(const v1::Input& message) override { service_.Send(sender_, message); }
+  void Flush() override {}
+  bool service_alive() const override { return true; }
+
+  void Receive(std::chrono::nanoseconds timeout, Arrivals* arrivals) override {
+    std::vector<v1::Output>& inbox = service_.inboxes_[sender_];
+    if (timeout.count() > 0 && inbox.empty()) service_.Step(0.001);
+    for (const v1::Output& output : std::exchange(inbox, {})) {
+      const bool others =
+          (output.has_clearance() && output.clearance().simulator_id() != simulator_) ||
+          (output.has_rejection() && output.rejection().simulator_id() != simulator_);
+      if (!others) arrivals->outputs.push_back(output);
+    }
+  }
+
+ private:
+  InProcessService& service_;
+  std::uint64_t sender_;
+  std::uint64_t simulator_;
+};
+
+inline World InProcessService::Connect(std::uint64_t sender, WorldOptions options) {
+  options.run = 1;
+  auto line = std::make_unique<Line>(this, sender, SimulatorId(options.simulator));
+  return World::Connect(options, std::move(line));
+}
+
+}  // namespace collision::client
