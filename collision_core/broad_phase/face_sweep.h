@@ -21,7 +21,7 @@ namespace collision {
 ///
 /// Its answer is AllPairs' answer, bit for bit: the faces contain all that MeetingTime() can
 /// answer (kFacePadding), nothing after them is rounded (CrossingOrder), and it stops only beyond
-/// kHornEarliness. The proof is in README.md.
+/// WithEarliness(). The proof is in README.md.
 ///
 /// Horns are swept in windows [s, s + w], w doubling, since a chord over a long window cuts far
 /// outside a horn; the first is chosen by FirstWindow(). Hypertrapezoids have their one window.

@@ -8,9 +8,7 @@ namespace collision {
 
 PairTime MeetingTime(const BroadQuery& query, const SpaceTimeBound& a, const SpaceTimeBound& b) {
   if (query.bound == BoundKind::kHorn) {
-    PairTime time = EarliestIntersection(a, b, query.from);
-    if (time.instant() > query.until) time.seconds = kInfinity;
-    return time;
+    return EarliestIntersection(a, b, query.from, query.until);
   }
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
   if (!CanMeet(a.declaration, b.declaration) || (NeverMoves(a) && NeverMoves(b)) ||

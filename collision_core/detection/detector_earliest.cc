@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "collision_core/detection/detector_implementation.h"
+#include "collision_core/detection/judge.h"
 
 namespace collision {
 
@@ -76,10 +77,16 @@ void Detector::Implementation::EarliestSearch::OfferPair(PairRecord* pair) {
   if (!pair->ahead_from.is_never() && pair->ahead_until > now) {
     Offer(pair->lower, pair->higher, std::max(now, pair->ahead_from));
   }
-  // Where balls may overlap, their shapes may be certified apart for longer.
-  const Instant earliest = std::max(pair->earliest, known ? pair->clear_until : Instant::Always());
+  if (!known) {
+    return Offer(pair->lower, pair->higher,
+                 std::min(pair->earliest, std::max(now, pair->clear_until)));
+  }
+  // Where balls may overlap, their shapes may be certified apart for longer. (Of balls, what an older
+  // state certified could only be later by its rounding.)
+  const bool shaped =
+      HaveShapes(detector.At(pair->lower).history, detector.At(pair->higher).history);
   Offer(pair->lower, pair->higher,
-        known ? earliest : std::min(pair->earliest, std::max(now, pair->clear_until)));
+        shaped ? std::max(pair->earliest, pair->clear_until) : pair->earliest);
 }
 
 // A lower bound of all that OfferPair() may offer until the pair is judged again.

@@ -28,14 +28,21 @@ Approaching Between(const BallAgent& a, const BallAgent& b, double base) {
           2 * (half_a * since_a + half_b * since_b), half_a + half_b};
 }
 
-/// True only if they cannot meet by `limit`: along the first direction between them the gap is
-/// concave in time, so it is enough that it is open at both ends. Squared, so it takes no root.
+/// True only if they cannot meet by `limit`, told without a root. Either along the first direction
+/// between them the gap, concave in time, is open at both ends; or the way passes farther from the
+/// other than the greatest reach.
 bool CannotMeet(const Approaching& pair, double limit) {
   const double distance_squared = pair.d.squaredNorm();
-  const double along = distance_squared + pair.d.dot(pair.w) * limit;
-  const double reach = pair.Reach(limit);
-  return along > 0 && along * along > distance_squared * (reach * reach) &&
-         distance_squared > pair.c0 * pair.c0;
+  if (distance_squared <= pair.c0 * pair.c0) return false;
+  const double along_way = pair.d.dot(pair.w);
+  const double along = distance_squared + along_way * limit;
+  const double reach = pair.Reach(limit), reach_squared = reach * reach;
+  if (along > 0 && along * along > distance_squared * reach_squared) return true;
+  const double way_squared = pair.w.squaredNorm() * limit;
+  const double nearest = along_way >= 0             ? 0
+                         : way_squared > -along_way ? -along_way / way_squared
+                                                    : 1;
+  return (pair.d + pair.w * (nearest * limit)).squaredNorm() > reach_squared;
 }
 
 /// Where nothing accelerates: the root of a quadratic.

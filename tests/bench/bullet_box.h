@@ -1,9 +1,10 @@
 // Boxes and leaves as Bullet has them.
 #pragma once
 
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+
 #include <cstdint>
 
-#include "BulletCollision/BroadphaseCollision/btDbvt.h"
 #include "tests/baselines/ball_scene.h"
 #include "tests/bench/float_box.h"
 

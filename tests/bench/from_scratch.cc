@@ -49,6 +49,17 @@ bool Wanted(const Settings& settings, const Row& row) {
   return name.find(settings.only) != std::string::npos;
 }
 
+bool WantsAny(const Settings& settings, const std::string& part, const std::string& scene,
+              std::size_t agents) {
+  Row row;
+  row.part = part, row.scene = scene, row.agents = agents;
+  for (const Entrant& entrant : Entrants()) {
+    row.contestant = entrant.name;
+    if (Wanted(settings, row)) return true;
+  }
+  return false;
+}
+
 Row AskFromScratch(const Settings& settings, const std::string& part, const std::string& name,
                    const baselines::BallScene& scene, const Entrant& entrant, Report* report) {
   Row row;
@@ -134,6 +145,7 @@ void ScratchPart(const Settings& settings, Report* report) {
     if (settings.quick && count > 100'000) continue;
     for (const FirstHit hit : {FirstHit::kAtOnce, FirstHit::kHalf, FirstHit::kNever}) {
       const std::string name = std::string("uniform ") + baselines::Name(hit);
+      if (!WantsAny(settings, "scratch", name, count)) continue;
       const auto rows =
           AskAll(settings, "scratch", name, baselines::FirstHitScene(count, hit), report);
       for (const Row& row : rows) {

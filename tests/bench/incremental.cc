@@ -12,6 +12,8 @@
 namespace collision::bench {
 namespace {
 
+constexpr const char* kScene = "swinging";
+
 /// Ours: the method is told, and the queue asks again where it must.
 class UpdatedMethod : public Updated, private baselines::AgentAsker {
  public:
@@ -108,7 +110,7 @@ std::vector<double> Measure(const UpdateStream& stream, const Make& make) {
 Row MeasureRow(const Settings& settings, const std::string& name, const UpdateStream& stream,
                const Make& make, Report* report) {
   Row row;
-  row.part = "incremental", row.scene = "swinging", row.agents = stream.start.size();
+  row.part = "incremental", row.scene = kScene, row.agents = stream.start.size();
   row.contestant = name, row.cut_off = 3 * settings.cut_off();
   if (!Wanted(settings, row)) return row;
   const ApartResult result = RunApart(row.cut_off, [&] { return Measure(stream, make); });
@@ -142,6 +144,7 @@ double ValueOf(const Row& row, const std::string& name) {
 
 void IncrementalPart(const Settings& settings, Report* report) {
   for (const std::uint32_t count : {1000u, 10'000u, 100'000u}) {
+    if (!WantsAny(settings, "incremental", kScene, count)) continue;
     const std::size_t updates = settings.quick ? 50'000 : 200'000;
     const UpdateStream stream = MakeUpdates(count, updates);
     std::optional<Row> ours;

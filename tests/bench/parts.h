@@ -21,6 +21,9 @@ struct Settings {
 };
 
 bool Wanted(const Settings& settings, const Row& row);
+/// Whether any contestant is wanted there: scenes take time to draw.
+bool WantsAny(const Settings& settings, const std::string& part, const std::string& scene,
+              std::size_t agents);
 
 /// One contestant on one scene from scratch, repeated; adds the row, and returns it.
 Row AskFromScratch(const Settings& settings, const std::string& part, const std::string& name,

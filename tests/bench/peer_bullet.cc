@@ -1,5 +1,6 @@
 // Bullet: its dynamic tree of boxes, filled leaf by leaf, and collided with itself.
-#include "BulletCollision/BroadphaseCollision/btDbvt.h"
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+
 #include "tests/bench/bullet_box.h"
 #include "tests/bench/peers.h"
 

@@ -66,7 +66,9 @@ TEST(StateDemand, IsPublishedWithTheClearance) {
   config.set_announce_within_s(1.5);
   ScriptedDaemon daemon(config);
   daemon.Step(AlphaJoins(1));
-  for (const v1::AgentClearance& agent : daemon.clearance(SimulatorId("alpha")).agents()) {
+  const v1::Clearance clearance = daemon.clearance(SimulatorId("alpha"));
+  ASSERT_EQ(clearance.agents_size(), 2);
+  for (const v1::AgentClearance& agent : clearance.agents()) {
     EXPECT_GT(agent.clear_until_ns(), 6 * kSecond);
     EXPECT_EQ(agent.state_wanted_ns(), agent.clear_until_ns() - 3 * kSecond / 2);
   }

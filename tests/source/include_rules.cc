@@ -70,6 +70,12 @@ bool IsDds(const std::string& name) {
          name == "idl/collision.h";
 }
 
+constexpr char kLaneScanHeader[] = "collision_core/broad_phase/lane_scan.h";
+
+bool IsWide(const std::string& path) {
+  return StartsWith(path, "collision_core/broad_phase/lane_scan_");
+}
+
 bool IsPublicClientHeader(const std::string& path) {
   return path == "client/world.h" || path == "client/monitor.h" || path == "client/types.h";
 }
@@ -77,6 +83,11 @@ bool IsPublicClientHeader(const std::string& path) {
 std::string Complaint(const std::string& path, const Include& include) {
   if (IsDds(include.name)) {
     return StartsWithAny(path, {"idl/dds/", "tests/idl/"}) ? "" : "only idl/dds knows DDS";
+  }
+  // Built for processors that not everybody has: what others share must not be compiled there.
+  if (IsWide(path)) {
+    const bool own = include.name == "immintrin.h" || include.name == kLaneScanHeader;
+    return own ? "" : "wide vectors know nothing but their processor";
   }
   if (!include.quoted) {
     if (StartsWith(path, "collision_core/") && !IsForCore(include.name)) {

@@ -40,11 +40,10 @@ TEST_F(MotionLogTest, WritesEveryRecord) {
   log.Turn("ball", {5, 7, {0, 0, 0, 1}, {0.1, 0, 2}, {0, -0.5, 0}});
   log.Jump("ball", 7);
   log.Close();
-  EXPECT_EQ(Lines(), (std::vector<std::string>{
-                         "motion-log 2", "agent ball 0.10000000000000001",
-                         "piece ball 5 7 1 2 3 4 0.10000000000000001 0 0 0 -1 0 0 "
-                         "1.0000000000000001e+300",
-                         "turn ball 5 7 0 0 0 1 0.10000000000000001 0 2 0 -0.5 0", "jump ball 7"}));
+  EXPECT_EQ(Lines(),
+            (std::vector<std::string>{"motion-log 2", "agent ball 0.1",
+                                      "piece ball 5 7 1 2 3 4 0.1 0 0 0 -1 0 0 1e+300",
+                                      "turn ball 5 7 0 0 0 1 0.1 0 2 0 -0.5 0", "jump ball 7"}));
 }
 
 TEST_F(MotionLogTest, EqualShapesAreWrittenOnceBeforeTheirAgents) {

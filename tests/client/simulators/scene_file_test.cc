@@ -34,7 +34,8 @@ class SceneFileTest : public testing::Test {
 TEST_F(SceneFileTest, ShippedScenesLoad) {
   folders_.scenes = COLLISION_SCENES_DIR;
   const std::string list = ListScenes(folders_);
-  for (const std::string name : {"iridium-cosmos", "swarm-100", "swarm-1000", "swarm", "corridor"}) {
+  for (const std::string name :
+       {"iridium-cosmos", "swarm-100", "swarm-1000", "swarm", "corridor"}) {
     EXPECT_NE(list.find(name + " "), std::string::npos);
     if (name == "corridor") continue;  // not offered without the data folder
     const v1::Scene scene = LoadScene(folders_, name);
@@ -68,7 +69,7 @@ TEST_F(SceneFileTest, AnUnknownSceneNamesThoseThereAre) {
   } catch (const NoSuchScene& error) {
     EXPECT_STREQ(error.what(),
                  "no scene \"iridium\"; there are: corridor, iridium-cosmos, spaceships, "
-                 "spaceships-100, spaceships-500, swarm-100");
+                 "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000");
   }
 }
 

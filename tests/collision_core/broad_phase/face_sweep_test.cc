@@ -78,6 +78,30 @@ TEST(FaceSweep, TiesAreBrokenByIndexNotByCrossing) {
   }
 }
 
+// Goal:   agents with no place on the grid are asked against all, once, and do not coarsen it.
+// Method: 200 slow agents of which one lies in the path of another that comes from very far: from
+//         1e15 m, or so fast that its faces are infinite by the window's end.
+TEST(FaceSweep, AgentsSetApartAreAskedAgainstAll) {
+  for (const double far : {1e15, 1e307}) {
+    Random random(11);
+    SweepScene scene;
+    scene.query = {BoundKind::kHypertrapezoid, At(0), At(100 * kSecond)};
+    if (far == 1e307) scene.query.bound = BoundKind::kHorn;
+    scene.agents.push_back(Agent({0, 0, 0}, {0, 0, 0}, 1));
+    while (scene.agents.size() < 200) {
+      const Eigen::Vector3d above(0, 0, 1e3 + 10.0 * scene.agents.size());
+      scene.agents.push_back(Agent(above + RandomVector(&random, 1), {0, 0, 0}, 1));
+    }
+    scene.agents.push_back(Agent({-far, 0, 0}, {far, 0, 0}, 1));
+    const std::optional<PairMeeting> expected = PlainEarliest(scene);
+    ASSERT_TRUE(expected);
+    EXPECT_EQ(200u, expected->higher);
+    FaceSweep sweep = Filled(scene);
+    ExpectSame(expected, sweep.Earliest(scene.query));
+    EXPECT_EQ(200u, sweep.work().pair_queries);
+  }
+}
+
 /// Spheres of 0.5 m with no M, 8 m apart on average: what their crossings cost, not what they meet.
 SweepScene Passing(int count, std::int64_t until, Random* random) {
   SweepScene scene;

@@ -25,7 +25,7 @@ constexpr bool kSlow = false;
 
 Instant Exactly(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
 
-// Agents far apart on a lattice; each speaks once a second, at its own time.
+// Agents far apart near a lattice; each speaks once a second, at its own time.
 class Lattice {
  public:
   Lattice(std::uint32_t side, double spacing) : side_(side), spacing_(spacing) {
@@ -41,7 +41,10 @@ class Lattice {
   MotionState StateOf(std::uint32_t slot, Instant t) const {
     MotionState state;
     state.stamp = t;
-    state.p_WA = {spacing_ * (slot % side_), spacing_ * (slot / side_), 0};
+    // Off the lattice, so that no two are equally near to a third.
+    Random random(slot);
+    state.p_WA = {spacing_ * (slot % side_), spacing_ * (slot / side_),
+                  random.Uniform(0, spacing_)};
     return state;
   }
 
@@ -117,18 +120,38 @@ TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
   EXPECT_LT(detector.counters().pair_queries, 40u * agents);
   EXPECT_EQ(detector.Earliest().earliest, At(0));
   const std::uint64_t before = detector.counters().pair_queries;
-  for (int step = 1; step <= 60; ++step) {
+  for (int step = 1; step <= 20; ++step) {
     detector.Advance(At(step / 64.0));
     detector.Earliest();
   }
-  // Four times a second each is asked once more whether it is still crowded.
-  EXPECT_LT(detector.counters().pair_queries - before, 60u * 3 * 1000 + 40u * agents);
+  // Each is asked once more whether it is still crowded.
+  EXPECT_LT(detector.counters().pair_queries - before, 20u * 3 * 1000 + 10u * agents);
+}
+
+// What cannot be tracked counts for the earliest intersection as well.
+TEST(Incremental, TheEarliestKnowsWhoIsSaturated) {
+  DetectorOptions options;
+  options.pairs_per_agent_max = 1;
+  Detector detector(options);
+  detector.Admit(Id(1), {.radius = 1}, State(0, {0, 0, 0}, {1, 0, 0}), At(0));
+  detector.Admit(Id(2), {.radius = 1}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
+  detector.Advance(At(0));
+  EXPECT_EQ(detector.Earliest().higher, Id(2));
+  detector.Admit(Id(3), {.radius = 1}, State(0, {-2.5, 0, 0}, {2, 0, 0}), At(0));
+  detector.Advance(At(0));
+  const EarliestAnswer earliest = detector.Earliest();
+  EXPECT_TRUE(detector.ClearanceOf(Id(1))->saturated);
+  EXPECT_TRUE(detector.ClearanceOf(Id(3))->saturated);
+  EXPECT_EQ(earliest.earliest, At(0));
+  EXPECT_EQ(earliest.lower, Id(1));
+  EXPECT_EQ(earliest.higher, Id(3));
 }
 
 // Everything that can happen to an agent, at random; with what is known of each, for the oracle.
 class RandomHistory {
  public:
-  RandomHistory(std::uint64_t seed, BroadPhaseMethod method) : random_(seed) {
+  RandomHistory(std::uint64_t seed, double box, BroadPhaseMethod method)
+      : random_(seed), box_(box) {
     DetectorOptions options;
     options.broad_phase = method;
     detector_.emplace(options);
@@ -163,15 +186,28 @@ class RandomHistory {
     const Instant now = Exactly(now_);
     EarliestAnswer scratch;
     bool contact = false;
-    for (const auto& [slot, told] : clearances_) contact |= told.in_contact;
+    bool unsure = false;
+    for (const auto& [slot, bound] : known_) {
+      contact |= clearances_.at(slot).in_contact;
+      unsure |= clearances_.at(slot).not_clear;
+    }
+    // Whatever has changed was told.
+    for (const auto& [slot, bound] : known_) {
+      const AgentClearance clearance = *detector_->ClearanceOf(Id(slot));
+      ASSERT_EQ(clearances_.at(slot).clear_until, clearance.clear_until) << slot;
+      ASSERT_EQ(clearances_.at(slot).in_contact, clearance.in_contact) << slot;
+    }
     for (auto a = known_.begin(); a != known_.end(); ++a) {
       for (auto b = std::next(a); b != known_.end(); ++b) {
         const Instant when = EarliestIntersection(a->second, b->second, now).instant();
         if (when.is_never()) continue;
+        // What an older state certified may be later than the canonical answer by its rounding.
+        const Instant rounded = AddRoundedUp(when, 2e-9);
         for (const std::uint32_t slot : {a->first, b->first}) {
           const AgentClearance& told = clearances_.at(slot);
-          ASSERT_TRUE(told.clear_until <= when || told.in_contact)
-              << a->first << "-" << b->first << " at " << now_;
+          ASSERT_TRUE(told.clear_until <= rounded || told.in_contact)
+              << a->first << "-" << b->first << " at " << now_ << " told "
+              << told.clear_until.nanoseconds() << " may meet " << when.nanoseconds();
         }
         if (when < scratch.earliest) scratch = {true, when, Id(a->first), Id(b->first)};
       }
@@ -179,6 +215,8 @@ class RandomHistory {
     const EarliestAnswer kept = detector_->Earliest();
     log_.push_back(kept.earliest.nanoseconds());
     if (contact) return;
+    ASSERT_LE(kept.earliest, scratch.earliest) << now_;
+    if (unsure) return;  // something may touch for what came before the newest states
     ++compared_;
     ASSERT_EQ(kept.found, scratch.found) << now_;
     ASSERT_EQ(kept.earliest, scratch.earliest) << now_;
@@ -191,8 +229,6 @@ class RandomHistory {
   const DetectorCounters& counters() const { return detector_->counters(); }
 
  private:
-  static constexpr double kBox = 400;
-
   std::vector<std::uint32_t> Slots() const {
     std::vector<std::uint32_t> slots;
     for (const auto& [slot, bound] : known_) slots.push_back(slot);
@@ -200,7 +236,7 @@ class RandomHistory {
   }
 
   Vector3d Place() {
-    return {random_.Uniform(0, kBox), random_.Uniform(0, kBox), random_.Uniform(0, kBox)};
+    return {random_.Uniform(0, box_), random_.Uniform(0, box_), random_.Uniform(0, box_)};
   }
 
   AgentDeclaration Declaration() {
@@ -252,6 +288,7 @@ class RandomHistory {
   }
 
   Random random_;
+  const double box_;
   std::optional<Detector> detector_;
   std::map<std::uint32_t, SpaceTimeBound> known_;
   std::map<std::uint32_t, AgentClearance> clearances_;
@@ -263,13 +300,13 @@ class RandomHistory {
 
 TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
   const int steps = kSlow ? 60 : 600;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const double box : {60, 150, 400}) {
     std::optional<std::vector<std::int64_t>> log;
     for (const BroadPhaseMethod method :
          {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kSpatialIndex,
           BroadPhaseMethod::kFaceSweep, BroadPhaseMethod::kAuto}) {
       SCOPED_TRACE(Name(method));
-      RandomHistory history(seed, method);
+      RandomHistory history(static_cast<std::uint64_t>(box), box, method);
       for (int step = 0; step < steps; ++step) {
         history.Step(40);
         history.Compare();
@@ -277,7 +314,7 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
       }
       if (!log) {
         log = history.log();
-        EXPECT_GT(history.compared(), steps / 4);
+        EXPECT_GT(history.compared(), steps / 10);
         EXPECT_GT(history.counters().jumps, 5u);
         EXPECT_GT(history.counters().breaches, 5u);
         EXPECT_GT(history.counters().widenings, 5u);
