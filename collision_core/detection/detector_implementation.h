@@ -114,6 +114,7 @@ class Detector::Implementation {
   void Judge(std::uint32_t slot, bool last, ContactTracker* preview, Work* work);
   void NoteContactAhead(const ContactTracker& preview, PairRecord* pair) const;
   void NoteDue(std::uint32_t slot);
+  double Patience(const AgentRecord& agent) const;
   Instant SettledUntil(const AgentRecord& agent) const;
   void Track(std::uint32_t a, std::uint32_t b, Instant free_until, bool began_before);
   void Untrack(std::uint32_t slot);

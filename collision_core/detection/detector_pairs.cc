@@ -41,20 +41,23 @@ void Detector::Implementation::TurnAll() {
 }
 
 // The time from which the pair is judged every step: while in contact, when contact is nearer than
-// Δt, when it is to be announced.
+// Δt, when it is to be announced, when what was heard of a contact that has ended is settled.
 void Detector::Implementation::NoteDue(std::uint32_t slot) {
   const PairRecord& pair = pairs_[slot];
   const double ahead = pair.announced ? options_.temporal_resolution : options_.announce_within;
   // Rounded as now + ahead is: clear_until <= now + ahead exactly if due <= now.
-  const Instant due = AddRoundedUp(pair.clear_until, -ahead);
+  const Instant due = std::min(AddRoundedUp(pair.clear_until, -ahead), pair.settles);
   pairs_due_.Set(slot, pair.in_contact ? Instant::Always() : due);
 }
 
 // Up to here no later state of the agent is waited for. States of its own rate may still narrow what is known;
 // an agent that speaks seldom, or once, is not waited for longer than twice its last interval.
+double Detector::Implementation::Patience(const AgentRecord& agent) const {
+  return std::max(options_.announce_within, 2 * agent.history.LastInterval());
+}
+
 Instant Detector::Implementation::SettledUntil(const AgentRecord& agent) const {
-  const double patience = std::max(options_.announce_within, 2 * agent.history.LastInterval());
-  return std::max(agent.stamp(), std::min(agent.heard, AddRoundedDown(now_, -patience)));
+  return std::max(agent.stamp(), std::min(agent.heard, AddRoundedDown(now_, -Patience(agent))));
 }
 
 // States may reach beyond now: then contacts that have not begun yet are known, and their ends.
@@ -89,6 +92,10 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   NoteContactAhead(preview, &pair);
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
+  pair.settles = preview.finished().empty()
+                     ? Instant::Never()
+                     : AddRoundedUp(preview.finished().front().end.latest,
+                                    std::max(Patience(a), Patience(b)));
   pair.turned = step_;
   Touch(pair.lower);
   Touch(pair.higher);

@@ -24,6 +24,8 @@ struct PairRecord {
   Instant not_before = Instant::Always();
   /// When shapes were last asked how long they stay apart.
   Instant looked_ahead = Instant::Always();
+  /// When nothing is waited for any more that could tell of a contact that has ended.
+  Instant settles = Instant::Never();
   bool in_contact = false;
   bool announced = false;  ///< `event` is open and was published.
   bool doubted = false;    ///< It tells of a doubt that lies before its contact, and apart from it.

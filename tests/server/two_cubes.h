@@ -25,7 +25,7 @@ inline const std::string& CubeBytes() {
   return bytes;
 }
 
-/// Two agents at rest with no acceleration, `gap` m apart, both with the cube; told anew at each
+/// Two agents at rest with next to no acceleration (two that cannot move never meet), `gap` m apart, both with the cube; told anew at each
 /// clock.
 class TwoCubes {
  public:
@@ -36,7 +36,7 @@ class TwoCubes {
     std::vector<v1::Input> inputs;
     for (std::uint32_t slot = 0; slot < 2; ++slot) {
       v1::AgentDescription wire = Shaped("alpha", slot, bytes_);
-      wire.set_acceleration_max_m_s2(0);
+      wire.set_acceleration_max_m_s2(1e-9);
       wire.set_angular_acceleration_max_rad_s2(0);
       inputs.push_back(From(kAlpha, wire));
     }

@@ -147,6 +147,21 @@ TEST(Incremental, TheEarliestKnowsWhoIsSaturated) {
   EXPECT_EQ(earliest.higher, Id(3));
 }
 
+// Of equal meetings the one of the lowest ids is the earliest, though neither of its two has the other
+// as the partner that its key names.
+TEST(Incremental, EqualMeetingsGoByTheIds) {
+  Detector detector{DetectorOptions{}};
+  const std::pair<std::uint32_t, double> places[] = {{8, 0}, {9, 300}, {1, 100}, {2, 200}};
+  for (const auto& [slot, x] : places) {
+    detector.Admit(Id(slot), {.radius = 1, .acceleration_max = 1}, State(0, {x, 0, 0}, {0, 0, 0}),
+                   At(0));
+  }
+  detector.Advance(At(0));
+  const EarliestAnswer earliest = detector.Earliest();
+  EXPECT_EQ(earliest.lower, Id(1));
+  EXPECT_EQ(earliest.higher, Id(2));
+}
+
 // Everything that can happen to an agent, at random; with what is known of each, for the oracle.
 class RandomHistory {
  public:
