@@ -43,6 +43,27 @@ TEST(Detector, PassingThroughIsPossibleConfirmedEnded) {
 
 // Passing at 2.5 m with radii 1: the bounds of 1 m/s² reach each other beforehand, the motion does
 // not.
+// Goal:   the end of a contact is told although nobody needs to speak any more.
+// Method: two pass through each other and fall silent in the middle, but their clocks go on. From
+//         there |d| = 4 τ exceeds 2 + τ² after 0.59 s: then they are apart, whatever they do.
+TEST(Detector, AContactEndsThoughNobodySpeaksAnyMore) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {2, 0, 0});
+  line.Add(2, {10, 0, 0}, {-2, 0, 0});
+  line.RunTo(2.5);
+  ASSERT_FALSE(line.With(EventStatus::kConfirmed).empty());
+  ASSERT_TRUE(line.With(EventStatus::kEnded).empty());
+  for (; line.now < 5.75; line.now += 0.25) {
+    for (const std::uint32_t slot : {1u, 2u}) line.detector.Hear(Id(slot), At(line.now));
+    line.Step();
+  }
+  ASSERT_EQ(line.With(EventStatus::kEnded).size(), 1u);
+  const CollisionEvent ended = line.With(EventStatus::kEnded)[0];
+  EXPECT_LE(ended.end.earliest, At(3));
+  EXPECT_GE(ended.end.latest, At(3));
+  EXPECT_LE(ended.end.latest, At(3.1));
+}
+
 TEST(Detector, PassingByIsDismissed) {
   Line line;
   line.Add(1, {-6, 0, 0}, {1, 0, 0});
