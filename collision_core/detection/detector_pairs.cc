@@ -92,10 +92,9 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   NoteContactAhead(preview, &pair);
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
-  pair.settles = preview.finished().empty()
-                     ? Instant::Never()
-                     : AddRoundedUp(preview.finished().front().end.latest,
-                                    std::max(Patience(a), Patience(b)));
+  pair.settles = preview.finished().empty() ? Instant::Never()
+                                            : AddRoundedUp(preview.finished().front().end.latest,
+                                                           std::max(Patience(a), Patience(b)));
   pair.turned = step_;
   Touch(pair.lower);
   Touch(pair.higher);
