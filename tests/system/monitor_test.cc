@@ -23,6 +23,8 @@ TEST(Monitor, ShowsALiveWorld) {
   // Of a contact that was over before the follower was there, only the last revision is kept for it.
   ExpectAll(events->out(), {"left × right", "begin [", "end ["});
 
+  // A status is told once a second, and all this may have taken less.
+  EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "right-sim"));
   const Outcome status = world.Monitor({"status", "--json"});
   EXPECT_EQ(status.status, 0) << status.err;
   ExpectAll(status.out, {"left-sim", "right-sim"});
@@ -32,6 +34,7 @@ TEST(Monitor, ShowsALiveWorld) {
   const Outcome happened = world.Monitor({"events", "--json"});
   EXPECT_EQ(happened.status, 0) << happened.err;
   ExpectAll(happened.out, {"EVENT_ENDED"});
+  EXPECT_TRUE(world.MonitorComesToSay({"earliest", "--json"}, "earliest_ns"));
   const Outcome earliest = world.Monitor({"earliest", "--json"});
   EXPECT_EQ(earliest.status, 0) << earliest.err;
   ExpectAll(earliest.out, {"earliest_ns"});
