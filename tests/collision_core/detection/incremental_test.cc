@@ -117,7 +117,9 @@ TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
     EXPECT_LE(clearance.clear_until, At(0));
   }
   EXPECT_LE(detector.pairs_tracked(), 1000u);
-  EXPECT_LT(detector.counters().pair_queries, 40u * agents);
+  // Of few agents the tracked pairs are a larger part; all pairs would be half the square.
+  const std::uint64_t most = (kSlow ? 200u : 40u) * agents;
+  EXPECT_LT(detector.counters().pair_queries, most);
   EXPECT_EQ(detector.Earliest().earliest, At(0));
   const std::uint64_t before = detector.counters().pair_queries;
   for (int step = 1; step <= 20; ++step) {
@@ -125,7 +127,7 @@ TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
     detector.Earliest();
   }
   // Each is asked once more whether it is still crowded.
-  EXPECT_LT(detector.counters().pair_queries - before, 20u * 3 * 1000 + 10u * agents);
+  EXPECT_LT(detector.counters().pair_queries - before, 20u * 3 * 1000 + most);
 }
 
 // What cannot be tracked counts for the earliest intersection as well.
@@ -332,7 +334,7 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
         EXPECT_GT(history.compared(), steps / 10);
         EXPECT_GT(history.counters().jumps, 5u);
         EXPECT_GT(history.counters().breaches, 5u);
-        EXPECT_GT(history.counters().widenings, 5u);
+        EXPECT_GT(history.counters().widenings, kSlow ? 2u : 5u);
         EXPECT_GT(history.counters().updates_kept, 500u);
       }
       EXPECT_EQ(history.log(), *log);
