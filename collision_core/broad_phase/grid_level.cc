@@ -54,10 +54,12 @@ inline GridLevel::Cell GridLevel::CellOf(double x, double y, double z) const {
   return {cell[0], cell[1], cell[2]};
 }
 
-void GridLevel::Build(const Placing& placing, const PlacedHorn* placed, std::uint32_t count) {
+void GridLevel::Build(const Placing& placing, const PlacedHorn* placed, std::uint32_t count,
+                      const PlacedExtent& extent) {
   placing_ = &placing;
   size_ = count;
-  Measure(placed);
+  most_ = extent;
+  ChooseCell();
   for (int tries = 0;; ++tries) {
     ChooseRows();
     Count(placed);
@@ -68,25 +70,11 @@ void GridLevel::Build(const Placing& placing, const PlacedHorn* placed, std::uin
   Scatter(placed);
 }
 
-void GridLevel::Measure(const PlacedHorn* placed) {
-  most_ = {};
-  double low[3], high[3];
-  std::copy_n(placed[0].c, 3, low);
-  std::copy_n(placed[0].c, 3, high);
-  for (std::uint32_t k = 0; k < size_; ++k) {
-    most_.s0 = std::max(most_.s0, placed[k].s0);
-    most_.s1 = std::max(most_.s1, placed[k].s1);
-    most_.s2 = std::max(most_.s2, placed[k].s2);
-    most_.speed = std::max(most_.speed, placed[k].speed);
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], placed[k].c[axis]);
-      high[axis] = std::max(high[axis], placed[k].c[axis]);
-    }
-  }
+void GridLevel::ChooseCell() {
   double widest = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    origin_[axis] = low[axis];
-    extent_[axis] = high[axis] - low[axis];
+    origin_[axis] = most_.low[axis];
+    extent_[axis] = most_.high[axis] - most_.low[axis];
     widest = std::max(widest, extent_[axis]);
   }
   cell_min_ = 2 * ReachMax({0, placing_->window()});
@@ -167,24 +155,30 @@ double GridLevel::Crowding() const {
 // asker's; both together are less than 2^-21 of it.
 void GridLevel::Scatter(const PlacedHorn* placed) {
   for (std::size_t cell = 2; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
-  lanes_.Resize(size_);
+  lanes_.Reset(size_);
   const auto lost = static_cast<float>(0x1p-21 * cell_ * static_cast<double>(row_cells_ + 1));
+  constexpr std::uint32_t kAhead = 16;
   // First the order, then the agents in it: a few random reads cost less than many random writes.
   order_.resize(size_);
   for (std::uint32_t k = 0; k < size_; ++k) {
     places_[k] = begin_[places_[k] + 1]++;
     order_[places_[k]] = k;
   }
-  constexpr std::uint32_t kAhead = 16;
-  for (std::uint32_t place = 0; place < size_; ++place) {
-    if (place + kAhead < size_) __builtin_prefetch(&placed[order_[place + kAhead]]);
-    const PlacedHorn& horn = placed[order_[place]];
-    const Cell cell = CellOf(horn.c[0], horn.c[1], horn.c[2]);
-    const std::int64_t first = hashed_ ? cell.x & -row_cells_ : 0;
-    const double corner[3] = {origin_[0] + static_cast<double>(first) * cell_,
+  for (std::uint32_t place = 0; place < size_;) {
+    const PlacedHorn& first = placed[order_[place]];
+    const Cell cell = CellOf(first.c[0], first.c[1], first.c[2]);
+    const std::int64_t block = hashed_ ? cell.x & -row_cells_ : 0;
+    const double corner[3] = {origin_[0] + static_cast<double>(block) * cell_,
                               origin_[1] + static_cast<double>(cell.y) * cell_,
                               origin_[2] + static_cast<double>(cell.z) * cell_};
-    lanes_.Set(place, horn, corner, lost);
+    // Of a box all of the row has one corner; rows found by hashing may be shared.
+    const auto row = static_cast<std::size_t>(RowOf(0, cell.y, cell.z) + 1);
+    const std::uint32_t end =
+        hashed_ ? place + 1 : begin_[row * static_cast<std::size_t>(row_cells_)];
+    for (; place < end; ++place) {
+      if (place + kAhead < size_) __builtin_prefetch(&placed[order_[place + kAhead]]);
+      lanes_.Set(place, placed[order_[place]], corner, lost);
+    }
   }
 }
 

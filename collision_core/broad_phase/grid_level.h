@@ -10,6 +10,21 @@
 
 namespace collision {
 
+/// The box around placed agents, and the most that any of them has.
+struct PlacedExtent {
+  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  float s0 = 0, s1 = 0, s2 = 0, speed = 0;
+
+  void Add(const PlacedHorn& horn) {
+    s0 = std::max(s0, horn.s0), s1 = std::max(s1, horn.s1), s2 = std::max(s2, horn.s2);
+    speed = std::max(speed, horn.speed);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], horn.c[axis]);
+      high[axis] = std::max(high[axis], horn.c[axis]);
+    }
+  }
+};
+
 /// A grid over placed agents. Cells that lie side by side along x also lie side by side in memory,
 /// in rows; where the box around all agents has few cells the rows are those of the box, else short
 /// ones found by hashing, so that neither far outliers nor dense clusters cost memory or time. Who
@@ -17,7 +32,8 @@ namespace collision {
 class GridLevel {
  public:
   /// Requires at least one agent, all of them finite. The cells suit the placing's window.
-  void Build(const Placing& placing, const PlacedHorn* placed, std::uint32_t count);
+  void Build(const Placing& placing, const PlacedHorn* placed, std::uint32_t count,
+             const PlacedExtent& extent);
 
   const Lanes& lanes() const { return lanes_; }
   std::uint32_t size() const { return lanes_.size(); }
@@ -50,7 +66,15 @@ class GridLevel {
     std::int64_t x, y, z;
   };
 
-  void Measure(const PlacedHorn* placed);
+  /// The whole number below; far ones are all one, and beyond any cell.
+  static std::int32_t Below(float x) {
+    constexpr float kFarthest = 1 << 30;
+    const float held = std::min(std::max(x, -kFarthest), kFarthest);
+    const auto whole = static_cast<std::int32_t>(held);
+    return whole - (static_cast<float>(whole) > held);
+  }
+
+  void ChooseCell();
   void ChooseRows();
   void Count(const PlacedHorn* placed);
   double Crowding() const;
@@ -60,9 +84,7 @@ class GridLevel {
 
   const Placing* placing_ = nullptr;
   std::uint32_t size_ = 0;
-  struct {
-    float s0, s1, s2, speed;
-  } most_ = {};
+  PlacedExtent most_;
   double origin_[3] = {}, extent_[3] = {};
   double cell_ = 0, cell_min_ = 0, per_cell_ = 0;
   bool hashed_ = false;
@@ -79,47 +101,47 @@ template <typename Visit>
 void GridLevel::ForEachPlace(Stretch stretch, Visit visit) const {
   std::vector<LaneRange> ranges;
   const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
-  const auto most_after = [&] {
-    return static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-10f;
+  const float last_x = static_cast<float>(cells_[0] - 1);
+  const std::int32_t cells_y = static_cast<std::int32_t>(cells_[1]);
+  LaneQuery times;
+  float most;
+  const auto set_stretch = [&] {
+    times = TimesOf(*placing_, stretch);
+    most = static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-10f;
   };
-  float most = most_after();
-  const auto across = [&](float at, float half, std::int64_t own, std::int64_t cells, int* from,
-                          int* to) {
-    // Within the box, and down: counted from a cell that is not above the box's first.
-    const auto shift = static_cast<float>(own), most_of_all = static_cast<float>(cells - 1);
-    const float low = (at - half) * per_cell + shift, high = (at + half) * per_cell + shift;
-    *from = static_cast<int>(std::min(std::max(low, 0.0f), most_of_all)) - static_cast<int>(own);
-    *to = static_cast<int>(std::min(std::max(high, 0.0f), most_of_all)) - static_cast<int>(own);
-  };
+  set_stretch();
   std::uint32_t place = 0;
-  for (std::int64_t z = 0; z < cells_[2]; ++z) {
-    for (std::int64_t y = 0; y < cells_[1]; ++y) {
-      const std::int64_t row = z * cells_[1] + y;
+  for (std::int32_t z = 0; z < cells_[2]; ++z) {
+    for (std::int32_t y = 0; y < cells_y; ++y) {
+      const std::int64_t row = static_cast<std::int64_t>(z) * cells_y + y;
       const std::uint32_t end = begin_[static_cast<std::size_t>((row + 1) * row_cells_)];
       for (; place < end; ++place) {
-        const float half = lanes_.Reach(place, *placing_, stretch) + most;
-        const float at_x = lanes_.x()[place], at_y = lanes_.y()[place], at_z = lanes_.z()[place];
-        int x[2], dy[2], dz[2];
-        across(at_x, half, 0, cells_[0], &x[0], &x[1]);
-        across(at_y, half, y, cells_[1], &dy[0], &dy[1]);
-        across(at_z, half, z, cells_[2], &dz[0], &dz[1]);
+        const LaneQuery query = lanes_.QueryOf(place, times);
+        const float half = WayOf(query) + most;
+        const float at[3] = {lanes_.x()[place], lanes_.y()[place], lanes_.z()[place]};
+        // Cells relative to the own one, held within the box; truncated where they are positive.
+        const auto x_from = static_cast<std::int32_t>(std::max((at[0] - half) * per_cell, 0.0f));
+        const auto x_to = static_cast<std::int32_t>(std::min((at[0] + half) * per_cell, last_x));
+        const std::int32_t y_from = std::max(Below((at[1] - half) * per_cell), -y);
+        const std::int32_t y_to = std::min(Below((at[1] + half) * per_cell), cells_y - 1 - y);
+        const std::int32_t z_to = std::min(Below((at[2] + half) * per_cell),
+                                           static_cast<std::int32_t>(cells_[2]) - 1 - z);
         ranges.clear();
-        for (int step_z = 0; step_z <= dz[1]; ++step_z) {
-          for (int step_y = step_z == 0 ? 0 : dy[0]; step_y <= dy[1]; ++step_y) {
-            const std::int64_t other = row + step_z * cells_[1] + step_y;
-            const std::uint32_t* cells = begin_.data() + other * row_cells_;
-            const std::uint32_t first =
-                step_z == 0 && step_y == 0 ? std::max(cells[x[0]], place + 1) : cells[x[0]];
-            const std::uint32_t last = cells[x[1] + 1];
+        for (std::int32_t step_z = 0; step_z <= z_to; ++step_z) {
+          for (std::int32_t step_y = step_z == 0 ? 0 : y_from; step_y <= y_to; ++step_y) {
+            const std::uint32_t* cells =
+                begin_.data() + (row + std::int64_t{step_z} * cells_y + step_y) * row_cells_;
+            const std::uint32_t first = step_z == 0 && step_y == 0 ? place + 1 : cells[x_from];
+            const std::uint32_t last = cells[x_to + 1];
             if (first >= last) continue;
-            ranges.push_back({first, last, at_x, at_y - static_cast<float>(step_y) * cell,
-                              at_z - static_cast<float>(step_z) * cell});
+            ranges.push_back({first, last, at[0], at[1] - static_cast<float>(step_y) * cell,
+                              at[2] - static_cast<float>(step_z) * cell});
           }
         }
-        const double last = visit(place, stretch, ranges);
-        if (last < stretch.last) {
-          stretch.last = last;
-          most = most_after();
+        const double until = visit(place, query, ranges);
+        if (until < stretch.last) {
+          stretch.last = std::max(until, stretch.first);
+          set_stretch();
         }
       }
     }

@@ -7,84 +7,105 @@
 namespace collision {
 namespace {
 
-// Each value below is a sum or product of fewer than sixteen terms of one sign, so that rounding
-// takes less than 16 · 2^-53 of it.
+// As in At().
 constexpr double kOutward = 1 + 0x1p-48;
 
 // Beyond these, squares and products leave the range of doubles (and of single precision).
 constexpr double kPositionMax = 0x1p+60;
 constexpr double kRateMax = 0x1p+40;
 
-// Positions, of which the lines of horns are sums, are off by less than this part of them.
-constexpr double kLineRounding = 0x1p-48;
-
 constexpr int kTangentsMax = 6;
 
 double Length(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
-double Seconds(Instant from, Instant to) {
-  return static_cast<double>(to.nanoseconds() - from.nanoseconds()) * 1e-9;
+// Whether radius and acceleration are all that a meeting depends on, and twice the half is the whole.
+bool IsPlain(const SpaceTimeBound& bound) {
+  const MotionState& state = bound.state;
+  const AgentDeclaration& declaration = bound.declaration;
+  return bound.skew == 0 && state.position_error == 0 && state.velocity_error == 0 &&
+         declaration.time_step == 0 && declaration.speed_max == kInfinity &&
+         state.direction.isZero(0) && state.expiry.is_never() &&
+         2 * (0.5 * declaration.acceleration_max) == declaration.acceleration_max;
 }
 
 }  // namespace
 
-void HornTable::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
-  if (rows_.size() <= agent) {
-    rows_.resize(agent + 1);
-    bounds_.resize(agent + 1);
+void HornTable::SetFull(HornRow* row, const SpaceTimeBound& bound) {
+  if (row->full == kPlain) {
+    if (free_.empty()) {
+      full_.emplace_back();
+      free_.push_back(static_cast<std::uint32_t>(full_.size()));
+    }
+    row->full = free_.back();
+    free_.pop_back();
   }
+  SpaceTimeBound& kept = full_[row->full - 1];
+  kept = bound;
+  kept.declaration.shape.reset();
+}
+
+void HornTable::DropFull(HornRow* row) {
+  if (row->full != kPlain) free_.push_back(row->full);
+  row->full = kPlain;
+}
+
+void HornTable::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
+  if (rows_.size() <= agent) rows_.resize(agent + 1);
   HornRow& row = rows_[agent];
-  count_ += !bounds_[agent];
-  wild_count_ -= row.wild;
-  bounds_[agent] = bound;
+  count_ += row.group == 0;
+  still_count_ -= row.still;
   const MotionState& state = bound.state;
   const AgentDeclaration& declaration = bound.declaration;
   for (int axis = 0; axis < 3; ++axis) {
     row.p[axis] = state.p_WA[axis];
     row.v[axis] = state.v_WA[axis];
   }
-  const double speed = Length(row.v), half = 0.5 * declaration.acceleration_max;
-  const double skew = bound.skew, step = declaration.time_step;
-  row.u0 = kOutward * (declaration.radius + state.position_error + speed * skew +
-                       state.velocity_error * skew + half * skew * (skew + step));
-  row.u1 = kOutward * (state.velocity_error + half * (2 * skew + step));
-  row.u2 = kOutward * half;
+  const double half = 0.5 * declaration.acceleration_max;
+  row.u0 = declaration.radius, row.u1 = 0, row.u2 = half;
   row.stamp = state.stamp;
   row.group = declaration.group;
   row.mask = declaration.mask;
+  if (IsPlain(bound)) {
+    DropFull(&row);
+  } else {
+    SetFull(&row, bound);
+    const double skew = bound.skew, step = declaration.time_step;
+    row.u0 = kOutward * (declaration.radius + state.position_error + Length(row.v) * skew +
+                         state.velocity_error * skew + half * skew * (skew + step));
+    row.u1 = kOutward * (state.velocity_error + half * (2 * skew + step));
+    row.u2 = kOutward * half;
+  }
   row.still = NeverMoves(bound);
-  const double farthest =
-      std::max({std::abs(row.p[0]), std::abs(row.p[1]), std::abs(row.p[2]), row.u0});
-  row.wild = !(farthest < kPositionMax && speed < kRateMax && row.u1 < kRateMax &&
-               row.u2 < kRateMax && Near(row.stamp));
-  wild_count_ += row.wild;
+  still_count_ += row.still;
+  const auto largest = [](const double* v) {
+    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  };
+  row.wild = !(std::max(largest(row.p), row.u0) < kPositionMax &&
+               std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
   // A group of no bits meets nobody, and is not the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
 }
 
 void HornTable::Remove(std::uint32_t agent) {
   if (!contains(agent)) return;
-  wild_count_ -= rows_[agent].wild;
+  still_count_ -= rows_[agent].still;
+  DropFull(&rows_[agent]);
   rows_[agent] = HornRow();
-  bounds_[agent].reset();
   --count_;
 }
 
-HornAt HornTable::At(std::uint32_t agent, Instant instant) const {
+SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   const HornRow& row = rows_[agent];
-  const double line = Seconds(row.stamp, instant);
-  const double tau = std::max(line, 0.0);
-  HornAt at;
-  double lost = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    at.v[axis] = row.v[axis];
-    at.c[axis] = row.p[axis] + row.v[axis] * line;
-    lost += std::abs(row.p[axis]) + std::abs(row.v[axis] * line);
-  }
-  at.s0 = kOutward * (row.u0 + tau * (row.u1 + tau * row.u2)) + kLineRounding * lost;
-  at.s1 = kOutward * (row.u1 + 2 * tau * row.u2);
-  at.s2 = row.u2;
-  return at;
+  if (row.full != kPlain) return full_[row.full - 1];
+  SpaceTimeBound bound;
+  bound.state.stamp = row.stamp;
+  bound.state.p_WA = {row.p[0], row.p[1], row.p[2]};
+  bound.state.v_WA = {row.v[0], row.v[1], row.v[2]};
+  bound.declaration.radius = row.u0;
+  bound.declaration.acceleration_max = 2 * row.u2;
+  bound.declaration.group = row.group;
+  bound.declaration.mask = row.mask;
+  return bound;
 }
 
 // With d and w between the lines, n = d(x) / |d(x)| and g the gap |d(x)| − S(x), the distance lies

@@ -1,8 +1,9 @@
 // All agents' bounds by index, and the short form of each that filters read.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "collision_core/broad_phase/query.h"
@@ -18,8 +19,9 @@ struct HornRow {
   Instant stamp;
   std::uint32_t group = 0;  ///< 0: no such agent.
   std::uint32_t mask = 0;
-  bool still = false;  ///< NeverMoves().
-  bool wild = false;   ///< Too large or too far for filters: to be asked directly.
+  std::uint32_t full = 0;  ///< HornTable's own.
+  bool still = false;      ///< NeverMoves().
+  bool wild = false;       ///< Too large or too far for filters: to be asked directly.
 };
 
 /// The same from an instant on: at x >= 0 after it within s0 + s1 x + s2 x² of c + v x.
@@ -29,6 +31,8 @@ struct HornAt {
   double s0, s1, s2;
 };
 
+/// Of an agent that declares no more than radius and acceleration the row is all there is: half a
+/// kilobyte less to write, and nothing is lost.
 class HornTable {
  public:
   void Put(std::uint32_t agent, const SpaceTimeBound& bound);
@@ -37,10 +41,11 @@ class HornTable {
   /// One more than the greatest index ever used.
   std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
   std::uint32_t count() const { return count_; }
-  std::uint32_t wild_count() const { return wild_count_; }
+  std::uint32_t still_count() const { return still_count_; }
   bool contains(std::uint32_t agent) const { return agent < size() && rows_[agent].group != 0; }
   const HornRow& row(std::uint32_t agent) const { return rows_[agent]; }
-  const SpaceTimeBound& bound(std::uint32_t agent) const { return *bounds_[agent]; }
+  /// As it was put, without what no meeting depends on: orientation and shape.
+  SpaceTimeBound bound(std::uint32_t agent) const;
 
   /// Whether filters can reckon with the instant: differences of such are exact.
   static bool Near(Instant t) {
@@ -48,7 +53,8 @@ class HornTable {
     return t.nanoseconds() > -kFarthest && t.nanoseconds() < kFarthest;
   }
 
-  /// Of a row that is not wild, at an instant that is Near(). Before its stamp the line goes on backward, and the reach stays.
+  /// Of a row that is not wild, at an instant that is Near(). Before its stamp the line goes on
+  /// backward, and the reach stays.
   HornAt At(std::uint32_t agent, Instant instant) const;
 
   /// A filter: no horn of the two meets earlier than this many seconds after `from`, and none at
@@ -56,10 +62,37 @@ class HornTable {
   double EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const;
 
  private:
-  std::vector<HornRow> rows_;                          // by agent
-  std::vector<std::optional<SpaceTimeBound>> bounds_;  // by agent
-  std::uint32_t count_ = 0, wild_count_ = 0;
+  static constexpr std::uint32_t kPlain = 0;  // nothing beside the row
+
+  void SetFull(HornRow* row, const SpaceTimeBound& bound);
+  void DropFull(HornRow* row);
+
+  std::vector<HornRow> rows_;         // by agent
+  std::vector<SpaceTimeBound> full_;  // at HornRow::full - 1
+  std::vector<std::uint32_t> free_;   // of full_
+  std::uint32_t count_ = 0, still_count_ = 0;
 };
+
+// Each value is a sum or product of fewer than sixteen terms of one sign, so that rounding takes
+// less than 16 · 2^-53 of it; positions, which are sums of lines, are off by less than that part of
+// their terms.
+inline HornAt HornTable::At(std::uint32_t agent, Instant instant) const {
+  constexpr double kOutward = 1 + 0x1p-48, kLineRounding = 0x1p-48;
+  const HornRow& row = rows_[agent];
+  const double line = static_cast<double>(instant.nanoseconds() - row.stamp.nanoseconds()) * 1e-9;
+  const double tau = std::max(line, 0.0);
+  HornAt at;
+  double lost = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    at.v[axis] = row.v[axis];
+    at.c[axis] = row.p[axis] + row.v[axis] * line;
+    lost += std::abs(row.p[axis]) + std::abs(row.v[axis] * line);
+  }
+  at.s0 = kOutward * (row.u0 + tau * (row.u1 + tau * row.u2)) + kLineRounding * lost;
+  at.s1 = kOutward * (row.u1 + 2 * tau * row.u2);
+  at.s2 = row.u2;
+  return at;
+}
 
 /// The reach of a hypertrapezoid's box over a window of `duration` seconds, from that of its horn:
 /// chords instead of parabolas, and corners √3 away instead of the ball.

@@ -15,6 +15,10 @@ std::uint32_t Scan(const LaneView& balls, const LaneQuery& query, const LaneRang
     const LaneRange& range = ranges[r];
     for (std::uint32_t k = range.begin; k < range.end; ++k) {
       float x = balls.x[k] - range.x, y = balls.y[k] - range.y, z = balls.z[k] - range.z;
+      const float own = balls.s0[k] + query.time * (balls.s1[k] + query.time * balls.s2[k]);
+      const float both = query.reach + own;
+      const float wide = both + query.way * (query.speed + balls.speed[k]);
+      if ((x * x + y * y) + z * z > wide * wide) continue;
       const float vx = balls.vx[k] - query.vx, vy = balls.vy[k] - query.vy,
                   vz = balls.vz[k] - query.vz;
       const float away = (x * vx + y * vy) + z * vz;
@@ -22,8 +26,6 @@ std::uint32_t Scan(const LaneView& balls, const LaneQuery& query, const LaneRang
       const float u = Lesser(Greater((0 - away) / square, query.first), query.last);
       x = x + vx * u, y = y + vy * u, z = z + vz * u;
       const float squared = (x * x + y * y) + z * z;
-      const float own = balls.s0[k] + query.time * (balls.s1[k] + query.time * balls.s2[k]);
-      const float both = query.reach + own;
       hits[count] = k;
       count += !(squared > both * both);
     }

@@ -6,12 +6,13 @@
 namespace collision {
 
 /// Balls in arrays, in single precision: at u seconds each has its centre at p + v u, and for
-/// u <= `time` all of it lies within s0 + time (s1 + time s2) of there. Positions are relative to a
-/// corner near them.
+/// u <= `time` all of it lies within s0 + time (s1 + time s2) of there; `speed` is |v| or more.
+/// Positions are relative to a corner near them.
 struct LaneView {
   const float *x, *y, *z;
   const float *vx, *vy, *vz;
   const float *s0, *s1, *s2;
+  const float* speed;
 };
 
 /// Balls [begin, end), and where the asker is as seen from their corner.
@@ -20,11 +21,13 @@ struct LaneRange {
   float x, y, z;
 };
 
-/// The asker, and when: u in [first, last], reaches at `time`.
+/// The asker, and when: u in [first, last], where |u| <= way; reaches at `time`.
 struct LaneQuery {
   float vx, vy, vz;
   float reach;
+  float speed;
   float first, last;
+  float way;
   float time;
 };
 
@@ -32,7 +35,8 @@ struct LaneQuery {
 /// reaches of the asker's (or where that is not a number), and returns how many. `hits` has room for
 /// all of the ranges and kLanesMax more.
 ///
-/// With d and w the differences, the least |d + w u| is looked for at u* = −d·w / w·w, held within
+/// Most are farther apart at u = 0 than reaches and ways together: they are looked at no further.
+/// Of the others, with d and w the differences, the least |d + w u| is looked for at u* = −d·w / w·w, held within
 /// [first, last]. What rounding takes, with D = |d|, W = |w| max |u|, R the sum of the reaches:
 ///   d, w, w u* and their sum are off by less than 2^-22 (D + W) together; u* by 2^-21 (|u*| + D/|w|),
 ///   which moves the point by less than 2^-21 (W + D); squares and R lose 2^-21 of themselves.

@@ -13,11 +13,19 @@ namespace {
 
 using Lanes = __m256;
 
+__attribute__((target("avx2"))) inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
+  const Lanes squared =
+      _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(z, z));
+  return static_cast<unsigned>(
+      _mm256_movemask_ps(_mm256_cmp_ps(squared, _mm256_mul_ps(reach, reach), _CMP_NGT_UQ)));
+}
+
 __attribute__((target("avx2"))) std::uint32_t Scan(const LaneView& balls, const LaneQuery& query,
                                                    const LaneRange* ranges,
                                                    std::uint32_t range_count, std::uint32_t* hits) {
   const Lanes own_vx = _mm256_set1_ps(query.vx), own_vy = _mm256_set1_ps(query.vy),
               own_vz = _mm256_set1_ps(query.vz);
+  const Lanes own_speed = _mm256_set1_ps(query.speed), way = _mm256_set1_ps(query.way);
   const Lanes reach = _mm256_set1_ps(query.reach), time = _mm256_set1_ps(query.time);
   const Lanes first = _mm256_set1_ps(query.first), last = _mm256_set1_ps(query.last);
   std::uint32_t count = 0;
@@ -29,6 +37,15 @@ __attribute__((target("avx2"))) std::uint32_t Scan(const LaneView& balls, const 
       Lanes x = _mm256_sub_ps(_mm256_loadu_ps(balls.x + k), at_x);
       Lanes y = _mm256_sub_ps(_mm256_loadu_ps(balls.y + k), at_y);
       Lanes z = _mm256_sub_ps(_mm256_loadu_ps(balls.z + k), at_z);
+      const Lanes slope = _mm256_add_ps(_mm256_loadu_ps(balls.s1 + k),
+                                        _mm256_mul_ps(time, _mm256_loadu_ps(balls.s2 + k)));
+      const Lanes own = _mm256_add_ps(_mm256_loadu_ps(balls.s0 + k), _mm256_mul_ps(time, slope));
+      const Lanes both = _mm256_add_ps(reach, own);
+      const Lanes ways =
+          _mm256_mul_ps(way, _mm256_add_ps(own_speed, _mm256_loadu_ps(balls.speed + k)));
+      unsigned mask = Within(x, y, z, _mm256_add_ps(both, ways));
+      if (range.end - k < 8) mask &= (1u << (range.end - k)) - 1;
+      if (mask == 0) continue;
       const Lanes vx = _mm256_sub_ps(_mm256_loadu_ps(balls.vx + k), own_vx);
       const Lanes vy = _mm256_sub_ps(_mm256_loadu_ps(balls.vy + k), own_vy);
       const Lanes vz = _mm256_sub_ps(_mm256_loadu_ps(balls.vz + k), own_vz);
@@ -41,15 +58,7 @@ __attribute__((target("avx2"))) std::uint32_t Scan(const LaneView& balls, const 
       x = _mm256_add_ps(x, _mm256_mul_ps(vx, u));
       y = _mm256_add_ps(y, _mm256_mul_ps(vy, u));
       z = _mm256_add_ps(z, _mm256_mul_ps(vz, u));
-      const Lanes squared = _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)),
-                                          _mm256_mul_ps(z, z));
-      const Lanes slope = _mm256_add_ps(_mm256_loadu_ps(balls.s1 + k),
-                                        _mm256_mul_ps(time, _mm256_loadu_ps(balls.s2 + k)));
-      const Lanes own = _mm256_add_ps(_mm256_loadu_ps(balls.s0 + k), _mm256_mul_ps(time, slope));
-      const Lanes both = _mm256_add_ps(reach, own);
-      unsigned mask = static_cast<unsigned>(
-          _mm256_movemask_ps(_mm256_cmp_ps(squared, _mm256_mul_ps(both, both), _CMP_NGT_UQ)));
-      if (range.end - k < 8) mask &= (1u << (range.end - k)) - 1;
+      mask &= Within(x, y, z, both);
       for (; mask != 0; mask &= mask - 1) {
         hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
       }

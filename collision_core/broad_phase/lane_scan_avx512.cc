@@ -16,12 +16,19 @@ using Lanes = __m512;
 // The plain minimum and maximum are the same, but g++ 12 takes their unused lanes for a mistake.
 constexpr __mmask16 kAll = 0xffff;
 
+__attribute__((target("avx512f"))) inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
+  const Lanes squared =
+      _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z));
+  return _mm512_cmp_ps_mask(squared, _mm512_mul_ps(reach, reach), _CMP_NGT_UQ);
+}
+
 __attribute__((target("avx512f"))) std::uint32_t Scan(const LaneView& balls, const LaneQuery& query,
                                                       const LaneRange* ranges,
                                                       std::uint32_t range_count,
                                                       std::uint32_t* hits) {
   const Lanes own_vx = _mm512_set1_ps(query.vx), own_vy = _mm512_set1_ps(query.vy),
               own_vz = _mm512_set1_ps(query.vz);
+  const Lanes own_speed = _mm512_set1_ps(query.speed), way = _mm512_set1_ps(query.way);
   const Lanes reach = _mm512_set1_ps(query.reach), time = _mm512_set1_ps(query.time);
   const Lanes first = _mm512_set1_ps(query.first), last = _mm512_set1_ps(query.last);
   std::uint32_t count = 0;
@@ -33,6 +40,15 @@ __attribute__((target("avx512f"))) std::uint32_t Scan(const LaneView& balls, con
       Lanes x = _mm512_sub_ps(_mm512_loadu_ps(balls.x + k), at_x);
       Lanes y = _mm512_sub_ps(_mm512_loadu_ps(balls.y + k), at_y);
       Lanes z = _mm512_sub_ps(_mm512_loadu_ps(balls.z + k), at_z);
+      const Lanes slope = _mm512_add_ps(_mm512_loadu_ps(balls.s1 + k),
+                                        _mm512_mul_ps(time, _mm512_loadu_ps(balls.s2 + k)));
+      const Lanes own = _mm512_add_ps(_mm512_loadu_ps(balls.s0 + k), _mm512_mul_ps(time, slope));
+      const Lanes both = _mm512_add_ps(reach, own);
+      const Lanes ways =
+          _mm512_mul_ps(way, _mm512_add_ps(own_speed, _mm512_loadu_ps(balls.speed + k)));
+      unsigned mask = Within(x, y, z, _mm512_add_ps(both, ways));
+      if (range.end - k < 16) mask &= (1u << (range.end - k)) - 1;
+      if (mask == 0) continue;
       const Lanes vx = _mm512_sub_ps(_mm512_loadu_ps(balls.vx + k), own_vx);
       const Lanes vy = _mm512_sub_ps(_mm512_loadu_ps(balls.vy + k), own_vy);
       const Lanes vz = _mm512_sub_ps(_mm512_loadu_ps(balls.vz + k), own_vz);
@@ -45,14 +61,7 @@ __attribute__((target("avx512f"))) std::uint32_t Scan(const LaneView& balls, con
       x = _mm512_add_ps(x, _mm512_mul_ps(vx, u));
       y = _mm512_add_ps(y, _mm512_mul_ps(vy, u));
       z = _mm512_add_ps(z, _mm512_mul_ps(vz, u));
-      const Lanes squared = _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)),
-                                          _mm512_mul_ps(z, z));
-      const Lanes slope = _mm512_add_ps(_mm512_loadu_ps(balls.s1 + k),
-                                        _mm512_mul_ps(time, _mm512_loadu_ps(balls.s2 + k)));
-      const Lanes own = _mm512_add_ps(_mm512_loadu_ps(balls.s0 + k), _mm512_mul_ps(time, slope));
-      const Lanes both = _mm512_add_ps(reach, own);
-      unsigned mask = _mm512_cmp_ps_mask(squared, _mm512_mul_ps(both, both), _CMP_NGT_UQ);
-      if (range.end - k < 16) mask &= (1u << (range.end - k)) - 1;
+      mask &= Within(x, y, z, both);
       for (; mask != 0; mask &= mask - 1) {
         hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
       }

@@ -1,56 +1,58 @@
 #include "collision_core/broad_phase/lanes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 namespace collision {
 namespace {
-
-// Its square is infinite, and reaches that are as large find everybody, as they should.
-constexpr float kFarAway = 1e30f;
 
 // Up, by more than a conversion to single precision takes.
 float Up(double x) { return static_cast<float>(x) * (1 + 0x1p-22f); }
 
-void SetTimes(const Placing& placing, Stretch stretch, LaneQuery* query) {
-  query->first = static_cast<float>(stretch.first - placing.middle());
-  query->last = static_cast<float>(stretch.last - placing.middle());
-  query->time = Up(stretch.last);
-}
-
 }  // namespace
 
-void Lanes::Resize(std::uint32_t size) {
-  for (std::vector<float>* array : {&x_, &y_, &z_, &vx_, &vy_, &vz_, &speed_, &s0_, &s1_, &s2_}) {
-    array->resize(size + kLanesMax, 0);
+void Lanes::Reset(std::uint32_t size) {
+  constexpr std::size_t kPage = 1024, kApart = 80;
+  const std::size_t room = (size + kLanesMax + kPage - 1) / kPage * kPage + kApart;
+  if (room > stride_) {
+    stride_ = room;
+    floats_.assign(kArrays * stride_, 0);
   }
-  agents_.resize(size, kNobody);
+  agents_.resize(size);
+}
+
+void Lanes::Resize(std::uint32_t size) {
+  Lanes grown;
+  grown.Reset(size);
+  grown.agents_.assign(size, kNobody);
+  const auto kept = static_cast<std::ptrdiff_t>(std::min(this->size(), size));
+  for (std::size_t which = 0; which < kArrays && kept > 0; ++which) {
+    std::copy_n(array(which), kept,
+                grown.floats_.begin() + static_cast<std::ptrdiff_t>(which * grown.stride_));
+  }
+  std::copy_n(agents_.begin(), kept, grown.agents_.begin());
+  *this = std::move(grown);
 }
 
 LaneView Lanes::view() const {
-  return {x_.data(),  y_.data(),  z_.data(),  vx_.data(), vy_.data(),
-          vz_.data(), s0_.data(), s1_.data(), s2_.data()};
+  return {array(kX),      array(kX + 1), array(kX + 2), array(kVx), array(kVx + 1),
+          array(kVx + 2), array(kS0),    array(kS1),    array(kS2), array(kSpeed)};
 }
 
-void Lanes::Vacate(std::uint32_t k) {
-  x_[k] = kFarAway;
-  agents_[k] = kNobody;
-}
-
-LaneQuery Lanes::QueryOf(std::uint32_t k, const Placing& placing, Stretch stretch) const {
-  const double x = stretch.last;
-  LaneQuery query{vx_[k], vy_[k], vz_[k], Up(s0_[k] + x * (s1_[k] + x * s2_[k])), 0, 0, 0};
-  SetTimes(placing, stretch, &query);
-  return query;
-}
-
-float Lanes::Reach(std::uint32_t k, const Placing& placing, Stretch stretch) const {
-  const struct { float s0, s1, s2, speed; } horn{s0_[k], s1_[k], s2_[k], speed_[k]};
-  return Up(placing.Reach(horn, stretch));
+LaneQuery TimesOf(const Placing& placing, Stretch stretch) {
+  LaneQuery times{};
+  times.first = static_cast<float>(stretch.first - placing.middle());
+  times.last = static_cast<float>(stretch.last - placing.middle());
+  times.way = std::max(std::abs(times.first), std::abs(times.last));
+  times.time = Up(stretch.last);
+  return times;
 }
 
 LaneQuery QueryOf(const PlacedHorn& horn, const Placing& placing, Stretch stretch) {
-  const double x = stretch.last;
-  LaneQuery query{horn.v[0], horn.v[1], horn.v[2], Up(horn.s0 + x * (horn.s1 + x * horn.s2)),
-                  0,         0,         0};
-  SetTimes(placing, stretch, &query);
+  LaneQuery query = TimesOf(placing, stretch);
+  query.vx = horn.v[0], query.vy = horn.v[1], query.vz = horn.v[2], query.speed = horn.speed;
+  query.reach = ReachAt(query.time, horn.s0, horn.s1, horn.s2);
   return query;
 }
 

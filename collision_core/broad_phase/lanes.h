@@ -8,10 +8,19 @@
 
 namespace collision {
 
+/// A reach at a time, up by more than the operations take.
+inline float ReachAt(float time, float s0, float s1, float s2) {
+  return (s0 + time * (s1 + time * s2)) * (1 + 0x1p-21f);
+}
+
 class Lanes {
  public:
   static constexpr std::uint32_t kNobody = ~0u;
+  /// A position whose square is infinite, and reaches that are as large find everybody.
+  static constexpr float kFarAway = 1e30f;
 
+  /// What there was is lost.
+  void Reset(std::uint32_t size);
   /// Keeps what there is, up to the new size.
   void Resize(std::uint32_t size);
   std::uint32_t size() const { return static_cast<std::uint32_t>(agents_.size()); }
@@ -21,33 +30,56 @@ class Lanes {
 
   /// At k, as seen from `corner`; `lost` is what that costs positions, its own and askers'.
   void Set(std::uint32_t k, const PlacedHorn& horn, const double* corner, float lost) {
-    x_[k] = static_cast<float>(horn.c[0] - corner[0]);
-    y_[k] = static_cast<float>(horn.c[1] - corner[1]);
-    z_[k] = static_cast<float>(horn.c[2] - corner[2]);
-    vx_[k] = horn.v[0], vy_[k] = horn.v[1], vz_[k] = horn.v[2];
-    speed_[k] = horn.speed;
-    s0_[k] = horn.s0 + lost, s1_[k] = horn.s1, s2_[k] = horn.s2;
+    float* const at = floats_.data() + k;
+    for (int axis = 0; axis < 3; ++axis) {
+      at[(kX + axis) * stride_] = static_cast<float>(horn.c[axis] - corner[axis]);
+      at[(kVx + axis) * stride_] = horn.v[axis];
+    }
+    at[kS0 * stride_] = horn.s0 + lost, at[kS1 * stride_] = horn.s1, at[kS2 * stride_] = horn.s2;
+    at[kSpeed * stride_] = horn.speed;
     agents_[k] = horn.agent;
   }
-  void Vacate(std::uint32_t k);
+  void Vacate(std::uint32_t k) {
+    floats_[k] = kFarAway;
+    agents_[k] = kNobody;
+  }
 
   /// The position of the k-th as it is stored.
-  const float* x() const { return x_.data(); }
-  const float* y() const { return y_.data(); }
-  const float* z() const { return z_.data(); }
+  const float* x() const { return array(kX); }
+  const float* y() const { return array(kX + 1); }
+  const float* z() const { return array(kX + 2); }
 
-  /// What the k-th asks of the others.
-  LaneQuery QueryOf(std::uint32_t k, const Placing& placing, Stretch stretch) const;
-  /// So far it comes from its place.
-  float Reach(std::uint32_t k, const Placing& placing, Stretch stretch) const;
+  /// What the k-th asks of the others: `times` for the stretch, and what is its own.
+  LaneQuery QueryOf(std::uint32_t k, const LaneQuery& times) const {
+    LaneQuery query = times;
+    const float* const at = floats_.data() + k;
+    query.vx = at[kVx * stride_], query.vy = at[(kVx + 1) * stride_];
+    query.vz = at[(kVx + 2) * stride_], query.speed = at[kSpeed * stride_];
+    query.reach = ReachAt(times.time, at[kS0 * stride_], at[kS1 * stride_], at[kS2 * stride_]);
+    return query;
+  }
 
  private:
-  std::vector<float> x_, y_, z_, vx_, vy_, vz_, speed_, s0_, s1_, s2_;
+  enum { kX = 0, kVx = 3, kS0 = 6, kS1, kS2, kSpeed, kArrays };
+  const float* array(std::size_t which) const { return floats_.data() + which * stride_; }
+
+  // The arrays, one after the other, not a whole number of pages apart: else all of them would
+  // fight for the same lines of the processor's cache.
+  std::vector<float> floats_;
+  std::size_t stride_ = 0;
   std::vector<std::uint32_t> agents_;
 };
 
+/// A query's times; it asks from nowhere, without reach.
+LaneQuery TimesOf(const Placing& placing, Stretch stretch);
+
 /// What a placed horn asks of others.
 LaneQuery QueryOf(const PlacedHorn& horn, const Placing& placing, Stretch stretch);
+
+/// So far the asker comes from its place.
+inline float WayOf(const LaneQuery& query) {
+  return (query.reach + query.way * query.speed) * (1 + 0x1p-21f);
+}
 
 /// Appends the agents that a scan of the ranges finds; `hits` is scratch.
 void ScanInto(const Lanes& lanes, const LaneQuery& query, const std::vector<LaneRange>& ranges,

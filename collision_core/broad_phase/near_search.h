@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/best_meeting.h"
-#include "collision_core/broad_phase/lanes.h"
+#include "collision_core/broad_phase/lane_row.h"
 #include "collision_core/broad_phase/placing.h"
 
 namespace collision {
@@ -31,10 +31,10 @@ class NearSearch : public BroadPhase {
   BroadPhaseWork work() const override { return work_; }
 
  protected:
-  /// Places everybody who is not wild anew, for placing_.
+  /// All horns_ are to be placed anew, for placing_; ToMiddle() has not been called for them.
   virtual void PlaceAll() = 0;
-  /// Places one who is not wild, since the last PlaceAll().
-  virtual void PlaceOne(std::uint32_t agent) = 0;
+  /// Places one since the last PlaceAll().
+  virtual void PlaceOne(const PlacedHorn& horn) = 0;
   /// Forgets where he was placed, if he was.
   virtual void Unplace(std::uint32_t agent) = 0;
   /// Offers all placed pairs that come within reach of each other during the stretch, and others.
@@ -45,18 +45,27 @@ class NearSearch : public BroadPhase {
   const HornTable& table() const { return table_; }
 
   Placing placing_;
+  std::vector<PlacedHorn> horns_;  ///< Of all who are not wild, as of the last placing.
   BroadPhaseWork work_;
   std::uint64_t wasted_ = 0;  ///< Tests that a fresh placing would have saved, since the last.
   std::vector<std::uint32_t> near_;
 
  private:
   bool IsWild(std::uint32_t agent) const;
-  void PlaceAnew(const Placing& placing);
+  void Move(std::uint32_t agent);
+  void PlaceMoved();
+  template <typename Each>
+  void PlaceAtBegin(Each each);
+  void PlaceAnew(const Placing& placing, BestMeeting* best);
+  void AskCrowd(BestMeeting* best);
   void Refresh(Instant from);
   void FindNear(std::uint32_t agent, Instant from, double seconds);
 
   HornTable table_;
-  bool placed_ = false;
+  LaneRow crowd_;
+  bool placed_ = false;  ///< All but those in moved_ are where they belong.
+  std::vector<std::uint32_t> moved_;
+  std::vector<bool> has_moved_;  ///< By agent: in moved_.
   std::vector<std::uint32_t> wild_;
   std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that told of it.
   std::uint64_t question_ = 0;

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <vector>
 
-#include "collision_core/broad_phase/lane_scan.h"
 #include "collision_core/numeric/cube_root.h"
 
 namespace collision {
@@ -20,10 +21,6 @@ constexpr double kNearPerAgent = 16;
 constexpr double kGrowthMin = 0.25;
 
 double Length(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
-
-float Up(double x) {
-  return static_cast<float>(x * (1 + static_cast<double>(kLaneSlack))) * (1 + 0x1p-22f);
-}
 
 /// What agents are like on the average.
 struct Sample {
@@ -93,34 +90,48 @@ Placing::Placing(const HornTable& table, const BroadQuery& query, double seconds
     : query_(query) {
   window_ = std::clamp(seconds_max, kWindowMin, kWindowMax);
   if (blind()) return;
+  if (query_.bound == BoundKind::kHypertrapezoid) {
+    duration_ = SignedSeconds(query_.from, query_.until);
+  }
   const Sample sample = TakeSample(table, query.from);
   std::copy_n(sample.v, 3, v_);
-  window_ = std::min(window_, WindowOf(sample));
-  middle_ = 0.5 * window_;
+  Shorten(WindowOf(sample));
 }
 
-PlacedHorn Placing::Place(const HornTable& table, std::uint32_t agent) const {
-  HornAt at = table.At(agent, query_.from);
-  PlacedHorn horn;
-  double v[3];
+void Placing::Shorten(double seconds) {
+  window_ = std::clamp(seconds, kWindowMin, window_);
+  middle_ = 0.5 * window_;
+  slack_ = static_cast<float>(middle_) * kLaneSlack * (1 + 0x1p-20f);
+  least_ = static_cast<float>(middle_) * kReachLeast * (1 + 0x1p-20f);
+}
+
+// Of the sample, the middle part along x; of these the middle part along y, and along z.
+Region Placing::Crowd(const HornTable& table, std::size_t count) const {
+  struct Point {
+    double c[3];
+  };
+  std::vector<Point> points;
+  const std::uint32_t stride = table.size() / kSampleMax + 1;
+  for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
+    if (!table.contains(agent) || table.row(agent).wild) continue;
+    const HornAt horn = table.At(agent, query_.from);
+    points.push_back({{horn.c[0], horn.c[1], horn.c[2]}});
+  }
+  const double part = CubeRoot(static_cast<double>(count) / static_cast<double>(table.count()));
+  Region region;
   for (int axis = 0; axis < 3; ++axis) {
-    v[axis] = at.v[axis] - v_[axis];
-    horn.c[axis] = at.c[axis] + v[axis] * middle_;
-    horn.v[axis] = static_cast<float>(v[axis]);
+    region.low[axis] = kInfinity, region.high[axis] = -kInfinity;
+    if (points.empty()) continue;
+    std::sort(points.begin(), points.end(),
+              [axis](const Point& a, const Point& b) { return a.c[axis] < b.c[axis]; });
+    const auto size = static_cast<double>(points.size());
+    const auto kept = static_cast<std::ptrdiff_t>(std::min(std::max(part * size, 2.0), size));
+    const std::ptrdiff_t first = (std::ssize(points) - kept) / 2;
+    points.erase(points.begin() + first + kept, points.end());
+    points.erase(points.begin(), points.begin() + first);
+    region.low[axis] = points.front().c[axis], region.high[axis] = points.back().c[axis];
   }
-  const double speed = Length(v[0], v[1], v[2]) * (1 + 0x1p-40);
-  if (query_.bound == BoundKind::kHypertrapezoid) {
-    at = BoxReach(at, SignedSeconds(query_.from, query_.until));
-  }
-  // The slack of the way, before the middle and after it, and what the frame's own way loses.
-  const double slack = static_cast<double>(kLaneSlack) * speed;
-  const double least = static_cast<double>(kReachLeast);
-  horn.s0 = Up(at.s0 + slack * middle_ + least * (1 + middle_) + 0x1p-48 * speed * middle_);
-  horn.s1 = Up(at.s1 + slack + least);
-  horn.s2 = Up(at.s2);
-  horn.speed = Up(speed);
-  horn.agent = agent;
-  return horn;
+  return region;
 }
 
 Stretch Placing::After(Instant from, double seconds) const {

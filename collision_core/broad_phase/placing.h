@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision_core/broad_phase/horn_table.h"
+#include "collision_core/broad_phase/lane_scan.h"
 
 namespace collision {
 
@@ -21,6 +23,16 @@ struct PlacedHorn {
 /// A stretch of time, in seconds after a placing's begin. It may begin earlier.
 struct Stretch {
   double first, last;
+};
+
+/// A box in space.
+struct Region {
+  double low[3], high[3];
+
+  bool Contains(const double* c) const {
+    return c[0] >= low[0] && c[0] <= high[0] && c[1] >= low[1] && c[1] <= high[1] &&
+           c[2] >= low[2] && c[2] <= high[2];
+  }
 };
 
 /// A common begin, a frame that moves with the agents on the average, and a middle: over a stretch
@@ -42,8 +54,25 @@ class Placing {
   BoundKind bound() const { return query_.bound; }
   /// The time ahead that was chosen [s].
   double window() const { return window_; }
+  /// Looks less far ahead. Before anybody is at his middle.
+  void Shorten(double seconds);
 
-  PlacedHorn Place(const HornTable& table, std::uint32_t agent) const;
+  /// About `count` of the agents that are placed, near each other: where to look for a first answer.
+  Region Crowd(const HornTable& table, std::size_t count) const;
+
+  PlacedHorn Place(const HornTable& table, std::uint32_t agent) const {
+    PlacedHorn horn = AtBegin(table, agent);
+    ToMiddle(&horn);
+    return horn;
+  }
+  /// The same in two steps: where the agent is at the begin, and from there to the middle.
+  PlacedHorn AtBegin(const HornTable& table, std::uint32_t agent) const;
+  void ToMiddle(PlacedHorn* horn) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      horn->c[axis] += static_cast<double>(horn->v[axis]) * middle_;
+    }
+    horn->s0 = (horn->s0 + horn->speed * slack_ + least_) * (1 + 0x1p-22f);
+  }
 
   /// So far from its place a horn comes during the stretch.
   template <typename Horn>
@@ -58,8 +87,34 @@ class Placing {
 
  private:
   BroadQuery query_;
+  double duration_ = 0;  // of a hypertrapezoid's window
   double v_[3] = {};
   double window_ = 0, middle_ = 0;
+  // LaneScan's, for the way to the middle: of the speed, and beside it.
+  float slack_ = 0, least_ = 0;
 };
+
+// Up, by more than a conversion to single precision takes, and with LaneScan's slack.
+inline PlacedHorn Placing::AtBegin(const HornTable& table, std::uint32_t agent) const {
+  constexpr double kSlack = kLaneSlack, kLeast = kReachLeast;
+  constexpr double kUp = (1 + kSlack) * (1 + 0x1p-22);
+  HornAt at = table.At(agent, query_.from);
+  PlacedHorn horn;
+  double square = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double v = at.v[axis] - v_[axis];
+    horn.c[axis] = at.c[axis];
+    horn.v[axis] = static_cast<float>(v);
+    square += v * v;
+  }
+  const double speed = std::sqrt(square) * (1 + 0x1p-40);
+  if (query_.bound == BoundKind::kHypertrapezoid) at = BoxReach(at, duration_);
+  horn.s0 = static_cast<float>((at.s0 + kLeast) * kUp);
+  horn.s1 = static_cast<float>((at.s1 + kSlack * speed + kLeast) * kUp);
+  horn.s2 = static_cast<float>(at.s2 * kUp);
+  horn.speed = static_cast<float>(speed * kUp);
+  horn.agent = agent;
+  return horn;
+}
 
 }  // namespace collision

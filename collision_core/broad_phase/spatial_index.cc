@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace collision {
 namespace {
@@ -21,77 +22,80 @@ std::uint8_t KeyOf(float reach, float greatest, bool still) {
 
 void SpatialIndex::PlaceAll() {
   places_.assign(table().size(), {});
-  loose_count_ = 0;
-  unsorted_.clear();
-  keys_.clear();
-  if (placing_.blind()) {
-    level_count_ = 0;
-    return;
+  loose_.Clear();
+  level_count_ = 0;
+  if (horns_.empty()) return;
+  const LaneQuery times = TimesOf(placing_, {0, placing_.window()});
+  PlacedExtent extent;
+  float least = std::numeric_limits<float>::infinity(), greatest = 0;
+  for (PlacedHorn& horn : horns_) {
+    placing_.ToMiddle(&horn);
+    extent.Add(horn);
+    const float reach = ReachAt(times.time, horn.s0, horn.s1, horn.s2) + times.way * horn.speed;
+    least = std::min(least, reach), greatest = std::max(greatest, reach);
   }
-  unsorted_.reserve(table().count());
-  reaches_.clear();
-  reaches_.reserve(table().count());
-  float greatest = 0;
-  for (std::uint32_t agent = 0; agent < table().size(); ++agent) {
-    if (!table().contains(agent) || table().row(agent).wild) continue;
-    unsorted_.push_back(placing_.Place(table(), agent));
-    const PlacedHorn& horn = unsorted_.back();
-    reaches_.push_back(static_cast<float>(placing_.Reach(horn, {0, placing_.window()})));
-    keys_.push_back(table().row(agent).still);
-    greatest = std::max(greatest, reaches_.back());
+  // Mostly all reach about as far, and move.
+  if (table().still_count() == 0 && greatest < 4 * least) {
+    sorted_.swap(horns_);
+    BuildLevel(false, 0, static_cast<std::uint32_t>(sorted_.size()), extent);
+  } else {
+    SortByLevel();
   }
-  for (std::size_t k = 0; k < keys_.size(); ++k) {
-    keys_[k] = KeyOf(reaches_[k], greatest, keys_[k] != 0);
-  }
-  FillLevels();
 }
 
-void SpatialIndex::FillLevels() {
+void SpatialIndex::SortByLevel() {
+  reaches_.resize(horns_.size());
+  keys_.resize(horns_.size());
+  float greatest = 0;
+  for (std::size_t k = 0; k < horns_.size(); ++k) {
+    reaches_[k] = static_cast<float>(placing_.Reach(horns_[k], {0, placing_.window()}));
+    greatest = std::max(greatest, reaches_[k]);
+  }
   std::uint32_t counts[kKeys] = {}, next[kKeys];
-  for (const std::uint8_t key : keys_) ++counts[key];
+  for (std::size_t k = 0; k < horns_.size(); ++k) {
+    keys_[k] = KeyOf(reaches_[k], greatest, table().row(horns_[k].agent).still);
+    ++counts[keys_[k]];
+  }
   std::uint32_t sum = 0;
   for (int key = 0; key < kKeys; ++key) next[key] = sum, sum += counts[key];
-  if (std::count_if(counts, counts + kKeys, [](std::uint32_t n) { return n > 0; }) > 1) {
-    horns_.resize(unsorted_.size());
-    for (std::size_t k = 0; k < keys_.size(); ++k) horns_[next[keys_[k]]++] = unsorted_[k];
-  } else {
-    horns_.swap(unsorted_);
-  }
-  level_count_ = 0;
-  std::uint32_t first = 0;
-  for (int key = 0; key < kKeys; first += counts[key++]) {
+  sorted_.resize(horns_.size());
+  for (std::size_t k = 0; k < horns_.size(); ++k) sorted_[next[keys_[k]]++] = horns_[k];
+  for (int key = 0; key < kKeys; ++key) {
     if (counts[key] == 0) continue;
-    if (levels_.size() == level_count_) levels_.emplace_back();
-    Level& level = levels_[level_count_];
-    level.still = key % 2 == 1;
-    level.first = first;
-    level.grid.Build(placing_, horns_.data() + first, counts[key]);
-    for (std::uint32_t k = 0; k < counts[key]; ++k) {
-      places_[horns_[first + k].agent] = {level_count_, level.grid.place(k)};
-    }
-    ++level_count_;
+    const std::uint32_t first = next[key] - counts[key];
+    PlacedExtent extent;
+    for (std::uint32_t k = first; k < next[key]; ++k) extent.Add(sorted_[k]);
+    BuildLevel(key % 2 == 1, first, counts[key], extent);
   }
 }
 
-void SpatialIndex::PlaceOne(std::uint32_t agent) {
-  if (places_.size() <= agent) places_.resize(agent + 1);
-  const PlacedHorn horn = placing_.Place(table(), agent);
-  if (loose_count_ == 0) std::copy_n(horn.c, 3, loose_corner_);
-  if (loose_.size() <= loose_count_) loose_.Resize(2 * loose_count_ + 64);
-  double farthest = 0;
-  for (int axis = 0; axis < 3; ++axis) farthest += std::abs(horn.c[axis] - loose_corner_[axis]);
-  places_[agent] = {kLoose, loose_count_};
-  // What the asker loses is in his own, which Scan() is given as well.
-  loose_.Set(loose_count_++, horn, loose_corner_, static_cast<float>(farthest * 0x1p-21));
+void SpatialIndex::BuildLevel(bool still, std::uint32_t first, std::uint32_t count,
+                              const PlacedExtent& extent) {
+  if (levels_.size() == level_count_) levels_.emplace_back();
+  Level& level = levels_[level_count_];
+  level.still = still;
+  level.first = first;
+  level.grid.Build(placing_, sorted_.data() + first, count, extent);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    places_[sorted_[first + k].agent] = {level_count_, level.grid.place(k)};
+  }
+  ++level_count_;
+}
+
+void SpatialIndex::PlaceOne(const PlacedHorn& horn) {
+  places_[horn.agent] = {kLoose, loose_.size()};
+  loose_.Add(horn);
 }
 
 void SpatialIndex::Unplace(std::uint32_t agent) {
+  if (places_.size() <= agent) places_.resize(agent + 1);
   const Place place = places_[agent];
   if (place.level != kLoose) {
     levels_[place.level].grid.Vacate(place.place);
-  } else if (place.place < loose_count_ && loose_.agent(place.place) == agent) {
+  } else if (place.place < loose_.size() && loose_.agent(place.place) == agent) {
     loose_.Vacate(place.place);
   }
+  places_[agent] = {};
 }
 
 void SpatialIndex::Scan(const Lanes& lanes, const LaneQuery& query) {
@@ -108,10 +112,11 @@ void SpatialIndex::Take(const GridLevel& grid) {
 
 void SpatialIndex::JoinRows(const Level& level, Stretch stretch, BestMeeting* best) {
   const Lanes& lanes = level.grid.lanes();
-  const auto visit = [&](std::uint32_t place, Stretch ahead, const std::vector<LaneRange>& ranges) {
+  const auto visit = [&](std::uint32_t place, const LaneQuery& query,
+                         const std::vector<LaneRange>& ranges) {
     near_.clear();
     work_.visits += ranges.size();
-    ScanInto(lanes, lanes.QueryOf(place, placing_, ahead), ranges, &hits_, &near_);
+    ScanInto(lanes, query, ranges, &hits_, &near_);
     for (const std::uint32_t other : near_) best->Offer(lanes.agent(place), other);
     return best->limit();
   };
@@ -121,7 +126,7 @@ void SpatialIndex::JoinRows(const Level& level, Stretch stretch, BestMeeting* be
 void SpatialIndex::JoinCells(const Level& level, const Level& other, Stretch stretch,
                              BestMeeting* best) {
   for (std::uint32_t k = 0; k < level.grid.size(); ++k) {
-    const PlacedHorn& horn = horns_[level.first + k];
+    const PlacedHorn& horn = sorted_[level.first + k];
     stretch.last = std::min(stretch.last, std::max(stretch.first, best->limit()));
     const std::uint32_t after = &level == &other ? level.grid.place(k) : Lanes::kNobody;
     near_.clear();
@@ -165,20 +170,9 @@ void SpatialIndex::FindNear(const PlacedHorn& horn, Stretch stretch) {
       wasted_ += grid.size();
     }
   }
-  if (loose_count_ == 0) return;
-  wasted_ += loose_count_;
-  double farthest = 0;
-  LaneRange all{0, loose_count_, 0, 0, 0};
-  float* const at[3] = {&all.x, &all.y, &all.z};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double offset = horn.c[axis] - loose_corner_[axis];
-    *at[axis] = static_cast<float>(offset);
-    farthest += std::abs(offset);
-  }
-  LaneQuery asked = query;
-  asked.reach += static_cast<float>(farthest * 0x1p-21);
-  ranges_.assign(1, all);
-  Scan(loose_, asked);
+  if (loose_.size() == 0) return;
+  wasted_ += loose_.size();
+  loose_.FindNear(horn, placing_, stretch, &work_, &near_);
 }
 
 }  // namespace collision

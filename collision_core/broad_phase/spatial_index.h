@@ -15,7 +15,7 @@ namespace collision {
 class SpatialIndex : public NearSearch {
  protected:
   void PlaceAll() override;
-  void PlaceOne(std::uint32_t agent) override;
+  void PlaceOne(const PlacedHorn& horn) override;
   void Unplace(std::uint32_t agent) override;
   void Join(Stretch stretch, BestMeeting* best) override;
   void FindNear(const PlacedHorn& horn, Stretch stretch) override;
@@ -23,7 +23,7 @@ class SpatialIndex : public NearSearch {
  private:
   struct Level {
     bool still = false;
-    std::uint32_t first = 0;  ///< Of horns_.
+    std::uint32_t first = 0;  ///< Of sorted_.
     GridLevel grid;
   };
   struct Place {
@@ -32,7 +32,8 @@ class SpatialIndex : public NearSearch {
   };
   static constexpr std::uint32_t kLoose = ~0u;
 
-  void FillLevels();
+  void SortByLevel();
+  void BuildLevel(bool still, std::uint32_t first, std::uint32_t count, const PlacedExtent& extent);
   void JoinRows(const Level& level, Stretch stretch, BestMeeting* best);
   void JoinCells(const Level& level, const Level& other, Stretch stretch, BestMeeting* best);
   void Scan(const Lanes& lanes, const LaneQuery& query);
@@ -40,14 +41,11 @@ class SpatialIndex : public NearSearch {
 
   std::vector<Level> levels_;  ///< From small to large reach; the first level_count_ count.
   std::uint32_t level_count_ = 0;
-  std::vector<PlacedHorn> horns_;  ///< In the order of levels and, within one, of agents.
-  std::vector<Place> places_;      ///< By agent.
-  Lanes loose_;
-  std::uint32_t loose_count_ = 0;
-  double loose_corner_[3] = {};
+  std::vector<PlacedHorn> sorted_;  ///< In the order of levels and, within one, of agents.
+  std::vector<Place> places_;       ///< By agent.
+  LaneRow loose_;
 
-  std::vector<PlacedHorn> unsorted_;
-  std::vector<float> reaches_;  ///< Of unsorted_, like the keys of their levels.
+  std::vector<float> reaches_;  ///< Of horns_, like the keys of their levels.
   std::vector<std::uint8_t> keys_;
   std::vector<LaneRange> ranges_;
   std::vector<std::uint32_t> hits_;

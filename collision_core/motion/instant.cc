@@ -10,7 +10,7 @@ constexpr double kSecondsMax = 2e10;
 
 /// `from + seconds`, saturated; the fraction of a nanosecond goes down or up.
 Instant Add(Instant from, double seconds, bool up) {
-  if (from == Instant::Never() || from == Instant::Always()) return from;
+  if (seconds == 0 || from == Instant::Never() || from == Instant::Always()) return from;
   if (seconds > kSecondsMax) return Instant::Never();
   if (seconds < -kSecondsMax) return Instant::Always();
   const double whole = std::trunc(seconds);

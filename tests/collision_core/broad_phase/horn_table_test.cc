@@ -74,11 +74,12 @@ TEST(HornTable, CountsWhoIsThere) {
   EXPECT_FALSE(table.contains(2));
   bound.declaration.radius = 1e30;
   table.Put(3, bound);
-  EXPECT_EQ(table.wild_count(), 1u);
+  EXPECT_TRUE(table.row(3).wild);
+  EXPECT_EQ(table.still_count(), 1u);
   EXPECT_EQ(table.EarlierBound(3, 3, kStart, 1), 0);
   table.Remove(3);
   table.Remove(3);
-  EXPECT_EQ(table.count() + table.wild_count(), 0u);
+  EXPECT_EQ(table.count() + table.still_count(), 0u);
 }
 
 }  // namespace

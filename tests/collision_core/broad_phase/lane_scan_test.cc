@@ -28,12 +28,12 @@ struct Ball {
 };
 
 struct Balls {
-  std::vector<float> arrays[9];
+  std::vector<float> arrays[10];
   std::vector<Ball> truth;
   LaneView view() const {
-    return {arrays[0].data(), arrays[1].data(), arrays[2].data(),
-            arrays[3].data(), arrays[4].data(), arrays[5].data(),
-            arrays[6].data(), arrays[7].data(), arrays[8].data()};
+    return {arrays[0].data(), arrays[1].data(), arrays[2].data(), arrays[3].data(),
+            arrays[4].data(), arrays[5].data(), arrays[6].data(), arrays[7].data(),
+            arrays[8].data(), arrays[9].data()};
   }
 };
 
@@ -96,14 +96,16 @@ class LaneScanTest : public testing::Test {
     first_ = static_cast<double>(question_.query.first);
     last_ = static_cast<double>(question_.query.last);
     const double reach_time = std::max(std::abs(first_), std::abs(last_));
-    const auto way = [&](const Ball& ball) {
-      return reach_time *
-             std::sqrt(ball.v[0] * ball.v[0] + ball.v[1] * ball.v[1] + ball.v[2] * ball.v[2]);
+    const auto speed_of = [](const Ball& ball) {
+      return std::sqrt(ball.v[0] * ball.v[0] + ball.v[1] * ball.v[1] + ball.v[2] * ball.v[2]);
     };
+    const auto way = [&](const Ball& ball) { return reach_time * speed_of(ball); };
     question_.query.vx = static_cast<float>(asker.v[0]);
     question_.query.vy = static_cast<float>(asker.v[1]);
     question_.query.vz = static_cast<float>(asker.v[2]);
     question_.query.reach = WithSlack(asker.reach, way(asker));
+    question_.query.speed = WithSlack(speed_of(asker), 0);
+    question_.query.way = static_cast<float>(reach_time);
     question_.range = {0, kBalls, static_cast<float>(asker.p[0]), static_cast<float>(asker.p[1]),
                        static_cast<float>(asker.p[2])};
     for (int k = 0; k < kBalls; ++k) {
@@ -124,6 +126,7 @@ class LaneScanTest : public testing::Test {
       // Of reach and growth in any proportion.
       const double share = last_ > 0 ? random.Uniform(0, 1) : 0;
       balls_.arrays[6][k] = WithSlack(ball.reach * (1 - share), way(ball));
+      balls_.arrays[9][k] = WithSlack(speed_of(ball), 0);
       if (last_ > 0) balls_.arrays[7][k] = WithSlack(ball.reach * share / last_, 0);
       balls_.truth.push_back(ball);
     }
