@@ -14,7 +14,11 @@ namespace collision::server {
 ///  - clear beyond `announce_within`: just before the detector asks again, at clear_until −
 ///    announce_within; a meeting that fresh states exclude is then not announced;
 ///  - clear until C within it: half-way from the newest state to C. What the bounds have grown by
-///    since that state is the square of its age, so each state quarters what hides the partner;
+///    since that state is the square of its age, so each state quarters what hides the partner.
+///    Earlier, just before the detector asks for others to be announced, unless the newest state is
+///    still fresh then: stale bounds announce many whom nobody can meet so soon;
+///  - a contact, or a doubt, is over, and the newest state is older than its end: at once, since what
+///    is known from both sides narrows its brackets;
 ///  - clear for less than two temporal resolutions, in contact, saturated: at every step, so that
 ///    brackets in time are as narrow as those of a stream.
 class StateDemand {
@@ -26,6 +30,9 @@ class StateDemand {
   Instant WantedAt(const AgentClearance& clearance, Instant stamp, Instant now) const;
 
  private:
+  /// When the detector decides whether a meeting is announced.
+  Instant Announcing(Instant meeting) const;
+
   double announce_within_;
   double temporal_resolution_;
 };

@@ -2,12 +2,13 @@
 
 namespace collision {
 
-void AllPairs::PlaceAll() {
+bool AllPairs::PlaceAll(bool) {
   row_.Clear();
   for (PlacedHorn& horn : horns_) {
     placing_.ToMiddle(&horn);
     PlaceOne(horn);
   }
+  return true;
 }
 
 void AllPairs::PlaceOne(const PlacedHorn& horn) { row_.Set(horn.agent, horn); }
@@ -16,9 +17,7 @@ void AllPairs::Unplace(std::uint32_t agent) {
   if (agent < row_.size()) row_.Vacate(agent);
 }
 
-void AllPairs::Join(Stretch stretch, BestMeeting* best) {
-  row_.Join(placing_, stretch, &work_, best);
-}
+void AllPairs::Join(Stretch stretch, PairSink* sink) { row_.Join(placing_, stretch, &work_, sink); }
 
 void AllPairs::FindNear(const PlacedHorn& horn, Stretch stretch) {
   const std::size_t before = near_.size();

@@ -9,10 +9,10 @@ namespace collision {
 /// Every agent beside every other, in wide vectors: below about a thousand agents the fastest.
 class AllPairs : public NearSearch {
  protected:
-  void PlaceAll() override;
+  bool PlaceAll(bool once) override;
   void PlaceOne(const PlacedHorn& horn) override;
   void Unplace(std::uint32_t agent) override;
-  void Join(Stretch stretch, BestMeeting* best) override;
+  void Join(Stretch stretch, PairSink* sink) override;
   void FindNear(const PlacedHorn& horn, Stretch stretch) override;
 
  private:

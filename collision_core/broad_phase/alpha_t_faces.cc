@@ -58,6 +58,11 @@ FaceLines LinesOfBall(const SpaceTimeBound& bound, Instant start, Instant end) {
   return lines;
 }
 
+SpaceTimeBound Grown(SpaceTimeBound bound, double by) {
+  bound.declaration.radius += by;
+  return bound;
+}
+
 /// Requires stamp <= start.
 FaceLines LinesFrom(const SpaceTimeBound& bound, Instant start, Instant end) {
   const bool is_ball = bound.state.direction.isZero(0) && !HasSpeedCap(bound.declaration);
@@ -105,14 +110,20 @@ std::optional<FaceLines> FaceLinesOf(const SpaceTimeBound& bound, Instant start,
 }
 
 void AlphaTFaces::Build(const std::vector<std::optional<SpaceTimeBound>>& bounds,
-                        const std::vector<std::uint32_t>& agents, Instant start, Instant end) {
+                        const std::vector<std::uint32_t>& agents, Instant start, Instant end,
+                        const PairRules& rules) {
   agents_.clear();
   apart_.clear();
   lines_.clear();
   for (const std::uint32_t agent : agents) {
     const SpaceTimeBound& bound = *bounds[agent];
     if (bound.state.expiry < start || bound.state.stamp > end) continue;
-    if (const std::optional<FaceLines> lines = FaceLinesOf(bound, start, end)) {
+    // The sum rounds far below the padding.
+    const double half_margin = rules.empty() ? 0 : rules.HalfMargin(agent);
+    const std::optional<FaceLines> lines = half_margin > 0
+                                               ? FaceLinesOf(Grown(bound, half_margin), start, end)
+                                               : FaceLinesOf(bound, start, end);
+    if (lines) {
       agents_.push_back(agent);
       lines_.push_back(*lines);
     } else {

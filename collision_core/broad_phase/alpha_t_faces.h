@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "collision_core/broad_phase/pair_rules.h"
 #include "collision_core/motion/space_time_bound.h"
 
 namespace collision {
@@ -56,8 +57,10 @@ class AlphaTFaces {
   static constexpr std::size_t kApartMax = 32;
 
   /// Takes those of `agents` that count in [start, end]: not expired before, stamped by its end.
+  /// Each is grown by half of its greatest margin, so that what is within one overlaps.
   void Build(const std::vector<std::optional<SpaceTimeBound>>& bounds,
-             const std::vector<std::uint32_t>& agents, Instant start, Instant end);
+             const std::vector<std::uint32_t>& agents, Instant start, Instant end,
+             const PairRules& rules = {});
 
   /// The agent in each slot, ascending.
   const std::vector<std::uint32_t>& agents() const { return agents_; }

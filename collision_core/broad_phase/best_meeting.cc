@@ -23,9 +23,36 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant f
   ++work->filter_tests;
   // The canonical answer itself may be early, by a relative 1e-9.
   constexpr double kEarly = 1 - 4e-9;
-  const bool may = kEarly * table.EarlierBound(a, b, from, limit) <= limit;
+  const bool may =
+      kEarly * table.EarlierBound(a, b, from, limit) <= limit && !table.RuleOf(a, b).excluded;
   work->pair_queries += may;
   return may;
+}
+
+bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
+             Instant from, double limit, BroadPhaseWork* work) {
+  const HornRow& row = table.row(agent);
+  const HalfSpace& half_space = entry.half_space;
+  if ((row.group & half_space.mask) == 0 || (half_space.group & row.mask) == 0 || row.still) {
+    return false;
+  }
+  ++work->filter_tests;
+  const PairRule rule = table.RuleOf(agent, entry.agent);
+  const bool may = !rule.excluded && (row.wild || !HornTable::Near(from) ||
+                                      MayReach(entry, table.At(agent, from), rule.margin, limit));
+  work->pair_queries += may;
+  return may;
+}
+
+PairTime MeetingTime(const BroadQuery& query, const HornTable& table, std::uint32_t a,
+                     std::uint32_t b) {
+  return MeetingTime(query, table.bound(a), table.bound(b), table.RuleOf(a, b).margin);
+}
+
+PairTime MeetingTime(const BroadQuery& query, const HalfSpaces::Entry& entry,
+                     const HornTable& table, std::uint32_t agent) {
+  return MeetingTime(query, entry.half_space, table.bound(agent),
+                     table.RuleOf(agent, entry.agent).margin);
 }
 
 bool BestMeeting::Betters(std::uint32_t lower, std::uint32_t higher) const {
@@ -38,12 +65,32 @@ void BestMeeting::Offer(std::uint32_t a, std::uint32_t b) {
   const std::uint32_t lower = std::min(a, b), higher = std::max(a, b);
   if (a == b || !Betters(lower, higher)) return;
   if (query_.bound == BoundKind::kHypertrapezoid) {
+    if (table_.RuleOf(lower, higher).excluded) return;
     ++work_->pair_queries;
   } else if (!MayMeet(table_, lower, higher, query_.from, limit_, work_)) {
     return;
   }
-  const PairMeeting meeting{lower, higher,
-                            MeetingTime(query_, table_.bound(lower), table_.bound(higher))};
+  Take({lower, higher, MeetingTime(Narrowed(lower, higher), table_, lower, higher)});
+}
+
+// What is later than the best, or as late and of higher indices, need not be told exactly. A
+// hypertrapezoid's window is part of what is asked.
+BroadQuery BestMeeting::Narrowed(std::uint32_t lower, std::uint32_t higher) const {
+  BroadQuery narrowed = query_;
+  if (!best_ || query_.bound == BoundKind::kHypertrapezoid) return narrowed;
+  const bool wins = lower != best_->lower ? lower < best_->lower : higher < best_->higher;
+  narrowed.until = wins ? when_ : Instant::FromNanoseconds(when_.nanoseconds() - 1);
+  return narrowed;
+}
+
+void BestMeeting::OfferHalfSpace(const HalfSpaces::Entry& entry, std::uint32_t agent) {
+  const std::uint32_t lower = std::min(entry.agent, agent), higher = std::max(entry.agent, agent);
+  if (!Betters(lower, higher)) return;
+  if (!MayMeet(table_, entry, agent, query_.from, limit_, work_)) return;
+  Take({lower, higher, MeetingTime(query_, entry, table_, agent)});
+}
+
+void BestMeeting::Take(const PairMeeting& meeting) {
   if (meeting.time.instant().is_never() || (best_ && !(meeting < *best_))) return;
   best_ = meeting;
   when_ = meeting.time.instant();

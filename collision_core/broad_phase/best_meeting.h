@@ -4,25 +4,30 @@
 #include <optional>
 
 #include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/half_space.h"
 #include "collision_core/broad_phase/horn_table.h"
+#include "collision_core/broad_phase/pair_sink.h"
 
 namespace collision {
 
 /// Takes pairs in any order, asks the canonical routine only of those that a filter does not rule
 /// out, and keeps the first meeting: the answer does not depend on the order.
-class BestMeeting {
+class BestMeeting final : public PairSink {
  public:
   BestMeeting(const HornTable& table, const BroadQuery& query, BroadPhaseWork* work);
 
-  /// An agent is no partner of its own.
-  void Offer(std::uint32_t a, std::uint32_t b);
+  /// Later meetings than the best do not count: the limit shrinks.
+  void Offer(std::uint32_t a, std::uint32_t b) override;
 
-  /// Seconds after `query.from`: later meetings do not count. Shrinks as better ones are found.
-  double limit() const { return limit_; }
+  /// Likewise a half-space and an agent.
+  void OfferHalfSpace(const HalfSpaces::Entry& entry, std::uint32_t agent);
+
   const std::optional<PairMeeting>& best() const { return best_; }
 
  private:
   bool Betters(std::uint32_t lower, std::uint32_t higher) const;
+  void Take(const PairMeeting& meeting);
+  BroadQuery Narrowed(std::uint32_t lower, std::uint32_t higher) const;
   void Limit(Instant until);
 
   const HornTable& table_;
@@ -30,12 +35,20 @@ class BestMeeting {
   BroadPhaseWork* work_;
   std::optional<PairMeeting> best_;
   Instant when_ = Instant::Never();  ///< Of best_.
-  double limit_ = kInfinity;
 };
 
 /// Whether the filters leave it open that the two meet within `limit` seconds after `from`.
 bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant from, double limit,
              BroadPhaseWork* work);
+bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
+             Instant from, double limit, BroadPhaseWork* work);
+
+/// Of two agents of the table, with their margin. They are not excluded.
+PairTime MeetingTime(const BroadQuery& query, const HornTable& table, std::uint32_t a,
+                     std::uint32_t b);
+/// Of a half-space and an agent of the table, likewise.
+PairTime MeetingTime(const BroadQuery& query, const HalfSpaces::Entry& entry,
+                     const HornTable& table, std::uint32_t agent);
 
 /// Whether two rows can meet at all: masks, and one of them can move.
 inline bool CanMeet(const HornRow& a, const HornRow& b) {

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "collision_core/broad_phase/half_space.h"
+#include "collision_core/broad_phase/pair_rules.h"
 #include "collision_core/broad_phase/query.h"
 
 namespace collision {
@@ -15,6 +18,11 @@ namespace collision {
 struct Meeting {
   std::uint32_t partner;
   PairTime time;
+};
+
+/// Two agents, lower < higher.
+struct NearPair {
+  std::uint32_t lower, higher;
 };
 
 /// From the one at `first` on.
@@ -32,9 +40,10 @@ struct BroadPhaseWork {
 };
 
 /// Holds the bounds of all agents by index and finds their earliest meetings. Methods differ in
-/// cost, never in what they answer: each value is MeetingTime() of the two bounds, bit for bit, and
-/// of equal meetings the one with the lower indices comes first. Bounds that are put anew take
-/// effect at once; structures are brought up to date by the next question. Single-threaded.
+/// cost, never in what they answer: each value is MeetingTime() of the two bounds, or of a half-space
+/// and a bound, with the pair's margin, bit for bit; excluded pairs meet never; and of equal meetings
+/// the one with the lower indices comes first. Bounds that are put anew take effect at once;
+/// structures are brought up to date by the next question. Single-threaded.
 class BroadPhase {
  public:
   using Skip = std::function<bool(std::uint32_t)>;
@@ -45,7 +54,27 @@ class BroadPhase {
   virtual void Put(std::uint32_t agent, const SpaceTimeBound& bound) = 0;
   /// As Put(), of a bound that lies inside the agent's last one: nothing needs to be asked anew.
   virtual void Narrow(std::uint32_t agent, const SpaceTimeBound& bound) { Put(agent, bound); }
+  /// Removes the agent or half-space, if it is there, and all its rules.
   virtual void Remove(std::uint32_t agent) = 0;
+
+  /// Adds a half-space under an index of its own, or replaces what that index held (Put() likewise).
+  /// False: HalfSpaces refuses it.
+  virtual bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) = 0;
+
+  /// Rules count from the next question on, also for those who are put later, until one of the two
+  /// is removed. False: PairRules refuses it.
+  bool Exclude(std::uint32_t a, std::uint32_t b) { return SetRule(a, b, {.excluded = true}); }
+  bool SetMargin(std::uint32_t a, std::uint32_t b, double metres) {
+    return SetRule(a, b, {.margin = metres});
+  }
+  void ClearRule(std::uint32_t a, std::uint32_t b) { SetRule(a, b, {}); }
+  const PairRules& rules() const { return *rules_; }
+  const HalfSpaces& half_spaces() const { return half_spaces_; }
+
+  /// For methods that work together: before anybody is put, one object for all of them; whoever
+  /// changes it tells each.
+  virtual void ShareRules(std::shared_ptr<PairRules> rules) { rules_ = std::move(rules); }
+  virtual void RulesChanged(std::uint32_t /*agent*/) {}
 
   /// The first meeting of all within the query's window; nullopt: none.
   virtual std::optional<PairMeeting> Earliest(const BroadQuery& query) = 0;
@@ -59,7 +88,28 @@ class BroadPhase {
   virtual void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
                         const Skip& skip, std::vector<Meeting>* meetings) = 0;
 
+  /// Appends every pair that may first meet within the query's window, and others that are near:
+  /// each once. What cannot meet at all is left out. Cheaper by far than Meetings() of each agent,
+  /// where all are asked at once.
+  virtual void NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) = 0;
+
   virtual BroadPhaseWork work() const = 0;
+
+ protected:
+  void ForgetRules(std::uint32_t agent) {
+    for (const std::uint32_t partner : rules_->Forget(agent)) RulesChanged(partner);
+  }
+
+  std::shared_ptr<PairRules> rules_ = std::make_shared<PairRules>();
+  HalfSpaces half_spaces_;
+
+ private:
+  bool SetRule(std::uint32_t a, std::uint32_t b, PairRule rule) {
+    if (!rules_->Set(a, b, rule)) return false;
+    RulesChanged(a);
+    RulesChanged(b);
+    return true;
+  }
 };
 
 }  // namespace collision

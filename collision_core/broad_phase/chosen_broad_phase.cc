@@ -60,16 +60,24 @@ const char* Name(BroadPhaseMethod method) {
   return "chosen by the scene";
 }
 
-ChosenBroadPhase::Method ChosenBroadPhase::Make(BroadPhaseMethod kind) {
-  if (kind == BroadPhaseMethod::kFaceSweep) return {kind, std::make_unique<FaceSweep>()};
-  if (kind == BroadPhaseMethod::kSpatialIndex) {
+ChosenBroadPhase::Method ChosenBroadPhase::Make(BroadPhaseMethod kind) const {
+  Method method;
+  if (kind == BroadPhaseMethod::kFaceSweep) {
+    method = {kind, std::make_unique<FaceSweep>()};
+  } else if (kind == BroadPhaseMethod::kSpatialIndex) {
     auto phase = std::make_unique<Readable<SpatialIndex>>();
     const HornTable* table = phase->bounds();
-    return {kind, std::move(phase), table};
+    method = {kind, std::move(phase), table};
+  } else {
+    auto phase = std::make_unique<Readable<AllPairs>>();
+    const HornTable* table = phase->bounds();
+    method = {BroadPhaseMethod::kAllPairs, std::move(phase), table};
   }
-  auto phase = std::make_unique<Readable<AllPairs>>();
-  const HornTable* table = phase->bounds();
-  return {BroadPhaseMethod::kAllPairs, std::move(phase), table};
+  method.phase->ShareRules(rules_);
+  for (const HalfSpaces::Entry& entry : half_spaces_) {
+    method.phase->PutHalfSpace(entry.agent, entry.half_space);
+  }
+  return method;
 }
 
 ChosenBroadPhase::ChosenBroadPhase(BroadPhaseMethod asked)
@@ -81,8 +89,9 @@ void ChosenBroadPhase::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
   if (held_.size() <= agent) held_.resize(agent + 1);
   agents_ += !held_[agent];
   held_[agent] = true;
+  const bool was_half_space = half_spaces_.Remove(agent);
   method_.phase->Put(agent, bound);
-  if (Follows(agent)) next_.phase->Put(agent, bound);
+  if (Follows(agent) || (next_.phase && was_half_space)) next_.phase->Put(agent, bound);
   Choose();
 }
 
@@ -93,11 +102,32 @@ void ChosenBroadPhase::Narrow(std::uint32_t agent, const SpaceTimeBound& bound) 
 }
 
 void ChosenBroadPhase::Remove(std::uint32_t agent) {
-  agents_ -= held_[agent];
-  held_[agent] = false;
+  ForgetRules(agent);
+  half_spaces_.Remove(agent);
+  Release(agent);
   method_.phase->Remove(agent);
-  if (Follows(agent)) next_.phase->Remove(agent);
+  if (next_.phase) next_.phase->Remove(agent);
   Choose();
+}
+
+void ChosenBroadPhase::Release(std::uint32_t agent) {
+  if (agent >= held_.size() || !held_[agent]) return;
+  held_[agent] = false;
+  --agents_;
+}
+
+bool ChosenBroadPhase::PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
+  if (!half_spaces_.Put(agent, half_space)) return false;
+  Release(agent);
+  method_.phase->PutHalfSpace(agent, half_space);
+  if (next_.phase) next_.phase->PutHalfSpace(agent, half_space);
+  Choose();
+  return true;
+}
+
+void ChosenBroadPhase::RulesChanged(std::uint32_t agent) {
+  method_.phase->RulesChanged(agent);
+  if (next_.phase) next_.phase->RulesChanged(agent);
 }
 
 std::optional<PairMeeting> ChosenBroadPhase::Earliest(const BroadQuery& query) {
@@ -122,6 +152,11 @@ void ChosenBroadPhase::Meetings(std::uint32_t agent, Instant from, Instant until
     next_.phase->Meetings(agent, from, until, horizon, skip, &tried_);
   }
   method_.phase->Meetings(agent, from, until, horizon, skip, meetings);
+  EndQuestion();
+}
+
+void ChosenBroadPhase::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) {
+  method_.phase->NearPairs(query, pairs);
   EndQuestion();
 }
 
@@ -234,7 +269,7 @@ void ChosenBroadPhase::ChooseFromIndex() {
   units_ = Units(method_, method_since_) / questions;
   // All pairs asks of every agent the same pairs, and tests all others.
   units_of_other_ = kPairUnits * static_cast<double>(done.pair_queries) / questions +
-                    kTestUnits * static_cast<double>(agents_);
+                    kTestUnits * static_cast<double>(agents_ + half_spaces_.size());
   if (units_ > kWorthReturning * units_of_other_) {
     patience_ = std::min(2 * patience_, kPatienceMax);
     Start(BroadPhaseMethod::kAllPairs);

@@ -43,10 +43,14 @@ class ChosenBroadPhase : public BroadPhase {
   void Put(std::uint32_t agent, const SpaceTimeBound& bound) override;
   void Narrow(std::uint32_t agent, const SpaceTimeBound& bound) override;
   void Remove(std::uint32_t agent) override;
+  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
+  void RulesChanged(std::uint32_t agent) override;
   std::optional<PairMeeting> Earliest(const BroadQuery& query) override;
   std::optional<PairMeeting> EarliestOf(std::uint32_t agent, const BroadQuery& query) override;
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
+
+  void NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) override;
 
   /// Of all methods together, trials included.
   BroadPhaseWork work() const override;
@@ -63,7 +67,9 @@ class ChosenBroadPhase : public BroadPhase {
     const HornTable* table = nullptr;  ///< Its bounds; of the face sweep null.
   };
 
-  static Method Make(BroadPhaseMethod kind);
+  /// All methods share the rules; half-spaces are its own as well as each method's.
+  Method Make(BroadPhaseMethod kind) const;
+  void Release(std::uint32_t agent);
   double Units(const Method& method, const BroadPhaseWork& since) const;
   bool Filled() const { return next_.phase && filled_ >= method_.table->size(); }
   bool Follows(std::uint32_t agent) const { return next_.phase && agent < filled_; }

@@ -60,11 +60,27 @@ struct FaceSweep::Search {
 };
 
 void FaceSweep::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
+  half_spaces_.Remove(agent);
   if (bounds_.size() <= agent) bounds_.resize(agent + 1);
   bounds_[agent] = bound;
 }
 
-void FaceSweep::Remove(std::uint32_t agent) { bounds_[agent].reset(); }
+void FaceSweep::Remove(std::uint32_t agent) {
+  ForgetRules(agent);
+  half_spaces_.Remove(agent);
+  if (Moves(agent)) bounds_[agent].reset();
+}
+
+bool FaceSweep::PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
+  if (!half_spaces_.Put(agent, half_space)) return false;
+  if (Moves(agent)) bounds_[agent].reset();
+  return true;
+}
+
+std::uint32_t FaceSweep::IndexEnd() const {
+  const auto end = static_cast<std::uint32_t>(bounds_.size());
+  return half_spaces_.size() == 0 ? end : std::max(end, std::prev(half_spaces_.end())->agent + 1);
+}
 
 std::optional<PairMeeting> FaceSweep::Earliest(const BroadQuery& query) {
   candidates_.clear();
@@ -75,11 +91,14 @@ std::optional<PairMeeting> FaceSweep::Earliest(const BroadQuery& query) {
     second = std::min(second, std::max(earliest, bounds_[agent]->state.stamp));
     earliest = std::min(earliest, bounds_[agent]->state.stamp);
   }
-  if (candidates_.size() < 2) return std::nullopt;
+  Search search{query, query.from, query.until, std::nullopt, false};
+  for (const HalfSpaces::Entry& entry : half_spaces_) {
+    for (const std::uint32_t agent : candidates_) Ask(entry.agent, agent, &search);
+  }
+  if (candidates_.size() < 2) return search.best;
   // A pair's time counts from the later of its stamps on.
-  Search search{query, std::max(query.from, second), query.until, std::nullopt, false};
+  if (query.bound == BoundKind::kHorn) search.first = std::max(query.from, second);
   if (query.bound == BoundKind::kHypertrapezoid) {
-    search.first = query.from;
     SweepWindow(query.from, query.until, &search);
   } else if (search.first <= query.until) {
     SweepHorns(&search);
@@ -102,7 +121,7 @@ void FaceSweep::SweepHorns(Search* search) {
 
 void FaceSweep::SweepWindow(Instant start, Instant end, Search* search) {
   ++work_.rebuilds;
-  faces_.Build(bounds_, candidates_, start, end);
+  faces_.Build(bounds_, candidates_, start, end, rules());
   AskApart(search);
   if (faces_.agents().size() < 2) return;
   for (int axis = 0; axis < 3; ++axis) orders_[axis].Start(faces_.faces(axis));
@@ -180,36 +199,60 @@ void FaceSweep::AskCrossings(Instant start, Instant end, Search* search) {
 
 void FaceSweep::Ask(std::uint32_t agent, std::uint32_t partner, Search* search) {
   const auto [lower, higher] = std::minmax(agent, partner);
-  const SpaceTimeBound& a = *bounds_[lower];
-  const SpaceTimeBound& b = *bounds_[higher];
-  if (!search->IsOpen(lower, higher) || !MayMeet(search->query.bound, a, b)) return;
-  ++work_.pair_queries;
-  const PairMeeting meeting{lower, higher, MeetingTime(search->query, a, b)};
+  if (!search->IsOpen(lower, higher)) return;
+  const PairMeeting meeting{lower, higher, TimeOf(search->query, lower, higher)};
   if (meeting.time.instant().is_never()) return;
   if (!search->best || meeting < *search->best) search->best = meeting;
 }
 
+PairTime FaceSweep::TimeOf(const BroadQuery& query, std::uint32_t a, std::uint32_t b) {
+  const PairTime never{query.from, kInfinity};
+  const PairRule rule = rules().Of(a, b);
+  const bool a_moves = Moves(a), b_moves = Moves(b);
+  if (rule.excluded || a == b || !(a_moves || b_moves)) return never;
+  if (a_moves && b_moves) {
+    if (!MayMeet(query.bound, *bounds_[a], *bounds_[b])) return never;
+    ++work_.pair_queries;
+    return MeetingTime(query, *bounds_[a], *bounds_[b], rule.margin);
+  }
+  const HalfSpaces::Entry* entry = half_spaces_.Find(a_moves ? b : a);
+  const SpaceTimeBound& bound = *bounds_[a_moves ? a : b];
+  if (entry == nullptr || !CanMeet(entry->half_space, bound)) return never;
+  ++work_.pair_queries;
+  return MeetingTime(query, entry->half_space, bound, rule.margin);
+}
+
 std::optional<PairMeeting> FaceSweep::EarliestOf(std::uint32_t agent, const BroadQuery& query) {
   Search search{query, query.from, query.until, std::nullopt, false};
-  for (std::uint32_t partner = 0; partner < bounds_.size(); ++partner) {
-    if (partner != agent && bounds_[partner]) Ask(agent, partner, &search);
+  for (std::uint32_t partner = 0; partner < IndexEnd(); ++partner) {
+    Ask(agent, partner, &search);
   }
   return search.best;
 }
 
+void FaceSweep::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) {
+  const std::uint32_t end = IndexEnd();
+  for (std::uint32_t a = 0; a < end; ++a) {
+    for (std::uint32_t b = a + 1; b < end; ++b) {
+      if (!TimeOf(query, a, b).instant().is_never()) pairs->push_back({a, b});
+    }
+  }
+}
+
 void FaceSweep::Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
                          const Skip& skip, std::vector<Meeting>* meetings) {
-  const SpaceTimeBound& asked = *bounds_[agent];
   const std::size_t told = meetings->size();
   std::optional<Meeting> next;
-  for (std::uint32_t partner = 0; partner < bounds_.size(); ++partner) {
-    if (partner == agent || !bounds_[partner] || skip(partner)) continue;
-    ++work_.pair_queries;
-    const Meeting meeting{partner, EarliestIntersection(asked, *bounds_[partner], from)};
+  const BroadQuery query{BoundKind::kHorn, from, std::max(until, horizon)};
+  const std::uint32_t end = IndexEnd();
+  for (std::uint32_t partner = 0; partner < end; ++partner) {
+    if (partner == agent || skip(partner)) continue;
+    const Meeting meeting{partner, TimeOf(query, agent, partner)};
     const Instant when = meeting.time.instant();
+    if (when.is_never()) continue;
     if (when <= until) {
       meetings->push_back(meeting);
-    } else if (!when.is_never() && when <= horizon && (!next || when < next->time.instant())) {
+    } else if (when <= horizon && (!next || when < next->time.instant())) {
       next = meeting;
     }
   }

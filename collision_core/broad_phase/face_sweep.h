@@ -26,15 +26,18 @@ namespace collision {
 /// Horns are swept in windows [s, s + w], w doubling, since a chord over a long window cuts far
 /// outside a horn; the first is chosen by FirstWindow(). Hypertrapezoids have their one window.
 /// Agents with no place on the grid (faces not finite, or far beyond all others) are asked against
-/// all. It pays where the first meeting comes soon or N is small: the crossings of one axis grow as
+/// all, and so are half-spaces, which have no faces. It pays where the first meeting comes soon or N is small: the crossings of one axis grow as
 /// N² t. For one agent a sweep has no use: EarliestOf() and Meetings() ask every partner.
 /// Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
 class FaceSweep : public BroadPhase {
  public:
   void Put(std::uint32_t agent, const SpaceTimeBound& bound) override;
   void Remove(std::uint32_t agent) override;
+  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   std::optional<PairMeeting> Earliest(const BroadQuery& query) override;
   std::optional<PairMeeting> EarliestOf(std::uint32_t agent, const BroadQuery& query) override;
+  /// Asks all pairs.
+  void NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) override;
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
   /// visits: crossings. filter_tests: tests of two boxes. rebuilds: windows.
@@ -55,6 +58,11 @@ class FaceSweep : public BroadPhase {
   void AskLowest(Instant start, Instant end, Search* search);
   void AskCrossings(Instant start, Instant end, Search* search);
   void Ask(std::uint32_t agent, std::uint32_t partner, Search* search);
+  /// MeetingTime() of two, one of which may be a half-space, if both are there and may meet.
+  PairTime TimeOf(const BroadQuery& query, std::uint32_t a, std::uint32_t b);
+  bool Moves(std::uint32_t agent) const { return agent < bounds_.size() && bounds_[agent]; }
+  /// One more than the greatest index, half-spaces included.
+  std::uint32_t IndexEnd() const;
 
   std::vector<std::optional<SpaceTimeBound>> bounds_;  // By agent.
   std::vector<std::uint32_t> candidates_;              // Agents not yet asked against all others.

@@ -10,21 +10,6 @@
 
 namespace collision {
 
-/// The box around placed agents, and the most that any of them has.
-struct PlacedExtent {
-  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
-  float s0 = 0, s1 = 0, s2 = 0, speed = 0;
-
-  void Add(const PlacedHorn& horn) {
-    s0 = std::max(s0, horn.s0), s1 = std::max(s1, horn.s1), s2 = std::max(s2, horn.s2);
-    speed = std::max(speed, horn.speed);
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], horn.c[axis]);
-      high[axis] = std::max(high[axis], horn.c[axis]);
-    }
-  }
-};
-
 /// A grid over placed agents. Cells that lie side by side along x also lie side by side in memory,
 /// in rows; where the box around all agents has few cells the rows are those of the box, else short
 /// ones found by hashing, so that neither far outliers nor dense clusters cost memory or time. Who

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision_core/broad_phase/approaching.h"
+
 namespace collision {
 namespace {
 
@@ -13,8 +15,6 @@ constexpr double kOutward = 1 + 0x1p-48;
 // Beyond these, squares and products leave the range of doubles (and of single precision).
 constexpr double kPositionMax = 0x1p+60;
 constexpr double kRateMax = 0x1p+40;
-
-constexpr int kTangentsMax = 6;
 
 double Length(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
@@ -54,6 +54,7 @@ void HornTable::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
   HornRow& row = rows_[agent];
   count_ += row.group == 0;
   still_count_ -= row.still;
+  choosy_count_ -= row.group != 0 && row.mask != ~0u;
   const MotionState& state = bound.state;
   const AgentDeclaration& declaration = bound.declaration;
   for (int axis = 0; axis < 3; ++axis) {
@@ -65,13 +66,16 @@ void HornTable::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
   row.stamp = state.stamp;
   row.group = declaration.group;
   row.mask = declaration.mask;
-  if (IsPlain(bound)) {
+  row.ruled = rules_ != nullptr && rules_->HasAny(agent);
+  const double half_margin = row.ruled ? rules_->HalfMargin(agent) : 0;
+  if (half_margin == 0 && IsPlain(bound)) {
     DropFull(&row);
   } else {
     SetFull(&row, bound);
     const double skew = bound.skew, step = declaration.time_step;
-    row.u0 = kOutward * (declaration.radius + state.position_error + Length(row.v) * skew +
-                         state.velocity_error * skew + half * skew * (skew + step));
+    const double given = declaration.radius + half_margin + state.position_error;
+    row.u0 = kOutward * (given + Length(row.v) * skew + state.velocity_error * skew +
+                         half * skew * (skew + step));
     row.u1 = kOutward * (state.velocity_error + half * (2 * skew + step));
     row.u2 = kOutward * half;
   }
@@ -84,11 +88,17 @@ void HornTable::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
                std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
   // A group of no bits meets nobody, and is not the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
+  choosy_count_ += row.mask != ~0u;
+}
+
+void HornTable::UpdateRules(std::uint32_t agent) {
+  if (contains(agent)) Put(agent, bound(agent));
 }
 
 void HornTable::Remove(std::uint32_t agent) {
   if (!contains(agent)) return;
   still_count_ -= rows_[agent].still;
+  choosy_count_ -= rows_[agent].mask != ~0u;
   DropFull(&rows_[agent]);
   rows_[agent] = HornRow();
   --count_;
@@ -108,42 +118,16 @@ SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   return bound;
 }
 
-// With d and w between the lines, n = d(x) / |d(x)| and g the gap |d(x)| − S(x), the distance lies
-// above its tangent, so that nothing meets before the positive root y of
-//   g − c y − s2 y²,   c = s1 + 2 s2 x − n·w.
-// Rounding: d(x) and S(x) are off by less than 2^-48 of the terms they are sums of, n·w by 2^-50
-// |w|; the gap is made smaller and c larger by more than that, and the step shorter by 2^-40, which
-// covers the root's own rounding.
 double HornTable::EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
   if (rows_[a].wild || rows_[b].wild || !Near(from)) return 0;
   const HornAt at_a = At(a, from), at_b = At(b, from);
-  double d[3], w[3];
+  Approaching pair;
   for (int axis = 0; axis < 3; ++axis) {
-    d[axis] = at_b.c[axis] - at_a.c[axis];
-    w[axis] = at_b.v[axis] - at_a.v[axis];
+    pair.d[axis] = at_b.c[axis] - at_a.c[axis];
+    pair.w[axis] = at_b.v[axis] - at_a.v[axis];
   }
-  const double s0 = at_a.s0 + at_b.s0, s1 = at_a.s1 + at_b.s1, s2 = at_a.s2 + at_b.s2;
-  const double speed = Length(w), span = Length(d);
-  double x = 0;
-  for (int tangent = 0; tangent < kTangentsMax; ++tangent) {
-    const double at[3] = {d[0] + w[0] * x, d[1] + w[1] * x, d[2] + w[2] * x};
-    const double length = Length(at);
-    const double reach = s0 + x * (s1 + x * s2);
-    const double gap = length - reach - 0x1p-46 * (span + speed * x + reach);
-    if (!(gap > 0)) return x;
-    const double along = (at[0] * w[0] + at[1] * w[1] + at[2] * w[2]) / length;
-    const double closing = (s1 + 2 * s2 * x - along) + 0x1p-46 * (s1 + 2 * s2 * x + speed);
-    double step = kInfinity;
-    if (s2 > 0) {
-      const double root = std::sqrt(closing * closing + 4 * s2 * gap);
-      step = closing >= 0 ? 2 * gap / (closing + root) : (root - closing) / (2 * s2);
-    } else if (closing > 0) {
-      step = gap / closing;
-    }
-    x += step * (1 - 0x1p-40);
-    if (!(x <= limit)) return x;
-  }
-  return x;
+  pair.s0 = at_a.s0 + at_b.s0, pair.s1 = at_a.s1 + at_b.s1, pair.s2 = at_a.s2 + at_b.s2;
+  return pair.EarlierBound(limit);
 }
 
 HornAt BoxReach(HornAt horn, double duration) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/broad_phase/pair_rules.h"
 #include "collision_core/broad_phase/query.h"
 
 namespace collision {
@@ -22,6 +23,7 @@ struct HornRow {
   std::uint32_t full = 0;  ///< HornTable's own.
   bool still = false;      ///< NeverMoves().
   bool wild = false;       ///< Too large or too far for filters: to be asked directly.
+  bool ruled = false;  ///< PairRules has any for it; u0 is grown by half of its greatest margin.
 };
 
 /// The same from an instant on: at x >= 0 after it within s0 + s1 x + s2 x² of c + v x.
@@ -35,6 +37,16 @@ struct HornAt {
 /// kilobyte less to write, and nothing is lost.
 class HornTable {
  public:
+  /// Rows are grown by their agents' margins. Before anybody is put; null: there are no rules.
+  void UseRules(const PairRules* rules) { rules_ = rules; }
+  /// The agent's rules have changed.
+  void UpdateRules(std::uint32_t agent);
+  bool HasRules() const { return rules_ != nullptr && !rules_->empty(); }
+  /// Of an agent that is there and any other; soonest answered where `partner` has no rules.
+  PairRule RuleOf(std::uint32_t agent, std::uint32_t partner) const {
+    return rows_[agent].ruled ? rules_->Of(partner, agent) : PairRule();
+  }
+
   void Put(std::uint32_t agent, const SpaceTimeBound& bound);
   void Remove(std::uint32_t agent);
 
@@ -42,6 +54,8 @@ class HornTable {
   std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
   std::uint32_t count() const { return count_; }
   std::uint32_t still_count() const { return still_count_; }
+  /// Whether anybody names groups that he does not meet, or never moves.
+  bool choosy() const { return still_count_ + choosy_count_ > 0; }
   bool contains(std::uint32_t agent) const { return agent < size() && rows_[agent].group != 0; }
   const HornRow& row(std::uint32_t agent) const { return rows_[agent]; }
   /// As it was put, without what no meeting depends on: orientation and shape.
@@ -67,10 +81,11 @@ class HornTable {
   void SetFull(HornRow* row, const SpaceTimeBound& bound);
   void DropFull(HornRow* row);
 
+  const PairRules* rules_ = nullptr;
   std::vector<HornRow> rows_;         // by agent
   std::vector<SpaceTimeBound> full_;  // at HornRow::full - 1
   std::vector<std::uint32_t> free_;   // of full_
-  std::uint32_t count_ = 0, still_count_ = 0;
+  std::uint32_t count_ = 0, still_count_ = 0, choosy_count_ = 0;
 };
 
 // Each value is a sum or product of fewer than sixteen terms of one sign, so that rounding takes

@@ -28,13 +28,12 @@ void LaneRow::Set(std::uint32_t k, const PlacedHorn& horn) {
   lanes_.Set(k, horn, corner_, LostAt(offset));
 }
 
-void LaneRow::Join(const Placing& placing, Stretch stretch, BroadPhaseWork* work,
-                   BestMeeting* best) {
+void LaneRow::Join(const Placing& placing, Stretch stretch, BroadPhaseWork* work, PairSink* sink) {
   LaneQuery times = TimesOf(placing, stretch);
   for (std::uint32_t k = 0; k + 1 < count_; ++k) {
     if (lanes_.agent(k) == Lanes::kNobody) continue;
-    if (best->limit() < stretch.last) {
-      stretch.last = std::max(stretch.first, best->limit());
+    if (sink->limit() < stretch.last) {
+      stretch.last = std::max(stretch.first, sink->limit());
       times = TimesOf(placing, stretch);
     }
     near_.clear();
@@ -42,7 +41,7 @@ void LaneRow::Join(const Placing& placing, Stretch stretch, BroadPhaseWork* work
     work->filter_tests += count_ - (k + 1);
     ++work->visits;
     ScanInto(lanes_, lanes_.QueryOf(k, times), range_, &hits_, &near_);
-    for (const std::uint32_t other : near_) best->Offer(lanes_.agent(k), other);
+    for (const std::uint32_t other : near_) sink->Offer(lanes_.agent(k), other);
   }
 }
 

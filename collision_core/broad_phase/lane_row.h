@@ -21,7 +21,7 @@ class LaneRow {
   void Vacate(std::uint32_t k) { lanes_.Vacate(k); }
 
   /// Offers all pairs that come within reach of each other during the stretch, and others.
-  void Join(const Placing& placing, Stretch stretch, BroadPhaseWork* work, BestMeeting* best);
+  void Join(const Placing& placing, Stretch stretch, BroadPhaseWork* work, PairSink* sink);
 
   /// Appends all who come within reach of `horn`.
   void FindNear(const PlacedHorn& horn, const Placing& placing, Stretch stretch,

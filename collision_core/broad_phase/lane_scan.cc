@@ -1,5 +1,7 @@
 #include "collision_core/broad_phase/lane_scan.h"
 
+#include "collision_core/broad_phase/point_scan.h"
+
 namespace collision {
 namespace {
 
@@ -33,14 +35,39 @@ std::uint32_t Scan(const LaneView& balls, const LaneQuery& query, const LaneRang
   return count;
 }
 
+std::uint32_t ScanPoints(const PointView& points, float reach, const LaneRange* ranges,
+                         std::uint32_t range_count, std::uint32_t* hits) {
+  std::uint32_t count = 0;
+  for (std::uint32_t r = 0; r < range_count; ++r) {
+    const LaneRange& range = ranges[r];
+    for (std::uint32_t k = range.begin; k < range.end; ++k) {
+      const float x = points.x[k] - range.x, y = points.y[k] - range.y, z = points.z[k] - range.z;
+      const float both = reach + points.reach[k];
+      hits[count] = k;
+      count += !((x * x + y * y) + z * z > both * both);
+    }
+  }
+  return count;
+}
+
+template <typename Scan>
+Scan Widest(Scan widest, Scan wide, Scan plain) {
+  return widest ? widest : wide ? wide : plain;
+}
+
 }  // namespace
+
+PointScan PlainPointScan() { return &ScanPoints; }
+
+PointScan WidestPointScan() {
+  static const PointScan widest = Widest(Avx512PointScan(), Avx2PointScan(), PlainPointScan());
+  return widest;
+}
 
 LaneScan PlainLaneScan() { return &Scan; }
 
 LaneScan WidestLaneScan() {
-  static const LaneScan widest = Avx512LaneScan() ? Avx512LaneScan()
-                                 : Avx2LaneScan() ? Avx2LaneScan()
-                                                  : PlainLaneScan();
+  static const LaneScan widest = Widest(Avx512LaneScan(), Avx2LaneScan(), PlainLaneScan());
   return widest;
 }
 

@@ -1,6 +1,7 @@
 // Eight balls at once. Nothing that others share is included: this file is built for processors
 // that not everybody has.
 #include "collision_core/broad_phase/lane_scan.h"
+#include "collision_core/broad_phase/point_scan.h"
 
 #ifdef __x86_64__
 #include <immintrin.h>
@@ -67,10 +68,37 @@ __attribute__((target("avx2"))) std::uint32_t Scan(const LaneView& balls, const 
   return count;
 }
 
+__attribute__((target("avx2"))) std::uint32_t ScanPoints(const PointView& points, float reach,
+                                                         const LaneRange* ranges,
+                                                         std::uint32_t range_count,
+                                                         std::uint32_t* hits) {
+  const Lanes own = _mm256_set1_ps(reach);
+  std::uint32_t count = 0;
+  for (std::uint32_t r = 0; r < range_count; ++r) {
+    const LaneRange& range = ranges[r];
+    const Lanes at_x = _mm256_set1_ps(range.x), at_y = _mm256_set1_ps(range.y),
+                at_z = _mm256_set1_ps(range.z);
+    for (std::uint32_t k = range.begin; k < range.end; k += 8) {
+      const Lanes x = _mm256_sub_ps(_mm256_loadu_ps(points.x + k), at_x);
+      const Lanes y = _mm256_sub_ps(_mm256_loadu_ps(points.y + k), at_y);
+      const Lanes z = _mm256_sub_ps(_mm256_loadu_ps(points.z + k), at_z);
+      unsigned mask = Within(x, y, z, _mm256_add_ps(own, _mm256_loadu_ps(points.reach + k)));
+      if (range.end - k < 8) mask &= (1u << (range.end - k)) - 1;
+      for (; mask != 0; mask &= mask - 1) {
+        hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
+      }
+    }
+  }
+  return count;
+}
+
 }  // namespace
 
 LaneScan Avx2LaneScan() { return __builtin_cpu_supports("avx2") ? &Scan : nullptr; }
+
+PointScan Avx2PointScan() { return __builtin_cpu_supports("avx2") ? &ScanPoints : nullptr; }
 #else
+PointScan Avx2PointScan() { return nullptr; }
 LaneScan Avx2LaneScan() { return nullptr; }
 #endif
 

@@ -25,6 +25,7 @@ bool NearSearch::IsWild(std::uint32_t agent) const {
 }
 
 void NearSearch::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
+  half_spaces_.Remove(agent);
   table_.Put(agent, bound);
   if (placed_) Move(agent);
 }
@@ -36,9 +37,48 @@ void NearSearch::Narrow(std::uint32_t agent, const SpaceTimeBound& bound) {
 }
 
 void NearSearch::Remove(std::uint32_t agent) {
+  ForgetRules(agent);
+  half_spaces_.Remove(agent);
+  Drop(agent);
+}
+
+void NearSearch::Drop(std::uint32_t agent) {
   if (!table_.contains(agent)) return;
   table_.Remove(agent);
   if (placed_) Move(agent);
+}
+
+bool NearSearch::PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
+  if (!half_spaces_.Put(agent, half_space)) return false;
+  Drop(agent);
+  return true;
+}
+
+void NearSearch::ShareRules(std::shared_ptr<PairRules> rules) {
+  BroadPhase::ShareRules(std::move(rules));
+  table_.UseRules(rules_.get());
+}
+
+// A smaller margin leaves the placing valid.
+void NearSearch::RulesChanged(std::uint32_t agent) {
+  if (!table_.contains(agent)) return;
+  const HornRow before = table_.row(agent);
+  table_.UpdateRules(agent);
+  const HornRow& row = table_.row(agent);
+  if (placed_ && (row.u0 > before.u0 || row.wild != before.wild)) Move(agent);
+}
+
+// Of an agent every half-space, of a half-space every agent.
+template <typename Each>
+void NearSearch::ForEachHalfSpace(std::uint32_t asked, Each each) const {
+  const HalfSpaces::Entry* half_space = half_spaces_.Find(asked);
+  if (half_space == nullptr) {
+    for (const HalfSpaces::Entry& entry : half_spaces_) each(entry, asked);
+    return;
+  }
+  for (std::uint32_t agent = 0; agent < table_.size(); ++agent) {
+    if (table_.contains(agent)) each(*half_space, agent);
+  }
 }
 
 // The next question places him, or everybody where too many have moved.
@@ -61,6 +101,7 @@ void NearSearch::PlaceAtBegin(Each each) {
       continue;
     }
     horns_[placed] = placing_.AtBegin(table_, agent);
+    extent_.Add(horns_[placed]);
     each(horns_[placed++]);
   }
   horns_.resize(placed);
@@ -83,17 +124,16 @@ void NearSearch::PlaceMoved() {
 
 // Everybody is placed where he is at the begin, and then moved to the middle of the window: a few
 // who are close to each other are asked in between, since a first answer makes the window short.
-void NearSearch::PlaceAnew(const Placing& placing, BestMeeting* best) {
+void NearSearch::PlaceAnew(const Placing& placing, bool once, PairSink* crowd_sink) {
   ++work_.rebuilds;
   placing_ = placing;
   wasted_ = 0;
-  placed_ = true;
   for (const std::uint32_t agent : moved_) has_moved_[agent] = false;
   moved_.clear();
   wild_.clear();
   horns_.resize(table_.count());
-  const bool asks_crowd = best != nullptr && table_.count() >= kCrowdMin && !placing_.blind();
-  if (asks_crowd) {
+  extent_ = {};
+  if (crowd_sink != nullptr && table_.count() >= kCrowdMin && !placing_.blind()) {
     crowd_.Clear();
     const double count = kCrowdOfRoot * std::sqrt(static_cast<double>(table_.count()));
     const Region region = placing_.Crowd(table_, static_cast<std::size_t>(count));
@@ -102,34 +142,80 @@ void NearSearch::PlaceAnew(const Placing& placing, BestMeeting* best) {
       placing_.ToMiddle(&horn);
       crowd_.Add(horn);
     });
-    crowd_.Join(placing_, {0, placing_.window()}, &work_, best);
-    placing_.Shorten(best->limit());
+    crowd_.Join(placing_, {0, placing_.window()}, &work_, crowd_sink);
+    placing_.Shorten(crowd_sink->limit());
   } else {
     PlaceAtBegin([](const PlacedHorn&) {});
   }
-  PlaceAll();
+  placed_ = PlaceAll(once);
 }
 
 // Placing everybody costs about one test for each: it is done when as many were wasted.
 void NearSearch::Refresh(Instant from) {
   const bool usable = placed_ && placing_.bound() == BoundKind::kHorn;
   if (usable && wasted_ <= table_.count()) return PlaceMoved();
-  PlaceAnew(Placing(table_, {BoundKind::kHorn, from, Instant::Never()}, kWindowMax), nullptr);
+  PlaceAnew(Placing(table_, {BoundKind::kHorn, from, Instant::Never()}, kWindowMax), false,
+            nullptr);
+}
+
+void NearSearch::OfferWild(PairSink* sink) const {
+  for (const std::uint32_t agent : wild_) {
+    for (std::uint32_t other = 0; other < table_.size(); ++other) {
+      // Of two wild ones once.
+      const bool told = other <= agent && IsWild(other);
+      if (table_.contains(other) && !told) sink->Offer(agent, other);
+    }
+  }
 }
 
 std::optional<PairMeeting> NearSearch::Earliest(const BroadQuery& query) {
   BestMeeting best(table_, query, &work_);
-  PlaceAnew(Placing(table_, query, best.limit()), &best);
-  for (const std::uint32_t agent : wild_) {
-    for (std::uint32_t other = 0; other < table_.size(); ++other) {
-      if (table_.contains(other)) best.Offer(agent, other);
-    }
-  }
+  const auto offer = [&best](const HalfSpaces::Entry& half_space, std::uint32_t agent) {
+    best.OfferHalfSpace(half_space, agent);
+  };
+  for (const HalfSpaces::Entry& entry : half_spaces_) ForEachHalfSpace(entry.agent, offer);
+  PlaceAnew(Placing(table_, query, best.limit()), true, &best);
+  OfferWild(&best);
   for (double seconds = placing_.window();;) {
     Join(placing_.After(query.from, seconds), &best);
     if (best.limit() <= seconds || seconds >= kWindowMax) return best.best();
     seconds = std::min({kWindowFactor * seconds, best.limit(), kWindowMax});
   }
+}
+
+namespace {
+
+class NearPairList final : public PairSink {
+ public:
+  NearPairList(const HornTable& table, double limit, std::vector<NearPair>* pairs)
+      : table_(table), pairs_(pairs) {
+    limit_ = limit;
+  }
+
+  void Offer(std::uint32_t a, std::uint32_t b) override {
+    if (a == b || (table_.choosy() && !CanMeet(table_.row(a), table_.row(b)))) return;
+    if (table_.HasRules() && table_.RuleOf(a, b).excluded) return;
+    pairs_->push_back({std::min(a, b), std::max(a, b)});
+  }
+
+ private:
+  const HornTable& table_;
+  std::vector<NearPair>* pairs_;
+};
+
+}  // namespace
+
+void NearSearch::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) {
+  const double seconds = std::min(BestMeeting(table_, query, &work_).limit(), kWindowMax);
+  NearPairList list(table_, seconds, pairs);
+  PlaceAnew(Placing(table_, query, seconds), true, nullptr);
+  OfferWild(&list);
+  Join(placing_.After(query.from, seconds), &list);
+  const auto tell = [&](const HalfSpaces::Entry& half_space, std::uint32_t agent) {
+    if (!MayMeet(table_, half_space, agent, query.from, seconds, &work_)) return;
+    pairs->push_back({std::min(half_space.agent, agent), std::max(half_space.agent, agent)});
+  };
+  for (const HalfSpaces::Entry& entry : half_spaces_) ForEachHalfSpace(entry.agent, tell);
 }
 
 void NearSearch::FindNear(std::uint32_t agent, Instant from, double seconds) {
@@ -146,6 +232,10 @@ void NearSearch::FindNear(std::uint32_t agent, Instant from, double seconds) {
 
 std::optional<PairMeeting> NearSearch::EarliestOf(std::uint32_t agent, const BroadQuery& query) {
   BestMeeting best(table_, query, &work_);
+  ForEachHalfSpace(agent, [&best](const HalfSpaces::Entry& entry, std::uint32_t other) {
+    best.OfferHalfSpace(entry, other);
+  });
+  if (!table_.contains(agent)) return best.best();
   if (query.bound == BoundKind::kHypertrapezoid) {
     for (std::uint32_t other = 0; other < table_.size(); ++other) {
       if (table_.contains(other)) best.Offer(agent, other);
@@ -169,14 +259,24 @@ void NearSearch::Meetings(std::uint32_t agent, Instant from, Instant until, Inst
   const std::size_t told = meetings->size();
   BestMeeting next(table_, {BoundKind::kHorn, from, horizon}, &work_);
   const double first = BestMeeting(table_, {BoundKind::kHorn, from, until}, &work_).limit();
-  for (double seconds = std::min(first, kWindowMax);;) {
+  ForEachHalfSpace(agent, [&](const HalfSpaces::Entry& entry, std::uint32_t mover) {
+    const std::uint32_t partner = mover == agent ? entry.agent : mover;
+    if (skip(partner)) return;
+    if (MayMeet(table_, entry, mover, from, first, &work_)) {
+      const PairTime time = MeetingTime({BoundKind::kHorn, from, until}, entry, table_, mover);
+      if (time.seconds < kInfinity) return meetings->push_back({partner, time});
+    }
+    next.OfferHalfSpace(entry, mover);
+  });
+  for (double seconds = std::min(first, kWindowMax); table_.contains(agent);) {
     FindNear(agent, from, seconds);
     for (const std::uint32_t other : near_) {
       if (told_in_[other] == question_ || other == agent || skip(other)) continue;
       if (seconds <= first && MayMeet(table_, agent, other, from, first, &work_)) {
-        const Meeting meeting{other,
-                              EarliestIntersection(table_.bound(agent), table_.bound(other), from)};
-        if (meeting.time.instant() <= until) {
+        const Meeting meeting{
+            other, MeetingTime({BoundKind::kHorn, from, Instant::Never()}, table_, agent, other)};
+        const Instant when = meeting.time.instant();
+        if (when <= until && !when.is_never()) {
           told_in_[other] = question_;
           meetings->push_back(meeting);
           continue;

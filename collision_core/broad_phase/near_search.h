@@ -17,28 +17,33 @@ namespace collision {
 /// filters ("wild") are asked directly.
 class NearSearch : public BroadPhase {
  public:
-  NearSearch() = default;
+  NearSearch() { table_.UseRules(rules_.get()); }
   NearSearch(const NearSearch&) = delete;
   NearSearch& operator=(const NearSearch&) = delete;
 
   void Put(std::uint32_t agent, const SpaceTimeBound& bound) override;
   void Narrow(std::uint32_t agent, const SpaceTimeBound& bound) override;
   void Remove(std::uint32_t agent) override;
+  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
+  void ShareRules(std::shared_ptr<PairRules> rules) override;
+  void RulesChanged(std::uint32_t agent) override;
   std::optional<PairMeeting> Earliest(const BroadQuery& query) override;
   std::optional<PairMeeting> EarliestOf(std::uint32_t agent, const BroadQuery& query) override;
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
+  void NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) override;
   BroadPhaseWork work() const override { return work_; }
 
  protected:
-  /// All horns_ are to be placed anew, for placing_; ToMiddle() has not been called for them.
-  virtual void PlaceAll() = 0;
+  /// All horns_ are to be placed anew, for placing_; ToMiddle() has not been called for them. False:
+  /// for one Join() only, which `once` says is enough.
+  virtual bool PlaceAll(bool once) = 0;
   /// Places one since the last PlaceAll().
   virtual void PlaceOne(const PlacedHorn& horn) = 0;
   /// Forgets where he was placed, if he was.
   virtual void Unplace(std::uint32_t agent) = 0;
   /// Offers all placed pairs that come within reach of each other during the stretch, and others.
-  virtual void Join(Stretch stretch, BestMeeting* best) = 0;
+  virtual void Join(Stretch stretch, PairSink* sink) = 0;
   /// Appends to near_ all who are placed and come within reach of `horn` during the stretch.
   virtual void FindNear(const PlacedHorn& horn, Stretch stretch) = 0;
 
@@ -46,18 +51,22 @@ class NearSearch : public BroadPhase {
 
   Placing placing_;
   std::vector<PlacedHorn> horns_;  ///< Of all who are not wild, as of the last placing.
+  PlacedExtent extent_;            ///< Of horns_, at the begin.
   BroadPhaseWork work_;
   std::uint64_t wasted_ = 0;  ///< Tests that a fresh placing would have saved, since the last.
   std::vector<std::uint32_t> near_;
 
  private:
   bool IsWild(std::uint32_t agent) const;
+  void Drop(std::uint32_t agent);
+  template <typename Each>
+  void ForEachHalfSpace(std::uint32_t asked, Each each) const;
   void Move(std::uint32_t agent);
   void PlaceMoved();
   template <typename Each>
   void PlaceAtBegin(Each each);
-  void PlaceAnew(const Placing& placing, BestMeeting* best);
-  void AskCrowd(BestMeeting* best);
+  void PlaceAnew(const Placing& placing, bool once, PairSink* crowd_sink);
+  void OfferWild(PairSink* sink) const;
   void Refresh(Instant from);
   void FindNear(std::uint32_t agent, Instant from, double seconds);
 

@@ -13,10 +13,12 @@ namespace {
 
 /// The first overlap of the two horns' balls: decided in plain doubles, or with intervals from where
 /// they gave up.
-double BallTime(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double limit) {
-  const QuickAnswer quick = QuickFirstApproach(QuickPair(a, b, base), limit);
+double BallTime(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double margin,
+                double limit) {
+  const QuickAnswer quick = QuickFirstApproach(QuickPair(a, b, base, margin), limit);
   if (quick.decided) return quick.delta;
-  return FirstApproach(ApproachOf(HornPart(a, base), HornPart(b, base)), limit, quick.delta);
+  return FirstApproach(ApproachOf(HornPart(a, base), HornPart(b, base), margin), limit,
+                       quick.delta);
 }
 
 }  // namespace
@@ -26,7 +28,7 @@ PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, 
 }
 
 PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from,
-                              Instant until) {
+                              Instant until, double margin) {
   const Instant base = std::max({from, a.state.stamp, b.state.stamp});
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
   const PairTime never{base, kInfinity};
@@ -35,14 +37,14 @@ PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, 
   // A meeting within the nanosecond of `until` rounds down to it.
   const Instant end = until.is_never() ? expiry : std::min(expiry, AddRoundedUp(until, 2e-9));
   const double limit = end.is_never() ? kInfinity : SecondsBetween(base, end).upper;
-  PairTime time{base, BallTime(a, b, base, limit)};
+  PairTime time{base, BallTime(a, b, base, margin, limit)};
   // The horns' balls say it all unless a direction or a cap is declared.
   if (time.seconds < limit && BoxesMatter(a, b, base)) {
-    const auto stands = [&] { return SeemToOverlap(a, b, base, time.seconds); };
+    const auto stands = [&] { return SeemToOverlap(a, b, base, margin, time.seconds); };
     if (!stands()) {
-      time.seconds = LaterOfCappedBalls(a, b, base, time.seconds, limit);
+      time.seconds = LaterOfCappedBalls(a, b, base, margin, time.seconds, limit);
       if (time.seconds < limit && !stands()) {
-        time.seconds = LaterOfBoxes(a, b, base, time.seconds, limit);
+        time.seconds = LaterOfBoxes(a, b, base, margin, time.seconds, limit);
       }
     }
   }

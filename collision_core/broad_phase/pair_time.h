@@ -25,8 +25,9 @@ struct PairTime {
 PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from);
 
 /// The same bits where the answer's instant is not later than `until`, else never: it can stop
-/// looking there.
+/// looking there. With a `margin` [m], finite and >= 0, two meet where they come within it of each
+/// other: both radii together are larger by as much, exactly, in all that has been said.
 PairTime EarliestIntersection(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from,
-                              Instant until);
+                              Instant until, double margin = 0);
 
 }  // namespace collision

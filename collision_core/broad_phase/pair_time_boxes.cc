@@ -110,11 +110,13 @@ double FirstOfAll(const std::array<Condition, 6>& conditions, double start) {
 }
 
 /// The conditions while the directions of A, of B do or do not hold.
-std::array<Condition, 6> Conditions(const Agent& a, const Agent& b, bool A_holds, bool B_holds) {
+std::array<Condition, 6> Conditions(const Agent& a, const Agent& b, double margin, bool A_holds,
+                                    bool B_holds) {
   const DirectionalReach all;
   const DirectionalReach reach_A = A_holds ? ReachOfDirection(a.bound.state) : all;
   const DirectionalReach reach_B = B_holds ? ReachOfDirection(b.bound.state) : all;
-  const Interval radii = Interval(a.bound.declaration.radius) + b.bound.declaration.radius;
+  const Interval radii =
+      (Interval(a.bound.declaration.radius) + b.bound.declaration.radius) + margin;
   const auto condition = [&](int axis, int sign) {
     const Interval along =
         Interval(sign * b.bound.state.p_WA[axis]) - sign * a.bound.state.p_WA[axis];
@@ -137,8 +139,8 @@ bool BoxesMatter(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base)
   return BoxMatters(a, base) || BoxMatters(b, base);
 }
 
-double LaterOfBoxes(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double time,
-                    double limit) {
+double LaterOfBoxes(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double margin,
+                    double time, double limit) {
   const Agent agent_A(a, base), agent_B(b, base);
   // Piece by piece between the ends of the directions.
   double start = 0;
@@ -146,7 +148,7 @@ double LaterOfBoxes(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant ba
     const bool A_holds = agent_A.direction_end > start, B_holds = agent_B.direction_end > start;
     const double end = std::min(A_holds ? agent_A.direction_end : kInfinity,
                                 B_holds ? agent_B.direction_end : kInfinity);
-    const auto conditions = Conditions(agent_A, agent_B, A_holds, B_holds);
+    const auto conditions = Conditions(agent_A, agent_B, margin, A_holds, B_holds);
     // Boxes that overlap at `time` have done so before, or do so just then.
     if (time >= start && time < end && FirstOfAll(conditions, time) == time) return time;
     const double overlap = FirstOfAll(conditions, start);

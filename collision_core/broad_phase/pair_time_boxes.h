@@ -9,9 +9,10 @@ namespace collision {
 bool BoxesMatter(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base);
 
 /// The later of `time` and the first overlap, in seconds after `base`, of the boxes of the two horns
-/// (parabolic faces, made smaller by direction and speed cap), rounded down; it may be +infinity.
+/// (parabolic faces, made smaller by direction and speed cap, and with `margin` between them),
+/// rounded down; it may be +infinity.
 /// Nothing later than `limit` is looked for.
-double LaterOfBoxes(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double time,
-                    double limit);
+double LaterOfBoxes(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double margin,
+                    double time, double limit);
 
 }  // namespace collision

@@ -14,13 +14,10 @@ struct Timeline {
   double start = kInfinity;
 
   Timeline(const SpaceTimeBound& bound, Instant base) : horn(HornPart(bound, base)), cap(horn) {
-    if (!HasSpeedCap(bound.declaration)) return;
-    const CappedBall ball = CapBall(bound);
-    if (ball.from.is_never()) return;
-    start = SecondsBetween(base, ball.from).lower;
-    cap.shift = ball.shift;
-    cap.velocity = IntervalVector(0, 0, 0);
-    cap.u = ball.UFrom(base);
+    const std::optional<CappedPart> part = CapPart(bound, base);
+    if (!part) return;
+    start = part->start;
+    cap = part->ball;
   }
 
   Timeline WithoutCap() const {
@@ -33,25 +30,25 @@ struct Timeline {
 };
 
 /// The first overlap, piece by piece.
-double FirstOverlap(const Timeline& a, const Timeline& b, double limit) {
+double FirstOverlap(const Timeline& a, const Timeline& b, double margin, double limit) {
   const double first = std::max(0.0, std::min(a.start, b.start));
   const double second = std::max(first, std::max(a.start, b.start));
   // Before `first` they are the horns, which do not overlap then.
   if (first > limit) return kInfinity;
   const double end = std::min(second, limit);
-  const double time = FirstApproach(ApproachOf(a.at(first), b.at(first)), end, first);
+  const double time = FirstApproach(ApproachOf(a.at(first), b.at(first), margin), end, first);
   if (time < kInfinity || second > limit) return time;
-  return FirstApproach(ApproachOf(a.at(second), b.at(second)), limit, second);
+  return FirstApproach(ApproachOf(a.at(second), b.at(second), margin), limit, second);
 }
 
 }  // namespace
 
 double LaterOfCappedBalls(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base,
-                          double time, double limit) {
+                          double margin, double time, double limit) {
   const Timeline line_A(a, base), line_B(b, base);
   const auto wait = [&](const Timeline& first, const Timeline& second) {
     if (time > std::min(first.start, second.start)) {
-      time = std::max(time, FirstOverlap(first, second, limit));
+      time = std::max(time, FirstOverlap(first, second, margin, limit));
     }
   };
   wait(line_A, line_B.WithoutCap());

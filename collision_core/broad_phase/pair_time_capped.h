@@ -6,10 +6,10 @@
 namespace collision {
 
 /// The later of `time`, when the balls of the two horns first overlap, and the first overlaps of the
-/// capped balls (speed_cap.h): each agent's horn or capped ball against each of the other's. In
-/// seconds after `base`, rounded down; +infinity: one of them never overlaps up to `limit`. Without
-/// a cap, or before it takes over, it is `time`.
+/// capped balls (speed_cap.h): each agent's horn or capped ball against each of the other's. Radii
+/// are together larger by `margin`. In seconds after `base`, rounded down; +infinity: one of them
+/// never overlaps up to `limit`. Without a cap, or before it takes over, it is `time`.
 double LaterOfCappedBalls(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base,
-                          double time, double limit);
+                          double margin, double time, double limit);
 
 }  // namespace collision

@@ -96,17 +96,19 @@ bool Within(const double (&p)[3], const double (&of_A)[3], const double (&of_B)[
 
 }  // namespace
 
-bool SeemToOverlap(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double time) {
+bool SeemToOverlap(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double margin,
+                   double time) {
   const Glance at_A(a, base, time * kAhead), at_B(b, base, time * kAhead);
   double p[3];
   for (int i = 0; i < 3; ++i) {
     p[i] = b.state.p_WA[i] - a.state.p_WA[i];
-    if (p[i] > at_A.up[i] + at_B.down[i] || -p[i] > at_A.down[i] + at_B.up[i]) return false;
+    if (p[i] > at_A.up[i] + at_B.down[i] + margin) return false;
+    if (-p[i] > at_A.down[i] + at_B.up[i] + margin) return false;
   }
   return Within(p, at_A.capped_centre, at_B.capped_centre,
-                at_A.capped_radius + at_B.capped_radius) &&
-         Within(p, at_A.capped_centre, at_B.centre, at_A.capped_radius + at_B.radius) &&
-         Within(p, at_A.centre, at_B.capped_centre, at_A.radius + at_B.capped_radius);
+                at_A.capped_radius + at_B.capped_radius + margin) &&
+         Within(p, at_A.capped_centre, at_B.centre, at_A.capped_radius + at_B.radius + margin) &&
+         Within(p, at_A.centre, at_B.capped_centre, at_A.radius + at_B.capped_radius + margin);
 }
 
 }  // namespace collision

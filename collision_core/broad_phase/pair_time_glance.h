@@ -5,9 +5,10 @@
 
 namespace collision {
 
-/// Do the capped balls and the boxes overlap too, `time` seconds after `base`, when the balls of the
+/// Do the capped balls and the boxes come within `margin` of each other too, `time` seconds after `base`, when the balls of the
 /// horns do? The answer may be wrong by rounding: "yes" lets a certified time stand, "no" asks the
 /// certified routines for a later one. Symmetric.
-bool SeemToOverlap(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double time);
+bool SeemToOverlap(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, double margin,
+                   double time);
 
 }  // namespace collision

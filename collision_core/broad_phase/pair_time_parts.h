@@ -1,6 +1,8 @@
 // Two balls in certified arithmetic, as the root finder takes them.
 #pragma once
 
+#include <optional>
+
 #include "collision_core/broad_phase/first_approach.h"
 #include "collision_core/motion/speed_cap.h"
 
@@ -20,13 +22,30 @@ inline BallPart HornPart(const SpaceTimeBound& bound, Instant base) {
           velocity, bound.declaration.radius, ForwardBall(bound, base).u()};
 }
 
-/// From A to B. Positions first: a scene far from the origin loses only what its inputs lost.
+/// The capped ball's, which counts beside the horn's from `start` on; it may lie before the base.
+struct CappedPart {
+  double start;
+  BallPart ball;
+};
+
+/// nullopt: no cap is declared, or it never takes over.
+inline std::optional<CappedPart> CapPart(const SpaceTimeBound& bound, Instant base) {
+  if (!HasSpeedCap(bound.declaration)) return std::nullopt;
+  const CappedBall ball = CapBall(bound);
+  if (ball.from.is_never()) return std::nullopt;
+  return CappedPart{SecondsBetween(base, ball.from).lower,
+                    {IntervalVector(bound.state.p_WA), ball.shift, IntervalVector(0, 0, 0),
+                     bound.declaration.radius, ball.UFrom(base)}};
+}
+
+/// From A to B, with radii that are together larger by `margin`.
+/// Positions first: a scene far from the origin loses only what its inputs lost.
 /// Every operation gives the same bits (or the negated ones) when A and B change places: negation
 /// is exact, and a + b is b + a.
-inline Approach ApproachOf(const BallPart& a, const BallPart& b) {
+inline Approach ApproachOf(const BallPart& a, const BallPart& b, double margin) {
   const Quadratic u = a.u + b.u;
   return {(b.p_WA - a.p_WA) + (b.shift - a.shift), b.velocity - a.velocity,
-          (a.radius + b.radius) + u.c0, u.c1, u.c2};
+          ((a.radius + b.radius) + margin) + u.c0, u.c1, u.c2};
 }
 
 }  // namespace collision

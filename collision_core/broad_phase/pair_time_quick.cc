@@ -37,7 +37,7 @@ struct Part {
   }
 };
 
-/// Of the reach's terms, the 13ε of each part and the sums of four.
+/// Of the reach's terms, the 13ε of each part and the sums of five.
 constexpr double kErrorOfReach = 20 * kEpsilon;
 
 /// Of d, relative to the sum of the magnitudes of its terms p_B − p_A, v_B τ_B and v_A τ_A: each is
@@ -49,7 +49,8 @@ constexpr double kErrorOfVelocity = 2 * kEpsilon;
 
 }  // namespace
 
-QuickApproach QuickPair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base) {
+QuickApproach QuickPair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base,
+                        double margin) {
   const Part part_A(a, base), part_B(b, base);
   QuickApproach q;
   double magnitude = 0, speed = 0;
@@ -61,7 +62,8 @@ QuickApproach QuickPair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instan
     magnitude += std::abs(between) + (std::abs(part_B.shift[i]) + std::abs(part_A.shift[i]));
     speed += std::abs(q.w[i]);
   }
-  const double s0 = (a.declaration.radius + b.declaration.radius) + (part_A.u0 + part_B.u0);
+  const double radii = (a.declaration.radius + b.declaration.radius) + margin;
+  const double s0 = radii + (part_A.u0 + part_B.u0);
   const double s1 = part_A.u1 + part_B.u1;
   q.doubt0 = kErrorOfDistance * magnitude + kErrorOfReach * s0;
   q.doubt1 = kErrorOfVelocity * speed + kErrorOfReach * s1;

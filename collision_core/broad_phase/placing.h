@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/broad_phase/approaching.h"
 #include "collision_core/broad_phase/horn_table.h"
 #include "collision_core/broad_phase/lane_scan.h"
+#include "collision_core/broad_phase/point_grid.h"
 
 namespace collision {
 
@@ -19,6 +21,34 @@ struct PlacedHorn {
   float s0, s1, s2;
   std::uint32_t agent;
 };
+
+/// The box around placed agents, and the most that any of them has.
+struct PlacedExtent {
+  double low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  float s0 = 0, s1 = 0, s2 = 0, speed = 0;
+
+  void Add(const PlacedHorn& horn) {
+    s0 = std::max(s0, horn.s0), s1 = std::max(s1, horn.s1), s2 = std::max(s2, horn.s2);
+    speed = std::max(speed, horn.speed);
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], horn.c[axis]);
+      high[axis] = std::max(high[axis], horn.c[axis]);
+    }
+  }
+};
+
+/// Of two horns at the begin. What single precision has taken is within the reaches' slack.
+inline Approaching Between(const PlacedHorn& a, const PlacedHorn& b) {
+  Approaching pair;
+  for (int axis = 0; axis < 3; ++axis) {
+    pair.d[axis] = b.c[axis] - a.c[axis];
+    pair.w[axis] = static_cast<double>(b.v[axis]) - static_cast<double>(a.v[axis]);
+  }
+  pair.s0 = static_cast<double>(a.s0) + static_cast<double>(b.s0);
+  pair.s1 = static_cast<double>(a.s1) + static_cast<double>(b.s1);
+  pair.s2 = static_cast<double>(a.s2) + static_cast<double>(b.s2);
+  return pair;
+}
 
 /// A stretch of time, in seconds after a placing's begin. It may begin earlier.
 struct Stretch {
@@ -72,6 +102,19 @@ class Placing {
       horn->c[axis] += static_cast<double>(horn->v[axis]) * middle_;
     }
     horn->s0 = (horn->s0 + horn->speed * slack_ + least_) * (1 + 0x1p-22f);
+  }
+
+  /// Of a horn at the begin: where it is half-way to `last` seconds later, and how far from there
+  /// it reaches in between. Whatever the middle.
+  ReachPoint HalfWay(const PlacedHorn& horn, double last) const {
+    const auto half = static_cast<float>(0.5 * last) * (1 + 0x1p-22f), time = 2 * half;
+    ReachPoint point;
+    for (int axis = 0; axis < 3; ++axis) {
+      point.c[axis] = horn.c[axis] + static_cast<double>(horn.v[axis]) * (0.5 * last);
+    }
+    point.reach =
+        (horn.s0 + time * (horn.s1 + time * horn.s2) + half * horn.speed) * (1 + 0x1p-20f);
+    return point;
   }
 
   /// So far from its place a horn comes during the stretch.

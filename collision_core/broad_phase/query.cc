@@ -2,21 +2,44 @@
 
 #include <algorithm>
 
+#include "collision_core/broad_phase/pair_rules.h"
 #include "collision_core/motion/hypertrapezoid.h"
 
 namespace collision {
+namespace {
 
-PairTime MeetingTime(const BroadQuery& query, const SpaceTimeBound& a, const SpaceTimeBound& b) {
+/// Rounded outward; both alike, so that it does not matter which one comes first.
+Hypertrapezoid Grown(Hypertrapezoid h, double half_margin) {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (double* lower : {&h.lower_start[axis], &h.lower_end[axis]}) {
+      *lower = AddDown(*lower, -half_margin);
+    }
+    for (double* upper : {&h.upper_start[axis], &h.upper_end[axis]}) {
+      *upper = AddUp(*upper, half_margin);
+    }
+  }
+  return h;
+}
+
+}  // namespace
+
+PairTime MeetingTime(const BroadQuery& query, const SpaceTimeBound& a, const SpaceTimeBound& b,
+                     double margin) {
   if (query.bound == BoundKind::kHorn) {
-    return EarliestIntersection(a, b, query.from, query.until);
+    return EarliestIntersection(a, b, query.from, query.until, margin);
   }
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
   if (!CanMeet(a.declaration, b.declaration) || (NeverMoves(a) && NeverMoves(b)) ||
       expiry <= query.from) {
     return {query.from, kInfinity};
   }
-  PairTime time{query.from, FirstOverlap(MakeHypertrapezoid(a, query.from, query.until),
-                                         MakeHypertrapezoid(b, query.from, query.until))};
+  Hypertrapezoid of_A = MakeHypertrapezoid(a, query.from, query.until);
+  Hypertrapezoid of_B = MakeHypertrapezoid(b, query.from, query.until);
+  if (margin > 0) {
+    of_A = Grown(of_A, HalfUp(margin));
+    of_B = Grown(of_B, HalfUp(margin));
+  }
+  PairTime time{query.from, FirstOverlap(of_A, of_B)};
   if (time.instant() >= expiry) time.seconds = kInfinity;
   return time;
 }

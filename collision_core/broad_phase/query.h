@@ -22,8 +22,10 @@ struct BroadQuery {
 
 /// When the two may first meet within the query's window, rounded down; +infinity: not within it.
 /// For horns EarliestIntersection(), for hypertrapezoids their FirstOverlap(). Every method gives
-/// these values, bit for bit. Symmetric.
-PairTime MeetingTime(const BroadQuery& query, const SpaceTimeBound& a, const SpaceTimeBound& b);
+/// these values, bit for bit. Symmetric. With a `margin` [m], finite and >= 0, they meet where they
+/// come within it of each other; hypertrapezoids have each face half of it farther out.
+PairTime MeetingTime(const BroadQuery& query, const SpaceTimeBound& a, const SpaceTimeBound& b,
+                     double margin = 0);
 
 /// Two agents, by index, lower < higher, and when they may first meet.
 struct PairMeeting {

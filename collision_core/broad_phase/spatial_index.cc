@@ -7,6 +7,15 @@
 namespace collision {
 namespace {
 
+/// Places ahead for which horns are fetched into the cache.
+constexpr std::uint32_t kAhead = 16;
+
+/// With more than so many agents in the cube of a reach their horns are sorted as well.
+constexpr double kNearToSort = 0.05;
+
+/// What filters and the canonical answer may be early by, together.
+constexpr double kEarly = 1 - 4e-9;
+
 /// The level an agent belongs to, larger ones later: counted down from the greatest reach in powers
 /// of 4, so that agents that are all alike share one. Odd for those that never move.
 constexpr int kLevelsMax = 120;
@@ -20,11 +29,15 @@ std::uint8_t KeyOf(float reach, float greatest, bool still) {
 
 }  // namespace
 
-void SpatialIndex::PlaceAll() {
+bool SpatialIndex::PlaceAll(bool once) {
   places_.assign(table().size(), {});
   loose_.Clear();
   level_count_ = 0;
-  if (horns_.empty()) return;
+  points_last_ = 0;
+  if (horns_.empty()) return true;
+  // Where most never move they had better not be asked.
+  const bool mostly_move = 2 * table().still_count() < table().count();
+  if (once && mostly_move && BuildPoints(placing_.window())) return false;
   const LaneQuery times = TimesOf(placing_, {0, placing_.window()});
   PlacedExtent extent;
   float least = std::numeric_limits<float>::infinity(), greatest = 0;
@@ -41,6 +54,55 @@ void SpatialIndex::PlaceAll() {
   } else {
     SortByLevel();
   }
+  return true;
+}
+
+bool SpatialIndex::BuildPoints(double last) {
+  PlacedHorn most{};
+  most.s0 = extent_.s0, most.s1 = extent_.s1, most.s2 = extent_.s2, most.speed = extent_.speed;
+  PointExtent extent;
+  extent.reach = placing_.HalfWay(most, last).reach;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double way = 0.5 * (1 + 0x1p-20) * static_cast<double>(extent_.speed) * last;
+    extent.low[axis] = extent_.low[axis] - way;
+    extent.high[axis] = extent_.high[axis] + way;
+  }
+  const auto count = static_cast<std::uint32_t>(horns_.size());
+  double volume = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    volume *= extent.high[axis] - extent.low[axis] + static_cast<double>(extent.reach);
+  }
+  // Where many come near each other it pays to have them side by side.
+  const auto reach = static_cast<double>(extent.reach);
+  points_sorted_ = reach * reach * reach * count > kNearToSort * volume;
+  if (points_sorted_) sorted_.resize(count);
+  const auto at = [&](std::uint32_t k) { return placing_.HalfWay(horns_[k], last); };
+  const auto take = [&](std::uint32_t place, std::uint32_t k) {
+    // Horns lie in the order of agents, places in that of cells.
+    if (place + kAhead < count) __builtin_prefetch(&horns_[points_.point(place + kAhead)]);
+    if (points_sorted_) sorted_[place] = horns_[k];
+    return placing_.HalfWay(horns_[k], last);
+  };
+  if (!points_.Build(count, extent, at, take)) return false;
+  points_last_ = last;
+  return true;
+}
+
+void SpatialIndex::JoinPoints(double last, PairSink* sink) {
+  const std::uint64_t tests = points_.tests(), ranges = points_.ranges();
+  const auto horn = [&](std::uint32_t place) -> const PlacedHorn& {
+    return points_sorted_ ? sorted_[place] : horns_[points_.point(place)];
+  };
+  points_.ForEachPair([&](std::uint32_t k, std::uint32_t l) {
+    const PlacedHorn &a = horn(k), &b = horn(l);
+    const Approaching pair = Between(a, b);
+    const double until = std::min(last, sink->limit());
+    if (!pair.ComeNear(until)) return;
+    ++work_.filter_tests;
+    if (kEarly * pair.EarlierBound(until) <= until) sink->Offer(a.agent, b.agent);
+  });
+  work_.filter_tests += points_.tests() - tests;
+  work_.visits += points_.ranges() - ranges;
 }
 
 void SpatialIndex::SortByLevel() {
@@ -110,24 +172,24 @@ void SpatialIndex::Take(const GridLevel& grid) {
   }
 }
 
-void SpatialIndex::JoinRows(const Level& level, Stretch stretch, BestMeeting* best) {
+void SpatialIndex::JoinRows(const Level& level, Stretch stretch, PairSink* sink) {
   const Lanes& lanes = level.grid.lanes();
   const auto visit = [&](std::uint32_t place, const LaneQuery& query,
                          const std::vector<LaneRange>& ranges) {
     near_.clear();
     work_.visits += ranges.size();
     ScanInto(lanes, query, ranges, &hits_, &near_);
-    for (const std::uint32_t other : near_) best->Offer(lanes.agent(place), other);
-    return best->limit();
+    for (const std::uint32_t other : near_) sink->Offer(lanes.agent(place), other);
+    return sink->limit();
   };
   level.grid.ForEachPlace(stretch, visit);
 }
 
 void SpatialIndex::JoinCells(const Level& level, const Level& other, Stretch stretch,
-                             BestMeeting* best) {
+                             PairSink* sink) {
   for (std::uint32_t k = 0; k < level.grid.size(); ++k) {
     const PlacedHorn& horn = sorted_[level.first + k];
-    stretch.last = std::min(stretch.last, std::max(stretch.first, best->limit()));
+    stretch.last = std::min(stretch.last, std::max(stretch.first, sink->limit()));
     const std::uint32_t after = &level == &other ? level.grid.place(k) : Lanes::kNobody;
     near_.clear();
     ranges_.clear();
@@ -136,18 +198,24 @@ void SpatialIndex::JoinCells(const Level& level, const Level& other, Stretch str
     } else {
       Take(other.grid);
     }
-    for (const std::uint32_t partner : near_) best->Offer(horn.agent, partner);
+    for (const std::uint32_t partner : near_) sink->Offer(horn.agent, partner);
   }
 }
 
-void SpatialIndex::Join(Stretch stretch, BestMeeting* best) {
+void SpatialIndex::Join(Stretch stretch, PairSink* sink) {
+  if (points_last_ > 0) {
+    if (points_last_ >= stretch.last || BuildPoints(stretch.last)) {
+      return JoinPoints(stretch.last, sink);
+    }
+    PlaceAll(false);
+  }
   for (std::uint32_t l = 0; l < level_count_; ++l) {
     for (std::uint32_t m = l; m < level_count_; ++m) {
       if (levels_[l].still && levels_[m].still) continue;
       if (l == m && levels_[l].grid.in_rows()) {
-        JoinRows(levels_[l], stretch, best);
+        JoinRows(levels_[l], stretch, sink);
       } else {
-        JoinCells(levels_[l], levels_[m], stretch, best);
+        JoinCells(levels_[l], levels_[m], stretch, sink);
       }
     }
   }

@@ -14,10 +14,10 @@ namespace collision {
 /// about. Who is put anew goes to a list until the next placing. README.md beside this file.
 class SpatialIndex : public NearSearch {
  protected:
-  void PlaceAll() override;
+  bool PlaceAll(bool once) override;
   void PlaceOne(const PlacedHorn& horn) override;
   void Unplace(std::uint32_t agent) override;
-  void Join(Stretch stretch, BestMeeting* best) override;
+  void Join(Stretch stretch, PairSink* sink) override;
   void FindNear(const PlacedHorn& horn, Stretch stretch) override;
 
  private:
@@ -32,10 +32,12 @@ class SpatialIndex : public NearSearch {
   };
   static constexpr std::uint32_t kLoose = ~0u;
 
+  bool BuildPoints(double last);
+  void JoinPoints(double last, PairSink* sink);
   void SortByLevel();
   void BuildLevel(bool still, std::uint32_t first, std::uint32_t count, const PlacedExtent& extent);
-  void JoinRows(const Level& level, Stretch stretch, BestMeeting* best);
-  void JoinCells(const Level& level, const Level& other, Stretch stretch, BestMeeting* best);
+  void JoinRows(const Level& level, Stretch stretch, PairSink* sink);
+  void JoinCells(const Level& level, const Level& other, Stretch stretch, PairSink* sink);
   void Scan(const Lanes& lanes, const LaneQuery& query);
   void Take(const GridLevel& grid);
 
@@ -44,6 +46,9 @@ class SpatialIndex : public NearSearch {
   std::vector<PlacedHorn> sorted_;  ///< In the order of levels and, within one, of agents.
   std::vector<Place> places_;       ///< By agent.
   LaneRow loose_;
+  PointGrid points_;            ///< Instead of levels, for one question about all.
+  bool points_sorted_ = false;  ///< Their horns are sorted_, by place.
+  double points_last_ = 0;      ///< Up to when it holds, after the begin [s]; 0: not in use.
 
   std::vector<float> reaches_;  ///< Of horns_, like the keys of their levels.
   std::vector<std::uint8_t> keys_;

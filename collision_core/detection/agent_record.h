@@ -33,7 +33,6 @@ struct AgentRecord {
   KeyMargin margin;                  ///< What is left of it since the last renewal.
   bool changed = false;              ///< Since the last step: listed as such.
   bool touched = false;              ///< Its clearance may have changed: listed as such.
-  bool ahead = false;                ///< Its newest state lies beyond its key: listed as such.
   bool saturated = false;            ///< Listed as such.
   std::uint32_t crowded_with = 0;    ///< Saturated: a partner that could not be tracked.
   std::vector<std::uint32_t> pairs;  ///< Slots of the tracked pairs.

@@ -35,15 +35,20 @@ enum class ClearanceCause { kNone, kAdmission, kTeleport, kBreach, kWidening, kS
 
 /// What one agent may rely on.
 struct AgentClearance {
-  AgentId agent;
+  AgentId agent{};
   Instant clear_until = Instant::Never();  ///< No new contact begins before.
   bool not_clear = false;                  ///< It has come: something may touch.
   bool in_contact = false;                 ///< A contact is confirmed and has not ended.
   bool saturated = false;                  ///< More partners than are tracked for one agent.
+  /// Until then it meets nobody but those with whom a meeting is announced; >= clear_until.
+  Instant unannounced_until = Instant::Never();
+  /// A contact, or a doubt, is over since then, and a state newer than that tells more of it;
+  /// Always(): none.
+  Instant unsettled_until = Instant::Always();
   Instant effective_from =
       Instant::Always();  ///< Promises count the latest admission, jump or widening from here.
   ClearanceCause cause = ClearanceCause::kNone;  ///< Of the last lowering.
-  AgentId cause_agent;
+  AgentId cause_agent{};
   Instant void_from = Instant::Never();  ///< With kBreach: earlier promises are void from here.
 };
 

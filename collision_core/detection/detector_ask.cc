@@ -31,15 +31,7 @@ void Detector::Implementation::SetKey(std::uint32_t agent, Instant key) {
   record.key = key;
   queue_.Set(agent, key);
   if (latest_.Contains(agent)) latest_.Set(agent, Reversed(key));
-  if (key < record.stamp()) NoteAhead(agent);
   Touch(agent);
-}
-
-// Its newest state lies beyond its key.
-void Detector::Implementation::NoteAhead(std::uint32_t agent) {
-  if (At(agent).ahead) return;
-  At(agent).ahead = true;
-  ahead_.push_back(agent);
 }
 
 void Detector::Implementation::AskAll() {
@@ -49,7 +41,8 @@ void Detector::Implementation::AskAll() {
   }
   renewed_.clear();
   const Instant until = AnnounceUntil();
-  while (!queue_.empty() && queue_.top_key() <= until) Ask(queue_.top());
+  const auto due = [until](Instant key) { return key <= until && !key.is_never(); };
+  while (!queue_.empty() && due(queue_.top_key())) Ask(queue_.top());
   SettleKeys();
 }
 

@@ -6,6 +6,21 @@
 #include "collision_core/detection/judge.h"
 
 namespace collision {
+namespace {
+
+/// Lower bounds come from the canonical routine as well, asked at an earlier time, and what it tells
+/// is early by up to 1e-9 of the way: now perhaps by nothing, then by all of that. Whoever may be
+/// told as early as `told` meets, at the latest, by told + 1e-9 / (1 - 1e-9) of the way and 1 ns for
+/// the rounding, so that its lower bound is not later than this. What the rounding of the inputs
+/// forces beyond that, the margin in the lower bounds covers (KeyMargin).
+Instant MeetsBy(Instant now, Instant told) {
+  constexpr double kEarliness = 0x1p-29;
+  constexpr double kInstantRounding = 2e-9;
+  if (told.is_never() || told <= now) return told;
+  return AddRoundedUp(told, kEarliness * SecondsBetween(now, told).upper + kInstantRounding);
+}
+
+}  // namespace
 
 /// The best answer so far. Keys and PairRecord::not_before are lower bounds, so that only who stands
 /// in a queue before the best answer is asked.
@@ -25,8 +40,11 @@ struct Detector::Implementation::EarliestSearch {
     best = {true, when, lower, higher};
   }
 
+  /// Nobody whose lower bound is later betters the best answer.
+  Instant Limit() const { return MeetsBy(detector.now_, best.earliest); }
+
   bool MayBetter(const EventQueue& queue) const {
-    return !queue.empty() && queue.top_key() <= best.earliest && !queue.top_key().is_never();
+    return !queue.empty() && queue.top_key() <= Limit() && !queue.top_key().is_never();
   }
 
   Instant Canonical(std::uint32_t a, std::uint32_t b) {
@@ -127,7 +145,7 @@ void Detector::Implementation::EarliestSearch::OfferPartners(std::uint32_t agent
                      !detector.At(next).expired && !detector.Marked(next);
   if (there) Offer(agent, next, Canonical(agent, next));
   if (!best.found) OfferMeetings(agent, record.key, Instant::Never());
-  OfferMeetings(agent, best.earliest, best.earliest);
+  OfferMeetings(agent, Limit(), Limit());
 }
 
 void Detector::Implementation::EarliestSearch::OfferMeetings(std::uint32_t agent, Instant until,

@@ -91,7 +91,6 @@ class Detector::Implementation {
   void LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when);
   bool CertainlyLater(const AgentRecord& agent, std::uint32_t partner) const;
   void SetKey(std::uint32_t agent, Instant key);
-  void NoteAhead(std::uint32_t agent);
   void SettleKeys();
   void Saturate(std::uint32_t agent, std::uint32_t partner);
   std::size_t RoomFor(const AgentRecord& agent) const;
@@ -117,7 +116,7 @@ class Detector::Implementation {
   double Patience(const AgentRecord& agent) const;
   Instant SettledUntil(const AgentRecord& agent) const;
   void Track(std::uint32_t a, std::uint32_t b, Instant free_until, bool began_before);
-  void Untrack(std::uint32_t slot);
+  bool Untrack(std::uint32_t slot);
   void Drop(std::uint32_t slot, bool gone);
   void Release(std::uint32_t slot);
 
@@ -144,7 +143,6 @@ class Detector::Implementation {
   std::vector<std::uint32_t> renewed_;  // in the order of their renewal
   std::vector<std::uint32_t> changed_;
   std::vector<std::uint32_t> touched_;
-  std::vector<std::uint32_t> ahead_;
   std::vector<std::uint32_t> saturated_;
   std::vector<std::uint32_t> fresh_;  // asked since the last SettleKeys()
 

@@ -95,13 +95,12 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   pair.settles = preview.finished().empty() ? Instant::Never()
                                             : AddRoundedUp(preview.finished().front().end.latest,
                                                            std::max(Patience(a), Patience(b)));
+  pair.unsettled_until =
+      preview.finished().empty() ? Instant::Always() : preview.finished().back().end.latest;
   pair.turned = step_;
   Touch(pair.lower);
   Touch(pair.higher);
-  if (!announcer_.Report(a, b, slot, preview, last, &pairs_)) {
-    Untrack(slot);
-    return;
-  }
+  if (!announcer_.Report(a, b, slot, preview, last, &pairs_) && Untrack(slot)) return;
   NoteDue(slot);
   pair.not_before = Instant::Always();
   if (pair.in_contact) {
@@ -188,13 +187,25 @@ void Detector::Implementation::NoteFull(std::uint32_t agent) {
   full_[agent] = At(agent).pairs.size() >= options_.pairs_per_agent_max;
 }
 
-// Both keys cover the pair from now on.
-void Detector::Implementation::Untrack(std::uint32_t slot) {
+// Both keys cover the pair from now on. False: they cannot, since a state lies beyond what is certain of the two, or
+// since they graze each other and may meet soon under the wider bounds that keys come from.
+bool Detector::Implementation::Untrack(std::uint32_t slot) {
   const PairRecord& pair = pairs_[slot];
+  const AgentRecord& a = At(pair.lower);
+  const AgentRecord& b = At(pair.higher);
+  Instant key = pair.clear_until;
+  if (!HaveShapes(a.history, b.history)) {
+    ++counters_.pair_queries;
+    const PairTime wide =
+        EarliestIntersection(a.margin.Widen(a.bound()), b.margin.Widen(b.bound()), now_);
+    key = std::min(key, wide.instant());
+  }
+  if (key <= AnnounceUntil() || key < std::max(a.stamp(), b.stamp())) return false;
   for (const std::uint32_t agent : {pair.lower, pair.higher}) {
-    SetKey(agent, std::min(At(agent).key, pair.clear_until));
+    SetKey(agent, std::min(At(agent).key, key));
   }
   Release(slot);
+  return true;
 }
 
 // The two will not meet any more, whatever they do.

@@ -9,6 +9,7 @@ namespace {
 bool Same(const AgentClearance& a, const AgentClearance& b) {
   return a.clear_until == b.clear_until && a.not_clear == b.not_clear &&
          a.in_contact == b.in_contact && a.saturated == b.saturated &&
+         a.unannounced_until == b.unannounced_until && a.unsettled_until == b.unsettled_until &&
          a.effective_from == b.effective_from;
 }
 
@@ -19,9 +20,13 @@ AgentClearance Detector::Implementation::Clearance(const AgentRecord& agent) con
   clearance.agent = agent.id;
   clearance.effective_from = agent.effective_from;
   clearance.saturated = agent.saturated;
-  clearance.clear_until = agent.key;
+  clearance.clear_until = clearance.unannounced_until = agent.key;
   for (const std::uint32_t slot : agent.pairs) {
     const PairRecord& pair = pairs_[slot];
+    clearance.unsettled_until = std::max(clearance.unsettled_until, pair.unsettled_until);
+    if (!pair.announced) {
+      clearance.unannounced_until = std::min(clearance.unannounced_until, pair.clear_until);
+    }
     if (pair.in_contact) {
       clearance.in_contact = true;
     } else {

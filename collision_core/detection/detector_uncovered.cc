@@ -11,19 +11,12 @@ namespace collision {
 
 void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
   const AgentRecord& record = At(agent);
+  // Else it is covered beyond its own newest state, and so is everybody else: whose state lies beyond
+  // the key is renewed or asked first of all (AskAll).
+  if (!renewed && record.stamp() <= covered) return;
   candidates_.clear();
-  if (renewed || record.stamp() > covered) {
-    const Instant from = renewed ? std::max(covered, record.admitted_from) : covered;
-    if (extremes_.bounds().newest > from) FindAround(agent, from);
-  } else {
-    // Covered beyond its own newest state: only partners whose states lie beyond both keys count.
-    std::erase_if(ahead_, [this](std::uint32_t partner) {
-      AgentRecord& other = At(partner);
-      other.ahead = other.key < other.stamp() && !other.saturated && !other.expired;
-      return !other.ahead;
-    });
-    candidates_ = ahead_;
-  }
+  const Instant from = renewed ? std::max(covered, record.admitted_from) : covered;
+  if (extremes_.bounds().newest > from) FindAround(agent, from);
   std::sort(candidates_.begin(), candidates_.end());
   candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
   for (const std::uint32_t partner : candidates_) {

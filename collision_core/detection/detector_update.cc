@@ -180,10 +180,7 @@ UpdateOutcome Detector::Implementation::Keep(std::uint32_t agent, const SpaceTim
   Narrow(agent);
   // A state beyond the agent's key (it was granted more time before the key was lowered): ask at
   // once.
-  if (record.key < stamp && !record.saturated) {
-    queue_.Set(agent, Instant::Always());
-    NoteAhead(agent);
-  }
+  if (record.key < stamp && !record.saturated) queue_.Set(agent, Instant::Always());
   return UpdateOutcome::kKept;
 }
 

@@ -26,6 +26,8 @@ struct PairRecord {
   Instant looked_ahead = Instant::Always();
   /// When nothing is waited for any more that could tell of a contact that has ended.
   Instant settles = Instant::Never();
+  /// The end of the last contact, or doubt, that was heard of and is not settled; Always(): none.
+  Instant unsettled_until = Instant::Always();
   bool in_contact = false;
   bool announced = false;  ///< `event` is open and was published.
   bool doubted = false;    ///< It tells of a doubt that lies before its contact, and apart from it.

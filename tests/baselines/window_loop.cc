@@ -1,56 +1,81 @@
 #include "tests/baselines/window_loop.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "tests/baselines/frame_bounds.h"
 
 namespace collision::baselines {
 namespace {
 
-constexpr std::int64_t kFramesMax = 240;
+/// All pairs of so few are tested in less time than their bounds take.
+constexpr std::uint32_t kFewCubes = 12;
 
-/// The window is doubled below so many listed pairs for each cube, and halved above the other.
-constexpr double kFewPairs = 0.1, kManyPairs = 0.5;
+constexpr std::int64_t kFramesMin = 2, kFramesMax = 240;
+
+/// To put a cube into a list costs about as much as so many tests of a pair. Twice the window can be
+/// several times the pairs.
+constexpr double kTestsPerCube = 8, kGrowth = 8;
 
 }  // namespace
 
-bool WindowLoop::IsClear(const MovingCubes& cubes) {
-  ++work_.questions;
-  const auto earliest =
-      phase_->Earliest({BoundKind::kHorn, InstantOf(cubes), InstantOf(cubes, frames_)});
-  // The last frame before the meeting.
-  covered_ = earliest ? (earliest->time.instant().nanoseconds() - 1) / MovingCubes::kFrameNs
-                      : cubes.frame() + frames_;
-  if (!earliest) frames_ = std::min(kFramesMax, 2 * frames_);
-  return !earliest || covered_ - cubes.frame() >= frames_ / 2;
+bool WindowLoop::ListInOnePass(const MovingCubes& cubes) {
+  const double half = 0.5 * static_cast<double>(frames_) * MovingCubes::kFrame * (1 + 0x1p-40);
+  const BallAgent any = cubes.Ball(0);
+  const double still = any.radius + 2 * any.acceleration_max * half * half;
+  PointExtent extent;
+  points_.resize(cubes.count());
+  for (std::uint32_t cube = 0; cube < cubes.count(); ++cube) {
+    const Eigen::Vector3d &p = cubes.position(cube), &v = cubes.velocity(cube);
+    ReachPoint& point = points_[cube];
+    for (int axis = 0; axis < 3; ++axis) point.c[axis] = p[axis] + v[axis] * half;
+    // Up, by more than all of this rounds.
+    point.reach = static_cast<float>((still + v.norm() * half) * (1 + 0x1p-20));
+    extent.Add(point);
+  }
+  const auto at = [&](std::uint32_t cube) -> const ReachPoint& { return points_[cube]; };
+  const auto take = [&](std::uint32_t, std::uint32_t cube) { return points_[cube]; };
+  if (!grid_.Build(cubes.count(), extent, at, take)) return false;
+  grid_.ForEachPair([&](std::uint32_t k, std::uint32_t l) {
+    list_.push_back({grid_.point(k), grid_.point(l)});
+  });
+  return true;
 }
 
-void WindowLoop::MakeList(const MovingCubes& cubes) {
-  AllMeetings(phase_.get(), cubes.count(), InstantOf(cubes), InstantOf(cubes, frames_), &list_);
-  work_.questions += cubes.count();
-  std::sort(list_.begin(), list_.end());
-  covered_ = cubes.frame() + frames_;
-  const auto pairs = static_cast<double>(list_.size());
-  if (pairs < kFewPairs * cubes.count()) frames_ = std::min(kFramesMax, 2 * frames_);
-  if (pairs > kManyPairs * cubes.count()) frames_ = std::max<std::int64_t>(1, frames_ / 2);
-}
-
-void WindowLoop::Rebuild(const MovingCubes& cubes) {
+void WindowLoop::ListByPhase(const MovingCubes& cubes) {
   for (std::uint32_t cube = 0; cube < cubes.count(); ++cube) {
     phase_->Put(cube, BoundOf(cubes, cube));
   }
-  work_.rebuilds += cubes.count();
+  phase_->NearPairs({BoundKind::kHorn, InstantOf(cubes), InstantOf(cubes, frames_)}, &list_);
+}
+
+void WindowLoop::ListAll(const MovingCubes& cubes) {
+  list_.reserve(cubes.count() * cubes.count() / 2);
+  for (std::uint32_t k = 0; k < cubes.count(); ++k) {
+    for (std::uint32_t l = k + 1; l < cubes.count(); ++l) list_.push_back({k, l});
+  }
+  covered_ = std::numeric_limits<std::int64_t>::max();
+}
+
+void WindowLoop::MakeList(const MovingCubes& cubes) {
+  if (cubes.count() <= kFewCubes) return ListAll(cubes);
   list_.clear();
-  due_ = 0;
-  if (!IsClear(cubes)) MakeList(cubes);
+  list_.reserve(cubes.count());
+  if (!ListInOnePass(cubes)) ListByPhase(cubes);
+  covered_ = cubes.frame() + frames_;
+  work_.rebuilds += cubes.count();
+  ++work_.questions;
+  const double tests = static_cast<double>(list_.size()) * static_cast<double>(frames_);
+  const double most = kTestsPerCube * cubes.count();
+  if (kGrowth * tests < most) frames_ = std::min(kFramesMax, 2 * frames_);
+  if (tests > most) frames_ = std::max(kFramesMin, frames_ / 2);
 }
 
 std::optional<CubePair> WindowLoop::Look(const MovingCubes& cubes) {
-  if (cubes.frame() > covered_) Rebuild(cubes);
-  const Instant now = InstantOf(cubes);
-  while (due_ < list_.size() && list_[due_].time.instant() <= now) ++due_;
+  if (cubes.frame() > covered_) MakeList(cubes);
   std::optional<CubePair> first;
-  for (std::size_t i = 0; i < due_; ++i) Test(cubes, list_[i].lower, list_[i].higher, &first);
+  for (const NearPair& pair : list_) Test(cubes, pair.lower, pair.higher, &first);
   return first;
 }
 

@@ -1,20 +1,21 @@
 // The global loop with a list: all pairs that may meet within a window, found in one pass.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/point_grid.h"
 #include "tests/baselines/collision_loop.h"
 
 namespace collision::baselines {
 
-/// Builds the bounds of all at t_build and asks for the earliest meeting within a window. None, or
-/// one that comes late: nothing is looked at until then. Else it lists the pairs that may meet
-/// within the window, in the order of their times; until the window's end each frame tests those
-/// whose time has come, and looks at nothing else. The window grows while little comes of it, and
-/// shrinks when the list is long.
+/// Builds the bounds of all at t_build and lists the pairs that may come near within a window; until
+/// its end each frame tests those, and looks at nothing else. A window is the longer, the fewer the
+/// pairs: so that to make a list and to test it cost about the same.
+///
+/// All cubes are alike: the pass needs of each horn only where it is half-way through the window and
+/// how far it reaches from there. Crowds, which suit no grid, are left to the broad phase given.
 class WindowLoop : public CollisionLoop {
  public:
   explicit WindowLoop(std::unique_ptr<BroadPhase> phase) : phase_(std::move(phase)) {}
@@ -22,16 +23,17 @@ class WindowLoop : public CollisionLoop {
   std::optional<CubePair> Look(const MovingCubes& cubes) override;
 
  private:
-  void Rebuild(const MovingCubes& cubes);
-  /// True if nothing meets for the greater part of the window, which is then all that is covered.
-  bool IsClear(const MovingCubes& cubes);
   void MakeList(const MovingCubes& cubes);
+  void ListAll(const MovingCubes& cubes);
+  bool ListInOnePass(const MovingCubes& cubes);
+  void ListByPhase(const MovingCubes& cubes);
 
   std::unique_ptr<BroadPhase> phase_;
   std::int64_t frames_ = 2;    ///< The window's length.
   std::int64_t covered_ = -1;  ///< The last frame of which the list knows.
-  std::size_t due_ = 0;        ///< So many of the list may overlap by now.
-  std::vector<PairMeeting> list_;
+  PointGrid grid_;
+  std::vector<ReachPoint> points_;
+  std::vector<NearPair> list_;
 };
 
 }  // namespace collision::baselines

@@ -184,6 +184,25 @@ TEST_F(OnDemandTest, AJumpIsAlwaysTold) {
   EXPECT_EQ(TakeSent(), Stamps{10});
 }
 
+// What is set after a jump, before that went out, goes out in its place and says that it comes after one.
+TEST_F(OnDemandTest, AJumpThatIsOvertakenIsTold) {
+  Start();
+  ServiceSays({.now_ns = 0, .wanted_ns = kNever, .acknowledged = 1});
+  State jump = At(10);
+  jump.position_m = {500, 0, 0};
+  jump.discontinuity = true;
+  ball_->SetState(jump);
+  State after = jump;
+  after.stamp_ns = 20;
+  after.discontinuity = false;
+  ball_->SetState(after);
+  world_->Publish(20);
+  const std::vector<v1::AgentStates> chunks = network_->States();
+  ASSERT_EQ(chunks.size(), 1u);
+  EXPECT_EQ(chunks[0].states(0).stamp_ns(), 20);
+  EXPECT_TRUE(chunks[0].states(0).discontinuity());
+}
+
 // The service may refuse a state, and not all refusals are told. One that had to be told must not be lost.
 TEST_F(OnDemandTest, WhatHadToBeToldIsToldUntilItIsTaken) {
   Start();

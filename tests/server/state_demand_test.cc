@@ -50,6 +50,25 @@ TEST(StateDemand, AtHandAtEveryStep) {
   EXPECT_EQ(Demand().WantedAt({.clear_until = now, .saturated = true}, At(9), now), now);
 }
 
+// The first meeting is announced already; the next one may be soon.
+TEST(StateDemand, FreshBeforeOthersAreAnnounced) {
+  const auto wanted = [](double stamp, double clear, double unannounced) {
+    const AgentClearance clearance{.clear_until = At(clear), .unannounced_until = At(unannounced)};
+    return Demand().WantedAt(clearance, At(stamp), At(10));
+  };
+  EXPECT_EQ(wanted(9.75, 11, 12.5), At(10.375)) << "half-way to the first comes before";
+  EXPECT_EQ(wanted(9.5, 11.75, 12.5), At(10.5)) << "as the detector asks";
+  EXPECT_EQ(wanted(9.75, 11.75, 12), At(10)) << "as it asks, at once";
+  EXPECT_EQ(wanted(10, 11.75, 12.125), At(10.25)) << "still fresh when it asks";
+}
+
+// A contact that is over is told better by a state newer than its end, and by no more than one.
+TEST(StateDemand, OnceAfterAContact) {
+  const AgentClearance clearance{.clear_until = At(100), .unsettled_until = At(9.5)};
+  EXPECT_EQ(Demand().WantedAt(clearance, At(9.25), At(10)), At(10));
+  EXPECT_EQ(Demand().WantedAt(clearance, At(9.5), At(10)), At(98));
+}
+
 // A century lies between the two stamps; their sum fits in no 64 bits.
 TEST(StateDemand, ExtremesAreDecided) {
   const Instant first = Instant::FromNanoseconds(-(std::int64_t{1} << 62));

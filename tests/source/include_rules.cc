@@ -70,7 +70,10 @@ bool IsDds(const std::string& name) {
          name == "idl/collision.h";
 }
 
-constexpr char kLaneScanHeader[] = "collision_core/broad_phase/lane_scan.h";
+bool IsWideInterface(const std::string& name) {
+  return name == "collision_core/broad_phase/lane_scan.h" ||
+         name == "collision_core/broad_phase/point_scan.h";
+}
 
 bool IsWide(const std::string& path) {
   return StartsWith(path, "collision_core/broad_phase/lane_scan_");
@@ -86,7 +89,7 @@ std::string Complaint(const std::string& path, const Include& include) {
   }
   // Built for processors that not everybody has: what others share must not be compiled there.
   if (IsWide(path)) {
-    const bool own = include.name == "immintrin.h" || include.name == kLaneScanHeader;
+    const bool own = include.name == "immintrin.h" || IsWideInterface(include.name);
     return own ? "" : "wide vectors know nothing but their processor";
   }
   if (!include.quoted) {

@@ -31,7 +31,8 @@ struct Plan {
 struct Outcome {
   checker::Violations violations;
   std::size_t contacts = 0, unannounced = 0;
-  std::vector<double> begin_widths;  ///< Of the last revisions [s], sorted.
+  std::size_t events = 0;                        ///< False alarms among them.
+  std::vector<double> begin_widths, end_widths;  ///< Of the last revisions [s], sorted.
   Traffic traffic;
 
   double median() const { return begin_widths.at(begin_widths.size() / 2); }
@@ -202,13 +203,18 @@ class Flight {
     outcome.violations = checker::Check(evidence, {});
     outcome.contacts = evidence.contacts_certain();
     outcome.unannounced = checker::ContactsUnannounced(evidence);
+    outcome.events = evidence.histories().size();
+    const auto add = [](const v1::TimeBracket& bracket, std::vector<double>* widths) {
+      if (bracket.latest_ns() == kNever) return;
+      widths->push_back(static_cast<double>(bracket.latest_ns() - bracket.earliest_ns()) * 1e-9);
+    };
     for (const checker::EventHistory& history : evidence.histories()) {
-      const v1::TimeBracket& begin = history.last().begin();
-      if (!history.confirmed_ns || begin.latest_ns() == kNever) continue;
-      outcome.begin_widths.push_back(static_cast<double>(begin.latest_ns() - begin.earliest_ns()) *
-                                     1e-9);
+      if (!history.confirmed_ns) continue;
+      add(history.last().begin(), &outcome.begin_widths);
+      add(history.last().end(), &outcome.end_widths);
     }
     std::sort(outcome.begin_widths.begin(), outcome.begin_widths.end());
+    std::sort(outcome.end_widths.begin(), outcome.end_widths.end());
     for (const World& world : worlds_) {
       outcome.traffic.states_set += world.traffic().states_set;
       outcome.traffic.states_sent += world.traffic().states_sent;
@@ -242,6 +248,11 @@ TEST(OnDemandService, InLockStepIsAsGoodAsAStream) {
   ExpectAsGood(on_demand, stream);
   EXPECT_LE(on_demand.median(), stream.median() * 1.01);
   EXPECT_LE(on_demand.begin_widths.back(), stream.begin_widths.back() * 1.01);
+  // The state after the end is asked for as well.
+  ASSERT_EQ(on_demand.end_widths.size(), stream.end_widths.size());
+  EXPECT_LE(on_demand.end_widths.back(), stream.end_widths.back() * 1.01);
+  // Bounds that have grown announce more; who is announced already must not hide that others will be.
+  EXPECT_LE(static_cast<double>(on_demand.events), static_cast<double>(stream.events) * 1.4);
 }
 
 // Answers are under way for three steps of the daemon, 47 ms, as the lead allows.

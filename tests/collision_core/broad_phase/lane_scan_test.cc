@@ -175,7 +175,9 @@ TEST_F(LaneScanTest, EveryWidthGivesTheSame) {
     Draw(seed);
     const std::vector<std::uint32_t> plain = Hits(PlainLaneScan());
     for (const LaneScan scan : {Avx2LaneScan(), Avx512LaneScan(), WidestLaneScan()}) {
-      if (scan != nullptr) ASSERT_EQ(Hits(scan), plain) << "seed " << seed;
+      if (scan != nullptr) {
+        ASSERT_EQ(Hits(scan), plain) << "seed " << seed;
+      }
     }
   }
 }
@@ -186,7 +188,9 @@ TEST_F(LaneScanTest, WhatIsNotANumberIsAHit) {
     balls_.arrays[0].assign(kBalls + kLanesMax, value);
     balls_.arrays[6].assign(kBalls + kLanesMax, INFINITY);
     for (const LaneScan scan : {PlainLaneScan(), Avx2LaneScan(), Avx512LaneScan()}) {
-      if (scan != nullptr) EXPECT_EQ(Hits(scan).size(), static_cast<std::size_t>(kBalls));
+      if (scan != nullptr) {
+        EXPECT_EQ(Hits(scan).size(), static_cast<std::size_t>(kBalls));
+      }
     }
   }
 }

@@ -45,7 +45,9 @@ std::string Text(const std::optional<PairMeeting>& meeting) {
 void ExpectSame(const std::optional<PairMeeting>& got, const std::optional<PairMeeting>& expected,
                 const std::string& what) {
   ASSERT_EQ(Text(got), Text(expected)) << what;
-  if (got) ASSERT_EQ(got->time.seconds, expected->time.seconds) << what;
+  if (got) {
+    ASSERT_EQ(got->time.seconds, expected->time.seconds) << what;
+  }
 }
 
 /// Partners by `until`, and of the later ones the first up to `horizon`, in the order of indices.

@@ -276,5 +276,54 @@ TEST(Detector, ContactBeforeLeavingIsConfirmed) {
   ASSERT_EQ(line.With(EventStatus::kEnded).size(), 1u);
 }
 
+// Two that pass each other between two states a second apart: that they touched is known from the states before, how
+// exactly from those after it. Who waits for what is told: each agent until its own state has come.
+TEST(Detector, AContactThatIsOverWaitsForTheStatesAfterIt) {
+  Detector detector{DetectorOptions{}};
+  const AgentDeclaration ball{.radius = 1, .acceleration_max = 0.1};
+  const Vector3d p(4, 0, 0), v(-10, 0, 0);
+  detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  detector.Admit(Id(2), ball, State(0, p, v), At(0));
+  const auto hear = [&](double now) {
+    detector.Hear(Id(1), At(now));
+    detector.Hear(Id(2), At(now));
+    detector.Advance(At(now));
+  };
+  hear(0.125);
+  EXPECT_EQ(detector.ClearanceOf(Id(1))->unsettled_until, Instant::Always());
+  hear(0.875);
+  EXPECT_FALSE(detector.ClearanceOf(Id(1))->in_contact);
+  for (const std::uint32_t slot : {1u, 2u}) {
+    const Instant until = detector.ClearanceOf(Id(slot))->unsettled_until;
+    EXPECT_GE(until, At(0.6)) << "they part then";
+    EXPECT_LE(until, At(0.65));
+  }
+  detector.TakeChangedClearances();
+  detector.Update(Id(1), State(1, {0, 0, 0}, {0, 0, 0}), At(1));
+  hear(1);
+  EXPECT_GE(detector.ClearanceOf(Id(2))->unsettled_until, At(0.6)) << "the other one is missing";
+  detector.Update(Id(2), State(1, p + v, v), At(1));
+  hear(1.125);
+  EXPECT_EQ(detector.ClearanceOf(Id(1))->unsettled_until, Instant::Always());
+  EXPECT_EQ(detector.ClearanceOf(Id(2))->unsettled_until, Instant::Always());
+  EXPECT_EQ(detector.TakeChangedClearances().size(), 2u);
+}
+
+// One meeting is announced, the next one is not yet: when that may change is told as well.
+TEST(Detector, WhenOthersMayBeAnnouncedIsTold) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {3, 0, 0}, {0, 0, 0});
+  line.Add(3, {0, 18, 0}, {0, 0, 0});
+  line.Step();
+  const AgentClearance clearance = *line.detector.ClearanceOf(Id(1));
+  EXPECT_GT(clearance.clear_until, At(0.99));
+  EXPECT_LE(clearance.clear_until, At(1)) << "1 m, each at 1 m/s2";
+  EXPECT_GT(clearance.unannounced_until, At(3.99));
+  EXPECT_LE(clearance.unannounced_until, At(4)) << "16 m";
+  EXPECT_EQ(line.detector.ClearanceOf(Id(3))->unannounced_until,
+            line.detector.ClearanceOf(Id(3))->clear_until);
+}
+
 }  // namespace
 }  // namespace collision

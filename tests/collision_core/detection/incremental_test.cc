@@ -392,6 +392,24 @@ TEST(Incremental, WhoSpeaksAheadIsMetBeforeItsNewestState) {
   EXPECT_EQ(detector.pairs_tracked(), 1u);
 }
 
+// An owner that was granted much time tells where its agent will be long after it has passed another one, which is
+// asked first. What lies before that state is more than announce_within away, and is not forgotten.
+TEST(Incremental, WhoSpeaksFarAheadIsMetBeforeItsNewestState) {
+  Detector detector{DetectorOptions{}};
+  detector.Admit(Id(1), {.radius = 1, .acceleration_max = 1}, State(0, {0, 0, 0}, {0, 0, 0}),
+                 At(0));
+  detector.Admit(Id(2), {.radius = 1}, State(0, {-80, 5, 0}, {8, 0, 0}), At(0));
+  detector.Advance(At(0));
+  detector.Advance(At(1));
+  EXPECT_EQ(detector.Update(Id(2), State(12, {16, 5, 0}, {8, 0, 0}), At(12)), UpdateOutcome::kKept);
+  for (int step = 4; step < 40; ++step) {
+    detector.Advance(At(step / 4.0));
+    // At 10 s it is 3 m away, where the other one can be since 2.5 s.
+    EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(10)) << step;
+    EXPECT_LE(detector.ClearanceOf(Id(2))->clear_until, At(10)) << step;
+  }
+}
+
 // A teleport with a clock that may be off concerns those who are near, not everybody.
 TEST(Incremental, ATeleportWithSkewTracksOnlyWhoIsNear) {
   DetectorOptions options;

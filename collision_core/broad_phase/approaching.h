@@ -1,0 +1,19 @@
+// Two horns on their way: the filter before the canonical routine, in plain doubles.
+#pragma once
+
+namespace collision {
+
+/// At x >= 0 seconds the two centres are d + w x apart, and the two together reach s0 + s1 x + s2 x².
+struct Approaching {
+  double d[3], w[3];
+  double s0, s1, s2;
+
+  /// False: they do not come within reach of each other by `last`.
+  bool ComeNear(double last) const;
+
+  /// Nothing meets earlier than this many seconds, and nothing at all within `limit` if the answer
+  /// is larger. Off by a relative 1e-9 or so.
+  double EarlierBound(double limit) const;
+};
+
+}  // namespace collision

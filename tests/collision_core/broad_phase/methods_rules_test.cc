@@ -1,0 +1,233 @@
+// Goal:   excluded pairs, margins and half-spaces: every method gives the same answer, same pair,
+//         same bits, and what is not used costs nothing.
+// Method: seeded scenes of all kinds through histories in which agents, half-spaces and rules come,
+//         change and go and indices are used again; beside a plain table that asks the canonical
+//         routines for every pair. Work is compared as counted.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "collision_core/broad_phase/chosen_broad_phase.h"
+#include "tests/collision_core/broad_phase/rules_table.h"
+
+namespace collision {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int kHistories = 1;
+#else
+constexpr int kHistories = 4;
+#endif
+constexpr int kSteps = 40;
+
+std::vector<std::string> Texts(const std::vector<Meeting>& meetings) {
+  std::vector<std::string> texts;
+  for (const Meeting& meeting : meetings) {
+    texts.push_back(Text(PairMeeting{meeting.partner, 0, meeting.time}));
+  }
+  return texts;
+}
+
+/// Questions of one, and of all if asked for: those place everybody anew, the others do not.
+void ExpectAlike(const RulesTable& table, BroadPhase& method, Instant now, bool of_all,
+                 Random* random) {
+  const auto one = static_cast<std::uint32_t>(random->Below(table.end()));
+  for (const BoundKind kind : {BoundKind::kHorn, BoundKind::kHypertrapezoid}) {
+    const BroadQuery query{kind, now, AddRoundedUp(now, random->LogUniform(0.01, 5))};
+    if (of_all) {
+      ASSERT_EQ(Text(method.Earliest(query)), Text(table.Earliest(query)));
+    }
+    if (!table.Holds(one)) continue;
+    ASSERT_EQ(Text(method.EarliestOf(one, query)),
+              Text(table.Earliest(query, static_cast<int>(one))));
+  }
+  if (!table.Holds(one)) return;
+  const Instant from = random->Chance(0.3) ? AddRoundedUp(now, -0.2) : now;
+  const Instant until = AddRoundedUp(from, random->LogUniform(0.01, 5));
+  const Instant horizon = random->Chance(0.5) ? Instant::Never() : AddRoundedUp(until, 2);
+  std::vector<Meeting> meetings;
+  const auto none = [](std::uint32_t) { return false; };
+  method.Meetings(one, from, until, horizon, none, &meetings);
+  ASSERT_EQ(Texts(meetings), Texts(table.Meetings(one, from, until, horizon))) << "of " << one;
+}
+
+/// Each pair once, none that is excluded, all that meet.
+void ExpectAllNear(const RulesTable& table, BroadPhase& method, const BroadQuery& query) {
+  std::vector<NearPair> pairs;
+  method.NearPairs(query, &pairs);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> told;
+  for (const NearPair& pair : pairs) {
+    ASSERT_TRUE(told.insert({pair.lower, pair.higher}).second) << pair.lower << " " << pair.higher;
+    ASSERT_EQ(method.rules().Of(pair.lower, pair.higher).excluded, false);
+  }
+  for (std::uint32_t a = 0; a < table.end(); ++a) {
+    for (std::uint32_t b = a + 1; b < table.end(); ++b) {
+      if (table.TimeOf(query, a, b).instant().is_never()) continue;
+      ASSERT_TRUE(told.count({a, b})) << a << " x " << b;
+    }
+  }
+}
+
+void Change(RulesTable* table, const NamedScene& scene, Instant now, Random* random) {
+  const auto i = static_cast<std::uint32_t>(random->Below(table->end()));
+  const auto other = static_cast<std::uint32_t>(random->Below(table->end()));
+  const double kind = random->Uniform(0, 1);
+  if (kind < 0.3) {
+    table->SetRule(i, other, DrawRule(random));
+  } else if (kind < 0.38) {
+    table->Remove(i);
+  } else if (kind < 0.45) {
+    table->PutHalfSpace(i, DrawHalfSpace(*table, random));
+  } else if (kind < 0.6 || !table->Moves(i)) {  // also where a half-space was
+    SpaceTimeBound bound = *scene.make(random).front();
+    bound.state.stamp = now;
+    table->Put(i, bound);
+  } else if (table->bound(i).state.stamp < now) {  // a kept state, on the straight line
+    SpaceTimeBound bound = table->bound(i);
+    bound.state.p_WA += bound.state.v_WA * SecondsBetween(bound.state.stamp, now).lower;
+    bound.state.stamp = now;
+    table->Narrow(i, bound);
+  }
+}
+
+std::unique_ptr<BroadPhase> MakeChosen() { return std::make_unique<ChosenBroadPhase>(); }
+
+class MethodsWithRules : public testing::TestWithParam<NamedMethod> {};
+
+TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
+  for (const NamedScene& scene : kMethodScenes) {
+    for (int history = 0; history < kHistories; ++history) {
+      Random random(500 + history);
+      const auto method = GetParam().make();
+      RulesTable table(method.get());
+      const SceneAgents agents = scene.make(&random);
+      for (std::uint32_t a = 0; a < agents.size(); ++a) table.Put(a, *agents[a]);
+      table.PutHalfSpace(table.end() + 1, DrawHalfSpace(table, &random));
+      Instant now = AddRoundedUp(kMethodStart, 1);
+      for (int step = 0; step < kSteps; ++step) {
+        for (int change = 0; change < 8; ++change) Change(&table, scene, now, &random);
+        ExpectAlike(table, *method, now, step % 8 == 0, &random);
+        ASSERT_FALSE(HasFatalFailure()) << scene.name << ", " << history << ", step " << step;
+        ASSERT_EQ(method->rules().size(), table.rules());
+        now = AddRoundedUp(now, random.Uniform(0, 0.05));
+      }
+      const BroadQuery query{BoundKind::kHorn, now, AddRoundedUp(now, 0.5)};
+      ExpectAllNear(table, *method, query);
+      ASSERT_FALSE(HasFatalFailure()) << scene.name << ", " << history;
+    }
+  }
+}
+
+/// `count` agents in a cube, asked about in turn; the work that the questions took.
+BroadPhaseWork WorkOfQuestions(BroadPhase* method, std::uint32_t count) {
+  const BroadPhaseWork before = method->work();
+  for (std::uint32_t agent = 0; agent < count; agent += 7) {
+    const Instant from = AddRoundedUp(kMethodStart, 1e-3 * agent);
+    std::vector<Meeting> meetings;
+    const auto none = [](std::uint32_t) { return false; };
+    method->Meetings(agent, from, AddRoundedUp(from, 0.5), Instant::Never(), none, &meetings);
+    method->Earliest({BoundKind::kHorn, from, AddRoundedUp(from, 1)});
+  }
+  const BroadPhaseWork after = method->work();
+  return {after.pair_queries - before.pair_queries, after.filter_tests - before.filter_tests,
+          after.visits - before.visits, after.rebuilds - before.rebuilds};
+}
+
+void Fill(BroadPhase* method, std::uint32_t count, double extent) {
+  Random random(9);
+  for (std::uint32_t a = 0; a < count; ++a) {
+    method->Put(a, BoundIn(extent, 0.5, 5, 2, &random));
+  }
+}
+
+void ExpectSameWork(const BroadPhaseWork& a, const BroadPhaseWork& b) {
+  EXPECT_EQ(a.pair_queries, b.pair_queries);
+  EXPECT_EQ(a.filter_tests, b.filter_tests);
+  EXPECT_EQ(a.visits, b.visits);
+  EXPECT_EQ(a.rebuilds, b.rebuilds);
+}
+
+// Goal:   rules that are gone, or of agents that are not there, cost no counted work, nor do
+//         half-spaces that nobody's mask names a single test.
+TEST_P(MethodsWithRules, CostNothingWhereUnused) {
+  constexpr std::uint32_t kAgents = 300;
+  const auto plain = GetParam().make(), ruled = GetParam().make();
+  Fill(plain.get(), kAgents, 20);
+  for (std::uint32_t a = 1; a < 40; ++a) {
+    ASSERT_TRUE(ruled->SetMargin(a, a + 3, 5));
+    ASSERT_TRUE(ruled->Exclude(a + 1000, a + 1003));
+  }
+  Fill(ruled.get(), kAgents, 20);
+  for (std::uint32_t a = 1; a < 40; ++a) ruled->ClearRule(a + 3, a);
+  ASSERT_TRUE(ruled->PutHalfSpace(kAgents, {{0, 0, 1}, 1, 1, 2}));
+  ASSERT_TRUE(ruled->PutHalfSpace(kAgents + 1, {{0, 0, 1}, 1}));
+  ruled->Remove(kAgents + 1);
+  ExpectSameWork(WorkOfQuestions(ruled.get(), kAgents), WorkOfQuestions(plain.get(), kAgents));
+}
+
+// Goal:   an excluded pair is not asked. Method: where all are, no pair at all.
+TEST_P(MethodsWithRules, DoNotAskExcludedPairs) {
+  constexpr std::uint32_t kAgents = 60;
+  const auto method = GetParam().make();
+  Fill(method.get(), kAgents, 1);
+  EXPECT_GT(WorkOfQuestions(method.get(), kAgents).pair_queries, 0u);
+  for (std::uint32_t a = 0; a < kAgents; ++a) {
+    for (std::uint32_t b = 0; b < a; ++b) ASSERT_TRUE(method->Exclude(a, b));
+  }
+  EXPECT_EQ(WorkOfQuestions(method.get(), kAgents).pair_queries, 0u);
+  EXPECT_FALSE(method->Earliest({BoundKind::kHypertrapezoid, kMethodStart, kMethodStart}));
+  std::vector<NearPair> pairs;
+  method->NearPairs({BoundKind::kHorn, kMethodStart, kMethodStart}, &pairs);
+  EXPECT_TRUE(pairs.empty());
+}
+
+// Goal:   of two half-spaces the one that is met first counts, also before a second agent's stamp,
+//         when no pair can meet yet; an agent alone meets them too.
+TEST_P(MethodsWithRules, MeetHalfSpacesBeforeOthersAreThere) {
+  const auto method = GetParam().make();
+  SpaceTimeBound bound;
+  bound.state.stamp = kMethodStart;
+  bound.state.p_WA = {3, 4, 7};
+  bound.state.v_WA = {0, 0, -2};
+  bound.declaration.radius = 1;
+  method->Put(0, bound);
+  ASSERT_TRUE(method->PutHalfSpace(1, {{0, 0, 1}, 0}));  // at 3 s
+  ASSERT_TRUE(method->PutHalfSpace(2, {{0, 0, 2}, 4}));  // at 2 s
+  const BroadQuery query{BoundKind::kHorn, kMethodStart, Instant::Never()};
+  const auto alone = method->Earliest(query);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->higher, 2u);
+  EXPECT_LE(alone->time.seconds, 2);
+  EXPECT_GE(alone->time.seconds, 2 - 1e-8);
+  bound.state.stamp = AddRoundedUp(kMethodStart, 10);
+  method->Put(3, bound);
+  EXPECT_EQ(Text(method->Earliest(query)), Text(alone));
+}
+
+// Goal:   what is refused changes nothing.
+TEST_P(MethodsWithRules, RefuseBeyondTheLimits) {
+  const auto method = GetParam().make();
+  Fill(method.get(), 2, 1);
+  EXPECT_FALSE(method->SetMargin(0, 1, -1));
+  EXPECT_FALSE(method->Exclude(1, 1));
+  EXPECT_TRUE(method->rules().empty());
+  for (std::uint32_t i = 0; i < HalfSpaces::kCountMax; ++i) {
+    ASSERT_TRUE(method->PutHalfSpace(10 + i, HalfSpace()));
+  }
+  EXPECT_FALSE(method->PutHalfSpace(1, HalfSpace())) << "an agent's index, and it stays";
+  EXPECT_EQ(method->half_spaces().size(), HalfSpaces::kCountMax);
+  const BroadQuery query{BoundKind::kHorn, kMethodStart, Instant::Never()};
+  const auto expected = method->EarliestOf(1, query);
+  ASSERT_TRUE(expected);
+  EXPECT_FALSE(method->PutHalfSpace(9, HalfSpace()));
+  EXPECT_FALSE(method->PutHalfSpace(12, {{0, 0, 0}, 0}));
+  EXPECT_EQ(Text(method->EarliestOf(1, query)), Text(expected));
+}
+
+const NamedMethod kAll[] = {kMethods[0], kMethods[1], kMethods[2], {"Chosen", &MakeChosen}};
+
+INSTANTIATE_TEST_SUITE_P(All, MethodsWithRules, testing::ValuesIn(kAll),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+}  // namespace
+}  // namespace collision

@@ -1,0 +1,176 @@
+// Goal:   the grid finds every two points within reach of each other, each once, and few others; it
+//         says so where points do not suit it. Every width of vectors gives the same.
+// Method: points of all scales and shapes, many pairs placed to just touch; the truth in exact
+//         rational arithmetic for those that are near the edge.
+#include "collision_core/broad_phase/point_grid.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "tests/support/exact.h"
+#include "tests/support/random.h"
+
+namespace collision {
+namespace {
+
+using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+bool Touch(const ReachPoint& a, const ReachPoint& b) {
+  Exact square = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Exact d = Exact(b.c[axis]) - Exact(a.c[axis]);
+    square += d * d;
+  }
+  const Exact reach = Exact(static_cast<double>(a.reach)) + Exact(static_cast<double>(b.reach));
+  return square <= reach * reach;
+}
+
+double Gap(const ReachPoint& a, const ReachPoint& b) {
+  double square = 0;
+  for (int axis = 0; axis < 3; ++axis) square += (b.c[axis] - a.c[axis]) * (b.c[axis] - a.c[axis]);
+  return std::sqrt(square) - static_cast<double>(a.reach) - static_cast<double>(b.reach);
+}
+
+/// Evenly in a box with the sides given in units of `size`, around `middle`; half of them just
+/// touching the one before.
+std::vector<ReachPoint> Draw(Random* random, std::uint32_t count, const double* sides, double size,
+                             double middle) {
+  std::vector<ReachPoint> points(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    ReachPoint& point = points[k];
+    point.reach = static_cast<float>(size * random->Uniform(0.3, 1));
+    for (int axis = 0; axis < 3; ++axis) {
+      point.c[axis] = middle + size * sides[axis] * random->Uniform(-0.5, 0.5);
+    }
+    if (k == 0 || random->Chance(0.5)) continue;
+    const Eigen::Vector3d away = random->UnitVector();
+    const double apart =
+        (static_cast<double>(point.reach) + static_cast<double>(points[k - 1].reach)) *
+        (1 + random->Uniform(-4, 4) * 0x1p-52);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (sides[axis] > 0) point.c[axis] = points[k - 1].c[axis] + away[axis] * apart;
+    }
+  }
+  return points;
+}
+
+bool Build(const std::vector<ReachPoint>& points, PointGrid* grid) {
+  PointExtent extent;
+  for (const ReachPoint& point : points) extent.Add(point);
+  return grid->Build(
+      static_cast<std::uint32_t>(points.size()), extent, [&](std::uint32_t k) { return points[k]; },
+      [&](std::uint32_t, std::uint32_t k) { return points[k]; });
+}
+
+std::vector<Pair> PairsOf(PointGrid* grid) {
+  std::vector<Pair> pairs;
+  grid->ForEachPair([&](std::uint32_t k, std::uint32_t l) {
+    pairs.push_back(std::minmax(grid->point(k), grid->point(l)));
+  });
+  return pairs;
+}
+
+TEST(PointGrid, FindsAllWhoTouchOnceAndFewOthers) {
+  constexpr double kShapes[][3] = {
+      {40, 40, 40}, {400, 6, 6},  {6, 400, 6}, {6, 6, 400}, {90, 90, 0},
+      {0, 0, 2000}, {2000, 0, 0}, {3, 3, 3},   {0, 0, 0},
+  };
+  PointGrid grid;
+  std::size_t touching = 0, others = 0, built = 0, all = 0;
+  for (int seed = 0; seed < 90; ++seed) {
+    Random random(seed);
+    const double size = random.LogUniform(1e-9, 1e9);
+    const double middle = size * random.Uniform(-1, 1) * (seed % 3 == 0 ? 0 : 1e6);
+    const auto count = static_cast<std::uint32_t>(seed < 20 ? 1 + seed * 7 : 700);
+    const auto points = Draw(&random, count, kShapes[seed % std::size(kShapes)], size, middle);
+    ++all;
+    if (!Build(points, &grid)) continue;
+    ++built;
+    const std::vector<Pair> pairs = PairsOf(&grid);
+    const std::set<Pair> found(pairs.begin(), pairs.end());
+    ASSERT_EQ(found.size(), pairs.size()) << "a pair twice, seed " << seed;
+    for (std::uint32_t k = 0; k < count; ++k) {
+      for (std::uint32_t l = k + 1; l < count; ++l) {
+        const double gap = Gap(points[k], points[l]);
+        if (gap > 1e-3 * size) continue;
+        if (!Touch(points[k], points[l])) continue;
+        ++touching;
+        ASSERT_TRUE(found.contains({k, l})) << "seed " << seed << ": " << k << ", " << l;
+      }
+    }
+    for (const auto& [k, l] : pairs) ASSERT_NE(k, l);
+    for (const auto& [k, l] : pairs) others += Gap(points[k], points[l]) > 0.02 * size;
+  }
+  EXPECT_GT(touching, 10'000u);
+  EXPECT_LT(others, touching / 20);
+  EXPECT_GT(built, all * 2 / 3);
+}
+
+// So close together that reaches decide how wide a cell is.
+TEST(PointGrid, FindsAllInADenseBox) {
+  Random random(3);
+  std::vector<ReachPoint> points(6000);
+  for (ReachPoint& point : points) {
+    for (double& c : point.c) c = random.Uniform(0, 20);
+    point.reach = 1;
+  }
+  PointGrid grid;
+  ASSERT_TRUE(Build(points, &grid));
+  std::size_t touching = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    for (std::size_t l = k + 1; l < points.size(); ++l) {
+      touching += Gap(points[k], points[l]) <= 0;
+    }
+  }
+  std::size_t found = 0;
+  for (const auto& [k, l] : PairsOf(&grid)) found += Gap(points[k], points[l]) <= 0;
+  EXPECT_EQ(found, touching);
+}
+
+TEST(PointGrid, RefusesCrowds) {
+  PointGrid grid;
+  Random random(5);
+  std::vector<ReachPoint> points(2000);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    // Two clusters, far apart.
+    for (double& c : points[k].c) c = random.Uniform(0, 1) + (k % 2 == 0 ? 1e5 : 0);
+    points[k].reach = 0.01f;
+  }
+  EXPECT_FALSE(Build(points, &grid));
+  points.resize(100);  // So few are in one cell.
+  ASSERT_TRUE(Build(points, &grid));
+  EXPECT_LT(PairsOf(&grid).size(), 1000u);  // A wide row costs digits.
+}
+
+TEST(PointGrid, EveryWidthGivesTheSame) {
+  Random random(9);
+  constexpr std::uint32_t kCount = 61;
+  std::vector<float> arrays[4];
+  for (auto& array : arrays) {
+    array.resize(kCount + kLanesMax);
+    for (float& value : array) value = static_cast<float>(random.Uniform(-1, 1));
+  }
+  arrays[0][7] = INFINITY, arrays[3][7] = INFINITY, arrays[1][9] = NAN;
+  const PointView view{arrays[0].data(), arrays[1].data(), arrays[2].data(), arrays[3].data()};
+  const LaneRange ranges[] = {
+      {0, 5, 0.1f, 0.2f, 0.3f}, {5, 37, -0.1f, 0, 0}, {38, kCount, 0, 0, 1}};
+  const auto hits_of = [&](PointScan scan) {
+    std::vector<std::uint32_t> hits(kCount + kLanesMax);
+    hits.resize(scan(view, 0.5f, ranges, 3, hits.data()));
+    return hits;
+  };
+  const auto plain = hits_of(PlainPointScan());
+  EXPECT_GT(plain.size(), 5u);
+  EXPECT_LT(plain.size(), kCount - 5);
+  for (const PointScan scan : {Avx2PointScan(), Avx512PointScan(), WidestPointScan()}) {
+    if (scan != nullptr) {
+      EXPECT_EQ(hits_of(scan), plain);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace collision
