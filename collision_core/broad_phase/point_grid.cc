@@ -63,7 +63,7 @@ bool PointGrid::SumCells(std::uint32_t count) {
     sum += in_cell;
     begin_[cell] = sum;
   }
-  return squares <= kCrowdingMax * count;
+  return count <= kFewPoints || squares <= kCrowdingMax * count;
 }
 
 // The four arrays, where they are long, are not a whole number of pages apart, else they would fight
@@ -77,7 +77,8 @@ void PointGrid::Reserve(std::uint32_t count) {
     floats_.assign(4 * stride_, 0);
   }
   order_.resize(count);
-  places_.resize(count);
+  entries_.resize(count);
+  cell_of_.resize(count);
   if (hits_.size() < count + kLanesMax) hits_.resize(count + kLanesMax);
 }
 

@@ -36,11 +36,11 @@ struct PointExtent {
 /// Cells that lie side by side along x do so in memory as well, and are scanned as one range.
 class PointGrid {
  public:
-  /// `at(k)` gives the k-th ReachPoint; take(place, k) gives it again, in the order of places.
+  /// `at(k)` gives the k-th ReachPoint, and is asked once.
   /// False: the points do not suit a grid, as they crowd in few of its cells, or its rows would be
   /// too long. The extent may be larger than it need be.
-  template <typename At, typename Take>
-  bool Build(std::uint32_t count, const PointExtent& extent, At at, Take take);
+  template <typename At>
+  bool Build(std::uint32_t count, const PointExtent& extent, At at);
 
   std::uint32_t point(std::uint32_t place) const { return order_[place]; }
 
@@ -56,6 +56,10 @@ class PointGrid {
   /// A cell, and its neighbours that come after it in the order of rows: so many rows.
   static constexpr int kRangesMax = 5;
 
+  struct Entry {
+    float x, y, z, reach;
+  };
+
   bool ChooseCells(std::uint32_t count, const PointExtent& extent);
   /// From counts of the cells to their begins; false: they are crowded.
   bool SumCells(std::uint32_t count);
@@ -70,51 +74,39 @@ class PointGrid {
   double cell_ = 0, per_cell_ = 0;
   float reach_most_ = 0, lost_ = 0;
   std::int32_t cells_[3] = {};
-  std::vector<std::uint32_t> begin_;   // by cell, and two more
-  std::vector<std::uint32_t> places_;  // by point: its cell, then its place
-  std::vector<std::uint32_t> order_;   // by place: its point
-  std::vector<float> floats_;          // four arrays, by place
+  std::vector<std::uint32_t> begin_;    // by cell, and two more
+  std::vector<Entry> entries_;          // by point
+  std::vector<std::uint32_t> cell_of_;  // by point
+  std::vector<std::uint32_t> order_;    // by place: its point
+  std::vector<float> floats_;           // four arrays, by place
   std::size_t stride_ = 0;
   std::vector<std::uint32_t> hits_;
   std::uint64_t tests_ = 0, range_count_ = 0;
 };
 
-template <typename At, typename Take>
-bool PointGrid::Build(std::uint32_t count, const PointExtent& extent, At at, Take take) {
+template <typename At>
+bool PointGrid::Build(std::uint32_t count, const PointExtent& extent, At at) {
   if (!ChooseCells(count, extent)) return false;
   Reserve(count);
-  const bool one_cell = cells_[0] == 1 && cells_[1] == 1 && cells_[2] == 1;
-  for (std::uint32_t k = 0; one_cell && k < count; ++k) order_[k] = k;
-  for (std::uint32_t k = 0; !one_cell && k < count; ++k) {
+  for (std::uint32_t k = 0; k < count; ++k) {
     const ReachPoint point = at(k);
-    const std::int32_t cell =
-        (CellOf(point.c[2], 2) * cells_[1] + CellOf(point.c[1], 1)) * cells_[0] +
-        CellOf(point.c[0], 0);
-    places_[k] = static_cast<std::uint32_t>(cell);
-    ++begin_[places_[k] + 2];
+    const std::int32_t x = CellOf(point.c[0], 0), y = CellOf(point.c[1], 1),
+                       z = CellOf(point.c[2], 2);
+    // As seen from the corner of the row.
+    entries_[k] = {static_cast<float>(point.c[0] - origin_[0]),
+                   static_cast<float>(point.c[1] - (origin_[1] + y * cell_)),
+                   static_cast<float>(point.c[2] - (origin_[2] + z * cell_)),
+                   point.reach * (1 + 0x1p-20f) + lost_};
+    cell_of_[k] = static_cast<std::uint32_t>((z * cells_[1] + y) * cells_[0] + x);
+    ++begin_[cell_of_[k] + 2];
   }
-  if (one_cell) {
-    begin_[1] = count;
-  } else {
-    if (!SumCells(count)) return false;
-    for (std::uint32_t k = 0; k < count; ++k) order_[begin_[places_[k] + 1]++] = k;
-  }
+  if (!SumCells(count)) return false;
+  for (std::uint32_t k = 0; k < count; ++k) order_[begin_[cell_of_[k] + 1]++] = k;
   float* const x = floats_.data();
   float *const y = x + stride_, *const z = y + stride_, *const reach = z + stride_;
-  std::uint32_t place = 0, row = 0;
-  for (std::int32_t cz = 0; cz < cells_[2]; ++cz) {
-    const double corner_z = origin_[2] + cz * cell_;
-    for (std::int32_t cy = 0; cy < cells_[1]; ++cy) {
-      const double corner_y = origin_[1] + cy * cell_;
-      const std::uint32_t end = begin_[++row * static_cast<std::uint32_t>(cells_[0])];
-      for (; place < end; ++place) {
-        const ReachPoint point = take(place, order_[place]);
-        x[place] = static_cast<float>(point.c[0] - origin_[0]);
-        y[place] = static_cast<float>(point.c[1] - corner_y);
-        z[place] = static_cast<float>(point.c[2] - corner_z);
-        reach[place] = point.reach * (1 + 0x1p-20f) + lost_;
-      }
-    }
+  for (std::uint32_t place = 0; place < count; ++place) {
+    const Entry& entry = entries_[order_[place]];
+    x[place] = entry.x, y[place] = entry.y, z[place] = entry.z, reach[place] = entry.reach;
   }
   return true;
 }
@@ -127,7 +119,7 @@ void PointGrid::ForEachPair(Visit visit) {
   const PointView view{x, y, z, reach};
   const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
   const auto last_x = static_cast<float>(cell_last_[0]);
-  // The whole number below,
+  // The whole number below.
   const auto below = [](float value) {
     const auto whole = static_cast<std::int32_t>(value);
     return whole - (static_cast<float>(whole) > value);

@@ -75,15 +75,15 @@ bool SpatialIndex::BuildPoints(double last) {
   // Where many come near each other it pays to have them side by side.
   const auto reach = static_cast<double>(extent.reach);
   points_sorted_ = reach * reach * reach * count > kNearToSort * volume;
-  if (points_sorted_) sorted_.resize(count);
   const auto at = [&](std::uint32_t k) { return placing_.HalfWay(horns_[k], last); };
-  const auto take = [&](std::uint32_t place, std::uint32_t k) {
-    // Horns lie in the order of agents, places in that of cells.
-    if (place + kAhead < count) __builtin_prefetch(&horns_[points_.point(place + kAhead)]);
-    if (points_sorted_) sorted_[place] = horns_[k];
-    return placing_.HalfWay(horns_[k], last);
-  };
-  if (!points_.Build(count, extent, at, take)) return false;
+  if (!points_.Build(count, extent, at)) return false;
+  if (points_sorted_) {
+    sorted_.resize(count);
+    for (std::uint32_t place = 0; place < count; ++place) {
+      if (place + kAhead < count) __builtin_prefetch(&horns_[points_.point(place + kAhead)]);
+      sorted_[place] = horns_[points_.point(place)];
+    }
+  }
   points_last_ = last;
   return true;
 }

@@ -35,8 +35,7 @@ bool WindowLoop::ListInOnePass(const MovingCubes& cubes) {
     extent.Add(point);
   }
   const auto at = [&](std::uint32_t cube) -> const ReachPoint& { return points_[cube]; };
-  const auto take = [&](std::uint32_t, std::uint32_t cube) { return points_[cube]; };
-  if (!grid_.Build(cubes.count(), extent, at, take)) return false;
+  if (!grid_.Build(cubes.count(), extent, at)) return false;
   grid_.ForEachPair([&](std::uint32_t k, std::uint32_t l) {
     list_.push_back({grid_.point(k), grid_.point(l)});
   });

@@ -60,9 +60,8 @@ std::vector<ReachPoint> Draw(Random* random, std::uint32_t count, const double* 
 bool Build(const std::vector<ReachPoint>& points, PointGrid* grid) {
   PointExtent extent;
   for (const ReachPoint& point : points) extent.Add(point);
-  return grid->Build(
-      static_cast<std::uint32_t>(points.size()), extent, [&](std::uint32_t k) { return points[k]; },
-      [&](std::uint32_t, std::uint32_t k) { return points[k]; });
+  const auto at = [&](std::uint32_t k) { return points[k]; };
+  return grid->Build(static_cast<std::uint32_t>(points.size()), extent, at);
 }
 
 std::vector<Pair> PairsOf(PointGrid* grid) {
