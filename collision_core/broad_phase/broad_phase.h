@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -23,6 +24,8 @@ struct Meeting {
 /// Two agents, lower < higher.
 struct NearPair {
   std::uint32_t lower, higher;
+
+  friend auto operator<=>(const NearPair&, const NearPair&) = default;
 };
 
 /// From the one at `first` on.

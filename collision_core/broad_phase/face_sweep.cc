@@ -231,10 +231,14 @@ std::optional<PairMeeting> FaceSweep::EarliestOf(std::uint32_t agent, const Broa
 }
 
 void FaceSweep::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) {
-  const std::uint32_t end = IndexEnd();
-  for (std::uint32_t a = 0; a < end; ++a) {
-    for (std::uint32_t b = a + 1; b < end; ++b) {
-      if (!TimeOf(query, a, b).instant().is_never()) pairs->push_back({a, b});
+  std::vector<std::uint32_t> there;
+  for (std::uint32_t agent = 0; agent < IndexEnd(); ++agent) {
+    const bool held = agent < bounds_.size() && bounds_[agent];
+    if (held || half_spaces_.Find(agent) != nullptr) there.push_back(agent);
+  }
+  for (const std::uint32_t a : there) {
+    for (const std::uint32_t b : there) {
+      if (a < b && !TimeOf(query, a, b).instant().is_never()) pairs->push_back({a, b});
     }
   }
 }

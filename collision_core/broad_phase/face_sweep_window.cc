@@ -1,7 +1,6 @@
 #include "collision_core/broad_phase/face_sweep_window.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace collision {

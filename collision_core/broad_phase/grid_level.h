@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -28,9 +27,6 @@ class GridLevel {
   void Vacate(std::uint32_t place) { lanes_.Vacate(place); }
   /// Nobody here comes farther from its place.
   double ReachMax(Stretch stretch) const { return placing_->Reach(most_, stretch); }
-  /// The cells are so small that a question over the stretch visits many of them.
-  bool IsFine(Stretch stretch) const { return cell_ < ReachMax(stretch); }
-
   /// Appends ranges in which all agents are that come within `reach` of `c` during the stretch.
   /// With `after` given, only those that come after that place in an order of the cells (`c` is
   /// that agent's): of two agents exactly one finds the other. False, and none: that would be more
@@ -81,7 +77,7 @@ class GridLevel {
   Lanes lanes_;
 };
 
-/// Single precision is enough: what it loses is made up for by a thousandth of a cell.
+/// Single precision is enough: what it loses is made up for by a part of a cell.
 template <typename Visit>
 void GridLevel::ForEachPlace(Stretch stretch, Visit visit) const {
   std::vector<LaneRange> ranges;
@@ -92,7 +88,7 @@ void GridLevel::ForEachPlace(Stretch stretch, Visit visit) const {
   float most;
   const auto set_stretch = [&] {
     times = TimesOf(*placing_, stretch);
-    most = static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-10f;
+    most = static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-9f;
   };
   set_stretch();
   std::uint32_t place = 0;

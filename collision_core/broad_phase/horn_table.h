@@ -41,7 +41,6 @@ class HornTable {
   void UseRules(const PairRules* rules) { rules_ = rules; }
   /// The agent's rules have changed.
   void UpdateRules(std::uint32_t agent);
-  bool HasRules() const { return rules_ != nullptr && !rules_->empty(); }
   /// Of an agent that is there and any other; soonest answered where `partner` has no rules.
   PairRule RuleOf(std::uint32_t agent, std::uint32_t partner) const {
     return rows_[agent].ruled ? rules_->Of(partner, agent) : PairRule();

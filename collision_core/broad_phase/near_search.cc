@@ -31,6 +31,7 @@ void NearSearch::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
 }
 
 void NearSearch::Narrow(std::uint32_t agent, const SpaceTimeBound& bound) {
+  if (!table_.contains(agent)) return Put(agent, bound);
   const bool was_wild = table_.row(agent).wild;
   table_.Put(agent, bound);
   if (placed_ && table_.row(agent).wild != was_wild) Move(agent);
@@ -73,6 +74,7 @@ template <typename Each>
 void NearSearch::ForEachHalfSpace(std::uint32_t asked, Each each) const {
   const HalfSpaces::Entry* half_space = half_spaces_.Find(asked);
   if (half_space == nullptr) {
+    if (!table_.contains(asked)) return;
     for (const HalfSpaces::Entry& entry : half_spaces_) each(entry, asked);
     return;
   }
@@ -116,7 +118,9 @@ void NearSearch::PlaceMoved() {
     if (IsWild(agent)) {
       wild_.push_back(agent);
     } else {
-      PlaceOne(placing_.Place(table_, agent));
+      const PlacedHorn horn = placing_.Place(table_, agent);
+      fastest_ = std::max(fastest_, horn.speed);
+      PlaceOne(horn);
     }
   }
   moved_.clear();
@@ -147,12 +151,14 @@ void NearSearch::PlaceAnew(const Placing& placing, bool once, PairSink* crowd_si
   } else {
     PlaceAtBegin([](const PlacedHorn&) {});
   }
+  fastest_ = extent_.speed;
   placed_ = PlaceAll(once);
 }
 
 // Placing everybody costs about one test for each: it is done when as many were wasted.
 void NearSearch::Refresh(Instant from) {
-  const bool usable = placed_ && placing_.bound() == BoundKind::kHorn;
+  const bool usable = placed_ && placing_.bound() == BoundKind::kHorn &&
+                      !(placing_.blind() && HornTable::Near(from));
   if (usable && wasted_ <= table_.count()) return PlaceMoved();
   PlaceAnew(Placing(table_, {BoundKind::kHorn, from, Instant::Never()}, kWindowMax), false,
             nullptr);
@@ -194,7 +200,7 @@ class NearPairList final : public PairSink {
 
   void Offer(std::uint32_t a, std::uint32_t b) override {
     if (a == b || (table_.choosy() && !CanMeet(table_.row(a), table_.row(b)))) return;
-    if (table_.HasRules() && table_.RuleOf(a, b).excluded) return;
+    if (table_.RuleOf(a, b).excluded) return;
     pairs_->push_back({std::min(a, b), std::max(a, b)});
   }
 
@@ -207,10 +213,17 @@ class NearPairList final : public PairSink {
 
 void NearSearch::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) {
   const double seconds = std::min(BestMeeting(table_, query, &work_).limit(), kWindowMax);
+  const auto told = static_cast<std::ptrdiff_t>(pairs->size());
   NearPairList list(table_, seconds, pairs);
   PlaceAnew(Placing(table_, query, seconds), true, nullptr);
   OfferWild(&list);
   Join(placing_.After(query.from, seconds), &list);
+  // A level that is taken whole tells pairs from both sides.
+  if (placed_) {
+    const auto first = pairs->begin() + told;
+    std::sort(first, pairs->end());
+    pairs->erase(std::unique(first, pairs->end()), pairs->end());
+  }
   const auto tell = [&](const HalfSpaces::Entry& half_space, std::uint32_t agent) {
     if (!MayMeet(table_, half_space, agent, query.from, seconds, &work_)) return;
     pairs->push_back({std::min(half_space.agent, agent), std::max(half_space.agent, agent)});
@@ -218,15 +231,30 @@ void NearSearch::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs
   for (const HalfSpaces::Entry& entry : half_spaces_) ForEachHalfSpace(entry.agent, tell);
 }
 
+// About everybody, in the first window.
+bool NearSearch::AsksAll(std::uint32_t agent, Instant from) const {
+  return IsWild(agent) || !HornTable::Near(from);
+}
+
 void NearSearch::FindNear(std::uint32_t agent, Instant from, double seconds) {
   near_.clear();
-  if (IsWild(agent) || !HornTable::Near(from)) {
+  if (AsksAll(agent, from)) {
     for (std::uint32_t other = 0; other < table_.size(); ++other) {
       if (other != agent && table_.contains(other)) near_.push_back(other);
     }
     return;
   }
-  FindNear(placing_.Place(table_, agent), placing_.After(from, seconds));
+  PlacedHorn horn = placing_.Place(table_, agent);
+  const Stretch stretch = placing_.After(from, seconds);
+  // Placed horns have LaneScan's slack for the way to the middle and from there on. A question from
+  // before the begin looks farther back.
+  const double farther = -stretch.first - placing_.middle();
+  if (farther > 0) {
+    const double speeds = static_cast<double>(horn.speed) + static_cast<double>(fastest_);
+    constexpr double kSlack = kLaneSlack, kLeast = kReachLeast;
+    horn.s0 += static_cast<float>((kSlack * speeds + 2 * kLeast) * farther * (1 + 0x1p-20));
+  }
+  FindNear(horn, stretch);
   near_.insert(near_.end(), wild_.begin(), wild_.end());
 }
 
@@ -243,10 +271,11 @@ std::optional<PairMeeting> NearSearch::EarliestOf(std::uint32_t agent, const Bro
     return best.best();
   }
   Refresh(query.from);
+  const bool all = AsksAll(agent, query.from);
   for (double seconds = std::min(placing_.window(), best.limit());;) {
     FindNear(agent, query.from, seconds);
     for (const std::uint32_t other : near_) best.Offer(agent, other);
-    if (best.limit() <= seconds || seconds >= kWindowMax) return best.best();
+    if (best.limit() <= seconds || seconds >= kWindowMax || all) return best.best();
     seconds = std::min({kWindowFactor * seconds, best.limit(), kWindowMax});
   }
 }
@@ -284,7 +313,7 @@ void NearSearch::Meetings(std::uint32_t agent, Instant from, Instant until, Inst
       }
       next.Offer(agent, other);
     }
-    if (next.limit() <= seconds || seconds >= kWindowMax) break;
+    if (next.limit() <= seconds || seconds >= kWindowMax || AsksAll(agent, from)) break;
     seconds = std::min({kWindowFactor * seconds, next.limit(), kWindowMax});
   }
   if (next.best()) {

@@ -68,9 +68,11 @@ class NearSearch : public BroadPhase {
   void PlaceAnew(const Placing& placing, bool once, PairSink* crowd_sink);
   void OfferWild(PairSink* sink) const;
   void Refresh(Instant from);
+  bool AsksAll(std::uint32_t agent, Instant from) const;
   void FindNear(std::uint32_t agent, Instant from, double seconds);
 
   HornTable table_;
+  float fastest_ = 0;  ///< No horn that is placed has a greater speed.
   LaneRow crowd_;
   bool placed_ = false;  ///< All but those in moved_ are where they belong.
   std::vector<std::uint32_t> moved_;

@@ -23,7 +23,8 @@ constexpr std::uint32_t kFewPoints = 128;
 }  // namespace
 
 // Positions lose at most 2^-24 of a row's length on each axis, the asker's as well, and reaches and
-// the ranges' bounds as much: together less than 2^-20 of it.
+// the ranges' bounds as much: together less than 2^-20 of it. Squares lose digits to underflow below
+// kReachLeast.
 bool PointGrid::ChooseCells(std::uint32_t count, const PointExtent& extent) {
   double widest = 0, volume = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -31,13 +32,14 @@ bool PointGrid::ChooseCells(std::uint32_t count, const PointExtent& extent) {
     widest = std::max(widest, extent.high[axis] - extent.low[axis]);
   }
   if (!(widest < 0x1p60) || !(extent.reach < 0x1p60f)) return false;
-  const double reach = static_cast<double>(extent.reach) * (1 + 0x1p-18) + 0x1p-18 * widest;
+  constexpr double kLeast = kReachLeast;
+  const double reach =
+      static_cast<double>(extent.reach) * (1 + 0x1p-18) + 0x1p-18 * widest + 2 * kLeast;
   for (int axis = 0; axis < 3; ++axis) {
     volume *= std::max(extent.high[axis] - extent.low[axis], 2 * reach);
   }
   cell_ = std::max(2 * reach * (1 + 0x1p-10), CubeRoot(volume * kPerCell / count));
   if (count <= kFewPoints) cell_ = 2 * (widest + reach);
-  if (!(cell_ > 0)) return false;
   per_cell_ = 1 / cell_;
   double total = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -48,7 +50,7 @@ bool PointGrid::ChooseCells(std::uint32_t count, const PointExtent& extent) {
   if (total < 2 && count > kFewPoints) return false;
   for (int axis = 0; axis < 3; ++axis)
     cells_[axis] = static_cast<std::int32_t>(cell_last_[axis]) + 1;
-  lost_ = static_cast<float>(0x1p-20 * cell_ * cells_[0]);
+  lost_ = static_cast<float>(0x1p-20 * cell_ * cells_[0]) + kReachLeast;
   reach_most_ = extent.reach * (1 + 0x1p-19f) + lost_;
   begin_.assign(static_cast<std::size_t>(total) + 2, 0);
   return true;

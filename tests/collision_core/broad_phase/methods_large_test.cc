@@ -152,6 +152,106 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
 
 INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes));
 
+// Four fast ones fly through a crowd at rest. Placed long after, they have a long way back.
+TEST(LargeMethods, AQuestionFromLongBeforeTheLastOneLosesNobody) {
+  constexpr int kFast = 4;
+  for (int seed = 0; seed < 10; ++seed) {
+    for (const double back : {1e2, 1e3, 1e4, 3e4, 1e5}) {
+      Random random(seed);
+      std::vector<SpaceTimeBound> bounds;
+      for (int i = 0; i < 300; ++i) {
+        SpaceTimeBound bound = BoundIn(5, 0.5, 0, 0, &random);
+        if (i < kFast) {
+          bound.state.v_WA = {(i % 2 ? -1 : 1) * random.Uniform(500, 1000), 0, 0};
+          bound.state.p_WA = -bound.state.v_WA;
+          for (int axis : {1, 2}) bound.state.p_WA[axis] += random.Uniform(-0.4, 0.4);
+        }
+        bounds.push_back(bound);
+      }
+      AllPairs all_pairs;
+      SpatialIndex index;
+      const BroadQuery late{BoundKind::kHorn, AddRoundedUp(kMethodStart, back),
+                            AddRoundedUp(kMethodStart, back + 1)};
+      const BroadQuery early{BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, 3)};
+      for (BroadPhase* method :
+           {static_cast<BroadPhase*>(&all_pairs), static_cast<BroadPhase*>(&index)}) {
+        for (std::uint32_t i = 0; i < bounds.size(); ++i) method->Put(i, bounds[i]);
+        method->EarliestOf(1, late);
+        for (std::uint32_t i = 0; i < kFast; ++i) {
+          std::optional<PairMeeting> first;
+          std::size_t count = 0;
+          for (std::uint32_t j = 0; j < bounds.size(); ++j) {
+            if (j == i) continue;
+            const PairMeeting meeting{std::min(i, j), std::max(i, j),
+                                      MeetingTime(early, bounds[i], bounds[j])};
+            if (meeting.time.instant().is_never()) continue;
+            ++count;
+            if (!first || meeting < *first) first = meeting;
+          }
+          const auto got = method->EarliestOf(i, early);
+          ASSERT_TRUE(first && got);
+          ASSERT_EQ(got->time.seconds, first->time.seconds) << "seed " << seed << ", " << back;
+          std::vector<Meeting> meetings;
+          method->Meetings(
+              i, early.from, early.until, early.until, [](std::uint32_t) { return false; },
+              &meetings);
+          ASSERT_EQ(meetings.size(), count) << "seed " << seed << ", " << back;
+        }
+      }
+    }
+  }
+}
+
+// One far away: the rest crowd in one of the cells that suit all.
+TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
+  Random random(1);
+  SpatialIndex index;
+  for (int i = 0; i < 200; ++i) {
+    SpaceTimeBound bound = BoundIn(20, 0.5, 5, 2, &random);
+    if (i == 0) bound.state.p_WA.x() = 5e10;
+    index.Put(i, bound);
+  }
+  for (const double window : {0.1, 1.0, 10.0, 100.0, 1e3, 1e4}) {
+    std::vector<NearPair> pairs;
+    index.NearPairs({BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, window)}, &pairs);
+    const std::size_t told = pairs.size();
+    EXPECT_GT(told, 0u);
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    EXPECT_EQ(pairs.size(), told) << window;
+  }
+}
+
+// With a half-space there, and of one who is wild.
+TEST(LargeMethods, WhoIsNotThereMeetsNobodyAndWhoIsWildIsAskedOnce) {
+  constexpr std::uint32_t kCount = 500;
+  const BroadQuery query{BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, 1e6)};
+  AllPairs all_pairs;
+  SpatialIndex index;
+  FaceSweep sweep;
+  Random random(2);
+  for (BroadPhase* method : {static_cast<BroadPhase*>(&all_pairs), static_cast<BroadPhase*>(&index),
+                             static_cast<BroadPhase*>(&sweep)}) {
+    HalfSpace floor;
+    floor.normal = {0, 0, 1};
+    floor.offset = -1e9;
+    ASSERT_TRUE(method->PutHalfSpace(3, floor));
+    EXPECT_FALSE(method->EarliestOf(7, query).has_value());
+    std::vector<Meeting> meetings;
+    method->Meetings(
+        7, query.from, query.until, query.until, [](std::uint32_t) { return false; }, &meetings);
+    EXPECT_TRUE(meetings.empty());
+  }
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    SpaceTimeBound bound = BoundIn(1e9, 0.5, 1, 0, &random);
+    if (i == 5) bound.state.v_WA.x() = 0x1p41;
+    index.Put(i, bound);
+  }
+  const std::uint64_t before = index.work().pair_queries;
+  index.EarliestOf(5, query);
+  EXPECT_LE(index.work().pair_queries - before, kCount);
+}
+
 // Asked first where agents are close together, a few bound the answer for all.
 TEST(LargeMethods, ACrowdMakesTheWindowShort) {
   Random random(1);
