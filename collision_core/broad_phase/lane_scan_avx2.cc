@@ -14,6 +14,17 @@ namespace {
 
 using Lanes = __m256;
 
+// The lanes of a range's last vector that are still in it.
+inline unsigned Lowest(std::uint32_t count) { return count < 8 ? (1u << count) - 1 : ~0u; }
+
+inline std::uint32_t Tell(unsigned mask, std::uint32_t k, std::uint32_t* hits,
+                          std::uint32_t count) {
+  for (; mask != 0; mask &= mask - 1) {
+    hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
+  }
+  return count;
+}
+
 __attribute__((target("avx2"))) inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
   const Lanes squared =
       _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(x, x), _mm256_mul_ps(y, y)), _mm256_mul_ps(z, z));
@@ -44,8 +55,7 @@ __attribute__((target("avx2"))) std::uint32_t Scan(const LaneView& balls, const 
       const Lanes both = _mm256_add_ps(reach, own);
       const Lanes ways =
           _mm256_mul_ps(way, _mm256_add_ps(own_speed, _mm256_loadu_ps(balls.speed + k)));
-      unsigned mask = Within(x, y, z, _mm256_add_ps(both, ways));
-      if (range.end - k < 8) mask &= (1u << (range.end - k)) - 1;
+      unsigned mask = Lowest(range.end - k) & Within(x, y, z, _mm256_add_ps(both, ways));
       if (mask == 0) continue;
       const Lanes vx = _mm256_sub_ps(_mm256_loadu_ps(balls.vx + k), own_vx);
       const Lanes vy = _mm256_sub_ps(_mm256_loadu_ps(balls.vy + k), own_vy);
@@ -60,9 +70,7 @@ __attribute__((target("avx2"))) std::uint32_t Scan(const LaneView& balls, const 
       y = _mm256_add_ps(y, _mm256_mul_ps(vy, u));
       z = _mm256_add_ps(z, _mm256_mul_ps(vz, u));
       mask &= Within(x, y, z, both);
-      for (; mask != 0; mask &= mask - 1) {
-        hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
-      }
+      count = Tell(mask, k, hits, count);
     }
   }
   return count;
@@ -82,11 +90,9 @@ __attribute__((target("avx2"))) std::uint32_t ScanPoints(const PointView& points
       const Lanes x = _mm256_sub_ps(_mm256_loadu_ps(points.x + k), at_x);
       const Lanes y = _mm256_sub_ps(_mm256_loadu_ps(points.y + k), at_y);
       const Lanes z = _mm256_sub_ps(_mm256_loadu_ps(points.z + k), at_z);
-      unsigned mask = Within(x, y, z, _mm256_add_ps(own, _mm256_loadu_ps(points.reach + k)));
-      if (range.end - k < 8) mask &= (1u << (range.end - k)) - 1;
-      for (; mask != 0; mask &= mask - 1) {
-        hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
-      }
+      const unsigned mask = Lowest(range.end - k) &
+                            Within(x, y, z, _mm256_add_ps(own, _mm256_loadu_ps(points.reach + k)));
+      count = Tell(mask, k, hits, count);
     }
   }
   return count;

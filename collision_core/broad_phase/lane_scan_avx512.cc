@@ -17,6 +17,17 @@ using Lanes = __m512;
 // The plain minimum and maximum are the same, but g++ 12 takes their unused lanes for a mistake.
 constexpr __mmask16 kAll = 0xffff;
 
+// The lanes of a range's last vector that are still in it.
+inline unsigned Lowest(std::uint32_t count) { return count < 16 ? (1u << count) - 1 : ~0u; }
+
+inline std::uint32_t Tell(unsigned mask, std::uint32_t k, std::uint32_t* hits,
+                          std::uint32_t count) {
+  for (; mask != 0; mask &= mask - 1) {
+    hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
+  }
+  return count;
+}
+
 __attribute__((target("avx512f"))) inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
   const Lanes squared =
       _mm512_add_ps(_mm512_add_ps(_mm512_mul_ps(x, x), _mm512_mul_ps(y, y)), _mm512_mul_ps(z, z));
@@ -47,8 +58,7 @@ __attribute__((target("avx512f"))) std::uint32_t Scan(const LaneView& balls, con
       const Lanes both = _mm512_add_ps(reach, own);
       const Lanes ways =
           _mm512_mul_ps(way, _mm512_add_ps(own_speed, _mm512_loadu_ps(balls.speed + k)));
-      unsigned mask = Within(x, y, z, _mm512_add_ps(both, ways));
-      if (range.end - k < 16) mask &= (1u << (range.end - k)) - 1;
+      unsigned mask = Lowest(range.end - k) & Within(x, y, z, _mm512_add_ps(both, ways));
       if (mask == 0) continue;
       const Lanes vx = _mm512_sub_ps(_mm512_loadu_ps(balls.vx + k), own_vx);
       const Lanes vy = _mm512_sub_ps(_mm512_loadu_ps(balls.vy + k), own_vy);
@@ -63,9 +73,7 @@ __attribute__((target("avx512f"))) std::uint32_t Scan(const LaneView& balls, con
       y = _mm512_add_ps(y, _mm512_mul_ps(vy, u));
       z = _mm512_add_ps(z, _mm512_mul_ps(vz, u));
       mask &= Within(x, y, z, both);
-      for (; mask != 0; mask &= mask - 1) {
-        hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
-      }
+      count = Tell(mask, k, hits, count);
     }
   }
   return count;
@@ -85,11 +93,9 @@ __attribute__((target("avx512f"))) std::uint32_t ScanPoints(const PointView& poi
       const Lanes x = _mm512_sub_ps(_mm512_loadu_ps(points.x + k), at_x);
       const Lanes y = _mm512_sub_ps(_mm512_loadu_ps(points.y + k), at_y);
       const Lanes z = _mm512_sub_ps(_mm512_loadu_ps(points.z + k), at_z);
-      unsigned mask = Within(x, y, z, _mm512_add_ps(own, _mm512_loadu_ps(points.reach + k)));
-      if (range.end - k < 16) mask &= (1u << (range.end - k)) - 1;
-      for (; mask != 0; mask &= mask - 1) {
-        hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
-      }
+      const unsigned mask = Lowest(range.end - k) &
+                            Within(x, y, z, _mm512_add_ps(own, _mm512_loadu_ps(points.reach + k)));
+      count = Tell(mask, k, hits, count);
     }
   }
   return count;
