@@ -2,13 +2,9 @@
 
 namespace collision {
 
-bool AllPairs::PlaceAll(bool) {
+void AllPairs::PlaceAll() {
   row_.Clear();
-  for (PlacedHorn& horn : horns_) {
-    placing_.ToMiddle(&horn);
-    PlaceOne(horn);
-  }
-  return true;
+  for (const PlacedHorn& horn : horns_) PlaceOne(horn);
 }
 
 void AllPairs::PlaceOne(const PlacedHorn& horn) { row_.Set(horn.agent, horn); }

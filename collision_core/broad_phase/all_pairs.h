@@ -9,7 +9,7 @@ namespace collision {
 /// Every agent beside every other, in wide vectors: below about a thousand agents the fastest.
 class AllPairs : public NearSearch {
  protected:
-  bool PlaceAll(bool once) override;
+  void PlaceAll() override;
   void PlaceOne(const PlacedHorn& horn) override;
   void Unplace(std::uint32_t agent) override;
   void Join(Stretch stretch, PairSink* sink) override;

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "collision_core/broad_phase/approaching.h"
-
 namespace collision {
 namespace {
 
@@ -120,14 +118,7 @@ SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
 
 double HornTable::EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
   if (rows_[a].wild || rows_[b].wild || !Near(from)) return 0;
-  const HornAt at_a = At(a, from), at_b = At(b, from);
-  Approaching pair;
-  for (int axis = 0; axis < 3; ++axis) {
-    pair.d[axis] = at_b.c[axis] - at_a.c[axis];
-    pair.w[axis] = at_b.v[axis] - at_a.v[axis];
-  }
-  pair.s0 = at_a.s0 + at_b.s0, pair.s1 = at_a.s1 + at_b.s1, pair.s2 = at_a.s2 + at_b.s2;
-  return pair.EarlierBound(limit);
+  return Between(At(a, from), At(b, from)).EarlierBound(limit);
 }
 
 HornAt BoxReach(HornAt horn, double duration) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/broad_phase/approaching.h"
 #include "collision_core/broad_phase/pair_rules.h"
 #include "collision_core/broad_phase/query.h"
 
@@ -57,6 +58,11 @@ class HornTable {
   bool choosy() const { return still_count_ + choosy_count_ > 0; }
   bool contains(std::uint32_t agent) const { return agent < size() && rows_[agent].group != 0; }
   const HornRow& row(std::uint32_t agent) const { return rows_[agent]; }
+  /// Into the cache, for a question that comes soon.
+  void Fetch(std::uint32_t agent) const {
+    __builtin_prefetch(&rows_[agent]);
+    __builtin_prefetch(&rows_[agent].u1);
+  }
   /// As it was put, without what no meeting depends on: orientation and shape.
   SpaceTimeBound bound(std::uint32_t agent) const;
 
@@ -106,6 +112,17 @@ inline HornAt HornTable::At(std::uint32_t agent, Instant instant) const {
   at.s1 = kOutward * (row.u1 + 2 * tau * row.u2);
   at.s2 = row.u2;
   return at;
+}
+
+/// Of two horns from an instant on.
+inline Approaching Between(const HornAt& a, const HornAt& b) {
+  Approaching pair;
+  for (int axis = 0; axis < 3; ++axis) {
+    pair.d[axis] = b.c[axis] - a.c[axis];
+    pair.w[axis] = b.v[axis] - a.v[axis];
+  }
+  pair.s0 = a.s0 + b.s0, pair.s1 = a.s1 + b.s1, pair.s2 = a.s2 + b.s2;
+  return pair;
 }
 
 /// The reach of a hypertrapezoid's box over a window of `duration` seconds, from that of its horn:

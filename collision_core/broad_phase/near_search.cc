@@ -18,11 +18,10 @@ constexpr double kMovedShare = 1.0 / 16;
 constexpr std::uint32_t kCrowdMin = 2048;
 constexpr double kCrowdOfRoot = 1.5;
 
-}  // namespace
+/// The crowd is chosen from as many at least, spread evenly over the indices.
+constexpr std::uint32_t kSomeMin = 16384;
 
-bool NearSearch::IsWild(std::uint32_t agent) const {
-  return table_.row(agent).wild || placing_.blind();
-}
+}  // namespace
 
 void NearSearch::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
   half_spaces_.Remove(agent);
@@ -92,21 +91,19 @@ void NearSearch::Move(std::uint32_t agent) {
   if (moved_.size() > kMovedMin && moved_.size() > kMovedShare * table_.count()) placed_ = false;
 }
 
-template <typename Each>
-void NearSearch::PlaceAtBegin(Each each) {
-  const bool all_wild = placing_.blind();
+void NearSearch::PlaceEverybody() {
+  wild_.clear();
+  horns_.resize(table_.count());
+  fastest_ = 0;
   std::size_t placed = 0;
   for (std::uint32_t agent = 0; agent < table_.size(); ++agent) {
-    if (!table_.contains(agent)) continue;
-    if (all_wild || table_.row(agent).wild) {
-      wild_.push_back(agent);
-      continue;
-    }
-    horns_[placed] = placing_.AtBegin(table_, agent);
-    extent_.Add(horns_[placed]);
-    each(horns_[placed++]);
+    if (!table_.contains(agent) || SortOut(agent)) continue;
+    horns_[placed] = placing_.Place(table_, agent);
+    fastest_ = std::max(fastest_, horns_[placed++].speed);
   }
   horns_.resize(placed);
+  PlaceAll();
+  placed_ = true;
 }
 
 void NearSearch::PlaceMoved() {
@@ -126,33 +123,34 @@ void NearSearch::PlaceMoved() {
   moved_.clear();
 }
 
-// Everybody is placed where he is at the begin, and then moved to the middle of the window: a few
-// who are close to each other are asked in between, since a first answer makes the window short.
+// Some who are close to each other are asked first, since a first answer makes the window short.
+void NearSearch::AskCrowd(PairSink* sink) {
+  const std::uint32_t stride = table_.size() / kSomeMin + 1;
+  const double count = kCrowdOfRoot * std::sqrt(static_cast<double>(table_.count()));
+  const Region region = placing_.Crowd(table_, static_cast<std::size_t>(count * stride));
+  crowd_.Clear();
+  for (std::uint32_t agent = 0; agent < table_.size(); agent += stride) {
+    if (!table_.contains(agent) || IsWild(agent)) continue;
+    PlacedHorn horn = placing_.AtBegin(table_, agent);
+    if (crowd_.size() >= 4 * count || !region.Contains(horn.c)) continue;
+    placing_.ToMiddle(&horn);
+    crowd_.Add(horn);
+  }
+  crowd_.Join(placing_, {0, placing_.window()}, &work_, sink);
+  placing_.Shorten(sink->limit());
+}
+
 void NearSearch::PlaceAnew(const Placing& placing, bool once, PairSink* crowd_sink) {
   ++work_.rebuilds;
   placing_ = placing;
   wasted_ = 0;
   for (const std::uint32_t agent : moved_) has_moved_[agent] = false;
   moved_.clear();
-  wild_.clear();
-  horns_.resize(table_.count());
-  extent_ = {};
-  if (crowd_sink != nullptr && table_.count() >= kCrowdMin && !placing_.blind()) {
-    crowd_.Clear();
-    const double count = kCrowdOfRoot * std::sqrt(static_cast<double>(table_.count()));
-    const Region region = placing_.Crowd(table_, static_cast<std::size_t>(count));
-    PlaceAtBegin([&](PlacedHorn horn) {
-      if (crowd_.size() >= 4 * count || !region.Contains(horn.c)) return;
-      placing_.ToMiddle(&horn);
-      crowd_.Add(horn);
-    });
-    crowd_.Join(placing_, {0, placing_.window()}, &work_, crowd_sink);
-    placing_.Shorten(crowd_sink->limit());
-  } else {
-    PlaceAtBegin([](const PlacedHorn&) {});
-  }
-  fastest_ = extent_.speed;
-  placed_ = PlaceAll(once);
+  placed_ = false;
+  const bool crowded = table_.count() >= kCrowdMin && !placing_.blind();
+  if (crowd_sink != nullptr && crowded) AskCrowd(crowd_sink);
+  if (once && !placing_.blind() && PlaceOnce()) return;
+  PlaceEverybody();
 }
 
 // Placing everybody costs about one test for each: it is done when as many were wasted.

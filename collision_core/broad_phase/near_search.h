@@ -35,9 +35,11 @@ class NearSearch : public BroadPhase {
   BroadPhaseWork work() const override { return work_; }
 
  protected:
-  /// All horns_ are to be placed anew, for placing_; ToMiddle() has not been called for them. False:
-  /// for one Join() only, which `once` says is enough.
-  virtual bool PlaceAll(bool once) = 0;
+  /// All horns_ are to be placed anew.
+  virtual void PlaceAll() = 0;
+  /// Prepares for Join() alone, for placing_: nobody need be found later. False: that would be no
+  /// cheaper.
+  virtual bool PlaceOnce() { return false; }
   /// Places one since the last PlaceAll().
   virtual void PlaceOne(const PlacedHorn& horn) = 0;
   /// Forgets where he was placed, if he was.
@@ -49,22 +51,30 @@ class NearSearch : public BroadPhase {
 
   const HornTable& table() const { return table_; }
 
+  /// Whether filters cannot reckon with him; asked of everybody at each placing.
+  bool SortOut(std::uint32_t agent) {
+    const bool wild = IsWild(agent);
+    if (wild) wild_.push_back(agent);
+    return wild;
+  }
+  /// For placing_: all who are there.
+  void PlaceEverybody();
+
   Placing placing_;
-  std::vector<PlacedHorn> horns_;  ///< Of all who are not wild, as of the last placing.
-  PlacedExtent extent_;            ///< Of horns_, at the begin.
+  std::vector<PlacedHorn> horns_;    ///< Of all who are not wild, as of the last PlaceEverybody().
+  std::vector<std::uint32_t> wild_;  ///< Of whom SortOut() said so.
   BroadPhaseWork work_;
   std::uint64_t wasted_ = 0;  ///< Tests that a fresh placing would have saved, since the last.
   std::vector<std::uint32_t> near_;
 
  private:
-  bool IsWild(std::uint32_t agent) const;
+  bool IsWild(std::uint32_t agent) const { return table_.row(agent).wild || placing_.blind(); }
   void Drop(std::uint32_t agent);
   template <typename Each>
   void ForEachHalfSpace(std::uint32_t asked, Each each) const;
   void Move(std::uint32_t agent);
   void PlaceMoved();
-  template <typename Each>
-  void PlaceAtBegin(Each each);
+  void AskCrowd(PairSink* sink);
   void PlaceAnew(const Placing& placing, bool once, PairSink* crowd_sink);
   void OfferWild(PairSink* sink) const;
   void Refresh(Instant from);
@@ -76,8 +86,7 @@ class NearSearch : public BroadPhase {
   LaneRow crowd_;
   bool placed_ = false;  ///< All but those in moved_ are where they belong.
   std::vector<std::uint32_t> moved_;
-  std::vector<bool> has_moved_;  ///< By agent: in moved_.
-  std::vector<std::uint32_t> wild_;
+  std::vector<bool> has_moved_;         ///< By agent: in moved_.
   std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that told of it.
   std::uint64_t question_ = 0;
 };

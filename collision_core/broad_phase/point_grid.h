@@ -11,10 +11,12 @@
 
 namespace collision {
 
-/// A place and how far from it something reaches.
+/// Where something is half-way through a time, how far from there it reaches in all of it, and how far
+/// from its place on the line with velocity v. Reaches with LaneScan's slack.
 struct ReachPoint {
   double c[3];
-  float reach;
+  float v[3];
+  float reach, own;
 };
 
 /// The box around points, and the farthest reach.
@@ -29,6 +31,21 @@ struct PointExtent {
     }
     reach = std::max(reach, point.reach);
   }
+  void Widen(double part) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double more = part * (high[axis] - low[axis]);
+      low[axis] -= more, high[axis] += more;
+    }
+    reach *= static_cast<float>(1 + part);
+  }
+
+  bool Holds(const ReachPoint& point) const {
+    bool within = point.reach <= reach;
+    for (int axis = 0; axis < 3; ++axis) {
+      within = within && point.c[axis] >= low[axis] && point.c[axis] <= high[axis];
+    }
+    return within;
+  }
 };
 
 /// A grid for one question about many points of like reach, evenly spread: nothing is kept for a
@@ -36,60 +53,96 @@ struct PointExtent {
 /// Cells that lie side by side along x do so in memory as well, and are scanned as one range.
 class PointGrid {
  public:
-  /// `at(k)` gives the k-th ReachPoint, and is asked once.
+  /// `at(k, &point)` gives the k-th point of `count`, or returns false: it has none. The extent may
+  /// be a guess: where a point lies beyond it, or reaches farther, all are asked again.
+  /// `half`, of the time: lines are compared where places come near each other, of use where many do;
+  /// 0: they are not.
   /// False: the points do not suit a grid, as they crowd in few of its cells, or its rows would be
-  /// too long. The extent may be larger than it need be.
+  /// too long.
   template <typename At>
-  bool Build(std::uint32_t count, const PointExtent& extent, At at);
+  bool Build(std::uint32_t count, const PointExtent& extent, double half, At at);
 
-  std::uint32_t point(std::uint32_t place) const { return order_[place]; }
-
-  /// Calls visit(k, l) with the places of each two that may be within the sum of their reaches, once.
+  /// Calls visit(k, l) with the points of each two that may be within the sum of their reaches, once;
+  /// and a little earlier fetch(k, l).
+  template <typename Fetch, typename Visit>
+  void ForEachPair(Fetch fetch, Visit visit);
   template <typename Visit>
-  void ForEachPair(Visit visit);
+  void ForEachPair(Visit visit) {
+    ForEachPair([](std::uint32_t, std::uint32_t) {}, visit);
+  }
 
   /// Counted since the start.
   std::uint64_t tests() const { return tests_; }
   std::uint64_t ranges() const { return range_count_; }
 
  private:
-  /// A cell, and its neighbours that come after it in the order of rows: so many rows.
-  static constexpr int kRangesMax = 5;
+  /// A cell's own row, and those beside it that come later: so many.
+  static constexpr int kRowsMax = 5;
+  /// Pairs are visited so many at a time, so that what is fetched for them has come.
+  static constexpr std::uint32_t kBatch = 256;
 
   struct Entry {
     float x, y, z, reach;
   };
+  struct Motion {
+    float vx, vy, vz, own;
+  };
 
+  template <typename At>
+  static PointExtent Measure(std::uint32_t count, At at);
+  /// False: one lies beyond the extent.
+  template <typename At>
+  bool Fill(std::uint32_t count, const PointExtent& extent, At at);
   bool ChooseCells(std::uint32_t count, const PointExtent& extent);
   /// From counts of the cells to their begins; false: they are crowded.
   bool SumCells(std::uint32_t count);
   void Reserve(std::uint32_t count);
+  float* Array(int k) { return floats_.data() + static_cast<std::size_t>(k) * stride_; }
+  /// Into rows_, and their number: a cell is as wide as two reaches at least, so that what is near
+  /// lies in cells side by side. Room for what they may tell is made as well.
+  std::uint32_t RowsBeside(std::int32_t x, std::int32_t y, std::int32_t z, std::size_t cell);
   std::int32_t CellOf(double x, int axis) const {
-    // Held within the box, and towards zero: monotone is all that counts.
-    const double index = (x - origin_[axis]) * per_cell_;
-    return static_cast<std::int32_t>(std::min(std::max(index, 0.0), cell_last_[axis]));
+    // Within the box nobody comes past its last cell, which is reckoned alike.
+    return static_cast<std::int32_t>((x - origin_[axis]) * per_cell_);
   }
 
-  double origin_[3] = {}, cell_last_[3] = {};
+  double origin_[3] = {};
   double cell_ = 0, per_cell_ = 0;
-  float reach_most_ = 0, lost_ = 0;
+  float reach_most_ = 0, lost_ = 0, half_ = 0;
   std::int32_t cells_[3] = {};
-  std::vector<std::uint32_t> begin_;    // by cell, and two more
-  std::vector<Entry> entries_;          // by point
+  std::vector<std::uint32_t>
+      begin_;                    // by cell, the last for points that are not there, and two more
+  std::vector<Entry> entries_;   // by point
+  std::vector<Motion> motions_;  // by point, where lines are compared
   std::vector<std::uint32_t> cell_of_;  // by point
   std::vector<std::uint32_t> order_;    // by place: its point
-  std::vector<float> floats_;           // four arrays, by place
+  std::vector<float> floats_;           // arrays by place: of entries, then of motions
   std::size_t stride_ = 0;
-  std::vector<std::uint32_t> hits_;
+  PointRow rows_[kRowsMax] = {};
+  std::vector<std::uint32_t> askers_, others_;  // by hit
   std::uint64_t tests_ = 0, range_count_ = 0;
 };
 
 template <typename At>
-bool PointGrid::Build(std::uint32_t count, const PointExtent& extent, At at) {
-  if (!ChooseCells(count, extent)) return false;
-  Reserve(count);
+PointExtent PointGrid::Measure(std::uint32_t count, At at) {
+  PointExtent extent;
+  ReachPoint point;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const ReachPoint point = at(k);
+    if (at(k, &point)) extent.Add(point);
+  }
+  return extent;
+}
+
+template <typename At>
+bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
+  const std::size_t none = begin_.size() - 3;
+  ReachPoint point;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (!at(k, &point)) {
+      cell_of_[k] = static_cast<std::uint32_t>(none);
+      continue;
+    }
+    if (!extent.Holds(point)) return false;
     const std::int32_t x = CellOf(point.c[0], 0), y = CellOf(point.c[1], 1),
                        z = CellOf(point.c[2], 2);
     // As seen from the corner of the row.
@@ -97,77 +150,72 @@ bool PointGrid::Build(std::uint32_t count, const PointExtent& extent, At at) {
                    static_cast<float>(point.c[1] - (origin_[1] + y * cell_)),
                    static_cast<float>(point.c[2] - (origin_[2] + z * cell_)),
                    point.reach * (1 + 0x1p-20f) + lost_};
+    if (half_ > 0) {
+      motions_[k] = {point.v[0], point.v[1], point.v[2], point.own * (1 + 0x1p-20f) + lost_};
+    }
     cell_of_[k] = static_cast<std::uint32_t>((z * cells_[1] + y) * cells_[0] + x);
     ++begin_[cell_of_[k] + 2];
-  }
-  if (!SumCells(count)) return false;
-  for (std::uint32_t k = 0; k < count; ++k) order_[begin_[cell_of_[k] + 1]++] = k;
-  float* const x = floats_.data();
-  float *const y = x + stride_, *const z = y + stride_, *const reach = z + stride_;
-  for (std::uint32_t place = 0; place < count; ++place) {
-    const Entry& entry = entries_[order_[place]];
-    x[place] = entry.x, y[place] = entry.y, z[place] = entry.z, reach[place] = entry.reach;
   }
   return true;
 }
 
-template <typename Visit>
-void PointGrid::ForEachPair(Visit visit) {
+template <typename At>
+bool PointGrid::Build(std::uint32_t count, const PointExtent& extent, double half, At at) {
+  half_ = static_cast<float>(half) * (1 + 0x1p-22f);
+  Reserve(count);
+  if (!ChooseCells(count, extent)) return false;
+  if (!Fill(count, extent, at)) {
+    const PointExtent measured = Measure(count, at);
+    if (!ChooseCells(count, measured) || !Fill(count, measured, at)) return false;
+  }
+  if (!SumCells(count)) return false;
+  for (std::uint32_t k = 0; k < count; ++k) order_[begin_[cell_of_[k] + 1]++] = k;
+  float *const x = Array(0), *const y = Array(1), *const z = Array(2), *const reach = Array(3);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    const Entry& entry = entries_[order_[place]];
+    x[place] = entry.x, y[place] = entry.y, z[place] = entry.z, reach[place] = entry.reach;
+  }
+  if (half_ == 0) return true;
+  float *const vx = Array(4), *const vy = Array(5), *const vz = Array(6), *const own = Array(7);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    const Motion& motion = motions_[order_[place]];
+    vx[place] = motion.vx, vy[place] = motion.vy, vz[place] = motion.vz, own[place] = motion.own;
+  }
+  return true;
+}
+
+template <typename Fetch, typename Visit>
+void PointGrid::ForEachPair(Fetch fetch, Visit visit) {
   const PointScan scan = WidestPointScan();
-  const float* const x = floats_.data();
-  const float *const y = x + stride_, *const z = y + stride_, *const reach = z + stride_;
-  const PointView view{x, y, z, reach};
-  const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
-  const auto last_x = static_cast<float>(cell_last_[0]);
-  // The whole number below.
-  const auto below = [](float value) {
-    const auto whole = static_cast<std::int32_t>(value);
-    return whole - (static_cast<float>(whole) > value);
+  PointView view{Array(0), Array(1), Array(2), Array(3)};
+  if (half_ > 0) view.vx = Array(4), view.vy = Array(5), view.vz = Array(6), view.own = Array(7);
+  std::uint32_t count = 0;
+  const auto visit_all = [&] {
+    for (std::uint32_t hit = 0; hit < count; ++hit) visit(askers_[hit], others_[hit]);
+    count = 0;
   };
-  LaneRange near[kRangesMax];
-  const bool one_row = cells_[1] == 1 && cells_[2] == 1;
-  std::uint32_t place = 0;
-  std::int32_t row = 0;
-  for (std::int32_t cz = 0; cz < cells_[2]; ++cz) {
-    for (std::int32_t cy = 0; cy < cells_[1]; ++cy, ++row) {
-      const std::uint32_t end = begin_[static_cast<std::size_t>(row + 1) * cells_[0]];
-      const std::int32_t y_before = std::min(cy, 1), y_after = std::min(cells_[1] - 1 - cy, 1);
-      const std::int32_t z_after = std::min(cells_[2] - 1 - cz, 1);
-      for (; place < end; ++place) {
-        LaneRange* range = near;
-        const auto add = [&](std::uint32_t from, std::uint32_t to, float from_y, float from_z) {
-          if (from >= to) return;
-          *range++ = {from, to, x[place], y[place] - from_y, z[place] - from_z};
-          tests_ += to - from;
-        };
-        // A cell is as wide as two reaches at least: what is near lies in cells side by side.
-        const float half = reach[place] + reach_most_;
-        const auto x_to = static_cast<std::int32_t>(std::min((x[place] + half) * per_cell, last_x));
-        if (one_row) {
-          add(place + 1, begin_[static_cast<std::size_t>(x_to) + 1], 0, 0);
-        } else {
-          const auto x_from =
-              static_cast<std::int32_t>(std::max((x[place] - half) * per_cell, 0.0f));
-          const std::int32_t y_from = std::max(below((y[place] - half) * per_cell), -y_before);
-          const std::int32_t y_to = std::min(below((y[place] + half) * per_cell), y_after);
-          const std::int32_t z_to = std::min(below((z[place] + half) * per_cell), z_after);
-          for (std::int32_t dz = 0; dz <= z_to; ++dz) {
-            for (std::int32_t dy = dz == 0 ? 0 : y_from; dy <= y_to; ++dy) {
-              const std::uint32_t* const begin =
-                  begin_.data() +
-                  static_cast<std::ptrdiff_t>(row + dz * cells_[1] + dy) * cells_[0];
-              add(dz == 0 && dy == 0 ? place + 1 : begin[x_from], begin[x_to + 1],
-                  static_cast<float>(dy) * cell, static_cast<float>(dz) * cell);
-            }
+  std::size_t cell = 0;
+  for (std::int32_t z = 0; z < cells_[2]; ++z) {
+    for (std::int32_t y = 0; y < cells_[1]; ++y) {
+      for (std::int32_t x = 0; x < cells_[0]; ++x, ++cell) {
+        if (begin_[cell] == begin_[cell + 1]) continue;
+        const std::uint32_t row_count = RowsBeside(x, y, z, cell);
+        PointAskers askers{begin_[cell], 0, static_cast<float>(cell_), reach_most_, half_};
+        for (; askers.first < begin_[cell + 1]; askers.first = askers.last) {
+          askers.last = std::min(askers.first + kAskersMax, begin_[cell + 1]);
+          const PointCounts counts = scan(view, askers, rows_, row_count,
+                                          {askers_.data() + count, others_.data() + count});
+          tests_ += counts.tests, range_count_ += counts.ranges;
+          for (const std::uint32_t end = count + counts.hits; count < end; ++count) {
+            askers_[count] = order_[askers_[count]], others_[count] = order_[others_[count]];
+            fetch(askers_[count], others_[count]);
           }
+          if (count >= kBatch) visit_all();
         }
-        const auto ranges = static_cast<std::uint32_t>(range - near);
-        range_count_ += ranges;
-        const std::uint32_t hits = scan(view, reach[place], near, ranges, hits_.data());
-        for (std::uint32_t hit = 0; hit < hits; ++hit) visit(place, hits_[hit]);
       }
     }
   }
+  visit_all();
 }
 
 }  // namespace collision

@@ -7,11 +7,13 @@
 namespace collision {
 namespace {
 
-/// Places ahead for which horns are fetched into the cache.
-constexpr std::uint32_t kAhead = 16;
+/// With more than so many agents in the cube of a reach lines are compared as well.
+constexpr double kNearToCompare = 0.05;
 
-/// With more than so many agents in the cube of a reach their horns are sorted as well.
-constexpr double kNearToSort = 0.05;
+/// Of so many agents at least it is seen how far they lie and reach; all do by this part more, or
+/// the grid is made again.
+constexpr std::uint32_t kSample = 4096;
+constexpr double kBeyondSample = 1.0 / 32;
 
 /// What filters and the canonical answer may be early by, together.
 constexpr double kEarly = 1 - 4e-9;
@@ -29,20 +31,16 @@ std::uint8_t KeyOf(float reach, float greatest, bool still) {
 
 }  // namespace
 
-bool SpatialIndex::PlaceAll(bool once) {
+void SpatialIndex::PlaceAll() {
   places_.assign(table().size(), {});
   loose_.Clear();
   level_count_ = 0;
   points_last_ = 0;
-  if (horns_.empty()) return true;
-  // Where most never move they had better not be asked.
-  const bool mostly_move = 2 * table().still_count() < table().count();
-  if (once && mostly_move && BuildPoints(placing_.window())) return false;
+  if (horns_.empty()) return;
   const LaneQuery times = TimesOf(placing_, {0, placing_.window()});
   PlacedExtent extent;
   float least = std::numeric_limits<float>::infinity(), greatest = 0;
-  for (PlacedHorn& horn : horns_) {
-    placing_.ToMiddle(&horn);
+  for (const PlacedHorn& horn : horns_) {
     extent.Add(horn);
     const float reach = ReachAt(times.time, horn.s0, horn.s1, horn.s2) + times.way * horn.speed;
     least = std::min(least, reach), greatest = std::max(greatest, reach);
@@ -54,53 +52,48 @@ bool SpatialIndex::PlaceAll(bool once) {
   } else {
     SortByLevel();
   }
-  return true;
+}
+
+// Where most never move they had better not be asked.
+bool SpatialIndex::PlaceOnce() {
+  return 2 * table().still_count() < table().count() && BuildPoints(placing_.window());
 }
 
 bool SpatialIndex::BuildPoints(double last) {
-  PlacedHorn most{};
-  most.s0 = extent_.s0, most.s1 = extent_.s1, most.s2 = extent_.s2, most.speed = extent_.speed;
   PointExtent extent;
-  extent.reach = placing_.HalfWay(most, last).reach;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double way = 0.5 * (1 + 0x1p-20) * static_cast<double>(extent_.speed) * last;
-    extent.low[axis] = extent_.low[axis] - way;
-    extent.high[axis] = extent_.high[axis] + way;
+  const std::uint32_t stride = table().size() / kSample + 1;
+  for (std::uint32_t agent = 0; agent < table().size(); agent += stride) {
+    const bool counts = table().contains(agent) && !table().row(agent).wild;
+    if (counts) extent.Add(placing_.HalfWay(table(), agent, last));
   }
-  const auto count = static_cast<std::uint32_t>(horns_.size());
+  if (stride > 1) extent.Widen(kBeyondSample);
+  wild_.clear();
+  const auto at = [&](std::uint32_t agent, ReachPoint* point) {
+    if (!table().contains(agent) || SortOut(agent)) return false;
+    *point = placing_.HalfWay(table(), agent, last);
+    return true;
+  };
+  // Where many places come near each other it pays to compare their lines as well.
   double volume = 1;
-  for (int axis = 0; axis < 3; ++axis) {
-    volume *= extent.high[axis] - extent.low[axis] + static_cast<double>(extent.reach);
-  }
-  // Where many come near each other it pays to have them side by side.
   const auto reach = static_cast<double>(extent.reach);
-  points_sorted_ = reach * reach * reach * count > kNearToSort * volume;
-  const auto at = [&](std::uint32_t k) { return placing_.HalfWay(horns_[k], last); };
-  if (!points_.Build(count, extent, at)) return false;
-  if (points_sorted_) {
-    sorted_.resize(count);
-    for (std::uint32_t place = 0; place < count; ++place) {
-      if (place + kAhead < count) __builtin_prefetch(&horns_[points_.point(place + kAhead)]);
-      sorted_[place] = horns_[points_.point(place)];
-    }
-  }
+  for (int axis = 0; axis < 3; ++axis) volume *= extent.high[axis] - extent.low[axis] + reach;
+  const bool dense = reach * reach * reach * table().count() > kNearToCompare * volume;
+  if (!points_.Build(table().size(), extent, dense ? 0.5 * last : 0, at)) return false;
   points_last_ = last;
   return true;
 }
 
 void SpatialIndex::JoinPoints(double last, PairSink* sink) {
   const std::uint64_t tests = points_.tests(), ranges = points_.ranges();
-  const auto horn = [&](std::uint32_t place) -> const PlacedHorn& {
-    return points_sorted_ ? sorted_[place] : horns_[points_.point(place)];
-  };
-  points_.ForEachPair([&](std::uint32_t k, std::uint32_t l) {
-    const PlacedHorn &a = horn(k), &b = horn(l);
-    const Approaching pair = Between(a, b);
+  const auto fetch = [&](std::uint32_t a, std::uint32_t b) { table().Fetch(a), table().Fetch(b); };
+  const auto visit = [&](std::uint32_t a, std::uint32_t b) {
+    const Approaching pair = placing_.Approach(table(), a, b);
     const double until = std::min(last, sink->limit());
     if (!pair.ComeNear(until)) return;
     ++work_.filter_tests;
-    if (kEarly * pair.EarlierBound(until) <= until) sink->Offer(a.agent, b.agent);
-  });
+    if (kEarly * pair.EarlierBound(until) <= until) sink->Offer(a, b);
+  };
+  points_.ForEachPair(fetch, visit);
   work_.filter_tests += points_.tests() - tests;
   work_.visits += points_.ranges() - ranges;
 }
@@ -207,7 +200,7 @@ void SpatialIndex::Join(Stretch stretch, PairSink* sink) {
     if (points_last_ >= stretch.last || BuildPoints(stretch.last)) {
       return JoinPoints(stretch.last, sink);
     }
-    PlaceAll(false);
+    PlaceEverybody();
   }
   for (std::uint32_t l = 0; l < level_count_; ++l) {
     for (std::uint32_t m = l; m < level_count_; ++m) {

@@ -14,7 +14,8 @@ namespace collision {
 /// about. Who is put anew goes to a list until the next placing. README.md beside this file.
 class SpatialIndex : public NearSearch {
  protected:
-  bool PlaceAll(bool once) override;
+  void PlaceAll() override;
+  bool PlaceOnce() override;
   void PlaceOne(const PlacedHorn& horn) override;
   void Unplace(std::uint32_t agent) override;
   void Join(Stretch stretch, PairSink* sink) override;
@@ -46,9 +47,8 @@ class SpatialIndex : public NearSearch {
   std::vector<PlacedHorn> sorted_;  ///< In the order of levels and, within one, of agents.
   std::vector<Place> places_;       ///< By agent.
   LaneRow loose_;
-  PointGrid points_;            ///< Instead of levels, for one question about all.
-  bool points_sorted_ = false;  ///< Their horns are sorted_, by place.
-  double points_last_ = 0;      ///< Up to when it holds, after the begin [s]; 0: not in use.
+  PointGrid points_;        ///< Instead of levels, for one question about all.
+  double points_last_ = 0;  ///< Up to when it holds, after the begin [s]; 0: not in use.
 
   std::vector<float> reaches_;  ///< Of horns_, like the keys of their levels.
   std::vector<std::uint8_t> keys_;

@@ -34,11 +34,12 @@ bool WindowLoop::ListInOnePass(const MovingCubes& cubes) {
     point.reach = static_cast<float>((still + v.norm() * half) * (1 + 0x1p-20));
     extent.Add(point);
   }
-  const auto at = [&](std::uint32_t cube) -> const ReachPoint& { return points_[cube]; };
-  if (!grid_.Build(cubes.count(), extent, at)) return false;
-  grid_.ForEachPair([&](std::uint32_t k, std::uint32_t l) {
-    list_.push_back({grid_.point(k), grid_.point(l)});
-  });
+  const auto at = [&](std::uint32_t cube, ReachPoint* point) {
+    *point = points_[cube];
+    return true;
+  };
+  if (!grid_.Build(cubes.count(), extent, 0, at)) return false;
+  grid_.ForEachPair([&](std::uint32_t k, std::uint32_t l) { list_.push_back({k, l}); });
   return true;
 }
 

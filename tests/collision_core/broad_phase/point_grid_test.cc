@@ -60,15 +60,16 @@ std::vector<ReachPoint> Draw(Random* random, std::uint32_t count, const double* 
 bool Build(const std::vector<ReachPoint>& points, PointGrid* grid) {
   PointExtent extent;
   for (const ReachPoint& point : points) extent.Add(point);
-  const auto at = [&](std::uint32_t k) { return points[k]; };
-  return grid->Build(static_cast<std::uint32_t>(points.size()), extent, at);
+  const auto at = [&](std::uint32_t k, ReachPoint* point) {
+    *point = points[k];
+    return true;
+  };
+  return grid->Build(static_cast<std::uint32_t>(points.size()), extent, 0, at);
 }
 
 std::vector<Pair> PairsOf(PointGrid* grid) {
   std::vector<Pair> pairs;
-  grid->ForEachPair([&](std::uint32_t k, std::uint32_t l) {
-    pairs.push_back(std::minmax(grid->point(k), grid->point(l)));
-  });
+  grid->ForEachPair([&](std::uint32_t k, std::uint32_t l) { pairs.push_back(std::minmax(k, l)); });
   return pairs;
 }
 
@@ -144,29 +145,132 @@ TEST(PointGrid, RefusesCrowds) {
   EXPECT_LT(PairsOf(&grid).size(), 1000u);  // A wide row costs digits.
 }
 
+// Some of a scene: those who are not there tell nothing, and whoever lies beyond the extent, or
+// reaches farther, is found as well.
+TEST(PointGrid, GuessedExtentsAndAbsentPointsMakeNoDifference) {
+  Random random(7);
+  constexpr double kSides[] = {30, 30, 30};
+  const auto points = Draw(&random, 3000, kSides, 1, 5);
+  const auto is_there = [](std::uint32_t k) { return k % 3 != 0; };
+  PointExtent extent;
+  for (const ReachPoint& point : points) extent.Add(point);
+  PointExtent narrow = extent, short_reach = extent, wide = extent;
+  narrow.high[1] -= 10;
+  short_reach.reach *= 0.5f;
+  wide.Widen(0.3);
+  std::set<Pair> truth;
+  for (const PointExtent& guess : {extent, narrow, short_reach, wide}) {
+    PointGrid grid;
+    ASSERT_TRUE(grid.Build(3000, guess, 0, [&](std::uint32_t k, ReachPoint* point) {
+      *point = points[k];
+      return is_there(k);
+    }));
+    std::set<Pair> touching;
+    for (const auto& [k, l] : PairsOf(&grid)) {
+      ASSERT_TRUE(is_there(k) && is_there(l));
+      if (Gap(points[k], points[l]) <= 0) touching.insert({k, l});
+    }
+    if (truth.empty()) {
+      for (std::uint32_t k = 0; k < 3000; ++k) {
+        for (std::uint32_t l = k + 1; l < 3000; ++l) {
+          const bool there = is_there(k) && is_there(l);
+          if (there && Gap(points[k], points[l]) <= 0) truth.insert({k, l});
+        }
+      }
+    }
+    EXPECT_GT(truth.size(), 100u);
+    EXPECT_EQ(touching, truth);
+  }
+}
+
+// Two that pass each other within `own`, at any time within the half, are told; of those whose places
+// are near, but whose lines are not, few.
+TEST(PointGrid, ComparesLinesWhereAsked) {
+  Random random(8);
+  constexpr double kHalf = 0.5;
+  std::vector<ReachPoint> points(4000);
+  for (ReachPoint& point : points) {
+    double square = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      point.c[axis] = random.Uniform(0, 40);
+      point.v[axis] = static_cast<float>(random.Uniform(-3, 3));
+      square += static_cast<double>(point.v[axis]) * static_cast<double>(point.v[axis]);
+    }
+    constexpr double kUp = 1 + 2 * static_cast<double>(kLaneSlack);
+    const double own = random.Uniform(0.1, 0.4), way = kHalf * std::sqrt(square);
+    point.own = static_cast<float>(own * kUp + static_cast<double>(kLaneSlack) * way);
+    point.reach = static_cast<float>((own + way) * kUp);
+  }
+  PointExtent extent;
+  for (const ReachPoint& point : points) extent.Add(point);
+  const auto at = [&](std::uint32_t k, ReachPoint* point) {
+    *point = points[k];
+    return true;
+  };
+  PointGrid places, lines;
+  ASSERT_TRUE(places.Build(4000, extent, 0, at));
+  ASSERT_TRUE(lines.Build(4000, extent, kHalf, at));
+  const std::vector<Pair> told = PairsOf(&lines);
+  const std::set<Pair> found(told.begin(), told.end());
+  ASSERT_EQ(found.size(), told.size());
+  std::size_t meet = 0;
+  for (std::uint32_t k = 0; k < 4000; ++k) {
+    for (std::uint32_t l = k + 1; l < 4000; ++l) {
+      double away = 0, speed = 0, square = 0;
+      double d[3], w[3];
+      for (int axis = 0; axis < 3; ++axis) {
+        d[axis] = points[l].c[axis] - points[k].c[axis];
+        w[axis] = static_cast<double>(points[l].v[axis]) - static_cast<double>(points[k].v[axis]);
+        away += d[axis] * w[axis], speed += w[axis] * w[axis];
+      }
+      const double u = std::clamp(-away / speed, -kHalf, kHalf);
+      for (int axis = 0; axis < 3; ++axis) square += std::pow(d[axis] + w[axis] * u, 2);
+      constexpr double kDown = 1 - 2 * static_cast<double>(kLaneSlack);
+      const double own = static_cast<double>(points[k].own) + static_cast<double>(points[l].own);
+      const double slack = static_cast<double>(kLaneSlack) * kHalf * std::sqrt(speed);
+      if (std::sqrt(square) > own * kDown - 2 * slack) continue;
+      ++meet;
+      ASSERT_TRUE(found.contains({k, l})) << k << ", " << l;
+    }
+  }
+  EXPECT_GT(meet, 400u);
+  EXPECT_LT(found.size(), meet + meet / 50);
+  EXPECT_GT(PairsOf(&places).size(), 3 * found.size());
+}
+
 TEST(PointGrid, EveryWidthGivesTheSame) {
   Random random(9);
   constexpr std::uint32_t kCount = 61;
-  std::vector<float> arrays[4];
+  std::vector<float> arrays[8];
   for (auto& array : arrays) {
     array.resize(kCount + kLanesMax);
     for (float& value : array) value = static_cast<float>(random.Uniform(-1, 1));
   }
-  arrays[0][7] = INFINITY, arrays[3][7] = INFINITY, arrays[1][9] = NAN;
-  const PointView view{arrays[0].data(), arrays[1].data(), arrays[2].data(), arrays[3].data()};
-  const LaneRange ranges[] = {
-      {0, 5, 0.1f, 0.2f, 0.3f}, {5, 37, -0.1f, 0, 0}, {38, kCount, 0, 0, 1}};
-  const auto hits_of = [&](PointScan scan) {
-    std::vector<std::uint32_t> hits(kCount + kLanesMax);
-    hits.resize(scan(view, 0.5f, ranges, 3, hits.data()));
-    return hits;
-  };
-  const auto plain = hits_of(PlainPointScan());
-  EXPECT_GT(plain.size(), 5u);
-  EXPECT_LT(plain.size(), kCount - 5);
-  for (const PointScan scan : {Avx2PointScan(), Avx512PointScan(), WidestPointScan()}) {
-    if (scan != nullptr) {
-      EXPECT_EQ(hits_of(scan), plain);
+  for (const int reach : {3, 7}) {
+    for (float& value : arrays[reach]) value = 0.3f + 0.2f * value;
+  }
+  arrays[0][7] = INFINITY, arrays[3][7] = INFINITY, arrays[1][9] = NAN, arrays[5][11] = NAN;
+  const PointView places{arrays[0].data(), arrays[1].data(), arrays[2].data(), arrays[3].data()};
+  PointView lines = places;
+  lines.vx = arrays[4].data(), lines.vy = arrays[5].data(), lines.vz = arrays[6].data();
+  lines.own = arrays[7].data();
+  const PointRow rows[] = {{5, 9, 0, 0}, {9, 37, 1, 0}, {38, kCount, -1, 1}, {20, 53, 0, 1}};
+  for (const PointView& view : {places, lines}) {
+    const auto hits_of = [&](PointScan scan) {
+      std::vector<std::uint32_t> askers(kAskersMax * 2 * kCount + kLanesMax), others(askers);
+      const PointAskers who{5, 12, 0.7f, 0.5f, 0.4f};
+      const PointCounts counts = scan(view, who, rows, 4, {askers.data(), others.data()});
+      std::vector<Pair> hits = {{counts.tests, counts.ranges}};
+      for (std::uint32_t k = 0; k < counts.hits; ++k) hits.push_back({askers[k], others[k]});
+      return hits;
+    };
+    const auto plain = hits_of(PlainPointScan());
+    EXPECT_GT(plain.size(), 20u);
+    EXPECT_LT(plain.size(), plain[0].first / 2);
+    for (const PointScan scan : {Avx2PointScan(), Avx512PointScan(), WidestPointScan()}) {
+      if (scan != nullptr) {
+        EXPECT_EQ(hits_of(scan), plain);
+      }
     }
   }
 }
