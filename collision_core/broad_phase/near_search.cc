@@ -18,8 +18,9 @@ constexpr double kMovedShare = 1.0 / 16;
 constexpr std::uint32_t kCrowdMin = 2048;
 constexpr double kCrowdOfRoot = 1.5;
 
-/// The crowd is chosen from as many at least, spread evenly over the indices.
-constexpr std::uint32_t kSomeMin = 16384;
+/// The crowd is chosen from so many at least, and from every kStrideMax-th, spread evenly over the
+/// indices.
+constexpr std::uint32_t kSomeMin = 8192, kStrideMax = 16;
 
 }  // namespace
 
@@ -125,7 +126,7 @@ void NearSearch::PlaceMoved() {
 
 // Some who are close to each other are asked first, since a first answer makes the window short.
 void NearSearch::AskCrowd(PairSink* sink) {
-  const std::uint32_t stride = table_.size() / kSomeMin + 1;
+  const std::uint32_t stride = std::min(table_.size() / kSomeMin + 1, kStrideMax);
   const double count = kCrowdOfRoot * std::sqrt(static_cast<double>(table_.count()));
   const Region region = placing_.Crowd(table_, static_cast<std::size_t>(count * stride));
   crowd_.Clear();

@@ -6,7 +6,7 @@ namespace collision {
 namespace {
 
 /// Points in a cell of an evenly filled grid: rows of three cells fill a wide vector.
-constexpr double kPerCell = 4;
+constexpr double kPerCell = 5;
 
 /// Longer rows would cost too many digits of a position.
 constexpr double kRowCellsMax = 4096;
@@ -18,7 +18,7 @@ constexpr double kCellsPerPoint = 4;
 constexpr double kCrowdingMax = 4 * kPerCell;
 
 /// Few points are in one cell, whatever they are like.
-constexpr std::uint32_t kFewPoints = 128;
+constexpr std::uint32_t kFewPoints = 32;
 
 }  // namespace
 
@@ -105,8 +105,8 @@ std::uint32_t PointGrid::RowsBeside(std::int32_t x, std::int32_t y, std::int32_t
   }
   const std::size_t room = kBatch + kAskersMax * points + kLanesMax;
   if (askers_.size() < room) {
-    askers_.resize(2 * room);
-    others_.resize(2 * room);
+    askers_.resize(room);
+    others_.resize(room);
   }
   return count;
 }

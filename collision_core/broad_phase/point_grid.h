@@ -79,7 +79,7 @@ class PointGrid {
   /// A cell's own row, and those beside it that come later: so many.
   static constexpr int kRowsMax = 5;
   /// Pairs are visited so many at a time, so that what is fetched for them has come.
-  static constexpr std::uint32_t kBatch = 256;
+  static constexpr std::uint32_t kBatch = 64;
 
   struct Entry {
     float x, y, z, reach;

@@ -32,7 +32,6 @@ class WindowLoop : public CollisionLoop {
   std::int64_t frames_ = 2;    ///< The window's length.
   std::int64_t covered_ = -1;  ///< The last frame of which the list knows.
   PointGrid grid_;
-  std::vector<ReachPoint> points_;
   std::vector<NearPair> list_;
 };
 
