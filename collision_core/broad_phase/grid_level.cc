@@ -182,6 +182,15 @@ void GridLevel::Scatter(const PlacedHorn* placed) {
   }
 }
 
+double GridLevel::RowsWithin(double reach, Stretch stretch) const {
+  const double cells = 2 * (reach + ReachMax(stretch)) * per_cell_ + 1;
+  double rows = hashed_ ? std::ceil(cells / static_cast<double>(row_cells_)) : 1;
+  for (int axis = 1; axis < 3; ++axis) {
+    rows *= hashed_ ? cells : std::min(cells, static_cast<double>(cells_[axis]));
+  }
+  return std::min(rows, static_cast<double>(size_));
+}
+
 bool GridLevel::Ranges(const double* c, double reach, Stretch stretch, std::uint32_t after,
                        std::vector<LaneRange>* ranges) const {
   // A little more, so that rounding below loses nobody.

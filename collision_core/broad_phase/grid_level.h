@@ -34,6 +34,9 @@ class GridLevel {
   bool Ranges(const double* c, double reach, Stretch stretch, std::uint32_t after,
               std::vector<LaneRange>* ranges) const;
 
+  /// About so many rows, and never more than there are agents, Ranges() has to look at.
+  double RowsWithin(double reach, Stretch stretch) const;
+
   /// The rows are those of a box, and ForEachPlace() can be asked.
   bool in_rows() const { return !hashed_; }
 

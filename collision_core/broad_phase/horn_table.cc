@@ -52,6 +52,7 @@ void HornTable::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
   HornRow& row = rows_[agent];
   count_ += row.group == 0;
   still_count_ -= row.still;
+  wild_count_ -= row.wild;
   choosy_count_ -= row.group != 0 && row.mask != ~0u;
   const MotionState& state = bound.state;
   const AgentDeclaration& declaration = bound.declaration;
@@ -84,6 +85,7 @@ void HornTable::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
   };
   row.wild = !(std::max(largest(row.p), row.u0) < kPositionMax &&
                std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
+  wild_count_ += row.wild;
   // A group of no bits meets nobody, and is not the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
   choosy_count_ += row.mask != ~0u;
@@ -96,6 +98,7 @@ void HornTable::UpdateRules(std::uint32_t agent) {
 void HornTable::Remove(std::uint32_t agent) {
   if (!contains(agent)) return;
   still_count_ -= rows_[agent].still;
+  wild_count_ -= rows_[agent].wild;
   choosy_count_ -= rows_[agent].mask != ~0u;
   DropFull(&rows_[agent]);
   rows_[agent] = HornRow();

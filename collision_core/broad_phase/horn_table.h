@@ -54,6 +54,7 @@ class HornTable {
   std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
   std::uint32_t count() const { return count_; }
   std::uint32_t still_count() const { return still_count_; }
+  std::uint32_t wild_count() const { return wild_count_; }
   /// Whether anybody names groups that he does not meet, or never moves.
   bool choosy() const { return still_count_ + choosy_count_ > 0; }
   bool contains(std::uint32_t agent) const { return agent < size() && rows_[agent].group != 0; }
@@ -90,7 +91,7 @@ class HornTable {
   std::vector<HornRow> rows_;         // by agent
   std::vector<SpaceTimeBound> full_;  // at HornRow::full - 1
   std::vector<std::uint32_t> free_;   // of full_
-  std::uint32_t count_ = 0, still_count_ = 0, choosy_count_ = 0;
+  std::uint32_t count_ = 0, still_count_ = 0, wild_count_ = 0, choosy_count_ = 0;
 };
 
 // Each value is a sum or product of fewer than sixteen terms of one sign, so that rounding takes

@@ -92,13 +92,20 @@ void NearSearch::Move(std::uint32_t agent) {
   if (moved_.size() > kMovedMin && moved_.size() > kMovedShare * table_.count()) placed_ = false;
 }
 
-void NearSearch::PlaceEverybody() {
+void NearSearch::SortOutWild() {
   wild_.clear();
+  if (table_.wild_count() == 0 && !placing_.blind()) return;
+  for (std::uint32_t agent = 0; agent < table_.size(); ++agent) {
+    if (table_.contains(agent) && IsWild(agent)) wild_.push_back(agent);
+  }
+}
+
+void NearSearch::PlaceEverybody() {
   horns_.resize(table_.count());
   fastest_ = 0;
   std::size_t placed = 0;
   for (std::uint32_t agent = 0; agent < table_.size(); ++agent) {
-    if (!table_.contains(agent) || SortOut(agent)) continue;
+    if (!table_.contains(agent) || IsWild(agent)) continue;
     horns_[placed] = placing_.Place(table_, agent);
     fastest_ = std::max(fastest_, horns_[placed++].speed);
   }
@@ -148,6 +155,7 @@ void NearSearch::PlaceAnew(const Placing& placing, bool once, PairSink* crowd_si
   for (const std::uint32_t agent : moved_) has_moved_[agent] = false;
   moved_.clear();
   placed_ = false;
+  SortOutWild();
   const bool crowded = table_.count() >= kCrowdMin && !placing_.blind();
   if (crowd_sink != nullptr && crowded) AskCrowd(crowd_sink);
   if (once && !placing_.blind() && PlaceOnce()) return;

@@ -51,24 +51,19 @@ class NearSearch : public BroadPhase {
 
   const HornTable& table() const { return table_; }
 
-  /// Whether filters cannot reckon with him; asked of everybody at each placing.
-  bool SortOut(std::uint32_t agent) {
-    const bool wild = IsWild(agent);
-    if (wild) wild_.push_back(agent);
-    return wild;
-  }
   /// For placing_: all who are there.
   void PlaceEverybody();
 
+  bool IsWild(std::uint32_t agent) const { return table_.row(agent).wild || placing_.blind(); }
+
   Placing placing_;
-  std::vector<PlacedHorn> horns_;    ///< Of all who are not wild, as of the last PlaceEverybody().
-  std::vector<std::uint32_t> wild_;  ///< Of whom SortOut() said so.
+  std::vector<PlacedHorn> horns_;  ///< Of all who are not wild, as of the last PlaceEverybody().
   BroadPhaseWork work_;
   std::uint64_t wasted_ = 0;  ///< Tests that a fresh placing would have saved, since the last.
   std::vector<std::uint32_t> near_;
 
  private:
-  bool IsWild(std::uint32_t agent) const { return table_.row(agent).wild || placing_.blind(); }
+  void SortOutWild();
   void Drop(std::uint32_t agent);
   template <typename Each>
   void ForEachHalfSpace(std::uint32_t asked, Each each) const;
@@ -86,7 +81,8 @@ class NearSearch : public BroadPhase {
   LaneRow crowd_;
   bool placed_ = false;  ///< All but those in moved_ are where they belong.
   std::vector<std::uint32_t> moved_;
-  std::vector<bool> has_moved_;         ///< By agent: in moved_.
+  std::vector<bool> has_moved_;  ///< By agent: in moved_.
+  std::vector<std::uint32_t> wild_;
   std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that told of it.
   std::uint64_t question_ = 0;
 };

@@ -14,8 +14,8 @@ constexpr double kRowCellsMax = 4096;
 /// Cells per point, beyond which most are empty.
 constexpr double kCellsPerPoint = 4;
 
-/// So many points are seen in the own cell at most, on the average, in a grid of use.
-constexpr double kCrowdingMax = 4 * kPerCell;
+/// With more than so many points in the cube of a reach lines are compared as well.
+constexpr double kDense = 0.05;
 
 /// Few points are in one cell, whatever they are like.
 constexpr std::uint32_t kFewPoints = 32;
@@ -54,6 +54,13 @@ bool PointGrid::ChooseCells(std::uint32_t count, const PointExtent& extent) {
   reach_most_ = extent.reach * (1 + 0x1p-19f) + lost_;
   begin_.assign(static_cast<std::size_t>(total) + 3, 0);
   return true;
+}
+
+bool PointGrid::IsDense(std::uint32_t count, const PointExtent& extent) const {
+  const auto reach = static_cast<double>(extent.reach);
+  double volume = 1;
+  for (int axis = 0; axis < 3; ++axis) volume *= extent.high[axis] - extent.low[axis] + reach;
+  return reach * reach * reach * count > kDense * volume;
 }
 
 bool PointGrid::SumCells(std::uint32_t count) {

@@ -53,14 +53,13 @@ struct PointExtent {
 /// Cells that lie side by side along x do so in memory as well, and are scanned as one range.
 class PointGrid {
  public:
-  /// `at(k, &point)` gives the k-th point of `count`, or returns false: it has none. The extent may
-  /// be a guess: where a point lies beyond it, or reaches farther, all are asked again.
-  /// `half`, of the time: lines are compared where places come near each other, of use where many do;
-  /// 0: they are not.
+  /// `at(k, &point)` gives the k-th point of `count`, or returns false: it has none. Some are asked
+  /// twice; where others lie beyond them by more than a little, all are.
+  /// `half`, of the time: where many places come near each other lines are compared as well; 0: not.
   /// False: the points do not suit a grid, as they crowd in few of its cells, or its rows would be
   /// too long.
   template <typename At>
-  bool Build(std::uint32_t count, const PointExtent& extent, double half, At at);
+  bool Build(std::uint32_t count, double half, At at);
 
   /// Calls visit(k, l) with the points of each two that may be within the sum of their reaches, once;
   /// and a little earlier fetch(k, l).
@@ -78,6 +77,11 @@ class PointGrid {
  private:
   /// A cell's own row, and those beside it that come later: so many.
   static constexpr int kRowsMax = 5;
+  /// Of so many at least it is seen how far they lie and reach; all are thought to by this part more.
+  static constexpr std::uint32_t kSample = 4096;
+  static constexpr double kBeyondSample = 1.0 / 32;
+  /// So many points are seen in the own cell at most, on the average, in a grid of use.
+  static constexpr double kCrowdingMax = 16;
   /// Pairs are visited so many at a time, so that what is fetched for them has come.
   static constexpr std::uint32_t kBatch = 64;
 
@@ -88,8 +92,13 @@ class PointGrid {
     float vx, vy, vz, own;
   };
 
+  /// Of every stride-th.
   template <typename At>
-  static PointExtent Measure(std::uint32_t count, At at);
+  static PointExtent Measure(std::uint32_t count, std::uint32_t stride, At at);
+  bool IsDense(std::uint32_t count, const PointExtent& extent) const;
+  /// Whether every stride-th share cells as if all of them were crowded.
+  template <typename At>
+  bool LooksCrowded(std::uint32_t count, std::uint32_t stride, const PointExtent& extent, At at);
   /// False: one lies beyond the extent.
   template <typename At>
   bool Fill(std::uint32_t count, const PointExtent& extent, At at);
@@ -104,6 +113,10 @@ class PointGrid {
   std::int32_t CellOf(double x, int axis) const {
     // Within the box nobody comes past its last cell, which is reckoned alike.
     return static_cast<std::int32_t>((x - origin_[axis]) * per_cell_);
+  }
+  std::uint32_t CellAt(const ReachPoint& point) const {
+    const std::int32_t row = CellOf(point.c[2], 2) * cells_[1] + CellOf(point.c[1], 1);
+    return static_cast<std::uint32_t>(row * cells_[0] + CellOf(point.c[0], 0));
   }
 
   double origin_[3] = {};
@@ -124,13 +137,25 @@ class PointGrid {
 };
 
 template <typename At>
-PointExtent PointGrid::Measure(std::uint32_t count, At at) {
+PointExtent PointGrid::Measure(std::uint32_t count, std::uint32_t stride, At at) {
   PointExtent extent;
   ReachPoint point;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (std::uint32_t k = 0; k < count; k += stride) {
     if (at(k, &point)) extent.Add(point);
   }
   return extent;
+}
+
+template <typename At>
+bool PointGrid::LooksCrowded(std::uint32_t count, std::uint32_t stride, const PointExtent& extent,
+                             At at) {
+  ReachPoint point;
+  std::uint64_t seen = 0;  // by each of the others in its cell that came before
+  for (std::uint32_t k = 0; k < count; k += stride) {
+    if (at(k, &point) && extent.Holds(point)) seen += begin_[CellAt(point)]++;
+  }
+  std::fill(begin_.begin(), begin_.end(), 0);
+  return 2.0 * stride * stride * static_cast<double>(seen) > kCrowdingMax * count;
 }
 
 template <typename At>
@@ -143,8 +168,7 @@ bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
       continue;
     }
     if (!extent.Holds(point)) return false;
-    const std::int32_t x = CellOf(point.c[0], 0), y = CellOf(point.c[1], 1),
-                       z = CellOf(point.c[2], 2);
+    const std::int32_t y = CellOf(point.c[1], 1), z = CellOf(point.c[2], 2);
     // As seen from the corner of the row.
     entries_[k] = {static_cast<float>(point.c[0] - origin_[0]),
                    static_cast<float>(point.c[1] - (origin_[1] + y * cell_)),
@@ -153,20 +177,24 @@ bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
     if (half_ > 0) {
       motions_[k] = {point.v[0], point.v[1], point.v[2], point.own * (1 + 0x1p-20f) + lost_};
     }
-    cell_of_[k] = static_cast<std::uint32_t>((z * cells_[1] + y) * cells_[0] + x);
+    cell_of_[k] = CellAt(point);
     ++begin_[cell_of_[k] + 2];
   }
   return true;
 }
 
 template <typename At>
-bool PointGrid::Build(std::uint32_t count, const PointExtent& extent, double half, At at) {
-  half_ = static_cast<float>(half) * (1 + 0x1p-22f);
+bool PointGrid::Build(std::uint32_t count, double half, At at) {
+  const std::uint32_t stride = count / kSample + 1;
+  PointExtent extent = Measure(count, stride, at);
+  if (stride > 1) extent.Widen(kBeyondSample);
+  half_ = IsDense(count, extent) ? static_cast<float>(half) * (1 + 0x1p-22f) : 0;
   Reserve(count);
   if (!ChooseCells(count, extent)) return false;
+  if (stride > 1 && LooksCrowded(count, stride, extent, at)) return false;
   if (!Fill(count, extent, at)) {
-    const PointExtent measured = Measure(count, at);
-    if (!ChooseCells(count, measured) || !Fill(count, measured, at)) return false;
+    extent = Measure(count, 1, at);
+    if (!ChooseCells(count, extent) || !Fill(count, extent, at)) return false;
   }
   if (!SumCells(count)) return false;
   for (std::uint32_t k = 0; k < count; ++k) order_[begin_[cell_of_[k] + 1]++] = k;

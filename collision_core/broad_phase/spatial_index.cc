@@ -7,14 +7,6 @@
 namespace collision {
 namespace {
 
-/// With more than so many agents in the cube of a reach lines are compared as well.
-constexpr double kNearToCompare = 0.05;
-
-/// Of so many agents at least it is seen how far they lie and reach; all do by this part more, or
-/// the grid is made again.
-constexpr std::uint32_t kSample = 4096;
-constexpr double kBeyondSample = 1.0 / 32;
-
 /// What filters and the canonical answer may be early by, together.
 constexpr double kEarly = 1 - 4e-9;
 
@@ -60,25 +52,12 @@ bool SpatialIndex::PlaceOnce() {
 }
 
 bool SpatialIndex::BuildPoints(double last) {
-  PointExtent extent;
-  const std::uint32_t stride = table().size() / kSample + 1;
-  for (std::uint32_t agent = 0; agent < table().size(); agent += stride) {
-    const bool counts = table().contains(agent) && !table().row(agent).wild;
-    if (counts) extent.Add(placing_.HalfWay(table(), agent, last));
-  }
-  if (stride > 1) extent.Widen(kBeyondSample);
-  wild_.clear();
   const auto at = [&](std::uint32_t agent, ReachPoint* point) {
-    if (!table().contains(agent) || SortOut(agent)) return false;
+    if (!table().contains(agent) || IsWild(agent)) return false;
     *point = placing_.HalfWay(table(), agent, last);
     return true;
   };
-  // Where many places come near each other it pays to compare their lines as well.
-  double volume = 1;
-  const auto reach = static_cast<double>(extent.reach);
-  for (int axis = 0; axis < 3; ++axis) volume *= extent.high[axis] - extent.low[axis] + reach;
-  const bool dense = reach * reach * reach * table().count() > kNearToCompare * volume;
-  if (!points_.Build(table().size(), extent, dense ? 0.5 * last : 0, at)) return false;
+  if (!points_.Build(table().size(), 0.5 * last, at)) return false;
   points_last_ = last;
   return true;
 }
@@ -178,6 +157,11 @@ void SpatialIndex::JoinRows(const Level& level, Stretch stretch, PairSink* sink)
   level.grid.ForEachPlace(stretch, visit);
 }
 
+// Many who reach a little way ask a few who reach far, or the other way round.
+double SpatialIndex::CostOfAsking(const Level& level, const Level& other, Stretch stretch) {
+  return level.grid.size() * other.grid.RowsWithin(level.grid.ReachMax(stretch), stretch);
+}
+
 void SpatialIndex::JoinCells(const Level& level, const Level& other, Stretch stretch,
                              PairSink* sink) {
   for (std::uint32_t k = 0; k < level.grid.size(); ++k) {
@@ -202,13 +186,17 @@ void SpatialIndex::Join(Stretch stretch, PairSink* sink) {
     }
     PlaceEverybody();
   }
-  for (std::uint32_t l = 0; l < level_count_; ++l) {
-    for (std::uint32_t m = l; m < level_count_; ++m) {
+  // From the farthest reaching on: they are few, and what they meet makes the window short for the rest.
+  for (std::uint32_t m = level_count_; m-- > 0;) {
+    for (std::uint32_t l = m + 1; l-- > 0;) {
       if (levels_[l].still && levels_[m].still) continue;
       if (l == m && levels_[l].grid.in_rows()) {
         JoinRows(levels_[l], stretch, sink);
-      } else {
+      } else if (CostOfAsking(levels_[l], levels_[m], stretch) <=
+                 CostOfAsking(levels_[m], levels_[l], stretch)) {
         JoinCells(levels_[l], levels_[m], stretch, sink);
+      } else {
+        JoinCells(levels_[m], levels_[l], stretch, sink);
       }
     }
   }

@@ -38,6 +38,7 @@ class SpatialIndex : public NearSearch {
   void SortByLevel();
   void BuildLevel(bool still, std::uint32_t first, std::uint32_t count, const PlacedExtent& extent);
   void JoinRows(const Level& level, Stretch stretch, PairSink* sink);
+  static double CostOfAsking(const Level& level, const Level& other, Stretch stretch);
   void JoinCells(const Level& level, const Level& other, Stretch stretch, PairSink* sink);
   void Scan(const Lanes& lanes, const LaneQuery& query);
   void Take(const GridLevel& grid);

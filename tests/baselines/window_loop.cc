@@ -26,27 +26,13 @@ bool WindowLoop::ListInOnePass(const MovingCubes& cubes) {
   const double half = 0.5 * static_cast<double>(frames_) * MovingCubes::kFrame * (1 + 0x1p-40);
   const BallAgent any = cubes.Ball(0);
   const double still = any.radius + 2 * any.acceleration_max * half * half;
-  PointExtent extent;
-  double square_max = 0;
-  for (std::uint32_t cube = 0; cube < cubes.count(); ++cube) {
-    const Eigen::Vector3d& p = cubes.position(cube);
-    for (int axis = 0; axis < 3; ++axis) {
-      extent.low[axis] = std::min(extent.low[axis], p[axis]);
-      extent.high[axis] = std::max(extent.high[axis], p[axis]);
-    }
-    square_max = std::max(square_max, cubes.velocity(cube).squaredNorm());
-  }
-  const double way = std::sqrt(square_max) * half * kUp;
-  for (double& low : extent.low) low -= way;
-  for (double& high : extent.high) high += way;
-  extent.reach = static_cast<float>((still + way) * kUp);
   const auto at = [&](std::uint32_t cube, ReachPoint* point) {
     const Eigen::Vector3d &p = cubes.position(cube), &v = cubes.velocity(cube);
     for (int axis = 0; axis < 3; ++axis) point->c[axis] = p[axis] + v[axis] * half;
     point->reach = static_cast<float>((still + std::sqrt(v.squaredNorm()) * half) * kUp);
     return true;
   };
-  if (!grid_.Build(cubes.count(), extent, 0, at)) return false;
+  if (!grid_.Build(cubes.count(), 0, at)) return false;
   grid_.ForEachPair([&](std::uint32_t k, std::uint32_t l) { list_.push_back({k, l}); });
   return true;
 }
