@@ -30,8 +30,8 @@ const char* Name(BroadPhaseMethod method);
 /// for: of one agent it asks every partner, and of a whole scene its crossings grow as N² t.
 class ChosenBroadPhase : public BroadPhase {
  public:
-  static constexpr std::size_t kFewAgents = 512;
-  static constexpr std::size_t kManyAgents = 2048;
+  static constexpr std::size_t kFewAgents = 256;
+  static constexpr std::size_t kManyAgents = 768;
   static constexpr std::uint64_t kTrialQuestions = 32;
   static constexpr std::uint64_t kPeriodQuestions = 256;
   static constexpr double kWorthIt = 0.8;

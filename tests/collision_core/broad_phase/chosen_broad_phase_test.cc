@@ -93,13 +93,13 @@ class Scene {
 TEST(ChosenBroadPhase, FollowsTheNumberOfAgents) {
   Scene scene(1);
   EXPECT_EQ(scene.chosen.method(), BroadPhaseMethod::kAllPairs);
-  scene.Resize(300);
+  scene.Resize(200);
   for (int i = 0; i < 500; ++i) scene.Step();
   EXPECT_EQ(scene.chosen.method(), BroadPhaseMethod::kAllPairs);
-  EXPECT_EQ(scene.chosen.why(), "300 agents: up to 512 it costs least");
+  EXPECT_EQ(scene.chosen.why(), "200 agents: up to 256 it costs least");
   scene.Resize(ChosenBroadPhase::kManyAgents + 1);
   EXPECT_EQ(scene.chosen.method(), BroadPhaseMethod::kSpatialIndex);
-  EXPECT_EQ(scene.chosen.why(), "2049 agents: beyond 2048 it costs least");
+  EXPECT_EQ(scene.chosen.why(), "769 agents: beyond 768 it costs least");
   for (int i = 0; i < 100; ++i) scene.Step();
   scene.ExpectSameEarliest();
   scene.Resize(100);
@@ -112,10 +112,10 @@ TEST(ChosenBroadPhase, FollowsTheNumberOfAgents) {
 // Between the limits it is tried, says the counts, and stays with what it found.
 TEST(ChosenBroadPhase, DecidesByCountedWorkAndKeepsToIt) {
   Scene scene(2);
-  scene.Resize(1500);
+  scene.Resize(600);
   for (int i = 0; i < 20000; ++i) scene.Step();
   EXPECT_LE(scene.chosen.changes(), 2u);
-  EXPECT_NE(scene.chosen.why().find(" units of work a question with 1500, "), std::string::npos)
+  EXPECT_NE(scene.chosen.why().find(" units of work a question with 600, "), std::string::npos)
       << scene.chosen.why();
   scene.ExpectSameEarliest();
 }
@@ -134,7 +134,7 @@ TEST(ChosenBroadPhase, SwayingAboutALimitDoesNotChangeIt) {
 // A change of method is spread over many calls: none asks, or is filled, more than a little.
 TEST(ChosenBroadPhase, NoCallTakesAllTheWork) {
   Scene scene(4);
-  scene.Resize(1000);
+  scene.Resize(600);
   std::uint64_t before = scene.chosen.work().filter_tests, most = 0;
   for (int i = 0; i < 3000; ++i) {
     scene.Step();
@@ -143,7 +143,7 @@ TEST(ChosenBroadPhase, NoCallTakesAllTheWork) {
     before = after;
   }
   EXPECT_GT(scene.chosen.work().rebuilds, 0u);
-  EXPECT_LT(most, 20u * 1000) << "all pairs would be 500,000";
+  EXPECT_LT(most, 20u * 600) << "all pairs would be 180,000";
 }
 
 TEST(ChosenBroadPhase, WhatIsAskedForIsTaken) {
