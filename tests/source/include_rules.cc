@@ -72,7 +72,8 @@ bool IsDds(const std::string& name) {
 
 bool IsWideInterface(const std::string& name) {
   return name == "collision_core/broad_phase/lane_scan.h" ||
-         name == "collision_core/broad_phase/point_scan.h";
+         name == "collision_core/broad_phase/point_scan.h" ||
+         name == "collision_core/broad_phase/lane_scan_wide.h";
 }
 
 bool IsWide(const std::string& path) {
