@@ -12,8 +12,6 @@ constexpr int kTangentsMax = 6;
 /// A step that is a smaller part of the way ends it: the answer is as good as the next one.
 constexpr double kWorthAStep = 1e-9;
 
-double Length(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
 }  // namespace
 
 // Neither near the lines' closest approach, nor along the first direction between them, where the

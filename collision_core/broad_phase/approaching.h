@@ -1,7 +1,12 @@
 // Two horns on their way: the filter before the canonical routine, in plain doubles.
 #pragma once
 
+#include <cmath>
+
 namespace collision {
+
+/// Of three components; rounded to nearest at each step.
+inline double Length(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 /// At x >= 0 seconds the two centres are d + w x apart, and the two together reach s0 + s1 x + s2 x².
 struct Approaching {

@@ -14,8 +14,6 @@ constexpr double kOutward = 1 + 0x1p-48;
 constexpr double kPositionMax = 0x1p+60;
 constexpr double kRateMax = 0x1p+40;
 
-double Length(const double* v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
 // Whether radius and acceleration are all that a meeting depends on, and twice the half is the whole.
 bool IsPlain(const SpaceTimeBound& bound) {
   const MotionState& state = bound.state;

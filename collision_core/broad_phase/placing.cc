@@ -20,8 +20,6 @@ constexpr double kNearPerAgent = 16;
 /// Where agents are that near already, the window lets reaches grow by this part.
 constexpr double kGrowthMin = 0.25;
 
-double Length(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
-
 /// What agents are like on the average.
 struct Sample {
   double v[3] = {};
@@ -39,7 +37,7 @@ Sample TakeSample(const HornTable& table, Instant from) {
     if (!table.contains(agent) || table.row(agent).wild) continue;
     const HornAt horn = table.At(agent, from);
     count += 1;
-    speed += Length(horn.v[0], horn.v[1], horn.v[2]);
+    speed += Length(horn.v);
     sample.s0 += horn.s0, sample.s1 += horn.s1, sample.s2 += horn.s2;
     for (int axis = 0; axis < 3; ++axis) {
       sample.v[axis] += horn.v[axis];
@@ -53,7 +51,8 @@ Sample TakeSample(const HornTable& table, Instant from) {
   for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
     if (!table.contains(agent) || table.row(agent).wild) continue;
     const double* v = table.row(agent).v;
-    sample.speed += Length(v[0] - sample.v[0], v[1] - sample.v[1], v[2] - sample.v[2]);
+    const double seen[3] = {v[0] - sample.v[0], v[1] - sample.v[1], v[2] - sample.v[2]};
+    sample.speed += Length(seen);
   }
   // A single fast agent would drag a mean along with it.
   if (sample.speed > 0.5 * speed) {
