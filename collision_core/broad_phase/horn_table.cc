@@ -123,8 +123,10 @@ double HornTable::EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, d
 }
 
 HornAt BoxReach(HornAt horn, double duration) {
-  constexpr double kCorner = kOutward * std::numbers::sqrt3;
-  horn.s0 *= kCorner;
+  constexpr double kCorner = kOutward * std::numbers::sqrt3, kWayRounding = 0x1p-48;
+  double way = 0;
+  for (const double v : horn.v) way += std::abs(v) * duration;
+  horn.s0 = kCorner * (horn.s0 + kWayRounding * way);
   horn.s1 = kCorner * (horn.s1 + horn.s2 * duration);
   horn.s2 = 0;
   return horn;

@@ -127,7 +127,8 @@ inline Approaching Between(const HornAt& a, const HornAt& b) {
 }
 
 /// The reach of a hypertrapezoid's box over a window of `duration` seconds, from that of its horn:
-/// chords instead of parabolas, and corners √3 away instead of the ball.
+/// chords instead of parabolas, corners √3 away instead of the ball, and what its faces at the end of
+/// the window lose by rounding.
 HornAt BoxReach(HornAt horn, double duration);
 
 }  // namespace collision

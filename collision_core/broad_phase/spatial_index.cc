@@ -68,7 +68,7 @@ void SpatialIndex::JoinPoints(double last, PairSink* sink) {
   const auto visit = [&](std::uint32_t a, std::uint32_t b) {
     const Approaching pair = placing_.Approach(table(), a, b);
     const double until = std::min(last, sink->limit());
-    if (!pair.ComeNear(until)) return;
+    if (!pair.ComeNear(until / kEarly)) return;
     ++work_.filter_tests;
     if (kEarly * pair.EarlierBound(until) <= until) sink->Offer(a, b);
   };
