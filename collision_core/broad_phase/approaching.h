@@ -13,6 +13,15 @@ struct Approaching {
   double d[3], w[3];
   double s0, s1, s2;
 
+  /// What these bounds and the canonical answer may be early by, together.
+  static constexpr double kEarly = 1 - 4e-9;
+
+  /// A filter that is right even where the canonical answer is early: false, if that is certainly
+  /// later than `last`.
+  bool MayMeetBy(double last) const {
+    return ComeNear(last / kEarly) && kEarly * EarlierBound(last) <= last;
+  }
+
   /// False: they do not come within reach of each other by `last`.
   bool ComeNear(double last) const;
 

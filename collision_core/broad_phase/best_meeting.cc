@@ -21,10 +21,8 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant f
              BroadPhaseWork* work) {
   if (!CanMeet(table.row(a), table.row(b))) return false;
   ++work->filter_tests;
-  // The canonical answer itself may be early, by a relative 1e-9.
-  constexpr double kEarly = 1 - 4e-9;
-  const bool may =
-      kEarly * table.EarlierBound(a, b, from, limit) <= limit && !table.RuleOf(a, b).excluded;
+  const double bound = table.EarlierBound(a, b, from, limit);
+  const bool may = Approaching::kEarly * bound <= limit && !table.RuleOf(a, b).excluded;
   work->pair_queries += may;
   return may;
 }

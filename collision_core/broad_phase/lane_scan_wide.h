@@ -11,7 +11,9 @@ namespace collision {
 namespace {
 
 /// The lanes of a range's last vector that are still in it.
-inline unsigned Lowest(std::uint32_t count) { return count < kWidth ? (1u << count) - 1 : ~0u; }
+inline unsigned Lowest(std::uint32_t count) {
+  return (1u << (count < kWidth ? count : kWidth)) - 1;
+}
 
 WIDE inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
   return NotGreater((x * x + y * y) + z * z, reach * reach);

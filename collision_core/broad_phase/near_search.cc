@@ -148,7 +148,7 @@ void NearSearch::AskCrowd(PairSink* sink) {
   placing_.Shorten(sink->limit());
 }
 
-void NearSearch::PlaceAnew(const Placing& placing, bool once, PairSink* crowd_sink) {
+void NearSearch::StartAnew(const Placing& placing) {
   ++work_.rebuilds;
   placing_ = placing;
   wasted_ = 0;
@@ -156,10 +156,6 @@ void NearSearch::PlaceAnew(const Placing& placing, bool once, PairSink* crowd_si
   moved_.clear();
   placed_ = false;
   SortOutWild();
-  const bool crowded = table_.count() >= kCrowdMin && !placing_.blind();
-  if (crowd_sink != nullptr && crowded) AskCrowd(crowd_sink);
-  if (once && !placing_.blind() && PlaceOnce()) return;
-  PlaceEverybody();
 }
 
 // Placing everybody costs about one test for each: it is done when as many were wasted.
@@ -167,8 +163,8 @@ void NearSearch::Refresh(Instant from) {
   const bool usable = placed_ && placing_.bound() == BoundKind::kHorn &&
                       !(placing_.blind() && HornTable::Near(from));
   if (usable && wasted_ <= table_.count()) return PlaceMoved();
-  PlaceAnew(Placing(table_, {BoundKind::kHorn, from, Instant::Never()}, kWindowMax), false,
-            nullptr);
+  StartAnew(Placing(table_, {BoundKind::kHorn, from, Instant::Never()}, kWindowMax));
+  PlaceEverybody();
 }
 
 void NearSearch::OfferWild(PairSink* sink) const {
@@ -187,7 +183,9 @@ std::optional<PairMeeting> NearSearch::Earliest(const BroadQuery& query) {
     best.OfferHalfSpace(half_space, agent);
   };
   for (const HalfSpaces::Entry& entry : half_spaces_) ForEachHalfSpace(entry.agent, offer);
-  PlaceAnew(Placing(table_, query, best.limit()), true, &best);
+  StartAnew(Placing(table_, query, best.limit()));
+  if (table_.count() >= kCrowdMin && !placing_.blind()) AskCrowd(&best);
+  if (placing_.blind() || !PlaceOnce(placing_.window())) PlaceEverybody();
   OfferWild(&best);
   for (double seconds = placing_.window();;) {
     Join(placing_.After(query.from, seconds), &best);
@@ -222,7 +220,8 @@ void NearSearch::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs
   const double seconds = std::min(BestMeeting(table_, query, &work_).limit(), kWindowMax);
   const auto told = static_cast<std::ptrdiff_t>(pairs->size());
   NearPairList list(table_, seconds, pairs);
-  PlaceAnew(Placing(table_, query, seconds), true, nullptr);
+  StartAnew(Placing(table_, query, seconds));
+  if (placing_.blind() || !PlaceOnce(seconds)) PlaceEverybody();
   OfferWild(&list);
   Join(placing_.After(query.from, seconds), &list);
   // A level that is taken whole tells pairs from both sides.

@@ -37,9 +37,9 @@ class NearSearch : public BroadPhase {
  protected:
   /// All horns_ are to be placed anew.
   virtual void PlaceAll() = 0;
-  /// Prepares for Join() alone, for placing_: nobody need be found later. False: that would be no
-  /// cheaper.
-  virtual bool PlaceOnce() { return false; }
+  /// Prepares for Join() alone, of a stretch up to `last` at first: nobody need be found later.
+  /// False: that would be no cheaper.
+  virtual bool PlaceOnce(double /*last*/) { return false; }
   /// Places one since the last PlaceAll().
   virtual void PlaceOne(const PlacedHorn& horn) = 0;
   /// Forgets where he was placed, if he was.
@@ -70,7 +70,7 @@ class NearSearch : public BroadPhase {
   void Move(std::uint32_t agent);
   void PlaceMoved();
   void AskCrowd(PairSink* sink);
-  void PlaceAnew(const Placing& placing, bool once, PairSink* crowd_sink);
+  void StartAnew(const Placing& placing);
   void OfferWild(PairSink* sink) const;
   void Refresh(Instant from);
   bool AsksAll(std::uint32_t agent, Instant from) const;

@@ -25,7 +25,7 @@ constexpr std::uint32_t kFewPoints = 32;
 // Positions lose at most 2^-24 of a row's length on each axis, the asker's as well, and reaches and
 // the ranges' bounds as much: together less than 2^-20 of it. Squares lose digits to underflow below
 // kReachLeast.
-bool PointGrid::ChooseCells(std::uint32_t count, const PointExtent& extent) {
+bool PointGrid::ChooseCells(std::uint32_t present, const PointExtent& extent) {
   double widest = 0, volume = 1;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(extent.low[axis] <= extent.high[axis])) return false;  // nobody is there
@@ -39,16 +39,16 @@ bool PointGrid::ChooseCells(std::uint32_t count, const PointExtent& extent) {
   for (int axis = 0; axis < 3; ++axis) {
     volume *= std::max(extent.high[axis] - extent.low[axis], 2 * reach);
   }
-  cell_ = std::max(2 * reach * (1 + 0x1p-10), CubeRoot(volume * kPerCell / count));
-  if (count <= kFewPoints) cell_ = 2 * (widest + reach);
+  cell_ = std::max(2 * reach * (1 + 0x1p-10), CubeRoot(volume * kPerCell / present));
+  if (present <= kFewPoints) cell_ = 2 * (widest + reach);
   per_cell_ = 1 / cell_;
   double total = 1, cells[3];
   for (int axis = 0; axis < 3; ++axis) {
     cells[axis] = std::floor((extent.high[axis] - extent.low[axis]) * per_cell_) + 1;
     total *= cells[axis];
   }
-  if (!(total <= kCellsPerPoint * count + 64) || cells[0] > kRowCellsMax) return false;
-  if (total < 2 && count > kFewPoints) return false;
+  if (!(total <= kCellsPerPoint * present + 64) || cells[0] > kRowCellsMax) return false;
+  if (total < 2 && present > kFewPoints) return false;
   for (int axis = 0; axis < 3; ++axis) cells_[axis] = static_cast<std::int32_t>(cells[axis]);
   lost_ = static_cast<float>(0x1p-20 * cell_ * cells_[0]) + kReachLeast;
   reach_most_ = extent.reach * (1 + 0x1p-19f) + lost_;
@@ -56,14 +56,14 @@ bool PointGrid::ChooseCells(std::uint32_t count, const PointExtent& extent) {
   return true;
 }
 
-bool PointGrid::IsDense(std::uint32_t count, const PointExtent& extent) const {
+bool PointGrid::IsDense(std::uint32_t present, const PointExtent& extent) const {
   const auto reach = static_cast<double>(extent.reach);
   double volume = 1;
   for (int axis = 0; axis < 3; ++axis) volume *= extent.high[axis] - extent.low[axis] + reach;
-  return reach * reach * reach * count > kDense * volume;
+  return reach * reach * reach * present > kDense * volume;
 }
 
-bool PointGrid::SumCells(std::uint32_t count) {
+bool PointGrid::SumCells(std::uint32_t present) {
   double squares = 0;
   std::uint32_t sum = 0;
   for (std::size_t cell = 2; cell + 1 < begin_.size(); ++cell) {
@@ -72,7 +72,7 @@ bool PointGrid::SumCells(std::uint32_t count) {
     sum += in_cell;
     begin_[cell] = sum;
   }
-  return count <= kFewPoints || squares <= kCrowdingMax * count;
+  return present <= kFewPoints || squares <= kCrowdingMax * present;
 }
 
 // The arrays, where they are long, are not a whole number of pages apart, else they would fight

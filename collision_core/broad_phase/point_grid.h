@@ -53,13 +53,13 @@ struct PointExtent {
 /// Cells that lie side by side along x do so in memory as well, and are scanned as one range.
 class PointGrid {
  public:
-  /// `at(k, &point)` gives the k-th point of `count`, or returns false: it has none. Some are asked
-  /// twice; where others lie beyond them by more than a little, all are.
+  /// `at(k, &point)` gives the k-th point of `count`, or returns false: it has none; about `present`
+  /// have. Some are asked twice; where others lie beyond them by more than a little, all are.
   /// `half`, of the time: where many places come near each other lines are compared as well; 0: not.
   /// False: the points do not suit a grid, as they crowd in few of its cells, or its rows would be
   /// too long.
   template <typename At>
-  bool Build(std::uint32_t count, double half, At at);
+  bool Build(std::uint32_t count, std::uint32_t present, double half, At at);
 
   /// Calls visit(k, l) with the points of each two that may be within the sum of their reaches, once;
   /// and a little earlier fetch(k, l).
@@ -95,16 +95,17 @@ class PointGrid {
   /// Of every stride-th.
   template <typename At>
   static PointExtent Measure(std::uint32_t count, std::uint32_t stride, At at);
-  bool IsDense(std::uint32_t count, const PointExtent& extent) const;
+  bool IsDense(std::uint32_t present, const PointExtent& extent) const;
   /// Whether every stride-th share cells as if all of them were crowded.
   template <typename At>
-  bool LooksCrowded(std::uint32_t count, std::uint32_t stride, const PointExtent& extent, At at);
+  bool LooksCrowded(std::uint32_t count, std::uint32_t present, std::uint32_t stride,
+                    const PointExtent& extent, At at);
   /// False: one lies beyond the extent.
   template <typename At>
   bool Fill(std::uint32_t count, const PointExtent& extent, At at);
-  bool ChooseCells(std::uint32_t count, const PointExtent& extent);
+  bool ChooseCells(std::uint32_t present, const PointExtent& extent);
   /// From counts of the cells to their begins; false: they are crowded.
-  bool SumCells(std::uint32_t count);
+  bool SumCells(std::uint32_t present);
   void Reserve(std::uint32_t count);
   float* Array(int k) { return floats_.data() + static_cast<std::size_t>(k) * stride_; }
   /// Into rows_, and their number: a cell is as wide as two reaches at least, so that what is near
@@ -147,15 +148,15 @@ PointExtent PointGrid::Measure(std::uint32_t count, std::uint32_t stride, At at)
 }
 
 template <typename At>
-bool PointGrid::LooksCrowded(std::uint32_t count, std::uint32_t stride, const PointExtent& extent,
-                             At at) {
+bool PointGrid::LooksCrowded(std::uint32_t count, std::uint32_t present, std::uint32_t stride,
+                             const PointExtent& extent, At at) {
   ReachPoint point;
   std::uint64_t seen = 0;  // by each of the others in its cell that came before
   for (std::uint32_t k = 0; k < count; k += stride) {
     if (at(k, &point) && extent.Holds(point)) seen += begin_[CellAt(point)]++;
   }
   std::fill(begin_.begin(), begin_.end(), 0);
-  return 2.0 * stride * stride * static_cast<double>(seen) > kCrowdingMax * count;
+  return 2.0 * stride * stride * static_cast<double>(seen) > kCrowdingMax * present;
 }
 
 template <typename At>
@@ -184,19 +185,20 @@ bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
 }
 
 template <typename At>
-bool PointGrid::Build(std::uint32_t count, double half, At at) {
-  const std::uint32_t stride = count / kSample + 1;
+bool PointGrid::Build(std::uint32_t count, std::uint32_t present, double half, At at) {
+  std::uint32_t stride = count / kSample + 1;
   PointExtent extent = Measure(count, stride, at);
+  if (stride > 1 && extent.reach == 0) stride = 1, extent = Measure(count, 1, at);
   if (stride > 1) extent.Widen(kBeyondSample);
-  half_ = IsDense(count, extent) ? static_cast<float>(half) * (1 + 0x1p-22f) : 0;
+  half_ = IsDense(present, extent) ? static_cast<float>(half) * (1 + 0x1p-22f) : 0;
   Reserve(count);
-  if (!ChooseCells(count, extent)) return false;
-  if (stride > 1 && LooksCrowded(count, stride, extent, at)) return false;
+  if (!ChooseCells(present, extent)) return false;
+  if (stride > 1 && LooksCrowded(count, present, stride, extent, at)) return false;
   if (!Fill(count, extent, at)) {
     extent = Measure(count, 1, at);
-    if (!ChooseCells(count, extent) || !Fill(count, extent, at)) return false;
+    if (!ChooseCells(present, extent) || !Fill(count, extent, at)) return false;
   }
-  if (!SumCells(count)) return false;
+  if (!SumCells(present)) return false;
   for (std::uint32_t k = 0; k < count; ++k) order_[begin_[cell_of_[k] + 1]++] = k;
   float *const x = Array(0), *const y = Array(1), *const z = Array(2), *const reach = Array(3);
   for (std::uint32_t place = 0; place < count; ++place) {

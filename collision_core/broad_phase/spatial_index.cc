@@ -7,9 +7,6 @@
 namespace collision {
 namespace {
 
-/// What filters and the canonical answer may be early by, together.
-constexpr double kEarly = 1 - 4e-9;
-
 /// The level an agent belongs to, larger ones later: counted down from the greatest reach in powers
 /// of 4, so that agents that are all alike share one. Odd for those that never move.
 constexpr int kLevelsMax = 120;
@@ -47,8 +44,8 @@ void SpatialIndex::PlaceAll() {
 }
 
 // Where most never move they had better not be asked.
-bool SpatialIndex::PlaceOnce() {
-  return 2 * table().still_count() < table().count() && BuildPoints(placing_.window());
+bool SpatialIndex::PlaceOnce(double last) {
+  return 2 * table().still_count() < table().count() && BuildPoints(last);
 }
 
 bool SpatialIndex::BuildPoints(double last) {
@@ -57,7 +54,7 @@ bool SpatialIndex::BuildPoints(double last) {
     *point = placing_.HalfWay(table(), agent, last);
     return true;
   };
-  if (!points_.Build(table().size(), 0.5 * last, at)) return false;
+  if (!points_.Build(table().size(), table().count(), 0.5 * last, at)) return false;
   points_last_ = last;
   return true;
 }
@@ -68,9 +65,8 @@ void SpatialIndex::JoinPoints(double last, PairSink* sink) {
   const auto visit = [&](std::uint32_t a, std::uint32_t b) {
     const Approaching pair = placing_.Approach(table(), a, b);
     const double until = std::min(last, sink->limit());
-    if (!pair.ComeNear(until / kEarly)) return;
     ++work_.filter_tests;
-    if (kEarly * pair.EarlierBound(until) <= until) sink->Offer(a, b);
+    if (pair.MayMeetBy(until)) sink->Offer(a, b);
   };
   points_.ForEachPair(fetch, visit);
   work_.filter_tests += points_.tests() - tests;

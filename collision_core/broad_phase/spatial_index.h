@@ -15,7 +15,7 @@ namespace collision {
 class SpatialIndex : public NearSearch {
  protected:
   void PlaceAll() override;
-  bool PlaceOnce() override;
+  bool PlaceOnce(double last) override;
   void PlaceOne(const PlacedHorn& horn) override;
   void Unplace(std::uint32_t agent) override;
   void Join(Stretch stretch, PairSink* sink) override;

@@ -32,7 +32,7 @@ bool WindowLoop::ListInOnePass(const MovingCubes& cubes) {
     point->reach = static_cast<float>((still + std::sqrt(v.squaredNorm()) * half) * kUp);
     return true;
   };
-  if (!grid_.Build(cubes.count(), 0, at)) return false;
+  if (!grid_.Build(cubes.count(), cubes.count(), 0, at)) return false;
   grid_.ForEachPair([&](std::uint32_t k, std::uint32_t l) { list_.push_back({k, l}); });
   return true;
 }
