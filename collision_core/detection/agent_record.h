@@ -34,6 +34,7 @@ struct AgentRecord {
   bool changed = false;              ///< Since the last step: listed as such.
   bool touched = false;              ///< Its clearance may have changed: listed as such.
   bool saturated = false;            ///< Listed as such.
+  std::size_t saturated_at = 0;      ///< Where in that list.
   std::uint32_t crowded_with = 0;    ///< Saturated: a partner that could not be tracked.
   std::vector<std::uint32_t> pairs;  ///< Slots of the tracked pairs.
   SceneProfile::Features features = 0;

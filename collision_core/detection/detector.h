@@ -78,6 +78,7 @@ struct DetectorCounters {
   std::uint64_t filter_tests = 0;  ///< Pairs that the broad phase ruled out, or not, more cheaply.
   std::uint64_t method_changes = 0;  ///< Times the broad phase took another method.
   std::uint64_t segments = 0;        ///< Segments judged by the narrow phase.
+  std::uint64_t glances = 0;         ///< Of these: a glance was enough.
   std::uint64_t work_units = 0;      ///< Spent by the narrow phase.
   std::uint64_t saturations = 0;
   std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.

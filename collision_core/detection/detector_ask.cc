@@ -6,19 +6,27 @@
 namespace collision {
 namespace {
 
-/// So many of the latest keys are looked at one by one when an agent is renewed, so that a few
-/// agents that are clear for long do not make everybody's renewal look far ahead.
-constexpr std::size_t kKeysAside = 32;
+/// An agent's next meeting beyond announce_within is looked for up to a horizon, and if there is
+/// none up to a later one. Horizons are announce_within times powers of this; beyond the last of
+/// them all time is looked at. As a horn widens with the square of the time, who may be met grows
+/// with its sixth power, so that one look too far costs more than a few that are too short.
+constexpr double kHorizonFactor = 1.25;
+
+/// Beyond so many renewed at once, agents with far keys are asked anew rather than looked at by
+/// each.
+constexpr std::size_t kManyRenewed = 4096;
+
+/// Of more partners than these one in so many is asked first about a far horizon.
+constexpr std::size_t kAllAsked = 64;
+constexpr std::size_t kSampleShare = 32;
+
+/// Horizons beyond this one are looked at for the next meeting alone.
+constexpr int kHorizonNear = 4;
 
 /// A saturated agent is asked again after this share of announce_within.
 constexpr double kSaturatedShare = 0.125;
 
-/// The order of ~key is that of the keys from the last to the first.
-Instant Reversed(Instant key) { return Instant::FromNanoseconds(~key.nanoseconds()); }
-
 constexpr std::uint32_t kNobody = ~0u;
-
-bool ByPartner(const Meeting& a, const Meeting& b) { return a.partner < b.partner; }
 
 }  // namespace
 
@@ -29,6 +37,7 @@ void Detector::Implementation::SetKey(std::uint32_t agent, Instant key) {
     return;
   }
   record.key = key;
+  key_rows_.SetKey(agent, key);
   queue_.Set(agent, key);
   if (latest_.Contains(agent)) latest_.Set(agent, Reversed(key));
   Touch(agent);
@@ -36,13 +45,19 @@ void Detector::Implementation::SetKey(std::uint32_t agent, Instant key) {
 
 void Detector::Implementation::AskAll() {
   // By index only as far as it goes: a renewal may come while others wait for theirs.
+  many_ = renewed_.size() > kManyRenewed;
+  if (many_) AskFarKeysAnew();
   for (const std::uint32_t agent : renewed_) {
     if (agents_[agent] && At(agent).renewed_from) Ask(agent);
   }
-  renewed_.clear();
   const Instant until = AnnounceUntil();
   const auto due = [until](Instant key) { return key <= until && !key.is_never(); };
   while (!queue_.empty() && due(queue_.top_key())) Ask(queue_.top());
+  for (const std::uint32_t agent : renewed_) {
+    if (many_ && agents_[agent]) At(agent).renewed_cause = ClearanceCause::kNone;
+  }
+  many_ = false;
+  renewed_.clear();
   SettleKeys();
 }
 
@@ -57,7 +72,7 @@ void Detector::Implementation::SettleKeys() {
   fresh_.clear();
   const BroadPhaseWork work = broad_phase_.work();
   counters_.pair_queries += work.pair_queries - broad_queries_seen_;
-  counters_.filter_tests = work.filter_tests;
+  counters_.filter_tests = work.filter_tests + looks_;
   counters_.method_changes = broad_phase_.changes();
   broad_queries_seen_ = work.pair_queries;
 }
@@ -85,24 +100,62 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
   ++counters_.queries;
   record.asked = step_;
   record.renewed_from.reset();
-  if (was_saturated) {
-    record.saturated = false;
-    std::erase(saturated_, agent);
-  }
+  if (was_saturated) Unsaturate(agent);
   latest_.Remove(agent);
   fresh_.push_back(agent);
   MarkTracked(record);
   // A saturated agent was promised nothing.
   if (renewed || !was_saturated) TrackUncovered(agent, renewed, covered);
   const Instant from = std::min(now_, covered);
+  if (IsCrowded(agent, from, was_saturated)) {
+    crowd_ = true;
+  } else {
+    AskBroadPhase(agent, from, renewed, was_saturated, covered);
+  }
+  if (renewed) LowerKeys(agent, from);
+  if (many_) return TellIfLowered(agent, covered);
+  record.renewed_cause = ClearanceCause::kNone;
+}
+
+// Of an agent without room for another pair all that is to be known is whether there is one that
+// should be tracked: then it is saturated. In a crowd that mostly is one that was in the way
+// before, or that the last such agent met; so a crowd costs one pair query an agent, not one for
+// each two.
+bool Detector::Implementation::IsCrowded(std::uint32_t agent, Instant from, bool was_saturated) {
+  const AgentRecord& record = At(agent);
+  if (RoomFor(record) > 0) return false;
+  const SpaceTimeBound bound = record.margin.Widen(record.bound());
+  const std::uint32_t before = was_saturated ? record.crowded_with : kNobody;
+  for (const std::uint32_t partner : {before, crowded_[0], crowded_[1]}) {
+    if (partner >= agents_.size() || partner == agent || !agents_[partner]) continue;
+    const AgentRecord& other = At(partner);
+    if (other.expired || Marked(partner)) continue;
+    if (!CanMeet(record.bound().declaration, other.bound().declaration)) continue;
+    ++counters_.pair_queries;
+    const SpaceTimeBound bound_of_other = other.margin.Widen(other.bound());
+    if (EarliestIntersection(bound, bound_of_other, from).instant() > AnnounceUntil()) continue;
+    Saturate(agent, partner);
+    return true;
+  }
+  return false;
+}
+
+void Detector::Implementation::AskBroadPhase(std::uint32_t agent, Instant from, bool renewed,
+                                             bool was_saturated, Instant covered) {
+  const AgentRecord& record = At(agent);
   // In a crowd most agents are saturated, and need no key.
   const bool crowd = crowd_ || was_saturated;
-  FindMeetings(agent, from, crowd ? AnnounceUntil() : Instant::Never());
+  const bool only_near = crowd || horizon_ > kHorizonNear;
+  const Instant horizon = only_near ? AnnounceUntil() : Horizon(horizon_);
+  FindMeetings(agent, from, horizon);
   crowd_ = record.saturated;
   TakeMeetings(agent, renewed, was_saturated, covered);
-  if (crowd && !record.saturated) FindKey(agent, from);
-  if (renewed) LowerKeys(agent, from);
-  record.renewed_cause = ClearanceCause::kNone;
+  if (record.saturated) return;
+  if (TakeKey(agent)) {
+    NoteHorizon(record.key);
+  } else {
+    FindKey(agent, from, horizon);
+  }
 }
 
 // Into found_, by partner: whom the agent may meet within announce_within, and the earliest of the
@@ -144,7 +197,7 @@ void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, I
   std::erase_if(found_, [&](const Meeting& meeting) {
     return meeting.time.instant() <= until && (IsFull(meeting.partner) || meeting.partner >= end);
   });
-  std::sort(found_.begin(), found_.end(), ByPartner);
+  SortByPartner(0, &found_);
   if (first_full != kNobody) Saturate(agent, first_full);
 }
 
@@ -165,107 +218,76 @@ void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, b
     marks_[meeting.partner] = mark_;
     if (renewed) Tell(meeting.partner, agent);
   }
-  TakeKey(agent);
 }
 
-// The earliest of found_ that is not tracked.
-void Detector::Implementation::TakeKey(std::uint32_t agent) {
+// The earliest of found_ that is not tracked; false: there is none.
+bool Detector::Implementation::TakeKey(std::uint32_t agent) {
   AgentRecord& record = At(agent);
-  if (record.saturated) return;
   Instant key = Instant::Never();
   for (const Meeting& meeting : found_) {
     if (Marked(meeting.partner) || meeting.time.instant() >= key) continue;
     key = meeting.time.instant();
     record.next_partner = meeting.partner;
   }
+  if (key.is_never()) return false;
   SetKey(agent, key);
+  return true;
 }
 
-void Detector::Implementation::FindKey(std::uint32_t agent, Instant from) {
-  const auto skip = [this](std::uint32_t partner) { return Marked(partner); };
-  found_.clear();
-  broad_phase_.Meetings(agent, from, AnnounceUntil(), Instant::Never(), skip, &found_);
-  std::sort(found_.begin(), found_.end(), ByPartner);
-  TakeKey(agent);
-}
-
-// Every partner whose key is later than its meeting with the renewed agent gets the earlier one.
-// Only keys of earlier steps can be: whoever is asked in this step is asked about the new bound.
-void Detector::Implementation::LowerKeys(std::uint32_t agent, Instant from) {
-  const Instant until = AnnounceUntil();
-  latest_.First(kKeysAside + 1, &aside_);
-  Instant horizon = until;
-  if (aside_.size() > kKeysAside) {
-    horizon = std::max(until, At(aside_.back()).key);
-    aside_.pop_back();
-    const auto skip = [&](std::uint32_t partner) {
-      return Marked(partner) || !latest_.Contains(partner) || At(partner).saturated ||
-             CertainlyLater(At(agent), partner);
-    };
-    found_.clear();
-    broad_phase_.Meetings(agent, from, horizon, horizon, skip, &found_);
-    std::sort(found_.begin(), found_.end(), ByPartner);
-    for (const Meeting& meeting : found_) {
-      LowerKey(meeting.partner, agent, meeting.time.instant());
-    }
+// Nobody that is not tracked is met by `known`.
+void Detector::Implementation::FindKey(std::uint32_t agent, Instant from, Instant known) {
+  int step = 0;
+  for (int h = horizon_; !known.is_never(); h += std::min(++step, 2)) {
+    const Instant horizon = Horizon(h);
+    if (horizon <= known) continue;
+    FindNext(agent, from, known, horizon);
+    if (TakeKey(agent)) return NoteHorizon(At(agent).key);
+    known = horizon;
   }
-  const SpaceTimeBound bound = At(agent).margin.Widen(At(agent).bound());
-  std::sort(aside_.begin(), aside_.end());
-  for (const std::uint32_t partner : aside_) {
-    const AgentRecord& other = At(partner);
-    if (Marked(partner) || other.saturated || CertainlyLater(At(agent), partner)) continue;
-    ++counters_.pair_queries;
-    const SpaceTimeBound bound_of_other = other.margin.Widen(other.bound());
-    LowerKey(partner, agent, EarliestIntersection(bound, bound_of_other, from).instant());
-  }
+  SetKey(agent, Instant::Never());
+  NoteHorizon(Instant::Never());
 }
 
-void Detector::Implementation::LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when) {
-  if (when >= At(partner).key) return;
-  if (when <= AnnounceUntil()) {
-    Saturate(partner, agent);  // there was no room to track the two
-  } else {
-    At(partner).next_partner = agent;
-    SetKey(partner, when);
-  }
-  Tell(partner, agent);
-}
-
-// Whether the two are certain not to meet before the partner's key: a cheap test that spares most
-// questions. The centres' difference moves on a segment, which stays away from the origin by more
-// than both can reach until then.
-bool Detector::Implementation::CertainlyLater(const AgentRecord& agent,
-                                              std::uint32_t partner) const {
-  constexpr double kRoundings = 0x1p-40;
-  const AgentRecord& other = At(partner);
-  const Instant from = std::max(agent.stamp(), other.stamp());
-  if (other.key <= from) return true;
-  if (other.key.is_never()) return false;
-  const auto seconds = [](Instant from, Instant to) {
-    return 1e-9 * (static_cast<double>(to.nanoseconds()) - static_cast<double>(from.nanoseconds()));
+// Into found_: the first meeting of all that are not tracked, none of which comes by `known`. Far
+// ahead a whole swarm may come near at about the same time: then a share of it is asked first, and
+// the earliest of these spares nearly all of the others.
+void Detector::Implementation::FindNext(std::uint32_t agent, Instant from, Instant known,
+                                        Instant horizon) {
+  std::size_t offered = 0, left_out = 0;
+  const auto sample = [&](std::uint32_t partner) {
+    if (Marked(partner)) return true;
+    if (++offered <= kAllAsked || offered % kSampleShare == 0) return false;
+    ++left_out;
+    return true;
   };
-  double reach = 0, magnitude = 0;
-  Eigen::Vector3d d = Eigen::Vector3d::Zero(), w = Eigen::Vector3d::Zero();
-  for (const AgentRecord* record : {&agent, &other}) {
-    const MotionState& state = record->bound().state;
-    const AgentDeclaration& declaration = record->bound().declaration;
-    const double tau = seconds(state.stamp, other.key) + options_.skew;
-    const double speed = state.v_WA.norm();
-    reach += declaration.radius + state.position_error + speed * options_.skew +
-             state.velocity_error * tau +
-             declaration.acceleration_max * tau * (tau + declaration.time_step) / 2;
-    if (state.discontinuity) {
-      reach += 2 * (speed + declaration.acceleration_max * options_.skew) * options_.skew;
-    }
-    magnitude += state.p_WA.norm() + speed * (tau + 1) + 1e-6 * speed;
-    const double sign = record == &agent ? -1 : 1;
-    d += sign * (state.p_WA + state.v_WA * seconds(state.stamp, from));
-    w += sign * state.v_WA;
+  found_.clear();
+  broad_phase_.Meetings(agent, from, known, horizon, sample, &found_);
+  looks_ += offered - left_out;
+  if (left_out == 0) return;
+  if (!found_.empty()) horizon = found_.front().time.instant();
+  const auto all = [&](std::uint32_t partner) {
+    if (Marked(partner)) return true;
+    ++looks_;
+    return false;
+  };
+  found_.clear();
+  broad_phase_.Meetings(agent, from, known, horizon, all, &found_);
+}
+
+Instant Detector::Implementation::Horizon(int step) const {
+  if (step > kHorizons) return Instant::Never();
+  double ahead = options_.announce_within;
+  for (int k = 0; k < step; ++k) ahead *= kHorizonFactor;
+  return AddRoundedUp(now_, ahead);
+}
+
+// Questions begin with the horizon that half of the last keys lay within.
+void Detector::Implementation::NoteHorizon(Instant key) {
+  if (key > Horizon(horizon_)) {
+    horizon_ = std::min(horizon_ + 1, kHorizons);
+  } else if (horizon_ > 1 && key <= Horizon(horizon_ - 1)) {
+    --horizon_;
   }
-  const double duration = seconds(from, other.key);
-  const double nearest = std::clamp(-d.dot(w) / std::max(w.squaredNorm(), 1e-300), 0.0, duration);
-  const double margin = kRoundings * (magnitude + reach) + 1e-8 * (w.norm() + 1);
-  return (d + w * nearest).norm() > reach + margin;
 }
 
 // Told as saturated: it may touch at any time. Asked again a little later; until then its key
@@ -273,6 +295,7 @@ bool Detector::Implementation::CertainlyLater(const AgentRecord& agent,
 void Detector::Implementation::Saturate(std::uint32_t agent, std::uint32_t partner) {
   AgentRecord& record = At(agent);
   record.crowded_with = partner;
+  crowded_[0] = agent, crowded_[1] = partner;
   record.key = std::max(now_, record.stamp());
   latest_.Remove(agent);
   Touch(agent);
@@ -281,7 +304,17 @@ void Detector::Implementation::Saturate(std::uint32_t agent, std::uint32_t partn
   if (record.saturated) return;
   ++counters_.saturations;
   record.saturated = true;
+  record.saturated_at = saturated_.size();
   saturated_.push_back(agent);
+}
+
+void Detector::Implementation::Unsaturate(std::uint32_t agent) {
+  AgentRecord& record = At(agent);
+  record.saturated = false;
+  const std::uint32_t last = saturated_.back();
+  saturated_[record.saturated_at] = last;
+  At(last).saturated_at = record.saturated_at;
+  saturated_.pop_back();
 }
 
 }  // namespace collision

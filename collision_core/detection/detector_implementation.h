@@ -11,6 +11,7 @@
 #include "collision_core/detection/detector.h"
 #include "collision_core/detection/event_queue.h"
 #include "collision_core/detection/former_motions.h"
+#include "collision_core/detection/key_rows.h"
 #include "collision_core/detection/pair_table.h"
 #include "collision_core/detection/scene_extremes.h"
 
@@ -54,6 +55,11 @@ class Detector::Implementation {
   };
   struct EarliestSearch;  // in detector_earliest.cc
 
+  /// The order of ~key is that of the keys from the last to the first.
+  static Instant Reversed(Instant key) { return Instant::FromNanoseconds(~key.nanoseconds()); }
+  /// Of Horizon(); one more is Never().
+  static constexpr int kHorizons = 24;
+
   AgentRecord* Find(const AgentId& id);
   AgentRecord& At(std::uint32_t agent) { return *agents_[agent]; }
   const AgentRecord& At(std::uint32_t agent) const { return *agents_[agent]; }
@@ -83,21 +89,33 @@ class Detector::Implementation {
   // Asking the broad phase (detector_ask.cc).
   void AskAll();
   void Ask(std::uint32_t agent);
+  bool IsCrowded(std::uint32_t agent, Instant from, bool was_saturated);
+  void AskBroadPhase(std::uint32_t agent, Instant from, bool renewed, bool was_saturated,
+                     Instant covered);
   void FindMeetings(std::uint32_t agent, Instant from, Instant horizon);
-  void FindKey(std::uint32_t agent, Instant from);
-  void TakeKey(std::uint32_t agent);
+  void FindKey(std::uint32_t agent, Instant from, Instant known);
+  void FindNext(std::uint32_t agent, Instant from, Instant known, Instant horizon);
+  bool TakeKey(std::uint32_t agent);
+  Instant Horizon(int step) const;
+  void NoteHorizon(Instant key);
   void TakeMeetings(std::uint32_t agent, bool renewed, bool was_saturated, Instant covered);
-  void LowerKeys(std::uint32_t agent, Instant from);
-  void LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when);
-  bool CertainlyLater(const AgentRecord& agent, std::uint32_t partner) const;
   void SetKey(std::uint32_t agent, Instant key);
   void SettleKeys();
   void Saturate(std::uint32_t agent, std::uint32_t partner);
+  void Unsaturate(std::uint32_t agent);
   std::size_t RoomFor(const AgentRecord& agent) const;
   bool IsFull(std::uint32_t agent) const { return full_[agent] || pairs_.room() == 0; }
   void NoteFull(std::uint32_t agent);
   void MarkTracked(const AgentRecord& agent);
   bool Marked(std::uint32_t partner) const { return marks_[partner] == mark_; }
+
+  // What a renewal makes of others' keys (detector_lower.cc).
+  void LowerKeys(std::uint32_t agent, Instant from);
+  std::uint64_t LowerNearKeys(std::uint32_t agent, Instant from, Instant horizon);
+  std::uint64_t LowerFarKeys(std::uint32_t agent, Instant from, Instant next);
+  void LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when);
+  void AskFarKeysAnew();
+  void TellIfLowered(std::uint32_t agent, Instant before);
 
   // What lies before the newest states (detector_uncovered.cc).
   void TrackUncovered(std::uint32_t agent, bool renewed, Instant covered);
@@ -113,6 +131,7 @@ class Detector::Implementation {
   void Judge(std::uint32_t slot, bool last, ContactTracker* preview, Work* work);
   void NoteContactAhead(const ContactTracker& preview, PairRecord* pair) const;
   void NoteDue(std::uint32_t slot);
+  Instant RestOf(std::uint32_t slot, const ContactTracker& preview) const;
   double Patience(const AgentRecord& agent) const;
   Instant SettledUntil(const AgentRecord& agent) const;
   void Track(std::uint32_t a, std::uint32_t b, Instant free_until, bool began_before);
@@ -135,6 +154,8 @@ class Detector::Implementation {
   EventQueue queue_;  // agents by the time at which they must be asked again
   /// Agents by key, the latest first (as ~key), of those not asked and not renewed in this step.
   EventQueue latest_;
+  KeyRows key_rows_;
+  std::uint64_t looks_ = 0;    // partners looked at beside the filters' tests
   EventQueue expiries_;        // agents by expiry
   EventQueue pairs_due_;       // pairs by the time from which they are judged every step
   EventQueue pairs_earliest_;  // pairs by PairRecord::not_before, of those not in contact
@@ -143,16 +164,20 @@ class Detector::Implementation {
   std::vector<std::uint32_t> renewed_;  // in the order of their renewal
   std::vector<std::uint32_t> changed_;
   std::vector<std::uint32_t> touched_;
-  std::vector<std::uint32_t> saturated_;
-  std::vector<std::uint32_t> fresh_;  // asked since the last SettleKeys()
+  std::vector<std::uint32_t> saturated_;  // in no order that counts
+  std::vector<std::uint32_t> fresh_;      // asked since the last SettleKeys()
 
   // Kept for their memory.
   std::vector<Meeting> found_;
-  std::vector<std::uint32_t> candidates_, slots_, aside_, first_;
+  std::vector<std::uint32_t> candidates_, slots_, first_;
   std::vector<std::uint64_t> marks_;  // by agent: == mark_ if a tracked partner of who asks
   std::uint64_t mark_ = 0;
-  bool crowd_ = false;              // the agent last asked was saturated
-  std::vector<std::uint8_t> full_;  // by agent: as many tracked pairs as it may have
+  bool many_ = false;                      // are renewed in this step
+  int horizon_ = 1;                        // questions for keys begin with Horizon(horizon_)
+  int split_ = 4;                          // keys beyond Horizon(split_) are lowered one by one
+  std::uint32_t crowded_[2] = {~0u, ~0u};  // the last agent that was saturated, and with whom
+  bool crowd_ = false;                     // the agent last asked was saturated
+  std::vector<std::uint8_t> full_;         // by agent: as many tracked pairs as it may have
 };
 
 }  // namespace collision

@@ -7,13 +7,21 @@
 namespace collision {
 namespace {
 
-// Shapes are looked at so far ahead, in units of announce_within: a little beyond what the announcer takes for
-// "far apart again".
+// Shapes are looked at so far ahead, in units of announce_within: a little beyond what the
+// announcer takes for "far apart again".
 constexpr double kLookAhead = 1.3;
 
-// Of the work that is left in a turn: for what is settled, then for what is heard; the rest is for what is promised.
+// Of the work that is left in a turn: for what is settled, then for what is heard; the rest is for
+// what is promised.
 constexpr double kSettledShare = 0.5;
 constexpr double kHeardShare = 0.8;
+
+/// Beyond so many tracked pairs contacts that cannot end are not judged every step.
+constexpr std::size_t kPairsJudgedEachStep = 512;
+
+/// A contact that cannot end is then judged again after this share of announce_within, or half of
+/// it.
+constexpr double kRestShare = 0.125;
 
 // Of the freedom that was found at `looked`, has half passed? Then it is time to look again.
 bool WearsOut(Instant looked, Instant now, Instant free_until) {
@@ -40,18 +48,59 @@ void Detector::Implementation::TurnAll() {
   for (const std::uint32_t slot : slots_) Turn(slot, false);
 }
 
-// The time from which the pair is judged every step: while in contact, when contact is nearer than
-// Δt, when it is to be announced, when what was heard of a contact that has ended is settled.
+// The time from which the pair is judged every step: in a contact that may end, when contact is
+// nearer than Δt, when it is to be announced, when what was heard of a contact that has ended is
+// settled.
 void Detector::Implementation::NoteDue(std::uint32_t slot) {
   const PairRecord& pair = pairs_[slot];
   const double ahead = pair.announced ? options_.temporal_resolution : options_.announce_within;
   // Rounded as now + ahead is: clear_until <= now + ahead exactly if due <= now.
   const Instant due = std::min(AddRoundedUp(pair.clear_until, -ahead), pair.settles);
-  pairs_due_.Set(slot, pair.in_contact ? Instant::Always() : due);
+  pairs_due_.Set(slot, pair.in_contact ? pair.rests_until : due);
 }
 
-// Up to here no later state of the agent is waited for. States of its own rate may still narrow what is known;
-// an agent that speaks seldom, or once, is not waited for longer than twice its last interval.
+// While two balls may not come apart, and neither tells anything new, nothing can be told of their
+// contact but what has been: until then it rests. With u >= 0 no freedom can be certified where
+// |Δc| <= r, and |Δc| is convex: it holds from where the two were judged up to now if at both ends,
+// and from now on for as long as the relative speed takes to use up what is left. At the latest
+// they are judged after a share of announce_within, each pair at another time of it.
+Instant Detector::Implementation::RestOf(std::uint32_t slot, const ContactTracker& preview) const {
+  constexpr double kMargin = 0x1p-40;
+  constexpr std::uint32_t kTimes = 16;
+  if (pairs_.size() <= kPairsJudgedEachStep) return Instant::Always();
+  const PairRecord& pair = pairs_[slot];
+  const bool begun = pair.tracker.in_contact() ||
+                     (preview.in_contact() && preview.episode().begin.latest <= pair.tracker.at());
+  if (!begun || !preview.in_contact() || !preview.finished().empty()) return Instant::Always();
+  const SpaceTimeBound& a = At(pair.lower).bound();
+  const SpaceTimeBound& b = At(pair.higher).bound();
+  for (const SpaceTimeBound* bound : {&a, &b}) {
+    const AgentDeclaration& declaration = bound->declaration;
+    if (declaration.shape || declaration.shape_awaited) return Instant::Always();
+    if (bound->state.stamp > preview.at()) return Instant::Always();
+  }
+  const Eigen::Vector3d w = b.state.v_WA - a.state.v_WA;
+  double left = kInfinity;
+  for (const Instant at : {preview.at(), now_}) {
+    const double tau_A = SecondsBetween(a.state.stamp, at).middle();
+    const double tau_B = SecondsBetween(b.state.stamp, at).middle();
+    const Eigen::Vector3d d =
+        (b.state.p_WA - a.state.p_WA) + tau_B * b.state.v_WA - tau_A * a.state.v_WA;
+    const double sum = a.state.p_WA.norm() + b.state.p_WA.norm() + tau_A * a.state.v_WA.norm() +
+                       tau_B * b.state.v_WA.norm() + a.declaration.radius + b.declaration.radius;
+    left = a.declaration.radius + b.declaration.radius - d.norm() - kMargin * sum;
+    if (!(left > 0)) return Instant::Always();
+  }
+  const double rest =
+      kRestShare * options_.announce_within * (1 + static_cast<double>(slot % kTimes) / kTimes) / 2;
+  const double speed = w.norm();
+  const double apart = speed > 0 ? (1 - kMargin) * left / speed : kInfinity;
+  return AddRoundedDown(now_, std::min(rest, apart));
+}
+
+// Up to here no later state of the agent is waited for. States of its own rate may still narrow
+// what is known; an agent that speaks seldom, or once, is not waited for longer than twice its last
+// interval.
 double Detector::Implementation::Patience(const AgentRecord& agent) const {
   return std::max(options_.announce_within, 2 * agent.history.LastInterval());
 }
@@ -101,6 +150,7 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   Touch(pair.lower);
   Touch(pair.higher);
   if (!announcer_.Report(a, b, slot, preview, last, &pairs_) && Untrack(slot)) return;
+  if (pair.in_contact) pair.rests_until = RestOf(slot, preview);
   NoteDue(slot);
   pair.not_before = Instant::Always();
   if (pair.in_contact) {
@@ -117,7 +167,9 @@ void Detector::Implementation::Judge(std::uint32_t slot, bool last, ContactTrack
   const AgentRecord& a = At(pair.lower);
   const AgentRecord& b = At(pair.higher);
   const auto judge = [&](Instant until, ContactTracker* tracker) {
-    counters_.segments += collision::Judge(a.history, b.history, until, work, tracker);
+    const Judged judged = collision::Judge(a.history, b.history, until, work, tracker);
+    counters_.segments += judged.segments;
+    counters_.glances += judged.at_a_glance;
   };
   // Settled: both owners' states reach up to here, so that the bounds of both directions count.
   const Instant there = std::min(a.bound().state.expiry, b.bound().state.expiry);
@@ -187,8 +239,9 @@ void Detector::Implementation::NoteFull(std::uint32_t agent) {
   full_[agent] = At(agent).pairs.size() >= options_.pairs_per_agent_max;
 }
 
-// Both keys cover the pair from now on. False: they cannot, since a state lies beyond what is certain of the two, or
-// since they graze each other and may meet soon under the wider bounds that keys come from.
+// Both keys cover the pair from now on. False: they cannot, since a state lies beyond what is
+// certain of the two, or since they graze each other and may meet soon under the wider bounds that
+// keys come from.
 bool Detector::Implementation::Untrack(std::uint32_t slot) {
   const PairRecord& pair = pairs_[slot];
   const AgentRecord& a = At(pair.lower);

@@ -62,7 +62,7 @@ void Detector::Implementation::Expire(std::uint32_t agent, bool gone) {
 
 void Detector::Implementation::Leave(std::uint32_t agent) {
   if (!At(agent).expired) Expire(agent, true);
-  if (At(agent).saturated) std::erase(saturated_, agent);
+  if (At(agent).saturated) Unsaturate(agent);
   pairs_.Forget(agent);
   agents_[agent].reset();
   free_.push_back(agent);

@@ -59,7 +59,8 @@ Detector::Implementation::Implementation(const DetectorOptions& options)
       announcer_(options, &counters_),
       options_(options),
       broad_phase_(options.broad_phase),
-      former_(std::make_unique<ChosenBroadPhase>(), options.agents_max) {}
+      former_(std::make_unique<ChosenBroadPhase>(), options.agents_max),
+      key_rows_(options.skew) {}
 
 // The bits of an id are its owner's choice: mixed, so that no scene makes all meet in one bucket by
 // chance (SplitMix64's finalizer).
@@ -237,12 +238,16 @@ void Detector::Implementation::Hear(const AgentId& id, Instant until) {
 }
 
 void Detector::Implementation::Put(std::uint32_t agent) {
-  broad_phase_.Put(agent, At(agent).margin.Widen(At(agent).bound()));
+  const SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
+  broad_phase_.Put(agent, wide);
+  key_rows_.Put(agent, wide);
   NoteBound(agent);
 }
 
 void Detector::Implementation::Narrow(std::uint32_t agent) {
-  broad_phase_.Narrow(agent, At(agent).margin.Widen(At(agent).bound()));
+  const SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
+  broad_phase_.Narrow(agent, wide);
+  key_rows_.Put(agent, wide);
   NoteBound(agent);
 }
 

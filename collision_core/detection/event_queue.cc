@@ -29,22 +29,28 @@ void EventQueue::Remove(std::uint32_t index) {
   SiftDown(place_[last.index]);
 }
 
-// No entry comes before its parent: the next in order is always a child of one that was taken.
-void EventQueue::First(std::size_t count, std::vector<std::uint32_t>* first) const {
-  first->clear();
-  frontier_.clear();
-  const auto later = [this](std::uint32_t a, std::uint32_t b) { return heap_[b] < heap_[a]; };
-  if (!heap_.empty()) frontier_.push_back(0);
-  while (first->size() < count && !frontier_.empty()) {
-    std::pop_heap(frontier_.begin(), frontier_.end(), later);
-    const std::uint32_t at = frontier_.back();
-    frontier_.pop_back();
-    first->push_back(heap_[at].index);
-    for (std::size_t child = 2 * std::size_t{at} + 1; child <= 2 * std::size_t{at} + 2; ++child) {
-      if (child >= heap_.size()) continue;
-      frontier_.push_back(static_cast<std::uint32_t>(child));
-      std::push_heap(frontier_.begin(), frontier_.end(), later);
+// No entry comes before its parent. Places of one generation lie side by side, those of the next one
+// at twice as far: depth first, leftmost first.
+void EventQueue::UpTo(Instant last, std::vector<std::uint32_t>* indices) const {
+  std::size_t at = 0;
+  const auto due = [&](std::size_t place) {
+    return place < heap_.size() && !(last < heap_[place].key);
+  };
+  if (!due(0)) return;
+  for (;;) {
+    indices->push_back(heap_[at].index);
+    if (due(2 * at + 1)) {
+      at = 2 * at + 1;
+      continue;
     }
+    if (due(2 * at + 2)) {
+      at = 2 * at + 2;
+      continue;
+    }
+    // Up to where a right-hand sibling is still to be looked at.
+    while (at > 0 && (at % 2 == 0 || !due(at + 1))) at = (at - 1) / 2;
+    if (at == 0) return;
+    ++at;
   }
 }
 

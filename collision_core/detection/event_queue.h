@@ -24,9 +24,9 @@ class EventQueue {
     return index < place_.size() && place_[index] != kAbsent;
   }
 
-  /// Replaces `first` by the first `count` indices in order (all, if there are fewer), in
-  /// O(count log count) whatever the size.
-  void First(std::size_t count, std::vector<std::uint32_t>* first) const;
+  /// Appends all indices whose key is not later than `last`, in no order that counts; O(their
+  /// number) whatever the size.
+  void UpTo(Instant last, std::vector<std::uint32_t>* indices) const;
 
  private:
   struct Entry {
@@ -41,8 +41,7 @@ class EventQueue {
   void SiftDown(std::size_t at);
 
   std::vector<Entry> heap_;
-  std::vector<std::uint32_t> place_;             // by index
-  mutable std::vector<std::uint32_t> frontier_;  // of First(): places, kept for their memory
+  std::vector<std::uint32_t> place_;  // by index
 };
 
 }  // namespace collision

@@ -36,9 +36,9 @@ Nearest AwaitedNearest(Nearest nearest) {
   return nearest;
 }
 
-// They may touch as soon as the segment begins: then the direction is that of the last state before,
-// whose pose is known better than any other's. None where a jump lies between, or where a shape was not
-// known then.
+// They may touch as soon as the segment begins: then the direction is that of the last state
+// before, whose pose is known better than any other's. None where a jump lies between, or where a
+// shape was not known then.
 ContactNormal NormalBefore(const History& a, const History& b, Instant from, Work* work) {
   const Instant of_a = a.LastStampBefore(from), of_b = b.LastStampBefore(from);
   if (of_a.is_never() || of_b.is_never()) return {};
@@ -49,20 +49,31 @@ ContactNormal NormalBefore(const History& a, const History& b, Instant from, Wor
   return NormalAt(body_a, body_b, 0, work);
 }
 
-void JudgeOne(const History& history_a, const History& history_b, Instant from, Instant to,
+// Whether a glance was enough.
+bool JudgeOne(const History& history_a, const History& history_b, Instant from, Instant to,
               Work* work, ContactTracker* tracker) {
   const BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
   const double duration = SecondsBetween(from, to).upper;
-  SegmentVerdict times = JudgeSegment(a.ball, b.ball, duration);
+  const bool balls = a.is_ball() && b.is_ball();
   work->Spend(1);
+  if (balls) {
+    if (const auto contact = ContactAtAGlance(a.ball, b.ball, duration)) {
+      tracker->Apply(*contact, to, {}, {});
+      return true;
+    }
+  }
+  SegmentVerdict times = JudgeSegment(a.ball, b.ball, duration);
   Nearest nearest;
   ContactNormal normal;
   if (times.free_until < duration) {
     if (a.awaited || b.awaited) {
       times.contact_from = 1, times.contact_to = 0;
       nearest = AwaitedNearest(NearestOf(a.ball, b.ball, from, duration));
-    } else if (a.is_ball() && b.is_ball()) {
-      nearest = NearestOf(a.ball, b.ball, from, duration);
+    } else if (balls) {
+      // Of a contact it is told where it begins, not where the two are nearest.
+      const bool goes_on = tracker->in_contact() && times.free_until <= 0;
+      const bool contact = goes_on || times.contact_from <= times.contact_to;
+      if (!contact) nearest = NearestOf(a.ball, b.ball, from, duration);
     } else {
       const ShapeVerdict verdict = JudgeShapes(a, b, duration, times, work);
       times = verdict.times;
@@ -78,20 +89,21 @@ void JudgeOne(const History& history_a, const History& history_b, Instant from, 
     }
   }
   tracker->Apply(times, to, nearest, normal);
+  return false;
 }
 
 }  // namespace
 
-std::uint64_t Judge(const History& a, const History& b, Instant until, Work* work,
-                    ContactTracker* tracker) {
-  std::uint64_t segments = 0;
+Judged Judge(const History& a, const History& b, Instant until, Work* work,
+             ContactTracker* tracker) {
+  Judged judged;
   while (tracker->at() < until) {
     const Instant from = tracker->at();
     const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
-    JudgeOne(a, b, from, to, work, tracker);
-    ++segments;
+    judged.at_a_glance += JudgeOne(a, b, from, to, work, tracker);
+    ++judged.segments;
   }
-  return segments;
+  return judged;
 }
 
 bool HaveShapes(const History& a, const History& b) {

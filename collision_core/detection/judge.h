@@ -7,10 +7,15 @@
 
 namespace collision {
 
+struct Judged {
+  std::uint64_t segments = 0;
+  std::uint64_t at_a_glance = 0;  ///< Of these: a glance showed that two balls touch throughout.
+};
+
 /// Judges everything from tracker->at() to `until`, stamp by stamp, with whatever the two histories
-/// know, and shapes as closely as the work allows. Returns the number of segments judged.
-std::uint64_t Judge(const History& a, const History& b, Instant until, Work* work,
-                    ContactTracker* tracker);
+/// know, and shapes as closely as the work allows.
+Judged Judge(const History& a, const History& b, Instant until, Work* work,
+             ContactTracker* tracker);
 
 /// Whether either is more than a ball from `from` on.
 bool HaveShapes(const History& a, const History& b);

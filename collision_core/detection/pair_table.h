@@ -29,9 +29,10 @@ struct PairRecord {
   /// The end of the last contact, or doubt, that was heard of and is not settled; Always(): none.
   Instant unsettled_until = Instant::Always();
   bool in_contact = false;
-  bool announced = false;  ///< `event` is open and was published.
-  bool doubted = false;    ///< It tells of a doubt that lies before its contact, and apart from it.
-  bool broken = false;     ///< A bound was broken since it was opened: what it told may be void.
+  Instant rests_until = Instant::Always();  ///< In contact: without news it goes on until then.
+  bool announced = false;                   ///< `event` is open and was published.
+  bool doubted = false;  ///< It tells of a doubt that lies before its contact, and apart from it.
+  bool broken = false;   ///< A bound was broken since it was opened: what it told may be void.
   /// A contact, or a doubt, that is heard of but lies after `now`: [from, until].
   Instant ahead_from = Instant::Never();
   Instant ahead_until = Instant::Never();

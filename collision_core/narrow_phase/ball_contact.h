@@ -1,6 +1,7 @@
 // Free, touching or undecided: two balls over one segment of time.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "collision_core/motion/space_time_bound.h"
@@ -34,6 +35,12 @@ struct SegmentVerdict {
 /// rounded up by the caller; claims at its end hold at the exact end too. Works with duration 0 (an
 /// instant).
 SegmentVerdict JudgeSegment(const BallSegment& a, const BallSegment& b, double duration);
+
+/// What JudgeSegment() would tell, bit for bit, where a few operations in plain doubles show that
+/// the two touch throughout; else nullopt. Bodies that rest in each other are judged again and
+/// again.
+std::optional<SegmentVerdict> ContactAtAGlance(const BallSegment& a, const BallSegment& b,
+                                               double duration);
 
 /// The distance of the two surfaces at δ after base, best over the bounds: [lower, upper]; <= 0
 /// touching. lower > upper: the bounds contradict each other, so one of them was breached.

@@ -37,23 +37,27 @@ TEST(EventQueue, HeadIsTheLeastAfterEveryChange) {
   }
 }
 
-// Goal:   the first few come in order, whatever the count.
-// Method: 1000 keys with many ties, beside a sorted copy.
-TEST(EventQueue, FirstFewAreThoseThatWouldBeTaken) {
+// Goal:   those up to a key are told, each once, and nobody else, whatever the shape of the heap.
+// Method: every size up to 70, keys with many ties, every limit, beside a sorted copy.
+TEST(EventQueue, UpToTellsAllThatAreNotLater) {
   Random random(4);
-  EventQueue queue;
-  std::vector<std::pair<Instant, std::uint32_t>> sorted;
-  for (std::uint32_t index = 0; index < 1000; ++index) {
-    const Instant key = Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(300)));
-    queue.Set(index, key);
-    sorted.emplace_back(key, index);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::uint32_t> first;
-  for (const std::size_t count : {0, 1, 2, 33, 999, 1000, 1001}) {
-    queue.First(count, &first);
-    ASSERT_EQ(first.size(), std::min<std::size_t>(count, 1000));
-    for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i], sorted[i].second);
+  for (std::uint32_t size = 0; size <= 70; ++size) {
+    EventQueue queue;
+    std::vector<std::pair<Instant, std::uint32_t>> sorted;
+    for (std::uint32_t index = 0; index < size; ++index) {
+      const Instant key = Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(20)));
+      queue.Set(index, key);
+      sorted.emplace_back(key, index);
+    }
+    for (std::int64_t last = -1; last <= 20; ++last) {
+      std::vector<std::uint32_t> told, wanted;
+      queue.UpTo(Instant::FromNanoseconds(last), &told);
+      for (const auto& [key, index] : sorted) {
+        if (key.nanoseconds() <= last) wanted.push_back(index);
+      }
+      std::sort(told.begin(), told.end());
+      ASSERT_EQ(told, wanted) << size << " up to " << last;
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
 #include "tests/support/random.h"
 
 namespace collision {
@@ -206,6 +208,58 @@ TEST(JudgeSegment, InstantAndUnknown) {
   EXPECT_GT(unknown.contact_from, unknown.contact_to);
   EXPECT_EQ(unknown.free_until, 0);
   EXPECT_EQ(unknown.free_from, 1);
+}
+
+// Goal:   what a glance tells is what JudgeSegment() tells, bit for bit, and bodies that rest in each
+//         other are told at a glance.
+// Method: random pairs near each other, from hard touching to far apart, with one bound of each or two,
+//         true to each other or not; scales from 1e-12 to 1e12, offsets of 1e9 sizes.
+TEST(ContactAtAGlance, IsWhatTheFullRoutineTells) {
+  Random random(5);
+  int told = 0, deep = 0;
+  for (int i = 0; i < 100000; ++i) {
+    const double size = random.LogUniform(1e-12, 1e12), T = random.LogUniform(1e-9, 10);
+    const Eigen::Vector3d offset = random.Chance(0.3)
+                                       ? Eigen::Vector3d(random.UnitVector() * size * 1e9)
+                                       : Eigen::Vector3d::Zero();
+    const auto ns = std::max<std::int64_t>(1, std::llround(T * 1e9));
+    const double seconds = static_cast<double>(ns) * 1e-9;
+    // Depths from nothing to all, in parts of the size; and how much of it motion and doubt may be.
+    const double depth = random.Chance(0.3) ? 0 : random.LogUniform(1e-16, 2);
+    const double motion = random.Chance(0.3) ? 0 : random.LogUniform(1e-6, 1) * size;
+    const double radii[2] = {size * random.Uniform(0, 1), size};
+    const auto body = [&](bool second) {
+      Eigen::Vector3d p = offset;
+      if (second) p += random.UnitVector() * (radii[0] + radii[1]) * std::abs(1 - depth);
+      const Eigen::Vector3d v = random.UnitVector() * (motion / seconds) * random.Uniform(0, 1);
+      const double M = random.Chance(0.3) ? 0 : motion / (seconds * seconds) * random.Uniform(0, 1);
+      SpaceTimeBound from = Bound(0, p, v, radii[second], M);
+      SpaceTimeBound to = Bound(ns, p + seconds * v, v, radii[second], M);
+      if (random.Chance(0.1)) to.state.p_WA += random.UnitVector() * size * random.Uniform(0, 3);
+      if (random.Chance(0.3)) from.state.position_error = motion * random.Uniform(0, 0.5);
+      BallSegment segment = Between(from, to);
+      if (random.Chance(0.5)) segment.bounds.pop_back();
+      if (random.Chance(0.02)) segment.bounds.clear();
+      return segment;
+    };
+    const BallSegment a = body(false), b = body(true);
+    const double duration = random.Chance(0.02) ? 0 : seconds;
+    const SegmentVerdict full = JudgeSegment(a, b, duration);
+    const std::optional<SegmentVerdict> glance = ContactAtAGlance(a, b, duration);
+    deep += full.free_until == 0 && full.free_from == duration && full.contact_from == 0 &&
+            full.contact_to == duration && full.contact_continuous;
+    if (!glance) continue;
+    ++told;
+    const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
+    ASSERT_EQ(bits(glance->free_until), bits(full.free_until)) << i;
+    ASSERT_EQ(bits(glance->contact_from), bits(full.contact_from)) << i;
+    ASSERT_EQ(bits(glance->contact_to), bits(full.contact_to)) << i;
+    ASSERT_EQ(bits(glance->free_from), bits(full.free_from)) << i;
+    ASSERT_EQ(glance->contact_continuous, full.contact_continuous) << i;
+  }
+  EXPECT_GT(told, 20000);
+  // The others touch by a hair, or one of their bounds is far from the other.
+  EXPECT_GT(told, 0.8 * deep);
 }
 
 // Goal:   the separation at an instant is the best that all bounds together allow.

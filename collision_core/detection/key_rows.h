@@ -1,0 +1,42 @@
+// Whether a renewed agent can concern another one: a cheap test in front of the canonical routine.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision {
+
+/// Of each agent what the test needs, side by side: its newest bound in short, and its key.
+class KeyRows {
+ public:
+  explicit KeyRows(double skew) : skew_(skew) {}
+
+  /// The bound that keys come from, where an agent that has jumped may still be before the jump.
+  void Put(std::uint32_t agent, const SpaceTimeBound& bound);
+  void SetKey(std::uint32_t agent, Instant key) { rows_[agent].key = key; }
+  Instant key(std::uint32_t agent) const { return rows_[agent].key; }
+
+  /// True only if no motions within the two bounds bring them together before the partner's key.
+  /// Says so mostly, where the two are well apart until then.
+  bool CertainlyLater(std::uint32_t agent, std::uint32_t partner) const;
+
+ private:
+  struct Row {
+    Eigen::Vector3d p, v;
+    double speed;      ///< |v|.
+    double magnitude;  ///< |p| + |v|, of which rounding takes a part.
+    double reach;      ///< Radius and all errors that do not grow; with the skew.
+    double velocity_error;
+    double acceleration_max;
+    double time_step;
+    Instant stamp;
+    Instant key = Instant::Always();
+  };
+
+  double skew_;
+  std::vector<Row> rows_;  // by agent
+};
+
+}  // namespace collision
