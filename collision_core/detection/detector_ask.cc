@@ -104,6 +104,9 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
   latest_.Remove(agent);
   fresh_.push_back(agent);
   MarkTracked(record);
+  // Before its key was due, because many others changed: where they meet it later than that, it stays.
+  const bool early = many_ && !renewed && !was_saturated && covered > AnnounceUntil();
+  const std::uint32_t next_before = record.next_partner;
   // A saturated agent was promised nothing.
   if (renewed || !was_saturated) TrackUncovered(agent, renewed, covered);
   const Instant from = std::min(now_, covered);
@@ -111,6 +114,10 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
     crowd_ = true;
   } else {
     AskBroadPhase(agent, from, renewed, was_saturated, covered);
+  }
+  if (early && !record.saturated && record.key > covered) {
+    record.next_partner = next_before;
+    SetKey(agent, covered);
   }
   if (renewed) LowerKeys(agent, from);
   if (many_) return TellIfLowered(agent, covered);

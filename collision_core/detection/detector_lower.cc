@@ -6,6 +6,9 @@
 namespace collision {
 namespace {
 
+/// Keys beyond this horizon are far.
+constexpr int kFarHorizon = 4;
+
 /// With so few keys all are looked at one by one.
 constexpr std::size_t kFewKeys = 32;
 
@@ -90,10 +93,12 @@ std::uint64_t Detector::Implementation::LowerNearKeys(std::uint32_t agent, Insta
 }
 
 // Where very many are renewed at once, a look of each at each far key would cost more than to ask
-// those agents anew, once. They are asked after the renewed, as if their keys were due.
+// those agents anew, once. They are asked after the renewed, as if their keys were due. Which these
+// are depends on keys alone, not on what the broad phase costs: answers may be early, and the more so
+// the farther ahead they were asked.
 void Detector::Implementation::AskFarKeysAnew() {
   candidates_.clear();
-  latest_.UpTo(Reversed(std::max(AnnounceUntil(), Horizon(split_))), &candidates_);
+  latest_.UpTo(Reversed(Horizon(kFarHorizon)), &candidates_);
   for (const std::uint32_t agent : candidates_) {
     latest_.Remove(agent);
     queue_.Set(agent, Instant::Always());
