@@ -49,7 +49,8 @@ struct PointExtent {
 };
 
 /// A grid for one question about many points of like reach, evenly spread: nothing is kept for a
-/// later one, so that each costs no more than it must: sixteen bytes in the order of the cells.
+/// later one, so that each costs no more than it must: sixteen bytes in the order of the cells,
+/// thirty-two where lines are compared.
 /// Cells that lie side by side along x do so in memory as well, and are scanned as one range.
 class PointGrid {
  public:
