@@ -64,6 +64,15 @@ BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta)
   return {LeastUncertain(a, delta), LeastUncertain(b, delta), true};
 }
 
+RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset) {
+  RelativePose pose;
+  pose.matrix = matrix;
+  pose.offset = offset;
+  pose.matrix_error = kPosingRounding;
+  pose.offset_error = MultiplyUp(kPosingRounding, Norm(IntervalVector(offset)).upper);
+  return pose;
+}
+
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta) {
   const MovingBall& ball_A = a.ball.bounds[choice.of_A];
   const MovingBall& ball_B = b.ball.bounds[choice.of_B];

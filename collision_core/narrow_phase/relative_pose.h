@@ -43,6 +43,10 @@ struct BoundChoice {
 };
 BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta);
 
+/// B's body frame seen from A's, exactly as given: nothing but rounding, and A's frame is the world's.
+/// Requires a matrix that is a rotation to within 2^-20.
+RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset);
+
 /// At δ after the segments' base.
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta);
 

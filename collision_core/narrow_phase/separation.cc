@@ -56,6 +56,11 @@ class Traversal {
     return std::move(look_);
   }
 
+  Look RunUntil(double width, double share) {
+    narrow_ = Narrow{width, share};
+    return Run({});
+  }
+
   /// Nothing but this evidence of contact.
   Look RunAgain(const Evidence& evidence) {
     LookAgainAt(evidence);
@@ -64,6 +69,10 @@ class Traversal {
   }
 
  private:
+  struct Narrow {
+    double width, share;
+  };
+
   struct Candidate {
     double lower;
     std::uint32_t a, b;
@@ -81,6 +90,10 @@ class Traversal {
   // still be certain to cross.
   bool Decided(const Candidate& front) const {
     const double lower = std::min(front.lower, resolved_lower_);
+    if (narrow_) {
+      return Touching() || look_.upper - lower <= std::max(narrow_->width, narrow_->share * lower);
+    }
+    if (goal_ == Goal::kYesNo) return Touching() || lower > pose_.translation;
     if (goal_ == Goal::kNearest) {
       if (look_.upper <= 0 || look_.ways.size() > kWaysMax) return true;
       return lower > 0 && front.lower > look_.upper + 2 * pose_.translation;
@@ -287,7 +300,8 @@ class Traversal {
 
   // Is a pair that is at least so far apart looked at closely enough?
   bool FarEnough(double lower) const {
-    if (goal_ == Goal::kNearest) return lower > look_.upper + 2 * pose_.translation;
+    if (narrow_ || goal_ == Goal::kNearest) return lower > look_.upper + 2 * pose_.translation;
+    if (goal_ == Goal::kYesNo) return lower > pose_.translation;
     return lower > pose_.translation && lower >= kEnoughOfUpper * look_.upper;
   }
 
@@ -367,6 +381,7 @@ class Traversal {
   const Goal goal_;
   Work& work_;
   const double slack_;
+  std::optional<Narrow> narrow_;
   std::uint64_t margin_until_ = kNotTouching;
   double resolved_lower_ = kInfinity;  // of the pairs that were looked at to the end
   std::vector<Candidate> heap_;
@@ -404,6 +419,11 @@ Surface::Surface(const BodySegment& body)
 Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work,
             const Evidence& hint) {
   return Traversal(a, b, pose, goal, work).Run(hint);
+}
+
+Look BracketAt(const Surface& a, const Surface& b, const RelativePose& pose, double width,
+               double share, Work* work) {
+  return Traversal(a, b, pose, Goal::kDecision, work).RunUntil(width, share);
 }
 
 Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,

@@ -33,7 +33,9 @@ enum class Goal {
               ///< neither can become certain at this pose.
   kContact,  ///< Likewise, but where contact is certain the look goes on for a while: the wider the
              ///< margin, the longer contact lasts.
-  kNearest   ///< Down to the triangles, so that the shortest way between the two is known.
+  kNearest,  ///< Down to the triangles, so that the shortest way between the two is known.
+  kYesNo     ///< Certainly apart, or certainly in contact, and nothing more; or neither can become
+             ///< certain at this pose.
 };
 
 /// Units for which Goal::kContact looks for a wider margin.
@@ -82,6 +84,11 @@ struct Look {
 /// at so closely.
 Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work,
             const Evidence& hint = {});
+
+/// Until the bracket of the distance is at most `width` [m] wide, or relative to its lower end at
+/// most `share`, or nothing makes it narrower; where contact is certain it ends at once.
+Look BracketAt(const Surface& a, const Surface& b, const RelativePose& pose, double width,
+               double share, Work* work);
 
 /// Nothing but this evidence: of contact all is said, of the distance nothing below.
 Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,

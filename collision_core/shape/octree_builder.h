@@ -3,17 +3,11 @@
 
 #include <cstdint>
 
+#include "collision_core/shape/shape_options.h"
 #include "collision_core/shape/sphere_tree.h"
 #include "collision_core/shape/triangle_mesh.h"
 
 namespace collision {
-
-struct ShapeOptions {
-  std::uint32_t triangles_per_leaf = 4;  ///< A node with so few is not divided.
-  std::uint32_t levels_max = 12;         ///< Octants are halved at most so often.
-  /// The tree's nodes at most: beyond, nodes become leaves with more triangles.
-  std::size_t nodes_max = std::size_t{1} << 20;
-};
 
 /// An octant with more triangles is divided even if they all meet in one corner, which no division
 /// takes apart: this many times triangles_per_leaf.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "collision_core/shape/octree_builder.h"
 #include "collision_core/shape/surface_query.h"
 
 namespace collision {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "collision_core/numeric/interval.h"
-#include "collision_core/shape/octree_builder.h"
+#include "collision_core/shape/shape_options.h"
 #include "collision_core/shape/sphere_tree.h"
 #include "collision_core/shape/triangle_mesh.h"
 
