@@ -29,6 +29,55 @@ TEST(ShapeBytes, AreWhatTheFormatSays) {
                                             zero + "\0\0\0\0"s + "\1\0\0\0"s + "\4\3\2\1"s);
 }
 
+ShapeContent CapsuleAndHull() {
+  ShapeContent content = OneTriangle();
+  content.solids.push_back({.kind = SolidKind::kCapsule, .half_extents = {0, 0, 2}, .rounding = 1});
+  content.solids.push_back(
+      {.kind = SolidKind::kHull, .position = {1, 2, 3}, .points = {{4, 5, 6}, {7, 8, 9}}});
+  return content;
+}
+
+// Goal:   solids come back bit for bit; their header, each of them and the points stand where the
+//         format says.
+TEST(ShapeBytes, HoldSolids) {
+  const ShapeContent content = CapsuleAndHull();
+  const std::string bytes = EncodeShape(content);
+  const std::size_t solids =
+      kShapeHeaderBytes + kSolidHeaderBytes + 3 * kShapeVertexBytes + kShapeTriangleBytes;
+  ASSERT_EQ(bytes.size(), solids + 2 * kSolidBytes + 2 * kShapeVertexBytes);
+  EXPECT_EQ(bytes.substr(0, 24),
+            "CSHAPE\0\2"s + "\3\0\0\0"s + "\1\0\0\0"s + "\2\0\0\0"s + "\2\0\0\0"s);
+  EXPECT_EQ(bytes.substr(solids, 8), "\2\0\0\0"s + "\0\0\0\0"s);
+  EXPECT_EQ(bytes.substr(solids + kSolidBytes, 8), "\5\0\0\0"s + "\2\0\0\0"s);
+  EXPECT_EQ(bytes.substr(bytes.size() - 8), "\0\0\0\0\0\0\x22\x40"s);  // 9
+  std::string error;
+  const auto back = DecodeShape(bytes, &error);
+  ASSERT_TRUE(back) << error;
+  EXPECT_EQ(back->solids[0].kind, SolidKind::kCapsule);
+  EXPECT_EQ(back->solids[0].half_extents[2], 2);
+  EXPECT_EQ(back->solids[0].rounding, 1);
+  EXPECT_EQ(back->solids[1].position, content.solids[1].position);
+  EXPECT_EQ(back->solids[1].orientation, content.solids[1].orientation);
+  EXPECT_EQ(back->solids[1].points, content.solids[1].points);
+  EXPECT_EQ(EncodeShape(*back), bytes);
+}
+
+// Goal:   whatever one byte of the counts becomes: back as it stands, or refused; never read beyond.
+TEST(ShapeBytes, SolidsThatDoNotAddUpAreRefused) {
+  const std::string bytes = EncodeShape(CapsuleAndHull());
+  std::string error;
+  for (std::size_t length = 0; length < bytes.size(); ++length) {
+    EXPECT_FALSE(DecodeShape(bytes.substr(0, length), &error)) << length;
+  }
+  const std::size_t points_of_capsule = bytes.size() - 2 * kShapeVertexBytes - 2 * kSolidBytes + 4;
+  for (const char points : {'\1', '\2', '\3'}) {
+    std::string other = bytes;
+    other[points_of_capsule] = points;
+    EXPECT_FALSE(DecodeShape(other, &error)) << int{points};
+  }
+  EXPECT_NE(error.find("do not add up to 2"), std::string::npos) << error;
+}
+
 double RandomBits(Random* random) { return std::bit_cast<double>(random->Next()); }
 
 TEST(ShapeBytes, ComeBackBitForBit) {

@@ -1,0 +1,65 @@
+#include "idl/tree_message.h"
+
+namespace collision {
+namespace {
+
+bool IsOfOneLength(const v1::SphereTree& message) {
+  const int nodes = message.radius_m_size();
+  return message.centre_m_size() % 3 == 0 && message.centre_m_size() / 3 == nodes &&
+         message.signed_distance_m_size() == nodes && message.level_size() == nodes &&
+         message.first_child_size() == nodes && message.children_size() == nodes &&
+         message.first_triangle_size() == nodes && message.triangles_size() == nodes;
+}
+
+}  // namespace
+
+v1::SphereTree ToMessage(const SphereTree& tree) {
+  v1::SphereTree message;
+  message.set_levels(tree.levels);
+  for (const SphereNode& node : tree.nodes) {
+    for (const double x : node.centre) message.add_centre_m(x);
+    message.add_radius_m(node.radius);
+    message.add_signed_distance_m(node.signed_distance);
+    message.add_level(node.level);
+    message.add_first_child(node.first_child);
+    message.add_children(node.children);
+    message.add_first_triangle(node.first_triangle);
+    message.add_triangles(node.triangles);
+  }
+  message.mutable_triangle_indices()->Add(tree.triangle_indices.begin(),
+                                          tree.triangle_indices.end());
+  return message;
+}
+
+std::optional<SphereTree> FromMessage(const v1::SphereTree& message) {
+  if (!IsOfOneLength(message)) return std::nullopt;
+  SphereTree tree;
+  tree.levels = message.levels();
+  tree.nodes.resize(static_cast<std::size_t>(message.radius_m_size()));
+  for (int i = 0; i < message.radius_m_size(); ++i) {
+    SphereNode& node = tree.nodes[static_cast<std::size_t>(i)];
+    for (int axis = 0; axis < 3; ++axis) node.centre[axis] = message.centre_m(3 * i + axis);
+    node.radius = message.radius_m(i);
+    node.signed_distance = message.signed_distance_m(i);
+    node.level = message.level(i);
+    node.first_child = message.first_child(i);
+    node.children = message.children(i);
+    node.first_triangle = message.first_triangle(i);
+    node.triangles = message.triangles(i);
+  }
+  tree.triangle_indices.assign(message.triangle_indices().begin(),
+                               message.triangle_indices().end());
+  return tree;
+}
+
+v1::TreeRecipe RecipeOf(const ShapeOptions& options) {
+  v1::TreeRecipe recipe;
+  recipe.set_builder(options.builder == TreeBuilder::kFitted ? v1::TreeRecipe::FITTED
+                                                             : v1::TreeRecipe::OCTREE);
+  recipe.set_triangles_per_leaf(options.triangles_per_leaf);
+  recipe.set_levels_max(options.levels_max);
+  recipe.set_nodes_max(options.nodes_max);
+  return recipe;
+}
+
+}  // namespace collision

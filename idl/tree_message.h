@@ -1,0 +1,22 @@
+// Sphere trees as messages: the one document that is made of the core's own data, for daemon and
+// tools alike.
+#pragma once
+
+#include <optional>
+
+#include "collision_core/shape/shape_options.h"
+#include "collision_core/shape/sphere_tree.h"
+#include "idl/sphere_tree.pb.h"
+
+namespace collision {
+
+v1::SphereTree ToMessage(const SphereTree& tree);
+
+/// nullopt: columns of different lengths, or more nodes than can be numbered. Values are not judged:
+/// RefusalOf(tree, mesh) of collision_core/shape/tree_check.h does that.
+std::optional<SphereTree> FromMessage(const v1::SphereTree& message);
+
+/// Without the fingerprint.
+v1::TreeRecipe RecipeOf(const ShapeOptions& options);
+
+}  // namespace collision
