@@ -23,18 +23,18 @@ enum class SolidKind : std::uint32_t {
 /// A convex solid in a frame of its own: all points at most `rounding` [m] away from its core.
 struct SolidContent {
   SolidKind kind = SolidKind::kBall;
-  std::array<double, 3> position{};               ///< Of its frame, in the body frame [m].
-  std::array<double, 4> orientation{1, 0, 0, 0};  ///< w, x, y, z: its frame to the body frame.
-  std::array<double, 3> half_extents{};           ///< [m]
-  double rounding = 0;                            ///< [m]
-  std::vector<std::array<double, 3>> points;      ///< Of a hull, in its frame [m].
+  std::array<double, 3> position{};                ///< Of its frame, in the body frame [m].
+  std::array<double, 4> orientation{1, 0, 0, 0};   ///< w, x, y, z: its frame to the body frame.
+  std::array<double, 3> half_extents{};            ///< [m]
+  double rounding = 0;                             ///< [m]
+  std::vector<std::array<double, 3>> points = {};  ///< Of a hull, in its frame [m].
 };
 
 /// A surface of triangles, convex solids, or both: the agent is all of it together.
 struct ShapeContent {
   std::vector<std::array<double, 3>> vertices;          ///< In the body frame [m].
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< As indices of vertices.
-  std::vector<SolidContent> solids;
+  std::vector<SolidContent> solids = {};
 };
 
 inline constexpr std::uint64_t kShapeHeaderBytes = 16;    ///< Before the first vertex, version 1.
