@@ -59,6 +59,7 @@ struct Announcer::Subject {
   std::uint32_t slot;
   PairTable& pairs;
   PairRecord& pair;
+  std::uint64_t work_allowed = 0;
 };
 
 void Announcer::Start(Instant now) {
@@ -67,8 +68,9 @@ void Announcer::Start(Instant now) {
 }
 
 bool Announcer::Report(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
-                       const ContactTracker& preview, bool last, PairTable* pairs) {
-  const Subject subject{lower, higher, slot, *pairs, (*pairs)[slot]};
+                       const ContactTracker& preview, std::uint64_t work_allowed, bool last,
+                       PairTable* pairs) {
+  const Subject subject{lower, higher, slot, *pairs, (*pairs)[slot], work_allowed};
   PairRecord& pair = subject.pair;
   for (const ContactEpisode& episode : pair.tracker.TakeFinished()) Finish(subject, episode);
 
@@ -177,7 +179,7 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   TakeBrackets(episode, subject.pair, &event);
   event.began_before = episode.began_before;
   const Instant at = episode.begin.latest;
-  Work work(options_.work_units_per_turn / kEvaluationShare);
+  Work work(subject.work_allowed / kEvaluationShare);
   const History& lower = subject.lower.history;
   const History& higher = subject.higher.history;
   Evaluate(subject, {at, ProximityOf(lower, higher, at, &work)}, episode.normal);

@@ -21,10 +21,12 @@ class Announcer {
   const std::vector<CollisionEvent>& events() const { return events_; }
 
   /// `preview` is the pair's tracker, run ahead of what is settled. Returns false when the pair is
-  /// far apart again and needs no more tracking. `last`: one of the two leaves; what was is told,
-  /// but nothing new is announced.
+  /// far apart again and needs no more tracking. `work_allowed`: in the pair's turn; an eighth of it
+  /// comes on top for a contact that is told. `last`: one of the two leaves; what was is told, but
+  /// nothing new is announced.
   bool Report(const AgentRecord& lower, const AgentRecord& higher, std::uint32_t slot,
-              const ContactTracker& preview, bool last, PairTable* pairs);
+              const ContactTracker& preview, std::uint64_t work_allowed, bool last,
+              PairTable* pairs);
 
   /// Nobody watches the two any more: withdrawn, or ended if the contact was confirmed; by now if one of them
   /// is `gone`, else (expired, masked) nobody knows when.

@@ -26,6 +26,11 @@ struct DetectorOptions {
   /// Work that the narrow phase may spend on two shapes in one turn (narrow_phase/work.h); beyond,
   /// brackets stay wider and say that the budget limited them.
   std::uint64_t work_units_per_turn = 40000;
+  /// Likewise in one step on all pairs with shapes, shared out among those whose turn it is
+  /// (detection/work_shares.h): pairs that were announced and wait for a verdict count more, and what
+  /// one leaves goes to the next. Who leaves or expires is judged a last time beside it. 0: no limit
+  /// but each turn's.
+  std::uint64_t work_units_per_step = 0;
   /// The method that finds who may meet; changes what it costs, never what is told.
   BroadPhaseMethod broad_phase = BroadPhaseMethod::kAuto;
 };
@@ -76,10 +81,11 @@ struct DetectorCounters {
   std::uint64_t queries = 0;       ///< Agents asked for their earliest meetings.
   std::uint64_t pair_queries = 0;  ///< Pairs given to the canonical routine.
   std::uint64_t filter_tests = 0;  ///< Pairs that the broad phase ruled out, or not, more cheaply.
-  std::uint64_t method_changes = 0;  ///< Times the broad phase took another method.
-  std::uint64_t segments = 0;        ///< Segments judged by the narrow phase.
-  std::uint64_t glances = 0;         ///< Of these: a glance was enough.
-  std::uint64_t work_units = 0;      ///< Spent by the narrow phase.
+  std::uint64_t method_changes = 0;   ///< Times the broad phase took another method.
+  std::uint64_t segments = 0;         ///< Segments judged by the narrow phase.
+  std::uint64_t glances = 0;          ///< Of these: a glance was enough.
+  std::uint64_t work_units = 0;       ///< Spent by the narrow phase.
+  std::uint64_t turns_cut_short = 0;  ///< Pairs' turns that spent all they were allowed.
   std::uint64_t saturations = 0;
   std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.
 };

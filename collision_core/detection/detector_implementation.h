@@ -14,6 +14,7 @@
 #include "collision_core/detection/key_rows.h"
 #include "collision_core/detection/pair_table.h"
 #include "collision_core/detection/scene_extremes.h"
+#include "collision_core/detection/work_shares.h"
 
 namespace collision {
 
@@ -127,7 +128,10 @@ class Detector::Implementation {
 
   // Tracked pairs (detector_pairs.cc).
   void TurnAll();
-  void Turn(std::uint32_t slot, bool last);
+  void TurnSharing();
+  void ShareOut();
+  WorkClaim ClaimOf(std::uint32_t slot) const;
+  void Turn(std::uint32_t slot, std::uint64_t allowed, bool last);
   void Judge(std::uint32_t slot, bool last, ContactTracker* preview, Work* work);
   void NoteContactAhead(const ContactTracker& preview, PairRecord* pair) const;
   void NoteDue(std::uint32_t slot);
@@ -170,6 +174,9 @@ class Detector::Implementation {
   // Kept for their memory.
   std::vector<Meeting> found_;
   std::vector<std::uint32_t> candidates_, slots_, first_;
+  std::vector<WorkClaim> claims_;     // of slots_
+  std::vector<std::uint64_t> given_;  // likewise
+  WorkShares work_shares_;
   std::vector<std::uint64_t> marks_;  // by agent: == mark_ if a tracked partner of who asks
   std::uint64_t mark_ = 0;
   bool many_ = false;                      // are renewed in this step

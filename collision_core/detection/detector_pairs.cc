@@ -1,5 +1,6 @@
 // The pairs that may meet soon: who is tracked, when it is judged, what follows.
 #include <algorithm>
+#include <numeric>
 
 #include "collision_core/detection/detector_implementation.h"
 #include "collision_core/detection/judge.h"
@@ -15,6 +16,11 @@ constexpr double kLookAhead = 1.3;
 // what is promised.
 constexpr double kSettledShare = 0.5;
 constexpr double kHeardShare = 0.8;
+
+// How much a pair counts beside one that is not announced, when a step's work is shared out: who is
+// told "possible" waits for a verdict, and a contact for its end.
+constexpr std::uint32_t kDoubtWeight = 4;
+constexpr std::uint32_t kContactWeight = 2;
 
 /// Beyond so many tracked pairs contacts that cannot end are not judged every step.
 constexpr std::size_t kPairsJudgedEachStep = 512;
@@ -45,7 +51,55 @@ void Detector::Implementation::TurnAll() {
   }
   std::sort(slots_.begin(), slots_.end());
   slots_.erase(std::unique(slots_.begin(), slots_.end()), slots_.end());
-  for (const std::uint32_t slot : slots_) Turn(slot, false);
+  if (options_.work_units_per_step > 0) {
+    TurnSharing();
+  } else {
+    for (const std::uint32_t slot : slots_) Turn(slot, options_.work_units_per_turn, false);
+  }
+}
+
+// What one leaves of its share goes to the next. Balls cost next to nothing and have none.
+void Detector::Implementation::TurnSharing() {
+  ShareOut();
+  const std::uint64_t most = options_.work_units_per_turn;
+  std::uint64_t left = 0;
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (claims_[i].wanted == 0) {
+      Turn(slots_[i], most, false);
+      continue;
+    }
+    left += given_[i];
+    const std::uint64_t before = counters_.work_units;
+    Turn(slots_[i], std::min(most, left), false);
+    left -= std::min(left, counters_.work_units - before);
+  }
+}
+
+// What a pair with shapes would use: what the last turn took, and something for what may have
+// changed since.
+WorkClaim Detector::Implementation::ClaimOf(std::uint32_t slot) const {
+  const PairRecord& pair = pairs_[slot];
+  WorkClaim claim;
+  if (!HaveShapes(At(pair.lower).history, At(pair.higher).history)) return claim;
+  claim.wanted = options_.work_units_per_turn;
+  if (pair.spent < claim.wanted / 4) claim.wanted = 2 * pair.spent + claim.wanted / 16;
+  if (pair.announced) claim.weight = pair.in_contact ? kContactWeight : kDoubtWeight;
+  return claim;
+}
+
+// Of the step's work, one part for each of slots_.
+void Detector::Implementation::ShareOut() {
+  const std::uint64_t total = std::min(options_.work_units_per_step, WorkShares::kTotalMax);
+  claims_.clear();
+  for (const std::uint32_t slot : slots_) claims_.push_back(ClaimOf(slot));
+  given_ = work_shares_.Of(claims_, total);
+  const std::uint64_t left =
+      total - std::accumulate(given_.begin(), given_.end(), std::uint64_t{0});
+  const auto sharing = static_cast<std::uint64_t>(std::count_if(
+      claims_.begin(), claims_.end(), [](const WorkClaim& claim) { return claim.wanted > 0; }));
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (claims_[i].wanted > 0) given_[i] += left / sharing;
+  }
 }
 
 // The time from which the pair is judged every step: in a contact that may end, when contact is
@@ -124,7 +178,7 @@ void Detector::Implementation::NoteContactAhead(const ContactTracker& preview,
 }
 
 // `last`: no more states will come, so that everything known is settled.
-void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
+void Detector::Implementation::Turn(std::uint32_t slot, std::uint64_t allowed, bool last) {
   PairRecord& pair = pairs_[slot];
   const AgentRecord& a = At(pair.lower);
   const AgentRecord& b = At(pair.higher);
@@ -133,11 +187,13 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
     return;
   }
   // One budget for all that this turn looks at, what is settled first.
-  Work work(options_.work_units_per_turn);
+  Work work(allowed);
   ContactTracker preview = pair.tracker;
   Judge(slot, last, &preview, &work);
   pair.work += work.spent();
+  pair.spent = work.exhausted() ? kAllWanted : work.spent();
   counters_.work_units += work.spent();
+  counters_.turns_cut_short += work.exhausted();
   NoteContactAhead(preview, &pair);
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
@@ -149,7 +205,7 @@ void Detector::Implementation::Turn(std::uint32_t slot, bool last) {
   pair.turned = step_;
   Touch(pair.lower);
   Touch(pair.higher);
-  if (!announcer_.Report(a, b, slot, preview, last, &pairs_) && Untrack(slot)) return;
+  if (!announcer_.Report(a, b, slot, preview, allowed, last, &pairs_) && Untrack(slot)) return;
   if (pair.in_contact) pair.rests_until = RestOf(slot, preview);
   NoteDue(slot);
   pair.not_before = Instant::Always();

@@ -49,7 +49,7 @@ void Detector::Implementation::Expire(std::uint32_t agent, bool gone) {
   AgentRecord& record = At(agent);
   const std::vector<std::uint32_t> slots = record.pairs;
   for (const std::uint32_t slot : slots) {
-    Turn(slot, true);
+    Turn(slot, options_.work_units_per_turn, true);
     if (pairs_.Contains(slot)) Drop(slot, gone);
   }
   record.expired = true;

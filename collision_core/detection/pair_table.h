@@ -10,6 +10,9 @@
 
 namespace collision {
 
+/// More work than any turn may spend.
+inline constexpr std::uint64_t kAllWanted = ~std::uint64_t{0};
+
 /// One tracked pair. `lower` and `higher` are agent indices, in the order of the agents' ids.
 struct PairRecord {
   std::uint32_t lower;
@@ -36,7 +39,8 @@ struct PairRecord {
   /// A contact, or a doubt, that is heard of but lies after `now`: [from, until].
   Instant ahead_from = Instant::Never();
   Instant ahead_until = Instant::Never();
-  CollisionEvent event{};  ///< The last revision published.
+  CollisionEvent event{};            ///< The last revision published.
+  std::uint64_t spent = kAllWanted;  ///< In its last turn, if that was enough.
   std::uint64_t work = 0;  ///< Segments and instants judged since the contact's number was given.
 };
 
