@@ -226,6 +226,11 @@ std::uint64_t WorkUnitsPerTurn(const v1::Config& complete) {
       std::llround(complete.time_budget_us() * complete.work_units_per_us()));
 }
 
+std::uint64_t WorkUnitsPerStep(const v1::Config& complete) {
+  const double units = complete.step_budget_us() * complete.work_units_per_us();
+  return units > 0 ? std::max<std::uint64_t>(1, std::llround(units)) : 0;
+}
+
 std::vector<ConfigError> CheckConfig(const v1::Config& complete) {
   std::vector<ConfigError> errors;
   for (const ConfigOption& option : ConfigOptions()) {

@@ -36,6 +36,8 @@ std::vector<ConfigError> CheckConfig(const v1::Config& complete);
 
 /// What the narrow phase may spend on one pair in one turn.
 std::uint64_t WorkUnitsPerTurn(const v1::Config& complete);
+/// Likewise on all pairs in one step; 0: no limit.
+std::uint64_t WorkUnitsPerStep(const v1::Config& complete);
 
 /// A complete configuration as protobuf text that explains itself; ParseConfig() reads back the
 /// same values.

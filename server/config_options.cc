@@ -75,9 +75,14 @@ constexpr ConfigOption kOptions[] = {
      "What the narrow phase may spend on two agents of which one has a shape, in one turn; beyond, "
      "brackets stay wider and say so. 0: their sphere trees are not refined at all. It is counted "
      "in work units, so that a replay stops where the recorded run did, on any machine."},
+    {"step_budget_us", "us", "0", "1000000", "", "0",
+     "Likewise in one step on all pairs together, shared out so that none starves: who was "
+     "announced "
+     "and waits for a verdict gets more. 0: no limit but time_budget_us for each."},
     {"work_units_per_us", "work units", "1", "1000000", "", "20",
-     "Turns time_budget_us into work units. collisiond --calibrate measures it on this machine."},
-    {"shape_triangles_max", "triangles", "1", "5000000", "", "200000",
+     "Turns time_budget_us and step_budget_us into work units. collisiond --calibrate measures it "
+     "on this machine."},
+    {"shape_triangles_max", "triangles", "1", "5000000", "", "2000000",
      "Triangles of one shape; a shape of more is refused."},
     {"shapes_max", "shapes", "1", "65536", "", "1024",
      "Different shapes in the world, those that are still arriving among them; another one is "
@@ -89,6 +94,22 @@ constexpr ConfigOption kOptions[] = {
      "How it is found who may meet. All methods tell the same; they differ in what they cost. AUTO "
      "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and between them what does less "
      "work."},
+    {"tree_builder", "none", "", "", "OCTREE or FITTED", "OCTREE",
+     "Who makes the sphere trees of shapes. FITTED: balls that fit the surface more tightly by "
+     "far, "
+     "so that as many of them tell more; building takes longer. OCTREE: the reference. "
+     "collisionctl "
+     "sphere-tree shows the difference."},
+    {"tree_cache_dir", "none", "", "",
+     "a path of at most 4096 printable ASCII characters, or empty", "\"\"",
+     "Folder where trees are kept once they are built; it is made if need be. What is damaged or "
+     "of "
+     "another version is built anew and replaced. Empty: the folder that systemd names "
+     "(CacheDirectory=), else none."},
+    {"tree_cache_mb", "MB", "1", "1048576", "", "1024",
+     "Of all files in tree_cache_dir together, in millions of bytes; what was used least lately "
+     "goes "
+     "first. A shape of a million triangles takes about 100."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

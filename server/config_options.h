@@ -22,8 +22,8 @@ struct ConfigOption {
   std::string_view wall_value = {};  ///< The default with the wall clock, where it is another.
 };
 
-/// Every field of v1::Config in the order of their numbers, those of `clock` where it stands among
-/// them.
+/// Every field of v1::Config in the order in which they are declared, those of `clock` where it
+/// stands among them.
 std::span<const ConfigOption> ConfigOptions();
 
 /// The option whose path ends in the field name `name` (no two end alike), or null.

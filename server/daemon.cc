@@ -42,6 +42,7 @@ DetectorOptions OptionsOf(const v1::Config& config) {
           .pairs_per_agent_max = config.pairs_per_agent_max(),
           .history_max = config.history_max(),
           .work_units_per_turn = WorkUnitsPerTurn(config),
+          .work_units_per_step = WorkUnitsPerStep(config),
           .broad_phase = MethodOf(config.broad_phase())};
 }
 
@@ -57,7 +58,7 @@ class Daemon::Implementation {
         recorder_(recorder),
         shape_builder_(shape_builder
                            ? std::move(shape_builder)
-                           : std::make_unique<InlineShapeBuilder>(config_.shape_triangles_max())),
+                           : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
         shapes_(config_, shape_builder_.get()),
         world_(config_),
         detector_(OptionsOf(config_)),

@@ -20,10 +20,11 @@ void TellShape(const std::string& hash, const BuiltShape& built) {
   Log(spdlog::level::info, "shape",
       fmt::format(
           "{}: {} triangles ({} degenerate ones dropped), {}, radius {:.6g} m; {} spheres in "
-          "{} levels, built in {:.1f} ms",
+          "{} levels, {} in {:.1f} ms",
           ShortHash(hash), shape.mesh().triangles.size(), built.dropped,
           shape.closed() ? "closed" : "open", shape.facts().radius, shape.tree().nodes.size(),
-          shape.tree().levels, static_cast<double>(built.microseconds) / 1000));
+          shape.tree().levels, built.from_cache ? "from the cache" : "built",
+          static_cast<double>(built.microseconds) / 1000));
 }
 
 }  // namespace

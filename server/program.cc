@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "server/calibrate.h"
 #include "server/config.h"
+#include "server/config_options.h"
 #include "server/daemon.h"
 #include "server/dds_bus.h"
 #include "server/logging.h"
@@ -18,12 +21,38 @@
 #include "server/replay.h"
 #include "server/serve.h"
 #include "server/stop_signals.h"
+#include "server/tree_cache.h"
 
 namespace collision::server {
 namespace {
 
+/// systemd names the folder that it has made for CacheDirectory=; of several, none is ours alone.
+void TakeFolderOfSystemd(v1::Config* config) {
+  const char* folder = std::getenv("CACHE_DIRECTORY");
+  if (folder == nullptr || !config->tree_cache_dir().empty()) return;
+  config->set_tree_cache_dir(folder);
+  const ConfigOption& option = *FindConfigOption("tree_cache_dir");
+  if (std::string(folder).find(':') != std::string::npos || !CheckValue(*config, option).empty()) {
+    config->set_tree_cache_dir("");
+  }
+}
+
+/// Null: none is wanted. Throws std::runtime_error if there can be none.
+std::shared_ptr<TreeCache> MakeTreeCache(const v1::Config& config) {
+  if (config.tree_cache_dir().empty()) return nullptr;
+  return std::make_shared<TreeCache>(config.tree_cache_dir(),
+                                     config.tree_cache_mb() * std::uint64_t{1'000'000},
+                                     BuildOptionsOf(config).tree);
+}
+
 int Serve(const v1::Config& config, const std::string& record_file) {
   PrepareSignals();
+  std::shared_ptr<TreeCache> cache;
+  try {
+    cache = MakeTreeCache(config);
+  } catch (const std::exception& error) {
+    return Fail(kExitConfiguration, std::string("tree_cache_dir: ") + error.what());
+  }
   std::unique_ptr<RecordingWriter> recorder;
   try {
     if (!record_file.empty()) recorder = std::make_unique<RecordingWriter>(record_file, config);
@@ -36,7 +65,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   } catch (const std::exception& error) {
     return Fail(kExitUnavailable, error.what());
   }
-  return Serve(config, *bus, recorder.get());
+  return Serve(config, *bus, recorder.get(), std::move(cache));
 }
 
 void PrintEvent(const v1::Output& output) {
@@ -104,6 +133,7 @@ int RunProgram(const Options& options) {
   } catch (const std::exception& error) {
     return Fail(kExitConfiguration, std::string("log_file: ") + error.what());
   }
+  TakeFolderOfSystemd(&loaded.config);
   return Serve(loaded.config, options.record_file);
 }
 

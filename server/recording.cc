@@ -96,8 +96,10 @@ RecordingReader::RecordingReader(const std::string& path)
   if (!entry.header().has_config()) {
     throw std::runtime_error(path + ": byte 0: its configuration: missing");
   }
-  // What an older version did not know yet has its default.
-  config_ = CompleteConfig(std::move(*entry.mutable_header()->mutable_config()));
+  // What an older version did not know yet has its default; but it built its trees as it could.
+  config_ = std::move(*entry.mutable_header()->mutable_config());
+  if (!config_.has_tree_builder()) config_.set_tree_builder(v1::Config::OCTREE);
+  config_ = CompleteConfig(std::move(config_));
 }
 
 std::optional<v1::RecordedBatch> RecordingReader::Next() {

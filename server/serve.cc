@@ -48,11 +48,13 @@ void TellEventLog(const EventLog& log) {
   spdlog::set_level(level);
 }
 
-int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder) {
+int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
+          std::shared_ptr<TreeCache> cache) {
   SystemClock clock;
-  Daemon daemon(
-      config, bus, clock, recorder,
-      std::make_unique<ThreadedShapeBuilder>(config.shape_triangles_max(), [&bus] { bus.Wake(); }));
+  BuildOptions build = BuildOptionsOf(config);
+  build.cache = std::move(cache);
+  Daemon daemon(config, bus, clock, recorder,
+                std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }));
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
                                   [recorder] { EndInTheStep(recorder); });
   ServiceNotifier service_manager;

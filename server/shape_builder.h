@@ -6,11 +6,25 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "collision_core/shape/shape.h"
+#include "idl/config.pb.h"
+#include "server/tree_cache.h"
 
 namespace collision::server {
+
+/// How shapes are built.
+struct BuildOptions {
+  std::size_t triangles_max = 0;
+  ShapeOptions tree = {};
+  /// Of trees that `tree` makes; null: none. A builder may outlive who made it, so it shares it.
+  std::shared_ptr<TreeCache> cache = nullptr;
+};
+
+/// Without a cache: that is a matter of the machine, and a replay has none.
+BuildOptions BuildOptionsOf(const v1::Config& complete);
 
 /// What became of a shape's bytes. The same bytes give the same, in every build and every replay.
 struct BuiltShape {
@@ -18,14 +32,17 @@ struct BuiltShape {
   std::string refusal;                 ///< Then why: the value and the allowed range.
   std::size_t dropped = 0;             ///< Degenerate triangles.
   std::int64_t microseconds = 0;       ///< What it took: for people, not part of what follows.
+  bool from_cache = false;             ///< Likewise.
 };
 
-/// Decodes, validates, repairs (degenerate triangles are dropped) and builds. It may take seconds.
-BuiltShape BuildShape(std::string bytes, std::size_t triangles_max);
+/// Decodes, validates, repairs (degenerate triangles are dropped) and builds, or takes the tree from
+/// the cache. `hash` is that of the bytes. It may take minutes.
+BuiltShape BuildShape(const std::string& hash, std::string bytes, const BuildOptions& options);
 
 struct ShapeBuilderCounters {
   std::uint64_t building = 0;      ///< Started, not finished.
   std::uint64_t microseconds = 0;  ///< Spent on all that were finished.
+  TreeCacheCounters cache = {};
 };
 
 /// Builds shapes by their content hash. A shape is a function of its bytes, so only *when* it becomes
@@ -58,7 +75,7 @@ class ShapeBuilder {
 /// steps in every run. For tests, simulations and replays.
 class InlineShapeBuilder final : public ShapeBuilder {
  public:
-  explicit InlineShapeBuilder(std::size_t triangles_max) : triangles_max_(triangles_max) {}
+  explicit InlineShapeBuilder(BuildOptions options) : options_(std::move(options)) {}
 
   void Start(const std::string& hash, std::string bytes) override;
   bool has_finished() const override { return !finished_.empty(); }
@@ -68,7 +85,7 @@ class InlineShapeBuilder final : public ShapeBuilder {
   ShapeBuilderCounters counters() const override;
 
  private:
-  const std::size_t triangles_max_;
+  const BuildOptions options_;
   std::map<std::string, std::string> started_;  ///< Bytes by hash.
   std::vector<std::string> finished_;
   std::uint64_t microseconds_ = 0;

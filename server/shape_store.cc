@@ -15,6 +15,11 @@ constexpr std::uint64_t kRefusedPartsMax = 65536;
 /// Of a mesh whose triangles share no vertex.
 constexpr std::uint64_t kBytesPerTriangleMax = 3 * kShapeVertexBytes + kShapeTriangleBytes;
 
+/// In both layouts.
+std::size_t TreeBytesOf(const Shape& shape) {
+  return shape.tree().bytes() + shape.packed().bytes();
+}
+
 Refusal BadShape(const v1::ShapePart& part, const char* field, std::string what) {
   Refusal refusal = At(part);
   refusal.reason = v1::REJECTED_BAD_SHAPE;
@@ -216,7 +221,7 @@ void ShapeStore::FreeIfUnwanted(const std::string& hash) {
   if (const auto& shape = known->second.shape) {
     --counters_.visible;
     counters_.tree_nodes -= shape->tree().nodes.size();
-    counters_.tree_bytes -= shape->tree().bytes();
+    counters_.tree_bytes -= TreeBytesOf(*shape);
   } else {
     builder_.Forget(hash);
   }
@@ -234,7 +239,7 @@ std::optional<ReadyShape> ShapeStore::MakeVisible(const std::string& hash) {
   if (const auto& shape = known->second.shape = ready.built.shape) {
     ++counters_.visible;
     counters_.tree_nodes += shape->tree().nodes.size();
-    counters_.tree_bytes += shape->tree().bytes();
+    counters_.tree_bytes += TreeBytesOf(*shape);
   } else {
     ++counters_.refused;
     bytes_ -= known->second.bytes;

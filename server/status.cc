@@ -84,6 +84,14 @@ void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
   Count("tree_bytes", shapes.tree_bytes, status);
   Count("tree_build_us", shapes.builder.microseconds, status);
   Count("trees_building", shapes.builder.building, status);
+  const TreeCacheCounters& cache = shapes.builder.cache;
+  Count("tree_cache_hits", cache.hits, status);
+  Count("tree_cache_misses", cache.misses, status);
+  Count("tree_cache_discarded", cache.discarded, status);
+  Count("tree_cache_stored", cache.stored, status);
+  Count("tree_cache_failed", cache.failed, status);
+  Count("tree_cache_removed", cache.removed, status);
+  Count("tree_cache_bytes", cache.bytes, status);
 }
 
 void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
@@ -105,6 +113,7 @@ void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
   Count("method_changes", detector.method_changes, status);
   Count("segments", detector.segments, status);
   Count("work_units", detector.work_units, status);
+  Count("turns_cut_short", detector.turns_cut_short, status);
   Count("saturations", detector.saturations, status);
 }
 
@@ -137,6 +146,8 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   }
   AddExtension("event_log_count", std::to_string(sources.event_log.count()), &status);
   AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
+  AddExtension("tree_builder",
+               LowerCase(v1::Config::TreeBuilder_Name(sources.config.tree_builder())), &status);
   if (const auto names = sources.world.WaitedFor(); !names.empty()) {
     const std::string text = fmt::format("{}", fmt::join(names, ", "));
     AddExtension("waiting_for", text.substr(0, kExtensionTextMax), &status);

@@ -1,8 +1,11 @@
 #include "server/threaded_shape_builder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
-#include <deque>
+#include <iterator>
+#include <limits>
+#include <list>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -14,6 +17,9 @@ namespace {
 /// Who stops the service expects its end within a second.
 constexpr std::chrono::milliseconds kEndPatience{200};
 
+/// A shape of so many bytes, some 10,000 triangles, is built within a second or two.
+constexpr std::size_t kSmallBytes = 250'000;
+
 }  // namespace
 
 struct ThreadedShapeBuilder::Shared {
@@ -24,31 +30,43 @@ struct ThreadedShapeBuilder::Shared {
     bool done = false;
   };
 
-  std::size_t triangles_max = 0;
+  BuildOptions options;
   std::mutex mutex;
   // All below is guarded by the mutex.
   std::condition_variable changed;
   std::function<void()> on_finished;
   std::map<std::string, std::shared_ptr<Job>> jobs;  ///< Neither forgotten nor handed out.
-  std::deque<std::shared_ptr<Job>> waiting;
+  std::list<std::shared_ptr<Job>> waiting;           ///< In the order of their start.
   std::vector<std::string> finished;
   std::uint64_t microseconds = 0;
   bool stopped = false;
-  bool ended = false;
+  int working = 0;  ///< Workers that have not ended.
 
   /// Nobody has forgotten it, nor started the same hash anew.
   bool Wanted(const Job& job) const {
     const auto found = jobs.find(job.hash);
     return found != jobs.end() && found->second.get() == &job;
   }
+
+  /// The smallest that waits, of equal ones the first, if it is no larger; null: none.
+  std::shared_ptr<Job> TakeWaiting(std::size_t bytes_max) {
+    const auto smallest = std::min_element(
+        waiting.begin(), waiting.end(),
+        [](const auto& a, const auto& b) { return a->bytes.size() < b->bytes.size(); });
+    if (smallest == waiting.end() || (*smallest)->bytes.size() > bytes_max) return nullptr;
+    std::shared_ptr<Job> job = std::move(*smallest);
+    waiting.erase(smallest);
+    return job;
+  }
 };
 
-ThreadedShapeBuilder::ThreadedShapeBuilder(std::size_t triangles_max,
-                                           std::function<void()> on_finished)
+ThreadedShapeBuilder::ThreadedShapeBuilder(BuildOptions options, std::function<void()> on_finished)
     : shared_(std::make_shared<Shared>()) {
-  shared_->triangles_max = triangles_max;
+  shared_->options = std::move(options);
   shared_->on_finished = std::move(on_finished);
-  worker_ = std::thread(Work, shared_);
+  const std::size_t limits[] = {std::numeric_limits<std::size_t>::max(), kSmallBytes};
+  shared_->working = static_cast<int>(std::size(limits));
+  for (const std::size_t bytes_max : limits) workers_.emplace_back(Work, shared_, bytes_max);
 }
 
 ThreadedShapeBuilder::~ThreadedShapeBuilder() {
@@ -57,26 +75,24 @@ ThreadedShapeBuilder::~ThreadedShapeBuilder() {
   shared_->on_finished = nullptr;
   shared_->changed.notify_all();
   const bool ended =
-      shared_->changed.wait_for(lock, kEndPatience, [this] { return shared_->ended; });
+      shared_->changed.wait_for(lock, kEndPatience, [this] { return shared_->working == 0; });
   lock.unlock();
-  if (ended) {
-    worker_.join();
-  } else {
-    worker_.detach();
-  }
+  for (std::thread& worker : workers_) ended ? worker.join() : worker.detach();
 }
 
-void ThreadedShapeBuilder::Work(std::shared_ptr<Shared> shared) {
+void ThreadedShapeBuilder::Work(std::shared_ptr<Shared> shared, std::size_t bytes_max) {
   std::unique_lock lock(shared->mutex);
   for (;;) {
-    shared->changed.wait(lock, [&] { return shared->stopped || !shared->waiting.empty(); });
+    std::shared_ptr<Shared::Job> job;
+    shared->changed.wait(lock, [&] {
+      if (!shared->stopped) job = shared->TakeWaiting(bytes_max);
+      return shared->stopped || job != nullptr;
+    });
     if (shared->stopped) break;
-    const std::shared_ptr<Shared::Job> job = std::move(shared->waiting.front());
-    shared->waiting.pop_front();
     if (!shared->Wanted(*job)) continue;
     std::string bytes = std::move(job->bytes);
     lock.unlock();
-    BuiltShape built = BuildShape(std::move(bytes), shared->triangles_max);
+    BuiltShape built = BuildShape(job->hash, std::move(bytes), shared->options);
     lock.lock();
     shared->microseconds += static_cast<std::uint64_t>(built.microseconds);
     if (!shared->Wanted(*job)) continue;
@@ -86,7 +102,7 @@ void ThreadedShapeBuilder::Work(std::shared_ptr<Shared> shared) {
     shared->changed.notify_all();
     if (shared->on_finished) shared->on_finished();
   }
-  shared->ended = true;
+  --shared->working;
   shared->changed.notify_all();
 }
 
@@ -132,8 +148,10 @@ void ThreadedShapeBuilder::Forget(const std::string& hash) {
 }
 
 ShapeBuilderCounters ThreadedShapeBuilder::counters() const {
+  ShapeBuilderCounters counters;
+  if (shared_->options.cache) counters.cache = shared_->options.cache->counters();
   const std::lock_guard lock(shared_->mutex);
-  ShapeBuilderCounters counters{.building = 0, .microseconds = shared_->microseconds};
+  counters.microseconds = shared_->microseconds;
   for (const auto& [hash, job] : shared_->jobs) counters.building += job->done ? 0 : 1;
   return counters;
 }

@@ -1,4 +1,4 @@
-// Shapes are built on a thread of their own.
+// Shapes are built on threads of their own.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,13 @@
 
 namespace collision::server {
 
-/// One worker builds one shape after the other, in the order of their start.
+/// One worker builds whatever waits, the smallest shape first; another one small shapes only, so that
+/// no ship waits for minutes because somebody's landscape is being built.
 class ThreadedShapeBuilder final : public ShapeBuilder {
  public:
-  /// `on_finished` is called from the worker, after has_finished() has become true: it wakes whoever
+  /// `on_finished` is called from a worker, after has_finished() has become true: it wakes whoever
   /// waits, and does nothing else.
-  ThreadedShapeBuilder(std::size_t triangles_max, std::function<void()> on_finished);
+  ThreadedShapeBuilder(BuildOptions options, std::function<void()> on_finished);
 
   /// `on_finished` is not called any more. A build cannot be interrupted, and a large mesh takes
   /// minutes: one that is not over soon is left to itself, and its thread ends after it.
@@ -34,10 +35,10 @@ class ThreadedShapeBuilder final : public ShapeBuilder {
  private:
   struct Shared;
 
-  static void Work(std::shared_ptr<Shared> shared);
+  static void Work(std::shared_ptr<Shared> shared, std::size_t bytes_max);
 
-  const std::shared_ptr<Shared> shared_;  ///< With the worker, which may outlive this.
-  std::thread worker_;
+  const std::shared_ptr<Shared> shared_;  ///< With the workers, who may outlive this.
+  std::vector<std::thread> workers_;
 };
 
 }  // namespace collision::server

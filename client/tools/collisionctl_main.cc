@@ -10,6 +10,7 @@
 #include "client/event_text.h"
 #include "client/tools/collisionctl_json.h"
 #include "client/tools/collisionctl_text.h"
+#include "client/tools/sphere_tree_command.h"
 #include "client/validation.h"
 
 namespace collision::client {
@@ -127,9 +128,10 @@ Examples:
   collisionctl shapes                   every mesh: whose, how many triangles, all there?
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
+  collisionctl sphere-tree ship.obj     how well a mesh's spheres fit it (no service; see its --help)
   collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
 
-It only reads. The network is that of Cyclone DDS, set by CYCLONEDDS_URI.
+It changes nothing in the world. The network is that of Cyclone DDS, set by CYCLONEDDS_URI.
 Exit codes: 0 done, 2 usage, 69 no service within the timeout or no DDS, 74 the output
 cannot be written.)";
 
@@ -151,10 +153,16 @@ int Main(int argc, char** argv) {
   app.add_subcommand("earliest", "The earliest intersection that is possible now");
   app.add_subcommand("events", "The current events")
       ->add_flag("--follow", options.follow, "Go on with every revision as it comes");
+  SphereTreeOptions tree;
+  const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  if (sphere_tree->parsed()) {
+    if (options.json) tree.report = "json";
+    return RunSphereTree(tree);
   }
   if (!std::isfinite(options.timeout_s)) {  // CLI::Range takes it for in range.
     std::cerr << "collisionctl: --timeout: " << options.timeout_s << ", allowed: 0 to 1e6\n";

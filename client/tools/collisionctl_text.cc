@@ -85,6 +85,23 @@ std::string UpdatesText(const v1::ServiceStatus& status) {
          NumberText(share, "%.1f") + " %)";
 }
 
+/// How many trees there are, what they take, and whether they had to be built.
+std::string TreesText(const v1::ServiceStatus& status) {
+  const auto count = [&](const char* name) { return CounterOf(status, name); };
+  std::string text =
+      std::to_string(count("shapes")) + ", " + std::to_string(count("tree_nodes")) + " balls";
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() == "tree_builder") text += " (" + extension.value() + ")";
+  }
+  text += NumberText(static_cast<double>(count("tree_bytes")) / 1e6, ", %.1f MB; ") +
+          std::to_string(count("trees_building")) + " being built; ";
+  const std::uint64_t looked =
+      count("tree_cache_hits") + count("tree_cache_misses") + count("tree_cache_discarded");
+  if (looked == 0) return text + "no cache used";
+  return text + std::to_string(count("tree_cache_hits")) + " of " + std::to_string(looked) +
+         " from the cache";
+}
+
 std::string SimulatorsTable(const v1::ServiceStatus& status) {
   std::vector<std::vector<std::string>> rows = {
       {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
@@ -141,7 +158,8 @@ std::string StatusPage(const WorldView& view) {
       Line("earliest", EarliestText(view)) +
       Line("broad phase", status.broad_phase() + (status.broad_phase_why().empty() ? "" : ": ") +
                               status.broad_phase_why()) +
-      Line("questions", QuestionsText(status)) + Line("updates", UpdatesText(status));
+      Line("questions", QuestionsText(status)) + Line("updates", UpdatesText(status)) +
+      Line("trees", TreesText(status));
   std::string label = "left out";
   for (const std::string& what : status.left_out()) {
     page += Line(std::exchange(label, ""), what);

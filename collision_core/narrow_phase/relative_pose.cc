@@ -69,7 +69,8 @@ RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset
   pose.matrix = matrix;
   pose.offset = offset;
   pose.matrix_error = kPosingRounding;
-  pose.offset_error = MultiplyUp(kPosingRounding, Norm(IntervalVector(offset)).upper);
+  // The sum of the coordinates is no less than the length; 2^-50 for its own rounding.
+  pose.offset_error = kPosingRounding * (1 + 0x1p-50) * offset.cwiseAbs().sum();
   return pose;
 }
 

@@ -107,4 +107,16 @@ struct Nesting {
 };
 Nesting NestingOf(const Surface& a, const Surface& b, const RelativePose& pose, Work* work);
 
+/// Whether two bodies are apart or touch; for solids, one inside the other is touching.
+enum class Verdict { kApart, kTouching, kUndecided };
+
+struct Decision {
+  Verdict verdict = Verdict::kUndecided;
+  Look look;  ///< Of the surfaces, as far as it was needed.
+};
+
+/// Goal::kYesNo, and where the surfaces are apart, whether one is inside the other. The uncertainty
+/// of translation is counted in.
+Decision DecideAt(const Surface& a, const Surface& b, const RelativePose& pose, Work* work);
+
 }  // namespace collision

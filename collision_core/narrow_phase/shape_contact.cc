@@ -4,18 +4,12 @@
 #include <array>
 #include <cmath>
 
-#include "collision_core/narrow_phase/shape_motion.h"
+#include "collision_core/narrow_phase/contact_edge.h"
 
 namespace collision {
 namespace {
 
 using Instance = ShapeMotion::Instance;
-
-// Sweeps of one advance through time at most; each goes on where the last one stalled.
-constexpr int kSweepsMax = 64;
-
-// Steps along a contact at most; the work allowed ends them before, as a rule.
-constexpr int kStepsMax = 4096;
 
 // An advance ends where its steps are shorter than this share of the segment.
 constexpr double kResolution = 1e-6;
@@ -45,6 +39,12 @@ constexpr double kFallenShort = 0.25;
 // What is not certified free is searched for contact at its ends, and at the halves, quarters, … of
 // it from either end: down to 1/2^kSearchDepth.
 constexpr int kSearchDepth = 8;
+
+// Contact that is found so much later than what is not known of the motion explains, and by more than
+// this share of the segment, is looked for again, by points near where the two touch first.
+constexpr double kLate = 4;
+constexpr double kLateShare = 1e-5;
+constexpr double kFineShare = 1e-9;
 
 // Of the work that is left: for how long the two are free from the start, then from the end, then
 // for the direction in which they came near; the rest is for contact.
@@ -141,25 +141,13 @@ class Judgement {
 
   /// From `at` on, towards the end or the start: how far the two stay apart. ±infinity: throughout.
   double FreeFrom(double at, bool backward) {
-    const double start = at;
-    for (int sweeps = 0; sweeps < kSweepsMax; ++sweeps) {
-      const double left = backward ? at : AddUp(duration_, -at);
-      const double span = motion_.SpanFrom(at, left, backward, duration_);
-      const ShapeMotion::Sweep sweep = motion_.SweepFrom(at, span, backward);
-      if (!sweep.known) return at;
-      const double free = std::min(span, sweep.touch.seconds);
-      // The insides need to be asked once: later they are apart continuously.
-      if (sweeps == 0 && sweep.touch.seconds > 0 && !motion_.NeitherInside(sweep.pose)) {
-        nested_ = true;
-        return at;
-      }
-      if (sweep.touch.seconds > span && span >= left) return backward ? -kInfinity : kInfinity;
-      at = backward ? AddUp(at, -free) : AddDown(at, free);
-      if (sweep.touch.seconds > span) continue;
-      if (!backward) Remember(sweep.touch, start, at);
-      if (sweep.final || Exhausted() || free <= kResolution * duration_) break;
-    }
-    return at;
+    ContactEdge edge =
+        ContactEdge::Coarse(motion_, duration_, kResolution * duration_, backward, &work_);
+    const double free = edge.FreeFrom(at);
+    nested_ = nested_ || edge.nested();
+    exhausted_ = exhausted_ || edge.exhausted();
+    if (!backward && std::isfinite(free)) Remember(edge.touch(), at, free);
+    return free;
   }
 
   /// Certain contact in [f, g], which is not certified free.
@@ -171,6 +159,17 @@ class Judgement {
       width /= 2;
       if (TryContact(f, g, f + width, times)) return;
       if (depth > 1 && TryContact(f, g, g - width, times)) return;
+    }
+  }
+
+  /// Contact at [f, g]'s ends where FindContact() saw it late: edges that coincide, for example.
+  void Sharpen(double f, double g, SegmentVerdict* times) {
+    const bool found = times->contact_from <= times->contact_to;
+    if (found ? times->contact_from > f : f > 0) {
+      SharpenEnd(f, found ? times->contact_from : g, false, times);
+    }
+    if (found && times->contact_to < g && g < duration_) {
+      SharpenEnd(g, times->contact_to, true, times);
     }
   }
 
@@ -206,6 +205,22 @@ class Judgement {
   struct Approach {
     double from, to;  // apart in between
   };
+
+  void SharpenEnd(double free, double until, bool backward, SegmentVerdict* times) {
+    if (std::abs(until - free) <= kLateShare * duration_ || Exhausted()) return;
+    const Instance instance = motion_.LookAgain(free, {});
+    if (!instance.choice.certain) return;
+    const double late = kLate * instance.uncertainty / motion_.SpeedAt(instance);
+    if (!(std::abs(until - free) > late)) return;
+    ContactEdge edge(motion_, duration_, {kFineShare * duration_, 0}, backward, &work_);
+    const std::optional<double> touching = edge.ContactByPoints(free, until);
+    if (!touching) return;
+    const double lasts = edge.LastsFrom(*touching, until);
+    const bool found = times->contact_from <= times->contact_to;
+    if (found && lasts != until) times->contact_continuous = false;
+    if (!found) times->contact_to = lasts;
+    (backward ? times->contact_to : times->contact_from) = *touching;
+  }
 
   void Remember(const FirstTouch& touch, double start, double at) {
     if (touch.resolved) leaves_ = {Evidence::Kind::kLeaves, touch.leaf_A, touch.leaf_B};
@@ -273,7 +288,7 @@ class Judgement {
   double Extend(double at, bool backward) {
     Evidence evidence = evidence_;
     double longest = 0;
-    for (int step = 0; step < kStepsMax && !Exhausted(); ++step) {
+    while (!Exhausted()) {
       Instance instance = motion_.LookAgain(at, evidence);
       double lasts = instance.touching() ? motion_.ContactStep(instance, backward) : 0;
       if (lasts <= kFallenShort * longest || lasts == 0) {
@@ -374,6 +389,7 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
     verdict.normal = judgement.Normal();
   }
   judgement.FindContact(std::max(0.0, times.free_until), times.free_from, &times);
+  judgement.Sharpen(std::max(0.0, times.free_until), times.free_from, &times);
   judgement.LookOnce(std::max(0.0, times.free_until));
   verdict.exhausted = judgement.exhausted();
   if (judgement.nearest()) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "collision_core/narrow_phase/contact_patch.h"
+#include "collision_core/narrow_phase/revolved_pair.h"
+
 namespace collision {
 
 /// With h the seconds from the instant on: the prediction moves any two points relative to each
@@ -32,11 +35,12 @@ Turning TurningOf(const BodySegment& body, std::size_t bound, double at, bool ba
 
 // The tangent's deviation ½ |ω|² h² belongs to what turning may move a point by.
 SweptPose::Growth GrowthOf(const BodySegment& body, std::size_t bound, double at, bool backward,
-                           double chord) {
+                           bool bends, double chord) {
   if (!body.shape) return {};
   const MovingTurn& turn = body.turns[bound];
   const Quadratic angle = backward ? turn.off_angle.BackwardFrom(at) : turn.off_angle.From(at);
-  const Interval bend = Interval(0.5) * Square(Norm(IntervalVector(turn.w_WB)));
+  const Interval bend =
+      bends ? Interval(0.5) * Square(Norm(IntervalVector(turn.w_WB))) : Interval(0);
   return {chord, std::max(0.0, angle.c1.upper), std::max(0.0, (Max(0, angle.c2) + bend).upper)};
 }
 
@@ -51,8 +55,19 @@ constexpr double kFineBend = 1e-6;
 // Within so small a turn [rad] a tangent leaves its circle by 3 % of the radius.
 constexpr double kTurnOfSweep = 0.25;
 
+// Over more than this turn [rad] it is worth asking what a body sweeps in all its turns.
+constexpr double kTurnToRevolve = 6;
+
+// A body that turns so many times more slowly than the other.
+constexpr double kMuchSlower = 8;
+
 // Nearer to the middle of a segment than this share of it is the middle.
 constexpr double kNearMiddle = 1e-6;
+
+// Of two bodies that nearly touch, these parts may touch first: nearer than this share of their
+// size, and so many times what is not known of the motion.
+constexpr double kPatchReach = 1e-9;
+constexpr double kPatchBeyond = 2;
 
 }  // namespace
 
@@ -87,37 +102,63 @@ ShapeMotion::Instance ShapeMotion::LookAgain(double at, const Evidence& evidence
   return instance;
 }
 
-// The bounds that are the least uncertain half-way are taken for the whole sweep.
-ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, bool backward) const {
-  Sweep sweep;
+ShapeMotion::Instance ShapeMotion::LookAt(double at, const SolidPoint& point) const {
+  Instance instance = InstanceAt(at);
+  if (!instance.choice.certain) return instance;
+  instance.look.upper = UpperBy(point, surface_a_, surface_b_, instance.pose, &work_);
+  return instance;
+}
+
+std::vector<SolidPoint> ShapeMotion::PatchAt(double at, const FirstTouch& touch) const {
+  const Instance instance = InstanceAt(at);
+  if (!instance.choice.certain) return {};
+  const double size = surface_a_.reach() + surface_b_.reach();
+  const double within = kPatchReach * size + kPatchBeyond * instance.uncertainty;
+  return ContactPatch(surface_a_, surface_b_, instance.pose, within, touch.leaf_A, touch.leaf_B,
+                      &work_);
+}
+
+// The bounds that are the least uncertain half-way are taken for all of the span.
+BoundChoice ShapeMotion::ChoiceFor(double at, double span, bool backward) const {
   const double middle = backward ? at - 0.5 * span : at + 0.5 * span;
-  const BoundChoice choice = BestBounds(a_, b_, std::max(0.0, middle));
-  if (!choice.certain) return sweep;
-  sweep.known = true;
+  return BestBounds(a_, b_, std::max(0.0, middle));
+}
+
+SweptPose ShapeMotion::SweptFrom(double at, BoundChoice choice, bool backward, bool bends) const {
   work_.Spend(kPoseUnits);
-  sweep.pose = PoseAt(a_, b_, choice, at);
+  SweptPose swept;
+  swept.pose = PoseAt(a_, b_, choice, at);
   const MovingBall& ball_A = a_.ball.bounds[choice.of_A];
   const MovingBall& ball_B = b_.ball.bounds[choice.of_B];
   const IntervalVector velocity = ball_B.velocity - ball_A.velocity;
   const double sign = backward ? -1 : 1;
   const auto seen = [&](const Eigen::Vector3d& v) {
-    return Eigen::Vector3d(sign * sweep.pose.matrix_WA.transpose() * v);
+    return Eigen::Vector3d(sign * swept.pose.matrix_WA.transpose() * v);
   };
-  SweptPose swept;
-  swept.pose = sweep.pose;
   swept.velocity = seen(velocity.middle());
   if (a_.shape) swept.spin_A = seen(a_.turns[choice.of_A].w_WB);
   if (b_.shape) swept.spin_B = seen(b_.turns[choice.of_B].w_WB);
   // Each of the three is turned by a matrix that is off by matrix_error at most, and rounded.
   const Interval fastest = Norm(velocity) + TurningOf(a_, choice.of_A, at, backward).spin +
                            TurningOf(b_, choice.of_B, at, backward).spin;
-  swept.velocity_error = MultiplyUp(2 * sweep.pose.matrix_error + 0x1p-47, fastest.upper);
+  swept.velocity_error = MultiplyUp(2 * swept.pose.matrix_error + 0x1p-47, fastest.upper);
   const Quadratic both = ball_A.u() + ball_B.u();
   const Quadratic u = backward ? both.BackwardFrom(at) : both.From(at);
   swept.translation = {u.c0.upper, u.c1.upper, std::max(0.0, u.c2.upper)};
-  swept.turning_A = GrowthOf(a_, choice.of_A, at, backward, sweep.pose.chord_A);
-  swept.turning_B = GrowthOf(b_, choice.of_B, at, backward, sweep.pose.chord_B);
-  sweep.touch = TouchOf(surface_a_, surface_b_, swept, span, &work_);
+  swept.turning_A = GrowthOf(a_, choice.of_A, at, backward, bends, swept.pose.chord_A);
+  swept.turning_B = GrowthOf(b_, choice.of_B, at, backward, bends, swept.pose.chord_B);
+  return swept;
+}
+
+ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, bool backward,
+                                          const SweepDetail& detail) const {
+  Sweep sweep;
+  const BoundChoice choice = ChoiceFor(at, span, backward);
+  if (!choice.certain) return sweep;
+  sweep.known = true;
+  const SweptPose swept = SweptFrom(at, choice, backward, true);
+  sweep.pose = swept.pose;
+  sweep.touch = TouchOf(surface_a_, surface_b_, swept, span, &work_, detail);
   if (sweep.touch.resolved) {
     const double h = sweep.touch.seconds;
     const double bend = BendOf(a_, choice.of_A) + BendOf(b_, choice.of_B);
@@ -130,19 +171,48 @@ ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, bool backward)
 }
 
 double ShapeMotion::SpanFrom(double at, double left, bool backward, double duration) const {
-  double span = left;
+  const double span = ToMiddle(at, left, backward, duration), rate = FastestTurn();
+  return rate * span > kTurnOfSweep ? kTurnOfSweep / rate : span;
+}
+
+double ShapeMotion::ToMiddle(double at, double left, bool backward, double duration) const {
+  const double half = 0.5 * duration;
+  const double to_middle = backward ? at - half : half - at;
+  const bool two = a_.ball.bounds.size() > 1 || b_.ball.bounds.size() > 1;
+  return two && to_middle > kNearMiddle * duration ? std::min(left, to_middle) : left;
+}
+
+double ShapeMotion::FastestTurn() const {
+  double rate = 0;
   for (const BodySegment* body : {&a_, &b_}) {
-    for (const MovingTurn& turn : body->turns) {
-      const double rate = turn.w_WB.norm();
-      if (rate * span > kTurnOfSweep) span = kTurnOfSweep / rate;
-    }
-    const double half = 0.5 * duration;
-    const double to_middle = backward ? at - half : half - at;
-    if (body->ball.bounds.size() > 1 && to_middle > kNearMiddle * duration) {
-      span = std::min(span, to_middle);
-    }
+    for (const MovingTurn& turn : body->turns) rate = std::max(rate, turn.w_WB.norm());
   }
-  return span;
+  return rate;
+}
+
+double ShapeMotion::RevolvedFree(double at, double left, bool backward, double duration,
+                                 std::uint64_t units) const {
+  const double span = ToMiddle(at, left, backward, duration);
+  if (!(FastestTurn() * span > kTurnToRevolve)) return 0;
+  const BoundChoice choice = ChoiceFor(at, span, backward);
+  if (!choice.certain) return 0;
+  const auto wanted = static_cast<double>(units), most = static_cast<double>(work_.left());
+  const WorkShare share(wanted < most ? wanted / most : 1, &work_);
+  SweptPose swept = SweptFrom(at, choice, backward, false);
+  double free = RevolvedTouch(surface_a_, surface_b_, swept, span, &work_);
+  // A body that turns much more slowly than the other may be better taken for one that does not, for
+  // a while: what its turning moves a point by counts as unknown.
+  const double of_A = swept.spin_A.norm(), of_B = swept.spin_B.norm();
+  const double slow = std::min(of_A, of_B), fast = std::max(of_A, of_B);
+  if (free < span && slow > 0 && kMuchSlower * slow < fast) {
+    (of_A < of_B ? swept.spin_A : swept.spin_B).setZero();
+    (of_A < of_B ? swept.turning_A : swept.turning_B).c1 += slow * (1 + 0x1p-40);
+    const double some = std::min(span, kTurnOfSweep / slow);
+    free =
+        std::max(free, std::min(some, RevolvedTouch(surface_a_, surface_b_, swept, some, &work_)));
+  }
+  if (free > span && span >= left) return kInfinity;
+  return std::min(free, span);
 }
 
 void ShapeMotion::LookInside(Instance* instance) const {

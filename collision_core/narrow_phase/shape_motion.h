@@ -1,6 +1,7 @@
 // How fast a gap between two bodies can be used up.
 #pragma once
 
+#include "collision_core/narrow_phase/solid_point.h"
 #include "collision_core/narrow_phase/swept_pair.h"
 
 namespace collision {
@@ -33,6 +34,12 @@ class ShapeMotion {
   /// Nothing but what made contact certain at another instant.
   Instance LookAgain(double at, const Evidence& evidence) const;
 
+  /// Nothing but this point.
+  Instance LookAt(double at, const SolidPoint& point) const;
+
+  /// Points at which the two are likely to overlap soon, at an instant at which they nearly touch.
+  std::vector<SolidPoint> PatchAt(double at, const FirstTouch& touch) const;
+
   /// How soon the two may touch from an instant on, towards later or earlier times, within `span`
   /// seconds; `known` is false where nothing is known of one of them.
   struct Sweep {
@@ -42,11 +49,17 @@ class ShapeMotion {
     /// The search went down to what is known of the motion: another one from there leads no further.
     bool final = false;
   };
-  Sweep SweepFrom(double at, double span, bool backward) const;
+  Sweep SweepFrom(double at, double span, bool backward, const SweepDetail& detail = {}) const;
 
   /// Over so many of the `left` seconds one sweep is worth its while: beyond, tangents leave their
   /// curves and other bounds may be the narrower ones.
   double SpanFrom(double at, double left, bool backward, double duration) const;
+
+  /// How long from `at` on they stay apart however far each has turned by then, of the `left`
+  /// seconds; 0 where neither turns much. +infinity: all of it, the end included. So that the work
+  /// does not grow with turns that matter nothing. Says nothing of the inside. Spends `units` about.
+  double RevolvedFree(double at, double left, bool backward, double duration,
+                      std::uint64_t units) const;
 
   /// Where the surfaces are apart: so are the solids.
   bool NeitherInside(const RelativePose& pose) const;
@@ -59,6 +72,8 @@ class ShapeMotion {
   /// for ever. Requires touching().
   double ContactStep(const Instance& instance, bool backward) const;
 
+  double size() const { return surface_a_.reach() + surface_b_.reach(); }
+
   /// No two points of the bodies move faster relative to each other, as predicted [m/s].
   double SpeedAt(const Instance& instance) const;
 
@@ -66,6 +81,10 @@ class ShapeMotion {
   struct Drift;
   Instance InstanceAt(double at) const;
   Drift DriftFrom(const Instance& instance, bool backward) const;
+  BoundChoice ChoiceFor(double at, double span, bool backward) const;
+  SweptPose SweptFrom(double at, BoundChoice choice, bool backward, bool bends) const;
+  double ToMiddle(double at, double left, bool backward, double duration) const;
+  double FastestTurn() const;
 
   const BodySegment& a_;
   const BodySegment& b_;

@@ -1,5 +1,6 @@
 #include "collision_core/narrow_phase/swept_pair.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <tuple>
 #include <unordered_set>
@@ -15,19 +16,21 @@ constexpr int kTangentSteps = 4;
 // Likewise for a pair of triangles, each step only when no other pair may touch earlier.
 constexpr int kTriangleSteps = 16;
 
-// Spheres are opened while they are larger than this share of the uncertainty of the motion.
-constexpr double kFineEnough = 0.25;
+// The direction of a way as short as this, as a share of the triangles' size, is uncertain.
+constexpr double kShortWay = 0x1p-20;
 
-// Steps shorter than this share of the duration are not worth another.
-constexpr double kStepWorth = 1e-3;
+// Outside of these the square of a length may have lost what it says, by underflow or overflow.
+constexpr double kSquareMin = 0x1p-900, kSquareMax = 0x1p+900;
 
 // A root computed in a dozen roundings of 2^-53 each, none of them after a cancellation.
 constexpr double kRootShare = 1 - 0x1p-40;
 
-// A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0; growth >= 0.
+// A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0; growth >= 0. What overflows
+// tells nothing.
 double RootOf(double gap, double closing, double growth) {
   if (!(gap > 0)) return 0;
   const double root = std::sqrt(closing * closing + 4 * growth * gap);
+  if (!(root < kInfinity)) return 0;
   if (closing >= 0) {
     const double sum = closing + root;
     return sum > 0 ? kRootShare * (2 * gap / sum) : kInfinity;
@@ -42,7 +45,7 @@ struct Reach {
 // Up to when |d + w h| > reach(h): at each h the distance is at least its part along the direction
 // at h, so that steps of that tangent never go too far.
 double BallsTouch(const Eigen::Vector3d& d, const Eigen::Vector3d& w, const Reach& reach,
-                  double duration) {
+                  double duration, double step_worth) {
   double h = 0;
   for (int step = 0; step < kTangentSteps; ++step) {
     const Eigen::Vector3d between = d + h * w;
@@ -53,30 +56,40 @@ double BallsTouch(const Eigen::Vector3d& d, const Eigen::Vector3d& w, const Reac
     const double further = RootOf(gap, closing, reach.c2);
     h += further;
     if (h > duration) return kInfinity;
-    if (further < kStepWorth * duration) break;
+    if (further < step_worth * duration) break;
   }
   return h;
 }
 
 class Search {
  public:
-  Search(const Surface& a, const Surface& b, const SweptPose& swept, double duration, Work* work)
-      : a_(a), b_(b), swept_(swept), duration_(duration), work_(*work) {
+  Search(const Surface& a, const Surface& b, const SweptPose& swept, double duration, Work* work,
+         const SweepDetail& detail)
+      : a_(a),
+        b_(b),
+        swept_(swept),
+        duration_(duration),
+        detail_(detail),
+        until_(duration),
+        work_(*work) {
     const RelativePose& pose = swept.pose;
-    // All positions within the duration are sums of a few of these; compare RoundingOf() in
-    // separation.cc. The offset counts in what turns as well: a point of B is seen from B's
-    // reference point only after both were posed, each with its rounding. What is not known of the
-    // motion needs no share: where it is more than the bodies are apart, they may touch anyway.
+    // All positions h seconds on are sums of a few of these, and of h times those; compare
+    // RoundingOf() in separation.cc. What is lost grows with h, so that soon after the start the
+    // time is known as well as the pose is. The offset counts in what turns as well: a point of B
+    // is seen from B's reference point only after both were posed, each with its rounding. What is
+    // not known of the motion needs no share: where it is more than the bodies are apart, they may
+    // touch anyway.
     const double offset = pose.offset.cwiseAbs().sum();
-    const double extent = a.reach() + b.reach() + offset +
-                          duration * (swept.velocity.cwiseAbs().sum() +
-                                      a.turning_reach() * swept.spin_A.cwiseAbs().sum() +
-                                      (b.turning_reach() + offset) * swept.spin_B.cwiseAbs().sum());
+    const double extent = a.reach() + b.reach() + offset;
+    const double pace = swept.velocity.cwiseAbs().sum() +
+                        a.turning_reach() * swept.spin_A.cwiseAbs().sum() +
+                        (b.turning_reach() + offset) * swept.spin_B.cwiseAbs().sum();
     // 1 + 2^-40 for its own rounding.
     fastest_ = (1 + 0x1p-40) * (swept.velocity.norm() + a.turning_reach() * swept.spin_A.norm() +
                                 b.turning_reach() * swept.spin_B.norm());
     slack_ = AddUp(MultiplyUp(0x1p-48, extent),
                    AddUp(pose.offset_error, MultiplyUp(pose.matrix_error, b.reach())));
+    slack_growth_ = MultiplyUp(0x1p-48, pace);
   }
 
   FirstTouch Run() {
@@ -112,15 +125,19 @@ class Search {
     int steps;           // along tangents, of triangles
     std::uint32_t a, b;  // nodes or triangles
     std::uint32_t leaf_a, leaf_b;
+    double size = 0;  // of two nodes
 
-    // A heap's front is the greatest: the earliest, of equals the first of the bodies.
+    // A heap's front is the greatest: the earliest; of equals what is looked at the farthest, so
+    // that of bodies that overlap not all is opened before something is certain; of these the first.
     friend bool operator<(const Candidate& x, const Candidate& y) {
-      return std::tie(x.time, x.a, x.b, x.kind) > std::tie(y.time, y.a, y.b, y.kind);
+      return std::tie(x.time, y.kind, x.size, x.a, x.b) >
+             std::tie(y.time, x.kind, y.size, y.a, y.b);
     }
   };
 
   void Push(const Candidate& candidate) {
-    if (candidate.time > duration_) return;
+    if (candidate.time > until_) return;
+    if (candidate.kind == Kind::kResolved) until_ = candidate.time;
     heap_.push_back(candidate);
     std::push_heap(heap_.begin(), heap_.end());
   }
@@ -129,7 +146,7 @@ class Search {
   bool FineEnough(const SphereNode& a, const SphereNode& b, double time) const {
     const Reach unknown = ReachOf(0, a_.turning_reach(), b_.turning_reach());
     return a.radius + b.radius <=
-           kFineEnough * (unknown.c0 + time * (unknown.c1 + time * unknown.c2));
+           detail_.fine_enough * (unknown.c0 + time * (unknown.c1 + time * unknown.c2));
   }
 
   void Open(const Candidate& pair) {
@@ -195,7 +212,7 @@ class Search {
     const auto& ta = swept_.turning_A;
     const auto& tb = swept_.turning_B;
     return {radii + slack_ + u.c0 + ta.c0 * far_a + tb.c0 * far_b,
-            swept_.velocity_error + u.c1 + ta.c1 * far_a + tb.c1 * far_b,
+            slack_growth_ + swept_.velocity_error + u.c1 + ta.c1 * far_a + tb.c1 * far_b,
             std::max(0.0, u.c2 + ta.c2 * far_a + tb.c2 * far_b)};
   }
 
@@ -211,9 +228,13 @@ class Search {
     const SphereNode& b = b_.node(index_b);
     const Eigen::Vector3d c_b = swept_.pose.ToA(b.centre);
     const Reach reach = ReachOf(a.radius + b.radius, a.centre.norm(), b.centre.norm());
-    const double time =
-        BallsTouch(c_b - a.centre, VelocityOfB(c_b) - VelocityOfA(a.centre), reach, duration_);
-    Push({std::max(parent, time), Kind::kNodes, 0, index_a, index_b, 0, 0});
+    const double time = BallsTouch(c_b - a.centre, VelocityOfB(c_b) - VelocityOfA(a.centre), reach,
+                                   duration_, detail_.step_worth);
+    // Balls within the solids that overlap already: nothing is free, and nothing need be opened.
+    const bool within =
+        !(time > 0) && (c_b - a.centre).norm() + a.signed_distance + b.signed_distance < 0;
+    const Kind kind = within ? Kind::kResolved : Kind::kNodes;
+    Push({std::max(parent, time), kind, 0, index_a, index_b, 0, 0, a.radius + b.radius});
   }
 
   double FarOfB(const TrianglePoints& corners) const {
@@ -252,29 +273,48 @@ class Search {
     return moving;
   }
 
+  // Points along a direction, and how fast they move along it.
+  template <std::size_t kPoints>
+  struct Projected {
+    std::array<double, kPoints> at, speed;
+    double low = kInfinity, high = -kInfinity, slowest = kInfinity, fastest = -kInfinity;
+
+    Projected(const Moving<kPoints>& moving, const Eigen::Vector3d& n, double h) {
+      for (std::size_t i = 0; i < kPoints; ++i) {
+        speed[i] = n.dot(moving.velocities[i]);
+        at[i] = n.dot(moving.points[i]) + h * speed[i];
+        low = std::min(low, at[i]);
+        high = std::max(high, at[i]);
+        slowest = std::min(slowest, speed[i]);
+        fastest = std::max(fastest, speed[i]);
+      }
+    }
+  };
+
   // Along a direction the gap is at least that of the points' projections: how much longer than h
-  // does it last?
+  // does it last? At least as long as between the foremost points if they moved as fast as any; and
+  // as long as between every two points, since the projections do not meet before any two of them do.
   template <std::size_t kA, std::size_t kB>
-  static double Further(const Eigen::Vector3d& direction, const Moving<kA>& a, const Moving<kB>& b,
-                        const Reach& reach, double h) {
-    const double length = direction.norm();
-    if (!(length > 0)) return 0;
-    const Eigen::Vector3d n = direction / length;
-    double front_a = -kInfinity, fastest_a = -kInfinity;
-    for (std::size_t i = 0; i < kA; ++i) {
-      const double speed = n.dot(a.velocities[i]);
-      front_a = std::max(front_a, n.dot(a.points[i]) + h * speed);
-      fastest_a = std::max(fastest_a, speed);
-    }
-    double front_b = kInfinity, fastest_b = kInfinity;
-    for (std::size_t i = 0; i < kB; ++i) {
-      const double speed = n.dot(b.velocities[i]);
-      front_b = std::min(front_b, n.dot(b.points[i]) + h * speed);
-      fastest_b = std::min(fastest_b, speed);
-    }
+  double Further(const Eigen::Vector3d& direction, const Moving<kA>& a, const Moving<kB>& b,
+                 const Reach& reach, double h) const {
+    const double square = direction.squaredNorm();
+    if (!(square > kSquareMin && square < kSquareMax)) return 0;
+    const Eigen::Vector3d n = direction / std::sqrt(square);
+    const Projected<kA> of_a(a, n, h);
+    const Projected<kB> of_b(b, n, h);
     const double used = reach.c0 + h * (reach.c1 + h * reach.c2);
-    return RootOf(front_b - front_a - used, fastest_a - fastest_b + reach.c1 + 2 * h * reach.c2,
-                  reach.c2);
+    const double growth = reach.c1 + 2 * h * reach.c2;
+    const double whole =
+        RootOf(of_b.low - of_a.high - used, of_a.fastest - of_b.slowest + growth, reach.c2);
+    if (!(whole > 0) || h + whole > duration_) return whole;
+    double least = kInfinity;
+    for (std::size_t i = 0; i < kA; ++i) {
+      for (std::size_t j = 0; j < kB; ++j) {
+        least = std::min(least, RootOf(of_b.at[j] - of_a.at[i] - used,
+                                       of_a.speed[i] - of_b.speed[j] + growth, reach.c2));
+      }
+    }
+    return std::max(whole, least);
   }
 
   // One tangent step, as in BallsTouch(): from where the pair is known to be apart up to.
@@ -282,13 +322,13 @@ class Search {
     work_.Spend(kTrianglePairUnits);
     const double further = FurtherApart(pair.a, pair.b, pair.time);
     pair.time += further;
-    if (++pair.steps == kTriangleSteps || further < kStepWorth * duration_) {
+    if (++pair.steps == kTriangleSteps || further < detail_.step_worth * duration_) {
       pair.kind = Kind::kResolved;
     }
     Push(pair);
   }
 
-  double FurtherApart(std::uint32_t of_a, std::uint32_t of_b, double h) const {
+  double FurtherApart(std::uint32_t of_a, std::uint32_t of_b, double h) {
     using Point = std::array<Eigen::Vector3d, 1>;
     const Eigen::Vector3d& offset = swept_.pose.offset;
     if (!a_.shape()) {
@@ -307,17 +347,48 @@ class Search {
     }
     const TrianglePoints corners_b = CornersOf(*b_.shape(), of_b, swept_.pose);
     const auto b = OfB(corners_b);
-    const TriangleDistance found = DistanceOf(a.At(h), b.At(h));
-    return Further(found.b - found.a, a, b, ReachOf(0, FarOfA(corners_a), FarOfB(corners_b)), h);
+    const Reach reach = ReachOf(0, FarOfA(corners_a), FarOfB(corners_b));
+    const TrianglePoints at_a = a.At(h), at_b = b.At(h);
+    const TriangleDistance found = DistanceOf(at_a, at_b);
+    const Eigen::Vector3d d = found.b - found.a;
+    const double further = Further(d, a, b, reach, h);
+    const double size = (at_a[1] - at_a[0]).cwiseAbs().sum() + (at_b[1] - at_b[0]).cwiseAbs().sum();
+    if (d.squaredNorm() > kShortWay * kShortWay * size * size) return further;
+    work_.Spend(kTrianglePairUnits);
+    return std::max(further, FurtherAlongFeatures(at_a, at_b, a, b, reach, h));
+  }
+
+  // Every direction is right; of features that nearly touch these tell it exactly.
+  double FurtherAlongFeatures(const TrianglePoints& at_a, const TrianglePoints& at_b,
+                              const Moving<3>& a, const Moving<3>& b, const Reach& reach,
+                              double h) const {
+    double furthest = 0;
+    const auto attempt = [&](const Eigen::Vector3d& n) {
+      furthest = std::max({furthest, Further(n, a, b, reach, h), Further(-n, a, b, reach, h)});
+    };
+    const Eigen::Vector3d edges_a[3] = {at_a[1] - at_a[0], at_a[2] - at_a[1], at_a[0] - at_a[2]};
+    const Eigen::Vector3d edges_b[3] = {at_b[1] - at_b[0], at_b[2] - at_b[1], at_b[0] - at_b[2]};
+    const Eigen::Vector3d normal_a = edges_a[0].cross(edges_a[1]);
+    const Eigen::Vector3d normal_b = edges_b[0].cross(edges_b[1]);
+    attempt(normal_a);
+    attempt(normal_b);
+    for (const Eigen::Vector3d& e : edges_a) {
+      attempt(normal_a.cross(e));
+      for (const Eigen::Vector3d& f : edges_b) attempt(e.cross(f));
+    }
+    for (const Eigen::Vector3d& f : edges_b) attempt(normal_b.cross(f));
+    return furthest;
   }
 
   const Surface& a_;
   const Surface& b_;
   const SweptPose& swept_;
   const double duration_;
+  const SweepDetail detail_;
+  double until_;  // what comes later matters nothing
   Work& work_;
-  double slack_;
-  double fastest_;  // any two points, relative to each other
+  double slack_, slack_growth_;  // of rounding: at once, and a second later
+  double fastest_;               // any two points, relative to each other
   std::vector<Candidate> heap_;
   std::unordered_set<std::uint64_t> seen_;
   std::vector<BoxedTriangle> boxes_of_b_;
@@ -326,8 +397,8 @@ class Search {
 }  // namespace
 
 FirstTouch TouchOf(const Surface& a, const Surface& b, const SweptPose& swept, double duration,
-                   Work* work) {
-  return Search(a, b, swept, duration, work).Run();
+                   Work* work, const SweepDetail& detail) {
+  return Search(a, b, swept, duration, work, detail).Run();
 }
 
 }  // namespace collision

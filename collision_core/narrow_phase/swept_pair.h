@@ -24,6 +24,14 @@ struct SweptPose {
   Growth turning_A, turning_B;  ///< Of turning, tangents' deviation included [m per m of |x|].
 };
 
+/// How far a search goes before it takes the time it has.
+struct SweepDetail {
+  /// Spheres are opened while they are larger than this share of what is not known of the motion.
+  double fine_enough = 0.25;
+  /// Steps shorter than this share of the duration are not worth another.
+  double step_worth = 1e-3;
+};
+
 /// A lower bound on the time at which the two may touch.
 struct FirstTouch {
   double seconds = 0;      ///< +infinity: not within the duration, its end included.
@@ -38,6 +46,6 @@ struct FirstTouch {
 /// by their triangles. A pair of balls or of triangles is convex, so that for each the direction
 /// between the two may be used: bodies that pass by each other cost little.
 FirstTouch TouchOf(const Surface& a, const Surface& b, const SweptPose& swept, double duration,
-                   Work* work);
+                   Work* work, const SweepDetail& detail = {});
 
 }  // namespace collision

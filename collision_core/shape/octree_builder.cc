@@ -146,7 +146,8 @@ struct Pending {
 
 class Builder {
  public:
-  Builder(const TriangleMesh& mesh, const ShapeOptions& options) : mesh_(mesh), options_(options) {}
+  Builder(const TriangleMesh& mesh, const ShapeOptions& options, bool circumscribed)
+      : mesh_(mesh), options_(options), circumscribed_(circumscribed) {}
 
   SphereTree Build() {
     AddRoot();
@@ -200,12 +201,14 @@ class Builder {
     next_pieces_.Append(pieces);
   }
 
-  /// The smaller of the octant's circumscribed ball and a small one around the pieces' corners; both
-  /// grown by what the corners may be off.
+  /// The octant's circumscribed ball, or a smaller one around the pieces' corners; grown by what the
+  /// corners may be off.
   EnclosingBall BallOf(const Octant& octant, const Pieces& pieces) const {
-    EnclosingBall ball = SmallBallAround(pieces.corners);
-    const EnclosingBall circumscribed = CircumscribedBall(octant);
-    if (circumscribed.radius < ball.radius) ball = circumscribed;
+    EnclosingBall ball = CircumscribedBall(octant);
+    if (!circumscribed_) {
+      const EnclosingBall small = SmallBallAround(pieces.corners);
+      if (!(ball.radius < small.radius)) ball = small;
+    }
     const double cuts = kCutsPerLevel * octant.depth;
     // The product of two small whole numbers and a power of two is exact, the last one rounds.
     ball.radius = AddUp(ball.radius, MultiplyUp(kCutError * cuts * 0x1p-53, coordinate_max_));
@@ -294,6 +297,7 @@ class Builder {
 
   const TriangleMesh& mesh_;
   const ShapeOptions& options_;
+  const bool circumscribed_;
   double coordinate_max_ = 0;
   SphereTree tree_;
   Pieces pieces_, next_pieces_;  ///< Of the level at work, and of the next.
@@ -308,7 +312,11 @@ class Builder {
 }  // namespace
 
 SphereTree BuildOctree(const TriangleMesh& mesh, const ShapeOptions& options) {
-  return Builder(mesh, options).Build();
+  return Builder(mesh, options, false).Build();
+}
+
+SphereTree BuildCircumscribedOctree(const TriangleMesh& mesh, const ShapeOptions& options) {
+  return Builder(mesh, options, true).Build();
 }
 
 }  // namespace collision

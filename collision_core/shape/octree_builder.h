@@ -22,4 +22,8 @@ inline constexpr std::uint32_t kFanFactor = 4;
 /// place on each edge. What the corners of a piece may be off is in the radius (kCutError).
 SphereTree BuildOctree(const TriangleMesh& mesh, const ShapeOptions& options);
 
+/// The same octants, each in its circumscribed ball, as in Hubbard's paper: what others are compared
+/// with. BuildOctree() takes a smaller ball around the part wherever it finds one.
+SphereTree BuildCircumscribedOctree(const TriangleMesh& mesh, const ShapeOptions& options);
+
 }  // namespace collision

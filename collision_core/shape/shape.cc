@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "collision_core/shape/fitted_builder.h"
 #include "collision_core/shape/octree_builder.h"
 #include "collision_core/shape/surface_query.h"
 
@@ -16,18 +17,34 @@ double SignedDistanceAt(const SphereNode& node, bool closed, SurfaceQuery* query
   return -distance.lower;
 }
 
+void MeasureCentres(const TriangleMesh& mesh, bool closed, SphereTree* tree) {
+  SurfaceQuery query(mesh, *tree);
+  for (SphereNode& node : tree->nodes)
+    node.signed_distance = SignedDistanceAt(node, closed, &query);
+}
+
 }  // namespace
 
 std::shared_ptr<const Shape> Shape::Build(TriangleMesh mesh, const ShapeOptions& options) {
   std::shared_ptr<Shape> shape(new Shape());
   shape->facts_ = FactsOf(mesh);
-  shape->tree_ = BuildOctree(mesh, options);
+  const bool fitted = options.builder == TreeBuilder::kFitted;
+  shape->tree_ =
+      fitted ? BuildFitted(mesh, options, shape->facts_.closed) : BuildOctree(mesh, options);
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
-  SurfaceQuery query(shape->mesh_, shape->tree_);
-  for (SphereNode& node : shape->tree_.nodes) {
-    node.signed_distance = SignedDistanceAt(node, shape->facts_.closed, &query);
-  }
+  if (!fitted) MeasureCentres(shape->mesh_, shape->facts_.closed, &shape->tree_);
+  shape->packed_ = PackedTree(shape->mesh_, shape->tree_);
+  return shape;
+}
+
+std::shared_ptr<const Shape> Shape::FromTree(TriangleMesh mesh, SphereTree tree) {
+  std::shared_ptr<Shape> shape(new Shape());
+  shape->facts_ = FactsOf(mesh);
+  shape->tree_ = std::move(tree);
+  shape->component_points_ = ComponentPoints(mesh);
+  shape->mesh_ = std::move(mesh);
+  shape->packed_ = PackedTree(shape->mesh_, shape->tree_);
   return shape;
 }
 
@@ -44,7 +61,7 @@ std::optional<int> Shape::WindingNumberAt(const Eigen::Vector3d& point) const {
 
 std::size_t Shape::bytes() const {
   return sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
-         mesh_.triangles.capacity() * sizeof(Triangle) + tree_.bytes() +
+         mesh_.triangles.capacity() * sizeof(Triangle) + tree_.bytes() + packed_.bytes() +
          component_points_.capacity() * sizeof(Eigen::Vector3d);
 }
 

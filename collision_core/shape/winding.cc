@@ -5,6 +5,7 @@
 #include "collision_core/numeric/rounding.h"
 #include "collision_core/shape/exact_sign.h"
 #include "collision_core/shape/point_triangle.h"
+#include "collision_core/shape/ray_passage.h"
 #include "collision_core/shape/surface_query.h"
 
 namespace collision {
@@ -41,15 +42,9 @@ std::optional<MovedSign> SideOf(const Vector2d& a, const Vector2d& b, const Vect
   return MovedSign{(b.x() > a.x()) - (b.x() < a.x()), true};
 }
 
-enum class Passing { kAside, kBackward, kForward, kUnknown };
+}  // namespace
 
-/// How the moved line along x through the point passes the triangle.
-struct Pass {
-  Passing passing = Passing::kAside;
-  int sign = 0;  ///< 1: along +x it leaves through the triangle's back, into what is outside.
-};
-
-Pass PassOf(const TriangleCorners& t, const Vector3d& point) {
+Passage PassageOf(const TriangleCorners& t, const Vector3d& point) {
   const std::array<Vector2d, 3> c = {Across(t[0]), Across(t[1]), Across(t[2])};
   const Vector2d p = Across(point);
   const Vector2d lower = c[0].cwiseMin(c[1]).cwiseMin(c[2]);
@@ -77,8 +72,6 @@ Pass PassOf(const TriangleCorners& t, const Vector3d& point) {
   return {*above == sign ? Passing::kBackward : Passing::kForward, sign};
 }
 
-}  // namespace
-
 std::optional<int> SurfaceQuery::WindingNumberAt(const Vector3d& point) {
   const SphereNode& root = tree_.root();
   // Towards the nearer end of the surface: fewer triangles there.
@@ -94,8 +87,8 @@ std::optional<int> SurfaceQuery::WindingNumberAt(const Vector3d& point) {
     for (std::uint32_t i = 0; i < node.children; ++i) stack_.push_back(node.first_child + i);
     for (const std::uint32_t index : tree_.TrianglesOf(node)) {
       const Triangle& t = mesh_.triangles[index];
-      const Pass pass =
-          PassOf({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]}, point);
+      const Passage pass =
+          PassageOf({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]}, point);
       if (pass.passing == Passing::kUnknown) return std::nullopt;
       // A triangle may stand in several leaves.
       if (pass.passing != asked || std::find(tried_.begin(), tried_.end(), index) != tried_.end())

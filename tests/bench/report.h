@@ -1,23 +1,14 @@
 // What was measured: a table for people, JSON for programs.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tests/bench/answer.h"
+#include "tests/bench/json.h"
 
 namespace collision::bench {
-
-/// One number of the JSON, or a text, or nothing.
-struct Field {
-  std::string name;
-  std::string json;  ///< The value as it stands in the file.
-};
-
-Field Number(const std::string& name, std::optional<double> value);
-Field Text(const std::string& name, const std::string& value);
 
 /// One cell: what was done, by whom, and in what time.
 struct Row {
@@ -52,7 +43,7 @@ class Report {
 
  private:
   std::vector<Row> rows_;
-  std::vector<std::pair<std::string, std::optional<double>>> figures_;
+  Figures figures_;
 };
 
 /// "12.3 ms", "> 5 s" or "failed".

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <condition_variable>
@@ -41,7 +42,7 @@ TEST(BuildShape, BuildsWhatTheBytesDescribe) {
   ShapeContent content = Cube(1);
   content.triangles.push_back({0, 0, 1});
   content.triangles.push_back({0, 1, 1});
-  const BuiltShape built = BuildShape(EncodeShape(content), 14);
+  const BuiltShape built = BuildShape("", EncodeShape(content), {.triangles_max = 14});
   ASSERT_TRUE(built.shape) << built.refusal;
   EXPECT_EQ(built.dropped, 2u);
   EXPECT_EQ(built.shape->mesh().triangles.size(), 12u);
@@ -55,7 +56,7 @@ TEST(BuildShape, BuildsWhatTheBytesDescribe) {
 // Goal:   each content that cannot be a shape is refused with a sentence.
 TEST(BuildShape, RefusesWhatIsNoShape) {
   const auto refusal = [](const ShapeContent& content, std::size_t triangles_max = 100) {
-    const BuiltShape built = BuildShape(EncodeShape(content), triangles_max);
+    const BuiltShape built = BuildShape("", EncodeShape(content), {.triangles_max = triangles_max});
     EXPECT_FALSE(built.shape);
     return built.refusal;
   };
@@ -75,11 +76,14 @@ TEST(BuildShape, RefusesWhatIsNoShape) {
   ShapeContent flat = Cube(1);
   flat.triangles = {{0, 0, 1}, {2, 3, 3}};
   EXPECT_NE(refusal(flat).find("degenerate"), std::string::npos);
+  ShapeContent with_solid = Cube(1);
+  with_solid.solids.push_back({.kind = SolidKind::kBall, .rounding = 1});
+  EXPECT_NE(refusal(with_solid).find("1 convex solids"), std::string::npos);
   const std::string whole = EncodeShape(Cube(1));
   for (const std::size_t length : {std::size_t{0}, std::size_t{15}, whole.size() - 1}) {
-    EXPECT_NE(BuildShape(whole.substr(0, length), 100).refusal, "");
+    EXPECT_NE(BuildShape("", whole.substr(0, length), {.triangles_max = 100}).refusal, "");
   }
-  EXPECT_TRUE(BuildShape(whole, 12).shape);
+  EXPECT_TRUE(BuildShape("", whole, {.triangles_max = 12}).shape);
 }
 
 // Goal:   any bytes at all give a shape or a sentence.
@@ -92,7 +96,7 @@ TEST(BuildShape, DamagedBytesAreNeverMoreThanRefused) {
     for (std::uint64_t n = 1 + random.Below(4); n > 0; --n) {
       bytes[random.Below(bytes.size())] = static_cast<char>(random.Next());
     }
-    const BuiltShape result = BuildShape(bytes, 100);
+    const BuiltShape result = BuildShape("", bytes, {.triangles_max = 100});
     EXPECT_EQ(result.shape == nullptr, !result.refusal.empty());
     built += result.shape != nullptr;
   }
@@ -100,7 +104,7 @@ TEST(BuildShape, DamagedBytesAreNeverMoreThanRefused) {
 }
 
 TEST(InlineShapeBuilder, ReportsAtOnceAndBuildsWhenAwaited) {
-  InlineShapeBuilder builder(100);
+  InlineShapeBuilder builder({.triangles_max = 100});
   EXPECT_FALSE(builder.has_finished());
   builder.Start("1", EncodeShape(Cube(1)));
   builder.Start("2", EncodeShape(Cube(2)));
@@ -137,7 +141,7 @@ class Bell {
 
 TEST(ThreadedShapeBuilder, RingsWhenSomethingIsFinished) {
   Bell bell;
-  ThreadedShapeBuilder builder(10'000, [&bell] { bell.Ring(); });
+  ThreadedShapeBuilder builder({.triangles_max = 10'000}, [&bell] { bell.Ring(); });
   for (int i = 1; i <= 3; ++i) {
     builder.Start(std::to_string(i), EncodeShape(Cube(i)));
     bell.WaitFor(i);
@@ -155,7 +159,7 @@ TEST(ThreadedShapeBuilder, RingsWhenSomethingIsFinished) {
 
 // Goal:   awaited before it is finished, it is waited for.
 TEST(ThreadedShapeBuilder, AwaitWaits) {
-  ThreadedShapeBuilder builder(10'000, [] {});
+  ThreadedShapeBuilder builder({.triangles_max = 10'000}, [] {});
   for (int i = 0; i < 3; ++i) {
     builder.Start(std::to_string(i), EncodeShape(Sphere(8 + i)));
   }
@@ -168,7 +172,7 @@ TEST(ThreadedShapeBuilder, AwaitWaits) {
 // Method: 300 shapes started and forgotten in a random order.
 TEST(ThreadedShapeBuilder, ForgetsAtAnyMoment) {
   Random random(5);
-  ThreadedShapeBuilder builder(10'000, [] {});
+  ThreadedShapeBuilder builder({.triangles_max = 10'000}, [] {});
   const std::string cube = EncodeShape(Cube(1)), sphere = EncodeShape(Sphere(6));
   std::vector<bool> started(5);
   for (int i = 0; i < 300; ++i) {
@@ -202,7 +206,7 @@ TEST(ThreadedShapeBuilder, StartsAndStopsRepeatedly) {
   for (int i = 0; i < 50; ++i) {
     auto rings = std::make_unique<std::atomic<int>>(0);
     {
-      ThreadedShapeBuilder builder(10'000, [&rings] { ++*rings; });
+      ThreadedShapeBuilder builder({.triangles_max = 10'000}, [&rings] { ++*rings; });
       for (int n = 0; n < i % 5; ++n) builder.Start(std::to_string(n), sphere);
       if (i % 5 > 0 && i % 3 == 1) builder.Await("0");
     }
@@ -212,11 +216,27 @@ TEST(ThreadedShapeBuilder, StartsAndStopsRepeatedly) {
   }
 }
 
+// Goal:   a small shape does not wait behind large ones, however many came before it.
+// Method: the small one is finished first or second: only the one large shape that is being built
+//         when it comes may be before it.
+TEST(ThreadedShapeBuilder, SmallShapesDoNotWaitForLargeOnes) {
+  Bell bell;
+  ThreadedShapeBuilder builder({.triangles_max = 100'000}, [&bell] { bell.Ring(); });
+  const std::string large = EncodeShape(Sphere(90));
+  ASSERT_GT(large.size(), 500'000u);
+  for (const char* hash : {"a", "b", "c", "d"}) builder.Start(hash, large);
+  builder.Start("small", EncodeShape(Cube(1)));
+  bell.WaitFor(2);
+  const std::vector<std::string> finished = builder.TakeFinished();
+  EXPECT_NE(std::find(finished.begin(), finished.end(), "small"), finished.end());
+  for (const char* hash : {"a", "b", "c", "d"}) builder.Forget(hash);
+}
+
 // Goal:   both builders make the same of the same bytes, bit for bit.
 TEST(ThreadedShapeBuilder, BuildsWhatTheInlineOneBuilds) {
   const std::string bytes = EncodeShape(Sphere(12));
-  InlineShapeBuilder inline_builder(10'000);
-  ThreadedShapeBuilder threaded(10'000, [] {});
+  InlineShapeBuilder inline_builder({.triangles_max = 10'000});
+  ThreadedShapeBuilder threaded({.triangles_max = 10'000}, [] {});
   inline_builder.Start("1", bytes);
   threaded.Start("1", bytes);
   const auto a = inline_builder.Await("1").shape, b = threaded.Await("1").shape;

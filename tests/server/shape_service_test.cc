@@ -114,7 +114,7 @@ class LateShapeBuilder final : public ShapeBuilder {
 
  private:
   const bool& late_;
-  InlineShapeBuilder inline_{1000};
+  InlineShapeBuilder inline_{BuildOptions{.triangles_max = 1000}};
 };
 
 // Goal:   when a tree is finished depends on the machine, and events depend on it; a replay uses it
@@ -168,7 +168,8 @@ TEST(ShapeService, AReplayFollowsTheThread) {
       RecordingWriter writer(path, config);
       std::atomic<bool> woken = false;
       ScriptedDaemon daemon(config, &writer,
-                            std::make_unique<ThreadedShapeBuilder>(1000, [&] { woken = true; }));
+                            std::make_unique<ThreadedShapeBuilder>(
+                                BuildOptions{.triangles_max = 1000}, [&] { woken = true; }));
       TwoCubes cubes(1.9);
       daemon.Step(cubes.Descriptions());
       daemon.Step(cubes.Parts());

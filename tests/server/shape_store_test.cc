@@ -43,7 +43,7 @@ class ShapeStoreTest : public testing::Test {
   bool Ready(const std::string& hash) { return store.MakeVisible(hash).has_value(); }
 
   v1::Config config = CompleteConfig({});
-  InlineShapeBuilder builder{1000};
+  InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};
   ShapeStore store{config, &builder};
   const std::string bytes = EncodeShape(Cube(1, UnusedFor(4)));
   const std::string hash = Sha256(bytes);
@@ -293,7 +293,7 @@ TEST(ShapeStoreLimits, AreKept) {
   config.set_shape_bytes_max(3 * kShapePartBytes);
   config.set_shape_triangles_max(10'000);
   config = CompleteConfig(config);
-  InlineShapeBuilder builder(10'000);
+  InlineShapeBuilder builder({.triangles_max = 10'000});
   ShapeStore store(config, &builder);
   const auto take = [&store](const std::vector<v1::ShapePart>& parts) {
     std::vector<std::string> refused;
@@ -334,7 +334,7 @@ TEST(ShapeStoreAtRandom, CountsWhatIsThere) {
   config.set_shapes_max(3);
   config.set_shape_bytes_max(5 * kShapePartBytes);
   config = CompleteConfig(config);
-  InlineShapeBuilder builder(1000);
+  InlineShapeBuilder builder({.triangles_max = 1000});
   ShapeStore store(config, &builder);
   Random random(3);
   std::vector<std::vector<v1::ShapePart>> shapes;

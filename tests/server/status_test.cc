@@ -42,18 +42,41 @@ TEST(Status, TellsWhatTheServiceKnows) {
     EXPECT_TRUE(names.insert(counter.name()).second) << counter.name();
     EXPECT_LE(counter.name().size(), 64u);
   }
-  for (const char* name : {"events_possible", "events_ended",   "rejected_not_finite",
-                           "breaches",        "states_older",   "states_repeated",
-                           "queries",         "batches",        "shapes",
-                           "shapes_refused",  "shape_bytes",    "tree_nodes",
-                           "tree_bytes",      "trees_building", "tree_build_us",
-                           "work_units",      "queued",         "queries_per_second",
-                           "updates_kept",    "filter_tests",   "method_changes"}) {
+  for (const char* name : {"events_possible",
+                           "events_ended",
+                           "rejected_not_finite",
+                           "breaches",
+                           "states_older",
+                           "states_repeated",
+                           "queries",
+                           "batches",
+                           "shapes",
+                           "shapes_refused",
+                           "shape_bytes",
+                           "tree_nodes",
+                           "tree_bytes",
+                           "trees_building",
+                           "tree_build_us",
+                           "work_units",
+                           "queued",
+                           "queries_per_second",
+                           "updates_kept",
+                           "filter_tests",
+                           "method_changes",
+                           "tree_cache_hits",
+                           "tree_cache_misses",
+                           "tree_cache_discarded",
+                           "tree_cache_stored",
+                           "tree_cache_failed",
+                           "tree_cache_removed",
+                           "tree_cache_bytes"}) {
     EXPECT_TRUE(names.contains(name)) << name;
   }
-  ASSERT_EQ(status.extensions_size(), 2);
+  ASSERT_EQ(status.extensions_size(), 3);
   EXPECT_EQ(status.extensions(0).key(), "event_log_count");
   EXPECT_EQ(status.extensions(1).value(), "cbf29ce484222325");
+  EXPECT_EQ(status.extensions(2).key(), "tree_builder");
+  EXPECT_TRUE(status.extensions(2).value() == "octree" || status.extensions(2).value() == "fitted");
 }
 
 // Goal:   what the network did not deliver stands among the counters, as the bus tells it.

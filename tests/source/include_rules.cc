@@ -28,6 +28,8 @@ const std::vector<Layer>& Layers() {
        {core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/",
         core + "narrow_phase/"}},
       {core, {core}},
+      // A tree at rest is made of the core's own data; daemon and tools write the same.
+      {"idl/tree_message", {"idl/", core + "shape/"}},
       {"idl/", {"idl/"}},
       {"server/", {core, "idl/", "server/"}},
       {"client/world.h", {"client/types.h"}},
@@ -36,6 +38,8 @@ const std::vector<Layer>& Layers() {
       // So that client and service judge a mesh alike.
       {"client/shape.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},
       {"client/mesh_file.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},
+      // It shows what the service would build, so it builds it.
+      {"client/tools/sphere_tree", {"idl/", "client/", core + "shape/"}},
       {"client/", {"idl/", "client/"}},
       {"tests/", {core, "idl/", "server/", "client/", "tests/"}},
   };
@@ -73,11 +77,16 @@ bool IsDds(const std::string& name) {
 bool IsWideInterface(const std::string& name) {
   return name == "collision_core/broad_phase/lane_scan.h" ||
          name == "collision_core/broad_phase/point_scan.h" ||
-         name == "collision_core/broad_phase/lane_scan_wide.h";
+         name == "collision_core/broad_phase/lane_scan_wide.h" ||
+         name == "collision_core/narrow_phase/pack_scan.h" ||
+         name == "collision_core/narrow_phase/pack_scan_wide.h" ||
+         name == "collision_core/shape/ball_pack.h";
 }
 
 bool IsWide(const std::string& path) {
-  return StartsWith(path, "collision_core/broad_phase/lane_scan_");
+  return StartsWith(path, "collision_core/broad_phase/lane_scan_") ||
+         StartsWith(path, "collision_core/narrow_phase/pack_scan_avx") ||
+         StartsWith(path, "collision_core/narrow_phase/pack_scan_wide");
 }
 
 bool IsPublicClientHeader(const std::string& path) {

@@ -43,6 +43,10 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"client/world.cc", "<dds/dds.h>"},
       {"client/tools/motion_checker.cc", "\"collision_core/motion/instant.h\""},
       {"client/tools/motion_checker.cc", "\"server/event_log.h\""},
+      {"client/tools/sphere_tree_report.h", "\"collision_core/motion/instant.h\""},
+      {"client/tools/collisionctl_text.cc", "\"collision_core/shape/shape.h\""},
+      {"idl/tree_message.cc", "\"collision_core/motion/instant.h\""},
+      {"idl/shape_bytes.cc", "\"collision_core/shape/shape.h\""},
       {"elsewhere/a.h", "\"client/types.h\""},
   };
   for (const Planted& planted : bad) {
@@ -63,6 +67,8 @@ TEST(Layering, GoodIncludesAreLeftAlone) {
       {"idl/dds/a.cc", "<dds/dds.h>"},
       {"server/codec.cc", "\"collision_core/motion/instant.h\""},
       {"client/world.cc", "\"idl/messages.pb.h\""},
+      {"client/tools/sphere_tree_report.h", "\"collision_core/shape/shape.h\""},
+      {"idl/tree_message.h", "\"collision_core/shape/sphere_tree.h\""},
       {"client/world.h", "\"client/types.h\""},
   };
   for (const Planted& planted : good) EXPECT_EQ(ViolationsOf(planted), std::vector<std::string>{});

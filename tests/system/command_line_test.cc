@@ -140,6 +140,10 @@ TEST(CommandLine, AFileThatCannotBeWrittenIsOneClearLine) {
       Collisiond({"--config", folder.Write("log.textproto", "log_file: \"/dev/null/log\"")});
   EXPECT_EQ(log.status, 78);
   EXPECT_EQ(log.err.rfind("collisiond: log_file: ", 0), 0u) << log.err;
+  const Outcome cache =
+      Collisiond({"--config", folder.Write("c.textproto", "tree_cache_dir: \"/dev/null/trees\"")});
+  EXPECT_EQ(cache.status, 78);
+  EXPECT_EQ(cache.err, "collisiond: tree_cache_dir: /dev/null/trees: Not a directory\n");
 }
 
 TEST(CommandLine, AskedToStopItEndsCleanly) {

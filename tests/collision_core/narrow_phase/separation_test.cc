@@ -6,47 +6,10 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/collision_core/narrow_phase/true_motion.h"
-#include "tests/support/meshes.h"
+#include "tests/collision_core/narrow_phase/posed_body.h"
 
 namespace collision {
 namespace {
-
-struct Posed {
-  std::shared_ptr<const Shape> shape;
-  double radius = 0;
-  TruePose pose;
-
-  BodySegment Segment() const {
-    TrueMotion motion;
-    motion.start = pose;
-    AgentDeclaration declaration;
-    declaration.shape = shape;
-    declaration.radius = radius;
-    declaration.angular_acceleration_max = 0;
-    const SpaceTimeBound bound = BoundAt(motion, 0, declaration);
-    BodySegment segment;
-    segment.shape = shape;
-    segment.ball.radius = radius;
-    const Instant base = Instant::FromNanoseconds(0);
-    segment.ball.bounds.push_back(ForwardBall(bound, base));
-    if (shape) segment.turns.push_back(ForwardTurn(bound, base));
-    return segment;
-  }
-  TrueBody Body() const { return {shape.get(), radius, pose}; }
-};
-
-Posed RandomBody(Random& random, double size, const Vector& p) {
-  const TriangleMesh meshes[] = {Cube(1),         Tetrahedron(1), LShape(),    Sheet(1, 3),
-                                 Star(1, random), Frame(),        Rod(3, 0.01)};
-  Posed posed;
-  const std::uint64_t kind = random.Below(8);
-  if (kind < 7) posed.shape = Shape::Build(Scaled(meshes[kind], size));
-  posed.radius = posed.shape ? posed.shape->facts().radius : size;
-  posed.pose.p = p;
-  posed.pose.q = RandomTurn(random);
-  return posed;
-}
 
 Look LookOf(const Posed& a, const Posed& b, Goal goal, Work* work) {
   const BodySegment of_a = a.Segment(), of_b = b.Segment();

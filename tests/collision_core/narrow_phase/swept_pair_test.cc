@@ -324,6 +324,17 @@ TEST(SweptPair, TheEndIncluded) {
   EXPECT_EQ(c.Touch().seconds, 0);
 }
 
+// Where bodies overlap everything may touch at once: one pair that does is enough.
+TEST(SweptPair, OverlapIsSeenWithoutOpeningEverything) {
+  Case c;
+  c.a = c.b = BodyOf(Shape::Build(Sphere(5)));
+  c.swept.pose.offset = {0.5, 0.25, 0.125};
+  c.swept.velocity = {-1, 0, 0};
+  Work work(kPlenty);
+  EXPECT_EQ(TouchOf(Surface(c.a), Surface(c.b), c.swept, 1, &work).seconds, 0);
+  EXPECT_LE(work.spent(), 10u);
+}
+
 // Beyond the range of squares nothing is known, and nothing is said to be free.
 TEST(SweptPair, OverflowIsNotFreedom) {
   Case c;

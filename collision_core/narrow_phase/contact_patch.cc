@@ -1,0 +1,228 @@
+#include "collision_core/narrow_phase/contact_patch.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+
+#include "collision_core/narrow_phase/boxed_triangle.h"
+
+namespace collision {
+namespace {
+
+using Eigen::Vector3d;
+
+// Pairs of triangles that are near enough, and of such that are looked at, at most. Where large
+// faces lie on each other many are; any two of them show what is needed.
+constexpr std::size_t kPairsMax = 64;
+constexpr std::size_t kLooksMax = 1024;
+
+// Of each kind, for either body.
+constexpr std::size_t kKept = 2;
+
+// Corners of a face that are so near to the least height are as low, as a share of the size.
+constexpr double kLevel = 0x1p-44;
+
+// Edges are parallel if the sine of their angle is below this.
+constexpr double kParallel = 0x1p-20;
+
+constexpr int kNext[3] = {1, 2, 0};
+
+// What lies on what, the widest first.
+enum Kind { kFace, kEdge, kCorner, kKinds };
+
+struct Proposal {
+  Vector3d x;  // in A's frame
+  double extent = 0;
+};
+
+Vector3d MeanOf(const std::vector<Vector3d>& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+// What of a polygon lies where n·(x − at) >= −slack.
+std::vector<Vector3d> Clipped(const std::vector<Vector3d>& polygon, const Vector3d& at,
+                              const Vector3d& n, double slack) {
+  std::vector<Vector3d> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double from = n.dot(p - at) + slack, to = n.dot(q - at) + slack;
+    if (from >= 0) kept.push_back(p);
+    if ((from > 0 && to < 0) || (from < 0 && to > 0))
+      kept.push_back(p + from / (from - to) * (q - p));
+  }
+  return kept;
+}
+
+double AreaOf(const std::vector<Vector3d>& polygon) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+  }
+  return sum.norm() / 2;
+}
+
+double LengthOf(const std::vector<Vector3d>& points) {
+  double length = 0;
+  for (const Vector3d& p : points) length = std::max(length, (p - points[0]).norm());
+  return length;
+}
+
+class Patch {
+ public:
+  Patch(const Surface& a, const Surface& b, const RelativePose& pose, double within, Work* work)
+      : a_(a),
+        b_(b),
+        pose_(pose),
+        within_(within),
+        level_(kLevel * (a.reach() + b.reach() + pose.offset.norm())),
+        work_(*work) {}
+
+  std::vector<SolidPoint> Run(std::uint32_t leaf_A, std::uint32_t leaf_B) {
+    if (IsLeafPair(leaf_A, leaf_B)) Triangles(leaf_A, leaf_B);
+    stack_.emplace_back(0, 0);
+    while (!stack_.empty() && pairs_ < kPairsMax && looks_ < kLooksMax && !work_.exhausted()) {
+      const auto [i, j] = stack_.back();
+      stack_.pop_back();
+      Visit(i, j);
+    }
+    return Best();
+  }
+
+ private:
+  bool IsLeafPair(std::uint32_t i, std::uint32_t j) const {
+    return a_.node(i).children == 0 && b_.node(j).children == 0;
+  }
+
+  void Visit(std::uint32_t i, std::uint32_t j) {
+    work_.Spend(1);
+    const SphereNode &a = a_.node(i), &b = b_.node(j);
+    if ((pose_.ToA(b.centre) - a.centre).norm() - a.radius - b.radius > within_) return;
+    if (a.children == 0 && b.children == 0) {
+      Triangles(i, j);
+    } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
+      for (std::uint32_t k = 0; k < a.children; ++k) stack_.emplace_back(a.first_child + k, j);
+    } else {
+      for (std::uint32_t k = 0; k < b.children; ++k) stack_.emplace_back(i, b.first_child + k);
+    }
+  }
+
+  void Triangles(std::uint32_t i, std::uint32_t j) {
+    for (const std::uint32_t s : a_.shape()->tree().TrianglesOf(a_.node(i))) {
+      const BoxedTriangle of_a(s, CornersOf(*a_.shape(), s));
+      for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b_.node(j))) {
+        const BoxedTriangle of_b(t, CornersOf(*b_.shape(), t, pose_));
+        work_.Spend(kBoxPairUnits);
+        if (BoxDistance(of_a, of_b) > within_) continue;
+        if (!seen_.insert({s, t}).second) continue;
+        ++looks_;
+        work_.Spend(kTrianglePairUnits);
+        if (DistanceOf(of_a.corners, of_b.corners).distance.lower > within_) continue;
+        ++pairs_;
+        FaceOn(of_a.corners, of_b.corners, true);
+        FaceOn(of_b.corners, of_a.corners, false);
+        Edges(of_a.corners, of_b.corners);
+      }
+    }
+  }
+
+  void Keep(Kind kind, bool of_A, const Vector3d& x, double extent) {
+    std::vector<Proposal>& list = proposals_[kind][of_A ? 0 : 1];
+    for (Proposal& other : list) {
+      if ((other.x - x).norm() > level_) continue;
+      other.extent = std::max(other.extent, extent);
+      return;
+    }
+    list.push_back({x, extent});
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Proposal& p, const Proposal& q) { return p.extent > q.extent; });
+    if (list.size() > kKept) list.pop_back();
+  }
+
+  // What of one triangle stands over the other, where it is the nearest to its plane.
+  void FaceOn(const TrianglePoints& t, const TrianglePoints& base, bool of_A) {
+    const Vector3d n = (base[1] - base[0]).cross(base[2] - base[0]).normalized();
+    if (!(n.norm() > 0.5)) return;
+    std::vector<Vector3d> polygon(t.begin(), t.end());
+    for (int i = 0; i < 3 && !polygon.empty(); ++i) {
+      const Vector3d inward = n.cross(base[kNext[i]] - base[i]).normalized();
+      polygon = Clipped(polygon, base[i], inward, level_);
+    }
+    double least = kInfinity;
+    for (const Vector3d& p : polygon) least = std::min(least, std::abs(n.dot(p - base[0])));
+    if (polygon.empty() || least > within_) return;
+    std::vector<Vector3d> low;
+    for (const Vector3d& p : polygon) {
+      if (std::abs(n.dot(p - base[0])) <= least + level_) low.push_back(p);
+    }
+    const double area = AreaOf(low), length = LengthOf(low);
+    const Kind kind = area > level_ * length ? kFace : length > 4 * level_ ? kEdge : kCorner;
+    Keep(kind, of_A, MeanOf(low), kind == kFace ? area : length);
+  }
+
+  void Edges(const TrianglePoints& a, const TrianglePoints& b) {
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) EdgeOn(a[i], a[kNext[i]], b[j], b[kNext[j]]);
+    }
+  }
+
+  void EdgeOn(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s) {
+    const Vector3d u = q - p, v = s - r, w = r - p;
+    const double uu = u.squaredNorm(), vv = v.squaredNorm();
+    if (!(uu > 0 && vv > 0)) return;
+    const Vector3d across = u.cross(v);
+    double on_u, length = 0;
+    if (across.squaredNorm() <= kParallel * kParallel * uu * vv) {
+      const auto [first, last] = std::minmax({w.dot(u) / uu, (w + v).dot(u) / uu});
+      const double from = std::max(0.0, first), to = std::min(1.0, last);
+      if (from > to) return;
+      on_u = (from + to) / 2;
+      length = (to - from) * std::sqrt(uu);
+    } else {
+      on_u = std::clamp(w.cross(v).dot(across) / across.squaredNorm(), 0.0, 1.0);
+    }
+    const Vector3d on_a = p + on_u * u;
+    const double on_v = std::clamp((on_a - r).dot(v) / vv, 0.0, 1.0);
+    const Vector3d on_b = r + on_v * v;
+    if ((on_a - on_b).norm() > within_) return;
+    Keep(length > 0 ? kEdge : kCorner, true, on_a, length);
+    Keep(length > 0 ? kEdge : kCorner, false, on_b, length);
+  }
+
+  std::vector<SolidPoint> Best() {
+    std::vector<SolidPoint> points;
+    for (int kind = 0; kind < kKinds; ++kind) {
+      for (const Proposal& p : proposals_[kind][0]) {
+        if (!work_.exhausted()) points.push_back(PointOfA(a_, p.x, &work_));
+      }
+      for (const Proposal& p : proposals_[kind][1]) {
+        if (!work_.exhausted()) points.push_back(PointOfB(b_, pose_.ToB(p.x), &work_));
+      }
+    }
+    return points;
+  }
+
+  const Surface& a_;
+  const Surface& b_;
+  const RelativePose& pose_;
+  const double within_;
+  const double level_;
+  Work& work_;
+  std::size_t pairs_ = 0, looks_ = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen_;
+  std::vector<Proposal> proposals_[kKinds][2];
+};
+
+}  // namespace
+
+std::vector<SolidPoint> ContactPatch(const Surface& a, const Surface& b, const RelativePose& pose,
+                                     double within, std::uint32_t leaf_A, std::uint32_t leaf_B,
+                                     Work* work) {
+  if (a.shape() == nullptr || b.shape() == nullptr) return {};
+  if (!a.shape()->closed() && !b.shape()->closed()) return {};
+  return Patch(a, b, pose, within, work).Run(leaf_A, leaf_B);
+}
+
+}  // namespace collision

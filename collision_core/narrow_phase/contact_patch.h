@@ -1,0 +1,18 @@
+// Where two surfaces that nearly touch will overlap first.
+#pragma once
+
+#include "collision_core/narrow_phase/solid_point.h"
+
+namespace collision {
+
+/// Points of either body at which the two are within `within` [m] of each other at this pose: in the
+/// middle of faces that lie on each other, of edges that do, of corners. A proposal in plain
+/// doubles, to be certified by UpperBy(): nothing wrong can come of it.
+///
+/// Of each kind a few, the widest first. `leaf_A`, `leaf_B`: where to look first. Of bodies one of
+/// which is a ball there are none, since a ball and a triangle are judged exactly.
+std::vector<SolidPoint> ContactPatch(const Surface& a, const Surface& b, const RelativePose& pose,
+                                     double within, std::uint32_t leaf_A, std::uint32_t leaf_B,
+                                     Work* work);
+
+}  // namespace collision

@@ -1,0 +1,49 @@
+// Segments of two bodies from their states, in a frame that moves along with one of them.
+#include "collision_core/narrow_phase/contact_time.h"
+
+namespace collision {
+namespace {
+
+// With R the state of the frame, X another one, s their stamps: seen from the frame the prediction
+// from X is at
+//   p_X + v_X (t − s_X) − p_R − v_R (t − s_R) = (p_X − p_R) + v_R (s_R − s_X) + (v_X − v_R)(t − s_X).
+void SeeFrom(const SpaceTimeBound& frame, const SpaceTimeBound& bound, Instant base,
+             MovingBall* ball) {
+  const MotionState &r = frame.state, &x = bound.state;
+  const IntervalVector v_R(r.v_WA);
+  ball->velocity = IntervalVector(x.v_WA) - v_R;
+  ball->centre = (IntervalVector(x.p_WA) - IntervalVector(r.p_WA)) +
+                 SecondsBetween(x.stamp, r.stamp) * v_R +
+                 SecondsBetween(x.stamp, base) * ball->velocity;
+}
+
+BodySegment SegmentOf(const KnownMotion& motion, const SpaceTimeBound& frame, Instant base) {
+  BodySegment segment;
+  for (const auto* known : {&motion.last, &motion.next}) {
+    if (!known->has_value()) continue;
+    const SpaceTimeBound& bound = **known;
+    const bool ahead = known == &motion.last;
+    segment.ball.radius = bound.declaration.radius;
+    segment.shape = bound.declaration.shape;
+    segment.ball.bounds.push_back(ahead ? ForwardBall(bound, base) : BackwardBall(bound, base));
+    SeeFrom(frame, bound, base, &segment.ball.bounds.back());
+    if (!segment.shape) continue;
+    segment.turns.push_back(ahead ? ForwardTurn(bound, base) : BackwardTurn(bound, base));
+  }
+  return segment;
+}
+
+}  // namespace
+
+BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from) {
+  const SpaceTimeBound& frame = a.last ? *a.last : *a.next;
+  return {SegmentOf(a, frame, from), SegmentOf(b, frame, from)};
+}
+
+ContactTime TimeOfContact(const KnownMotion& a, const KnownMotion& b, Instant from, Instant to,
+                          const ContactTolerance& tolerance, Work* work) {
+  const BodyPair bodies = SegmentsOf(a, b, from);
+  return TimeOfContact(bodies.a, bodies.b, SecondsBetween(from, to).upper, tolerance, work);
+}
+
+}  // namespace collision

@@ -1,0 +1,103 @@
+// One pair after the other, in the order of the wide vectors.
+#include "collision_core/narrow_phase/pack_scan.h"
+
+#include <cmath>
+
+#define WIDE
+
+namespace collision {
+namespace {
+
+constexpr std::uint32_t kWidth = 8;
+
+struct Lanes {
+  float lane[kWidth];
+};
+
+template <typename Each>
+Lanes Map(Each each) {
+  Lanes result;
+  for (std::uint32_t i = 0; i < kWidth; ++i) result.lane[i] = each(i);
+  return result;
+}
+
+Lanes operator+(const Lanes& a, const Lanes& b) {
+  return Map([&](std::uint32_t i) { return a.lane[i] + b.lane[i]; });
+}
+Lanes operator-(const Lanes& a, const Lanes& b) {
+  return Map([&](std::uint32_t i) { return a.lane[i] - b.lane[i]; });
+}
+Lanes operator*(const Lanes& a, const Lanes& b) {
+  return Map([&](std::uint32_t i) { return a.lane[i] * b.lane[i]; });
+}
+Lanes operator/(const Lanes& a, const Lanes& b) {
+  return Map([&](std::uint32_t i) { return a.lane[i] / b.lane[i]; });
+}
+Lanes All(float value) {
+  return Map([&](std::uint32_t) { return value; });
+}
+Lanes Load(const float* values) {
+  return Map([&](std::uint32_t i) { return values[i]; });
+}
+Lanes OfEight(const float* values) { return Load(values); }
+Lanes OfFour(const float* values) {
+  return Map([&](std::uint32_t i) { return values[i % 4]; });
+}
+Lanes RowsOfEight(const float* values, std::uint32_t row, std::uint32_t) {
+  return All(values[row]);
+}
+Lanes RowsOfFour(const float* values, std::uint32_t row) {
+  return Map([&](std::uint32_t i) { return values[row + i / 4]; });
+}
+void Store(float* to, const Lanes& lanes) {
+  for (std::uint32_t i = 0; i < kWidth; ++i) to[i] = lanes.lane[i];
+}
+Lanes Lesser(const Lanes& a, const Lanes& b) {
+  return Map([&](std::uint32_t i) { return a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i]; });
+}
+Lanes Greater(const Lanes& a, const Lanes& b) {
+  return Map([&](std::uint32_t i) { return a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i]; });
+}
+Lanes Root(const Lanes& a) {
+  return Map([&](std::uint32_t i) { return std::sqrt(a.lane[i]); });
+}
+float Least(const Lanes& a) {
+  float least = a.lane[0];
+  for (std::uint32_t i = 1; i < kWidth; ++i) least = a.lane[i] < least ? a.lane[i] : least;
+  return least;
+}
+unsigned NotGreater(const Lanes& a, const Lanes& b) {
+  unsigned mask = 0;
+  for (std::uint32_t i = 0; i < kWidth; ++i) mask |= unsigned{!(a.lane[i] > b.lane[i])} << i;
+  return mask;
+}
+Lanes Beyond(const Lanes& a, const Lanes& b) {
+  return Map([&](std::uint32_t i) { return a.lane[i] > b.lane[i] ? a.lane[i] : kNowhere; });
+}
+std::uint32_t Tell(unsigned mask, std::uint32_t first, const Lanes& lanes, std::uint32_t* codes,
+                   float* values) {
+  std::uint32_t found = 0;
+  for (; mask != 0; mask &= mask - 1) {
+    const auto i = static_cast<unsigned>(__builtin_ctz(mask));
+    codes[found] = first + i, values[found++] = lanes.lane[i];
+  }
+  return found;
+}
+
+}  // namespace
+}  // namespace collision
+
+#include "collision_core/narrow_phase/pack_scan_wide.h"
+
+namespace collision {
+
+const PackScan* PlainPackScan() { return &kPackScan; }
+
+const PackScan& WidestPackScan() {
+  static const PackScan& widest = Avx512PackScan() ? *Avx512PackScan()
+                                  : Avx2PackScan() ? *Avx2PackScan()
+                                                   : kPackScan;
+  return widest;
+}
+
+}  // namespace collision

@@ -1,0 +1,231 @@
+#include "collision_core/narrow_phase/separation_findings.h"
+
+#include <algorithm>
+
+namespace collision {
+namespace {
+
+// A step of the search through time loses at most half of the distance when the bracket is this
+// narrow.
+constexpr double kEnoughOfUpper = 0.5;
+
+// Squares of distances beyond this [m] may overflow.
+constexpr double kSquareMax = 1e150;
+
+double Greatest(const TrianglePoints& t) {
+  return std::sqrt(std::max({t[0].squaredNorm(), t[1].squaredNorm(), t[2].squaredNorm()}));
+}
+
+}  // namespace
+
+// A distance computed in doubles from points of these lengths, and the sums and differences made of
+// it (less than a dozen operations on terms below the lengths' sum): 2^-49 of the sum covers it.
+// A share of 2^-50 for the operations here.
+double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose) {
+  const double rounding = 0x1p-49 * (a.reach() + b.reach() + pose.offset.cwiseAbs().sum());
+  return (rounding + (pose.offset_error + pose.matrix_error * b.reach())) * (1 + 0x1p-50);
+}
+
+SeparationFindings::SeparationFindings(const Surface& a, const Surface& b, const RelativePose& pose,
+                                       Goal goal, std::optional<BracketWidth> narrow)
+    : a_(a), b_(b), pose_(pose), goal_(goal), narrow_(narrow), slack_(SlackOf(a, b, pose)) {}
+
+// What is resolved bounds the distance from below: once that is positive, what is farther away can
+// make the bracket no better. Where it is not, other pairs may still be certain to cross, unless
+// they are apart for certain themselves.
+double SeparationFindings::Limit() const {
+  const double upper = look_.upper, moved = pose_.translation;
+  if (goal_ == Goal::kNearest) return std::max(0.0, upper + 2 * moved);
+  const double resolved = resolved_lower_ > 0 ? resolved_lower_ : kInfinity;
+  if (narrow_) {
+    return std::min({upper - narrow_->width, upper / (1 + narrow_->share), resolved});
+  }
+  if (goal_ == Goal::kYesNo) return resolved_lower_ > moved ? moved : 0;
+  if (Touching()) return 0;
+  return std::min(std::max(moved, kEnoughOfUpper * upper), resolved);
+}
+
+bool SeparationFindings::Settled() const {
+  if (goal_ == Goal::kNearest) return look_.upper <= 0 || look_.ways.size() > kWaysMax;
+  return goal_ != Goal::kContact && Touching();
+}
+
+double SeparationFindings::MeasureNodes(std::uint32_t index_a, std::uint32_t index_b) {
+  const SphereNode& a = a_.node(index_a);
+  const SphereNode& b = b_.node(index_b);
+  const Eigen::Vector3d c_b = pose_.ToA(b.centre);
+  const double distance = (c_b - a.centre).norm();
+  if (!(distance < kSquareMax)) return distance > 0 ? kSquareMax / 2 : -kInfinity;
+  double slack = slack_;
+  if (pose_.chord_A > 0) slack += pose_.chord_A * a.centre.norm();
+  if (pose_.chord_B > 0) slack += pose_.chord_B * b.centre.norm();
+  const double upper = distance + a.signed_distance + b.signed_distance + slack;
+  const bool is_news = upper < look_.upper || look_.evidence.kind == Evidence::Kind::kNone;
+  if (upper <= -pose_.translation && is_news) {
+    CommonPoint(a, b, c_b, distance, slack);
+    look_.evidence = {Evidence::Kind::kNodes, index_a, index_b};
+  }
+  LowerUpper(upper);
+  return distance - a.radius - b.radius - slack;
+}
+
+// Where a ball inside a solid, or the surface near a centre, overlaps the other one's.
+void SeparationFindings::CommonPoint(const SphereNode& a, const SphereNode& b,
+                                     const Eigen::Vector3d& c_b, double distance, double slack) {
+  const double s_a = a.signed_distance, s_b = b.signed_distance;
+  const double error = std::max({0.0, s_a, s_b}) + slack;
+  if (s_a >= 0) {
+    KeepPoint(a.centre, error);
+  } else if (s_b >= 0 || distance == 0) {
+    KeepPoint(c_b, error);
+  } else {
+    const double from = std::max(0.0, distance + s_b), to = std::min(distance, -s_a);
+    KeepPoint(a.centre + (c_b - a.centre) * ((from + to) / (2 * distance)), error);
+  }
+}
+
+void SeparationFindings::KeepPoint(const Eigen::Vector3d& point, double error) {
+  if (!(error < look_.point_error)) return;
+  look_.point = point;
+  look_.point_error = error;
+}
+
+double SeparationFindings::TurnOfA(const TrianglePoints& t) const {
+  return pose_.chord_A == 0 ? 0 : pose_.chord_A * Greatest(t);
+}
+
+// How far the corners of a triangle of B move by its turning: they are |x − offset| from its
+// reference point.
+double SeparationFindings::TurnOfB(const TrianglePoints& t) const {
+  if (pose_.chord_B == 0) return 0;
+  const TrianglePoints own = {t[0] - pose_.offset, t[1] - pose_.offset, t[2] - pose_.offset};
+  return pose_.chord_B * Greatest(own);
+}
+
+// The gap of the shadows along the shortest way found so far, a unit vector but for rounding; what
+// rounding may have made of it is in the slack.
+double SeparationFindings::GapAlongDirection(const TrianglePoints& a,
+                                             const TrianglePoints& b) const {
+  const Eigen::Vector3d& n = direction_;
+  const double high = std::max({n.dot(a[0]), n.dot(a[1]), n.dot(a[2])});
+  return std::min({n.dot(b[0]), n.dot(b[1]), n.dot(b[2])}) - high;
+}
+
+double SeparationFindings::MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross,
+                                            Work* work) {
+  const TrianglePoints corners_a = CornersOf(*a_.shape(), a);
+  const TrianglePoints corners_b = CornersOf(*b_.shape(), b, pose_);
+  const double slack = slack_ + TurnOfA(corners_a) + TurnOfB(corners_b);
+  work->Spend(kBoxPairUnits);
+  const double along = GapAlongDirection(corners_a, corners_b) - slack;
+  if (along > Limit()) return along;
+  const bool cross_first = likely_to_cross && goal_ == Goal::kYesNo;
+  if (cross_first) {
+    work->Spend(kCrossingUnits);
+    Cross(a, corners_a, b, corners_b);
+    if (Touching()) return -kInfinity;
+  }
+  work->Spend(kTrianglePairUnits);
+  const TriangleDistance found = DistanceOf(corners_a, corners_b);
+  if (found.distance.lower <= 0 && !cross_first) Cross(a, corners_a, b, corners_b);
+  const double lower = found.distance.lower - slack;
+  KeepWay({found.a, found.b, lower, found.distance.upper + slack});
+  return lower;
+}
+
+double SeparationFindings::MeasureTriangle(std::uint32_t triangle, Work* work) {
+  if (a_.shape()) {
+    const TrianglePoints corners = CornersOf(*a_.shape(), triangle);
+    TriangleDistance found = DistanceOf(pose_.offset, corners);
+    std::swap(found.a, found.b);
+    return Count(triangle, found, b_.reach(), false, slack_ + TurnOfA(corners), work);
+  }
+  const TrianglePoints corners = CornersOf(*b_.shape(), triangle, pose_);
+  const TriangleDistance found = DistanceOf(Eigen::Vector3d(0, 0, 0), corners);
+  return Count(triangle, found, a_.reach(), true, slack_ + TurnOfB(corners), work);
+}
+
+// A ball and a triangle: the nearest points of its centre and of the triangle are known.
+double SeparationFindings::Count(std::uint32_t triangle, const TriangleDistance& found,
+                                 double radius, bool ball_is_a, double slack, Work* work) {
+  work->Spend(kTrianglePairUnits / 2);
+  Eigen::Vector3d a = found.a, b = found.b;
+  const double length = (b - a).norm();
+  const double share = length > 0 ? std::min(1.0, radius / length) : 0;
+  if (ball_is_a) {
+    a += share * (found.b - found.a);
+  } else {
+    b -= share * (found.b - found.a);
+  }
+  const double lower = found.distance.lower - radius - slack;
+  const double upper = found.distance.upper - radius + slack;
+  if (upper <= -pose_.translation && upper < look_.upper) {
+    KeepPoint(ball_is_a ? found.b : found.a, slack);  // of the surface, within the ball
+    look_.evidence = {Evidence::Kind::kTriangles, triangle, triangle};
+  }
+  KeepWay({a, b, lower, upper});
+  return lower;
+}
+
+void SeparationFindings::CrossAgain(std::uint32_t a, std::uint32_t b, Work* work) {
+  work->Spend(kCrossingUnits);
+  Cross(a, CornersOf(*a_.shape(), a), b, CornersOf(*b_.shape(), b, pose_));
+}
+
+void SeparationFindings::Cross(std::uint32_t index_a, const TrianglePoints& a,
+                               std::uint32_t index_b, const TrianglePoints& b) {
+  const double turning = slack_ + std::max(TurnOfA(a), TurnOfB(b));
+  const double margin = CrossingMargin(a, b) - turning;
+  if (!(margin > look_.crossing_margin)) return;
+  if (margin >= pose_.translation / 2) {
+    const std::optional<Crossing> crossing = CertainCrossing(a, b, turning + pose_.translation / 2);
+    if (!crossing) return;  // the margin was a matter of rounding
+    KeepPoint(crossing->point, crossing->error);
+    look_.upper = std::min(look_.upper, -pose_.translation);
+    look_.evidence = {Evidence::Kind::kTriangles, index_a, index_b};
+  }
+  look_.crossing_margin = margin;
+}
+
+void SeparationFindings::KeepWay(const NearestWay& way) {
+  LowerUpper(way.upper);
+  if (way.lower > look_.upper + 2 * pose_.translation) return;
+  if (!way_ || way.upper < way_->upper) {
+    way_ = way;
+    const double length = (way.b - way.a).norm();
+    if (length > 0) direction_ = (way.b - way.a) / length;
+  }
+  if (goal_ != Goal::kNearest) return;
+  // A triangle may stand in several leaves.
+  const bool known = std::any_of(look_.ways.begin(), look_.ways.end(), [&](const auto& other) {
+    return other.a == way.a && other.b == way.b && other.upper == way.upper;
+  });
+  if (known) return;
+  look_.ways.push_back(way);
+  if (look_.ways.size() > kWaysMax) DropLonger();
+}
+
+void SeparationFindings::DropLonger() {
+  const double reach = look_.upper + 2 * pose_.translation;
+  std::erase_if(look_.ways, [reach](const NearestWay& way) { return way.lower > reach; });
+}
+
+// Half-way along the shortest way, where contact is not certain.
+void SeparationFindings::PointBetween() {
+  if (!way_ || look_.point_error < kInfinity) return;
+  if (way_->lower > look_.upper + 2 * pose_.translation) return;
+  look_.point = (way_->a + way_->b) / 2;
+  look_.point_error = std::max(0.0, way_->upper);
+}
+
+Look SeparationFindings::Told(double unopened, bool exhausted, std::uint32_t level) {
+  look_.lower = unopened;
+  look_.exhausted = exhausted;
+  look_.level = level;
+  PointBetween();
+  DropLonger();
+  if (exhausted || look_.ways.size() > kWaysMax) look_.ways.clear();
+  return std::move(look_);
+}
+
+}  // namespace collision

@@ -1,0 +1,88 @@
+// What a search for the distance of two bodies has found so far.
+#pragma once
+
+#include <optional>
+
+#include "collision_core/narrow_phase/boxed_triangle.h"
+#include "collision_core/narrow_phase/separation.h"
+
+namespace collision {
+
+/// Ways between surfaces that are kept; with more of them the direction is not told.
+inline constexpr std::size_t kWaysMax = 128;
+
+/// What rounding may have made of a distance at this pose, computed in doubles.
+double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose);
+
+/// A bracket that is narrow enough.
+struct BracketWidth {
+  double width, share;
+};
+
+/// The look as it grows: balls and triangles are measured in doubles, and what matters is kept.
+class SeparationFindings {
+ public:
+  /// Everything passed in outlives this.
+  SeparationFindings(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal,
+                     std::optional<BracketWidth> narrow);
+
+  /// Pairs that are farther apart than this need not be looked at: the answer is the same without.
+  double Limit() const;
+  /// Contact is certain.
+  bool Touching() const {
+    return look_.upper <= -pose_.translation || look_.crossing_margin >= pose_.translation / 2;
+  }
+  /// Nothing makes the answer any better.
+  bool Settled() const;
+
+  const Look& look() const { return look_; }
+  double slack() const { return slack_; }
+  /// From A to B along the shortest way found: about a unit vector, or zero.
+  const Eigen::Vector3d& direction() const { return direction_; }
+
+  /// A lower bound on the distance of what was looked at to the end.
+  void Resolve(double lower) { resolved_lower_ = std::min(resolved_lower_, lower); }
+  double resolved_lower() const { return resolved_lower_; }
+
+  /// Two balls, by their numbers in the sphere trees: returns the lower bound.
+  double MeasureNodes(std::uint32_t a, std::uint32_t b);
+  /// An upper bound for some pair of balls.
+  void LowerUpper(double upper) { look_.upper = std::min(look_.upper, upper); }
+  /// Two triangles, of which is known that a filter could not tell them apart: returns the lower
+  /// bound. `likely_to_cross`: that is looked at first.
+  double MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross, Work* work);
+  /// Where one of the two is a ball: a triangle of the other.
+  double MeasureTriangle(std::uint32_t triangle, Work* work);
+  void CrossAgain(std::uint32_t a, std::uint32_t b, Work* work);
+
+  /// The whole answer. `unopened`: a lower bound on what was not looked at.
+  Look Told(double unopened, bool exhausted, std::uint32_t level);
+
+ private:
+  double TurnOfA(const TrianglePoints& t) const;
+  double TurnOfB(const TrianglePoints& t) const;
+  double GapAlongDirection(const TrianglePoints& a, const TrianglePoints& b) const;
+  void CommonPoint(const SphereNode& a, const SphereNode& b, const Eigen::Vector3d& c_b,
+                   double distance, double slack);
+  double Count(std::uint32_t triangle, const TriangleDistance& found, double radius, bool ball_is_a,
+               double slack, Work* work);
+  void KeepPoint(const Eigen::Vector3d& point, double error);
+  void Cross(std::uint32_t index_a, const TrianglePoints& a, std::uint32_t index_b,
+             const TrianglePoints& b);
+  void KeepWay(const NearestWay& way);
+  void DropLonger();
+  void PointBetween();
+
+  const Surface& a_;
+  const Surface& b_;
+  const RelativePose& pose_;
+  const Goal goal_;
+  const std::optional<BracketWidth> narrow_;
+  const double slack_;
+  double resolved_lower_ = kInfinity;
+  std::optional<NearestWay> way_;
+  Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();
+  Look look_;
+};
+
+}  // namespace collision

@@ -1,0 +1,223 @@
+#include "collision_core/narrow_phase/separation_search.h"
+
+#include <algorithm>
+
+namespace collision {
+namespace {
+
+// Of two balls with children both are opened, unless one is larger than this times the other.
+constexpr float kMuchLarger = 4;
+
+// Bodies that are farther apart than this [m] are not looked at more closely: their sizes, at most
+// 4e7 m (kMeshReachMax), are nothing beside it, and squares stay within single precision.
+constexpr double kFarApart = 1e15;
+
+float FloatDown(double x) { return -FloatUp(-x); }
+
+Eigen::Vector3f NormalOf(const TriangleBlock& block) {
+  constexpr std::uint32_t kNormals = 3 * kBlockTriangles;
+  return {block.x[kNormals], block.y[kNormals], block.z[kNormals]};
+}
+
+}  // namespace
+
+SeparationSearch::SeparationSearch(const Surface& a, const Surface& b, const RelativePose& pose,
+                                   Goal goal, std::optional<BracketWidth> narrow, SearchOrder order,
+                                   const PackScan& scan)
+    : a_(a),
+      b_(b),
+      scan_(scan),
+      body_a_(a),
+      body_b_(b),
+      findings_(a, b, pose, goal, narrow),
+      pose_(ScanPoseOf(body_a_, body_b_, pose, findings_.slack())),
+      moved_(pose.translation),
+      looks_for_margin_(goal == Goal::kContact),
+      frontier_(order == SearchOrder::kAsGoal && (goal == Goal::kYesNo || narrow)) {
+  std::fill_n(beyond_, kLanesOver, kNowhere);
+}
+
+void SeparationSearch::Start(Work* work) {
+  work->Spend(kPackRowUnits);
+  root_lower_ = findings_.MeasureNodes(0, 0);
+  const Eigen::Map<const Eigen::Vector3f> offset(pose_.offset);
+  if (!(offset.cwiseAbs().maxCoeff() < kFarApart)) {
+    findings_.Resolve(root_lower_);
+    done_ = true;
+    return;
+  }
+  frontier_.Push({FloatDown(root_lower_), 0, 0, 0});
+}
+
+void SeparationSearch::Refine(Work* work) {
+  while (!done_) {
+    if (frontier_.empty() || findings_.Settled()) {
+      done_ = true;
+      return;
+    }
+    if (work->exhausted()) return;
+    const double limit = findings_.Limit();
+    if (static_cast<double>(frontier_.next().lower) > limit) {
+      // Nothing that is left may be nearer; of the newest first that is known of this one only.
+      if (frontier_.newest_first()) {
+        findings_.Resolve(static_cast<double>(frontier_.Pop().lower));
+      } else {
+        done_ = true;
+      }
+      continue;
+    }
+    const std::uint64_t before = work->spent();
+    Open(frontier_.Pop(), FloatUp(limit), work);
+    if (looks_for_margin_ && findings_.Touching()) {
+      margin_units_ += work->spent() - before;
+      done_ = margin_units_ > kMarginUnits;
+    }
+  }
+}
+
+void SeparationSearch::Open(const BallPair& pair, float limit, Work* work) {
+  deepest_a_ = std::max(deepest_a_, pair.a);
+  deepest_b_ = std::max(deepest_b_, pair.b);
+  const bool leaf_a = BallLink::IsLeaf(body_a_.LinkOf(pair.a));
+  const bool leaf_b = BallLink::IsLeaf(body_b_.LinkOf(pair.b));
+  if (leaf_a && leaf_b) return OpenLeaves(pair, limit, work);
+  if (leaf_a) return OpenBalls(pair, Opened::kB, limit, work);
+  if (leaf_b) return OpenBalls(pair, Opened::kA, limit, work);
+  const float radius_a = body_a_.RadiusOf(pair.a), radius_b = body_b_.RadiusOf(pair.b);
+  const bool much_a = radius_a > kMuchLarger * radius_b;
+  const bool much_b = radius_b > kMuchLarger * radius_a;
+  OpenBalls(pair, much_a ? Opened::kA : much_b ? Opened::kB : Opened::kBoth, limit, work);
+}
+
+BallPair SeparationSearch::PairOf(const BallPair& parent, Opened opened, std::uint32_t code) const {
+  BallPair pair{0, parent.a, parent.b, 0};
+  const std::uint32_t row = code / kPackBalls, column = code % kPackBalls;
+  if (opened != Opened::kB) {
+    pair.a = BallLink::Index(body_a_.LinkOf(parent.a)) * kPackBalls +
+             (opened == Opened::kA ? column : row);
+  }
+  if (opened != Opened::kA) {
+    pair.b = BallLink::Index(body_b_.LinkOf(parent.b)) * kPackBalls + column;
+  }
+  return pair;
+}
+
+void SeparationSearch::OpenBalls(const BallPair& pair, Opened opened, float limit, Work* work) {
+  const std::uint32_t link_a = body_a_.LinkOf(pair.a), link_b = body_b_.LinkOf(pair.b);
+  BallScanTask task;
+  task.opened = opened;
+  task.a = body_a_.packs + (opened == Opened::kB ? pair.a / kPackBalls : BallLink::Index(link_a));
+  task.b = body_b_.packs + (opened == Opened::kA ? pair.b / kPackBalls : BallLink::Index(link_b));
+  task.lane = (opened == Opened::kA ? pair.b : pair.a) % kPackBalls;
+  task.rows = opened == Opened::kBoth ? BallLink::Count(link_a) : 1;
+  task.parent = pair.lower;
+  task.limit = limit;
+  task.upper = FloatUp(upper());
+  work->Spend(task.rows * kPackRowUnits);
+  BallHits hits;
+  scan_.balls(pose_, task, beyond_, &hits, nullptr);
+  if (static_cast<double>(hits.upper) < upper()) LowerUpper(pair, task, hits.upper);
+  BallPair* const pairs = frontier_.Room(hits.count);
+  for (std::uint32_t i = 0; i < hits.count; ++i) {
+    pairs[i] = PairOf(pair, opened, hits.codes[i]);
+    pairs[i].lower = hits.lowers[i];
+  }
+  frontier_.Take(hits.count);
+}
+
+// Where contact becomes certain by it, the pair that tells.
+void SeparationSearch::LowerUpper(const BallPair& pair, const BallScanTask& task, float upper) {
+  if (static_cast<double>(upper) <= -moved_) {
+    BallHits hits;
+    float uppers[kPairsMax + kLanesOver];
+    scan_.balls(pose_, task, beyond_, &hits, uppers);
+    const float* const nearest = std::find(uppers, uppers + task.rows * kPackBalls, upper);
+    const BallPair balls = PairOf(pair, task.opened, static_cast<std::uint32_t>(nearest - uppers));
+    findings_.MeasureNodes(body_a_.NodeOf(balls.a), body_b_.NodeOf(balls.b));
+  }
+  findings_.LowerUpper(static_cast<double>(upper));
+}
+
+// One pair of blocks; the others wait for their turn.
+void SeparationSearch::OpenLeaves(BallPair pair, float limit, Work* work) {
+  const std::uint32_t first_a = BallLink::Index(body_a_.LinkOf(pair.a));
+  const std::uint32_t first_b = BallLink::Index(body_b_.LinkOf(pair.b));
+  const TriangleBlock* const a = body_a_.tree ? body_a_.tree->blocks() + first_a : nullptr;
+  const TriangleBlock* const b = body_b_.tree ? body_b_.tree->blocks() + first_b : nullptr;
+  const auto blocks_in = [](const TriangleBlock* leaf) {
+    return leaf ? (leaf->left + kBlockTriangles - 1) / kBlockTriangles : 1;
+  };
+  const std::uint32_t of_a = blocks_in(a), of_b = blocks_in(b);
+  const std::uint32_t at_a = pair.next / of_b, at_b = pair.next % of_b;
+  if (a && b) {
+    OpenBlocks(pair, a[at_a], b[at_b], limit, work);
+  } else {
+    OpenBlock(pair, a ? a[at_a] : b[at_b], work);
+  }
+  if (++pair.next < of_a * of_b) frontier_.Push(pair);
+}
+
+void SeparationSearch::OpenBlocks(const BallPair& pair, const TriangleBlock& a,
+                                  const TriangleBlock& b, float limit, Work* work) {
+  work->Spend(kBlockPairUnits);
+  // Along the shortest way found, or as long as there is none, along a normal.
+  const bool has_way = findings_.direction() != Eigen::Vector3d::Zero();
+  const Eigen::Vector3f direction = has_way ? findings_.direction().cast<float>() : NormalOf(a);
+  std::copy_n(direction.data(), 3, pose_.direction);
+  // Sums and products of floats, up by more than they are rounded.
+  const float turning = pose_.turn_a * a.reach + pose_.turn_b * b.reach;
+  const float slack = (pose_.triangle_slack + turning) * (1 + 0x1p-20f);
+  float lowers[kBlockTriangles * kBlockTriangles];
+  unsigned within = scan_.triangles(pose_, {&a, &b, slack, pair.lower, limit}, beyond_, lowers);
+  const double least = static_cast<double>(pair.lower);
+  for (; within != 0; within &= within - 1) {
+    const auto code = static_cast<std::uint32_t>(__builtin_ctz(within));
+    const std::uint32_t row = code / kBlockTriangles, column = code % kBlockTriangles;
+    if (row >= a.left || column >= b.left) continue;
+    const bool likely_to_cross = lowers[code] + slack <= 0;
+    const double lower =
+        findings_.MeasureTriangles(a.triangle[row], b.triangle[column], likely_to_cross, work);
+    findings_.Resolve(std::max(lower, least));
+    if (findings_.Settled()) break;
+  }
+}
+
+// Triangles beside a ball.
+void SeparationSearch::OpenBlock(const BallPair& pair, const TriangleBlock& block, Work* work) {
+  const double least = static_cast<double>(pair.lower);
+  for (std::uint32_t i = 0; i < std::min(block.left, kBlockTriangles); ++i) {
+    findings_.Resolve(std::max(findings_.MeasureTriangle(block.triangle[i], work), least));
+  }
+}
+
+void SeparationSearch::Try(const Evidence& leaves, Work* work) {
+  const SphereNode& a = a_.node(leaves.a);
+  const SphereNode& b = b_.node(leaves.b);
+  if (!a_.shape() || !b_.shape()) {
+    const SphereTree& tree = (a_.shape() ? a_ : b_).shape()->tree();
+    for (const std::uint32_t t : tree.TrianglesOf(a_.shape() ? a : b)) {
+      if (work->exhausted()) return;
+      findings_.MeasureTriangle(t, work);
+    }
+    return;
+  }
+  for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
+    for (const std::uint32_t u : b_.shape()->tree().TrianglesOf(b)) {
+      if (work->exhausted()) return;
+      findings_.MeasureTriangles(t, u, false, work);
+    }
+  }
+}
+
+double SeparationSearch::lower() const {
+  const auto beyond = static_cast<double>(*std::min_element(beyond_, beyond_ + kLanesOver));
+  return std::max(root_lower_, std::min({findings_.resolved_lower(), frontier_.Least(), beyond}));
+}
+
+Look SeparationSearch::Told() {
+  const std::uint32_t level = std::max(a_.node(body_a_.NodeOf(deepest_a_)).level,
+                                       b_.node(body_b_.NodeOf(deepest_b_)).level);
+  return findings_.Told(lower(), !done_, level);
+}
+
+}  // namespace collision

@@ -1,0 +1,39 @@
+// How a packed tree lies in memory: plain arrays, for wide vectors.
+#pragma once
+
+#include <cstdint>
+
+namespace collision {
+
+/// Balls in a pack: the children of one node.
+inline constexpr std::uint32_t kPackBalls = 8;
+
+/// Triangles in a block: those of one leaf, or a part of them.
+inline constexpr std::uint32_t kBlockTriangles = 4;
+
+/// As far away as everything, and still finite beside other numbers.
+inline constexpr float kNowhere = 0x1p+100f;
+
+/// Siblings, in single precision, as arrays. A centre is the tree's origin + (x, y, z), exactly; the
+/// ball about it contains the one of the sphere tree, and the signed distance is one of this centre.
+/// Lanes without a ball have the radius −kNowhere and the signed distance kNowhere: they are near
+/// nothing.
+struct alignas(64) BallPack {
+  float x[kPackBalls], y[kPackBalls], z[kPackBalls];
+  float radius[kPackBalls];
+  float signed_distance[kPackBalls];
+  std::uint32_t link[kPackBalls];  ///< What the ball holds: see BallLink.
+};
+
+/// Triangles of a leaf, as arrays: x[4 k + i] is corner k of triangle i, seen from the tree's origin
+/// and rounded; for k = 3 its normal, about a unit long (zero: none is known). `above` and `below`
+/// are the greatest and the least of normal · corner. Lanes without a triangle repeat the first.
+struct alignas(64) TriangleBlock {
+  float x[4 * kBlockTriangles], y[4 * kBlockTriangles], z[4 * kBlockTriangles];
+  float above[kBlockTriangles], below[kBlockTriangles];
+  std::uint32_t triangle[kBlockTriangles];  ///< In the mesh.
+  std::uint32_t left;                       ///< Triangles of the leaf from this block on.
+  float reach;                              ///< No corner is farther from the reference point.
+};
+
+}  // namespace collision

@@ -1,0 +1,87 @@
+// Bullet's GImpact: its two trees of quantised boxes, and its own test of two triangles until one
+// pair meets. Its dispatcher would collect every contact of all pairs: this is the shorter way.
+#include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
+#include <BulletCollision/Gimpact/btGImpactShape.h>
+
+#include <memory>
+
+#include "tests/bench/narrow_query.h"
+
+namespace collision::bench {
+namespace {
+
+class GImpact {
+ public:
+  explicit GImpact(const PlainMesh& mesh) {
+    for (const auto& p : mesh.vertices) {
+      for (const double x : p) points_.push_back(static_cast<btScalar>(x));
+    }
+    for (const auto& t : mesh.triangles) {
+      for (const std::uint32_t v : t) corners_.push_back(static_cast<int>(v));
+    }
+    triangles_ = std::make_unique<btTriangleIndexVertexArray>(
+        static_cast<int>(mesh.triangles.size()), corners_.data(), static_cast<int>(3 * sizeof(int)),
+        static_cast<int>(mesh.vertices.size()), points_.data(),
+        static_cast<int>(3 * sizeof(btScalar)));
+    shape_ = std::make_unique<btGImpactMeshShape>(triangles_.get());
+    shape_->setMargin(0);
+    shape_->updateBound();
+    part_ = shape_->getMeshPart(0);
+  }
+
+  bool Touching(const btTransform& to_world) {
+    const btTransform none = btTransform::getIdentity();
+    pairs_.resize(0);
+    btGImpactQuantizedBvh::find_collision(part_->getBoxSet(), none, part_->getBoxSet(), to_world,
+                                          pairs_);
+    part_->lockChildShapes();
+    bool touching = false;
+    for (int i = 0; i < pairs_.size() && !touching; ++i) {
+      touching = Meet(pairs_[i].m_index1, pairs_[i].m_index2, to_world);
+    }
+    part_->unlockChildShapes();
+    return touching;
+  }
+
+ private:
+  bool Meet(int of_a, int of_b, const btTransform& to_world) const {
+    btPrimitiveTriangle a, b;
+    part_->getPrimitiveManager()->get_primitive_triangle(of_a, a);
+    part_->getPrimitiveManager()->get_primitive_triangle(of_b, b);
+    b.applyTransform(to_world);
+    a.m_margin = b.m_margin = 0;
+    a.buildTriPlane();
+    b.buildTriPlane();
+    if (!a.overlap_test_conservative(b)) return false;
+    GIM_TRIANGLE_CONTACT contact;
+    return a.find_triangle_collision_clip_method(b, contact);
+  }
+
+  std::vector<btScalar> points_;
+  std::vector<int> corners_;
+  std::unique_ptr<btTriangleIndexVertexArray> triangles_;
+  std::unique_ptr<btGImpactMeshShape> shape_;
+  btGImpactMeshShapePart* part_ = nullptr;
+  btPairSet pairs_;
+};
+
+btTransform BulletPose(const PlainPose& at) {
+  const auto number = [](double x) { return static_cast<btScalar>(x); };
+  const auto& r = at.rotation;
+  return btTransform(btMatrix3x3(number(r[0][0]), number(r[0][1]), number(r[0][2]), number(r[1][0]),
+                                 number(r[1][1]), number(r[1][2]), number(r[2][0]), number(r[2][1]),
+                                 number(r[2][2])),
+                     btVector3(number(at.offset[0]), number(at.offset[1]), number(at.offset[2])));
+}
+
+}  // namespace
+
+NarrowQueries BulletQueries(const PlainMesh& mesh) {
+  const auto gimpact = std::make_shared<GImpact>(mesh);
+  const auto ask = [gimpact](const PlainPose& at) {
+    return Plain(gimpact->Touching(BulletPose(at)));
+  };
+  return {{"Bullet GImpact", Task::kDecision, Who::kLibrary, ask}};
+}
+
+}  // namespace collision::bench

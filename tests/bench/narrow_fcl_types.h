@@ -1,0 +1,34 @@
+// A mesh and a pose as FCL takes them.
+#pragma once
+
+#include <fcl/geometry/bvh/BVH_model.h>
+
+#include <memory>
+
+#include "tests/bench/narrow_query.h"
+
+namespace collision::bench {
+
+template <typename Volume>
+std::shared_ptr<fcl::BVHModel<Volume>> FclModel(const PlainMesh& mesh) {
+  std::vector<fcl::Vector3d> vertices;
+  for (const auto& p : mesh.vertices) vertices.emplace_back(p[0], p[1], p[2]);
+  std::vector<fcl::Triangle> triangles;
+  for (const auto& t : mesh.triangles) triangles.emplace_back(t[0], t[1], t[2]);
+  auto model = std::make_shared<fcl::BVHModel<Volume>>();
+  model->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+  model->addSubModel(vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+inline fcl::Transform3d FclPose(const PlainPose& pose) {
+  fcl::Transform3d transform = fcl::Transform3d::Identity();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) transform.linear()(i, j) = pose.rotation[i][j];
+    transform.translation()(i) = pose.offset[i];
+  }
+  return transform;
+}
+
+}  // namespace collision::bench

@@ -1,0 +1,76 @@
+#include "tests/bench/narrow_mesh.h"
+
+#include "tests/bench/edge_collapse.h"
+#include "tests/collision_core/shape/meshes.h"
+#include "tests/support/obj.h"
+
+namespace collision::bench {
+namespace {
+
+constexpr std::size_t kFew = 500;
+
+void Normalise(TriangleMesh* mesh) {
+  const MeshFacts facts = FactsOf(*mesh);
+  const Eigen::Vector3d middle = 0.5 * (facts.lower + facts.upper);
+  for (Eigen::Vector3d& p : mesh->vertices) p -= middle;
+  const double radius = FactsOf(*mesh).radius;
+  for (Eigen::Vector3d& p : mesh->vertices) p /= radius;
+}
+
+/// Only vertices that a triangle has, each position once: some libraries need that.
+TriangleMesh Compact(const TriangleMesh& mesh) {
+  constexpr auto kNone = static_cast<std::uint32_t>(-1);
+  const auto merged = MergedVertices(mesh);
+  std::vector<std::uint32_t> index(mesh.vertices.size(), kNone);
+  TriangleMesh compact;
+  for (Triangle t : mesh.triangles) {
+    for (std::uint32_t& v : t) {
+      std::uint32_t& known = index[merged[v]];
+      if (known == kNone) {
+        known = static_cast<std::uint32_t>(compact.vertices.size());
+        compact.vertices.push_back(mesh.vertices[merged[v]]);
+      }
+      v = known;
+    }
+    compact.triangles.push_back(t);
+  }
+  return compact;
+}
+
+BenchMesh Made(const std::string& name, TriangleMesh mesh) {
+  mesh = Compact(mesh);
+  Normalise(&mesh);
+  return {name, std::move(mesh)};
+}
+
+}  // namespace
+
+std::optional<BenchMesh> ReadBenchMesh(const std::string& data_dir, const std::string& name) {
+  const PolygonMesh polygons = ReadObj(data_dir + "/meshes/" + name + ".obj");
+  if (polygons.sizes.empty()) return std::nullopt;
+  MeshRepair repair;
+  return Made(name, Triangulate(polygons, &repair));
+}
+
+std::vector<BenchMesh> ContestMeshes(const std::string& data_dir, bool quick) {
+  std::vector<BenchMesh> meshes;
+  if (const auto homer = ReadBenchMesh(data_dir, "homer")) {
+    meshes.push_back(Made("homer-500", Collapsed(homer->mesh, kFew)));
+  }
+  if (const auto spot = ReadBenchMesh(data_dir, "spot")) meshes.push_back(*spot);
+  const auto rocker = ReadBenchMesh(data_dir, "rocker-arm");
+  if (rocker && !quick) meshes.push_back(*rocker);
+  if (rocker) meshes.push_back(Made("rocker-arm-80k", Subdivided(rocker->mesh, 1)));
+  return meshes;
+}
+
+std::vector<BenchMesh> ClosedMeshes(const std::string& data_dir) {
+  std::vector<BenchMesh> closed;
+  for (const char* name : {"cow", "fandisk", "homer", "rocker-arm", "spot"}) {
+    auto mesh = ReadBenchMesh(data_dir, name);
+    if (mesh && FactsOf(mesh->mesh).closed) closed.push_back(std::move(*mesh));
+  }
+  return closed;
+}
+
+}  // namespace collision::bench

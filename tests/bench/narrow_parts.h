@@ -1,0 +1,40 @@
+// The parts of the narrow phase's benchmark, and what they share.
+#pragma once
+
+#include <string>
+
+#include "tests/bench/narrow_mesh.h"
+#include "tests/bench/narrow_query.h"
+#include "tests/bench/narrow_report.h"
+#include "tests/bench/narrow_timing.h"
+
+namespace collision::bench {
+
+struct NarrowSettings {
+  bool quick = false;
+  std::string only;  ///< A part of "part/mesh/gap/contestant"; empty: everything.
+  std::string data_dir;
+
+  std::size_t poses() const { return quick ? 40 : 200; }
+  std::size_t contacts() const { return quick ? 8 : 24; }
+  TimingPlan plan() const { return quick ? TimingPlan{2, 1, 10} : TimingPlan{}; }
+};
+
+bool Wanted(const NarrowSettings& settings, const NarrowRow& row);
+
+PlainMesh PlainOf(const TriangleMesh& mesh);
+
+/// Decision, distance and bracket beside the libraries: meshes by gap classes.
+void ContestPart(const NarrowSettings& settings, NarrowReport* report);
+/// How well the better builder's balls fit, beside the octree's.
+void TreesPart(const NarrowSettings& settings, NarrowReport* report);
+/// How long building takes, beside FCL's.
+void BuildPart(const NarrowSettings& settings, NarrowReport* report);
+/// By how much a budget is overrun.
+void BudgetPart(const NarrowSettings& settings, NarrowReport* report);
+/// When two bodies begin to touch, where the answer is closed, beside what the libraries say.
+void ContactCasesPart(const NarrowSettings& settings, NarrowReport* report);
+/// The same of two large meshes: the distribution of time and work.
+void ContactPart(const NarrowSettings& settings, NarrowReport* report);
+
+}  // namespace collision::bench

@@ -1,0 +1,139 @@
+#include "tests/bench/narrow_pose.h"
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "collision_core/narrow_phase/separation.h"
+#include "tests/support/random.h"
+
+namespace collision::bench {
+namespace {
+
+constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
+/// A gap is met to this part of it, and the beginning of an overlap to this part of the diameter.
+constexpr double kGapTolerance = 1e-2, kTouchTolerance = 1e-7;
+/// Draws for one pose, before it is given up.
+constexpr int kDrawsMax = 1000;
+
+Eigen::Matrix3d RandomRotation(Random& random) {
+  for (;;) {
+    const Eigen::Quaterniond q(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1),
+                               random.Uniform(-1, 1));
+    const double norm = q.norm();
+    if (norm > 0.1 && norm <= 1) return q.normalized().toRotationMatrix();
+  }
+}
+
+PlainPose PlainOf(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset) {
+  PlainPose pose;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) pose.rotation[i][j] = rotation(i, j);
+    pose.offset[i] = offset[i];
+  }
+  return pose;
+}
+
+class Sampler {
+ public:
+  Sampler(std::shared_ptr<const Shape> shape, double diameter, std::uint64_t seed)
+      : body_(BodyOf(std::move(shape))), surface_(body_), diameter_(diameter), random_(seed) {}
+
+  std::optional<PlainPose> Draw(const GapClass& gap) {
+    rotation_ = RandomRotation(random_);
+    direction_ = random_.UnitVector();
+    const double wanted = gap.share * diameter_;
+    if (!gap.overlap) return Gap(wanted);
+    const auto touch = Boundary(kTouchTolerance * diameter_, [&](double at) { return Touch(at); });
+    if (!touch || !Touch(*touch - wanted)) return std::nullopt;
+    return PlainOf(rotation_, (*touch - wanted) * direction_);
+  }
+
+ private:
+  RelativePose At(double along) const { return collision::PoseOf(rotation_, along * direction_); }
+
+  bool Touch(double along) const {
+    Work work(kUnlimited);
+    return DecideAt(surface_, surface_, At(along), &work).verdict == Verdict::kTouching;
+  }
+
+  Look Distance(double along, double width) const {
+    Work work(kUnlimited);
+    return BracketAt(surface_, surface_, At(along), width, 0, &work);
+  }
+
+  std::optional<PlainPose> Gap(double wanted) const {
+    const double close = 0.1 * kGapTolerance * wanted;
+    const auto along =
+        Boundary(close, [&](double at) { return Distance(at, close).upper <= wanted; });
+    if (!along) return std::nullopt;
+    const Look look = Distance(*along, close);
+    const double off = kGapTolerance * wanted;
+    if (look.lower < wanted - off || look.upper > wanted + off) return std::nullopt;
+    Work work(kUnlimited);
+    if (DecideAt(surface_, surface_, At(*along), &work).verdict != Verdict::kApart) {
+      return std::nullopt;
+    }
+    return PlainOf(rotation_, *along * direction_);
+  }
+
+  /// From where the centres coincide, which must be near, to where it is not, within `tolerance`.
+  template <typename IsNear>
+  std::optional<double> Boundary(double tolerance, const IsNear& is_near) const {
+    if (!is_near(0)) return std::nullopt;
+    double near = 0, far = 2 * diameter_;
+    while (far - near > tolerance) {
+      const double middle = 0.5 * (near + far);
+      (is_near(middle) ? near : far) = middle;
+    }
+    return far;
+  }
+
+  const BodySegment body_;
+  const Surface surface_;
+  const double diameter_;
+  Random random_;
+  Eigen::Matrix3d rotation_;
+  Eigen::Vector3d direction_;
+};
+
+}  // namespace
+
+const std::vector<GapClass>& GapClasses() {
+  static const std::vector<GapClass> classes = {
+      {"overlap 10 %", 0.1, true}, {"overlap 0.1 %", 0.001, true}, {"gap 0.1 %", 0.001, false},
+      {"gap 1 %", 0.01, false},    {"gap 10 %", 0.1, false},       {"gap 50 %", 0.5, false}};
+  return classes;
+}
+
+RelativePose PoseOf(const PlainPose& pose) {
+  Eigen::Matrix3d rotation;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) rotation(i, j) = pose.rotation[i][j];
+  }
+  return collision::PoseOf(rotation, {pose.offset[0], pose.offset[1], pose.offset[2]});
+}
+
+BodySegment BodyOf(std::shared_ptr<const Shape> shape) {
+  BodySegment body;
+  body.shape = std::move(shape);
+  return body;
+}
+
+PoseSample SamplePoses(std::shared_ptr<const Shape> shape, double diameter, const GapClass& gap,
+                       std::size_t count, std::uint64_t seed) {
+  Sampler sampler(std::move(shape), diameter, seed);
+  PoseSample sample;
+  int draws = 0;
+  while (sample.poses.size() < count && draws < kDrawsMax) {
+    ++draws;
+    if (const auto pose = sampler.Draw(gap)) {
+      sample.poses.push_back(*pose);
+      draws = 0;
+    } else {
+      ++sample.redrawn;
+    }
+  }
+  return sample;
+}
+
+}  // namespace collision::bench

@@ -1,0 +1,96 @@
+// Bodies that move with constant velocities, told by states at either end: for tests of when they touch.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "collision_core/narrow_phase/contact_time.h"
+#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "tests/support/meshes.h"
+
+namespace collision {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+inline constexpr std::uint64_t kPlenty = 20'000'000;
+inline constexpr double kPi = std::numbers::pi;
+
+struct Body {
+  std::shared_ptr<const Shape> shape;
+  double radius = 0;  // of a ball
+  Vector3d p = Vector3d::Zero(), v = Vector3d::Zero(), w = Vector3d::Zero();
+  Quaterniond q = Quaterniond::Identity();
+  double acceleration_max = 0, angular_acceleration_max = 0;
+
+  SpaceTimeBound At(double seconds) const {
+    SpaceTimeBound bound;
+    bound.state.stamp = Instant::FromNanoseconds(std::llround(seconds * 1e9));
+    bound.state.p_WA = p + seconds * v;
+    bound.state.v_WA = v;
+    bound.state.w_WB = w;
+    bound.state.q_WB = q;
+    if (seconds != 0) {
+      const Vector turned = static_cast<Real>(seconds) * w.cast<Real>();
+      bound.state.q_WB = (Exponential(turned) * q.cast<Real>()).cast<double>();
+    }
+    bound.declaration.radius = shape ? shape->facts().radius : radius;
+    bound.declaration.shape = shape;
+    bound.declaration.acceleration_max = acceleration_max;
+    bound.declaration.angular_acceleration_max = angular_acceleration_max;
+    return bound;
+  }
+};
+
+enum class Told { kAtStart, kAtEnd, kAtBoth };
+
+inline KnownMotion Known(const Body& body, double duration, Told told) {
+  KnownMotion known;
+  if (told != Told::kAtEnd) known.last = body.At(0);
+  if (told != Told::kAtStart) known.next = body.At(duration);
+  return known;
+}
+
+inline ContactTime Find(const Body& a, const Body& b, double duration, Told told = Told::kAtStart,
+                        ContactTolerance tolerance = {}, std::uint64_t units = kPlenty) {
+  Work work(units);
+  return TimeOfContact(Known(a, duration, told), Known(b, duration, told), Instant(),
+                       Instant::FromNanoseconds(std::llround(duration * 1e9)), tolerance, &work);
+}
+
+// What rounding the states to doubles may have moved the true time by, as a share of it.
+inline constexpr Real kStated = 4e-15L;
+
+inline void ExpectWithin(Interval bracket, Real truth, double relative, const char* which) {
+  EXPECT_LE(bracket.lower, truth * (1 + kStated)) << which;
+  EXPECT_GE(bracket.upper, truth * (1 - kStated)) << which;
+  EXPECT_LE(bracket.width(), relative * static_cast<double>(truth)) << which;
+}
+
+inline void ExpectContact(const ContactTime& found, Real begin, Real end, double relative = 1e-12) {
+  ASSERT_EQ(found.status, ContactStatus::kContact);
+  ExpectWithin(found.begin, begin, relative, "begin");
+  ExpectWithin(found.end, end, relative, "end");
+  EXPECT_EQ(found.limited_by, EventLimit::kNone);
+  EXPECT_EQ(found.within, 0);
+  EXPECT_GT(found.work, 0u);
+}
+
+inline const auto& UnitCube() {
+  static const auto cube = Shape::Build(Cube(0.5));
+  return cube;
+}
+
+inline Quaterniond Turn(double degrees, const Vector3d& axis) {
+  return Quaterniond(Eigen::AngleAxisd(degrees * kPi / 180, axis));
+}
+
+// Everything turned by `turn` about the origin.
+inline Body Turned(Body body, const Quaterniond& turn) {
+  body.p = turn * body.p;
+  body.v = turn * body.v;
+  body.w = turn * body.w;
+  body.q = turn * body.q;
+  return body;
+}
+
+}  // namespace collision

@@ -1,0 +1,247 @@
+// Goal:   the kernels' bounds hold, are nearly tight, and are the same bits on every processor.
+// Method: random packs and blocks of all scales at random poses, far from the reference points as well; exact rational
+//         arithmetic for the truth, each width of vectors beside the plain one.
+#include "collision_core/narrow_phase/pack_scan.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstring>
+
+#include "collision_core/narrow_phase/pack_scan_pose.h"
+#include "collision_core/narrow_phase/separation_findings.h"
+#include "tests/support/exact_triangle.h"
+#include "tests/support/meshes.h"
+
+namespace collision {
+namespace {
+
+Eigen::Matrix3d RandomMatrix(Random& random) {
+  return Eigen::AngleAxisd(random.Uniform(0, 3.14), random.UnitVector()).toRotationMatrix();
+}
+
+BodySegment SegmentOf(const TriangleMesh& mesh) {
+  BodySegment segment;
+  segment.shape = Shape::Build(mesh);
+  return segment;
+}
+
+/// Two bodies of one scale, about as far apart as they are large, or a thousand times that.
+struct Scene {
+  Random random;
+  double scale;
+  BodySegment of_a, of_b;
+  Surface a, b;
+  PackedBody packed_a, packed_b;
+  RelativePose pose;
+  ScanPose scan;
+
+  explicit Scene(std::uint64_t seed)
+      : random(seed),
+        scale(random.LogUniform(1e-5, 1e5)),
+        of_a(SegmentOf(RandomMesh())),
+        of_b(SegmentOf(RandomMesh())),
+        a(of_a),
+        b(of_b),
+        packed_a(a),
+        packed_b(b) {
+    const double apart = scale * (random.Chance(0.2) ? 1000 : random.Uniform(0, 4));
+    const Eigen::Matrix3d matrix = RandomMatrix(random);
+    // The middles, not the reference points, are that far apart.
+    pose = PoseOf(matrix, packed_a.origin - matrix * packed_b.origin + apart * random.UnitVector());
+    scan = ScanPoseOf(packed_a, packed_b, pose, SlackOf(a, b, pose));
+    Eigen::Vector3f::Map(scan.direction) = random.UnitVector().cast<float>();
+  }
+
+  TriangleMesh RandomMesh() {
+    const double away = random.Chance(0.3) ? random.LogUniform(1, 1e3) : 0;
+    return Scaled(Moved(Star(2, random), away * random.UnitVector()), scale);
+  }
+
+  BallScanTask RandomTask() {
+    BallScanTask task;
+    const auto pack = [&](const PackedBody& body) {
+      BallRef ball = 0;
+      for (int i = 0; i < 6; ++i) {
+        const std::uint32_t link = body.LinkOf(ball);
+        if (BallLink::IsLeaf(link)) break;
+        ball = BallLink::Index(link) * kPackBalls +
+               static_cast<std::uint32_t>(random.Below(BallLink::Count(link)));
+      }
+      return body.packs + ball / kPackBalls;
+    };
+    task.a = pack(packed_a), task.b = pack(packed_b);
+    task.opened = static_cast<Opened>(random.Below(3));
+    task.lane = static_cast<std::uint32_t>(random.Below(kPackBalls));
+    task.rows = task.opened == Opened::kBoth ? 1 + static_cast<std::uint32_t>(random.Below(8)) : 1;
+    task.parent = static_cast<float>(-4 * scale);
+    task.limit = static_cast<float>(scale * random.Uniform(-1, 4));
+    task.upper = static_cast<float>(scale * random.Uniform(-1, 4));
+    return task;
+  }
+};
+
+struct Answer {
+  BallHits hits;
+  float uppers[kPairsMax + kLanesOver];
+  LeastBeyond beyond;
+
+  Answer(const PackScan& scan, const ScanPose& pose, const BallScanTask& task) {
+    std::fill_n(beyond, kLanesOver, kNowhere);
+    scan.balls(pose, task, beyond, &hits, uppers);
+  }
+  float least() const { return *std::min_element(beyond, beyond + kLanesOver); }
+};
+
+template <typename T>
+bool SameBits(const T* a, const T* b, std::size_t count) {
+  return std::memcmp(a, b, count * sizeof(T)) == 0;
+}
+
+std::vector<const PackScan*> WideScans() {
+  std::vector<const PackScan*> wide;
+  for (const PackScan* scan : {Avx2PackScan(), Avx512PackScan()}) {
+    if (scan != nullptr) wide.push_back(scan);
+  }
+  return wide;
+}
+
+void Turn(Scene* scene) {
+  scene->pose.chord_A = scene->random.Uniform(0, 2);
+  scene->pose.chord_B = scene->random.Chance(0.5) ? 0 : 1e-6;
+  scene->scan = ScanPoseOf(scene->packed_a, scene->packed_b, scene->pose,
+                           SlackOf(scene->a, scene->b, scene->pose));
+}
+
+TEST(PackScan, BallsAreTheSameBitsForEveryWidth) {
+  int told = 0, news = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Scene scene(seed);
+    for (int i = 0; i < 40; ++i) {
+      if (i == 20) Turn(&scene);
+      const BallScanTask task = scene.RandomTask();
+      const Answer plain(*PlainPackScan(), scene.scan, task);
+      told += static_cast<int>(plain.hits.count);
+      news += plain.hits.upper < kNowhere;
+      for (const PackScan* scan : WideScans()) {
+        const Answer wide(*scan, scene.scan, task);
+        ASSERT_EQ(plain.hits.count, wide.hits.count);
+        ASSERT_TRUE(SameBits(&plain.hits.upper, &wide.hits.upper, 1));
+        ASSERT_TRUE(SameBits(plain.hits.codes, wide.hits.codes, plain.hits.count));
+        ASSERT_TRUE(SameBits(plain.hits.lowers, wide.hits.lowers, plain.hits.count));
+        ASSERT_TRUE(SameBits(plain.uppers, wide.uppers, task.rows * kPackBalls));
+        ASSERT_EQ(plain.least(), wide.least());
+      }
+    }
+  }
+  EXPECT_GT(told, 1000);
+  EXPECT_GT(news, 100);
+}
+
+TEST(PackScan, TrianglesAreTheSameBitsForEveryWidth) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    Scene scene(seed);
+    for (std::uint32_t i = 0; i < 30; ++i) {
+      const TriangleBlock& a = scene.packed_a.tree->blocks()[i];
+      const TriangleBlock& b = scene.packed_b.tree->blocks()[2 * i];
+      const auto limit = static_cast<float>(scene.scale * scene.random.Uniform(-1, 4));
+      const BlockScanTask task = {&a, &b, scene.scan.triangle_slack, -1, limit};
+      float plain[16], wide[16];
+      LeastBeyond beyond, beyond_wide;
+      std::fill_n(beyond, kLanesOver, kNowhere);
+      const unsigned within = PlainPackScan()->triangles(scene.scan, task, beyond, plain);
+      for (const PackScan* scan : WideScans()) {
+        std::fill_n(beyond_wide, kLanesOver, kNowhere);
+        ASSERT_EQ(scan->triangles(scene.scan, task, beyond_wide, wide), within);
+        ASSERT_TRUE(SameBits(plain, wide, 16));
+        ASSERT_EQ(*std::min_element(beyond, beyond + kLanesOver),
+                  *std::min_element(beyond_wide, beyond_wide + kLanesOver));
+      }
+    }
+  }
+}
+
+/// The exact place of a ball's centre or a corner of B, in A's body frame.
+ExactVector ExactlyPosed(const RelativePose& pose, const ExactVector& p) {
+  const auto row = [&](int i) {
+    return Exact(pose.matrix(i, 0)) * p.x + Exact(pose.matrix(i, 1)) * p.y +
+           Exact(pose.matrix(i, 2)) * p.z + Exact(pose.offset[i]);
+  };
+  return {row(0), row(1), row(2)};
+}
+
+ExactVector CentreIn(const PackedBody& body, const BallPack& pack, std::uint32_t i) {
+  return ExactVector(body.origin) +
+         ExactVector(Exact(pack.x[i]), Exact(pack.y[i]), Exact(pack.z[i]));
+}
+
+/// lower <= √square + add <= upper, exactly, and neither is off by more than `loose`.
+void ExpectBrackets(const Exact& lower, const Exact& upper, const Exact& square,
+                    const Exact& add_lower, const Exact& add_upper, const Exact& loose) {
+  const auto at_most_root = [&](const Exact& x) { return x <= 0 || x * x <= square; };
+  EXPECT_TRUE(at_most_root(lower - add_lower));
+  EXPECT_TRUE(at_most_root(lower - add_lower) && !at_most_root(lower - add_lower + loose));
+  EXPECT_FALSE(upper - add_upper < 0 || (upper - add_upper) * (upper - add_upper) < square);
+  EXPECT_TRUE(at_most_root(upper - add_upper - loose));
+}
+
+TEST(PackScan, BallBoundsHoldExactly) {
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed);
+    BallScanTask task = scene.RandomTask();
+    task.opened = Opened::kBoth, task.rows = 8, task.lane = 0;
+    task.parent = -kNowhere, task.limit = kNowhere;
+    const Answer answer(*PlainPackScan(), scene.scan, task);
+    for (std::uint32_t k = 0; k < answer.hits.count; ++k) {
+      const std::uint32_t code = answer.hits.codes[k], i = code / 8, j = code % 8;
+      if (task.a->radius[i] < 0 || task.b->radius[j] < 0) continue;
+      const ExactVector d = ExactlyPosed(scene.pose, CentreIn(scene.packed_b, *task.b, j)) -
+                            CentreIn(scene.packed_a, *task.a, i);
+      const Exact radii = Exact(task.a->radius[i]) + Exact(task.b->radius[j]);
+      const Exact depths = Exact(task.a->signed_distance[i]) + Exact(task.b->signed_distance[j]);
+      ExpectBrackets(Exact(answer.hits.lowers[k]), Exact(answer.uppers[code]), Square(d), -radii,
+                     depths, Exact(3 * scene.scan.slack));
+    }
+  }
+}
+
+TEST(PackScan, TriangleBoundsHoldExactly) {
+  int tight = 0, pairs = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed);
+    const auto& mesh_a = scene.a.shape()->mesh();
+    const auto& mesh_b = scene.b.shape()->mesh();
+    for (std::uint32_t i = 0; i < 4; ++i) {
+      const TriangleBlock& a = scene.packed_a.tree->blocks()[scene.random.Below(40)];
+      const TriangleBlock& b = scene.packed_b.tree->blocks()[scene.random.Below(40)];
+      float lowers[16];
+      LeastBeyond beyond;
+      std::fill_n(beyond, kLanesOver, kNowhere);
+      PlainPackScan()->triangles(scene.scan, {&a, &b, scene.scan.triangle_slack, 0, kNowhere},
+                                 beyond, lowers);
+      for (std::uint32_t k = 0; k < 16; k += 5) {
+        if (k / 4 >= a.left || k % 4 >= b.left) continue;
+        ExactTriangle t, u;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+          t[corner] = ExactVector(mesh_a.vertices[mesh_a.triangles[a.triangle[k / 4]][corner]]);
+          u[corner] = ExactlyPosed(
+              scene.pose,
+              ExactVector(mesh_b.vertices[mesh_b.triangles[b.triangle[k % 4]][corner]]));
+        }
+        const Exact square = SquareOfTriangles(t, u), lower = Exact(lowers[k]);
+        EXPECT_TRUE(lower <= 0 || lower * lower <= square) << lowers[k];
+        ++pairs;
+        const Exact more = lower + Exact(0.1 * scene.scale);
+        tight += more > 0 && more * more >= square;
+      }
+    }
+  }
+  EXPECT_GT(pairs, 200);
+  EXPECT_GT(3 * tight, pairs) << "but between corners, gaps are nearly the distance";
+}
+
+}  // namespace
+}  // namespace collision

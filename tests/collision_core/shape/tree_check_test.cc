@@ -1,0 +1,137 @@
+#include "collision_core/shape/tree_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "collision_core/shape/shape.h"
+#include "tests/support/meshes.h"
+#include "tests/support/random.h"
+
+namespace collision {
+namespace {
+
+SphereTree TreeOf(const TriangleMesh& mesh) {
+  return Shape::Build(mesh, {.triangles_per_leaf = 1})->tree();
+}
+
+// Goal:   what a builder makes passes, and a shape from it is the shape that was built.
+TEST(TreeCheck, WhatWasBuiltPasses) {
+  for (const TriangleMesh& mesh : {Cube(1), Tetrahedron(2), LShape(), Sheet(3, 7)}) {
+    const auto built = Shape::Build(mesh);
+    ASSERT_EQ(RefusalOf(built->tree(), mesh), std::nullopt);
+    const auto again = Shape::FromTree(mesh, built->tree());
+    EXPECT_EQ(again->closed(), built->closed());
+    EXPECT_EQ(again->facts().radius, built->facts().radius);
+    EXPECT_EQ(again->component_points(), built->component_points());
+    const Eigen::Vector3d point(0.3, -0.2, 0.1);
+    EXPECT_EQ(again->DistanceTo(point).lower, built->DistanceTo(point).lower);
+    EXPECT_EQ(again->DistanceTo(point).upper, built->DistanceTo(point).upper);
+  }
+}
+
+// Goal:   each thing that could lead a traversal astray is refused.
+// Method: a good tree, spoilt in one place.
+TEST(TreeCheck, RefusesWhatIsNoTreeOfTheMesh) {
+  const TriangleMesh mesh = LShape();
+  const SphereTree good = TreeOf(mesh);
+  ASSERT_EQ(RefusalOf(good, mesh), std::nullopt);
+  ASSERT_GE(good.levels, 3u);
+  std::size_t leaf = 0;
+  while (good.nodes[leaf].children > 0) ++leaf;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::vector<std::function<void(SphereTree&)>> spoils = {
+      [](SphereTree& t) { t.nodes.clear(); },
+      [](SphereTree& t) { t.nodes.pop_back(); },
+      [](SphereTree& t) { t.nodes.push_back(t.nodes.back()); },
+      [](SphereTree& t) { t.nodes[0].level = 1; },
+      [](SphereTree& t) { t.nodes[1].level = 2; },
+      [](SphereTree& t) { t.nodes[0].first_child = 0; },
+      [](SphereTree& t) { t.nodes[0].first_child = 2; },
+      [](SphereTree& t) { t.nodes[0].children += 1; },
+      [](SphereTree& t) { t.nodes[0].children = 0xffffffff; },
+      [](SphereTree& t) { t.nodes[0].children = 0; },
+      [](SphereTree& t) { t.levels += 1; },
+      [](SphereTree& t) { t.levels = 0; },
+      [&](SphereTree& t) { t.nodes[leaf].triangles = 0; },
+      [&](SphereTree& t) { t.nodes[leaf].triangles = 0xffffffff; },
+      [&](SphereTree& t) { t.nodes[leaf].first_triangle = 0xfffffff0; },
+      [&](SphereTree& t) { t.nodes[leaf].first_child = 0, t.nodes[leaf].children = 1; },
+      [](SphereTree& t) { t.triangle_indices[0] = 20; },
+      [](SphereTree& t) { std::fill(t.triangle_indices.begin(), t.triangle_indices.end(), 0); },
+      [](SphereTree& t) { t.triangle_indices.pop_back(); },
+      [&](SphereTree& t) { t.nodes[2].centre.x() = nan; },
+      [&](SphereTree& t) { t.nodes[2].centre.y() = -infinity; },
+      [&](SphereTree& t) { t.nodes[2].centre.z() = 1e30; },
+      [&](SphereTree& t) { t.nodes[2].radius = nan; },
+      [&](SphereTree& t) { t.nodes[2].radius = infinity; },
+      [](SphereTree& t) { t.nodes[2].radius = -1e-9; },
+      [&](SphereTree& t) { t.nodes[2].signed_distance = nan; },
+      [&](SphereTree& t) { t.nodes[2].signed_distance = -infinity; },
+  };
+  for (std::size_t i = 0; i < spoils.size(); ++i) {
+    SphereTree tree = good;
+    spoils[i](tree);
+    EXPECT_NE(RefusalOf(tree, mesh), std::nullopt) << "spoilt in way " << i;
+  }
+  TriangleMesh more = mesh;
+  more.triangles.push_back(more.triangles.front());
+  EXPECT_NE(RefusalOf(good, more), std::nullopt) << "a triangle in no leaf";
+}
+
+// Goal:   packs have room for all siblings.
+// Method: leaves of one triangle each below a root, up to eight and nine.
+TEST(TreeCheck, SiblingsAreFew) {
+  for (const std::uint32_t children : {8u, 9u}) {
+    TriangleMesh mesh = Sheet(1, 3);
+    mesh.triangles.resize(children);
+    SphereTree tree;
+    tree.levels = 2;
+    tree.nodes.push_back({.radius = 2, .first_child = 1, .children = children});
+    for (std::uint32_t i = 0; i < children; ++i) {
+      tree.nodes.push_back({.radius = 2, .first_triangle = i, .triangles = 1, .level = 1});
+      tree.triangle_indices.push_back(i);
+    }
+    EXPECT_EQ(RefusalOf(tree, mesh).has_value(), children > kNodeChildrenMax);
+  }
+}
+
+// Goal:   whatever passes can be walked: every question about it ends, within its arrays.
+// Method: 5,000 trees with words overwritten at random; those that pass are asked (the sanitizers
+//         watch), and some do pass.
+TEST(TreeCheck, WhateverPassesCanBeUsed) {
+  Random random(12);
+  const TriangleMesh mesh = LShape();
+  const SphereTree good = TreeOf(mesh);
+  int passed = 0;
+  for (int i = 0; i < 5'000; ++i) {
+    SphereTree tree = good;
+    for (std::uint64_t n = 1 + random.Below(3); n > 0; --n) {
+      SphereNode& node = tree.nodes[random.Below(tree.nodes.size())];
+      std::uint32_t* const words[] = {&node.first_child, &node.children, &node.first_triangle,
+                                      &node.triangles, &node.level};
+      double* const numbers[] = {&node.centre.x(), &node.radius, &node.signed_distance};
+      if (random.Chance(0.5)) {
+        *words[random.Below(5)] = static_cast<std::uint32_t>(random.Below(24));
+      } else if (random.Chance(0.5)) {
+        *numbers[random.Below(3)] = std::ldexp(1.0, static_cast<int>(random.Below(2000)) - 1000);
+      } else {
+        tree.triangle_indices[random.Below(tree.triangle_indices.size())] =
+            static_cast<std::uint32_t>(random.Below(24));
+      }
+    }
+    if (RefusalOf(tree, mesh)) continue;
+    ++passed;
+    const auto shape = Shape::FromTree(mesh, tree);
+    shape->DistanceTo({2, 1, 0});
+    shape->WindingNumberAt({0.25, -0.5, 0.25});
+    for (std::uint32_t level = 0; level < tree.levels; ++level) shape->tree().Cut(level);
+  }
+  EXPECT_GT(passed, 200);
+}
+
+}  // namespace
+}  // namespace collision

@@ -1,0 +1,147 @@
+// Surfaces as nobody should make them, by the thousand.
+#pragma once
+
+#include <cstdint>
+
+#include "tests/support/meshes.h"
+#include "tests/support/random.h"
+
+namespace collision {
+
+/// Kinds of dirt; see DirtyMesh().
+inline constexpr std::uint32_t kDirtKinds = 14;
+
+namespace dirt {
+
+inline Eigen::Vector3d Point(Random& random, double size) {
+  return {random.Uniform(-size, size), random.Uniform(-size, size), random.Uniform(-size, size)};
+}
+
+inline void AddTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                        const Eigen::Vector3d& c, TriangleMesh* mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
+  mesh->vertices.insert(mesh->vertices.end(), {a, b, c});
+  mesh->triangles.push_back({first, first + 1, first + 2});
+}
+
+/// Triangles anywhere, of sizes from 1e-9 to 1.
+inline TriangleMesh Soup(Random& random) {
+  TriangleMesh mesh;
+  for (std::uint64_t i = 1 + random.Below(150); i > 0; --i) {
+    const Eigen::Vector3d a = Point(random, 1);
+    const double size = random.LogUniform(1e-9, 1);
+    AddTriangle(a, a + Point(random, size), a + Point(random, size), &mesh);
+  }
+  return mesh;
+}
+
+/// Needles, some with corners nearly or exactly on a line.
+inline TriangleMesh Slivers(Random& random) {
+  TriangleMesh mesh;
+  for (std::uint64_t i = 1 + random.Below(80); i > 0; --i) {
+    const Eigen::Vector3d a = Point(random, 1), b = Point(random, 1);
+    const double off = random.Chance(0.1) ? 0 : random.LogUniform(1e-16, 1e-3);
+    AddTriangle(a, b, a + random.Uniform(0, 1) * (b - a) + off * random.UnitVector(), &mesh);
+  }
+  return mesh;
+}
+
+/// All triangles in one corner, or along one edge.
+inline TriangleMesh Fan(Random& random) {
+  TriangleMesh mesh;
+  const Eigen::Vector3d apex = Point(random, 1), other = Point(random, 1);
+  const bool along_edge = random.Chance(0.5);
+  for (std::uint64_t i = 1 + random.Below(120); i > 0; --i) {
+    const Eigen::Vector3d p = Point(random, 1);
+    AddTriangle(apex, along_edge ? other : Eigen::Vector3d(p + 0.1 * random.UnitVector()), p,
+                &mesh);
+  }
+  return mesh;
+}
+
+/// The same triangles several times, some turned round.
+inline TriangleMesh Repeated(Random& random) {
+  TriangleMesh mesh = random.Chance(0.5) ? Cube(0.5) : Soup(random);
+  const std::size_t once = mesh.triangles.size();
+  for (std::uint64_t copies = 1 + random.Below(12); copies > 0; --copies) {
+    for (std::size_t i = 0; i < once; ++i) {
+      Triangle t = mesh.triangles[i];
+      if (random.Chance(0.3)) std::swap(t[0], t[1]);
+      mesh.triangles.push_back(t);
+    }
+  }
+  return mesh;
+}
+
+/// Exactly flat, with triangles upon each other.
+inline TriangleMesh Flat(Random& random) {
+  TriangleMesh mesh = Soup(random);
+  const int axis = static_cast<int>(random.Below(3));
+  for (Eigen::Vector3d& p : mesh.vertices) p[axis] = 0.25;
+  return mesh;
+}
+
+/// Closed, but some triangles are missing, turned round or corners of others.
+inline TriangleMesh Damaged(Random& random) {
+  TriangleMesh mesh = Star(2, random);
+  for (Triangle& t : mesh.triangles) {
+    if (random.Chance(0.05)) std::swap(t[0], t[1]);
+    if (random.Chance(0.02)) t[0] = static_cast<std::uint32_t>(random.Below(mesh.vertices.size()));
+  }
+  while (random.Chance(0.7)) mesh.triangles.pop_back();
+  return mesh;
+}
+
+/// One part a million times finer than the other.
+inline TriangleMesh Uneven(Random& random) {
+  const double size = random.LogUniform(1e-7, 1e-3);
+  return Joined(Box({-1, -1, -1}, {1, 1, 1}),
+                Moved(Scaled(Star(2, random), size), Point(random, 1)));
+}
+
+}  // namespace dirt
+
+/// As meshes come: soup, slivers, fans, copies, flat ones, thin ones, ones that cross themselves,
+/// nest, touch, fall apart; closed and open; near to the origin and far away. Without degenerate
+/// triangles; not one that RefusalOf() refuses, if some triangle is left.
+inline TriangleMesh DirtyMesh(std::uint32_t kind, Random& random) {
+  const auto make = [&]() -> TriangleMesh {
+    switch (kind % kDirtKinds) {
+      case 0:
+        return dirt::Soup(random);
+      case 1:
+        return dirt::Slivers(random);
+      case 2:
+        return dirt::Fan(random);
+      case 3:
+        return dirt::Repeated(random);
+      case 4:
+        return dirt::Flat(random);
+      case 5:
+        return dirt::Damaged(random);
+      case 6:
+        return dirt::Uneven(random);
+      case 7:
+        return Tangle(2, random);
+      case 8:
+        return Joined(Star(2, random), Moved(Star(2, random), dirt::Point(random, 1)));
+      case 9:
+        return Joined(Cube(1), Reversed(Cube(random.Chance(0.3) ? 1 : 0.5)));
+      case 10:
+        return Box({0, 0, 0}, {1, random.LogUniform(1e-9, 1), random.LogUniform(1e-9, 1)});
+      case 11:
+        return Subdivided(LShape(), 2);
+      case 12:
+        return Reversed(Star(2, random));
+      default:
+        return Joined(Sheet(1, 6), dirt::Soup(random));
+    }
+  };
+  TriangleMesh mesh = make();
+  if (random.Chance(0.3)) mesh = Scaled(mesh, random.LogUniform(1e-3, 1e3));
+  if (random.Chance(0.3)) mesh = Moved(mesh, dirt::Point(random, random.LogUniform(1, 5e6)));
+  DropDegenerate(&mesh);
+  return mesh;
+}
+
+}  // namespace collision
