@@ -85,9 +85,10 @@ std::string UpdatesText(const v1::ServiceStatus& status) {
          NumberText(share, "%.1f") + " %)";
 }
 
-/// How many trees there are, what they take, and whether they had to be built.
+/// How many trees there are, what they take, and whether they had to be built; empty without any.
 std::string TreesText(const v1::ServiceStatus& status) {
   const auto count = [&](const char* name) { return CounterOf(status, name); };
+  if (count("shapes") + count("trees_building") == 0) return "";
   std::string text =
       std::to_string(count("shapes")) + ", " + std::to_string(count("tree_nodes")) + " balls";
   for (const v1::KeyValue& extension : status.extensions()) {
@@ -158,8 +159,9 @@ std::string StatusPage(const WorldView& view) {
       Line("earliest", EarliestText(view)) +
       Line("broad phase", status.broad_phase() + (status.broad_phase_why().empty() ? "" : ": ") +
                               status.broad_phase_why()) +
-      Line("questions", QuestionsText(status)) + Line("updates", UpdatesText(status)) +
-      Line("trees", TreesText(status));
+      Line("questions", QuestionsText(status)) + Line("updates", UpdatesText(status));
+  const std::string trees = TreesText(status);
+  if (!trees.empty()) page += Line("trees", trees);
   std::string label = "left out";
   for (const std::string& what : status.left_out()) {
     page += Line(std::exchange(label, ""), what);

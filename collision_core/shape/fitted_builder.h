@@ -11,9 +11,9 @@ namespace collision {
 /// `closed`: it is (MeshFacts). Deterministic. In time about n log n.
 ///
 /// A ball inside a solid that touches the surface all over its part overshoots it by nothing, one
-/// that touches it in the middle of a patch of width w by w² / 8R: so centres are sought
-/// inside, where
-/// r + s is least. See CoverSearch; the surface of an open mesh has balls about the surface itself.
+/// that touches it in the middle of a patch of width w by w² / 8R: so centres are sought inside,
+/// where r + s is least. See CoverSearch; the surface of an open mesh has balls about the surface
+/// itself.
 ///
 /// A node's part is whole triangles and pieces of large ones (FittedPieces), each in one child; so
 /// nothing is taken apart in vain where many triangles meet in one corner or lie upon each other.

@@ -69,7 +69,7 @@ TEST_F(SceneFileTest, AnUnknownSceneNamesThoseThereAre) {
   } catch (const NoSuchScene& error) {
     EXPECT_STREQ(error.what(),
                  "no scene \"iridium\"; there are: corridor, iridium-cosmos, spaceships, "
-                 "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000");
+                 "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain");
   }
 }
 
