@@ -16,6 +16,7 @@
 #include <algorithm>
 
 #include "collision_core/narrow_phase/boxed_triangle.h"
+#include "collision_core/narrow_phase/first_root.h"
 
 namespace collision {
 namespace {
@@ -28,9 +29,7 @@ constexpr int kSteps = 8;
 
 // Steps shorter than this share of the duration are not worth another.
 constexpr double kStepWorth = 1e-4;
-
-// A quotient and a root, computed in a few roundings.
-constexpr double kRootShare = 1 - 0x1p-40;
+// A few roundings, upward.
 constexpr double kGrow = 1 + 0x1p-40;
 
 /// A ball, or a triangle where `radius` is 0: seen from its body's reference point.
@@ -246,24 +245,12 @@ class Search {
     for (int step = 0; step < kSteps; ++step) {
       const Vector3d offset = swept_.pose.offset + h * swept_.velocity;
       const double gap = Distance(a, b, ring_a, ring_b, offset) - (c0 + h * (c1 + h * c2));
-      const double further = Further(gap, speed_ + c1 + 2 * h * c2, c2);
+      const double further = FirstRoot(gap, speed_ + c1 + 2 * h * c2, c2);
       h += further;
       if (h > duration_) return kInfinity;
       if (further < kStepWorth * duration_) break;
     }
     return h;
-  }
-
-  // A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0.
-  static double Further(double gap, double closing, double growth) {
-    if (!(gap > 0)) return 0;
-    const double root = std::sqrt(closing * closing + 4 * growth * gap);
-    if (!(root < kInfinity)) return 0;
-    if (closing >= 0) {
-      const double sum = closing + root;
-      return sum > 0 ? kRootShare * (2 * gap / sum) : kInfinity;
-    }
-    return growth > 0 ? kRootShare * ((root - closing) / (2 * growth)) : kInfinity;
   }
 
   const Surface& a_;

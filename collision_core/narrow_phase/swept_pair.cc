@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "collision_core/narrow_phase/boxed_triangle.h"
+#include "collision_core/narrow_phase/first_root.h"
 
 namespace collision {
 namespace {
@@ -22,22 +23,6 @@ constexpr double kShortWay = 0x1p-20;
 // Outside of these the square of a length may have lost what it says, by underflow or overflow.
 constexpr double kSquareMin = 0x1p-900, kSquareMax = 0x1p+900;
 
-// A root computed in a dozen roundings of 2^-53 each, none of them after a cancellation.
-constexpr double kRootShare = 1 - 0x1p-40;
-
-// A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0; growth >= 0. What overflows
-// tells nothing.
-double RootOf(double gap, double closing, double growth) {
-  if (!(gap > 0)) return 0;
-  const double root = std::sqrt(closing * closing + 4 * growth * gap);
-  if (!(root < kInfinity)) return 0;
-  if (closing >= 0) {
-    const double sum = closing + root;
-    return sum > 0 ? kRootShare * (2 * gap / sum) : kInfinity;
-  }
-  return growth > 0 ? kRootShare * ((root - closing) / (2 * growth)) : kInfinity;
-}
-
 struct Reach {
   double c0, c1, c2;
 };
@@ -53,7 +38,7 @@ double BallsTouch(const Eigen::Vector3d& d, const Eigen::Vector3d& w, const Reac
     const double gap = distance - (reach.c0 + h * (reach.c1 + h * reach.c2));
     if (!(gap > 0)) return h;
     const double closing = reach.c1 + 2 * h * reach.c2 - between.dot(w) / distance;
-    const double further = RootOf(gap, closing, reach.c2);
+    const double further = FirstRoot(gap, closing, reach.c2);
     h += further;
     if (h > duration) return kInfinity;
     if (further < step_worth * duration) break;
@@ -200,7 +185,7 @@ class Search {
   void OfferBoxes(const Candidate& pair, const BoxedTriangle& a, const BoxedTriangle& b) {
     work_.Spend(kBoxPairUnits);
     const Reach reach = ReachOf(0, a_.turning_reach(), b_.turning_reach());
-    const double time = RootOf(BoxDistance(a, b) - reach.c0, fastest_ + reach.c1, reach.c2);
+    const double time = FirstRoot(BoxDistance(a, b) - reach.c0, fastest_ + reach.c1, reach.c2);
     if (time > duration_ || !seen_.insert(std::uint64_t{a.index} << 32 | b.index).second) return;
     Push({std::max(pair.time, time), Kind::kTriangles, 0, a.index, b.index, pair.a, pair.b});
   }
@@ -305,13 +290,13 @@ class Search {
     const double used = reach.c0 + h * (reach.c1 + h * reach.c2);
     const double growth = reach.c1 + 2 * h * reach.c2;
     const double whole =
-        RootOf(of_b.low - of_a.high - used, of_a.fastest - of_b.slowest + growth, reach.c2);
+        FirstRoot(of_b.low - of_a.high - used, of_a.fastest - of_b.slowest + growth, reach.c2);
     if (!(whole > 0) || h + whole > duration_) return whole;
     double least = kInfinity;
     for (std::size_t i = 0; i < kA; ++i) {
       for (std::size_t j = 0; j < kB; ++j) {
-        least = std::min(least, RootOf(of_b.at[j] - of_a.at[i] - used,
-                                       of_a.speed[i] - of_b.speed[j] + growth, reach.c2));
+        least = std::min(least, FirstRoot(of_b.at[j] - of_a.at[i] - used,
+                                          of_a.speed[i] - of_b.speed[j] + growth, reach.c2));
       }
     }
     return std::max(whole, least);

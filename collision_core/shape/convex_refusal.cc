@@ -1,8 +1,8 @@
 // Why a convex solid cannot be an agent's shape.
-#include <charconv>
 #include <cmath>
 
 #include "collision_core/shape/convex_solid.h"
+#include "collision_core/shape/number_text.h"
 
 namespace collision {
 namespace {
@@ -10,11 +10,7 @@ namespace {
 using Eigen::Vector3d;
 using Refusal = std::optional<std::string>;
 
-std::string Text(double x) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;
-  return {digits, end};
-}
+std::string Text(double x) { return NumberText(x); }
 
 bool IsIn(double x, double lower, double upper) { return x >= lower && x <= upper; }
 

@@ -1,10 +1,10 @@
 #include "collision_core/shape/triangle_mesh.h"
 
-#include <charconv>
 #include <cmath>
 #include <span>
 
 #include "collision_core/shape/exact_sign.h"
+#include "collision_core/shape/number_text.h"
 
 namespace collision {
 namespace {
@@ -12,12 +12,7 @@ namespace {
 using Eigen::Vector3d;
 using Refusal = std::optional<std::string>;
 
-/// Shortest digits that name the number; the same on every platform and locale.
-std::string Text(double x) {
-  char digits[32];
-  const auto end = std::to_chars(digits, digits + sizeof digits, x).ptr;
-  return {digits, end};
-}
+std::string Text(double x) { return NumberText(x); }
 
 std::string Text(std::size_t n) { return std::to_string(n); }
 

@@ -34,14 +34,8 @@ class Meetings : public Line {
 
   void Run(double end) {
     while (now < end) {
-      now += 1.0 / 16;
-      for (const Mover& agent : agents) {
-        const double dt = now - agent.since;
-        detector.Update(Id(agent.slot), State(now, agent.p + agent.v * dt, agent.v), At(now));
-        detector.Hear(Id(agent.slot), At(now));
-      }
       const std::uint64_t before = detector.counters().work_units;
-      Step();
+      RunTo(now + 1.0 / 16);  // one step
       most = std::max(most, detector.counters().work_units - before);
     }
   }
