@@ -13,13 +13,6 @@ namespace {
 
 constexpr std::uint64_t kPlenty = 10'000'000;
 
-BodySegment BodyOf(std::shared_ptr<const Shape> shape, double radius = 0) {
-  BodySegment body;
-  body.ball.radius = shape ? shape->facts().radius : radius;
-  body.shape = std::move(shape);
-  return body;
-}
-
 struct Case {
   BodySegment a, b;
   SweptPose swept;

@@ -256,5 +256,38 @@ TEST(SeparationSearch, WhatIsNotANumberIsUndecided) {
   EXPECT_LT(work.spent(), 1000u);
 }
 
+// Goal:   every triangle of a leaf is looked at, in whichever block it stands, of either body.
+// Method: eleven triangles in a row in one leaf, three blocks; a single one above each in turn, and
+//         beside it another row, all of it too high to matter but for one.
+TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {
+  constexpr std::uint32_t kTriangles = 11;
+  const auto row = [](std::uint32_t low, double height) {
+    TriangleMesh mesh;
+    for (std::uint32_t i = 0; i < kTriangles; ++i) {
+      const double x = 4.0 * i, z = i == low ? height / 2 : height;
+      mesh.vertices.insert(mesh.vertices.end(), {{x, 0, z}, {x + 1, 0, z}, {x, 1, z}});
+      mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    return mesh;
+  };
+  const ShapeOptions one_leaf{.triangles_per_leaf = kTriangles};
+  const auto body = [&](const TriangleMesh& mesh) { return BodyOf(Shape::Build(mesh, one_leaf)); };
+  const BodySegment flat = body(row(kTriangles, 0));
+  ASSERT_EQ(flat.shape->tree().nodes.size(), 1u);
+  for (std::uint32_t low = 0; low < kTriangles; ++low) {
+    const BodySegment above = body(row(low, 2));
+    for (const bool swapped : {false, true}) {
+      const Surface a(swapped ? above : flat), b(swapped ? flat : above);
+      Work work(1'000'000);
+      const Look look = BracketAt(
+          a, b, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0)), 0, 1e-9, &work);
+      EXPECT_LE(look.lower, 1) << low << swapped;
+      EXPECT_GE(look.lower, 1 - 1e-9) << low << swapped;
+      EXPECT_GE(look.upper, 1) << low << swapped;
+      EXPECT_LE(look.upper, 1 + 1e-9) << low << swapped;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace collision

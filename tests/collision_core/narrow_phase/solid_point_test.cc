@@ -16,13 +16,6 @@ using Eigen::Vector3d;
 
 constexpr std::uint64_t kPlenty = 10'000'000;
 
-BodySegment BodyOf(std::shared_ptr<const Shape> shape, double radius = 0) {
-  BodySegment body;
-  body.ball.radius = shape ? shape->facts().radius : radius;
-  body.shape = std::move(shape);
-  return body;
-}
-
 TEST(SolidPoint, TellsHowDeepToTheLastBits) {
   const BodySegment cube = BodyOf(Shape::Build(Cube(0.5)));
   const Surface surface(cube);

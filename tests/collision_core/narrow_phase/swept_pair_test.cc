@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::uint64_t kPlenty = 10'000'000;
 
-BodySegment BodyOf(std::shared_ptr<const Shape> shape, double radius = 0) {
-  BodySegment body;
-  body.ball.radius = shape ? shape->facts().radius : radius;
-  body.shape = std::move(shape);
-  return body;
-}
-
 // Great triangles that stand in many leaves each, because small ones stand at their corner.
 TriangleMesh PlateWithKnob() {
   return Joined(Sheet(1, 1), Moved(Scaled(Sphere(2), 0.05), {1, 1, 0.1}));

@@ -235,4 +235,12 @@ inline SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
   return bound;
 }
 
+/// A body whose motion is not asked for.
+inline BodySegment BodyOf(std::shared_ptr<const Shape> shape, double radius = 0) {
+  BodySegment body;
+  body.ball.radius = shape ? shape->facts().radius : radius;
+  body.shape = std::move(shape);
+  return body;
+}
+
 }  // namespace collision
