@@ -12,14 +12,21 @@ bool Narrower(const AgentDeclaration& before, const AgentDeclaration& next) {
          next.time_step < before.time_step;
 }
 
+// The same body, though perhaps with another tree.
+bool SameBody(const std::shared_ptr<const Shape>& a, const std::shared_ptr<const Shape>& b) {
+  return a == b || (a && b && a->IsSameBodyAs(*b));
+}
+
 // What is in force until the next state. A shape that was awaited has been there since the state that it is in force
 // with; one that the owner changed since, or changes now, is somewhere within the ball until the next state.
 void Reshape(const AgentDeclaration& before, const AgentDeclaration& declaration,
              AgentRecord* record) {
   AgentDeclaration& in_force = record->history.newest().declaration;
   const bool arrived = before.shape_awaited && declaration.shape != nullptr;
-  const bool same =
-      declaration.shape == before.shape && declaration.shape_awaited == before.shape_awaited;
+  const bool same = SameBody(declaration.shape, before.shape) &&
+                    declaration.shape_awaited == before.shape_awaited;
+  // Another tree says nothing new of the past: it counts there, too, and the former one is of no use.
+  if (same && declaration.shape) record->history.Retree(declaration.shape);
   if (arrived && !record->reshaped) {
     in_force.shape = declaration.shape;
     in_force.shape_awaited = false;
@@ -48,7 +55,7 @@ bool Widen(const AgentDeclaration& declaration, AgentRecord* record) {
   in_force.mask = declaration.mask;
   return in_force.radius > before.radius || in_force.acceleration_max > before.acceleration_max ||
          in_force.speed_max > before.speed_max || in_force.time_step > before.time_step ||
-         (before.shape && (in_force.shape != before.shape || spins_faster)) ||
+         (before.shape && (!SameBody(in_force.shape, before.shape) || spins_faster)) ||
          (in_force.group & ~before.group) != 0 || (in_force.mask & ~before.mask) != 0;
 }
 

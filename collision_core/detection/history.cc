@@ -29,6 +29,13 @@ void History::Push(const SpaceTimeBound& bound, Link link, std::size_t capacity)
   samples_.push_back({bound, link});
 }
 
+void History::Retree(const std::shared_ptr<const Shape>& shape) {
+  for (Sample& sample : samples_) {
+    std::shared_ptr<const Shape>& known = sample.bound.declaration.shape;
+    if (known && known->IsSameBodyAs(*shape)) known = shape;
+  }
+}
+
 // Only the older half: what is being judged lies in the newer one.
 void History::Thin() {
   const auto spared = [this](std::size_t i) {

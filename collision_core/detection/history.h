@@ -27,6 +27,9 @@ class History {
   void Clear() { samples_.clear(); }
   void Push(const SpaceTimeBound& bound, Link link, std::size_t capacity);
 
+  /// Every sample with a twin of this shape has it from now on: the same body, by a better tree.
+  void Retree(const std::shared_ptr<const Shape>& shape);
+
   /// Forgets what is not needed from `since` on: later calls of Uninterrupted() and Over() may not go before
   /// it. The newest two samples stay.
   void Trim(Instant since);

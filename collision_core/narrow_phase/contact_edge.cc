@@ -27,8 +27,8 @@ constexpr double kThoroughShare = 1e-6;
 // follow each other, and are not to be followed one by one.
 constexpr double kIslandShare = 0.0625;
 
-// Points that may show contact are all tried at first, then the best of them only.
-constexpr std::size_t kPointsKept = 4;
+// What may show contact is all tried at first, then the best of it only.
+constexpr std::size_t kCluesKept = 4;
 
 // To ask what bodies sweep in all their turns costs as much as the sweeps since it was last asked, and
 // this at least.
@@ -114,29 +114,29 @@ bool ContactEdge::Note(const ShapeMotion::Instance& instance) {
   return instance.touching();
 }
 
-bool ContactEdge::TouchesByPoints(double at) {
+bool ContactEdge::TouchesByClues(double at) {
   std::vector<std::pair<double, std::size_t>> by_depth;
-  for (std::size_t i = 0; i < points_.size() && !Exhausted(); ++i) {
-    const ShapeMotion::Instance instance = motion_.LookAt(at, points_[i]);
+  for (std::size_t i = 0; i < clues_.size() && !Exhausted(); ++i) {
+    const ShapeMotion::Instance instance = motion_.LookAt(at, clues_[i]);
     if (Note(instance)) {
-      std::rotate(points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(i),
-                  points_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      std::rotate(clues_.begin(), clues_.begin() + static_cast<std::ptrdiff_t>(i),
+                  clues_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       return true;
     }
     by_depth.emplace_back(instance.look.upper, i);
   }
-  if (points_.size() > kPointsKept && by_depth.size() == points_.size()) {
+  if (clues_.size() > kCluesKept && by_depth.size() == clues_.size()) {
     std::sort(by_depth.begin(), by_depth.end());
-    std::vector<SolidPoint> best;
-    for (std::size_t i = 0; i < kPointsKept; ++i) best.push_back(points_[by_depth[i].second]);
-    points_.swap(best);
+    std::vector<ContactClue> best;
+    for (std::size_t i = 0; i < kCluesKept; ++i) best.push_back(clues_[by_depth[i].second]);
+    clues_.swap(best);
   }
   return false;
 }
 
 bool ContactEdge::Touches(double at, bool thoroughly) {
   apart_ = false;
-  if (TouchesByPoints(at)) return true;
+  if (TouchesByClues(at)) return true;
   const Evidence leaves{Evidence::Kind::kLeaves, touch_.leaf_A, touch_.leaf_B};
   if (touch_.resolved && Note(motion_.LookAgain(at, leaves))) return true;
   if (evidence_.kind != Evidence::Kind::kNone && Note(motion_.LookAgain(at, evidence_)))
@@ -168,7 +168,7 @@ double ContactEdge::Narrow(double apart, double touching, double free, bool thor
 
 void ContactEdge::Prepare(double free) {
   evidence_ = {};
-  points_ = motion_.PatchAt(free, touch_);
+  clues_ = motion_.PatchAt(free, touch_);
   uncertain_ = motion_.LookAgain(free, {}).uncertainty > kRoundingShare * motion_.size();
 }
 
@@ -214,15 +214,15 @@ std::optional<double> ContactEdge::ThoroughContact(double free, double until) {
   }
 }
 
-std::optional<double> ContactEdge::ContactByPoints(double free, double until) {
+std::optional<double> ContactEdge::ContactByClues(double free, double until) {
   Prepare(free);
-  return points_.empty() ? std::nullopt : QuickContact(free, until);
+  return clues_.empty() ? std::nullopt : QuickContact(free, until);
 }
 
 double ContactEdge::LastsFrom(double touching, double until) const {
   double at = touching;
-  for (int step = 0; step < kLastingSteps && !points_.empty() && !work_.exhausted(); ++step) {
-    const ShapeMotion::Instance instance = motion_.LookAt(at, points_.front());
+  for (int step = 0; step < kLastingSteps && !clues_.empty() && !work_.exhausted(); ++step) {
+    const ShapeMotion::Instance instance = motion_.LookAt(at, clues_.front());
     const double lasts = instance.touching() ? motion_.ContactStep(instance, backward_) : 0;
     at = Moved(at, lasts);
     const bool beyond = backward_ ? at <= until : at >= until;

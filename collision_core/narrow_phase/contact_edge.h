@@ -34,7 +34,7 @@ class ContactEdge {
 
   /// The same by points that may show contact first, where something else showed it at `until`, or
   /// nothing did.
-  std::optional<double> ContactByPoints(double free, double until);
+  std::optional<double> ContactByClues(double free, double until);
 
   /// How far from there on, towards `until`, contact is certain without a gap, by the same point.
   double LastsFrom(double touching, double until) const;
@@ -71,7 +71,7 @@ class ContactEdge {
   double StallAt(double at) const;
   bool Exhausted();
   bool Touches(double at, bool thoroughly);
-  bool TouchesByPoints(double at);
+  bool TouchesByClues(double at);
   bool Note(const ShapeMotion::Instance& instance);
   double Narrow(double apart, double touching, double free, bool thoroughly);
   void Prepare(double free);
@@ -94,7 +94,7 @@ class ContactEdge {
   bool uncertain_ = false;
   double nearest_ = kInfinity;
   FirstTouch touch_;
-  std::vector<SolidPoint> points_;
+  std::vector<ContactClue> clues_;
   Evidence evidence_;
 };
 

@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <set>
 
-#include "collision_core/narrow_phase/boxed_triangle.h"
+#include "collision_core/narrow_phase/convex_distance.h"
+#include "collision_core/narrow_phase/element.h"
 
 namespace collision {
 namespace {
@@ -79,8 +80,8 @@ class Patch {
         level_(kLevel * (a.reach() + b.reach() + pose.offset.norm())),
         work_(*work) {}
 
-  std::vector<SolidPoint> Run(std::uint32_t leaf_A, std::uint32_t leaf_B) {
-    if (IsLeafPair(leaf_A, leaf_B)) Triangles(leaf_A, leaf_B);
+  std::vector<ContactClue> Run(std::uint32_t leaf_A, std::uint32_t leaf_B) {
+    if (IsLeafPair(leaf_A, leaf_B)) Leaves(leaf_A, leaf_B);
     stack_.emplace_back(0, 0);
     while (!stack_.empty() && pairs_ < kPairsMax && looks_ < kLooksMax && !work_.exhausted()) {
       const auto [i, j] = stack_.back();
@@ -100,7 +101,7 @@ class Patch {
     const SphereNode &a = a_.node(i), &b = b_.node(j);
     if ((pose_.ToA(b.centre) - a.centre).norm() - a.radius - b.radius > within_) return;
     if (a.children == 0 && b.children == 0) {
-      Triangles(i, j);
+      Leaves(i, j);
     } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
       for (std::uint32_t k = 0; k < a.children; ++k) stack_.emplace_back(a.first_child + k, j);
     } else {
@@ -108,23 +109,39 @@ class Patch {
     }
   }
 
-  void Triangles(std::uint32_t i, std::uint32_t j) {
+  void Leaves(std::uint32_t i, std::uint32_t j) {
     for (const std::uint32_t s : a_.shape()->tree().TrianglesOf(a_.node(i))) {
-      const BoxedTriangle of_a(s, CornersOf(*a_.shape(), s));
       for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b_.node(j))) {
-        const BoxedTriangle of_b(t, CornersOf(*b_.shape(), t, pose_));
-        work_.Spend(kBoxPairUnits);
-        if (BoxDistance(of_a, of_b) > within_) continue;
-        if (!seen_.insert({s, t}).second) continue;
-        ++looks_;
-        work_.Spend(kTrianglePairUnits);
-        if (DistanceOf(of_a.corners, of_b.corners).distance.lower > within_) continue;
-        ++pairs_;
-        FaceOn(of_a.corners, of_b.corners, true);
-        FaceOn(of_b.corners, of_a.corners, false);
-        Edges(of_a.corners, of_b.corners);
+        AnySolid(a_, s, b_, t) ? Solids(s, t) : Triangles(s, t);
       }
     }
+  }
+
+  void Triangles(std::uint32_t s, std::uint32_t t) {
+    const BoxedTriangle of_a(s, CornersOf(*a_.shape(), s));
+    const BoxedTriangle of_b(t, CornersOf(*b_.shape(), t, pose_));
+    work_.Spend(kBoxPairUnits);
+    if (BoxDistance(of_a, of_b) > within_) return;
+    if (!seen_.insert({s, t}).second) return;
+    ++looks_;
+    work_.Spend(kTrianglePairUnits);
+    if (DistanceOf(of_a.corners, of_b.corners).distance.lower > within_) return;
+    ++pairs_;
+    FaceOn(of_a.corners, of_b.corners, true);
+    FaceOn(of_b.corners, of_a.corners, false);
+    Edges(of_a.corners, of_b.corners);
+  }
+
+  void Solids(std::uint32_t s, std::uint32_t t) {
+    if (!seen_.insert({s, t}).second) return;
+    ++looks_;
+    SearchHint none;
+    const ConvexSeparation found =
+        SeparationOf(PosedA(SetOf(a_, s), pose_), PosedB(SetOf(b_, t), pose_),
+                     {ConvexGoal::kDistance, 0, within_ / 2}, &none, &work_);
+    if (found.separation.lower > within_) return;
+    ++pairs_;
+    solids_.push_back({{}, {Evidence::Kind::kTriangles, s, t}});
   }
 
   void Keep(Kind kind, bool of_A, const Vector3d& x, double extent) {
@@ -190,17 +207,17 @@ class Patch {
     Keep(length > 0 ? kEdge : kCorner, false, on_b, length);
   }
 
-  std::vector<SolidPoint> Best() {
-    std::vector<SolidPoint> points;
+  std::vector<ContactClue> Best() {
+    std::vector<ContactClue> clues = std::move(solids_);
     for (int kind = 0; kind < kKinds; ++kind) {
       for (const Proposal& p : proposals_[kind][0]) {
-        if (!work_.exhausted()) points.push_back(PointOfA(a_, p.x, &work_));
+        if (!work_.exhausted()) clues.push_back({PointOfA(a_, p.x, &work_), {}});
       }
       for (const Proposal& p : proposals_[kind][1]) {
-        if (!work_.exhausted()) points.push_back(PointOfB(b_, pose_.ToB(p.x), &work_));
+        if (!work_.exhausted()) clues.push_back({PointOfB(b_, pose_.ToB(p.x), &work_), {}});
       }
     }
-    return points;
+    return clues;
   }
 
   const Surface& a_;
@@ -212,16 +229,18 @@ class Patch {
   std::size_t pairs_ = 0, looks_ = 0;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> seen_;
+  std::vector<ContactClue> solids_;
   std::vector<Proposal> proposals_[kKinds][2];
 };
 
 }  // namespace
 
-std::vector<SolidPoint> ContactPatch(const Surface& a, const Surface& b, const RelativePose& pose,
-                                     double within, std::uint32_t leaf_A, std::uint32_t leaf_B,
-                                     Work* work) {
+std::vector<ContactClue> ContactPatch(const Surface& a, const Surface& b, const RelativePose& pose,
+                                      double within, std::uint32_t leaf_A, std::uint32_t leaf_B,
+                                      Work* work) {
   if (a.shape() == nullptr || b.shape() == nullptr) return {};
-  if (!a.shape()->closed() && !b.shape()->closed()) return {};
+  const bool any_solids = !a.shape()->solids().empty() || !b.shape()->solids().empty();
+  if (!a.shape()->closed() && !b.shape()->closed() && !any_solids) return {};
   return Patch(a, b, pose, within, work).Run(leaf_A, leaf_B);
 }
 

@@ -5,14 +5,24 @@
 
 namespace collision {
 
+/// What may show an overlap that has just begun: a point, or where a convex solid is in it two
+/// elements.
+struct ContactClue {
+  SolidPoint point;
+  Evidence pair;  ///< Kind::kTriangles; else it is the point.
+
+  bool is_pair() const { return pair.kind != Evidence::Kind::kNone; }
+};
+
 /// Points of either body at which the two are within `within` [m] of each other at this pose: in the
 /// middle of faces that lie on each other, of edges that do, of corners. A proposal in plain
-/// doubles, to be certified by UpperBy(): nothing wrong can come of it.
+/// doubles, to be certified by UpperBy(): nothing wrong can come of it. And all pairs of elements so
+/// near of which one is a convex solid.
 ///
-/// Of each kind a few, the widest first. `leaf_A`, `leaf_B`: where to look first. Of bodies one of
-/// which is a ball there are none, since a ball and a triangle are judged exactly.
-std::vector<SolidPoint> ContactPatch(const Surface& a, const Surface& b, const RelativePose& pose,
-                                     double within, std::uint32_t leaf_A, std::uint32_t leaf_B,
-                                     Work* work);
+/// Of each kind of point a few, the widest first. `leaf_A`, `leaf_B`: where to look first. Of bodies one of
+/// which is a ball there are none, since a ball and an element are judged exactly.
+std::vector<ContactClue> ContactPatch(const Surface& a, const Surface& b, const RelativePose& pose,
+                                      double within, std::uint32_t leaf_A, std::uint32_t leaf_B,
+                                      Work* work);
 
 }  // namespace collision

@@ -201,6 +201,11 @@ class Search {
     if (surface.shape() == nullptr) return {Part::Ball(Vector3d::Zero(), surface.reach())};
     std::vector<Part> parts;
     for (const std::uint32_t t : surface.shape()->tree().TrianglesOf(surface.node(node))) {
+      if (surface.shape()->IsSolid(t)) {
+        const SphereNode& ball = surface.node(node);
+        parts.push_back(Part::Ball(is_b ? SeenFromB(ball.centre) : ball.centre, ball.radius));
+        continue;
+      }
       TrianglePoints corners = CornersOf(*surface.shape(), t);
       if (is_b) {
         for (Vector3d& corner : corners) corner = SeenFromB(corner);

@@ -12,7 +12,7 @@ void LookAgainAtLeaves(const Surface& a, const Surface& b, const Evidence& leave
     const SphereNode& leaf = meshed.node(a.shape() ? leaves.a : leaves.b);
     for (const std::uint32_t t : meshed.shape()->tree().TrianglesOf(leaf)) {
       if (work->exhausted()) return;
-      findings->MeasureTriangle(t, work);
+      findings->MeasureBeside(t, work);
     }
     return;
   }
@@ -81,7 +81,7 @@ Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,
       if (meshes) {
         findings.CrossAgain(evidence.a, evidence.b, work);
       } else {
-        findings.MeasureTriangle(evidence.a, work);
+        findings.MeasureBeside(evidence.a, work);
       }
       break;
     case Evidence::Kind::kLeaves:

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/narrow_phase/element.h"
+
 namespace collision {
 namespace {
 
@@ -12,8 +14,21 @@ constexpr double kEnoughOfUpper = 0.5;
 // Squares of distances beyond this [m] may overflow.
 constexpr double kSquareMax = 1e150;
 
+// Two convex solids need not be known any closer, relative to what they are apart or deep.
+constexpr double kEnoughOfSolids = 0x1p-10;
+
 double Greatest(const TrianglePoints& t) {
   return std::sqrt(std::max({t[0].squaredNorm(), t[1].squaredNorm(), t[2].squaredNorm()}));
+}
+
+// The gap of two sets' shadows along about a unit vector, rounded down: supports lose kSupportError
+// of the spans, the length of n, products and sums less than as much again of the same size.
+double GapAlong(const Eigen::Vector3d& n, const ConvexSet& a, const ConvexSet& b) {
+  const Eigen::Vector3d between = b.centre - a.centre;
+  const double size = between.cwiseAbs().sum() + a.span + b.span + a.rounding + b.rounding;
+  const double gap = n.dot(between) + n.dot(b.SupportPoint(-n)) - n.dot(a.SupportPoint(n));
+  return gap - (a.rounding + b.rounding + a.error + b.error) * (1 + 0x1p-50) -
+         2 * kSupportError * size - 2 * kSupportUnderflow;
 }
 
 }  // namespace
@@ -133,16 +148,53 @@ double SeparationFindings::MeasureTriangles(std::uint32_t a, std::uint32_t b, bo
   return lower;
 }
 
-double SeparationFindings::MeasureTriangle(std::uint32_t triangle, Work* work) {
+double SeparationFindings::MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross,
+                                           Work* work) {
+  if (AnySolid(a_, a, b_, b)) return MeasureSolids(a, b, work);
+  return MeasureTriangles(a, b, likely_to_cross, work);
+}
+
+// How narrow the bracket of two elements need be for what is asked of the whole.
+ConvexQuestion SeparationFindings::SolidsQuestion() const {
+  if (goal_ == Goal::kNearest) return {ConvexGoal::kDepth, 0, 0};
+  if (narrow_) return {ConvexGoal::kDepth, narrow_->share / 4, narrow_->width / 4};
+  if (goal_ == Goal::kYesNo && pose_.translation == 0) return {ConvexGoal::kYesNo, 0, 0};
+  return {ConvexGoal::kDepth, kEnoughOfSolids, kEnoughOfSolids * pose_.translation};
+}
+
+// A search of its own, from its beginning to its end, so that it is the same wherever the look
+// pauses. Along the shortest way found so far most pairs are seen to be too far apart.
+double SeparationFindings::MeasureSolids(std::uint32_t a, std::uint32_t b, Work* work) {
+  const ConvexSet of_a = PosedA(SetOf(a_, a), pose_), of_b = PosedB(SetOf(b_, b), pose_);
+  work->Spend(kBoxPairUnits);
+  if (direction_ != Eigen::Vector3d::Zero()) {
+    const double along = GapAlong(direction_, of_a, of_b);
+    if (along > Limit()) return along;
+  }
+  Work own(kSolidPairUnits);
+  SearchHint none;
+  const ConvexSeparation found = SeparationOf(of_a, of_b, SolidsQuestion(), &none, &own);
+  work->Spend(own.spent());
+  const double upper = found.separation.upper;
+  if (upper <= -pose_.translation && upper < look_.upper) {
+    KeepPoint(found.a, found.point_error);
+    look_.evidence = {Evidence::Kind::kTriangles, a, b};
+  }
+  KeepWay({found.a, found.b, found.separation.lower, upper});
+  return found.separation.lower;
+}
+
+double SeparationFindings::MeasureBeside(std::uint32_t element, Work* work) {
+  if (AnySolid(a_, element, b_, element)) return MeasureSolids(element, element, work);
   if (a_.shape()) {
-    const TrianglePoints corners = CornersOf(*a_.shape(), triangle);
+    const TrianglePoints corners = CornersOf(*a_.shape(), element);
     TriangleDistance found = DistanceOf(pose_.offset, corners);
     std::swap(found.a, found.b);
-    return Count(triangle, found, b_.reach(), false, slack_ + TurnOfA(corners), work);
+    return Count(element, found, b_.reach(), false, slack_ + TurnOfA(corners), work);
   }
-  const TrianglePoints corners = CornersOf(*b_.shape(), triangle, pose_);
+  const TrianglePoints corners = CornersOf(*b_.shape(), element, pose_);
   const TriangleDistance found = DistanceOf(Eigen::Vector3d(0, 0, 0), corners);
-  return Count(triangle, found, a_.reach(), true, slack_ + TurnOfB(corners), work);
+  return Count(element, found, a_.reach(), true, slack_ + TurnOfB(corners), work);
 }
 
 // A ball and a triangle: the nearest points of its centre and of the triangle are known.
@@ -168,6 +220,10 @@ double SeparationFindings::Count(std::uint32_t triangle, const TriangleDistance&
 }
 
 void SeparationFindings::CrossAgain(std::uint32_t a, std::uint32_t b, Work* work) {
+  if (AnySolid(a_, a, b_, b)) {
+    MeasureSolids(a, b, work);
+    return;
+  }
   work->Spend(kCrossingUnits);
   Cross(a, CornersOf(*a_.shape(), a), b, CornersOf(*b_.shape(), b, pose_));
 }

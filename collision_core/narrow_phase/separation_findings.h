@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "collision_core/narrow_phase/boxed_triangle.h"
+#include "collision_core/narrow_phase/convex_distance.h"
 #include "collision_core/narrow_phase/separation.h"
 
 namespace collision {
@@ -13,6 +14,10 @@ inline constexpr std::size_t kWaysMax = 128;
 
 /// What rounding may have made of a distance at this pose, computed in doubles.
 double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose);
+
+/// For two elements of which one is a convex solid: where they do not suffice, the bracket stays as
+/// wide as it is then.
+inline constexpr std::uint64_t kSolidPairUnits = 192;
 
 /// A bracket that is narrow enough.
 struct BracketWidth {
@@ -51,14 +56,19 @@ class SeparationFindings {
   /// Two triangles, of which is known that a filter could not tell them apart: returns the lower
   /// bound. `likely_to_cross`: that is looked at first.
   double MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross, Work* work);
-  /// Where one of the two is a ball: a triangle of the other.
-  double MeasureTriangle(std::uint32_t triangle, Work* work);
+  /// Where one of the two is a ball: an element of the other.
+  double MeasureBeside(std::uint32_t element, Work* work);
+  /// Any two elements: triangles are looked at by MeasureTriangles().
+  double MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross, Work* work);
+  /// Whether two elements are certainly in contact; nothing more.
   void CrossAgain(std::uint32_t a, std::uint32_t b, Work* work);
 
   /// The whole answer. `unopened`: a lower bound on what was not looked at.
   Look Told(double unopened, bool exhausted, std::uint32_t level);
 
  private:
+  ConvexQuestion SolidsQuestion() const;
+  double MeasureSolids(std::uint32_t a, std::uint32_t b, Work* work);
   double TurnOfA(const TrianglePoints& t) const;
   double TurnOfB(const TrianglePoints& t) const;
   double GapAlongDirection(const TrianglePoints& a, const TrianglePoints& b) const;

@@ -25,7 +25,7 @@ Side SideOf(const Eigen::Vector3d& point, const Shape& of, Work* work) {
 // Points as seen by `ToOther`.
 template <typename ToOther>
 bool HasPointOff(const Shape& shape, const Shape& other, ToOther to_other) {
-  if (shape.facts().components != 1) return false;
+  if (shape.facts().components != 1 || !shape.solids().empty()) return false;
   const auto& extremes = shape.packed().extremes();
   return std::any_of(extremes.begin(), extremes.end(), [&](const Eigen::Vector3d& point) {
     return OffBox(to_other(point), other.facts());

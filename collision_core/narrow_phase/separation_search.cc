@@ -19,6 +19,11 @@ Eigen::Vector3f NormalOf(const TriangleBlock& block) {
   return {block.x[kNormals], block.y[kNormals], block.z[kNormals]};
 }
 
+/// Of a leaf that begins with this block.
+std::uint32_t ElementAt(const TriangleBlock* leaf, std::uint32_t i) {
+  return leaf[i / kBlockTriangles].triangle[i % kBlockTriangles];
+}
+
 }  // namespace
 
 SeparationSearch::SeparationSearch(const Surface& a, const Surface& b, const RelativePose& pose,
@@ -138,23 +143,34 @@ void SeparationSearch::LowerUpper(const BallPair& pair, const BallScanTask& task
   findings_.LowerUpper(static_cast<double>(upper));
 }
 
-// One pair of blocks; the others wait for their turn.
+// One pair of blocks, or of elements where one is a solid; the others wait for their turn.
 void SeparationSearch::OpenLeaves(BallPair pair, float limit, Work* work) {
   const std::uint32_t first_a = BallLink::Index(body_a_.LinkOf(pair.a));
   const std::uint32_t first_b = BallLink::Index(body_b_.LinkOf(pair.b));
   const TriangleBlock* const a = body_a_.tree ? body_a_.tree->blocks() + first_a : nullptr;
   const TriangleBlock* const b = body_b_.tree ? body_b_.tree->blocks() + first_b : nullptr;
-  const auto blocks_in = [](const TriangleBlock* leaf) {
-    return leaf ? (leaf->left + kBlockTriangles - 1) / kBlockTriangles : 1;
+  const bool any_solid =
+      (a && a_.shape()->IsSolid(a->triangle[0])) || (b && b_.shape()->IsSolid(b->triangle[0]));
+  const std::uint32_t at_once = any_solid ? 1 : kBlockTriangles;
+  const auto turns_of = [&](const TriangleBlock* leaf) {
+    return leaf ? (leaf->left + at_once - 1) / at_once : 1;
   };
-  const std::uint32_t of_a = blocks_in(a), of_b = blocks_in(b);
+  const std::uint32_t of_a = turns_of(a), of_b = turns_of(b);
   const std::uint32_t at_a = pair.next / of_b, at_b = pair.next % of_b;
-  if (a && b) {
+  if (any_solid) {
+    OpenSolids(pair, a ? ElementAt(a, at_a) : 0, b ? ElementAt(b, at_b) : 0, work);
+  } else if (a && b) {
     OpenBlocks(pair, a[at_a], b[at_b], limit, work);
   } else {
     OpenBlock(pair, a ? a[at_a] : b[at_b], work);
   }
   if (++pair.next < of_a * of_b) frontier_.Push(pair);
+}
+
+void SeparationSearch::OpenSolids(const BallPair& pair, std::uint32_t of_a, std::uint32_t of_b,
+                                  Work* work) {
+  const double lower = findings_.MeasureElements(of_a, of_b, false, work);
+  findings_.Resolve(std::max(lower, static_cast<double>(pair.lower)));
 }
 
 void SeparationSearch::OpenBlocks(const BallPair& pair, const TriangleBlock& a,
@@ -186,7 +202,7 @@ void SeparationSearch::OpenBlocks(const BallPair& pair, const TriangleBlock& a,
 void SeparationSearch::OpenBlock(const BallPair& pair, const TriangleBlock& block, Work* work) {
   const double least = static_cast<double>(pair.lower);
   for (std::uint32_t i = 0; i < std::min(block.left, kBlockTriangles); ++i) {
-    findings_.Resolve(std::max(findings_.MeasureTriangle(block.triangle[i], work), least));
+    findings_.Resolve(std::max(findings_.MeasureBeside(block.triangle[i], work), least));
   }
 }
 
@@ -197,14 +213,14 @@ void SeparationSearch::Try(const Evidence& leaves, Work* work) {
     const SphereTree& tree = (a_.shape() ? a_ : b_).shape()->tree();
     for (const std::uint32_t t : tree.TrianglesOf(a_.shape() ? a : b)) {
       if (work->exhausted()) return;
-      findings_.MeasureTriangle(t, work);
+      findings_.MeasureBeside(t, work);
     }
     return;
   }
   for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
     for (const std::uint32_t u : b_.shape()->tree().TrianglesOf(b)) {
       if (work->exhausted()) return;
-      findings_.MeasureTriangles(t, u, false, work);
+      findings_.MeasureElements(t, u, false, work);
     }
   }
 }

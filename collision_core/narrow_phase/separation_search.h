@@ -13,7 +13,7 @@ inline constexpr std::uint64_t kPackRowUnits = 1;
 inline constexpr std::uint64_t kBlockPairUnits = 3;
 
 /// A search looks at the budget before each step, and spends no more than this in one: all triangles
-/// of two blocks measured.
+/// of two blocks measured. Two elements of which one is a solid cost no more (kSolidPairUnits).
 inline constexpr std::uint64_t kStepUnitsMax =
     kBlockPairUnits +
     kBlockTriangles * kBlockTriangles * (kBoxPairUnits + kCrossingUnits + kTrianglePairUnits);
@@ -57,6 +57,7 @@ class SeparationSearch {
   void OpenLeaves(BallPair pair, float limit, Work* work);
   void OpenBlocks(const BallPair& pair, const TriangleBlock& a, const TriangleBlock& b, float limit,
                   Work* work);
+  void OpenSolids(const BallPair& pair, std::uint32_t of_a, std::uint32_t of_b, Work* work);
   void OpenBlock(const BallPair& pair, const TriangleBlock& block, Work* work);
   BallPair PairOf(const BallPair& parent, Opened opened, std::uint32_t code) const;
   void LowerUpper(const BallPair& pair, const BallScanTask& task, float upper);

@@ -106,7 +106,7 @@ double DepthMax(const RelativePose& pose, double size) {
   return std::max(0.0, size * (1 + 1e-12) + off - pose.offset.norm() * (1 - 1e-12));
 }
 
-Proximity ProximityFrom(const Instance& instance, double size) {
+Proximity ProximityFrom(const Instance& instance, const ShapeMotion& motion, double size) {
   Proximity proximity;
   if (!instance.choice.certain) return proximity;
   const RelativePose& pose = instance.pose;
@@ -115,8 +115,8 @@ Proximity ProximityFrom(const Instance& instance, double size) {
                           AddUp(look.upper, pose.translation)};
   if (instance.touching()) {
     proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
-    proximity.separation.lower =
-        std::min({proximity.separation.lower, proximity.separation.upper, -DepthMax(pose, size)});
+    const double depth = std::min(DepthMax(pose, size), motion.DepthAtMost(instance));
+    proximity.separation.lower = std::min(proximity.separation.upper, -depth);
   }
   proximity.depth_lower = std::max(0.0, -proximity.separation.upper);
   proximity.p_WC = pose.p_WA + pose.matrix_WA * look.point;
@@ -198,7 +198,8 @@ class Judgement {
   }
 
   const std::optional<Instance>& nearest() const { return nearest_; }
-  double size() const { return size_; }
+  /// Requires nearest().
+  Proximity NearestProximity() const { return ProximityFrom(*nearest_, motion_, size_); }
   bool exhausted() const { return exhausted_; }
 
  private:
@@ -213,7 +214,7 @@ class Judgement {
     const double late = kLate * instance.uncertainty / motion_.SpeedAt(instance);
     if (!(std::abs(until - free) > late)) return;
     ContactEdge edge(motion_, duration_, {kFineShare * duration_, 0}, backward, &work_);
-    const std::optional<double> touching = edge.ContactByPoints(free, until);
+    const std::optional<double> touching = edge.ContactByClues(free, until);
     if (!touching) return;
     const double lasts = edge.LastsFrom(*touching, until);
     const bool found = times->contact_from <= times->contact_to;
@@ -395,7 +396,7 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
   if (judgement.nearest()) {
     verdict.looked = true;
     verdict.nearest_at = judgement.nearest()->at;
-    verdict.nearest = ProximityFrom(*judgement.nearest(), judgement.size());
+    verdict.nearest = judgement.NearestProximity();
     const bool contact = times.contact_from <= times.contact_to;
     if (!contact && judgement.exhausted()) verdict.nearest.limited_by = EventLimit::kBudget;
   }
@@ -415,7 +416,7 @@ Proximity ShapeProximity(const BodySegment& a, const BodySegment& b, double delt
   const ShapeMotion motion(a, b, work);
   Instance instance = motion.LookAt(delta, Goal::kContact);
   motion.LookInside(&instance);
-  return ProximityFrom(instance, a.ball.radius + b.ball.radius);
+  return ProximityFrom(instance, motion, a.ball.radius + b.ball.radius);
 }
 
 }  // namespace collision

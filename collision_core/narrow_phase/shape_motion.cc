@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "collision_core/narrow_phase/contact_patch.h"
 #include "collision_core/narrow_phase/revolved_pair.h"
+#include "collision_core/narrow_phase/shift_apart.h"
 
 namespace collision {
 
@@ -102,20 +102,27 @@ ShapeMotion::Instance ShapeMotion::LookAgain(double at, const Evidence& evidence
   return instance;
 }
 
-ShapeMotion::Instance ShapeMotion::LookAt(double at, const SolidPoint& point) const {
+ShapeMotion::Instance ShapeMotion::LookAt(double at, const ContactClue& clue) const {
+  if (clue.is_pair()) return LookAgain(at, clue.pair);
   Instance instance = InstanceAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look.upper = UpperBy(point, surface_a_, surface_b_, instance.pose, &work_);
+  instance.look.upper = UpperBy(clue.point, surface_a_, surface_b_, instance.pose, &work_);
   return instance;
 }
 
-std::vector<SolidPoint> ShapeMotion::PatchAt(double at, const FirstTouch& touch) const {
+std::vector<ContactClue> ShapeMotion::PatchAt(double at, const FirstTouch& touch) const {
   const Instance instance = InstanceAt(at);
   if (!instance.choice.certain) return {};
   const double size = surface_a_.reach() + surface_b_.reach();
   const double within = kPatchReach * size + kPatchBeyond * instance.uncertainty;
   return ContactPatch(surface_a_, surface_b_, instance.pose, within, touch.leaf_A, touch.leaf_B,
                       &work_);
+}
+
+double ShapeMotion::DepthAtMost(const Instance& instance) const {
+  const double shift =
+      ShiftApart(surface_a_, surface_b_, instance.pose, instance.look.evidence, &work_);
+  return AddUp(shift, instance.pose.translation);
 }
 
 // The bounds that are the least uncertain half-way are taken for all of the span.

@@ -1,7 +1,7 @@
 // How fast a gap between two bodies can be used up.
 #pragma once
 
-#include "collision_core/narrow_phase/solid_point.h"
+#include "collision_core/narrow_phase/contact_patch.h"
 #include "collision_core/narrow_phase/swept_pair.h"
 
 namespace collision {
@@ -34,11 +34,11 @@ class ShapeMotion {
   /// Nothing but what made contact certain at another instant.
   Instance LookAgain(double at, const Evidence& evidence) const;
 
-  /// Nothing but this point.
-  Instance LookAt(double at, const SolidPoint& point) const;
+  /// Nothing but this.
+  Instance LookAt(double at, const ContactClue& clue) const;
 
-  /// Points at which the two are likely to overlap soon, at an instant at which they nearly touch.
-  std::vector<SolidPoint> PatchAt(double at, const FirstTouch& touch) const;
+  /// Where the two are likely to overlap soon, at an instant at which they nearly touch.
+  std::vector<ContactClue> PatchAt(double at, const FirstTouch& touch) const;
 
   /// How soon the two may touch from an instant on, towards later or earlier times, within `span`
   /// seconds; `known` is false where nothing is known of one of them.
@@ -67,6 +67,10 @@ class ShapeMotion {
   /// Where a look found the surfaces apart: one solid inside the other is contact, as deep as they
   /// are apart, since no shorter way takes it out again.
   void LookInside(Instance* instance) const;
+
+  /// No shift longer than this is needed to take the two apart at an instant, whatever the motion
+  /// within the bounds [m].
+  double DepthAtMost(const Instance& instance) const;
 
   /// Seconds for which contact lasts from `instance` on, towards later or earlier times; +infinity:
   /// for ever. Requires touching().

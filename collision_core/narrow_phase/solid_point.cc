@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/narrow_phase/convex_distance.h"
+
 namespace collision {
 namespace {
 
@@ -24,16 +26,33 @@ Eigen::Vector3d SeenFromB(const Eigen::Vector3d& x_A, const RelativePose& pose, 
   return y_B;
 }
 
+double SignedDistanceToSolids(const Shape& shape, const Eigen::Vector3d& x, Work* work) {
+  double least = kInfinity;
+  for (const ConvexSolid& solid : shape.solids()) {
+    work->Spend(1);
+    const ConvexFacts& facts = solid.facts();
+    // No ball about x that is within the solid is larger, and no point of it nearer.
+    if ((x - facts.ball_centre).norm() - facts.ball_radius > least) continue;
+    SearchHint none;
+    const ConvexSet point = BallSet(x, 0);
+    least = std::min(least, SeparationOf(point, solid.set(), {}, &none, work).separation.upper);
+  }
+  return least;
+}
+
 }  // namespace
 
 double SignedDistanceTo(const Surface& surface, const Eigen::Vector3d& x, Work* work) {
   const Shape* shape = surface.shape();
   if (shape == nullptr) return AddUp(Length(x), -surface.reach());
+  const double to_solids = SignedDistanceToSolids(*shape, x, work);
+  if (shape->mesh().triangles.empty()) return to_solids;
   work->Spend(kPointUnits);
   const Interval distance = shape->DistanceTo(x);
-  if (!shape->closed()) return distance.upper;
+  if (!shape->closed()) return std::min(to_solids, distance.upper);
   work->Spend(kWindingUnits);
-  return shape->WindingNumberAt(x).value_or(0) == 0 ? distance.upper : -distance.lower;
+  const bool outside = shape->WindingNumberAt(x).value_or(0) == 0;
+  return std::min(to_solids, outside ? distance.upper : -distance.lower);
 }
 
 SolidPoint PointOfA(const Surface& a, const Eigen::Vector3d& x_A, Work* work) {

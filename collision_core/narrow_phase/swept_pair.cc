@@ -6,7 +6,9 @@
 #include <unordered_set>
 
 #include "collision_core/narrow_phase/boxed_triangle.h"
+#include "collision_core/narrow_phase/element.h"
 #include "collision_core/narrow_phase/first_root.h"
+#include "collision_core/narrow_phase/swept_solids.h"
 
 namespace collision {
 namespace {
@@ -23,9 +25,7 @@ constexpr double kShortWay = 0x1p-20;
 // Outside of these the square of a length may have lost what it says, by underflow or overflow.
 constexpr double kSquareMin = 0x1p-900, kSquareMax = 0x1p+900;
 
-struct Reach {
-  double c0, c1, c2;
-};
+using Reach = SweptPose::Growth;
 
 // Up to when |d + w h| > reach(h): at each h the distance is at least its part along the direction
 // at h, so that steps of that tangent never go too far.
@@ -159,23 +159,27 @@ class Search {
     boxes_of_b_.clear();
     if (b_.shape()) {
       for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b)) {
-        boxes_of_b_.emplace_back(t, CornersOf(*b_.shape(), t, swept_.pose));
+        boxes_of_b_.push_back(b_.shape()->IsSolid(t)
+                                  ? BoxOfBall(t, swept_.pose.ToA(b.centre), b.radius)
+                                  : BoxedTriangle(t, CornersOf(*b_.shape(), t, swept_.pose)));
       }
     } else {
-      boxes_of_b_.push_back(BoxOfBall(swept_.pose.offset, b_.reach()));
+      boxes_of_b_.push_back(BoxOfBall(0, swept_.pose.offset, b_.reach()));
     }
     const auto offer = [&](const BoxedTriangle& of_a) {
       for (const BoxedTriangle& of_b : boxes_of_b_) OfferBoxes(pair, of_a, of_b);
     };
-    if (!a_.shape()) return offer(BoxOfBall({0, 0, 0}, a_.reach()));
+    if (!a_.shape()) return offer(BoxOfBall(0, {0, 0, 0}, a_.reach()));
     for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
-      offer({t, CornersOf(*a_.shape(), t)});
+      offer(a_.shape()->IsSolid(t) ? BoxOfBall(t, a.centre, a.radius)
+                                   : BoxedTriangle(t, CornersOf(*a_.shape(), t)));
     }
   }
 
   // In place of a triangle: a point, in the box of the ball about it.
-  static BoxedTriangle BoxOfBall(const Eigen::Vector3d& centre, double radius) {
-    BoxedTriangle box(0, {centre, centre, centre});
+  static BoxedTriangle BoxOfBall(std::uint32_t element, const Eigen::Vector3d& centre,
+                                 double radius) {
+    BoxedTriangle box(element, {centre, centre, centre});
     box.lower.array() -= radius;
     box.upper.array() += radius;
     return box;
@@ -313,7 +317,33 @@ class Search {
     Push(pair);
   }
 
+  // A ball's points move with its centre.
+  MovingSet MovingA(std::uint32_t element) const {
+    const Eigen::Vector3d spin = a_.shape() ? swept_.spin_A : Eigen::Vector3d::Zero();
+    return {SetOf(a_, element), {Eigen::Vector3d::Zero(), spin, Eigen::Vector3d::Zero()}};
+  }
+
+  // What is not known of its turning counts with the growth.
+  MovingSet MovingB(std::uint32_t element) const {
+    RelativePose pose = swept_.pose;
+    pose.chord_B = 0;
+    const Eigen::Vector3d spin = b_.shape() ? swept_.spin_B : Eigen::Vector3d::Zero();
+    return {PosedB(SetOf(b_, element), pose), {swept_.velocity, spin, pose.offset}};
+  }
+
+  static double FarOf(const Surface& surface, std::uint32_t element) {
+    if (surface.shape() == nullptr) return 0;
+    if (surface.shape()->IsSolid(element)) return surface.shape()->SolidAt(element).facts().radius;
+    return FarOfA(CornersOf(*surface.shape(), element));
+  }
+
+  double SolidsFurther(std::uint32_t of_a, std::uint32_t of_b, double h) {
+    const Reach used = ReachOf(0, FarOf(a_, of_a), FarOf(b_, of_b));
+    return StaysApart({MovingA(of_a), MovingB(of_b), used}, h, duration_, &work_);
+  }
+
   double FurtherApart(std::uint32_t of_a, std::uint32_t of_b, double h) {
+    if (AnySolid(a_, of_a, b_, of_b)) return SolidsFurther(of_a, of_b, h);
     using Point = std::array<Eigen::Vector3d, 1>;
     const Eigen::Vector3d& offset = swept_.pose.offset;
     if (!a_.shape()) {

@@ -137,8 +137,10 @@ std::uint32_t PackedTree::AddLeaf(const TriangleMesh& mesh, const SphereTree& tr
 
 void PackedTree::SetTriangle(const TriangleMesh& mesh, std::uint32_t triangle, std::uint32_t lane,
                              TriangleBlock* block) {
-  Eigen::Vector3d corners[3];
-  for (std::size_t k = 0; k < 3; ++k) {
+  Eigen::Vector3d corners[3] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                Eigen::Vector3d::Zero()};
+  const bool is_solid = triangle >= mesh.triangles.size();
+  for (std::size_t k = 0; k < 3 && !is_solid; ++k) {
     const Eigen::Vector3d& vertex = mesh.vertices[mesh.triangles[triangle][k]];
     block->reach = std::max(block->reach, FloatUp(vertex.norm() * (1 + 0x1p-50)));
     corners[k] = vertex - origin_;

@@ -31,7 +31,8 @@ struct BallLink {
 using BallRef = std::uint32_t;
 
 /// 192 bytes for each node with children (24 a ball where packs are full), 256 for each four
-/// triangles of a leaf. Packs stand in breadth-first order; the first one holds the root alone.
+/// triangles of a leaf, or for a convex solid: then `triangle[0]` is its element, and no corner says
+/// anything. Packs stand in breadth-first order; the first one holds the root alone.
 class PackedTree {
  public:
   PackedTree() = default;
@@ -56,6 +57,7 @@ class PackedTree {
   double extent() const { return extent_; }
 
   /// Vertices that are the farthest in fourteen directions: along the axes, then across the corners.
+  /// Of the surface; solids count for nothing here.
   const std::array<Eigen::Vector3d, 14>& extremes() const { return extremes_; }
 
   std::size_t bytes() const;
@@ -80,7 +82,7 @@ class PackedTree {
   std::vector<TriangleBlock> blocks_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double extent_ = 0;
-  std::array<Eigen::Vector3d, 14> extremes_;
+  std::array<Eigen::Vector3d, 14> extremes_ = {};
 };
 
 /// The pack of a ball alone, about the reference point: a leaf without triangles.

@@ -1,8 +1,12 @@
 #include "collision_core/shape/shape.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
+#include "collision_core/shape/compound_builder.h"
 #include "collision_core/shape/fitted_builder.h"
+#include "collision_core/shape/halved_builder.h"
 #include "collision_core/shape/octree_builder.h"
 #include "collision_core/shape/surface_query.h"
 
@@ -17,23 +21,36 @@ double SignedDistanceAt(const SphereNode& node, bool closed, SurfaceQuery* query
   return -distance.lower;
 }
 
-void MeasureCentres(const TriangleMesh& mesh, bool closed, SphereTree* tree) {
+/// Of a quick tree so many balls are measured: enough to tell a deep contact.
+constexpr std::size_t kHalvedMeasured = 1024;
+
+/// Of the first `count` nodes; of the others the radius stays.
+void MeasureCentres(const TriangleMesh& mesh, bool closed, std::size_t count, SphereTree* tree) {
   SurfaceQuery query(mesh, *tree);
-  for (SphereNode& node : tree->nodes)
+  for (SphereNode& node : std::span(tree->nodes).first(std::min(count, tree->nodes.size()))) {
     node.signed_distance = SignedDistanceAt(node, closed, &query);
+  }
+}
+
+/// All but the layout for traversals.
+SphereTree BuildTree(const TriangleMesh& mesh, const ShapeOptions& options, bool closed) {
+  if (options.builder == TreeBuilder::kFitted) return BuildFitted(mesh, options, closed);
+  const bool halved = options.builder == TreeBuilder::kHalved;
+  SphereTree tree = halved ? BuildHalved(mesh, options) : BuildOctree(mesh, options);
+  MeasureCentres(mesh, closed, halved ? kHalvedMeasured : tree.nodes.size(), &tree);
+  return tree;
 }
 
 }  // namespace
 
-std::shared_ptr<const Shape> Shape::Build(TriangleMesh mesh, const ShapeOptions& options) {
+std::shared_ptr<const Shape> Shape::Build(TriangleMesh mesh, const ShapeOptions& options,
+                                          const Shape* twin) {
   std::shared_ptr<Shape> shape(new Shape());
+  if (twin) shape->body_ = twin->body_;
   shape->facts_ = FactsOf(mesh);
-  const bool fitted = options.builder == TreeBuilder::kFitted;
-  shape->tree_ =
-      fitted ? BuildFitted(mesh, options, shape->facts_.closed) : BuildOctree(mesh, options);
+  shape->tree_ = BuildTree(mesh, options, shape->facts_.closed);
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
-  if (!fitted) MeasureCentres(shape->mesh_, shape->facts_.closed, &shape->tree_);
   shape->packed_ = PackedTree(shape->mesh_, shape->tree_);
   return shape;
 }
@@ -48,11 +65,36 @@ std::shared_ptr<const Shape> Shape::FromTree(TriangleMesh mesh, SphereTree tree)
   return shape;
 }
 
+std::shared_ptr<const Shape> Shape::Compound(std::shared_ptr<const Shape> surface,
+                                             std::vector<ConvexSolid> solids, const Shape* twin) {
+  std::shared_ptr<Shape> shape(new Shape());
+  if (twin) shape->body_ = twin->body_;
+  if (surface) {
+    shape->facts_ = surface->facts();
+    shape->component_points_ = surface->component_points();
+  }
+  AddSolids(solids, &shape->facts_);
+  for (const ConvexSolid& solid : solids) {
+    const ConvexSet& set = solid.set();
+    shape->component_points_.push_back(set.centre + set.SupportPoint(Eigen::Vector3d::UnitX()));
+  }
+  const auto triangles = static_cast<std::uint32_t>(surface ? surface->mesh().triangles.size() : 0);
+  shape->tree_ = BuildCompound(surface ? &surface->tree() : nullptr, triangles, solids);
+  shape->surface_ = std::move(surface);
+  shape->solids_ = std::move(solids);
+  shape->packed_ = PackedTree(shape->mesh(), shape->tree_);
+  return shape;
+}
+
 Interval Shape::DistanceTo(const Eigen::Vector3d& point) const {
+  if (surface_) return surface_->DistanceTo(point);
+  if (mesh_.triangles.empty()) return {kInfinity, kInfinity};
   return SurfaceQuery(mesh_, tree_).DistanceTo(point, kInfinity);
 }
 
 std::optional<int> Shape::WindingNumberAt(const Eigen::Vector3d& point) const {
+  if (surface_) return surface_->WindingNumberAt(point);
+  if (mesh_.triangles.empty()) return 0;
   const bool is_outside_box =
       (point.array() < facts_.lower.array()).any() || (point.array() > facts_.upper.array()).any();
   if (is_outside_box) return 0;
@@ -60,7 +102,9 @@ std::optional<int> Shape::WindingNumberAt(const Eigen::Vector3d& point) const {
 }
 
 std::size_t Shape::bytes() const {
-  return sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
+  std::size_t bytes = surface_ ? surface_->bytes() : 0;
+  for (const ConvexSolid& solid : solids_) bytes += solid.bytes();
+  return bytes + sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
          mesh_.triangles.capacity() * sizeof(Triangle) + tree_.bytes() + packed_.bytes() +
          component_points_.capacity() * sizeof(Eigen::Vector3d);
 }

@@ -8,7 +8,8 @@ namespace collision {
 
 enum class TreeBuilder : std::uint8_t {
   kOctree,  ///< The reference: octants of the bounding cube.
-  kFitted   ///< Balls fitted to the surface from inside, eight children a node: tighter by far.
+  kFitted,  ///< Balls fitted to the surface from inside, eight children a node: tighter by far.
+  kHalved   ///< Quick, for until another tree is there: only its first balls are measured.
 };
 
 struct ShapeOptions {

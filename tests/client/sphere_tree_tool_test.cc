@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "client/tools/sphere_tree_command.h"
@@ -174,14 +173,19 @@ std::size_t CountOf(const std::string& text, const std::string& what) {
 
 /// Every tag is closed, in order.
 bool IsWellFormed(const std::string& svg) {
-  static const std::regex tag("<(/?)([a-z]+)([^<>]*?)(/?)>");
   std::vector<std::string> open;
-  for (std::sregex_iterator next(svg.begin(), svg.end(), tag), end; next != end; ++next) {
-    if ((*next)[1] == "/") {
-      if (open.empty() || open.back() != (*next)[2]) return false;
+  for (std::size_t at = svg.find('<'); at != svg.npos; at = svg.find('<', at)) {
+    const std::size_t end = svg.find_first_of("<>", at + 1);
+    if (end == svg.npos || svg[end] == '<') return false;
+    const std::string tag = svg.substr(at + 1, end - at - 1);
+    at = end;
+    const bool closes = !tag.empty() && tag[0] == '/';
+    const std::string name = tag.substr(closes, tag.find_first_of(" \n/", 1) - closes);
+    if (closes) {
+      if (open.empty() || open.back() != name) return false;
       open.pop_back();
-    } else if ((*next)[4] != "/") {
-      open.push_back((*next)[2]);
+    } else if (tag.empty() || tag.back() != '/') {
+      open.push_back(name);
     }
   }
   return open.empty() && svg.rfind("</svg>\n") == svg.size() - 7;

@@ -75,6 +75,58 @@ inline void ExpectContact(const ContactTime& found, Real begin, Real end, double
   EXPECT_GT(found.work, 0u);
 }
 
+/// What a box is made of: its motion is the same.
+enum class Made {
+  kTriangles,
+  kSolid,   ///< A box.
+  kHull,    ///< Of its corners.
+  kSolids,  ///< Eight boxes.
+  kMixed    ///< One half of triangles, one a box.
+};
+
+inline ConvexSolid SolidBox(const Vector3d& lower, const Vector3d& upper) {
+  ConvexDescription box;
+  box.core = ConvexCore::kBox;
+  box.half = (upper - lower) / 2;
+  box.p_BS = (upper + lower) / 2;
+  return ConvexSolid::Build(box);
+}
+
+inline ConvexSolid HullBox(const Vector3d& lower, const Vector3d& upper) {
+  ConvexDescription hull;
+  hull.core = ConvexCore::kHull;
+  for (int i = 0; i < 8; ++i) {
+    hull.points.emplace_back((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
+                             (i & 4 ? upper : lower).z());
+  }
+  return ConvexSolid::Build(hull);
+}
+
+inline std::shared_ptr<const Shape> BoxOf(Made made, const Vector3d& lower, const Vector3d& upper) {
+  const Vector3d middle = (lower + upper) / 2;
+  if (made == Made::kTriangles) return Shape::Build(Box(lower, upper));
+  if (made == Made::kSolid) return Shape::Compound(nullptr, {SolidBox(lower, upper)});
+  if (made == Made::kHull) return Shape::Compound(nullptr, {HullBox(lower, upper)});
+  if (made == Made::kMixed) {
+    const Vector3d top(upper.x(), upper.y(), middle.z()), bottom(lower.x(), lower.y(), middle.z());
+    return Shape::Compound(Shape::Build(Box(lower, top)), {SolidBox(bottom, upper)});
+  }
+  std::vector<ConvexSolid> solids;
+  for (int i = 0; i < 8; ++i) {
+    Vector3d low, high;
+    for (int k = 0; k < 3; ++k) {
+      low[k] = (i >> k & 1) != 0 ? middle[k] : lower[k];
+      high[k] = (i >> k & 1) != 0 ? upper[k] : middle[k];
+    }
+    solids.push_back(SolidBox(low, high));
+  }
+  return Shape::Compound(nullptr, std::move(solids));
+}
+
+inline std::shared_ptr<const Shape> CubeOf(Made made, double half = 0.5) {
+  return BoxOf(made, Vector3d::Constant(-half), Vector3d::Constant(half));
+}
+
 inline const auto& UnitCube() {
   static const auto cube = Shape::Build(Cube(0.5));
   return cube;

@@ -87,11 +87,11 @@ double DepthAfter(const BodySegment& a, const BodySegment& b, const Eigen::Matri
                   Vector3d offset, const Vector3d& step) {
   const Surface of_a(a), of_b(b);
   Work work(kPlenty);
-  const auto points = ContactPatch(of_a, of_b, PoseOf(matrix, offset), 1e-9, 0, 0, &work);
+  const auto clues = ContactPatch(of_a, of_b, PoseOf(matrix, offset), 1e-9, 0, 0, &work);
   const RelativePose after = PoseOf(matrix, offset + step);
   double upper = kInfinity;
-  for (const SolidPoint& point : points) {
-    upper = std::min(upper, UpperBy(point, of_a, of_b, after, &work));
+  for (const ContactClue& clue : clues) {
+    upper = std::min(upper, UpperBy(clue.point, of_a, of_b, after, &work));
   }
   return -upper;
 }

@@ -1,0 +1,23 @@
+// An element of a body, triangle or convex solid, as a convex set.
+#pragma once
+
+#include "collision_core/narrow_phase/boxed_triangle.h"
+#include "collision_core/narrow_phase/convex_pose.h"
+#include "collision_core/narrow_phase/separation.h"
+
+namespace collision {
+
+/// In its own body frame; of an agent that is a ball, the ball.
+inline ConvexSet SetOf(const Surface& surface, std::uint32_t element) {
+  const Shape* shape = surface.shape();
+  if (shape == nullptr) return BallSet(Eigen::Vector3d::Zero(), surface.reach());
+  if (shape->IsSolid(element)) return shape->SolidAt(element).set();
+  return TriangleSet(CornersOf(*shape, element));
+}
+
+/// Whether a convex solid is among them: what only knows triangles has nothing to say then.
+inline bool AnySolid(const Surface& a, std::uint32_t of_a, const Surface& b, std::uint32_t of_b) {
+  return (a.shape() && a.shape()->IsSolid(of_a)) || (b.shape() && b.shape()->IsSolid(of_b));
+}
+
+}  // namespace collision

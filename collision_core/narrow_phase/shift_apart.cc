@@ -1,0 +1,125 @@
+#include "collision_core/narrow_phase/shift_apart.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "collision_core/narrow_phase/convex_distance.h"
+#include "collision_core/narrow_phase/element.h"
+#include "collision_core/narrow_phase/separation_findings.h"
+
+namespace collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// How far a body reaches along n, in its own frame: best first down its tree, so that little of it
+/// is looked at. What rounding makes of it, relative to the reach, is left to the caller.
+class Reaching {
+ public:
+  Reaching(const Surface& surface, const Vector3d& n, Work* work)
+      : surface_(surface), n_(n), work_(*work) {}
+
+  double Find() {
+    if (surface_.shape() == nullptr) return surface_.reach();
+    Visit(0);
+    return work_.exhausted() ? kInfinity : farthest_;
+  }
+
+ private:
+  double BoundOf(const SphereNode& node) const { return n_.dot(node.centre) + node.radius; }
+
+  void Visit(std::uint32_t index) {
+    const SphereNode& node = surface_.node(index);
+    work_.Spend(1);
+    if (work_.exhausted() || BoundOf(node) <= farthest_) return;
+    const SphereTree& tree = surface_.shape()->tree();
+    for (const std::uint32_t element : tree.TrianglesOf(node)) Take(element);
+    // The child that may reach the farthest first: it makes the others needless.
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 1; i < node.children; ++i) {
+      const SphereNode* const children = &tree.nodes[node.first_child];
+      if (BoundOf(children[i]) > BoundOf(children[best])) best = i;
+    }
+    if (node.children > 0) Visit(node.first_child + best);
+    for (std::uint32_t i = 0; i < node.children; ++i) {
+      if (i != best) Visit(node.first_child + i);
+    }
+  }
+
+  void Take(std::uint32_t element) {
+    const Shape& shape = *surface_.shape();
+    if (shape.IsSolid(element)) {
+      const ConvexSet& set = shape.SolidAt(element).set();
+      const double core = n_.dot(set.centre) + n_.dot(set.SupportPoint(n_));
+      farthest_ = std::max(farthest_, core + set.rounding + set.error);
+      return;
+    }
+    for (const Vector3d& corner : CornersOf(shape, element)) {
+      farthest_ = std::max(farthest_, n_.dot(corner));
+    }
+  }
+
+  const Surface& surface_;
+  const Vector3d n_;
+  Work& work_;
+  double farthest_ = -kInfinity;
+};
+
+/// Across an element: of a triangle its normal.
+Vector3d NormalOf(const Surface& surface, std::uint32_t element) {
+  if (surface.shape() == nullptr || surface.shape()->IsSolid(element)) return Vector3d::Zero();
+  const TrianglePoints t = CornersOf(*surface.shape(), element);
+  return (t[1] - t[0]).cross(t[2] - t[0]);
+}
+
+}  // namespace
+
+// Along n, of length 1 to within 2^-50: A reaches up to reach_a, B from offset − reach_b on; so moved
+// by the sum less what lies between they do not overlap. Supports are off by less than kSupportError
+// of the spans, spans at most thrice the reach, sums and products by less than as much again.
+double ShiftAlong(const Surface& a, const Surface& b, const RelativePose& pose, const Vector3d& n,
+                  Work* work) {
+  const double reach_a = Reaching(a, n, work).Find();
+  const double reach_b = Reaching(b, -(pose.matrix.transpose() * n), work).Find();
+  const double size = a.reach() + b.reach() + pose.offset.cwiseAbs().sum();
+  const double turning = pose.chord_A * a.turning_reach() + pose.chord_B * b.turning_reach();
+  const double shift = reach_a + reach_b - n.dot(pose.offset);
+  return shift + 0x1p-49 * std::abs(shift) + 0x1p-45 * size + 2 * SlackOf(a, b, pose) +
+         turning * (1 + 0x1p-40);
+}
+
+double ShiftApart(const Surface& a, const Surface& b, const RelativePose& pose,
+                  const Evidence& evidence, Work* work) {
+  double least = kInfinity;
+  const auto attempt = [&](const Vector3d& direction) {
+    const double length = direction.norm();
+    if (!(length > 0x1p-500 && length < 0x1p+500) || work->exhausted()) return;
+    const Vector3d n = direction / length;
+    for (const Vector3d& way : {n, Vector3d(-n)}) {
+      // Against the centres' way only a large body is left sooner than along it.
+      if (way.dot(pose.offset) < 0 && -way.dot(pose.offset) >= least) continue;
+      least = std::min(least, ShiftAlong(a, b, pose, way, work));
+    }
+  };
+  attempt(pose.offset);
+  if (evidence.kind == Evidence::Kind::kNodes) {
+    attempt(pose.ToA(b.node(evidence.b).centre) - a.node(evidence.a).centre);
+  }
+  if (evidence.kind == Evidence::Kind::kTriangles) {
+    if (AnySolid(a, evidence.a, b, evidence.b)) {
+      SearchHint none;
+      attempt(SeparationOf(PosedA(SetOf(a, evidence.a), pose), PosedB(SetOf(b, evidence.b), pose),
+                           {}, &none, work)
+                  .normal);
+    }
+    attempt(NormalOf(a, evidence.a));
+    attempt(pose.matrix * NormalOf(b, evidence.b));
+  }
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (a.shape()) attempt(Vector3d::Unit(axis));
+    if (b.shape()) attempt(pose.matrix.col(axis));
+  }
+  return std::max(0.0, least);
+}
+
+}  // namespace collision

@@ -1,0 +1,216 @@
+#include "collision_core/shape/compound_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "collision_core/numeric/rounding.h"
+
+namespace collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Siblings, as the packs of a traversal hold them.
+constexpr std::size_t kGathered = 8;
+
+/// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow; the
+/// differences before it by 2^-53 of what they are made of: that is counted where they are made.
+double LengthUp(const Vector3d& v) { return (1 + 0x1p-50) * v.norm() + 0x1p-500; }
+
+/// A node to be; of a gathering, the range of parts below it.
+struct Part {
+  SphereNode node;
+  bool is_surface = false;
+  std::vector<Part> children = {};
+};
+
+/// Of a point to a solid, by the ball that is known to be in it: a point d away from that ball's
+/// centre is no further than d − inradius from it, and nearer than that it has so much about it. Of
+/// what has no inside a point of the core is known, to within `error` and the rounding of a support.
+double DistanceUp(const Vector3d& point, const ConvexSolid& solid) {
+  const ConvexFacts& facts = solid.facts();
+  const double lost = 0x1p-50 * (point.cwiseAbs().sum() + facts.radius);
+  if (facts.inradius > 0) {
+    return AddUp(AddUp(LengthUp(point - facts.inner_point), lost), -facts.inradius);
+  }
+  const ConvexSet& set = solid.set();
+  const Vector3d seen = point - set.centre;
+  const double off = AddUp(set.error, MultiplyUp(kSupportError, set.span));
+  return AddUp(AddUp(LengthUp(seen - set.SupportPoint(seen)), lost), off);
+}
+
+SphereNode NodeOf(const ConvexSolid& solid, std::uint32_t element) {
+  SphereNode node;
+  node.centre = solid.facts().ball_centre;
+  node.radius = solid.facts().ball_radius;
+  node.signed_distance = DistanceUp(node.centre, solid);
+  node.first_triangle = element;
+  node.triangles = 1;
+  return node;
+}
+
+/// Of two centres, rounded up.
+double BetweenUp(const SphereNode& a, const SphereNode& b) {
+  const double lost = 0x1p-52 * (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
+  return AddUp(LengthUp(a.centre - b.centre), lost);
+}
+
+/// About the balls of its children: from the middle of their box in steps towards the farthest.
+void Enclose(Part* parent) {
+  Vector3d lower = Vector3d::Constant(kInfinity), upper = -lower;
+  for (const Part& part : parent->children) {
+    const SphereNode& node = part.node;
+    lower = lower.cwiseMin((node.centre.array() - node.radius).matrix());
+    upper = upper.cwiseMax((node.centre.array() + node.radius).matrix());
+  }
+  const SphereNode* farthest = nullptr;
+  const auto measure = [&](SphereNode* node) {
+    node->radius = 0;
+    for (const Part& part : parent->children) {
+      const double far = AddUp(BetweenUp(*node, part.node), part.node.radius);
+      if (far > node->radius) node->radius = far, farthest = &part.node;
+    }
+  };
+  SphereNode node;
+  node.centre = 0.5 * lower + 0.5 * upper;
+  measure(&node);
+  parent->node = node;
+  constexpr int kSteps = 32;
+  for (int step = 1; step <= kSteps; ++step) {
+    const Vector3d to = farthest->centre - node.centre;
+    const double length = to.norm();
+    if (!(length > 0)) break;
+    const Vector3d goal = farthest->centre + to * (farthest->radius / length);
+    node.centre += (goal - node.centre) / (step + 2);
+    measure(&node);
+    if (node.radius < parent->node.radius) parent->node = node;
+  }
+  // What is so near to a child's centre is as near to the whole.
+  parent->node.signed_distance = kInfinity;
+  for (const Part& part : parent->children) {
+    const double distance = AddUp(BetweenUp(parent->node, part.node), part.node.signed_distance);
+    parent->node.signed_distance = std::min(parent->node.signed_distance, distance);
+  }
+}
+
+/// Halved where their centres are spread the widest; ties by their order.
+std::size_t Halve(std::span<Part> parts) {
+  Vector3d lower = parts[0].node.centre, upper = lower;
+  for (const Part& part : parts) {
+    lower = lower.cwiseMin(part.node.centre), upper = upper.cwiseMax(part.node.centre);
+  }
+  Eigen::Index axis = 0;
+  (upper - lower).maxCoeff(&axis);
+  std::stable_sort(parts.begin(), parts.end(), [axis](const Part& a, const Part& b) {
+    return a.node.centre[axis] < b.node.centre[axis];
+  });
+  return parts.size() / 2;
+}
+
+/// Up to eight groups of near ones, the largest halved first.
+std::vector<std::span<Part>> Grouped(std::span<Part> parts) {
+  std::vector<std::span<Part>> groups = {parts};
+  while (groups.size() < kGathered) {
+    const auto largest =
+        std::max_element(groups.begin(), groups.end(),
+                         [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    if (largest->size() == 1) break;
+    const std::size_t half = Halve(*largest);
+    const std::span<Part> second = largest->subspan(half);
+    *largest = largest->first(half);
+    groups.insert(largest + 1, second);
+  }
+  return groups;
+}
+
+Part Gathered(std::span<Part> parts) {
+  if (parts.size() == 1) return std::move(parts[0]);
+  Part parent;
+  for (const std::span<Part> group : Grouped(parts)) parent.children.push_back(Gathered(group));
+  Enclose(&parent);
+  return parent;
+}
+
+/// Level by level: gatherings and solids from the parts, the surface's nodes from its own tree.
+class Flattening {
+ public:
+  explicit Flattening(const SphereTree* surface) : surface_(surface) {
+    if (surface_) tree_.triangle_indices = surface_->triangle_indices;
+  }
+
+  SphereTree Run(const Part& root) {
+    std::vector<Place> level = {{&root, 0}};
+    for (std::uint32_t depth = 0; !level.empty(); ++depth) {
+      tree_.levels = depth + 1;
+      const auto next = static_cast<std::uint32_t>(tree_.nodes.size() + level.size());
+      std::vector<Place> below;
+      for (const Place& place : level) {
+        SphereNode node = place.part ? place.part->node : surface_->nodes[place.of_surface];
+        node.level = depth;
+        node.first_child = next + static_cast<std::uint32_t>(below.size());
+        const std::size_t before = below.size();
+        AddChildren(place, &below);
+        node.children = static_cast<std::uint32_t>(below.size() - before);
+        if (node.children == 0) node.first_child = 0;
+        if (place.part && !place.part->is_surface && node.triangles == 1) SetElement(&node);
+        tree_.nodes.push_back(node);
+      }
+      level = std::move(below);
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  struct Place {
+    const Part* part;  ///< Null: a node of the surface.
+    std::uint32_t of_surface;
+  };
+
+  void AddChildren(const Place& place, std::vector<Place>* below) const {
+    if (place.part && !place.part->is_surface) {
+      for (const Part& child : place.part->children) below->push_back({&child, 0});
+      return;
+    }
+    const SphereNode& own = surface_->nodes[place.of_surface];
+    for (std::uint32_t i = 0; i < own.children; ++i)
+      below->push_back({nullptr, own.first_child + i});
+  }
+
+  /// A solid's leaf has no triangles yet but a number.
+  void SetElement(SphereNode* node) {
+    const std::uint32_t element = node->first_triangle;
+    node->first_triangle = static_cast<std::uint32_t>(tree_.triangle_indices.size());
+    tree_.triangle_indices.push_back(element);
+  }
+
+  const SphereTree* const surface_;
+  SphereTree tree_;
+};
+
+}  // namespace
+
+SphereTree BuildCompound(const SphereTree* surface, std::uint32_t triangles,
+                         std::span<const ConvexSolid> solids) {
+  std::vector<Part> parts;
+  if (surface) parts.push_back({surface->root(), true});
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    parts.push_back({NodeOf(solids[i], triangles + static_cast<std::uint32_t>(i))});
+  }
+  return Flattening(surface).Run(Gathered(parts));
+}
+
+void AddSolids(std::span<const ConvexSolid> solids, MeshFacts* facts) {
+  if (facts->components == 0) {
+    facts->closed = true;
+    facts->lower = Vector3d::Constant(kInfinity), facts->upper = -facts->lower;
+  }
+  facts->components += solids.size();
+  for (const ConvexSolid& solid : solids) {
+    facts->lower = facts->lower.cwiseMin(solid.facts().lower);
+    facts->upper = facts->upper.cwiseMax(solid.facts().upper);
+    facts->radius = std::max(facts->radius, solid.facts().radius);
+  }
+}
+
+}  // namespace collision

@@ -1,0 +1,192 @@
+// Goal:   a shape's twin, the same body by another tree, takes its place unnoticed: it is no widening, what
+//         was known of the past stays known, no verdict becomes less certain.
+// Method: two detectors that hear the same of two ships; one of them is told the twin now and then, the other
+//         the same shape again. With a twin of the same tree all they tell is the same, bit for bit; with one of
+//         a better tree verdicts are those of who had it from the start.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "collision_core/detection/detector.h"
+#include "tests/collision_core/detection/line.h"
+#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "tests/support/meshes.h"
+
+namespace collision {
+namespace {
+
+constexpr double kEnd = 4;
+constexpr int kTicksPerSecond = 32;
+constexpr ShapeOptions kCoarse{.triangles_per_leaf = 64};
+
+using ShapePointer = std::shared_ptr<const Shape>;
+
+struct Ship {
+  AgentDeclaration declaration;
+  TrueMotion motion;
+  int ticks_per_state = 1;
+  std::set<int> jumps;  // ticks, of one state that jumps aside and stays there
+  Vector3d aside = Vector3d::Zero();
+};
+
+Ship RandomShip(Random& random, const TriangleMesh& mesh) {
+  Ship ship;
+  ship.declaration.shape = Shape::Build(mesh, kCoarse);
+  ship.declaration.radius = ship.declaration.shape->facts().radius;
+  ship.declaration.acceleration_max = random.LogUniform(0.01, 1);
+  if (random.Chance(0.8)) ship.declaration.angular_acceleration_max = 0.1;
+  ship.ticks_per_state = 1 << random.Below(5);
+  ship.motion.start.q = RandomTurn(random);
+  if (random.Chance(0.7)) ship.motion.start.w = RandomUnit(random);
+  if (random.Chance(0.3)) ship.jumps.insert(ship.ticks_per_state * (1 + random.Below(3)));
+  ship.aside = 0.3 * random.UnitVector();
+  return ship;
+}
+
+struct Told {
+  std::vector<CollisionEvent> events;
+  std::vector<Instant> clear_until;
+  std::uint64_t widenings = 0;
+};
+
+// At each of `redeclared` the ships are declared anew, with the shapes that `next` hands out.
+template <typename Next>
+Told Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double skew,
+         const Next& next) {
+  DetectorOptions options;
+  options.skew = skew;
+  options.work_units_per_turn = 400'000;
+  Detector detector(options);
+  Told told;
+  std::vector<AgentDeclaration> declarations;
+  for (const Ship& ship : ships) declarations.push_back(ship.declaration);
+  for (int tick = 0; tick <= kTicksPerSecond * kEnd; ++tick) {
+    const double now = static_cast<double>(tick) / kTicksPerSecond;
+    for (std::uint32_t i = 0; i < ships.size(); ++i) {
+      const Ship& ship = ships[i];
+      AgentDeclaration& declaration = declarations[i];
+      if (redeclared.contains(tick)) {
+        declaration.shape = next(i, tick);
+        detector.Redeclare(Id(i), declaration, At(now));
+      }
+      if (tick % ship.ticks_per_state == 0) {
+        MotionState state = BoundAt(ship.motion, now, declaration).state;
+        if (!ship.jumps.empty() && tick >= *ship.jumps.begin()) state.p_WA += ship.aside;
+        state.discontinuity = ship.jumps.contains(tick);
+        if (tick == 0) {
+          detector.Admit(Id(i), declaration, state, At(0));
+        } else {
+          detector.Update(Id(i), state, At(now));
+        }
+      }
+      detector.Hear(Id(i), At(now));
+    }
+    detector.Advance(At(now));
+    told.events.insert(told.events.end(), detector.events().begin(), detector.events().end());
+    for (std::uint32_t i = 0; i < ships.size(); ++i) {
+      told.clear_until.push_back(detector.ClearanceOf(Id(i))->clear_until);
+    }
+  }
+  told.widenings = detector.counters().widenings;
+  return told;
+}
+
+auto Values(const CollisionEvent& e) {
+  return std::tuple(e.lower, e.higher, e.contact, e.revision, e.now, e.status, e.begin, e.end,
+                    e.continuous, e.began_before, e.evaluated_at, e.separation_lower,
+                    e.separation_upper, e.depth_lower, e.p_WC, e.point_error, e.normal,
+                    e.normal_error, e.level, e.work, e.limited_by);
+}
+
+struct Scene {
+  std::vector<Ship> ships;
+  std::set<int> redeclared;
+  double skew = 0;
+};
+
+Scene RandomScene(std::uint64_t seed) {
+  Random random(seed);
+  Scene scene;
+  for (int i = 0; i < 2; ++i) scene.ships.push_back(RandomShip(random, Star(2, random)));
+  const double reach = scene.ships[0].declaration.radius + scene.ships[1].declaration.radius;
+  const Vector direction = RandomUnit(random);
+  TruePose& other = scene.ships[1].motion.start;
+  other.p = reach * random.Uniform(0.8, 2) * direction;
+  other.v = random.Uniform(0, 1) * reach * (-direction + 0.5 * RandomUnit(random));
+  for (int n = 0; n < 4; ++n) {
+    scene.redeclared.insert(static_cast<int>(1 + random.Below(kTicksPerSecond * 3)));
+  }
+  if (random.Chance(0.5)) scene.skew = 0.02;
+  return scene;
+}
+
+// Goal:   with the same tree nothing at all changes.
+TEST(ShapeTwin, TheSameTreeTellsTheSame) {
+  std::set<EventStatus> seen;
+  int events = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = RandomScene(seed);
+    const auto same = [&](std::uint32_t i, int) { return scene.ships[i].declaration.shape; };
+    const auto twin = [&](std::uint32_t i, int) -> ShapePointer {
+      const Shape& shape = *scene.ships[i].declaration.shape;
+      return Shape::Build(shape.mesh(), kCoarse, &shape);
+    };
+    const Told a = Fly(scene.ships, scene.redeclared, scene.skew, same);
+    const Told b = Fly(scene.ships, scene.redeclared, scene.skew, twin);
+    EXPECT_EQ(a.widenings, b.widenings);
+    EXPECT_EQ(a.clear_until, b.clear_until);
+    ASSERT_EQ(a.events.size(), b.events.size());
+    for (std::size_t i = 0; i < a.events.size(); ++i) {
+      EXPECT_TRUE(Values(a.events[i]) == Values(b.events[i])) << i;
+      seen.insert(a.events[i].status);
+      ++events;
+    }
+  }
+  EXPECT_GT(events, 50);
+  EXPECT_TRUE(seen.contains(EventStatus::kConfirmed) && seen.contains(EventStatus::kEnded));
+}
+
+// Goal:   with a better tree verdicts are at least as certain as with the coarse one, and no clearance is lowered
+//         because of it.
+TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
+  int confirmed = 0, switched = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = RandomScene(seed);
+    std::vector<ShapePointer> fine;
+    for (const Ship& ship : scene.ships) {
+      fine.push_back(
+          Shape::Build(ship.declaration.shape->mesh(), {}, ship.declaration.shape.get()));
+      ASSERT_GT(fine.back()->tree().nodes.size(), ship.declaration.shape->tree().nodes.size());
+    }
+    const auto better = [&](std::uint32_t i, int) { return ++switched, fine[i]; };
+    const auto same = [&](std::uint32_t i, int) { return scene.ships[i].declaration.shape; };
+    const Told coarse = Fly(scene.ships, scene.redeclared, scene.skew, same);
+    const Told refined = Fly(scene.ships, scene.redeclared, scene.skew, better);
+    EXPECT_EQ(refined.widenings, coarse.widenings);
+    std::map<std::uint32_t, EventStatus> last;
+    for (const CollisionEvent& event : refined.events) {
+      // Once certain, never doubted.
+      const auto before = last.find(event.contact);
+      if (before != last.end() && before->second == EventStatus::kConfirmed) {
+        EXPECT_NE(event.status, EventStatus::kUndecided);
+        EXPECT_NE(event.status, EventStatus::kPossible);
+      }
+      last[event.contact] = event.status;
+      confirmed += event.status == EventStatus::kConfirmed;
+    }
+    for (const CollisionEvent& event : coarse.events) {
+      if (event.status == EventStatus::kConfirmed) {
+        EXPECT_TRUE(last.contains(event.contact));
+      }
+    }
+  }
+  EXPECT_GT(switched, 100);
+  EXPECT_GT(confirmed, 10);
+}
+
+}  // namespace
+}  // namespace collision
