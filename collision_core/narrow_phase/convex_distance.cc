@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "collision_core/shape/convex_directions.h"
+#include "collision_core/shape/convex_polish.h"
 #include "collision_core/shape/convex_polytope.h"
+#include "collision_core/shape/convex_simplex.h"
 #include "collision_core/shape/convex_zonotope.h"
 
 namespace collision {
@@ -37,6 +39,7 @@ class Bracket {
       TakeSearched();
       SetUpper();
       if (!search_.encloses && !IsGoodEnough()) TryFeatures();
+      if (!search_.encloses && pair_.IsSmooth() && !IsGoodEnough()) Polish();
       if (MayOverlap()) Deepen();
       KeepHint(pair_, search_, hint);
     }
@@ -139,6 +142,76 @@ class Bracket {
       Try(direction);
       if (IsGoodEnough()) return;
     }
+  }
+
+  /// Beside something smooth: the corner, the edge or the face that the search ended at is that of
+  /// the other core, if it has any.
+  void Polish() {
+    std::array<Vector3d, 4> corners;
+    const int count = CornersOfOther(&corners);
+    PolishAlong(Vector3d::Zero());
+    const Vector3d* const c = corners.data();
+    for (int i = 1; i < count; ++i) {
+      for (int j = 0; j < i && !IsGoodEnough(); ++j) PolishAlong(c[i] - c[j]);
+    }
+    if (count == 3 && !IsGoodEnough()) {
+      const Vector3d across = (c[1] - c[0]).cross(c[2] - c[0]);
+      TryWithPoints(across.dot(search_.direction) < 0 ? Vector3d(-across) : across);
+    }
+  }
+
+  void PolishAlong(const Vector3d& edge) {
+    work_.Spend(kConvexStepUnits * kPolishSteps);
+    TryWithPoints(WidestNear(pair_, search_.direction, edge));
+  }
+
+  /// Distinct corners of the simplex on the side that is not smooth, seen from its centre.
+  int CornersOfOther(std::array<Vector3d, 4>* corners) const {
+    if (pair_.a().IsSmooth() && pair_.b().IsSmooth()) return 0;
+    const bool of_a = pair_.b().IsSmooth();
+    int count = 0;
+    for (int i = 0; i < search_.count; ++i) {
+      const ConvexPair::Witness& witness = search_.simplex[i].witness;
+      const Vector3d x = of_a ? pair_.a().PointAt(witness.a) : pair_.b().PointAt(witness.b);
+      if (std::find(corners->begin(), corners->begin() + count, x) == corners->begin() + count) {
+        (*corners)[count++] = x;
+      }
+    }
+    return count;
+  }
+
+  /// Along a direction, and with its point of the smooth core instead of those of the simplex.
+  void TryWithPoints(const Vector3d& direction) {
+    const double length = std::sqrt(direction.squaredNorm());
+    if (!(length > kSupportUnderflow)) return;
+    const Vector3d n = direction / length;
+    const ConvexPair::Point there = pair_.Against(n);
+    Take(n, n.dot(there.y));
+    SearchResult moved = search_;
+    std::array<const Vector3d*, 4> corners{};
+    for (int i = 0; i < moved.count; ++i) {
+      ConvexPair::Witness witness = moved.simplex[i].witness;
+      if (pair_.a().IsSmooth()) witness.a = there.witness.a;
+      if (pair_.b().IsSmooth()) witness.b = there.witness.b;
+      moved.simplex[i] = pair_.At(witness);
+      corners[i] = &moved.simplex[i].y;
+    }
+    SimplexPoint point;
+    NearestOfSimplex(corners, moved.count, -1, &point);
+    if (point.encloses) return;
+    Vector3d sum = Vector3d::Zero();
+    for (int i = 0; i < point.count; ++i) {
+      const int corner = point.corners[i];
+      sum += point.weights[i] * moved.simplex[corner].y;
+    }
+    if (!(sum.squaredNorm() < search_.nearest.squaredNorm())) return;
+    for (int i = 0; i < point.count; ++i) {
+      search_.simplex[i] = moved.simplex[point.corners[i]];
+      search_.weights[i] = point.weights[i];
+    }
+    search_.count = point.count;
+    search_.nearest = sum;
+    SetUpper();
   }
 
   bool MayOverlap() const { return !(lower_ > 0) && !IsGoodEnough(); }

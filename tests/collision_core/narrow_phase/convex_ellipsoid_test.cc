@@ -242,5 +242,27 @@ TEST(ConvexEllipsoid, ConcentricDepth) {
   }
 }
 
+// Goal:   however near the two are, the bracket is narrow: the corners of a simplex alone would not tell.
+TEST(ConvexEllipsoid, NearContactIsKnownToTheLastBits) {
+  int beside[3] = {0, 0, 0};
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    ConvexDescription egg = RandomBox(random, 1), other = RandomBox(random, 1);
+    egg.core = ConvexCore::kEllipsoid;
+    if (seed % 4 == 0) other.core = ConvexCore::kEllipsoid;
+    if (seed % 4 == 1) other = RandomHull(random, 1, 20);
+    ConvexCase scene(egg, other);
+    scene.Turn(RandomQuaternion(random), 3 * random.UnitVector());
+    const double gap = random.LogUniform(1e-12, 1e-2);
+    scene.MoveTo(gap);
+    const ConvexSeparation found = scene.Ask();
+    EXPECT_NEAR(found.separation.middle(), gap, 1e-12 + 1e-3 * gap);
+    EXPECT_LE(found.separation.width(), 1e-12);
+    ++beside[seed % 4 == 0 ? 0 : seed % 4 == 1 ? 1 : 2];
+  }
+  EXPECT_GE(std::min({beside[0], beside[1], beside[2]}), 50);
+}
+
 }  // namespace
 }  // namespace collision
