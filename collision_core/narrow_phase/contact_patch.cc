@@ -23,9 +23,6 @@ constexpr std::size_t kKept = 2;
 // Corners of a face that are so near to the least height are as low, as a share of the size.
 constexpr double kLevel = 0x1p-44;
 
-// Edges are parallel if the sine of their angle is below this.
-constexpr double kParallel = 0x1p-20;
-
 constexpr int kNext[3] = {1, 2, 0};
 
 // What lies on what, the widest first.
@@ -129,7 +126,6 @@ class Patch {
     ++pairs_;
     FaceOn(of_a.corners, of_b.corners, true);
     FaceOn(of_b.corners, of_a.corners, false);
-    Edges(of_a.corners, of_b.corners);
   }
 
   void Solids(std::uint32_t s, std::uint32_t t) {
@@ -157,7 +153,8 @@ class Patch {
     if (list.size() > kKept) list.pop_back();
   }
 
-  // What of one triangle stands over the other, where it is the nearest to its plane.
+  // What of one triangle stands over the other, where it is the nearest to its plane; of edges that
+  // meet the point or the part where they do, since what stands over the rim counts.
   void FaceOn(const TrianglePoints& t, const TrianglePoints& base, bool of_A) {
     const Vector3d n = (base[1] - base[0]).cross(base[2] - base[0]).normalized();
     if (!(n.norm() > 0.5)) return;
@@ -176,35 +173,6 @@ class Patch {
     const double area = AreaOf(low), length = LengthOf(low);
     const Kind kind = area > level_ * length ? kFace : length > 4 * level_ ? kEdge : kCorner;
     Keep(kind, of_A, MeanOf(low), kind == kFace ? area : length);
-  }
-
-  void Edges(const TrianglePoints& a, const TrianglePoints& b) {
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) EdgeOn(a[i], a[kNext[i]], b[j], b[kNext[j]]);
-    }
-  }
-
-  void EdgeOn(const Vector3d& p, const Vector3d& q, const Vector3d& r, const Vector3d& s) {
-    const Vector3d u = q - p, v = s - r, w = r - p;
-    const double uu = u.squaredNorm(), vv = v.squaredNorm();
-    if (!(uu > 0 && vv > 0)) return;
-    const Vector3d across = u.cross(v);
-    double on_u, length = 0;
-    if (across.squaredNorm() <= kParallel * kParallel * uu * vv) {
-      const auto [first, last] = std::minmax({w.dot(u) / uu, (w + v).dot(u) / uu});
-      const double from = std::max(0.0, first), to = std::min(1.0, last);
-      if (from > to) return;
-      on_u = (from + to) / 2;
-      length = (to - from) * std::sqrt(uu);
-    } else {
-      on_u = std::clamp(w.cross(v).dot(across) / across.squaredNorm(), 0.0, 1.0);
-    }
-    const Vector3d on_a = p + on_u * u;
-    const double on_v = std::clamp((on_a - r).dot(v) / vv, 0.0, 1.0);
-    const Vector3d on_b = r + on_v * v;
-    if ((on_a - on_b).norm() > within_) return;
-    Keep(length > 0 ? kEdge : kCorner, true, on_a, length);
-    Keep(length > 0 ? kEdge : kCorner, false, on_b, length);
   }
 
   std::vector<ContactClue> Best() {

@@ -126,7 +126,7 @@ Scene RandomScene(std::uint64_t seed) {
 TEST(ShapeTwin, TheSameTreeTellsTheSame) {
   std::set<EventStatus> seen;
   int events = 0;
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = RandomScene(seed);
     const auto same = [&](std::uint32_t i, int) { return scene.ships[i].declaration.shape; };
@@ -153,7 +153,7 @@ TEST(ShapeTwin, TheSameTreeTellsTheSame) {
 //         because of it.
 TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
   int confirmed = 0, switched = 0;
-  for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = RandomScene(seed);
     std::vector<ShapePointer> fine;
