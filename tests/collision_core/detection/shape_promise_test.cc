@@ -11,6 +11,7 @@
 #include "tests/collision_core/detection/line.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/solids.h"
 
 namespace collision {
 namespace {
@@ -19,21 +20,40 @@ constexpr double kEnd = 4;
 
 struct Ship {
   AgentDeclaration declaration;
+  std::shared_ptr<const Shape> triangles;  // What it is in truth, whatever it is declared to be.
   TrueMotion motion;
   int states_per_second = 64;
 };
 
-std::shared_ptr<const Shape> RandomShape(Random& random) {
-  static const std::shared_ptr<const Shape> shapes[] = {
-      Shape::Build(LShape()), Shape::Build(Rod(2, 0.1)), Shape::Build(Cube(0.7)),
-      Shape::Build(Sheet(1, 2)), nullptr};
-  return shapes[random.Below(5)];
+// The same body of triangles, and of convex solids where that can be.
+struct Made {
+  std::shared_ptr<const Shape> triangles, solids;
+};
+
+const Made& LShaped() {
+  static const Made made = {Shape::Build(LShape()),
+                            Shape::Compound(nullptr, {SolidBox({-1, -1, -0.5}, {1, 0, 0.5}),
+                                                      SolidBox({-1, 0, -0.5}, {0, 1, 0.5})})};
+  return made;
 }
 
-Ship RandomShip(Random& random) {
+Made RandomShape(Random& random) {
+  static const auto rod = Shape::Build(Rod(2, 0.1)), cube = Shape::Build(Cube(0.7)),
+                    sheet = Shape::Build(Sheet(1, 2));
+  static const auto of_box = [](const Shape& box) {
+    return Shape::Compound(nullptr, {SolidBox(box.facts().lower, box.facts().upper)});
+  };
+  static const Made made[] = {
+      LShaped(), {rod, of_box(*rod)}, {cube, of_box(*cube)}, {sheet, sheet}, {}};
+  return made[random.Below(5)];
+}
+
+Ship RandomShip(Random& random, bool of_solids) {
   Ship ship;
   AgentDeclaration& declared = ship.declaration;
-  declared.shape = RandomShape(random);
+  const Made made = RandomShape(random);
+  ship.triangles = made.triangles;
+  declared.shape = of_solids ? made.solids : made.triangles;
   declared.radius = declared.shape ? declared.shape->facts().radius : 0.8;
   declared.acceleration_max = random.Chance(0.3) ? 0 : random.LogUniform(0.05, 4);
   declared.angular_acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(0.05, 2);
@@ -62,7 +82,7 @@ struct Encounter {
 
   TrueBody Body(int i, Real t) const {
     const AgentDeclaration& declared = ships[i].declaration;
-    return {declared.shape.get(), declared.radius, ships[i].motion.At(t)};
+    return {ships[i].triangles.get(), declared.radius, ships[i].motion.At(t)};
   }
   Real Distance(Real t) const { return SolidDistance(Body(0, t), Body(1, t)); }
 
@@ -94,11 +114,14 @@ struct Encounter {
   }
 };
 
-Encounter RandomEncounter(Random& random) {
+Encounter RandomEncounter(Random& random, bool of_solids) {
   Encounter met;
-  for (Ship& ship : met.ships) ship = RandomShip(random);
+  // One of them may be of triangles all the same.
+  met.ships[0] = RandomShip(random, of_solids);
+  met.ships[1] = RandomShip(random, of_solids && random.Chance(0.6));
   if (!met.ships[0].declaration.shape && !met.ships[1].declaration.shape) {
-    met.ships[0].declaration.shape = Shape::Build(LShape());
+    met.ships[0].triangles = LShaped().triangles;
+    met.ships[0].declaration.shape = of_solids ? LShaped().solids : LShaped().triangles;
     met.ships[0].declaration.radius = 1.6;
   }
   const double reach = met.ships[0].declaration.radius + met.ships[1].declaration.radius;
@@ -137,10 +160,10 @@ void CheckEvents(const std::vector<CollisionEvent>& events, const Encounter& met
   }
 }
 
-void CheckEncounter(std::uint64_t seed, Outcome* outcome) {
+void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   Random random(seed);
-  const Encounter met = RandomEncounter(random);
+  const Encounter met = RandomEncounter(random, of_solids);
   if (met.Distance(0) == 0) return;
   const Encounter::First first = met.FirstContact();
   outcome->contacts += first.touching < kInfinity;
@@ -187,9 +210,11 @@ void CheckEncounter(std::uint64_t seed, Outcome* outcome) {
   CheckEvents(events, met, first, outcome);
 }
 
-TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) {
+void CheckEncounters(bool of_solids) {
   Outcome outcome;
-  for (std::uint64_t seed = 1; seed <= 80 && !HasFailure(); ++seed) CheckEncounter(seed, &outcome);
+  for (std::uint64_t seed = 1; seed <= 80 && !testing::Test::HasFailure(); ++seed) {
+    CheckEncounter(seed, of_solids, &outcome);
+  }
   EXPECT_GT(outcome.contacts, 25);
   EXPECT_GT(outcome.confirmed, 20);
   EXPECT_GT(outcome.promised, 2000);
@@ -197,6 +222,10 @@ TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) {
   EXPECT_GT(outcome.far_ahead, outcome.promised / 4);
   EXPECT_GT(outcome.directions, 5);
 }
+
+TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) { CheckEncounters(false); }
+
+TEST(DetectorShapePromise, NorWithConvexSolids) { CheckEncounters(true); }
 
 // One state a second of a cube that comes along x and does not turn; nobody told that it does not.
 struct Coming {

@@ -6,6 +6,7 @@
 #include "collision_core/narrow_phase/contact_time.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/solids.h"
 
 namespace collision {
 
@@ -83,24 +84,6 @@ enum class Made {
   kSolids,  ///< Eight boxes.
   kMixed    ///< One half of triangles, one a box.
 };
-
-inline ConvexSolid SolidBox(const Vector3d& lower, const Vector3d& upper) {
-  ConvexDescription box;
-  box.core = ConvexCore::kBox;
-  box.half = (upper - lower) / 2;
-  box.p_BS = (upper + lower) / 2;
-  return ConvexSolid::Build(box);
-}
-
-inline ConvexSolid HullBox(const Vector3d& lower, const Vector3d& upper) {
-  ConvexDescription hull;
-  hull.core = ConvexCore::kHull;
-  for (int i = 0; i < 8; ++i) {
-    hull.points.emplace_back((i & 1 ? upper : lower).x(), (i & 2 ? upper : lower).y(),
-                             (i & 4 ? upper : lower).z());
-  }
-  return ConvexSolid::Build(hull);
-}
 
 inline std::shared_ptr<const Shape> BoxOf(Made made, const Vector3d& lower, const Vector3d& upper) {
   const Vector3d middle = (lower + upper) / 2;
