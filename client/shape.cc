@@ -1,9 +1,12 @@
 #include "client/shape.h"
 
+#include <algorithm>
 #include <cstring>
 #include <stdexcept>
 #include <unordered_map>
+#include <utility>
 
+#include "client/solid_check.h"
 #include "client/validation.h"
 #include "collision_core/shape/triangle_mesh.h"
 #include "idl/shape_bytes.h"
@@ -57,25 +60,39 @@ void RequireFit(const TriangleMesh& mesh) {
   }
 }
 
+/// The triangles that have an area, with their vertices; throws if none has.
+TriangleMesh Repaired(const Triangles& triangles, std::size_t* dropped) {
+  TriangleMesh mesh = MeshOf(triangles);
+  RequireFit(mesh);
+  *dropped = DropDegenerate(&mesh);
+  if (!mesh.triangles.empty()) return mesh;
+  throw std::invalid_argument("triangles: all " + std::to_string(*dropped) +
+                              " are degenerate, allowed: 1 to " +
+                              std::to_string(kShapeTrianglesMax) + " with an area");
+}
+
 }  // namespace
 
 std::shared_ptr<const Shape> Shape::Make(Triangles triangles) {
-  TriangleMesh mesh = MeshOf(triangles);
-  RequireFit(mesh);
+  return Make(Geometry{std::move(triangles), {}});
+}
+
+std::shared_ptr<const Shape> Shape::Make(Geometry geometry) {
   const std::shared_ptr<Shape> shape(new Shape);
-  shape->dropped_ = DropDegenerate(&mesh);
-  if (mesh.triangles.empty()) {
-    throw std::invalid_argument("triangles: all " + std::to_string(shape->dropped_) +
-                                " are degenerate, allowed: 1 to " +
-                                std::to_string(kShapeTrianglesMax) + " with an area");
+  shape->closed_ = true;
+  const Triangles& given = geometry.triangles;
+  if (geometry.solids.empty() || !given.vertices_m.empty() || !given.indices.empty()) {
+    shape->geometry_.triangles = Compact(Repaired(given, &shape->dropped_));
+    const TriangleMesh mesh = MeshOf(shape->geometry_.triangles);
+    RequireFit(mesh);  // Without the vertices that no triangle uses it may be a point.
+    const MeshFacts facts = FactsOf(mesh);
+    shape->radius_m_ = facts.radius;
+    shape->closed_ = facts.closed;
   }
-  shape->triangles_ = Compact(mesh);
-  mesh = MeshOf(shape->triangles_);
-  RequireFit(mesh);  // Without the vertices that no triangle uses it may be a point.
-  const MeshFacts facts = FactsOf(mesh);
-  shape->radius_m_ = facts.radius;
-  shape->closed_ = facts.closed;
-  shape->bytes_ = EncodeShape({shape->triangles_.vertices_m, shape->triangles_.indices});
+  shape->geometry_.solids = Canonical(std::move(geometry.solids));
+  shape->radius_m_ = std::max(shape->radius_m_, RadiusOf(shape->geometry_.solids));
+  shape->bytes_ = EncodeShape({shape->triangles().vertices_m, shape->triangles().indices,
+                               ContentOf(shape->geometry_.solids)});
   shape->hash_ = Sha256(shape->bytes_);
   return shape;
 }

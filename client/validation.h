@@ -25,6 +25,8 @@ inline constexpr std::int64_t kInstantMax = std::int64_t{1} << 62;  ///< [ns] 14
 inline constexpr std::uint32_t kAgentsMax = 65536;                  ///< Of one simulator.
 inline constexpr std::uint32_t kChunkSizeMax = 64;                  ///< As in the IDL.
 inline constexpr std::size_t kShapeTrianglesMax = 5'000'000;  ///< The most a service can allow.
+inline constexpr std::size_t kShapeSolidsMax = 65536;         ///< Of one shape.
+inline constexpr std::size_t kShapeHullPointsMax = 1 << 20;   ///< Of all hulls of one shape.
 /// Relative: a shape may stand out of its agent's ball by what rounding makes of a radius.
 inline constexpr double kShapeRadiusTolerance = 1e-9;
 inline constexpr std::chrono::hours kLeadMax{1};  ///< Longer than any way there and back.

@@ -94,12 +94,13 @@ constexpr ConfigOption kOptions[] = {
      "How it is found who may meet. All methods tell the same; they differ in what they cost. AUTO "
      "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and between them what does less "
      "work."},
-    {"tree_builder", "none", "", "", "OCTREE or FITTED", "OCTREE",
+    {"tree_builder", "none", "", "", "OCTREE or FITTED", "FITTED",
      "Who makes the sphere trees of shapes. FITTED: balls that fit the surface more tightly by "
      "far, "
-     "so that as many of them tell more; building takes longer. OCTREE: the reference. "
-     "collisionctl "
-     "sphere-tree shows the difference."},
+     "so that as many of them tell more. OCTREE: the reference. collisionctl sphere-tree shows the "
+     "difference. A surface of more than 4096 triangles has a coarse tree of neither until this "
+     "one "
+     "is built."},
     {"tree_cache_dir", "none", "", "",
      "a path of at most 4096 printable ASCII characters, or empty", "\"\"",
      "Folder where trees are kept once they are built; it is made if need be. What is damaged or "

@@ -94,8 +94,10 @@ class Daemon::Implementation {
   /// When a tree is finished is up to the machine; the step at which it counts becomes an input like
   /// any other.
   void AddReadyShapes(std::vector<v1::Input>* inputs) {
-    for (const std::string& hash : shape_builder_->TakeFinished()) {
-      inputs->emplace_back().mutable_shape_ready()->set_content_hash(hash);
+    for (const ReadyTree& tree : shape_builder_->TakeFinished()) {
+      v1::ShapeReady& ready = *inputs->emplace_back().mutable_shape_ready();
+      ready.set_content_hash(tree.hash);
+      ready.set_coarse(tree.coarse);
     }
   }
 

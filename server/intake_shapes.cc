@@ -15,16 +15,30 @@ namespace {
 /// by rounding.
 constexpr double kRadiusAllowance = 1 + 1e-9;
 
-void TellShape(const std::string& hash, const BuiltShape& built) {
+std::string SurfaceText(const Shape& shape, std::size_t dropped) {
+  const std::size_t triangles = shape.mesh().triangles.size();
+  if (triangles == 0) return "no surface";
+  return fmt::format("{} triangles ({} degenerate ones dropped), {}", triangles, dropped,
+                     shape.closed() ? "closed" : "open");
+}
+
+void TellShape(const std::string& hash, const ReadyShape& ready) {
+  const BuiltShape& built = ready.built;
   const Shape& shape = *built.shape;
+  std::string what = "refined";
+  if (!ready.refined) {
+    what = SurfaceText(shape, built.dropped);
+    if (!shape.solids().empty()) {
+      what += fmt::format(", {} convex solids", shape.solids().size());
+    }
+    what += fmt::format(", radius {:.6g} m", shape.facts().radius);
+  }
   Log(spdlog::level::info, "shape",
-      fmt::format(
-          "{}: {} triangles ({} degenerate ones dropped), {}, radius {:.6g} m; {} spheres in "
-          "{} levels, {} in {:.1f} ms",
-          ShortHash(hash), shape.mesh().triangles.size(), built.dropped,
-          shape.closed() ? "closed" : "open", shape.facts().radius, shape.tree().nodes.size(),
-          shape.tree().levels, built.from_cache ? "from the cache" : "built",
-          static_cast<double>(built.microseconds) / 1000));
+      fmt::format("{}: {}; {} spheres in {} levels, {} in {:.1f} ms{}", ShortHash(hash), what,
+                  shape.tree().nodes.size(), shape.tree().levels,
+                  built.from_cache ? "from the cache" : "built",
+                  static_cast<double>(built.microseconds) / 1000,
+                  built.coarse ? "; coarse, a finer tree follows" : ""));
 }
 
 }  // namespace
@@ -50,7 +64,7 @@ void Intake::TakeShapeRemoval(const v1::Input& input) {
 
 void Intake::TakeShapeReady(const v1::ShapeReady& message) {
   const std::string& hash = message.content_hash();
-  const std::optional<ReadyShape> ready = shapes_.MakeVisible(hash);
+  const std::optional<ReadyShape> ready = shapes_.MakeVisible({hash, message.coarse()});
   if (!ready) return;
   if (!ready->built.shape) {
     for (const std::uint64_t owner : ready->owners) {
@@ -61,12 +75,14 @@ void Intake::TakeShapeReady(const v1::ShapeReady& message) {
     }
     return;
   }
-  TellShape(hash, ready->built);
+  TellShape(hash, *ready);
   for (const auto& [id, slot] : ready->users) {
     Simulator* simulator = world_.Find(id);
     if (simulator == nullptr || !simulator->slots.contains(slot)) continue;
     if (!simulator->slots[slot].agent) continue;
     Agent& agent = *simulator->slots[slot].agent;
+    // Whom the shape did not fit has been told so.
+    if (ready->refined && !agent.declaration.shape) continue;
     GiveShape(simulator, slot, &agent);
     if (agent.admitted) {
       detector_.Redeclare(simulator->IdOf(slot, agent.generation), agent.declaration,

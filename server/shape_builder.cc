@@ -5,44 +5,59 @@
 #include <stdexcept>
 #include <utility>
 
-#include "idl/shape_bytes.h"
+#include "server/shape_decoding.h"
 
 namespace collision::server {
 namespace {
 
-TriangleMesh MeshOf(const ShapeContent& content) {
-  TriangleMesh mesh;
-  mesh.vertices.reserve(content.vertices.size());
-  for (const auto& [x, y, z] : content.vertices) mesh.vertices.emplace_back(x, y, z);
-  mesh.triangles.assign(content.triangles.begin(), content.triangles.end());
-  return mesh;
-}
-
-/// The mesh, or why there is none. What it was made from is gone afterwards: shapes are large.
-std::optional<TriangleMesh> Decode(std::string bytes, std::string* refusal) {
-  const std::optional<ShapeContent> content = DecodeShape(bytes, refusal);
-  if (!content) return std::nullopt;
-  if (!content->solids.empty()) {
-    // Left out, they would be contacts that nobody hears of.
-    *refusal =
-        std::to_string(content->solids.size()) + " convex solids; allowed: 0, triangles only";
-    return std::nullopt;
+class Stopwatch {
+ public:
+  std::int64_t microseconds() const {
+    const auto passed = std::chrono::steady_clock::now() - start_;
+    return std::chrono::duration_cast<std::chrono::microseconds>(passed).count();
   }
-  return MeshOf(*content);
+
+ private:
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// With the wanted tree, kept for the next time.
+std::shared_ptr<const Shape> BuildSurface(const std::string& hash, TriangleMesh mesh,
+                                          const BuildOptions& options, const Shape* twin) {
+  auto surface = Shape::Build(std::move(mesh), options.tree, twin);
+  if (options.cache) options.cache->Store(hash, surface->tree());
+  return surface;
 }
 
 /// Read or built: the same tree.
-void GiveTree(const std::string& hash, TriangleMesh mesh, const BuildOptions& options,
-              BuiltShape* built) {
+std::shared_ptr<const Shape> SurfaceOf(const std::string& hash, TriangleMesh mesh, bool may_wait,
+                                       const BuildOptions& options, BuiltShape* built) {
   std::optional<SphereTree> cached;
   if (options.cache) cached = options.cache->Load(hash, mesh);
   built->from_cache = cached.has_value();
-  if (cached) {
-    built->shape = Shape::FromTree(std::move(mesh), std::move(*cached));
-    return;
+  if (cached) return Shape::FromTree(std::move(mesh), std::move(*cached));
+  built->coarse = !may_wait && mesh.triangles.size() > kCoarseFirstTriangles;
+  if (built->coarse) return Shape::Build(std::move(mesh), kCoarseTree);
+  return BuildSurface(hash, std::move(mesh), options, nullptr);
+}
+
+/// `may_wait`: for the wanted tree.
+BuiltShape Build(const std::string& hash, std::string bytes, bool may_wait,
+                 const BuildOptions& options) {
+  const Stopwatch stopwatch;
+  BuiltShape built;
+  std::optional<DecodedShape> decoded =
+      DecodeAndCheck(std::move(bytes), options.triangles_max, &built.refusal);
+  if (!decoded) return built;
+  built.dropped = decoded->dropped;
+  if (!decoded->mesh.triangles.empty()) {
+    built.shape = SurfaceOf(hash, std::move(decoded->mesh), may_wait, options, &built);
   }
-  built->shape = Shape::Build(std::move(mesh), options.tree);
-  if (options.cache) options.cache->Store(hash, built->shape->tree());
+  if (!decoded->solids.empty()) {
+    built.shape = Shape::Compound(std::move(built.shape), std::move(decoded->solids));
+  }
+  built.microseconds = stopwatch.microseconds();
+  return built;
 }
 
 }  // namespace
@@ -54,47 +69,57 @@ BuildOptions BuildOptionsOf(const v1::Config& complete) {
 }
 
 BuiltShape BuildShape(const std::string& hash, std::string bytes, const BuildOptions& options) {
-  const auto start = std::chrono::steady_clock::now();
+  return Build(hash, std::move(bytes), true, options);
+}
+
+BuiltShape BuildFirst(const std::string& hash, std::string bytes, const BuildOptions& options) {
+  return Build(hash, std::move(bytes), false, options);
+}
+
+BuiltShape Refine(const std::string& hash, const Shape& coarse, const BuildOptions& options) {
+  const Stopwatch stopwatch;
   BuiltShape built;
-  std::optional<TriangleMesh> mesh = Decode(std::move(bytes), &built.refusal);
-  if (!mesh) return built;
-  if (auto refusal = RefusalOf(*mesh, options.triangles_max)) {
-    built.refusal = std::move(*refusal);
-    return built;
-  }
-  const std::size_t triangles = mesh->triangles.size();
-  built.dropped = DropDegenerate(&*mesh);
-  if (mesh->triangles.empty()) {
-    built.refusal = "all of its " + std::to_string(triangles) +
-                    " triangles are degenerate; at least 1 with an area is needed";
-    return built;
-  }
-  GiveTree(hash, std::move(*mesh), options, &built);
-  built.microseconds = std::chrono::duration_cast<std::chrono::microseconds>(
-                           std::chrono::steady_clock::now() - start)
-                           .count();
+  const bool compound = !coarse.solids().empty();
+  built.shape = BuildSurface(hash, coarse.mesh(), options, compound ? nullptr : &coarse);
+  if (compound) built.shape = Shape::Compound(std::move(built.shape), coarse.solids(), &coarse);
+  built.microseconds = stopwatch.microseconds();
   return built;
 }
 
 void InlineShapeBuilder::Start(const std::string& hash, std::string bytes) {
-  started_[hash] = std::move(bytes);
-  finished_.push_back(hash);
+  started_[hash] = {.bytes = std::move(bytes), .coarse = nullptr};
+  finished_.push_back({hash});
 }
 
-std::vector<std::string> InlineShapeBuilder::TakeFinished() { return std::exchange(finished_, {}); }
+std::vector<ReadyTree> InlineShapeBuilder::TakeFinished() { return std::exchange(finished_, {}); }
 
-BuiltShape InlineShapeBuilder::Await(const std::string& hash) {
-  auto started = started_.extract(hash);
-  if (started.empty()) throw std::logic_error("a shape is awaited that was not started");
-  std::erase(finished_, hash);
-  BuiltShape built = BuildShape(hash, std::move(started.mapped()), options_);
+BuiltShape InlineShapeBuilder::Await(const ReadyTree& tree) {
+  const auto started = started_.find(tree.hash);
+  if (started == started_.end()) {
+    throw std::logic_error("a shape is awaited that was not started");
+  }
+  std::erase(finished_, ReadyTree{tree.hash});
+  Job& job = started->second;
+  BuiltShape built;
+  if (job.coarse) {
+    built = Refine(tree.hash, *job.coarse, options_);
+  } else if (tree.coarse) {
+    built = BuildFirst(tree.hash, std::move(job.bytes), options_);
+  } else {
+    built = BuildShape(tree.hash, std::move(job.bytes), options_);
+  }
   microseconds_ += static_cast<std::uint64_t>(built.microseconds);
+  if (built.coarse) {
+    job = {.bytes = {}, .coarse = built.shape};
+  } else {
+    started_.erase(started);
+  }
   return built;
 }
 
 void InlineShapeBuilder::Forget(const std::string& hash) {
   started_.erase(hash);
-  std::erase(finished_, hash);
+  std::erase(finished_, ReadyTree{hash});
 }
 
 ShapeBuilderCounters InlineShapeBuilder::counters() const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "server/codec.h"
+#include "server/shape_decoding.h"
 
 namespace collision::server {
 namespace {
@@ -15,9 +16,17 @@ constexpr std::uint64_t kRefusedPartsMax = 65536;
 /// Of a mesh whose triangles share no vertex.
 constexpr std::uint64_t kBytesPerTriangleMax = 3 * kShapeVertexBytes + kShapeTriangleBytes;
 
-/// In both layouts.
+/// Of what comes on top of the mesh, which is counted like the bytes that brought it.
 std::size_t TreeBytesOf(const Shape& shape) {
-  return shape.tree().bytes() + shape.packed().bytes();
+  const TriangleMesh& mesh = shape.mesh();
+  return shape.bytes() - mesh.vertices.capacity() * sizeof mesh.vertices[0] -
+         mesh.triangles.capacity() * sizeof mesh.triangles[0];
+}
+
+/// Beyond, it has too many triangles, solids or points of solids for certain.
+std::uint64_t ShapeBytesMax(std::uint64_t triangles_max) {
+  return kShapeHeaderBytes + kBytesPerTriangleMax * triangles_max + kSolidHeaderBytes +
+         kSolidBytes * kSolidsMax + kShapeVertexBytes * kSolidPointsMax;
 }
 
 Refusal BadShape(const v1::ShapePart& part, const char* field, std::string what) {
@@ -91,8 +100,7 @@ std::optional<Refusal> ShapeStore::TakeUnknown(const v1::ShapePart& part) {
 /// Makes room for a shape of which this is the first part. What is too large is noted as refused, so
 /// that its other parts are not told one by one.
 std::optional<Refusal> ShapeStore::Begin(const v1::ShapePart& part) {
-  const std::uint64_t bytes_max =
-      std::min(bytes_max_, kShapeHeaderBytes + kBytesPerTriangleMax * triangles_max_);
+  const std::uint64_t bytes_max = std::min(bytes_max_, ShapeBytesMax(triangles_max_));
   if (shapes_.size() + gatherings_.size() >= shapes_max_) {
     ++counters_.refused;
     return BadShape(
@@ -101,11 +109,11 @@ std::optional<Refusal> ShapeStore::Begin(const v1::ShapePart& part) {
   }
   std::optional<Refusal> refusal;
   if (part.total_bytes() > bytes_max) {
-    refusal =
-        BadShape(part, "total_bytes",
-                 fmt::format("{}; allowed: {} to {} ({} triangles, shape_triangles_max, and no "
-                             "more than shape_bytes_max)",
-                             part.total_bytes(), kShapeHeaderBytes, bytes_max, triangles_max_));
+    refusal = BadShape(
+        part, "total_bytes",
+        fmt::format("{}; allowed: {} to {} ({} triangles, shape_triangles_max, and the most "
+                    "that solids take, but no more than shape_bytes_max)",
+                    part.total_bytes(), kShapeHeaderBytes, bytes_max, triangles_max_));
   }
   if (refusal && part.parts() > kRefusedPartsMax) {
     ++counters_.refused;
@@ -218,28 +226,41 @@ void ShapeStore::FreeIfUnwanted(const std::string& hash) {
   const auto known = shapes_.find(hash);
   if (known == shapes_.end() || !known->second.owners.empty() || users_.contains(hash)) return;
   bytes_ -= known->second.bytes;
-  if (const auto& shape = known->second.shape) {
-    --counters_.visible;
-    counters_.tree_nodes -= shape->tree().nodes.size();
-    counters_.tree_bytes -= TreeBytesOf(*shape);
-  } else {
-    builder_.Forget(hash);
-  }
+  if (!known->second.shape || known->second.coarse) builder_.Forget(hash);
+  SetShape(nullptr, false, &known->second);
   shapes_.erase(known);
 }
 
-std::optional<ReadyShape> ShapeStore::MakeVisible(const std::string& hash) {
-  const auto known = shapes_.find(hash);
-  if (known == shapes_.end() || known->second.shape) return std::nullopt;
-  ReadyShape ready{.built = builder_.Await(hash), .owners = {}, .users = {}};
+/// In place of what was there, null for nothing; counted.
+void ShapeStore::SetShape(std::shared_ptr<const Shape> shape, bool coarse, Known* known) {
+  if (known->shape) {
+    --counters_.visible;
+    counters_.coarse -= known->coarse;
+    counters_.tree_nodes -= known->shape->tree().nodes.size();
+    counters_.tree_bytes -= TreeBytesOf(*known->shape);
+  }
+  known->shape = std::move(shape);
+  known->coarse = coarse;
+  if (known->shape) {
+    ++counters_.visible;
+    counters_.coarse += known->coarse;
+    counters_.tree_nodes += known->shape->tree().nodes.size();
+    counters_.tree_bytes += TreeBytesOf(*known->shape);
+  }
+}
+
+std::optional<ReadyShape> ShapeStore::MakeVisible(const ReadyTree& tree) {
+  const auto known = shapes_.find(tree.hash);
+  if (known == shapes_.end()) return std::nullopt;
+  const bool refined = known->second.shape != nullptr;
+  if (refined && (tree.coarse || !known->second.coarse)) return std::nullopt;
+  ReadyShape ready{.built = builder_.Await(tree), .refined = refined, .owners = {}, .users = {}};
   for (const auto& [owner, parts] : known->second.owners) ready.owners.push_back(owner);
-  if (const auto users = users_.find(hash); users != users_.end()) {
+  if (const auto users = users_.find(tree.hash); users != users_.end()) {
     ready.users.assign(users->second.begin(), users->second.end());
   }
-  if (const auto& shape = known->second.shape = ready.built.shape) {
-    ++counters_.visible;
-    counters_.tree_nodes += shape->tree().nodes.size();
-    counters_.tree_bytes += TreeBytesOf(*shape);
+  if (ready.built.shape) {
+    SetShape(ready.built.shape, ready.built.coarse, &known->second);
   } else {
     ++counters_.refused;
     bytes_ -= known->second.bytes;

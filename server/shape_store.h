@@ -23,6 +23,7 @@ using ShapeUser = std::pair<std::uint64_t, std::uint32_t>;
 /// What became visible, or did not, and whom it concerns.
 struct ReadyShape {
   BuiltShape built;
+  bool refined = false;               ///< It was visible before, with its coarse tree.
   std::vector<std::uint64_t> owners;  ///< Simulators that wrote it.
   std::vector<ShapeUser> users;
 };
@@ -38,10 +39,11 @@ struct ShapeCounters {
   std::uint64_t parts_received = 0;
   std::uint64_t refused = 0;  ///< Shapes, not parts.
   std::uint64_t visible = 0;
+  std::uint64_t coarse = 0;     ///< Of these: whose wanted tree is not ready.
   std::uint64_t gathering = 0;  ///< Not whole yet.
   std::uint64_t bytes = 0;      ///< As shape_bytes_max counts them.
   std::uint64_t tree_nodes = 0;
-  std::uint64_t tree_bytes = 0;
+  std::uint64_t tree_bytes = 0;  ///< Of trees, in both layouts, and of solids.
   ShapeBuilderCounters builder;
 };
 
@@ -69,9 +71,10 @@ class ShapeStore {
   void AddUser(const std::string& hash, ShapeUser user) { users_[hash].insert(user); }
   void RemoveUser(const std::string& hash, ShapeUser user);
 
-  /// Makes a shape visible whose tree is ready; waits for it if this is a replay. nullopt: nobody
-  /// wants it any more, or it is visible already.
-  std::optional<ReadyShape> MakeVisible(const std::string& hash);
+  /// Makes a shape visible whose tree is ready, or gives it its wanted tree in place of the coarse
+  /// one; waits for it if this is a replay. nullopt: nobody wants it any more, or it is there
+  /// already.
+  std::optional<ReadyShape> MakeVisible(const ReadyTree& tree);
 
   /// Null: not visible.
   std::shared_ptr<const Shape> Find(const std::string& hash) const;
@@ -90,6 +93,7 @@ class ShapeStore {
     std::uint64_t bytes = 0;                  ///< As it travels; its mesh takes as much.
     std::map<std::uint64_t, PartSet> owners;  ///< And which parts they have not disposed of.
     std::shared_ptr<const Shape> shape;       ///< Null: being built.
+    bool coarse = false;                      ///< A better tree of it is being built.
   };
   using Key = std::pair<std::string, std::uint64_t>;  ///< Hash, simulator.
   using Gatherings = std::map<Key, ShapeGathering>;
@@ -102,6 +106,7 @@ class ShapeStore {
   void Refuse(ShapeGathering* gathering);
   void Forget(Gatherings::iterator gathering);
   void FreeIfUnwanted(const std::string& hash);
+  void SetShape(std::shared_ptr<const Shape> shape, bool coarse, Known* known);
 
   const std::uint64_t triangles_max_;
   const std::uint64_t shapes_max_;

@@ -82,6 +82,7 @@ void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
   Count("shape_bytes", shapes.bytes, status);
   Count("tree_nodes", shapes.tree_nodes, status);
   Count("tree_bytes", shapes.tree_bytes, status);
+  Count("trees_coarse", shapes.coarse, status);
   Count("tree_build_us", shapes.builder.microseconds, status);
   Count("trees_building", shapes.builder.building, status);
   const TreeCacheCounters& cache = shapes.builder.cache;

@@ -8,7 +8,9 @@
 #include <list>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace collision::server {
@@ -20,14 +22,23 @@ constexpr std::chrono::milliseconds kEndPatience{200};
 /// A shape of so many bytes, some 10,000 triangles, is built within a second or two.
 constexpr std::size_t kSmallBytes = 250'000;
 
+constexpr std::size_t kAnyBytes = std::numeric_limits<std::size_t>::max();
+
 }  // namespace
+
+struct ThreadedShapeBuilder::Limits {
+  std::size_t bytes_max;
+  bool refines;
+};
 
 struct ThreadedShapeBuilder::Shared {
   struct Job {
     std::string hash;
     std::string bytes;  ///< Until it is begun.
-    BuiltShape built;
-    bool done = false;
+    std::size_t size = 0;
+    std::shared_ptr<const Shape> refining;  ///< With the coarse tree, from then on.
+    std::optional<BuiltShape> coarse;       ///< Finished, and neither handed out nor outdone.
+    std::optional<BuiltShape> whole;        ///< Finished.
   };
 
   BuildOptions options;
@@ -37,7 +48,7 @@ struct ThreadedShapeBuilder::Shared {
   std::function<void()> on_finished;
   std::map<std::string, std::shared_ptr<Job>> jobs;  ///< Neither forgotten nor handed out.
   std::list<std::shared_ptr<Job>> waiting;           ///< In the order of their start.
-  std::vector<std::string> finished;
+  std::vector<ReadyTree> finished;
   std::uint64_t microseconds = 0;
   bool stopped = false;
   int working = 0;  ///< Workers that have not ended.
@@ -48,15 +59,44 @@ struct ThreadedShapeBuilder::Shared {
     return found != jobs.end() && found->second.get() == &job;
   }
 
-  /// The smallest that waits, of equal ones the first, if it is no larger; null: none.
-  std::shared_ptr<Job> TakeWaiting(std::size_t bytes_max) {
-    const auto smallest = std::min_element(
-        waiting.begin(), waiting.end(),
-        [](const auto& a, const auto& b) { return a->bytes.size() < b->bytes.size(); });
-    if (smallest == waiting.end() || (*smallest)->bytes.size() > bytes_max) return nullptr;
-    std::shared_ptr<Job> job = std::move(*smallest);
-    waiting.erase(smallest);
+  /// Of those within the limits the smallest whose first tree waits, else the smallest that is to be
+  /// refined; of equal ones the first. Null: none.
+  std::shared_ptr<Job> TakeWaiting(const Limits& limits) {
+    const auto order = [&limits](const Job& job) {
+      const bool refine = job.refining != nullptr;
+      const bool taken = job.size <= limits.bytes_max && (!refine || limits.refines);
+      return std::tuple(!taken, refine, job.size);
+    };
+    const auto next =
+        std::min_element(waiting.begin(), waiting.end(),
+                         [&](const auto& a, const auto& b) { return order(*a) < order(*b); });
+    if (next == waiting.end() || std::get<0>(order(**next))) return nullptr;
+    std::shared_ptr<Job> job = std::move(*next);
+    waiting.erase(next);
     return job;
+  }
+
+  void Remove(const std::string& hash) {
+    std::erase_if(finished, [&hash](const ReadyTree& tree) { return tree.hash == hash; });
+    jobs.erase(hash);
+  }
+
+  /// Whoever takes what is finished next gets the better of two trees.
+  void Finish(const std::shared_ptr<Job>& job, BuiltShape built) {
+    const ReadyTree coarse{job->hash, true};
+    if (built.coarse) {
+      job->refining = built.shape;
+      job->coarse = std::move(built);
+      finished.push_back(coarse);
+      waiting.push_back(job);
+    } else {
+      if (std::erase(finished, coarse) > 0) job->coarse.reset();
+      job->refining.reset();
+      job->whole = std::move(built);
+      finished.push_back({job->hash});
+    }
+    changed.notify_all();
+    if (on_finished) on_finished();
   }
 };
 
@@ -64,9 +104,9 @@ ThreadedShapeBuilder::ThreadedShapeBuilder(BuildOptions options, std::function<v
     : shared_(std::make_shared<Shared>()) {
   shared_->options = std::move(options);
   shared_->on_finished = std::move(on_finished);
-  const std::size_t limits[] = {std::numeric_limits<std::size_t>::max(), kSmallBytes};
-  shared_->working = static_cast<int>(std::size(limits));
-  for (const std::size_t bytes_max : limits) workers_.emplace_back(Work, shared_, bytes_max);
+  const Limits all[] = {{kAnyBytes, true}, {kAnyBytes, false}, {kSmallBytes, true}};
+  shared_->working = static_cast<int>(std::size(all));
+  for (const Limits& limits : all) workers_.emplace_back(Work, shared_, limits);
 }
 
 ThreadedShapeBuilder::~ThreadedShapeBuilder() {
@@ -80,27 +120,24 @@ ThreadedShapeBuilder::~ThreadedShapeBuilder() {
   for (std::thread& worker : workers_) ended ? worker.join() : worker.detach();
 }
 
-void ThreadedShapeBuilder::Work(std::shared_ptr<Shared> shared, std::size_t bytes_max) {
+void ThreadedShapeBuilder::Work(std::shared_ptr<Shared> shared, const Limits& limits) {
   std::unique_lock lock(shared->mutex);
   for (;;) {
     std::shared_ptr<Shared::Job> job;
     shared->changed.wait(lock, [&] {
-      if (!shared->stopped) job = shared->TakeWaiting(bytes_max);
+      if (!shared->stopped) job = shared->TakeWaiting(limits);
       return shared->stopped || job != nullptr;
     });
     if (shared->stopped) break;
     if (!shared->Wanted(*job)) continue;
     std::string bytes = std::move(job->bytes);
+    const std::shared_ptr<const Shape> coarse = job->refining;
     lock.unlock();
-    BuiltShape built = BuildShape(job->hash, std::move(bytes), shared->options);
+    BuiltShape built = coarse ? Refine(job->hash, *coarse, shared->options)
+                              : BuildFirst(job->hash, std::move(bytes), shared->options);
     lock.lock();
     shared->microseconds += static_cast<std::uint64_t>(built.microseconds);
-    if (!shared->Wanted(*job)) continue;
-    job->built = std::move(built);
-    job->done = true;
-    shared->finished.push_back(job->hash);
-    shared->changed.notify_all();
-    if (shared->on_finished) shared->on_finished();
+    if (shared->Wanted(*job)) shared->Finish(job, std::move(built));
   }
   --shared->working;
   shared->changed.notify_all();
@@ -110,6 +147,7 @@ void ThreadedShapeBuilder::Start(const std::string& hash, std::string bytes) {
   auto job = std::make_shared<Shared::Job>();
   job->hash = hash;
   job->bytes = std::move(bytes);
+  job->size = job->bytes.size();
   const std::lock_guard lock(shared_->mutex);
   shared_->jobs[hash] = job;
   shared_->waiting.push_back(std::move(job));
@@ -121,30 +159,35 @@ bool ThreadedShapeBuilder::has_finished() const {
   return !shared_->finished.empty();
 }
 
-std::vector<std::string> ThreadedShapeBuilder::TakeFinished() {
+std::vector<ReadyTree> ThreadedShapeBuilder::TakeFinished() {
   const std::lock_guard lock(shared_->mutex);
   return std::exchange(shared_->finished, {});
 }
 
-BuiltShape ThreadedShapeBuilder::Await(const std::string& hash) {
+BuiltShape ThreadedShapeBuilder::Await(const ReadyTree& tree) {
   std::unique_lock lock(shared_->mutex);
-  const auto found = shared_->jobs.find(hash);
+  const auto found = shared_->jobs.find(tree.hash);
   if (found == shared_->jobs.end()) {
     throw std::logic_error("a shape is awaited that was not started");
   }
   const std::shared_ptr<Shared::Job> job = found->second;
-  shared_->changed.wait(lock, [&job] { return job->done; });
-  std::erase(shared_->finished, hash);
-  shared_->jobs.erase(hash);
-  return std::move(job->built);
+  shared_->changed.wait(lock, [&] { return job->whole || (tree.coarse && job->coarse); });
+  const bool coarse = tree.coarse && job->coarse;
+  BuiltShape built = std::move(coarse ? *job->coarse : *job->whole);
+  if (coarse) {
+    std::erase(shared_->finished, tree);
+    job->coarse.reset();
+  } else {
+    shared_->Remove(tree.hash);
+  }
+  return built;
 }
 
 void ThreadedShapeBuilder::Forget(const std::string& hash) {
   const std::lock_guard lock(shared_->mutex);
-  // Bytes that wait for the worker are memory too.
+  // Bytes that wait for a worker are memory too.
   std::erase_if(shared_->waiting, [&hash](const auto& job) { return job->hash == hash; });
-  std::erase(shared_->finished, hash);
-  shared_->jobs.erase(hash);
+  shared_->Remove(hash);
 }
 
 ShapeBuilderCounters ThreadedShapeBuilder::counters() const {
@@ -152,7 +195,7 @@ ShapeBuilderCounters ThreadedShapeBuilder::counters() const {
   if (shared_->options.cache) counters.cache = shared_->options.cache->counters();
   const std::lock_guard lock(shared_->mutex);
   counters.microseconds = shared_->microseconds;
-  for (const auto& [hash, job] : shared_->jobs) counters.building += job->done ? 0 : 1;
+  for (const auto& [hash, job] : shared_->jobs) counters.building += job->whole ? 0 : 1;
   return counters;
 }
 

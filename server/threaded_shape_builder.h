@@ -11,8 +11,9 @@
 
 namespace collision::server {
 
-/// One worker builds whatever waits, the smallest shape first; another one small shapes only, so that
-/// no ship waits for minutes because somebody's landscape is being built.
+/// First trees before those that refine them, small shapes before large ones. One worker builds
+/// whatever waits; another one first trees only, and a third small shapes only: no landscape waits
+/// for its first tree because another one is being refined, and no ship for either.
 class ThreadedShapeBuilder final : public ShapeBuilder {
  public:
   /// `on_finished` is called from a worker, after has_finished() has become true: it wakes whoever
@@ -27,15 +28,18 @@ class ThreadedShapeBuilder final : public ShapeBuilder {
 
   void Start(const std::string& hash, std::string bytes) override;
   bool has_finished() const override;
-  std::vector<std::string> TakeFinished() override;
-  BuiltShape Await(const std::string& hash) override;
+  std::vector<ReadyTree> TakeFinished() override;
+  BuiltShape Await(const ReadyTree& tree) override;
   void Forget(const std::string& hash) override;
   ShapeBuilderCounters counters() const override;
 
  private:
   struct Shared;
 
-  static void Work(std::shared_ptr<Shared> shared, std::size_t bytes_max);
+  /// What a worker takes.
+  struct Limits;
+
+  static void Work(std::shared_ptr<Shared> shared, const Limits& limits);
 
   const std::shared_ptr<Shared> shared_;  ///< With the workers, who may outlive this.
   std::vector<std::thread> workers_;

@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
   if (app.count("--box") == 0) options.limits.box_m = BoxFor(options.first + options.drones);
   CatchStopSignals();
   return RunProgram("drone-ships", [&] {
-    options.shape = LoadMesh(mesh);
+    options.shape = LoadAgentShape(mesh);
     return Run(simulator, options);
   });
 }

@@ -1,13 +1,31 @@
 #include "client/simulators/mesh_option.h"
 
 #include <cstdio>
+#include <utility>
 
 #include "client/simulators/command_line.h"
+#include "client/simulators/solid_file.h"
 
 namespace collision::client {
 namespace {
 
 constexpr double kUnitMax = 1e12;  ///< [m]
+
+/// Null without --mesh.
+std::shared_ptr<const Shape> LoadMesh(const MeshOptions& options, bool quiet) {
+  if (options.file.empty()) return nullptr;
+  MeshFileReport report;
+  std::shared_ptr<const Shape> shape;
+  try {
+    shape = LoadShape(options.file, options.frame, &report);
+  } catch (const std::exception& error) {
+    throw BadInput(error.what());
+  }
+  if (quiet) return shape;
+  std::printf("%s\n", report.Text(options.file).c_str());
+  std::fflush(stdout);
+  return shape;
+}
 
 }  // namespace
 
@@ -28,6 +46,9 @@ void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::stri
 void AddMeshOptions(CLI::App* app, MeshOptions* options) {
   auto* mesh = app->add_option("--mesh", options->file, "OBJ, STL, PLY, glTF or GLB to fly");
   AddMeshFrameOptions(app, "--mesh-unit", "--mesh-up", "--mesh-centre", &options->frame);
+  app->add_option(
+      "--solids", options->solids,
+      "Convex solids to fly, with the mesh if there is one: protobuf text (idl/solids.proto)");
   mesh->needs("--mesh-unit");
   mesh->needs("--mesh-up");
   for (const char* name : {"--mesh-unit", "--mesh-up", "--mesh-centre"}) {
@@ -35,17 +56,21 @@ void AddMeshOptions(CLI::App* app, MeshOptions* options) {
   }
 }
 
-std::shared_ptr<const Shape> LoadMesh(const MeshOptions& options, bool quiet) {
-  if (options.file.empty()) return nullptr;
-  MeshFileReport report;
+std::shared_ptr<const Shape> LoadAgentShape(const MeshOptions& options, bool quiet) {
+  const auto mesh = LoadMesh(options, quiet);
+  if (options.solids.empty()) return mesh;
+  Geometry geometry;
+  if (mesh) geometry.triangles = mesh->triangles();
+  geometry.solids = ReadSolids(options.solids);
   std::shared_ptr<const Shape> shape;
   try {
-    shape = LoadShape(options.file, options.frame, &report);
+    shape = Shape::Make(std::move(geometry));
   } catch (const std::exception& error) {
-    throw BadInput(error.what());
+    throw BadInput(options.solids + ": " + error.what());
   }
   if (quiet) return shape;
-  std::printf("%s\n", report.Text(options.file).c_str());
+  std::printf("%s: %zu convex solids, radius with them %.3g m\n", options.solids.c_str(),
+              shape->solids().size(), shape->radius_m());
   std::fflush(stdout);
   return shape;
 }

@@ -3,7 +3,7 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "client/shape.h"
+#include "client/simulators/command_line.h"
 
 namespace collision::client {
 namespace {
@@ -13,6 +13,11 @@ void Write(double number, std::ofstream* file) {
   char text[32] = " ";
   const auto end = std::to_chars(text + 1, text + sizeof text, number).ptr;
   file->write(text, end - text);
+}
+
+template <std::size_t kNumbers>
+void Write(const std::array<double, kNumbers>& numbers, std::ofstream* file) {
+  for (const double number : numbers) Write(number, file);
 }
 
 }  // namespace
@@ -32,33 +37,52 @@ MotionLog::MotionLog(const std::string& path) : path_(path) {
   if (path_.empty()) return;
   file_.open(path_);
   if (!file_) throw std::runtime_error(path_ + ": cannot be created");
-  file_ << "motion-log 2\n";
+  file_ << "motion-log 3\n";
 }
 
-std::string MotionLog::MeshName(const Shape& shape) {
-  const auto [mesh, is_new] =
-      meshes_.try_emplace(shape.hash(), "mesh-" + std::to_string(meshes_.size() + 1));
-  if (!is_new) return mesh->second;
-  const Triangles& triangles = shape.triangles();
-  file_ << "mesh " << mesh->second << ' ' << triangles.vertices_m.size() << ' '
-        << triangles.indices.size();
-  for (const Vector3& vertex : triangles.vertices_m) {
-    for (const double x : vertex) Write(x, &file_);
-  }
+std::string MotionLog::ShapeName(const Shape& shape) {
+  const auto [found, is_new] =
+      shapes_.try_emplace(shape.hash(), "shape-" + std::to_string(shapes_.size() + 1));
+  const std::string& name = found->second;
+  if (!is_new) return name;
+  if (!shape.triangles().indices.empty()) WriteMesh(name, shape.triangles());
+  for (const Solid& solid : shape.solids()) WriteSolid(name, solid);
+  return name;
+}
+
+void MotionLog::WriteMesh(const std::string& name, const Triangles& triangles) {
+  file_ << "mesh " << name << ' ' << triangles.vertices_m.size() << ' ' << triangles.indices.size();
+  for (const Vector3& vertex : triangles.vertices_m) Write(vertex, &file_);
   for (const auto& triangle : triangles.indices) {
     for (const std::uint32_t index : triangle) file_ << ' ' << index;
   }
   file_ << '\n';
-  return mesh->second;
+}
+
+void MotionLog::WriteSolid(const std::string& name, const Solid& solid) {
+  if (solid.kind == Solid::Kind::kEllipsoid) {
+    throw BadInput(
+        "a motion log cannot hold an ellipsoid: the checker knows balls, "
+        "capsules, boxes and hulls");
+  }
+  file_ << "solid " << name << ' ' << Name(solid.kind);
+  Write(solid.rounding_m, &file_);
+  Write(solid.position_m, &file_);
+  Write(solid.orientation, &file_);
+  if (solid.kind == Solid::Kind::kCapsule) Write(solid.half_extents_m[2], &file_);
+  if (solid.kind == Solid::Kind::kBox) Write(solid.half_extents_m, &file_);
+  if (solid.kind == Solid::Kind::kHull) file_ << ' ' << solid.points_m.size();
+  for (const Vector3& point : solid.points_m) Write(point, &file_);
+  file_ << '\n';
 }
 
 void MotionLog::Agent(const std::string& name, double radius_m,
                       const std::shared_ptr<const Shape>& shape) {
   if (path_.empty()) return;
-  const std::string mesh = shape ? " " + MeshName(*shape) : "";
+  const std::string suffix = shape ? " " + ShapeName(*shape) : "";
   file_ << "agent " << name;
   Write(radius_m, &file_);
-  file_ << mesh << '\n';
+  file_ << suffix << '\n';
 }
 
 void MotionLog::Piece(const std::string& name, const MotionPiece& piece) {

@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "client/types.h"
+#include "client/shape.h"
 
 namespace collision::client {
 
@@ -45,7 +45,7 @@ class MotionLog {
   explicit MotionLog(const std::string& path);
 
   /// Without a shape the agent is a ball. A shape is written down before the first agent that has
-  /// it.
+  /// it. Throws BadInput (command_line.h) for an ellipsoid: the checker does not know it.
   void Agent(const std::string& name, double radius_m,
              const std::shared_ptr<const Shape>& shape = nullptr);
 
@@ -63,11 +63,13 @@ class MotionLog {
   void Close();
 
  private:
-  std::string MeshName(const Shape& shape);
+  std::string ShapeName(const Shape& shape);
+  void WriteMesh(const std::string& name, const Triangles& triangles);
+  void WriteSolid(const std::string& name, const Solid& solid);
 
   std::string path_;
   std::ofstream file_;
-  std::map<std::string, std::string> meshes_;  // name, by content hash
+  std::map<std::string, std::string> shapes_;  // name, by content hash
 };
 
 }  // namespace collision::client

@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   if (person && app.count("--speed") == 0) simulator.speed = 1;
   CatchStopSignals();
   return RunProgram("spaceship", [&] {
-    options.shape = LoadMesh(mesh, person);
+    options.shape = LoadAgentShape(mesh, person);
     return Run(simulator, options, person);
   });
 }

@@ -89,7 +89,7 @@ void CheckAgents(const Options& options, const CsvRows& file) {
 
 // Each agent has the mesh, within the ball that was asked for or in the smallest one.
 void TakeMesh(Options* options) {
-  options->player.shape = LoadMesh(options->mesh, options->quiet);
+  options->player.shape = LoadAgentShape(options->mesh, options->quiet);
   const bool radius_given = options->player.radius_m >= 0;
   if (options->player.shape && !radius_given) {
     options->player.radius_m = options->player.shape->radius_m();

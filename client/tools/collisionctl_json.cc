@@ -40,6 +40,7 @@ std::string ShapesJson(const WorldView& view) {
     json += "{\"hash\":\"" + HexText(shape.hash) + "\",\"simulator\":" + Json(name) +
             ",\"agents\":" + std::to_string(shape.agents) +
             ",\"triangles\":" + (shape.triangles ? std::to_string(*shape.triangles) : "null") +
+            ",\"solids\":" + (shape.solids ? std::to_string(*shape.solids) : "null") +
             ",\"bytes\":" + std::to_string(shape.bytes) +
             ",\"parts\":" + std::to_string(shape.parts) +
             ",\"parts_seen\":" + std::to_string(shape.parts_seen.size()) + "}";

@@ -125,7 +125,7 @@ Examples:
   collisionctl status                   is it well, who is there, what has been refused
   collisionctl earliest                 who can touch whom first, and not before when
   collisionctl agents                   every agent, and how long it is clear
-  collisionctl shapes                   every mesh: whose, how many triangles, all there?
+  collisionctl shapes                   every shape: whose, triangles and solids, all there?
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
   collisionctl sphere-tree ship.obj     how well a mesh's spheres fit it (no service; see its --help)

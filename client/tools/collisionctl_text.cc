@@ -180,13 +180,14 @@ std::string AgentsPage(const WorldView& view) {
 
 std::string ShapesPage(const WorldView& view) {
   std::vector<std::vector<std::string>> rows = {
-      {"SHAPE", "SIMULATOR", "AGENTS", "TRIANGLES", "BYTES", "PARTS"}};
+      {"SHAPE", "SIMULATOR", "AGENTS", "TRIANGLES", "SOLIDS", "BYTES", "PARTS"}};
   for (const ShapeView& shape : view.Shapes()) {
     const std::string parts =
         std::to_string(shape.parts_seen.size()) + " of " + std::to_string(shape.parts);
     rows.push_back({ShapeText(shape.hash), shape.simulator, std::to_string(shape.agents),
                     shape.triangles ? std::to_string(*shape.triangles) : "-",
-                    std::to_string(shape.bytes), parts});
+                    shape.solids ? std::to_string(*shape.solids) : "-", std::to_string(shape.bytes),
+                    parts});
   }
   return Table(rows);
 }

@@ -5,7 +5,19 @@
 #include <iterator>
 #include <utility>
 
+#include "idl/shape_bytes.h"
+
 namespace collision::client {
+namespace {
+
+/// As u32 in a shape's bytes.
+std::uint32_t NumberAt(const std::string& bytes, std::size_t at) {
+  std::uint32_t number = 0;
+  for (int i = 3; i >= 0; --i) number = number << 8 | static_cast<unsigned char>(bytes[at + i]);
+  return number;
+}
+
+}  // namespace
 
 Monitor::Callbacks WorldView::Callbacks() {
   Monitor::Callbacks callbacks;
@@ -99,18 +111,18 @@ void WorldView::Hear(const v1::AgentRemoval& removal) {
 }
 
 void WorldView::Hear(const v1::ShapePart& part) {
-  constexpr std::size_t kTrianglesAt = 12;  // idl/shape_bytes.h: format, vertices, triangles.
   ShapeView& shape = shapes_[{part.simulator_id(), part.content_hash()}];
   shape.run = std::max(shape.run, part.run());
   shape.bytes = part.total_bytes();
   shape.parts = part.parts();
   shape.parts_seen.insert(part.part());
-  if (part.part() != 0 || part.bytes().size() < kTrianglesAt + 4) return;
-  std::uint32_t triangles = 0;
-  for (int i = 3; i >= 0; --i) {
-    triangles = triangles << 8 | static_cast<unsigned char>(part.bytes()[kTrianglesAt + i]);
-  }
-  shape.triangles = triangles;
+  if (part.part() != 0 || part.bytes().size() < kShapeHeaderBytes) return;
+  // idl/shape_bytes.h: the format, whose last byte is the version; vertices, triangles, solids.
+  constexpr std::size_t kVersionAt = 7, kTrianglesAt = 12, kSolidsAt = 16;
+  const bool has_solids = part.bytes()[kVersionAt] >= 2;
+  if (has_solids && part.bytes().size() < kShapeHeaderBytes + kSolidHeaderBytes) return;
+  shape.triangles = NumberAt(part.bytes(), kTrianglesAt);
+  shape.solids = has_solids ? NumberAt(part.bytes(), kSolidsAt) : 0;
 }
 
 void WorldView::Hear(const v1::AgentStates& states) {

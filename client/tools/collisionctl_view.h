@@ -31,6 +31,7 @@ struct ShapeView {
   std::uint32_t parts = 0;
   std::set<std::uint32_t> parts_seen;
   std::optional<std::uint32_t> triangles;  ///< As its first part says.
+  std::optional<std::uint32_t> solids;     ///< Convex ones; likewise.
 };
 
 /// Takes messages in any order and keeps the newest of each kind. The callbacks refer to the view:

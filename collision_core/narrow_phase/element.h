@@ -15,8 +15,10 @@ inline ConvexSet SetOf(const Surface& surface, std::uint32_t element) {
   return TriangleSet(CornersOf(*shape, element));
 }
 
-/// Whether a convex solid is among them: what only knows triangles has nothing to say then.
+/// Whether a convex solid is among them, or both are balls: what only knows triangles has nothing to
+/// say then.
 inline bool AnySolid(const Surface& a, std::uint32_t of_a, const Surface& b, std::uint32_t of_b) {
+  if (!a.shape() && !b.shape()) return true;
   return (a.shape() && a.shape()->IsSolid(of_a)) || (b.shape() && b.shape()->IsSolid(of_b));
 }
 

@@ -1,5 +1,6 @@
 #include "collision_core/narrow_phase/separation.h"
 
+#include "collision_core/narrow_phase/hull_gap.h"
 #include "collision_core/narrow_phase/separation_search.h"
 
 namespace collision {
@@ -94,6 +95,13 @@ Decision DecideAt(const Surface& a, const Surface& b, const RelativePose& pose, 
   Decision decision;
   if (RootsDecide(a, b, pose, &decision.look)) {
     work->Spend(1);
+    decision.verdict = Verdict::kApart;
+    return decision;
+  }
+  // Convex bodies around them that are apart: so are the bodies, inside and out.
+  const double gap = HullGapOf(a, b, pose, pose.translation, work);
+  if (gap > pose.translation) {
+    decision.look.lower = std::max(decision.look.lower, gap);
     decision.verdict = Verdict::kApart;
     return decision;
   }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/narrow_phase/element.h"
+
 namespace collision {
 namespace {
 
@@ -149,8 +151,7 @@ void SeparationSearch::OpenLeaves(BallPair pair, float limit, Work* work) {
   const std::uint32_t first_b = BallLink::Index(body_b_.LinkOf(pair.b));
   const TriangleBlock* const a = body_a_.tree ? body_a_.tree->blocks() + first_a : nullptr;
   const TriangleBlock* const b = body_b_.tree ? body_b_.tree->blocks() + first_b : nullptr;
-  const bool any_solid =
-      (a && a_.shape()->IsSolid(a->triangle[0])) || (b && b_.shape()->IsSolid(b->triangle[0]));
+  const bool any_solid = AnySolid(a_, a ? a->triangle[0] : 0, b_, b ? b->triangle[0] : 0);
   const std::uint32_t at_once = any_solid ? 1 : kBlockTriangles;
   const auto turns_of = [&](const TriangleBlock* leaf) {
     return leaf ? (leaf->left + at_once - 1) / at_once : 1;

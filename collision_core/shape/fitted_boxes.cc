@@ -14,6 +14,9 @@ using Eigen::Vector3d;
 
 constexpr std::uint32_t kFacesPerLeaf = 4;
 
+/// A square of a height is known to so much, unless the point is far aside.
+constexpr double kFarther = 1 + 1e-9;
+
 /// The weights s, t of the nearest point a + s u + t v of a triangle, for w = p − a (Ericson,
 /// "Real-Time Collision Detection", 2005, section 5.1.5).
 struct Weights {
@@ -56,7 +59,11 @@ void TriangleBoxes::MakeFaces(std::span<const std::uint32_t> triangles, Node* le
   for (const std::uint32_t triangle : triangles) {
     const auto [a, b, c] = CornersOf(triangle);
     const Vector3d u = b - a, v = c - a;
-    faces_.push_back({a, u, v, u.squaredNorm(), u.dot(v), v.squaredNorm(), triangle});
+    const Vector3d across = u.cross(v);
+    const double length = across.norm();
+    const bool is_known = length > 0 && length <= std::numeric_limits<double>::max();
+    const Vector3d normal = is_known ? Vector3d(across / length) : Vector3d(0, 0, 0);
+    faces_.push_back({a, u, v, u.squaredNorm(), u.dot(v), v.squaredNorm(), normal, triangle});
   }
 }
 
@@ -96,6 +103,9 @@ void TriangleBoxes::Divide(std::span<std::uint32_t> triangles) {
 inline void TriangleBoxes::TryFace(const Face& face, const Vector3d& point, double* best2,
                                    NearPoint* best) {
   const Vector3d &u = face.to_second, &v = face.to_third, w = point - face.corner;
+  // The plane alone is farther.
+  const double height = face.normal.dot(w);
+  if (height * height > kFarther * *best2) return;
   const Weights at = NearestOf(face.uu, face.uv, face.vv, u.dot(w), v.dot(w));
   const double square = (w - at.s * u - at.t * v).squaredNorm();
   if (!(square < *best2)) return;

@@ -83,18 +83,20 @@ class TriangleBoxes {
   };
   struct Face {
     Eigen::Vector3d corner, to_second, to_third;
-    double uu, uv, vv;  ///< Products of the two.
+    double uu, uv, vv;       ///< Products of the two.
+    Eigen::Vector3d normal;  ///< Zero: none is known.
     std::uint32_t triangle;
   };
 
   static double SquareTo(const Node& node, const Eigen::Vector3d& p) {
-    double square = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double below = node.lower[axis] - p[axis], above = p[axis] - node.upper[axis];
+    const auto beyond = [](double below, double above) {
       const double most = below > above ? below : above;
-      square += most > 0 ? most * most : 0;
-    }
-    return square;
+      return most > 0 ? most : 0.0;
+    };
+    const double x = beyond(node.lower.x() - p.x(), p.x() - node.upper.x());
+    const double y = beyond(node.lower.y() - p.y(), p.y() - node.upper.y());
+    const double z = beyond(node.lower.z() - p.z(), p.z() - node.upper.z());
+    return (x * x + y * y) + z * z;
   }
 
   template <typename Enter, typename Visit>

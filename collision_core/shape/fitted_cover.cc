@@ -100,30 +100,58 @@ void CoverSearch::FindCandidates(std::span<const std::uint32_t> part) {
 std::size_t CoverSearch::CoverWithin(float overshoot, std::uint32_t count,
                                      std::vector<std::uint32_t>* chosen) {
   const std::size_t words = (samples_ + 63) / 64;
-  bits_.assign(candidates_.size() * words, 0);
+  bits_.resize(candidates_.size() * words);
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    for (std::size_t i = 0; i < samples_; ++i)
-      bits_[k * words + i / 64] |= std::uint64_t{asked_[k * samples_ + i] <= overshoot} << (i % 64);
+    for (std::size_t w = 0; w < words; ++w) {
+      const float* const asked = asked_.data() + k * samples_ + 64 * w;
+      const std::size_t count_here = std::min<std::size_t>(64, samples_ - 64 * w);
+      std::uint64_t word = 0;
+      for (std::size_t i = 0; i < count_here; ++i) {
+        word |= std::uint64_t{asked[i] <= overshoot} << i;
+      }
+      bits_[k * words + w] = word;
+    }
   }
   open_.assign(words, ~std::uint64_t{0});
   if (samples_ % 64 != 0) open_.back() = (std::uint64_t{1} << (samples_ % 64)) - 1;
+  covers_max_.assign(candidates_.size(), samples_);
   std::size_t left = samples_;
   chosen->clear();
   while (left > 0 && chosen->size() < count) {
-    std::size_t most = 0;
-    std::uint32_t best = 0;
-    for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
-      std::size_t covers = 0;
-      for (std::size_t w = 0; w < words; ++w)
-        covers += static_cast<std::size_t>(std::popcount(bits_[k * words + w] & open_[w]));
-      if (covers > most) most = covers, best = k;
-    }
-    if (most == 0) break;
+    const std::uint32_t best = WidestCover(words);
+    const std::size_t most = covers_max_[best];
+    // Neither do the next ones cover more than this.
+    if (most * (count - chosen->size()) < left) break;
     chosen->push_back(best);
     left -= most;
     for (std::size_t w = 0; w < words; ++w) open_[w] &= ~bits_[best * words + w];
   }
   return left;
+}
+
+/// The candidate that covers most of what is open, of equal ones the first. What each covers only
+/// becomes less: those that covered less than the best does now need not be counted again.
+std::uint32_t CoverSearch::WidestCover(std::size_t words) {
+  const auto count = [&](std::uint32_t k) {
+    std::uint32_t covers = 0;
+    for (std::size_t w = 0; w < words; ++w) {
+      covers += static_cast<std::uint32_t>(std::popcount(bits_[k * words + w] & open_[w]));
+    }
+    covers_max_[k] = covers;
+  };
+  const auto widest = std::max_element(covers_max_.begin(), covers_max_.end());
+  auto best = static_cast<std::uint32_t>(widest - covers_max_.begin());
+  count(best);
+  for (std::uint32_t k = 0; k < candidates_.size(); ++k) {
+    const auto is_better = [&] {
+      return covers_max_[k] > covers_max_[best] ||
+             (covers_max_[k] == covers_max_[best] && k < best);
+    };
+    if (!is_better()) continue;
+    count(k);
+    if (is_better()) best = k;
+  }
+  return best;
 }
 
 std::vector<FittedBall> CoverSearch::Choose(std::uint32_t count) {

@@ -56,6 +56,7 @@ class CoverSearch {
   void ImproveFrom(std::vector<FittedBall> balls, std::uint32_t count, double* least,
                    FittedCover* best);
   std::size_t CoverWithin(float overshoot, std::uint32_t count, std::vector<std::uint32_t>* chosen);
+  std::uint32_t WidestCover(std::size_t words);
   void Assign(FittedCover* cover) const;
   void Release(FittedCover* cover) const;
   void Fit(int queries, FittedCover* cover);
@@ -86,6 +87,7 @@ class CoverSearch {
   std::vector<float> asked_;         ///< For each candidate by each sample: the overshoot it asks.
   std::vector<std::uint64_t> bits_;  ///< For each candidate by each sample: within reach?
   std::vector<std::uint64_t> open_;  ///< For each sample: not covered yet.
+  std::vector<std::size_t> covers_max_;  ///< For each candidate: it covers no more of them.
   Points ball_points_;
   std::vector<char> taken_;
   std::vector<float> least_;

@@ -7,6 +7,7 @@
 #include "collision_core/shape/compound_builder.h"
 #include "collision_core/shape/fitted_builder.h"
 #include "collision_core/shape/halved_builder.h"
+#include "collision_core/shape/hull_around.h"
 #include "collision_core/shape/octree_builder.h"
 #include "collision_core/shape/surface_query.h"
 
@@ -52,6 +53,7 @@ std::shared_ptr<const Shape> Shape::Build(TriangleMesh mesh, const ShapeOptions&
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
   shape->packed_ = PackedTree(shape->mesh_, shape->tree_);
+  shape->hull_ = HullAround(shape->mesh_, {});
   return shape;
 }
 
@@ -62,6 +64,7 @@ std::shared_ptr<const Shape> Shape::FromTree(TriangleMesh mesh, SphereTree tree)
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
   shape->packed_ = PackedTree(shape->mesh_, shape->tree_);
+  shape->hull_ = HullAround(shape->mesh_, {});
   return shape;
 }
 
@@ -83,6 +86,7 @@ std::shared_ptr<const Shape> Shape::Compound(std::shared_ptr<const Shape> surfac
   shape->surface_ = std::move(surface);
   shape->solids_ = std::move(solids);
   shape->packed_ = PackedTree(shape->mesh(), shape->tree_);
+  shape->hull_ = HullAround(shape->mesh(), shape->solids_);
   return shape;
 }
 
@@ -106,7 +110,7 @@ std::size_t Shape::bytes() const {
   for (const ConvexSolid& solid : solids_) bytes += solid.bytes();
   return bytes + sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
          mesh_.triangles.capacity() * sizeof(Triangle) + tree_.bytes() + packed_.bytes() +
-         component_points_.capacity() * sizeof(Eigen::Vector3d);
+         hull_.bytes() + component_points_.capacity() * sizeof(Eigen::Vector3d);
 }
 
 }  // namespace collision

@@ -7,6 +7,7 @@
 
 #include "collision_core/numeric/interval.h"
 #include "collision_core/shape/convex_solid.h"
+#include "collision_core/shape/outer_hull.h"
 #include "collision_core/shape/packed_tree.h"
 #include "collision_core/shape/shape_options.h"
 #include "collision_core/shape/sphere_tree.h"
@@ -56,6 +57,8 @@ class Shape {
   const SphereTree& tree() const { return tree_; }
   /// The same tree, for traversals.
   const PackedTree& packed() const { return packed_; }
+  /// A convex body around triangles and solids.
+  const OuterHull& hull() const { return hull_; }
 
   /// Whether the surface bounds a solid: the triangles and all points of winding number other than
   /// zero. Without a surface: true.
@@ -84,6 +87,7 @@ class Shape {
   MeshFacts facts_;
   SphereTree tree_;
   PackedTree packed_;
+  OuterHull hull_;
   std::vector<Eigen::Vector3d> component_points_;
   std::shared_ptr<const char> body_ = std::make_shared<const char>();  ///< One of all twins.
 };

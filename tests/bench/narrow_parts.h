@@ -26,10 +26,14 @@ PlainMesh PlainOf(const TriangleMesh& mesh);
 
 /// Decision, distance and bracket beside the libraries: meshes by gap classes.
 void ContestPart(const NarrowSettings& settings, NarrowReport* report);
+/// Decision and distance of capsules, boxes and hulls: pairs of kinds by gap classes.
+void ConvexPart(const NarrowSettings& settings, NarrowReport* report);
 /// How well the better builder's balls fit, beside the octree's.
 void TreesPart(const NarrowSettings& settings, NarrowReport* report);
 /// How long building takes, beside FCL's.
 void BuildPart(const NarrowSettings& settings, NarrowReport* report);
+/// Many pairs, one budget: the two orders of refinement beside each other.
+void RefinementPart(const NarrowSettings& settings, NarrowReport* report);
 /// By how much a budget is overrun.
 void BudgetPart(const NarrowSettings& settings, NarrowReport* report);
 /// When two bodies begin to touch, where the answer is closed, beside what the libraries say.

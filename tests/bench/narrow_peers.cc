@@ -1,4 +1,5 @@
 #include "tests/bench/narrow_contact_case.h"
+#include "tests/bench/narrow_convex.h"
 #include "tests/bench/narrow_query.h"
 
 namespace collision::bench {
@@ -37,6 +38,18 @@ NarrowQueries PeerQueries(const PlainMesh& mesh) {
   Append(CgalQueries(mesh), &queries);
 #endif
   Append(BspQueries(mesh), &queries);
+  return queries;
+}
+
+NarrowQueries ConvexPeerQueries([[maybe_unused]] const PlainConvex& a,
+                                [[maybe_unused]] const PlainConvex& b) {
+  NarrowQueries queries;
+#ifdef COLLISION_HAS_FCL
+  Append(FclConvexQueries(a, b), &queries);
+#endif
+#ifdef COLLISION_HAS_BULLET
+  Append(BulletConvexQueries(a, b), &queries);
+#endif
   return queries;
 }
 

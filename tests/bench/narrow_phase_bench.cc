@@ -25,8 +25,10 @@ int main(int count, char** arguments) {
   }
   NarrowReport report;
   ContestPart(settings, &report);
+  ConvexPart(settings, &report);
   TreesPart(settings, &report);
   BuildPart(settings, &report);
+  RefinementPart(settings, &report);
   BudgetPart(settings, &report);
   ContactCasesPart(settings, &report);
   ContactPart(settings, &report);

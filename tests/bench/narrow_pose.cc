@@ -35,8 +35,8 @@ PlainPose PlainOf(const Eigen::Matrix3d& rotation, const Eigen::Vector3d& offset
 
 class Sampler {
  public:
-  Sampler(std::shared_ptr<const Shape> shape, double diameter, std::uint64_t seed)
-      : body_(BodyOf(std::move(shape))), surface_(body_), diameter_(diameter), random_(seed) {}
+  Sampler(PairOracle oracle, double diameter, std::uint64_t seed)
+      : oracle_(std::move(oracle)), diameter_(diameter), random_(seed) {}
 
   std::optional<PlainPose> Draw(const GapClass& gap) {
     rotation_ = RandomRotation(random_);
@@ -51,28 +51,17 @@ class Sampler {
  private:
   RelativePose At(double along) const { return collision::PoseOf(rotation_, along * direction_); }
 
-  bool Touch(double along) const {
-    Work work(kUnlimited);
-    return DecideAt(surface_, surface_, At(along), &work).verdict == Verdict::kTouching;
-  }
-
-  Look Distance(double along, double width) const {
-    Work work(kUnlimited);
-    return BracketAt(surface_, surface_, At(along), width, 0, &work);
-  }
+  bool Touch(double along) const { return oracle_.decide(At(along)) == Verdict::kTouching; }
 
   std::optional<PlainPose> Gap(double wanted) const {
     const double close = 0.1 * kGapTolerance * wanted;
     const auto along =
-        Boundary(close, [&](double at) { return Distance(at, close).upper <= wanted; });
+        Boundary(close, [&](double at) { return oracle_.distance(At(at), close).upper <= wanted; });
     if (!along) return std::nullopt;
-    const Look look = Distance(*along, close);
+    const Interval distance = oracle_.distance(At(*along), close);
     const double off = kGapTolerance * wanted;
-    if (look.lower < wanted - off || look.upper > wanted + off) return std::nullopt;
-    Work work(kUnlimited);
-    if (DecideAt(surface_, surface_, At(*along), &work).verdict != Verdict::kApart) {
-      return std::nullopt;
-    }
+    if (distance.lower < wanted - off || distance.upper > wanted + off) return std::nullopt;
+    if (oracle_.decide(At(*along)) != Verdict::kApart) return std::nullopt;
     return PlainOf(rotation_, *along * direction_);
   }
 
@@ -88,8 +77,7 @@ class Sampler {
     return far;
   }
 
-  const BodySegment body_;
-  const Surface surface_;
+  const PairOracle oracle_;
   const double diameter_;
   Random random_;
   Eigen::Matrix3d rotation_;
@@ -121,7 +109,23 @@ BodySegment BodyOf(std::shared_ptr<const Shape> shape) {
 
 PoseSample SamplePoses(std::shared_ptr<const Shape> shape, double diameter, const GapClass& gap,
                        std::size_t count, std::uint64_t seed) {
-  Sampler sampler(std::move(shape), diameter, seed);
+  const BodySegment body = BodyOf(std::move(shape));
+  const PairOracle oracle = {[body](const RelativePose& pose) {
+                               Work work(kUnlimited);
+                               return DecideAt(Surface(body), Surface(body), pose, &work).verdict;
+                             },
+                             [body](const RelativePose& pose, double width) {
+                               Work work(kUnlimited);
+                               const Look look =
+                                   BracketAt(Surface(body), Surface(body), pose, width, 0, &work);
+                               return Interval(look.lower, look.upper);
+                             }};
+  return SamplePoses(oracle, diameter, gap, count, seed);
+}
+
+PoseSample SamplePoses(PairOracle oracle, double diameter, const GapClass& gap, std::size_t count,
+                       std::uint64_t seed) {
+  Sampler sampler(std::move(oracle), diameter, seed);
   PoseSample sample;
   int draws = 0;
   while (sample.poses.size() < count && draws < kDrawsMax) {

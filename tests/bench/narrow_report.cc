@@ -17,6 +17,14 @@ const std::vector<std::string> kFigures = {"decision_worst",
                                            "decision_gap_50pct_cold_worst",
                                            "distance_cold_worst",
                                            "bracket_1pct_vs_fcl_distance_cold_worst",
+                                           "convex_decision_worst",
+                                           "convex_decision_gap_0_1pct_worst",
+                                           "convex_decision_gap_50pct_worst",
+                                           "convex_distance_worst",
+                                           "convex_decision_cold_worst",
+                                           "convex_decision_gap_0_1pct_cold_worst",
+                                           "convex_decision_gap_50pct_cold_worst",
+                                           "convex_distance_cold_worst",
                                            "tree_mean_overshoot_vs_octree_worst",
                                            "tree_max_overshoot_vs_octree_worst",
                                            "tree_mean_overshoot_vs_circumscribed_octree_worst",
@@ -27,7 +35,7 @@ const std::vector<std::string> kFigures = {"decision_worst",
                                            "contact_vs_fcl_ca_worst",
                                            "contact_work_max"};
 
-constexpr std::size_t kPartWidth = 10, kMeshWidth = 16, kTrianglesWidth = 8, kGapWidth = 15,
+constexpr std::size_t kPartWidth = 17, kMeshWidth = 16, kTrianglesWidth = 8, kGapWidth = 15,
                       kNameWidth = 20, kTimeWidth = 10, kHashWidth = 18;
 
 std::string TimeText(const std::optional<double>& seconds) {
@@ -35,12 +43,13 @@ std::string TimeText(const std::optional<double>& seconds) {
 }
 
 std::string RowText(const NarrowRow& row) {
-  // A case that is no mesh has a name as long as it needs.
-  const std::string what = row.triangles == 0
-                               ? Padded(row.mesh, kMeshWidth + kTrianglesWidth + kGapWidth)
-                               : Padded(row.mesh, kMeshWidth) +
-                                     Padded(std::to_string(row.triangles), kTrianglesWidth) +
-                                     Padded(row.gap, kGapWidth);
+  // A case without a gap has a name as long as it needs.
+  const std::string what =
+      row.gap.empty()
+          ? Padded(row.mesh, kMeshWidth + kTrianglesWidth + kGapWidth)
+          : Padded(row.mesh, kMeshWidth) +
+                Padded(row.triangles > 0 ? std::to_string(row.triangles) : "-", kTrianglesWidth) +
+                Padded(row.gap, kGapWidth);
   std::string text = Padded(row.part, kPartWidth) + what + Padded(row.contestant, kNameWidth) +
                      Padded(TimeText(row.warm), kTimeWidth) +
                      Padded(TimeText(row.cold), kTimeWidth) +

@@ -162,30 +162,38 @@ TEST_F(CollisionctlTest, ShapesPageShowsWhatHasComeOfEach) {
     message->set_part(number);
     message->set_parts(3);
     message->set_total_bytes(100'000);
-    message->set_bytes(number > 0 ? "" : std::string("CSHAPE\0\1\x10\0\0\0\x39\x30\0\0", 16));
+    message->set_bytes(
+        number > 0 ? "" : std::string("CSHAPE\0\2\x10\0\0\0\x39\x30\0\0\3\0\0\0\0\0\0\0", 24));
   };
   part(2, 7);
   part(2, 7);
   Poll(5);
   EXPECT_NE(AgentsPage(view_).find("ship  01abcdef  0.5"), std::string::npos) << AgentsPage(view_);
-  constexpr const char* kHeading = "SHAPE     SIMULATOR         AGENTS  TRIANGLES  BYTES   PARTS\n";
+  constexpr const char* kHeading =
+      "SHAPE     SIMULATOR         AGENTS  TRIANGLES  SOLIDS  BYTES   PARTS\n";
   EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       -       "
-                                                      "   100000  1 of 3\n"));
+                                                      "   -       100000  1 of 3\n"));
   part(0, 7);
   Poll(1);
   EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       12345   "
-                                                      "   100000  2 of 3\n"));
+                                                      "   3       100000  2 of 3\n"));
   std::string digits = "01abcdef";
   for (int i = 0; i < 28; ++i) digits += "07";
   EXPECT_EQ(ShapesJson(view_),
             "{\"shapes\":[{\"hash\":\"" + digits +
                 "\",\"simulator\":\"0000000000000005\",\"agents\":2,\"triangles\":12345,"
-                "\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
+                "\"solids\":3,\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
   v1::ShapeRemoval* removal = next_.inputs.emplace_back().mutable_shape_removal();
   removal->set_simulator_id(5);
   removal->set_content_hash(hash);
   Poll(1);
   EXPECT_TRUE(view_.Shapes().empty());
+  part(0, 7);
+  const std::string no_solids("CSHAPE\0\1\x10\0\0\0\x39\x30\0\0", 16);
+  next_.inputs.back().mutable_shape_part()->set_bytes(no_solids);
+  Poll(1);
+  EXPECT_EQ(view_.Shapes().front().triangles, 12345u);
+  EXPECT_EQ(view_.Shapes().front().solids, 0u);
 }
 
 // A simulator that starts anew leaves its shapes behind, unless it tells them again.

@@ -105,16 +105,16 @@ class LateShapeBuilder final : public ShapeBuilder {
   explicit LateShapeBuilder(const bool* late) : late_(*late) {}
   void Start(const std::string& hash, std::string bytes) override { inline_.Start(hash, bytes); }
   bool has_finished() const override { return !late_ && inline_.has_finished(); }
-  std::vector<std::string> TakeFinished() override {
-    return late_ ? std::vector<std::string>() : inline_.TakeFinished();
+  std::vector<ReadyTree> TakeFinished() override {
+    return late_ ? std::vector<ReadyTree>() : inline_.TakeFinished();
   }
-  BuiltShape Await(const std::string& hash) override { return inline_.Await(hash); }
+  BuiltShape Await(const ReadyTree& tree) override { return inline_.Await(tree); }
   void Forget(const std::string& hash) override { inline_.Forget(hash); }
   ShapeBuilderCounters counters() const override { return inline_.counters(); }
 
  private:
   const bool& late_;
-  InlineShapeBuilder inline_{BuildOptions{.triangles_max = 1000}};
+  InlineShapeBuilder inline_{BuildOptionsOf(CompleteConfig(Simulated()))};
 };
 
 // Goal:   when a tree is finished depends on the machine, and events depend on it; a replay uses it
@@ -167,9 +167,9 @@ TEST(ShapeService, AReplayFollowsTheThread) {
       const v1::Config config = CompleteConfig(Simulated());
       RecordingWriter writer(path, config);
       std::atomic<bool> woken = false;
-      ScriptedDaemon daemon(config, &writer,
-                            std::make_unique<ThreadedShapeBuilder>(
-                                BuildOptions{.triangles_max = 1000}, [&] { woken = true; }));
+      ScriptedDaemon daemon(
+          config, &writer,
+          std::make_unique<ThreadedShapeBuilder>(BuildOptionsOf(config), [&] { woken = true; }));
       TwoCubes cubes(1.9);
       daemon.Step(cubes.Descriptions());
       daemon.Step(cubes.Parts());

@@ -40,7 +40,7 @@ class ShapeStoreTest : public testing::Test {
     return refused;
   }
 
-  bool Ready(const std::string& hash) { return store.MakeVisible(hash).has_value(); }
+  bool Ready(const std::string& hash) { return store.MakeVisible({hash}).has_value(); }
 
   v1::Config config = CompleteConfig({});
   InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};
@@ -73,7 +73,7 @@ TEST_F(ShapeStoreTest, AnyOrderWithRepetitionsMakesTheShape) {
     }
     EXPECT_TRUE(fresh.ProgressOf(kA, hash).whole);
     EXPECT_FALSE(fresh.Find(hash));
-    const auto ready = fresh.MakeVisible(hash);
+    const auto ready = fresh.MakeVisible({hash});
     ASSERT_TRUE(ready);
     EXPECT_EQ(ready->owners, std::vector<std::uint64_t>{kA});
     EXPECT_EQ(fresh.Find(hash)->mesh().triangles.size(), 12u);
@@ -97,7 +97,7 @@ TEST_F(ShapeStoreTest, WithOnePartMissingItIsNotWhole) {
     EXPECT_EQ(fresh.ProgressOf(kA, hash).parts, parts.size());
     EXPECT_EQ(fresh.ProgressOf(kB, hash).parts, 0u);
     EXPECT_TRUE(builder.TakeFinished().empty());
-    EXPECT_FALSE(fresh.MakeVisible(hash));
+    EXPECT_FALSE(fresh.MakeVisible({hash}));
   }
 }
 
@@ -115,7 +115,7 @@ TEST_F(ShapeStoreTest, AWrongHashIsRefusedAndMayBeSentAgain) {
     EXPECT_EQ(fresh.counters().refused, 1u);
     EXPECT_EQ(fresh.counters().bytes, 0u);
     for (const v1::ShapePart& part : parts) EXPECT_FALSE(fresh.Take(part));
-    EXPECT_TRUE(fresh.MakeVisible(hash));
+    EXPECT_TRUE(fresh.MakeVisible({hash}));
   }
 }
 
@@ -143,7 +143,7 @@ TEST_F(ShapeStoreTest, APartThatComesAgainWithOtherBytesIsRefused) {
     EXPECT_EQ(fresh.counters().bytes, 0u);
     for (const v1::ShapePart& part : parts) EXPECT_FALSE(fresh.Take(part));
     for (const v1::ShapePart& part : parts) EXPECT_FALSE(fresh.Take(part));
-    EXPECT_TRUE(fresh.MakeVisible(hash));
+    EXPECT_TRUE(fresh.MakeVisible({hash}));
   }
 }
 
@@ -166,7 +166,7 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
       EXPECT_TRUE(lie);
       EXPECT_EQ(refusal->simulator_id, kB);
     }
-    const auto ready = fresh.MakeVisible(hash);
+    const auto ready = fresh.MakeVisible({hash});
     ASSERT_TRUE(ready);
     EXPECT_TRUE(ready->built.shape);
     EXPECT_EQ(fresh.counters().gathering, 0u);
@@ -252,7 +252,7 @@ TEST_F(ShapeStoreTest, BadContentIsRefusedForAllItsOwners) {
   EXPECT_EQ(TakeAll(PartsOf("a", bad)), None());
   EXPECT_EQ(TakeAll(PartsOf("b", bad)), None());
   store.AddUser(Sha256(bad), {kB, 1});
-  const auto ready = store.MakeVisible(Sha256(bad));
+  const auto ready = store.MakeVisible({Sha256(bad)});
   ASSERT_TRUE(ready);
   EXPECT_FALSE(ready->built.shape);
   EXPECT_FALSE(ready->built.refusal.empty());
@@ -364,7 +364,7 @@ TEST(ShapeStoreAtRandom, CountsWhatIsThere) {
         users[part.content_hash()].erase(user);
         break;
       case 4:
-        for (const std::string& hash : builder.TakeFinished()) store.MakeVisible(hash);
+        for (const ReadyTree& tree : builder.TakeFinished()) store.MakeVisible(tree);
         break;
       case 5:
         part.mutable_bytes()->back() ^= 1;

@@ -1,6 +1,7 @@
 // Shapes as a simulator writes them, for tests to spoil.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -21,6 +22,36 @@ inline ShapeContent Cube(double half, std::size_t unused = 0) {
   content.vertices.resize(8 + unused);
   content.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                        {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+  return content;
+}
+
+/// The same body as Cube(1), of 12 n² triangles: for what counts triangles.
+inline ShapeContent FineCube(std::uint32_t n) {
+  ShapeContent content;
+  const auto at = [n](std::uint32_t i) { return -1 + 2.0 * i / n; };
+  for (int face = 0; face < 6; ++face) {
+    const auto first = static_cast<std::uint32_t>(content.vertices.size());
+    const int axis = face / 2;
+    const bool upper = face % 2 == 1;
+    for (std::uint32_t j = 0; j <= n; ++j) {
+      for (std::uint32_t i = 0; i <= n; ++i) {
+        std::array<double, 3> p{};
+        p[axis] = upper ? 1 : -1;
+        p[(axis + 1) % 3] = at(i);
+        p[(axis + 2) % 3] = at(j);
+        content.vertices.push_back(p);
+      }
+    }
+    for (std::uint32_t j = 0; j < n; ++j) {
+      for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t a = first + j * (n + 1) + i, b = a + 1, c = a + n + 1, d = c + 1;
+        content.triangles.push_back(upper ? std::array<std::uint32_t, 3>{a, b, d}
+                                          : std::array<std::uint32_t, 3>{a, d, b});
+        content.triangles.push_back(upper ? std::array<std::uint32_t, 3>{a, d, c}
+                                          : std::array<std::uint32_t, 3>{a, c, d});
+      }
+    }
+  }
   return content;
 }
 

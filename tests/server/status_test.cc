@@ -56,6 +56,7 @@ TEST(Status, TellsWhatTheServiceKnows) {
                            "tree_nodes",
                            "tree_bytes",
                            "trees_building",
+                           "trees_coarse",
                            "tree_build_us",
                            "work_units",
                            "queued",

@@ -35,8 +35,9 @@ const std::vector<Layer>& Layers() {
       {"client/world.h", {"client/types.h"}},
       {"client/monitor.h", {"client/types.h"}},
       {"client/types.h", {}},
-      // So that client and service judge a mesh alike.
+      // So that client and service judge meshes and solids alike.
       {"client/shape.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},
+      {"client/solid_check.cc", {"idl/", "client/", core + "shape/convex_solid.h"}},
       {"client/mesh_file.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},
       // It shows what the service would build, so it builds it.
       {"client/tools/sphere_tree", {"idl/", "client/", core + "shape/"}},

@@ -1,208 +1,151 @@
 #include "client/simulators/checker/bodies.h"
 
-#include <utility>
-#include <vector>
+#include <algorithm>
+#include <array>
+#include <span>
 
 namespace collision::checker {
 namespace {
 
-using Node = Mesh::Node;
+// A body is the union of these: all points within `rounding_m` of a core, which is a surface of
+// triangles, with what it encloses if it is closed, or (null) the reference point.
+struct Part {
+  const Mesh* core = nullptr;
+  double rounding_m = 0;
 
-// The half extents, along the axes of A, of a box given along those of B.
-Vector HalfSeen(const Pose& pose, const Vector& half) {
-  const auto along = [&](const Vector& row) {
-    return std::fabs(row.x) * half.x + std::fabs(row.y) * half.y + std::fabs(row.z) * half.z;
-  };
-  return {along(pose.R_AB[0]), along(pose.R_AB[1]), along(pose.R_AB[2])};
-}
-
-// The squared distance of two boxes along the same axes, from their centres' difference.
-double SquaredGap(const Vector& d, const Vector& half_a, const Vector& half_b) {
-  const double x = std::max(0.0, std::fabs(d.x) - half_a.x - half_b.x);
-  const double y = std::max(0.0, std::fabs(d.y) - half_a.y - half_b.y);
-  const double z = std::max(0.0, std::fabs(d.z) - half_a.z - half_b.z);
-  return x * x + y * y + z * z;
-}
-
-double SquaredGap(const Triangle& a, const Triangle& b) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [a0, a1] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});
-    const auto [b0, b1] = std::minmax({b[0][axis], b[1][axis], b[2][axis]});
-    const double gap = std::max({0.0, a0 - b1, b0 - a1});
-    sum += gap * gap;
+  Vector centre() const { return core != nullptr ? core->nodes()[0].centre : Vector{}; }
+  double reach() const {  // About the centre.
+    return rounding_m + (core != nullptr ? Length(core->nodes()[0].half) : 0);
   }
-  return sum;
-}
+};
 
-Triangle Seen(const Pose& pose, const Triangle& t) { return {pose(t[0]), pose(t[1]), pose(t[2])}; }
-
-// Boxes are compared with a little to spare for rounding.
-constexpr double kSpare = 1e-13;
-
-// Goes through the pairs of leaves whose boxes are nearer than `reach` says, nearer ones first.
-template <typename Reach, typename Visit>
-void ForNearLeaves(const Mesh& a, const Mesh& b, const Pose& pose, const Reach& reach,
-                   const Visit& visit) {
-  struct Entry {
-    std::uint32_t a, b;
-    double squared;
-  };
-  const auto entry = [&](std::uint32_t i, std::uint32_t k) {
-    const Node& node_a = a.nodes()[i];
-    const Node& node_b = b.nodes()[k];
-    return Entry{
-        i, k,
-        SquaredGap(pose(node_b.centre) - node_a.centre, node_a.half, HalfSeen(pose, node_b.half))};
-  };
-  std::vector<Entry> open = {entry(0, 0)};
-  while (!open.empty()) {
-    const Entry next = open.back();
-    open.pop_back();
-    const double limit = reach() + kSpare;
-    if (next.squared > limit * limit) continue;
-    const Node& node_a = a.nodes()[next.a];
-    const Node& node_b = b.nodes()[next.b];
-    if (node_a.triangles > 0 && node_b.triangles > 0) {
-      if (!visit(node_a, node_b)) return;
-      continue;
-    }
-    const bool divide_a = node_b.triangles > 0 ||
-                          (node_a.triangles == 0 && Squared(node_a.half) >= Squared(node_b.half));
-    Entry first = divide_a ? entry(node_a.child, next.b) : entry(next.a, node_b.child);
-    Entry second = divide_a ? entry(node_a.child + 1, next.b) : entry(next.a, node_b.child + 1);
-    if (first.squared < second.squared) std::swap(first, second);
-    open.push_back(first);
-    open.push_back(second);
+// The parts of a body, in place if it has only one: it is asked for often.
+class Parts {
+ public:
+  explicit Parts(const Body& body) : one_{{body.mesh, 0}} {
+    if (body.IsBall()) one_[0].rounding_m = body.radius_m;
+    if (body.solids == nullptr || body.solids->empty()) return;
+    if (body.mesh != nullptr) many_.push_back(one_[0]);
+    for (const Solid& solid : *body.solids) many_.push_back({&solid.core, solid.rounding_m});
   }
-}
 
-// The distance of the surfaces where it is less than `limit`, else `limit`.
-double SurfaceDistance(const Mesh& a, const Mesh& b, const Pose& pose, double limit, Hint* hint) {
-  double best = limit;
-  if (hint->a < a.triangles().size() && hint->b < b.triangles().size())
-    best = std::min(best, Distance(a.triangles()[hint->a], Seen(pose, b.triangles()[hint->b])));
-  if (best <= kTouching) return best;
-  ForNearLeaves(
-      a, b, pose, [&] { return best; },
-      [&](const Node& node_a, const Node& node_b) {
-        for (std::uint32_t k = node_b.first; k < node_b.first + node_b.triangles; ++k) {
-          const Triangle seen = Seen(pose, b.triangles()[k]);
-          for (std::uint32_t i = node_a.first; i < node_a.first + node_a.triangles; ++i) {
-            if (SquaredGap(a.triangles()[i], seen) > best * best) continue;
-            const double distance = Distance(a.triangles()[i], seen);
-            if (distance >= best) continue;
-            best = distance;
-            *hint = {i, k};
-            if (best <= kTouching) return false;
-          }
-        }
-        return true;
-      });
-  return best;
-}
-
-// The firmest crossing of the two surfaces.
-double BestMargin(const Mesh& a, const Mesh& b, const Pose& pose) {
-  double best = 0;
-  ForNearLeaves(
-      a, b, pose, [] { return 0.0; },
-      [&](const Node& node_a, const Node& node_b) {
-        for (std::uint32_t k = node_b.first; k < node_b.first + node_b.triangles; ++k) {
-          const Triangle seen = Seen(pose, b.triangles()[k]);
-          for (std::uint32_t i = node_a.first; i < node_a.first + node_a.triangles; ++i) {
-            if (SquaredGap(a.triangles()[i], seen) == 0)
-              best = std::max(best, CrossingMargin(a.triangles()[i], seen));
-          }
-        }
-        return true;
-      });
-  return best;
-}
-
-double SurfaceDistance(const Mesh& mesh, const Vector& point) {
-  double best = INFINITY;
-  std::vector<std::uint32_t> open = {0};
-  const auto gap = [&](std::uint32_t i) {
-    return SquaredGap(point - mesh.nodes()[i].centre, mesh.nodes()[i].half, {});
-  };
-  while (!open.empty()) {
-    const std::uint32_t i = open.back();
-    open.pop_back();
-    const Node& node = mesh.nodes()[i];
-    if (gap(i) > (best + kSpare) * (best + kSpare)) continue;
-    if (node.triangles == 0) {
-      const bool second_nearer = gap(node.child + 1) < gap(node.child);
-      open.push_back(second_nearer ? node.child : node.child + 1);
-      open.push_back(second_nearer ? node.child + 1 : node.child);
-      continue;
-    }
-    for (std::uint32_t t = node.first; t < node.first + node.triangles; ++t)
-      best = std::min(best, Length(NearestPoint(point, mesh.triangles()[t]) - point));
+  std::span<const Part> all() const {
+    return many_.empty() ? std::span<const Part>(one_) : std::span<const Part>(many_);
   }
-  return best;
+
+ private:
+  std::array<Part, 1> one_;
+  std::vector<Part> many_;
+};
+
+// How far the cores are apart, where it is less than `limit`, else `limit`; negative where they
+// touch, cross or lie in each other: so far they may then be moved and still do. `outside`: none
+// lies in the other.
+double CoreGap(const Part& a, const Part& b, const Pose& pose, double limit, bool outside,
+               bool depth, Hint* hint) {
+  if (a.core == nullptr && b.core == nullptr) return Length(pose.p_AB);
+  if (a.core == nullptr || b.core == nullptr) {
+    const Mesh& mesh = a.core == nullptr ? *b.core : *a.core;
+    const Vector point = a.core == nullptr ? pose.Back({}) : pose.p_AB;
+    const double distance = SurfaceDistance(mesh, point);
+    return mesh.Contains(point) ? -distance : distance;
+  }
+  const double distance = SurfaceDistance(*a.core, *b.core, pose, limit, hint);
+  if (distance <= kTouching) return depth ? -BestCrossing(*a.core, *b.core, pose) : 0;
+  const bool inside = !outside && Contained(*a.core, *b.core, pose);
+  return inside ? -distance : distance;
 }
 
-// Does a part of one lie in the other? Decided by any of its points, while the surfaces are apart.
-bool Contained(const Mesh& a, const Mesh& b, const Pose& pose) {
-  const auto& of_a = a.part_points();
-  const auto& of_b = b.part_points();
-  return std::any_of(of_b.begin(), of_b.end(),
-                     [&](const Vector& p) { return a.Contains(pose(p)); }) ||
-         std::any_of(of_a.begin(), of_a.end(),
-                     [&](const Vector& p) { return b.Contains(pose.Back(p)); });
+Standing StandingOf(const Part& a, const Part& b, const Pose& pose, double apart_least,
+                    bool outside, Hint* hint) {
+  const double reach = a.rounding_m + b.rounding_m;
+  const double limit = std::max(apart_least, 2 * kTouching) + reach;
+  const double gap = CoreGap(a, b, pose, limit, outside, true, hint);
+  if (gap <= reach + kTouching) return {true, std::max(0.0, reach - gap)};
+  return {false, gap - reach};
 }
 
-Standing StandingOfBall(const Mesh& mesh, const Vector& centre, double radius) {
-  const double distance = SurfaceDistance(mesh, centre);
-  if (mesh.Contains(centre)) return {true, distance + radius};
-  if (distance <= radius + kTouching) return {true, std::max(0.0, radius - distance)};
-  return {false, distance - radius};
-}
-
-Standing StandingOfBalls(double distance, double reach) {
-  return {distance <= reach + kTouching, std::fabs(distance - reach)};
+// No point of one is nearer to any of the other; negative where that says nothing.
+double ApartAtLeast(const Part& a, const Part& b, const Pose& pose) {
+  return Length(pose(b.centre()) - a.centre()) - a.reach() - b.reach();
 }
 
 struct Extent {
   double lower = INFINITY;
   double upper = -INFINITY;
 
-  void Include(double x) {
-    lower = std::min(lower, x);
-    upper = std::max(upper, x);
+  void Include(double x, double radius = 0) {
+    lower = std::min(lower, x - radius);
+    upper = std::max(upper, x + radius);
   }
 };
 
 Extent ExtentOf(const Body& body, const Vector& direction) {
   Extent extent;
-  if (body.mesh == nullptr) {
-    extent.Include(-body.radius_m);
-    extent.Include(body.radius_m);
-    return extent;
-  }
-  for (const Triangle& t : body.mesh->triangles()) {
-    for (const Vector& v : t) extent.Include(Dot(direction, v));
+  const Parts parts(body);
+  for (const Part& part : parts.all()) {
+    if (part.core == nullptr) extent.Include(0, part.rounding_m);
+    if (part.core == nullptr) continue;
+    for (const Triangle& t : part.core->triangles()) {
+      for (const Vector& v : t) extent.Include(Dot(direction, v), part.rounding_m);
+    }
   }
   return extent;
 }
 
-}  // namespace
-
-Standing StandingOf(const Body& a, const Body& b, const Pose& pose, Hint* hint, bool outside) {
-  if (a.mesh == nullptr && b.mesh == nullptr)
-    return StandingOfBalls(Length(pose.p_AB), a.radius_m + b.radius_m);
-  if (a.mesh == nullptr) return StandingOfBall(*b.mesh, pose.Back({}), a.radius_m);
-  if (b.mesh == nullptr) return StandingOfBall(*a.mesh, pose.p_AB, b.radius_m);
-  const double distance = SurfaceDistance(*a.mesh, *b.mesh, pose, INFINITY, hint);
-  if (distance <= kTouching) return {true, BestMargin(*a.mesh, *b.mesh, pose)};
-  return {!outside && Contained(*a.mesh, *b.mesh, pose), distance};
+// Only with one part each do triangles of the last time say where to begin.
+Hint* HintFor(std::size_t parts_of_a, std::size_t parts_of_b, Hint* last, Hint* fresh) {
+  *fresh = {};
+  return parts_of_a == 1 && parts_of_b == 1 ? last : fresh;
 }
 
-bool InContact(const Body& a, const Body& b, const Pose& pose, Hint* hint) {
-  if (a.mesh == nullptr || b.mesh == nullptr) return StandingOf(a, b, pose, hint).contact;
-  return SurfaceDistance(*a.mesh, *b.mesh, pose, 2 * kTouching, hint) <= kTouching ||
-         Contained(*a.mesh, *b.mesh, pose);
+}  // namespace
+
+double Body::reach() const {
+  if (IsBall()) return radius_m;
+  double reach = mesh != nullptr ? mesh->radius_m() : 0;
+  if (solids == nullptr) return reach;
+  for (const Solid& solid : *solids) reach = std::max(reach, solid.radius_m());
+  return reach;
+}
+
+// A contact lasts as long as the firmest one of two parts does; nothing begins before the nearest
+// two could.
+Standing StandingOf(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint,
+                    bool outside) {
+  const Parts of_a(body_a), of_b(body_b);
+  Standing all{false, INFINITY};
+  Hint fresh;
+  for (const Part& a : of_a.all()) {
+    for (const Part& b : of_b.all()) {
+      const double least = of_a.all().size() * of_b.all().size() > 1 ? ApartAtLeast(a, b, pose) : 0;
+      if (least > (all.contact ? kTouching : all.margin)) continue;
+      Hint* near = HintFor(of_a.all().size(), of_b.all().size(), hint, &fresh);
+      const Standing one = StandingOf(a, b, pose, all.contact ? 0 : all.margin, outside, near);
+      if (one.contact == all.contact) {
+        all.margin =
+            one.contact ? std::max(all.margin, one.margin) : std::min(all.margin, one.margin);
+      } else if (one.contact) {
+        all = one;
+      }
+    }
+  }
+  return all;
+}
+
+bool InContact(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint) {
+  const Parts of_a(body_a), of_b(body_b);
+  Hint fresh;
+  for (const Part& a : of_a.all()) {
+    for (const Part& b : of_b.all()) {
+      if (ApartAtLeast(a, b, pose) > 2 * kTouching) continue;
+      const double reach = a.rounding_m + b.rounding_m;
+      Hint* near = HintFor(of_a.all().size(), of_b.all().size(), hint, &fresh);
+      if (CoreGap(a, b, pose, reach + 2 * kTouching, false, false, near) <= reach + kTouching)
+        return true;
+    }
+  }
+  return false;
 }
 
 bool InContactThrough(const Body& a, const Body& b, const Pose& pose, double depth, Hint* hint) {
@@ -228,8 +171,14 @@ double DistanceOf(const Body& a, const Body& b, const Pose& pose) {
 }
 
 double DistanceTo(const Body& body, const Vector& point) {
-  if (body.mesh == nullptr) return std::max(0.0, Length(point) - body.radius_m);
-  return body.mesh->Contains(point) ? 0 : SurfaceDistance(*body.mesh, point);
+  double least = INFINITY;
+  const Parts parts(body);
+  for (const Part& part : parts.all()) {
+    double distance = part.core != nullptr ? SurfaceDistance(*part.core, point) : Length(point);
+    if (part.core != nullptr && part.core->Contains(point)) distance = 0;
+    least = std::min(least, std::max(0.0, distance - part.rounding_m));
+  }
+  return least;
 }
 
 double DepthAtMost(const Body& a, const Body& b, const Pose& pose, const Vector& along) {

@@ -1,33 +1,31 @@
 // Two bodies in a given position: how far apart, whether in contact, how firmly.
 #pragma once
 
-#include "client/simulators/checker/mesh.h"
+#include <vector>
+
+#include "client/simulators/checker/solid.h"
+#include "client/simulators/checker/surfaces.h"
 
 namespace collision::checker {
 
-/// A solid ball, or the solid (closed mesh) or surface (open mesh) of triangles.
+/// A solid ball; or the solid (closed mesh) or surface (open mesh) of triangles, convex solids, or
+/// both: all of it together.
 struct Body {
-  const Mesh* mesh = nullptr;  ///< Null: a ball.
-  double radius_m = 0;         ///< Of the ball.
+  const Mesh* mesh = nullptr;
+  double radius_m = 0;                         ///< Of the ball, where there is nothing else.
+  const std::vector<Solid>* solids = nullptr;  ///< Null: none.
+
+  bool IsBall() const { return mesh == nullptr && (solids == nullptr || solids->empty()); }
 
   /// What it reaches about its reference point [m].
-  double reach() const { return mesh != nullptr ? mesh->radius_m() : radius_m; }
+  double reach() const;
 };
-
-/// Surfaces this near are in contact [m]: rounding alone makes a distance of 0 about 1e-15.
-inline constexpr double kTouching = 1e-12;
 
 /// Contact, and how far the two may be moved against each other, every point by at most so much,
 /// before that might change [m].
 struct Standing {
   bool contact = false;
   double margin = 0;
-};
-
-/// Where to begin: the triangles that were nearest, or crossed, last time.
-struct Hint {
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
 };
 
 /// In contact when the two share a point: their surfaces do, or a part of one lies in the solid of

@@ -35,10 +35,7 @@ std::string Format(const char* format, double x, double y = 0, double z = 0) {
 class Claim {
  public:
   Claim(const v1::CollisionEvent& event, const AgentMotion& a, const AgentMotion& b)
-      : event_(event),
-        a_{a.mesh.get(), a.radius_m},
-        b_{b.mesh.get(), b.radius_m},
-        balls_(a.mesh == nullptr && b.mesh == nullptr) {}
+      : event_(event), a_(a.body()), b_(b.body()), balls_(a_.IsBall() && b_.IsBall()) {}
 
   // Empty: it holds.
   std::string Complaint(const Piece& piece_a, const Piece& piece_b) const {

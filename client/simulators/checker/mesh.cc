@@ -55,6 +55,17 @@ Mesh::Mesh(std::vector<Vector> vertices, const std::vector<std::array<std::uint3
   Build(0, 0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
+Mesh Mesh::OfSegment(const Vector& from, const Vector& to) {
+  Mesh mesh;
+  mesh.vertices_ = {from, to};
+  mesh.triangles_ = {{from, to, to}};
+  mesh.part_points_ = {from};
+  mesh.radius_m_ = std::max(Length(from), Length(to));
+  mesh.nodes_.resize(1);
+  mesh.Build(0, 0, 1);
+  return mesh;
+}
+
 void Mesh::FindEdges(const std::vector<std::array<std::uint32_t, 3>>& indices) {
   std::map<std::tuple<double, double, double>, std::uint32_t> places;
   std::vector<std::uint32_t> place(vertices_.size());

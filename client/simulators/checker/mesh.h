@@ -25,6 +25,10 @@ class Mesh {
   /// finite or an index names no vertex.
   Mesh(std::vector<Vector> vertices, const std::vector<std::array<std::uint32_t, 3>>& indices);
 
+  /// A segment, or a point where both are the same: one triangle without area, which can be near
+  /// but crosses and holds nothing by itself.
+  static Mesh OfSegment(const Vector& from, const Vector& to);
+
   /// The root first.
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
@@ -48,6 +52,7 @@ class Mesh {
   bool Contains(const Vector& point) const;
 
  private:
+  Mesh() = default;
   void FindEdges(const std::vector<std::array<std::uint32_t, 3>>& indices);
   void Build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 

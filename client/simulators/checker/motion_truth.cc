@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace collision::checker {
@@ -65,8 +66,8 @@ class LogReader {
 
   std::vector<AgentMotion> Read() {
     std::string line;
-    if (!NextLine(&line) || (line != "motion-log 1" && line != "motion-log 2"))
-      Fail("the first line is neither \"motion-log 1\" nor \"motion-log 2\"");
+    if (!NextLine(&line) || !IsFormat(line))
+      Fail("the first line is none of \"motion-log 1\", \"motion-log 2\" and \"motion-log 3\"");
     while (NextLine(&line)) ReadRecord(line);
     std::vector<AgentMotion> moved;
     for (AgentMotion& motion : motions_) {
@@ -82,6 +83,10 @@ class LogReader {
     throw std::runtime_error(simulator_ + ":" + std::to_string(line_) + ": " + what);
   }
 
+  static bool IsFormat(const std::string& line) {
+    return line == "motion-log 1" || line == "motion-log 2" || line == "motion-log 3";
+  }
+
   bool NextLine(std::string* line) {
     ++line_;
     return static_cast<bool>(std::getline(text_, *line));
@@ -94,6 +99,8 @@ class LogReader {
       ReadAgent(&fields, name);
     } else if (kind == "mesh") {
       ReadMesh(&fields, name);
+    } else if (kind == "solid") {
+      ReadSolid(&fields, name);
     } else {
       const auto found = index_.find(name);
       if (found == index_.end()) Fail("agent \"" + name + "\" has no agent line before");
@@ -120,18 +127,25 @@ class LogReader {
     AgentMotion motion{simulator_, name, 0, {}, {}};
     if (!fields->Number(&motion.radius_m) || !(motion.radius_m >= 0))
       Fail("an agent needs a radius");
-    const std::string mesh = fields->Word();
-    if (!mesh.empty()) {
-      const auto found = meshes_.find(mesh);
-      if (found == meshes_.end()) Fail("mesh \"" + mesh + "\" has no mesh line before");
-      motion.mesh = found->second;
-      if (motion.mesh->radius_m() > motion.radius_m * (1 + 1e-9))
-        Fail("mesh \"" + mesh + "\" reaches " + std::to_string(motion.mesh->radius_m()) +
-             " m, beyond the agent's radius of " + std::to_string(motion.radius_m) + " m");
-    }
+    const std::string shape = fields->Word();
+    if (!shape.empty()) TakeShape(shape, &motion);
     if (!index_.emplace(name, motions_.size()).second)
       Fail("agent \"" + name + "\" is there twice");
     motions_.push_back(std::move(motion));
+  }
+
+  void TakeShape(const std::string& name, AgentMotion* motion) {
+    const auto mesh = meshes_.find(name);
+    const auto solids = solids_.find(name);
+    if (mesh == meshes_.end() && solids == solids_.end())
+      Fail("shape \"" + name + "\" has no mesh or solid line before");
+    if (mesh != meshes_.end()) motion->mesh = mesh->second;
+    if (solids != solids_.end()) motion->solids = solids->second;
+    taken_.insert(name);
+    const double reach = motion->body().reach();
+    if (reach > motion->radius_m * (1 + 1e-9))
+      Fail("shape \"" + name + "\" reaches " + std::to_string(reach) +
+           " m, beyond the agent's radius of " + std::to_string(motion->radius_m) + " m");
   }
 
   std::size_t Count(Fields* fields, const char* what) const {
@@ -165,6 +179,51 @@ class LogReader {
       Fail(error.what());
     }
     if (!meshes_.emplace(name, mesh).second) Fail("mesh \"" + name + "\" is there twice");
+  }
+
+  void ReadSolid(Fields* fields, const std::string& name) {
+    const std::string kind = fields->Word();
+    std::array<double, 1> rounding{};
+    std::array<double, 3> p{};
+    std::array<double, 4> q{};
+    if (!fields->Numbers(&rounding) || !fields->Numbers(&p) || !fields->Numbers(&q) ||
+        !(rounding[0] >= 0))
+      Fail("a solid needs a rounding, a position and an orientation");
+    if (taken_.contains(name)) Fail("shape \"" + name + "\" has an agent already");
+    auto& solids = solids_[name];
+    if (!solids) solids = std::make_shared<std::vector<Solid>>();
+    if (solids->size() == kSolidsMax)
+      Fail("shape \"" + name + "\" has more than " + std::to_string(kSolidsMax) + " solids");
+    try {
+      const auto points = Placed(CorePoints(kind, fields), q, {p[0], p[1], p[2]});
+      solids->push_back({HullOf(points), rounding[0]});
+    } catch (const std::runtime_error& error) {
+      Fail("shape \"" + name + "\": " + error.what());
+    }
+  }
+
+  // The core is their hull.
+  std::vector<Vector> CorePoints(const std::string& kind, Fields* fields) const {
+    if (kind == "ball") return {Vector{}};
+    std::array<double, 3> half{};
+    if (kind == "capsule") {
+      if (!fields->Number(&half[2])) throw std::runtime_error("a capsule needs its half length");
+      return {{0, 0, -half[2]}, {0, 0, half[2]}};
+    }
+    if (kind == "box") {
+      if (!fields->Numbers(&half)) throw std::runtime_error("a box needs its half extents");
+      return BoxCorners({half[0], half[1], half[2]});
+    }
+    if (kind != "hull") throw std::runtime_error("unknown kind of solid \"" + kind + "\"");
+    std::int64_t count = 0;
+    if (!fields->Whole(&count) || count < 1 || count > static_cast<std::int64_t>(kHullPointsMax))
+      throw std::runtime_error("a hull needs 1 to " + std::to_string(kHullPointsMax) + " points");
+    std::vector<Vector> points(static_cast<std::size_t>(count));
+    for (Vector& point : points) {
+      if (!fields->Number(&point.x) || !fields->Number(&point.y) || !fields->Number(&point.z))
+        throw std::runtime_error("a point needs three finite coordinates");
+    }
+    return points;
   }
 
   void ReadPiece(Fields* fields, AgentMotion* motion) const {
@@ -215,6 +274,8 @@ class LogReader {
   std::vector<AgentMotion> motions_;
   std::map<std::string, std::size_t> index_;
   std::map<std::string, std::shared_ptr<const Mesh>> meshes_;
+  std::map<std::string, std::shared_ptr<std::vector<Solid>>> solids_;
+  std::set<std::string> taken_;  // shapes that an agent has
 };
 
 }  // namespace

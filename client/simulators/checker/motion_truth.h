@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "client/simulators/checker/mesh.h"
+#include "client/simulators/checker/bodies.h"
 
 namespace collision::checker {
 
@@ -38,7 +38,11 @@ struct AgentMotion {
   double radius_m = 0;
   std::vector<Piece> pieces;                   ///< In order of time.
   std::vector<std::int64_t> jumps_ns;          ///< Published discontinuities, in order.
-  std::shared_ptr<const Mesh> mesh = nullptr;  ///< Null: a ball.
+  std::shared_ptr<const Mesh> mesh = nullptr;  ///< Null: no triangles.
+  std::shared_ptr<const std::vector<Solid>> solids = nullptr;  ///< Null: none. Neither: a ball.
+
+  /// Valid while this is.
+  Body body() const { return {mesh.get(), radius_m, solids.get()}; }
 
   std::int64_t begin_ns() const { return pieces.front().t0_ns; }
   std::int64_t end_ns() const { return pieces.back().t1_ns; }
@@ -46,9 +50,10 @@ struct AgentMotion {
 
 /// What is more is refused: a mistake, most likely.
 inline constexpr std::size_t kMeshItemsMax = 20'000'000;  ///< Vertices, and triangles, of a mesh.
+inline constexpr std::size_t kSolidsMax = 65536;          ///< Of one shape.
 inline constexpr double kTurnMax = 1000;                  ///< Within one piece [rad].
 
-/// Reads one motion log of format 1 or 2 (../README.md). Agents without pieces are left out. Throws
+/// Reads one motion log of format 1 to 3 (../README.md). Agents without pieces are left out. Throws
 /// std::runtime_error with "simulator:line: what" if it is malformed.
 std::vector<AgentMotion> ReadMotionLog(std::istream& text, const std::string& simulator);
 

@@ -54,8 +54,8 @@ struct Slice {
   Box box;
 };
 
-// Bodies with triangles are looked at while their balls overlap, these a little enlarged [m, and of
-// their size]: whether they touch is for the triangles to say.
+// Bodies with a shape are looked at while their balls overlap, these a little enlarged [m, and of
+// their size]: whether they touch is for the shapes to say.
 constexpr long double kSpare = 1e-9L;
 
 class ContactFinder {
@@ -126,9 +126,9 @@ class ContactFinder {
 
   void SearchPieces(std::size_t a, const Piece& pa, std::size_t b, const Piece& pb,
                     std::int64_t from, std::int64_t to) {
-    const Body body_a{motions_[a].mesh.get(), motions_[a].radius_m};
-    const Body body_b{motions_[b].mesh.get(), motions_[b].radius_m};
-    const bool balls = body_a.mesh == nullptr && body_b.mesh == nullptr;
+    const Body body_a = motions_[a].body();
+    const Body body_b = motions_[b].body();
+    const bool balls = body_a.IsBall() && body_b.IsBall();
     const PairMotion motion(pa, pb, from);
     const long double reach = static_cast<long double>(body_a.reach()) + body_b.reach();
     const long double duration = static_cast<long double>(to - from) * 1e-9L;

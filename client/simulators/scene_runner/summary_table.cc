@@ -52,7 +52,7 @@ void TreeRows(std::string* text, const v1::RunReport& report) {
 void ShapeRows(std::string* text, const v1::RunReport& report, const checker::Evidence& evidence) {
   const auto& motions = evidence.motions();
   if (std::none_of(motions.begin(), motions.end(),
-                   [](const checker::AgentMotion& motion) { return motion.mesh != nullptr; })) {
+                   [](const checker::AgentMotion& motion) { return !motion.body().IsBall(); })) {
     return;
   }
   const ShapeFigures figures = FiguresOfShapes(evidence);

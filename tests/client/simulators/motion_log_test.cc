@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/shape.h"
+#include "client/simulators/command_line.h"
 
 namespace collision::client {
 namespace {
@@ -41,7 +42,7 @@ TEST_F(MotionLogTest, WritesEveryRecord) {
   log.Jump("ball", 7);
   log.Close();
   EXPECT_EQ(Lines(),
-            (std::vector<std::string>{"motion-log 2", "agent ball 0.1",
+            (std::vector<std::string>{"motion-log 3", "agent ball 0.1",
                                       "piece ball 5 7 1 2 3 4 0.1 0 0 0 -1 0 0 1e+300",
                                       "turn ball 5 7 0 0 0 1 0.1 0 2 0 -0.5 0", "jump ball 7"}));
 }
@@ -60,7 +61,7 @@ TEST_F(MotionLogTest, EqualShapesAreWrittenOnceBeforeTheirAgents) {
   std::string kind, name;
   std::size_t vertices = 0, triangles = 0;
   mesh >> kind >> name >> vertices >> triangles;
-  EXPECT_EQ(kind + " " + name, "mesh mesh-1");
+  EXPECT_EQ(kind + " " + name, "mesh shape-1");
   ASSERT_EQ(vertices, 4u);
   ASSERT_EQ(triangles, 4u);
   Triangles read;
@@ -71,10 +72,33 @@ TEST_F(MotionLogTest, EqualShapesAreWrittenOnceBeforeTheirAgents) {
   EXPECT_TRUE(!mesh.fail() && mesh.eof());
   EXPECT_EQ(read.vertices_m, Tetrahedron(1)->triangles().vertices_m);
   EXPECT_EQ(read.indices, Tetrahedron(1)->triangles().indices);
-  EXPECT_EQ(lines[3], "agent a 1 mesh-1");
-  EXPECT_EQ(lines[4], "agent b 1 mesh-1");
-  EXPECT_EQ(lines[5].substr(0, 17), "mesh mesh-2 4 4 0");
-  EXPECT_EQ(lines[6], "agent c 3 mesh-2");
+  EXPECT_EQ(lines[3], "agent a 1 shape-1");
+  EXPECT_EQ(lines[4], "agent b 1 shape-1");
+  EXPECT_EQ(lines[5].substr(0, 18), "mesh shape-2 4 4 0");
+  EXPECT_EQ(lines[6], "agent c 3 shape-2");
+}
+
+// Goal:   of a shape with solids there is one line for each, after that of its triangles.
+TEST_F(MotionLogTest, SolidsAreWrittenWithTheirMeasures) {
+  const auto ball = Shape::Make({.solids = {Solid::Ball(0.5)}});
+  const auto mixed = Shape::Make(
+      {.triangles = Tetrahedron(1)->triangles(),
+       .solids = {Solid::Capsule(0.1, 0.4).At({1, 2, 3}, {0, 0, 2, 0}),
+                  Solid::Box({1, 2, 3}).Rounded(0.25), Solid::Hull({{1, 0, 0}, {0, 0, 2}})}});
+  MotionLog log(path_);
+  log.Agent("a", 0.5, ball);
+  log.Agent("b", 9, mixed);
+  EXPECT_THROW(log.Agent("c", 9, Shape::Make({.solids = {Solid::Ellipsoid({1, 2, 3})}})), BadInput);
+  log.Close();
+  const auto lines = Lines();
+  ASSERT_GE(lines.size(), 8u);
+  EXPECT_EQ(lines[1], "solid shape-1 ball 0.5 0 0 0 1 0 0 0");
+  EXPECT_EQ(lines[2], "agent a 0.5 shape-1");
+  EXPECT_EQ(lines[3].substr(0, 17), "mesh shape-2 4 4 ");
+  EXPECT_EQ(lines[4], "solid shape-2 capsule 0.1 1 2 3 0 0 2 0 0.4");
+  EXPECT_EQ(lines[5], "solid shape-2 box 0.25 0 0 0 1 0 0 0 1 2 3");
+  EXPECT_EQ(lines[6], "solid shape-2 hull 0 0 0 0 1 0 0 0 2 1 0 0 0 0 2");
+  EXPECT_EQ(lines[7], "agent b 9 shape-2");
 }
 
 TEST_F(MotionLogTest, NoPathNoFileAndABadPathIsNamed) {

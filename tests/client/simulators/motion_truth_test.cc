@@ -30,8 +30,9 @@ constexpr const char* kTetrahedron =
     "mesh m 4 4 1 1 1 1 -1 -1 -1 1 -1 -1 -1 1 0 1 2 0 3 1 0 2 3 1 3 2\n";
 
 TEST(MotionLogReading, MalformedLogsAreToldWithTheirLine) {
-  EXPECT_EQ(Error("hello\n"),
-            "sim:1: the first line is neither \"motion-log 1\" nor \"motion-log 2\"");
+  EXPECT_EQ(
+      Error("hello\n"),
+      "sim:1: the first line is none of \"motion-log 1\", \"motion-log 2\" and \"motion-log 3\"");
   EXPECT_EQ(Error("motion-log 1\npiece a 0 1\n"), "sim:2: agent \"a\" has no agent line before");
   EXPECT_EQ(Error("motion-log 1\nagent a 1\npiece a 0 1 0\n"),
             "sim:3: a piece needs twelve finite coefficients");
@@ -58,9 +59,56 @@ TEST(MotionLogReading, MalformedMeshesAreToldWithTheirLine) {
   EXPECT_EQ(Error(start + "mesh m 3 1 0 0 0 1 0 0 0 1 0 0 1 2 1\n"),
             "sim:2: the mesh has more fields than it should");
   EXPECT_EQ(Error(start + kTetrahedron + kTetrahedron), "sim:3: mesh \"m\" is there twice");
-  EXPECT_EQ(Error(start + "agent a 2 m\n"), "sim:2: mesh \"m\" has no mesh line before");
+  EXPECT_EQ(Error(start + "agent a 2 m\n"), "sim:2: shape \"m\" has no mesh or solid line before");
   EXPECT_EQ(Error(start + kTetrahedron + "agent a 1.7 m\n"),
-            "sim:3: mesh \"m\" reaches 1.732051 m, beyond the agent's radius of 1.700000 m");
+            "sim:3: shape \"m\" reaches 1.732051 m, beyond the agent's radius of 1.700000 m");
+}
+
+TEST(MotionLogReading, MalformedSolidsAreToldWithTheirLine) {
+  const std::string start = "motion-log 3\n", place = " 0 0 0 1 0 0 0";
+  const std::string ball = "solid s ball 1" + place + "\n";
+  EXPECT_EQ(Error(start + "solid s ball -1" + place + "\n"),
+            "sim:2: a solid needs a rounding, a position and an orientation");
+  EXPECT_EQ(Error(start + "solid s ball 1 0 0 0 1 0 0\n"),
+            "sim:2: a solid needs a rounding, a position and an orientation");
+  EXPECT_EQ(Error(start + "solid s ball 1 0 0 0 0 0 0 0\n"),
+            "sim:2: shape \"s\": an orientation has no length");
+  EXPECT_EQ(Error(start + "solid s ellipsoid 1" + place + " 1 2 3\n"),
+            "sim:2: shape \"s\": unknown kind of solid \"ellipsoid\"");
+  EXPECT_EQ(Error(start + "solid s capsule 1" + place + "\n"),
+            "sim:2: shape \"s\": a capsule needs its half length");
+  EXPECT_EQ(Error(start + "solid s box 1" + place + " 1 2\n"),
+            "sim:2: shape \"s\": a box needs its half extents");
+  EXPECT_EQ(Error(start + "solid s hull 1" + place + " 65\n"),
+            "sim:2: shape \"s\": a hull needs 1 to 64 points");
+  EXPECT_EQ(Error(start + "solid s hull 1" + place + " 1 0 0\n"),
+            "sim:2: shape \"s\": a point needs three finite coordinates");
+  EXPECT_EQ(Error(start + "solid s ball 1" + place + " 1\n"),
+            "sim:2: the solid has more fields than it should");
+  EXPECT_EQ(Error(start + ball + "agent a 1 s\n" + ball),
+            "sim:4: shape \"s\" has an agent already");
+  EXPECT_EQ(Error(start + ball + "agent a 0.9 s\n"),
+            "sim:3: shape \"s\" reaches 1.000000 m, beyond the agent's radius of 0.900000 m");
+}
+
+// Goal:   solids are what their line says, where it says, beside the triangles of the same name.
+TEST(MotionLogReading, ReadsSolids) {
+  const auto motions = Read("motion-log 3\n" + std::string(kTetrahedron) +
+                            "solid m capsule 0.5 1 0 0 2 2 0 0 3\n"
+                            "solid m box 0.25 0 0 4 1 0 0 0 1 1 1\n"
+                            "agent a 9 m\npiece a 0 10" +
+                            kZeros);
+  ASSERT_EQ(motions.size(), 1u);
+  ASSERT_EQ(motions[0].solids->size(), 2u);
+  ASSERT_NE(motions[0].mesh, nullptr);
+  // A quarter about x: the capsule's axis, z, becomes −y.
+  const Solid& capsule = motions[0].solids->front();
+  EXPECT_EQ(capsule.rounding_m, 0.5);
+  EXPECT_NEAR(Length(capsule.core.vertices()[0] - Vector{1, 3, 0}) *
+                  Length(capsule.core.vertices()[0] - Vector{1, -3, 0}),
+              0, 1e-14);
+  EXPECT_TRUE(motions[0].solids->back().core.closed());
+  EXPECT_NEAR(motions[0].body().reach(), std::sqrt(27) + 0.25, 1e-12);
 }
 
 TEST(MotionLogReading, MalformedTurnsAreToldWithTheirLine) {

@@ -67,9 +67,10 @@ TEST_F(SceneFileTest, AnUnknownSceneNamesThoseThereAre) {
     LoadScene(folders_, "iridium");
     ADD_FAILURE();
   } catch (const NoSuchScene& error) {
-    EXPECT_STREQ(error.what(),
-                 "no scene \"iridium\"; there are: corridor, iridium-cosmos, spaceships, "
-                 "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain");
+    EXPECT_STREQ(
+        error.what(),
+        "no scene \"iridium\"; there are: corridor, drone-arms, iridium-cosmos, spaceships, "
+        "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain");
   }
 }
 

@@ -165,7 +165,6 @@ TEST(Compound, LooksSayWhatAllPairsSay) {
     const Posed body_b = RandomPosed(random, other, way);
     const BodySegment of_a = body_a.Segment(), of_b = body_b.Segment();
     const Surface a(of_a), b(of_b);
-    if (!a.shape() && !b.shape()) continue;
     const RelativePose pose = PoseBetween(of_a, of_b);
     const Interval least = LeastOfAll(a, b, pose);
     const double rounding = 1e-13 * (a.reach() + b.reach() + pose.offset.norm());

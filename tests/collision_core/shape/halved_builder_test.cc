@@ -56,7 +56,7 @@ TEST(HalvedBuilder, DirtyMeshesAreCoveredAndMeasured) {
     ++seen;
   }
   EXPECT_GT(seen, 50);
-  EXPECT_LT(on_edges, nodes / 500);
+  EXPECT_LT(on_edges, nodes / 100);
 }
 
 TEST(HalvedBuilder, LeavesAreFullAndAboutAsDeep) {

@@ -1,0 +1,147 @@
+#include "collision_core/shape/outer_hull.h"
+
+#include <array>
+#include <limits>
+
+namespace collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Few points need no fine cells.
+std::uint32_t CellsFor(std::size_t points) { return points <= 16 ? 2 : points <= 128 ? 4 : 8; }
+
+/// No less, and not zero: a cast is off by 2^-24 of itself, or by less than the least normal number.
+float FloatUp(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
+}
+
+/// Directions whose greatest coordinate is 1 in lengths of up to 1 + 2^-16.
+constexpr double kLonger = 1 + 0x1p-15;
+
+/// Of the extent: casting the points, √3 u at most, along a direction of length √3 (u = 2^-24), and
+/// twice what three products and two sums of doubles lose.
+constexpr double kStored = 4 * 0x1p-24;
+
+/// A point along the four corners of a patch.
+using Heights = std::array<double, 4>;
+
+double ExcessOf(const Heights& a, const Heights& b) {
+  return std::max({a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]});
+}
+
+}  // namespace
+
+/// A square of cells on a face of the cube.
+struct OuterHull::Patch {
+  std::uint32_t face, u, v, width, along_edge;
+
+  /// The direction at a corner; coordinates are multiples of 2 / along_edge: exact.
+  Vector3d Corner(bool far_u, bool far_v) const {
+    const auto axis = static_cast<Eigen::Index>(face / 2);
+    Vector3d n;
+    n[axis] = face % 2 == 0 ? 1 : -1;
+    n[(axis + 1) % 3] = 2.0 * (u + (far_u ? width : 0)) / along_edge - 1;
+    n[(axis + 2) % 3] = 2.0 * (v + (far_v ? width : 0)) / along_edge - 1;
+    return n;
+  }
+
+  std::vector<Heights> HeightsOf(const std::vector<Vector3d>& points) const {
+    const Vector3d corners[] = {Corner(false, false), Corner(false, true), Corner(true, false),
+                                Corner(true, true)};
+    std::vector<Heights> heights;
+    heights.reserve(points.size());
+    for (const Vector3d& p : points) {
+      heights.push_back(
+          {corners[0].dot(p), corners[1].dot(p), corners[2].dot(p), corners[3].dot(p)});
+    }
+    return heights;
+  }
+};
+
+namespace {
+
+/// The farthest along the middle, and what it does not exceed at all four corners.
+std::vector<Vector3d> Needed(const std::vector<Heights>& heights,
+                             const std::vector<Vector3d>& points) {
+  const auto along_middle = [](const Heights& h) { return (h[0] + h[1]) + (h[2] + h[3]); };
+  std::size_t first = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (along_middle(heights[i]) > along_middle(heights[first])) first = i;
+  }
+  std::vector<Vector3d> needed = {points[first]};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (i != first && ExcessOf(heights[i], heights[first]) > 0) needed.push_back(points[i]);
+  }
+  return needed;
+}
+
+/// Again and again the point that exceeds those kept by the most.
+HullCell CellFor(const std::vector<Heights>& heights, const std::vector<Vector3d>& points,
+                 double extent) {
+  HullCell cell;
+  std::vector<double> excess(points.size(), std::numeric_limits<double>::infinity());
+  std::size_t next = 0;
+  double left_out = 0;
+  for (std::uint32_t k = 0; k < HullCell::kPoints; ++k) {
+    const Eigen::Vector3f stored = points[next].cast<float>();
+    cell.x[k] = stored.x(), cell.y[k] = stored.y(), cell.z[k] = stored.z();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      excess[i] = std::min(excess[i], ExcessOf(heights[i], heights[next]));
+    }
+    const auto most = std::max_element(excess.begin(), excess.end());
+    left_out = std::max(0.0, *most);
+    next = left_out > 0 ? static_cast<std::size_t>(most - excess.begin()) : 0;
+  }
+  cell.more = FloatUp((left_out + kStored * extent) * kLonger);
+  return cell;
+}
+
+}  // namespace
+
+OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
+    : along_edge_(CellsFor(points.size())) {
+  Vector3d lower = points[0], upper = points[0];
+  for (const Vector3d& p : points) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  origin_ = 0.5 * lower + 0.5 * upper;
+  std::vector<Vector3d> seen;
+  seen.reserve(points.size());
+  double size = 0;
+  for (const Vector3d& p : points) {
+    seen.push_back(p - origin_);
+    size = std::max(size, p.cwiseAbs().sum());
+    extent_ = std::max(extent_, seen.back().norm());
+  }
+  // A difference is off by 2^-53 of each coordinate, less than 2^-51 of both lengths' sum.
+  rounding = (rounding + 0x1p-51 * (size + origin_.cwiseAbs().sum())) * kLonger;
+  rounding_ = FloatUp(rounding);
+  extent_ = (extent_ + rounding) * (1 + 0x1p-50) + std::numeric_limits<float>::min();
+  // So that plates and needles have some measure across.
+  const Vector3d half = 0.5 * upper - 0.5 * lower;
+  measure_ = (half / extent_).cwiseAbs2().cast<float>() + Eigen::Vector3f::Constant(0x1p-10f);
+  cells_.resize(std::size_t{6} * along_edge_ * along_edge_);
+  for (std::uint32_t face = 0; face < 6; ++face) {
+    Divide({face, 0, 0, along_edge_, along_edge_}, seen);
+  }
+}
+
+// A point that is dropped on the way is exceeded all over the patch by one that is not, but for
+// rounding; so it is at most as often as patches are divided, and kStored has room for that.
+void OuterHull::Divide(const Patch& patch, const std::vector<Vector3d>& points) {
+  const std::vector<Heights> heights = patch.HeightsOf(points);
+  if (patch.width == 1) {
+    cells_[(patch.face * along_edge_ + patch.u) * along_edge_ + patch.v] =
+        CellFor(heights, points, extent_);
+    return;
+  }
+  const std::vector<Vector3d> needed = Needed(heights, points);
+  const std::uint32_t half = patch.width / 2;
+  for (const std::uint32_t u : {patch.u, patch.u + half}) {
+    for (const std::uint32_t v : {patch.v, patch.v + half}) {
+      Divide({patch.face, u, v, half, along_edge_}, needed);
+    }
+  }
+}
+
+}  // namespace collision

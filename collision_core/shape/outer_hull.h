@@ -1,0 +1,97 @@
+// A convex body around a shape, quick to ask: how far does it reach along a direction?
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace collision {
+
+/// Of these points one reaches farthest along a direction of the cell, or by no more than `more`
+/// less than all of the body, where the direction's greatest coordinate is 1. In single precision,
+/// seen from the hull's origin; places left over repeat the first point. One line of a cache.
+struct alignas(64) HullCell {
+  static constexpr std::uint32_t kPoints = 4;
+  float x[kPoints], y[kPoints], z[kPoints];
+  float more;
+};
+
+/// Contains a shape, and not much more than its convex hull: mostly nothing where corners are few, some
+/// hundredths of the size along round sides. At most 24 kB, however many triangles there are.
+///
+/// Directions are sorted into the cells of a cube around them, as in convex_points.h; but a cell
+/// keeps four points at most. On a face of the cube, along (1, u, v), the difference of two points is
+/// linear in u and v: it is greatest at a corner of the cell. So it is known by how much a point that
+/// was left out may exceed those that were kept.
+class OuterHull {
+ public:
+  /// Of nothing.
+  OuterHull() = default;
+  /// Around all that is within `rounding` of the points' convex hull [m]. Requires a point; finite
+  /// coordinates below 1e15 m, whose squares single precision holds.
+  OuterHull(std::span<const Eigen::Vector3d> points, double rounding);
+
+  struct Support {
+    float height;           ///< n·x is no more for any x of the shape, but for kHullSupportError.
+    Eigen::Vector3f point;  ///< About where.
+  };
+  /// Along n, seen from origin(). Requires |n| within 2^-16 of 1, and a point.
+  Support Along(const Eigen::Vector3f& n) const;
+
+  const Eigen::Vector3d& origin() const { return origin_; }  ///< In the body frame.
+  double extent() const { return extent_; }  ///< No point of the shape is farther from the origin.
+  /// Squares of half the extents along the axes, by that of the extent: how long it is which way.
+  const Eigen::Vector3f& measure() const { return measure_; }
+  std::size_t bytes() const { return cells_.capacity() * sizeof(HullCell); }
+
+ private:
+  struct Patch;
+
+  std::uint32_t CellOf(const Eigen::Vector3f& n) const;
+  void Divide(const Patch& patch, const std::vector<Eigen::Vector3d>& points);
+
+  std::uint32_t along_edge_ = 0;  ///< Cells along an edge of the cube.
+  std::vector<HullCell> cells_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double extent_ = 0;
+  float rounding_ = 0;
+  Eigen::Vector3f measure_ = Eigen::Vector3f::Zero();
+};
+
+/// Of the extent E. With u = 2^-24: three products and two sums are off by 3.1 u E, the sums with
+/// `more` and the rounding by 2.1 u E; a direction that rounding sorts into the next cell is off by
+/// 3 u in each of two coordinates of (1, u, v), there and back 9 u E: in all less than 15 u E.
+inline constexpr double kHullSupportError = 15 * 0x1p-24;
+
+/// As ConvexPoints::CellOf(): the face is that of the greatest coordinate.
+inline std::uint32_t OuterHull::CellOf(const Eigen::Vector3f& n) const {
+  const float x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
+  const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+  const int second = axis == 2 ? 0 : axis + 1, third = 3 - axis - second;
+  const float half = 0.5f * static_cast<float>(along_edge_), scale = half / std::abs(n[axis]);
+  const auto last = static_cast<std::int32_t>(along_edge_) - 1;
+  const auto cell = [&](int i) {
+    const auto at = static_cast<std::int32_t>(n[i] * scale + half);
+    return static_cast<std::uint32_t>(std::clamp(at, 0, last));
+  };
+  const std::uint32_t face = 2 * static_cast<std::uint32_t>(axis) + (n[axis] < 0 ? 1 : 0);
+  return (face * along_edge_ + cell(second)) * along_edge_ + cell(third);
+}
+
+inline OuterHull::Support OuterHull::Along(const Eigen::Vector3f& n) const {
+  const HullCell& cell = cells_[CellOf(n)];
+  float heights[HullCell::kPoints];
+  for (std::uint32_t i = 0; i < HullCell::kPoints; ++i) {
+    heights[i] = (n.x() * cell.x[i] + n.y() * cell.y[i]) + n.z() * cell.z[i];
+  }
+  std::uint32_t best = 0;
+  for (std::uint32_t i = 1; i < HullCell::kPoints; ++i) {
+    best = heights[i] > heights[best] ? i : best;
+  }
+  return {(heights[best] + cell.more) + rounding_, {cell.x[best], cell.y[best], cell.z[best]}};
+}
+
+}  // namespace collision

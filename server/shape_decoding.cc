@@ -1,0 +1,175 @@
+#include "server/shape_decoding.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "collision_core/shape/shape.h"
+#include "idl/shape_bytes.h"
+
+namespace collision::server {
+namespace {
+
+using Refusal = std::optional<std::string>;
+
+/// What a number that travels as a kind means.
+struct Kind {
+  SolidKind kind;
+  const char* name;
+  ConvexCore core;
+  bool uses_half[3];  ///< Which of half_extents count.
+};
+
+constexpr Kind kKinds[] = {
+    {SolidKind::kBall, "ball", ConvexCore::kPoint, {false, false, false}},
+    {SolidKind::kCapsule, "capsule", ConvexCore::kSegment, {false, false, true}},
+    {SolidKind::kBox, "box", ConvexCore::kBox, {true, true, true}},
+    {SolidKind::kEllipsoid, "ellipsoid", ConvexCore::kEllipsoid, {true, true, true}},
+    {SolidKind::kHull, "hull", ConvexCore::kHull, {false, false, false}},
+};
+
+const Kind* FindKind(SolidKind kind) {
+  for (const Kind& known : kKinds) {
+    if (known.kind == kind) return &known;
+  }
+  return nullptr;
+}
+
+TriangleMesh MeshOf(const ShapeContent& content) {
+  TriangleMesh mesh;
+  mesh.vertices.reserve(content.vertices.size());
+  for (const auto& [x, y, z] : content.vertices) mesh.vertices.emplace_back(x, y, z);
+  mesh.triangles.assign(content.triangles.begin(), content.triangles.end());
+  return mesh;
+}
+
+ConvexDescription DescriptionOf(const SolidContent& solid, const Kind& kind) {
+  ConvexDescription description;
+  description.core = kind.core;
+  description.half = {solid.half_extents[0], solid.half_extents[1], solid.half_extents[2]};
+  description.rounding = solid.rounding;
+  const auto& [w, x, y, z] = solid.orientation;
+  description.q_BS = {w, x, y, z};
+  description.p_BS = {solid.position[0], solid.position[1], solid.position[2]};
+  description.points.reserve(solid.points.size());
+  for (const auto& [px, py, pz] : solid.points) description.points.emplace_back(px, py, pz);
+  return description;
+}
+
+/// A number that means nothing to its kind is most likely one that was meant to mean something: a
+/// capsule's radius told as a half extent would be a solid too thin, and contacts that nobody hears
+/// of.
+Refusal RefusalOfUnused(const SolidContent& solid, const Kind& kind) {
+  for (int i = 0; i < 3; ++i) {
+    if (kind.uses_half[i] || solid.half_extents[i] == 0) continue;
+    return fmt::format("half_extents[{}] is {}; allowed is 0: a {} has none along {}", i,
+                       solid.half_extents[i], kind.name, "xyz"[i]);
+  }
+  if (kind.core == ConvexCore::kHull || solid.points.empty()) return std::nullopt;
+  return fmt::format("there are {} points; allowed are 0: a {} has none", solid.points.size(),
+                     kind.name);
+}
+
+/// Not needed elsewhere to tell what is wrong: numbers that count are judged by their range.
+Refusal RefusalOfOrientation(const SolidContent& solid) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (std::isfinite(solid.orientation[i])) continue;
+    return fmt::format("orientation.{} is {}; allowed are finite values", "wxyz"[i],
+                       solid.orientation[i]);
+  }
+  return std::nullopt;
+}
+
+/// The core's sentence, in the words of the wire.
+std::string InWords(std::string sentence) {
+  constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+      {"convex.half", "half_extents"},
+      {"convex.q_BS", "orientation"},
+      {"convex.p_BS", "position"},
+      {"convex.", ""},
+      {"convex: ", ""}};
+  for (const auto& [core, wire] : kWords) {
+    if (sentence.starts_with(core)) return std::string(wire) + sentence.substr(core.size());
+  }
+  return sentence;
+}
+
+Refusal RefusalOfSolid(const SolidContent& solid) {
+  const Kind* kind = FindKind(solid.kind);
+  if (kind == nullptr) {
+    return fmt::format(
+        "kind is {}; allowed are 1 (ball), 2 (capsule), 3 (box), 4 (ellipsoid) and 5 (hull)",
+        static_cast<std::uint32_t>(solid.kind));
+  }
+  if (auto refusal = RefusalOfUnused(solid, *kind)) return refusal;
+  if (auto refusal = RefusalOfOrientation(solid)) return refusal;
+  auto refusal = RefusalOf(DescriptionOf(solid, *kind));
+  if (refusal) *refusal = InWords(std::move(*refusal));
+  return refusal;
+}
+
+std::string NameOf(const ShapeContent& content, std::size_t i) {
+  const Kind* kind = FindKind(content.solids[i].kind);
+  return fmt::format("solids[{}] of {}{}", i, content.solids.size(),
+                     kind ? fmt::format(" ({})", kind->name) : "");
+}
+
+Refusal RefusalOfSolids(const ShapeContent& content) {
+  if (content.solids.size() > kSolidsMax) {
+    return fmt::format("{} convex solids; allowed: 0 to {}", content.solids.size(), kSolidsMax);
+  }
+  std::size_t points = 0;
+  for (const SolidContent& solid : content.solids) points += solid.points.size();
+  if (points > kSolidPointsMax) {
+    return fmt::format("its hulls have {} points; allowed: 0 to {}", points, kSolidPointsMax);
+  }
+  for (std::size_t i = 0; i < content.solids.size(); ++i) {
+    if (auto refusal = RefusalOfSolid(content.solids[i])) {
+      return NameOf(content, i) + ": " + *refusal;
+    }
+  }
+  return std::nullopt;
+}
+
+/// The surface, repaired and taken away; none at all is allowed beside solids.
+Refusal TakeMesh(ShapeContent* content, std::size_t triangles_max, DecodedShape* decoded) {
+  TriangleMesh mesh = MeshOf(*content);
+  content->vertices = {};
+  content->triangles = {};
+  const bool has_surface = !mesh.vertices.empty() || !mesh.triangles.empty();
+  if (!has_surface && !content->solids.empty()) return std::nullopt;
+  if (auto refusal = RefusalOf(mesh, triangles_max)) return refusal;
+  const std::size_t triangles = mesh.triangles.size();
+  decoded->dropped = DropDegenerate(&mesh);
+  if (mesh.triangles.empty()) {
+    return fmt::format("all of its {} triangles are degenerate; at least 1 with an area is needed",
+                       triangles);
+  }
+  decoded->mesh = std::move(mesh);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<DecodedShape> DecodeAndCheck(std::string bytes, std::size_t triangles_max,
+                                           std::string* refusal) {
+  std::optional<ShapeContent> content = DecodeShape(bytes, refusal);
+  if (!content) return std::nullopt;
+  std::string().swap(bytes);
+  DecodedShape decoded;
+  Refusal found = RefusalOfSolids(*content);
+  if (!found) found = TakeMesh(&*content, triangles_max, &decoded);
+  if (found) {
+    *refusal = std::move(*found);
+    return std::nullopt;
+  }
+  decoded.solids.reserve(content->solids.size());
+  for (const SolidContent& solid : content->solids) {
+    decoded.solids.push_back(ConvexSolid::Build(DescriptionOf(solid, *FindKind(solid.kind))));
+  }
+  return decoded;
+}
+
+}  // namespace collision::server
