@@ -12,6 +12,10 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Of a tree, for one direction: many corners may reach equally far. Then the hull around it tells,
+/// to a millionth of the size where corners are few, to some hundredths along round sides.
+constexpr std::uint64_t kNodesMax = 64;
+
 /// How far a body reaches along n, in its own frame: best first down its tree, so that little of it
 /// is looked at. What rounding makes of it, relative to the reach, is left to the caller.
 class Reaching {
@@ -22,7 +26,11 @@ class Reaching {
   double Find() {
     if (surface_.shape() == nullptr) return surface_.reach();
     Visit(0);
-    return work_.exhausted() ? kInfinity : farthest_;
+    if (nodes_ <= kNodesMax) return work_.exhausted() ? kInfinity : farthest_;
+    const OuterHull& hull = surface_.shape()->hull();
+    const double height = static_cast<double>(hull.Along(n_.cast<float>()).height);
+    // n as a float is off by less than 2 · 2^-24.
+    return n_.dot(hull.origin()) + height + (kHullSupportError + 0x1p-23) * hull.extent();
   }
 
  private:
@@ -30,6 +38,8 @@ class Reaching {
 
   void Visit(std::uint32_t index) {
     const SphereNode& node = surface_.node(index);
+    if (nodes_ > kNodesMax) return;
+    ++nodes_;
     work_.Spend(1);
     if (work_.exhausted() || BoundOf(node) <= farthest_) return;
     const SphereTree& tree = surface_.shape()->tree();
@@ -62,6 +72,7 @@ class Reaching {
   const Surface& surface_;
   const Vector3d n_;
   Work& work_;
+  std::uint64_t nodes_ = 0;
   double farthest_ = -kInfinity;
 };
 
