@@ -32,9 +32,16 @@ bool Narrower(const TimeBracket& found, const TimeBracket& published) {
 void TakeBrackets(const ContactEpisode& episode, const PairRecord& pair, CollisionEvent* event) {
   TimeBracket begin = episode.begin;
   Instant end = episode.end.earliest;
+  bool continuous = episode.continuous;
   if (event->status == EventStatus::kConfirmed && !pair.broken) {
     // What was certain of a later contact says nothing of where this one ends.
     const bool same = event->begin.latest <= episode.end.latest;
+    const bool adds = event->begin.latest < begin.latest ||
+                      (same && event->continuous && event->end.earliest > end);
+    // Contact was certain from here to there, and is from there to there: throughout if these join.
+    const bool joins =
+        event->continuous && event->begin.latest <= end && event->end.earliest >= begin.latest;
+    if (adds && !joins) continuous = false;
     if (same && event->continuous) end = std::max(end, event->end.earliest);
     begin.latest = std::min(begin.latest, event->begin.latest);
     begin.earliest = std::min(std::max(begin.earliest, event->begin.earliest), begin.latest);
@@ -43,7 +50,7 @@ void TakeBrackets(const ContactEpisode& episode, const PairRecord& pair, Collisi
   if (pair.doubted) begin.earliest = std::min(event->begin.earliest, episode.begin.earliest);
   event->begin = begin;
   event->end.earliest = std::min(end, episode.end.latest);
-  event->continuous = episode.continuous && !pair.doubted;
+  event->continuous = continuous && !pair.doubted;
 }
 
 double SecondsLeft(Instant now, Instant t) {
