@@ -84,11 +84,30 @@ const EventHistory* Find(const Evidence& evidence, const TrueContact& contact) {
   return nullptr;
 }
 
-// Did the service say that changes of one of the two count only from later than the contact's
-// begin?
-bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
+// When one of the two last appeared or jumped before the contact began; none: never.
+std::optional<std::int64_t> LastChange(const Evidence& evidence, const TrueContact& contact) {
+  std::optional<std::int64_t> last;
+  for (const std::size_t i : {contact.a, contact.b}) {
+    const AgentMotion& motion = evidence.motions()[i];
+    const auto take = [&](std::int64_t at) {
+      if (at <= contact.begin_ns) last = std::max(last.value_or(at), at);
+    };
+    take(motion.begin_ns());
+    for (const std::int64_t jump : motion.jumps_ns) take(jump);
+  }
+  return last;
+}
+
+// The service says from when on changes of an agent count: time up to then was granted already. Did
+// it say so of one of the two before the contact began? Or, where a simulator went through granted
+// time past the contact's begin before anybody heard of the change, no later than of the contact?
+bool InGrantedTime(const Evidence& evidence, const TrueContact& contact,
+                   const EventHistory& history) {
+  const std::optional<std::int64_t> change = LastChange(evidence, contact);
+  bool granted = false;  // what comes after the begin, before the change
   for (const v1::Clearance& sample : evidence.observations().clearances) {
-    if (sample.now_ns() > contact.begin_ns) continue;
+    granted = granted || (change && sample.now_ns() <= *change &&
+                          sample.granted_until_ns() > contact.begin_ns);
     for (const v1::AgentClearance& agent : sample.agents()) {
       if (agent.effective_from_ns() <= contact.begin_ns) continue;
       v1::AgentId id;
@@ -97,7 +116,9 @@ bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
       id.set_slot(agent.slot());
       id.set_generation(agent.generation());
       const auto motion = evidence.MotionOf(id);
-      if (motion == contact.a || motion == contact.b) return true;
+      if (motion != contact.a && motion != contact.b) continue;
+      const Moment then{sample.now_ns(), sample.stamp()};
+      return sample.now_ns() <= contact.begin_ns || (granted && !history.announced.IsAfter(then));
     }
   }
   return false;
@@ -108,8 +129,8 @@ bool InGrantedTime(const Evidence& evidence, const TrueContact& contact) {
 bool Reported(const Evidence& evidence, const TrueContact& contact) {
   for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
     const long double tolerance = contact.begin_tolerance_ns;
-    if (history->announced_ns <= contact.begin_ns + tolerance &&
-        (!history->closed_ns || *history->closed_ns >= contact.begin_ns - tolerance)) {
+    if (history->announced.now_ns <= contact.begin_ns + tolerance &&
+        (!history->closed || history->closed->now_ns >= contact.begin_ns - tolerance)) {
       return true;
     }
   }
@@ -123,7 +144,7 @@ bool AnnouncedInTime(const Evidence& evidence, const TrueContact& contact,
   const std::int64_t transit = evidence.facts().transit_ns;
   const auto begin = static_cast<std::int64_t>(contact.begin_ns);
   if (transit > 0 && evidence.Changed(contact, begin, contact.begin_ns)) return true;
-  return InGrantedTime(evidence, contact);
+  return InGrantedTime(evidence, contact, history);
 }
 
 bool Required(const Evidence& evidence, const TrueContact& contact) {
@@ -169,7 +190,7 @@ void CheckContact(const Evidence& evidence, const TrueContact& contact, Violatio
   }
   if (!AnnouncedInTime(evidence, contact, *history)) {
     violations->push_back(Name(evidence, contact) + ": announced late, at " +
-                          evidence.Time(history->announced_ns));
+                          evidence.Time(history->announced.now_ns));
   }
   CheckEnd(evidence, contact, *history, violations);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 namespace collision::checker {
 namespace {
@@ -33,6 +34,13 @@ bool IsFinal(v1::EventStatus status) {
 
 }  // namespace
 
+bool Moment::IsAfter(const Moment& other) const {
+  const bool same_service = stamp.sequence() > 0 && stamp.service_id() == other.stamp.service_id();
+  if (!same_service || other.stamp.sequence() == 0) return now_ns > other.now_ns;
+  return std::pair(stamp.term(), stamp.sequence()) >
+         std::pair(other.stamp.term(), other.stamp.sequence());
+}
+
 Evidence::Evidence(std::vector<AgentMotion> motions, const Observations& observations,
                    const RunFacts& facts)
     : motions_(std::move(motions)),
@@ -57,6 +65,7 @@ Evidence::Evidence(std::vector<AgentMotion> motions, const Observations& observa
 }
 
 void Evidence::Sort(const v1::CollisionEvent& event) {
+  const Moment moment{event.now_ns(), event.stamp()};
   auto a = MotionOf(event.lower()), b = MotionOf(event.higher());
   if (!a || !b) {
     strange_events_.push_back(event);
@@ -73,14 +82,14 @@ void Evidence::Sort(const v1::CollisionEvent& event) {
   const std::size_t index = found != indices.end() ? *found : histories_.size();
   if (found == indices.end()) {
     indices.push_back(index);
-    histories_.push_back({*a, *b, event.now_ns(), std::nullopt, std::nullopt, {}});
+    histories_.push_back({*a, *b, moment, std::nullopt, std::nullopt, {}});
   }
   EventHistory& history = histories_[index];
   if (!history.revisions.empty() && event.revision() <= history.last().revision()) return;
-  history.announced_ns = std::min<std::int64_t>(history.announced_ns, event.now_ns());
+  if (history.announced.IsAfter(moment)) history.announced = moment;
   const bool confirmed = event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
-  if (confirmed && !history.confirmed_ns) history.confirmed_ns = event.now_ns();
-  if (IsFinal(event.status()) && !history.closed_ns) history.closed_ns = event.now_ns();
+  if (confirmed && !history.confirmed) history.confirmed = moment;
+  if (IsFinal(event.status()) && !history.closed) history.closed = moment;
   history.revisions.push_back(event);
 }
 

@@ -36,13 +36,22 @@ struct RunFacts {
   std::int64_t transit_ns = 0;
 };
 
+/// When something was published. Several steps of the service may have the same time; what came
+/// first, its stamps tell.
+struct Moment {
+  std::int64_t now_ns = 0;
+  v1::ServiceStamp stamp;
+
+  bool IsAfter(const Moment& other) const;
+};
+
 /// All revisions of one contact as published.
 struct EventHistory {
   std::size_t a = 0;  ///< Indices of the motions, a < b.
   std::size_t b = 0;
-  std::int64_t announced_ns = 0;             ///< The service's time at the first revision received.
-  std::optional<std::int64_t> confirmed_ns;  ///< ... at the first that was confirmed.
-  std::optional<std::int64_t> closed_ns;     ///< ... at the first that was final.
+  Moment announced;                           ///< The first revision received.
+  std::optional<Moment> confirmed;            ///< The first that was confirmed.
+  std::optional<Moment> closed;               ///< The first that was final.
   std::vector<v1::CollisionEvent> revisions;  ///< As received; the highest revision last.
 
   const v1::CollisionEvent& last() const { return revisions.back(); }

@@ -81,7 +81,7 @@ class ExpectationCheck {
 
   void CheckOthers() {
     for (const EventHistory& history : evidence_.histories()) {
-      if (!history.confirmed_ns || matched_.contains(&history)) continue;
+      if (!history.confirmed || matched_.contains(&history)) continue;
       violations_.push_back(evidence_.PairName(history.a, history.b) +
                             ": confirmed, but the scene expects no such contact; begin from " +
                             evidence_.Time(history.last().begin().earliest_ns()));

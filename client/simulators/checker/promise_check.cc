@@ -26,21 +26,21 @@ auto FirstAfter(const std::vector<const TrueContact*>& contacts, std::int64_t no
   });
 }
 
-bool Open(const EventHistory& history, std::int64_t now_ns, std::int64_t since_ns) {
-  return since_ns <= now_ns && (!history.closed_ns || *history.closed_ns > now_ns);
+bool Open(const EventHistory& history, const Moment& then, const Moment& since) {
+  return !since.IsAfter(then) && (!history.closed || history.closed->IsAfter(then));
 }
 
 // Had the pair been reported possible or in contact by then, and not yet been closed?
-bool Announced(const Evidence& evidence, const TrueContact& contact, std::int64_t now_ns) {
+bool Announced(const Evidence& evidence, const TrueContact& contact, const Moment& then) {
   for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
-    if (Open(*history, now_ns, history->announced_ns)) return true;
+    if (Open(*history, then, history->announced)) return true;
   }
   return false;
 }
 
-bool InContact(const Evidence& evidence, const TrueContact& contact, std::int64_t now_ns) {
+bool InContact(const Evidence& evidence, const TrueContact& contact, const Moment& then) {
   for (const EventHistory* history : evidence.HistoriesOf(contact.a, contact.b)) {
-    if (history->confirmed_ns && Open(*history, now_ns, *history->confirmed_ns)) return true;
+    if (history->confirmed && Open(*history, then, *history->confirmed)) return true;
   }
   return false;
 }
@@ -51,15 +51,15 @@ bool Breaks(const TrueContact& contact, std::int64_t from_ns, long double until_
          contact.begin_ns < until_ns - contact.begin_tolerance_ns;
 }
 
-void CheckClearance(const Evidence& evidence, std::size_t motion, std::int64_t now_ns,
+void CheckClearance(const Evidence& evidence, std::size_t motion, const Moment& then,
                     const v1::AgentClearance& agent, Violations* violations) {
+  const std::int64_t now_ns = then.now_ns;
   const auto& contacts = evidence.ContactsOf(motion);
   for (auto it = FirstAfter(contacts, now_ns); it != contacts.end(); ++it) {
     const TrueContact& contact = **it;
     if (contact.begin_ns >= agent.clear_until_ns() - kRootTolerance) return;
     if (!Breaks(contact, now_ns, agent.clear_until_ns())) continue;
-    if (evidence.Changed(contact, now_ns, contact.begin_ns) ||
-        Announced(evidence, contact, now_ns)) {
+    if (evidence.Changed(contact, now_ns, contact.begin_ns) || Announced(evidence, contact, then)) {
       continue;
     }
     violations->push_back(evidence.motions()[motion].agent + ": at " + evidence.Time(now_ns) +
@@ -75,6 +75,7 @@ void CheckClearance(const Evidence& evidence, std::size_t motion, std::int64_t n
 Violations CheckClearances(const Evidence& evidence) {
   Violations violations;
   for (const v1::Clearance& sample : evidence.observations().clearances) {
+    const Moment then{sample.now_ns(), sample.stamp()};
     for (const v1::AgentClearance& agent : sample.agents()) {
       if (violations.size() >= kRepeatsMax) return violations;
       const auto motion = evidence.MotionOf(IdOf(sample, agent));
@@ -85,7 +86,7 @@ Violations CheckClearances(const Evidence& evidence) {
                              ": promises published as void from " +
                              evidence.Time(agent.void_from_ns()) + ", but nobody broke a bound");
       }
-      CheckClearance(evidence, *motion, sample.now_ns(), agent, &violations);
+      CheckClearance(evidence, *motion, then, agent, &violations);
     }
   }
   return violations;
@@ -94,13 +95,14 @@ Violations CheckClearances(const Evidence& evidence) {
 Violations CheckEarliest(const Evidence& evidence) {
   Violations violations;
   for (const v1::EarliestIntersection& sample : evidence.observations().earliest) {
+    const Moment then{sample.now_ns(), sample.stamp()};
     for (const TrueContact& contact : evidence.contacts()) {
       if (violations.size() >= kRepeatsMax) return violations;
       const long double until = sample.found() ? sample.earliest_ns() : kForEver;
       if (contact.begin_ns >= until - kRootTolerance) break;
       if (!Breaks(contact, sample.now_ns(), until)) continue;
       if (evidence.Changed(contact, sample.now_ns(), contact.begin_ns)) continue;
-      if (InContact(evidence, contact, sample.now_ns())) continue;
+      if (InContact(evidence, contact, then)) continue;
       violations.push_back(
           "at " + evidence.Time(sample.now_ns()) + " the earliest intersection was " +
           (sample.found() ? evidence.Time(sample.earliest_ns()) : std::string("none")) + ", but " +

@@ -25,7 +25,7 @@ void CountEvents(const checker::Evidence& evidence, v1::RunReport* report) {
                     [](const auto& e) { return e.status() == v1::EVENT_POSSIBLE; });
     const v1::EventStatus last = history.last().status();
     report->set_events_possible(report->events_possible() + possible);
-    report->set_events_confirmed(report->events_confirmed() + history.confirmed_ns.has_value());
+    report->set_events_confirmed(report->events_confirmed() + history.confirmed.has_value());
     report->set_events_dismissed(report->events_dismissed() + (last == v1::EVENT_DISMISSED));
     report->set_events_undecided(report->events_undecided() + (last == v1::EVENT_UNDECIDED));
     report->set_events_withdrawn(report->events_withdrawn() + (last == v1::EVENT_WITHDRAWN));
@@ -67,7 +67,7 @@ std::vector<double> BeginWidthsAtConfirmation(const checker::Evidence& evidence)
 std::vector<double> BeginWidthsFinal(const checker::Evidence& evidence) {
   std::vector<double> widths;
   for (const checker::EventHistory& history : evidence.histories()) {
-    if (history.confirmed_ns && !IsOpen(history.last().begin())) {
+    if (history.confirmed && !IsOpen(history.last().begin())) {
       widths.push_back(Width(history.last().begin()));
     }
   }
@@ -154,10 +154,10 @@ ShapeFigures FiguresOfShapes(const checker::Evidence& evidence) {
     const auto first = std::find_if(history.revisions.begin(), history.revisions.end(), HasClaim);
     if (first != history.revisions.end()) AddClaim(*first, &figures);
     const v1::EventStatus last = history.last().status();
-    figures.confirmed += history.confirmed_ns.has_value();
+    figures.confirmed += history.confirmed.has_value();
     figures.undecided += last == v1::EVENT_UNDECIDED;
     figures.dismissed += last == v1::EVENT_DISMISSED;
-    if (history.closed_ns && last != v1::EVENT_WITHDRAWN)
+    if (history.closed && last != v1::EVENT_WITHDRAWN)
       figures.work_units.push_back(static_cast<double>(history.last().work_units()));
   }
   return figures;

@@ -209,7 +209,7 @@ class Flight {
       widths->push_back(static_cast<double>(bracket.latest_ns() - bracket.earliest_ns()) * 1e-9);
     };
     for (const checker::EventHistory& history : evidence.histories()) {
-      if (!history.confirmed_ns) continue;
+      if (!history.confirmed) continue;
       add(history.last().begin(), &outcome.begin_widths);
       add(history.last().end(), &outcome.end_widths);
     }

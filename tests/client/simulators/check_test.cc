@@ -152,6 +152,29 @@ TEST_F(CheckTest, LateAnnouncementInGrantedTimeIsExcused) {
   EXPECT_NE(Verdict(), "");
 }
 
+// Goal:   nor can anybody be told in time of what comes after a jump within time that was granted before, where
+// the simulator went through that time at once; but then it is told as soon as the jump is heard of.
+TEST_F(CheckTest, JumpInGrantedTimeIsToldWithTheFirstNewsOfIt) {
+  const auto verdict = [this](std::int64_t jump_s10, std::int64_t granted_s10, std::uint64_t told) {
+    observations_.clearances.clear();
+    motions_[1].jumps_ns = {jump_s10 * kSecond / 10};
+    AddClearance(1, 8 * kSecond, 8 * kSecond);
+    observations_.clearances.back().set_granted_until_ns(granted_s10 * kSecond / 10);
+    AddClearance(1, 9 * kSecond + 10, 9 * kSecond);
+    observations_.clearances.back().mutable_stamp()->set_sequence(6);
+    observations_.clearances.back().mutable_agents(0)->set_effective_from_ns(10 * kSecond);
+    observations_.events[0].set_now_ns(9 * kSecond + 10);
+    observations_.events[0].mutable_stamp()->set_sequence(told);
+    return Verdict();
+  };
+  EXPECT_EQ(verdict(85, 95, 5), "");
+  for (const std::string& late : {verdict(85, 95, 7), verdict(85, 89, 5), verdict(91, 95, 5)}) {
+    EXPECT_NE(late.find("announced late"), std::string::npos) << late;
+  }
+  EXPECT_EQ(verdict(80, 95, 5), "");
+  EXPECT_NE(verdict(79, 95, 5), "");
+}
+
 // Goal:   brackets that miss their truth by more than the checker's own tolerance are noticed, on
 // either side.
 TEST_F(CheckTest, WrongBeginBracketIsNoticed) {
@@ -234,6 +257,25 @@ TEST_F(CheckTest, LateEarliestIsNoticed) {
   observations_.earliest.clear();
   AddEarliest(3 * kSecond, false, kOpen);
   EXPECT_NE(Verdict().find("the earliest intersection was none"), std::string::npos);
+}
+
+// Steps of one time come one after the other: while the pair is told to be in contact its next one is
+// not waited for, afterwards it is.
+TEST_F(CheckTest, OfEqualTimesTheStampsTellWhatCameFirst) {
+  const std::string late = "the earliest intersection was none";
+  observations_.events.clear();
+  Add(1, 7 * kSecond, v1::EVENT_CONFIRMED, 6.5, 6.75, 6.75, -1);
+  Add(2, 8 * kSecond, v1::EVENT_ENDED, 6.5, 6.75, 7.5, 7.75);
+  AddEarliest(8 * kSecond, false, kOpen);
+  EXPECT_NE(Verdict().find(late), std::string::npos);
+  for (const std::uint64_t sequence : {3, 4, 6}) {
+    observations_.events[0].mutable_stamp()->set_sequence(2);
+    observations_.events[1].mutable_stamp()->set_sequence(5);
+    observations_.earliest[0].mutable_stamp()->set_sequence(sequence);
+    EXPECT_EQ(Verdict().find(late) == std::string::npos, sequence < 5) << sequence;
+  }
+  observations_.earliest[0].mutable_stamp()->set_sequence(1);
+  EXPECT_NE(Verdict().find(late), std::string::npos);
 }
 
 // Goal:   what a scene expects is demanded: the contact, its brackets' widths, no other, the
