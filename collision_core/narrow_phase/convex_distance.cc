@@ -35,18 +35,27 @@ class Bracket {
 
   void Find(SearchHint* hint, ConvexSeparation* result) {
     if (question_.goal != ConvexGoal::kYesNo || !IsPlainFromFaces()) {
-      Search(*hint);
-      TakeSearched();
-      SetUpper();
-      if (!search_.encloses && !IsGoodEnough()) TryFeatures();
-      if (!search_.encloses && pair_.IsSmooth() && !IsGoodEnough()) Polish();
-      if (MayOverlap()) Deepen();
+      Narrow(*hint);
       KeepHint(pair_, search_, hint);
     }
     SetResult(result);
   }
 
+  Interval FindInterval() {
+    if (question_.goal != ConvexGoal::kYesNo || !IsPlainFromFaces()) Narrow({});
+    return {separation_lower(), separation_upper()};
+  }
+
  private:
+  void Narrow(const SearchHint& hint) {
+    Search(hint);
+    TakeSearched();
+    SetUpper();
+    if (!search_.encloses && !IsGoodEnough()) TryFeatures();
+    if (!search_.encloses && pair_.IsSmooth() && !IsGoodEnough()) Polish();
+    if (MayOverlap()) Deepen();
+  }
+
   bool AreZonotopes() const {
     if (pair_.a().IsThin() && pair_.b().IsThin()) return false;
     return IsZonotope(pair_.a()) && IsZonotope(pair_.b());
@@ -298,11 +307,11 @@ class Bracket {
   // Points a of A and b of B that are ρ apart. The difference holds the ball of the certain depth
   // m, so that there are a', b' with b' − a' = −(m / ρ)(b − a): on the way from a to a' and from b
   // to b' the share ρ / (ρ + m) is a common point, no further from a than that share of A's
-  // diameter.
+  // diameter, nor from b than that of B's. What is told is half-way between a and b.
   double FurtherToCommon(double length, double certain, double depth) const {
     const double apart = std::max(0.0, length - rounding_) + 2 * certain;
     const double diameter = 2 * (std::min(pair_.a().span, pair_.b().span) + rounding_);
-    return (1 + 0x1p-40) * diameter * (apart / (apart + depth));
+    return (1 + 0x1p-40) * (0.5 * apart + diameter * (apart / (apart + depth)));
   }
 
   const ConvexPair pair_;
@@ -325,6 +334,11 @@ ConvexSeparation SeparationOf(const ConvexSet& a, const ConvexSet& b,
   ConvexSeparation result;
   Bracket(a, b, question, work).Find(hint, &result);
   return result;
+}
+
+Interval IntervalOf(const ConvexSet& a, const ConvexSet& b, const ConvexQuestion& question,
+                    Work* work) {
+  return Bracket(a, b, question, work).FindInterval();
 }
 
 // The nearest point of A along −n is at x = c + support: its height n·(x − p) over the boundary is

@@ -49,6 +49,10 @@ struct ConvexSeparation {
 ConvexSeparation SeparationOf(const ConvexSet& a, const ConvexSet& b,
                               const ConvexQuestion& question, SearchHint* hint, Work* work);
 
+/// `separation` and nothing else.
+Interval IntervalOf(const ConvexSet& a, const ConvexSet& b, const ConvexQuestion& question,
+                    Work* work);
+
 /// A convex set and a half-space, exact but for rounding: B is the half-space. To take the two
 /// apart a shift along its normal is the shortest.
 ConvexSeparation SeparationOf(const ConvexSet& a, const PosedHalfSpace& b);

@@ -18,19 +18,18 @@ constexpr double kFarApart = 1e15, kAtOnePlace = 1e-15;
 /// Of S, the sum of both extents and of the offset between the origins. With u = 2^-24: supports are
 /// off by kHullSupportError, 15 u, of the extents; B's direction is turned with an error of √3 times
 /// 4 u, 7 u of its extent; the offset is cast (u) and multiplied (3.1 u); two differences make 2 u S.
-/// A direction is made a unit vector to within 6 u, and each of four times that it is mirrored it
-/// loses less than 22 u of its length (2 n·w / w² takes 9 u, of a vector of length 2 at most, and
-/// the difference 3 u): a gap, less than S, is off by these 94 u of itself. In all less than 124 u S.
+/// A gap is made one along a unit vector to within 6 u, and each of four times that a direction is
+/// mirrored it loses less than 22 u of its length (2 n·w / w² takes 9 u, of a vector of length 2 at
+/// most, and the difference 3 u): a gap, less than S, is off by these 94 u of itself. In all less than
+/// 124 u S.
 constexpr double kGapSlack = 0x1p-24 * 128;
 
 /// So much longer than 1 is no direction: a ball's shadow is as much longer.
 constexpr double kLonger = 1 + 0x1p-15;
 
-/// Deeper than this share of the extents along the first line, and along the later ones, there is
-/// mostly no gap to be found.
-constexpr float kDeepAtFirst = 0.25f, kDeep = 0.08f;
-
-Vector3f Unit(const Vector3f& n) { return n * (1 / std::sqrt(n.squaredNorm())); }
+/// Deeper than this share of the extents along the first line, and than half of it each time along
+/// the later ones, there is mostly no gap to be found.
+constexpr float kDeep = 0.12f;
 
 struct FloatMatrix {
   explicit FloatMatrix(const Eigen::Matrix3d& m) {
@@ -54,8 +53,9 @@ struct HullSide {
         radius(hull ? 0 : FloatUp(body.reach() * kLonger)),
         measure(hull ? hull->measure() : Vector3f(1, 1, 1)) {}
 
-  OuterHull::Support Along(const Vector3f& n) const {
-    return hull ? hull->Along(n) : OuterHull::Support{radius, radius * n};
+  /// `scale`: makes a unit vector of n.
+  OuterHull::Foremost Along(const Vector3f& n, float scale) const {
+    return hull ? hull->ForemostAlong(n) : OuterHull::Foremost{0, radius, (radius * scale) * n};
   }
 
   const OuterHull* hull;
@@ -84,18 +84,28 @@ class HullPair {
   bool known() const { return known_; }
   double slack() const { return slack_; }
 
-  /// Less what is uncertain: the gap of the shadows along about a unit vector; and the way between
-  /// the foremost points, from A to B.
-  float Gap(const Vector3f& n, Vector3f* way) const {
-    const OuterHull::Support of_a = a_.Along(n);
-    const OuterHull::Support of_b = b_.Along(-matrix_.TransposeTimes(n));
-    *way = (between_ + matrix_.Times(of_b.point)) - of_a.point;
-    return (n.dot(between_) - of_a.height) - of_b.height;
+  /// The foremost points along a line.
+  struct Foremost {
+    OuterHull::Foremost of_a, of_b;
+  };
+  Foremost Along(const Vector3f& n, float scale) const {
+    return {a_.Along(n, scale), b_.Along(-matrix_.TransposeTimes(n), scale)};
   }
 
-  bool IsHopeless(int tried, float gap) const {
-    return gap < -(tried == 0 ? kDeepAtFirst : kDeep) * static_cast<float>(extents_);
+  /// Less what is uncertain: the gap of the shadows along n, of which `scale` makes about a unit
+  /// vector.
+  float Gap(const Vector3f& n, float scale, const Foremost& along) const {
+    const float gap = (n.dot(between_) - along.of_a.height) - along.of_b.height;
+    return gap * scale - (along.of_a.more + along.of_b.more);
   }
+
+  /// Between the foremost points, from A to B.
+  Vector3f Way(const Foremost& along) const {
+    return (between_ + matrix_.Times(along.of_b.point)) - along.of_a.point;
+  }
+
+  /// A smaller gap along the first line has no chance.
+  float Hopeless() const { return -kDeep * static_cast<float>(extents_); }
 
   /// About across the plane that is to stand between the two: along S⁻¹ d, of the way d between the
   /// middles, with the sum S of both measures; S⁻¹ but for its determinant.
@@ -120,7 +130,7 @@ class HullPair {
     const Vector3f& d = between_;
     const Vector3f n((c00 * d[0] + c10 * d[1]) + c20 * d[2], (c10 * d[0] + c11 * d[1]) + c21 * d[2],
                      (c20 * d[0] + c21 * d[1]) + c22 * d[2]);
-    return n.squaredNorm() > 0x1p-60f * d.squaredNorm() ? Unit(n) : Unit(d);
+    return n.squaredNorm() > 0x1p-60f * d.squaredNorm() ? n : d;
   }
 
  private:
@@ -138,12 +148,16 @@ double HullGapOf(const Surface& a, const Surface& b, const RelativePose& pose, d
                  Work* work) {
   const HullPair pair(a, b, pose);
   if (!pair.known()) return -kInfinity;
-  Vector3f n = pair.FirstDirection(), way;
-  float best = -kNowhere;
+  Vector3f n = pair.FirstDirection();
+  const float scale = 1 / std::sqrt(n.squaredNorm());
+  float best = -kNowhere, hopeless = pair.Hopeless();
   for (int i = 0; i < kHullDirectionsMax && !work->exhausted(); ++i) {
     work->Spend(kHullDirectionUnits);
-    best = std::max(best, pair.Gap(n, &way));
-    if (static_cast<double>(best) - pair.slack() > enough || pair.IsHopeless(i, best)) break;
+    const HullPair::Foremost along = pair.Along(n, scale);
+    best = std::max(best, pair.Gap(n, scale, along));
+    if (static_cast<double>(best) - pair.slack() > enough || best < hopeless) break;
+    hopeless *= 0.5f;
+    const Vector3f way = pair.Way(along);
     const float square = way.squaredNorm();
     if (!(square > std::numeric_limits<float>::min())) break;
     n -= (2 * n.dot(way) / square) * way;

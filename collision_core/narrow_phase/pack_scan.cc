@@ -74,15 +74,6 @@ unsigned NotGreater(const Lanes& a, const Lanes& b) {
 Lanes Beyond(const Lanes& a, const Lanes& b) {
   return Map([&](std::uint32_t i) { return a.lane[i] > b.lane[i] ? a.lane[i] : kNowhere; });
 }
-std::uint32_t Tell(unsigned mask, std::uint32_t first, const Lanes& lanes, std::uint32_t* codes,
-                   float* values) {
-  std::uint32_t found = 0;
-  for (; mask != 0; mask &= mask - 1) {
-    const auto i = static_cast<unsigned>(__builtin_ctz(mask));
-    codes[found] = first + i, values[found++] = lanes.lane[i];
-  }
-  return found;
-}
 
 }  // namespace
 }  // namespace collision

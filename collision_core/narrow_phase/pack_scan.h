@@ -33,6 +33,9 @@ struct BallScanTask {
   float parent;        ///< A lower bound for all of them.
   float limit;         ///< Pairs with a greater lower bound are not told one by one.
   float upper;         ///< Only a lesser upper bound is news.
+  /// Only which pairs are within the limit matters: `beyond` is the limit then, and what is told of
+  /// a pair is no bound, but mostly the less the nearer it is, and not above 0.
+  bool only_within = false;
 };
 
 /// Every triangle of a block beside every one of another.
@@ -42,6 +45,7 @@ struct BlockScanTask {
   float slack;   ///< Turning included.
   float parent;  ///< As above.
   float limit;
+  bool only_within = false;  ///< Likewise; lower bounds leave out what edges tell.
 };
 
 inline constexpr std::uint32_t kPairsMax = kPackBalls * kPackBalls;
@@ -50,12 +54,11 @@ inline constexpr std::uint32_t kLanesOver = 16;  ///< Whole vectors are written.
 /// The least lower bounds of pairs beyond the limit, lane by lane, over as many scans as there are.
 using LeastBeyond = float[kLanesOver];
 
-/// The pairs within the limit (or not numbers), in order; a code is 8 · row + lane.
+/// Pair 8 · row + lane has that bit and that place.
 struct BallHits {
-  float upper;  ///< The least upper bound of all pairs if it is news, else kNowhere.
-  std::uint32_t count;
+  float upper;           ///< The least upper bound of all pairs if it is news, else kNowhere.
+  std::uint64_t within;  ///< The pairs within the limit, or not numbers.
   float lowers[kPairsMax + kLanesOver];
-  std::uint32_t codes[kPairsMax + kLanesOver];
 };
 
 /// The kernels. All versions give the same bits: the order of the operations is one, none of them is
@@ -75,7 +78,21 @@ struct BallHits {
 /// normal · offset, and its normal is turned with an error below 8 u: in all less than
 /// (10.4 + 1.8 + 3 + 8) u |f_B| + (1.8 + 3) u |f_A| + (3.5 + 3) u |O| + 2 u S for gap and division:
 /// below 28 u S; directions that are up to 1 + 8 u long make gaps, below 2 S, too large by up to
-/// 16 u S: kTriangleSlack.
+/// 16 u S: kTriangleSlack. Across edges that are short or parallel the direction's square may underflow,
+/// and its products lose up to 2^-146 S: with kShortSquare that is 2^-96 S of the gap at most.
+///
+/// Where only the limit counts, L = slack + limit. Balls: a square is off by 5 u of itself, that of
+/// the sum of radii and L by no more than the sum, rounded twice, and u: all in all by less than a
+/// root, a difference and L taken away. Below kNearest nothing is told apart, so that squares keep
+/// their digits.
+///
+/// Triangles across edges, seen from A's origin, E and F the longest edges of the two: edges are off
+/// by u of themselves, their moments and normals by (2.9 + 2) u of the lengths' product, dot
+/// products by 3 u; D by 8.9 u S E F, as |p| + |q| <= S; the third corners by 8.9 u E F (E + F) <=
+/// 17.8 u S E F; sums by 5 u S E F: 31.7 u S E F. The corners themselves are off by 10.4 u S at most,
+/// and E F L by 9 u of itself, where L < 3 S or nothing is told: in all 69.1 u S. So 3/2 of the slack
+/// of triangles is enough: kEdgeSlack. Products that underflow lose less than 2^-146 (1 + S) where
+/// S < 2^51: kProductLoss.
 struct PackScan {
   /// `uppers` (or null): room for 8 · rows + kLanesOver upper bounds.
   void (*balls)(const ScanPose& pose, const BallScanTask& task, float* beyond, BallHits* hits,
@@ -89,6 +106,10 @@ struct PackScan {
 
 inline constexpr double kBallSlack = 0x1p-24 * 24;
 inline constexpr double kTriangleSlack = 0x1p-24 * 48;
+inline constexpr float kShortSquare = 0x1p-100f;  ///< [m⁴]
+inline constexpr float kEdgeSlack = 1.5f;
+inline constexpr float kNearest = 0x1p-60f;      ///< [m]
+inline constexpr float kProductLoss = 0x1p-90f;  ///< [m³]
 
 /// The widest that this processor has.
 const PackScan& WidestPackScan();

@@ -41,18 +41,6 @@ WIDE inline unsigned NotGreater(Lanes a, Lanes b) {
 WIDE inline Lanes Beyond(Lanes a, Lanes b) {
   return _mm256_blendv_ps(All(kNowhere), a, _mm256_cmp_ps(a, b, _CMP_GT_OQ));
 }
-WIDE inline std::uint32_t Tell(unsigned mask, std::uint32_t first, Lanes lanes,
-                               std::uint32_t* codes, float* values) {
-  if (mask == 0) return 0;
-  alignas(32) float lane[kWidth];
-  _mm256_store_ps(lane, lanes);
-  std::uint32_t found = 0;
-  for (mask &= 0xff; mask != 0; mask &= mask - 1) {
-    const auto i = static_cast<unsigned>(__builtin_ctz(mask));
-    codes[found] = first + i, values[found++] = lane[i];
-  }
-  return found;
-}
 
 }  // namespace
 }  // namespace collision

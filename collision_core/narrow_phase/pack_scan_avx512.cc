@@ -50,17 +50,6 @@ WIDE inline Lanes Beyond(Lanes a, Lanes b) {
   return _mm512_mask_blend_ps(_mm512_cmp_ps_mask(a, b, _CMP_GT_OQ), All(kNowhere), a);
 }
 
-// Without a branch: whole vectors are stored, of which the first ones count.
-WIDE inline std::uint32_t Tell(unsigned mask, std::uint32_t first, Lanes lanes,
-                               std::uint32_t* codes, float* values) {
-  const auto told = static_cast<__mmask16>(mask);
-  const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-  const __m512i all = _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), lane);
-  _mm512_storeu_si512(codes, _mm512_maskz_compress_epi32(told, all));
-  _mm512_storeu_ps(values, _mm512_maskz_compress_ps(told, lanes));
-  return static_cast<unsigned>(__builtin_popcount(told));
-}
-
 }  // namespace
 }  // namespace collision
 

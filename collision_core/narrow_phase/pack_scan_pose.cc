@@ -1,8 +1,5 @@
 #include "collision_core/narrow_phase/pack_scan_pose.h"
 
-#include <cmath>
-#include <limits>
-
 namespace collision {
 namespace {
 
@@ -17,12 +14,6 @@ double TurningSlack(double chord, const PackedBody& body) {
 }
 
 }  // namespace
-
-// A float that is no less: a cast is off by 2^-24 of itself, or by less than the least normal one.
-float FloatUp(double x) {
-  const auto rounded = static_cast<float>(x);
-  return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
-}
 
 PackedBody::PackedBody(const Surface& surface)
     : tree(surface.shape() ? &surface.shape()->packed() : nullptr),

@@ -4,18 +4,13 @@
 // RowsOfEight(), values of one row and of another, and RowsOfFour(), from a row on, each in eight or
 // four lanes; Load() and Store(); Lesser() and Greater() (of two, the second where they do not
 // compare); Root(); Least() of all lanes; NotGreater(), the lanes of a for which it does not hold
-// beside b; Beyond(), a where it is greater, else kNowhere; and Tell(), which writes the lanes of a
-// mask, and their numbers from the first one on.
+// beside b; and Beyond(), a where it is greater, else kNowhere.
 #pragma once
 
-#include "collision_core/narrow_phase/pack_scan.h"
+#include "collision_core/narrow_phase/pack_scan_wide_edges.h"
 
 namespace collision {
 namespace {
-
-struct WidePoint {
-  Lanes x, y, z;
-};
 
 struct WideBalls {
   WidePoint c;
@@ -26,33 +21,6 @@ struct WideBalls {
 struct RowArrays {
   const float *x, *y, *z, *radius, *distance;
 };
-
-WIDE inline WidePoint Minus(const WidePoint& a, const WidePoint& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-
-WIDE inline Lanes Dot(const WidePoint& a, const WidePoint& b) {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-
-WIDE inline WidePoint Cross(const WidePoint& a, const WidePoint& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-WIDE inline WidePoint AllOf(const float* p) { return {All(p[0]), All(p[1]), All(p[2])}; }
-
-WIDE inline WidePoint Turned(const ScanPose& pose, const WidePoint& p) {
-  const float* const m = pose.matrix;
-  return {(All(m[0]) * p.x + All(m[1]) * p.y) + All(m[2]) * p.z,
-          (All(m[3]) * p.x + All(m[4]) * p.y) + All(m[5]) * p.z,
-          (All(m[6]) * p.x + All(m[7]) * p.y) + All(m[8]) * p.z};
-}
-
-WIDE inline WidePoint Posed(const ScanPose& pose, const WidePoint& p) {
-  const WidePoint turned = Turned(pose, p);
-  return {turned.x + All(pose.offset[0]), turned.y + All(pose.offset[1]),
-          turned.z + All(pose.offset[2])};
-}
 
 WIDE inline WideBalls BallsOf(const BallPack& pack) {
   return {{OfEight(pack.x), OfEight(pack.y), OfEight(pack.z)},
@@ -98,12 +66,14 @@ WIDE inline RowArrays RowsOfA(const ScanPose& pose, const BallPack& pack, RowRoo
   return {pack.x, pack.y, pack.z, pack.radius, pack.signed_distance};
 }
 
+constexpr unsigned kAllLanes = (1u << kWidth) - 1;
+
 WIDE inline void ScanRows(const ScanPose& pose, const RowArrays& rows, std::uint32_t first,
                           const BallScanTask& task, const WideBalls& others, float* beyond,
                           BallHits* hits, float* uppers) {
   const Lanes slack = All(pose.slack), parent = All(task.parent), limit = All(task.limit);
   Lanes least = All(kNowhere), least_beyond = Load(beyond);
-  std::uint32_t count = 0;
+  std::uint64_t within = 0;
   for (std::uint32_t done = 0; done < task.rows; done += kWidth / 8) {
     // The last of an odd number of rows stands beside itself, and is told once.
     const std::uint32_t row = first + done;
@@ -119,14 +89,55 @@ WIDE inline void ScanRows(const ScanPose& pose, const RowArrays& rows, std::uint
     const Lanes upper = (distance + depths) + slack;
     least = Lesser(upper, least);
     least_beyond = Lesser(Beyond(lower, limit), least_beyond);
-    const unsigned mask = NotGreater(lower, limit) & (is_last ? 0xffu : ~0u);
-    count += Tell(mask, 8 * done, lower, hits->codes + count, hits->lowers + count);
+    const unsigned mask = NotGreater(lower, limit) & (is_last ? 0xffu : kAllLanes);
+    within |= std::uint64_t{mask} << (8 * done);
+    Store(hits->lowers + 8 * done, lower);
     if (uppers != nullptr) Store(uppers + 8 * done, upper);
   }
   Store(beyond, least_beyond);
-  const bool is_news = NotGreater(All(task.upper), least) != (1u << kWidth) - 1;
+  const bool is_news = NotGreater(All(task.upper), least) != kAllLanes;
   hits->upper = is_news ? Least(least) : kNowhere;
-  hits->count = count;
+  hits->within = within;
+}
+
+/// Where only the limit counts, by squares. False where an upper bound may be news, roughly: then it
+/// has to be looked at closely.
+WIDE inline bool ScanRowsWithin(const ScanPose& pose, const RowArrays& rows, std::uint32_t first,
+                                const BallScanTask& task, const WideBalls& others, float* beyond,
+                                BallHits* hits) {
+  const Lanes reach = All(pose.slack + task.limit), news = All(task.upper - pose.slack);
+  const Lanes none = All(0), nearest = All(kNearest);
+  std::uint64_t within = 0;
+  unsigned is_news = 0;
+  for (std::uint32_t done = 0; done < task.rows; done += kWidth / 8) {
+    const std::uint32_t row = first + done;
+    const bool is_last = done + 1 >= task.rows;
+    const std::uint32_t next = is_last ? row : row + 1;
+    const WidePoint d = {others.c.x - RowsOfEight(rows.x, row, next),
+                         others.c.y - RowsOfEight(rows.y, row, next),
+                         others.c.z - RowsOfEight(rows.z, row, next)};
+    const Lanes square = Dot(d, d);
+    const Lanes radii = others.radius + RowsOfEight(rows.radius, row, next);
+    const Lanes depths = others.distance + RowsOfEight(rows.distance, row, next);
+    const Lanes apart = Greater(radii + reach, nearest), deep = Greater(news - depths, none);
+    const unsigned mask = NotGreater(square, apart * apart) & (is_last ? 0xffu : kAllLanes);
+    is_news |= NotGreater(deep * deep, square) ^ kAllLanes;
+    within |= std::uint64_t{mask} << (8 * done);
+    Store(hits->lowers + 8 * done, square - apart * apart);
+  }
+  if (is_news != 0) return false;
+  beyond[0] = beyond[0] < task.limit ? beyond[0] : task.limit;
+  hits->upper = kNowhere;
+  hits->within = within;
+  return true;
+}
+
+WIDE inline void ScanAll(const ScanPose& pose, const RowArrays& rows, std::uint32_t first,
+                         const BallScanTask& task, const WideBalls& others, float* beyond,
+                         BallHits* hits, float* uppers) {
+  const bool only_within = task.only_within && uppers == nullptr;
+  if (only_within && ScanRowsWithin(pose, rows, first, task, others, beyond, hits)) return;
+  ScanRows(pose, rows, first, task, others, beyond, hits, uppers);
 }
 
 WIDE void ScanBalls(const ScanPose& pose, const BallScanTask& task, float* beyond, BallHits* hits,
@@ -134,12 +145,12 @@ WIDE void ScanBalls(const ScanPose& pose, const BallScanTask& task, float* beyon
   RowRoom room;
   if (task.opened == Opened::kA) {
     const RowArrays rows = Stored(BallsOfB(pose, *task.b), &room);
-    ScanRows(pose, rows, task.lane, task, BallsOfA(pose, *task.a), beyond, hits, uppers);
+    ScanAll(pose, rows, task.lane, task, BallsOfA(pose, *task.a), beyond, hits, uppers);
     return;
   }
   const RowArrays rows = RowsOfA(pose, *task.a, &room);
   const std::uint32_t first = task.opened == Opened::kB ? task.lane : 0;
-  ScanRows(pose, rows, first, task, BallsOfB(pose, *task.b), beyond, hits, uppers);
+  ScanAll(pose, rows, first, task, BallsOfB(pose, *task.b), beyond, hits, uppers);
 }
 
 struct WideTriangles {
@@ -220,8 +231,8 @@ WIDE inline Lanes GapAcrossEdges(const WideTriangles& a, const WideTriangles& b,
     for (int j = 0; j < 3; ++j) {
       const WidePoint n = Cross(edge_a, Minus(b.corner[(j + 1) % 3], b.corner[j]));
       const Lanes along = Gap(RangeAlong(n, a.corner), RangeAlong(n, b.corner));
-      // Of parallel edges zero by zero: not a number, so that what there was stays.
-      gap = Greater(along / Root(Dot(n, n)), gap);
+      // Squares may underflow: a direction that is as good as none tells as good as no gap.
+      gap = Greater(along / Root(Dot(n, n) + All(kShortSquare)), gap);
     }
   }
   return gap;
@@ -259,6 +270,21 @@ WIDE inline unsigned Within(const BlockScanTask& task, const Lanes* gaps) {
   return within;
 }
 
+WIDE inline unsigned NotApart(const ScanPose& pose, const BlockScanTask& task,
+                              const TurnedBlock& turned) {
+  constexpr float kHere[3] = {0, 0, 0};
+  const Lanes apart = All(kEdgeSlack * task.slack + task.limit);
+  EdgeBlock of_a, of_b;
+  EdgesOf(task.a->x, task.a->y, task.a->z, kHere, &of_a);
+  EdgesOf(turned.x, turned.y, turned.z, pose.offset, &of_b);
+  const WideEdges edges_b = EdgesOfB(of_b);
+  unsigned within = 0;
+  for (std::uint32_t g = 0; g < kGroups; ++g) {
+    within |= NotApartAcrossEdges(EdgesOfA(of_a, g * kWidth / 4), edges_b, apart) << (g * kWidth);
+  }
+  return within;
+}
+
 WIDE unsigned ScanTriangles(const ScanPose& pose, const BlockScanTask& task, float* beyond,
                             float* lowers) {
   const TriangleBlock &a = *task.a, &b = *task.b;
@@ -276,10 +302,21 @@ WIDE unsigned ScanTriangles(const ScanPose& pose, const BlockScanTask& task, flo
       gaps[g] = Greater(GapAlongNormals(TrianglesOfA(a, g * kWidth / 4), of_b), gaps[g]);
     }
     within = Within(task, gaps);
-    for (std::uint32_t g = 0; within != 0 && g < kGroups; ++g) {
-      gaps[g] = GapAcrossEdges(TrianglesOfA(a, g * kWidth / 4), of_b, gaps[g]);
+    if (within != 0 && task.only_within) {
+      within &= NotApart(pose, task, turned);
+    } else if (within != 0) {
+      for (std::uint32_t g = 0; g < kGroups; ++g) {
+        gaps[g] = GapAcrossEdges(TrianglesOfA(a, g * kWidth / 4), of_b, gaps[g]);
+      }
+      within = Within(task, gaps);
     }
-    if (within != 0) within = Within(task, gaps);
+  }
+  if (task.only_within) {
+    for (std::uint32_t g = 0; g < kGroups; ++g) {
+      Store(lowers + g * kWidth, gaps[g] - All(task.slack));
+    }
+    beyond[0] = beyond[0] < task.limit ? beyond[0] : task.limit;
+    return within;
   }
   Lanes least_beyond = Load(beyond);
   for (std::uint32_t g = 0; g < kGroups; ++g) {

@@ -8,9 +8,10 @@ namespace {
 // A round so long has no bound but the budget's.
 constexpr int kDoublingsMax = 40;
 
-// Bodies that overlap are apart by nothing.
+// Bodies that overlap are apart by nothing; so is one that is inside the other, however far apart
+// their surfaces are.
 double WidthOf(const SeparationSearch& search) {
-  return std::max(0.0, search.upper()) - std::max(0.0, search.lower());
+  return std::max(0.0, std::max(0.0, search.upper()) - std::max(0.0, search.lower()));
 }
 
 }  // namespace

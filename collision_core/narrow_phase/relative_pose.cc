@@ -12,10 +12,6 @@ constexpr double kUnit = 0x1p-53;
 // each entry is off by less than 3.1 units, the matrix as a whole by less than three times as much.
 constexpr double kProductRounding = 16 * kUnit;
 
-// matrix x + offset, entry by entry three products and three sums, of terms below 1.1 |x| and
-// |offset|: less than 8 units of |x| + |offset| on each axis, and √3 times that in length.
-constexpr double kPosingRounding = 16 * kUnit;
-
 struct Orientation {
   Rotation rotation;
   double chord = 0;
@@ -62,16 +58,6 @@ double Width(const IntervalVector& v, const Eigen::Vector3d& middle) {
 BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta) {
   if (a.ball.bounds.empty() || b.ball.bounds.empty()) return {};
   return {LeastUncertain(a, delta), LeastUncertain(b, delta), true};
-}
-
-RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset) {
-  RelativePose pose;
-  pose.matrix = matrix;
-  pose.offset = offset;
-  pose.matrix_error = kPosingRounding;
-  // The sum of the coordinates is no less than the length; 2^-50 for its own rounding.
-  pose.offset_error = kPosingRounding * (1 + 0x1p-50) * offset.cwiseAbs().sum();
-  return pose;
 }
 
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta) {

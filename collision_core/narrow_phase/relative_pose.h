@@ -7,6 +7,10 @@
 
 namespace collision {
 
+/// matrix x + offset, entry by entry three products and three sums, of terms below 1.1 |x| and
+/// |offset|: less than 8 units of |x| + |offset| on each axis, and √3 times that in length.
+inline constexpr double kPosingRounding = 16 * 0x1p-53;
+
 /// The pose that the chosen bounds predict, and how far the true one may be from it.
 ///
 /// Rounding: for a point x of B, in B's body frame, |x_A − exact| <= offset_error + matrix_error |x|
@@ -43,9 +47,20 @@ struct BoundChoice {
 };
 BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta);
 
-/// B's body frame seen from A's, exactly as given: nothing but rounding, and A's frame is the world's.
-/// Requires a matrix that is a rotation to within 2^-20.
-RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset);
+/// How far a matrix made of a unit quaternion may be from a rotation.
+inline constexpr double kMatrixRounding = 0x1p-49;
+
+/// B's body frame seen from A's, as given: nothing but rounding, and A's frame is the world's.
+/// Requires a matrix that is a rotation to within kMatrixRounding, which is counted.
+inline RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset) {
+  RelativePose pose;
+  pose.matrix = matrix;
+  pose.offset = offset;
+  pose.matrix_error = kPosingRounding + kMatrixRounding;
+  // The sum of the coordinates is no less than the length; 2^-50 for its own rounding.
+  pose.offset_error = kPosingRounding * (1 + 0x1p-50) * offset.cwiseAbs().sum();
+  return pose;
+}
 
 /// At δ after the segments' base.
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta);

@@ -2,6 +2,7 @@
 
 #include "collision_core/narrow_phase/hull_gap.h"
 #include "collision_core/narrow_phase/separation_search.h"
+#include "collision_core/narrow_phase/solid_pair.h"
 
 namespace collision {
 namespace {
@@ -42,13 +43,22 @@ bool RootsDecide(const Surface& a, const Surface& b, const RelativePose& pose, L
   return look->lower > pose.translation;
 }
 
-}  // namespace
-
-Surface::Surface(const BodySegment& body)
-    : shape_(body.shape.get()), reach_(body.shape ? body.shape->facts().radius : body.ball.radius) {
-  ball_.radius = body.ball.radius;
-  ball_.signed_distance = -body.ball.radius;
+/// A body that is one convex solid; else null.
+const ConvexSet* LoneSolid(const Surface& surface) {
+  const Shape* shape = surface.shape();
+  const bool lone = shape && shape->solids().size() == 1 && shape->mesh().triangles.empty();
+  return lone ? &shape->solids()[0].set() : nullptr;
 }
+
+Decision DecideLone(const ConvexSet& a, const ConvexSet& b, const RelativePose& pose, Work* work) {
+  Decision decision;
+  decision.verdict = DecideSolids(a, b, pose, work);
+  if (decision.verdict == Verdict::kApart) decision.look.lower = pose.translation;
+  if (decision.verdict == Verdict::kTouching) decision.look.upper = -pose.translation;
+  return decision;
+}
+
+}  // namespace
 
 Look LookAt(const Surface& a, const Surface& b, const RelativePose& pose, Goal goal, Work* work,
             const Evidence& hint) {
@@ -92,6 +102,8 @@ Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,
 }
 
 Decision DecideAt(const Surface& a, const Surface& b, const RelativePose& pose, Work* work) {
+  const ConvexSet *lone_a = LoneSolid(a), *lone_b = LoneSolid(b);
+  if (lone_a && lone_b) return DecideLone(*lone_a, *lone_b, pose, work);
   Decision decision;
   if (RootsDecide(a, b, pose, &decision.look)) {
     work->Spend(1);
@@ -116,6 +128,7 @@ Decision DecideAt(const Surface& a, const Surface& b, const RelativePose& pose, 
     const Nesting nesting = NestingOf(a, b, pose, work);
     if (nesting.neither) decision.verdict = Verdict::kApart;
     if (nesting.certain()) decision.verdict = Verdict::kTouching;
+    if (decision.verdict == Verdict::kUndecided) decision.look.exhausted |= work->exhausted();
   }
   return decision;
 }

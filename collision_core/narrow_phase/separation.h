@@ -12,7 +12,11 @@ namespace collision {
 /// A body as the traversal sees it: the nodes of its tree, or one node for a ball.
 class Surface {
  public:
-  explicit Surface(const BodySegment& body);
+  explicit Surface(const BodySegment& body)
+      : shape_(body.shape.get()), reach_(shape_ ? shape_->facts().radius : body.ball.radius) {
+    ball_.radius = body.ball.radius;
+    ball_.signed_distance = -body.ball.radius;
+  }
 
   const SphereNode& node(std::uint32_t index) const {
     return shape_ ? shape_->tree().nodes[index] : ball_;
@@ -96,6 +100,7 @@ Look LookAgain(const Surface& a, const Surface& b, const RelativePose& pose,
 
 /// Solids whose surfaces are certainly apart. One point of each connected component decides, since
 /// the components are apart.
+/// Where the work ends before all components were asked, nothing is certain.
 struct Nesting {
   bool neither = false;  ///< Certainly neither is inside the other, not even in part.
   /// A point of one that is certainly inside the other, in A's body frame, within `point_error`;

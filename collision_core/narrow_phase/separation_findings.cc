@@ -7,10 +7,6 @@
 namespace collision {
 namespace {
 
-// A step of the search through time loses at most half of the distance when the bracket is this
-// narrow.
-constexpr double kEnoughOfUpper = 0.5;
-
 // Squares of distances beyond this [m] may overflow.
 constexpr double kSquareMax = 1e150;
 
@@ -33,37 +29,9 @@ double GapAlong(const Eigen::Vector3d& n, const ConvexSet& a, const ConvexSet& b
 
 }  // namespace
 
-// A distance computed in doubles from points of these lengths, and the sums and differences made of
-// it (less than a dozen operations on terms below the lengths' sum): 2^-49 of the sum covers it.
-// A share of 2^-50 for the operations here.
-double SlackOf(const Surface& a, const Surface& b, const RelativePose& pose) {
-  const double rounding = 0x1p-49 * (a.reach() + b.reach() + pose.offset.cwiseAbs().sum());
-  return (rounding + (pose.offset_error + pose.matrix_error * b.reach())) * (1 + 0x1p-50);
-}
-
 SeparationFindings::SeparationFindings(const Surface& a, const Surface& b, const RelativePose& pose,
                                        Goal goal, std::optional<BracketWidth> narrow)
     : a_(a), b_(b), pose_(pose), goal_(goal), narrow_(narrow), slack_(SlackOf(a, b, pose)) {}
-
-// What is resolved bounds the distance from below: once that is positive, what is farther away can
-// make the bracket no better. Where it is not, other pairs may still be certain to cross, unless
-// they are apart for certain themselves.
-double SeparationFindings::Limit() const {
-  const double upper = look_.upper, moved = pose_.translation;
-  if (goal_ == Goal::kNearest) return std::max(0.0, upper + 2 * moved);
-  const double resolved = resolved_lower_ > 0 ? resolved_lower_ : kInfinity;
-  if (narrow_) {
-    return std::min({upper - narrow_->width, upper / (1 + narrow_->share), resolved});
-  }
-  if (goal_ == Goal::kYesNo) return resolved_lower_ > moved ? moved : 0;
-  if (Touching()) return 0;
-  return std::min(std::max(moved, kEnoughOfUpper * upper), resolved);
-}
-
-bool SeparationFindings::Settled() const {
-  if (goal_ == Goal::kNearest) return look_.upper <= 0 || look_.ways.size() > kWaysMax;
-  return goal_ != Goal::kContact && Touching();
-}
 
 double SeparationFindings::MeasureNodes(std::uint32_t index_a, std::uint32_t index_b) {
   const SphereNode& a = a_.node(index_a);
@@ -276,6 +244,12 @@ void SeparationFindings::PointBetween() {
 
 Look SeparationFindings::Told(double unopened, bool exhausted, std::uint32_t level) {
   look_.lower = unopened;
+  if (look_.upper < look_.lower) {
+    // Nearer to each other than their surfaces are: one is inside the other, and as deep at least as
+    // the surfaces are apart, since no shorter way takes it out again.
+    if (look_.lower > 0) look_.upper = std::min(look_.upper, -look_.lower);
+    if (look_.lower <= 0) look_.lower = look_.upper;
+  }
   look_.exhausted = exhausted;
   look_.level = level;
   PointBetween();

@@ -39,7 +39,7 @@ class Frontier {
   double Least() const;
 
  private:
-  static constexpr std::size_t kInPlace = 192;
+  static constexpr std::size_t kInPlace = 256;
   void Grow();
 
   const bool newest_first_;

@@ -12,9 +12,10 @@ bool OffBox(const Eigen::Vector3d& point, const MeshFacts& facts) {
   return (point.array() > facts.upper.array()).any() || (point.array() < facts.lower.array()).any();
 }
 
-// The solid `of` is closed.
+// The solid `of` is closed. Without work nothing is known of what is in its box.
 Side SideOf(const Eigen::Vector3d& point, const Shape& of, Work* work) {
   if (OffBox(point, of.facts())) return Side::kOutside;
+  if (work->exhausted()) return Side::kUnknown;
   work->Spend(kWindingUnits);
   const std::optional<int> winding = of.WindingNumberAt(point);
   if (!winding) return Side::kUnknown;

@@ -1,6 +1,7 @@
 #include "collision_core/narrow_phase/separation_search.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision_core/narrow_phase/element.h"
 
@@ -40,6 +41,7 @@ SeparationSearch::SeparationSearch(const Surface& a, const Surface& b, const Rel
       pose_(ScanPoseOf(body_a_, body_b_, pose, findings_.slack())),
       moved_(pose.translation),
       looks_for_margin_(goal == Goal::kContact),
+      only_within_(goal == Goal::kYesNo),
       frontier_(order == SearchOrder::kAsGoal && (goal == Goal::kYesNo || narrow)) {
   std::fill_n(beyond_, kLanesOver, kNowhere);
 }
@@ -96,50 +98,56 @@ void SeparationSearch::Open(const BallPair& pair, float limit, Work* work) {
   OpenBalls(pair, much_a ? Opened::kA : much_b ? Opened::kB : Opened::kBoth, limit, work);
 }
 
-BallPair SeparationSearch::PairOf(const BallPair& parent, Opened opened, std::uint32_t code) const {
-  BallPair pair{0, parent.a, parent.b, 0};
-  const std::uint32_t row = code / kPackBalls, column = code % kPackBalls;
-  if (opened != Opened::kB) {
-    pair.a = BallLink::Index(body_a_.LinkOf(parent.a)) * kPackBalls +
-             (opened == Opened::kA ? column : row);
+/// Of a step: the balls of pair 0, and by which part of its number, lane or row, others differ.
+struct SeparationSearch::Opening {
+  BallRef a, b;
+  std::uint32_t lanes_of_a, lanes_of_b, rows_of_a;  ///< Masks.
+
+  BallPair PairOf(std::uint32_t code, float lower) const {
+    const std::uint32_t lane = code % kPackBalls, row = code / kPackBalls;
+    return {lower, a + (lane & lanes_of_a) + (row & rows_of_a), b + (lane & lanes_of_b), 0};
   }
-  if (opened != Opened::kA) {
-    pair.b = BallLink::Index(body_b_.LinkOf(parent.b)) * kPackBalls + column;
-  }
-  return pair;
-}
+};
 
 void SeparationSearch::OpenBalls(const BallPair& pair, Opened opened, float limit, Work* work) {
   const std::uint32_t link_a = body_a_.LinkOf(pair.a), link_b = body_b_.LinkOf(pair.b);
+  const std::uint32_t inner_a = BallLink::Index(link_a), inner_b = BallLink::Index(link_b);
+  constexpr std::uint32_t kAll = kPackBalls - 1;
   BallScanTask task;
   task.opened = opened;
-  task.a = body_a_.packs + (opened == Opened::kB ? pair.a / kPackBalls : BallLink::Index(link_a));
-  task.b = body_b_.packs + (opened == Opened::kA ? pair.b / kPackBalls : BallLink::Index(link_b));
+  task.a = body_a_.packs + (opened == Opened::kB ? pair.a / kPackBalls : inner_a);
+  task.b = body_b_.packs + (opened == Opened::kA ? pair.b / kPackBalls : inner_b);
   task.lane = (opened == Opened::kA ? pair.b : pair.a) % kPackBalls;
   task.rows = opened == Opened::kBoth ? BallLink::Count(link_a) : 1;
-  task.parent = pair.lower;
+  task.parent = BoundOf(pair);
   task.limit = limit;
-  task.upper = FloatUp(upper());
+  task.upper = FloatUp(only_within_ ? std::min(upper(), -moved_) : upper());
+  task.only_within = only_within_;
+  const Opening opening = opened == Opened::kA ? Opening{inner_a * kPackBalls, pair.b, kAll, 0, 0}
+                          : opened == Opened::kB
+                              ? Opening{pair.a, inner_b * kPackBalls, 0, kAll, 0}
+                              : Opening{inner_a * kPackBalls, inner_b * kPackBalls, 0, kAll, kAll};
   work->Spend(task.rows * kPackRowUnits);
   BallHits hits;
   scan_.balls(pose_, task, beyond_, &hits, nullptr);
-  if (static_cast<double>(hits.upper) < upper()) LowerUpper(pair, task, hits.upper);
-  BallPair* const pairs = frontier_.Room(hits.count);
-  for (std::uint32_t i = 0; i < hits.count; ++i) {
-    pairs[i] = PairOf(pair, opened, hits.codes[i]);
-    pairs[i].lower = hits.lowers[i];
+  if (static_cast<double>(hits.upper) < upper()) LowerUpper(opening, task, hits.upper);
+  BallPair* const pairs = frontier_.Room(kPairsMax);
+  std::size_t count = 0;
+  for (std::uint64_t within = hits.within; within != 0; within &= within - 1) {
+    const auto code = static_cast<std::uint32_t>(__builtin_ctzll(within));
+    pairs[count++] = opening.PairOf(code, hits.lowers[code]);
   }
-  frontier_.Take(hits.count);
+  frontier_.Take(count);
 }
 
 // Where contact becomes certain by it, the pair that tells.
-void SeparationSearch::LowerUpper(const BallPair& pair, const BallScanTask& task, float upper) {
+void SeparationSearch::LowerUpper(const Opening& opening, const BallScanTask& task, float upper) {
   if (static_cast<double>(upper) <= -moved_) {
     BallHits hits;
     float uppers[kPairsMax + kLanesOver];
     scan_.balls(pose_, task, beyond_, &hits, uppers);
     const float* const nearest = std::find(uppers, uppers + task.rows * kPackBalls, upper);
-    const BallPair balls = PairOf(pair, task.opened, static_cast<std::uint32_t>(nearest - uppers));
+    const BallPair balls = opening.PairOf(static_cast<std::uint32_t>(nearest - uppers), 0);
     findings_.MeasureNodes(body_a_.NodeOf(balls.a), body_b_.NodeOf(balls.b));
   }
   findings_.LowerUpper(static_cast<double>(upper));
@@ -171,22 +179,37 @@ void SeparationSearch::OpenLeaves(BallPair pair, float limit, Work* work) {
 void SeparationSearch::OpenSolids(const BallPair& pair, std::uint32_t of_a, std::uint32_t of_b,
                                   Work* work) {
   const double lower = findings_.MeasureElements(of_a, of_b, false, work);
-  findings_.Resolve(std::max(lower, static_cast<double>(pair.lower)));
+  findings_.Resolve(std::max(lower, static_cast<double>(BoundOf(pair))));
+}
+
+// About a unit vector; where the centres are as good as one, the other direction.
+Eigen::Vector3f SeparationSearch::DirectionBetween(const BallPair& pair,
+                                                   const Eigen::Vector3f& other) const {
+  const Eigen::Vector3f c_a = body_a_.CentreOf(pair.a), c_b = body_b_.CentreOf(pair.b);
+  const float* const m = pose_.matrix;
+  const Eigen::Vector3f turned((m[0] * c_b[0] + m[1] * c_b[1]) + m[2] * c_b[2],
+                               (m[3] * c_b[0] + m[4] * c_b[1]) + m[5] * c_b[2],
+                               (m[6] * c_b[0] + m[7] * c_b[1]) + m[8] * c_b[2]);
+  const Eigen::Vector3f way = (turned + Eigen::Vector3f(pose_.offset)) - c_a;
+  const float square = (way[0] * way[0] + way[1] * way[1]) + way[2] * way[2];
+  return square > kNearest * kNearest ? way * (1 / std::sqrt(square)) : other;
 }
 
 void SeparationSearch::OpenBlocks(const BallPair& pair, const TriangleBlock& a,
                                   const TriangleBlock& b, float limit, Work* work) {
   work->Spend(kBlockPairUnits);
-  // Along the shortest way found, or as long as there is none, along a normal.
+  // Along the shortest way found, or as long as there is none, from ball to ball.
   const bool has_way = findings_.direction() != Eigen::Vector3d::Zero();
-  const Eigen::Vector3f direction = has_way ? findings_.direction().cast<float>() : NormalOf(a);
+  const Eigen::Vector3f direction =
+      has_way ? findings_.direction().cast<float>() : DirectionBetween(pair, NormalOf(a));
   std::copy_n(direction.data(), 3, pose_.direction);
   // Sums and products of floats, up by more than they are rounded.
   const float turning = pose_.turn_a * a.reach + pose_.turn_b * b.reach;
   const float slack = (pose_.triangle_slack + turning) * (1 + 0x1p-20f);
   float lowers[kBlockTriangles * kBlockTriangles];
-  unsigned within = scan_.triangles(pose_, {&a, &b, slack, pair.lower, limit}, beyond_, lowers);
-  const double least = static_cast<double>(pair.lower);
+  unsigned within =
+      scan_.triangles(pose_, {&a, &b, slack, BoundOf(pair), limit, only_within_}, beyond_, lowers);
+  const double least = static_cast<double>(BoundOf(pair));
   for (; within != 0; within &= within - 1) {
     const auto code = static_cast<std::uint32_t>(__builtin_ctz(within));
     const std::uint32_t row = code / kBlockTriangles, column = code % kBlockTriangles;
@@ -201,7 +224,7 @@ void SeparationSearch::OpenBlocks(const BallPair& pair, const TriangleBlock& a,
 
 // Triangles beside a ball.
 void SeparationSearch::OpenBlock(const BallPair& pair, const TriangleBlock& block, Work* work) {
-  const double least = static_cast<double>(pair.lower);
+  const double least = static_cast<double>(BoundOf(pair));
   for (std::uint32_t i = 0; i < std::min(block.left, kBlockTriangles); ++i) {
     findings_.Resolve(std::max(findings_.MeasureBeside(block.triangle[i], work), least));
   }
@@ -228,7 +251,9 @@ void SeparationSearch::Try(const Evidence& leaves, Work* work) {
 
 double SeparationSearch::lower() const {
   const auto beyond = static_cast<double>(*std::min_element(beyond_, beyond_ + kLanesOver));
-  return std::max(root_lower_, std::min({findings_.resolved_lower(), frontier_.Least(), beyond}));
+  double least = frontier_.Least();
+  if (only_within_ && !frontier_.empty()) least = -kInfinity;
+  return std::max(root_lower_, std::min({findings_.resolved_lower(), least, beyond}));
 }
 
 Look SeparationSearch::Told() {

@@ -52,15 +52,19 @@ class SeparationSearch {
   Look Told();
 
  private:
+  struct Opening;
+
   void Open(const BallPair& pair, float limit, Work* work);
   void OpenBalls(const BallPair& pair, Opened opened, float limit, Work* work);
   void OpenLeaves(BallPair pair, float limit, Work* work);
+  Eigen::Vector3f DirectionBetween(const BallPair& pair, const Eigen::Vector3f& other) const;
   void OpenBlocks(const BallPair& pair, const TriangleBlock& a, const TriangleBlock& b, float limit,
                   Work* work);
   void OpenSolids(const BallPair& pair, std::uint32_t of_a, std::uint32_t of_b, Work* work);
   void OpenBlock(const BallPair& pair, const TriangleBlock& block, Work* work);
-  BallPair PairOf(const BallPair& parent, Opened opened, std::uint32_t code) const;
-  void LowerUpper(const BallPair& pair, const BallScanTask& task, float upper);
+  /// Where only the limit counts, what is known of pairs is an order and no bound.
+  float BoundOf(const BallPair& pair) const { return only_within_ ? -kNowhere : pair.lower; }
+  void LowerUpper(const Opening& opening, const BallScanTask& task, float upper);
 
   const Surface& a_;
   const Surface& b_;
@@ -69,7 +73,7 @@ class SeparationSearch {
   SeparationFindings findings_;
   ScanPose pose_;
   const double moved_;
-  const bool looks_for_margin_;
+  const bool looks_for_margin_, only_within_;
   std::uint64_t margin_units_ = 0;  ///< Spent since contact was certain.
   double root_lower_ = -kInfinity;
   bool done_ = false;

@@ -113,8 +113,8 @@ Proximity ProximityFrom(const Instance& instance, const ShapeMotion& motion, dou
   const Look& look = instance.look;
   proximity.separation = {AddDown(look.lower, -pose.translation),
                           AddUp(look.upper, pose.translation)};
-  if (instance.touching()) {
-    proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
+  if (instance.touching()) proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
+  if (!instance.apart() || !instance.neither_inside) {
     const double depth = std::min(DepthMax(pose, size), motion.DepthAtMost(instance));
     proximity.separation.lower = std::min(proximity.separation.upper, -depth);
   }
@@ -199,7 +199,10 @@ class Judgement {
 
   const std::optional<Instance>& nearest() const { return nearest_; }
   /// Requires nearest().
-  Proximity NearestProximity() const { return ProximityFrom(*nearest_, motion_, size_); }
+  Proximity NearestProximity() {
+    motion_.LookInside(&*nearest_);
+    return ProximityFrom(*nearest_, motion_, size_);
+  }
   bool exhausted() const { return exhausted_; }
 
  private:

@@ -226,6 +226,7 @@ void ShapeMotion::LookInside(Instance* instance) const {
   Look& look = instance->look;
   if (!instance->choice.certain || !(look.lower > instance->pose.translation)) return;
   const Nesting nesting = NestingOf(surface_a_, surface_b_, instance->pose, &work_);
+  instance->neither_inside = nesting.neither;
   if (!nesting.certain() || look.upper <= -look.lower) return;
   look.upper = -look.lower;
   look.point = nesting.point;

@@ -27,6 +27,8 @@ class ShapeMotion {
     }
     /// How far one body may be off relative to the other, all in all.
     double uncertainty = 0;
+    /// Neither is inside the other, as LookInside() found where the surfaces are apart.
+    bool neither_inside = false;
   };
 
   Instance LookAt(double at, Goal goal, const Evidence& hint = {}) const;

@@ -5,7 +5,7 @@
 
 namespace collision {
 
-/// Balls in a pack: the children of one node.
+/// Balls in a pack: what one node holds, its children or their children.
 inline constexpr std::uint32_t kPackBalls = 8;
 
 /// Triangles in a block: those of one leaf, or a part of them.
@@ -13,11 +13,13 @@ inline constexpr std::uint32_t kBlockTriangles = 4;
 
 /// As far away as everything, and still finite beside other numbers.
 inline constexpr float kNowhere = 0x1p+100f;
+/// Farther away than any body, and its square is still finite.
+inline constexpr float kElsewhere = 0x1p+60f;
 
-/// Siblings, in single precision, as arrays. A centre is the tree's origin + (x, y, z), exactly; the
+/// Balls that are opened together, in single precision, as arrays. A centre is the tree's origin + (x, y, z), exactly; the
 /// ball about it contains the one of the sphere tree, and the signed distance is one of this centre.
-/// Lanes without a ball have the radius −kNowhere and the signed distance kNowhere: they are near
-/// nothing.
+/// Lanes without a ball are at kElsewhere and have the radius −kNowhere and the signed distance
+/// kNowhere: they are near nothing.
 struct alignas(64) BallPack {
   float x[kPackBalls], y[kPackBalls], z[kPackBalls];
   float radius[kPackBalls];

@@ -29,6 +29,7 @@ ConvexPoints::ConvexPoints(std::span<const Vector3d> points)
       all_(static_cast<std::uint32_t>(points.size())),
       cells_(CellsFor(points.size())) {
   for (const Vector3d& p : points_) reach_ = std::max(reach_, Norm(IntervalVector(p)).upper);
+  SetBlocks();
   if (cells_ == 0) return;
   std::vector<std::uint32_t> candidates(points_.size());
   for (std::uint32_t i = 0; i < candidates.size(); ++i) candidates[i] = i;
@@ -40,6 +41,18 @@ ConvexPoints::ConvexPoints(std::span<const Vector3d> points)
   }
   starts_.push_back(static_cast<std::uint32_t>(kept_.size()));
   of_cell_ = {};
+}
+
+void ConvexPoints::SetBlocks() {
+  for (const Vector3d& p : points_) extents_ = extents_.cwiseMax(p.cwiseAbs());
+  if (points_.size() > kBlockPointsMax) return;
+  for (std::size_t first = 0; first < points_.size(); first += 4) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = first; i < first + 4; ++i) {
+        blocks_.push_back(points_[std::min(i, points_.size() - 1)][axis]);
+      }
+    }
+  }
 }
 
 /// The direction at a corner of cells; coordinates are multiples of 2 / cells_: exact.

@@ -36,8 +36,15 @@ class ConvexPoints {
     return cells_ == 0 ? FurthestOf(n, 0, all_) : FurthestInCell(n, CellOf(n));
   }
 
+  /// Few points once more, for wide vectors: x, y and z of four, again and again, the last point
+  /// repeated. Empty where there are more than kBlockPointsMax.
+  const std::vector<double>& blocks() const { return blocks_; }
+  static constexpr std::size_t kBlockPointsMax = 64;
+  /// The greatest coordinates.
+  const Eigen::Vector3d& extents() const { return extents_; }
+
   std::size_t bytes() const {
-    return points_.size() * sizeof(Eigen::Vector3d) +
+    return points_.size() * sizeof(Eigen::Vector3d) + blocks_.size() * sizeof(double) +
            (starts_.size() + kept_.size()) * sizeof(std::uint32_t);
   }
 
@@ -83,6 +90,7 @@ class ConvexPoints {
     return (face * cells_ + cell(1)) * cells_ + cell(2);
   }
 
+  void SetBlocks();
   Eigen::Vector3d CornerOf(const Patch& patch, std::uint32_t u, std::uint32_t v) const;
   void Divide(const Patch& patch, std::vector<std::uint32_t> candidates);
   std::vector<std::uint32_t> Needed(const Patch& patch, double margin,
@@ -94,6 +102,8 @@ class ConvexPoints {
   std::vector<std::uint32_t> starts_, kept_;
   std::vector<std::vector<std::uint32_t>> of_cell_;  ///< While it is built.
   double reach_ = 0;
+  std::vector<double> blocks_;
+  Eigen::Vector3d extents_{0, 0, 0};
 };
 
 }  // namespace collision

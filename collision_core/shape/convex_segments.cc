@@ -1,37 +1,16 @@
-// Where two segments (or points) are nearest, in closed form. After Ericson, "Real-time collision
-// detection", 2005, section 5.1.9, with the segments' middles as origins.
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 
 #include "collision_core/shape/convex_search.h"
+#include "collision_core/shape/segment_fractions.h"
 
 namespace collision {
 namespace {
 
 using Eigen::Vector3d;
 
-/// NaN gives 0.
-double Clamp(double t) { return t > -1 ? std::min(t, 1.0) : (t <= -1 ? -1 : 0); }
-
 Vector3d AxisOf(const ConvexSet& set) {
   return set.core == ConvexCore::kSegment ? Vector3d(set.generators.col(0)) : Vector3d(0, 0, 0);
-}
-
-/// d leads from the middle of one to that of the other; s and t are in [−1, 1] along the half axes
-/// g and h, so that d + t h − s g is shortest.
-struct Fractions {
-  double s, t;
-};
-Fractions FractionsOf(const Vector3d& d, const Vector3d& g, const Vector3d& h) {
-  const double gg = g.squaredNorm(), hh = h.squaredNorm(), gh = g.dot(h);
-  const double gd = g.dot(d), hd = h.dot(d);
-  if (!(gg > 0)) return {0, hh > 0 ? Clamp(-hd / hh) : 0};
-  if (!(hh > 0)) return {Clamp(gd / gg), 0};
-  const double denominator = gg * hh - gh * gh;
-  const double s = denominator > 0 ? Clamp((gd * hh - gh * hd) / denominator) : 0;
-  const double t = Clamp((s * gh - hd) / hh);
-  return {Clamp((gd + t * gh) / gg), t};
 }
 
 /// Takes out what rounding left along an axis that the way must be square to.

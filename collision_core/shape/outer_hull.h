@@ -41,6 +41,14 @@ class OuterHull {
   /// Along n, seen from origin(). Requires |n| within 2^-16 of 1, and a point.
   Support Along(const Eigen::Vector3f& n) const;
 
+  /// Along n of any length, so that its length need not be waited for: n·x is no more than
+  /// height + more |n|.
+  struct Foremost {
+    float height, more;
+    Eigen::Vector3f point;
+  };
+  Foremost ForemostAlong(const Eigen::Vector3f& n) const;
+
   const Eigen::Vector3d& origin() const { return origin_; }  ///< In the body frame.
   double extent() const { return extent_; }  ///< No point of the shape is farther from the origin.
   /// Squares of half the extents along the axes, by that of the extent: how long it is which way.
@@ -81,7 +89,7 @@ inline std::uint32_t OuterHull::CellOf(const Eigen::Vector3f& n) const {
   return (face * along_edge_ + cell(second)) * along_edge_ + cell(third);
 }
 
-inline OuterHull::Support OuterHull::Along(const Eigen::Vector3f& n) const {
+inline OuterHull::Foremost OuterHull::ForemostAlong(const Eigen::Vector3f& n) const {
   const HullCell& cell = cells_[CellOf(n)];
   float heights[HullCell::kPoints];
   for (std::uint32_t i = 0; i < HullCell::kPoints; ++i) {
@@ -91,7 +99,14 @@ inline OuterHull::Support OuterHull::Along(const Eigen::Vector3f& n) const {
   for (std::uint32_t i = 1; i < HullCell::kPoints; ++i) {
     best = heights[i] > heights[best] ? i : best;
   }
-  return {(heights[best] + cell.more) + rounding_, {cell.x[best], cell.y[best], cell.z[best]}};
+  // Not heights[best], which would have to wait for `best`.
+  const float height = std::max(std::max(heights[0], heights[1]), std::max(heights[2], heights[3]));
+  return {height, cell.more + rounding_, {cell.x[best], cell.y[best], cell.z[best]}};
+}
+
+inline OuterHull::Support OuterHull::Along(const Eigen::Vector3f& n) const {
+  const Foremost foremost = ForemostAlong(n);
+  return {foremost.height + foremost.more, foremost.point};
 }
 
 }  // namespace collision

@@ -20,7 +20,7 @@ constexpr Eigen::Index kAxes = 3;
 BallPack EmptyPack() {
   BallPack pack;
   for (std::uint32_t i = 0; i < kPackBalls; ++i) {
-    pack.x[i] = pack.y[i] = pack.z[i] = 0;
+    pack.x[i] = pack.y[i] = pack.z[i] = kElsewhere;
     pack.radius[i] = -kNowhere;
     pack.signed_distance[i] = kNowhere;
     pack.link[i] = BallLink::kLeaf;
@@ -39,65 +39,79 @@ Eigen::Vector3d MiddleOf(const SphereTree& tree) {
 
 }  // namespace
 
-/// A node whose pack of children is still to be filled: nodes [first, first + count), or where they
-/// are too many for a pack, `parent` again and again, each with a part of them.
-struct PackedTree::Waiting {
-  std::uint32_t pack, parent, first, count;
+/// A ball, by its number, and the nodes that it holds: its children, or a part of them where they
+/// are too many for a pack. None: a leaf.
+struct PackedTree::Lane {
+  std::uint32_t node, first, count;
+};
+
+struct PackedTree::Lanes {
+  std::array<Lane, kPackBalls> lane;
+  std::uint32_t count = 0;
+
+  void Add(const Lane& more) { lane[count++] = more; }
+  void Add(const SphereTree& tree, std::uint32_t node) {
+    Add({node, tree.nodes[node].first_child, tree.nodes[node].children});
+  }
 };
 
 PackedTree::PackedTree(const TriangleMesh& mesh, const SphereTree& tree) : origin_(MiddleOf(tree)) {
-  std::vector<Waiting> waiting = {{AddPack(0, 1), 0, 0, 1}};
-  for (std::size_t next = 0; next < waiting.size(); ++next) {
-    const Waiting parent = waiting[next];
-    if (parent.count > kPackBalls) {
-      AddChildren(tree, parent, &waiting);
-      continue;
-    }
-    for (std::uint32_t i = 0; i < parent.count; ++i) {
-      const SphereNode& node = tree.nodes[parent.first + i];
-      const BallRef ball = parent.pack * kPackBalls + i;
-      SetBall(node, ball);
-      std::uint32_t link = 0;
-      if (node.children == 0) {
-        link = AddLeaf(mesh, tree, node);
-      } else {
-        const bool fits = node.children <= kPackBalls;
-        const std::uint32_t lanes =
-            fits ? node.children : std::min(kPackBalls, (node.children + 7) / kPackBalls);
-        const std::uint32_t pack =
-            fits ? AddPack(node.first_child, 1) : AddPack(parent.first + i, 0);
-        waiting.push_back({pack, parent.first + i, node.first_child, node.children});
-        link = pack | (lanes - 1) << BallLink::kIndexBits;
+  Lanes root;
+  root.Add(tree, 0);
+  std::vector<Lanes> packs = {root};
+  for (std::uint32_t next = 0; next < packs.size(); ++next) {
+    const Lanes lanes = packs[next];
+    packs_.push_back(EmptyPack());
+    nodes_.resize(packs_.size() * kPackBalls);
+    for (std::uint32_t i = 0; i < lanes.count; ++i) {
+      const Lane& lane = lanes.lane[i];
+      const SphereNode& node = tree.nodes[lane.node];
+      nodes_[next * kPackBalls + i] = lane.node;
+      SetBall(node, next * kPackBalls + i);
+      if (lane.count == 0) {
+        packs_[next].link[i] = AddLeaf(mesh, tree, node);
+        continue;
       }
-      packs_[parent.pack].link[i] = link;
+      const Lanes inner = LanesOf(tree, lane);
+      packs_[next].link[i] = static_cast<std::uint32_t>(packs.size()) | (inner.count - 1)
+                                                                            << BallLink::kIndexBits;
+      packs.push_back(inner);
     }
   }
   FindExtremes(mesh);
 }
 
-// More children than a pack holds: lanes with the parent's own ball share them out.
-void PackedTree::AddChildren(const SphereTree& tree, const Waiting& parent,
-                             std::vector<Waiting>* waiting) {
-  const std::uint32_t lanes = std::min(kPackBalls, (parent.count + kPackBalls - 1) / kPackBalls);
-  std::uint32_t first = parent.first;
-  for (std::uint32_t i = 0; i < lanes; ++i) {
-    const std::uint32_t rest = parent.first + parent.count - first;
-    const std::uint32_t count = (rest + lanes - i - 1) / (lanes - i);
-    SetBall(tree.nodes[parent.parent], parent.pack * kPackBalls + i);
-    const bool fits = count <= kPackBalls;
-    const std::uint32_t inner =
-        fits ? count : std::min(kPackBalls, (count + kPackBalls - 1) / kPackBalls);
-    const std::uint32_t pack = fits ? AddPack(first, 1) : AddPack(parent.parent, 0);
-    packs_[parent.pack].link[i] = pack | (inner - 1) << BallLink::kIndexBits;
-    waiting->push_back({pack, parent.parent, first, count});
-    first += count;
+// Of the nodes in a pack the one that overshoots its surface the most makes way for its children,
+// as long as there is room for them: a step opens a whole pack, whether it is full or not. More
+// nodes than a pack holds are shared out among lanes with the parent's own ball.
+PackedTree::Lanes PackedTree::LanesOf(const SphereTree& tree, const Lane& parent) {
+  Lanes lanes;
+  if (parent.count > kPackBalls) {
+    const std::uint32_t wanted = std::min(kPackBalls, (parent.count + kPackBalls - 1) / kPackBalls);
+    for (std::uint32_t first = 0; lanes.count < wanted;) {
+      const std::uint32_t left = wanted - lanes.count;
+      const std::uint32_t count = (parent.count - first + left - 1) / left;
+      lanes.Add({parent.node, parent.first + first, count});
+      first += count;
+    }
+    return lanes;
   }
-}
-
-std::uint32_t PackedTree::AddPack(std::uint32_t first, std::uint32_t step) {
-  packs_.push_back(EmptyPack());
-  nodes_.push_back({first, step});
-  return static_cast<std::uint32_t>(packs_.size() - 1);
+  for (std::uint32_t i = 0; i < parent.count; ++i) lanes.Add(tree, parent.first + i);
+  const auto overshoot = [&](const Lane& lane) {
+    return tree.nodes[lane.node].radius + tree.nodes[lane.node].signed_distance;
+  };
+  for (;;) {
+    Lane* widest = nullptr;
+    for (std::uint32_t i = 0; i < lanes.count; ++i) {
+      Lane& lane = lanes.lane[i];
+      if (lane.count == 0 || lanes.count - 1 + lane.count > kPackBalls) continue;
+      if (widest == nullptr || overshoot(lane) > overshoot(*widest)) widest = &lane;
+    }
+    if (widest == nullptr) return lanes;
+    const Lane opened = *widest;
+    *widest = lanes.lane[--lanes.count];
+    for (std::uint32_t i = 0; i < opened.count; ++i) lanes.Add(tree, opened.first + i);
+  }
 }
 
 // The centre moves by `moved` at most, which includes what the differences here are rounded by:
@@ -187,7 +201,7 @@ void PackedTree::FindExtremes(const TriangleMesh& mesh) {
 }
 
 std::size_t PackedTree::bytes() const {
-  return packs_.capacity() * sizeof(BallPack) + nodes_.capacity() * sizeof(PackNodes) +
+  return packs_.capacity() * sizeof(BallPack) + nodes_.capacity() * sizeof(nodes_[0]) +
          blocks_.capacity() * sizeof(TriangleBlock);
 }
 

@@ -30,9 +30,11 @@ struct BallLink {
 /// Which ball: its pack, and its place there.
 using BallRef = std::uint32_t;
 
-/// 192 bytes for each node with children (24 a ball where packs are full), 256 for each four
+/// 224 bytes for each pack (28 a ball where packs are full), 256 for each four
 /// triangles of a leaf, or for a convex solid: then `triangle[0]` is its element, and no corner says
-/// anything. Packs stand in breadth-first order; the first one holds the root alone.
+/// anything. Packs stand in breadth-first order; the first one holds the root alone. A ball's pack is
+/// a cut through what is below it, as wide as there is room: in place of the node that overshoots the
+/// surface most stand its children, and so on.
 class PackedTree {
  public:
   PackedTree() = default;
@@ -46,10 +48,7 @@ class PackedTree {
   }
 
   /// Of the sphere tree.
-  std::uint32_t NodeOf(BallRef ball) const {
-    const PackNodes& nodes = nodes_[ball / kPackBalls];
-    return nodes.first + nodes.step * (ball % kPackBalls);
-  }
+  std::uint32_t NodeOf(BallRef ball) const { return nodes_[ball]; }
 
   /// In the body frame [m].
   const Eigen::Vector3d& origin() const { return origin_; }
@@ -63,22 +62,18 @@ class PackedTree {
   std::size_t bytes() const;
 
  private:
-  /// Lane i is node first + step i.
-  struct PackNodes {
-    std::uint32_t first, step;
-  };
-  struct Waiting;
+  struct Lane;
+  struct Lanes;
 
-  std::uint32_t AddPack(std::uint32_t first, std::uint32_t step);
+  static Lanes LanesOf(const SphereTree& tree, const Lane& parent);
   std::uint32_t AddLeaf(const TriangleMesh& mesh, const SphereTree& tree, const SphereNode& leaf);
-  void AddChildren(const SphereTree& tree, const Waiting& parent, std::vector<Waiting>* waiting);
   void SetBall(const SphereNode& node, BallRef ball);
   void SetTriangle(const TriangleMesh& mesh, std::uint32_t triangle, std::uint32_t lane,
                    TriangleBlock* block);
   void FindExtremes(const TriangleMesh& mesh);
 
   std::vector<BallPack> packs_;
-  std::vector<PackNodes> nodes_;
+  std::vector<std::uint32_t> nodes_;  ///< Of the sphere tree, lane by lane.
   std::vector<TriangleBlock> blocks_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double extent_ = 0;

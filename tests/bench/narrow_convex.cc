@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "collision_core/narrow_phase/convex_distance.h"
+#include "collision_core/narrow_phase/solid_pair.h"
 #include "tests/bench/narrow_cell.h"
 #include "tests/bench/narrow_ours.h"
 #include "tests/collision_core/shape/meshes.h"
@@ -50,22 +50,16 @@ ConvexSolid SolidOf(const PlainConvex& convex) {
 struct Pair {
   ConvexSolid a, b;
 
-  Interval At(const RelativePose& pose, const ConvexQuestion& question) const {
-    SearchHint hint;
-    Work work(kUnlimited);
-    return SeparationOf(PosedA(a.set(), pose), PosedB(b.set(), pose), question, &hint, &work)
-        .separation;
-  }
-
   Verdict VerdictAt(const RelativePose& pose) const {
-    const Interval separation = At(pose, {.goal = ConvexGoal::kYesNo});
-    if (separation.lower > 0) return Verdict::kApart;
-    return separation.upper <= 0 ? Verdict::kTouching : Verdict::kUndecided;
+    Work work(kUnlimited);
+    return DecideSolids(a.set(), b.set(), pose, &work);
   }
 
   Interval DistanceAt(const RelativePose& pose, double share, double width) const {
+    Work work(kUnlimited);
     const Interval separation =
-        At(pose, {.goal = ConvexGoal::kDistance, .share = share, .width = width});
+        SeparationOfSolids(a.set(), b.set(), pose,
+                           {.goal = ConvexGoal::kDistance, .share = share, .width = width}, &work);
     return {std::max(0.0, separation.lower), std::max(0.0, separation.upper)};
   }
 };

@@ -21,7 +21,7 @@ struct Golden {
   std::uint64_t hash;
 };
 constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x68e7db5571f3cbe9},
-                              {v1::Config::FITTED, 0x0fdc4a31b11ccd6e}};
+                              {v1::Config::FITTED, 0x31e2688146b3d045}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
 

@@ -80,7 +80,7 @@ bool IsWideInterface(const std::string& name) {
          name == "collision_core/broad_phase/point_scan.h" ||
          name == "collision_core/broad_phase/lane_scan_wide.h" ||
          name == "collision_core/narrow_phase/pack_scan.h" ||
-         name == "collision_core/narrow_phase/pack_scan_wide.h" ||
+         StartsWith(name, "collision_core/narrow_phase/pack_scan_wide") ||
          name == "collision_core/shape/ball_pack.h";
 }
 

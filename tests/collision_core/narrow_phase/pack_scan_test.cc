@@ -78,6 +78,8 @@ struct Scene {
     task.parent = static_cast<float>(-4 * scale);
     task.limit = static_cast<float>(scale * random.Uniform(-1, 4));
     task.upper = static_cast<float>(scale * random.Uniform(-1, 4));
+    task.only_within = random.Chance(0.5);
+    if (task.only_within) task.limit = std::max(task.limit, 0.0f);
     return task;
   }
 };
@@ -89,8 +91,10 @@ struct Answer {
 
   Answer(const PackScan& scan, const ScanPose& pose, const BallScanTask& task) {
     std::fill_n(beyond, kLanesOver, kNowhere);
-    scan.balls(pose, task, beyond, &hits, uppers);
+    std::fill_n(uppers, kPairsMax, 0.0f);
+    scan.balls(pose, task, beyond, &hits, task.only_within ? nullptr : uppers);
   }
+  bool IsWithin(std::uint32_t code) const { return (hits.within >> code & 1) != 0; }
   float least() const { return *std::min_element(beyond, beyond + kLanesOver); }
 };
 
@@ -122,14 +126,13 @@ TEST(PackScan, BallsAreTheSameBitsForEveryWidth) {
       if (i == 20) Turn(&scene);
       const BallScanTask task = scene.RandomTask();
       const Answer plain(*PlainPackScan(), scene.scan, task);
-      told += static_cast<int>(plain.hits.count);
+      told += __builtin_popcountll(plain.hits.within);
       news += plain.hits.upper < kNowhere;
       for (const PackScan* scan : WideScans()) {
         const Answer wide(*scan, scene.scan, task);
-        ASSERT_EQ(plain.hits.count, wide.hits.count);
+        ASSERT_EQ(plain.hits.within, wide.hits.within);
         ASSERT_TRUE(SameBits(&plain.hits.upper, &wide.hits.upper, 1));
-        ASSERT_TRUE(SameBits(plain.hits.codes, wide.hits.codes, plain.hits.count));
-        ASSERT_TRUE(SameBits(plain.hits.lowers, wide.hits.lowers, plain.hits.count));
+        ASSERT_TRUE(SameBits(plain.hits.lowers, wide.hits.lowers, task.rows * kPackBalls));
         ASSERT_TRUE(SameBits(plain.uppers, wide.uppers, task.rows * kPackBalls));
         ASSERT_EQ(plain.least(), wide.least());
       }
@@ -146,7 +149,8 @@ TEST(PackScan, TrianglesAreTheSameBitsForEveryWidth) {
       const TriangleBlock& a = scene.packed_a.tree->blocks()[i];
       const TriangleBlock& b = scene.packed_b.tree->blocks()[2 * i];
       const auto limit = static_cast<float>(scene.scale * scene.random.Uniform(-1, 4));
-      const BlockScanTask task = {&a, &b, scene.scan.triangle_slack, -1, limit};
+      const bool only_within = scene.random.Chance(0.5) && limit >= 0;
+      const BlockScanTask task = {&a, &b, scene.scan.triangle_slack, -1, limit, only_within};
       float plain[16], wide[16];
       LeastBeyond beyond, beyond_wide;
       std::fill_n(beyond, kLanesOver, kNowhere);
@@ -186,22 +190,86 @@ void ExpectBrackets(const Exact& lower, const Exact& upper, const Exact& square,
   EXPECT_TRUE(at_most_root(upper - add_upper - loose));
 }
 
+ExactVector ExactBetween(const Scene& scene, const BallScanTask& task, std::uint32_t i,
+                         std::uint32_t j) {
+  return ExactlyPosed(scene.pose, CentreIn(scene.packed_b, *task.b, j)) -
+         CentreIn(scene.packed_a, *task.a, i);
+}
+
+TEST(PackScan, BallsBeyondALimitAreCertainlyBeyond) {
+  int beyond = 0, within = 0, nowhere = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed);
+    BallScanTask task = scene.RandomTask();
+    task.opened = Opened::kBoth, task.rows = 8, task.lane = 0, task.only_within = true;
+    task.upper = -kNowhere;  // nothing is news
+    // At one of the distances, nearly.
+    const ExactVector near = ExactBetween(scene, task, 0, 0);
+    const double off = Square(near).convert_to<double>();
+    const double radii = double{task.a->radius[0]} + double{task.b->radius[0]};
+    const double slack = scene.scan.slack;
+    task.limit = static_cast<float>(
+        std::max(0.0, std::sqrt(off) - radii + slack * scene.random.Uniform(-4, 4)));
+    const Answer answer(*PlainPackScan(), scene.scan, task);
+    EXPECT_LE(answer.least(), task.limit);
+    for (std::uint32_t code = 0; code < kPairsMax; ++code) {
+      const std::uint32_t i = code / 8, j = code % 8;
+      if (task.a->radius[i] < 0 || task.b->radius[j] < 0) {
+        EXPECT_FALSE(answer.IsWithin(code));
+        ++nowhere;
+        continue;
+      }
+      const Exact sum = Exact(task.a->radius[i]) + Exact(task.b->radius[j]) + Exact(task.limit);
+      const Exact loose = sum + Exact(3 * slack), square = Square(ExactBetween(scene, task, i, j));
+      if (answer.IsWithin(code)) {
+        EXPECT_LE(square, loose * loose);
+        ++within;
+      } else {
+        EXPECT_GT(square, sum * sum);
+        ++beyond;
+      }
+    }
+  }
+  EXPECT_GT(beyond, 1000);
+  EXPECT_GT(within, 1000);
+  EXPECT_GT(nowhere, 100);
+}
+
+TEST(PackScan, BallsThatMayBeNewsAreLookedAtClosely) {
+  int news = 0, none = 0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Scene scene(seed);
+    BallScanTask task = scene.RandomTask();
+    task.only_within = false;
+    const Answer closely(*PlainPackScan(), scene.scan, task);
+    const float least = *std::min_element(closely.uppers, closely.uppers + task.rows * 8);
+    for (const float share : {0.999f, 1.001f}) {
+      task.upper = least * share, task.limit = 0, task.only_within = true;
+      const Answer answer(*PlainPackScan(), scene.scan, task);
+      EXPECT_EQ(answer.hits.upper, least < task.upper ? least : kNowhere);
+      ++(least < task.upper ? news : none);
+    }
+  }
+  EXPECT_GT(news, 100);
+  EXPECT_GT(none, 100);
+}
+
 TEST(PackScan, BallBoundsHoldExactly) {
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     SCOPED_TRACE(seed);
     Scene scene(seed);
     BallScanTask task = scene.RandomTask();
-    task.opened = Opened::kBoth, task.rows = 8, task.lane = 0;
+    task.opened = Opened::kBoth, task.rows = 8, task.lane = 0, task.only_within = false;
     task.parent = -kNowhere, task.limit = kNowhere;
     const Answer answer(*PlainPackScan(), scene.scan, task);
-    for (std::uint32_t k = 0; k < answer.hits.count; ++k) {
-      const std::uint32_t code = answer.hits.codes[k], i = code / 8, j = code % 8;
+    for (std::uint32_t code = 0; code < kPairsMax; ++code) {
+      const std::uint32_t i = code / 8, j = code % 8;
       if (task.a->radius[i] < 0 || task.b->radius[j] < 0) continue;
-      const ExactVector d = ExactlyPosed(scene.pose, CentreIn(scene.packed_b, *task.b, j)) -
-                            CentreIn(scene.packed_a, *task.a, i);
+      const ExactVector d = ExactBetween(scene, task, i, j);
       const Exact radii = Exact(task.a->radius[i]) + Exact(task.b->radius[j]);
       const Exact depths = Exact(task.a->signed_distance[i]) + Exact(task.b->signed_distance[j]);
-      ExpectBrackets(Exact(answer.hits.lowers[k]), Exact(answer.uppers[code]), Square(d), -radii,
+      ExpectBrackets(Exact(answer.hits.lowers[code]), Exact(answer.uppers[code]), Square(d), -radii,
                      depths, Exact(3 * scene.scan.slack));
     }
   }
@@ -241,6 +309,82 @@ TEST(PackScan, TriangleBoundsHoldExactly) {
   }
   EXPECT_GT(pairs, 200);
   EXPECT_GT(3 * tight, pairs) << "but between corners, gaps are nearly the distance";
+}
+
+/// Four triangles in a cube of side 2, some of them needles or flat.
+TriangleMesh Soup(Random& random, double scale) {
+  TriangleMesh mesh;
+  const auto in_cube = [&] {
+    return Eigen::Vector3d(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
+  };
+  for (std::uint32_t t = 0; t < kBlockTriangles; ++t) {
+    const Eigen::Vector3d p = in_cube(), q = in_cube();
+    const double across = random.Chance(0.4) ? random.LogUniform(1e-8, 1e-2) : 1;
+    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
+    for (const Eigen::Vector3d& x : {p, q, Eigen::Vector3d(p + across * (in_cube() - p))}) {
+      mesh.vertices.push_back(scale * x);
+    }
+  }
+  return mesh;
+}
+
+/// Triangles that lie in each other like straws: many are apart across two edges only.
+TEST(PackScan, TrianglesBeyondALimitAreCertainlyBeyond) {
+  int apart = 0, told = 0, touching = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const double scale = random.Chance(0.3) ? 1e-8 : random.LogUniform(1e-5, 1e5);
+    BodySegment of_a, of_b;
+    of_a.shape = Shape::Build(Soup(random, scale)), of_b.shape = Shape::Build(Soup(random, scale));
+    const Surface a(of_a), b(of_b);
+    const PackedBody packed_a(a), packed_b(b);
+    const RelativePose pose =
+        PoseOf(RandomMatrix(random), random.Uniform(0, 1) * scale * random.UnitVector());
+    ScanPose scan = ScanPoseOf(packed_a, packed_b, pose, SlackOf(a, b, pose));
+    const auto limit =
+        static_cast<float>(random.Chance(0.5) ? 0 : scale * random.LogUniform(1e-6, 1));
+    const BlockScanTask task = {packed_a.tree->blocks(),
+                                packed_b.tree->blocks(),
+                                scan.triangle_slack,
+                                -kNowhere,
+                                limit,
+                                true};
+    float lowers[16];
+    LeastBeyond beyond;
+    std::fill_n(beyond, kLanesOver, kNowhere);
+    const unsigned within = PlainPackScan()->triangles(scan, task, beyond, lowers);
+    EXPECT_LE(*std::min_element(beyond, beyond + kLanesOver), limit);
+    BlockScanTask bounds = task;
+    bounds.only_within = false, bounds.limit = kNowhere;
+    PlainPackScan()->triangles(scan, bounds, beyond, lowers);
+    for (std::uint32_t k = 0; k < 16; ++k) {
+      if (k / 4 >= task.a->left || k % 4 >= task.b->left) continue;
+      ExactTriangle t, u;
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const auto& mesh_a = a.shape()->mesh();
+        const auto& mesh_b = b.shape()->mesh();
+        t[corner] = ExactVector(mesh_a.vertices[mesh_a.triangles[task.a->triangle[k / 4]][corner]]);
+        u[corner] = ExactlyPosed(
+            pose, ExactVector(mesh_b.vertices[mesh_b.triangles[task.b->triangle[k % 4]][corner]]));
+      }
+      const Exact square = SquareOfTriangles(t, u);
+      ASSERT_LT(lowers[k], kNowhere);
+      const Exact lower = Exact(lowers[k]);
+      EXPECT_TRUE(lower <= 0 || lower * lower <= square) << lowers[k];
+      const bool is_beyond = (within >> k & 1) == 0;
+      if (is_beyond) {
+        EXPECT_GT(square, Exact(limit) * Exact(limit));
+      }
+      const Exact clear = Exact(4 * double{limit} + 1e-2 * scale);
+      touching += square == 0;
+      apart += square > clear * clear;
+      told += square > clear * clear && is_beyond;
+    }
+  }
+  EXPECT_GT(touching, 300);
+  EXPECT_GT(apart, 1000);
+  EXPECT_GT(told, 0.99 * apart);
 }
 
 }  // namespace

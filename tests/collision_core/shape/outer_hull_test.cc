@@ -73,6 +73,16 @@ TEST(OuterHull, NothingReachesFurther) {
   }
 }
 
+// Goal:   what single precision cuts off a point when it is stored is told. Along an axis nothing else is lost.
+TEST(OuterHull, StoredPointsLoseNothing) {
+  const double beyond = 1 + 0x1p-25;  // rounded to 1
+  const OuterHull hull(std::vector{Vector3d(beyond, 0, 0), Vector3d(-beyond, 0, 0)}, 0);
+  for (const float side : {1.0f, -1.0f}) {
+    EXPECT_GE(hull.Along(Vector3f(side, 0, 0)).height, beyond);
+    EXPECT_LE(hull.Along(Vector3f(side, 0, 0)).height, beyond + 0x1p-20);
+  }
+}
+
 // Goal:   not much further: a few points are known along most directions exactly, round bodies and
 //         needles everywhere to within 5 % of the extent.
 TEST(OuterHull, ReachesLittleFurther) {

@@ -27,14 +27,27 @@ struct Walk {
   const PackedTree& packed;
   std::vector<int> seen;  ///< How often each node was met.
   double loosest = 0;     ///< Of radii, beside the extent.
+  std::vector<std::uint32_t> parents;
 
   void Run() {
     seen.assign(tree.nodes.size(), 0);
+    parents.assign(tree.nodes.size(), 0);
+    for (std::uint32_t node = 0; node < tree.nodes.size(); ++node) {
+      const SphereNode& parent = tree.nodes[node];
+      for (std::uint32_t i = 0; i < parent.children; ++i) parents[parent.first_child + i] = node;
+    }
     Visit(0);
     for (std::size_t node = 0; node < seen.size(); ++node) {
-      // Lanes that share out many children stand for their parent, all of them.
-      EXPECT_TRUE(seen[node] == 1 || (seen[node] > 1 && tree.nodes[node].children > kPackBalls));
+      // Lanes that share out many children stand for their parent, all of them; other nodes may
+      // have made way for their children.
+      const std::uint32_t children = tree.nodes[node].children;
+      EXPECT_TRUE(seen[node] == 1 || (seen[node] == 0 && children > 0) || children > kPackBalls);
     }
+  }
+
+  bool IsBelow(std::uint32_t node, std::uint32_t above) const {
+    while (node > above) node = parents[node];
+    return node == above;
   }
 
   void Visit(BallRef ball) {
@@ -49,15 +62,20 @@ struct Walk {
       return;
     }
     const BallRef first = BallLink::Index(link) * kPackBalls;
-    if (packed.NodeOf(first) != number) {
-      EXPECT_GE(packed.NodeOf(first), node.first_child);
-    }
+    const std::uint32_t count = BallLink::Count(link);
     for (std::uint32_t i = 0; i < kPackBalls; ++i) {
-      if (i < BallLink::Count(link)) {
-        Visit(first + i);
-      } else {
+      if (i >= count) {
         EXPECT_EQ(packed.packs()[BallLink::Index(link)].radius[i], -kNowhere);
+        EXPECT_EQ(packed.packs()[BallLink::Index(link)].x[i], kElsewhere);
+        continue;
       }
+      const std::uint32_t lane = packed.NodeOf(first + i);
+      EXPECT_TRUE(IsBelow(lane, number));
+      const std::uint32_t children = tree.nodes[lane].children;
+      if (lane != number && children > 0) {
+        EXPECT_GT(count - 1 + children, kPackBalls) << "room is left";
+      }
+      Visit(first + i);
     }
   }
 
@@ -115,7 +133,7 @@ TEST(PackedTree, HoldsTheSphereTreeExactly) {
         SphereTree tree = BuildOctree(mesh, {});
         for (SphereNode& node : tree.nodes) node.signed_distance = random.Uniform(-1, 1) * scale;
         const PackedTree packed(mesh, tree);
-        Walk walk{mesh, tree, packed, {}, 0};
+        Walk walk{mesh, tree, packed, {}, 0, {}};
         walk.Run();
         EXPECT_LT(walk.loosest, 0x1p-22) << "no more than rounding";
         EXPECT_GT(packed.bytes(), 0u);
@@ -139,7 +157,7 @@ TEST(PackedTree, TakesAnyNumberOfChildren) {
       tree.nodes.push_back(node);
     }
     const PackedTree packed(mesh, tree);
-    Walk walk{mesh, tree, packed, {}, 0};
+    Walk walk{mesh, tree, packed, {}, 0, {}};
     walk.Run();
   }
 }
@@ -151,7 +169,7 @@ TEST(PackedTree, OneNodeAndLargeLeaves) {
     options.triangles_per_leaf = size;
     const SphereTree tree = BuildOctree(mesh, options);
     const PackedTree packed(mesh, tree);
-    Walk walk{mesh, tree, packed, {}, 0};
+    Walk walk{mesh, tree, packed, {}, 0, {}};
     walk.Run();
   }
 }
