@@ -20,7 +20,7 @@ struct Golden {
   v1::Config::TreeBuilder builder;
   std::uint64_t hash;
 };
-constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x68e7db5571f3cbe9},
+constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0xb68c138c2316d535},
                               {v1::Config::FITTED, 0x31e2688146b3d045}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
