@@ -178,6 +178,7 @@ class Builder {
         upper = upper.cwiseMax(p);
       }
     }
+    held_ = whole.list.size();
     coordinate_max_ = lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff();
     // The bounding cube; an octant must contain its corners, so rounding may not make it smaller.
     const Vector3d middle = lower + 0.5 * (upper - lower);
@@ -223,6 +224,7 @@ class Builder {
     Octant octant = pending.octant;
     while (MayBeDivided(octant)) {
       Divide(octant);
+      if (!HasRoom()) break;
       if (const int only = OnlyChild(); only >= 0) {
         // The same part in half the octant: the node takes it without a node between.
         octant = ChildOf(octant, MiddleOf(octant), only);
@@ -267,6 +269,15 @@ class Builder {
     }
   }
 
+  /// Whether the tree may hold the pieces that the division made; then they count.
+  bool HasRoom() {
+    std::size_t pieces = held_ - current_.list.size();
+    for (const Pieces& eighth : eighths_) pieces += eighth.list.size();
+    if (pieces > PiecesMax(mesh_.triangles.size())) return false;
+    held_ = pieces;
+    return true;
+  }
+
   /// The child that has everything; −1: there are several.
   int OnlyChild() const {
     int only = -1;
@@ -300,6 +311,7 @@ class Builder {
   const bool circumscribed_;
   double coordinate_max_ = 0;
   SphereTree tree_;
+  std::size_t held_ = 0;         ///< Pieces in leaves, and in nodes that are not divided yet.
   Pieces pieces_, next_pieces_;  ///< Of the level at work, and of the next.
   std::vector<Pending> pending_, next_pending_;
   Cutter cutter_;

@@ -2,11 +2,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace collision {
+
+/// Leaves hold no more pieces of triangles than this many times the mesh's triangles, and so many
+/// more: what would be cut into more stays whole. Thousands of large triangles that cross each other
+/// are in everybody's way, and no cut takes them apart.
+inline constexpr std::size_t kGrowthMax = 64;
+inline constexpr std::size_t kGrowthMore = 1024;
+constexpr std::size_t PiecesMax(std::size_t triangles) {
+  return kGrowthMax * triangles + kGrowthMore;
+}
 
 /// One ball. It contains its part of the surface (triangles, clipped); the parts of a node's
 /// children unite to the node's own part.
