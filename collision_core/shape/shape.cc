@@ -25,10 +25,16 @@ double SignedDistanceAt(const SphereNode& node, bool closed, SurfaceQuery* query
 /// Of a quick tree so many balls are measured: enough to tell a deep contact.
 constexpr std::size_t kHalvedMeasured = 1024;
 
-/// Of the first `count` nodes; of the others the radius stays.
+/// Nodes and triangles looked at for a ball, on average at most. Meshes as people make them need up to
+/// 240; copies upon each other are all as far from everything, and would all be measured each time.
+constexpr std::size_t kWorkPerBall = 1024;
+
+/// Of the first `count` nodes, as long as there is work left for them; of the others the radius stays.
 void MeasureCentres(const TriangleMesh& mesh, bool closed, std::size_t count, SphereTree* tree) {
   SurfaceQuery query(mesh, *tree);
-  for (SphereNode& node : std::span(tree->nodes).first(std::min(count, tree->nodes.size()))) {
+  const auto nodes = std::span(tree->nodes).first(std::min(count, tree->nodes.size()));
+  for (SphereNode& node : nodes) {
+    if (query.work() >= kWorkPerBall * nodes.size()) return;
     node.signed_distance = SignedDistanceAt(node, closed, &query);
   }
 }

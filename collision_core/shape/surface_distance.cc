@@ -24,13 +24,15 @@ double LowerBound(const SphereNode& node, const Vector3d& point) {
 }  // namespace
 
 void SurfaceQuery::TryLeaf(const SphereNode& leaf, const Vector3d& point, Interval* best) {
+  work_ += leaf.triangles;
   for (const std::uint32_t index : tree_.TrianglesOf(leaf)) {
-    if (std::find(tried_.begin(), tried_.end(), index) != tried_.end()) continue;
+    std::uint32_t& place = measured_[index % kPlaces];
+    if (place == index) continue;
     const Triangle& t = mesh_.triangles[index];
     const TriangleCorners corners = {mesh_.vertices[t[0]], mesh_.vertices[t[1]],
                                      mesh_.vertices[t[2]]};
     if (IsCertainlyFarther(point, corners, best->upper)) continue;
-    tried_.push_back(index);
+    place = index;
     *best = Min(*best, DistanceToTriangle(point, corners).distance);
   }
 }
@@ -44,12 +46,13 @@ Interval SurfaceQuery::DistanceTo(const Vector3d& point, double known_upper) {
   }
   Interval best(kInfinity, known_upper);
   heap_.clear();
-  tried_.clear();
+  measured_.fill(kNone);
   heap_.push_back({LowerBound(tree_.root(), point), 0});
   while (!heap_.empty() && heap_.front().lower <= best.upper) {
     const SphereNode& node = tree_.nodes[heap_.front().node];
     std::pop_heap(heap_.begin(), heap_.end());
     heap_.pop_back();
+    work_ += 1 + node.children;
     if (node.children == 0) TryLeaf(node, point, &best);
     for (std::uint32_t i = 0; i < node.children; ++i) {
       const std::uint32_t child = node.first_child + i;

@@ -1,7 +1,10 @@
 // Questions to a whole surface, answered through its tree.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "collision_core/numeric/interval.h"
@@ -30,6 +33,9 @@ class SurfaceQuery {
   /// moved ray, which meets no edge.
   std::optional<int> WindingNumberAt(const Eigen::Vector3d& point);
 
+  /// Nodes and triangles looked at so far, in all questions.
+  std::uint64_t work() const { return work_; }
+
  private:
   struct Candidate {
     double lower;
@@ -39,10 +45,17 @@ class SurfaceQuery {
 
   void TryLeaf(const SphereNode& leaf, const Eigen::Vector3d& point, Interval* best);
 
+  /// Places for the triangles that a question measured. A later one takes an earlier one's place, and
+  /// a triangle that lost its place is measured again: so a look costs the same however many there are.
+  static constexpr std::size_t kPlaces = 256;
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
   const TriangleMesh& mesh_;
   const SphereTree& tree_;
   std::vector<Candidate> heap_;
-  std::vector<std::uint32_t> tried_;  ///< Triangles already measured, or passed by the ray.
+  std::uint64_t work_ = 0;
+  std::array<std::uint32_t, kPlaces> measured_;
+  std::vector<std::pair<std::uint32_t, int>> passed_;  ///< By the ray: triangles, with their signs.
   std::vector<std::uint32_t> stack_;
 };
 

@@ -77,26 +77,28 @@ std::optional<int> SurfaceQuery::WindingNumberAt(const Vector3d& point) {
   // Towards the nearer end of the surface: fewer triangles there.
   const bool forward = point.x() >= root.centre.x();
   const Passing asked = forward ? Passing::kForward : Passing::kBackward;
-  int winding = 0;
-  tried_.clear();
+  passed_.clear();
   stack_.assign(1, 0);
   while (!stack_.empty()) {
     const SphereNode& node = tree_.nodes[stack_.back()];
     stack_.pop_back();
+    ++work_;
     if (!RayMayMeet(node, point, forward)) continue;
     for (std::uint32_t i = 0; i < node.children; ++i) stack_.push_back(node.first_child + i);
+    work_ += node.triangles;
     for (const std::uint32_t index : tree_.TrianglesOf(node)) {
       const Triangle& t = mesh_.triangles[index];
       const Passage pass =
           PassageOf({mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]}, point);
       if (pass.passing == Passing::kUnknown) return std::nullopt;
-      // A triangle may stand in several leaves.
-      if (pass.passing != asked || std::find(tried_.begin(), tried_.end(), index) != tried_.end())
-        continue;
-      tried_.push_back(index);
-      winding += forward ? pass.sign : -pass.sign;
+      if (pass.passing == asked) passed_.emplace_back(index, forward ? pass.sign : -pass.sign);
     }
   }
+  // A triangle may stand in several leaves.
+  std::sort(passed_.begin(), passed_.end());
+  passed_.erase(std::unique(passed_.begin(), passed_.end()), passed_.end());
+  int winding = 0;
+  for (const auto& [triangle, sign] : passed_) winding += sign;
   return winding;
 }
 
