@@ -133,7 +133,9 @@ NearPoint TriangleBoxes::Nearest(const Vector3d& point, std::uint32_t hint, doub
   double limit2 = limit_of(best2);
   std::uint32_t at = 0;
   double here = SquareTo(nodes_[0], point);
+  std::uint64_t work = 0;
   while (best2 > enough2) {
+    ++work;
     if (here < limit2) {
       const Node& node = nodes_[at];
       if (node.count == 0) {
@@ -146,6 +148,7 @@ NearPoint TriangleBoxes::Nearest(const Vector3d& point, std::uint32_t hint, doub
         continue;
       }
       const double before = best2;
+      work += node.count;
       for (std::uint32_t i = 0; i < node.count; ++i)
         TryFace(faces_[node.first + i], point, &best2, &best);
       if (best2 < before) limit2 = limit_of(best2);
@@ -155,6 +158,7 @@ NearPoint TriangleBoxes::Nearest(const Vector3d& point, std::uint32_t hint, doub
     at = stack[size].node;
     here = stack[size].square;
   }
+  work_ += work;
   best.distance = std::sqrt(best2);
   return best;
 }
@@ -169,6 +173,7 @@ RayWalk TriangleBoxes::Walk(const Vector3d& from, const Vector3d& direction,
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
+    work_ += 1 + node.count;
     double enter = 0, leave = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
       const double x = (node.lower[axis] - from[axis]) * inverse[axis];

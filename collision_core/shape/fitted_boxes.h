@@ -25,7 +25,7 @@ struct RayWalk {
 };
 
 /// A tree of boxes, halved at the median until few triangles are left: the same for the same mesh,
-/// whatever the library. The mesh must outlive it.
+/// whatever the library. The mesh must outlive it. Not for several threads at once: it counts.
 class TriangleBoxes {
  public:
   /// Requires a mesh that passed RefusalOf().
@@ -75,6 +75,9 @@ class TriangleBoxes {
   const Eigen::Vector3d& upper() const { return nodes_[0].upper; }
   double diagonal() const { return (upper() - lower()).norm(); }
 
+  /// Boxes and triangles looked at so far, in all questions.
+  std::uint64_t work() const { return work_; }
+
  private:
   struct Node {
     Eigen::Vector3d lower, upper;
@@ -107,11 +110,13 @@ class TriangleBoxes {
     while (size > 0) {
       const std::uint32_t at = stack[--size];
       const Node& node = nodes_[at];
+      ++work_;
       if (!enter(node)) continue;
       if (node.count == 0) {
         stack[size++] = node.first;
         stack[size++] = at + 1;
       }
+      work_ += node.count;
       for (std::uint32_t i = 0; i < node.count; ++i) visit(faces_[node.first + i].triangle);
     }
   }
@@ -128,6 +133,7 @@ class TriangleBoxes {
   std::vector<Node> nodes_;
   std::vector<Face> faces_;
   std::vector<std::uint32_t> place_;  ///< Of each triangle in faces_.
+  mutable std::uint64_t work_ = 0;
 };
 
 }  // namespace collision

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "collision_core/numeric/interval.h"
+#include "collision_core/shape/enclosing_ball.h"
 #include "collision_core/shape/fitted_cover.h"
 #include "collision_core/shape/fitted_distance.h"
 
@@ -39,6 +40,11 @@ constexpr std::size_t kPiecesPerTriangle = 2, kPiecesMore = 1000;
 /// width: that leaves out most triangles about a centre that is nearly as far from many.
 constexpr double kSlackOfOvershoot = 1.0 / 256, kSlackOfWidth = 1.0 / 4096;
 
+/// Boxes and triangles looked at, for each triangle of the mesh, and so many more: beyond, nodes are
+/// halved by place, with balls about their parts, and no distance is measured. Meshes as people make
+/// them take up to 4,000; among thousands of needles that cross each other nothing is near to one only.
+constexpr std::uint64_t kWorkPerTriangle = 8192, kWorkMore = 1 << 20;
+
 /// A node whose part is still to be divided.
 struct Pending {
   std::uint32_t node = 0;
@@ -55,6 +61,7 @@ class Builder {
         boxes_(mesh),
         pieces_(mesh),
         pieces_max_(kPiecesPerTriangle * pieces_.size() + kPiecesMore),
+        work_max_(kWorkPerTriangle * pieces_.size() + kWorkMore),
         search_(boxes_, pieces_, closed, options.triangles_per_leaf),
         distance_(boxes_, closed) {}
 
@@ -98,15 +105,22 @@ class Builder {
                     (upper - lower).norm(),
                     {}};
     pending.ball.radius = node.radius;
-    const double slack =
-        std::max(kSlackOfOvershoot * pending.ball.overshoot(), kSlackOfWidth * pending.width);
-    facts_.push_back(node.centre == parent.centre && level > 0
-                         ? parent
-                         : distance_.Certify(node.centre, slack, parent, ball.triangle));
+    facts_.push_back(node.centre == parent.centre && level > 0 ? parent : FactsOf(pending, parent));
     node.signed_distance = facts_.back().signed_distance;
     next_.push_back(std::move(pending));
     tree_.nodes.push_back(node);
   }
+
+  CentreFacts FactsOf(const Pending& pending, const CentreFacts& parent) const {
+    const FittedBall& ball = pending.ball;
+    // The ball contains some of the surface.
+    if (!HasWorkLeft()) return {ball.centre, ball.radius, false};
+    const double slack =
+        std::max(kSlackOfOvershoot * ball.overshoot(), kSlackOfWidth * pending.width);
+    return distance_.Certify(ball.centre, slack, parent, ball.triangle);
+  }
+
+  bool HasWorkLeft() const { return boxes_.work() < work_max_; }
 
   /// Far enough for the exact corner. A computed |d|² is off by a relative 5 u at most, u = 2^−53,
   /// the root by 3.5 u; 2^−50 = 8 u covers them and its own rounding. Squares below 1e-308 lose
@@ -124,7 +138,7 @@ class Builder {
     if (pending.cover) return AddChildren(pending, *pending.cover);
     const std::uint32_t spare = SpareLevels(pending);
     const bool fits = pending.ball.overshoot() <= kFits * pending.width;
-    if (fits || spare == 0) return Halve(pending, fits);
+    if (fits || spare == 0 || !HasWorkLeft()) return Halve(pending, fits);
     HalveLargePieces(pending.width);
     const FittedCover cover =
         search_.Find(part_, kChildren, tree_.nodes.size() < kCarefulNodes ? kCarefulStarts : 1);
@@ -200,6 +214,18 @@ class Builder {
     HalveOrder(pending, fits, part_, std::min<std::size_t>(kChildren, leaves));
   }
 
+  FittedBall BallFor(std::span<const std::uint32_t> part, const FittedBall& start) {
+    if (HasWorkLeft()) return search_.FitTo(part, start);
+    corners_.clear();
+    for (const std::uint32_t piece : part) {
+      for (const std::uint32_t corner : pieces_[piece].corners)
+        corners_.push_back(pieces_.PointAt(corner));
+    }
+    FittedBall ball;
+    ball.centre = SmallBallAround(corners_).centre;
+    return ball;
+  }
+
   Vector3d MiddleOf(std::uint32_t piece) const {
     const auto& [a, b, c] = pieces_[piece].corners;
     return pieces_.PointAt(a) + pieces_.PointAt(b) + pieces_.PointAt(c);
@@ -210,7 +236,7 @@ class Builder {
     if (children == 1) {
       const std::size_t first = next_list_.size();
       next_list_.insert(next_list_.end(), order.begin(), order.end());
-      return Add(pending, fits ? pending.ball : search_.FitTo(order, pending.ball), first);
+      return Add(pending, fits ? pending.ball : BallFor(order, pending.ball), first);
     }
     Vector3d lower = MiddleOf(order[0]), upper = lower;
     for (const std::uint32_t piece : order) {
@@ -249,6 +275,7 @@ class Builder {
   const TriangleBoxes boxes_;
   FittedPieces pieces_;
   const std::size_t pieces_max_;
+  const std::uint64_t work_max_;
   CoverSearch search_;
   const FittedDistance distance_;
   SphereTree tree_;
@@ -256,6 +283,7 @@ class Builder {
   std::vector<std::uint32_t> list_, next_list_;  ///< Pieces of the level at work, and of the next.
   std::vector<Pending> pending_, next_;
   std::vector<std::uint32_t> part_, triangles_;  ///< At work.
+  std::vector<Vector3d> corners_;
 };
 
 }  // namespace
