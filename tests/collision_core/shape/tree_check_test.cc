@@ -63,6 +63,9 @@ TEST(TreeCheck, RefusesWhatIsNoTreeOfTheMesh) {
       [](SphereTree& t) { t.triangle_indices[0] = 20; },
       [](SphereTree& t) { std::fill(t.triangle_indices.begin(), t.triangle_indices.end(), 0); },
       [](SphereTree& t) { t.triangle_indices.pop_back(); },
+      [](SphereTree& t) { t.triangle_indices.push_back(0); },
+      [](SphereTree& t) { t.nodes[0].triangles = 1; },
+      [](SphereTree& t) { t.nodes[0].triangles = t.triangle_indices.size(); },
       [&](SphereTree& t) { t.nodes[2].centre.x() = nan; },
       [&](SphereTree& t) { t.nodes[2].centre.y() = -infinity; },
       [&](SphereTree& t) { t.nodes[2].centre.z() = 1e30; },
@@ -97,6 +100,66 @@ TEST(TreeCheck, SiblingsAreFew) {
     }
     EXPECT_EQ(RefusalOf(tree, mesh).has_value(), children > kNodeChildrenMax);
   }
+}
+
+/// Under a root: leaves that say they begin at `first` and hold `count` triangles each.
+SphereTree TwoLeaves(std::vector<std::uint32_t> triangles, std::uint32_t first,
+                     std::uint32_t count) {
+  SphereTree tree;
+  tree.levels = 2;
+  tree.triangle_indices = std::move(triangles);
+  tree.nodes.push_back({.radius = 2, .first_child = 1, .children = 2});
+  tree.nodes.push_back({.radius = 2, .triangles = count, .level = 1});
+  tree.nodes.push_back({.radius = 2, .first_triangle = first, .triangles = count, .level = 1});
+  return tree;
+}
+
+// Goal:   a small tree makes no traversal take more steps than it has numbers.
+// Method: leaves upon each other, beside each other; the same triangle twice in a leaf, once in both.
+TEST(TreeCheck, LeavesShareNoLists) {
+  TriangleMesh mesh = Sheet(1, 1);
+  EXPECT_EQ(RefusalOf(TwoLeaves({0, 1}, 1, 1), mesh), std::nullopt);
+  EXPECT_EQ(RefusalOf(TwoLeaves({0, 1, 0, 1}, 2, 2), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(TwoLeaves({0, 1}, 0, 2), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(TwoLeaves({0, 1, 0}, 1, 2), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(TwoLeaves({0, 1, 1, 0}, 2, 2), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(TwoLeaves({0, 0, 1, 1}, 2, 2), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(TwoLeaves({0, 1, 0, 1, 0}, 2, 2), mesh), std::nullopt);
+}
+
+/// Each node has two leaves but the last of its children, which goes on, `depth` times.
+SphereTree Comb(std::uint32_t depth, std::uint32_t children, std::uint32_t triangles) {
+  SphereTree tree;
+  tree.levels = depth + 1;
+  tree.nodes.push_back({.radius = 2});
+  for (std::uint32_t level = 1; level <= depth; ++level) {
+    tree.nodes.back().first_child = static_cast<std::uint32_t>(tree.nodes.size());
+    tree.nodes.back().children = children;
+    for (std::uint32_t i = 0; i < children; ++i) {
+      tree.nodes.push_back({.radius = 2, .level = level});
+    }
+  }
+  for (SphereNode& node : tree.nodes) {
+    if (node.children > 0) continue;
+    node.first_triangle = static_cast<std::uint32_t>(tree.triangle_indices.size());
+    node.triangles = triangles;
+    for (std::uint32_t i = 0; i < triangles; ++i) tree.triangle_indices.push_back(i);
+  }
+  return tree;
+}
+
+// Goal:   no tree is deeper, or holds more, than a builder's would.
+// Method: combs on either side of each bound.
+TEST(TreeCheck, TreesAreBoundedByTheirMesh) {
+  TriangleMesh mesh = Sheet(1, 4);
+  EXPECT_EQ(RefusalOf(Comb(kTreeDepthMax - 1, 2, 32), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(Comb(kTreeDepthMax, 2, 32), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(Comb(3, 1, 32), mesh), std::nullopt);
+  // 32 triangles in each of 7 leaves a level, and one.
+  const auto levels = static_cast<std::uint32_t>(PiecesMax(32) / (7 * 32));
+  ASSERT_LT(levels, kTreeDepthMax);
+  EXPECT_EQ(RefusalOf(Comb(levels - 1, 8, 32), mesh), std::nullopt);
+  EXPECT_NE(RefusalOf(Comb(levels + 1, 8, 32), mesh), std::nullopt);
 }
 
 // Goal:   whatever passes can be walked: every question about it ends, within its arrays.
