@@ -9,12 +9,23 @@
 namespace collision {
 
 /// Kinds of dirt; see DirtyMesh().
-inline constexpr std::uint32_t kDirtKinds = 14;
+inline constexpr std::uint32_t kDirtKinds = 18;
 
 namespace dirt {
 
 inline Eigen::Vector3d Point(Random& random, double size) {
   return {random.Uniform(-size, size), random.Uniform(-size, size), random.Uniform(-size, size)};
+}
+
+/// Closed, with a corner at each point.
+inline void AddTetrahedron(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                           const Eigen::Vector3d& c, const Eigen::Vector3d& d, TriangleMesh* mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
+  mesh->vertices.insert(mesh->vertices.end(), {a, b, c, d});
+  const Triangle faces[] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  for (const Triangle& t : faces) {
+    mesh->triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
 }
 
 inline void AddTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
@@ -99,10 +110,70 @@ inline TriangleMesh Uneven(Random& random) {
                 Moved(Scaled(Star(2, random), size), Point(random, 1)));
 }
 
+/// Needles from one corner in all directions, or in nearly one; or closed ones.
+inline TriangleMesh NeedleFan(Random& random) {
+  TriangleMesh mesh;
+  const Eigen::Vector3d apex = Point(random, 1), along = random.UnitVector();
+  const bool closed = random.Chance(0.5);
+  const double spread = random.Chance(0.5) ? 2 : random.LogUniform(1e-9, 1e-2);
+  for (std::uint64_t i = 1 + random.Below(closed ? 15 : 60); i > 0; --i) {
+    const Eigen::Vector3d p = apex + along + Point(random, spread);
+    const double width = random.LogUniform(1e-12, 1e-3);
+    const Eigen::Vector3d q = p + width * random.UnitVector();
+    if (closed) {
+      AddTetrahedron(apex, p, q, p + width * random.UnitVector(), &mesh);
+    } else {
+      AddTriangle(apex, p, q, &mesh);
+    }
+  }
+  return mesh;
+}
+
+/// Large triangles, or tetrahedra, most of which cross each other.
+inline TriangleMesh Crossing(Random& random) {
+  TriangleMesh mesh;
+  const bool closed = random.Chance(0.5);
+  for (std::uint64_t i = 1 + random.Below(closed ? 15 : 60); i > 0; --i) {
+    const Eigen::Vector3d a = Point(random, 1), b = Point(random, 1), c = Point(random, 1);
+    if (closed) {
+      AddTetrahedron(a, b, c, Point(random, 1), &mesh);
+    } else {
+      AddTriangle(a, b, c, &mesh);
+    }
+  }
+  return mesh;
+}
+
+/// Copies nearly upon each other.
+inline TriangleMesh NearCopies(Random& random) {
+  const TriangleMesh one = random.Chance(0.5) ? Cube(0.5) : Crossing(random);
+  TriangleMesh mesh = one;
+  while (mesh.triangles.size() + one.triangles.size() <= 60) {
+    mesh = Joined(std::move(mesh), Moved(one, Point(random, random.LogUniform(1e-17, 1e-9))));
+  }
+  return mesh;
+}
+
+/// Triangles or boxes from 1 to 1e-9, the small ones near a corner of the large.
+inline TriangleMesh Shrinking(Random& random) {
+  TriangleMesh mesh;
+  const bool closed = random.Chance(0.5);
+  for (int i = 0; i < 10; ++i) {
+    const double size = std::ldexp(1.0, -3 * i);
+    if (closed) {
+      mesh = Joined(std::move(mesh), Moved(Cube(size), Eigen::Vector3d::Constant(size)));
+    } else {
+      const Eigen::Vector3d a = Point(random, size);
+      AddTriangle(a, a + Point(random, size), a + Point(random, size), &mesh);
+    }
+  }
+  return mesh;
+}
+
 }  // namespace dirt
 
-/// As meshes come: soup, slivers, fans, copies, flat ones, thin ones, ones that cross themselves,
-/// nest, touch, fall apart; closed and open; near to the origin and far away. Without degenerate
+/// As meshes come: soup, slivers, fans, copies, flat ones, thin ones, uneven ones, ones that cross
+/// themselves, nest, touch, fall apart; closed and open; near to the origin and far away. Without degenerate
 /// triangles; not one that RefusalOf() refuses, if some triangle is left.
 inline TriangleMesh DirtyMesh(std::uint32_t kind, Random& random) {
   const auto make = [&]() -> TriangleMesh {
@@ -133,6 +204,14 @@ inline TriangleMesh DirtyMesh(std::uint32_t kind, Random& random) {
         return Subdivided(LShape(), 2);
       case 12:
         return Reversed(Star(2, random));
+      case 13:
+        return dirt::NeedleFan(random);
+      case 14:
+        return dirt::Crossing(random);
+      case 15:
+        return dirt::NearCopies(random);
+      case 16:
+        return dirt::Shrinking(random);
       default:
         return Joined(Sheet(1, 6), dirt::Soup(random));
     }

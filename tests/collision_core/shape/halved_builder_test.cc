@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision_core/shape/shape.h"
 #include "collision_core/shape/tree_check.h"
@@ -26,8 +27,11 @@ ShapeOptions Halved(std::uint32_t leaf = 4) {
 /// the proof tries meets that edge: there it cannot tell inside from outside, and is not asked.
 SphereTree WithoutCentresOnEdges(SphereTree tree, const TriangleMesh& mesh, std::size_t* left_out) {
   const double reach = FactsOf(mesh).radius;
+  const DistanceProof proof(mesh);
   for (SphereNode& node : tree.nodes) {
-    if (node.signed_distance >= 0 || node.signed_distance < -1e-15 * reach) continue;
+    // Minus zero: on the surface, or inside by less than can be told.
+    if (!std::signbit(node.signed_distance) || node.signed_distance < -1e-15 * reach) continue;
+    if (proof.ComesWithin(node.centre, 0, false)) continue;
     node.signed_distance = node.radius;
     ++*left_out;
   }
