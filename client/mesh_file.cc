@@ -6,6 +6,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -184,6 +185,10 @@ std::shared_ptr<const Shape> LoadShape(const std::string& path, const MeshFileOp
     auto shape = Load(path, options, &read);
     if (report != nullptr) *report = read;
     return shape;
+  } catch (const std::bad_alloc&) {
+    throw std::runtime_error(path + ": " + kNoMemoryText);
+  } catch (const std::length_error&) {
+    throw std::runtime_error(path + ": " + kNoMemoryText);
   } catch (const std::exception& error) {
     throw std::runtime_error(path + ": " + error.what());
   }

@@ -14,6 +14,9 @@ enum class UpAxis { kX, kY, kZ };
 /// Bytes of a mesh file; five million triangles as text take about half of it.
 inline constexpr std::size_t kMeshFileBytesMax = std::size_t{1} << 30;
 
+/// What is said of a mesh that is too large to be held, or for what is to be made of it.
+inline constexpr const char* kNoMemoryText = "not enough memory for this mesh";
+
 /// What a file does not say, or says in a way nobody reads: stated, never guessed. That holds for
 /// glTF as well, which is metres and y up by definition: unit 1, UpAxis::kY.
 struct MeshFileOptions {
@@ -45,7 +48,7 @@ bool MeshFilesSupported();
 /// is a smaller mesh, in an OBJ file (open, most likely: see the report).
 /// Throws std::invalid_argument (options), std::runtime_error with the file's name and the cause: no
 /// such file, format unknown, truncated or malformed, no triangles, not finite, an index out of
-/// range, too many, too large or small for the unit stated.
+/// range, too many, too large or small for the unit stated, not enough memory.
 std::shared_ptr<const Shape> LoadShape(const std::string& path, const MeshFileOptions& options,
                                        MeshFileReport* report);
 

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <exception>
 #include <stdexcept>
 
 #include "client/mesh/reader.h"
@@ -119,6 +120,8 @@ FilePolygons ReadPolygons(const std::string& path, MeshFormat format, const std:
           ? importer.ReadFile(path, 0)
           : importer.ReadFileFromMemory(text.data(), text.size(), 0, Ending(format));
   if (scene == nullptr || scene->mRootNode == nullptr) {
+    // Such as that there is no memory.
+    if (const std::exception_ptr cause = importer.GetException()) std::rethrow_exception(cause);
     throw std::runtime_error(importer.GetErrorString());
   }
   RequireAll(*scene, scan);

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <new>
 #include <stdexcept>
 #include <system_error>
 
@@ -43,16 +45,42 @@ Examples:
 Overshoot is how far a ball may reach beyond the surface (its radius + the signed distance of its centre),
 certified: the less of it, the sooner two agents are told apart or in contact.
 Lengths are metres after --unit-m, in the body frame that --up makes; 1 and z unless stated.
-Exit codes: 0 done, 2 usage, 65 the mesh is refused (the reason is printed), 74 a file cannot be written.)";
+Exit codes: 0 done, 2 usage, 65 the mesh is refused (the reason is printed), or too large for the memory,
+74 a file cannot be written.)";
+
+OutputError CannotWrite(const std::string& path, int error) {
+  return OutputError(path + ": cannot be written: " + std::generic_category().message(error));
+}
+
+/// One file, through links, dots and other names; of files that need not exist yet.
+bool IsSameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto path_a = std::filesystem::weakly_canonical(a, error);
+  return !error && path_a == std::filesystem::weakly_canonical(b, error) && !error;
+}
+
+/// Before anything is built: what could not be written, or would take the place of the mesh.
+void CheckOutput(const std::string& option, const std::string& path, const std::string& mesh) {
+  if (path.empty()) return;
+  if (IsSameFile(path, mesh)) {
+    throw UsageError(option + ": " + path + " is the mesh itself, allowed: another file");
+  }
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw CannotWrite(path, EISDIR);
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (!folder.empty() && !std::filesystem::exists(folder, error)) throw CannotWrite(path, ENOENT);
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error)) {
+    throw CannotWrite(path, ENOTDIR);
+  }
+}
 
 void Write(const std::string& path, const std::string& text) {
   errno = 0;
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file << text;
   file.close();
-  if (file) return;
-  const int error = errno != 0 ? errno : EIO;
-  throw OutputError(path + ": cannot be written: " + std::generic_category().message(error));
+  if (!file) throw CannotWrite(path, errno != 0 ? errno : EIO);
 }
 
 void Check(const SphereTreeOptions& options) {
@@ -64,6 +92,12 @@ void Check(const SphereTreeOptions& options) {
   }
   if (options.level && options.picture.empty() && options.format.empty()) {
     throw UsageError("--level: allowed only with --picture or --export");
+  }
+  CheckOutput("--picture", options.picture, options.mesh);
+  CheckOutput("--output", options.output, options.mesh);
+  const bool are_two = !options.picture.empty() && !options.output.empty();
+  if (are_two && IsSameFile(options.picture, options.output)) {
+    throw UsageError("--output: " + options.output + " is the picture, allowed: another file");
   }
 }
 
@@ -162,6 +196,12 @@ int RunSphereTree(const SphereTreeOptions& options) {
   } catch (const OutputError& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
     return kOutputFailed;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "collisionctl: " << options.mesh << ": " << kNoMemoryText << '\n';
+    return kBadData;
+  } catch (const std::length_error&) {
+    std::cerr << "collisionctl: " << options.mesh << ": " << kNoMemoryText << '\n';
+    return kBadData;
   } catch (const std::exception& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
     return kBadData;

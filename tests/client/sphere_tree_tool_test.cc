@@ -3,6 +3,7 @@
 // Method: small meshes as files; every output is read back and compared with the tree itself.
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -262,6 +263,68 @@ TEST_F(SphereTreeTool, WhatIsAskedWronglyIsOneLine) {
   const std::string nowhere = folder_ + "/none/x.svg";
   expect(with([&](auto* o) { o->picture = nowhere; }), 74, nowhere + ": cannot be written: ");
 }
+
+// Goal:   nothing that is asked for takes the place of the mesh, whatever it is called, nor of the other
+//         output; what cannot be written is told.
+TEST_F(SphereTreeTool, OutputsAreFilesOfTheirOwn) {
+  SphereTreeOptions good;
+  const std::string text = BumpyObj(2, false);
+  good.mesh = File("ball.svg.obj", text);
+  good.builder = "octree";
+  good.format = "obj";
+  fs::create_symlink(good.mesh, folder_ + "/link.obj");
+  fs::create_symlink(good.mesh, folder_ + "/link.svg");
+  fs::create_hard_link(good.mesh, folder_ + "/hard.obj");
+  const auto expect = [&](const std::string& output, const std::string& picture, int status,
+                          const std::string& cause) {
+    SphereTreeOptions options = good;
+    options.output = output;
+    options.picture = picture;
+    const Outcome outcome = RunTool(options);
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_NE(outcome.err.find(cause), std::string::npos) << outcome.err;
+    EXPECT_EQ(CountOf(outcome.err, "\n"), cause.empty() ? 0u : 1u) << outcome.err;
+    EXPECT_EQ(Contents(good.mesh), text);
+  };
+  const std::string fresh = folder_ + "/fresh.obj", picture = folder_ + "/new.svg";
+  for (const char* same : {"/ball.svg.obj", "/./ball.svg.obj", "/link.obj", "/hard.obj"}) {
+    expect(folder_ + same, "", 2, "is the mesh itself");
+  }
+  expect(fresh, folder_ + "/link.svg", 2, "--picture: " + folder_ + "/link.svg is the mesh itself");
+  expect(picture, picture, 2, "is the picture");
+  expect(folder_ + "/./new.svg", picture, 2, "is the picture");
+  expect(folder_, "", 74, folder_ + ": cannot be written: Is a directory");
+  fs::create_directories(folder_ + "/folder.svg");
+  expect(fresh, folder_ + "/folder.svg", 74, "folder.svg: cannot be written: Is a directory");
+  expect(folder_ + "/none/x.obj", "", 74, "x.obj: cannot be written: No such file or directory");
+  expect(good.mesh + "/x.obj", "", 74, "x.obj: cannot be written: Not a directory");
+  EXPECT_FALSE(fs::exists(fresh) || fs::exists(picture));
+  expect(fresh, picture, 0, "");
+  EXPECT_TRUE(fs::exists(fresh) && fs::exists(picture));
+}
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+// Goal:   a mesh that does not fit in memory is one line and an exit code, wherever the memory ends.
+// Method: a process with little memory, in steps from too little for the file to nearly enough.
+TEST_F(SphereTreeTool, TooLittleMemoryIsOneLine) {
+  SphereTreeOptions options;
+  options.mesh = File("ball.obj", BumpyObj(60, false));
+  options.builder = "octree";
+  for (const rlim_t more : {1, 4, 16, 32}) {
+    const auto run = [&] {
+      std::size_t pages = 0;
+      std::ifstream("/proc/self/statm") >> pages;
+      const rlim_t bytes = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (more << 20);
+      const rlimit limit = {bytes, bytes};
+      setrlimit(RLIMIT_AS, &limit);
+      std::exit(RunSphereTree(options));
+    };
+    EXPECT_EXIT(run(), testing::ExitedWithCode(65),
+                "^collisionctl: [^\n]*not enough memory[^\n]*\n$")
+        << more;
+  }
+}
+#endif
 
 // Goal:   what goes to standard output is one document, whatever else is asked for.
 TEST_F(SphereTreeTool, StandardOutputHoldsOneThing) {
