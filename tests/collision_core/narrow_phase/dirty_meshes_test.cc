@@ -14,7 +14,7 @@ namespace {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr std::uint32_t kMeshes = 10 * kDirtKinds;
 #else
-constexpr std::uint32_t kMeshes = 100 * kDirtKinds;
+constexpr std::uint32_t kMeshes = 80 * kDirtKinds;
 #endif
 
 // Brute force over more pairs of triangles than this takes too long.

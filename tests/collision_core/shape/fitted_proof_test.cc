@@ -18,7 +18,7 @@ namespace {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kDirtyMeshes = 4 * kDirtKinds;
 #else
-constexpr int kDirtyMeshes = 30 * kDirtKinds;
+constexpr int kDirtyMeshes = 24 * kDirtKinds;
 #endif
 
 /// One of few and small options, often the defaults.
