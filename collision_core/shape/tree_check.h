@@ -24,9 +24,9 @@ inline constexpr std::uint32_t kTreeDepthMax = 64;
 /// sphere_tree.h states, every number is finite, every index in range, and its leaves hold every
 /// triangle. No node has a single child, no triangle stands twice in a leaf, no two leaves share a
 /// list, and all leaves together hold PiecesMax() triangles at most: so no traversal can leave the
-/// tree, fail to end, or take more steps than a tree of this mesh may have. Whether the balls contain their parts,
-/// and how far their centres are from the surface, would cost what building costs: that is not
-/// looked at, and must be known otherwise. Linear in time, however the tree was made.
+/// tree, fail to end, or take more steps than a tree of this mesh may have. Whether the balls contain
+/// their parts, and how far their centres are from the surface, would cost what building costs: that
+/// is not looked at, and must be known otherwise. Linear in time, however the tree was made.
 std::optional<std::string> RefusalOf(const SphereTree& tree, const TriangleMesh& mesh);
 
 }  // namespace collision
