@@ -24,7 +24,8 @@ constexpr double kWorthNarrowing = 0.0625;
 constexpr double kThoroughShare = 1e-6;
 
 // Beyond where freedom was interrupted they begin at this share of the way there: interruptions may
-// follow each other, and are not to be followed one by one.
+// follow each other, and are not to be followed one by one. Sooner only what may touch first is
+// asked.
 constexpr double kIslandShare = 0.0625;
 
 // What may show contact is all tried at first, then the best of it only.
@@ -197,11 +198,12 @@ std::optional<double> ContactEdge::QuickContact(double free, double until) {
 // before, it goes on from where that freedom ends.
 std::optional<double> ContactEdge::ThoroughContact(double free, double until) {
   double from = free, before = free;
-  double step = std::max(FirstStep(free, until), kThoroughShare * std::abs(until - free));
+  double thorough = kThoroughShare * std::abs(until - free);
+  double step = std::max(FirstStep(free, until), thorough);
   for (;;) {
     if (before == until || Exhausted()) return std::nullopt;
     const double at = Towards(until, from, step);
-    if (Touches(at, true)) return Narrow(before, at, free, true);
+    if (Touches(at, step >= thorough || at == until)) return Narrow(before, at, free, true);
     before = at;
     step *= kStepGrowth;
     if (!apart_) continue;
@@ -209,8 +211,9 @@ std::optional<double> ContactEdge::ThoroughContact(double free, double until) {
     const bool beyond = backward_ ? from <= until : from >= until;
     if (beyond) return std::nullopt;
     Prepare(from);
-    step = std::max({FirstStep(from, until), kThoroughShare * std::abs(until - from),
-                     kIslandShare * std::abs(from - free)});
+    step = FirstStep(from, until);
+    thorough =
+        std::max(kThoroughShare * std::abs(until - from), kIslandShare * std::abs(from - free));
   }
 }
 

@@ -15,6 +15,12 @@ constexpr double kForwardShare = 0.5;
 constexpr double kBackwardShare = 0.4;
 constexpr double kBeginShare = 0.6;
 
+// Contact may be over sooner than the tolerance asked for, and freedom not be followed up to it. Where
+// there is no answer as narrow as asked for, it is sought with this share of the tolerance, and with
+// the same share of that, down to kFinest of the time.
+constexpr double kFiner = 0x1p-20;
+constexpr double kFinest = 1e-12;
+
 // What the verdict on two balls costs.
 constexpr std::uint64_t kBallPairUnits = 20;
 
@@ -36,58 +42,90 @@ class ContactSearch {
  public:
   ContactSearch(const BodySegment& a, const BodySegment& b, double duration,
                 const ContactTolerance& tolerance, Work* work)
-      : motion_(a, b, work),
-        duration_(duration),
-        tolerance_(tolerance),
-        forward_(motion_, duration, tolerance, false, work),
-        backward_(motion_, duration, tolerance, true, work),
-        work_(*work) {}
+      : motion_(a, b, work), duration_(duration), tolerance_(tolerance), work_(*work) {}
 
   ContactTime Run(const SegmentVerdict& balls) {
-    double first, last;
-    std::optional<double> begin;
-    {
-      const WorkShare share(kForwardShare, &work_);
-      first = forward_.FreeFrom(std::max(0.0, balls.free_until));
+    found_.begin.lower = std::max(0.0, balls.free_until);
+    found_.end.upper = std::min(duration_, balls.free_from);
+    for (ContactTolerance finer = tolerance_; Search(finer);) {
+      if (IsAnswered() || exhausted_ || IsFinest(finer)) return Told();
+      finer = {kFiner * finer.absolute, kFiner * finer.relative};
     }
-    if (first == kInfinity) return Free(duration_);
-    {
-      const WorkShare share(kBackwardShare, &work_);
-      last = backward_.FreeFrom(std::min(duration_, balls.free_from));
-    }
-    if (last == -kInfinity || last < first) return Free(duration_);  // the two advances met
-    ContactTime found;
-    found.begin = found.end = {first, last};
-    {
-      const WorkShare share(kBeginShare, &work_);
-      begin = forward_.ContactAfter(first, last);
-    }
-    if (begin) {
-      found.status = ContactStatus::kContact;
-      found.begin.upper = *begin;
-      found.end.lower = backward_.ContactAfter(last, *begin).value_or(*begin);
-    }
-    found.within = begin ? 0 : std::min(forward_.nearest(), backward_.nearest());
-    found.limited_by = Limit(found);
-    return found;
+    return Free(duration_);
   }
 
  private:
-  EventLimit Limit(const ContactTime& found) const {
-    if (found.status == ContactStatus::kContact && IsNarrow(found.begin, tolerance_) &&
-        IsNarrow(found.end, tolerance_)) {
-      return EventLimit::kNone;
+  bool IsContact() const { return found_.status == ContactStatus::kContact; }
+
+  bool IsAnswered() const {
+    return IsContact() && IsNarrow(found_.begin, tolerance_) && IsNarrow(found_.end, tolerance_);
+  }
+
+  bool IsFinest(const ContactTolerance& tolerance) const {
+    const double time = std::max(found_.end.upper, kFinest * duration_);
+    return std::max(tolerance.absolute, tolerance.relative * time) <= kFinest * time;
+  }
+
+  // Goes on with what is found. False: they are apart throughout.
+  bool Search(const ContactTolerance& tolerance) {
+    ContactEdge forward(motion_, duration_, tolerance, false, &work_);
+    ContactEdge backward(motion_, duration_, tolerance, true, &work_);
+    double &first = found_.begin.lower, &last = found_.end.upper;
+    {
+      const WorkShare share(kForwardShare, &work_);
+      first = forward.FreeFrom(first);
     }
-    if (forward_.exhausted() || backward_.exhausted()) return EventLimit::kBudget;
-    return forward_.uncertain() || backward_.uncertain() ? EventLimit::kMotion
-                                                         : EventLimit::kGeometry;
+    if (first == kInfinity) return false;
+    {
+      const WorkShare share(kBackwardShare, &work_);
+      last = backward.FreeFrom(last);
+    }
+    if (last < first) return false;  // -infinity, or the two advances met
+    FindContact(&forward, &backward);
+    nearest_ = std::min({nearest_, forward.nearest(), backward.nearest()});
+    exhausted_ = exhausted_ || forward.exhausted() || backward.exhausted();
+    uncertain_ = forward.uncertain() || backward.uncertain();
+    return true;
+  }
+
+  void FindContact(ContactEdge* forward, ContactEdge* backward) {
+    Interval &begin = found_.begin, &end = found_.end;
+    const bool known = IsContact();
+    if (!known || !IsNarrow(begin, tolerance_)) {
+      const WorkShare share(kBeginShare, &work_);
+      const auto touching = forward->ContactAfter(begin.lower, known ? begin.upper : end.upper);
+      if (!touching && !known) return;
+      begin.upper = touching.value_or(begin.upper);
+      if (!known) end.lower = begin.upper;
+      found_.status = ContactStatus::kContact;
+    }
+    if (known && IsNarrow(end, tolerance_)) return;
+    end.lower = backward->ContactAfter(end.upper, end.lower).value_or(end.lower);
+  }
+
+  ContactTime Told() {
+    if (!IsContact()) {
+      found_.begin.upper = found_.end.upper;
+      found_.end.lower = found_.begin.lower;
+      found_.within = nearest_;
+    }
+    found_.limited_by = Limit();
+    return found_;
+  }
+
+  EventLimit Limit() const {
+    if (IsAnswered()) return EventLimit::kNone;
+    if (exhausted_) return EventLimit::kBudget;
+    return uncertain_ ? EventLimit::kMotion : EventLimit::kGeometry;
   }
 
   const ShapeMotion motion_;
   const double duration_;
   const ContactTolerance tolerance_;
-  ContactEdge forward_, backward_;
   Work& work_;
+  ContactTime found_;
+  double nearest_ = kInfinity;
+  bool exhausted_ = false, uncertain_ = false;
 };
 
 // The balls' own verdict is as narrow as rounding and the motion allow.
