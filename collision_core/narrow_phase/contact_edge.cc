@@ -41,6 +41,9 @@ constexpr int kLastingSteps = 64;
 // What is not known of the motion counts where it is more than rounding, as a share of the size.
 constexpr double kRoundingShare = 1e-12;
 
+// No two orientations differ by a longer chord.
+constexpr double kAnyWay = 2;
+
 }  // namespace
 
 double ContactEdge::Moved(double at, double seconds) const {
@@ -89,6 +92,7 @@ double ContactEdge::FreeFrom(double at) {
     const ShapeMotion::Sweep sweep = motion_.SweepFrom(at, span, backward_, detail_);
     if (!sweep.known) return at;
     touch_ = sweep.touch;
+    any_way_ = std::max(sweep.pose.chord_A, sweep.pose.chord_B) >= kAnyWay;
     // The insides need to be asked once: later they are apart continuously.
     if (!asked_inside && touch_.seconds > 0) {
       asked_inside = true;

@@ -44,6 +44,8 @@ class ContactEdge {
   bool exhausted() const { return exhausted_; }       ///< Something was left out for want of work.
   double nearest() const { return nearest_; }         ///< They certainly come as near as this [m].
   bool uncertain() const { return uncertain_; }  ///< By more than rounding, where freedom ended.
+  /// Nothing was known there of how one of them is turned: no work makes that any better.
+  bool any_way() const { return any_way_; }
 
  private:
   ContactEdge(const ShapeMotion& motion, double duration, const ContactTolerance& tolerance,
@@ -92,6 +94,7 @@ class ContactEdge {
   bool exhausted_ = false;  // Something was not looked at for want of work.
   bool apart_ = false;      // At the last instant that was looked at thoroughly.
   bool uncertain_ = false;
+  bool any_way_ = false;
   double nearest_ = kInfinity;
   FirstTouch touch_;
   std::vector<ContactClue> clues_;

@@ -85,6 +85,7 @@ class ContactSearch {
     nearest_ = std::min({nearest_, forward.nearest(), backward.nearest()});
     exhausted_ = exhausted_ || forward.exhausted() || backward.exhausted();
     uncertain_ = forward.uncertain() || backward.uncertain();
+    any_way_ = forward.any_way() || backward.any_way();
     return true;
   }
 
@@ -115,8 +116,8 @@ class ContactSearch {
 
   EventLimit Limit() const {
     if (IsAnswered()) return EventLimit::kNone;
-    if (exhausted_) return EventLimit::kBudget;
-    return uncertain_ ? EventLimit::kMotion : EventLimit::kGeometry;
+    if (exhausted_ && !any_way_) return EventLimit::kBudget;
+    return uncertain_ || any_way_ ? EventLimit::kMotion : EventLimit::kGeometry;
   }
 
   const ShapeMotion motion_;
@@ -125,7 +126,7 @@ class ContactSearch {
   Work& work_;
   ContactTime found_;
   double nearest_ = kInfinity;
-  bool exhausted_ = false, uncertain_ = false;
+  bool exhausted_ = false, uncertain_ = false, any_way_ = false;
 };
 
 // The balls' own verdict is as narrow as rounding and the motion allow.

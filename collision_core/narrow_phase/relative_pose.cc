@@ -17,11 +17,16 @@ struct Orientation {
   double chord = 0;
 };
 
-// A ball looks the same however it is turned.
+// A rotation that is off by more than this is taken for none that is known (kTurnMax).
+constexpr double kAnyRotation = 0.5;
+
+// A ball looks the same however it is turned. Of a body that may be turned any way one orientation is
+// as good as another, if only it is exact.
 Orientation OrientationOf(const BodySegment& body, std::size_t bound, double delta) {
   if (!body.shape) return {};
   const MovingTurn& turn = body.turns[bound];
   Orientation orientation{RotationOf(turn.OrientationAt(delta)), 2};
+  if (orientation.rotation.error > kAnyRotation) return {Rotation{}, 2};
   const double angle = std::max(0.0, turn.off_angle.At(delta).upper);
   // 2 sin(θ/2) <= θ; the difference matters for large angles only.
   if (angle <= 0.125) orientation.chord = angle;
@@ -31,9 +36,15 @@ Orientation OrientationOf(const BodySegment& body, std::size_t bound, double del
   return orientation;
 }
 
+// For the choice of a bound; all of them hold.
+double TurnedAbout(const MovingTurn& turn, double delta) {
+  const double seconds = turn.since.middle() + delta;
+  const bool followed = turn.w_WB.squaredNorm() * seconds * seconds <= kTurnMax * kTurnMax;
+  return followed ? std::min(2.0, turn.off_angle.At(delta).upper) : 2;
+}
+
 double Uncertainty(const BodySegment& body, std::size_t bound, double delta) {
-  const double turned =
-      body.shape ? std::min(2.0, body.turns[bound].off_angle.At(delta).upper) * ReachOf(body) : 0;
+  const double turned = body.shape ? TurnedAbout(body.turns[bound], delta) * ReachOf(body) : 0;
   return body.ball.bounds[bound].u().At(delta).upper + turned;
 }
 

@@ -108,6 +108,45 @@ TEST(ContactLimits, WorkDoesNotGrowWithTurnsThatMatterNothing) {
   EXPECT_LE(found.begin.width(), 1e-12);
 }
 
+// Turned by more than kTurnMax a body may be turned any way, as if no bound were declared: that is what limits the
+// answer, whatever the budget.
+TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
+  Random random(3);
+  const auto star = Shape::Build(Subdivided(Star(3, random), 3));
+  Body bar{Shape::Build(Box({-2, -0.1, -0.1}, {2, 0.1, 0.1}))};
+  for (const Body& other :
+       {Body{nullptr, 0.2, {-5, 0, 0}, {10, 0, 0}}, Body{UnitCube(), 0, {-5, 0, 0}, {10, 0, 0}},
+        Body{star, 0, {-5, 0, 0}, {10, 0, 0}}}) {
+    Body undeclared = bar;
+    undeclared.angular_acceleration_max = -1;
+    for (const std::uint64_t units : {std::uint64_t{10'000}, std::uint64_t{200'000}}) {
+      const ContactTime least = Find(undeclared, other, 1, Told::kAtStart, {}, units);
+      EXPECT_EQ(least.limited_by, EventLimit::kMotion);
+      for (const double rate : {10 * kTurnMax, 1e9, 1e15, 1e150}) {
+        bar.w = {0, 0, rate};
+        for (const Told told : {Told::kAtStart, Told::kAtBoth}) {
+          const ContactTime found = Find(bar, other, 1, told, {}, units);
+          EXPECT_NE(found.status, ContactStatus::kFree);
+          EXPECT_EQ(found.limited_by, EventLimit::kMotion) << rate;
+          EXPECT_GE(found.begin.lower, least.begin.lower - 1e-12);
+          EXPECT_LE(found.end.upper, least.end.upper + 1e-12);
+          if (found.status != ContactStatus::kContact) continue;
+          EXPECT_LE(found.begin.upper, 0.5);  // the other passes through the middle
+          EXPECT_GE(found.end.lower, 0.5);
+        }
+      }
+    }
+  }
+  // Near to a state it is known, whichever comes first.
+  bar.w = {0, 0, 1.5 * kTurnMax};
+  const Body passing{nullptr, 0.2, {-5, 0, 0}, {10, 0, 0}};
+  const ContactTime found = Find(bar, passing, 1, Told::kAtBoth);
+  EXPECT_EQ(found.status, ContactStatus::kContact);
+  EXPECT_EQ(found.limited_by, EventLimit::kNone);
+  EXPECT_LE(found.begin.width(), 1e-12);
+  EXPECT_LE(found.end.width(), 1e-12);
+}
+
 // A bar's corners, one after the other, come up to a wall and no farther: the nearer, the slower.
 TEST(ContactLimits, GrazingEndsWithABracketAndItsReason) {
   Body bar{Shape::Build(Box({-2, -0.1, -0.1}, {2, 0.1, 0.1}))};

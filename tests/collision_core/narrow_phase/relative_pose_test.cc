@@ -105,6 +105,21 @@ TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
   EXPECT_EQ(pose.chord_B, 0);
 }
 
+// Then it may be turned any way, and where it is is known all the same.
+TEST(RelativePose, TurnsBeyondAllMeasureAreNotKnown) {
+  Random random(6);
+  SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
+  for (const double turn : {0.5 * kTurnMax, 2 * kTurnMax, 1e12 * kTurnMax}) {
+    a.state.w_WB = turn * random.UnitVector();
+    const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, 1);
+    EXPECT_EQ(pose.chord_A, turn > kTurnMax ? 2 : 0);
+    EXPECT_LT(pose.matrix_error, 1e-9);
+    EXPECT_LT(pose.offset_error, 1e-8);
+    const Eigen::Vector3d apart = b.state.p_WA + b.state.v_WA - a.state.p_WA - a.state.v_WA;
+    EXPECT_NEAR(pose.offset.norm(), apart.norm(), 1e-9 * apart.norm());
+  }
+}
+
 TEST(RelativePose, ABallDoesNotTurn) {
   Random random(5);
   SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
