@@ -143,9 +143,10 @@ bool ContactEdge::Touches(double at, bool thoroughly) {
   apart_ = false;
   if (TouchesByClues(at)) return true;
   const Evidence leaves{Evidence::Kind::kLeaves, touch_.leaf_A, touch_.leaf_B};
-  if (touch_.resolved && Note(motion_.LookAgain(at, leaves))) return true;
-  if (evidence_.kind != Evidence::Kind::kNone && Note(motion_.LookAgain(at, evidence_)))
-    return true;
+  for (const Evidence& evidence : {touch_.resolved ? leaves : Evidence{}, evidence_}) {
+    if (evidence.kind == Evidence::Kind::kNone || Exhausted()) continue;
+    if (Note(motion_.LookAgain(at, evidence))) return true;
+  }
   if (!thoroughly || Exhausted()) return false;
   ShapeMotion::Instance instance =
       motion_.LookAt(at, Goal::kYesNo, touch_.resolved ? leaves : Evidence{});
@@ -173,6 +174,8 @@ double ContactEdge::Narrow(double apart, double touching, double free, bool thor
 
 void ContactEdge::Prepare(double free) {
   evidence_ = {};
+  clues_.clear();
+  if (Exhausted()) return;
   clues_ = motion_.PatchAt(free, touch_);
   uncertain_ = motion_.LookAgain(free, {}).uncertainty > kRoundingShare * motion_.size();
 }

@@ -109,6 +109,7 @@ class Patch {
   void Leaves(std::uint32_t i, std::uint32_t j) {
     for (const std::uint32_t s : a_.shape()->tree().TrianglesOf(a_.node(i))) {
       for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b_.node(j))) {
+        if (work_.exhausted()) return;
         AnySolid(a_, s, b_, t) ? Solids(s, t) : Triangles(s, t);
       }
     }

@@ -28,7 +28,7 @@ struct RefinedPair {
 /// it counts with weight · width / units spent, which falls while it has turns. Deterministic: of
 /// equals the first pair added.
 ///
-/// Refine() may overrun the budget by less than kStepUnitsMax. It may be called again and again: each
+/// Refine() may overrun the budget by less than kBatchUnits. It may be called again and again: each
 /// bracket only becomes narrower, and with all the work it asks for it is that of a search alone, bit
 /// for bit.
 class Refinement {

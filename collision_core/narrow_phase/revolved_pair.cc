@@ -180,12 +180,14 @@ class Search {
     Push({std::max(parent, TouchOf(of_a, of_b)), a, b, false});
   }
 
-  // Two leaves are resolved by the earliest of their triangles.
+  // Two leaves are resolved by the earliest of their triangles; where the work ends before all were
+  // looked at, by their balls.
   void OfferParts(const Candidate& pair) {
     const std::vector<Part> of_a = PartsOf(a_, pair.a, false), of_b = PartsOf(b_, pair.b, true);
     double earliest = kInfinity;
     for (const Part& a : of_a) {
       for (const Part& b : of_b) {
+        if (work_.exhausted()) return Push({pair.time, pair.a, pair.b, true});
         work_.Spend(kTrianglePairUnits);
         earliest = std::min(earliest, TouchOf(a, b));
       }

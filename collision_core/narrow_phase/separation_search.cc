@@ -11,6 +11,13 @@ namespace {
 // Of two balls with children both are opened, unless one is larger than this times the other.
 constexpr float kMuchLarger = 4;
 
+// A search looks at the budget before each step, and spends no more than this in one: all triangles
+// of two blocks measured. Two elements of which one is a solid cost no more (kSolidPairUnits).
+constexpr std::uint64_t kStepUnitsMax =
+    kBlockPairUnits +
+    kBlockTriangles * kBlockTriangles * (kBoxPairUnits + kCrossingUnits + kTrianglePairUnits);
+static_assert(kStepUnitsMax + kPoseUnits + kPackRowUnits == kBatchUnits);
+
 // Bodies that are farther apart than this [m] are not looked at more closely: their sizes, at most
 // 4e7 m (kMeshReachMax), are nothing beside it, and squares stay within single precision.
 constexpr double kFarApart = 1e15;

@@ -12,12 +12,6 @@ namespace collision {
 inline constexpr std::uint64_t kPackRowUnits = 1;
 inline constexpr std::uint64_t kBlockPairUnits = 3;
 
-/// A search looks at the budget before each step, and spends no more than this in one: all triangles
-/// of two blocks measured. Two elements of which one is a solid cost no more (kSolidPairUnits).
-inline constexpr std::uint64_t kStepUnitsMax =
-    kBlockPairUnits +
-    kBlockTriangles * kBlockTriangles * (kBoxPairUnits + kCrossingUnits + kTrianglePairUnits);
-
 /// Which pair is opened next. Of the newest first, the lower end of the bracket rises only when most
 /// is done, but no order has to be kept: where the end is what counts, that is the faster one.
 enum class SearchOrder : std::uint8_t {

@@ -175,11 +175,13 @@ class Judgement {
 
   /// Of an instant shortly before the two may have touched for the first time.
   ContactNormal Normal() {
-    if (!approach_) return {};
+    if (!approach_ || work_.exhausted()) return {};
     const Instance end = motion_.LookAgain(approach_->to, {});
     if (!end.choice.certain) return {};
     // At a state's stamp the pose is known much better than between two states.
+    if (work_.exhausted()) return {};
     const Instance start = motion_.LookAgain(approach_->from, {});
+    if (work_.exhausted()) return {};
     if (start.choice.certain && kMuchBetter * start.uncertainty <= end.uncertainty) {
       return NormalOf(motion_.LookAt(approach_->from, Goal::kNearest, leaves_));
     }
@@ -187,7 +189,7 @@ class Judgement {
     const double back = std::max(kNormalBefore * duration_, gap / motion_.SpeedAt(end));
     const double before = std::max(approach_->from, approach_->to - back);
     const ContactNormal near = NormalOf(motion_.LookAt(before, Goal::kNearest, leaves_));
-    if (near.tells() || before == approach_->from) return near;
+    if (near.tells() || before == approach_->from || work_.exhausted()) return near;
     const ContactNormal far = NormalOf(motion_.LookAt(approach_->from, Goal::kNearest, leaves_));
     return far.known && (!near.known || far.error < near.error) ? far : near;
   }
@@ -234,7 +236,7 @@ class Judgement {
   // The leaves that may touch first are likely to: when do their triangles cross for certain? At f,
   // where contact goes on from before; else at growing distances from it, then nearer by halves.
   bool FollowLeaves(double f, double g, SegmentVerdict* times) {
-    if (leaves_.kind == Evidence::Kind::kNone) return false;
+    if (leaves_.kind == Evidence::Kind::kNone || Exhausted()) return false;
     evidence_ = {};
     const auto touches = [&](double place) {
       const Instance instance = motion_.LookAgain(place, leaves_);
@@ -330,6 +332,7 @@ class Judgement {
 
   // Contact at the end belongs to the next segment's, even where it is not certain throughout.
   void LookAtEnd(SegmentVerdict* times) {
+    if (Exhausted()) return;
     const Instance end = Look(duration_, true);
     if (!end.touching()) return;
     evidence_ = end.look.evidence;

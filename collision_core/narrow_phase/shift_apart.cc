@@ -38,10 +38,10 @@ class Reaching {
 
   void Visit(std::uint32_t index) {
     const SphereNode& node = surface_.node(index);
-    if (nodes_ > kNodesMax) return;
+    if (nodes_ > kNodesMax || work_.exhausted()) return;
     ++nodes_;
     work_.Spend(1);
-    if (work_.exhausted() || BoundOf(node) <= farthest_) return;
+    if (BoundOf(node) <= farthest_) return;
     const SphereTree& tree = surface_.shape()->tree();
     for (const std::uint32_t element : tree.TrianglesOf(node)) Take(element);
     // The child that may reach the farthest first: it makes the others needless.

@@ -166,13 +166,23 @@ class Search {
     } else {
       boxes_of_b_.push_back(BoxOfBall(0, swept_.pose.offset, b_.reach()));
     }
+    // Where the work ends before all were offered the pair stays to be opened.
     const auto offer = [&](const BoxedTriangle& of_a) {
-      for (const BoxedTriangle& of_b : boxes_of_b_) OfferBoxes(pair, of_a, of_b);
+      for (const BoxedTriangle& of_b : boxes_of_b_) {
+        if (work_.exhausted()) return false;
+        OfferBoxes(pair, of_a, of_b);
+      }
+      return true;
     };
-    if (!a_.shape()) return offer(BoxOfBall(0, {0, 0, 0}, a_.reach()));
+    if (!a_.shape()) {
+      if (!offer(BoxOfBall(0, {0, 0, 0}, a_.reach()))) Push(pair);
+      return;
+    }
     for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
-      offer(a_.shape()->IsSolid(t) ? BoxOfBall(t, a.centre, a.radius)
-                                   : BoxedTriangle(t, CornersOf(*a_.shape(), t)));
+      if (!offer(a_.shape()->IsSolid(t) ? BoxOfBall(t, a.centre, a.radius)
+                                        : BoxedTriangle(t, CornersOf(*a_.shape(), t)))) {
+        return Push(pair);
+      }
     }
   }
 

@@ -182,7 +182,7 @@ TEST(Compound, LooksSayWhatAllPairsSay) {
       }
       EXPECT_GE(look.lower, before.lower);
       EXPECT_LE(look.upper, before.upper);
-      EXPECT_LE(work.spent(), units + kStepUnitsMax);
+      EXPECT_LE(work.spent(), units + kBatchUnits);
       before = {look.lower, look.upper};
       if (!look.exhausted) break;
     }

@@ -48,7 +48,7 @@ void ExpectLook(const Posed& a, const Posed& b, std::uint64_t units, bool brute)
   const RelativePose pose = PoseBetween(of_a, of_b);
   Work work(units);
   const Look look = LookAt(surface_a, surface_b, pose, Goal::kDecision, &work);
-  EXPECT_LE(work.spent(), units + kStepUnitsMax);
+  EXPECT_LE(work.spent(), units + kBatchUnits);
   EXPECT_FALSE(std::isnan(look.lower) || std::isnan(look.upper));
   Work more(units);
   const Decision decision = DecideAt(surface_a, surface_b, pose, &more);

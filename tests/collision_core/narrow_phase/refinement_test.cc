@@ -59,7 +59,7 @@ TEST_P(RefinementTest, KeepsTheBudgetAndOnlyNarrows) {
     const std::uint64_t allowed = 1 + 37 * (turn % 40);
     Work work(allowed);
     refinement.Refine(&work);
-    EXPECT_LE(work.spent(), allowed + kStepUnitsMax - 1);
+    EXPECT_LE(work.spent(), allowed + kBatchUnits - 1);
     if (work.spent() > allowed) most = std::max(most, work.spent() - allowed);
     EXPECT_LE(refinement.TotalWidth(), total);
     total = refinement.TotalWidth();

@@ -96,7 +96,7 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
       while (!in_steps->done()) {
         Work step(pause);
         in_steps->Refine(&step);
-        EXPECT_LE(step.spent(), pause + kStepUnitsMax - 1);
+        EXPECT_LE(step.spent(), pause + kBatchUnits - 1);
         if (step.spent() > pause) most = std::max(most, step.spent() - pause);
         spent += step.spent();
         EXPECT_GE(in_steps->lower(), lower);
