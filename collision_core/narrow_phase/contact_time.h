@@ -9,7 +9,8 @@
 namespace collision {
 
 /// How narrow a time is to be: whichever of the two is wider. What rounding and what is not known of
-/// the motion leave open is wider at times; then the answer says so.
+/// the motion leave open is wider at times; then the answer says so. A contact that is over sooner is
+/// found all the same.
 struct ContactTolerance {
   double absolute = 0;      ///< [s]
   double relative = 1e-12;  ///< Of the time itself, counted from the start.
@@ -32,8 +33,9 @@ struct ContactTime {
   Interval end;
   double within = 0;  ///< Undecided: at some instant they are certainly no farther apart [m].
   /// What kept a bracket from being as narrow as asked; kNone: nothing did. kBudget: the work
-  /// allowed. kMotion: what is not known of it. kGeometry: they touch by less than rounding can
-  /// tell, or graze, or are open surfaces that do not certainly cross.
+  /// allowed. kMotion: what is not known of it, or turns beyond kTurnMax, whatever the work allowed.
+  /// kGeometry: they touch by less than rounding can tell, or graze, or are open surfaces that do not
+  /// certainly cross.
   EventLimit limited_by = EventLimit::kNone;
   std::uint64_t work = 0;  ///< Units spent.
 };

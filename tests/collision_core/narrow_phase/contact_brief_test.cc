@@ -91,7 +91,7 @@ TEST_P(BriefContactOf, BallThatGrazesAnEdge) {
       EXPECT_GE(found.begin.upper, (middle - half) / speed - 1e-11);
       EXPECT_LE(found.end.lower, (middle + half) / speed + 1e-11);
       EXPECT_GE(found.end.upper, (middle + half) / speed - 1e-11);
-      // At 2 chord / 0.5 m/s the gap closes: 1e-14 m is chord-wise more than a nanosecond.
+      // The gap closes at 4 / s times the chord: 1e-14 m of it, what is rounded, take half a nanosecond.
       if (tolerance.absolute == 1e-9 && chord < 1e-5) continue;
       EXPECT_EQ(found.limited_by, EventLimit::kNone) << tolerance.absolute;
     }
@@ -171,7 +171,7 @@ TEST(BriefContact, AfterATouchThatIsUndecided) {
   }
 }
 
-// A tenth of a nanosecond.
+// A fifth of a nanosecond.
 TEST_P(BriefContactOf, AsBriefAsCanBe) {
   const Body ball{nullptr, 1e-3, {-5e6, 0.1, 0.2}, {1e7, 0, 0}};
   ExpectBrief(ball, {PlateOf(1e-6)}, 1, 0.5L - 1.001e-10L, 0.5L + 1.001e-10L);
