@@ -47,10 +47,10 @@ double SignedDistanceTo(const Surface& surface, const Eigen::Vector3d& x, Work* 
   const Shape* shape = surface.shape();
   if (shape == nullptr) return AddUp(Length(x), -surface.reach());
   const double to_solids = SignedDistanceToSolids(*shape, x, work);
-  if (shape->mesh().triangles.empty() || work->exhausted()) return to_solids;
+  if (shape->mesh().triangles.empty()) return to_solids;
   work->Spend(kPointUnits);
   const Interval distance = shape->DistanceTo(x);
-  if (!shape->closed() || work->exhausted()) return std::min(to_solids, distance.upper);
+  if (!shape->closed()) return std::min(to_solids, distance.upper);
   work->Spend(kWindingUnits);
   const bool outside = shape->WindingNumberAt(x).value_or(0) == 0;
   return std::min(to_solids, outside ? distance.upper : -distance.lower);
