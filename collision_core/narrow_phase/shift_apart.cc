@@ -6,6 +6,7 @@
 #include "collision_core/narrow_phase/convex_distance.h"
 #include "collision_core/narrow_phase/element.h"
 #include "collision_core/narrow_phase/separation_findings.h"
+#include "collision_core/narrow_phase/shift_past.h"
 
 namespace collision {
 namespace {
@@ -101,36 +102,45 @@ double ShiftAlong(const Surface& a, const Surface& b, const RelativePose& pose, 
 
 double ShiftApart(const Surface& a, const Surface& b, const RelativePose& pose,
                   const Evidence& evidence, Work* work) {
-  double least = kInfinity;
-  const auto attempt = [&](const Vector3d& direction) {
+  // What shows the contact first: bodies that touch are mostly taken apart across it.
+  std::vector<Vector3d> ways;
+  const auto add = [&](const Vector3d& direction) {
     const double length = direction.norm();
-    if (!(length > 0x1p-500 && length < 0x1p+500) || work->exhausted()) return;
-    const Vector3d n = direction / length;
-    for (const Vector3d& way : {n, Vector3d(-n)}) {
-      // Against the centres' way only a large body is left sooner than along it.
-      if (way.dot(pose.offset) < 0 && -way.dot(pose.offset) >= least) continue;
-      least = std::min(least, ShiftAlong(a, b, pose, way, work));
-    }
+    if (length > 0x1p-500 && length < 0x1p+500) ways.push_back(direction / length);
   };
-  attempt(pose.offset);
+  const auto add_axis = [&](const Vector3d& axis) {
+    add(axis.dot(pose.offset) < 0 ? Vector3d(-axis) : axis);
+  };
   if (evidence.kind == Evidence::Kind::kNodes) {
-    attempt(pose.ToA(b.node(evidence.b).centre) - a.node(evidence.a).centre);
+    add(pose.ToA(b.node(evidence.b).centre) - a.node(evidence.a).centre);
   }
   if (evidence.kind == Evidence::Kind::kTriangles) {
     if (AnySolid(a, evidence.a, b, evidence.b)) {
       SearchHint none;
-      attempt(SeparationOf(PosedA(SetOf(a, evidence.a), pose), PosedB(SetOf(b, evidence.b), pose),
-                           {}, &none, work)
-                  .normal);
+      add(SeparationOf(PosedA(SetOf(a, evidence.a), pose), PosedB(SetOf(b, evidence.b), pose), {},
+                       &none, work)
+              .normal);
     }
-    attempt(NormalOf(a, evidence.a));
-    attempt(pose.matrix * NormalOf(b, evidence.b));
+    add(NormalOf(a, evidence.a));
+    add(pose.matrix * -NormalOf(b, evidence.b));
   }
+  add(pose.offset);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    if (a.shape()) attempt(Vector3d::Unit(axis));
-    if (b.shape()) attempt(pose.matrix.col(axis));
+    if (a.shape()) add_axis(Vector3d::Unit(axis));
+    if (b.shape()) add_axis(pose.matrix.col(axis));
   }
-  return std::max(0.0, least);
+  for (std::size_t i = 0, count = ways.size(); i < count; ++i) ways.push_back(-ways[i]);
+  double least = kInfinity;
+  for (const Vector3d& way : ways) {
+    // Against the centres' way only a large body is left sooner than along it.
+    if (way.dot(pose.offset) < 0 && -way.dot(pose.offset) >= least) continue;
+    if (!work->exhausted()) least = std::min(least, ShiftAlong(a, b, pose, way, work));
+  }
+  least = std::max(0.0, least);
+  Work own(std::min(kPastUnits, work->left()));
+  for (const Vector3d& way : ways) least = ShiftPast(a, b, pose, way, least, evidence, &own);
+  work->Spend(own.spent());
+  return least;
 }
 
 }  // namespace collision
