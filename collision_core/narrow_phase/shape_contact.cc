@@ -46,8 +46,10 @@ constexpr double kLate = 4;
 constexpr double kLateShare = 1e-5;
 constexpr double kFineShare = 1e-9;
 
-// Of the work that is left: for how long the two are free from the start, then from the end, then
-// for the direction in which they came near; the rest is for contact.
+// Of the work that is left: for all that is about times, so that something remains for the depth;
+// in there for how long the two are free from the start, then from the end, then for the direction
+// in which they came near; the rest is for contact.
+constexpr double kTimesShare = 0.9;
 constexpr double kForwardShare = 0.4;
 constexpr double kBackwardShare = 0.3;
 constexpr double kDirectionShare = 0.6;
@@ -354,11 +356,9 @@ class Judgement {
   Evidence evidence_;  // of contact, where it was last certain
 };
 
-}  // namespace
-
-ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double duration,
-                         const SegmentVerdict& balls, Work* work) {
-  Judgement judgement(a, b, duration, work);
+// When, and the direction before; what is told of an instant is left.
+ShapeVerdict JudgeTimes(double duration, const SegmentVerdict& balls, Judgement* judgement,
+                        Work* work) {
   ShapeVerdict verdict;
   SegmentVerdict& times = verdict.times;
   if (balls.free_until == kInfinity || balls.free_from == -kInfinity) {
@@ -369,7 +369,7 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
   const double from = std::max(0.0, balls.free_until);
   times.free_until = [&] {
     const WorkShare share(kForwardShare, work);
-    return judgement.FreeFrom(from, false);
+    return judgement->FreeFrom(from, false);
   }();
   if (balls.free_until < 0 && times.free_until == from) times.free_until = balls.free_until;
   if (times.free_until == kInfinity) {
@@ -379,7 +379,7 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
   const double until = std::min(duration, balls.free_from);
   times.free_from = [&] {
     const WorkShare share(kBackwardShare, work);
-    return judgement.FreeFrom(until, true);
+    return judgement->FreeFrom(until, true);
   }();
   if (times.free_from == -kInfinity) {  // the same from the other side
     times.free_until = kInfinity;
@@ -393,17 +393,29 @@ ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double dura
   times.free_until = std::min(times.free_until, NextDown(duration));
   {
     const WorkShare share(kDirectionShare, work);
-    verdict.normal = judgement.Normal();
+    verdict.normal = judgement->Normal();
   }
-  judgement.FindContact(std::max(0.0, times.free_until), times.free_from, &times);
-  judgement.Sharpen(std::max(0.0, times.free_until), times.free_from, &times);
-  judgement.LookOnce(std::max(0.0, times.free_until));
+  judgement->FindContact(std::max(0.0, times.free_until), times.free_from, &times);
+  judgement->Sharpen(std::max(0.0, times.free_until), times.free_from, &times);
+  judgement->LookOnce(std::max(0.0, times.free_until));
+  return verdict;
+}
+
+}  // namespace
+
+ShapeVerdict JudgeShapes(const BodySegment& a, const BodySegment& b, double duration,
+                         const SegmentVerdict& balls, Work* work) {
+  Judgement judgement(a, b, duration, work);
+  ShapeVerdict verdict = [&] {
+    const WorkShare share(kTimesShare, work);
+    return JudgeTimes(duration, balls, &judgement, work);
+  }();
   verdict.exhausted = judgement.exhausted();
   if (judgement.nearest()) {
     verdict.looked = true;
     verdict.nearest_at = judgement.nearest()->at;
     verdict.nearest = judgement.NearestProximity();
-    const bool contact = times.contact_from <= times.contact_to;
+    const bool contact = verdict.times.contact_from <= verdict.times.contact_to;
     if (!contact && judgement.exhausted()) verdict.nearest.limited_by = EventLimit::kBudget;
   }
   return verdict;
