@@ -7,6 +7,7 @@
 
 #include "collision_core/narrow_phase/boxed_triangle.h"
 #include "collision_core/narrow_phase/element.h"
+#include "collision_core/narrow_phase/feature_directions.h"
 #include "collision_core/narrow_phase/first_root.h"
 #include "collision_core/narrow_phase/swept_solids.h"
 
@@ -24,6 +25,9 @@ constexpr double kShortWay = 0x1p-20;
 
 // Outside of these the square of a length may have lost what it says, by underflow or overflow.
 constexpr double kSquareMin = 0x1p-900, kSquareMax = 0x1p+900;
+
+// A leaf is wide beside a ball of less than an eighth of its radius.
+constexpr double kWideLeaf = 8;
 
 using Reach = SweptPose::Growth;
 
@@ -233,7 +237,35 @@ class Search {
     const bool within =
         !(time > 0) && (c_b - a.centre).norm() + a.signed_distance + b.signed_distance < 0;
     const Kind kind = within ? Kind::kResolved : Kind::kNodes;
-    Push({std::max(parent, time), kind, 0, index_a, index_b, 0, 0, a.radius + b.radius});
+    const double later = within || time > until_ ? time : std::max(time, WideLeafTouch(a, b, c_b));
+    Push({std::max(parent, later), kind, 0, index_a, index_b, 0, 0, a.radius + b.radius});
+  }
+
+  // The ball about a leaf of large triangles holds much else: beside a small ball they are asked
+  // themselves. 0: nothing is known.
+  double WideLeafTouch(const SphereNode& a, const SphereNode& b, const Eigen::Vector3d& c_b) {
+    using Point = std::array<Eigen::Vector3d, 1>;
+    const bool of_a = a.children == 0 && a.radius > kWideLeaf * b.radius;
+    if (!of_a && !(b.children == 0 && b.radius > kWideLeaf * a.radius)) return 0;
+    const Surface& surface = of_a ? a_ : b_;
+    if (surface.shape() == nullptr) return 0;
+    double least = kInfinity;
+    for (const std::uint32_t t : surface.shape()->tree().TrianglesOf(of_a ? a : b)) {
+      if (surface.shape()->IsSolid(t) || !(least > 0)) return 0;
+      work_.Spend(kTrianglePairUnits / 2);
+      if (of_a) {
+        const TrianglePoints corners = CornersOf(*a_.shape(), t);
+        const Reach reach = ReachOf(b.radius, FarOfA(corners), b.centre.norm());
+        const Eigen::Vector3d way = c_b - DistanceOf(c_b, corners).b;
+        least = std::min(least, Further(way, OfA(corners), OfB(Point{c_b}), reach, 0));
+      } else {
+        const TrianglePoints corners = CornersOf(*b_.shape(), t, swept_.pose);
+        const Reach reach = ReachOf(a.radius, a.centre.norm(), FarOfB(corners));
+        const Eigen::Vector3d way = DistanceOf(a.centre, corners).b - a.centre;
+        least = std::min(least, Further(way, OfA(Point{a.centre}), OfB(corners), reach, 0));
+      }
+    }
+    return least;
   }
 
   double FarOfB(const TrianglePoints& corners) const {
@@ -388,20 +420,9 @@ class Search {
                               const Moving<3>& a, const Moving<3>& b, const Reach& reach,
                               double h) const {
     double furthest = 0;
-    const auto attempt = [&](const Eigen::Vector3d& n) {
+    ForEachFeatureDirection(at_a, at_b, [&](const Eigen::Vector3d& n) {
       furthest = std::max({furthest, Further(n, a, b, reach, h), Further(-n, a, b, reach, h)});
-    };
-    const Eigen::Vector3d edges_a[3] = {at_a[1] - at_a[0], at_a[2] - at_a[1], at_a[0] - at_a[2]};
-    const Eigen::Vector3d edges_b[3] = {at_b[1] - at_b[0], at_b[2] - at_b[1], at_b[0] - at_b[2]};
-    const Eigen::Vector3d normal_a = edges_a[0].cross(edges_a[1]);
-    const Eigen::Vector3d normal_b = edges_b[0].cross(edges_b[1]);
-    attempt(normal_a);
-    attempt(normal_b);
-    for (const Eigen::Vector3d& e : edges_a) {
-      attempt(normal_a.cross(e));
-      for (const Eigen::Vector3d& f : edges_b) attempt(e.cross(f));
-    }
-    for (const Eigen::Vector3d& f : edges_b) attempt(normal_b.cross(f));
+    });
     return furthest;
   }
 
