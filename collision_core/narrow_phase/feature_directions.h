@@ -8,8 +8,8 @@
 namespace collision {
 
 /// Both normals, across each pair of edges, and across each edge within its triangle's plane: one of
-/// them separates two triangles that are apart, and the faces of their difference lie across the
-/// first eleven (but for what rounding makes of them). Of any length; zero where features are parallel.
+/// them separates two triangles that are apart, but for rounding. Of any length; zero where features
+/// are parallel.
 template <typename Attempt>
 void ForEachFeatureDirection(const TrianglePoints& a, const TrianglePoints& b, Attempt attempt) {
   const Eigen::Vector3d edges_a[3] = {a[1] - a[0], a[2] - a[1], a[0] - a[2]};
