@@ -116,10 +116,12 @@ std::uint64_t CounterOf(const v1::ServiceStatus& status, const std::string& name
   return 0;
 }
 
-/// So much has arrived that ours must be among it, and nothing is on its way or being built.
-bool HasTree(const v1::ServiceStatus& status, std::uint64_t bytes) {
+/// So much has arrived that ours must be among it, and nothing is on its way or being built; but
+/// what has a coarse tree may be.
+bool HasTree(const v1::ServiceStatus& status, std::uint64_t bytes, bool coarse_is_enough) {
+  const std::uint64_t coarse = coarse_is_enough ? CounterOf(status, "trees_coarse") : 0;
   return CounterOf(status, "shape_bytes") >= bytes && CounterOf(status, "shapes_gathering") == 0 &&
-         CounterOf(status, "trees_building") == 0;
+         CounterOf(status, "trees_building") <= coarse;
 }
 
 void AwaitTree(const TerrainOptions& options, const SimulatorOptions& simulator,
@@ -127,7 +129,9 @@ void AwaitTree(const TerrainOptions& options, const SimulatorOptions& simulator,
   using std::chrono::steady_clock;
   bool built = false;
   Monitor monitor({.world = simulator.world, .domain = simulator.domain},
-                  {.status = [&](const v1::ServiceStatus& s) { built = HasTree(s, bytes); }});
+                  {.status = [&](const v1::ServiceStatus& s) {
+                    built = HasTree(s, bytes, options.coarse_is_enough);
+                  }});
   const auto start = steady_clock::now();
   const auto taken = [&] {
     return std::chrono::duration<double>(steady_clock::now() - start).count();
@@ -135,7 +139,7 @@ void AwaitTree(const TerrainOptions& options, const SimulatorOptions& simulator,
   while (!built && !StopRequested() && taken() < options.await_tree_s) {
     monitor.Poll(std::chrono::milliseconds(50));
   }
-  std::printf(built ? "the service has the ground's tree after %.1f s\n"
+  std::printf(built ? "the service has a tree of the ground after %.1f s\n"
                     : "the service has no tree of the ground after %.1f s; time begins\n",
               taken());
   std::fflush(stdout);

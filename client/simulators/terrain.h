@@ -20,6 +20,8 @@ struct TerrainOptions {
   /// Before time begins it waits so long for the service to have built its tree; until then what
   /// flies may meet anything within the ground's ball.
   double await_tree_s = 0;
+  /// The coarse tree is enough, which is there long before: the wanted one follows in the run.
+  bool coarse_is_enough = false;
 };
 
 inline constexpr std::size_t kTerrainTrianglesMin = 50;

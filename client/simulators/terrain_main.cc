@@ -31,6 +31,8 @@ int main(int argc, char** argv) {
                  "Wait so long [s] for the service to have its sphere tree, then begin; 0 to 25")
       ->check(Finite(kAwaitTreeMax, true))
       ->capture_default_str();
+  app.add_flag("--coarse", terrain.coarse_is_enough,
+               "Do not wait longer than for the coarse tree, which is there first");
   app.add_option("--seconds", simulator.seconds, "Length of the run")
       ->required()
       ->check(Finite(kRunSecondsMax, false));

@@ -70,7 +70,8 @@ TEST_F(SceneFileTest, AnUnknownSceneNamesThoseThereAre) {
     EXPECT_STREQ(
         error.what(),
         "no scene \"iridium\"; there are: corridor, drone-arms, iridium-cosmos, spaceships, "
-        "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain");
+        "spaceships-100, spaceships-500, swarm, swarm-100, swarm-1000, terrain, "
+        "terrain-million");
   }
 }
 
