@@ -13,7 +13,8 @@ double ShiftAlong(const Surface& a, const Surface& b, const RelativePose& pose,
                   const Eigen::Vector3d& n, Work* work);
 
 /// The least of some: across what shows the contact, away from each other's reference points, and
-/// along the axes of both bodies; each by ShiftAlong() and, with kPastUnits for all, by ShiftPast(). The translational penetration depth is no more.
+/// along the axes of both bodies; each by ShiftAlong() and, with kPastUnits for all, by ShiftPast().
+/// The translational penetration depth is no more.
 double ShiftApart(const Surface& a, const Surface& b, const RelativePose& pose,
                   const Evidence& evidence, Work* work);
 

@@ -1,6 +1,7 @@
 #include "collision_core/narrow_phase/shift_past.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace collision {
 namespace {
@@ -25,11 +26,11 @@ class Shifting {
     // Before what shows the contact is gone nothing else need be asked.
     double shift = most;
     if (Shows(shift)) return known;
-    while (shift > kFirstPlace * known && !Shows(shift / 2)) shift /= 2;
+    while (shift > kFirstPlace * known && !work_.exhausted() && !Shows(shift / 2)) shift /= 2;
     double touching = 0, apart = known;
     while (apart - touching > std::max(kNearEnough * apart, kFirstPlace * known) &&
            !work_.exhausted()) {
-      const double spare = Shows(shift) ? -1 : Spare(shift);
+      const double spare = Shows(shift) || work_.exhausted() ? -1 : Spare(shift);
       // 2^-40: the length of n, and the difference.
       if (spare >= 0) apart = std::min(apart, (shift - spare) * (1 + 0x1p-40));
       if (spare < 0) touching = shift;
@@ -77,7 +78,7 @@ class Shifting {
 
 double ShiftPast(const Surface& a, const Surface& b, const RelativePose& pose,
                  const Eigen::Vector3d& n, double known, const Evidence& evidence, Work* work) {
-  if (!std::isfinite(known)) return known;
+  if (!std::isfinite(known) || work->exhausted()) return known;
   return Shifting(a, b, pose, n, evidence, work).Least(known);
 }
 

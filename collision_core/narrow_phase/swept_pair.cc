@@ -244,26 +244,18 @@ class Search {
   // The ball about a leaf of large triangles holds much else: beside a small ball they are asked
   // themselves. 0: nothing is known.
   double WideLeafTouch(const SphereNode& a, const SphereNode& b, const Eigen::Vector3d& c_b) {
-    using Point = std::array<Eigen::Vector3d, 1>;
     const bool of_a = a.children == 0 && a.radius > kWideLeaf * b.radius;
     if (!of_a && !(b.children == 0 && b.radius > kWideLeaf * a.radius)) return 0;
-    const Surface& surface = of_a ? a_ : b_;
-    if (surface.shape() == nullptr) return 0;
+    const Shape* shape = (of_a ? a_ : b_).shape();
     double least = kInfinity;
-    for (const std::uint32_t t : surface.shape()->tree().TrianglesOf(of_a ? a : b)) {
-      if (surface.shape()->IsSolid(t) || !(least > 0)) return 0;
+    if (shape == nullptr) return 0;
+    for (const std::uint32_t t : shape->tree().TrianglesOf(of_a ? a : b)) {
+      if (shape->IsSolid(t) || !(least > 0) || work_.exhausted()) return 0;
       work_.Spend(kTrianglePairUnits / 2);
-      if (of_a) {
-        const TrianglePoints corners = CornersOf(*a_.shape(), t);
-        const Reach reach = ReachOf(b.radius, FarOfA(corners), b.centre.norm());
-        const Eigen::Vector3d way = c_b - DistanceOf(c_b, corners).b;
-        least = std::min(least, Further(way, OfA(corners), OfB(Point{c_b}), reach, 0));
-      } else {
-        const TrianglePoints corners = CornersOf(*b_.shape(), t, swept_.pose);
-        const Reach reach = ReachOf(a.radius, a.centre.norm(), FarOfB(corners));
-        const Eigen::Vector3d way = DistanceOf(a.centre, corners).b - a.centre;
-        least = std::min(least, Further(way, OfA(Point{a.centre}), OfB(corners), reach, 0));
-      }
+      const double further =
+          of_a ? BallFurther(CornersOf(*shape, t), c_b, b.radius, 0)
+               : BallFurther(a.centre, a.radius, CornersOf(*shape, t, swept_.pose), 0);
+      least = std::min(least, further);
     }
     return least;
   }
@@ -384,42 +376,43 @@ class Search {
     return StaysApart({MovingA(of_a), MovingB(of_b), used}, h, duration_, &work_);
   }
 
+  // A ball of A about x beside a triangle of B, and a triangle of A beside a ball of B.
+  double BallFurther(const Eigen::Vector3d& x, double radius, const TrianglePoints& corners,
+                     double h) const {
+    const auto ball = OfA(std::array{x});
+    const auto b = OfB(corners);
+    const Eigen::Vector3d way = DistanceOf(ball.At(h)[0], b.At(h)).b - ball.At(h)[0];
+    return Further(way, ball, b, ReachOf(radius, x.norm(), FarOfB(corners)), h);
+  }
+  double BallFurther(const TrianglePoints& corners, const Eigen::Vector3d& x, double radius,
+                     double h) const {
+    const auto a = OfA(corners);
+    const auto ball = OfB(std::array{x});
+    const Eigen::Vector3d way = ball.At(h)[0] - DistanceOf(ball.At(h)[0], a.At(h)).b;
+    const double far_b = (x - swept_.pose.offset).norm();
+    return Further(way, a, ball, ReachOf(radius, FarOfA(corners), far_b), h);
+  }
+
   double FurtherApart(std::uint32_t of_a, std::uint32_t of_b, double h) {
     if (AnySolid(a_, of_a, b_, of_b)) return SolidsFurther(of_a, of_b, h);
-    using Point = std::array<Eigen::Vector3d, 1>;
-    const Eigen::Vector3d& offset = swept_.pose.offset;
     if (!a_.shape()) {
       const TrianglePoints corners = CornersOf(*b_.shape(), of_b, swept_.pose);
-      const auto ball = OfA(Point{Eigen::Vector3d(0, 0, 0)});
-      const auto b = OfB(corners);
-      const Eigen::Vector3d nearest = DistanceOf(ball.At(h)[0], b.At(h)).b - ball.At(h)[0];
-      return Further(nearest, ball, b, ReachOf(a_.reach(), 0, FarOfB(corners)), h);
+      return BallFurther(Eigen::Vector3d(0, 0, 0), a_.reach(), corners, h);
     }
     const TrianglePoints corners_a = CornersOf(*a_.shape(), of_a);
+    if (!b_.shape()) return BallFurther(corners_a, swept_.pose.offset, b_.reach(), h);
     const auto a = OfA(corners_a);
-    if (!b_.shape()) {
-      const auto ball = OfB(Point{offset});
-      const Eigen::Vector3d nearest = ball.At(h)[0] - DistanceOf(ball.At(h)[0], a.At(h)).b;
-      return Further(nearest, a, ball, ReachOf(b_.reach(), FarOfA(corners_a), 0), h);
-    }
     const TrianglePoints corners_b = CornersOf(*b_.shape(), of_b, swept_.pose);
     const auto b = OfB(corners_b);
     const Reach reach = ReachOf(0, FarOfA(corners_a), FarOfB(corners_b));
     const TrianglePoints at_a = a.At(h), at_b = b.At(h);
     const TriangleDistance found = DistanceOf(at_a, at_b);
     const Eigen::Vector3d d = found.b - found.a;
-    const double further = Further(d, a, b, reach, h);
+    double furthest = Further(d, a, b, reach, h);
     const double size = (at_a[1] - at_a[0]).cwiseAbs().sum() + (at_b[1] - at_b[0]).cwiseAbs().sum();
-    if (d.squaredNorm() > kShortWay * kShortWay * size * size) return further;
+    if (d.squaredNorm() > kShortWay * kShortWay * size * size) return furthest;
+    // Every direction is right; of features that nearly touch these tell it exactly.
     work_.Spend(kTrianglePairUnits);
-    return std::max(further, FurtherAlongFeatures(at_a, at_b, a, b, reach, h));
-  }
-
-  // Every direction is right; of features that nearly touch these tell it exactly.
-  double FurtherAlongFeatures(const TrianglePoints& at_a, const TrianglePoints& at_b,
-                              const Moving<3>& a, const Moving<3>& b, const Reach& reach,
-                              double h) const {
-    double furthest = 0;
     ForEachFeatureDirection(at_a, at_b, [&](const Eigen::Vector3d& n) {
       furthest = std::max({furthest, Further(n, a, b, reach, h), Further(-n, a, b, reach, h)});
     });

@@ -20,8 +20,8 @@ struct Golden {
   v1::Config::TreeBuilder builder;
   std::uint64_t hash;
 };
-constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0xb68c138c2316d535},
-                              {v1::Config::FITTED, 0x31e2688146b3d045}};
+constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0xf98a044c5fc1f8c0},
+                              {v1::Config::FITTED, 0x22d7848e494d0253}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
 
