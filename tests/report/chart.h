@@ -1,0 +1,44 @@
+// A plot: what it shows, as a file of numbers and as a picture that gnuplot draws.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace collision::report {
+
+struct Point {
+  double x = 0;
+  std::optional<double> y;  ///< Nullopt: at infinity, shown as a cross on the upper edge.
+  std::string note;         ///< In the file: how many were missed, say.
+};
+
+struct Series {
+  std::string name;
+  std::vector<Point> points;  ///< In the order in which they are joined.
+  bool ours = false;          ///< Drawn thicker.
+  std::string limited_by;     ///< What limits it; shown below the plot.
+};
+
+struct Chart {
+  std::string id;     ///< Of the files: id.svg, id.csv.
+  std::string title;  ///< Above the plot.
+  std::string x_label, y_label;
+  bool log_x = true, log_y = true;
+  std::string caption;  ///< What is to be seen in it, below the plot.
+  std::vector<Series> series;
+
+  bool empty() const { return series.empty(); }
+};
+
+/// One line for each point: series, x, y ("inf" at infinity), note.
+std::string Csv(const Chart& chart);
+
+/// What gnuplot is told; it writes an SVG to `svg_path`.
+std::string GnuplotScript(const Chart& chart, const std::string& svg_path);
+
+/// Runs gnuplot, found on the path, and returns the SVG, which scales to the width it is given.
+/// `folder` takes the script while it runs. Throws std::runtime_error with gnuplot's own words.
+std::string Draw(const Chart& chart, const std::string& folder);
+
+}  // namespace collision::report

@@ -1,0 +1,37 @@
+// Charts and tables from measurements.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/report/chart.h"
+#include "tests/report/rows.h"
+#include "tests/report/sections.h"
+
+namespace collision::report {
+
+struct ChartFields {
+  std::vector<std::string> series;  ///< Fields whose texts name a series.
+  std::string x, y;
+  double x_factor = 1, y_factor = 1;
+  std::vector<std::string> ours = {};  ///< Series that begin with one of these are drawn thicker.
+};
+
+/// A series for each text of the series' fields, in the order in which they come; points by x. A row
+/// with "misses" or "false_alarms" above 0 becomes a cross at infinity, with what it missed as its
+/// note; so does one without y that was given up, noted as "> x s". `chart` brings the words.
+Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartFields& fields);
+
+struct Column {
+  std::string field, title;
+};
+
+/// One line for each row. Fields "seconds" and those that end in "_s" are shown as durations; one
+/// that was given up as "> x s".
+Table TableOf(const std::string& title, const std::vector<const Row*>& rows,
+              const std::vector<Column>& columns);
+
+/// All fields of all rows, those of the first rows first; folded.
+Table WholeTable(const std::string& title, const std::vector<const Row*>& rows);
+
+}  // namespace collision::report

@@ -1,0 +1,86 @@
+// report-page: the page of ./run report.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "tests/report/compare.h"
+#include "tests/report/page.h"
+#include "tests/report/results.h"
+#include "tests/report/sections.h"
+#include "tests/report/text.h"
+
+namespace collision::report {
+namespace {
+
+struct Options {
+  std::string parts, results, out, compare, readme, plots;
+};
+
+void Write(const Options& options) {
+  v1::Results results =
+      options.results.empty() ? Assemble(options.parts) : FromJson(options.results);
+  if (results.version().empty()) results.set_version(COLLISION_VERSION);
+  std::optional<Comparison> comparison;
+  if (!options.compare.empty()) comparison = Compare(FromJson(options.compare), results);
+  std::filesystem::create_directories(options.out);
+  WriteFile(options.out + "/results.json", ToJson(results));
+  const std::vector<Section> sections = SectionsOf(results);
+  std::map<std::string, std::string> pictures;
+  for (const Section& section : sections) {
+    for (const Chart& chart : section.charts) {
+      WriteFile(options.out + "/" + chart.id + ".csv", Csv(chart));
+      pictures[chart.id] = Draw(chart, options.out);
+    }
+  }
+  WriteFile(options.out + "/index.html",
+            PageOf(results, sections, pictures, comparison ? &*comparison : nullptr));
+  if (comparison) std::printf("%s", TextOf(*comparison).c_str());
+  if (options.readme.empty()) return;
+  std::filesystem::create_directories(options.plots);
+  for (const ReadmePlot& plot : ReadmePlots()) {
+    const auto picture = pictures.find(plot.id);
+    if (picture == pictures.end()) {
+      throw std::runtime_error("plot " + plot.id + " of the README was not measured");
+    }
+    WriteFile(options.plots + "/" + plot.id + ".svg", picture->second);
+  }
+  const auto folder = std::filesystem::path(options.readme).parent_path();
+  const std::string named = std::filesystem::relative(options.plots, folder).string();
+  WriteFile(options.readme, WithPlots(ReadFile(options.readme), results, named));
+}
+
+}  // namespace
+}  // namespace collision::report
+
+int main(int count, char** arguments) {
+  using namespace collision::report;
+  Options options;
+  bool reference = false;
+  CLI::App app(
+      "Writes the page of ./run report: index.html, results.json, and each plot's SVG and CSV.",
+      "report-page");
+  app.add_flag("--reference", reference,
+               "only time the reference's piece of work, and print it [s]");
+  app.add_option("--parts", options.parts, "folder with what the experiments wrote");
+  app.add_option("--results", options.results, "results.json of a report, instead of --parts");
+  app.add_option("--out", options.out, "folder of the page");
+  app.add_option("--compare", options.compare, "results.json of an older report: say what moved");
+  app.add_option("--readme", options.readme, "replace the plots between this file's marks");
+  app.add_option("--plots", options.plots, "folder of the README's plots");
+  CLI11_PARSE(app, count, arguments);
+  try {
+    if (reference) {
+      std::printf("%.9g\n", TimeReference());
+    } else if (options.out.empty() || options.parts.empty() == options.results.empty()) {
+      std::fprintf(stderr, "report-page: --out, and one of --parts and --results; see --help\n");
+      return 2;
+    } else {
+      Write(options);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "report-page: %s\n", error.what());
+    return 74;
+  }
+}

@@ -1,0 +1,163 @@
+// The report's texts, plots and comparison, on results that are small enough to know by heart.
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include "tests/report/chart.h"
+#include "tests/report/chart_rows.h"
+#include "tests/report/compare.h"
+#include "tests/report/page.h"
+#include "tests/report/results.h"
+#include "tests/report/rows.h"
+#include "tests/report/sections.h"
+#include "tests/report/text.h"
+
+namespace collision::report {
+namespace {
+
+using Fields = std::vector<std::pair<std::string, double>>;
+
+Row RowOf(const std::string& method, const Fields& numbers) {
+  Row row;
+  (*row.mutable_fields())["method"].set_string_value(method);
+  for (const auto& [name, value] : numbers) {
+    (*row.mutable_fields())[name].set_number_value(value);
+  }
+  return row;
+}
+
+/// Twelve timed rows that all take `seconds`, but for the i-th a hundredth of it more, i times.
+v1::Results Timed(double seconds, double ratio) {
+  v1::Results results;
+  v1::Experiment* experiment = results.add_experiments();
+  experiment->set_name("narrow-phase");
+  for (int i = 0; i < 12; ++i) {
+    *experiment->add_measurements() =
+        RowOf("m" + std::to_string(i), {{"seconds", seconds * (1 + 0.001 * i)}});
+  }
+  v1::Figure* figure = experiment->add_figures();
+  figure->set_name("ratio");
+  figure->set_value(ratio);
+  figure = experiment->add_figures();
+  figure->set_name("contact_work_max");
+  figure->set_value(1000);
+  return results;
+}
+
+const Move& MoveOf(const Comparison& comparison, const std::string& figure) {
+  for (const Move& move : comparison.moves) {
+    if (move.figure == figure) return move;
+  }
+  throw std::logic_error(figure);
+}
+
+TEST(ReportText, Base64IsTheStandardOne) {
+  EXPECT_EQ(Base64(""), "");
+  EXPECT_EQ(Base64("f"), "Zg==");
+  EXPECT_EQ(Base64("fo"), "Zm8=");
+  EXPECT_EQ(Base64("foo"), "Zm9v");
+  EXPECT_EQ(Base64("foob"), "Zm9vYg==");
+}
+
+TEST(ReportText, DurationsAreReadable) {
+  EXPECT_EQ(Duration(0.0000000123), "12.3 ns");
+  EXPECT_EQ(Duration(0.25), "250 ms");
+  EXPECT_EQ(Duration(125), "2 min 5 s");
+}
+
+// Goal:   a wrong answer is never a point among the right ones.
+// Method: three rows of one method, one with misses, one given up.
+TEST(ReportChart, MissesAndCutOffsStandAtInfinity) {
+  const Row good = RowOf("FCL", {{"seconds", 1e-6}, {"width", 1e-3}});
+  const Row missed =
+      RowOf("FCL", {{"seconds", 2e-6}, {"width", 1e-9}, {"misses", 3}, {"queries", 40}});
+  Chart words;
+  words.id = "c", words.x_label = "x", words.y_label = "y";
+  const Chart chart = ChartOf(words, {&missed, &good}, {{"method"}, "seconds", "width"});
+  ASSERT_EQ(chart.series.size(), 1u);
+  ASSERT_EQ(chart.series[0].points.size(), 2u);
+  EXPECT_TRUE(chart.series[0].points[0].y);
+  EXPECT_FALSE(chart.series[0].points[1].y);
+  EXPECT_EQ(chart.series[0].points[1].note, "3 missed of 40");
+  EXPECT_NE(Csv(chart).find("FCL,2e-06,inf,3 missed of 40"), std::string::npos) << Csv(chart);
+  EXPECT_NE(GnuplotScript(chart, "c.svg").find("∞"), std::string::npos);
+}
+
+TEST(ReportTable, ACellPastItsCutOffSaysSo) {
+  const Row row = RowOf("CGAL", {{"cut_off_s", 5}});
+  const Table table = TableOf("t", {&row}, {{"method", "who"}, {"seconds", "time"}});
+  EXPECT_EQ(table.rows.at(0).at(1), "> 5 s");
+}
+
+// Goal:   what moves with everything else is noise of the machine, what moves alone by more is told,
+//         and counts have no noise.
+TEST(ReportCompare, TellsWhatMovedByMoreThanTheNoise) {
+  v1::Results before = Timed(1, 2.0), after = Timed(1, 3.0);
+  Comparison comparison = Compare(before, after);
+  EXPECT_TRUE(MoveOf(comparison, "ratio").moved);
+  EXPECT_NEAR(MoveOf(comparison, "ratio").change, 0.5, 1e-12);
+  EXPECT_FALSE(MoveOf(comparison, "contact_work_max").moved);
+
+  // The rows' times now lie far apart: a half more is not much.
+  auto* rows = after.mutable_experiments(0)->mutable_measurements();
+  for (int i = 0; i < rows->size(); i += 2) {
+    (*rows->Mutable(i)->mutable_fields())["seconds"].set_number_value(2.0);
+  }
+  comparison = Compare(before, after);
+  EXPECT_FALSE(MoveOf(comparison, "ratio").moved) << MoveOf(comparison, "ratio").noise;
+  after.mutable_experiments(0)->mutable_figures(1)->set_value(1001);
+  comparison = Compare(before, after);
+  EXPECT_TRUE(MoveOf(comparison, "contact_work_max").moved);
+}
+
+TEST(ReportCompare, OtherHashesAreRemarked) {
+  v1::Results before = Timed(1, 2), after = Timed(1, 2);
+  for (v1::Results* results : {&before, &after}) {
+    (*results->mutable_experiments(0)->mutable_measurements(3)->mutable_fields())["hash"]
+        .set_string_value(results == &before ? "aa" : "bb");
+  }
+  EXPECT_TRUE(Compare(before, before).remarks.empty());
+  ASSERT_EQ(Compare(before, after).remarks.size(), 1u);
+  EXPECT_NE(Compare(before, after).remarks[0].find("m3"), std::string::npos);
+}
+
+// Goal:   the noise is what equal work differed by.
+TEST(ReportResults, NoiseIsTheSpreadOfTheReference) {
+  v1::Results results;
+  for (int i = 0; i <= 20; ++i) results.add_reference_s(1 + 0.01 * i);
+  EXPECT_NEAR(NoiseOf(results), 0.18 / 1.1, 1e-12);
+}
+
+TEST(ReportResults, JsonIsReadAgain) {
+  const v1::Results results = Timed(0.25, 2);
+  const std::string path = testing::TempDir() + "results.json";
+  WriteFile(path, ToJson(results));
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(FromJson(path), results));
+  WriteFile(path, "{\"machine\": 3}");
+  EXPECT_THROW(FromJson(path), std::runtime_error);
+}
+
+// Goal:   the page is one file, names every section, and says what is missing and what failed.
+TEST(ReportPage, SaysWhatIsMissingAndWhatFailed) {
+  v1::Results results = Timed(1, 2);
+  results.mutable_experiments(0)->set_failure("exit status 3");
+  const auto sections = SectionsOf(results);
+  const std::string page = PageOf(results, sections, {}, nullptr);
+  EXPECT_NE(page.find("narrow-phase: exit status 3"), std::string::npos);
+  EXPECT_NE(page.find("precision: not in this report."), std::string::npos);
+  for (const Section& section : sections) {
+    EXPECT_NE(page.find("id=\"" + section.id + "\""), std::string::npos) << section.id;
+  }
+  EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+}
+
+TEST(ReportPage, ReplacesThePlotsBetweenTheMarks) {
+  const std::string readme = "a\n<!-- report: begin -->\nold\n<!-- report: end -->\nb\n";
+  const std::string changed = WithPlots(readme, {}, "plots");
+  EXPECT_EQ(changed.find("old"), std::string::npos);
+  EXPECT_TRUE(changed.starts_with("a\n") && changed.ends_with("<!-- report: end -->\nb\n"));
+  EXPECT_NE(changed.find("(plots/" + ReadmePlots()[0].id + ".svg)"), std::string::npos);
+  EXPECT_THROW(WithPlots("no marks", {}, "plots"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace collision::report

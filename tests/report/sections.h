@@ -1,0 +1,37 @@
+// What the page shows, in its order: texts, plots and tables of what was measured.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "idl/report.pb.h"
+#include "tests/report/chart.h"
+
+namespace collision::report {
+
+struct Table {
+  std::string title;
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+  bool folded = false;  ///< Shown when it is asked for.
+};
+
+struct Section {
+  std::string id;  ///< For links within the page.
+  std::string title;
+  std::vector<std::string> paragraphs;
+  std::vector<Chart> charts;
+  std::vector<Table> tables;
+};
+
+/// A section whose experiments are all missing says so. Every measurement of every experiment is in
+/// a folded table at least.
+std::vector<Section> SectionsOf(const v1::Results& results);
+
+/// The plots that the README shows, by their ids, and what is written below each.
+struct ReadmePlot {
+  std::string id, caption;
+};
+std::vector<ReadmePlot> ReadmePlots();
+
+}  // namespace collision::report

@@ -1,0 +1,111 @@
+#include "tests/report/text.h"
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace collision::report {
+namespace {
+
+constexpr int kDigits = 4;
+/// Whole numbers up to here are written out.
+constexpr double kWholeMax = 1e7;
+
+std::string Print(const char* format, double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+}  // namespace
+
+std::string Short(double value) {
+  if (value == std::floor(value) && std::abs(value) < kWholeMax) return Print("%.0f", value);
+  char text[40];
+  std::snprintf(text, sizeof text, "%.*g", kDigits, value);
+  return text;
+}
+
+std::string Duration(double seconds) {
+  if (seconds >= 60) {
+    const auto whole = static_cast<long long>(std::llround(seconds));
+    return std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+  }
+  if (seconds >= 1) return Print("%.3g s", seconds);
+  if (seconds >= 1e-3) return Print("%.3g ms", seconds * 1e3);
+  if (seconds >= 1e-6) return Print("%.3g µs", seconds * 1e6);
+  return Print("%.3g ns", seconds * 1e9);
+}
+
+std::string EscapeHtml(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
+    }
+  }
+  return escaped;
+}
+
+std::string CsvCell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+std::string Base64(const std::string& bytes) {
+  constexpr char kLetters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      three = three << 8 | (at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0u);
+    }
+    for (int i = 0; i < 4; ++i) {
+      const bool filled = at + static_cast<std::size_t>(i) <= bytes.size();
+      text += filled ? kLetters[three >> (18 - 6 * i) & 63] : '=';
+    }
+  }
+  return text;
+}
+
+std::string Join(const std::vector<std::string>& texts, const std::string& between) {
+  std::string joined;
+  for (const std::string& text : texts) joined += (joined.empty() ? "" : between) + text;
+  return joined;
+}
+
+std::string ReadFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void WriteFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  file.close();
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+}
+
+}  // namespace collision::report

@@ -1,0 +1,25 @@
+// Pieces of text for the page, the plots and the files beside them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace collision::report {
+
+/// At most four significant digits: "12.3", "1.2e-07", "166000".
+std::string Short(double value);
+/// "12 ns", "3.4 µs", "1.2 s", "2 min 5 s".
+std::string Duration(double seconds);
+
+std::string EscapeHtml(const std::string& text);
+/// Between quotes where commas or quotes ask for it.
+std::string CsvCell(const std::string& text);
+std::string Base64(const std::string& bytes);
+
+std::string Join(const std::vector<std::string>& texts, const std::string& between);
+
+/// Throw std::runtime_error that names the file.
+std::string ReadFile(const std::string& path);
+void WriteFile(const std::string& path, const std::string& text);
+
+}  // namespace collision::report
