@@ -1,5 +1,6 @@
 #include "tests/bench/json.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace collision::bench {
@@ -23,7 +24,7 @@ std::string Format(const char* format, double value) {
 }
 
 Field Number(const std::string& name, std::optional<double> value) {
-  return {name, value ? Format("%.9g", *value) : "null"};
+  return {name, value && std::isfinite(*value) ? Format("%.9g", *value) : "null"};
 }
 
 Field Text(const std::string& name, const std::string& value) { return {name, Quoted(value)}; }

@@ -14,6 +14,7 @@ struct Field {
   std::string json;  ///< The value as it stands in the file.
 };
 
+/// Null: not measured, or no number.
 Field Number(const std::string& name, std::optional<double> value);
 Field Text(const std::string& name, const std::string& value);
 
