@@ -1,6 +1,7 @@
 #include "collision_core/narrow_phase/ball_contact.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "collision_core/broad_phase/first_approach.h"
 
@@ -57,11 +58,26 @@ double LastCertified(const Choice& choice, double certified, double uncertified,
   return certified;
 }
 
+/// Below this a square loses digits to the denormals.
+constexpr double kSquareMin = 0x1p-400;
+
+/// The power of two that takes the largest component near 1; 2^1000 at most.
+double Enlarging(const Eigen::Vector3d& v) {
+  const double largest = v.cwiseAbs().maxCoeff();
+  return largest > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(largest))) : 1;
+}
+
 /// When the centres are nearest; about.
 double NearestTime(const Choice& choice, double duration) {
   const Eigen::Vector3d d0 = choice.d0.middle(), w = choice.w.middle();
-  const double square = w.squaredNorm();
-  return square > 0 ? std::clamp(-d0.dot(w) / square, 0.0, duration) : 0;
+  if (w.isZero(0)) return 0;
+  if (w.cwiseAbs().maxCoeff() >= kSquareMin) {
+    return std::clamp(-d0.dot(w) / w.squaredNorm(), 0.0, duration);
+  }
+  const double of_d0 = Enlarging(d0), of_w = Enlarging(w);
+  const Eigen::Vector3d along = of_w * w;
+  const double time = -(of_d0 * d0).dot(along) / along.squaredNorm() * (of_w / of_d0);
+  return std::clamp(time, 0.0, duration);
 }
 
 /// Where the depth is greatest, or any time at which touching is certified.

@@ -282,5 +282,21 @@ TEST(JudgeInstant, BestOverTheBounds) {
   EXPECT_GT(breach.separation.lower, breach.separation.upper);
 }
 
+// Goal:   contact is found where squares of speeds would underflow. Method: head on, the radii a
+//         millionth of the way, from 1e-250 m down to the denormals; contact is half-way.
+TEST(BallContact, IsFoundAtSpeedsWhoseSquaresUnderflow) {
+  for (const double unit : {1e-250, 1e-300, 1e-310}) {
+    SpaceTimeBound a, b;
+    a.declaration.radius = 1e-6 * unit;
+    b.state.p_WA = {-unit, 0, 0};
+    b.state.v_WA = {unit, 0, 0};
+    const SegmentVerdict verdict = JudgeSegment({a.declaration.radius, {ForwardBall(a, Instant())}},
+                                                {0, {ForwardBall(b, Instant())}}, 2);
+    EXPECT_LE(verdict.contact_from, 1) << unit;
+    EXPECT_GE(verdict.contact_to, 1) << unit;
+    EXPECT_LE(verdict.contact_from - verdict.free_until, 1e-7) << unit;
+  }
+}
+
 }  // namespace
 }  // namespace collision

@@ -1,0 +1,199 @@
+#include "tests/stress/pair_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "tests/support/exact_meeting.h"
+
+namespace collision::stress {
+namespace {
+
+std::string Named(const char* what, const SpaceTimeBound& a, const SpaceTimeBound& b, double at) {
+  const Eigen::Vector3d d = b.state.p_WA - a.state.p_WA, v = b.state.v_WA - a.state.v_WA;
+  return std::string(what) + " at " + Show(at) + " s: distance " + Show(d.cwiseAbs().maxCoeff()) +
+         " m, speed " + Show(v.cwiseAbs().maxCoeff()) + " m/s, radii " +
+         Show(a.declaration.radius) + " and " + Show(b.declaration.radius) + " m, M " +
+         Show(a.declaration.acceleration_max) + " and " + Show(b.declaration.acceleration_max) +
+         " m/s2";
+}
+
+/// Near the denormals a unit in the last place is no share of anything: radius and M grow by so many.
+SpaceTimeBound LargerBy(SpaceTimeBound bound, double units) {
+  bound.declaration.radius += units * 0x1p-1074;
+  if (bound.declaration.acceleration_max > 0) {
+    bound.declaration.acceleration_max += units * 0x1p-1074;
+  }
+  return bound;
+}
+
+/// The least K of some tried for which the answer is the exact one; 1024: none of them.
+double UnitsEarly(const SpaceTimeBound& a, const SpaceTimeBound& b, const PairTime& time) {
+  const Dyadic later = ExactMeeting::Nanoseconds(time.seconds) * Dyadic(1 + 1e-9);
+  for (const double units : {0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0}) {
+    const ExactMeeting larger(LargerBy(a, units), b, time.base, {false, units * 0x1p-52});
+    if (larger.MetBy(later)) return units;
+  }
+  return 1024;
+}
+
+/// |Δp + Δv δ|² and (r ± u)² of two states with the same stamp, in seconds after it.
+struct ExactGap {
+  DyadicPolynomial distance, reach, size;
+
+  ExactGap(const SpaceTimeBound& a, const SpaceTimeBound& b, int sign_of_u) {
+    const Dyadic M =
+        Dyadic(a.declaration.acceleration_max) + Dyadic(b.declaration.acceleration_max);
+    reach = {Dyadic(a.declaration.radius) + Dyadic(b.declaration.radius),
+             {},
+             Dyadic(0.5 * sign_of_u) * M};
+    size = reach;
+    for (int i = 0; i < 3; ++i) {
+      const Dyadic p = Dyadic(b.state.p_WA[i]) - Dyadic(a.state.p_WA[i]);
+      const Dyadic v = Dyadic(b.state.v_WA[i]) - Dyadic(a.state.v_WA[i]);
+      const DyadicPolynomial d = {p, v};
+      distance = distance + d * d;
+      size = size + DyadicPolynomial{p.Magnitude(), v.Magnitude()};
+    }
+  }
+
+  /// The reach of bodies that are larger by this share of all that counts.
+  DyadicPolynomial Reach(double share) const { return reach + Dyadic(share) * size; }
+
+  /// |Δ|² − reach².
+  DyadicPolynomial With(double share) const {
+    const DyadicPolynomial larger = Reach(share);
+    return distance + Dyadic(-1.0) * (larger * larger);
+  }
+
+  bool ApartOn(const Dyadic& from, const Dyadic& to) const {
+    ProofCounts counts;
+    return IsPositive(With(0), from, to, &counts);
+  }
+
+  bool ApartAt(const Dyadic& x) const { return ValueAt(With(0), x).Sign() > 0; }
+
+  /// Requires sign_of_u < 0: touching for every motion within the bounds.
+  bool TouchesAt(double delta) const {
+    const Dyadic x(delta);
+    return ValueAt(reach, x).Sign() >= 0 && ValueAt(With(0), x).Sign() <= 0;
+  }
+
+  /// Bodies that are smaller by a share of all that counts, which at last is more than they are; M = 0.
+  bool SmallerApartUpTo(double share, const Dyadic& until) const {
+    DyadicPolynomial left = Reach(-share);
+    left[0] = left[0] - Dyadic(kContactUnits * 0x1p-1074);
+    if (left[0].Sign() < 0) return true;
+    Dyadic to = until;
+    if (left.size() > 1 && left[1].Sign() < 0) {
+      to = std::min(to, Dyadic::Quotient(left[0], -left[1], false));
+    }
+    ProofCounts counts;
+    return IsPositive(distance + Dyadic(-1.0) * (left * left), Dyadic(), to, &counts);
+  }
+};
+
+/// Bodies that are larger by K units touch at the end of what is told to be free; and those that are
+/// smaller by as much do not before what is told to be contact.
+void JudgeWidth(const SpaceTimeBound& a, const SpaceTimeBound& b, const SegmentVerdict& verdict,
+                double duration, Outcome* outcome) {
+  const ExactGap larger(LargerBy(a, kContactUnits), b, 1);
+  const double share = kContactUnits * 0x1p-52;
+  if (verdict.free_until != kInfinity) {
+    const double at = std::max(0.0, verdict.free_until);
+    const Dyadic later = Dyadic(std::min(duration, at * (1 + 0x1p-50)));
+    outcome->Expect(ValueAt(larger.With(share), later).Sign() <= 0 ||
+                        ValueAt(larger.With(share), Dyadic(at)).Sign() <= 0,
+                    Named("not free, though it is,", a, b, at));
+  }
+  const bool found = verdict.contact_from <= verdict.contact_to;
+  const double until =
+      found ? std::max(0.0, verdict.contact_from - kContactResolution * duration) : duration;
+  outcome->Expect(ExactGap(a, b, 1).SmallerApartUpTo(share, Dyadic(until)),
+                  Named("contact is told late,", a, b, until));
+}
+
+bool IsOrdered(const SegmentVerdict& v, double duration) {
+  const bool numbers = !std::isnan(v.free_until) && !std::isnan(v.free_from) &&
+                       std::isfinite(v.contact_from) && std::isfinite(v.contact_to);
+  if (!numbers) return false;
+  if (v.free_until != kInfinity && v.free_until >= duration && duration > 0) return false;
+  if (v.contact_from > v.contact_to) return true;
+  return v.free_until <= v.contact_from && v.contact_to <= v.free_from && v.contact_from >= 0 &&
+         v.contact_to <= duration;
+}
+
+}  // namespace
+
+SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double radius,
+                    double acceleration_max) {
+  SpaceTimeBound bound;
+  bound.state.p_WA = p;
+  bound.state.v_WA = v;
+  bound.declaration.radius = radius;
+  bound.declaration.acceleration_max = acceleration_max;
+  return bound;
+}
+
+void JudgePair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from, Outcome* outcome,
+               double units_max) {
+  const PairTime time = EarliestIntersection(a, b, from);
+  outcome->Add("pairs", 1);
+  outcome->Expect(time.seconds >= 0, Named("not a time", a, b, time.seconds));
+  outcome->Expect(time.seconds == EarliestIntersection(b, a, from).seconds,
+                  Named("not the same for (B, A)", a, b, time.seconds));
+  if (NeverMoves(a) && NeverMoves(b)) return;
+  const ExactMeeting outer(a, b, time.base, {true, 0});
+  std::optional<Dyadic> until;
+  if (time.seconds != kInfinity) until = ExactMeeting::Nanoseconds(time.seconds);
+  ProofCounts counts;
+  outcome->Expect(outer.FreeBefore(until, &counts), Named("late", a, b, time.seconds));
+  if (!until) return;
+  outcome->Add("meetings", 1);
+  const double units = UnitsEarly(a, b, time);
+  outcome->Greatest("pair_units_early", units);
+  outcome->Expect(units <= units_max,
+                  Named(("idle by " + Show(units) + " units").c_str(), a, b, time.seconds));
+}
+
+void JudgeContact(const SpaceTimeBound& a, const SpaceTimeBound& b, double duration,
+                  Outcome* outcome) {
+  const Instant base = a.state.stamp;
+  const SegmentVerdict verdict =
+      JudgeSegment({a.declaration.radius, {ForwardBall(a, base)}},
+                   {b.declaration.radius, {ForwardBall(b, base)}}, duration);
+  outcome->Add("segments", 1);
+  if (!outcome->Expect(IsOrdered(verdict, duration), Named("not ordered", a, b, duration))) return;
+  const ExactGap outer(a, b, 1), inner(a, b, -1);
+  const Dyadic end(duration);
+  const bool throughout = verdict.free_until == kInfinity;
+  if (throughout || verdict.free_until > 0) {
+    outcome->Expect(outer.ApartOn(Dyadic(), throughout ? end : Dyadic(verdict.free_until)),
+                    Named("late", a, b, verdict.free_until));
+  }
+  if (throughout) outcome->Expect(outer.ApartAt(end), Named("late at the end", a, b, duration));
+  if (verdict.free_from < duration) {
+    const Dyadic after(std::max(0.0, verdict.free_from));
+    outcome->Expect(outer.ApartAt(end) && !(end <= after) &&
+                        outer.ApartOn((after + (end - after).Scaled(-60)), end),
+                    Named("not free afterwards", a, b, verdict.free_from));
+  }
+  if (verdict.contact_from <= verdict.contact_to) {
+    outcome->Add("contacts", 1);
+    for (const double at : {verdict.contact_from, verdict.contact_to}) {
+      outcome->Expect(inner.TouchesAt(at), Named("no contact", a, b, at));
+    }
+  }
+  if (a.declaration.acceleration_max == 0 && b.declaration.acceleration_max == 0) {
+    JudgeWidth(a, b, verdict, duration, outcome);
+  }
+}
+
+void SayJudged(Outcome* outcome) {
+  outcome->Say(Show(outcome->Get("pairs")) + " pairs (" + Show(outcome->Get("meetings")) +
+               " that may meet, early by " + Show(outcome->Get("pair_units_early")) +
+               " units at most), " + Show(outcome->Get("segments")) + " segments (" +
+               Show(outcome->Get("contacts")) + " with contact)");
+}
+
+}  // namespace collision::stress

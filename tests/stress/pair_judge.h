@@ -1,0 +1,40 @@
+// Judges the two questions about balls against exact arithmetic: when two horns may first meet, and
+// when two balls touch.
+//
+// The condition of either question is told by its inputs: an answer counts as narrow where it is the
+// exact answer of a problem whose lengths are off by K units in the last place of what they are
+// compared with (|Δp|, |v τ|, r, u). So a grazing pair may be answered less narrowly than one head
+// on, by just as much as its inputs force.
+#pragma once
+
+#include "collision_core/broad_phase/pair_time.h"
+#include "collision_core/narrow_phase/ball_contact.h"
+#include "tests/stress/case.h"
+
+namespace collision::stress {
+
+/// A ball that moves with constant velocity, up to M.
+SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double radius,
+                    double acceleration_max = 0);
+
+/// K of the earliest possible intersection; beyond it 1e-9 of the time are allowed.
+inline constexpr double kPairUnits = 4;
+
+/// EarliestIntersection(): not late, K units early at most, the same for (B, A), finite or never.
+void JudgePair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from, Outcome* outcome,
+               double units_max = kPairUnits);
+
+/// K of the brackets of a contact of two balls.
+inline constexpr double kContactUnits = 16;
+/// Beside it, for where contact begins and ends: this share of the segment.
+inline constexpr double kContactResolution = 1.01e-13;
+
+/// JudgeSegment() over [stamp, stamp + duration]: ordered, free where it says so, touching where it
+/// says so, and each end within K units. Requires equal stamps, and for the width M = 0.
+void JudgeContact(const SpaceTimeBound& a, const SpaceTimeBound& b, double duration,
+                  Outcome* outcome);
+
+/// The sentence for both: how many were asked, and how wide the widest was.
+void SayJudged(Outcome* outcome);
+
+}  // namespace collision::stress
