@@ -63,7 +63,7 @@ std::string Show(double value) {
 
 std::vector<Case> AllCases() {
   std::vector<Case> all;
-  for (const auto& part : {PairCases()}) {
+  for (const auto& part : {PairCases(), SceneCases(), RestingCases(), CrowdCases(), EdgeCases()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

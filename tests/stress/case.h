@@ -60,6 +60,10 @@ struct Case {
 std::vector<Case> AllCases();
 
 std::vector<Case> PairCases();
+std::vector<Case> CrowdCases();
+std::vector<Case> EdgeCases();
+std::vector<Case> RestingCases();
+std::vector<Case> SceneCases();
 
 /// A number in a sentence.
 std::string Show(double value);
