@@ -154,6 +154,14 @@ struct Bouncing {
   }
 };
 
+void TouchAtBounces(const Bouncing& bouncing, std::uint32_t ball, Scene* scene) {
+  Seconds at = 0;
+  for (Seconds u = bouncing.speed; u > 0.01; u *= bouncing.restitution) {
+    scene->Touch(0, ball, at, at);
+    at += 2 * u / bouncing.gravity;
+  }
+}
+
 void Chattering(const Setting& setting, Outcome* outcome) {
   Scene scene(Limited(), Instant(), outcome);
   const Bouncing bouncing;
@@ -161,11 +169,7 @@ void Chattering(const Setting& setting, Outcome* outcome) {
   const double M = 4 * bouncing.speed / kStepSeconds;
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
   const auto ball = scene.Add(BallOf(0.5, M), [bouncing](Seconds t) { return bouncing.At(t); });
-  Seconds at = 0;
-  for (Seconds u = bouncing.speed; u > 0.01; u *= bouncing.restitution) {
-    scene.Touch(0, ball, at, at);
-    at += 2 * u / bouncing.gravity;
-  }
+  TouchAtBounces(bouncing, ball, &scene);
   AddBystanders(&scene, 1.5);
   // What happens between two states, and how soon it is over, is not known any closer.
   RunSteadily(&scene, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
@@ -184,9 +188,9 @@ void ChatteringJumps(const Setting& setting, Outcome* outcome) {
     last = state.v_WA.z();
     return state;
   });
-  scene.Touch(0, 1, 0, 0);
+  TouchAtBounces(bouncing, 1, &scene);
   AddBystanders(&scene, 1.5);
-  RunSteadily(&scene, setting.Many(640, 6400), outcome);
+  RunSteadily(&scene, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
 }
 
 /// Everything that is told of calm agents among themselves.

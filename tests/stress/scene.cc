@@ -157,9 +157,10 @@ const CollisionEvent* Scene::Covering(const Meeting& meeting) const {
   const Seconds slack = kTruthShare * std::fabs(meeting.begin);
   for (const auto& [contact, index] : of_pair->second) {
     const CollisionEvent& event = events_[index];
-    const bool doubt = event.status == EventStatus::kUndecided;
-    if (!IsContact(event) && !doubt && !IsOpen(event)) continue;
-    const Instant latest = doubt ? event.end.latest : event.begin.latest;
+    // Of touches that last no time one event may cover several.
+    const bool whole = event.status == EventStatus::kUndecided || meeting.end <= meeting.begin;
+    if (!IsContact(event) && event.status != EventStatus::kUndecided && !IsOpen(event)) continue;
+    const Instant latest = whole ? event.end.latest : event.begin.latest;
     if (!event.began_before && Since(event.begin.earliest) > meeting.begin + slack) continue;
     if (!latest.is_never() && Since(latest) < meeting.begin - slack) continue;
     return &event;
