@@ -12,7 +12,7 @@ namespace {
 
 class GImpact {
  public:
-  explicit GImpact(const PlainMesh& mesh) {
+  GImpact(const PlainMesh& mesh, double margin) : margin_(static_cast<btScalar>(margin)) {
     for (const auto& p : mesh.vertices) {
       for (const double x : p) points_.push_back(static_cast<btScalar>(x));
     }
@@ -24,7 +24,7 @@ class GImpact {
         static_cast<int>(mesh.vertices.size()), points_.data(),
         static_cast<int>(3 * sizeof(btScalar)));
     shape_ = std::make_unique<btGImpactMeshShape>(triangles_.get());
-    shape_->setMargin(0);
+    shape_->setMargin(margin_);
     shape_->updateBound();
     part_ = shape_->getMeshPart(0);
   }
@@ -49,7 +49,7 @@ class GImpact {
     part_->getPrimitiveManager()->get_primitive_triangle(of_a, a);
     part_->getPrimitiveManager()->get_primitive_triangle(of_b, b);
     b.applyTransform(to_world);
-    a.m_margin = b.m_margin = 0;
+    a.m_margin = b.m_margin = margin_;
     a.buildTriPlane();
     b.buildTriPlane();
     if (!a.overlap_test_conservative(b)) return false;
@@ -63,16 +63,18 @@ class GImpact {
   std::unique_ptr<btGImpactMeshShape> shape_;
   btGImpactMeshShapePart* part_ = nullptr;
   btPairSet pairs_;
+  const btScalar margin_;
 };
 
 }  // namespace
 
+std::function<Reply(const PlainPose&)> GImpactDecision(const PlainMesh& mesh, double margin) {
+  const auto gimpact = std::make_shared<GImpact>(mesh, margin);
+  return [gimpact](const PlainPose& at) { return Plain(gimpact->Touching(BulletPose(at))); };
+}
+
 NarrowQueries BulletQueries(const PlainMesh& mesh) {
-  const auto gimpact = std::make_shared<GImpact>(mesh);
-  const auto ask = [gimpact](const PlainPose& at) {
-    return Plain(gimpact->Touching(BulletPose(at)));
-  };
-  return {{"Bullet GImpact", Task::kDecision, Who::kLibrary, ask}};
+  return {{"Bullet GImpact", Task::kDecision, Who::kLibrary, GImpactDecision(mesh, 0)}};
 }
 
 }  // namespace collision::bench

@@ -28,10 +28,10 @@ struct MovingBody {
 struct ContactCase {
   std::string name;
   MovingBody a, b;
-  double duration = 1;              ///< The step [s].
-  bool both_ends = false;           ///< States are told at both ends of the step.
-  std::optional<double> begin;      ///< The closed answer [s]; nullopt: they do not touch.
-  bool touches_by_nothing = false;  ///< They touch, but do not overlap: nobody can be sure.
+  double duration = 1;               ///< The step [s].
+  bool both_ends = false;            ///< States are told at both ends of the step.
+  std::optional<double> begin = {};  ///< The closed answer [s]; nullopt: they do not touch.
+  bool touches_by_nothing = false;   ///< They touch, but do not overlap: nobody can be sure.
 };
 
 /// Closed answers: see the table of `./run bench narrow-phase`.

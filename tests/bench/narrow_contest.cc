@@ -22,13 +22,6 @@ NarrowQueries AllQueries(const BenchMesh& mesh, const std::shared_ptr<const Shap
 
 }  // namespace
 
-PlainMesh PlainOf(const TriangleMesh& mesh) {
-  PlainMesh plain;
-  for (const Eigen::Vector3d& p : mesh.vertices) plain.vertices.push_back({p.x(), p.y(), p.z()});
-  plain.triangles = mesh.triangles;
-  return plain;
-}
-
 void ContestPart(const NarrowSettings& settings, NarrowReport* report) {
   KeepMemory();
   for (const BenchMesh& mesh : ContestMeshes(settings.data_dir, settings.quick)) {

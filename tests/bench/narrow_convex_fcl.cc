@@ -1,11 +1,9 @@
 // FCL's convex shapes, by both of its solvers and what it has for pairs of one kind.
-#include <fcl/geometry/shape/box.h>
-#include <fcl/geometry/shape/capsule.h>
-#include <fcl/geometry/shape/convex.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
 #include "tests/bench/narrow_convex.h"
+#include "tests/bench/narrow_fcl_shapes.h"
 #include "tests/bench/narrow_fcl_types.h"
 
 namespace collision::bench {
@@ -15,31 +13,6 @@ using Geometry = std::shared_ptr<fcl::CollisionGeometryd>;
 
 /// What its solver for distances stops at [m]; more exact than the answer has to be.
 constexpr double kTolerance = 1e-8;
-
-Geometry HullOf(const PlainMesh& mesh) {
-  auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
-  for (const auto& p : mesh.vertices) vertices->emplace_back(p[0], p[1], p[2]);
-  // Each face: how many corners, and then these.
-  auto faces = std::make_shared<std::vector<int>>();
-  for (const auto& t : mesh.triangles) {
-    faces->push_back(3);
-    for (const std::uint32_t v : t) faces->push_back(static_cast<int>(v));
-  }
-  return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(mesh.triangles.size()), faces);
-}
-
-Geometry GeometryOf(const PlainConvex& convex) {
-  const auto& [x, y, z] = convex.half;
-  switch (convex.kind) {
-    case PlainConvex::Kind::kCapsule:
-      return std::make_shared<fcl::Capsuled>(convex.radius, 2 * z);
-    case PlainConvex::Kind::kBox:
-      return std::make_shared<fcl::Boxd>(2 * x, 2 * y, 2 * z);
-    case PlainConvex::Kind::kHull:
-      break;
-  }
-  return HullOf(convex.hull);
-}
 
 void Add(const std::string& name, const Geometry& a, const Geometry& b, fcl::GJKSolverType solver,
          NarrowQueries* queries) {
@@ -63,7 +36,7 @@ void Add(const std::string& name, const Geometry& a, const Geometry& b, fcl::GJK
 }  // namespace
 
 NarrowQueries FclConvexQueries(const PlainConvex& plain_a, const PlainConvex& plain_b) {
-  const Geometry a = GeometryOf(plain_a), b = GeometryOf(plain_b);
+  const Geometry a = FclGeometry(plain_a), b = FclGeometry(plain_b);
   NarrowQueries queries;
   Add("FCL libccd", a, b, fcl::GST_LIBCCD, &queries);
   Add("FCL own solver", a, b, fcl::GST_INDEP, &queries);

@@ -45,6 +45,13 @@ BenchMesh Made(const std::string& name, TriangleMesh mesh) {
 
 }  // namespace
 
+PlainMesh PlainOf(const TriangleMesh& mesh) {
+  PlainMesh plain;
+  for (const Eigen::Vector3d& p : mesh.vertices) plain.vertices.push_back({p.x(), p.y(), p.z()});
+  plain.triangles = mesh.triangles;
+  return plain;
+}
+
 std::optional<BenchMesh> ReadBenchMesh(const std::string& data_dir, const std::string& name) {
   const PolygonMesh polygons = ReadObj(data_dir + "/meshes/" + name + ".obj");
   if (polygons.sizes.empty()) return std::nullopt;

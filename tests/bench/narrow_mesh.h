@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision_core/shape/triangle_mesh.h"
+#include "tests/bench/narrow_query.h"
 
 namespace collision::bench {
 
@@ -16,6 +17,8 @@ struct BenchMesh {
 
   double diameter() const { return 2; }  ///< Of the bounding ball [m].
 };
+
+PlainMesh PlainOf(const TriangleMesh& mesh);
 
 /// One file of the data folder, merged at equal positions, centred and scaled; nullopt: not there.
 std::optional<BenchMesh> ReadBenchMesh(const std::string& data_dir, const std::string& name);

@@ -22,8 +22,6 @@ struct NarrowSettings {
 
 bool Wanted(const NarrowSettings& settings, const NarrowRow& row);
 
-PlainMesh PlainOf(const TriangleMesh& mesh);
-
 /// Decision, distance and bracket beside the libraries: meshes by gap classes.
 void ContestPart(const NarrowSettings& settings, NarrowReport* report);
 /// Decision and distance of capsules, boxes and hulls: pairs of kinds by gap classes.

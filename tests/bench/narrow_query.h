@@ -63,6 +63,9 @@ NarrowQueries CgalQueries(const PlainMesh& mesh);
 NarrowQueries BspQueries(const PlainMesh& mesh);
 NarrowQueries PeerQueries(const PlainMesh& mesh);
 
+/// GImpact, whose triangles have a margin [m]. Only where Bullet was found.
+std::function<Reply(const PlainPose&)> GImpactDecision(const PlainMesh& mesh, double margin);
+
 /// Building FCL's tree of OBBRSS volumes, processor's time, least of three [s]; nullopt: no FCL.
 std::optional<double> FclBuildSeconds(const PlainMesh& mesh);
 double FclBuildTime(const PlainMesh& mesh);

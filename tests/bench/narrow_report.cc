@@ -1,6 +1,5 @@
 #include "tests/bench/narrow_report.h"
 
-#include <bit>
 #include <cstdio>
 
 namespace collision::bench {
@@ -107,19 +106,6 @@ std::string NarrowReport::Json() const {
   std::vector<std::string> measurements;
   for (const NarrowRow& row : rows_) measurements.push_back(RowJson(row));
   return figures_.Json(measurements);
-}
-
-void NumberHash::Add(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value);
-  for (int byte = 0; byte < 8; ++byte) {
-    hash_ = (hash_ ^ (bits >> 8 * byte & 0xff)) * 0x100000001b3;
-  }
-}
-
-std::string NumberHash::text() const {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash_));
-  return text;
 }
 
 }  // namespace collision::bench

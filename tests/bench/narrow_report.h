@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/bench/json.h"
+#include "tests/bench/number_hash.h"
 
 namespace collision::bench {
 
@@ -38,16 +39,6 @@ class NarrowReport {
  private:
   std::vector<NarrowRow> rows_;
   Figures figures_;
-};
-
-/// FNV-1a over the bits of numbers.
-class NumberHash {
- public:
-  void Add(double value);
-  std::string text() const;
-
- private:
-  std::uint64_t hash_ = 0xcbf29ce484222325;
 };
 
 }  // namespace collision::bench

@@ -1,0 +1,27 @@
+// Pairs of convex solids of ours, and the solids that are measured.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/shape/convex_solid.h"
+#include "tests/bench/narrow_convex.h"
+#include "tests/bench/narrow_pose.h"
+
+namespace collision::bench {
+
+/// A capsule, a box and a hull of 18 points, all of a bounding diameter of 2 m.
+std::vector<PlainConvex> Convexes();
+
+ConvexSolid SolidOf(const PlainConvex& convex);
+
+struct ConvexPair {
+  ConvexSolid a, b;
+
+  Verdict VerdictAt(const RelativePose& pose) const;
+  /// Until it is narrow enough: relative to its lower end `share`, or `width` [m].
+  Interval DistanceAt(const RelativePose& pose, double share, double width) const;
+};
+
+PairOracle OracleOf(const ConvexPair& pair);
+
+}  // namespace collision::bench

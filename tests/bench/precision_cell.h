@@ -1,0 +1,44 @@
+// All methods at the poses of one motion and one pair of bodies: asked, timed, judged.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/bench/narrow_timing.h"
+#include "tests/bench/precision_pose.h"
+#include "tests/bench/precision_query.h"
+#include "tests/bench/precision_report.h"
+
+namespace collision::bench {
+
+struct PrecisionSettings {
+  bool quick = false;
+  std::string only;  ///< A part of PrecisionRow::path(); empty: everything.
+  std::string data_dir;
+
+  std::size_t poses() const { return quick ? 10 : 40; }
+  TimingPlan plan() const { return quick ? TimingPlan{1, 0.05, 0} : TimingPlan{3, 0.5, 0}; }
+  bool Wants(const PrecisionRow& row) const { return row.path().find(only) != std::string::npos; }
+};
+
+struct PrecisionCell {
+  Motion motion;
+  std::string mesh;
+  double diameter = 0;  ///< [m]
+  std::vector<JudgedPose> poses;
+};
+
+void MeasureCell(const PrecisionSettings& settings, const PrecisionCell& cell,
+                 const PrecisionMethods& methods, PrecisionReport* report);
+
+/// Whether any method at this cell is wanted: poses take time to draw.
+bool WantsAny(const PrecisionSettings& settings, Motion motion, const std::string& mesh,
+              const PrecisionMethods& methods);
+
+/// Two bodies of one mesh, and pairs of convex solids: error against time.
+void MeshesPart(const PrecisionSettings& settings, PrecisionReport* report);
+void ConvexesPart(const PrecisionSettings& settings, PrecisionReport* report);
+/// The time of contact likewise, where its answer is closed.
+void ContactTimesPart(const PrecisionSettings& settings, PrecisionReport* report);
+
+}  // namespace collision::bench

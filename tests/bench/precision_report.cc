@@ -1,0 +1,155 @@
+#include "tests/bench/precision_report.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+
+namespace collision::bench {
+namespace {
+
+const std::vector<std::string> kFigures = {"ours_misses",
+                                           "ours_false_alarms",
+                                           "ours_brackets_without_the_truth",
+                                           "peers_misses",
+                                           "peers_false_alarms",
+                                           "peer_over_ours_at_equal_error_translation",
+                                           "peer_over_ours_at_equal_error_rotation",
+                                           "peer_over_ours_at_equal_error_grazing",
+                                           "ours_width_in_peers_time_translation",
+                                           "ours_width_in_peers_time_rotation",
+                                           "ours_width_in_peers_time_grazing",
+                                           "contact_ours_misses",
+                                           "contact_ours_false_alarms",
+                                           "contact_ours_brackets_without_the_truth",
+                                           "contact_peers_misses",
+                                           "contact_peers_false_alarms",
+                                           "contact_naive_misses",
+                                           "contact_peer_over_ours_at_equal_error"};
+
+/// Errors below this are taken for it: what rounding the pose leaves open [m].
+constexpr double kRounding = 1e-13;
+/// A time of contact is asked for no narrower than this [s].
+constexpr double kTimeRounding = 1e-11;
+
+constexpr std::size_t kPartWidth = 10, kMotionWidth = 12, kMeshWidth = 24, kMethodWidth = 29,
+                      kSettingWidth = 22, kNumberWidth = 10;
+
+std::string ShortNumber(const std::optional<double>& value) {
+  return value ? Format("%.3g", *value) : "-";
+}
+
+std::string RowText(const PrecisionRow& row) {
+  std::string text = Padded(row.part, kPartWidth) + Padded(row.motion, kMotionWidth) +
+                     Padded(row.mesh, kMeshWidth) + Padded(row.method, kMethodWidth) +
+                     Padded(row.setting, kSettingWidth) +
+                     Padded(row.seconds ? SecondsText(*row.seconds) : "-", kNumberWidth) +
+                     Padded(ShortNumber(row.width), kNumberWidth) +
+                     Padded(ShortNumber(row.error), kNumberWidth) + std::to_string(row.queries) +
+                     " " + row.hash;
+  if (row.misses > 0) text += "  MISSES " + std::to_string(row.misses);
+  if (row.false_alarms > 0) text += "  false alarms " + std::to_string(row.false_alarms);
+  return text;
+}
+
+Field Truth(const std::string& name, bool value) { return {name, value ? "true" : "false"}; }
+
+std::string RowJson(const PrecisionRow& row) {
+  std::vector<Field> fields = {Text("part", row.part),
+                               Text("motion", row.motion),
+                               Text("mesh", row.mesh),
+                               Text("method", row.method),
+                               Text("who", row.who),
+                               Text("setting", row.setting),
+                               Number("seconds", row.seconds),
+                               Number("width", row.width),
+                               Number("error", row.error),
+                               Number("queries", static_cast<double>(row.queries)),
+                               Number("misses", static_cast<double>(row.misses)),
+                               Number("false_alarms", static_cast<double>(row.false_alarms)),
+                               Truth("certified", row.certified),
+                               Text("limited_by", row.limited_by),
+                               Text("hash", row.hash)};
+  fields.insert(fields.end(), row.more.begin(), row.more.end());
+  return Object(fields);
+}
+
+/// Every peer's point that is right about yes and no, beside ours.
+void Compare(const PrecisionRow& peer, const std::vector<const PrecisionRow*>& ours,
+             PrecisionReport* report) {
+  const bool contact = peer.part == "contact";
+  const double error = std::max(*peer.error, contact ? kTimeRounding : kRounding);
+  std::optional<double> seconds, width;
+  for (const PrecisionRow* own : ours) {
+    if (*own->width <= error) seconds = std::min(seconds.value_or(*own->seconds), *own->seconds);
+    if (*own->seconds <= *peer.seconds) width = std::min(width.value_or(*own->width), *own->width);
+  }
+  if (seconds) {
+    report->FigureLeast(contact ? "contact_peer_over_ours_at_equal_error"
+                                : "peer_over_ours_at_equal_error_" + peer.motion,
+                        *peer.seconds / *seconds);
+  }
+  if (width && !contact) {
+    report->FigureGreatest("ours_width_in_peers_time_" + peer.motion, *width);
+  }
+}
+
+}  // namespace
+
+PrecisionReport::PrecisionReport() : figures_(kFigures) {}
+
+void PrecisionReport::Add(PrecisionRow row) {
+  std::fprintf(stderr, "bench: %s\n", RowText(row).c_str());
+  rows_.push_back(std::move(row));
+}
+
+void PrecisionReport::FigureLeast(const std::string& name, double value) {
+  figures_.Set(name, std::min(figures_.Get(name).value_or(value), value));
+}
+
+void PrecisionReport::FigureGreatest(const std::string& name, double value) {
+  figures_.Set(name, std::max(figures_.Get(name).value_or(value), value));
+}
+
+void PrecisionReport::FigureSum(const std::string& name, double value) {
+  figures_.Set(name, figures_.Get(name).value_or(0) + value);
+}
+
+std::string PrecisionReport::Table() const {
+  std::string text = Padded("part", kPartWidth) + Padded("motion", kMotionWidth) +
+                     Padded("mesh", kMeshWidth) + Padded("method", kMethodWidth) +
+                     Padded("setting", kSettingWidth) + Padded("median", kNumberWidth) +
+                     Padded("width", kNumberWidth) + Padded("error", kNumberWidth) +
+                     "queries, result hash\n";
+  for (const PrecisionRow& row : rows_) text += RowText(row) + "\n";
+  return text +
+         "\nfigures (peer over ours: larger is better; widths in m; the worst of all cells)\n" +
+         figures_.Table();
+}
+
+std::string PrecisionReport::Json() const {
+  std::vector<std::string> measurements;
+  for (const PrecisionRow& row : rows_) measurements.push_back(RowJson(row));
+  return figures_.Json(measurements);
+}
+
+void SetFigures(PrecisionReport* report) {
+  std::map<std::string, std::vector<const PrecisionRow*>> ours;
+  const auto cell = [](const PrecisionRow& row) {
+    return row.part + "/" + row.motion + "/" + row.mesh;
+  };
+  for (const PrecisionRow& row : report->rows()) {
+    if (row.who == "ours" && row.width && row.seconds) ours[cell(row)].push_back(&row);
+  }
+  for (const PrecisionRow& row : report->rows()) {
+    if (row.part == "service") continue;
+    const std::string start = row.part == "contact" ? "contact_" : "";
+    const std::string who = row.who == "ours" ? "ours" : row.who == "naive" ? "naive" : "peers";
+    report->FigureSum(start + who + "_misses", static_cast<double>(row.misses));
+    report->FigureSum(start + who + "_false_alarms", static_cast<double>(row.false_alarms));
+    const bool counts =
+        row.who == "peer" && row.error && row.seconds && row.misses == 0 && row.false_alarms == 0;
+    if (counts) Compare(row, ours[cell(row)], report);
+  }
+}
+
+}  // namespace collision::bench
