@@ -26,6 +26,7 @@ int main(int count, char** arguments) {
   PrecisionReport report;
   MeshesPart(settings, &report);
   ConvexesPart(settings, &report);
+  ContactTimesPart(settings, &report);
   SetFigures(&report);
   std::fputs(report.Table().c_str(), stdout);
   if (json.empty()) return 0;

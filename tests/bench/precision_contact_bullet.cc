@@ -1,0 +1,102 @@
+// Bullet's continuous collision of convex shapes in all its kinds.
+#include <BulletCollision/CollisionShapes/btBoxShape.h>
+#include <BulletCollision/CollisionShapes/btSphereShape.h>
+#include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
+#include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+
+#include <memory>
+
+#include "tests/bench/precision_contact.h"
+#include "tests/bench/precision_query.h"
+
+namespace collision::bench {
+namespace {
+
+btScalar Single(double x) { return static_cast<btScalar>(x); }
+
+btVector3 Vector(const std::array<double, 3>& v) {
+  return btVector3(Single(v[0]), Single(v[1]), Single(v[2]));
+}
+
+btTransform PoseOf(const MovingBody& body) {
+  return btTransform(
+      btQuaternion(Single(body.q[1]), Single(body.q[2]), Single(body.q[3]), Single(body.q[0])),
+      Vector(body.p));
+}
+
+std::shared_ptr<btConvexShape> ShapeOf(const MovingBody& body) {
+  if (body.kind == MovingBody::Kind::kBall) {
+    return std::make_shared<btSphereShape>(Single(body.half[0]));
+  }
+  return std::make_shared<btBoxShape>(Vector(body.half));
+}
+
+enum class Cast { kContinuous, kGjk, kSubSimplex };
+
+struct Setting {
+  double allowed_penetration = 0;
+  double epsilon = 0;  ///< Of the sub-simplex cast; 0: its own.
+};
+
+ContactReply Tell(const ContactCase& of, const btConvexShape& a, const btConvexShape& b, Cast cast,
+                  const Setting& setting) {
+  btVoronoiSimplexSolver simplex;
+  btGjkEpaPenetrationDepthSolver depth;
+  btContinuousConvexCollision continuous(&a, &b, &simplex, &depth);
+  btGjkConvexCast gjk(&a, &b, &simplex);
+  btSubsimplexConvexCast sub_simplex(&a, &b, &simplex);
+  btConvexCast::CastResult result;
+  result.m_fraction = 1;
+  result.m_allowedPenetration = Single(setting.allowed_penetration);
+  if (setting.epsilon > 0) {
+    result.m_subSimplexCastEpsilon = Single(setting.epsilon);
+    result.m_subSimplexCastMaxIterations = 1000;
+  }
+  btConvexCast& chosen = cast == Cast::kContinuous ? static_cast<btConvexCast&>(continuous)
+                         : cast == Cast::kGjk      ? static_cast<btConvexCast&>(gjk)
+                                                   : static_cast<btConvexCast&>(sub_simplex);
+  if (!chosen.calcTimeOfImpact(PoseOf(of.a), PoseOf(of.a.After(of.duration)), PoseOf(of.b),
+                               PoseOf(of.b.After(of.duration)), result)) {
+    return {};
+  }
+  return Plainly(static_cast<double>(result.m_fraction) * of.duration);
+}
+
+void Add(const std::string& name, Cast cast, const Setting& setting, const std::string& text,
+         ContactMethods* methods) {
+  ContactMethod method;
+  method.name = name;
+  method.setting = text;
+  method.limited_by = cast == Cast::kContinuous
+                          ? "single precision, 1 mm of distance and 64 iterations"
+                          : "single precision and its iterations; translation only";
+  method.make = [cast, setting](const ContactCase& of) -> std::function<ContactReply()> {
+    const bool turns = of.a.w != std::array<double, 3>{} || of.b.w != std::array<double, 3>{};
+    if (cast != Cast::kContinuous && turns) return nullptr;
+    return [of, a = ShapeOf(of.a), b = ShapeOf(of.b), cast, setting] {
+      return Tell(of, *a, *b, cast, setting);
+    };
+  };
+  methods->push_back(std::move(method));
+}
+
+}  // namespace
+
+ContactMethods BulletContactMethods() {
+  ContactMethods methods;
+  for (const double allowed : {0.0, 1e-4, 1e-3, 1e-2, 0.04}) {
+    Add("Bullet continuous", Cast::kContinuous, {allowed, 0},
+        SettingText("penetration", allowed, "m"), &methods);
+  }
+  Add("Bullet GJK cast", Cast::kGjk, {}, "", &methods);
+  for (const double epsilon : {1e-1, 1e-2, 1e-3, 1e-4, 1e-5}) {
+    Add("Bullet sub-simplex cast", Cast::kSubSimplex, {0, epsilon},
+        SettingText("epsilon", epsilon, ""), &methods);
+  }
+  return methods;
+}
+
+}  // namespace collision::bench

@@ -1,0 +1,127 @@
+// Our time of contact over its tolerances, and stepping, which sees nothing between its frames.
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "collision_core/narrow_phase/separation.h"
+#include "tests/bench/json.h"
+#include "tests/bench/narrow_contact_ours.h"
+#include "tests/bench/precision_contact.h"
+#include "tests/bench/precision_query.h"
+
+namespace collision::bench {
+namespace {
+
+constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
+constexpr double kTolerances[] = {1e-1, 3e-2, 1e-2, 1e-3, 1e-4,  1e-5,
+                                  1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12};
+constexpr double kRates[] = {60, 240, 1000, 10'000};
+
+ContactReply Told(const ContactTime& found) {
+  using Verdict = ContactReply::Verdict;
+  const Verdict verdict = found.status == ContactStatus::kFree      ? Verdict::kFree
+                          : found.status == ContactStatus::kContact ? Verdict::kContact
+                                                                    : Verdict::kUndecided;
+  return {verdict, found.begin.lower, found.begin.upper};
+}
+
+/// A box as a convex solid.
+std::shared_ptr<const Shape> SolidShapeOf(const MovingBody& body) {
+  if (body.kind == MovingBody::Kind::kBall) return nullptr;
+  ConvexDescription box;
+  box.core = ConvexCore::kBox;
+  box.half = {body.half[0], body.half[1], body.half[2]};
+  return Shape::Compound(nullptr, {ConvexSolid::Build(box)});
+}
+
+ContactMethod Ours(const std::string& name, bool solids, double tolerance) {
+  ContactMethod method;
+  method.name = name;
+  method.setting = SettingText("", tolerance, "s");
+  method.who = Who::kOurs;
+  method.certified = true;
+  method.limited_by = "the tolerance asked for; at last rounding over the closing speed";
+  method.make = [solids, tolerance](const ContactCase& of) -> std::function<ContactReply()> {
+    ContactShapes shapes{solids ? SolidShapeOf(of.a) : ShapeOf(of.a),
+                         solids ? SolidShapeOf(of.b) : ShapeOf(of.b)};
+    // Two balls are the same either way.
+    if (solids && !shapes.a && !shapes.b) return nullptr;
+    return [of, shapes, tolerance] {
+      return Told(OurContact(of, shapes, ContactTolerance{tolerance, 0}));
+    };
+  };
+  return method;
+}
+
+BodySegment BodyOf(const MovingBody& body) {
+  BodySegment segment;
+  segment.shape = ShapeOf(body);
+  segment.ball.radius = segment.shape ? segment.shape->facts().radius : body.half[0];
+  return segment;
+}
+
+RelativePose PoseAt(const ContactCase& of, double seconds) {
+  const MovingBody a = of.a.After(seconds), b = of.b.After(seconds);
+  const auto matrix = [](const MovingBody& body) {
+    return Eigen::Quaterniond(body.q[0], body.q[1], body.q[2], body.q[3])
+        .normalized()
+        .toRotationMatrix();
+  };
+  const Eigen::Vector3d between(b.p[0] - a.p[0], b.p[1] - a.p[1], b.p[2] - a.p[2]);
+  return collision::PoseOf(matrix(a).transpose() * matrix(b), matrix(a).transpose() * between);
+}
+
+bool BallsTouch(const ContactCase& of, double seconds) {
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double d = of.b.p[i] - of.a.p[i] + seconds * (of.b.v[i] - of.a.v[i]);
+    square += d * d;
+  }
+  const double reach = of.a.half[0] + of.b.half[0];
+  return square <= reach * reach;
+}
+
+std::optional<double> Step(const ContactCase& of, const BodySegment& a, const BodySegment& b,
+                           double rate) {
+  const auto frames = static_cast<int>(std::lround(of.duration * rate));
+  const bool balls = !a.shape && !b.shape;
+  for (int frame = 0; frame <= frames; ++frame) {
+    const double at = frame / rate;
+    Work work(kUnlimited);
+    const bool touch = balls ? BallsTouch(of, at)
+                             : DecideAt(Surface(a), Surface(b), PoseAt(of, at), &work).verdict ==
+                                   Verdict::kTouching;
+    if (touch) return at;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ContactMethods OurContactMethods() {
+  ContactMethods methods;
+  for (const double tolerance : kTolerances) methods.push_back(Ours("ours", false, tolerance));
+  for (const double tolerance : kTolerances) {
+    methods.push_back(Ours("ours, as solids", true, tolerance));
+  }
+  return methods;
+}
+
+ContactMethods SteppingMethods() {
+  ContactMethods methods;
+  for (const double rate : kRates) {
+    ContactMethod method;
+    method.name = "stepping";
+    method.setting = SettingText("", rate, "Hz");
+    method.who = Who::kBaseline;
+    method.naive = true;
+    method.limited_by = "what lies between two frames";
+    method.make = [rate](const ContactCase& of) -> std::function<ContactReply()> {
+      return
+          [of, a = BodyOf(of.a), b = BodyOf(of.b), rate] { return Plainly(Step(of, a, b, rate)); };
+    };
+    methods.push_back(std::move(method));
+  }
+  return methods;
+}
+
+}  // namespace collision::bench
