@@ -175,6 +175,10 @@ double ChosenBroadPhase::Units(const Method& method, const BroadPhaseWork& since
          kPlaceUnits[static_cast<int>(method.kind)] * placed;
 }
 
+double ChosenBroadPhase::units() const {
+  return units_before_ + Units(method_, {}) + (next_.phase ? Units(next_, {}) : 0);
+}
+
 // Full, and with so few agents that its work must be seen first.
 bool ChosenBroadPhase::OnTrial() const {
   return Filled() && next_.kind == BroadPhaseMethod::kSpatialIndex && agents_ <= kManyAgents;
@@ -187,11 +191,13 @@ void ChosenBroadPhase::Start(BroadPhaseMethod kind) {
 
 void ChosenBroadPhase::Drop() {
   before_ = before_ + next_.phase->work();
+  units_before_ += Units(next_, {});
   next_ = Method();
 }
 
 void ChosenBroadPhase::Switch() {
   before_ = before_ + method_.phase->work();
+  units_before_ += Units(method_, {});
   method_ = std::exchange(next_, Method());
   ++changes_;
   Settle();

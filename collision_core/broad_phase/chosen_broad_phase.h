@@ -54,6 +54,8 @@ class ChosenBroadPhase : public BroadPhase {
 
   /// Of all methods together, trials included.
   BroadPhaseWork work() const override;
+  /// Likewise in the units by which it chooses.
+  double units() const;
 
   /// Which method answers now, and why, in one sentence with the counts.
   BroadPhaseMethod method() const { return method_.kind; }
@@ -91,6 +93,7 @@ class ChosenBroadPhase : public BroadPhase {
   std::size_t agents_ = 0;    ///< Held.
   std::vector<bool> held_;    ///< By agent.
   BroadPhaseWork before_{};   ///< Of methods that are gone.
+  double units_before_ = 0;   ///< Likewise.
 
   std::uint64_t questions_ = 0;    ///< Since the last decision, or the trial's begin.
   BroadPhaseWork method_since_{};  ///< Work of method_ when questions_ was 0.

@@ -81,6 +81,7 @@ struct DetectorCounters {
   std::uint64_t queries = 0;       ///< Agents asked for their earliest meetings.
   std::uint64_t pair_queries = 0;  ///< Pairs given to the canonical routine.
   std::uint64_t filter_tests = 0;  ///< Pairs that the broad phase ruled out, or not, more cheaply.
+  std::uint64_t broad_units = 0;   ///< All of the broad phase, in the units by which it chooses.
   std::uint64_t method_changes = 0;   ///< Times the broad phase took another method.
   std::uint64_t segments = 0;         ///< Segments judged by the narrow phase.
   std::uint64_t glances = 0;          ///< Of these: a glance was enough.

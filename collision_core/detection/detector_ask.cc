@@ -73,6 +73,7 @@ void Detector::Implementation::SettleKeys() {
   const BroadPhaseWork work = broad_phase_.work();
   counters_.pair_queries += work.pair_queries - broad_queries_seen_;
   counters_.filter_tests = work.filter_tests + looks_;
+  counters_.broad_units = static_cast<std::uint64_t>(broad_phase_.units());
   counters_.method_changes = broad_phase_.changes();
   broad_queries_seen_ = work.pair_queries;
 }

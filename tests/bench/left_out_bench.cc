@@ -1,0 +1,202 @@
+// ./run report: each optional part on and off, and what the scene profile chose.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "collision_core/shape/shape.h"
+#include "tests/bench/detector_scene.h"
+#include "tests/bench/json.h"
+
+namespace collision::bench {
+namespace {
+
+/// So little of a part that it changes no answer, and all of its price.
+constexpr double kNothing = 1e-300;
+
+/// The face sweep asks every partner of one agent: beyond, nobody would pick it by hand.
+constexpr std::size_t kFaceSweepMax = 600;
+
+/// A part that a scene can do without: how it is asked for, and what the profile says without it.
+struct Part {
+  std::string name;
+  std::string left_out;  ///< How its line in Profile::left_out begins.
+  Variation without, with;
+};
+
+std::shared_ptr<const Shape> UnitBall() { return Shape::Compound(nullptr, {ConvexSolid::Build({.rounding = 1})}); }
+
+std::vector<Part> Parts() {
+  const auto with = [](auto change) { return Variation{{}, change}; };
+  const auto still = [](SceneAgent* agent) { agent->declaration.acceleration_max = 0; };
+  std::vector<Part> parts = {
+      {"parabolic growth", "parabolic growth", with(still),
+       with([](SceneAgent* agent) { agent->declaration.acceleration_max = kNothing; })},
+      {"speed caps", "speed caps", {}, with([](SceneAgent* agent) {
+         agent->declaration.speed_max = 1e12;
+       })},
+      {"integrator step", "integrator step", {}, with([](SceneAgent* agent) {
+         agent->declaration.time_step = kNothing;
+       })},
+      {"state errors", "growth by state errors", {}, with([](SceneAgent* agent) {
+         agent->state.position_error = agent->state.velocity_error = kNothing;
+       })},
+      {"expiry", "expiry", {}, with([](SceneAgent* agent) {
+         agent->state.expiry = AddRoundedDown(Instant(), 1e9);
+       })},
+      {"masks", "masks", {}, with([](SceneAgent* agent) { agent->declaration.group = 3; })}};
+  Variation skewed;
+  skewed.options.skew = kNothing;
+  parts.push_back({"clock skew", "clock skew", {}, skewed});
+  // Along a direction nobody may be pushed back: without forces all keep to that.
+  parts.push_back({"direction", "directional boxes", with(still), with([](SceneAgent* agent) {
+                     agent->declaration.acceleration_max = kNothing;
+                     agent->state.direction = Eigen::Vector3d::UnitX();
+                   })});
+  const auto shape = UnitBall();
+  const auto shaped = [shape](SceneAgent* agent) {
+    agent->declaration.shape = shape;
+    agent->declaration.radius = std::max(agent->declaration.radius, 1.0);
+    agent->declaration.angular_acceleration_max = 0;
+  };
+  const auto as_large = [](SceneAgent* agent) {
+    agent->declaration.radius = std::max(agent->declaration.radius, 1.0);
+  };
+  parts.push_back({"sphere trees", "sphere trees and rotation", with(as_large), with(shaped)});
+  parts.push_back(
+      {"rotation", "rotation of sphere trees", with(shaped), with([shaped](SceneAgent* agent) {
+         shaped(agent);
+         agent->declaration.angular_acceleration_max = kNothing;
+       })});
+  return parts;
+}
+
+struct Bench {
+  std::vector<std::string> rows;
+  Figures figures{{"chosen_over_best_units_worst", "scenes_count", "parts_count",
+                   "left_out_missed_count", "answers_differ_count"}};
+  double worst = 0, missed = 0, differ = 0;
+  std::map<std::string, bool> parts_seen;
+  double scenes = 0;
+};
+
+std::vector<Field> CostFields(const DetectorCost& cost) {
+  return {Number("units", cost.units()),
+          Number("broad_units", cost.broad_units),
+          Number("narrow_units", cost.narrow_units),
+          Number("seconds", cost.seconds),
+          Number("bytes", cost.bytes),
+          Number("messages", cost.messages),
+          Text("hash", cost.hash)};
+}
+
+void AddRow(std::vector<Field> fields, const DetectorCost& cost, Bench* bench) {
+  for (Field& field : CostFields(cost)) fields.push_back(std::move(field));
+  bench->rows.push_back(Object(fields));
+}
+
+/// By hand, each method that could be meant, and by the profile.
+void Profile(const DetectorScene& scene, Bench* bench) {
+  const auto agents = Number("agents", static_cast<double>(scene.agents.size()));
+  std::optional<DetectorCost> best, chosen;
+  std::string best_name;
+  for (const BroadPhaseMethod method :
+       {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kSpatialIndex, BroadPhaseMethod::kFaceSweep,
+        BroadPhaseMethod::kAuto}) {
+    if (method == BroadPhaseMethod::kFaceSweep && scene.agents.size() > kFaceSweepMax) continue;
+    Variation variation;
+    variation.options.broad_phase = method;
+    const DetectorCost cost = Cost(scene, variation);
+    AddRow(
+        {Text("part", "method"), Text("scene", scene.name), agents, Text("method", Name(method))},
+        cost, bench);
+    if (method == BroadPhaseMethod::kAuto) {
+      chosen = cost;
+    } else if (!best || cost.units() < best->units()) {
+      best = cost, best_name = Name(method);
+    }
+    if (cost.hash != best->hash) ++bench->differ;
+  }
+  const double ratio = chosen->units() / best->units();
+  bench->worst = std::max(bench->worst, ratio);
+  ++bench->scenes;
+  std::string left_out;
+  for (const std::string& line : chosen->profile.left_out) {
+    left_out += (left_out.empty() ? "" : ", ") + line.substr(0, line.find(':'));
+  }
+  bench->rows.push_back(
+      Object({Text("part", "profile"), Text("scene", scene.name), agents,
+              Text("chosen", chosen->profile.broad_phase), Number("units", chosen->units()),
+              Text("best", best_name), Number("best_units", best->units()), Number("ratio", ratio),
+              Number("seconds", chosen->seconds), Number("best_seconds", best->seconds),
+              Text("why", chosen->profile.why), Text("left_out", left_out)}));
+  std::fprintf(stderr, "bench: %s: %s, %.3f of the units of %s\n", scene.name.c_str(),
+               chosen->profile.broad_phase.c_str(), ratio, best_name.c_str());
+}
+
+bool LeavesOut(const DetectorCost& cost, const Part& part) {
+  for (const std::string& line : cost.profile.left_out) {
+    if (line.starts_with(part.left_out)) return true;
+  }
+  return false;
+}
+
+void OnAndOff(const DetectorScene& scene, const Part& part, Bench* bench) {
+  const DetectorCost without = Cost(scene, part.without), with = Cost(scene, part.with);
+  const bool noticed = LeavesOut(without, part) && !LeavesOut(with, part);
+  bench->missed += noticed ? 0 : 1;
+  bench->parts_seen[part.name] = true;
+  for (const bool on : {false, true}) {
+    AddRow({Text("part", "part"), Text("scene", scene.name), Text("name", part.name),
+            Text("setting", on ? "on" : "off"), Text("noticed", noticed ? "yes" : "NO"),
+            Number("units_over_off", with.units() / without.units()),
+            Number("seconds_over_off", with.seconds / without.seconds)},
+           on ? with : without, bench);
+  }
+  std::fprintf(stderr, "bench: %s, %s: %.2f of the units, %.2f of the time of without it%s\n",
+               scene.name.c_str(), part.name.c_str(), with.units() / without.units(),
+               with.seconds / without.seconds, noticed ? "" : "; NOT NOTICED");
+}
+
+}  // namespace
+}  // namespace collision::bench
+
+int main(int count, char** arguments) {
+  using namespace collision::bench;
+  CLI::App app(
+      "Each optional part on and off in a dozen scenes and more, and what the profile chose.",
+      "left-out-bench");
+  bool quick = false;
+  std::string json, only;
+  app.add_flag("--quick", quick, "shorter scenes of up to 600 agents, each part in one of them");
+  app.add_option("--json", json, "write every measurement and the figures to this file");
+  app.add_option("--only", only, "only scenes whose name contains this");
+  CLI11_PARSE(app, count, arguments);
+  Bench bench;
+  const auto parts = Parts();
+  std::size_t number = 0;
+  for (const DetectorScene& scene : DetectorScenes(quick, quick ? 20 : 100)) {
+    if (scene.name.find(only) == std::string::npos) continue;
+    Profile(scene, &bench);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (!quick || i == number % parts.size()) OnAndOff(scene, parts[i], &bench);
+    }
+    ++number;
+  }
+  bench.figures.Set("chosen_over_best_units_worst", bench.worst);
+  bench.figures.Set("scenes_count", bench.scenes);
+  bench.figures.Set("parts_count", static_cast<double>(bench.parts_seen.size()));
+  bench.figures.Set("left_out_missed_count", bench.missed);
+  bench.figures.Set("answers_differ_count", bench.differ);
+  std::fputs(bench.figures.Table().c_str(), stdout);
+  if (json.empty()) return 0;
+  std::ofstream file(json);
+  file << bench.figures.Json(bench.rows);
+  file.close();
+  if (!file) {
+    std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
+    return 74;
+  }
+}
