@@ -3,7 +3,7 @@
 #include "collision_core/broad_phase/lane_scan.h"
 #include "collision_core/broad_phase/point_scan.h"
 
-#ifdef __x86_64__
+#if defined(__x86_64__) && COLLISION_WIDE_BITS >= 256
 #include <immintrin.h>
 
 #define WIDE __attribute__((target("avx2")))

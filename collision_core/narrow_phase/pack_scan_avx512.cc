@@ -2,7 +2,7 @@
 // that not everybody has.
 #include "collision_core/narrow_phase/pack_scan.h"
 
-#ifdef __x86_64__
+#if defined(__x86_64__) && COLLISION_WIDE_BITS >= 512
 #include <immintrin.h>
 
 #define WIDE __attribute__((target("avx512f,popcnt")))

@@ -2,7 +2,7 @@
 // not everybody has.
 #include "collision_core/narrow_phase/quick_search.h"
 
-#ifdef __x86_64__
+#if defined(__x86_64__) && COLLISION_WIDE_BITS >= 256
 #define WIDE __attribute__((target("avx2")))
 #include "collision_core/narrow_phase/quick_search_wide.h"
 

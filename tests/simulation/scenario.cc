@@ -22,12 +22,12 @@ SimulatedSimulator& Scenario::Add(const SimulatorOptions& options,
   return *simulators_.back();
 }
 
-void Scenario::StartService(BatchSink* recorder) {
+void Scenario::StartService(BatchSink* recorder, std::unique_ptr<ShapeBuilder> shape_builder) {
   earlier_ = published();
   daemon_.reset();
   bus_.reset();
   bus_ = std::make_unique<SimulatedBus>(&network_);
-  daemon_ = std::make_unique<Daemon>(config_, *bus_, clock_, recorder);
+  daemon_ = std::make_unique<Daemon>(config_, *bus_, clock_, recorder, std::move(shape_builder));
 }
 
 void Scenario::StartSimulators() {

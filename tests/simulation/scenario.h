@@ -25,8 +25,10 @@ class Scenario {
 
   SimulatedSimulator& Add(const SimulatorOptions& options, std::vector<SimulatedAgent> agents);
 
-  /// A new daemon with an empty memory, in place of the one before.
-  void StartService(BatchSink* recorder = nullptr);
+  /// A new daemon with an empty memory, in place of the one before. Without a `shape_builder` it has
+  /// its own.
+  void StartService(BatchSink* recorder = nullptr,
+                    std::unique_ptr<ShapeBuilder> shape_builder = nullptr);
 
   /// Lets all simulators write their first samples.
   void StartSimulators();

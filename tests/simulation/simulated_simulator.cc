@@ -35,6 +35,7 @@ v1::AgentDescription DescriptionOf(const std::string& simulator, std::uint32_t r
   if (!agent.shape_bytes.empty()) wire.set_shape_hash(Sha256(agent.shape_bytes));
   wire.set_group(1);
   wire.set_mask(~0u);
+  if (agent.declare) agent.declare(&wire);
   return wire;
 }
 
@@ -181,6 +182,7 @@ v1::AgentState SimulatedSimulator::StateOf(std::uint32_t slot) {
     state.set_discontinuity(true);
     awaited_[slot] = state.sequence();
   }
+  if (agent.tell) agent.tell(&state);
   return state;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <set>
 #include <string>
@@ -21,6 +22,9 @@ struct SimulatedAgent {
   std::int64_t from_ns = 0;                                          ///< Admitted then.
   std::int64_t until_ns = std::numeric_limits<std::int64_t>::max();  ///< Removed then.
   std::string shape_bytes = {};  ///< As it travels; of one part. Empty: a ball. Shapes do not turn.
+  std::function<void(v1::AgentDescription*)> declare =
+      {};                                          ///< What else it declares; may be empty.
+  std::function<void(v1::AgentState*)> tell = {};  ///< Likewise of each state.
 };
 
 struct SimulatorOptions {

@@ -1,0 +1,31 @@
+// The fixed scenes whose event logs must be the same bits in every build.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/simulation/scenario.h"
+
+namespace collision::server {
+
+/// One run of the whole daemon on a simulated network.
+struct Scene {
+  std::string name;
+  v1::Config config;
+  NetworkOptions network = {};
+  std::function<void(Scenario*)> fill;  ///< Adds the simulators; from any thread.
+};
+
+/// All of them, in a fixed order. Whoever changes one changes its hash, and nobody depends on that:
+/// builds are compared with each other.
+std::vector<Scene> Scenes();
+
+std::vector<Scene> BallScenes();
+std::vector<Scene> CrowdedScenes();
+std::vector<Scene> ShapeScenes();
+
+/// Loses, repeats and reorders.
+NetworkOptions Lossy(std::uint64_t seed);
+
+}  // namespace collision::server
