@@ -1,7 +1,7 @@
 // A point of a body that turns about an axis n through its reference point keeps its height z = n·x
 // and its distance ρ = |x − z n| from the axis: a part of the body stays in a ring z0 <= z <= z1,
 // ρ0 <= ρ <= ρ1. Another point at (ρ, z) is at least as far from it as from that rectangle. What of
-// the other body is a ball or a triangle covers such a rectangle itself; if the other turns as well,
+// the other body is a ball, a triangle or a solid in its box covers such a rectangle itself; if the other turns as well,
 // its part stays in a ball about its own axis.
 //
 // Both bodies' rings give such a bound, and neither changes faster than the reference points move
@@ -32,17 +32,53 @@ constexpr double kStepWorth = 1e-4;
 // A few roundings, upward.
 constexpr double kGrow = 1 + 0x1p-40;
 
-/// A ball, or a triangle where `radius` is 0: seen from its body's reference point.
+/// The hull of some points, one to eight, rounded by `radius`: a ball, a triangle, or what holds a
+/// convex solid; seen from its body's reference point.
 struct Part {
-  TrianglePoints corners;
+  std::array<Vector3d, 8> corners;
+  int count = 0;
   double radius = 0;
 
+  Part() { corners.fill(Vector3d::Zero()); }
   static Part Ball(const Vector3d& centre, double radius) {
-    return {{centre, centre, centre}, radius};
+    Part part;
+    part.Add(centre);
+    part.radius = radius;
+    return part;
   }
-  bool is_point() const { return corners[0] == corners[1] && corners[0] == corners[2]; }
-  double far() const { return std::max({corners[0].norm(), corners[1].norm(), corners[2].norm()}); }
+  void Add(const Vector3d& corner) { corners[count++] = corner; }
+  double far() const {
+    double most = 0;
+    for (int i = 0; i < count; ++i) most = std::max(most, corners[i].norm());
+    return most;
+  }
 };
+
+/// Around a solid in its body frame: an end of a capsule's core each, else the corners of a box.
+Part Around(const ConvexSolid& solid) {
+  const ConvexSet& set = solid.set();
+  if (set.core == ConvexCore::kPoint) {
+    return Part::Ball(set.centre, AddUp(set.rounding, set.error));
+  }
+  Part part;
+  if (set.core == ConvexCore::kHull || set.core == ConvexCore::kTriangle) {
+    const ConvexFacts& facts = solid.facts();
+    for (int i = 0; i < 8; ++i) {
+      part.Add({(i & 1 ? facts.upper : facts.lower).x(), (i & 2 ? facts.upper : facts.lower).y(),
+                (i & 4 ? facts.upper : facts.lower).z()});
+    }
+    return part;
+  }
+  // Ellipsoids lie in the box of their axes. Three products and three sums, of at most the span.
+  const int corners = set.core == ConvexCore::kSegment ? 2 : 8;
+  for (int i = 0; i < corners; ++i) {
+    part.Add(set.centre +
+             set.PointAt({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0}));
+  }
+  const double rounding = MultiplyUp(0x1p-49, AddUp(set.span, set.centre.cwiseAbs().sum()));
+  part.radius = AddUp(AddUp(set.rounding, set.error), rounding);
+  return part;
+}
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -60,6 +96,20 @@ double DistanceToOrigin(const std::array<Vector2d, 3>& t) {
     right += side <= 0;
   }
   return left == 3 || right == 3 ? 0 : least;
+}
+
+/// No point of the hull is nearer to the origin. All of it lies beyond a line across the way to its
+/// middle.
+double InnerOf(const std::array<Vector2d, 8>& points, int count, double outer) {
+  if (count == 1) return outer;
+  if (count == 3) return DistanceToOrigin({points[0], points[1], points[2]});
+  Vector2d middle = Vector2d::Zero();
+  for (int i = 0; i < count; ++i) middle += points[i];
+  const double length = middle.norm();
+  if (!(length > 0)) return 0;
+  double inner = outer;
+  for (int i = 0; i < count; ++i) inner = std::min(inner, points[i].dot(middle) / length);
+  return std::max(0.0, inner);
 }
 
 /// What a part covers of heights along an axis, and of distances from it.
@@ -87,8 +137,8 @@ class Axis {
   /// Of a part moved by `by`, seen from the axis' body.
   Ring RingOf(const Part& part, const Vector3d& by) const {
     Ring ring;
-    std::array<Vector2d, 3> across;
-    for (int i = 0; i < 3; ++i) {
+    std::array<Vector2d, 8> across;
+    for (int i = 0; i < part.count; ++i) {
       const Vector3d x = part.corners[i] + by;
       const double z = n_.dot(x);
       ring.low = std::min(ring.low, z);
@@ -96,7 +146,7 @@ class Axis {
       across[i] = {u_.dot(x), v_.dot(x)};
       ring.outer = std::max(ring.outer, across[i].norm());
     }
-    ring.inner = part.is_point() ? ring.outer : DistanceToOrigin(across);
+    ring.inner = InnerOf(across, part.count, ring.outer);
     return ring;
   }
 
@@ -203,16 +253,14 @@ class Search {
     if (surface.shape() == nullptr) return {Part::Ball(Vector3d::Zero(), surface.reach())};
     std::vector<Part> parts;
     for (const std::uint32_t t : surface.shape()->tree().TrianglesOf(surface.node(node))) {
+      Part part;
       if (surface.shape()->IsSolid(t)) {
-        const SphereNode& ball = surface.node(node);
-        parts.push_back(Part::Ball(is_b ? SeenFromB(ball.centre) : ball.centre, ball.radius));
-        continue;
+        part = Around(surface.shape()->SolidAt(t));
+      } else {
+        for (const Vector3d& corner : CornersOf(*surface.shape(), t)) part.Add(corner);
       }
-      TrianglePoints corners = CornersOf(*surface.shape(), t);
-      if (is_b) {
-        for (Vector3d& corner : corners) corner = SeenFromB(corner);
-      }
-      parts.push_back({corners, 0});
+      for (int i = 0; is_b && i < part.count; ++i) part.corners[i] = SeenFromB(part.corners[i]);
+      parts.push_back(part);
     }
     return parts;
   }

@@ -60,6 +60,7 @@ struct Case {
 std::vector<Case> AllCases();
 
 std::vector<Case> PairCases();
+std::vector<Case> ShapeCases();
 std::vector<Case> CrowdCases();
 std::vector<Case> EdgeCases();
 std::vector<Case> RestingCases();

@@ -284,7 +284,7 @@ TEST(JudgeInstant, BestOverTheBounds) {
 
 // Goal:   contact is found where squares of speeds would underflow. Method: head on, the radii a
 //         millionth of the way, from 1e-250 m down to the denormals; contact is half-way.
-TEST(BallContact, IsFoundAtSpeedsWhoseSquaresUnderflow) {
+TEST(JudgeSegment, ContactIsFoundAtSpeedsWhoseSquaresUnderflow) {
   for (const double unit : {1e-250, 1e-300, 1e-310}) {
     SpaceTimeBound a, b;
     a.declaration.radius = 1e-6 * unit;

@@ -7,11 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/promise_scene.h"
+#include "tests/support/solids.h"
 
 namespace collision {
 namespace {
 
 constexpr std::uint64_t kPlenty = 10'000'000;
+constexpr double kPi = std::numbers::pi;
 
 struct Case {
   BodySegment a, b;
@@ -125,6 +127,62 @@ TEST(RevolvedPair, InsideAHole) {
   c.swept.velocity = {0.2, 0, 0};
   EXPECT_LE(c.Touch(), 0.5);
   EXPECT_GE(c.Touch(), 0.5 - 1e-9);
+}
+
+// Convex solids, boxes and hulls of their corners, tell the same as the boxes' triangles, and as soon.
+TEST(RevolvedPair, SolidsAreNoFartherThanTheirTriangles) {
+  int free = 0, partly = 0;
+  for (std::uint64_t seed = 1; seed <= 300 && !testing::Test::HasFailure(); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const auto half = [&] { return Eigen::Vector3d(random.Uniform(0.1, 2), 0.3, 0.2); };
+    const Eigen::Vector3d half_A = half(), half_B = half();
+    Case meshes;
+    meshes.a = BodyOf(Shape::Build(Box(-half_A, half_A)));
+    meshes.b = BodyOf(Shape::Build(Box(-half_B, half_B)));
+    meshes.swept.spin_A = 100 * random.UnitVector();
+    if (random.Chance(0.5)) meshes.swept.spin_B = 30 * random.UnitVector();
+    const double reach = meshes.a.ball.radius + meshes.b.ball.radius;
+    meshes.swept.pose.offset = reach * random.Uniform(0.5, 1.5) * random.UnitVector();
+    meshes.swept.velocity = reach * random.Uniform(0, 1) * random.UnitVector();
+    Case solids = meshes;
+    const bool hulls = random.Chance(0.5);
+    solids.a.shape =
+        Shape::Compound(nullptr, {hulls ? HullBox(-half_A, half_A) : SolidBox(-half_A, half_A)});
+    solids.b.shape = Shape::Compound(nullptr, {SolidBox(-half_B, half_B)});
+    const double until = std::min(solids.Touch(), 1.0);
+    free += solids.Touch() == kInfinity;
+    partly += until > 0 && until < 1;
+    for (int i = 0; until > 0 && i < 12; ++i) {
+      const Real h = i == 0 ? until * (1 - 1e-9) : until * random.Uniform(0, 1);
+      EXPECT_GT(meshes.Distance(h, random.Uniform(0, 1), random.Uniform(0, 1)), 0);
+    }
+  }
+  EXPECT_GT(free, 20);
+  EXPECT_GT(partly, 20);
+}
+
+// The bar of ExactAboutOneAxis, as a box, a hull, a capsule and an ellipsoid.
+TEST(RevolvedPair, SolidsAreExactAboutOneAxis) {
+  ConvexDescription capsule, ellipsoid;
+  capsule.core = ConvexCore::kSegment;
+  capsule.half = {0, 0, 1.9};
+  capsule.rounding = 0.1;
+  capsule.q_BS = Eigen::Quaterniond(Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY()));
+  ellipsoid.core = ConvexCore::kEllipsoid;
+  ellipsoid.half = {2, 0.1, 0.1};
+  for (const ConvexSolid& bar :
+       {SolidBox({-2, -0.1, -0.1}, {2, 0.1, 0.1}), HullBox({-2, -0.1, -0.1}, {2, 0.1, 0.1}),
+        ConvexSolid::Build(capsule), ConvexSolid::Build(ellipsoid)}) {
+    Case c;
+    c.a = BodyOf(Shape::Compound(nullptr, {bar}));
+    c.b = BodyOf(Shape::Compound(nullptr, {SolidBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})}));
+    c.swept.spin_A = {0, 0, 1000};
+    c.swept.pose.offset = {0.5, 0.25, 1.1};
+    c.swept.velocity = {0, 0, -1};
+    EXPECT_LE(c.Touch(), 0.5);
+    EXPECT_GE(c.Touch(), 0.5 - 1e-9);
+  }
 }
 
 }  // namespace

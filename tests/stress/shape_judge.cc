@@ -1,0 +1,86 @@
+#include "tests/stress/shape_judge.h"
+
+#include <cmath>
+
+#include "tests/support/meshes.h"
+#include "tests/support/solids.h"
+
+namespace collision::stress {
+namespace {
+
+/// The distance that counts for rounding: where they are, seen from A, and how large.
+double ScaleOf(const Body& a, const Body& b) {
+  const auto reach = [](const Body& body) {
+    return body.shape ? body.shape->facts().radius : body.radius;
+  };
+  return (b.p - a.p).norm() + reach(a) + reach(b);
+}
+
+}  // namespace
+
+SpaceTimeBound Body::Bound() const {
+  SpaceTimeBound bound;
+  bound.state.p_WA = p;
+  bound.state.v_WA = v;
+  bound.state.w_WB = w;
+  bound.state.q_WB = q;
+  bound.declaration.radius = shape ? shape->facts().radius : radius;
+  bound.declaration.shape = shape;
+  bound.declaration.angular_acceleration_max = 0;
+  return bound;
+}
+
+std::shared_ptr<const Shape> BoxShape(const Eigen::Vector3d& half, bool solid) {
+  if (solid) return Shape::Compound(nullptr, {SolidBox(-half, half)});
+  return Shape::Build(Box(-half, half));
+}
+
+ContactTime FindContact(const Body& a, const Body& b, double duration, std::uint64_t units) {
+  const BodyPair pair = SegmentsOf({a.Bound(), {}}, {b.Bound(), {}}, Instant());
+  Work work(units);
+  return TimeOfContact(pair.a, pair.b, duration, {}, &work);
+}
+
+void JudgeForm(const ContactTime& found, double duration, std::uint64_t units,
+               const std::string& what, Outcome* outcome) {
+  const Interval ends[] = {found.begin, found.end};
+  for (const Interval& end : ends) {
+    outcome->Expect(end.lower >= 0 && end.lower <= end.upper && end.upper <= duration,
+                    what + ": the bracket is not ordered");
+  }
+  outcome->Expect(found.begin.lower <= found.end.upper, what + ": it ends before it begins");
+  outcome->Expect(found.within >= 0, what + ": no distance");
+  outcome->Expect(found.work <= units + kBatchUnits, what + ": more work than allowed");
+  outcome->Greatest("work_max", static_cast<double>(found.work));
+  outcome->Add("questions", 1);
+}
+
+void JudgeTimes(const Body& a, const Body& b, double duration, long double begin, long double end,
+                double speed, const std::string& what, Outcome* outcome) {
+  const ContactTime found = FindContact(a, b, duration, kPlenty);
+  JudgeForm(found, duration, kPlenty, what, outcome);
+  if (!outcome->Expect(found.status == ContactStatus::kContact, what + ": contact is not found")) {
+    return;
+  }
+  const auto judge = [&](Interval bracket, long double truth, const char* which) {
+    // The truth itself is known to long double.
+    const long double slack = 0x1p-60L * truth;
+    outcome->Expect(bracket.lower <= truth + slack && bracket.upper >= truth - slack,
+                    what + ": the " + which + " is not in its bracket");
+    const double unit =
+        0x1p-52 * ScaleOf(a, b) / speed + 1e-12 * static_cast<double>(truth) / kShapeUnits;
+    outcome->Greatest("width_units", bracket.width() / unit);
+    outcome->Expect(bracket.width() <= kShapeUnits * unit,
+                    what + ": the " + which + "'s bracket is " + Show(bracket.width()) + " s wide");
+  };
+  judge(found.begin, begin, "begin");
+  judge(found.end, end, "end");
+}
+
+void SayTimes(Outcome* outcome) {
+  outcome->Say(Show(outcome->Get("questions")) + " questions, the widest bracket " +
+               Show(outcome->Get("width_units")) + " units, " + Show(outcome->Get("work_max")) +
+               " units of work at most");
+}
+
+}  // namespace collision::stress

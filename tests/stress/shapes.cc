@@ -1,0 +1,211 @@
+// Bodies with shapes at the extremes: when they touch, where the answer is closed.
+#include <cmath>
+
+#include "collision_core/numeric/rotation.h"
+#include "tests/stress/shape_judge.h"
+#include "tests/support/meshes.h"
+
+namespace collision::stress {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kLight = 299792458;
+
+std::shared_ptr<const Shape> CubeOf(double half, bool solid) {
+  return BoxShape(Vector3d::Constant(half), solid);
+}
+
+/// Two cubes head on along x: 8 halves apart, at 16 halves a second.
+void JudgeHeadOn(double half, const Vector3d& at, bool solid, Outcome* outcome) {
+  const auto cube = CubeOf(half, solid);
+  const Body a{cube, 0, at}, b{cube, 0, at + Vector3d(10 * half, 0, 0), {-16 * half, 0, 0}};
+  JudgeTimes(a, b, 1, 0.5L, 0.75L, 16 * half, Show(half) + " m at " + Show(at.norm()) + " m",
+             outcome);
+}
+
+// From the smallest mesh that the edge lets pass to the largest, alone and the two together.
+void Sizes(const Setting&, Outcome* outcome) {
+  for (const bool solid : {false, true}) {
+    for (int exponent = -20; exponent <= 21; ++exponent) {
+      JudgeHeadOn(std::ldexp(1, exponent), {0, 0, 0}, solid, outcome);
+    }
+    for (int exponent = -20; exponent <= 20; exponent += 4) {
+      const double small = std::ldexp(1, exponent), large = 0x1p21;
+      const Body a{CubeOf(large, solid)};
+      const Body b{CubeOf(small, solid), 0, {large + small + 4, 0, 0}, {-8, 0, 0}};
+      JudgeTimes(a, b, 0x1p20, 0.5L, 0.5L + (2 * (large + static_cast<long double>(small))) / 8, 8,
+                 "mixed with " + Show(small) + " m", outcome);
+    }
+  }
+  SayTimes(outcome);
+}
+
+void Offsets(const Setting&, Outcome* outcome) {
+  for (const bool solid : {false, true}) {
+    for (int exponent = 0; exponent <= 49; ++exponent) {
+      const double off = std::ldexp(1, exponent);
+      JudgeHeadOn(1, {off, -off, off}, solid, outcome);
+    }
+  }
+  SayTimes(outcome);
+}
+
+void Speeds(const Setting&, Outcome* outcome) {
+  for (const bool solid : {false, true}) {
+    for (int exponent = -40; exponent <= 29; ++exponent) {
+      const double speed = std::min(std::ldexp(1, exponent), kLight);
+      const Body a{CubeOf(1, solid)}, b{CubeOf(1, solid), 0, {10, 0, 0}, {-speed, 0, 0}};
+      const long double v = speed;
+      JudgeTimes(a, b, 16 / speed, 8 / v, 12 / v, speed, Show(speed) + " m/s", outcome);
+    }
+  }
+  SayTimes(outcome);
+}
+
+// A needle of 1 : 2^20 through a plate of 1 : 2^21; crosswise; plates face to face.
+void NeedlesAndPlates(const Setting&, Outcome* outcome) {
+  constexpr double kLong = 0x1p10, kThin = 0x1p-10, kFlat = 0x1p-12;
+  for (const bool solid : {false, true}) {
+    const auto needle_x = BoxShape({kLong, kThin, kThin}, solid);
+    const auto needle_y = BoxShape({kThin, kLong, kThin}, solid);
+    const auto plate = BoxShape({kFlat, kLong, kLong}, solid);
+    const Body through{needle_x, 0, {kLong + kFlat + 4, 3, 5}, {-8, 0, 0}};
+    JudgeTimes({plate}, through, 300, 0.5L, 0.5L + (2 * (kLong + kFlat)) / 8, 8,
+               "needle through plate", outcome);
+    const Body across{needle_y, 0, {7, 9, 4 + 2 * kThin}, {0, 0, -8}};
+    JudgeTimes({needle_x}, across, 2, 0.5L, 0.5L + 4 * kThin / 8, 8, "needles crosswise", outcome);
+    const Body facing{plate, 0, {4 + 2 * kFlat, 11, -13}, {-8, 0, 0}};
+    JudgeTimes({plate}, facing, 2, 0.5L, 0.5L + 4 * kFlat / 8, 8, "plates", outcome);
+  }
+  SayTimes(outcome);
+}
+
+// Surfaces of one triangle: through each other, and a ball, and a point, through one.
+void OneTriangle(const Setting&, Outcome* outcome) {
+  for (const double size : {0x1p-19, 1.0, 0x1p19}) {
+    TriangleMesh flat, upright;
+    flat.vertices = {{-size, -size, 0}, {size, -size, 0}, {0, size, 0}};
+    upright.vertices = {{0, -size / 4, size}, {0, size / 4, size}, {0, 0, -size}};
+    flat.triangles = upright.triangles = {{0, 1, 2}};
+    const Body a{Shape::Build(flat)};
+    const Vector3d above(0, 0, 3 * size), down(0, 0, -4 * size);
+    const std::string of = " of " + Show(size) + " m";
+    JudgeTimes(a, {Shape::Build(upright), 0, above, down}, 2, 0.5L, 1, 4 * size, "triangles" + of,
+               outcome);
+    JudgeTimes(a, {nullptr, size / 2, above, down}, 2, 0.625L, 0.875L, 4 * size,
+               "triangle and ball" + of, outcome);
+    const ContactTime point = FindContact(a, {nullptr, 0, above, down}, 2, kPlenty);
+    JudgeForm(point, 2, kPlenty, "triangle and point", outcome);
+    outcome->Expect(point.status != ContactStatus::kFree && point.begin.lower <= 0.75 &&
+                        point.end.upper >= 0.75,
+                    "a point that passes through a triangle is missed");
+  }
+  SayTimes(outcome);
+}
+
+// A sheet of a million triangles: a ball falls through it, and a cube.
+void MillionTriangles(const Setting& setting, Outcome* outcome) {
+  const auto cells = static_cast<std::uint32_t>(setting.Many(64, 708));
+  ShapeOptions options;
+  options.builder = TreeBuilder::kHalved;
+  const Body sheet{Shape::Build(Sheet(64, cells), options)};
+  const auto triangles = static_cast<double>(sheet.shape->mesh().triangles.size());
+  outcome->Set("triangles", triangles);
+  const Vector3d above(5.25, -7.125, 3), down(0, 0, -4);
+  JudgeTimes(sheet, {nullptr, 0.5, above, down}, 2, 0.625L, 0.875L, 4, "a ball", outcome);
+  JudgeTimes(sheet, {CubeOf(0.5, false), 0, above, down}, 2, 0.625L, 0.875L, 4, "a cube", outcome);
+  JudgeTimes(sheet, {CubeOf(0.5, true), 0, above, down}, 2, 0.625L, 0.875L, 4, "a solid", outcome);
+  const ContactTime beside = FindContact(sheet, {nullptr, 0.5, {66, 0, 3}, down}, 2, kPlenty);
+  JudgeForm(beside, 2, kPlenty, "beside it", outcome);
+  outcome->Expect(beside.status == ContactStatus::kFree, "what falls beside it is not free");
+  SayTimes(outcome);
+}
+
+// Cubes that slide past each other: a unit in the last place apart, touching, and as deep.
+void Grazing(const Setting&, Outcome* outcome) {
+  for (const bool solid : {false, true}) {
+    for (const double size : {0x1p-19, 0.5, 0x1p20}) {
+      for (const double aside : {2 - 0x1p-52, 2.0, 2 + 0x1p-51}) {
+        const auto cube = CubeOf(size, solid);
+        const Body b{cube, 0, {-10 * size, aside * size, 0}, {16 * size, 0, 0}};
+        const ContactTime found = FindContact({cube}, b, 2, kPlenty);
+        const std::string what = "aside by " + Show((aside - 2) / 0x1p-52) + " units";
+        JudgeForm(found, 2, kPlenty, what, outcome);
+        if (aside <= 2) {
+          outcome->Expect(found.status != ContactStatus::kFree && found.begin.lower <= 0.5 &&
+                              found.end.upper >= 0.75,
+                          what + ": missed");
+        } else {
+          outcome->Expect(found.status != ContactStatus::kContact,
+                          what + ": a contact that is none");
+        }
+        if (found.status != ContactStatus::kUndecided) continue;
+        outcome->Greatest("width_units", found.within / (0x1p-52 * 12 * size));
+        outcome->Expect(found.within <= kShapeUnits * 0x1p-52 * 12 * size,
+                        what + ": undecided within " + Show(found.within) + " m");
+      }
+    }
+  }
+  SayTimes(outcome);
+}
+
+// A bar that turns at 1e6 rad/s: what stays beyond its reach is free; what comes down on it touches
+// it within half a turn; beyond a million radians its orientation is not known.
+void Spinning(const Setting&, Outcome* outcome) {
+  constexpr double kSpin = 1e6;
+  for (const bool solid : {false, true}) {
+    Body bar{BoxShape({2, 0.125, 0.125}, solid)};
+    bar.w = {0, 0, kSpin};
+    const Body beyond{nullptr, 0.25, {-4, 2.3, 0}, {8, 0, 0}};
+    const ContactTime free = FindContact(bar, beyond, 0.9, kPlenty);
+    JudgeForm(free, 0.9, kPlenty, "beyond its reach", outcome);
+    outcome->Expect(free.status == ContactStatus::kFree, "what is beyond its reach is not free");
+    const Body falling{nullptr, 0.25, {0.75, 0.5, 1}, {0, 0, -2}};
+    const ContactTime found = FindContact(bar, falling, 0.9, kPlenty);
+    JudgeForm(found, 0.9, kPlenty, "what falls on it", outcome);
+    // The ball is as low as the bar's face at 0.3125 s; the bar is below it once in half a turn.
+    const double half_turn = 3.1415927 / kSpin;
+    outcome->Expect(found.status != ContactStatus::kFree && found.begin.lower <= 0.3125 + half_turn,
+                    "what falls on it is missed");
+    outcome->Expect(found.begin.lower >= 0.3125 - 1e-9, "told early");
+    outcome->Greatest("begin_width_s", found.begin.width());
+    if (found.status == ContactStatus::kContact) {
+      outcome->Add("confirmed", 1);
+      outcome->Expect(found.begin.upper >= 0.3125, "told before the truth");
+    }
+    bar.w = {0, 0, 4 * kTurnMax};
+    const ContactTime unknown = FindContact(bar, falling, 0.9, kPlenty);
+    JudgeForm(unknown, 0.9, kPlenty, "turned beyond measure", outcome);
+    outcome->Expect(unknown.status != ContactStatus::kFree && unknown.begin.lower <= 0.3125,
+                    "turned beyond measure: missed");
+  }
+  outcome->Say("begins within " + Show(outcome->Get("begin_width_s")) + " s, " +
+               Show(outcome->Get("confirmed")) + " of 2 confirmed, " +
+               Show(outcome->Get("work_max")) + " units of work at most");
+}
+
+const char* const kTimes =
+    "the brackets contain the closed answer, finite and ordered; at most 1e-12 of the time wide, "
+    "and 128 units in the last place of place and size over the speed; work within what is allowed";
+
+}  // namespace
+
+std::vector<Case> ShapeCases() {
+  return {{"extreme", "shape-sizes", kTimes, Sizes},
+          {"extreme", "shape-offsets", kTimes, Offsets},
+          {"extreme", "shape-speeds", kTimes, Speeds},
+          {"extreme", "needles-plates", kTimes, NeedlesAndPlates},
+          {"extreme", "one-triangle", kTimes, OneTriangle},
+          {"extreme", "million-triangles", kTimes, MillionTriangles},
+          {"extreme", "shape-grazing",
+           "who overlaps by a unit in the last place is not free, who is one apart is no contact; "
+           "undecided within 128 units at most",
+           Grazing},
+          {"extreme", "spinning",
+           "at 1e6 rad/s: free beyond the reach, never late within it, and not free where the turn "
+           "is beyond measure",
+           Spinning}};
+}
+
+}  // namespace collision::stress
