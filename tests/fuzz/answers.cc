@@ -1,0 +1,113 @@
+#include "tests/fuzz/answers.h"
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "idl/dds/conversion.h"
+#include "tests/fuzz/targets.h"
+
+namespace collision::fuzz {
+namespace {
+
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+constexpr double kPi = 3.1415926535897936;  // rounded up
+
+auto Order(const v1::AgentId& id) {
+  return std::tuple(id.simulator_id(), id.slot(), id.run(), id.generation());
+}
+
+void CheckNumbers(const v1::CollisionEvent& event, const std::string& text) {
+  const v1::Bracket& separation = event.separation_m();
+  Require(separation.lower() <= separation.upper(), "separation is not ordered: ", text);
+  Require(event.depth_lower_m() >= 0 && std::isfinite(event.depth_lower_m()), "depth: ", text);
+  Require(event.point_error_m() >= 0, "point_error_m: ", text);
+  Require(event.normal_error_rad() >= 0 && event.normal_error_rad() <= kPi, "normal_error: ", text);
+  const v1::Vector3 &point = event.point_m(), &normal = event.normal();
+  for (const double value : {point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()}) {
+    Require(std::isfinite(value), "not finite: ", text);
+  }
+  const double length = std::hypot(normal.x(), normal.y(), normal.z());
+  Require(length == 0 || std::abs(length - 1) < 1e-9, "normal of length ", length, ": ", text);
+}
+
+void CheckTimes(const v1::CollisionEvent& event, const std::string& text) {
+  const v1::TimeBracket &begin = event.begin(), &end = event.end();
+  Require(begin.earliest_ns() <= begin.latest_ns(), "begin is not ordered: ", text);
+  Require(end.earliest_ns() <= end.latest_ns(), "end is not ordered: ", text);
+  Require(begin.earliest_ns() <= end.latest_ns(), "ends before it begins: ", text);
+  const bool begun = begin.latest_ns() != kNever;
+  switch (event.status()) {
+    case v1::EVENT_CONFIRMED:
+      Require(begun && begin.latest_ns() <= end.earliest_ns(), "confirmed: ", text);
+      break;
+    case v1::EVENT_ENDED:
+      Require(begun && begin.latest_ns() <= end.earliest_ns() && end.latest_ns() != kNever,
+              "ended: ", text);
+      break;
+    case v1::EVENT_POSSIBLE:
+      Require(!begun, "possible, and begun: ", text);
+      break;
+    default:
+      break;
+  }
+}
+
+}  // namespace
+
+void CheckEvent(const v1::CollisionEvent& event) {
+  const std::string text = event.ShortDebugString();
+  Require(Order(event.lower()) < Order(event.higher()), "lower is not lower: ", text);
+  Require(event.contact() >= 1 && event.revision() >= 1, "contact, revision: ", text);
+  Require(v1::EventStatus_IsValid(event.status()), "status: ", text);
+  CheckTimes(event, text);
+  CheckNumbers(event, text);
+}
+
+void CheckClearance(const v1::Clearance& clearance) {
+  for (const v1::AgentClearance& agent : clearance.agents()) {
+    const std::string text = agent.ShortDebugString();
+    Require(agent.not_clear() || agent.clear_until_ns() > clearance.now_ns(),
+            "clear until what has passed, at ", clearance.now_ns(), ": ", text);
+    Require(agent.void_from_ns() == kNever || agent.cause() == v1::CAUSE_BREACH,
+            "void without a breach: ", text);
+  }
+}
+
+void CheckEarliest(const v1::EarliestIntersection& earliest) {
+  const std::string text = earliest.ShortDebugString();
+  if (!earliest.found()) {
+    Require(earliest.earliest_ns() == kNever, "not found, and a time: ", text);
+    return;
+  }
+  Require(earliest.earliest_ns() >= earliest.now_ns(), "earlier than now: ", text);
+  Require(Order(earliest.lower()) < Order(earliest.higher()), "lower is not lower: ", text);
+}
+
+void CheckOutput(const v1::Output& output) {
+  switch (output.message_case()) {
+    case v1::Output::kCollisionEvent:
+      CheckEvent(output.collision_event());
+      dds::ToWire(output.collision_event());
+      break;
+    case v1::Output::kClearance:
+      CheckClearance(output.clearance());
+      dds::ToWire(output.clearance());
+      break;
+    case v1::Output::kEarliestIntersection:
+      CheckEarliest(output.earliest_intersection());
+      dds::ToWire(output.earliest_intersection());
+      break;
+    case v1::Output::kRejection:
+      Require(output.rejection().count() >= 1, "a rejection that was not counted");
+      dds::ToWire(output.rejection());
+      break;
+    case v1::Output::kServiceStatus:
+      dds::ToWire(output.service_status());
+      break;
+    case v1::Output::MESSAGE_NOT_SET:
+      throw BrokenPromise("an output without a message");
+  }
+}
+
+}  // namespace collision::fuzz

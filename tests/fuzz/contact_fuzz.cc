@@ -1,0 +1,136 @@
+#include <cmath>
+#include <vector>
+
+#include "collision_core/narrow_phase/contact_time.h"
+#include "server/codec.h"
+#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "tests/fuzz/fuzzed_messages.h"
+#include "tests/fuzz/fuzzed_shapes.h"
+#include "tests/fuzz/targets.h"
+
+namespace collision::fuzz {
+namespace {
+
+constexpr int kSamples = 5;
+constexpr std::size_t kTrianglesJudged = 12;  // the truth takes each against each
+
+/// An agent that flies and turns on as its state says: one motion that its bound allows.
+struct Flier {
+  SpaceTimeBound bound;
+  TrueMotion motion;
+  Real from = 0;  ///< Of the segment, after the state's stamp [s].
+
+  TrueBody At(Real t) const {
+    return {bound.declaration.shape.get(), bound.declaration.radius, motion.At(from + t)};
+  }
+
+  /// What long double loses of it by `t`.
+  Real Lost(Real t) const {
+    const MotionState& state = bound.state;
+    const Real turned = (from + t) * state.w_WB.cast<Real>().norm();
+    return 1e-17L * (state.p_WA.cast<Real>().norm() + (from + t) * state.v_WA.cast<Real>().norm() +
+                     bound.declaration.radius * (1 + turned));
+  }
+
+  /// The oracle knows balls and small surfaces.
+  bool judged() const {
+    const Shape* shape = bound.declaration.shape.get();
+    if (bound.state.v_WA.norm() > bound.declaration.speed_max) return false;
+    return shape == nullptr ||
+           (shape->solids().empty() && shape->mesh().triangles.size() <= kTrianglesJudged);
+  }
+};
+
+std::optional<Flier> FuzzedFlier(Instant from, FuzzedData* data) {
+  v1::AgentDescription description = FuzzedDeclaration("alpha", data);
+  description.clear_shape_hash();
+  description.set_slot(0);
+  description.set_agent_name("");
+  const v1::AgentState wire = FuzzedState(from.nanoseconds(), data);
+  const auto declaration = server::DecodeDescription(description);
+  const auto state = server::DecodeState({}, wire, {.latest = from});
+  if (!std::holds_alternative<AgentDeclaration>(declaration)) return std::nullopt;
+  if (!std::holds_alternative<MotionState>(state)) return std::nullopt;
+  Flier flier;
+  flier.bound = {std::get<MotionState>(state), std::get<AgentDeclaration>(declaration), 0};
+  flier.bound.declaration.shape = FuzzedBody(data);
+  if (const Shape* shape = flier.bound.declaration.shape.get()) {
+    double& radius = flier.bound.declaration.radius;
+    radius = std::max(radius, shape->facts().radius);
+  }
+  const MotionState& told = flier.bound.state;
+  flier.motion.start = {.p = told.p_WA.cast<Real>(),
+                        .v = told.v_WA.cast<Real>(),
+                        .w = told.w_WB.cast<Real>(),
+                        .q = told.q_WB.cast<Real>().normalized()};
+  flier.from = static_cast<Real>(from.nanoseconds() - told.stamp.nanoseconds()) / 1e9L;
+  return flier;
+}
+
+/// Whether the two overlap at `t`, wherever rounding puts them.
+bool CertainlyTouch(const Flier& a, const Flier& b, Real t) {
+  const Real lost = a.Lost(t) + b.Lost(t);
+  const TrueBody of_a = a.At(t), of_b = b.At(t);
+  if (SolidDistance(of_a, of_b) > 0) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Real sign : {-1, 1}) {
+      Vector by = Vector::Zero();
+      by[axis] = 4 * sign * lost;
+      if (SolidDistance(of_a, of_b.Moved(by)) > 0) return false;
+    }
+  }
+  return true;
+}
+
+bool CertainlyApart(const Flier& a, const Flier& b, Real t) {
+  return SolidDistance(a.At(t), b.At(t)) > 4 * (a.Lost(t) + b.Lost(t));
+}
+
+void CheckForm(const ContactTime& time, double duration) {
+  for (const double value : {time.begin.lower, time.begin.upper, time.end.lower, time.end.upper}) {
+    Require(value >= 0 && value <= duration, "outside of [0, ", duration, "]: ", value);
+  }
+  Require(time.begin.lower <= time.begin.upper && time.end.lower <= time.end.upper,
+          "not ordered: begin ", time.begin.lower, " ", time.begin.upper, " end ", time.end.lower,
+          " ", time.end.upper);
+  Require(time.within >= 0, "within ", time.within);
+  if (time.status != ContactStatus::kContact) return;
+  Require(time.begin.upper <= time.end.lower, "ends before it begins: ", time.begin.upper, " ",
+          time.end.lower);
+}
+
+void CheckTruth(const Flier& a, const Flier& b, const ContactTime& time, double duration) {
+  for (int i = 0; i <= kSamples; ++i) {
+    const double t = duration * i / kSamples;
+    const bool free =
+        time.status == ContactStatus::kFree || t < time.begin.lower || t > time.end.upper;
+    if (free) Require(!CertainlyTouch(a, b, t), "they touch at ", t, ", told to be free");
+  }
+  if (time.status != ContactStatus::kContact) return;
+  Require(!CertainlyApart(a, b, time.begin.upper), "apart at ", time.begin.upper, " = begin.upper");
+  Require(!CertainlyApart(a, b, time.end.lower), "apart at ", time.end.lower, " = end.lower");
+}
+
+}  // namespace
+
+void FuzzContact(Bytes bytes) {
+  constexpr double kTolerances[] = {1e-12, 1e-6, 0};
+  FuzzedData data(bytes);
+  const Instant from = Instant::FromNanoseconds(2'000'000'000);
+  const double wanted = data.UpTo(1000);
+  const Instant to = AddRoundedDown(from, wanted);
+  const ContactTolerance tolerance{.absolute = data.OneOf(kTolerances),
+                                   .relative = data.OneOf(kTolerances)};
+  const std::uint64_t allowed = data.Bits(2) % 8000;
+  const auto a = FuzzedFlier(from, &data), b = FuzzedFlier(from, &data);
+  if (!a || !b) return;
+  Work work(allowed);
+  const ContactTime time = TimeOfContact(
+      {.last = a->bound, .next = {}}, {.last = b->bound, .next = {}}, from, to, tolerance, &work);
+  const double duration = static_cast<double>(to.nanoseconds() - from.nanoseconds()) / 1e9;
+  CheckForm(time, duration * (1 + 1e-15));
+  Require(work.spent() <= allowed + kBatchUnits, "spent ", work.spent(), " of ", allowed);
+  if (a->judged() && b->judged()) CheckTruth(*a, *b, time, duration);
+}
+
+}  // namespace collision::fuzz

@@ -1,0 +1,289 @@
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "collision_core/detection/detector.h"
+#include "server/codec.h"
+#include "server/encode.h"
+#include "tests/fuzz/answers.h"
+#include "tests/fuzz/ballistic_truth.h"
+#include "tests/fuzz/fuzzed_messages.h"
+#include "tests/fuzz/fuzzed_shapes.h"
+#include "tests/fuzz/targets.h"
+
+namespace collision::fuzz {
+namespace {
+
+constexpr std::uint32_t kAgents = 5;
+constexpr int kCallsMax = 120;
+constexpr int kStepsMax = 24;
+constexpr BroadPhaseMethod kMethods[] = {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kFaceSweep,
+                                         BroadPhaseMethod::kSpatialIndex};
+
+DetectorOptions FuzzedOptions(FuzzedData* data) {
+  constexpr double kResolutions[] = {1.0 / 60, 0.001, 1, 1e-6};
+  constexpr double kSkews[] = {0, 0.002, 1e-9, 60};
+  DetectorOptions options;
+  options.temporal_resolution = data->OneOf(kResolutions);
+  options.announce_within = options.temporal_resolution * static_cast<double>(1 + data->Byte());
+  options.skew = data->OneOf(kSkews);
+  options.agents_max = kAgents - 1;
+  options.pairs_max = static_cast<std::uint32_t>(1 + data->Below(12));
+  options.pairs_per_agent_max = static_cast<std::uint32_t>(1 + data->Below(4));
+  options.history_max = static_cast<std::uint32_t>(2 + data->Below(8));
+  options.work_units_per_turn = data->Bits(2) % 4000;
+  options.work_units_per_step = data->Flag() ? data->Bits(2) % 8000 : 0;
+  return options;
+}
+
+AgentId IdOf(std::uint32_t slot) {
+  return {.simulator = 1, .slot = slot, .run = 1, .generation = 1};
+}
+
+bool Same(const AgentClearance& a, const AgentClearance& b) {
+  return a.agent == b.agent && a.clear_until == b.clear_until && a.not_clear == b.not_clear &&
+         a.in_contact == b.in_contact && a.saturated == b.saturated &&
+         a.effective_from == b.effective_from && a.cause == b.cause && a.void_from == b.void_from &&
+         a.unannounced_until == b.unannounced_until;
+}
+
+/// What is known of an agent apart from the detector.
+struct Told {
+  Ballistic ball;
+  AgentDeclaration declaration;
+  bool contradicts = false;  ///< Faster than its own cap: no motion is allowed at all.
+};
+
+/// One detector for each method; every call goes to all, and their answers must be equal.
+class Detectors {
+ public:
+  explicit Detectors(DetectorOptions options) {
+    for (const BroadPhaseMethod method : kMethods) {
+      options.broad_phase = method;
+      detectors_.push_back(std::make_unique<Detector>(options));
+    }
+  }
+
+  template <typename Call>
+  auto All(const char* what, Call call) {
+    const auto first = call(*detectors_.front());
+    for (std::size_t i = 1; i < detectors_.size(); ++i) {
+      Require(call(*detectors_[i]) == first, what, ": another answer of ", Name(kMethods[i]));
+    }
+    return first;
+  }
+
+  void Advance(Instant now) {
+    for (const auto& detector : detectors_) detector->Advance(now);
+    const Detector& first = *detectors_.front();
+    const std::string events = EventsOf(first);
+    for (std::size_t i = 1; i < detectors_.size(); ++i) {
+      const std::string others = EventsOf(*detectors_[i]);
+      Require(others == events, "events of ", Name(kMethods[i]), ":\n", others, "not\n", events);
+    }
+  }
+
+  void CompareClearances() {
+    const auto first = detectors_.front()->TakeChangedClearances();
+    for (std::size_t i = 1; i < detectors_.size(); ++i) {
+      const auto others = detectors_[i]->TakeChangedClearances();
+      Require(std::equal(first.begin(), first.end(), others.begin(), others.end(), Same),
+              "clearances of ", Name(kMethods[i]));
+    }
+  }
+
+  void CompareEarliest() {
+    const EarliestAnswer first = detectors_.front()->Earliest();
+    for (std::size_t i = 1; i < detectors_.size(); ++i) {
+      const EarliestAnswer other = detectors_[i]->Earliest();
+      Require(other.found == first.found && other.earliest == first.earliest &&
+                  (!first.found || (other.lower == first.lower && other.higher == first.higher)),
+              "earliest of ", Name(kMethods[i]), ": ", other.earliest.nanoseconds(), ", not ",
+              first.earliest.nanoseconds());
+    }
+  }
+
+  const Detector& first() const { return *detectors_.front(); }
+
+ private:
+  static std::string EventsOf(const Detector& detector) {
+    std::string text;
+    for (const CollisionEvent& event : detector.events()) {
+      text += server::Encode(event).ShortDebugString() + "\n";
+    }
+    return text;
+  }
+
+  std::vector<std::unique_ptr<Detector>> detectors_;
+};
+
+class Session {
+ public:
+  explicit Session(const DetectorOptions& options) : detectors_(options) {}
+
+  /// False: no more steps.
+  bool Call(FuzzedData* data) {
+    const auto slot = static_cast<std::uint32_t>(data->Below(kAgents));
+    switch (data->Below(10)) {
+      case 0:
+      case 1:
+        Redeclare(slot, data);
+        return true;
+      case 2:
+        detectors_.All("Remove", [&](Detector& d) { return d.Remove(IdOf(slot)); });
+        told_.erase(slot);
+        return true;
+      case 3:
+      case 4:
+      case 5:
+      case 6:
+        Tell(slot, data);
+        return true;
+      case 7:
+        detectors_.All("Hear", [&](Detector& d) {
+          d.Hear(IdOf(slot), now_);
+          return true;
+        });
+        return true;
+      default:
+        Step(data);
+        return ++steps_ < kStepsMax;
+    }
+  }
+
+ private:
+  std::optional<AgentDeclaration> Declaration(FuzzedData* data) {
+    v1::AgentDescription wire = FuzzedDeclaration("alpha", data);
+    wire.clear_shape_hash();
+    wire.set_slot(0);
+    wire.set_agent_name("");
+    auto decoded = server::DecodeDescription(wire);
+    if (!std::holds_alternative<AgentDeclaration>(decoded)) return std::nullopt;
+    auto declaration = std::get<AgentDeclaration>(decoded);
+    const std::uint8_t kind = data->Byte();
+    if (kind >= 250) declaration.shape_awaited = true;
+    if (kind >= 192 && kind < 250) declaration.shape = FuzzedBody(data);
+    // The server refuses a shape that reaches beyond the ball.
+    if (declaration.shape) {
+      declaration.radius = std::max(declaration.radius, declaration.shape->facts().radius);
+    }
+    return declaration;
+  }
+
+  /// As the codec lets it through: from the past, or as far ahead as time may have been granted.
+  std::optional<MotionState> State(FuzzedData* data) {
+    const v1::AgentState wire = FuzzedState(now_.nanoseconds(), data);
+    const server::StampRules rules{.latest = AddRoundedDown(now_, 10)};
+    auto decoded = server::DecodeState({}, wire, rules);
+    if (!std::holds_alternative<MotionState>(decoded)) return std::nullopt;
+    return std::get<MotionState>(decoded);
+  }
+
+  void Note(std::uint32_t slot, const MotionState& state, const AgentDeclaration& declaration) {
+    Told& told = told_[slot];
+    told = {.ball = {.state = state, .radius = declaration.radius}, .declaration = declaration};
+    told.contradicts = !(state.v_WA.norm() <= declaration.speed_max);
+  }
+
+  void Tell(std::uint32_t slot, FuzzedData* data) {
+    const std::optional<MotionState> state = State(data);
+    if (!state) return;
+    const Instant from = std::max(now_, state->stamp);
+    const auto known = told_.find(slot);
+    if (known == told_.end()) {
+      const auto declaration = Declaration(data);
+      if (!declaration) return;
+      if (detectors_.All("Admit", [&](Detector& d) {
+            return d.Admit(IdOf(slot), *declaration, *state, from);
+          })) {
+        Note(slot, *state, *declaration);
+      }
+      return;
+    }
+    const UpdateOutcome outcome =
+        detectors_.All("Update", [&](Detector& d) { return d.Update(IdOf(slot), *state, from); });
+    if (outcome == UpdateOutcome::kOlder) return;
+    Require(outcome != UpdateOutcome::kUnknown, "an agent that was admitted is unknown");
+    Note(slot, *state, known->second.declaration);
+  }
+
+  void Redeclare(std::uint32_t slot, FuzzedData* data) {
+    const auto declaration = Declaration(data);
+    if (!declaration) return;
+    const bool known = detectors_.All(
+        "Redeclare", [&](Detector& d) { return d.Redeclare(IdOf(slot), *declaration, now_); });
+    Require(known == told_.contains(slot), "Redeclare() of ", slot);
+    if (known) Note(slot, told_[slot].ball.state, *declaration);
+  }
+
+  void Step(FuzzedData* data) {
+    const std::uint8_t kind = data->Byte();
+    const double seconds = kind < 240 ? kind / 64.0 : data->UpTo(1e9);
+    now_ = std::min(AddRoundedDown(now_, seconds),
+                    Instant::FromNanoseconds(server::kInstantMax - 20'000'000'000));
+    detectors_.Advance(now_);
+    for (const CollisionEvent& event : detectors_.first().events()) {
+      CheckEvent(server::Encode(event));
+      Require(event.now <= now_, "told for later than now");
+      status_[{event.lower.slot, event.higher.slot}] = event.status;
+    }
+    if (data->Flag()) detectors_.CompareEarliest();
+    detectors_.CompareClearances();
+    CheckPromises();
+  }
+
+  /// Nobody who flies on as told touches anybody before both have been said to be clear no longer,
+  /// unless their meeting was announced.
+  void CheckPromises() const {
+    for (auto a = told_.begin(); a != told_.end(); ++a) {
+      for (auto b = std::next(a); b != told_.end(); ++b)
+        CheckPair(a->first, a->second, b->first, b->second);
+    }
+  }
+
+  void CheckPair(std::uint32_t slot_a, const Told& a, std::uint32_t slot_b, const Told& b) const {
+    if (a.contradicts || b.contradicts || !CanMeet(a.declaration, b.declaration)) return;
+    for (const Told* agent : {&a, &b}) {
+      if (agent->declaration.shape || agent->declaration.shape_awaited) return;
+    }
+    const auto status = status_.find(std::minmax(slot_a, slot_b));
+    if (status != status_.end() &&
+        (status->second == EventStatus::kPossible || status->second == EventStatus::kConfirmed)) {
+      return;
+    }
+    const auto of_a = detectors_.first().ClearanceOf(IdOf(slot_a));
+    const auto of_b = detectors_.first().ClearanceOf(IdOf(slot_b));
+    Require(of_a && of_b, "an agent without a clearance");
+    const Instant from = std::max(
+        {now_, a.ball.state.stamp, b.ball.state.stamp, of_a->effective_from, of_b->effective_from});
+    const Instant until =
+        std::min({std::max(of_a->clear_until, of_b->clear_until), a.ball.state.expiry,
+                  b.ball.state.expiry, Instant::FromNanoseconds(server::kInstantMax)});
+    if (from >= until || !CertainlyApart(a.ball, b.ball, from)) return;
+    const Instant last = Instant::FromNanoseconds(until.nanoseconds() - 1);
+    const Instant nearest = NearestWithin(a.ball, b.ball, from, last);
+    Require(!CertainlyOverlap(a.ball, b.ball, nearest), slot_a, " and ", slot_b, " touch at ",
+            nearest.nanoseconds(), " or before; clear until ", until.nanoseconds(), ", now ",
+            now_.nanoseconds());
+  }
+
+  Detectors detectors_;
+  Instant now_;
+  int steps_ = 0;
+  std::map<std::uint32_t, Told> told_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, EventStatus> status_;
+};
+
+}  // namespace
+
+void FuzzDetector(Bytes bytes) {
+  FuzzedData data(bytes);
+  const DetectorOptions options = FuzzedOptions(&data);
+  Session session(options);
+  for (int call = 0; call < kCallsMax && !data.empty(); ++call) {
+    if (!session.Call(&data)) return;
+  }
+}
+
+}  // namespace collision::fuzz
