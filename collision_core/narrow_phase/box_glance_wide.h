@@ -56,8 +56,6 @@ BOX_INLINE Lanes Size(Lanes x) {
 }
 BOX_INLINE Lanes Next(const Lanes& x) { return __builtin_shufflevector(x, x, 1, 2, 0, 3); }
 BOX_INLINE Lanes Last(const Lanes& x) { return __builtin_shufflevector(x, x, 2, 0, 1, 3); }
-BOX_INLINE Lanes Next(Lanes x) { return __builtin_shufflevector(x, x, 1, 2, 0, 3); }
-BOX_INLINE Lanes Last(Lanes x) { return __builtin_shufflevector(x, x, 2, 0, 1, 3); }
 BOX_INLINE double Sum(const Lanes& x) { return (x[0] + x[1]) + x[2]; }
 BOX_INLINE double Most(double x, double y) { return x > y ? x : y; }
 BOX_INLINE double Least(double x, double y) { return x < y ? x : y; }
