@@ -7,7 +7,7 @@
 #include "tests/baselines/scenes.h"
 #include "tests/bench/allocation_counter.h"
 #include "tests/bench/measure.h"
-#include "tests/bench/narrow_report.h"
+#include "tests/bench/number_hash.h"
 #include "tests/support/random.h"
 
 namespace collision::bench {

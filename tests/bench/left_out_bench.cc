@@ -26,7 +26,9 @@ struct Part {
   Variation without, with;
 };
 
-std::shared_ptr<const Shape> UnitBall() { return Shape::Compound(nullptr, {ConvexSolid::Build({.rounding = 1})}); }
+std::shared_ptr<const Shape> UnitBall() {
+  return Shape::Compound(nullptr, {ConvexSolid::Build({.rounding = 1})});
+}
 
 std::vector<Part> Parts() {
   const auto with = [](auto change) { return Variation{{}, change}; };
