@@ -16,12 +16,9 @@ constexpr double kTestUnits = 1;
 constexpr double kVisitUnits = 16;
 constexpr double kPlaceUnits[] = {0, 8, 0, 64};  // per agent, by method
 
-/// Questions until the first trial; doubled by each that changes nothing.
-constexpr std::uint64_t kPatience = 64;
+/// Questions until the index is tried again; doubled by each try.
+constexpr std::uint64_t kPatience = 2048;
 constexpr std::uint64_t kPatienceMax = 1 << 20;
-
-/// All pairs must be better by this factor to be taken back.
-constexpr double kWorthReturning = 1.25;
 
 /// The bounds of a method, for filling another.
 template <typename M>
@@ -131,33 +128,29 @@ void ChosenBroadPhase::RulesChanged(std::uint32_t agent) {
 }
 
 std::optional<PairMeeting> ChosenBroadPhase::Earliest(const BroadQuery& query) {
-  if (OnTrial()) next_.phase->Earliest(query);
   const auto answer = method_.phase->Earliest(query);
-  EndQuestion();
+  Choose();
   return answer;
 }
 
 std::optional<PairMeeting> ChosenBroadPhase::EarliestOf(std::uint32_t agent,
                                                         const BroadQuery& query) {
-  if (OnTrial()) next_.phase->EarliestOf(agent, query);
+  const BroadPhaseWork before = method_.phase->work();
   const auto answer = method_.phase->EarliestOf(agent, query);
-  EndQuestion();
+  EndQuestion(before);
   return answer;
 }
 
 void ChosenBroadPhase::Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
                                 const Skip& skip, std::vector<Meeting>* meetings) {
-  if (OnTrial()) {
-    tried_.clear();
-    next_.phase->Meetings(agent, from, until, horizon, skip, &tried_);
-  }
+  const BroadPhaseWork before = method_.phase->work();
   method_.phase->Meetings(agent, from, until, horizon, skip, meetings);
-  EndQuestion();
+  EndQuestion(before);
 }
 
 void ChosenBroadPhase::NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) {
   method_.phase->NearPairs(query, pairs);
-  EndQuestion();
+  Choose();
 }
 
 BroadPhaseWork ChosenBroadPhase::work() const {
@@ -166,22 +159,20 @@ BroadPhaseWork ChosenBroadPhase::work() const {
   return work;
 }
 
-double ChosenBroadPhase::Units(const Method& method, const BroadPhaseWork& since) const {
-  const BroadPhaseWork done = method.phase->work() - since;
+double ChosenBroadPhase::Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const {
   const double placed = static_cast<double>(done.rebuilds) * static_cast<double>(agents_);
   return kPairUnits * static_cast<double>(done.pair_queries) +
          kTestUnits * static_cast<double>(done.filter_tests) +
          kVisitUnits * static_cast<double>(done.visits) +
-         kPlaceUnits[static_cast<int>(method.kind)] * placed;
+         kPlaceUnits[static_cast<int>(kind)] * placed;
+}
+
+double ChosenBroadPhase::UnitsOf(const Method& method) const {
+  return Units(method.kind, method.phase->work());
 }
 
 double ChosenBroadPhase::units() const {
-  return units_before_ + Units(method_, {}) + (next_.phase ? Units(next_, {}) : 0);
-}
-
-// Full, and with so few agents that its work must be seen first.
-bool ChosenBroadPhase::OnTrial() const {
-  return Filled() && next_.kind == BroadPhaseMethod::kSpatialIndex && agents_ <= kManyAgents;
+  return units_before_ + UnitsOf(method_) + (next_.phase ? UnitsOf(next_) : 0);
 }
 
 void ChosenBroadPhase::Start(BroadPhaseMethod kind) {
@@ -191,13 +182,13 @@ void ChosenBroadPhase::Start(BroadPhaseMethod kind) {
 
 void ChosenBroadPhase::Drop() {
   before_ = before_ + next_.phase->work();
-  units_before_ += Units(next_, {});
+  units_before_ += UnitsOf(next_);
   next_ = Method();
 }
 
 void ChosenBroadPhase::Switch() {
   before_ = before_ + method_.phase->work();
-  units_before_ += Units(method_, {});
+  units_before_ += UnitsOf(method_);
   method_ = std::exchange(next_, Method());
   ++changes_;
   Settle();
@@ -206,8 +197,8 @@ void ChosenBroadPhase::Switch() {
 // A decision has been made.
 void ChosenBroadPhase::Settle() {
   questions_ = 0;
+  answering_ = {};
   decided_with_ = agents_;
-  method_since_ = method_.phase->work();
 }
 
 void ChosenBroadPhase::Fill() {
@@ -215,15 +206,16 @@ void ChosenBroadPhase::Fill() {
   for (; filled_ < end; ++filled_) {
     if (held_[filled_]) next_.phase->Put(filled_, method_.table->bound(filled_));
   }
-  if (!Filled()) return;
-  questions_ = 0;
-  method_since_ = method_.phase->work();
-  next_since_ = next_.phase->work();
+  if (filled_ >= method_.table->size()) Switch();
 }
 
 void ChosenBroadPhase::Choose() {
   if (asked_ != BroadPhaseMethod::kAuto) return;
-  if (next_.phase && filled_ < method_.table->size()) Fill();
+  if (next_.phase) {
+    // Its reason may have gone meanwhile.
+    if (next_.kind == BroadPhaseMethod::kAllPairs && agents_ > kManyAgents) return Drop();
+    return Fill();
+  }
   if (method_.kind == BroadPhaseMethod::kAllPairs) {
     ChooseFromAllPairs();
   } else {
@@ -232,77 +224,50 @@ void ChosenBroadPhase::Choose() {
 }
 
 void ChosenBroadPhase::ChooseFromAllPairs() {
-  if (!next_.phase) {
-    // Filled in time: with every agent that comes, kMoves of the others follow.
-    const bool must = agents_ > kManyAgents - kManyAgents / kMoves && agents_ > decided_with_;
-    const bool grown = 2 * agents_ > 3 * decided_with_ && questions_ >= kPatience;
-    if (must || (agents_ > kFewAgents && (grown || questions_ >= patience_))) {
-      Start(BroadPhaseMethod::kSpatialIndex);
-    }
-    return;
-  }
-  if (!Filled()) return;
-  if (agents_ > kManyAgents) {
-    Switch();
-  } else if (questions_ >= kTrialQuestions) {
-    units_of_other_ = Units(next_, next_since_) / static_cast<double>(questions_);
-    units_ = Units(method_, method_since_) / static_cast<double>(questions_);
-    patience_ = std::min(2 * patience_, kPatienceMax);
-    if (units_of_other_ < kWorthIt * units_) {
-      std::swap(units_, units_of_other_);
-      Switch();
-    } else {
-      Drop();
-      Settle();
-    }
+  if (agents_ <= kFewAgents) return;
+  const bool grown = 2 * agents_ > 3 * decided_with_;
+  if (agents_ > kManyAgents || grown || questions_ >= patience_) {
+    Start(BroadPhaseMethod::kSpatialIndex);
   }
 }
 
 void ChosenBroadPhase::ChooseFromIndex() {
-  if (next_.phase) {
-    if (agents_ > kManyAgents) {
-      Drop();
-    } else if (Filled()) {
-      Switch();
-    }
-    return;
-  }
   // With room between them: a scene about as large as the limit does not go to and fro.
-  if (agents_ <= kFewAgents / 2) return Start(BroadPhaseMethod::kAllPairs);
+  if (agents_ <= kFewAgents / 2) {
+    units_ = 0;
+    return Start(BroadPhaseMethod::kAllPairs);
+  }
   if (agents_ > kManyAgents - kManyAgents / 4 || questions_ < kPeriodQuestions) return;
-  const double questions = static_cast<double>(questions_);
-  const BroadPhaseWork done = method_.phase->work() - method_since_;
-  units_ = Units(method_, method_since_) / questions;
-  // All pairs asks of every agent the same pairs, and tests all others.
-  units_of_other_ = kPairUnits * static_cast<double>(done.pair_queries) / questions +
+  const auto questions = static_cast<double>(questions_);
+  units_ = Units(method_.kind, answering_) / questions;
+  units_of_other_ = kPairUnits * static_cast<double>(answering_.pair_queries) / questions +
                     kTestUnits * static_cast<double>(agents_ + half_spaces_.size());
   if (units_ > kWorthReturning * units_of_other_) {
+    std::swap(units_, units_of_other_);
     patience_ = std::min(2 * patience_, kPatienceMax);
     Start(BroadPhaseMethod::kAllPairs);
-  } else {
-    Settle();
   }
+  Settle();
 }
 
-void ChosenBroadPhase::EndQuestion() {
+void ChosenBroadPhase::EndQuestion(const BroadPhaseWork& before) {
   ++questions_;
+  answering_ = answering_ + (method_.phase->work() - before);
   Choose();
 }
 
 std::string ChosenBroadPhase::why() const {
   const std::string agents = std::to_string(agents_) + " agents";
   if (asked_ != BroadPhaseMethod::kAuto) return agents + "; the configuration asks for it";
-  if (method_.kind == BroadPhaseMethod::kAllPairs) {
-    if (agents_ <= kFewAgents) {
-      return agents + ": up to " + std::to_string(kFewAgents) + " it costs least";
-    }
-    if (units_of_other_ == 0) return agents + ": too few questions so far to try the index";
-  } else if (agents_ > kManyAgents) {
-    return agents + ": beyond " + std::to_string(kManyAgents) + " it costs least";
+  const bool all_pairs = method_.kind == BroadPhaseMethod::kAllPairs;
+  if (agents_ <= kFewAgents && all_pairs) {
+    return agents + ": up to " + std::to_string(kFewAgents) + " it costs least";
+  }
+  if (agents_ > kManyAgents || units_ == 0) {
+    return agents + ": beyond " + std::to_string(kFewAgents) + " it costs least, as a rule";
   }
   return agents + ": " + Whole(units_) + " units of work a question with " +
-         std::to_string(decided_with_) + ", " +
-         (method_.kind == BroadPhaseMethod::kAllPairs ? "the index " : "all pairs ") +
+         std::to_string(decided_with_) + ", " + (all_pairs ? "the index " : "all pairs ") +
          Whole(units_of_other_);
 }
 

@@ -21,20 +21,19 @@ const char* Name(BroadPhaseMethod method);
 /// now. Work is counted, never timed, so that the same calls choose the same everywhere; and as all
 /// methods give the same answers, nothing but cost depends on the choice.
 ///
-/// Up to kFewAgents all pairs, beyond kManyAgents the index. Between them the index is tried beside
-/// all pairs for kTrialQuestions, and taken if it did less than kWorthIt of the work; once taken its
-/// work is compared with what all pairs would do (N tests a question) every kPeriodQuestions. What a
-/// scene has decided is decided anew only after ever more questions, or when the number of agents
-/// has changed by half. A new method is filled kMoves agents a call beside the old one, which
-/// answers until it is full: no call takes longer than the others. The face sweep has to be asked
-/// for: of one agent it asks every partner, and of a whole scene its crossings grow as N² t.
+/// Up to kFewAgents all pairs, beyond the index. Up to kManyAgents the index's work on questions of
+/// one agent is compared with what all pairs would have done (the same pairs, and N tests a
+/// question) every kPeriodQuestions: all pairs are taken where the index did kWorthReturning times
+/// as much. Then the index gets its next try after ever more questions, or when the number of agents
+/// has grown by half. A new method is filled kMoves agents a call beside the old one, which answers
+/// until it is full: no call takes longer than the others. The face sweep has to be asked for: of
+/// one agent it asks every partner, and of a whole scene its crossings grow as N² t.
 class ChosenBroadPhase : public BroadPhase {
  public:
   static constexpr std::size_t kFewAgents = 256;
   static constexpr std::size_t kManyAgents = 768;
-  static constexpr std::uint64_t kTrialQuestions = 32;
   static constexpr std::uint64_t kPeriodQuestions = 256;
-  static constexpr double kWorthIt = 0.8;
+  static constexpr double kWorthReturning = 1.05;
   static constexpr std::uint32_t kMoves = 8;
 
   explicit ChosenBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);
@@ -52,7 +51,7 @@ class ChosenBroadPhase : public BroadPhase {
 
   void NearPairs(const BroadQuery& query, std::vector<NearPair>* pairs) override;
 
-  /// Of all methods together, trials included.
+  /// Of all methods together.
   BroadPhaseWork work() const override;
   /// Likewise in the units by which it chooses.
   double units() const;
@@ -72,10 +71,9 @@ class ChosenBroadPhase : public BroadPhase {
   /// All methods share the rules; half-spaces are its own as well as each method's.
   Method Make(BroadPhaseMethod kind) const;
   void Release(std::uint32_t agent);
-  double Units(const Method& method, const BroadPhaseWork& since) const;
-  bool Filled() const { return next_.phase && filled_ >= method_.table->size(); }
+  double Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const;
+  double UnitsOf(const Method& method) const;
   bool Follows(std::uint32_t agent) const { return next_.phase && agent < filled_; }
-  bool OnTrial() const;
   void Start(BroadPhaseMethod kind);
   void Drop();
   void Switch();
@@ -83,27 +81,25 @@ class ChosenBroadPhase : public BroadPhase {
   void Choose();
   void ChooseFromAllPairs();
   void ChooseFromIndex();
-  void EndQuestion();
+  void EndQuestion(const BroadPhaseWork& before);
   void Settle();
 
   const BroadPhaseMethod asked_;
   Method method_;
-  Method next_;               ///< Being filled, or on trial; its phase null: none.
+  Method next_;               ///< Being filled; its phase null: none.
   std::uint32_t filled_ = 0;  ///< Agents below this index are in next_ as well.
   std::size_t agents_ = 0;    ///< Held.
   std::vector<bool> held_;    ///< By agent.
   BroadPhaseWork before_{};   ///< Of methods that are gone.
   double units_before_ = 0;   ///< Likewise.
 
-  std::uint64_t questions_ = 0;    ///< Since the last decision, or the trial's begin.
-  BroadPhaseWork method_since_{};  ///< Work of method_ when questions_ was 0.
-  BroadPhaseWork next_since_{};    ///< Likewise of next_.
-  std::uint64_t patience_ = 0;     ///< Questions until the next trial.
-  std::size_t decided_with_ = 0;   ///< Agents at the last decision.
-  double units_ = 0;               ///< Of the method, a question, at the last decision.
-  double units_of_other_ = 0;      ///< Of the other one then.
+  std::uint64_t questions_ = 0;   ///< Of one agent, since the last decision.
+  BroadPhaseWork answering_{};    ///< Work on them.
+  std::uint64_t patience_ = 0;    ///< Questions until the index is tried again.
+  std::size_t decided_with_ = 0;  ///< Agents at the last decision.
+  double units_ = 0;              ///< Of the method, a question, at the last decision.
+  double units_of_other_ = 0;     ///< Of the other one then.
   std::uint64_t changes_ = 0;
-  std::vector<Meeting> tried_;  // kept for its memory
 };
 
 }  // namespace collision

@@ -1,9 +1,9 @@
 // ./run report: each optional part on and off, and what the scene profile chose.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <map>
-#include <numbers>
 #include <optional>
 
 #include "collision_core/shape/shape.h"
@@ -27,51 +27,72 @@ struct Part {
 };
 
 std::shared_ptr<const Shape> UnitBall() {
-  return Shape::Compound(nullptr, {ConvexSolid::Build({.rounding = 1})});
+  ConvexDescription ball;
+  ball.rounding = 1;
+  return Shape::Compound(nullptr, {ConvexSolid::Build(ball)});
+}
+
+Part MakePart(const std::string& name, const std::string& left_out, const Variation& without,
+              const Variation& with) {
+  Part part;
+  part.name = name, part.left_out = left_out, part.without = without, part.with = with;
+  return part;
+}
+
+template <typename Change>
+Variation Changed(const Change& change) {
+  Variation variation;
+  variation.change = change;
+  return variation;
+}
+
+void StandStill(SceneAgent* agent) { agent->declaration.acceleration_max = 0; }
+void AsLargeAsTheBall(SceneAgent* agent) {
+  agent->declaration.radius = std::max(agent->declaration.radius, 1.0);
 }
 
 std::vector<Part> Parts() {
-  const auto with = [](auto change) { return Variation{{}, change}; };
-  const auto still = [](SceneAgent* agent) { agent->declaration.acceleration_max = 0; };
-  std::vector<Part> parts = {
-      {"parabolic growth", "parabolic growth", with(still),
-       with([](SceneAgent* agent) { agent->declaration.acceleration_max = kNothing; })},
-      {"speed caps", "speed caps", {}, with([](SceneAgent* agent) {
-         agent->declaration.speed_max = 1e12;
-       })},
-      {"integrator step", "integrator step", {}, with([](SceneAgent* agent) {
-         agent->declaration.time_step = kNothing;
-       })},
-      {"state errors", "growth by state errors", {}, with([](SceneAgent* agent) {
-         agent->state.position_error = agent->state.velocity_error = kNothing;
-       })},
-      {"expiry", "expiry", {}, with([](SceneAgent* agent) {
-         agent->state.expiry = AddRoundedDown(Instant(), 1e9);
-       })},
-      {"masks", "masks", {}, with([](SceneAgent* agent) { agent->declaration.group = 3; })}};
+  const Variation plain, still = Changed(StandStill), large = Changed(AsLargeAsTheBall);
   Variation skewed;
   skewed.options.skew = kNothing;
-  parts.push_back({"clock skew", "clock skew", {}, skewed});
-  // Along a direction nobody may be pushed back: without forces all keep to that.
-  parts.push_back({"direction", "directional boxes", with(still), with([](SceneAgent* agent) {
-                     agent->declaration.acceleration_max = kNothing;
-                     agent->state.direction = Eigen::Vector3d::UnitX();
-                   })});
   const auto shape = UnitBall();
-  const auto shaped = [shape](SceneAgent* agent) {
+  const auto take_shape = [shape](SceneAgent* agent) {
+    AsLargeAsTheBall(agent);
     agent->declaration.shape = shape;
-    agent->declaration.radius = std::max(agent->declaration.radius, 1.0);
     agent->declaration.angular_acceleration_max = 0;
   };
-  const auto as_large = [](SceneAgent* agent) {
-    agent->declaration.radius = std::max(agent->declaration.radius, 1.0);
-  };
-  parts.push_back({"sphere trees", "sphere trees and rotation", with(as_large), with(shaped)});
-  parts.push_back(
-      {"rotation", "rotation of sphere trees", with(shaped), with([shaped](SceneAgent* agent) {
-         shaped(agent);
-         agent->declaration.angular_acceleration_max = kNothing;
-       })});
+  const Variation shaped = Changed(take_shape);
+  const Variation turning = Changed([take_shape](SceneAgent* agent) {
+    take_shape(agent);
+    agent->declaration.angular_acceleration_max = kNothing;
+  });
+  const Variation growing =
+      Changed([](SceneAgent* agent) { agent->declaration.acceleration_max = kNothing; });
+  // Along a direction nobody may be pushed back: without forces all keep to that.
+  const Variation directed = Changed([](SceneAgent* agent) {
+    agent->declaration.acceleration_max = kNothing;
+    agent->state.direction = Eigen::Vector3d::UnitX();
+  });
+  const Variation capped = Changed([](SceneAgent* agent) { agent->declaration.speed_max = 1e12; });
+  const Variation stepping =
+      Changed([](SceneAgent* agent) { agent->declaration.time_step = kNothing; });
+  const Variation uncertain = Changed([](SceneAgent* agent) {
+    agent->state.position_error = agent->state.velocity_error = kNothing;
+  });
+  const Variation expiring =
+      Changed([](SceneAgent* agent) { agent->state.expiry = AddRoundedDown(Instant(), 1e9); });
+  const Variation masked = Changed([](SceneAgent* agent) { agent->declaration.group = 3; });
+  std::vector<Part> parts;
+  parts.push_back(MakePart("parabolic growth", "parabolic growth", still, growing));
+  parts.push_back(MakePart("speed caps", "speed caps", plain, capped));
+  parts.push_back(MakePart("integrator step", "integrator step", plain, stepping));
+  parts.push_back(MakePart("state errors", "growth by state errors", plain, uncertain));
+  parts.push_back(MakePart("expiry", "expiry", plain, expiring));
+  parts.push_back(MakePart("masks", "masks", plain, masked));
+  parts.push_back(MakePart("clock skew", "clock skew", plain, skewed));
+  parts.push_back(MakePart("direction", "directional boxes", growing, directed));
+  parts.push_back(MakePart("sphere trees", "sphere trees and rotation", large, shaped));
+  parts.push_back(MakePart("rotation", "rotation of sphere trees", shaped, turning));
   return parts;
 }
 
