@@ -98,7 +98,7 @@ DetectorCost Cost(const DetectorScene& scene, const Variation& variation) {
   cost.seconds += CpuNow() - start;
   for (int step = 1; step <= scene.steps; ++step) {
     for (SceneAgent& agent : agents) {
-      const double force = kForce * agent.declaration.acceleration_max;
+      const double force = variation.forces ? kForce * agent.declaration.acceleration_max : 0;
       Move(scene.step, random.Uniform(0, force) * random.UnitVector(), &agent.state);
       if (variation.change) variation.change(&agent);
     }

@@ -31,6 +31,7 @@ std::vector<DetectorScene> DetectorScenes(bool few, int steps);
 struct Variation {
   DetectorOptions options;
   std::function<void(SceneAgent*)> change = nullptr;
+  bool forces = true;  ///< Random ones, within what is declared; else all coast.
 };
 
 struct DetectorCost {

@@ -46,13 +46,13 @@ Variation Changed(const Change& change) {
   return variation;
 }
 
-void StandStill(SceneAgent* agent) { agent->declaration.acceleration_max = 0; }
+void NotAccelerate(SceneAgent* agent) { agent->declaration.acceleration_max = 0; }
 void AsLargeAsTheBall(SceneAgent* agent) {
   agent->declaration.radius = std::max(agent->declaration.radius, 1.0);
 }
 
 std::vector<Part> Parts() {
-  const Variation plain, still = Changed(StandStill), large = Changed(AsLargeAsTheBall);
+  const Variation plain, coasting = Changed(NotAccelerate), large = Changed(AsLargeAsTheBall);
   Variation skewed;
   skewed.options.skew = kNothing;
   const auto shape = UnitBall();
@@ -66,13 +66,11 @@ std::vector<Part> Parts() {
     take_shape(agent);
     agent->declaration.angular_acceleration_max = kNothing;
   });
-  const Variation growing =
-      Changed([](SceneAgent* agent) { agent->declaration.acceleration_max = kNothing; });
-  // Along a direction nobody may be pushed back: without forces all keep to that.
-  const Variation directed = Changed([](SceneAgent* agent) {
-    agent->declaration.acceleration_max = kNothing;
-    agent->state.direction = Eigen::Vector3d::UnitX();
-  });
+  // Without forces: along a direction nobody may be pushed back.
+  Variation growing,
+      directed =
+          Changed([](SceneAgent*agent) { agent->state.direction = Eigen::Vector3d::UnitX(); });
+  growing.forces = directed.forces = false;
   const Variation capped = Changed([](SceneAgent* agent) { agent->declaration.speed_max = 1e12; });
   const Variation stepping =
       Changed([](SceneAgent* agent) { agent->declaration.time_step = kNothing; });
@@ -83,7 +81,7 @@ std::vector<Part> Parts() {
       Changed([](SceneAgent* agent) { agent->state.expiry = AddRoundedDown(Instant(), 1e9); });
   const Variation masked = Changed([](SceneAgent* agent) { agent->declaration.group = 3; });
   std::vector<Part> parts;
-  parts.push_back(MakePart("parabolic growth", "parabolic growth", still, growing));
+  parts.push_back(MakePart("parabolic growth", "parabolic growth", coasting, growing));
   parts.push_back(MakePart("speed caps", "speed caps", plain, capped));
   parts.push_back(MakePart("integrator step", "integrator step", plain, stepping));
   parts.push_back(MakePart("state errors", "growth by state errors", plain, uncertain));
