@@ -60,6 +60,8 @@ struct Case {
 std::vector<Case> AllCases();
 
 std::vector<Case> PairCases();
+std::vector<Case> BracketCases();
+std::vector<Case> LongCases();
 std::vector<Case> ShapeCases();
 std::vector<Case> CrowdCases();
 std::vector<Case> EdgeCases();
