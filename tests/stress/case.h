@@ -60,6 +60,7 @@ struct Case {
 std::vector<Case> AllCases();
 
 std::vector<Case> PairCases();
+std::vector<Case> ContractCases();
 std::vector<Case> BracketCases();
 std::vector<Case> LongCases();
 std::vector<Case> ShapeCases();

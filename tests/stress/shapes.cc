@@ -51,6 +51,21 @@ void Offsets(const Setting&, Outcome* outcome) {
   SayTimes(outcome);
 }
 
+// Orientations that are a hair, and more, off unit length name the same rotation.
+void Quaternions(const Setting&, Outcome* outcome) {
+  for (const bool solid : {false, true}) {
+    const auto cube = CubeOf(1, solid);
+    for (const double off : {-1e-3, -1e-9, -0x1p-52, 0.0, 0x1p-52, 1e-9, 1e-3}) {
+      // A quarter of a turn about z, and none: both leave the cube as it is.
+      Body a{cube}, b{cube, 0, {10, 0, 0}, {-16, 0, 0}};
+      a.q = Eigen::Quaterniond(1 + off, 0, 0, 1 + off);
+      b.q = Eigen::Quaterniond(1 - off, 0, 0, 0);
+      JudgeTimes(a, b, 1, 0.5L, 0.75L, 16, "off by " + Show(off), outcome);
+    }
+  }
+  SayTimes(outcome);
+}
+
 void Speeds(const Setting&, Outcome* outcome) {
   for (const bool solid : {false, true}) {
     for (int exponent = -40; exponent <= 29; ++exponent) {
@@ -195,6 +210,7 @@ std::vector<Case> ShapeCases() {
   return {{"extreme", "shape-sizes", kTimes, Sizes},
           {"extreme", "shape-offsets", kTimes, Offsets},
           {"extreme", "shape-speeds", kTimes, Speeds},
+          {"extreme", "shape-quaternions", kTimes, Quaternions},
           {"extreme", "needles-plates", kTimes, NeedlesAndPlates},
           {"extreme", "one-triangle", kTimes, OneTriangle},
           {"extreme", "million-triangles", kTimes, MillionTriangles},

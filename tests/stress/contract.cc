@@ -1,0 +1,113 @@
+// The contract check at the extremes: what an honest state may look like, and what it may not.
+#include "collision_core/motion/contract.h"
+
+#include <cmath>
+
+#include "tests/stress/pair_judge.h"
+#include "tests/support/exact_triangle.h"
+#include "tests/support/random.h"
+
+namespace collision::stress {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Beyond the bound by what a sender may lose in so many steps, each a unit in the last place of
+/// place and speed, and by a nanosecond of stamp, a state is a breach for certain.
+constexpr double kSteps = 1001;
+constexpr double kNanosecond = 1.001e-9;
+
+/// |p' − p − v s| − ½ M s² and |v' − v| − M s, each as square of the left over square of the right.
+struct Excess {
+  ExactVector off;
+  Exact allowed;
+  Exact size;  ///< Of all that is compared.
+
+  bool Within(const Exact& more) const {
+    const Exact most = allowed + more;
+    return most >= 0 && Square(off) <= most * most;
+  }
+};
+
+Exact SumOf(const ExactVector& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
+
+Excess OfPosition(const SpaceTimeBound& before, const MotionState& next) {
+  const Exact s = ExactSeconds(before.state.stamp, next.stamp);
+  const ExactVector p(before.state.p_WA), v(before.state.v_WA), q(next.p_WA);
+  const Exact reach = Exact(before.declaration.acceleration_max) / 2 * s * s;
+  return {q - p - s * v, reach, SumOf(p) + SumOf(q)};
+}
+
+Excess OfVelocity(const SpaceTimeBound& before, const MotionState& next) {
+  const Exact s = ExactSeconds(before.state.stamp, next.stamp);
+  const ExactVector v(before.state.v_WA), w(next.v_WA);
+  const Exact reach = Exact(before.declaration.acceleration_max) * s;
+  return {w - v, reach, SumOf(v) + SumOf(w) + reach};
+}
+
+void JudgeState(const SpaceTimeBound& before, const MotionState& next, Outcome* outcome) {
+  const ContractCheck check = CheckContract(before, next);
+  const Excess position = OfPosition(before, next), velocity = OfVelocity(before, next);
+  const Exact s = ExactSeconds(before.state.stamp, next.stamp);
+  const Exact lost(kSteps * 0x1p-52), speed = velocity.size;
+  const Exact more_v =
+      lost * speed + Exact(kNanosecond) * Exact(before.declaration.acceleration_max);
+  const Exact more_p = lost * (position.size + speed * s) + more_v * s + Exact(kNanosecond) * speed;
+  const bool breached = check.verdict == ContractVerdict::kBreached;
+  outcome->Add(breached ? "breaches" : "kept", 1);
+  if (position.Within(0) && velocity.Within(0)) {
+    outcome->Expect(!breached, "an honest state is told to be a breach");
+  }
+  if (!position.Within(more_p) || !velocity.Within(more_v)) {
+    outcome->Add("beyond", 1);
+    outcome->Expect(breached, "a breach is not noticed");
+  }
+  for (const double x :
+       {check.position_excess, check.velocity_excess, check.position_drift, check.velocity_drift}) {
+    outcome->Expect(std::isfinite(x) && x >= 0, "an excess is no number");
+  }
+  // What rounding may have cost makes up for what the new horn may stick out of the old one.
+  if (breached) return;
+  outcome->Expect(
+      position.Within(Exact(check.position_drift)) && velocity.Within(Exact(check.velocity_drift)),
+      "a state that is kept lies beyond the drift that is told");
+}
+
+// A state after a step of 1 ns to a century, with all of M, a little less, or a little more.
+void Contract(const Setting& setting, Outcome* outcome) {
+  Random random(601);
+  for (int i = 0; i < setting.Many(4000, 200'000); ++i) {
+    const auto any = [&random](double lo, double hi) {
+      return random.Chance(0.15) ? 0 : random.LogUniform(lo, hi);
+    };
+    SpaceTimeBound before = Ball(any(1e-12, 1e15) * random.UnitVector(),
+                                 any(1e-12, 299792458) * random.UnitVector(), 1, any(1e-12, 1e18));
+    const std::int64_t century = 3'155'760'000'000'000'000;
+    before.state.stamp = Instant::FromNanoseconds(random.Chance(0.5) ? century : -century);
+    const auto step =
+        static_cast<std::int64_t>(random.LogUniform(1, random.Chance(0.5) ? 1e9 : 1e18));
+    MotionState next = before.state;
+    next.stamp = Instant::FromNanoseconds(before.state.stamp.nanoseconds() + step);
+    const double s = static_cast<double>(step) * 1e-9;
+    const double off = random.Chance(0.5) ? random.LogUniform(1e-17, 10) : 0;
+    const double share = random.Chance(0.3) ? std::max(0.0, 1 - off) : 1 + off;
+    const Vector3d a = share * before.declaration.acceleration_max * random.UnitVector();
+    next.v_WA += s * a;
+    next.p_WA += s * before.state.v_WA + s * s / 2 * a;
+    JudgeState(before, next, outcome);
+  }
+  outcome->Say(Show(outcome->Get("kept")) + " states kept, " + Show(outcome->Get("breaches")) +
+               " breaches, " + Show(outcome->Get("beyond")) + " of them for certain");
+}
+
+}  // namespace
+
+std::vector<Case> ContractCases() {
+  return {{"extreme", "contract",
+           "in exact arithmetic: an honest state is never a breach, one that is "
+           "1000 steps' rounding and a nanosecond beyond its bound always is, and what is kept "
+           "lies within the drift that is told",
+           Contract}};
+}
+
+}  // namespace collision::stress
