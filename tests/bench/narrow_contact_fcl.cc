@@ -46,8 +46,9 @@ std::optional<double> Tell(const ContactCase& of, fcl::CCDSolverType solver) {
                                                  solver);
   fcl::ContinuousCollisionResultd result;
   const Geometry a = GeometryOf(of.a), b = GeometryOf(of.b);
-  fcl::continuousCollide(a.get(), PoseOf(of.a), PoseOf(of.a.After(of.duration)), b.get(),
-                         PoseOf(of.b), PoseOf(of.b.After(of.duration)), request, result);
+  const auto motion_a = FclMotion(PoseOf(of.a), PoseOf(of.a.After(of.duration)));
+  const auto motion_b = FclMotion(PoseOf(of.b), PoseOf(of.b.After(of.duration)));
+  fcl::continuousCollide(a.get(), &motion_a, b.get(), &motion_b, request, result);
   if (!result.is_collide) return std::nullopt;
   return result.time_of_contact * of.duration;
 }

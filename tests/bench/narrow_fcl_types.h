@@ -2,6 +2,7 @@
 #pragma once
 
 #include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/motion/interp_motion.h>
 
 #include <memory>
 
@@ -29,6 +30,14 @@ inline fcl::Transform3d FclPose(const PlainPose& pose) {
     transform.translation()(i) = pose.offset[i];
   }
   return transform;
+}
+
+/// Even motion between two poses. Given only these, version 0.7 turns bodies about a point that it
+/// never sets; so it is set here.
+inline fcl::InterpMotion<double> FclMotion(const fcl::Transform3d& begin,
+                                           const fcl::Transform3d& end) {
+  const fcl::Vector3d origin(0, 0, 0);
+  return {begin.linear(), begin.translation(), end.linear(), end.translation(), origin};
 }
 
 }  // namespace collision::bench

@@ -42,8 +42,14 @@ PlainMesh BoxMesh(const MovingBody& body, const std::array<double, 3>& at) {
 ContactReply Tell(const ContactCase& of, const Geometry& a, const Geometry& b,
                   const fcl::ContinuousCollisionRequestd& request) {
   fcl::ContinuousCollisionResultd result;
-  fcl::continuousCollide(a.get(), PoseOf(of.a), PoseOf(of.a.After(of.duration)), b.get(),
-                         PoseOf(of.b), PoseOf(of.b.After(of.duration)), request, result);
+  const fcl::Transform3d begin_a = PoseOf(of.a), end_a = PoseOf(of.a.After(of.duration));
+  const fcl::Transform3d begin_b = PoseOf(of.b), end_b = PoseOf(of.b.After(of.duration));
+  if (request.ccd_motion_type == fcl::CCDM_LINEAR) {
+    const auto motion_a = FclMotion(begin_a, end_a), motion_b = FclMotion(begin_b, end_b);
+    fcl::continuousCollide(a.get(), &motion_a, b.get(), &motion_b, request, result);
+  } else {
+    fcl::continuousCollide(a.get(), begin_a, end_a, b.get(), begin_b, end_b, request, result);
+  }
   if (!result.is_collide) return {};
   return Plainly(result.time_of_contact * of.duration);
 }
@@ -86,7 +92,7 @@ void AddAdvancement(const std::string& name, fcl::GJKSolverType solver, bool mes
       const bool ball =
           of.a.kind == MovingBody::Kind::kBall || of.b.kind == MovingBody::Kind::kBall;
       if (meshes && ball) return nullptr;
-      const fcl::ContinuousCollisionRequestd request(1000, error, fcl::CCDM_LINEAR, solver,
+      const fcl::ContinuousCollisionRequestd request(10, error, fcl::CCDM_LINEAR, solver,
                                                      fcl::CCDC_CONSERVATIVE_ADVANCEMENT);
       const auto shape = [&](const MovingBody& body) -> Geometry {
         if (meshes) return FclModel<fcl::OBBRSSd>(BoxMesh(body, {}));
