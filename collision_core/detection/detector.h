@@ -103,7 +103,8 @@ class Detector {
   explicit Detector(const DetectorOptions& options);
   ~Detector();
 
-  /// False if `agents_max` is reached or the id is present. `effective_from`: the greatest time
+  /// False if `agents_max` is reached or the id is present. An agent that comes after Remove() has
+  /// another id (a new generation): the former one is judged a last time beside it. `effective_from`: the greatest time
   /// granted to anybody it can meet (simulated clock), else the state's stamp.
   bool Admit(const AgentId& id, const AgentDeclaration& declaration, const MotionState& state,
              Instant effective_from);

@@ -199,6 +199,10 @@ void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, I
   };
   found_.clear();
   broad_phase_.Meetings(agent, from, until, horizon, skip, &found_);
+  // They have been put into order since: what was seen first need not stand first.
+  first_.clear();
+  first_full = kNobody;
+  seen = 0;
   look();
   if (first_.size() > room) first_full = std::min(first_full, first_.front());
   const std::uint32_t end = first_.size() > room ? first_.front() : kNobody;
