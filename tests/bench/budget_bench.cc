@@ -11,15 +11,25 @@ namespace {
 
 constexpr char kScene[] = "spaceships-100";
 
-struct Plan {
-  std::vector<double> budgets;  ///< [µs]
-  double seconds;               ///< Simulated.
+/// Either what a pair may cost in its turn, or what all pairs together may cost in a step.
+struct Budget {
+  const char* kind;
+  const char* field;                ///< Of the service's configuration.
+  std::vector<double> quick, full;  ///< [µs]
 };
 
-Plan PlanOf(bool quick) {
-  if (quick) return {{0, 50, 200, 500, 2000}, 8};
-  return {{0, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}, 20};
+std::vector<Budget> Budgets() {
+  return {{"a pair's turn",
+           "time_budget_us",
+           {0, 50, 200, 2000},
+           {0, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}},
+          {"a step of all pairs",
+           "step_budget_us",
+           {100, 1000, 10000},
+           {20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 50000}}};
 }
+
+double SecondsOf(bool quick) { return quick ? 8 : 20; }
 
 /// Widths of nothing are not measured.
 std::optional<double> Counted(const v1::Quantiles& quantiles, double value) {
@@ -33,14 +43,14 @@ std::uint64_t CounterOf(const v1::RunReport& report, const std::string& name) {
   return 0;
 }
 
-std::string RowOf(double budget, const v1::RunReport& report) {
+std::string RowOf(const Budget& of, double budget, const v1::RunReport& report) {
   const double closed = static_cast<double>(report.events_ended() + report.events_undecided() +
                                             report.events_dismissed());
   const auto undecided = static_cast<double>(report.events_undecided());
   const auto width = [](const v1::Quantiles& q) { return Counted(q, q.p50()); };
   return Object(
-      {Text("part", "budget"), Text("scene", kScene), Number("time_budget_us", budget),
-       Number("agents", report.agents()),
+      {Text("part", "budget"), Text("scene", kScene), Text("kind", of.kind),
+       Number("budget_us", budget), Number("agents", report.agents()),
        Number("contacts_true", static_cast<double>(report.contacts_true())),
        Number("contacts_unannounced", static_cast<double>(report.contacts_unannounced())),
        Number("undecided", undecided), Number("closed", closed),
@@ -59,43 +69,54 @@ std::string RowOf(double budget, const v1::RunReport& report) {
            "come (60 a second)")});
 }
 
-int Run(const SceneFolders& folders, bool quick, const std::string& json) {
-  const Plan plan = PlanOf(quick);
-  Figures figures({"unannounced_misses", "begin_width_least_over_most_budget", "runs_failed"});
+struct Sums {
   std::vector<std::string> rows;
   double unannounced = 0, failed = 0;
-  std::optional<double> first, last;
-  for (const double budget : plan.budgets) {
-    char config[60];
-    std::snprintf(config, sizeof config, "time_budget_us: %.0f", budget);
-    const auto report =
-        RunScene(folders, {.scene = kScene, .seconds = plan.seconds, .config = config});
-    if (!report) {
-      ++failed;
-      continue;
-    }
-    unannounced += static_cast<double>(report->contacts_unannounced());
-    const auto width = Counted(report->begin_width_s(), report->begin_width_s().p50());
-    if (width && !first) first = width;
-    if (width) last = width;
-    rows.push_back(RowOf(budget, *report));
-    std::fprintf(stderr, "bench: %s, %s: begin bracket %s\n", kScene, config,
-                 width ? SecondsText(*width).c_str() : "-");
+  std::optional<double> first, last;  ///< Median widths of the begin, of pairs' turns.
+};
+
+void RunOne(const SceneFolders& folders, bool quick, const Budget& of, double budget, Sums* sums) {
+  char config[60];
+  std::snprintf(config, sizeof config, "%s: %.0f", of.field, budget);
+  const auto report =
+      RunScene(folders, {.scene = kScene, .seconds = SecondsOf(quick), .config = config});
+  if (!report) {
+    ++sums->failed;
+    return;
   }
-  figures.Set("unannounced_misses", unannounced);
-  figures.Set("runs_failed", failed);
-  if (first && *last > 0) figures.Set("begin_width_least_over_most_budget", *first / *last);
+  sums->unannounced += static_cast<double>(report->contacts_unannounced());
+  const auto width = Counted(report->begin_width_s(), report->begin_width_s().p50());
+  if (width && !sums->first) sums->first = width;
+  if (width && std::string(of.field) == "time_budget_us") sums->last = width;
+  sums->rows.push_back(RowOf(of, budget, *report));
+  std::fprintf(stderr, "bench: %s, %s: begin bracket %s\n", kScene, config,
+               width ? SecondsText(*width).c_str() : "-");
+}
+
+int Run(const SceneFolders& folders, bool quick, const std::string& json) {
+  Figures figures({"unannounced_misses", "begin_width_least_over_most_budget", "runs_failed"});
+  Sums sums;
+  for (const Budget& of : Budgets()) {
+    for (const double budget : quick ? of.quick : of.full) {
+      RunOne(folders, quick, of, budget, &sums);
+    }
+  }
+  figures.Set("unannounced_misses", sums.unannounced);
+  figures.Set("runs_failed", sums.failed);
+  if (sums.first && sums.last.value_or(0) > 0) {
+    figures.Set("begin_width_least_over_most_budget", *sums.first / *sums.last);
+  }
   std::fputs(figures.Table().c_str(), stdout);
   if (!json.empty()) {
     std::ofstream file(json);
-    file << figures.Json(rows);
+    file << figures.Json(sums.rows);
     file.close();
     if (!file) {
       std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
       return 74;
     }
   }
-  return failed == 0 ? 0 : 1;
+  return sums.failed == 0 ? 0 : 1;
 }
 
 }  // namespace

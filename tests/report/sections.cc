@@ -1,5 +1,8 @@
 #include "tests/report/sections.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include "tests/report/chart_rows.h"
 #include "tests/report/text.h"
 
@@ -75,9 +78,9 @@ Section Budget(const v1::Results& results) {
   const auto chart = [&](const char* id, const char* title, const char* y_label, const char* field,
                          double factor, bool log_y) {
     Chart made;
-    made.id = id, made.title = title, made.x_label = "time_budget_us", made.y_label = y_label;
+    made.id = id, made.title = title, made.x_label = "budget [µs]", made.y_label = y_label;
     made.log_y = log_y;
-    AddChart(ChartOf(made, rows, {{"scene"}, "time_budget_us", field, 1, factor, kOurs}), &section);
+    AddChart(ChartOf(made, rows, {{"kind"}, "budget_us", field, 1, factor, {"a pair"}}), &section);
   };
   chart("budget-begin", "Begin bracket, median", "width [ms]", "begin_width_p50_s", 1e3, true);
   chart("budget-depth", "Separation bracket, median", "width [m]", "separation_width_p50_m", 1,
@@ -178,6 +181,25 @@ Section Stepping(const v1::Results& results) {
   return section;
 }
 
+/// From here on the fixed costs of a question are not felt.
+constexpr double kGrowthFrom = 1000;
+
+/// The exponent of a least-squares line through the logarithms is put behind the series' name.
+void NameGrowth(Chart* chart) {
+  for (Series& series : chart->series) {
+    double n = 0, x = 0, y = 0, xx = 0, xy = 0;
+    for (const Point& point : series.points) {
+      if (!point.y || point.x < kGrowthFrom || *point.y <= 0) continue;
+      const double a = std::log(point.x), b = std::log(*point.y);
+      n += 1, x += a, y += b, xx += a * a, xy += a * b;
+    }
+    if (n < 2) continue;
+    char text[24];
+    std::snprintf(text, sizeof text, " (N^%.2f)", (n * xy - x * y) / (n * xx - x * x));
+    series.name += text;
+  }
+}
+
 Section BroadPhase(const v1::Results& results) {
   Section section{"broad-phase", "Broad phase and streaming", {}, {}, {}};
   section.paragraphs = {
@@ -195,10 +217,13 @@ Section BroadPhase(const v1::Results& results) {
   Chart streaming;
   streaming.id = "streaming", streaming.title = "One bound renewed, earliest of all kept current";
   streaming.x_label = "agents", streaming.y_label = "time of an update [s]";
-  AddChart(ChartOf(streaming, Select(results, "broad-phase", {{"part", "incremental"}}),
+  AddChart(ChartOf(streaming, Select(results, "streaming", {{"part", "incremental"}}),
                    {{"contestant"}, "agents", "seconds", 1, 1, {"chosen"}}),
            &section);
-  AddWhole(results, "broad-phase", &section);
+  for (Chart& chart : section.charts) NameGrowth(&chart);
+  for (const char* name : {"broad-phase", "streaming", "special-scenes"}) {
+    AddWhole(results, name, &section);
+  }
   return section;
 }
 
