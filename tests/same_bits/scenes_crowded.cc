@@ -11,14 +11,15 @@ std::vector<SimulatedAgent> Clusters(int count, std::int64_t end_ns, Random* ran
   std::vector<SimulatedAgent> agents;
   for (int i = 0; i < count; ++i) {
     const Eigen::Vector3d cluster((i % 7) * 150.0, (i % 3) * 90.0, 0);
-    const Eigen::Vector3d offset(random->Uniform(-20, 20), random->Uniform(-20, 20),
-                                 random->Uniform(-20, 20));
+    // One statement each: compilers evaluate operands in different orders.
+    const double distance = random->Uniform(0, 30);
+    const Eigen::Vector3d offset = distance * random->UnitVector();
+    const double speed = random->LogUniform(0.01, 20);
+    const Eigen::Vector3d velocity = speed * random->UnitVector();
     const double size = random->LogUniform(0.01, 3);
-    agents.push_back(
-        {.radius = size,
-         .acceleration_max = random->LogUniform(0.001, 5),
-         .motion = Straight(cluster + offset, random->LogUniform(0.01, 20) * random->UnitVector(),
-                            end_ns)});
+    agents.push_back({.radius = size,
+                      .acceleration_max = random->LogUniform(0.001, 5),
+                      .motion = Straight(cluster + offset, velocity, end_ns)});
   }
   return agents;
 }

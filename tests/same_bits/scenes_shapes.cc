@@ -67,7 +67,8 @@ SimulatedAgent Turner(const Body& body, std::int64_t end_ns, Random* random) {
                        .motion = Wander(options, end_ns, random),
                        .shape_bytes = body.bytes};
   if (body.bytes.empty()) return agent;
-  const Eigen::Vector3d rate = random->Uniform(0, 3) * random->UnitVector();
+  const double speed = random->Uniform(0, 3);
+  const Eigen::Vector3d rate = speed * random->UnitVector();
   const bool exact = random->Chance(0.5);
   agent.declare = [exact](v1::AgentDescription* wire) {
     wire->set_angular_acceleration_max_rad_s2(exact ? 0 : 0.2);

@@ -75,8 +75,12 @@ Motion Straight(const Eigen::Vector3d& p, const Eigen::Vector3d& v, std::int64_t
 
 Motion Wander(const WanderOptions& options, std::int64_t end_ns, Random* random) {
   const auto somewhere = [&options, random] {
+    // One statement each: compilers evaluate arguments in different orders.
     const double h = options.half_side;
-    return Eigen::Vector3d(random->Uniform(-h, h), random->Uniform(-h, h), random->Uniform(-h, h));
+    const double z = random->Uniform(-h, h);
+    const double y = random->Uniform(-h, h);
+    const double x = random->Uniform(-h, h);
+    return Eigen::Vector3d(x, y, z);
   };
   Motion motion;
   Piece piece{.p = somewhere(), .v = options.speed * 0.5 * random->UnitVector()};

@@ -34,6 +34,16 @@ TEST(ContactTracker, ContactInsideOneSegment) {
   EXPECT_EQ(tracker.free_until(), At(1));
 }
 
+// Times between two nanoseconds: each end goes to the side that claims less.
+TEST(ContactTracker, EndsAreRoundedOutward) {
+  ContactTracker tracker(At(0), false);
+  Apply(&tracker, {100.5e-9, 200.5e-9, 300.5e-9, true, 400.5e-9});
+  const ContactEpisode episode = tracker.TakeFinished().at(0);
+  const auto nanoseconds = [](std::int64_t ns) { return Instant::FromNanoseconds(ns); };
+  EXPECT_EQ(episode.begin, (TimeBracket{nanoseconds(100), nanoseconds(201)}));
+  EXPECT_EQ(episode.end, (TimeBracket{nanoseconds(300), nanoseconds(401)}));
+}
+
 TEST(ContactTracker, ContactAcrossSegmentsJoins) {
   ContactTracker tracker(At(0), false);
   Apply(&tracker, Free());

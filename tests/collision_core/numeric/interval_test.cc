@@ -86,6 +86,22 @@ TEST(Interval, PointsAreTight) {
   }
 }
 
+// Goal:   the greater, the lesser and the magnitude contain those of every two numbers, and each end
+// is that of some two. Method: both ends against those of the operands.
+TEST(Interval, GreaterLesserAndMagnitude) {
+  Random random(5);
+  for (int i = 0; i < kTrials; ++i) {
+    const Interval a = AnyInterval(random), b = AnyInterval(random);
+    const double x = AnyOf(a, random), y = AnyOf(b, random);
+    ASSERT_TRUE(Max(a, b).Contains(std::max(x, y))) << x << ", " << y;
+    ASSERT_TRUE(Min(a, b).Contains(std::min(x, y))) << x << ", " << y;
+    ASSERT_TRUE(Abs(a).Contains(std::abs(x))) << x;
+    ASSERT_EQ(Max(a, b).lower, std::max(a.lower, b.lower));
+    ASSERT_EQ(Min(a, b).upper, std::min(a.upper, b.upper));
+    ASSERT_EQ(Abs(a).upper, std::max(std::abs(a.lower), std::abs(a.upper)));
+  }
+}
+
 // Goal:   what needs no rounding is not rounded: zero terms, halves and small whole numbers.
 TEST(Interval, ExactResultsStayExact) {
   const auto expect_point = [](Interval result, double value) {
