@@ -98,7 +98,7 @@ void JudgeBracket(const BodySegment& first, const BodySegment& second, const Rel
 
 void Brackets(const Setting& setting, Outcome* outcome) {
   Random random(501);
-  for (int i = 0; i < setting.Many(150, 3000); ++i) {
+  for (int i = 0; i < setting.Many(400, 4000); ++i) {
     const double size = std::ldexp(1, static_cast<int>(random.Below(38)) - 18);
     const double other =
         random.Chance(0.5) ? size : std::ldexp(1, static_cast<int>(random.Below(38)) - 18);
@@ -119,7 +119,7 @@ void Brackets(const Setting& setting, Outcome* outcome) {
 // Boxes of which a face is a unit in the last place before, at, and behind the other's.
 void BracketGrazing(const Setting& setting, Outcome* outcome) {
   Random random(502);
-  for (int i = 0; i < setting.Many(30, 600); ++i) {
+  for (int i = 0; i < setting.Many(80, 800); ++i) {
     const double size = std::ldexp(1, static_cast<int>(random.Below(38)) - 18);
     const BodySegment a = At(FormOf(static_cast<int>(random.Below(3)), size));
     const BodySegment b = At(FormOf(static_cast<int>(random.Below(3)), size));

@@ -25,7 +25,7 @@ DetectorOptions OptionsFor(std::uint32_t agents) {
 
 // Everybody at the same point: in contact, or told as saturated, and never silent.
 void OnePoint(const Setting& setting, Outcome* outcome) {
-  const auto agents = static_cast<std::uint32_t>(setting.Many(600, 6000));
+  const auto agents = static_cast<std::uint32_t>(setting.Many(400, 6000));
   const int steps = setting.Many(32, 128);
   const DetectorOptions options = OptionsFor(agents);
   Scene scene(options, Instant(), outcome);

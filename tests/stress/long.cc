@@ -1,10 +1,9 @@
 // A million simulated seconds of a small scene.
-#include <malloc.h>
-
 #include <cmath>
 #include <map>
 
 #include "collision_core/detection/detector.h"
+#include "tests/bench/allocation_counter.h"
 #include "tests/stress/case.h"
 
 namespace collision::stress {
@@ -69,7 +68,8 @@ struct Stretch {
   double widest = 0;     ///< Of the begins' brackets [s].
   double clear_sum = 0;  ///< How far ahead agents were clear, all told [s].
   std::uint64_t steps = 0, contacts = 0;
-  std::size_t live_bytes = 0, queued = 0;
+  std::int64_t live_bytes = 0;
+  std::size_t queued = 0;
   double clear_mean() const { return clear_sum / static_cast<double>(2 * kPairs * steps); }
 };
 
@@ -92,7 +92,7 @@ class LongRun {
       now_ += step_ns;
       Step(&stretch);
     }
-    stretch.live_bytes = mallinfo2().uordblks;
+    stretch.live_bytes = bench::LiveBytes();
     return stretch;
   }
 
