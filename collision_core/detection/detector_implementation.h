@@ -79,6 +79,8 @@ class Detector::Implementation {
   void NoteChanged(std::uint32_t agent);
   void Touch(std::uint32_t agent);
   void Renew(std::uint32_t agent, Instant from, ClearanceCause cause, Instant effective_from);
+  static void NoteCause(ClearanceCause cause, const AgentId& by, Instant void_from,
+                        AgentRecord* record);
   void Tell(std::uint32_t agent, std::uint32_t cause);
 
   // One step (detector_step.cc).

@@ -198,7 +198,7 @@ void Detector::Implementation::Break(std::uint32_t agent, const SpaceTimeBound& 
   AgentRecord& record = At(agent);
   const Instant before = record.stamp();
   Store(agent, next, Link::kBroken);
-  record.void_from = before;
+  NoteCause(ClearanceCause::kBreach, record.id, before, &record);
   Renew(agent, next.state.stamp, ClearanceCause::kBreach, effective_from);
   // Near partners are judged again from the last honest state on: what lies between is unknown.
   for (const std::uint32_t slot : record.pairs) {
@@ -294,8 +294,9 @@ void Detector::Implementation::Renew(std::uint32_t agent, Instant from, Clearanc
   record.renewed_from = std::min(record.renewed_from.value_or(from), from);
   if (record.renewed_cause != ClearanceCause::kBreach) record.renewed_cause = cause;
   record.effective_from = std::max(record.effective_from, effective_from);
-  record.cause = record.renewed_cause;
-  record.cause_agent = record.id;
+  if (record.renewed_cause != ClearanceCause::kBreach) {
+    NoteCause(record.renewed_cause, record.id, Instant::Never(), &record);
+  }
   record.margin = KeyMargin(record.bound());
   NoteChanged(agent);
   Put(agent);
@@ -307,13 +308,22 @@ void Detector::Implementation::Renew(std::uint32_t agent, Instant from, Clearanc
   }
 }
 
+// Of several causes in one step the breach is told that voids promises from earliest on, whatever
+// comes after it: nobody else tells who the culprit was.
+void Detector::Implementation::NoteCause(ClearanceCause cause, const AgentId& by, Instant void_from,
+                                         AgentRecord* record) {
+  if (void_from > record->void_from) return;
+  record->cause = cause;
+  record->cause_agent = by;
+  record->void_from = void_from;
+}
+
 // The partner's clearance may be lowered because of `cause`.
 void Detector::Implementation::Tell(std::uint32_t agent, std::uint32_t cause) {
   AgentRecord& record = At(agent);
   const AgentRecord& source = At(cause);
-  record.cause = source.renewed_cause;
-  record.cause_agent = source.id;
-  if (source.renewed_cause == ClearanceCause::kBreach) record.void_from = source.void_from;
+  const bool breach = source.renewed_cause == ClearanceCause::kBreach;
+  NoteCause(source.renewed_cause, source.id, breach ? source.void_from : Instant::Never(), &record);
   Touch(agent);
 }
 

@@ -1,5 +1,4 @@
-#include <cmath>
-#include <vector>
+#include <algorithm>
 
 #include "collision_core/narrow_phase/contact_time.h"
 #include "server/codec.h"
@@ -101,7 +100,7 @@ void CheckForm(const ContactTime& time, double duration) {
 
 void CheckTruth(const Flier& a, const Flier& b, const ContactTime& time, double duration) {
   for (int i = 0; i <= kSamples; ++i) {
-    const double t = duration * i / kSamples;
+    const double t = std::min(duration * i / kSamples, duration);
     const bool free =
         time.status == ContactStatus::kFree || t < time.begin.lower || t > time.end.upper;
     if (free) Require(!CertainlyTouch(a, b, t), "they touch at ", t, ", told to be free");

@@ -30,6 +30,26 @@ TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
   EXPECT_EQ(line.detector.counters().breaches, 1u);
 }
 
+// Who is admitted in the same step lowers the same clearance, but voids nothing.
+TEST(Detector, BreachIsToldWhateverElseComesInTheSameStep) {
+  Line line;
+  line.Add(1, {0, 0, 0}, {0, 0, 0});
+  line.Add(2, {1000, 0, 0}, {0, 0, 0});
+  line.RunTo(1);
+  line.detector.TakeChangedClearances();
+  const double next = line.now + 1.0 / 16;
+  line.detector.Update(Id(1), State(next, {990, 0, 0}, {0, 0, 0}), At(next));
+  line.detector.Admit(Id(3), {1, 1}, State(next, {1003, 0, 0}, {0, 0, 0}), At(next));
+  line.detector.Advance(At(next));
+  const auto changed = line.detector.TakeChangedClearances();
+  const auto partner = std::find_if(changed.begin(), changed.end(),
+                                    [](const AgentClearance& c) { return c.agent == Id(2); });
+  ASSERT_NE(partner, changed.end());
+  EXPECT_EQ(partner->cause, ClearanceCause::kBreach);
+  EXPECT_EQ(partner->cause_agent, Id(1));
+  EXPECT_EQ(partner->void_from, At(1));
+}
+
 TEST(Detector, DeclaredJumpIsNoBreach) {
   Line line;
   line.Add(1, {0, 0, 0}, {0, 0, 0});
