@@ -141,6 +141,26 @@ TEST(Detector, BeyondItsPairsAnAgentIsSaturatedNotSilent) {
   EXPECT_LE(line.detector.pairs_tracked(), 8u * 3 / 2);
 }
 
+// Its newest state lies ahead: what is promised of it still ends now.
+TEST(Detector, ASaturatedAgentIsNotClearUpToAStateAhead) {
+  DetectorOptions options;
+  options.pairs_per_agent_max = 1;
+  Detector detector(options);
+  for (std::uint32_t slot = 0; slot < 4; ++slot) {
+    detector.Admit(Id(slot), {1, 1}, State(1, {2.5 * slot, 0, 0}, {0, 0, 0}), At(0));
+  }
+  detector.Advance(At(0.5));
+  std::size_t saturated = 0;
+  for (std::uint32_t slot = 0; slot < 4; ++slot) {
+    const AgentClearance clearance = *detector.ClearanceOf(Id(slot));
+    if (!clearance.saturated) continue;
+    ++saturated;
+    EXPECT_TRUE(clearance.not_clear);
+    EXPECT_LE(clearance.clear_until, At(0.5));
+  }
+  EXPECT_GT(saturated, 0u);
+}
+
 // After it was dismissed a pair is covered by its agents' keys again: they turn round and meet.
 TEST(Detector, DismissedPairIsNotForgotten) {
   Line line;

@@ -188,6 +188,21 @@ TEST(ContractRotation, StepWidensTheOrientationOnly) {
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kBreached);
 }
 
+// Goal:   an angular velocity that only the clocks explain widens, though the orientation is as was
+//         predicted. Method: s = 2, α = ½, κ = 0.1: α s = 1, and α (s + 2κ) = 1.1.
+TEST(ContractRotation, ClocksExplainAngularVelocityButWiden) {
+  SpaceTimeBound before = Turning(0.5);
+  before.skew = 0.1;
+  const auto verdict = [&before](double w) {
+    MotionState next = After(before, 2 * kSecond);
+    next.w_WB.x() = w;
+    return CheckContract(before, next).verdict;
+  };
+  EXPECT_EQ(verdict(0.95), ContractVerdict::kKept);
+  EXPECT_EQ(verdict(1.05), ContractVerdict::kWidened);
+  EXPECT_EQ(verdict(1.15), ContractVerdict::kBreached);
+}
+
 // Goal:   errors of both states explain a deviation, but the bound is then no longer inside:
 //         widened; and an error that grows widens by itself. Method: α = 0, 0.1 rad each.
 TEST(ContractRotation, ErrorsExplainButWiden) {

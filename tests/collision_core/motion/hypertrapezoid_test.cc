@@ -103,6 +103,9 @@ TEST(Hypertrapezoid, FirstOverlapIsCertifiedAndTight) {
     if (first == kInfinity) continue;
     ++overlaps;
     late_overlaps += first > 0;
+    if (first > 0) {
+      ASSERT_GE(LargestGap(a, b, Exact(first) / 3), 0) << "overlapped before";
+    }
     const Exact soon = Exact(std::min(3.0, first * (1 + 1e-12) + 1e-12)) / 3;
     ASSERT_LE(LargestGap(a, b, soon), Exact(1e-9));
   }

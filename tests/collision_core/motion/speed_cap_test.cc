@@ -75,6 +75,14 @@ SpaceTimeBound AnyCapped(Random& random) {
 /// The radius about p_WA + shift at t.
 double CappedRadius(const CappedBall& ball, Instant t) { return ball.UFrom(t).c0.upper; }
 
+// Goal:   a step of Euler's at the cap may go ½ M h² too far: V + ½ M h. Method: 4 + ½ 8 ¼ = 5.
+TEST(SpeedCap, StepAddsHalfOfWhatItGains) {
+  SpaceTimeBound bound = Capped({0, 0, 0}, {4, 0, 0}, 8, 4);
+  bound.declaration.time_step = 0.25;
+  EXPECT_EQ(CappedSpeed(bound.declaration).lower, 5);
+  EXPECT_EQ(CappedSpeed(bound.declaration).upper, 5);
+}
+
 // Goal:   the cap takes over when the definition says, to the nanosecond below.
 // Method: |(2, 3, 6)| = 7, in exact arithmetic; a face likewise with half the deviation.
 TEST(SpeedCap, TakesOverWhenTheSlopeReachesIt) {
