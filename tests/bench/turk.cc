@@ -5,6 +5,7 @@
 #include "tests/baselines/local_loop.h"
 #include "tests/baselines/turk_hash.h"
 #include "tests/baselines/window_loop.h"
+#include "tests/bench/frame_times.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/methods.h"
 #include "tests/bench/parts.h"
@@ -31,6 +32,9 @@ struct LoopTimes {
   baselines::FirstCollision first;
 };
 
+/// Where the times of the frames begin among the values of a run.
+constexpr std::ptrdiff_t kFramesFrom = 5;
+
 /// Each frame counts with its least time of several identical runs: the work is the same, and what
 /// the machine does beside it is not of interest. Moving the cubes is not counted.
 std::vector<double> Measure(const MovingCubes::Options& options, const MakeLoop& make,
@@ -55,12 +59,11 @@ std::vector<double> Measure(const MovingCubes::Options& options, const MakeLoop&
   }
   double total = 0;
   for (const double seconds : least) total += seconds;
-  return {total,
-          *std::max_element(least.begin(), least.end()),
-          static_cast<double>(first.frame),
-          static_cast<double>(first.pair.first),
-          static_cast<double>(first.pair.second),
-          static_cast<double>(least.size())};
+  std::vector<double> values = {
+      total, *std::max_element(least.begin(), least.end()), static_cast<double>(first.frame),
+      static_cast<double>(first.pair.first), static_cast<double>(first.pair.second)};
+  values.insert(values.end(), least.begin(), least.end());
+  return values;
 }
 
 class Configuration {
@@ -89,9 +92,10 @@ class Configuration {
       row.seconds = v[0];
       row.answer = Answer{v[2] >= 0, times->first.pair.first, times->first.pair.second,
                           times->first.frame * MovingCubes::kFrameNs};
-      row.more = {Number("slowest_frame_s", v[1]), Number("frames", v[5])};
+      const std::vector<double> frames(v.begin() + kFramesFrom, v.end());
+      row.more = FrameFields(frames);
       char text[80];
-      std::snprintf(text, sizeof text, "slowest frame %.3g us of %.0f", v[1] * 1e6, v[5]);
+      std::snprintf(text, sizeof text, "slowest frame %.3g us of %zu", v[1] * 1e6, frames.size());
       row.remark = text;
     }
     if (!shown) return times;

@@ -1,0 +1,65 @@
+// What is measured of the spaceship simulator, and the table of it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/bench/hubbard_loop.h"
+#include "tests/bench/json.h"
+
+namespace collision::bench {
+
+struct HubbardSettings {
+  bool quick = false;
+  std::string only;  ///< A part of HubbardRow::path(); empty: everything.
+  std::string scenes_dir;
+
+  std::int64_t frames() const { return quick ? 300 : 1200; }
+  int repetitions() const { return quick ? 2 : 5; }
+};
+
+struct HubbardRow {
+  std::string part;   ///< narrow, or both phases.
+  std::string scene;  ///< "20 drones, 2000 m3"
+  std::string method;
+  double seconds = 0;  ///< Of a pair test, median; of a frame, mean.
+  std::string hash;    ///< Of who touches in each frame.
+  std::string remark;
+  std::vector<Field> more;
+
+  std::string path() const { return part + "/" + scene + "/" + method; }
+};
+
+class HubbardReport {
+ public:
+  HubbardReport();
+
+  /// Also says it on the standard error output, so that a long run shows where it is.
+  void Add(HubbardRow row);
+  void Figure(const std::string& name, double value) { figures_.Set(name, value); }
+  void FigureLeast(const std::string& name, double value);
+  void FigureGreatest(const std::string& name, double value);
+  std::string Table() const;
+  std::string Json() const;
+
+ private:
+  std::vector<HubbardRow> rows_;
+  Figures figures_;
+};
+
+/// False: the meshes are not there.
+bool MeasureHubbard(const HubbardSettings& settings, HubbardReport* report);
+
+/// One flight: the exact comparison alone, over the pairs whose balls overlap; and both phases.
+struct HubbardScene {
+  std::string name;
+  const ShipKind& spaceship;
+  const ShipKind& drone;
+  const Flight& flight;
+  FlightOptions options;
+};
+void NarrowRows(const HubbardSettings& settings, const HubbardScene& scene, HubbardReport* report);
+void BothRows(const HubbardSettings& settings, const HubbardScene& scene, HubbardReport* report);
+
+}  // namespace collision::bench
