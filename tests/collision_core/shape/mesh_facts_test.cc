@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/shape/meshes.h"
+#include "tests/support/exact.h"
 
 namespace collision {
 namespace {
@@ -71,6 +72,19 @@ TEST(MeshFacts, RadiusAndBoxAreOfWhatTrianglesUse) {
   EXPECT_EQ(facts.lower, Vector3d(-2, -3, -6));
   EXPECT_EQ(facts.upper, Vector3d(1, 1, 1));
   EXPECT_EQ(facts.components, 1u);
+}
+
+// In exact arithmetic: the radius is not less than any vertex is away, and by a few units at most.
+TEST(MeshFacts, TheRadiusIsRoundedUp) {
+  Random random(52);
+  for (int i = 0; i < 1000; ++i) {
+    const double size = random.LogUniform(1e-6, 1e6);
+    const Vector3d p = size * random.UnitVector();
+    const double radius = FactsOf(Box(p.cwiseMin(-p), p.cwiseMax(-p))).radius;
+    const Exact x = p.x(), y = p.y(), z = p.z(), r = radius, less = radius * (1 - 0x1p-50);
+    ASSERT_GE(r * r, x * x + y * y + z * z);
+    ASSERT_LE(less * less, x * x + y * y + z * z);
+  }
 }
 
 TEST(MeshFacts, FramesStarsAndTanglesAreClosed) {
