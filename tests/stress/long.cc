@@ -136,7 +136,8 @@ class LongRun {
       if (!outcome_->Expect(clearance.has_value(), "no clearance")) continue;
       const long double until = clearance->clear_until.nanoseconds() / 1e9L;
       stretch->clear_sum += std::max(0.0, static_cast<double>(until - now_ / 1e9L));
-      if (announced_[pair]) continue;
+      // Two that are told to touch begin no new contact until that has ended.
+      if (touching_[pair]) continue;
       outcome_->Expect(until <= begin, "told clear beyond a contact");
     }
   }
@@ -144,9 +145,7 @@ class LongRun {
   void Take(const CollisionEvent& event, Stretch* stretch) {
     const int pair = static_cast<int>(event.lower.slot / 2);
     outcome_->Expect(event.higher.slot == event.lower.slot + 1, "a contact of two that never meet");
-    const bool open =
-        event.status == EventStatus::kPossible || event.status == EventStatus::kConfirmed;
-    announced_[pair] = open;
+    touching_[pair] = event.status == EventStatus::kConfirmed;
     if (event.status != EventStatus::kEnded) return;
     // The contacts of a pair come one after the other; the next is the one of its number.
     long double begin, end;
@@ -170,7 +169,7 @@ class LongRun {
   Outcome* outcome_;
   std::int64_t now_ = 0;
   std::map<int, std::int64_t> told_;
-  bool announced_[kPairs] = {};
+  bool touching_[kPairs] = {};
 };
 
 /// Slots of pairs rest until a thousand others have been freed: until then memory takes its place [s].

@@ -94,6 +94,22 @@ void Resting(const Setting& setting, Outcome* outcome) {
   RunSteadily(&scene, setting.Many(640, 6400), outcome);
 }
 
+// Cubes head on, of the smallest size that the edge lets pass to nearly the largest.
+void ShapeScenes(const Setting&, Outcome* outcome) {
+  for (int exponent = -20; exponent <= 20; exponent += 5) {
+    const double half = std::ldexp(1, exponent);
+    const auto cube = Shape::Build(Cube(half));
+    Scene scene(Limited(), Instant(), outcome);
+    const Vector3d x(1, 0, 0);
+    const auto a = scene.Add(Of(cube, 0), Straight(-7 * half * x, 4 * half * x));
+    const auto b = scene.Add(Of(cube, 0), Straight(7 * half * x, -4 * half * x));
+    scene.Touch(a, b, 1.5, 2);
+    scene.Run(kStep, 192);
+    scene.Judge(kStepSeconds, true);
+    SayScene(scene, outcome);
+  }
+}
+
 void Stack(const Setting& setting, Outcome* outcome) {
   Scene scene(Limited(), Instant(), outcome);
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
@@ -269,6 +285,10 @@ std::vector<Case> RestingCases() {
            "events of calm pairs are the same bits with and without a violent agent: times, "
            "revisions, and how often each pair was judged",
            Violent},
+          {"extreme", "shape-scenes",
+           "cubes of 2^-20 to 2^20 m: contact is never missed or told late, and confirmed; begins "
+           "within a step",
+           ShapeScenes},
           {"stiff", "resting", kSteady, Resting},
           {"stiff", "stack", kSteady, Stack},
           {"stiff", "rolling", kSteady, Rolling},

@@ -137,10 +137,11 @@ void Scene::CheckBrackets(const CollisionEvent& event) {
   }
 }
 
-// Never late: who is told to be clear does not touch before, but for contacts told as possible.
+// Never late: who is told to be clear begins no new contact before. Two that are told to touch
+// begin none until that has ended.
 void Scene::CheckClearances() {
   for (const Meeting& meeting : meetings_) {
-    if (meeting.announced || meeting.begin < elapsed()) continue;
+    if (meeting.begin <= elapsed() || IsToldToTouch(meeting)) continue;
     for (const std::uint32_t agent : {meeting.a, meeting.b}) {
       const auto clearance = detector_.ClearanceOf(IdOf(agent));
       if (!outcome_->Expect(clearance.has_value(), "no clearance")) continue;
@@ -149,6 +150,14 @@ void Scene::CheckClearances() {
                        Named("told clear beyond a contact", meeting.a, meeting.b, meeting.begin));
     }
   }
+}
+
+bool Scene::IsToldToTouch(const Meeting& meeting) const {
+  const auto of_pair = newest_.find({meeting.a, meeting.b});
+  if (of_pair == newest_.end()) return false;
+  return std::any_of(of_pair->second.begin(), of_pair->second.end(), [&](const auto& contact) {
+    return events_[contact.second].status == EventStatus::kConfirmed;
+  });
 }
 
 const CollisionEvent* Scene::Covering(const Meeting& meeting) const {

@@ -70,6 +70,7 @@ class Scene {
   void TakeEvents();
   void CheckBrackets(const CollisionEvent& event);
   void CheckClearances();
+  bool IsToldToTouch(const Meeting& meeting) const;
   const CollisionEvent* Covering(const Meeting& meeting) const;
   bool TouchAtAll(const CollisionEvent& event) const;
 
