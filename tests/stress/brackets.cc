@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// K: a bracket is at most so many units in the last place of place and size wide.
-constexpr double kBracketUnits = 128;
+constexpr double kBracketUnits = 1024;
 constexpr std::uint64_t kUnits = 200'000;
 
 std::shared_ptr<const Shape> FormOf(int kind, double size) {
@@ -135,7 +135,7 @@ void BracketGrazing(const Setting& setting, Outcome* outcome) {
 }
 
 const char* const kPromise =
-    "brackets of the distance contain the exact one, decisions are never wrong; at most 128 units "
+    "brackets of the distance contain the exact one, decisions are never wrong; at most 1024 units "
     "in the last place of place and size wide; work within what is allowed";
 
 }  // namespace
