@@ -3,6 +3,26 @@
 #include <algorithm>
 
 namespace collision {
+namespace {
+
+// Two states may each keep what was declared, and no motion lead from the one to the other: then one
+// bound says apart, and another touching, at the same time. There nothing is certain, and brackets
+// hold what both say.
+SegmentVerdict WithoutContradiction(SegmentVerdict verdict) {
+  if (verdict.contact_from > verdict.contact_to) return verdict;
+  const SegmentVerdict said = verdict;
+  if (said.free_until > said.contact_from) {
+    verdict.free_until = said.contact_from;
+    verdict.contact_from = said.free_until;
+  }
+  if (said.free_from < said.contact_to) {
+    verdict.free_from = said.contact_to;
+    verdict.contact_to = said.free_from;
+  }
+  return verdict;
+}
+
+}  // namespace
 
 ContactTracker::ContactTracker(Instant free_until, bool began_before)
     : at_(free_until), began_before_(began_before) {}
@@ -65,8 +85,9 @@ void ContactTracker::Touch(const SegmentVerdict& verdict, Instant from, Instant 
   }
 }
 
-void ContactTracker::Apply(const SegmentVerdict& verdict, Instant to, const Nearest& nearest,
+void ContactTracker::Apply(const SegmentVerdict& said, Instant to, const Nearest& nearest,
                            const ContactNormal& normal) {
+  const SegmentVerdict verdict = WithoutContradiction(said);
   const Instant from = at_;
   const Instant free_until = AddRoundedDown(from, verdict.free_until);
   const bool free_throughout = free_until >= to;

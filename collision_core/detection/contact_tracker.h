@@ -57,7 +57,7 @@ class ContactTracker {
 
   /// The verdict on [at(), to]; `nearest` is given where the verdict is not all free, `normal` where
   /// shapes came near each other.
-  void Apply(const SegmentVerdict& verdict, Instant to, const Nearest& nearest,
+  void Apply(const SegmentVerdict& said, Instant to, const Nearest& nearest,
              const ContactNormal& normal);
 
   /// Episodes that have ended since the last call.

@@ -44,6 +44,21 @@ TEST(ContactTracker, EndsAreRoundedOutward) {
   EXPECT_EQ(episode.end, (TimeBracket{nanoseconds(300), nanoseconds(401)}));
 }
 
+// One bound says apart where the other says touching: nothing is certain there, but brackets stay in
+// order and hold both.
+TEST(ContactTracker, ContradictingBoundsKeepBracketsInOrder) {
+  ContactTracker tracker(At(0), false);
+  Apply(&tracker, {0.5, 0.25, 0.75, true, 1});
+  EXPECT_EQ(tracker.episode().begin, (TimeBracket{At(0.25), At(0.5)}));
+  EXPECT_EQ(tracker.episode().end.earliest, At(0.75));
+  ContactTracker never(At(0), false);
+  Apply(&never, {0.75, 0.5, 0.625, true, 0.25});
+  EXPECT_FALSE(never.in_contact());
+  ASSERT_EQ(never.finished().size(), 1u);
+  EXPECT_FALSE(never.finished()[0].contact);
+  EXPECT_EQ(never.finished()[0].begin, (TimeBracket{At(0.5), At(0.625)}));
+}
+
 TEST(ContactTracker, ContactAcrossSegmentsJoins) {
   ContactTracker tracker(At(0), false);
   Apply(&tracker, Free());
