@@ -55,10 +55,13 @@ Series* SeriesOf(const std::string& name, const ChartFields& fields, Chart* char
 
 Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartFields& fields) {
   for (const Row* row : rows) {
-    const auto x = NumberOf(*row, fields.x), y = NumberOf(*row, fields.y);
+    const auto x = NumberOf(*row, fields.x);
+    auto y = NumberOf(*row, fields.y);
+    if (!y) y = NumberOf(*row, fields.y_else);
     const std::string wrong = WrongAnswers(*row), given_up = GivenUp(*row);
     if (!x || (!y && wrong.empty() && given_up.empty())) continue;
     Series* series = SeriesOf(TextOf(*row, fields.series), fields, &chart);
+    series->ours |= TextOf(*row, "who") == "ours";
     if (series->limited_by.empty()) series->limited_by = TextOf(*row, "limited_by");
     Point point{*x * fields.x_factor, std::nullopt, wrong.empty() ? given_up : wrong};
     if (y && wrong.empty()) point.y = *y * fields.y_factor;

@@ -15,9 +15,11 @@ struct ChartFields {
   std::string x, y;
   double x_factor = 1, y_factor = 1;
   std::vector<std::string> ours = {};  ///< Series that begin with one of these are drawn thicker.
+  std::string y_else = {};             ///< Taken where there is no y.
 };
 
-/// A series for each text of the series' fields, in the order in which they come; points by x. A row
+/// A series for each text of the series' fields, in the order in which they come; points by x. Rows
+/// whose field "who" is "ours" are drawn thicker, too. A row
 /// with "misses" or "false_alarms" above 0 becomes a cross at infinity, with what it missed as its
 /// note; so does one without y that was given up, noted as "> x s". `chart` brings the words.
 Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartFields& fields);

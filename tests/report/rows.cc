@@ -15,7 +15,9 @@ const google::protobuf::Value* ValueOf(const Row& row, const std::string& field)
 bool Meets(const Row& row, const Condition& condition) {
   const auto& [field, wanted] = condition;
   const std::string text = TextOf(row, field);
-  return wanted.starts_with('!') ? text != wanted.substr(1) : text == wanted;
+  if (wanted.starts_with('!')) return text != wanted.substr(1);
+  if (wanted.ends_with('*')) return text.starts_with(wanted.substr(0, wanted.size() - 1));
+  return text == wanted;
 }
 
 }  // namespace
@@ -71,6 +73,15 @@ std::vector<const Row*> Select(const v1::Results& results, const std::string& ex
     if (wanted) rows.push_back(&row);
   }
   return rows;
+}
+
+std::vector<std::string> TextsOf(const std::vector<const Row*>& rows, const std::string& field) {
+  std::vector<std::string> texts;
+  for (const Row* row : rows) {
+    const std::string text = TextOf(*row, field);
+    if (std::find(texts.begin(), texts.end(), text) == texts.end()) texts.push_back(text);
+  }
+  return texts;
 }
 
 }  // namespace collision::report

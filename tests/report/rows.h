@@ -12,7 +12,7 @@ namespace collision::report {
 
 using Row = google::protobuf::Struct;
 
-/// A field must be this text. What begins with "!" must not be it.
+/// A field must be this text. "!text": must not be it; "text*": must begin with it.
 using Condition = std::pair<std::string, std::string>;
 
 /// Nullopt: not there, null, or not a number.
@@ -30,5 +30,8 @@ std::optional<double> FigureOf(const v1::Results& results, const std::string& ex
 /// The rows that meet all conditions, in their order. None where the experiment is missing.
 std::vector<const Row*> Select(const v1::Results& results, const std::string& experiment,
                                const std::vector<Condition>& conditions);
+
+/// The different texts of a field, in the order in which they come.
+std::vector<std::string> TextsOf(const std::vector<const Row*>& rows, const std::string& field);
 
 }  // namespace collision::report

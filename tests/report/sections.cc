@@ -1,5 +1,7 @@
 #include "tests/report/sections.h"
 
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -37,33 +39,46 @@ void AddWhole(const v1::Results& results, const std::string& name, Section* sect
 
 const std::vector<std::string> kOurs = {"ours"};
 
+/// What a file may be called.
+std::string IdOf(const std::string& text) {
+  std::string id;
+  for (const char c : text) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0;
+    if (plain || (!id.empty() && id.back() != '-')) id += plain ? c : '-';
+  }
+  return id;
+}
+
+/// A plot for each motion and pair of bodies.
+void AddPrecision(const v1::Results& results, const std::string& part, const std::string& id,
+                  const std::string& what, const std::string& y_label, Section* section) {
+  const auto rows = Select(results, "precision", {{"part", part}});
+  for (const std::string& motion : TextsOf(rows, "motion")) {
+    for (const std::string& mesh :
+         TextsOf(Select(results, "precision", {{"part", part}, {"motion", motion}}), "mesh")) {
+      Chart chart;
+      chart.id = id + "-" + motion + "-" + IdOf(mesh);
+      chart.title = what + ", " + motion + ": " + mesh;
+      chart.x_label = "time of a query [s]", chart.y_label = y_label;
+      chart.caption =
+          "Lower and further left is better. Curves of ours: the width that is certified.";
+      AddChart(ChartOf(chart,
+                       Select(results, "precision",
+                              {{"part", part}, {"motion", motion}, {"mesh", mesh}}),
+                       {{"method"}, "seconds", "width", 1, 1, kOurs, "error"}),
+               section);
+    }
+  }
+}
+
 Section Precision(const v1::Results& results) {
   Section section{"precision", "Error against run time", {}, {}, {}};
   section.paragraphs = {
       "How wide the certified bracket is (ours), or how far from the truth the answer is (theirs), "
       "over the time of one query. A cross on the upper edge: answers that say no where the truth "
       "is yes, or yes where it is no; no time makes up for that."};
-  for (const auto& [motion, words] : std::vector<std::pair<const char*, const char*>>{
-           {"translation", "moved apart along a line"},
-           {"rotation", "turned against each other"},
-           {"grazing", "about to touch, or just touching"}}) {
-    Chart chart;
-    chart.id = std::string("distance-") + motion;
-    chart.title = std::string("Distance of two meshes, ") + words;
-    chart.x_label = "time of a query [s]", chart.y_label = "width or error [m]";
-    chart.caption = "Lower and further left is better. Both bodies are 2 m across.";
-    const auto rows = Select(results, "precision", {{"part", "precision"}, {"motion", motion}});
-    AddChart(ChartOf(chart, rows, {{"method", "mesh"}, "seconds", "width", 1, 1, kOurs}), &section);
-  }
-  for (const char* motion : {"translation", "rotation", "grazing"}) {
-    Chart chart;
-    chart.id = std::string("contact-") + motion;
-    chart.title = std::string("Time of contact, ") + motion;
-    chart.x_label = "time of a query [s]", chart.y_label = "width or error [s]";
-    chart.caption = "Steps of a second, where the truth is known in closed form.";
-    const auto rows = Select(results, "precision", {{"part", "contact"}, {"motion", motion}});
-    AddChart(ChartOf(chart, rows, {{"method", "mesh"}, "seconds", "width", 1, 1, kOurs}), &section);
-  }
+  AddPrecision(results, "precision", "distance", "Distance", "width or error [m]", &section);
+  AddPrecision(results, "contact", "contact", "Time of contact", "width or error [s]", &section);
   AddWhole(results, "precision", &section);
   return section;
 }
@@ -89,6 +104,23 @@ Section Budget(const v1::Results& results) {
         false);
   AddWhole(results, "budget", &section);
   return section;
+}
+
+/// A curve for each method from a field that is a list: one value a step.
+Chart SeriesChart(Chart chart, const std::vector<const Row*>& rows, const std::string& field) {
+  for (const Row* row : rows) {
+    const auto found = row->fields().find(field);
+    if (found == row->fields().end() || !found->second.has_list_value()) continue;
+    Series series;
+    series.name = TextOf(*row, "method");
+    series.ours = series.name.starts_with("horns and sphere");
+    for (const auto& value : found->second.list_value().values()) {
+      series.points.push_back(
+          {static_cast<double>(series.points.size()), value.number_value(), ""});
+    }
+    chart.series.push_back(series);
+  }
+  return chart;
 }
 
 /// Without the second loop of ours; whatever its cell, Turk's hash is one contestant.
@@ -138,11 +170,35 @@ Section Hubbard(const v1::Results& results) {
                     {"slowest_frame_s", "slowest frame"},
                     {"frames", "frames"}}),
            &section);
-  Chart both;
-  both.id = "hubbard-both", both.title = "Both phases together in the spaceship simulator";
-  both.x_label = "drones", both.y_label = "time of all frames [s]";
-  AddChart(ChartOf(both, Select(results, "hubbard", {{"part", "both"}}),
-                   {{"method"}, "agents", "seconds", 1, 1, kOurs}),
+  AddTable(TableOf("The narrow phase alone, the spaceship simulator's pair tests",
+                   Select(results, "hubbard", {{"part", "narrow"}}),
+                   {{"scene", "scene"},
+                    {"method", "method"},
+                    {"tests", "pair tests"},
+                    {"seconds", "one, median"},
+                    {"slowest_s", "slowest"},
+                    {"wrong", "wrong"}}),
+           &section);
+  for (const std::string& scene :
+       TextsOf(Select(results, "hubbard", {{"part", "both"}}), "scene")) {
+    Chart frames;
+    frames.id = "frames-" + IdOf(scene), frames.title = "Time of each frame, both phases: " + scene;
+    frames.x_label = "frame", frames.y_label = "time [s]", frames.log_x = false;
+    frames.caption = "The slowest frames stand out; each is the least of several identical runs.";
+    AddChart(SeriesChart(frames, Select(results, "hubbard", {{"part", "both"}, {"scene", scene}}),
+                         "frame_series_s"),
+             &section);
+  }
+  AddTable(TableOf("Both phases together in the spaceship simulator",
+                   Select(results, "hubbard", {{"part", "both"}}),
+                   {{"scene", "scene"},
+                    {"method", "method"},
+                    {"total_s", "all frames"},
+                    {"frame_p50_s", "median frame"},
+                    {"frame_p99_s", "p99"},
+                    {"slowest_frame_s", "slowest frame"},
+                    {"contacts", "contacts"},
+                    {"frames_that_differ", "frames that differ"}}),
            &section);
   AddWhole(results, "turk", &section);
   AddWhole(results, "hubbard", &section);
@@ -232,25 +288,32 @@ Section Service(const v1::Results& results) {
   section.paragraphs = {
       "From a simulator's update to the event it causes, beside a daemon of the same bus code that "
       "does nothing but answer; and how many messages a fixed stream would need for the same."};
-  for (const auto& [part, words] : std::vector<std::pair<const char*, const char*>>{
-           {"latency", "Update to event"}, {"throughput", "Updates a second"}}) {
+  const auto rows = Select(results, "service", {{"part", "latency"}});
+  const auto beside = [&](const char* id, const char* title, const char* y_label,
+                          const char* field) {
     Chart chart;
-    chart.id = std::string("service-") + part;
-    chart.title = words, chart.x_label = "agents";
-    const bool latency = std::string(part) == "latency";
-    chart.y_label = latency ? "median [s]" : "updates a second";
-    AddChart(
-        ChartOf(
-            chart, Select(results, "service", {{"part", part}}),
-            {{"contestant"}, "agents", latency ? "p50_s" : "updates_per_s", 1, 1, {"collisiond"}}),
-        &section);
+    chart.id = id, chart.title = title, chart.x_label = "agents", chart.y_label = y_label;
+    AddChart(ChartOf(chart, rows, {{"contestant"}, "agents", field, 1, 1, {"collisiond"}}),
+             &section);
+  };
+  beside("service-event", "Update to event", "median [s]", "event_p50_s");
+  beside("service-event-p99", "Update to event, the slowest hundredth", "p99 [s]", "event_p99_s");
+  beside("service-throughput", "Updates a second", "updates a second", "updates_per_s");
+  for (const auto& [sweep, field, label] :
+       {std::array<const char*, 3>{"acceleration", "acceleration_max_m_s2",
+                                   "greatest acceleration [m/s²]"},
+        std::array<const char*, 3>{"spacing", "spacing_m", "distance of neighbours [m]"},
+        std::array<const char*, 3>{"speed", "speed_m_s", "speed [m/s]"}}) {
+    Chart saved;
+    saved.id = std::string("messages-") + sweep;
+    saved.title = std::string("States of a fixed stream for one of ours, over ") + sweep;
+    saved.x_label = label, saved.y_label = "ratio";
+    AddChart(ChartOf(saved,
+                     Select(results, "service",
+                            {{"part", "messages"}, {"sweep", sweep + std::string("=*")}}),
+                     {{"part"}, field, "ratio"}),
+             &section);
   }
-  Chart saved;
-  saved.id = "messages", saved.title = "States that a fixed stream sends for one of ours";
-  saved.x_label = "greatest acceleration [m/s²]", saved.y_label = "ratio";
-  AddChart(ChartOf(saved, Select(results, "service", {{"part", "messages"}}),
-                   {{"scene"}, "acceleration_max", "ratio", 1, 1, {}}),
-           &section);
   AddWhole(results, "service", &section);
   return section;
 }
@@ -312,7 +375,7 @@ std::vector<Section> SectionsOf(const v1::Results& results) {
 }
 
 std::vector<ReadmePlot> ReadmePlots() {
-  return {{"distance-translation",
+  return {{"distance-translation-homer-500",
            "Error against run time: the width of our certified bracket, and the true error of the "
            "libraries, over the time of a query"},
           {"budget-begin", "The service: the budget of a pair's turn against the begin bracket"},
