@@ -18,20 +18,6 @@ constexpr double kCells[] = {1.5, 2, 3, 4, 6, 8, 12, 16};
 
 constexpr double kStandardVolume = 2000;
 
-bool Wanted(const HubbardSettings& settings, const HubbardRow& row) {
-  return row.path().find(settings.only) != std::string::npos;
-}
-
-HubbardRow RowOf(const std::string& part, const HubbardScene& scene, const std::string& method) {
-  HubbardRow row;
-  row.part = part, row.scene = scene.name, row.method = method;
-  row.more = {Number("drones", scene.options.drones), Number("volume_m3", scene.options.volume),
-              Number("seed", static_cast<double>(scene.options.seed)),
-              Number("bounces", static_cast<double>(scene.flight.bounces())),
-              Number("undecided", static_cast<double>(scene.flight.undecided()))};
-  return row;
-}
-
 /// Of a figure that is shown for two sizes at the demo's density.
 bool IsStandard(const HubbardScene& scene) {
   return scene.options.volume == kStandardVolume &&

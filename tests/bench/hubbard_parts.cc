@@ -7,10 +7,16 @@
 namespace collision::bench {
 namespace {
 
-const std::vector<std::string> kFigures = {
-    "narrow_bsp_over_ours_20",     "narrow_bsp_over_ours_100",      "both_turk_bsp_over_ours_20",
-    "both_turk_bsp_over_ours_100", "both_turk_bsp_over_ours_worst", "both_turk_bsp_over_ours_best",
-    "both_slowest_frame_worst",    "both_slowest_frame_best",       "frames_that_differ"};
+const std::vector<std::string> kFigures = {"narrow_bsp_over_ours_20",
+                                           "narrow_bsp_over_ours_100",
+                                           "both_turk_bsp_over_ours_20",
+                                           "both_turk_bsp_over_ours_100",
+                                           "both_turk_bsp_over_ours_worst",
+                                           "both_turk_bsp_over_ours_best",
+                                           "both_slowest_frame_worst",
+                                           "both_slowest_frame_best",
+                                           "frames_that_differ",
+                                           "service_missed"};
 
 constexpr std::size_t kPartWidth = 8, kSceneWidth = 22, kMethodWidth = 30, kTimeWidth = 12,
                       kHashWidth = 18;
@@ -78,6 +84,10 @@ void HubbardReport::FigureGreatest(const std::string& name, double value) {
   figures_.Set(name, std::max(figures_.Get(name).value_or(value), value));
 }
 
+void HubbardReport::FigureSum(const std::string& name, double value) {
+  figures_.Set(name, figures_.Get(name).value_or(0) + value);
+}
+
 std::string HubbardReport::Table() const {
   std::string text = Padded("part", kPartWidth) + Padded("scene", kSceneWidth) +
                      Padded("method", kMethodWidth) + Padded("time", kTimeWidth) + "result hash\n";
@@ -93,6 +103,20 @@ std::string HubbardReport::Json() const {
   return figures_.Json(measurements);
 }
 
+bool Wanted(const HubbardSettings& settings, const HubbardRow& row) {
+  return row.path().find(settings.only) != std::string::npos;
+}
+
+HubbardRow RowOf(const std::string& part, const HubbardScene& scene, const std::string& method) {
+  HubbardRow row;
+  row.part = part, row.scene = scene.name, row.method = method;
+  row.more = {Number("drones", scene.options.drones), Number("volume_m3", scene.options.volume),
+              Number("seed", static_cast<double>(scene.options.seed)),
+              Number("bounces", static_cast<double>(scene.flight.bounces())),
+              Number("undecided", static_cast<double>(scene.flight.undecided()))};
+  return row;
+}
+
 bool MeasureHubbard(const HubbardSettings& settings, HubbardReport* report) {
   const auto spaceship = ReadKind(settings.scenes_dir + "/spaceship.obj", 6, 10);
   const auto drone = ReadKind(settings.scenes_dir + "/drone-ship.obj", 5, 6);
@@ -104,6 +128,7 @@ bool MeasureHubbard(const HubbardSettings& settings, HubbardReport* report) {
                              *spaceship, *drone, flight, options};
     NarrowRows(settings, scene, report);
     BothRows(settings, scene, report);
+    ServiceRows(settings, scene, report);
   }
   return true;
 }

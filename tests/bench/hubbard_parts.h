@@ -20,7 +20,7 @@ struct HubbardSettings {
 };
 
 struct HubbardRow {
-  std::string part;   ///< narrow, or both phases.
+  std::string part;   ///< narrow, both phases, or service.
   std::string scene;  ///< "20 drones, 2000 m3"
   std::string method;
   double seconds = 0;  ///< Of a pair test, median; of a frame, mean.
@@ -39,6 +39,7 @@ class HubbardReport {
   void Add(HubbardRow row);
   void Figure(const std::string& name, double value) { figures_.Set(name, value); }
   void FigureLeast(const std::string& name, double value);
+  void FigureSum(const std::string& name, double value);
   void FigureGreatest(const std::string& name, double value);
   std::string Table() const;
   std::string Json() const;
@@ -61,5 +62,11 @@ struct HubbardScene {
 };
 void NarrowRows(const HubbardSettings& settings, const HubbardScene& scene, HubbardReport* report);
 void BothRows(const HubbardSettings& settings, const HubbardScene& scene, HubbardReport* report);
+/// The detector itself, at several budgets a frame.
+void ServiceRows(const HubbardSettings& settings, const HubbardScene& scene, HubbardReport* report);
+
+/// Named, not measured.
+HubbardRow RowOf(const std::string& part, const HubbardScene& scene, const std::string& method);
+bool Wanted(const HubbardSettings& settings, const HubbardRow& row);
 
 }  // namespace collision::bench
