@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kTestsMax = 2000;
 
 /// Turk's cells [m].
-constexpr double kCells[] = {1.5, 2, 3, 4, 6, 8, 12, 16};
+constexpr double kCells[] = {1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
 
 constexpr double kStandardVolume = 2000;
 
@@ -144,6 +144,19 @@ void AddRun(const HubbardScene& scene, const std::string& method, const Run& run
   report->FigureGreatest("frames_that_differ", static_cast<double>(run.differ));
 }
 
+/// In all and of the slowest frames, each the least and the most of all flights. Returns the former.
+double Compare(const Run& theirs, const Run& ours, const std::string& name, HubbardReport* report) {
+  const auto slowest = [](const Run& run) {
+    return *std::max_element(run.frames.begin(), run.frames.end());
+  };
+  const double total = theirs.total() / ours.total(), slow = slowest(theirs) / slowest(ours);
+  report->FigureLeast("both_" + name + "_over_ours_worst", total);
+  report->FigureGreatest("both_" + name + "_over_ours_best", total);
+  report->FigureLeast("slowest_frame_" + name + "_over_ours_worst", slow);
+  report->FigureGreatest("slowest_frame_" + name + "_over_ours_best", slow);
+  return total;
+}
+
 /// The cell in which the hash alone takes the least total.
 double BestCell(const Flight& flight) {
   const ShipComparison none = [](const Flight&, std::int64_t, const ShipPair&) { return false; };
@@ -196,16 +209,11 @@ void BothRows(const HubbardSettings& settings, const HubbardScene& scene, Hubbar
   const std::string of_turk = "Turk, cell " + Format("%g m", cell);
   const auto ours = fly("horns" + of_trees, horns, trees);
   fly("horns" + of_bsp, horns, bsp);
-  fly(of_turk + of_trees, turk, trees);
+  const auto mixed = fly(of_turk + of_trees, turk, trees);
   const auto theirs = fly(of_turk + of_bsp, turk, bsp);
+  if (ours && mixed) Compare(*mixed, *ours, "turk_trees", report);
   if (!ours || !theirs) return;
-  const double total = theirs->total() / ours->total();
-  const double slowest = *std::max_element(theirs->frames.begin(), theirs->frames.end()) /
-                         *std::max_element(ours->frames.begin(), ours->frames.end());
-  report->FigureLeast("both_turk_bsp_over_ours_worst", total);
-  report->FigureGreatest("both_turk_bsp_over_ours_best", total);
-  report->FigureLeast("both_slowest_frame_worst", slowest);
-  report->FigureGreatest("both_slowest_frame_best", slowest);
+  const double total = Compare(*theirs, *ours, "turk_bsp", report);
   if (!IsStandard(scene)) return;
   report->Figure("both_turk_bsp_over_ours_" + std::to_string(scene.options.drones), total);
 }

@@ -15,8 +15,8 @@ struct HubbardSettings {
   std::string only;  ///< A part of HubbardRow::path(); empty: everything.
   std::string scenes_dir;
 
-  std::int64_t frames() const { return quick ? 300 : 1200; }
-  int repetitions() const { return quick ? 2 : 5; }
+  std::int64_t frames() const { return quick ? 300 : 900; }
+  int repetitions() const { return quick ? 2 : 3; }
 };
 
 struct HubbardRow {

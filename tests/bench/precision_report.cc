@@ -10,8 +10,8 @@ namespace {
 const std::vector<std::string> kFigures = {"ours_misses",
                                            "ours_false_alarms",
                                            "ours_brackets_without_the_truth",
-                                           "peers_misses",
-                                           "peers_false_alarms",
+                                           "peers_misses_at_best",
+                                           "peers_false_alarms_at_best",
                                            "peer_over_ours_at_equal_error_translation",
                                            "peer_over_ours_at_equal_error_rotation",
                                            "peer_over_ours_at_equal_error_grazing",
@@ -21,8 +21,8 @@ const std::vector<std::string> kFigures = {"ours_misses",
                                            "contact_ours_misses",
                                            "contact_ours_false_alarms",
                                            "contact_ours_brackets_without_the_truth",
-                                           "contact_peers_misses",
-                                           "contact_peers_false_alarms",
+                                           "contact_peers_misses_at_best",
+                                           "contact_peers_false_alarms_at_best",
                                            "contact_naive_misses",
                                            "contact_peer_over_ours_at_equal_error"};
 
@@ -132,7 +132,28 @@ std::string PrecisionReport::Json() const {
   return figures_.Json(measurements);
 }
 
+namespace {
+
+/// Of a peer's settings the one that is wrong least often counts: who asks for a tenth gets a tenth.
+void SumAtTheirBest(PrecisionReport* report) {
+  std::map<std::string, const PrecisionRow*> best;
+  for (const PrecisionRow& row : report->rows()) {
+    if (row.who != "peer") continue;
+    const PrecisionRow*& known = best[row.part + row.motion + row.mesh + row.method];
+    const auto wrong = [](const PrecisionRow& of) { return of.misses + of.false_alarms; };
+    if (!known || wrong(row) < wrong(*known)) known = &row;
+  }
+  for (const auto& [name, row] : best) {
+    const std::string start = row->part == "contact" ? "contact_" : "";
+    report->FigureSum(start + "peers_misses_at_best", static_cast<double>(row->misses));
+    report->FigureSum(start + "peers_false_alarms_at_best", static_cast<double>(row->false_alarms));
+  }
+}
+
+}  // namespace
+
 void SetFigures(PrecisionReport* report) {
+  SumAtTheirBest(report);
   std::map<std::string, std::vector<const PrecisionRow*>> ours;
   const auto cell = [](const PrecisionRow& row) {
     return row.part + "/" + row.motion + "/" + row.mesh;
@@ -141,7 +162,6 @@ void SetFigures(PrecisionReport* report) {
     if (row.who == "ours" && row.width && row.seconds) ours[cell(row)].push_back(&row);
   }
   for (const PrecisionRow& row : report->rows()) {
-    if (row.part == "service") continue;
     const std::string start = row.part == "contact" ? "contact_" : "";
     const std::string who = row.who == "ours" ? "ours" : row.who == "naive" ? "naive" : "peers";
     report->FigureSum(start + who + "_misses", static_cast<double>(row.misses));
