@@ -42,8 +42,8 @@ struct FlightOptions {
   std::uint64_t seed = 1995;
 };
 
-/// Recorded at 60 frames a second. No acceleration exceeds M but where two ships touch in a frame and
-/// come nearer: they bounce, as balls of one mass would. Out of the box they accelerate inward.
+/// Recorded at 60 frames a second. No acceleration exceeds M but where two ships touch in a frame
+/// and come nearer: they bounce, as balls of one mass would. Out of the box they accelerate inward.
 class Flight {
  public:
   static constexpr std::int64_t kFrameNs = 16'666'667;

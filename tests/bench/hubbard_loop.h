@@ -21,8 +21,8 @@ class ShipBroadPhase {
 /// Turk's uniform grid in a hash table, made anew each frame, as baselines/turk_hash.h for balls.
 std::unique_ptr<ShipBroadPhase> MakeTurk(double cell);
 
-/// Pairs that may meet within a window, in one question; each of them is looked at again when it may
-/// meet first, computed from its newest states. A ship that bounced is asked about anew.
+/// Pairs that may meet within a window, in one question; each of them is looked at again when it
+/// may meet first, computed from its newest states. A ship that bounced is asked about anew.
 std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<BroadPhase> phase);
 
 /// Whether two ships touch in a frame.

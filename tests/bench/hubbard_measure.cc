@@ -146,7 +146,7 @@ void AddRun(const HubbardScene& scene, const std::string& method, const Run& run
   report->FigureGreatest("frames_that_differ", static_cast<double>(run.differ));
 }
 
-/// In all and of the slowest frames, each the least and the most of all flights. Returns the former.
+/// In all and of the slowest frames, the least and the most of all flights. Returns the former.
 double Compare(const Run& theirs, const Run& ours, const std::string& name, HubbardReport* report) {
   const auto slowest = [](const Run& run) {
     return *std::max_element(run.frames.begin(), run.frames.end());

@@ -1,4 +1,4 @@
-// ./run bench precision: error against run time, ours beside the libraries, one thread, inputs seeded.
+// ./run bench precision: error against run time, ours beside the libraries.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>

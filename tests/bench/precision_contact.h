@@ -11,8 +11,8 @@
 
 namespace collision::bench {
 
-/// Cases of one kind, in steps of 1 s. Their closed answers are rounded from long doubles, to within
-/// `slack` [s].
+/// Cases of one kind, in steps of 1 s. Their closed answers are rounded from long doubles, to
+/// within `slack` [s].
 struct ContactFamily {
   Motion motion;
   std::string name;
@@ -20,9 +20,9 @@ struct ContactFamily {
   std::vector<double> slack;
 };
 
-/// Seeded, `count` cases each: boxes, balls, balls at 10 km/s and plates that move; a bar that turns
-/// into a ball, a cube that turns its edge into a plate; and grazing by 1e-3 to 1e-12 of the size,
-/// on both sides: balls that pass, a cube that turns its edge past a ball.
+/// Seeded, `count` cases each: boxes, balls, balls at 10 km/s and plates that move; a bar that
+/// turns into a ball, a cube that turns its edge into a plate; and grazing by 1e-3 to 1e-12 of the
+/// size, on both sides: balls that pass, a cube that turns its edge past a ball.
 std::vector<ContactFamily> ContactFamilies(std::size_t count);
 
 /// What is said of one case [s]; peers say one number.

@@ -134,7 +134,7 @@ std::string PrecisionReport::Json() const {
 
 namespace {
 
-/// Of a peer's settings the one that is wrong least often counts: who asks for a tenth gets a tenth.
+/// Of a peer's settings the one that is wrong least often: who asks for a tenth gets a tenth.
 void SumAtTheirBest(PrecisionReport* report) {
   std::map<std::string, const PrecisionRow*> best;
   for (const PrecisionRow& row : report->rows()) {
