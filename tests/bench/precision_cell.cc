@@ -80,7 +80,8 @@ void JudgeDistance(const JudgedPose& at, const Reply& reply, bool certified, Jud
     if (!at.overlap) judgement->widths.push_back(reply.upper - reply.lower);
   }
   // Of bodies that overlap there is no distance to be off by.
-  if (!at.overlap) judgement->errors.push_back(std::abs(reply.middle() - by));
+  // Below 0 a library says that they overlap.
+  if (!at.overlap) judgement->errors.push_back(std::abs(std::max(0.0, reply.middle()) - by));
 }
 
 Judgement Judge(const PrecisionMethod& method, const PrecisionCell& cell,
