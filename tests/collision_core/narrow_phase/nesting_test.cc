@@ -71,6 +71,17 @@ TEST_P(NestingTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
 }
 
 // Each part would have to be asked whether it is in the wall: at 100 units, beyond the budget.
+// Two parts of one body, far apart: one inside the other body, one beyond its box.
+TEST_P(NestingTest, APartInsideIsFoundThoughAnotherIsFarOutside) {
+  const Vector3d half(0.1, 0.1, 0.1), away(5, 0, 0);
+  const BodySegment parts =
+      Segment(Joined(Box(-half, half), Box(away - half, away + half)), {0.1, 0.2, 0.3});
+  const BodySegment solid = Segment(Box({-1, -1, -1}, {1, 1, 1}), {0, 0, 0});
+  Work work(100'000);
+  const Interval found = ShapeProximity(parts, solid, 0, &work).separation;
+  EXPECT_LT(found.upper, 0);
+}
+
 TEST_P(NestingTest, ManyPartsStayWithinTheBudget) {
   TriangleMesh dust;
   for (int i = 0; i < 1000; ++i) {
