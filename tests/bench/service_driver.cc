@@ -135,6 +135,11 @@ std::optional<double> ServiceDriver::Round(double seconds) {
   return watch.seconds();
 }
 
+void ServiceDriver::Idle(double seconds) {
+  const Stopwatch watch;
+  while (watch.seconds() < seconds) Receive(seconds - watch.seconds());
+}
+
 std::optional<double> ServiceDriver::JumpToEvent(std::uint32_t pair, double seconds) {
   const std::uint32_t slot = 2 * pair;
   const std::int64_t since_ns = WallNs();

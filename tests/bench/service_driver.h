@@ -26,6 +26,9 @@ class ServiceDriver {
   /// All states once; seconds until the last of them is acknowledged; nullopt: not within `seconds`.
   std::optional<double> Round(double seconds);
 
+  /// Takes what comes.
+  void Idle(double seconds);
+
   std::uint32_t pairs() const { return agents_ / 2; }
 
  private:

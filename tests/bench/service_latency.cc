@@ -14,6 +14,8 @@ namespace {
 
 constexpr double kJoinSeconds = 20;
 constexpr double kAnswerSeconds = 2;
+/// Until all is over between a pair that met, so that its next meeting is news.
+constexpr double kSettleSeconds = 1.5;
 
 struct Cell {
   std::vector<double> latencies;  // [s]
@@ -33,7 +35,12 @@ std::optional<Cell> Measure(const ServiceSettings& settings, const std::string& 
   if (!driver.Join(kJoinSeconds)) return std::nullopt;
   Cell cell;
   const Stopwatch latency;
+  double lap = 0;  // when the first pair jumped last
   for (std::uint32_t i = 0; latency.seconds() < Budget(settings); ++i) {
+    if (i % driver.pairs() == 0) {
+      if (i > 0) driver.Idle(lap + kSettleSeconds - latency.seconds());
+      lap = latency.seconds();
+    }
     const auto seconds = driver.JumpToEvent(i % driver.pairs(), kAnswerSeconds);
     seconds ? cell.latencies.push_back(*seconds) : void(++cell.lost);
   }
