@@ -142,7 +142,8 @@ void ServiceDriver::Idle(double seconds) {
 
 std::optional<double> ServiceDriver::JumpToEvent(std::uint32_t pair, double seconds) {
   const std::uint32_t slot = 2 * pair;
-  const std::int64_t since_ns = WallNs();
+  // The service's clock runs on by the monotonic one, and may be a little behind.
+  const std::int64_t since_ns = WallNs() - 100'000'000;
   const Stopwatch watch;
   // Two balls of a metre, half a metre apart.
   Tell(slot, 1, true, kSpacing - 2.5);
