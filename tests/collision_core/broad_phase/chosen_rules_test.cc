@@ -73,19 +73,19 @@ TEST(ChosenBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
   std::uint32_t next = 4;
   const auto grow_to = [&](std::uint32_t end) {
     for (; next < end; ++next) {
-      if (next < 600 || next > 602) chosen.Put(next, BoundIn(100, 0.01, 0.01, 0, &random));
+      if (next < 200 || next > 202) chosen.Put(next, BoundIn(100, 0.01, 0.01, 0, &random));
     }
   };
   const HalfSpace everywhere{{0, 0, 1}, 1e6};
-  ASSERT_TRUE(chosen.PutHalfSpace(600, everywhere));
-  ASSERT_TRUE(chosen.PutHalfSpace(601, everywhere));
-  grow_to(712);
+  ASSERT_TRUE(chosen.PutHalfSpace(200, everywhere));
+  ASSERT_TRUE(chosen.PutHalfSpace(201, everywhere));
+  grow_to(270);
   ASSERT_EQ(chosen.method(), BroadPhaseMethod::kAllPairs);
   const BroadQuery query{BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, 1)};
-  EXPECT_EQ(Text(chosen.EarliestOf(3, query)).substr(0, 7), "3 x 600");
-  chosen.Remove(600);
-  chosen.Put(601, BoundIn(100, 0.01, 0.01, 0, &random));
-  chosen.Remove(601);
+  EXPECT_EQ(Text(chosen.EarliestOf(3, query)).substr(0, 7), "3 x 200");
+  chosen.Remove(200);
+  chosen.Put(201, BoundIn(100, 0.01, 0.01, 0, &random));
+  chosen.Remove(201);
   EXPECT_EQ(Text(chosen.EarliestOf(0, query)).substr(0, 5), "0 x 1");
   chosen.Exclude(0, 1);
   chosen.SetMargin(2, 3, 3);
