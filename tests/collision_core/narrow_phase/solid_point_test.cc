@@ -8,6 +8,7 @@
 
 #include "collision_core/narrow_phase/contact_patch.h"
 #include "tests/collision_core/narrow_phase/promise_scene.h"
+#include "tests/support/solids.h"
 
 namespace collision {
 namespace {
@@ -127,6 +128,26 @@ TEST(ContactPatch, PointsWhereFacesEdgesAndCornersOverlapSoon) {
   EXPECT_TRUE(ContactPatch(Surface(a), Surface(a), PoseOf(Eigen::Matrix3d::Identity(), {1.1, 0, 0}),
                            1e-9, 0, 0, &work)
                   .empty());
+}
+
+// Of very many solids no more are looked at than the budget allows; what is told is an upper bound
+// still.
+TEST(SolidPoint, ManySolidsStayWithinTheBudget) {
+  std::vector<ConvexSolid> solids;
+  for (int i = 0; i < 1000; ++i) {
+    const Eigen::Vector3d at(0.01 * i, 0, 0), half(0.004, 0.004, 0.004);
+    solids.push_back(SolidBox(at - half, at + half));
+  }
+  BodySegment segment;
+  segment.shape = Shape::Compound(nullptr, std::move(solids));
+  segment.ball.radius = segment.shape->facts().radius;
+  const Surface surface(segment);
+  for (const std::uint64_t allowed : {0, 10, 500}) {
+    Work work(allowed);
+    const double distance = SignedDistanceTo(surface, {0, 1, 0}, &work);
+    EXPECT_LT(work.spent(), allowed + kBatchUnits);
+    EXPECT_GE(distance, 1 - 0.004);
+  }
 }
 
 }  // namespace
