@@ -83,6 +83,25 @@ TEST(RelativePose, RoundingIsWithinItsBound) {
   }
 }
 
+// Both reference points in one place: nothing but the matrix errs.
+TEST(RelativePose, RoundingOfTheMatrixAloneIsWithinItsBound) {
+  Random random(5);
+  for (int i = 0; i < 1000; ++i) {
+    const SpaceTimeBound a = RandomBound(random, 0);
+    SpaceTimeBound b = RandomBound(random, 0);
+    b.state.p_WA = a.state.p_WA;
+    b.state.v_WA = a.state.v_WA;
+    const double delta = random.Uniform(0, 2);
+    const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, delta);
+    const TruePose true_a = PoseOf(a, delta), true_b = PoseOf(b, delta);
+    EXPECT_LT(pose.offset_error, 1e-30);
+    const Eigen::Vector3d x = random.UnitVector();
+    const Vector turned = true_b.q * x.cast<Real>().eval();
+    const Vector x_A = true_a.q.conjugate() * turned;
+    EXPECT_LE((pose.ToA(x).cast<Real>() - x_A).norm(), pose.matrix_error + pose.offset_error);
+  }
+}
+
 TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
   Random random(4);
   for (int i = 0; i < 300; ++i) {
