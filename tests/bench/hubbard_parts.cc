@@ -117,7 +117,7 @@ HubbardRow RowOf(const std::string& part, const HubbardScene& scene, const std::
   row.more = {Number("drones", scene.options.drones), Number("volume_m3", scene.options.volume),
               Number("seed", static_cast<double>(scene.options.seed)),
               Number("bounces", static_cast<double>(scene.flight.bounces())),
-              Number("undecided", static_cast<double>(scene.flight.undecided()))};
+              Number("undecided_in_flight", static_cast<double>(scene.flight.undecided()))};
   return row;
 }
 

@@ -21,6 +21,8 @@ constexpr int kMarks[] = {7, 5, 9, 13, 11, 6, 4, 8};
 constexpr int kCross = 2;
 /// Above the highest point, where infinity is drawn: a share of the axis.
 constexpr double kRoomAbove = 0.12;
+/// Two of these stand beside each other.
+constexpr std::size_t kShortName = 26;
 
 std::string Quoted(const std::string& text) {
   std::string quoted = "'";
@@ -59,6 +61,13 @@ double InfinityOf(const Chart& chart, const Range& range) {
     return range.high * std::pow(std::max(10.0, range.high / range.low), kRoomAbove);
   }
   return range.high + kRoomAbove * std::max(range.high - range.low, 1e-300);
+}
+
+/// Long names stand below each other.
+std::size_t KeyColumns(const Chart& chart) {
+  const bool all_short = std::all_of(chart.series.begin(), chart.series.end(),
+                                     [](const Series& s) { return s.name.size() <= kShortName; });
+  return all_short ? 2 : 1;
 }
 
 std::string Data(const Chart& chart, const Series& series, bool at_infinity, double infinity) {
@@ -100,11 +109,13 @@ std::string Csv(const Chart& chart) {
 std::string GnuplotScript(const Chart& chart, const std::string& svg_path) {
   const Range range = HeightOf(chart);
   const double infinity = InfinityOf(chart, range);
-  const std::size_t key_rows = (chart.series.size() + 1) / 2;
-  std::string text = "set terminal svg size 560," + std::to_string(360 + 18 * key_rows) +
+  const std::size_t columns = KeyColumns(chart);
+  const std::size_t key_rows = (chart.series.size() + columns - 1) / columns;
+  std::string text = "set terminal svg size 560," + std::to_string(350 + 18 * key_rows) +
                      " dynamic noenhanced font 'sans-serif,13' background '#ffffff'\n" +
                      "set output " + Quoted(svg_path) + "\n" +
-                     "set key outside below center horizontal maxcols 2 samplen 2\n" +
+                     "set key outside below center horizontal Left reverse maxcols " +
+                     std::to_string(columns) + " samplen 2\n" +
                      "set grid lc '#dddddd'\nset border 3\nset tics nomirror\n";
   // Powers of ten need gnuplot's own markup; names must not be read as such.
   text += "set termoption enhanced\n";
@@ -128,7 +139,8 @@ std::string GnuplotScript(const Chart& chart, const std::string& svg_path) {
     if (!joined.empty()) {
       text += name + " << EOD\n" + joined + "EOD\n";
       plots += (plots.empty() ? "" : ", ") + name + " using 1:2 with linespoints pt " +
-               std::to_string(kMarks[i % std::size(kMarks)]) + " ps 0.6" + style + title;
+               std::to_string(kMarks[(i + i / std::size(kColours)) % std::size(kMarks)]) +
+               " ps 0.6" + style + title;
       title = " notitle";
     }
     if (!crosses.empty()) {

@@ -60,8 +60,11 @@ Chart ChartOf(Chart chart, const std::vector<const Row*>& rows, const ChartField
     if (!y) y = NumberOf(*row, fields.y_else);
     const std::string wrong = WrongAnswers(*row), given_up = GivenUp(*row);
     if (!x || (!y && wrong.empty() && given_up.empty())) continue;
-    Series* series = SeriesOf(TextOf(*row, fields.series), fields, &chart);
-    series->ours |= TextOf(*row, "who") == "ours";
+    const bool ours = TextOf(*row, "who") == "ours";
+    std::string name = TextOf(*row, fields.series);
+    if (ours && !name.starts_with("ours")) name = "ours: " + name;
+    Series* series = SeriesOf(name, fields, &chart);
+    series->ours |= ours;
     if (series->limited_by.empty()) series->limited_by = TextOf(*row, "limited_by");
     Point point{*x * fields.x_factor, std::nullopt, wrong.empty() ? given_up : wrong};
     if (y && wrong.empty()) point.y = *y * fields.y_factor;

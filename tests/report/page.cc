@@ -59,7 +59,9 @@ std::string ChartHtml(const Chart& chart, const std::string& svg) {
     if (series.limited_by.empty()) continue;
     limits += "<li>" + EscapeHtml(series.name) + ": " + EscapeHtml(series.limited_by) + "</li>";
   }
-  if (!limits.empty()) html += "<p class=\"small\">What limits each:</p><ul>" + limits + "</ul>";
+  if (!limits.empty()) {
+    html += "<details><summary>What limits each curve</summary><ul>" + limits + "</ul></details>";
+  }
   return html + " <span class=\"small\">(" + chart.id + ".csv)</span></figcaption></figure>\n";
 }
 
