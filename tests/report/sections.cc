@@ -266,7 +266,9 @@ Section BroadPhase(const v1::Results& results) {
     chart.id = std::string("scratch-") + hit;
     chart.title = std::string("From scratch, first hit: ") + hit;
     chart.x_label = "agents", chart.y_label = "time of a question [s]";
-    AddChart(ChartOf(chart, Select(results, "broad-phase", {{"part", "scratch"}, {"scene", hit}}),
+    AddChart(ChartOf(chart,
+                     Select(results, "broad-phase",
+                            {{"part", "scratch"}, {"scene", std::string("uniform ") + hit}}),
                      {{"contestant"}, "agents", "seconds", 1, 1, {"chosen"}}),
              &section);
   }
