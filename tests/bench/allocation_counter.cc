@@ -44,3 +44,11 @@ void operator delete(void* memory, std::align_val_t) noexcept { collision::bench
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
   collision::bench::Free(memory);
 }
+// The standard library's sorts ask for memory so, and give it back by the plain delete.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  void* memory = std::malloc(size);
+  return memory == nullptr ? nullptr : collision::bench::Counted(memory);
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
+  collision::bench::Free(memory);
+}
