@@ -14,8 +14,9 @@ namespace {
 
 constexpr double kJoinSeconds = 20;
 constexpr double kAnswerSeconds = 2;
-/// Until all is over between a pair that met, so that its next meeting is news.
-constexpr double kSettleSeconds = 1.5;
+/// Until all is over between a pair that met, so that its next meeting is news: the service waits
+/// announce_within_s (2 s) for states that may tell more of the last one.
+constexpr double kSettleSeconds = 2.5;
 
 struct Cell {
   std::vector<double> latencies;  // [s]
@@ -37,8 +38,10 @@ std::optional<Cell> Measure(const ServiceSettings& settings, const std::string& 
   const Stopwatch latency;
   double lap = 0;  // when the first pair jumped last
   for (std::uint32_t i = 0; latency.seconds() < Budget(settings); ++i) {
-    if (i % driver.pairs() == 0) {
-      if (i > 0) driver.Idle(lap + kSettleSeconds - latency.seconds());
+    if (i > 0 && i % driver.pairs() == 0) {
+      const double next = lap + kSettleSeconds;
+      if (next > Budget(settings)) break;
+      driver.Idle(next - latency.seconds());
       lap = latency.seconds();
     }
     const auto seconds = driver.JumpToEvent(i % driver.pairs(), kAnswerSeconds);
