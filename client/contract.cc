@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/motion/contract_between.h"
+
 namespace collision::client {
 namespace {
 
@@ -72,6 +74,25 @@ bool SameDeclaration(const State& told, const State& next) {
          next.direction_until_ns == told.direction_until_ns && next.expiry_ns == told.expiry_ns;
 }
 
+/// Of a state, what its path is judged by.
+MotionState ToCore(const State& state) {
+  MotionState core;
+  core.stamp = Instant::FromNanoseconds(state.stamp_ns);
+  core.p_WA = Eigen::Map<const Eigen::Vector3d>(state.position_m.data());
+  core.v_WA = Eigen::Map<const Eigen::Vector3d>(state.velocity_m_s.data());
+  core.position_error = state.position_error_m;
+  core.velocity_error = state.velocity_error_m_s;
+  return core;
+}
+
+SpaceTimeBound ToCore(const MotionBounds& bounds, const State& state) {
+  SpaceTimeBound core;
+  core.state = ToCore(state);
+  core.declaration.acceleration_max = bounds.acceleration_max_m_s2;
+  core.declaration.time_step = bounds.time_step_s;
+  return core;
+}
+
 bool PathStandsIn(const MotionBounds& bounds, const State& told, const State& next, double s) {
   const double speed_told = Norm(told.velocity_m_s), speed_next = Norm(next.velocity_m_s);
   const double speed = std::max(speed_told, speed_next);
@@ -87,6 +108,11 @@ bool PathStandsIn(const MotionBounds& bounds, const State& told, const State& ne
   if (!(Norm(sped) <= room.velocity + velocity_error)) return false;
   if (bounds.speed_max_m_s > 0 &&
       !(speed_next <= bounds.speed_max_m_s + kRounding * speed + next.velocity_error_m_s)) {
+    return false;
+  }
+  // Half of what the service allows, as above; it also lets the clocks differ.
+  if (!(GapBetween(ToCore(bounds, told), ToCore(next)) <=
+        room.position_rounding + room.velocity_rounding * s)) {
     return false;
   }
   const Vector3& direction = told.thrust_direction;

@@ -19,6 +19,7 @@ MotionBounds BoundsOf(const AgentDescription& description);
 /// Whether `next`, told to nobody, lies within everything that `told` promises, so that whoever
 /// knows `told` alone is not misled. With s the seconds between the two:
 ///   |p' − p − v s| <= ½ M s (s + h) + errors  and  |v' − v| <= M s + errors,
+/// the two states' balls meet at every instant between them, as the service checks it,
 /// likewise the orientation and the angular velocity of an agent that has a shape, no acceleration
 /// against a declared direction, no speed above a declared cap; and nothing declared with `next`
 /// is other than it was: no error is greater, direction and expiry are the same, nothing jumped.

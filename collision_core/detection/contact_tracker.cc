@@ -5,9 +5,10 @@
 namespace collision {
 namespace {
 
-// Two states may each keep what was declared, and no motion lead from the one to the other: then one
-// bound says apart, and another touching, at the same time. There nothing is certain, and brackets
-// hold what both say.
+// Two states that no motion joins are a breach (motion/contract_between.h), but for what rounding may
+// explain; and where states were thinned out, each may have followed from the last with an error of
+// its own, and the last not from the first. Then one bound says apart, and another touching, at the
+// same time. There nothing is certain, and brackets hold what both say.
 SegmentVerdict WithoutContradiction(SegmentVerdict verdict) {
   if (verdict.contact_from > verdict.contact_to) return verdict;
   const SegmentVerdict said = verdict;

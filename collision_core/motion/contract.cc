@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision_core/motion/contract_between.h"
 #include "collision_core/motion/contract_cap.h"
 #include "collision_core/numeric/rotation.h"
 
@@ -137,6 +138,10 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, Int
       std::max(Excess(deviations.velocity_length, motion.velocity, allowance.velocity),
                Excess(against.velocity, errors.velocity, allowance.velocity));
 
+  // Rounding may have moved the new state, and so the centre that it is traced back to.
+  const double gap = GapBetween(before, next);
+  if (gap > allowance.position + allowance.velocity * s.upper) check->between_excess = gap;
+
   const Limits horn = LimitsOfHorn(before, next, s);
   check->position_drift =
       (Max(0, deviations.position_length - horn.position) + against.position).upper;
@@ -229,7 +234,7 @@ ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& nex
     is_inside = CheckRotation(before, next, s, &check) && is_inside;
   }
   if (check.position_excess > 0 || check.velocity_excess > 0 || check.rotation_excess > 0 ||
-      check.angular_velocity_excess > 0) {
+      check.angular_velocity_excess > 0 || check.between_excess > 0) {
     check.verdict = ContractVerdict::kBreached;
   } else if (!is_inside || next.expiry > before.state.expiry || LosesDirection(before, next)) {
     check.verdict = ContractVerdict::kWidened;

@@ -19,6 +19,9 @@ struct ContractCheck {
   double velocity_excess = 0;          ///< Likewise for the velocity [m/s].
   double rotation_excess = 0;          ///< Likewise for the orientation, as an angle [rad].
   double angular_velocity_excess = 0;  ///< Likewise for the angular velocity [rad/s].
+  /// How far apart the old state's forward ball and the new one's backward ball are at some instant
+  /// between the two, at least [m]; 0 unless breached.
+  double between_excess = 0;
   /// What rounding may have cost: the new horn lies inside the old one grown by
   /// `position_drift + velocity_drift * τ'` with τ' counted from the new stamp. 0 where it is
   /// certified inside.
@@ -32,7 +35,10 @@ struct ContractCheck {
 /// Compares `next` with the bound before it (same declaration, next.stamp >= before.state.stamp),
 /// with s = next.stamp − before.stamp:
 ///   |p' − c(t0')| <= ½ M s (s + h) + errors  and  |v' − v| <= M s + errors.
-/// A position check alone would let an agent arrive with any velocity. Under a speed cap V also
+/// A position check alone would let an agent arrive with any velocity; and both together a velocity
+/// with which it cannot have come from there, so at every instant between the two the forward ball
+/// of the one and the backward ball of the other must have a point in common
+/// (contract_between.h). Under a speed cap V also
 /// |v'| <= V, and p' in the old capped ball and box (speed_cap.h); the declaration and with it the
 /// cap must be the same. For an agent that has a shape
 /// (or will have) and declares α, with Φ the angle between two orientations, likewise

@@ -175,17 +175,25 @@ TEST(Contract, WhateverIsDeclaredAnewIsTold) {
   expect_told("velocity, against the direction", [](State* s) {
     s->velocity_m_s = {-0.201, 0, 0};
   });
+  // Both within reach, but whoever comes so fast to there was nearly 2 m away a second ago.
+  expect_told("velocity, from elsewhere", [](State* s) {
+    s->position_m = {0, -0.9, 0};
+    s->velocity_m_s = {0, 1.099, 0};
+  });
   expect_told("orientation", [](State* s) { s->orientation = About({0, 0, 1}, 0.701); });
   expect_told("angular velocity", [](State* s) { s->angular_velocity_rad_s = {0, 0, 1.001}; });
   expect_told("back in time", [](State* s) { s->stamp_ns = -1; });
   State within = next;
-  within.position_m = {1.299, 0, 0};
+  within.position_m = {0, 0.549, 0};
   within.velocity_m_s = {0, 1.099, 0};
   within.orientation = About({0, 0, 1}, 0.699);
   within.angular_velocity_rad_s = {0, 0, 0.999};
   within.position_error_m = 0.1;
   EXPECT_TRUE(StandsIn(bounds, told, within));
   EXPECT_FALSE(StandsIn({.acceleration_max_m_s2 = 0.5}, told, within)) << "velocity";
+  within.position_m = {1.299, 0, 0};
+  within.velocity_m_s = {2.199, 0, 0};
+  EXPECT_TRUE(StandsIn({.acceleration_max_m_s2 = 2}, told, within)) << "far and fast";
 }
 
 // What a ball's orientation does, or one without α, is nobody's business.

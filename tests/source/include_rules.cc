@@ -35,7 +35,8 @@ const std::vector<Layer>& Layers() {
       {"client/world.h", {"client/types.h"}},
       {"client/monitor.h", {"client/types.h"}},
       {"client/types.h", {}},
-      // So that client and service judge meshes and solids alike.
+      // So that client and service judge motions, meshes and solids alike.
+      {"client/contract.cc", {"idl/", "client/", core + "motion/contract_between.h"}},
       {"client/shape.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},
       {"client/solid_check.cc", {"idl/", "client/", core + "shape/convex_solid.h"}},
       {"client/mesh_file.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},

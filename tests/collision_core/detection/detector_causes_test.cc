@@ -30,6 +30,31 @@ TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
   EXPECT_EQ(line.detector.counters().breaches, 1u);
 }
 
+// Back at the same place after a second, so fast that no motion of 1 m/s² leads there, though both the
+// place and the speed could be reached. What was promised of it holds, but its owner is told.
+TEST(Detector, StatesThatNoMotionJoinsAreABreach) {
+  Line line;
+  line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(2), {1, 0}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
+  const auto update = [&line](double now, const Vector3d& p, const Vector3d& v) {
+    line.now = now;
+    const UpdateOutcome outcome = line.detector.Update(Id(1), State(now, p, v), At(now));
+    line.Step();
+    return outcome;
+  };
+  EXPECT_EQ(update(1, {0, 0, 0}, {0, 0.41, 0}), UpdateOutcome::kKept);
+  line.detector.TakeChangedClearances();
+  EXPECT_EQ(update(2, {0, 0.41, 0}, {0, 0.83, 0}), UpdateOutcome::kBreached);
+  const auto changed = line.detector.TakeChangedClearances();
+  const auto own = std::find_if(changed.begin(), changed.end(),
+                                [](const AgentClearance& c) { return c.agent == Id(1); });
+  ASSERT_NE(own, changed.end());
+  EXPECT_EQ(own->cause, ClearanceCause::kBreach);
+  EXPECT_EQ(own->cause_agent, Id(1));
+  EXPECT_EQ(own->void_from, At(1));
+  EXPECT_EQ(line.detector.counters().breaches, 1u);
+}
+
 // Who is admitted in the same step lowers the same clearance, but voids nothing.
 TEST(Detector, BreachIsToldWhateverElseComesInTheSameStep) {
   Line line;

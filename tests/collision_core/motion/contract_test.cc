@@ -71,11 +71,12 @@ TEST(Contract, HonestIntegratorsAreKept) {
 }
 
 // Goal:   a breach of position or of velocity is found, each alone, when it exceeds the bound by
-// 1e-6 of it. Method: s = 2, M = 3: ½ M s² = 6, M s = 6.
+// 1e-6 of it. Method: s = 2, M = 3: ½ M s² = 6, M s = 6, both of full thrust all the way.
 TEST(Contract, BreachesAreFoundFromBothSides) {
   const SpaceTimeBound before = Resting(3);
   MotionState next = After(before, 2 * kSecond);
   next.p_WA.x() += 6 * (1 - 1e-6);
+  next.v_WA.x() = 6 * (1 - 1e-6);
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
   EXPECT_EQ(CheckContract(before, next).position_drift, 0);
   next.p_WA.x() = 6 * (1 + 1e-6);
@@ -85,6 +86,7 @@ TEST(Contract, BreachesAreFoundFromBothSides) {
   EXPECT_EQ(check.velocity_excess, 0);
 
   next = After(before, 2 * kSecond);
+  next.p_WA.y() = 6 * (1 - 1e-6);
   next.v_WA.y() = 6 * (1 - 1e-6);
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
   next.v_WA.y() = 6 * (1 + 1e-6);
@@ -100,6 +102,7 @@ TEST(Contract, StepWidensThePositionOnly) {
   before.declaration.time_step = 0.25;
   MotionState next = After(before, 2 * kSecond);
   next.p_WA.z() = 6.75 * (1 - 1e-6);
+  next.v_WA.z() = 6 * (1 - 1e-6);
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
   next.p_WA.z() = 6.75 * (1 + 1e-6);
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kBreached);
