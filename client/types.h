@@ -34,7 +34,7 @@ struct AgentDescription {
   double acceleration_max_m_s2 = 0;  ///< Never exceeded between two states without a discontinuity.
   double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
   double speed_max_m_s = 0;  ///< Of the reference point, never exceeded; 0: not declared.
-  double time_step_s = 0;    ///< h of a semi-implicit Euler integrator; 0: continuous motion.
+  double time_step_s = 0;    ///< h of an Euler integrator, of either kind; 0: continuous motion.
   std::uint32_t group = 1;   ///< Bits this agent is.
   std::uint32_t mask = ~0u;  ///< Bits it can meet.
   /// Its shape (client/shape.h), within the ball of `radius_m`; null: the ball itself.

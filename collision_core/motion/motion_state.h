@@ -34,7 +34,7 @@ struct MotionState {
 struct AgentDeclaration {
   double radius = 0;  ///< Ball about the reference point that contains the agent [m], >= 0.
   double acceleration_max = 0;  ///< M [m/s²], >= 0.
-  double time_step = 0;  ///< h of a semi-implicit Euler integrator [s]; 0: continuous motion.
+  double time_step = 0;         ///< h of an Euler integrator, of either kind [s]; 0: continuous.
   /// V: |velocity| of the reference point never exceeds it [m/s], >= 0; +infinity: not declared.
   /// What it changes in the bound, and why to raise it is a widening: speed_cap.h.
   double speed_max = kInfinity;

@@ -114,25 +114,31 @@ TEST(ContractBetween, ErrorsOfTheTellerAreNoBreach) {
   }
 }
 
-// Goal:   Euler's steps at full thrust, turning once, are kept; without the step declared they are
-//         told where they would need more than M.
+// Goal:   Euler's steps at full thrust, place first or velocity first, turning once, are kept; who
+//         moves the place first and thrusts all the way needs the step declared, for the way back.
 TEST(ContractBetween, StepsOfEulerAreKept) {
   Random random(613);
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 4000; ++i) {
+    const auto step_ns = static_cast<std::int64_t>(random.LogUniform(1e6, 1e8));
+    const double h = static_cast<double>(step_ns) * 1e-9;
+    const bool place_first = i % 2 == 0;
     Pair pair;
-    const double h = random.LogUniform(1e-3, 0.1);
-    const auto step_ns = static_cast<std::int64_t>(h * 1e9);
-    pair.before.declaration.time_step = static_cast<double>(step_ns) * 1e-9;
-    pair.before.declaration.acceleration_max = random.LogUniform(1e-3, 1e3);
-    const Vector3d n = random.UnitVector();
-    const int steps = static_cast<int>(1 + random.Below(100)), turn = random.Below(steps);
+    AgentDeclaration& declaration = pair.before.declaration;
+    declaration.time_step = h;
+    declaration.acceleration_max = random.LogUniform(1e-3, 1e3);
+    const Vector3d a = (1 - 0x1p-51) * declaration.acceleration_max * random.UnitVector();
+    const int steps = static_cast<int>(1 + random.Below(100));
+    const int turn = random.Chance(0.3) ? steps : static_cast<int>(random.Below(steps));
+    MotionState& next = pair.next;
     for (int k = 0; k < steps; ++k) {
-      const Vector3d a = (1 - 0x1p-51) * pair.before.declaration.acceleration_max * n;
-      pair.next.v_WA += (k < turn ? 1 : -1) * pair.before.declaration.time_step * a;
-      pair.next.p_WA += pair.before.declaration.time_step * pair.next.v_WA;
+      if (place_first) next.p_WA += h * next.v_WA;
+      next.v_WA += (k < turn ? h : -h) * a;
+      if (!place_first) next.p_WA += h * next.v_WA;
     }
-    pair.next.stamp = Instant::FromNanoseconds(steps * step_ns);
+    next.stamp = Instant::FromNanoseconds(steps * step_ns);
     ASSERT_FALSE(pair.IsBreach()) << i << ": " << pair.BetweenExcess();
+    declaration.time_step = 0;
+    if (place_first && turn == steps) ASSERT_GT(pair.BetweenExcess(), 0) << i;
   }
 }
 
