@@ -40,6 +40,18 @@ struct BroadPhaseWork {
   std::uint64_t filter_tests = 0;  ///< Pairs ruled out, or not, by a cheaper test.
   std::uint64_t visits = 0;        ///< Cells, crossings or lists looked at.
   std::uint64_t rebuilds = 0;      ///< Times the whole structure was made anew.
+  std::uint64_t searches = 0;      ///< Of one agent's neighbours, for one stretch of time.
+  std::uint64_t neighbours = 0;    ///< Found in them.
+
+  /// What a piece of work costs, in tests: as measured once on one machine; only the ratios count,
+  /// and roughly.
+  static constexpr double kPairUnits = 256, kVisitUnits = 16;
+  /// An agent placed anew in the spatial index.
+  static constexpr double kPlaceUnits = 64;
+
+  double search_units() const {
+    return static_cast<double>(filter_tests) + kVisitUnits * static_cast<double>(visits);
+  }
 };
 
 /// Holds the bounds of all agents by index and finds their earliest meetings. Methods differ in

@@ -10,11 +10,8 @@
 namespace collision {
 namespace {
 
-/// What a piece of work costs, as measured once on one machine; only the ratios count, and roughly.
-constexpr double kPairUnits = 256;
-constexpr double kTestUnits = 1;
-constexpr double kVisitUnits = 16;
-constexpr double kPlaceUnits[] = {0, 8, 0, 64};  // per agent, by method
+constexpr double kPairUnits = BroadPhaseWork::kPairUnits;
+constexpr double kPlaceUnits[] = {0, 8, 0, BroadPhaseWork::kPlaceUnits};  // per agent, by method
 
 /// Questions until the index is tried again; doubled by each try.
 constexpr std::uint64_t kPatience = 2048;
@@ -28,13 +25,21 @@ class Readable : public M {
 };
 
 BroadPhaseWork operator+(const BroadPhaseWork& a, const BroadPhaseWork& b) {
-  return {a.pair_queries + b.pair_queries, a.filter_tests + b.filter_tests, a.visits + b.visits,
-          a.rebuilds + b.rebuilds};
+  return {a.pair_queries + b.pair_queries,
+          a.filter_tests + b.filter_tests,
+          a.visits + b.visits,
+          a.rebuilds + b.rebuilds,
+          a.searches + b.searches,
+          a.neighbours + b.neighbours};
 }
 
 BroadPhaseWork operator-(const BroadPhaseWork& a, const BroadPhaseWork& b) {
-  return {a.pair_queries - b.pair_queries, a.filter_tests - b.filter_tests, a.visits - b.visits,
-          a.rebuilds - b.rebuilds};
+  return {a.pair_queries - b.pair_queries,
+          a.filter_tests - b.filter_tests,
+          a.visits - b.visits,
+          a.rebuilds - b.rebuilds,
+          a.searches - b.searches,
+          a.neighbours - b.neighbours};
 }
 
 std::string Whole(double x) {
@@ -161,10 +166,16 @@ BroadPhaseWork ChosenBroadPhase::work() const {
 
 double ChosenBroadPhase::Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const {
   const double placed = static_cast<double>(done.rebuilds) * static_cast<double>(agents_);
-  return kPairUnits * static_cast<double>(done.pair_queries) +
-         kTestUnits * static_cast<double>(done.filter_tests) +
-         kVisitUnits * static_cast<double>(done.visits) +
+  return kPairUnits * static_cast<double>(done.pair_queries) + done.search_units() +
          kPlaceUnits[static_cast<int>(kind)] * placed;
+}
+
+// The same pairs, found by a test of everybody in each search.
+double ChosenBroadPhase::UnitsByAllPairs(const BroadPhaseWork& done) const {
+  const auto everybody = static_cast<double>(agents_ + half_spaces_.size());
+  return kPairUnits * static_cast<double>(done.pair_queries) +
+         static_cast<double>(done.neighbours) +
+         static_cast<double>(done.searches) * (everybody + BroadPhaseWork::kVisitUnits);
 }
 
 double ChosenBroadPhase::UnitsOf(const Method& method) const {
@@ -190,6 +201,7 @@ void ChosenBroadPhase::Switch() {
   before_ = before_ + method_.phase->work();
   units_before_ += UnitsOf(method_);
   method_ = std::exchange(next_, Method());
+  excess_ = 0;
   ++changes_;
   Settle();
 }
@@ -227,6 +239,9 @@ void ChosenBroadPhase::ChooseFromAllPairs() {
   if (agents_ <= kFewAgents) return;
   const bool grown = 2 * agents_ > 3 * decided_with_;
   if (agents_ > kManyAgents || grown || questions_ >= patience_) {
+    units_before_try_ = grown || questions_ < kPeriodQuestions
+                            ? kInfinity
+                            : Units(method_.kind, answering_) / static_cast<double>(questions_);
     Start(BroadPhaseMethod::kSpatialIndex);
   }
 }
@@ -240,9 +255,9 @@ void ChosenBroadPhase::ChooseFromIndex() {
   if (agents_ > kManyAgents - kManyAgents / 4 || questions_ < kPeriodQuestions) return;
   const auto questions = static_cast<double>(questions_);
   units_ = Units(method_.kind, answering_) / questions;
-  units_of_other_ = kPairUnits * static_cast<double>(answering_.pair_queries) / questions +
-                    kTestUnits * static_cast<double>(agents_ + half_spaces_.size());
-  if (units_ > kWorthReturning * units_of_other_) {
+  units_of_other_ = std::min(UnitsByAllPairs(answering_) / questions, units_before_try_);
+  excess_ = std::max(0.0, excess_ + questions * (units_ - units_of_other_));
+  if (excess_ > kExcessUnits * static_cast<double>(agents_)) {
     std::swap(units_, units_of_other_);
     patience_ = std::min(2 * patience_, kPatienceMax);
     Start(BroadPhaseMethod::kAllPairs);

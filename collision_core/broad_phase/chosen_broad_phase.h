@@ -23,17 +23,19 @@ const char* Name(BroadPhaseMethod method);
 ///
 /// Up to kFewAgents all pairs, beyond the index. Up to kManyAgents the index's work on questions of
 /// one agent is compared with what all pairs would have done (the same pairs, and N tests a
-/// question) every kPeriodQuestions: all pairs are taken where the index did kWorthReturning times
-/// as much. Then the index gets its next try after ever more questions, or when the number of agents
-/// has grown by half. A new method is filled kMoves agents a call beside the old one, which answers
+/// search), or did a question before it was tried again, every kPeriodQuestions. What it did more adds up, what it did less is taken off again:
+/// all pairs are taken where the sum exceeds kExcessUnits an agent, so that neither a dear beginning
+/// nor the rise from one placing to the next decides. Then the
+/// index gets its next try after ever more questions, or when the number of agents has grown by
+/// half. A new method is filled kMoves agents a call beside the old one, which answers
 /// until it is full: no call takes longer than the others. The face sweep has to be asked for: of
 /// one agent it asks every partner, and of a whole scene its crossings grow as N² t.
 class ChosenBroadPhase : public BroadPhase {
  public:
-  static constexpr std::size_t kFewAgents = 256;
+  static constexpr std::size_t kFewAgents = 128;
   static constexpr std::size_t kManyAgents = 768;
   static constexpr std::uint64_t kPeriodQuestions = 256;
-  static constexpr double kWorthReturning = 1.05;
+  static constexpr double kExcessUnits = 480;  ///< Seven placings of all. FITTED.
   static constexpr std::uint32_t kMoves = 8;
 
   explicit ChosenBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);
@@ -72,6 +74,7 @@ class ChosenBroadPhase : public BroadPhase {
   Method Make(BroadPhaseMethod kind) const;
   void Release(std::uint32_t agent);
   double Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const;
+  double UnitsByAllPairs(const BroadPhaseWork& done) const;
   double UnitsOf(const Method& method) const;
   bool Follows(std::uint32_t agent) const { return next_.phase && agent < filled_; }
   void Start(BroadPhaseMethod kind);
@@ -93,12 +96,14 @@ class ChosenBroadPhase : public BroadPhase {
   BroadPhaseWork before_{};   ///< Of methods that are gone.
   double units_before_ = 0;   ///< Likewise.
 
-  std::uint64_t questions_ = 0;   ///< Of one agent, since the last decision.
-  BroadPhaseWork answering_{};    ///< Work on them.
-  std::uint64_t patience_ = 0;    ///< Questions until the index is tried again.
-  std::size_t decided_with_ = 0;  ///< Agents at the last decision.
-  double units_ = 0;              ///< Of the method, a question, at the last decision.
-  double units_of_other_ = 0;     ///< Of the other one then.
+  std::uint64_t questions_ = 0;          ///< Of one agent, since the last decision.
+  BroadPhaseWork answering_{};           ///< Work on them.
+  std::uint64_t patience_ = 0;           ///< Questions until the index is tried again.
+  std::size_t decided_with_ = 0;         ///< Agents at the last decision.
+  double units_before_try_ = kInfinity;  ///< Of all pairs, a question, before the index's try.
+  double excess_ = 0;                    ///< Of the index over all pairs, since it answers [units].
+  double units_ = 0;                     ///< Of the method, a question, at the last decision.
+  double units_of_other_ = 0;            ///< Of the other one then.
   std::uint64_t changes_ = 0;
 };
 

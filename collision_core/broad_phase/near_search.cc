@@ -22,6 +22,9 @@ constexpr double kCrowdOfRoot = 1.5;
 /// indices.
 constexpr std::uint32_t kSomeMin = 8192, kStrideMax = 16;
 
+/// So many questions after a placing say what a question costs when it is fresh.
+constexpr std::uint32_t kFreshQuestions = 64;
+
 }  // namespace
 
 void NearSearch::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
@@ -152,19 +155,35 @@ void NearSearch::StartAnew(const Placing& placing) {
   ++work_.rebuilds;
   placing_ = placing;
   wasted_ = 0;
+  fresh_ = 0;
+  fresh_units_ = excess_units_ = 0;
   for (const std::uint32_t agent : moved_) has_moved_[agent] = false;
   moved_.clear();
   placed_ = false;
   SortOutWild();
 }
 
-// Placing everybody costs about one test for each: it is done when as many were wasted.
+// Places grow old: reaches grow, agents stray. Everybody is placed anew when questions have cost
+// more, by as much as placing costs, than they did at first (of all moments that one is the best if
+// the excess grows evenly), or when as many tests as there are agents were plainly wasted.
 void NearSearch::Refresh(Instant from) {
   const bool usable = placed_ && placing_.bound() == BoundKind::kHorn &&
                       !(placing_.blind() && HornTable::Near(from));
-  if (usable && wasted_ <= table_.count()) return PlaceMoved();
+  const double placing_units = BroadPhaseWork::kPlaceUnits * static_cast<double>(table_.count());
+  if (usable && wasted_ <= table_.count() && excess_units_ <= placing_units) return PlaceMoved();
   StartAnew(Placing(table_, {BoundKind::kHorn, from, Instant::Never()}, kWindowMax));
   PlaceEverybody();
+}
+
+// A question has been answered.
+void NearSearch::NoteCost(const BroadPhaseWork& before) {
+  const double units = work_.search_units() - before.search_units();
+  if (fresh_ < kFreshQuestions) {
+    ++fresh_;
+    fresh_units_ += units;
+  } else {
+    excess_units_ = std::max(0.0, excess_units_ + units - fresh_units_ / kFreshQuestions);
+  }
 }
 
 void NearSearch::OfferWild(PairSink* sink) const {
@@ -243,6 +262,12 @@ bool NearSearch::AsksAll(std::uint32_t agent, Instant from) const {
 }
 
 void NearSearch::FindNear(std::uint32_t agent, Instant from, double seconds) {
+  FindNearOnce(agent, from, seconds);
+  ++work_.searches;
+  work_.neighbours += near_.size();
+}
+
+void NearSearch::FindNearOnce(std::uint32_t agent, Instant from, double seconds) {
   near_.clear();
   if (AsksAll(agent, from)) {
     for (std::uint32_t other = 0; other < table_.size(); ++other) {
@@ -277,18 +302,22 @@ std::optional<PairMeeting> NearSearch::EarliestOf(std::uint32_t agent, const Bro
     return best.best();
   }
   Refresh(query.from);
+  const BroadPhaseWork before = work_;
   const bool all = AsksAll(agent, query.from);
   for (double seconds = std::min(placing_.window(), best.limit());;) {
     FindNear(agent, query.from, seconds);
     for (const std::uint32_t other : near_) best.Offer(agent, other);
-    if (best.limit() <= seconds || seconds >= kWindowMax || all) return best.best();
+    if (best.limit() <= seconds || seconds >= kWindowMax || all) break;
     seconds = std::min({kWindowFactor * seconds, best.limit(), kWindowMax});
   }
+  NoteCost(before);
+  return best.best();
 }
 
 void NearSearch::Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
                           const Skip& skip, std::vector<Meeting>* meetings) {
   Refresh(from);
+  const BroadPhaseWork before = work_;
   ++question_;
   if (told_in_.size() < table_.size()) told_in_.resize(table_.size(), 0);
   const std::size_t told = meetings->size();
@@ -327,6 +356,7 @@ void NearSearch::Meetings(std::uint32_t agent, Instant from, Instant until, Inst
     meetings->push_back({best.lower == agent ? best.higher : best.lower, best.time});
   }
   SortByPartner(told, meetings);
+  NoteCost(before);
 }
 
 }  // namespace collision

@@ -73,10 +73,15 @@ class NearSearch : public BroadPhase {
   void StartAnew(const Placing& placing);
   void OfferWild(PairSink* sink) const;
   void Refresh(Instant from);
+  void NoteCost(const BroadPhaseWork& before);
   bool AsksAll(std::uint32_t agent, Instant from) const;
   void FindNear(std::uint32_t agent, Instant from, double seconds);
+  void FindNearOnce(std::uint32_t agent, Instant from, double seconds);
 
   HornTable table_;
+  /// The first questions since the last placing, and what they cost; what later ones cost more.
+  std::uint32_t fresh_ = 0;
+  double fresh_units_ = 0, excess_units_ = 0;
   float fastest_ = 0;  ///< No horn that is placed has a greater speed.
   LaneRow crowd_;
   bool placed_ = false;  ///< All but those in moved_ are where they belong.

@@ -93,16 +93,16 @@ class Scene {
 TEST(ChosenBroadPhase, FollowsTheNumberOfAgents) {
   Scene scene(1);
   EXPECT_EQ(scene.chosen.method(), BroadPhaseMethod::kAllPairs);
-  scene.Resize(200);
+  scene.Resize(100);
   for (int i = 0; i < 500; ++i) scene.Step();
   EXPECT_EQ(scene.chosen.method(), BroadPhaseMethod::kAllPairs);
-  EXPECT_EQ(scene.chosen.why(), "200 agents: up to 256 it costs least");
+  EXPECT_EQ(scene.chosen.why(), "100 agents: up to 128 it costs least");
   scene.Resize(ChosenBroadPhase::kManyAgents + 1);
   EXPECT_EQ(scene.chosen.method(), BroadPhaseMethod::kSpatialIndex);
-  EXPECT_EQ(scene.chosen.why(), "769 agents: beyond 256 it costs least, as a rule");
+  EXPECT_EQ(scene.chosen.why(), "769 agents: beyond 128 it costs least, as a rule");
   for (int i = 0; i < 100; ++i) scene.Step();
   scene.ExpectSameEarliest();
-  scene.Resize(100);
+  scene.Resize(50);
   for (int i = 0; i < 100; ++i) scene.Step();
   EXPECT_EQ(scene.chosen.method(), BroadPhaseMethod::kAllPairs);
   scene.ExpectSameEarliest();

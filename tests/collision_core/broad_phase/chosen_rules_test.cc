@@ -60,7 +60,7 @@ TEST(ChosenBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
 // Goal:   what changes while the next method is filled counts after the change: rules of agents that
 //         are in it already, half-spaces of indices that are not yet.
 // Method: four agents far from all others, which only rules make meet or not, and half-spaces in
-//         which everybody lies; the next method is being filled when 712 agents are there.
+//         which everybody lies; the next method is being filled when 139 agents are there.
 TEST(ChosenBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
   ChosenBroadPhase chosen;
   Random random(5);
@@ -73,19 +73,19 @@ TEST(ChosenBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
   std::uint32_t next = 4;
   const auto grow_to = [&](std::uint32_t end) {
     for (; next < end; ++next) {
-      if (next < 200 || next > 202) chosen.Put(next, BoundIn(100, 0.01, 0.01, 0, &random));
+      if (next < 100 || next > 102) chosen.Put(next, BoundIn(100, 0.01, 0.01, 0, &random));
     }
   };
   const HalfSpace everywhere{{0, 0, 1}, 1e6};
-  ASSERT_TRUE(chosen.PutHalfSpace(200, everywhere));
-  ASSERT_TRUE(chosen.PutHalfSpace(201, everywhere));
-  grow_to(270);
+  ASSERT_TRUE(chosen.PutHalfSpace(100, everywhere));
+  ASSERT_TRUE(chosen.PutHalfSpace(101, everywhere));
+  grow_to(142);
   ASSERT_EQ(chosen.method(), BroadPhaseMethod::kAllPairs);
   const BroadQuery query{BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, 1)};
-  EXPECT_EQ(Text(chosen.EarliestOf(3, query)).substr(0, 7), "3 x 200");
-  chosen.Remove(200);
-  chosen.Put(201, BoundIn(100, 0.01, 0.01, 0, &random));
-  chosen.Remove(201);
+  EXPECT_EQ(Text(chosen.EarliestOf(3, query)).substr(0, 7), "3 x 100");
+  chosen.Remove(100);
+  chosen.Put(101, BoundIn(100, 0.01, 0.01, 0, &random));
+  chosen.Remove(101);
   EXPECT_EQ(Text(chosen.EarliestOf(0, query)).substr(0, 5), "0 x 1");
   chosen.Exclude(0, 1);
   chosen.SetMargin(2, 3, 3);
