@@ -24,6 +24,9 @@ struct AgentRecord {
 
   /// Certified free of every partner that is not tracked up to here; of a saturated agent nothing.
   Instant key = Instant::Always();
+  /// Likewise of those that are not restless beside it (restlessness.h); >= key. Who is restless is
+  /// asked about again when the key is due, the others when this is.
+  Instant calm_key = Instant::Always();
   std::uint32_t next_partner = 0;  ///< A partner that may be met at `key`, as far as is known.
   /// Nothing promised before holds from here on (admission, jump, breach, widening): ask everybody
   /// anew.

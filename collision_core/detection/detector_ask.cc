@@ -30,17 +30,27 @@ constexpr std::uint32_t kNobody = ~0u;
 
 }  // namespace
 
-void Detector::Implementation::SetKey(std::uint32_t agent, Instant key) {
+void Detector::Implementation::SetKeys(std::uint32_t agent, Instant key, Instant calm_key) {
   AgentRecord& record = At(agent);
   if (record.saturated) {
     queue_.Set(agent, AnnounceUntil());  // something has changed: asked again in the next step
     return;
   }
-  record.key = key;
-  key_rows_.SetKey(agent, key);
-  queue_.Set(agent, key);
-  if (latest_.Contains(agent)) latest_.Set(agent, Reversed(key));
+  record.key = std::min(key, calm_key);
+  record.calm_key = calm_key;
+  key_rows_.SetKeys(agent, record.key, calm_key);
+  queue_.Set(agent, record.key);
+  if (latest_.Contains(agent)) latest_.Set(agent, Reversed(calm_key));
   Touch(agent);
+}
+
+// They may meet at `when`, if its keys do not say earlier.
+void Detector::Implementation::LowerKeyOf(std::uint32_t agent, std::uint32_t partner,
+                                          Instant when) {
+  const AgentRecord& record = At(agent);
+  const Instant calm_key = record.calm_key;
+  SetKeys(agent, std::min(record.key, when),
+          restlessness_.IsRestless(partner, agent) ? calm_key : std::min(calm_key, when));
 }
 
 void Detector::Implementation::AskAll() {
@@ -67,7 +77,7 @@ void Detector::Implementation::SettleKeys() {
     if (!agents_[agent]) continue;
     const AgentRecord& record = At(agent);
     if (record.expired || record.saturated || record.renewed_from) continue;
-    latest_.Set(agent, Reversed(At(agent).key));
+    latest_.Set(agent, Reversed(record.calm_key));
   }
   fresh_.clear();
   const BroadPhaseWork work = broad_phase_.work();
@@ -94,12 +104,22 @@ std::size_t Detector::Implementation::RoomFor(const AgentRecord& agent) const {
 // Finds the agent's meetings anew: those within announce_within become tracked pairs, the earliest
 // of the others its key.
 void Detector::Implementation::Ask(std::uint32_t agent) {
+  ++counters_.queries;
+  At(agent).asked = step_;
+  asker_ = restlessness_.of(agent);
+  if (NeedOnlyAskRestless(agent)) {
+    AskRestless(agent);
+  } else {
+    AskEverybody(agent);
+  }
+  asking_ = Asking::kAll;
+}
+
+void Detector::Implementation::AskEverybody(std::uint32_t agent) {
   AgentRecord& record = At(agent);
   const bool renewed = record.renewed_from.has_value();
   const bool was_saturated = record.saturated;
   const Instant covered = record.renewed_from.value_or(record.key);
-  ++counters_.queries;
-  record.asked = step_;
   record.renewed_from.reset();
   if (was_saturated) Unsaturate(agent);
   latest_.Remove(agent);
@@ -114,15 +134,48 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
   if (IsCrowded(agent, from, was_saturated)) {
     crowd_ = true;
   } else {
-    AskBroadPhase(agent, from, renewed, was_saturated, covered);
+    const bool apart = restlessness_.HasRestless(agent);
+    if (apart) asking_ = Asking::kCalm;
+    Next next = AskBroadPhase(agent, from, renewed, was_saturated, covered);
+    const Instant calm_key = next.key;
+    if (apart && !record.saturated) {
+      asking_ = Asking::kRestless;
+      const Next restless = AskBroadPhase(agent, from, renewed, was_saturated, covered);
+      if (restless.key < next.key) next = restless;
+    }
+    if (!record.saturated) {
+      if (!next.key.is_never()) record.next_partner = next.partner;
+      SetKeys(agent, next.key, calm_key);
+    }
   }
   if (early && !record.saturated && record.key > covered) {
     record.next_partner = next_before;
-    SetKey(agent, covered);
+    SetKeys(agent, covered, record.calm_key);
   }
   if (renewed) LowerKeys(agent, from);
   if (many_) return TellIfLowered(agent, covered);
   record.renewed_cause = ClearanceCause::kNone;
+}
+
+// Whether the others are certified to be far beyond what is to be known now.
+bool Detector::Implementation::NeedOnlyAskRestless(std::uint32_t agent) const {
+  const AgentRecord& record = At(agent);
+  const bool calm_stays = record.key < record.calm_key && record.calm_key > AnnounceUntil() &&
+                          record.calm_key >= record.stamp();
+  return calm_stays && !record.renewed_from && !record.saturated && !many_ && RoomFor(record) > 0;
+}
+
+// It stays in latest_: about who is renewed in this step, and not restless, it is not asked.
+void Detector::Implementation::AskRestless(std::uint32_t agent) {
+  AgentRecord& record = At(agent);
+  const Instant covered = record.key;
+  asking_ = Asking::kRestless;
+  MarkTracked(record);
+  TrackUncovered(agent, false, covered);
+  const Next next = AskBroadPhase(agent, std::min(now_, covered), false, false, covered);
+  if (record.saturated) return;
+  if (!next.key.is_never()) record.next_partner = next.partner;
+  SetKeys(agent, next.key, record.calm_key);
 }
 
 // Of an agent without room for another pair all that is to be known is whether there is one that
@@ -148,22 +201,24 @@ bool Detector::Implementation::IsCrowded(std::uint32_t agent, Instant from, bool
   return false;
 }
 
-void Detector::Implementation::AskBroadPhase(std::uint32_t agent, Instant from, bool renewed,
-                                             bool was_saturated, Instant covered) {
+// Tracks who may be met soon. Of the others the first; unless the agent has become saturated.
+Detector::Implementation::Next Detector::Implementation::AskBroadPhase(std::uint32_t agent,
+                                                                       Instant from, bool renewed,
+                                                                       bool was_saturated,
+                                                                       Instant covered) {
   const AgentRecord& record = At(agent);
   // In a crowd most agents are saturated, and need no key.
   const bool crowd = crowd_ || was_saturated;
-  const bool only_near = crowd || horizon_ > kHorizonNear;
-  const Instant horizon = only_near ? AnnounceUntil() : Horizon(horizon_);
-  FindMeetings(agent, from, horizon);
+  const bool only_near = crowd || horizon() > kHorizonNear;
+  const Instant until = only_near ? AnnounceUntil() : Horizon(horizon());
+  FindMeetings(agent, from, until);
   crowd_ = record.saturated;
   TakeMeetings(agent, renewed, was_saturated, covered);
-  if (record.saturated) return;
-  if (TakeKey(agent)) {
-    NoteHorizon(record.key);
-  } else {
-    FindKey(agent, from, horizon);
-  }
+  if (record.saturated) return {};
+  const Next next = FirstFound();
+  if (next.key.is_never()) return FindKey(agent, from, until);
+  NoteHorizon(next.key);
+  return next;
 }
 
 // Into found_, by partner: whom the agent may meet within announce_within, and the earliest of the
@@ -193,7 +248,7 @@ void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, I
   };
   const auto skip = [&](std::uint32_t partner) {
     look();
-    if (Marked(partner)) return true;
+    if (IsLeftOut(agent, partner)) return true;
     if (IsFull(partner)) return partner > first_full;
     return first_.size() > room && partner > first_.front();
   };
@@ -213,7 +268,7 @@ void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, I
   if (first_full != kNobody) Saturate(agent, first_full);
 }
 
-// Tracks who may be met soon; the earliest of the others is the agent's key.
+// Tracks who may be met soon.
 void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, bool was_saturated,
                                             Instant covered) {
   const AgentRecord& record = At(agent);
@@ -232,32 +287,30 @@ void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, b
   }
 }
 
-// The earliest of found_ that is not tracked; false: there is none.
-bool Detector::Implementation::TakeKey(std::uint32_t agent) {
-  AgentRecord& record = At(agent);
-  Instant key = Instant::Never();
+// The earliest of found_ that is not tracked.
+Detector::Implementation::Next Detector::Implementation::FirstFound() const {
+  Next next;
   for (const Meeting& meeting : found_) {
-    if (Marked(meeting.partner) || meeting.time.instant() >= key) continue;
-    key = meeting.time.instant();
-    record.next_partner = meeting.partner;
+    if (Marked(meeting.partner) || meeting.time.instant() >= next.key) continue;
+    next = {meeting.time.instant(), meeting.partner};
   }
-  if (key.is_never()) return false;
-  SetKey(agent, key);
-  return true;
+  return next;
 }
 
 // Nobody that is not tracked is met by `known`.
-void Detector::Implementation::FindKey(std::uint32_t agent, Instant from, Instant known) {
+Detector::Implementation::Next Detector::Implementation::FindKey(std::uint32_t agent, Instant from,
+                                                                 Instant known) {
+  Next next;
   int step = 0;
-  for (int h = horizon_; !known.is_never(); h += std::min(++step, 2)) {
-    const Instant horizon = Horizon(h);
-    if (horizon <= known) continue;
-    FindNext(agent, from, known, horizon);
-    if (TakeKey(agent)) return NoteHorizon(At(agent).key);
-    known = horizon;
+  for (int h = horizon(); next.key.is_never() && !known.is_never(); h += std::min(++step, 2)) {
+    const Instant until = Horizon(h);
+    if (until <= known) continue;
+    FindNext(agent, from, known, until);
+    next = FirstFound();
+    known = until;
   }
-  SetKey(agent, Instant::Never());
-  NoteHorizon(Instant::Never());
+  NoteHorizon(next.key);
+  return next;
 }
 
 // Into found_: the first meeting of all that are not tracked, none of which comes by `known`. Far
@@ -267,7 +320,7 @@ void Detector::Implementation::FindNext(std::uint32_t agent, Instant from, Insta
                                         Instant horizon) {
   std::size_t offered = 0, left_out = 0;
   const auto sample = [&](std::uint32_t partner) {
-    if (Marked(partner)) return true;
+    if (IsLeftOut(agent, partner)) return true;
     if (++offered <= kAllAsked || offered % kSampleShare == 0) return false;
     ++left_out;
     return true;
@@ -278,7 +331,7 @@ void Detector::Implementation::FindNext(std::uint32_t agent, Instant from, Insta
   if (left_out == 0) return;
   if (!found_.empty()) horizon = found_.front().time.instant();
   const auto all = [&](std::uint32_t partner) {
-    if (Marked(partner)) return true;
+    if (IsLeftOut(agent, partner)) return true;
     ++looks_;
     return false;
   };
@@ -293,12 +346,13 @@ Instant Detector::Implementation::Horizon(int step) const {
   return AddRoundedUp(now_, ahead);
 }
 
-// Questions begin with the horizon that half of the last keys lay within.
+// Questions begin with the horizon that half of the last keys lay within, of agents as restless.
 void Detector::Implementation::NoteHorizon(Instant key) {
-  if (key > Horizon(horizon_)) {
-    horizon_ = std::min(horizon_ + 1, kHorizons);
-  } else if (horizon_ > 1 && key <= Horizon(horizon_ - 1)) {
-    --horizon_;
+  int& begin = horizon();
+  if (key > Horizon(begin)) {
+    begin = std::min(begin + 1, kHorizons);
+  } else if (begin > 1 && key <= Horizon(begin - 1)) {
+    --begin;
   }
 }
 
@@ -308,7 +362,7 @@ void Detector::Implementation::Saturate(std::uint32_t agent, std::uint32_t partn
   AgentRecord& record = At(agent);
   record.crowded_with = partner;
   crowded_[0] = agent, crowded_[1] = partner;
-  record.key = std::max(now_, record.stamp());
+  record.key = record.calm_key = std::max(now_, record.stamp());
   latest_.Remove(agent);
   Touch(agent);
   const double rest = kSaturatedShare * options_.announce_within;

@@ -1,6 +1,7 @@
 // The detector's insides. Only detector*.cc include this.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <unordered_map>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "collision_core/detection/former_motions.h"
 #include "collision_core/detection/key_rows.h"
 #include "collision_core/detection/pair_table.h"
+#include "collision_core/detection/restlessness.h"
 #include "collision_core/detection/scene_extremes.h"
 #include "collision_core/detection/work_shares.h"
 
@@ -56,6 +58,15 @@ class Detector::Implementation {
   };
   struct EarliestSearch;  // in detector_earliest.cc
 
+  /// The first that an agent meets of those that are not tracked.
+  struct Next {
+    Instant key = Instant::Never();
+    std::uint32_t partner = 0;
+  };
+
+  /// Whom a question is about.
+  enum class Asking { kAll, kCalm, kRestless };
+
   /// The order of ~key is that of the keys from the last to the first.
   static Instant Reversed(Instant key) { return Instant::FromNanoseconds(~key.nanoseconds()); }
   /// Of Horizon(); one more is Never().
@@ -92,17 +103,22 @@ class Detector::Implementation {
   // Asking the broad phase (detector_ask.cc).
   void AskAll();
   void Ask(std::uint32_t agent);
+  void AskEverybody(std::uint32_t agent);
+  bool NeedOnlyAskRestless(std::uint32_t agent) const;
+  void AskRestless(std::uint32_t agent);
   bool IsCrowded(std::uint32_t agent, Instant from, bool was_saturated);
-  void AskBroadPhase(std::uint32_t agent, Instant from, bool renewed, bool was_saturated,
+  Next AskBroadPhase(std::uint32_t agent, Instant from, bool renewed, bool was_saturated,
                      Instant covered);
   void FindMeetings(std::uint32_t agent, Instant from, Instant horizon);
-  void FindKey(std::uint32_t agent, Instant from, Instant known);
+  Next FindKey(std::uint32_t agent, Instant from, Instant known);
   void FindNext(std::uint32_t agent, Instant from, Instant known, Instant horizon);
-  bool TakeKey(std::uint32_t agent);
+  Next FirstFound() const;
   Instant Horizon(int step) const;
   void NoteHorizon(Instant key);
+  int& horizon() { return horizons_[asker_][asking_ == Asking::kRestless ? 1 : 0]; }
   void TakeMeetings(std::uint32_t agent, bool renewed, bool was_saturated, Instant covered);
-  void SetKey(std::uint32_t agent, Instant key);
+  void SetKeys(std::uint32_t agent, Instant key, Instant calm_key);
+  void LowerKeyOf(std::uint32_t agent, std::uint32_t partner, Instant when);
   void SettleKeys();
   void Saturate(std::uint32_t agent, std::uint32_t partner);
   void Unsaturate(std::uint32_t agent);
@@ -111,6 +127,11 @@ class Detector::Implementation {
   void NoteFull(std::uint32_t agent);
   void MarkTracked(const AgentRecord& agent);
   bool Marked(std::uint32_t partner) const { return marks_[partner] == mark_; }
+  bool IsLeftOut(std::uint32_t agent, std::uint32_t partner) const {
+    if (Marked(partner)) return true;
+    return asking_ != Asking::kAll &&
+           restlessness_.IsRestless(partner, agent) != (asking_ == Asking::kRestless);
+  }
 
   // What a renewal makes of others' keys (detector_lower.cc).
   void LowerKeys(std::uint32_t agent, Instant from);
@@ -124,7 +145,7 @@ class Detector::Implementation {
   void TrackUncovered(std::uint32_t agent, bool renewed, Instant covered);
   void TrackIfUncovered(std::uint32_t agent, std::uint32_t partner, bool renewed, Instant covered);
   void FindAround(std::uint32_t agent, Instant from);
-  SpaceTimeBound Around(const SpaceTimeBound& motion, Instant from) const;
+  double OwnReach(const SpaceTimeBound& motion, Instant from) const;
   Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covered) const;
   bool FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from, Instant to);
 
@@ -158,7 +179,8 @@ class Detector::Implementation {
   std::uint64_t removals_ = 0;
 
   EventQueue queue_;  // agents by the time at which they must be asked again
-  /// Agents by key, the latest first (as ~key), of those not asked and not renewed in this step.
+  /// Agents by calm_key, the latest first (as ~key), of those not asked about everybody and not
+  /// renewed in this step.
   EventQueue latest_;
   KeyRows key_rows_;
   std::uint64_t looks_ = 0;    // partners looked at beside the filters' tests
@@ -181,8 +203,12 @@ class Detector::Implementation {
   WorkShares work_shares_;
   std::vector<std::uint64_t> marks_;  // by agent: == mark_ if a tracked partner of who asks
   std::uint64_t mark_ = 0;
-  bool many_ = false;                      // are renewed in this step
-  int horizon_ = 1;                        // questions for keys begin with Horizon(horizon_)
+  bool many_ = false;          // are renewed in this step
+  Restlessness restlessness_;  // of what they declared at their last renewals
+  Asking asking_ = Asking::kAll;
+  int asker_ = 0;  // the class of who is asked
+  // Questions for keys begin with Horizon(horizon()), by asker_; of the restless alone.
+  std::array<std::array<int, 2>, Restlessness::kClasses> horizons_{};
   int split_ = 4;                          // keys beyond Horizon(split_) are lowered one by one
   std::uint32_t crowded_[2] = {~0u, ~0u};  // the last agent that was saturated, and with whom
   bool crowd_ = false;                     // the agent last asked was saturated

@@ -57,8 +57,9 @@ std::uint64_t Detector::Implementation::LowerFarKeys(std::uint32_t agent, Instan
   std::uint64_t sooner = 0;
   looks_ += candidates_.size();
   std::erase_if(candidates_, [&](std::uint32_t partner) {
-    sooner += key_rows_.key(partner) <= next;
-    return Marked(partner) || key_rows_.CertainlyLater(agent, partner);
+    const bool restless = restlessness_.IsRestless(agent, partner);
+    sooner += key_rows_.key(partner, restless) <= next;
+    return Marked(partner) || key_rows_.CertainlyLater(agent, partner, restless);
   });
   if (candidates_.empty()) return sooner;
   std::sort(candidates_.begin(), candidates_.end());
@@ -79,7 +80,7 @@ std::uint64_t Detector::Implementation::LowerNearKeys(std::uint32_t agent, Insta
   const auto skip = [&](std::uint32_t partner) {
     ++offers;
     return Marked(partner) || !latest_.Contains(partner) ||
-           key_rows_.CertainlyLater(agent, partner);
+           key_rows_.CertainlyLater(agent, partner, restlessness_.IsRestless(agent, partner));
   };
   const BroadPhaseWork before = broad_phase_.work();
   found_.clear();
@@ -115,14 +116,16 @@ void Detector::Implementation::TellIfLowered(std::uint32_t agent, Instant before
 }
 
 void Detector::Implementation::LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when) {
-  if (when >= At(partner).key) return;
+  AgentRecord& record = At(partner);
+  const bool sooner = when < record.key;
+  if (!sooner && (restlessness_.IsRestless(agent, partner) || when >= record.calm_key)) return;
   if (when <= AnnounceUntil()) {
     Saturate(partner, agent);  // there was no room to track the two
   } else {
-    At(partner).next_partner = agent;
-    SetKey(partner, when);
+    if (sooner) record.next_partner = agent;
+    LowerKeyOf(partner, agent, when);
   }
-  Tell(partner, agent);
+  if (sooner) Tell(partner, agent);
 }
 
 }  // namespace collision

@@ -310,9 +310,8 @@ bool Detector::Implementation::Untrack(std::uint32_t slot) {
     key = std::min(key, wide.instant());
   }
   if (key <= AnnounceUntil() || key < std::max(a.stamp(), b.stamp())) return false;
-  for (const std::uint32_t agent : {pair.lower, pair.higher}) {
-    SetKey(agent, std::min(At(agent).key, key));
-  }
+  LowerKeyOf(pair.lower, pair.higher, key);
+  LowerKeyOf(pair.higher, pair.lower, key);
   Release(slot);
   return true;
 }

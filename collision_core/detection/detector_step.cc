@@ -57,6 +57,7 @@ void Detector::Implementation::Expire(std::uint32_t agent, bool gone) {
   broad_phase_.Remove(agent);
   queue_.Remove(agent);
   latest_.Remove(agent);
+  restlessness_.Remove(agent);
   Touch(agent);
 }
 

@@ -8,6 +8,35 @@
 #include "collision_core/detection/detector_implementation.h"
 
 namespace collision {
+namespace {
+
+/// |v| t + M t (t + h) is more than the path that either direction of the horn allows, and has room
+/// for the rounding of all this.
+double Path(double speed, double acceleration_max, double time_step, double t) {
+  return 1.000001 * (speed + acceleration_max * (t + time_step)) * t;
+}
+
+/// Of one agent, from where its newest state says.
+double PathOf(const SpaceTimeBound& bound, double t) {
+  return Path(bound.state.v_WA.norm() + bound.state.velocity_error,
+              bound.declaration.acceleration_max, bound.declaration.time_step, t);
+}
+
+/// Twice the skew: of either clock.
+double Span(Instant a, Instant b, double skew) {
+  return b <= a ? 0 : SecondsBetween(a, b).upper + 2 * skew;
+}
+
+/// Whether the agent may get from its newest bound into the ball of `around`, `reach` wide beside
+/// its radius, in so much time.
+bool GetsInto(const SpaceTimeBound& around, double reach, const SpaceTimeBound& bound, double t) {
+  const double sum = reach + around.declaration.radius + bound.declaration.radius +
+                     2 * bound.state.position_error + PathOf(bound, t);
+  const double magnitude = around.state.p_WA.norm() + bound.state.p_WA.norm();
+  return !((around.state.p_WA - bound.state.p_WA).norm() > 1.000001 * sum + 1e-12 * magnitude);
+}
+
+}  // namespace
 
 void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
   const AgentRecord& record = At(agent);
@@ -29,7 +58,7 @@ void Detector::Implementation::TrackIfUncovered(std::uint32_t agent, std::uint32
   if (partner == agent || !agents_[partner]) return;
   const AgentRecord& record = At(agent);
   const AgentRecord& other = At(partner);
-  if (other.expired || Marked(partner) ||
+  if (other.expired || IsLeftOut(agent, partner) ||
       !CanMeet(record.bound().declaration, other.bound().declaration)) {
     return;
   }
@@ -45,49 +74,45 @@ void Detector::Implementation::TrackIfUncovered(std::uint32_t agent, std::uint32
 // newest state. Each of the agent's motions since then (there is a new one after each jump) is
 // replaced by a ball at rest that holds it all the time, and is wider by as far as anybody else may
 // move in that time; so whoever met it overlaps that ball with its newest bound, or with what it had
-// before it jumped.
+// before it jumped. Of those found by their newest bounds only who moves as far itself counts: one
+// that is violent does not have the others asked about each other.
 void Detector::Implementation::FindAround(std::uint32_t agent, Instant from) {
-  const Instant newest = extremes_.bounds().newest;
-  const auto skip = [this](std::uint32_t partner) { return Marked(partner); };
+  const SceneExtremes::Bounds& scene = extremes_.bounds();
+  const double others_time = Span(from, scene.newest, options_.skew);
+  const double others = 2 * scene.position_error_max + Path(scene.speed_max, scene.acceleration_max,
+                                                            scene.time_step_max, others_time);
+  const auto skip = [&](std::uint32_t partner) { return IsLeftOut(agent, partner); };
   At(agent).history.ForEachMotion(from, [&](const SpaceTimeBound& motion) {
-    SpaceTimeBound around = Around(motion, from);
+    const double own = OwnReach(motion, from);
+    SpaceTimeBound around;
+    around.state.stamp = from;
+    around.state.p_WA = motion.state.p_WA;
+    around.state.position_error = std::min(own + others, 1e300);
+    around.declaration.radius = motion.declaration.radius;
+    around.declaration.acceleration_max = 1e-30;  // not at rest for ever: it stands for what moves
     around.declaration.group = At(agent).bound().declaration.group;
     around.declaration.mask = At(agent).bound().declaration.mask;
     broad_phase_.Put(agent, around);
     found_.clear();
-    broad_phase_.Meetings(agent, from, newest, newest, skip, &found_);
-    for (const Meeting& meeting : found_) candidates_.push_back(meeting.partner);
-    former_.Find(around, from, newest, &candidates_);
+    broad_phase_.Meetings(agent, from, scene.newest, scene.newest, skip, &found_);
+    for (const Meeting& meeting : found_) {
+      const AgentRecord& partner = At(meeting.partner);
+      if (GetsInto(around, own, partner.margin.Widen(partner.bound()), others_time)) {
+        candidates_.push_back(meeting.partner);
+      }
+    }
+    former_.Find(around, from, scene.newest, &candidates_);
   });
   Put(agent);
 }
 
-SpaceTimeBound Detector::Implementation::Around(const SpaceTimeBound& motion, Instant from) const {
-  const SceneExtremes::Bounds& scene = extremes_.bounds();
-  // Twice the skew: of either clock. |v| t + M t (t + h) is more than the path that either direction
-  // of the horn allows, and has room for the rounding of all this.
-  const auto path = [](double speed, double acceleration_max, double time_step, double t) {
-    return 1.000001 * (speed + acceleration_max * (t + time_step)) * t;
-  };
-  const auto span = [&](Instant a, Instant b) {
-    return b <= a ? 0 : SecondsBetween(a, b).upper + 2 * options_.skew;
-  };
-  const MotionState& state = motion.state;
-  const double own_time =
-      std::max({span(from, state.stamp), span(state.stamp, scene.newest), 2 * options_.skew});
-  const double own = state.position_error + path(state.v_WA.norm() + state.velocity_error,
-                                                 motion.declaration.acceleration_max,
-                                                 motion.declaration.time_step, own_time);
-  const double others =
-      2 * scene.position_error_max +
-      path(scene.speed_max, scene.acceleration_max, scene.time_step_max, span(from, scene.newest));
-  SpaceTimeBound around;
-  around.state.stamp = from;
-  around.state.p_WA = state.p_WA;
-  around.state.position_error = std::min(own + others, 1e300);
-  around.declaration.radius = motion.declaration.radius;
-  around.declaration.acceleration_max = 1e-30;  // not at rest for ever: it stands for what moves
-  return around;
+// How far from its place the agent may have been in this motion since `from`.
+double Detector::Implementation::OwnReach(const SpaceTimeBound& motion, Instant from) const {
+  const double skew = options_.skew;
+  const Instant stamp = motion.state.stamp;
+  const double time =
+      std::max({Span(from, stamp, skew), Span(stamp, extremes_.bounds().newest, skew), 2 * skew});
+  return motion.state.position_error + PathOf(motion, time);
 }
 
 // Nothing is promised of an agent before it was admitted.

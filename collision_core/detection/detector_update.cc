@@ -67,7 +67,9 @@ Detector::Implementation::Implementation(const DetectorOptions& options)
       options_(options),
       broad_phase_(options.broad_phase),
       former_(std::make_unique<ChosenBroadPhase>(), options.agents_max),
-      key_rows_(options.skew) {}
+      key_rows_(options.skew) {
+  for (auto& of_class : horizons_) of_class.fill(1);
+}
 
 // The bits of an id are its owner's choice: mixed, so that no scene makes all meet in one bucket by
 // chance (SplitMix64's finalizer).
@@ -301,7 +303,9 @@ void Detector::Implementation::Renew(std::uint32_t agent, Instant from, Clearanc
   NoteChanged(agent);
   Put(agent);
   latest_.Remove(agent);
-  SetKey(agent, std::min(record.key, from));
+  restlessness_.Set(agent, record.bound().declaration.acceleration_max);
+  const Instant key = std::min(record.key, from);
+  SetKeys(agent, key, key);
   for (const std::uint32_t slot : record.pairs) {
     pairs_[slot].tracker.RetractFree(from, false);
     Tell(pairs_[slot].lower == agent ? pairs_[slot].higher : pairs_[slot].lower, agent);

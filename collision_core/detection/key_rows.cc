@@ -36,16 +36,16 @@ void KeyRows::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
 // The centres' difference moves on a segment, which stays away from the origin by more than both
 // can reach until the key. Some thirty operations lose far less than 2^-40 of their terms; a stamp
 // is given to the nanosecond.
-bool KeyRows::CertainlyLater(std::uint32_t agent, std::uint32_t partner) const {
+bool KeyRows::CertainlyLater(std::uint32_t agent, std::uint32_t partner, bool restless) const {
   constexpr double kRoundings = 0x1p-40;
   const Row &a = rows_[agent], &b = rows_[partner];
-  const Instant from = std::max(a.stamp, b.stamp);
-  if (b.key <= from) return true;
-  if (b.key.is_never()) return false;
+  const Instant from = std::max(a.stamp, b.stamp), until = key(partner, restless);
+  if (until <= from) return true;
+  if (until.is_never()) return false;
   constexpr double kStampRounding = 1e-8;
   double reach = 0, magnitude = 0;
   for (const Row* row : {&a, &b}) {
-    const double tau = Seconds(row->stamp, b.key) + skew_;
+    const double tau = Seconds(row->stamp, until) + skew_;
     reach += row->reach + row->velocity_error * tau +
              row->acceleration_max * tau * (tau + row->time_step) / 2;
     magnitude += row->magnitude + row->speed * tau;
@@ -53,7 +53,7 @@ bool KeyRows::CertainlyLater(std::uint32_t agent, std::uint32_t partner) const {
   const Eigen::Vector3d w = b.v - a.v;
   const Eigen::Vector3d d =
       (b.p + b.v * Seconds(b.stamp, from)) - (a.p + a.v * Seconds(a.stamp, from));
-  const double duration = Seconds(from, b.key);
+  const double duration = Seconds(from, until);
   const double nearest = std::clamp(-d.dot(w) / std::max(w.squaredNorm(), 1e-300), 0.0, duration);
   const double margin = kRoundings * (magnitude + reach) + kStampRounding * (w.norm() + 1);
   return (d + w * nearest).norm() > reach + margin;
