@@ -63,8 +63,9 @@ std::string Show(double value) {
 
 std::vector<Case> AllCases() {
   std::vector<Case> all;
-  for (const auto& part : {PairCases(), ContractCases(), ShapeCases(), BracketCases(), SceneCases(),
-                           RestingCases(), CrowdCases(), EdgeCases(), LongCases()}) {
+  for (const auto& part :
+       {PairCases(), ContractCases(), ShapeCases(), BracketCases(), SceneCases(), RestingCases(),
+        ViolentCases(), CrowdCases(), EdgeCases(), LongCases()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

@@ -68,6 +68,7 @@ std::vector<Case> CrowdCases();
 std::vector<Case> EdgeCases();
 std::vector<Case> RestingCases();
 std::vector<Case> SceneCases();
+std::vector<Case> ViolentCases();
 
 /// A number in a sentence.
 std::string Show(double value);

@@ -1,13 +1,11 @@
-// Bodies that rest, roll, chatter and are stacked; and a violent agent among calm ones.
+// Bodies that rest, roll, chatter and are stacked.
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "collision_core/narrow_phase/work.h"
 #include "collision_core/shape/shape.h"
 #include "tests/stress/scene.h"
 #include "tests/support/meshes.h"
-#include "tests/support/random.h"
 #include "tests/support/solids.h"
 
 namespace collision::stress {
@@ -209,71 +207,6 @@ void ChatteringJumps(const Setting& setting, Outcome* outcome) {
   RunSteadily(&scene, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
 }
 
-/// Everything that is told of calm agents among themselves.
-struct Told {
-  std::vector<CollisionEvent> events;
-  std::uint64_t queries = 0;
-};
-
-constexpr std::uint32_t kCalm = 40;
-
-Told RunCalm(bool violent, int steps, Outcome* outcome) {
-  Scene scene({}, Instant(), outcome);
-  Random random(301);
-  for (std::uint32_t k = 0; k < kCalm; ++k) {
-    const Vector3d p = 24 * random.Uniform(0.1, 1) * random.UnitVector();
-    scene.Add(BallOf(0.5, 0.5), Straight(p, random.Uniform(0, 4) * random.UnitVector()));
-  }
-  if (violent) {
-    // Round and round among them, at 200 m/s and 4000 m/s².
-    scene.Add(BallOf(0.5, 8000), [](Seconds t) {
-      MotionState state;
-      const double angle = static_cast<double>(20 * t);
-      state.p_WA = {10 * std::cos(angle), 10 * std::sin(angle), 0};
-      state.v_WA = {-200 * std::sin(angle), 200 * std::cos(angle), 0};
-      state.position_error = state.velocity_error = 1e-9;
-      return state;
-    });
-  }
-  scene.Run(kStep, steps);
-  Told told;
-  for (const CollisionEvent& event : scene.events()) {
-    if (event.higher.slot < kCalm) told.events.push_back(event);
-  }
-  told.queries = scene.detector().counters().queries;
-  return told;
-}
-
-auto BitsOf(const CollisionEvent& e) {
-  return std::tuple(e.lower, e.higher, e.contact, e.revision, e.now, e.status, e.begin.earliest,
-                    e.begin.latest, e.end.earliest, e.end.latest, e.separation_lower,
-                    e.separation_upper, e.depth_lower, e.work, e.limited_by);
-}
-
-void Violent(const Setting& setting, Outcome* outcome) {
-  const int steps = setting.Many(640, 6400);
-  const Told alone = RunCalm(false, steps, outcome), among = RunCalm(true, steps, outcome);
-  outcome->Expect(alone.events.size() > 20, "the calm ones hardly meet");
-  if (outcome->Expect(alone.events.size() == among.events.size(), "other events of calm ones")) {
-    for (const CollisionEvent& event : alone.events) {
-      const bool same =
-          std::any_of(among.events.begin(), among.events.end(),
-                      [&](const CollisionEvent& other) { return BitsOf(other) == BitsOf(event); });
-      outcome->Expect(same, "an event of calm ones is another with a violent one");
-    }
-  }
-  // The violent one is asked once a step at most; nobody else is asked more often for it.
-  outcome->Expect(among.queries <= alone.queries + steps, "calm ones are asked more often");
-  outcome->Set("calm_revisions", static_cast<double>(alone.events.size()));
-  outcome->Set("questions_without", static_cast<double>(alone.queries));
-  outcome->Set("questions_with", static_cast<double>(among.queries));
-  outcome->Say(Show(static_cast<double>(alone.events.size())) +
-               " revisions between calm ones, their times, revisions and turns (work) the same "
-               "bits; questions of all agents " +
-               Show(static_cast<double>(alone.queries)) + " without and " +
-               Show(static_cast<double>(among.queries)) + " with it");
-}
-
 const char* const kSteady =
     "no contact is missed or told late, another pair is not starved; at most 4 events an agent and "
     "twice the work allowed in a step, the queue does not grow";
@@ -281,11 +214,7 @@ const char* const kSteady =
 }  // namespace
 
 std::vector<Case> RestingCases() {
-  return {{"stiff", "violent-agent",
-           "events of calm pairs are the same bits with and without a violent agent: times, "
-           "revisions, and how often each pair was judged",
-           Violent},
-          {"extreme", "shape-scenes",
+  return {{"extreme", "shape-scenes",
            "cubes of 2^-20 to 2^20 m: contact is never missed or told late, and confirmed; begins "
            "within a step",
            ShapeScenes},

@@ -1,0 +1,74 @@
+#include "tests/stress/question_log.h"
+
+#include <algorithm>
+
+#include "collision_core/broad_phase/pair_time.h"
+#include "collision_core/detection/judge.h"
+
+// The linker takes __wrap_X for X wherever one source of the core calls another (CMakeLists.txt
+// beside this file), and __real_X is then X itself. Names are those of the C++ ABI that g++ and
+// clang++ have in common; of another signature nothing would be taken down, which `violent-agent`
+// notices.
+#define COLLISION_ASK "_ZN9collision20EarliestIntersectionERKNS_14SpaceTimeBoundES2_NS_7InstantE"
+#define COLLISION_JUDGE \
+  "_ZN9collision5JudgeERKNS_7HistoryES2_NS_7InstantEPNS_4WorkEPNS_14ContactTrackerE"
+
+namespace collision::stress {
+namespace {
+
+thread_local QuestionLog* log = nullptr;
+
+}  // namespace
+
+using Bound = SpaceTimeBound;
+
+PairTime RealAsk(const Bound& a, const Bound& b, Instant from) asm("__real_" COLLISION_ASK);
+PairTime RealMeet(const Bound& a, const Bound& b, Instant from, Instant until,
+                  double margin) asm("__real_" COLLISION_ASK "S3_d");
+Judged RealJudge(const History& a, const History& b, Instant until, Work* work,
+                 ContactTracker* tracker) asm("__real_" COLLISION_JUDGE);
+
+PairTime WrappedAsk(const Bound& a, const Bound& b, Instant from) asm("__wrap_" COLLISION_ASK);
+PairTime WrappedMeet(const Bound& a, const Bound& b, Instant from, Instant until,
+                     double margin) asm("__wrap_" COLLISION_ASK "S3_d");
+Judged WrappedJudge(const History& a, const History& b, Instant until, Work* work,
+                    ContactTracker* tracker) asm("__wrap_" COLLISION_JUDGE);
+
+PairTime WrappedAsk(const Bound& a, const Bound& b, Instant from) {
+  const PairTime time = RealAsk(a, b, from);
+  if (log != nullptr) {
+    log->Note(
+        Question::kAsked, a.declaration.radius, b.declaration.radius,
+        {.from = from.nanoseconds(), .answer = time.seconds, .base = time.base.nanoseconds()});
+  }
+  return time;
+}
+
+PairTime WrappedMeet(const Bound& a, const Bound& b, Instant from, Instant until, double margin) {
+  if (log != nullptr) {
+    log->Note(Question::kMet, a.declaration.radius, b.declaration.radius,
+              {.from = from.nanoseconds()});
+  }
+  return RealMeet(a, b, from, until, margin);
+}
+
+Judged WrappedJudge(const History& a, const History& b, Instant until, Work* work,
+                    ContactTracker* tracker) {
+  if (log != nullptr) {
+    log->Note(Question::kJudged, a.newest().declaration.radius, b.newest().declaration.radius,
+              {.from = until.nanoseconds()});
+  }
+  return RealJudge(a, b, until, work, tracker);
+}
+
+QuestionLog::QuestionLog() { log = this; }
+
+QuestionLog::~QuestionLog() { log = nullptr; }
+
+void QuestionLog::Note(Question question, double radius, double other, Asked asked) {
+  const auto [lesser, greater] = std::minmax(radius, other);
+  asked.now = now_;
+  of_[static_cast<int>(question)][{lesser, greater}].push_back(asked);
+}
+
+}  // namespace collision::stress

@@ -1,0 +1,205 @@
+// A violent agent among calm ones: what the calm ones are asked about each other, and when, does not
+// depend on it.
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+#include "tests/stress/question_log.h"
+#include "tests/stress/scene.h"
+#include "tests/support/random.h"
+
+namespace collision::stress {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::int64_t kStep = 1'000'000'000 / 64;
+constexpr std::uint32_t kCalm = 40;
+
+/// The radius of the first violent one; each agent has one of its own, those of calm ones are
+/// greater than all of theirs.
+constexpr double kViolentRadius = 0.25, kCalmRadius = 0.5, kRadiusStep = 0x1p-20;
+
+/// Scenes in which the violent ones stand differently to the calm ones.
+struct Wild {
+  const char* name;
+  double spread;           ///< Of the calm ones [m].
+  double announce_within;  ///< [s]
+  std::uint32_t violent;   ///< How many.
+  int jumps_every;         ///< They jump every so many steps; 0: never.
+};
+
+constexpr Wild kWild[] = {
+    // It may reach everybody within announce_within: tracked with all of them all the time.
+    {"within reach of all", 24, 2, 1, 0},
+    {"within reach of all, jumping", 24, 2, 1, 7},
+    // It may reach most of them next, over and over, but not yet.
+    {"the next of many", 200, 0.125, 1, 0},
+    {"the next of many, jumping", 200, 0.125, 1, 7},
+    {"three of them", 200, 0.125, 3, 5},
+};
+
+/// Everything that was told and asked of calm agents among themselves.
+struct Told {
+  std::vector<CollisionEvent> events;
+  QuestionLog::Questions of[kQuestions];
+  std::uint64_t queries = 0;
+};
+
+// Round and round among them, at 200 m/s and 4000 m/s², half of what it might.
+Motion Round(std::uint32_t which, int jumps_every) {
+  return [=, steps = 0](Seconds t) mutable {
+    MotionState state;
+    const double angle = static_cast<double>(20 * t) + which;
+    state.p_WA = {10 * std::cos(angle), 10 * std::sin(angle), 4.0 * which};
+    state.v_WA = {-200 * std::sin(angle), 200 * std::cos(angle), 0};
+    state.position_error = state.velocity_error = 1e-9;
+    state.discontinuity = jumps_every > 0 && ++steps % jumps_every == 0;
+    return state;
+  };
+}
+
+AgentDeclaration Ball(double radius, double acceleration_max) {
+  AgentDeclaration declaration;
+  declaration.radius = radius;
+  declaration.acceleration_max = acceleration_max;
+  return declaration;
+}
+
+Told RunAmong(const Wild& wild, bool violent, BroadPhaseMethod method, int steps,
+              Outcome* outcome) {
+  DetectorOptions options;
+  options.announce_within = wild.announce_within;
+  options.broad_phase = method;
+  QuestionLog log;
+  Scene scene(options, Instant(), outcome);
+  Random random(301);
+  // Most tell something in every second to fifth step only: in between their pairs are judged, and
+  // asked again, where time has come for it.
+  for (std::uint32_t k = 0; k < kCalm; ++k) {
+    const Vector3d p = wild.spread * random.Uniform(0.1, 1) * random.UnitVector();
+    scene.Add(Ball(kCalmRadius + k * kRadiusStep, 0.5),
+              Straight(p, random.Uniform(0, 4) * random.UnitVector()), 1 + static_cast<int>(k) % 5);
+  }
+  for (std::uint32_t k = 0; violent && k < wild.violent; ++k) {
+    scene.Add(Ball(kViolentRadius + k * kRadiusStep, 8000), Round(k, wild.jumps_every));
+  }
+  for (int i = 1; i <= steps; ++i) {
+    const Instant now = Instant::FromNanoseconds(i * kStep);
+    log.SetNow(now);
+    scene.StepTo(now);
+  }
+  Told told;
+  for (const CollisionEvent& event : scene.events()) {
+    if (event.higher.slot < kCalm) told.events.push_back(event);
+  }
+  for (int q = 0; q < kQuestions; ++q) {
+    for (const auto& [pair, asked] : log.of(static_cast<Question>(q))) {
+      if (pair.first >= kCalmRadius) told.of[q][pair] = asked;
+    }
+  }
+  told.queries = scene.detector().counters().queries;
+  return told;
+}
+
+auto BitsOf(const CollisionEvent& e) {
+  return std::tuple(e.lower, e.higher, e.contact, e.revision, e.now, e.status, e.begin.earliest,
+                    e.begin.latest, e.end.earliest, e.end.latest, e.separation_lower,
+                    e.separation_upper, e.depth_lower, e.work, e.limited_by);
+}
+
+const QuestionLog::Questions& Of(const Told& told, Question question) {
+  return told.of[static_cast<int>(question)];
+}
+
+std::size_t CountOf(const QuestionLog::Questions& questions) {
+  std::size_t count = 0;
+  for (const auto& [pair, asked] : questions) count += asked.size();
+  return count;
+}
+
+/// The pairs that were asked, and the steps in which they were.
+std::set<std::tuple<double, double, std::int64_t>> TimesOf(
+    const QuestionLog::Questions& questions) {
+  std::set<std::tuple<double, double, std::int64_t>> times;
+  for (const auto& [pair, asked] : questions) {
+    for (const Asked& one : asked) times.insert({pair.first, pair.second, one.now});
+  }
+  return times;
+}
+
+void JudgeSame(const Told& alone, const Told& among, const std::string& where, Outcome* outcome) {
+  const bool same_events = std::equal(
+      alone.events.begin(), alone.events.end(), among.events.begin(), among.events.end(),
+      [](const CollisionEvent& a, const CollisionEvent& b) { return BitsOf(a) == BitsOf(b); });
+  outcome->Expect(same_events, where + "other events of calm ones");
+  outcome->Expect(Of(alone, Question::kJudged) == Of(among, Question::kJudged),
+                  where + "calm pairs are judged more often, or at other times");
+  outcome->Expect(Of(alone, Question::kAsked) == Of(among, Question::kAsked),
+                  where + "calm pairs are asked again more often, at other times, or otherwise");
+}
+
+// By hand the face sweep: it has no filter, so that it gives the canonical routine whoever may be
+// met by whom it is asked about. What the other methods spare of that depends on where everybody is,
+// also on the violent one: with and without it they may ask a pair less often, but never at a time
+// at which the sweep asks none.
+void JudgeMet(const Wild& wild, BroadPhaseMethod method, const Told& alone, const Told& among,
+              const Told& swept, Outcome* outcome) {
+  const std::string where = std::string(Name(method)) + ", " + wild.name + ": ";
+  JudgeSame(alone, among, where, outcome);
+  const auto all = TimesOf(Of(swept, Question::kMet));
+  const auto times = TimesOf(Of(among, Question::kMet));
+  const auto without = TimesOf(Of(alone, Question::kMet));
+  if (method == BroadPhaseMethod::kFaceSweep) {
+    outcome->Expect(times == all && without == all,
+                    where + "calm ones are asked about each other at other times");
+  }
+  for (const auto& of : {times, without}) {
+    outcome->Expect(std::includes(all.begin(), all.end(), of.begin(), of.end()),
+                    where + "calm ones are asked about each other at a time of its own");
+  }
+  outcome->Add("calm_revisions", static_cast<double>(among.events.size()));
+  outcome->Add("judged", static_cast<double>(CountOf(Of(among, Question::kJudged))));
+  outcome->Add("asked", static_cast<double>(CountOf(Of(among, Question::kAsked))));
+  outcome->Add("met", static_cast<double>(times.size()));
+  outcome->Add("questions_without", static_cast<double>(alone.queries));
+  outcome->Add("questions_with", static_cast<double>(among.queries));
+}
+
+void Violent(const Setting& setting, Outcome* outcome) {
+  const int steps = setting.Many(640, 6400);
+  for (const Wild& wild : kWild) {
+    const Told swept = RunAmong(wild, false, BroadPhaseMethod::kFaceSweep, steps, outcome);
+    outcome->Expect(CountOf(Of(swept, Question::kMet)) > kCalm * kCalm,
+                    "no question was taken down");
+    for (const auto method : {BroadPhaseMethod::kFaceSweep, BroadPhaseMethod::kAllPairs,
+                              BroadPhaseMethod::kSpatialIndex, BroadPhaseMethod::kAuto}) {
+      const Told alone = RunAmong(wild, false, method, steps, outcome);
+      const Told among = RunAmong(wild, true, method, steps, outcome);
+      JudgeMet(wild, method, alone, among, swept, outcome);
+    }
+  }
+  outcome->Expect(outcome->Get("calm_revisions") > 100, "the calm ones hardly meet");
+  outcome->Expect(outcome->Get("judged") > 1000 && outcome->Get("asked") > 1000,
+                  "tracked pairs are hardly asked");
+  const auto show = [outcome](const char* name) { return Show(outcome->Get(name)); };
+  outcome->Say(show("calm_revisions") + " revisions between calm ones; tracked ones judged " +
+               show("judged") + " and asked again " + show("asked") +
+               " times, the others asked about each other in " + show("met") +
+               " steps, counted by pairs; questions of all agents " + show("questions_without") +
+               " without and " + show("questions_with") + " with the violent ones");
+}
+
+}  // namespace
+
+std::vector<Case> ViolentCases() {
+  return {{"stiff", "violent-agent",
+           "with and without violent agents the same bits of each calm pair, with every broad "
+           "phase: its events, how often it is judged and asked again, when, and what is "
+           "answered; in which steps calm ones are asked about each other, with a broad phase "
+           "without filters, and in no others with any",
+           Violent}};
+}
+
+}  // namespace collision::stress
