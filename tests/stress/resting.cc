@@ -16,6 +16,9 @@ using Eigen::Vector3d;
 constexpr std::int64_t kStep = 1'000'000'000 / 64;
 constexpr double kStepSeconds = 0x1p-6;
 
+/// When the bystanders meet [s].
+constexpr double kBystanders = 1.5;
+
 /// Revisions of events in a step at most, for each pair that is tracked.
 constexpr double kEventsPerPair = 4;
 
@@ -53,17 +56,49 @@ DetectorOptions Limited() {
   return options;
 }
 
-/// A pair far from everything else, which meets after `begin` seconds: nobody may starve it.
-void AddBystanders(Scene* scene, double begin) {
-  const Vector3d far(4096, 0, 0), x(1, 0, 0);
+/// Two far from everything else, which meet after `begin` seconds: nobody may starve them. Returns
+/// the first of them; the second comes next.
+std::uint32_t AddPair(Scene* scene, const AgentDeclaration& declaration, const Vector3d& far,
+                      double begin) {
+  const Vector3d x(1, 0, 0);
   const double half = 0.5 + begin;
-  const auto a = scene->Add(BallOf(0.5, 0.01), Straight(far - half * x, x));
-  const auto b = scene->Add(BallOf(0.5, 0.01), Straight(far + half * x, -x));
+  const auto a = scene->Add(declaration, Straight(far - half * x, x));
+  const auto b = scene->Add(declaration, Straight(far + half * x, -x));
   scene->Touch(a, b, begin, begin + 1);
+  return a;
 }
 
-/// The second half of a run needs no more room than the first one, and a step is bounded.
-void RunSteadily(Scene* scene, int steps, Outcome* outcome, Seconds width = 1e-3) {
+/// Two balls and two cubes. Returns the first of the cubes.
+std::uint32_t AddBystanders(Scene* scene) {
+  AddPair(scene, BallOf(0.5, 0.01), {4096, 0, 0}, kBystanders);
+  return AddPair(scene, Of(CubeShape(), 0.01), {8192, 0, 0}, kBystanders);
+}
+
+/// How soon cubes that meet are told to, and how closely, also while others want all the work there
+/// is.
+struct Service {
+  double after = 4 * kStepSeconds, width = 1e-3;  ///< At most [s].
+};
+
+void ExpectServed(const Scene& scene, std::uint32_t cube, double begin, const Service& service,
+                  Outcome* outcome) {
+  const auto confirmed = std::find_if(
+      scene.events().begin(), scene.events().end(), [cube](const CollisionEvent& event) {
+        return event.lower.slot == cube && event.status == EventStatus::kConfirmed;
+      });
+  if (!outcome->Expect(confirmed != scene.events().end(), "a pair of cubes is starved")) return;
+  const double after = SecondsBetween(Instant(), confirmed->now).upper - begin;
+  const double found = SecondsBetween(confirmed->begin.earliest, confirmed->begin.latest).upper;
+  outcome->Greatest("cubes_told_after_s", after);
+  outcome->Greatest("cubes_width_s", found);
+  outcome->Expect(after <= service.after, "a pair of cubes is starved: told late");
+  outcome->Expect(found <= service.width, "a pair of cubes is starved: a wide bracket");
+}
+
+/// The second half of a run needs no more room than the first one, and a step is bounded. `cube`:
+/// AddBystanders().
+void RunSteadily(Scene* scene, std::uint32_t cube, int steps, Outcome* outcome,
+                 Seconds width = 1e-3) {
   scene->Run(kStep, steps / 2);
   const std::size_t before = scene->queued_max();
   scene->Run(kStep, steps - steps / 2);
@@ -75,6 +110,7 @@ void RunSteadily(Scene* scene, int steps, Outcome* outcome, Seconds width = 1e-3
   outcome->Expect(static_cast<double>(scene->work_per_step_max()) <= 2 * units,
                   "a step spends more than twice what is allowed");
   scene->Judge(width, false);
+  ExpectServed(*scene, cube, kBystanders, {}, outcome);
   outcome->Set("revisions_per_step",
                static_cast<double>(scene->events().size()) / static_cast<double>(steps));
   SayScene(*scene, outcome);
@@ -88,8 +124,8 @@ void Resting(const Setting& setting, Outcome* outcome) {
   const auto ball = scene.Add(BallOf(0.5, 0.01), Straight({4, 0, 0.5}, {0, 0, 0}));
   scene.Touch(0, cube, 0, INFINITY);
   scene.Touch(0, ball, 0, INFINITY);
-  AddBystanders(&scene, 1.5);
-  RunSteadily(&scene, setting.Many(640, 6400), outcome);
+  const auto cubes = AddBystanders(&scene);
+  RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome);
 }
 
 // Cubes head on, of the smallest size that the edge lets pass to nearly the largest.
@@ -116,33 +152,37 @@ void Stack(const Setting& setting, Outcome* outcome) {
     scene.Add(Of(CubeShape(), 0.01), Straight({aside, 0, 0.5 + k}, {0, 0, 0}));
     scene.Touch(k, k + 1, 0, INFINITY);
   }
-  AddBystanders(&scene, 1.5);
-  RunSteadily(&scene, setting.Many(320, 3200), outcome);
+  const auto cubes = AddBystanders(&scene);
+  RunSteadily(&scene, cubes, setting.Many(320, 3200), outcome);
 }
 
-// A ball of triangles and a smooth one roll over a slab: v = ω r.
-void Rolling(const Setting& setting, Outcome* outcome) {
-  Scene scene(Limited(), Instant(), outcome);
-  scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
-  const auto round = Shape::Build(Sphere(2));
-  const double speed = 1;
-  const auto roll = [speed](Seconds t) {
+/// Along x from `from`, and turning as a ball of radius 1 does that rolls: v = ω r.
+Motion Roll(const Vector3d& from, double speed) {
+  return [=](Seconds t) {
     MotionState state;
     const double s = static_cast<double>(t);
-    state.p_WA = {-8 + speed * s, 0, 1};
+    state.p_WA = from + speed * s * Vector3d(1, 0, 0);
     state.v_WA = {speed, 0, 0};
     state.w_WB = {0, speed, 0};
     state.q_WB = Eigen::Quaterniond(std::cos(s * speed / 2), 0, std::sin(s * speed / 2), 0);
     state.rotation_error = 1e-12;
     return state;
   };
+}
+
+// A ball of triangles and a smooth one roll over a slab.
+void Rolling(const Setting& setting, Outcome* outcome) {
+  Scene scene(Limited(), Instant(), outcome);
+  scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
+  const auto round = Shape::Build(Sphere(2));
+  const double speed = 1;
   // Of triangles it touches the slab with its corners only, if at all.
-  const auto ball = scene.Add(Of(round, 0.01), roll);
+  const auto ball = scene.Add(Of(round, 0.01), Roll({-8, 0, 1}, speed));
   const auto smooth = scene.Add(BallOf(1, 0.01), Straight({-8, 4, 1}, {speed, 0, 0}));
   scene.Touch(0, ball, 0, INFINITY);
   scene.Touch(0, smooth, 0, INFINITY);
-  AddBystanders(&scene, 1.5);
-  RunSteadily(&scene, setting.Many(640, 1000), outcome);
+  const auto cubes = AddBystanders(&scene);
+  RunSteadily(&scene, cubes, setting.Many(640, 1000), outcome);
 }
 
 // A ball that bounces off a slab and loses half of its speed each time: infinitely many contacts in
@@ -184,9 +224,9 @@ void Chattering(const Setting& setting, Outcome* outcome) {
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
   const auto ball = scene.Add(BallOf(0.5, M), [bouncing](Seconds t) { return bouncing.At(t); });
   TouchAtBounces(bouncing, ball, &scene);
-  AddBystanders(&scene, 1.5);
+  const auto cubes = AddBystanders(&scene);
   // What happens between two states, and how soon it is over, is not known any closer.
-  RunSteadily(&scene, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
+  RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
 }
 
 // The same with each impact declared as a discontinuity, under a bound of gravity alone.
@@ -203,13 +243,68 @@ void ChatteringJumps(const Setting& setting, Outcome* outcome) {
     return state;
   });
   TouchAtBounces(bouncing, 1, &scene);
-  AddBystanders(&scene, 1.5);
-  RunSteadily(&scene, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
+  const auto cubes = AddBystanders(&scene);
+  RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
+}
+
+/// Contacts that have no end and no answer: a stack, a ball of triangles that rolls, and a cube that
+/// chatters. All of them want what a turn may spend, over and over.
+void AddGreedy(Scene* scene) {
+  scene->Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    const double aside = k % 2 == 0 ? 0 : 0.125;
+    scene->Add(Of(CubeShape(), 0.01), Straight({aside, 0, 0.5 + k}, {0, 0, 0}));
+    scene->Touch(k, k + 1, 0, INFINITY);
+  }
+  const auto ball = scene->Add(Of(Shape::Build(Sphere(2)), 0.01), Roll({-8, 8, 1}, 1));
+  scene->Touch(0, ball, 0, INFINITY);
+  const Bouncing bouncing;
+  auto chattering = Of(CubeShape(), 4 * bouncing.speed / kStepSeconds);
+  chattering.angular_acceleration_max = 0.01;
+  const auto cube = scene->Add(chattering, [bouncing](Seconds t) {
+    MotionState state = bouncing.At(t);
+    state.p_WA += Vector3d(8, -8, 0);
+    return state;
+  });
+  TouchAtBounces(bouncing, cube, scene);
+}
+
+// Cubes that meet, at their own time, beside all that: with a budget that is ever smaller. Of the
+// smallest a fair share is 240 units of work, little more than one look at two cubes: then they are
+// told while they touch.
+void Starving(const Setting& setting, Outcome* outcome) {
+  const int steps = setting.Many(256, 1024);
+  for (const std::uint64_t units : {16'000, 8'000, 4'000}) {
+    DetectorOptions options;
+    options.work_units_per_turn = units;
+    options.work_units_per_step = units;
+    Scene scene(options, Instant(), outcome);
+    AddGreedy(&scene);
+    constexpr double kFirst = 0.5, kNext = 0.1875;
+    std::vector<std::uint32_t> cubes;
+    for (int k = 0; k < 6; ++k) {
+      cubes.push_back(
+          AddPair(&scene, Of(CubeShape(), 0.01), {8192, 64.0 * k, 0}, kFirst + k * kNext));
+    }
+    scene.Run(kStep, steps);
+    for (int k = 0; k < 6; ++k) {
+      const Service service =
+          units > 4'000 ? Service{4 * kStepSeconds, 2 * kStepSeconds} : Service{1, 1};
+      ExpectServed(scene, cubes[k], kFirst + k * kNext, service, outcome);
+    }
+    outcome->Add("turns_cut_short",
+                 static_cast<double>(scene.detector().counters().turns_cut_short));
+  }
+  outcome->Expect(outcome->Get("turns_cut_short") > 256, "the budgets are hardly used up");
+  outcome->Say("cubes that meet are told " + Show(outcome->Get("cubes_told_after_s")) +
+               " s later at most, and known within " + Show(outcome->Get("cubes_width_s")) +
+               " s, while " + Show(outcome->Get("turns_cut_short")) + " turns were cut short");
 }
 
 const char* const kSteady =
-    "no contact is missed or told late, another pair is not starved; at most 4 events an agent and "
-    "twice the work allowed in a step, the queue does not grow";
+    "no contact is missed or told late; another pair of balls, and one of cubes, is not starved; "
+    "at "
+    "most 4 events an agent and twice the work allowed in a step, the queue does not grow";
 
 }  // namespace
 
@@ -222,7 +317,12 @@ std::vector<Case> RestingCases() {
           {"stiff", "stack", kSteady, Stack},
           {"stiff", "rolling", kSteady, Rolling},
           {"stiff", "chattering", kSteady, Chattering},
-          {"stiff", "chattering-jumps", kSteady, ChatteringJumps}};
+          {"stiff", "chattering-jumps", kSteady, ChatteringJumps},
+          {"stiff", "starving",
+           "beside a stack, a rolling and a chattering body, with 16000 to 4000 units of work a "
+           "step for all: six pairs of cubes that meet are confirmed within four steps, and known "
+           "within two",
+           Starving}};
 }
 
 }  // namespace collision::stress
