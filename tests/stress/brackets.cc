@@ -12,8 +12,23 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// K: a bracket is at most so many units in the last place of place and size wide.
-constexpr double kBracketUnits = 1024;
+/// K of a bracket: so many units in the last place of L, which is how far the two are from each other
+/// and how large; plus what directions lose (UnitsOf()). With ε = 2^-53 a unit is 2ε L.
+///
+/// What the core takes off both ends for the pose's rounding (SlackOf): 2 · 16ε (R_a + R_b + |o|₁),
+/// at most √3 · 32ε L, which is 28 units. A bracket of two triangles is left as it is where it is
+/// narrower than 64ε (S_a + S_b) (triangle_distance.cc), with all coordinates seen from one of the
+/// corners: S_a + S_b <= 2 R_a + L < 3 L, so that is 96 units. 20ε and 11.1√3 ε of S_a + S_b on top,
+/// that is what both its ends are taken out by, have room in it.
+constexpr double kBracketUnits = 28 + 96;
+
+/// Else it is told along a direction n = e × f of two edges. Their components are off by ε each, the
+/// products' by two, their difference's by one more: less than 4√2 ε |e| |f| in all, so that n is
+/// turned by 6ε / sin(e, f) at most. What lies across it, 2 R_a + 2 R_b <= 2 L long, sticks out by
+/// as much: 12ε L / sin, or 6 units.
+constexpr double kUnitsTurned = 6;
+/// Edges are parallel below this sine: then corners are as near as they are, or a face.
+constexpr double kParallel = 0x1p-40;
 constexpr std::uint64_t kUnits = 200'000;
 
 std::shared_ptr<const Shape> FormOf(int kind, double size) {
@@ -62,6 +77,36 @@ bool Nested(const Surface& a, const Surface& b, const RelativePose& pose) {
          inside(*b.shape(), pose.ToB(a.shape()->mesh().vertices[0]));
 }
 
+double SineOf(const Vector3d& e, const Vector3d& f) {
+  return e.cross(f).norm() / (e.norm() * f.norm());
+}
+
+/// The edges of all triangles, and the least sine of two that make a normal.
+double EdgesOf(const Shape& shape, const Eigen::Matrix3d& turn, std::vector<Vector3d>* edges) {
+  double least = 1;
+  for (const Triangle& t : shape.mesh().triangles) {
+    const auto& x = shape.mesh().vertices;
+    const std::size_t first = edges->size();
+    for (int i = 0; i < 3; ++i) edges->push_back(turn * (x[t[(i + 1) % 3]] - x[t[i]]));
+    least = std::min(least, SineOf((*edges)[first], (*edges)[first + 1]));
+  }
+  return least;
+}
+
+/// K of the bracket of two bodies.
+double UnitsOf(const Shape& a, const Shape& b, const RelativePose& pose) {
+  std::vector<Vector3d> of_a, of_b;
+  double least =
+      std::min(EdgesOf(a, Eigen::Matrix3d::Identity(), &of_a), EdgesOf(b, pose.matrix, &of_b));
+  for (const Vector3d& e : of_a) {
+    for (const Vector3d& f : of_b) {
+      const double sine = SineOf(e, f);
+      if (sine > kParallel) least = std::min(least, sine);
+    }
+  }
+  return kBracketUnits + kUnitsTurned / least;
+}
+
 BodySegment At(std::shared_ptr<const Shape> shape) {
   BodySegment body;
   body.ball.radius = shape->facts().radius;
@@ -92,8 +137,11 @@ void JudgeBracket(const BodySegment& first, const BodySegment& second, const Rel
   outcome->Expect(IsAtLeast(look.upper, square, 0), "the distance's upper end is below the truth");
   const double unit = 0x1p-52 * (pose.offset.norm() + a.reach() + b.reach());
   const double width = (look.upper - std::max(0.0, look.lower)) / unit;
+  const double allowed = UnitsOf(*first.shape, *second.shape, pose);
   outcome->Greatest("width_units", width);
-  outcome->Expect(width <= kBracketUnits, "a bracket of " + Show(width) + " units");
+  outcome->Greatest("width_share", width / allowed);
+  outcome->Expect(width <= allowed,
+                  "a bracket of " + Show(width) + " units, of " + Show(allowed) + " allowed");
 }
 
 void Brackets(const Setting& setting, Outcome* outcome) {
@@ -113,7 +161,8 @@ void Brackets(const Setting& setting, Outcome* outcome) {
   }
   outcome->Say(Show(outcome->Get("poses")) + " poses (" + Show(outcome->Get("touching")) +
                " in contact), the widest bracket " + Show(outcome->Get("width_units")) +
-               " units, " + Show(outcome->Get("work_max")) + " units of work at most");
+               " units, " + Show(outcome->Get("width_share")) + " of what is allowed at most; " +
+               Show(outcome->Get("work_max")) + " units of work at most");
 }
 
 // Boxes of which a face is a unit in the last place before, at, and behind the other's.
@@ -131,12 +180,15 @@ void BracketGrazing(const Setting& setting, Outcome* outcome) {
     }
   }
   outcome->Say(Show(outcome->Get("poses")) + " poses (" + Show(outcome->Get("touching")) +
-               " in contact), the widest bracket " + Show(outcome->Get("width_units")) + " units");
+               " in contact), the widest bracket " + Show(outcome->Get("width_units")) +
+               " units, " + Show(outcome->Get("width_share")) + " of what is allowed at most");
 }
 
 const char* const kPromise =
-    "brackets of the distance contain the exact one, decisions are never wrong; at most 1024 units "
-    "in the last place of place and size wide; work within what is allowed";
+    "brackets of the distance contain the exact one, decisions are never wrong; at most 124 + 6/s "
+    "units in the last place of place and size wide, s the least sine of edges that make a "
+    "direction "
+    "(derived, brackets.cc); work within what is allowed";
 
 }  // namespace
 

@@ -30,7 +30,7 @@ SpaceTimeBound LargerBy(SpaceTimeBound bound, double units) {
 /// The least K of some tried for which the answer is the exact one; 1024: none of them.
 double UnitsEarly(const SpaceTimeBound& a, const SpaceTimeBound& b, const PairTime& time) {
   const Dyadic later = ExactMeeting::Nanoseconds(time.seconds) * Dyadic(1 + 1e-9);
-  for (const double units : {0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 64.0}) {
+  for (const double units : {0.0, 1.0, 2.0, 4.0, 8.0, kDenormalUnits, 64.0}) {
     const ExactMeeting larger(LargerBy(a, units), b, time.base, {false, units * 0x1p-52});
     if (larger.MetBy(later)) return units;
   }

@@ -20,6 +20,13 @@ SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double r
 /// K of the earliest possible intersection; beyond it 1e-9 of the time are allowed.
 inline constexpr double kPairUnits = 4;
 
+/// Likewise among the denormals, where a unit is 2^-1074. Sums are exact there; a product or quotient
+/// is rounded outward by 1.5 units at most (numeric/rounding.h). In the gap at δ, seen along n, which
+/// is not longer than √3 and has no component beyond 1 (first_approach.cc): three of w δ, three of
+/// n·d and one of its division by |n| >= 1 make 10.5; of the reach both ½M, c1 δ, c2 δ and its product
+/// with δ make 7.5.
+inline constexpr double kDenormalUnits = 18;
+
 /// EarliestIntersection(): not late, K units early at most, the same for (B, A), finite or never.
 void JudgePair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from, Outcome* outcome,
                double units_max = kPairUnits);

@@ -175,7 +175,7 @@ void Denormals(const Setting& setting, Outcome* outcome) {
                     Ball(-unit * along, unit * along, small()), 2};
     if (random.Chance(0.3)) passage.a.declaration.acceleration_max = small();
     if (random.Chance(0.3)) passage.a.declaration.radius = unit;
-    JudgeBoth(passage, outcome, 2 * kPairUnits);
+    JudgeBoth(passage, outcome, kDenormalUnits);
   }
   SayJudged(outcome);
 }
@@ -232,7 +232,7 @@ std::vector<Case> PairCases() {
       {"extreme", "stamps", kPromise, Stamps},
       {"extreme", "zero-radius", kPromise, ZeroRadius},
       {"extreme", "denormals",
-       "never late against exact arithmetic; finite, ordered; as narrow as inputs 8 (meeting) and "
+       "never late against exact arithmetic; finite, ordered; as narrow as inputs 18 (meeting) and "
        "16 (contact) of the smallest numbers off would force",
        Denormals},
       {"extreme", "grazing", kPromise, Grazing},
