@@ -134,11 +134,11 @@ void Detector::Implementation::AskEverybody(std::uint32_t agent) {
   if (IsCrowded(agent, from, was_saturated)) {
     crowd_ = true;
   } else {
-    const bool apart = restlessness_.HasRestless(agent);
+    const bool apart = restlessness_.CountBeside(agent) > 0;
     if (apart) asking_ = Asking::kCalm;
     Next next = AskBroadPhase(agent, from, renewed, was_saturated, covered);
     const Instant calm_key = next.key;
-    if (apart && !record.saturated) {
+    if (apart && !record.saturated && !TracksAllRestless(agent)) {
       asking_ = Asking::kRestless;
       const Next restless = AskBroadPhase(agent, from, renewed, was_saturated, covered);
       if (restless.key < next.key) next = restless;
@@ -163,6 +163,16 @@ bool Detector::Implementation::NeedOnlyAskRestless(std::uint32_t agent) const {
   const bool calm_stays = record.key < record.calm_key && record.calm_key > AnnounceUntil() &&
                           record.calm_key >= record.stamp();
   return calm_stays && !record.renewed_from && !record.saturated && !many_ && RoomFor(record) > 0;
+}
+
+// Then none of them is left that could be met.
+bool Detector::Implementation::TracksAllRestless(std::uint32_t agent) const {
+  std::uint32_t tracked = 0;
+  for (const std::uint32_t slot : At(agent).pairs) {
+    const PairRecord& pair = pairs_[slot];
+    tracked += restlessness_.IsRestless(pair.lower == agent ? pair.higher : pair.lower, agent);
+  }
+  return tracked == restlessness_.CountBeside(agent);
 }
 
 // It stays in latest_: about who is renewed in this step, and not restless, it is not asked.

@@ -105,6 +105,7 @@ class Detector::Implementation {
   void Ask(std::uint32_t agent);
   void AskEverybody(std::uint32_t agent);
   bool NeedOnlyAskRestless(std::uint32_t agent) const;
+  bool TracksAllRestless(std::uint32_t agent) const;
   void AskRestless(std::uint32_t agent);
   bool IsCrowded(std::uint32_t agent, Instant from, bool was_saturated);
   Next AskBroadPhase(std::uint32_t agent, Instant from, bool renewed, bool was_saturated,

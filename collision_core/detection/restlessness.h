@@ -29,12 +29,11 @@ class Restlessness {
     return Stands(classes_[partner], classes_[beside]);
   }
 
-  /// Whether there is anybody that is restless beside it.
-  bool HasRestless(std::uint32_t beside) const {
-    for (int k = kClasses - 1; Stands(k, classes_[beside]); --k) {
-      if (counts_[k] > 0) return true;
-    }
-    return false;
+  /// How many are restless beside it.
+  std::uint32_t CountBeside(std::uint32_t beside) const {
+    std::uint32_t count = 0;
+    for (int k = kClasses - 1; Stands(k, classes_[beside]); --k) count += counts_[k];
+    return count;
   }
 
  private:

@@ -23,7 +23,7 @@ TEST(Restlessness, GoesByTheRatioOfTheAccelerations) {
     EXPECT_FALSE(scene.IsRestless(0, 0));
     EXPECT_FALSE(ratio < 16 && scene.IsRestless(1, 0)) << calm << " " << ratio;
     EXPECT_FALSE(ratio >= 256.0001 && !scene.IsRestless(1, 0)) << calm << " " << ratio;
-    EXPECT_EQ(scene.HasRestless(0), scene.IsRestless(1, 0));
+    EXPECT_EQ(scene.CountBeside(0), scene.IsRestless(1, 0) ? 1u : 0u);
   }
   EXPECT_GT(restless, 1000);
 }
@@ -33,7 +33,7 @@ TEST(Restlessness, ExtremesAreClassesToo) {
   const double bounds[] = {0, 5e-324, 1e-300, 1, 1e18, 1e300, INFINITY};
   for (std::uint32_t k = 0; k < 7; ++k) scene.Set(k, bounds[k]);
   for (std::uint32_t k = 0; k < 7; ++k) EXPECT_FALSE(scene.IsRestless(k, 0)) << k;
-  EXPECT_FALSE(scene.HasRestless(0));
+  EXPECT_EQ(scene.CountBeside(0), 0u);
   EXPECT_TRUE(scene.IsRestless(6, 1));
   EXPECT_TRUE(scene.IsRestless(3, 2));
   EXPECT_LT(scene.of(6), Restlessness::kClasses);
@@ -52,9 +52,9 @@ TEST(Restlessness, KnowsWhoIsThere) {
       scene.Set(agent, random.LogUniform(1e-3, 1e3));
     }
     for (std::uint32_t beside = 0; beside < kAgents; ++beside) {
-      bool any = false;
-      for (std::uint32_t k = 0; k < kAgents; ++k) any = any || scene.IsRestless(k, beside);
-      ASSERT_EQ(scene.HasRestless(beside), any);
+      std::uint32_t count = 0;
+      for (std::uint32_t k = 0; k < kAgents; ++k) count += scene.IsRestless(k, beside);
+      ASSERT_EQ(scene.CountBeside(beside), count);
     }
   }
 }
