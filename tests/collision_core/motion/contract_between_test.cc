@@ -138,7 +138,9 @@ TEST(ContractBetween, StepsOfEulerAreKept) {
     next.stamp = Instant::FromNanoseconds(steps * step_ns);
     ASSERT_FALSE(pair.IsBreach()) << i << ": " << pair.BetweenExcess();
     declaration.time_step = 0;
-    if (place_first && turn == steps) ASSERT_GT(pair.BetweenExcess(), 0) << i;
+    if (place_first && turn == steps) {
+      ASSERT_GT(pair.BetweenExcess(), 0) << i;
+    }
   }
 }
 
