@@ -107,7 +107,7 @@ TEST(Status, TellsTheMethodAndWhatItCost) {
                  From(1, ClockOf("alpha", 0))});
     EXPECT_EQ(daemon.status().broad_phase(), name);
     EXPECT_EQ(daemon.status().broad_phase_why(), method == v1::Config::AUTO
-                                                     ? "1 agents: up to 256 it costs least"
+                                                     ? "1 agents: up to 128 it costs least"
                                                      : "1 agents; the configuration asks for it");
     EXPECT_EQ(daemon.counter("queries"), 1u);
     EXPECT_EQ(daemon.counter("queries_per_second"), 0u) << "nothing to compare with yet";
