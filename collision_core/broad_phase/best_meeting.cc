@@ -22,7 +22,9 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant f
   if (!CanMeet(table.row(a), table.row(b))) return false;
   ++work->filter_tests;
   const double bound = table.EarlierBound(a, b, from, limit);
-  const bool may = Approaching::kEarly * bound <= limit && !table.RuleOf(a, b).excluded;
+  // Infinite: the two part, or keep apart, for ever; no limit makes them meet.
+  const bool in_time = bound < kInfinity && Approaching::kEarly * bound <= limit;
+  const bool may = in_time && !table.RuleOf(a, b).excluded;
   work->pair_queries += may;
   return may;
 }
