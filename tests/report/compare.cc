@@ -23,8 +23,13 @@ bool EndsWithAny(const std::string& text, std::initializer_list<const char*> end
 }
 
 bool IsCount(const std::string& figure) {
-  return EndsWithAny(figure, {"_units", "_units_max", "_work_max", "_misses", "_bytes", "_least",
-                              "_count", "_failed", "_passed", "_cases", "_killed", "mutants"});
+  return EndsWithAny(
+      figure,
+      {"_units",  "_units_max",   "_units_worst", "_work_max", "_misses",      "_missed",
+       "_alarms", "_at_best",     "_bytes",       "_least",    "_count",       "_failed",
+       "_cases",  "_checks",      "_broken",      "_differ",   "_truth",       "mutants",
+       "killed",  "survived",     "errors",       "corners",   "corners_same", "corners_not_run",
+       "scenes",  "fuzz_targets", "fuzz_findings"});
 }
 
 /// A field that is a time, whatever it is called.

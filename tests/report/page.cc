@@ -38,7 +38,8 @@ std::string TableHtml(const Table& table) {
   for (const auto& row : table.rows) {
     html += "<tr>";
     for (const std::string& cell : row) {
-      const bool bad = cell == "NO" || cell == "SURVIVED" || cell.starts_with("ANSWERS DIFFER");
+      const bool bad = cell == "NO" || cell == "SURVIVES" || cell == "ERROR" ||
+                       cell.starts_with("ANSWERS DIFFER");
       html += (bad ? "<td class=\"bad\">" : "<td>") + EscapeHtml(cell) + "</td>";
     }
     html += "</tr>\n";

@@ -150,6 +150,23 @@ TEST(ReportPage, SaysWhatIsMissingAndWhatFailed) {
   EXPECT_EQ(page.find("src=\"http"), std::string::npos);
 }
 
+// Goal:   what was broken is seen at once, as the programs write it.
+// Method: a case of ./run stress that is not kept, and mutants that nothing noticed.
+TEST(ReportPage, MarksWhatIsBroken) {
+  const auto is_marked = [](const char* experiment, const char* field, const char* value) {
+    v1::Results results;
+    v1::Experiment* added = results.add_experiments();
+    added->set_name(experiment);
+    (*added->add_measurements()->mutable_fields())[field].set_string_value(value);
+    const std::string page = PageOf(results, SectionsOf(results), {}, nullptr);
+    return page.find("<td class=\"bad\">" + std::string(value) + "<") != std::string::npos;
+  };
+  EXPECT_FALSE(is_marked("stress", "kept", "yes"));
+  EXPECT_TRUE(is_marked("stress", "kept", "NO"));
+  EXPECT_TRUE(is_marked("mutants", "killed_by", "SURVIVES"));
+  EXPECT_TRUE(is_marked("mutants", "killed_by", "ERROR"));
+}
+
 TEST(ReportPage, ReplacesThePlotsBetweenTheMarks) {
   const std::string readme = "a\n<!-- report: begin -->\nold\n<!-- report: end -->\nb\n";
   const std::string changed = WithPlots(readme, {}, "plots");

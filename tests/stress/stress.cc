@@ -60,7 +60,7 @@ std::string Measurement(const Row& row) {
       bench::Text("name", row.what.name),
       bench::Text("promised", row.what.promise),
       bench::Text("measured", row.outcome.Measured()),
-      bench::Number("passed", row.outcome.passed() ? 1 : 0),
+      bench::Text("kept", row.outcome.passed() ? "yes" : "NO"),
       bench::Number("checks", static_cast<double>(row.outcome.checks())),
       bench::Number("cpu_s", row.seconds)};
   for (const auto& [name, value] : row.outcome.numbers()) {
