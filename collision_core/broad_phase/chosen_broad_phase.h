@@ -21,21 +21,21 @@ const char* Name(BroadPhaseMethod method);
 /// now. Work is counted, never timed, so that the same calls choose the same everywhere; and as all
 /// methods give the same answers, nothing but cost depends on the choice.
 ///
-/// Up to kFewAgents all pairs, beyond the index. Up to kManyAgents the index's work on questions of
-/// one agent is compared with what all pairs would have done (the same pairs, and N tests a
-/// search), or did a question before it was tried again, every kPeriodQuestions. What it did more adds up, what it did less is taken off again:
-/// all pairs are taken where the sum exceeds kExcessUnits an agent, so that neither a dear beginning
-/// nor the rise from one placing to the next decides. Then the
-/// index gets its next try after ever more questions, or when the number of agents has grown by
-/// half. A new method is filled kMoves agents a call beside the old one, which answers
-/// until it is full: no call takes longer than the others. The face sweep has to be asked for: of
-/// one agent it asks every partner, and of a whole scene its crossings grow as N² t.
+/// Up to kFewAgents all pairs, beyond the index, and back at half as many. Up to three quarters of
+/// kManyAgents the index's work on questions of one agent is compared, every kPeriodQuestions, with
+/// what all pairs would have done (the same pairs, and N tests a search), or did a question before
+/// the index was tried again. What it did more adds up, what it did less is taken off again: all
+/// pairs are taken where the sum exceeds kExcessUnits an agent, so that neither a dear beginning
+/// nor the rise from one placing to the next decides. Then the index gets its next try after ever
+/// more questions, with half as many agents more, or with kManyAgents. A new method is filled kMoves
+/// agents a call beside the old one until it is full: no call takes longer than the others. The face
+/// sweep has to be asked for: of one agent it asks every partner, of all its crossings grow as N² t.
 class ChosenBroadPhase : public BroadPhase {
  public:
   static constexpr std::size_t kFewAgents = 128;
   static constexpr std::size_t kManyAgents = 768;
   static constexpr std::uint64_t kPeriodQuestions = 256;
-  static constexpr double kExcessUnits = 480;  ///< Seven placings of all. FITTED.
+  static constexpr double kExcessUnits = 480;  ///< 7½ placings of all. FITTED.
   static constexpr std::uint32_t kMoves = 8;
 
   explicit ChosenBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);

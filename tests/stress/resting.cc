@@ -319,9 +319,9 @@ std::vector<Case> RestingCases() {
           {"stiff", "chattering", kSteady, Chattering},
           {"stiff", "chattering-jumps", kSteady, ChatteringJumps},
           {"stiff", "starving",
-           "beside a stack, a rolling and a chattering body, with 16000 to 4000 units of work a "
+           "beside a stack, a rolling and a chattering body, with 16000 or 8000 units of work a "
            "step for all: six pairs of cubes that meet are confirmed within four steps, and known "
-           "within two",
+           "within two; with 4000 within a second",
            Starving}};
 }
 

@@ -195,7 +195,8 @@ void Violent(const Setting& setting, Outcome* outcome) {
 
 std::vector<Case> ViolentCases() {
   return {{"stiff", "violent-agent",
-           "with and without violent agents the same bits of each calm pair, with every broad "
+           "with and without violent agents the same bits of each calm pair (M 0.5 beside 8000 "
+           "m/s2; not of agents that declare none), with every broad "
            "phase: its events, how often it is judged and asked again, when, and what is "
            "answered; in which steps calm ones are asked about each other, with a broad phase "
            "without filters, and in no others with any",
