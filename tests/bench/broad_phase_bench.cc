@@ -1,8 +1,8 @@
 // ./run bench broad-phase: our broad phase beside the libraries, the baselines and itself.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
+#include "tests/bench/json.h"
 #include "tests/bench/parts.h"
 
 int main(int count, char** arguments) {
@@ -26,12 +26,5 @@ int main(int count, char** arguments) {
   ScenesPart(settings, &report);
   SwarmPart(settings, &report);
   std::fputs(report.Table().c_str(), stdout);
-  if (json.empty()) return 0;
-  std::ofstream file(json);
-  file << report.Json();
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-    return 74;
-  }
+  return WriteJson(json, report.Json());
 }

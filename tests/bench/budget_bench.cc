@@ -1,7 +1,6 @@
 // ./run report: what the service may spend on a pair in a turn, against how exact its answers are.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
 #include "tests/bench/json.h"
 #include "tests/bench/scene_run.h"
@@ -107,15 +106,7 @@ int Run(const SceneFolders& folders, bool quick, const std::string& json) {
     figures.Set("begin_width_least_over_most_budget", *sums.first / *sums.last);
   }
   std::fputs(figures.Table().c_str(), stdout);
-  if (!json.empty()) {
-    std::ofstream file(json);
-    file << figures.Json(sums.rows);
-    file.close();
-    if (!file) {
-      std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-      return 74;
-    }
-  }
+  if (const int status = WriteJson(json, figures.Json(sums.rows)); status != 0) return status;
   return sums.failed == 0 ? 0 : 1;
 }
 

@@ -1,9 +1,9 @@
 // ./run bench hubbard: sphere trees beside BSP trees, and both phases beside Turk with BSP trees.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
 #include "tests/bench/hubbard_parts.h"
+#include "tests/bench/json.h"
 
 int main(int count, char** arguments) {
   using namespace collision::bench;
@@ -25,12 +25,5 @@ int main(int count, char** arguments) {
     return 66;
   }
   std::fputs(report.Table().c_str(), stdout);
-  if (json.empty()) return 0;
-  std::ofstream file(json);
-  file << report.Json();
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-    return 74;
-  }
+  return WriteJson(json, report.Json());
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 
 namespace collision::bench {
 namespace {
@@ -86,6 +87,16 @@ std::string Figures::Json(const std::vector<std::string>& measurements) const {
     text += std::string(i == 0 ? "" : ",") + "\n    " + measurements[i];
   }
   return text + "\n  ]\n}\n";
+}
+
+int WriteJson(const std::string& path, const std::string& json) {
+  if (path.empty()) return 0;
+  std::ofstream file(path);
+  file << json;
+  file.close();
+  if (file) return 0;
+  std::fprintf(stderr, "cannot write %s\n", path.c_str());
+  return 74;
 }
 
 }  // namespace collision::bench

@@ -47,4 +47,8 @@ class Figures {
   std::vector<std::pair<std::string, std::optional<double>>> figures_;
 };
 
+/// Writes the file of --json; without a path none. Exit status: 0, or 74 where it cannot be written,
+/// which is said.
+int WriteJson(const std::string& path, const std::string& json);
+
 }  // namespace collision::bench

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <map>
 #include <optional>
 
@@ -21,6 +20,9 @@ constexpr std::size_t kFaceSweepMax = 600;
 
 /// In larger scenes parts are not tried one by one: that takes minutes, and tells nothing new.
 constexpr std::size_t kPartsMax = 2000;
+
+/// What the profile chose costs at most so many times the counted work of the best by hand.
+constexpr double kWorstMax = 1.1;
 
 /// A part that a scene can do without: how it is asked for, and what the profile says without it.
 struct Part {
@@ -104,6 +106,8 @@ struct Bench {
   double worst = 0, missed = 0, differ = 0;
   std::map<std::string, bool> parts_seen;
   double scenes = 0;
+
+  bool kept() const { return worst <= kWorstMax && missed == 0 && differ == 0; }
 };
 
 std::vector<Field> CostFields(const DetectorCost& cost) {
@@ -216,12 +220,7 @@ int main(int count, char** arguments) {
   bench.figures.Set("left_out_missed_count", bench.missed);
   bench.figures.Set("answers_differ_count", bench.differ);
   std::fputs(bench.figures.Table().c_str(), stdout);
-  if (json.empty()) return 0;
-  std::ofstream file(json);
-  file << bench.figures.Json(bench.rows);
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-    return 74;
-  }
+  if (const int status = WriteJson(json, bench.figures.Json(bench.rows)); status != 0)
+    return status;
+  return bench.kept() ? 0 : 1;
 }

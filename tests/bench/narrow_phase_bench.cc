@@ -1,8 +1,8 @@
 // ./run bench narrow-phase: our narrow phase beside the libraries and itself.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
+#include "tests/bench/json.h"
 #include "tests/bench/narrow_parts.h"
 
 int main(int count, char** arguments) {
@@ -33,12 +33,5 @@ int main(int count, char** arguments) {
   ContactCasesPart(settings, &report);
   ContactPart(settings, &report);
   std::fputs(report.Table().c_str(), stdout);
-  if (json.empty()) return 0;
-  std::ofstream file(json);
-  file << report.Json();
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-    return 74;
-  }
+  return WriteJson(json, report.Json());
 }

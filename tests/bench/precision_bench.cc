@@ -1,8 +1,8 @@
 // ./run bench precision: error against run time, ours beside the libraries.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
+#include "tests/bench/json.h"
 #include "tests/bench/narrow_mesh.h"
 #include "tests/bench/precision_cell.h"
 
@@ -29,12 +29,5 @@ int main(int count, char** arguments) {
   ContactTimesPart(settings, &report);
   SetFigures(&report);
   std::fputs(report.Table().c_str(), stdout);
-  if (json.empty()) return 0;
-  std::ofstream file(json);
-  file << report.Json();
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-    return 74;
-  }
+  return WriteJson(json, report.Json());
 }

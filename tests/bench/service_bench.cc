@@ -1,8 +1,8 @@
 // ./run bench service: latency, throughput and messages of the whole service.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <fstream>
 
+#include "tests/bench/json.h"
 #include "tests/bench/service_parts.h"
 #include "tests/bench/service_process.h"
 
@@ -24,12 +24,5 @@ int main(int count, char** arguments) {
   MessagesPart(settings, &report);
   LatencyPart(settings, &report);
   std::fputs(report.Table().c_str(), stdout);
-  if (json.empty()) return 0;
-  std::ofstream file(json);
-  file << report.Json();
-  file.close();
-  if (!file) {
-    std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-    return 74;
-  }
+  return WriteJson(json, report.Json());
 }

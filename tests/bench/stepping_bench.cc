@@ -266,14 +266,6 @@ int main(int count, char** arguments) {
   figures.Set("longest_contact_missed_at_60hz_s", sums.longest_missed);
   figures.Set("runs_failed", sums.failed);
   std::fputs(figures.Table().c_str(), stdout);
-  if (!json.empty()) {
-    std::ofstream file(json);
-    file << figures.Json(rows);
-    file.close();
-    if (!file) {
-      std::fprintf(stderr, "bench: cannot write %s\n", json.c_str());
-      return 74;
-    }
-  }
+  if (const int status = WriteJson(json, figures.Json(rows)); status != 0) return status;
   return sums.failed == 0 ? 0 : 1;
 }

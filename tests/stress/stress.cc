@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <set>
 
 #include "tests/bench/json.h"
@@ -13,7 +12,7 @@
 namespace collision::stress {
 namespace {
 
-constexpr int kBroken = 1, kNothingToRun = 2, kNotWritten = 74;
+constexpr int kBroken = 1, kNothingToRun = 2;
 
 struct Options {
   bool quick = false, list = false;
@@ -118,10 +117,7 @@ int RunAll(const Options& options) {
   const auto broken =
       std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.outcome.passed(); });
   std::printf("%zu cases, %td broken\n", rows.size(), broken);
-  if (!options.json.empty() && !(std::ofstream(options.json) << Json(rows)).flush()) {
-    std::fprintf(stderr, "--json: %s cannot be written\n", options.json.c_str());
-    return kNotWritten;
-  }
+  if (const int status = bench::WriteJson(options.json, Json(rows)); status != 0) return status;
   return broken == 0 ? 0 : kBroken;
 }
 
