@@ -1,38 +1,16 @@
 // Bullet's continuous collision of convex shapes in all its kinds.
-#include <BulletCollision/CollisionShapes/btBoxShape.h>
-#include <BulletCollision/CollisionShapes/btSphereShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btContinuousConvexCollision.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btSubSimplexConvexCast.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
-#include <memory>
-
+#include "tests/bench/narrow_bullet_bodies.h"
 #include "tests/bench/precision_contact.h"
 #include "tests/bench/precision_query.h"
 
 namespace collision::bench {
 namespace {
-
-btScalar Single(double x) { return static_cast<btScalar>(x); }
-
-btVector3 Vector(const std::array<double, 3>& v) {
-  return btVector3(Single(v[0]), Single(v[1]), Single(v[2]));
-}
-
-btTransform PoseOf(const MovingBody& body) {
-  return btTransform(
-      btQuaternion(Single(body.q[1]), Single(body.q[2]), Single(body.q[3]), Single(body.q[0])),
-      Vector(body.p));
-}
-
-std::shared_ptr<btConvexShape> ShapeOf(const MovingBody& body) {
-  if (body.kind == MovingBody::Kind::kBall) {
-    return std::make_shared<btSphereShape>(Single(body.half[0]));
-  }
-  return std::make_shared<btBoxShape>(Vector(body.half));
-}
 
 enum class Cast { kContinuous, kGjk, kSubSimplex };
 
@@ -50,16 +28,16 @@ ContactReply Tell(const ContactCase& of, const btConvexShape& a, const btConvexS
   btSubsimplexConvexCast sub_simplex(&a, &b, &simplex);
   btConvexCast::CastResult result;
   result.m_fraction = 1;
-  result.m_allowedPenetration = Single(setting.allowed_penetration);
+  result.m_allowedPenetration = BulletNumber(setting.allowed_penetration);
   if (setting.epsilon > 0) {
-    result.m_subSimplexCastEpsilon = Single(setting.epsilon);
+    result.m_subSimplexCastEpsilon = BulletNumber(setting.epsilon);
     result.m_subSimplexCastMaxIterations = 1000;
   }
   btConvexCast& chosen = cast == Cast::kContinuous ? static_cast<btConvexCast&>(continuous)
                          : cast == Cast::kGjk      ? static_cast<btConvexCast&>(gjk)
                                                    : static_cast<btConvexCast&>(sub_simplex);
-  if (!chosen.calcTimeOfImpact(PoseOf(of.a), PoseOf(of.a.After(of.duration)), PoseOf(of.b),
-                               PoseOf(of.b.After(of.duration)), result)) {
+  if (!chosen.calcTimeOfImpact(BulletPose(of.a), BulletPose(of.a.After(of.duration)),
+                               BulletPose(of.b), BulletPose(of.b.After(of.duration)), result)) {
     return {};
   }
   return Plainly(static_cast<double>(result.m_fraction) * of.duration);
@@ -76,7 +54,7 @@ void Add(const std::string& name, Cast cast, const Setting& setting, const std::
   method.make = [cast, setting](const ContactCase& of) -> std::function<ContactReply()> {
     const bool turns = of.a.w != std::array<double, 3>{} || of.b.w != std::array<double, 3>{};
     if (cast != Cast::kContinuous && turns) return nullptr;
-    return [of, a = ShapeOf(of.a), b = ShapeOf(of.b), cast, setting] {
+    return [of, a = BulletShape(of.a), b = BulletShape(of.b), cast, setting] {
       return Tell(of, *a, *b, cast, setting);
     };
   };
