@@ -8,24 +8,6 @@
 namespace collision::server {
 namespace {
 
-/// Every third agent comes late or leaves early; every other knows its position to 30 cm only.
-std::vector<SimulatedAgent> Crowd(int count, std::int64_t end_ns, Random* random) {
-  std::vector<SimulatedAgent> agents;
-  for (int i = 0; i < count; ++i) {
-    const WanderOptions options{
-        .half_side = 5.5, .speed = 6, .acceleration_max = 4, .jumps_per_piece = 0.02};
-    SimulatedAgent agent{.radius = random->Uniform(0.5, 1.2),
-                         .acceleration_max = options.acceleration_max,
-                         .motion = Wander(options, end_ns, random),
-                         .position_error = i % 2 == 0 ? 0.3 : 0};
-    const auto moment = static_cast<std::int64_t>(random->Below(end_ns));
-    if (i % 3 == 1) agent.from_ns = moment;
-    if (i % 3 == 2) agent.until_ns = moment;
-    agents.push_back(agent);
-  }
-  return agents;
-}
-
 Scene Losses() {
   const auto fill = [](Scenario* scenario) {
     constexpr std::int64_t kEnd = 30 * kSecond;

@@ -17,32 +17,13 @@ constexpr std::uint64_t kGoldenHash = 0x4dfce9b9942978d3;
 
 constexpr std::int64_t kEnd = 40 * kSecond;
 
-/// Every third agent comes late or leaves early; every other knows its position to 30 cm only, so
-/// that what grazes stays undecided.
-std::vector<SimulatedAgent> Crowd(int count, Random* random) {
-  std::vector<SimulatedAgent> agents;
-  for (int i = 0; i < count; ++i) {
-    const WanderOptions options{
-        .half_side = 5.5, .speed = 6, .acceleration_max = 4, .jumps_per_piece = 0.02};
-    SimulatedAgent agent{.radius = random->Uniform(0.5, 1.2),
-                         .acceleration_max = options.acceleration_max,
-                         .motion = Wander(options, kEnd, random),
-                         .position_error = i % 2 == 0 ? 0.3 : 0};
-    const auto moment = static_cast<std::int64_t>(random->Below(kEnd));
-    if (i % 3 == 1) agent.from_ns = moment;
-    if (i % 3 == 2) agent.until_ns = moment;
-    agents.push_back(agent);
-  }
-  return agents;
-}
-
 void RunGolden(Scenario* scenario, BatchSink* recorder) {
   Random random(42);
   scenario->Add({.name = "alpha", .sender = 1, .period_ns = 120'000'000, .end_ns = kEnd},
-                Crowd(16, &random));
+                Crowd(16, kEnd, &random));
   scenario->Add(
       {.name = "beta", .sender = 2, .period_ns = 300'000'000, .end_ns = kEnd, .chunk_size = 8},
-      Crowd(16, &random));
+      Crowd(16, kEnd, &random));
   scenario->StartService(recorder);
   scenario->StartSimulators();
   scenario->Run();

@@ -17,6 +17,10 @@ inline constexpr std::int64_t kSecond = 1'000'000'000;
 /// The default configuration with a simulated clock that waits for `simulators`.
 v1::Config ConfigFor(std::size_t simulators);
 
+/// Balls that wander. Every third comes late or leaves early; every other knows its position to 30 cm
+/// only, so that what grazes stays undecided.
+std::vector<SimulatedAgent> Crowd(int count, std::int64_t end_ns, Random* random);
+
 /// Everything of one run. Simulators are added, then Run() goes on until nothing can happen any
 /// more.
 class Scenario {
