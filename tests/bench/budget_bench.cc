@@ -14,16 +14,19 @@ constexpr char kScene[] = "spaceships-100";
 struct Budget {
   const char* kind;
   const char* field;                ///< Of the service's configuration.
+  const char* limited_by;           ///< What keeps brackets from being narrower.
   std::vector<double> quick, full;  ///< [µs]
 };
 
 std::vector<Budget> Budgets() {
   return {{"a pair's turn",
            "time_budget_us",
+           "the turn's end; at last how often states come (60 a second)",
            {0, 50, 200, 2000},
            {0, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000}},
           {"a step of all pairs",
            "step_budget_us",
+           "each pair's share of the step; at last how often states come (60 a second)",
            {100, 1000, 10000},
            {20, 50, 100, 200, 500, 1000, 2000, 5000, 10000, 50000}}};
 }
@@ -62,10 +65,7 @@ std::string RowOf(const Budget& of, double budget, const v1::RunReport& report) 
        Number("work_units", static_cast<double>(CounterOf(report, "work_units"))),
        Number("turns_cut_short", static_cast<double>(CounterOf(report, "turns_cut_short"))),
        Number("cpu_seconds_per_simulated_second", report.cpu_seconds_per_simulated_second()),
-       Text(
-           "limited_by",
-           "below 1 ms a pair's turn ends before its brackets are narrow; beyond, how often states "
-           "come (60 a second)")});
+       Text("limited_by", of.limited_by)});
 }
 
 struct Sums {
