@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "tests/report/promises.h"
 #include "tests/report/results.h"
 #include "tests/report/text.h"
 
@@ -92,6 +93,19 @@ std::string MachineHtml(const v1::Results& results) {
   return TableHtml(table);
 }
 
+std::string PromisesHtml(const v1::Results& results) {
+  Table table{"", {"promise", "experiment", "measured", "at most", "kept"}, {}, true};
+  std::size_t kept = 0;
+  for (const PromiseLine& line : PromisesOf(results)) {
+    table.rows.push_back({line.words, line.experiment, line.measured, Short(line.at_most),
+                          line.kept ? "yes" : "NO"});
+    kept += line.kept;
+  }
+  table.title = "Promises: " + std::to_string(kept) + " of " + std::to_string(table.rows.size()) +
+                " kept, beside those of the stiff and extreme cases";
+  return table.rows.empty() ? "" : TableHtml(table);
+}
+
 std::string ComparisonHtml(const Comparison& comparison) {
   std::string html = "<h2 id=\"compare\">What moved</h2>\n";
   for (const std::string& remark : comparison.remarks) html += Paragraph(remark);
@@ -130,11 +144,10 @@ std::string PageOf(const v1::Results& results, const std::vector<Section>& secti
     html += "<a href=\"#" + section.id + "\">" + EscapeHtml(section.title) + "</a>";
   }
   html += "</nav>\n";
-  for (const v1::Experiment& experiment : results.experiments()) {
-    if (experiment.failure().empty()) continue;
-    html += "<p class=\"bad\">" + EscapeHtml(experiment.name() + ": " + experiment.failure()) +
-            "</p>\n";
+  for (const std::string& broken : BrokenIn(results)) {
+    html += "<p class=\"bad\">" + EscapeHtml(broken) + "</p>\n";
   }
+  html += PromisesHtml(results);
   if (comparison != nullptr) html += ComparisonHtml(*comparison);
   for (const Section& section : sections) {
     html += "<h2 id=\"" + section.id + "\">" + EscapeHtml(section.title) + "</h2>\n";

@@ -4,9 +4,12 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "tests/report/compare.h"
 #include "tests/report/page.h"
+#include "tests/report/promises.h"
 #include "tests/report/results.h"
 #include "tests/report/sections.h"
 #include "tests/report/text.h"
@@ -18,7 +21,8 @@ struct Options {
   std::string parts, results, out, compare, readme, plots;
 };
 
-void Write(const Options& options) {
+// Returns what is broken.
+std::vector<std::string> Write(const Options& options) {
   v1::Results results =
       options.results.empty() ? Assemble(options.parts) : FromJson(options.results);
   if (results.version().empty()) results.set_version(COLLISION_VERSION);
@@ -37,7 +41,7 @@ void Write(const Options& options) {
   WriteFile(options.out + "/index.html",
             PageOf(results, sections, pictures, comparison ? &*comparison : nullptr));
   if (comparison) std::printf("%s", TextOf(*comparison).c_str());
-  if (options.readme.empty()) return;
+  if (options.readme.empty()) return BrokenIn(results);
   std::filesystem::create_directories(options.plots);
   for (const ReadmePlot& plot : ReadmePlots()) {
     const auto picture = pictures.find(plot.id);
@@ -49,6 +53,7 @@ void Write(const Options& options) {
   const auto folder = std::filesystem::path(options.readme).parent_path();
   const std::string named = std::filesystem::relative(options.plots, folder).string();
   WriteFile(options.readme, WithPlots(ReadFile(options.readme), results, named));
+  return BrokenIn(results);
 }
 
 }  // namespace
@@ -77,7 +82,10 @@ int main(int count, char** arguments) {
       std::fprintf(stderr, "report-page: --out, and one of --parts and --results; see --help\n");
       return 2;
     } else {
-      Write(options);
+      const std::vector<std::string> broken = Write(options);
+      for (const std::string& line : broken)
+        std::fprintf(stderr, "report-page: %s\n", line.c_str());
+      return broken.empty() ? 0 : 1;
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "report-page: %s\n", error.what());

@@ -6,6 +6,7 @@
 #include "tests/report/chart_rows.h"
 #include "tests/report/compare.h"
 #include "tests/report/page.h"
+#include "tests/report/promises.h"
 #include "tests/report/results.h"
 #include "tests/report/rows.h"
 #include "tests/report/sections.h"
@@ -174,6 +175,30 @@ TEST(ReportPage, ReplacesThePlotsBetweenTheMarks) {
   EXPECT_TRUE(changed.starts_with("a\n") && changed.ends_with("<!-- report: end -->\nb\n"));
   EXPECT_NE(changed.find("(plots/" + ReadmePlots()[0].id + ".svg)"), std::string::npos);
   EXPECT_THROW(WithPlots("no marks", {}, "plots"), std::runtime_error);
+}
+
+// A count above its bound breaks a promise, and so does one that was not measured; an experiment that
+// is not there promises nothing, one that failed is told.
+TEST(ReportPromises, AreBrokenByCountsAndByFailures) {
+  v1::Results results;
+  EXPECT_TRUE(BrokenIn(results).empty());
+  v1::Experiment* experiment = results.add_experiments();
+  experiment->set_name("hubbard");
+  v1::Figure* differ = experiment->add_figures();
+  differ->set_name("frames_that_differ");
+  differ->set_value(0);
+  EXPECT_EQ(PromisesOf(results).size(), 2u);
+  ASSERT_EQ(BrokenIn(results).size(), 1u);
+  EXPECT_NE(BrokenIn(results)[0].find("service_missed is not measured"), std::string::npos);
+  v1::Figure* missed = experiment->add_figures();
+  missed->set_name("service_missed");
+  missed->set_value(1);
+  ASSERT_EQ(BrokenIn(results).size(), 1u);
+  EXPECT_NE(BrokenIn(results)[0].find("service_missed is 1, at most 0"), std::string::npos);
+  missed->set_value(0);
+  EXPECT_TRUE(BrokenIn(results).empty());
+  experiment->set_failure("exit status 1: no");
+  EXPECT_EQ(BrokenIn(results), std::vector<std::string>{"hubbard: exit status 1: no"});
 }
 
 }  // namespace
