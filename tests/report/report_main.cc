@@ -50,7 +50,7 @@ std::vector<std::string> Write(const Options& options) {
     }
     WriteFile(options.plots + "/" + plot.id + ".svg", picture->second);
   }
-  const auto folder = std::filesystem::path(options.readme).parent_path();
+  const auto folder = std::filesystem::absolute(options.readme).parent_path();
   const std::string named = std::filesystem::relative(options.plots, folder).string();
   WriteFile(options.readme, WithPlots(ReadFile(options.readme), results, named));
   return BrokenIn(results);
