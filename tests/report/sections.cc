@@ -142,7 +142,7 @@ std::vector<Row> ByTurkOrOurs(const std::vector<const Row*>& rows) {
 Chart TurkOverOurs(const v1::Results& results) {
   Chart chart;
   chart.id = "turk-over-ours", chart.title = "Turk's time over ours, until the first collision";
-  chart.x_label = "cubes", chart.y_label = "ratio", chart.log_y = false;
+  chart.x_label = "cubes", chart.y_label = "Turk's time over ours", chart.log_y = false;
   chart.caption = "Above 1 ours is faster. The paper states: only just above 1.";
   for (const std::string& scene : TextsOf(Select(results, "turk", {}), "scene")) {
     Series series;
