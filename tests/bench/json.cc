@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <set>
+#include <stdexcept>
 
 namespace collision::bench {
 namespace {
@@ -32,7 +34,9 @@ Field Text(const std::string& name, const std::string& value) { return {name, Qu
 
 std::string Object(const std::vector<Field>& fields) {
   std::string text;
+  std::set<std::string> names;
   for (const Field& field : fields) {
+    if (!names.insert(field.name).second) throw std::logic_error("two fields: " + field.name);
     text += (text.empty() ? "{" : ", ") + Quoted(field.name) + ": " + field.json;
   }
   return text.empty() ? "{}" : text + "}";

@@ -19,6 +19,7 @@ Field Number(const std::string& name, std::optional<double> value);
 Field Text(const std::string& name, const std::string& value);
 
 /// {"name": value, ...}
+/// Throws std::logic_error where two have one name: no reader takes that.
 std::string Object(const std::vector<Field>& fields);
 
 /// Of printf, for one number.

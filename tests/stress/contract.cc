@@ -55,7 +55,7 @@ void JudgeState(const SpaceTimeBound& before, const MotionState& next, Outcome* 
       lost * speed + Exact(kNanosecond) * Exact(before.declaration.acceleration_max);
   const Exact more_p = lost * (position.size + speed * s) + more_v * s + Exact(kNanosecond) * speed;
   const bool breached = check.verdict == ContractVerdict::kBreached;
-  outcome->Add(breached ? "breaches" : "kept", 1);
+  outcome->Add(breached ? "breaches" : "states_kept", 1);
   const bool apart = BallsComeApart(before, next);
   if (position.Within(0) && velocity.Within(0) && !apart) {
     outcome->Expect(!breached, "an honest state is told to be a breach");
@@ -102,7 +102,7 @@ void Contract(const Setting& setting, Outcome* outcome) {
     next.p_WA += s * before.state.v_WA + (s * s / 2 - back * back) * a;
     JudgeState(before, next, outcome);
   }
-  outcome->Say(Show(outcome->Get("kept")) + " states kept, " + Show(outcome->Get("breaches")) +
+  outcome->Say(Show(outcome->Get("states_kept")) + " states kept, " + Show(outcome->Get("breaches")) +
                " breaches, " + Show(outcome->Get("beyond")) + " of them for certain, and " +
                Show(outcome->Get("contradicts")) + " because no motion leads there");
 }
