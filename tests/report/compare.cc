@@ -85,9 +85,10 @@ Move MoveOf(const std::string& experiment, const std::string& figure,
   }
   if (*before == *after) return move;
   move.change = *before == 0 ? std::copysign(HUGE_VAL, *after) : *after / *before - 1;
-  // As far up as down: half is as far as twice.
-  const double share = move.change < 0 && *after > 0 ? *before / *after - 1 : std::abs(move.change);
-  move.moved = share > move.noise;
+  // Half is as far as twice.
+  const double ratio = *after / *before;
+  move.factor = ratio > 0 ? std::max(ratio, 1 / ratio) : HUGE_VAL;
+  move.moved = move.factor - 1 > move.noise;
   return move;
 }
 
@@ -141,8 +142,7 @@ Comparison Compare(const v1::Results& before, const v1::Results& after) {
   }
   std::stable_sort(comparison.moves.begin(), comparison.moves.end(),
                    [](const Move& a, const Move& b) {
-                     const auto size = [](const Move& move) { return std::abs(move.change); };
-                     return a.moved != b.moved ? a.moved : size(a) > size(b);
+                     return a.moved != b.moved ? a.moved : a.factor > b.factor;
                    });
   return comparison;
 }
@@ -164,8 +164,7 @@ std::string TextOf(const Comparison& comparison) {
       std::snprintf(change, sizeof change, ", %+.3g %% (noise %.2g %%", 100 * move.change,
                     100 * move.noise);
       text += change;
-      if (move.noise > 0)
-        text += ", " + Short(std::abs(move.change) / move.noise) + " times as much";
+      if (move.noise > 0) text += ", " + Short(move.OverNoise()) + " times as much";
       text += ")";
     }
     text += "\n";

@@ -13,7 +13,10 @@ struct Move {
   std::string figure;
   std::string before, after;  ///< As texts; empty: not measured.
   double change = 0;          ///< after / before - 1.
-  double noise = 0;           ///< A change of so much says nothing.
+  double factor = 1;  ///< As far up as down: the greater over the smaller, infinite to or from 0.
+  double noise = 0;   ///< A factor of 1 + noise says nothing.
+  /// By how much more than the noise it moved: (factor - 1) / noise.
+  double OverNoise() const { return (factor - 1) / noise; }
   bool moved = false;  ///< It changed by more than the noise, or is measured in one of them only.
 };
 

@@ -118,7 +118,7 @@ std::string ComparisonHtml(const Comparison& comparison) {
     if (!move.before.empty() && !move.after.empty()) {
       row[4] = Short(100 * move.change) + " %";
       row[5] = Short(100 * move.noise) + " %";
-      if (move.noise > 0) row[6] = Short(std::abs(move.change) / move.noise);
+      if (move.noise > 0) row[6] = Short(move.OverNoise());
     }
     (move.moved ? table : still).rows.push_back(row);
   }

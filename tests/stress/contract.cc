@@ -102,9 +102,10 @@ void Contract(const Setting& setting, Outcome* outcome) {
     next.p_WA += s * before.state.v_WA + (s * s / 2 - back * back) * a;
     JudgeState(before, next, outcome);
   }
-  outcome->Say(Show(outcome->Get("states_kept")) + " states kept, " + Show(outcome->Get("breaches")) +
-               " breaches, " + Show(outcome->Get("beyond")) + " of them for certain, and " +
-               Show(outcome->Get("contradicts")) + " because no motion leads there");
+  outcome->Say(Show(outcome->Get("states_kept")) + " states kept, " +
+               Show(outcome->Get("breaches")) + " breaches, " + Show(outcome->Get("beyond")) +
+               " of them for certain, and " + Show(outcome->Get("contradicts")) +
+               " because no motion leads there");
 }
 
 }  // namespace
