@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "collision_core/detection/agent_keys.h"
 #include "collision_core/detection/detector.h"
 #include "collision_core/detection/history.h"
 #include "collision_core/detection/key_margin.h"
@@ -22,12 +23,8 @@ struct AgentRecord {
   std::uint64_t leaving = 0;
   bool reshaped = false;  ///< Its shape was declared anew since the newest state.
 
-  /// Certified free of every partner that is not tracked up to here; of a saturated agent nothing.
-  Instant key = Instant::Always();
-  /// Likewise of those that are not restless beside it (restlessness.h); >= key. Who is restless is
-  /// asked about again when the key is due, the others when this is.
-  Instant calm_key = Instant::Always();
-  std::uint32_t next_partner = 0;  ///< A partner that may be met at `key`, as far as is known.
+  AgentKeys keys;                  ///< Of a saturated agent they promise nothing.
+  std::uint32_t next_partner = 0;  ///< A partner that may be met at the first, as far as is known.
   /// Nothing promised before holds from here on (admission, jump, breach, widening): ask everybody
   /// anew.
   std::optional<Instant> renewed_from;

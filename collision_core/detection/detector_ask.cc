@@ -30,27 +30,25 @@ constexpr std::uint32_t kNobody = ~0u;
 
 }  // namespace
 
-void Detector::Implementation::SetKeys(std::uint32_t agent, Instant key, Instant calm_key) {
-  AgentRecord& record = At(agent);
+// After a change of its keys.
+void Detector::Implementation::NoteKeys(std::uint32_t agent) {
+  const AgentRecord& record = At(agent);
   if (record.saturated) {
     queue_.Set(agent, AnnounceUntil());  // something has changed: asked again in the next step
     return;
   }
-  record.key = std::min(key, calm_key);
-  record.calm_key = calm_key;
-  key_rows_.SetKeys(agent, record.key, calm_key);
-  queue_.Set(agent, record.key);
-  if (latest_.Contains(agent)) latest_.Set(agent, Reversed(calm_key));
+  key_rows_.SetCalmKey(agent, record.keys.calm());
+  queue_.Set(agent, record.keys.first());
+  if (latest_.Contains(agent)) latest_.Set(agent, Reversed(record.keys.calm()));
   Touch(agent);
 }
 
 // They may meet at `when`, if its keys do not say earlier.
 void Detector::Implementation::LowerKeyOf(std::uint32_t agent, std::uint32_t partner,
                                           Instant when) {
-  const AgentRecord& record = At(agent);
-  const Instant calm_key = record.calm_key;
-  SetKeys(agent, std::min(record.key, when),
-          restlessness_.IsRestless(partner, agent) ? calm_key : std::min(calm_key, when));
+  AgentRecord& record = At(agent);
+  if (!record.saturated) record.keys.Lower(restlessness_.GroupOf(partner, agent), when);
+  NoteKeys(agent);
 }
 
 void Detector::Implementation::AskAll() {
@@ -77,7 +75,7 @@ void Detector::Implementation::SettleKeys() {
     if (!agents_[agent]) continue;
     const AgentRecord& record = At(agent);
     if (record.expired || record.saturated || record.renewed_from) continue;
-    latest_.Set(agent, Reversed(record.calm_key));
+    latest_.Set(agent, Reversed(record.keys.calm()));
   }
   fresh_.clear();
   const BroadPhaseWork work = broad_phase_.work();
@@ -112,14 +110,16 @@ void Detector::Implementation::Ask(std::uint32_t agent) {
   } else {
     AskEverybody(agent);
   }
-  asking_ = Asking::kAll;
+  asking_ = kEverybody;
 }
 
 void Detector::Implementation::AskEverybody(std::uint32_t agent) {
   AgentRecord& record = At(agent);
   const bool renewed = record.renewed_from.has_value();
   const bool was_saturated = record.saturated;
-  const Instant covered = record.renewed_from.value_or(record.key);
+  const AgentKeys before = record.keys;
+  const Instant covered = record.renewed_from.value_or(before.first());
+  const auto covered_of = [&](int group) { return renewed ? covered : before.of(group); };
   record.renewed_from.reset();
   if (was_saturated) Unsaturate(agent);
   latest_.Remove(agent);
@@ -128,64 +128,86 @@ void Detector::Implementation::AskEverybody(std::uint32_t agent) {
   // Before its key was due, because many others changed: where they meet it later than that, it stays.
   const bool early = many_ && !renewed && !was_saturated && covered > AnnounceUntil();
   const std::uint32_t next_before = record.next_partner;
-  // A saturated agent was promised nothing.
-  if (renewed || !was_saturated) TrackUncovered(agent, renewed, covered);
+  groups_.clear();
+  restlessness_.RestlessBeside(agent, &groups_);
+  const int calm = groups_.empty() ? kEverybody : Restlessness::kCalm;
+  Next next = AskAbout(calm, agent, renewed, was_saturated, covered_of(Restlessness::kCalm));
+  if (!record.saturated) record.keys.SetAll(next.key);
+  for (const int group : groups_) {
+    if (record.saturated || TracksAll(agent, group)) continue;
+    const Next first = AskAbout(group, agent, renewed, was_saturated, covered_of(group));
+    if (record.saturated) continue;
+    record.keys.SetRestless(group, first.key);
+    if (first.key < next.key) next = first;
+  }
+  if (!record.saturated) {
+    if (!next.key.is_never()) record.next_partner = next.partner;
+    if (early && next.key > covered) {
+      record.next_partner = next_before;
+      record.keys.SetRestless(Restlessness::kNobody, covered);
+    }
+    NoteKeys(agent);
+  }
   const Instant from = std::min(now_, covered);
-  if (IsCrowded(agent, from, was_saturated)) {
-    crowd_ = true;
-  } else {
-    const bool apart = restlessness_.CountBeside(agent) > 0;
-    if (apart) asking_ = Asking::kCalm;
-    Next next = AskBroadPhase(agent, from, renewed, was_saturated, covered);
-    const Instant calm_key = next.key;
-    if (apart && !record.saturated && !TracksAllRestless(agent)) {
-      asking_ = Asking::kRestless;
-      const Next restless = AskBroadPhase(agent, from, renewed, was_saturated, covered);
-      if (restless.key < next.key) next = restless;
-    }
-    if (!record.saturated) {
-      if (!next.key.is_never()) record.next_partner = next.partner;
-      SetKeys(agent, next.key, calm_key);
-    }
-  }
-  if (early && !record.saturated && record.key > covered) {
-    record.next_partner = next_before;
-    SetKeys(agent, covered, record.calm_key);
-  }
   if (renewed) LowerKeys(agent, from);
   if (many_) return TellIfLowered(agent, covered);
   record.renewed_cause = ClearanceCause::kNone;
 }
 
+// About one group, nobody of which that is not tracked is met up to `covered`.
+Detector::Implementation::Next Detector::Implementation::AskAbout(int group, std::uint32_t agent,
+                                                                  bool renewed, bool was_saturated,
+                                                                  Instant covered) {
+  asking_ = group;
+  // A saturated agent was promised nothing.
+  if (renewed || !was_saturated) TrackUncovered(agent, renewed, covered);
+  const Instant from = std::min(now_, covered);
+  if (IsCrowded(agent, from, was_saturated)) {
+    crowd_ = true;
+    return {};
+  }
+  return AskBroadPhase(agent, from, renewed, was_saturated, covered);
+}
+
 // Whether the others are certified to be far beyond what is to be known now.
 bool Detector::Implementation::NeedOnlyAskRestless(std::uint32_t agent) const {
   const AgentRecord& record = At(agent);
-  const bool calm_stays = record.key < record.calm_key && record.calm_key > AnnounceUntil() &&
-                          record.calm_key >= record.stamp();
-  return calm_stays && !record.renewed_from && !record.saturated && !many_ && RoomFor(record) > 0;
-}
-
-// Then none of them is left that could be met.
-bool Detector::Implementation::TracksAllRestless(std::uint32_t agent) const {
-  std::uint32_t tracked = 0;
-  for (const std::uint32_t slot : At(agent).pairs) {
-    const PairRecord& pair = pairs_[slot];
-    tracked += restlessness_.IsRestless(pair.lower == agent ? pair.higher : pair.lower, agent);
-  }
-  return tracked == restlessness_.CountBeside(agent);
+  return !record.renewed_from && !record.saturated && !many_ && RoomFor(record) > 0 &&
+         record.keys.calm() > DueUntil(record);
 }
 
 // It stays in latest_: about who is renewed in this step, and not restless, it is not asked.
 void Detector::Implementation::AskRestless(std::uint32_t agent) {
   AgentRecord& record = At(agent);
-  const Instant covered = record.key;
-  asking_ = Asking::kRestless;
+  groups_.clear();
+  record.keys.RestlessUpTo(DueUntil(record), &groups_);
   MarkTracked(record);
-  TrackUncovered(agent, false, covered);
-  const Next next = AskBroadPhase(agent, std::min(now_, covered), false, false, covered);
-  if (record.saturated) return;
-  if (!next.key.is_never()) record.next_partner = next.partner;
-  SetKeys(agent, next.key, record.calm_key);
+  for (const int group : groups_) {
+    Next next;
+    if (!TracksAll(agent, group)) {
+      next = AskAbout(group, agent, false, false, record.keys.of(group));
+    }
+    if (record.saturated) return;
+    record.keys.SetRestless(group, next.key);
+    if (!next.key.is_never() && next.key <= record.keys.first()) record.next_partner = next.partner;
+  }
+  NoteKeys(agent);
+}
+
+// Which keys it is asked about.
+Instant Detector::Implementation::DueUntil(const AgentRecord& agent) const {
+  return std::max({AnnounceUntil(), agent.keys.first(), agent.stamp()});
+}
+
+// Then none of the group is left that could be met.
+bool Detector::Implementation::TracksAll(std::uint32_t agent, int group) const {
+  std::uint32_t tracked = 0;
+  for (const std::uint32_t slot : At(agent).pairs) {
+    const PairRecord& pair = pairs_[slot];
+    const std::uint32_t partner = pair.lower == agent ? pair.higher : pair.lower;
+    tracked += restlessness_.GroupOf(partner, agent) == group;
+  }
+  return tracked == restlessness_.Count(group);
 }
 
 // Of an agent without room for another pair all that is to be known is whether there is one that
@@ -372,7 +394,7 @@ void Detector::Implementation::Saturate(std::uint32_t agent, std::uint32_t partn
   AgentRecord& record = At(agent);
   record.crowded_with = partner;
   crowded_[0] = agent, crowded_[1] = partner;
-  record.key = record.calm_key = std::max(now_, record.stamp());
+  record.keys.SetAll(std::max(now_, record.stamp()));
   latest_.Remove(agent);
   Touch(agent);
   const double rest = kSaturatedShare * options_.announce_within;

@@ -144,7 +144,7 @@ void Detector::Implementation::EarliestSearch::OfferPartners(std::uint32_t agent
   const bool there = next != agent && next < detector.agents_.size() && detector.agents_[next] &&
                      !detector.At(next).expired && !detector.Marked(next);
   if (there) Offer(agent, next, Canonical(agent, next));
-  if (!best.found) OfferMeetings(agent, record.key, Instant::Never());
+  if (!best.found) OfferMeetings(agent, record.keys.first(), Instant::Never());
   OfferMeetings(agent, Limit(), Limit());
 }
 
@@ -183,7 +183,7 @@ EarliestAnswer Detector::Implementation::Earliest() {
     pairs_earliest_.Set(slot, pairs_[slot].not_before);
   }
   for (const std::uint32_t agent : search.agents) {
-    if (!At(agent).saturated) queue_.Set(agent, At(agent).key);
+    if (!At(agent).saturated) queue_.Set(agent, At(agent).keys.first());
   }
   SettleKeys();
   return search.best;

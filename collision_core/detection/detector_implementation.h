@@ -1,6 +1,7 @@
 // The detector's insides. Only detector*.cc include this.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <unordered_map>
@@ -64,8 +65,8 @@ class Detector::Implementation {
     std::uint32_t partner = 0;
   };
 
-  /// Whom a question is about.
-  enum class Asking { kAll, kCalm, kRestless };
+  /// A question is about one group of Restlessness::GroupOf(), or about all.
+  static constexpr int kEverybody = -1;
 
   /// The order of ~key is that of the keys from the last to the first.
   static Instant Reversed(Instant key) { return Instant::FromNanoseconds(~key.nanoseconds()); }
@@ -105,8 +106,10 @@ class Detector::Implementation {
   void Ask(std::uint32_t agent);
   void AskEverybody(std::uint32_t agent);
   bool NeedOnlyAskRestless(std::uint32_t agent) const;
-  bool TracksAllRestless(std::uint32_t agent) const;
   void AskRestless(std::uint32_t agent);
+  Next AskAbout(int group, std::uint32_t agent, bool renewed, bool was_saturated, Instant covered);
+  Instant DueUntil(const AgentRecord& agent) const;
+  bool TracksAll(std::uint32_t agent, int group) const;
   bool IsCrowded(std::uint32_t agent, Instant from, bool was_saturated);
   Next AskBroadPhase(std::uint32_t agent, Instant from, bool renewed, bool was_saturated,
                      Instant covered);
@@ -116,9 +119,14 @@ class Detector::Implementation {
   Next FirstFound() const;
   Instant Horizon(int step) const;
   void NoteHorizon(Instant key);
-  int& horizon() { return horizons_[asker_][asking_ == Asking::kRestless ? 1 : 0]; }
+  int& horizon() { return horizons_[asker_][std::max(asking_, 0)]; }
   void TakeMeetings(std::uint32_t agent, bool renewed, bool was_saturated, Instant covered);
-  void SetKeys(std::uint32_t agent, Instant key, Instant calm_key);
+  void NoteKeys(std::uint32_t agent);
+  /// Up to which the agent is certified free of the partner, if they are not tracked.
+  Instant KeyOf(std::uint32_t agent, std::uint32_t partner) const {
+    const int group = restlessness_.GroupOf(partner, agent);
+    return group == Restlessness::kCalm ? key_rows_.calm_key(agent) : At(agent).keys.of(group);
+  }
   void LowerKeyOf(std::uint32_t agent, std::uint32_t partner, Instant when);
   void SettleKeys();
   void Saturate(std::uint32_t agent, std::uint32_t partner);
@@ -130,8 +138,7 @@ class Detector::Implementation {
   bool Marked(std::uint32_t partner) const { return marks_[partner] == mark_; }
   bool IsLeftOut(std::uint32_t agent, std::uint32_t partner) const {
     if (Marked(partner)) return true;
-    return asking_ != Asking::kAll &&
-           restlessness_.IsRestless(partner, agent) != (asking_ == Asking::kRestless);
+    return asking_ != kEverybody && restlessness_.GroupOf(partner, agent) != asking_;
   }
 
   // What a renewal makes of others' keys (detector_lower.cc).
@@ -180,8 +187,8 @@ class Detector::Implementation {
   std::uint64_t removals_ = 0;
 
   EventQueue queue_;  // agents by the time at which they must be asked again
-  /// Agents by calm_key, the latest first (as ~key), of those not asked about everybody and not
-  /// renewed in this step.
+  /// Agents by their keys of the calm, the latest first (as ~key), of those not asked about
+  /// everybody and not renewed in this step.
   EventQueue latest_;
   KeyRows key_rows_;
   std::uint64_t looks_ = 0;    // partners looked at beside the filters' tests
@@ -199,6 +206,7 @@ class Detector::Implementation {
   // Kept for their memory.
   std::vector<Meeting> found_;
   std::vector<std::uint32_t> candidates_, slots_, first_;
+  std::vector<int> groups_;           // that an agent is asked about by themselves
   std::vector<WorkClaim> claims_;     // of slots_
   std::vector<std::uint64_t> given_;  // likewise
   WorkShares work_shares_;
@@ -206,10 +214,10 @@ class Detector::Implementation {
   std::uint64_t mark_ = 0;
   bool many_ = false;          // are renewed in this step
   Restlessness restlessness_;  // of what they declared at their last renewals
-  Asking asking_ = Asking::kAll;
+  int asking_ = kEverybody;
   int asker_ = 0;  // the class of who is asked
-  // Questions for keys begin with Horizon(horizon()), by asker_; of the restless alone.
-  std::array<std::array<int, 2>, Restlessness::kClasses> horizons_{};
+  // Questions for keys begin with Horizon(horizon()), by asker_ and asking_.
+  std::array<std::array<int, Restlessness::kClasses>, Restlessness::kClasses> horizons_{};
   int split_ = 4;                          // keys beyond Horizon(split_) are lowered one by one
   std::uint32_t crowded_[2] = {~0u, ~0u};  // the last agent that was saturated, and with whom
   bool crowd_ = false;                     // the agent last asked was saturated

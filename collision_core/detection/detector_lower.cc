@@ -57,9 +57,9 @@ std::uint64_t Detector::Implementation::LowerFarKeys(std::uint32_t agent, Instan
   std::uint64_t sooner = 0;
   looks_ += candidates_.size();
   std::erase_if(candidates_, [&](std::uint32_t partner) {
-    const bool restless = restlessness_.IsRestless(agent, partner);
-    sooner += key_rows_.key(partner, restless) <= next;
-    return Marked(partner) || key_rows_.CertainlyLater(agent, partner, restless);
+    const Instant key = KeyOf(partner, agent);
+    sooner += key <= next;
+    return Marked(partner) || key_rows_.CertainlyLater(agent, partner, key);
   });
   if (candidates_.empty()) return sooner;
   std::sort(candidates_.begin(), candidates_.end());
@@ -80,7 +80,7 @@ std::uint64_t Detector::Implementation::LowerNearKeys(std::uint32_t agent, Insta
   const auto skip = [&](std::uint32_t partner) {
     ++offers;
     return Marked(partner) || !latest_.Contains(partner) ||
-           key_rows_.CertainlyLater(agent, partner, restlessness_.IsRestless(agent, partner));
+           key_rows_.CertainlyLater(agent, partner, KeyOf(partner, agent));
   };
   const BroadPhaseWork before = broad_phase_.work();
   found_.clear();
@@ -110,15 +110,15 @@ void Detector::Implementation::AskFarKeysAnew() {
 // why.
 void Detector::Implementation::TellIfLowered(std::uint32_t agent, Instant before) {
   const AgentRecord& record = At(agent);
-  if (record.renewed_cause != ClearanceCause::kNone || record.key >= before) return;
+  if (record.renewed_cause != ClearanceCause::kNone || record.keys.first() >= before) return;
   const std::uint32_t cause = record.saturated ? record.crowded_with : record.next_partner;
   if (At(cause).renewed_cause != ClearanceCause::kNone) Tell(agent, cause);
 }
 
 void Detector::Implementation::LowerKey(std::uint32_t partner, std::uint32_t agent, Instant when) {
   AgentRecord& record = At(partner);
-  const bool sooner = when < record.key;
-  if (!sooner && (restlessness_.IsRestless(agent, partner) || when >= record.calm_key)) return;
+  if (when >= KeyOf(partner, agent)) return;
+  const bool sooner = when < record.keys.first();
   if (when <= AnnounceUntil()) {
     Saturate(partner, agent);  // there was no room to track the two
   } else {

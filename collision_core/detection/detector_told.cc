@@ -20,7 +20,7 @@ AgentClearance Detector::Implementation::Clearance(const AgentRecord& agent) con
   clearance.agent = agent.id;
   clearance.effective_from = agent.effective_from;
   clearance.saturated = agent.saturated;
-  clearance.clear_until = clearance.unannounced_until = agent.key;
+  clearance.clear_until = clearance.unannounced_until = agent.keys.first();
   for (const std::uint32_t slot : agent.pairs) {
     const PairRecord& pair = pairs_[slot];
     clearance.unsettled_until = std::max(clearance.unsettled_until, pair.unsettled_until);

@@ -63,7 +63,7 @@ void Detector::Implementation::TrackIfUncovered(std::uint32_t agent, std::uint32
     return;
   }
   const Instant free_until =
-      renewed ? UncoveredFrom(record, other, covered) : std::max(covered, other.key);
+      renewed ? UncoveredFrom(record, other, covered) : std::max(covered, KeyOf(partner, agent));
   const Instant known_from = std::max(record.stamp(), other.stamp());
   if (free_until >= known_from || FreeOver(record, other, free_until, known_from)) return;
   Track(agent, partner, free_until, renewed);

@@ -190,7 +190,7 @@ UpdateOutcome Detector::Implementation::Keep(std::uint32_t agent, const SpaceTim
   Narrow(agent);
   // A state beyond the agent's key (it was granted more time before the key was lowered): ask at
   // once.
-  if (record.key < stamp && !record.saturated) queue_.Set(agent, Instant::Always());
+  if (record.keys.first() < stamp && !record.saturated) queue_.Set(agent, Instant::Always());
   return UpdateOutcome::kKept;
 }
 
@@ -304,8 +304,8 @@ void Detector::Implementation::Renew(std::uint32_t agent, Instant from, Clearanc
   Put(agent);
   latest_.Remove(agent);
   restlessness_.Set(agent, record.bound().declaration.acceleration_max);
-  const Instant key = std::min(record.key, from);
-  SetKeys(agent, key, key);
+  if (!record.saturated) record.keys.SetAll(std::min(record.keys.first(), from));
+  NoteKeys(agent);
   for (const std::uint32_t slot : record.pairs) {
     pairs_[slot].tracker.RetractFree(from, false);
     Tell(pairs_[slot].lower == agent ? pairs_[slot].higher : pairs_[slot].lower, agent);

@@ -34,12 +34,12 @@ void KeyRows::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
 }
 
 // The centres' difference moves on a segment, which stays away from the origin by more than both
-// can reach until the key. Some thirty operations lose far less than 2^-40 of their terms; a stamp
+// can reach until then. Some thirty operations lose far less than 2^-40 of their terms; a stamp
 // is given to the nanosecond.
-bool KeyRows::CertainlyLater(std::uint32_t agent, std::uint32_t partner, bool restless) const {
+bool KeyRows::CertainlyLater(std::uint32_t agent, std::uint32_t partner, Instant until) const {
   constexpr double kRoundings = 0x1p-40;
   const Row &a = rows_[agent], &b = rows_[partner];
-  const Instant from = std::max(a.stamp, b.stamp), until = key(partner, restless);
+  const Instant from = std::max(a.stamp, b.stamp);
   if (until <= from) return true;
   if (until.is_never()) return false;
   constexpr double kStampRounding = 1e-8;

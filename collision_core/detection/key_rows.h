@@ -15,18 +15,13 @@ class KeyRows {
 
   /// The bound that keys come from, where an agent that has jumped may still be before the jump.
   void Put(std::uint32_t agent, const SpaceTimeBound& bound);
-  /// Up to when it relies on being free of those that are restless beside it, and of the others.
-  void SetKeys(std::uint32_t agent, Instant key, Instant calm_key) {
-    rows_[agent].key = key;
-    rows_[agent].calm_key = calm_key;
-  }
-  Instant key(std::uint32_t agent, bool restless) const {
-    return restless ? rows_[agent].key : rows_[agent].calm_key;
-  }
+  /// Up to when it relies on being free of those that are calm beside it.
+  void SetCalmKey(std::uint32_t agent, Instant key) { rows_[agent].calm_key = key; }
+  Instant calm_key(std::uint32_t agent) const { return rows_[agent].calm_key; }
 
-  /// True only if no motions within the two bounds bring them together before the partner's key;
-  /// which one, `restless` says. Says so mostly, where the two are well apart until then.
-  bool CertainlyLater(std::uint32_t agent, std::uint32_t partner, bool restless) const;
+  /// True only if no motions within the two bounds bring them together before `until`. Says so
+  /// mostly, where the two are well apart until then.
+  bool CertainlyLater(std::uint32_t agent, std::uint32_t partner, Instant until) const;
 
  private:
   struct Row {
@@ -38,7 +33,6 @@ class KeyRows {
     double acceleration_max;
     double time_step;
     Instant stamp;
-    Instant key = Instant::Always();
     Instant calm_key = Instant::Always();
   };
 

@@ -10,12 +10,17 @@
 
 namespace collision {
 
-/// A scene's agents by classes of their acceleration bounds, each class 16 times the one before.
-/// Beside an agent whoever stands two classes above is restless: surely with 256 times its bound,
-/// and never with 16 times or less. Beside one that declares none nobody is.
+/// A scene's agents by classes of their acceleration bounds, each class 8 times the one before.
+/// Beside an agent whoever stands two classes above is restless: surely with 64 times its bound,
+/// and never with 8 times or less. Beside one that declares none everybody is who declares any.
+/// This is a matter of the two alone, whoever else is there.
 class Restlessness {
  public:
-  static constexpr int kClasses = 33;
+  static constexpr int kClasses = 44;
+  /// The group of all that are not restless beside an agent.
+  static constexpr int kCalm = 0;
+  /// A class that nobody is ever of.
+  static constexpr int kNobody = kClasses;
 
   /// What the agent declares from now on.
   void Set(std::uint32_t agent, double acceleration_max) { Put(agent, ClassOf(acceleration_max)); }
@@ -25,22 +30,27 @@ class Restlessness {
   /// Agents of equal class are alike; < kClasses. 0: it declares none, or is not there.
   int of(std::uint32_t agent) const { return classes_[agent]; }
 
-  bool IsRestless(std::uint32_t partner, std::uint32_t beside) const {
-    return Stands(classes_[partner], classes_[beside]);
+  /// The partner's class if it is restless beside the agent; otherwise kCalm.
+  int GroupOf(std::uint32_t partner, std::uint32_t beside) const {
+    const int of_class = classes_[partner];
+    return Stands(of_class, classes_[beside]) ? of_class : kCalm;
   }
 
-  /// How many are restless beside it.
-  std::uint32_t CountBeside(std::uint32_t beside) const {
-    std::uint32_t count = 0;
-    for (int k = kClasses - 1; Stands(k, classes_[beside]); --k) count += counts_[k];
-    return count;
+  /// How many are of a class > 0.
+  std::uint32_t Count(int of_class) const { return counts_[of_class]; }
+
+  /// Appends the classes of all that are restless beside the agent, in ascending order.
+  void RestlessBeside(std::uint32_t agent, std::vector<int>* classes) const {
+    for (int k = 1; k < kClasses; ++k) {
+      if (counts_[k] > 0 && Stands(k, classes_[agent])) classes->push_back(k);
+    }
   }
 
  private:
-  static bool Stands(int high, int low) { return low > 0 && high >= low + 2; }
+  static bool Stands(int high, int low) { return low > 0 ? high >= low + 2 : high > 0; }
 
   static int ClassOf(double acceleration_max) {
-    constexpr int kLeast = -64, kGreatest = 63, kExponents = 4;
+    constexpr int kLeast = -64, kGreatest = 63, kExponents = 3;
     if (!(acceleration_max > 0)) return 0;
     return 1 + (std::clamp(std::ilogb(acceleration_max), kLeast, kGreatest) - kLeast) / kExponents;
   }
@@ -52,7 +62,7 @@ class Restlessness {
     classes_[agent] = static_cast<std::uint8_t>(of_class);
   }
 
-  std::array<std::uint32_t, kClasses> counts_{};
+  std::array<std::uint32_t, kClasses + 1> counts_{};
   std::vector<std::uint8_t> classes_;  // by agent
 };
 

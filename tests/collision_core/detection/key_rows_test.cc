@@ -51,8 +51,7 @@ TEST(KeyRows, CertainlyLaterIsNeverWrong) {
     if (random.Chance(0.5) && !meet.is_never()) {
       key = AddRoundedDown(meet, (random.Chance(0.5) ? 1 : -1) * random.LogUniform(1e-9, 1));
     }
-    rows.SetKeys(1, key, key);
-    const bool later = rows.CertainlyLater(0, 1, false);
+    const bool later = rows.CertainlyLater(0, 1, key);
     certain += later;
     const double before =
         meet.is_never() ? kInfinity : SecondsBetween(std::max(key, from), meet).lower;
