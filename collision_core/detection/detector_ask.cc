@@ -38,9 +38,15 @@ void Detector::Implementation::NoteKeys(std::uint32_t agent) {
     return;
   }
   key_rows_.SetCalmKey(agent, record.keys.calm());
-  queue_.Set(agent, record.keys.first());
+  queue_.Set(agent, record.asked == step_ ? record.keys.first() : DueAt(record));
   if (latest_.Contains(agent)) latest_.Set(agent, Reversed(record.keys.calm()));
   Touch(agent);
+}
+
+// Whose state lies beyond a key (it was granted more time before the key was lowered) is asked at
+// once.
+Instant Detector::Implementation::DueAt(const AgentRecord& agent) {
+  return agent.keys.first() < agent.stamp() ? Instant::Always() : agent.keys.first();
 }
 
 // They may meet at `when`, if its keys do not say earlier.

@@ -183,7 +183,7 @@ EarliestAnswer Detector::Implementation::Earliest() {
     pairs_earliest_.Set(slot, pairs_[slot].not_before);
   }
   for (const std::uint32_t agent : search.agents) {
-    if (!At(agent).saturated) queue_.Set(agent, At(agent).keys.first());
+    if (!At(agent).saturated) queue_.Set(agent, DueAt(At(agent)));
   }
   SettleKeys();
   return search.best;

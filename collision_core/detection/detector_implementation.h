@@ -122,6 +122,7 @@ class Detector::Implementation {
   int& horizon() { return horizons_[asker_][std::max(asking_, 0)]; }
   void TakeMeetings(std::uint32_t agent, bool renewed, bool was_saturated, Instant covered);
   void NoteKeys(std::uint32_t agent);
+  static Instant DueAt(const AgentRecord& agent);
   /// Up to which the agent is certified free of the partner, if they are not tracked.
   Instant KeyOf(std::uint32_t agent, std::uint32_t partner) const {
     const int group = restlessness_.GroupOf(partner, agent);

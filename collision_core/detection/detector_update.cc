@@ -188,9 +188,7 @@ UpdateOutcome Detector::Implementation::Keep(std::uint32_t agent, const SpaceTim
     return UpdateOutcome::kKept;
   }
   Narrow(agent);
-  // A state beyond the agent's key (it was granted more time before the key was lowered): ask at
-  // once.
-  if (record.keys.first() < stamp && !record.saturated) queue_.Set(agent, Instant::Always());
+  if (record.keys.first() < stamp && !record.saturated) queue_.Set(agent, DueAt(record));
   return UpdateOutcome::kKept;
 }
 

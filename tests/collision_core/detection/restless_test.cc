@@ -69,5 +69,26 @@ TEST(Restless, AStateAheadOfTheCalmKeyHasTheCalmAsked) {
   EXPECT_GE(detector.ClearanceOf(Id(1))->clear_until, At(1.3));
 }
 
+// As above, the other way round: the violent agent is asked again first. In the same step the one
+// whose state lies ahead learns of somebody new whom it may meet later.
+TEST(Restless, AStateAheadIsAskedThoughAKeyIsLowered) {
+  Detector detector(AnnouncedFor(0.5));
+  const AgentDeclaration calm{.radius = 1, .acceleration_max = 0.5};
+  const AgentDeclaration violent{.radius = 1, .acceleration_max = 1000, .group = 2};
+  detector.Admit(Id(0), calm, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
+  detector.Admit(Id(1), violent, State(0, {-20, 1000, 0}, {0, 0, 0}), At(0));
+  detector.Admit(Id(2), calm, State(0, {-20, 1182, 0}, {0, 0, 0}), At(0));
+  detector.Advance(At(0));
+  EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(0.61));
+  Speak(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
+  detector.Remove(Id(2));
+  AgentDeclaration later = calm;
+  later.mask = 1;
+  detector.Admit(Id(3), later, State(0.4, {80, 0, 0}, {0, 0, 0}), At(0.4));
+  detector.Advance(At(0.4));
+  EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(1.42));
+  EXPECT_GE(detector.ClearanceOf(Id(1))->clear_until, At(1.3));
+}
+
 }  // namespace
 }  // namespace collision
