@@ -30,7 +30,8 @@ constexpr SceneLength kScenes[] = {{"iridium-cosmos", 0, 660}, {"corridor", 0, 1
                                    {"spaceships", 0, 10},      {"spaceships-100", 0, 8},
                                    {"spaceships-500", 0, 0},   {"swarm-100", 0, 20},
                                    {"swarm-1000", 0, 0},       {"swarm", 2, 0},
-                                   {"terrain", 0, 0},          {"drone-arms", 0, 0}};
+                                   {"terrain", 0, 0},          {"terrain-million", 0, 0},
+                                   {"drone-arms", 0, 0}};
 
 /// How long the shrunk contact lasts [s]; the true one 0.123.
 constexpr double kLengths[] = {0.1, 0.06, 0.03, 0.02, 0.0167, 0.01, 0.005, 0.002, 0.001};
