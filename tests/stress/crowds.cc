@@ -1,5 +1,6 @@
 // Very many at once: at one point, at one instant.
 #include <cmath>
+#include <map>
 
 #include "tests/stress/scene.h"
 
@@ -23,6 +24,29 @@ DetectorOptions OptionsFor(std::uint32_t agents) {
   return options;
 }
 
+double RadiusOf(std::uint32_t agent) { return agent % 3 == 0 ? 0 : 1; }
+
+// Where everybody is is known exactly when they are admitted, all at once: so is what they touch.
+void JudgePairs(const Scene& scene, Outcome* outcome) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, const CollisionEvent*> newest;
+  for (const CollisionEvent& event : scene.events()) {
+    newest[{event.lower.slot, event.higher.slot}] = &event;
+  }
+  outcome->Expect(newest.size() == scene.detector().pairs_tracked(), "a tracked pair is not told");
+  for (const auto& [pair, event] : newest) {
+    const double truth = -RadiusOf(pair.first) - RadiusOf(pair.second);
+    outcome->Expect(event->status == EventStatus::kConfirmed, "a contact is not confirmed");
+    outcome->Expect(event->separation_lower <= truth && truth <= event->separation_upper,
+                    "the distance is not in its bracket");
+    const std::int64_t begin[] = {event->begin.earliest.nanoseconds(),
+                                  event->begin.latest.nanoseconds()};
+    outcome->Expect(begin[0] <= 0 && begin[1] >= 0, "the begin is not in its bracket");
+    const double width = static_cast<double>(begin[1]) - static_cast<double>(begin[0]);
+    outcome->Greatest("begin_width_ns", width);
+    outcome->Expect(width <= 2, "a wide begin");
+  }
+}
+
 // Everybody at the same point: in contact, or told as saturated, and never silent.
 void OnePoint(const Setting& setting, Outcome* outcome) {
   const auto agents = static_cast<std::uint32_t>(setting.Many(400, 6000));
@@ -30,12 +54,13 @@ void OnePoint(const Setting& setting, Outcome* outcome) {
   const DetectorOptions options = OptionsFor(agents);
   Scene scene(options, Instant(), outcome);
   for (std::uint32_t k = 0; k < agents; ++k) {
-    scene.Add(BallOf(k % 3 == 0 ? 0 : 1, 0.1), Straight({0, 0, 0}, {0, 0, 0}), 8);
+    scene.Add(BallOf(RadiusOf(k), 0.1), Straight({0, 0, 0}, {0, 0, 0}), 8);
   }
   scene.Run(kStep, 1);
   Detector& detector = scene.detector();
   const std::uint64_t admission = detector.counters().pair_queries;
   scene.Run(kStep, steps);
+  JudgePairs(scene, outcome);
   int silent = 0;
   for (std::uint32_t k = 0; k < agents; ++k) {
     const auto clearance = detector.ClearanceOf({1, k, 1, 1});
@@ -55,7 +80,9 @@ void OnePoint(const Setting& setting, Outcome* outcome) {
   outcome->Set("pair_queries_at_admission", static_cast<double>(admission));
   outcome->Set("pair_queries_a_step", later / steps);
   outcome->Say(Show(agents) + " agents: " + Show(static_cast<double>(detector.pairs_tracked())) +
-               " pairs tracked, " + Show(static_cast<double>(admission)) +
+               " pairs tracked, begins within " + Show(outcome->Get("begin_width_ns")) +
+               " ns and distances within " + Show(outcome->Get("distance_width_m")) +
+               " m at most, " + Show(static_cast<double>(admission)) +
                " pair queries at the admission, " + Show(later / steps) + " a step");
 }
 
@@ -63,17 +90,18 @@ void OnePoint(const Setting& setting, Outcome* outcome) {
 void Simultaneous(const Setting& setting, Outcome* outcome) {
   const int side = setting.Many(10, 22), pairs = side * side * side;
   Scene scene(OptionsFor(2 * pairs), Instant(), outcome);
+  scene.ForbidIdle();
   const Vector3d x(1, 0, 0);
   for (int k = 0; k < pairs; ++k) {
     const Vector3d at = 64.0 * Vector3d(k % side, k / side % side, k / side / side);
-    const auto a = scene.Add(BallOf(1, 0.01), Straight(at - 5 * x, 4 * x), 4);
-    const auto b = scene.Add(BallOf(1, 0.01), Straight(at + 5 * x, -4 * x), 4);
-    scene.Touch(a, b, 1, 1.5);
+    const auto a = scene.Add(BallOf(1, 0.01), Straight(at - 5.125 * x, 4 * x), 4);
+    const auto b = scene.Add(BallOf(1, 0.01), Straight(at + 5.125 * x, -4 * x), 4);
+    scene.Touch(a, b, 1.03125, 1.53125);  // Half-way between two states.
   }
   scene.Run(kStep, 128);
-  // Between states 1/16 s apart each is known to M T²/8 = 5e-6 m; they close at 8 m/s. Contact begins
-  // at a state here.
-  scene.Judge(1e-5, true);
+  // Between states 1/16 s apart each is known to M T²/8; they close at 8 m/s.
+  constexpr double kBetween = 4 * 0x1p-6;
+  scene.Judge(0.01 * kBetween * kBetween / 2 / 8 + 3e-9, true);
   outcome->Expect(scene.events_per_step_max() <= static_cast<std::size_t>(4 * pairs),
                   "more events in a step than 4 a pair");
   SayScene(scene, outcome);
@@ -83,13 +111,17 @@ void Simultaneous(const Setting& setting, Outcome* outcome) {
 
 std::vector<Case> CrowdCases() {
   return {{"extreme", "one-point",
-           "who is at one point with everybody is in contact, saturated or not clear; at most "
-           "65536 pairs, 512 pair queries an agent at the admission and 8 a step",
+           "who is at one point with everybody is in contact, saturated or not clear; each tracked "
+           "pair's contact is confirmed, its begin known within 2 ns (all is known when they are "
+           "admitted), its distance within 32 units in the last place of the radii and what the "
+           "bounds leave open in a nanosecond; at most 65536 pairs, 512 pair queries an agent at "
+           "the admission and 8 a step",
            OnePoint},
           {"extreme", "simultaneous",
            "of a thousand and more contacts in one instant each is announced before and "
-           "confirmed, begins within 10 us (M T2/4 over the speed, twice); at most 4 events a pair "
-           "in a step",
+           "confirmed; begins and ends within 3 ns and M T2/2 over the speed; who could touch "
+           "nobody within 1/60 s is clear for as long, and else until it could with lengths 4 "
+           "units in the last place off; at most 4 events a pair in a step",
            Simultaneous}};
 }
 

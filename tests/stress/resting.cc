@@ -15,6 +15,13 @@ using Eigen::Vector3d;
 
 constexpr std::int64_t kStep = 1'000'000'000 / 64;
 constexpr double kStepSeconds = 0x1p-6;
+constexpr double kHalfStep = kStepSeconds / 2;
+
+/// What is announced [s].
+constexpr double kAhead = 2;
+
+/// What brackets lose to the nanosecond, and to rounding [s].
+constexpr double kInstants = 3e-9;
 
 /// When the bystanders meet [s].
 constexpr double kBystanders = 1.5;
@@ -57,14 +64,19 @@ DetectorOptions Limited() {
 }
 
 /// Two far from everything else, which meet after `begin` seconds: nobody may starve them. Returns
-/// the first of them; the second comes next.
+/// the first of them; the second comes next. Between two states each surface is known to T²/8 of the
+/// greatest acceleration of its points, ahead and behind; they close at 2 m/s.
 std::uint32_t AddPair(Scene* scene, const AgentDeclaration& declaration, const Vector3d& far,
                       double begin) {
   const Vector3d x(1, 0, 0);
   const double half = 0.5 + begin;
   const auto a = scene->Add(declaration, Straight(far - half * x, x));
   const auto b = scene->Add(declaration, Straight(far + half * x, -x));
-  scene->Touch(a, b, begin, begin + 1);
+  const double turning =
+      declaration.shape ? declaration.angular_acceleration_max * declaration.radius : 0;
+  const double open =
+      2 * (declaration.acceleration_max + turning) * kStepSeconds * kStepSeconds / 8;
+  scene->Touch(a, b, begin, begin + 1, 2 * open / 2 + kInstants);
   return a;
 }
 
@@ -97,8 +109,7 @@ void ExpectServed(const Scene& scene, std::uint32_t cube, double begin, const Se
 
 /// The second half of a run needs no more room than the first one, and a step is bounded. `cube`:
 /// AddBystanders().
-void RunSteadily(Scene* scene, std::uint32_t cube, int steps, Outcome* outcome,
-                 Seconds width = 1e-3) {
+void RunSteadily(Scene* scene, std::uint32_t cube, int steps, Outcome* outcome) {
   scene->Run(kStep, steps / 2);
   const std::size_t before = scene->queued_max();
   scene->Run(kStep, steps - steps / 2);
@@ -109,7 +120,7 @@ void RunSteadily(Scene* scene, std::uint32_t cube, int steps, Outcome* outcome,
   const double units = static_cast<double>(Limited().work_units_per_step) + kBatchUnits * pairs;
   outcome->Expect(static_cast<double>(scene->work_per_step_max()) <= 2 * units,
                   "a step spends more than twice what is allowed");
-  scene->Judge(width, false);
+  scene->Judge(kInstants, false);
   ExpectServed(*scene, cube, kBystanders, {}, outcome);
   outcome->Set("revisions_per_step",
                static_cast<double>(scene->events().size()) / static_cast<double>(steps));
@@ -128,6 +139,17 @@ void Resting(const Setting& setting, Outcome* outcome) {
   RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome);
 }
 
+/// Before the contact at `begin` it is clear until then, or for as long as it is looked ahead.
+void ExpectClear(Scene& scene, std::uint32_t agent, Seconds begin, Outcome* outcome) {
+  if (scene.elapsed() >= begin) return;
+  const auto clearance = scene.detector().ClearanceOf({1, agent, 1, 1});
+  if (!outcome->Expect(clearance.has_value(), "no clearance")) return;
+  const Seconds ahead = SecondsBetween(scene.now(), clearance->clear_until).upper;
+  const Seconds early = std::min<Seconds>(kAhead, begin - scene.elapsed()) - ahead;
+  outcome->Greatest("clear_early_s", static_cast<double>(early));
+  outcome->Expect(early <= 3e-9, "idle: clear for less than it could be");
+}
+
 // Cubes head on, of the smallest size that the edge lets pass to nearly the largest.
 void ShapeScenes(const Setting&, Outcome* outcome) {
   for (int exponent = -20; exponent <= 20; exponent += 5) {
@@ -135,11 +157,16 @@ void ShapeScenes(const Setting&, Outcome* outcome) {
     const auto cube = Shape::Build(Cube(half));
     Scene scene(Limited(), Instant(), outcome);
     const Vector3d x(1, 0, 0);
-    const auto a = scene.Add(Of(cube, 0), Straight(-7 * half * x, 4 * half * x));
-    const auto b = scene.Add(Of(cube, 0), Straight(7 * half * x, -4 * half * x));
-    scene.Touch(a, b, 1.5, 2);
-    scene.Run(kStep, 192);
-    scene.Judge(kStepSeconds, true);
+    const double away = 7 * half + 4 * half * kHalfStep;
+    const auto a = scene.Add(Of(cube, 0), Straight(-away * x, 4 * half * x));
+    const auto b = scene.Add(Of(cube, 0), Straight(away * x, -4 * half * x));
+    constexpr double kBegin = 1.5 + kHalfStep;
+    scene.Touch(a, b, kBegin, kBegin + 0.5);
+    for (int i = 0; i < 192; ++i) {
+      scene.Run(kStep, 1);
+      ExpectClear(scene, a, kBegin, outcome);
+    }
+    scene.Judge(3e-9, true);
     SayScene(scene, outcome);
   }
 }
@@ -185,6 +212,8 @@ void Rolling(const Setting& setting, Outcome* outcome) {
   RunSteadily(&scene, cubes, setting.Many(640, 1000), outcome);
 }
 
+constexpr double kError = 1e-9;  ///< Of place [m] and velocity [m/s].
+
 // A ball that bounces off a slab and loses half of its speed each time: infinitely many contacts in
 // a finite time (Zeno). Its bound allows for the impacts.
 struct Bouncing {
@@ -202,16 +231,20 @@ struct Bouncing {
     const Seconds z = u > 0 ? u * s - gravity * s * s / 2 : 0;
     state.p_WA = {0, 0, static_cast<double>(std::max<Seconds>(0, z)) + 0.5};
     state.v_WA = {0, 0, u > 0 ? static_cast<double>(u - gravity * s) : 0};
-    state.position_error = 1e-9;
-    state.velocity_error = 1e-9;
+    state.position_error = state.velocity_error = kError;
     return state;
   }
 };
 
-void TouchAtBounces(const Bouncing& bouncing, std::uint32_t ball, Scene* scene) {
+/// `exact`: where the states are, the bounds are those of the fall, so that an impact at a state is
+/// known within the errors over the speed, and as freedom and contact of shapes are looked for: to
+/// 1e-6 and 1e-5 of a segment (shape_contact.cc). Else no closer than the states are.
+void TouchAtBounces(const Bouncing& bouncing, std::uint32_t ball, bool exact, Scene* scene) {
   Seconds at = 0;
   for (Seconds u = bouncing.speed; u > 0.01; u *= bouncing.restitution) {
-    scene->Touch(0, ball, at, at);
+    const bool at_state = std::fmod(at, Seconds(kStepSeconds)) == 0;
+    const Seconds known = 2 * kError * (1 + kStepSeconds) / u + 1.1e-5 * kStepSeconds;
+    scene->Touch(0, ball, at, at, (exact && at_state ? known : kStepSeconds) + kInstants);
     at += 2 * u / bouncing.gravity;
   }
 }
@@ -223,10 +256,9 @@ void Chattering(const Setting& setting, Outcome* outcome) {
   const double M = 4 * bouncing.speed / kStepSeconds;
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
   const auto ball = scene.Add(BallOf(0.5, M), [bouncing](Seconds t) { return bouncing.At(t); });
-  TouchAtBounces(bouncing, ball, &scene);
+  TouchAtBounces(bouncing, ball, false, &scene);
   const auto cubes = AddBystanders(&scene);
-  // What happens between two states, and how soon it is over, is not known any closer.
-  RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
+  RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome);
 }
 
 // The same with each impact declared as a discontinuity, under a bound of gravity alone.
@@ -242,9 +274,9 @@ void ChatteringJumps(const Setting& setting, Outcome* outcome) {
     last = state.v_WA.z();
     return state;
   });
-  TouchAtBounces(bouncing, 1, &scene);
+  TouchAtBounces(bouncing, 1, true, &scene);
   const auto cubes = AddBystanders(&scene);
-  RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome, 2 * kStepSeconds);
+  RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome);
 }
 
 /// Contacts that have no end and no answer: a stack, a ball of triangles that rolls, and a cube that
@@ -266,7 +298,7 @@ void AddGreedy(Scene* scene) {
     state.p_WA += Vector3d(8, -8, 0);
     return state;
   });
-  TouchAtBounces(bouncing, cube, scene);
+  TouchAtBounces(bouncing, cube, false, scene);
 }
 
 // Cubes that meet, at their own time, beside all that: with a budget that is ever smaller. Of the
@@ -302,22 +334,28 @@ void Starving(const Setting& setting, Outcome* outcome) {
 }
 
 const char* const kSteady =
-    "no contact is missed or told late; another pair of balls, and one of cubes, is not starved; "
-    "at "
-    "most 4 events an agent and twice the work allowed in a step, the queue does not grow";
+    "no contact is missed or told late; another pair of balls, and one of cubes, is not starved, "
+    "its "
+    "begins and ends within 3 ns and M T2/2 over the speed, M that of any point; at most 4 events "
+    "an "
+    "agent and twice the work allowed in a step, the queue does not grow";
 
 }  // namespace
 
 std::vector<Case> RestingCases() {
+  const std::string steady = kSteady;
   return {{"extreme", "shape-scenes",
-           "cubes of 2^-20 to 2^20 m: contact is never missed or told late, and confirmed; begins "
-           "within a step",
+           "cubes of 2^-20 to 2^20 m: contact is never missed or told late, and confirmed; begins, "
+           "ends and clearances within 3 ns",
            ShapeScenes},
-          {"stiff", "resting", kSteady, Resting},
-          {"stiff", "stack", kSteady, Stack},
-          {"stiff", "rolling", kSteady, Rolling},
-          {"stiff", "chattering", kSteady, Chattering},
-          {"stiff", "chattering-jumps", kSteady, ChatteringJumps},
+          {"stiff", "resting", steady, Resting},
+          {"stiff", "stack", steady, Stack},
+          {"stiff", "rolling", steady, Rolling},
+          {"stiff", "chattering", steady + "; begins of bounces within a step", Chattering},
+          {"stiff", "chattering-jumps",
+           steady + "; begins of bounces at a state within its errors over the speed and 1.1e-5 of "
+                    "a step, of the others within a step",
+           ChatteringJumps},
           {"stiff", "starving",
            "beside a stack, a rolling and a chattering body, with 16000 or 8000 units of work a "
            "step for all: six pairs of cubes that meet are confirmed within four steps, and known "

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/stress/pair_judge.h"
+#include "tests/support/exact_meeting.h"
+
 namespace collision::stress {
 namespace {
 
 /// What the closed forms in long double may be off by.
 constexpr Seconds kTruthShare = 0x1p-58L;
+
+constexpr double kNanosecond = 1e-9;
 
 MotionState At(const Eigen::Vector3d& p, const Eigen::Vector3d& v) {
   MotionState state;
@@ -22,6 +27,18 @@ bool IsOpen(const CollisionEvent& event) {
 
 bool IsContact(const CollisionEvent& event) {
   return event.status == EventStatus::kConfirmed || event.status == EventStatus::kEnded;
+}
+
+/// By plain doubles, and far more than they lose: twice the way of both does not join them.
+bool IsFar(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant now, Instant until) {
+  const auto way = [&](const SpaceTimeBound& bound) {
+    const double s = SecondsBetween(bound.state.stamp, std::max(now, until)).upper;
+    const MotionState& state = bound.state;
+    return bound.declaration.radius + state.position_error +
+           s * (state.v_WA.norm() + state.velocity_error) +
+           s * s / 2 * bound.declaration.acceleration_max;
+  };
+  return (b.state.p_WA - a.state.p_WA).norm() > 2 * (way(a) + way(b));
 }
 
 std::string Named(const char* what, std::uint32_t a, std::uint32_t b, Seconds at) {
@@ -45,32 +62,34 @@ Motion Falling(const Eigen::Vector3d& p, const Eigen::Vector3d& v, const Eigen::
 }
 
 Scene::Scene(const DetectorOptions& options, Instant start, Outcome* outcome)
-    : detector_(options),
-      announce_within_(options.announce_within),
-      start_(start),
-      now_(start),
-      outcome_(outcome) {}
+    : detector_(options), options_(options), start_(start), now_(start), outcome_(outcome) {}
 
 Seconds Scene::Since(Instant t) const {
   return static_cast<Seconds>(t.nanoseconds() - start_.nanoseconds()) / 1e9L;
 }
 
-MotionState Scene::StateAt(std::uint32_t agent, Instant t) const {
-  MotionState state = agents_[agent].motion(Since(t));
-  state.stamp = t;
-  return state;
+const MotionState& Scene::Tell(std::uint32_t agent, Instant t) {
+  Agent& it = agents_[agent];
+  it.told.state = it.motion(Since(t));
+  it.told.state.stamp = t;
+  it.places.emplace_back(t, it.told.state.p_WA.norm());
+  return it.told.state;
 }
 
 std::uint32_t Scene::Add(const AgentDeclaration& declaration, Motion motion, int every) {
   const auto agent = static_cast<std::uint32_t>(agents_.size());
-  agents_.push_back({std::move(motion), every});
-  const bool admitted = detector_.Admit(IdOf(agent), declaration, StateAt(agent, now_), now_);
+  agents_.emplace_back();
+  agents_[agent].motion = std::move(motion);
+  agents_[agent].every = every;
+  agents_[agent].told.declaration = declaration;
+  anybody_accelerates_ |= declaration.acceleration_max > 0;
+  const bool admitted = detector_.Admit(IdOf(agent), declaration, Tell(agent, now_), now_);
   outcome_->Expect(admitted, "not admitted");
   return agent;
 }
 
-void Scene::Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end) {
-  meetings_.push_back({std::min(a, b), std::max(a, b), begin, end});
+void Scene::Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end, Seconds width) {
+  meetings_.push_back({std::min(a, b), std::max(a, b), begin, end, width});
 }
 
 void Scene::Run(std::int64_t step_ns, int steps) {
@@ -83,7 +102,7 @@ void Scene::StepTo(Instant now) {
   ++steps_;
   for (std::uint32_t agent = 0; agent < agents_.size(); ++agent) {
     if (steps_ % agents_[agent].every == 0) {
-      const UpdateOutcome told = detector_.Update(IdOf(agent), StateAt(agent, now), now);
+      const UpdateOutcome told = detector_.Update(IdOf(agent), Tell(agent, now), now);
       outcome_->Expect(told == UpdateOutcome::kKept || told == UpdateOutcome::kJumped,
                        Named("an honest state is not kept", agent, agent, Since(now)));
     }
@@ -97,13 +116,14 @@ void Scene::StepTo(Instant now) {
                    "the queue holds more than agents and pairs");
   TakeEvents();
   CheckClearances();
+  if (idle_forbidden_) CheckIdle();
 }
 
 // What begins before the next step has been announced, where it is as near as that.
 void Scene::CheckAnnounced(Instant next) {
   for (const Meeting& meeting : meetings_) {
     if (meeting.begin <= elapsed() || meeting.begin > Since(next)) continue;
-    if (meeting.begin > elapsed() + announce_within_ || steps_ == 0) continue;
+    if (meeting.begin > elapsed() + options_.announce_within || steps_ == 0) continue;
     outcome_->Expect(meeting.announced,
                      Named("not announced before", meeting.a, meeting.b, meeting.begin));
   }
@@ -135,13 +155,41 @@ void Scene::CheckBrackets(const CollisionEvent& event) {
                          event.normal.sum()}) {
     expect(!std::isnan(x), "not a number in an event");
   }
+  CheckDistance(event);
+}
+
+// How far apart two balls are: as closely as the motion since their last states leaves it. What is
+// told of an instant may hold up to a nanosecond later.
+void Scene::CheckDistance(const CollisionEvent& event) {
+  double open = 0, size = 0;
+  for (const std::uint32_t agent : {event.lower.slot, event.higher.slot}) {
+    const Agent& it = agents_[agent];
+    const AgentDeclaration& declaration = it.told.declaration;
+    if (declaration.shape) return;
+    const auto next =
+        std::upper_bound(it.places.begin() + 1, it.places.end(), event.evaluated_at,
+                         [](Instant at, const auto& place) { return at < place.first; });
+    const auto last = std::prev(next);
+    const double s = SecondsBetween(last->first, event.evaluated_at).upper + kNanosecond;
+    const MotionState& state = it.told.state;
+    open +=
+        state.position_error + s * state.velocity_error + s * s / 2 * declaration.acceleration_max;
+    size += declaration.radius + last->second + (next == it.places.end() ? last : next)->second;
+  }
+  const double width = event.separation_upper - event.separation_lower;
+  const double unit = 0x1p-52 * (size + open);
+  outcome_->Greatest("distance_width_m", width);
+  outcome_->Greatest("distance_units", std::max(0.0, width - 2 * open) / std::max(unit, 0x1p-1000));
+  outcome_->Expect(
+      width <= 2 * open + kDistanceUnits * unit,
+      Named("a wide distance", event.lower.slot, event.higher.slot, Since(event.evaluated_at)));
 }
 
 // Never late: who is told to be clear begins no new contact before. Two that are told to touch
 // begin none until that has ended.
 void Scene::CheckClearances() {
   for (const Meeting& meeting : meetings_) {
-    if (meeting.begin <= elapsed() || IsToldToTouch(meeting)) continue;
+    if (meeting.begin <= elapsed() || IsToldToTouch(meeting.a, meeting.b)) continue;
     for (const std::uint32_t agent : {meeting.a, meeting.b}) {
       const auto clearance = detector_.ClearanceOf(IdOf(agent));
       if (!outcome_->Expect(clearance.has_value(), "no clearance")) continue;
@@ -152,8 +200,38 @@ void Scene::CheckClearances() {
   }
 }
 
-bool Scene::IsToldToTouch(const Meeting& meeting) const {
-  const auto of_pair = newest_.find({meeting.a, meeting.b});
+// Pairs are asked anew with every state that comes nearer than Δt; where nobody accelerates the first
+// answer stays.
+void Scene::CheckIdle() {
+  const double asked_again =
+      anybody_accelerates_ ? options_.temporal_resolution : options_.announce_within;
+  const Instant soon = AddRoundedDown(now_, asked_again);
+  for (std::uint32_t agent = 0; agent < agents_.size(); ++agent) {
+    const auto clearance = detector_.ClearanceOf(IdOf(agent));
+    if (!clearance || clearance->saturated || clearance->clear_until >= soon) continue;
+    outcome_->Add("near_clearances", 1);
+    outcome_->Expect(CouldTouchBy(agent, clearance->clear_until),
+                     Named("idle", agent, agent, elapsed()));
+  }
+}
+
+/// Whether anybody that is not told to touch it could by a nanosecond after `until`.
+bool Scene::CouldTouchBy(std::uint32_t agent, Instant until) const {
+  const Dyadic by = ExactMeeting::Between(now_, std::max(now_, until)) + Dyadic(1.0);
+  const SpaceTimeBound& bound = agents_[agent].told;
+  for (std::uint32_t other = 0; other < agents_.size(); ++other) {
+    const SpaceTimeBound& partner = agents_[other].told;
+    if (other == agent || !CanMeet(bound.declaration, partner.declaration)) continue;
+    if (IsFar(bound, partner, now_, until)) continue;
+    if (IsToldToTouch(std::min(agent, other), std::max(agent, other))) continue;
+    const ExactMeeting larger(bound, partner, now_, {false, kPairUnits * 0x1p-52});
+    if (larger.MetBy(by)) return true;
+  }
+  return false;
+}
+
+bool Scene::IsToldToTouch(std::uint32_t a, std::uint32_t b) const {
+  const auto of_pair = newest_.find({a, b});
   if (of_pair == newest_.end()) return false;
   return std::any_of(of_pair->second.begin(), of_pair->second.end(), [&](const auto& contact) {
     return events_[contact.second].status == EventStatus::kConfirmed;
@@ -183,7 +261,7 @@ bool Scene::TouchAtAll(const CollisionEvent& event) const {
   });
 }
 
-void Scene::Judge(Seconds width, bool confirmed) {
+void Scene::Judge(Seconds width, bool confirmed, Seconds end_width) {
   for (const Meeting& meeting : meetings_) {
     if (meeting.begin > elapsed()) continue;
     outcome_->Add("contacts", 1);
@@ -194,12 +272,10 @@ void Scene::Judge(Seconds width, bool confirmed) {
     }
     outcome_->Expect(IsContact(*event) || !confirmed,
                      Named("not confirmed", meeting.a, meeting.b, meeting.begin));
+    const Seconds of_it = meeting.width > 0 ? meeting.width : width;
+    JudgeWidth(meeting, *event, of_it, end_width > 0 ? end_width : of_it);
     if (!IsContact(*event)) continue;
     outcome_->Add("confirmed", 1);
-    if (meeting.begin <= 0) continue;
-    const Seconds found = Since(event->begin.latest) - Since(event->begin.earliest);
-    outcome_->Greatest("begin_width_s", static_cast<double>(found));
-    outcome_->Expect(found <= width, Named("a wide bracket", meeting.a, meeting.b, found));
     // Touches that last no time may be several in one event.
     if (event->status != EventStatus::kEnded || meeting.end <= meeting.begin) continue;
     const Seconds slack = kTruthShare * std::fabs(meeting.end);
@@ -214,15 +290,38 @@ void Scene::Judge(Seconds width, bool confirmed) {
   }
 }
 
+void Scene::JudgeWidth(const Meeting& meeting, const CollisionEvent& event, Seconds width,
+                       Seconds end_width) {
+  const auto judge = [&](const TimeBracket& bracket, Seconds most, const char* what) {
+    const Seconds found = Since(bracket.latest) - Since(bracket.earliest);
+    outcome_->Greatest(std::string(what) + "_width_s", static_cast<double>(found));
+    outcome_->Expect(found <= most, Named((std::string("a wide bracket of the ") + what).c_str(),
+                                          meeting.a, meeting.b, found));
+  };
+  if (IsContact(event) && meeting.begin > 0) judge(event.begin, width, "begin");
+  // Touches that last no time may be several in one event.
+  if (meeting.end <= meeting.begin || std::isinf(meeting.end) || IsOpen(event)) return;
+  if (event.status == EventStatus::kEnded) judge(event.end, end_width, "end");
+  const Seconds longer =
+      Since(event.end.latest) - Since(event.begin.earliest) - (meeting.end - meeting.begin);
+  outcome_->Add("stays", 1);
+  outcome_->Greatest("longer_s", static_cast<double>(longer));
+  outcome_->Expect(longer <= 2 * width, Named("not free for long", meeting.a, meeting.b, longer));
+}
+
 void SayScene(const Scene& scene, Outcome* outcome) {
   outcome->Greatest("events_per_step_max", static_cast<double>(scene.events_per_step_max()));
   outcome->Greatest("queued_max", static_cast<double>(scene.queued_max()));
   outcome->Greatest("work_per_step_max", static_cast<double>(scene.work_per_step_max()));
-  outcome->Say(Show(outcome->Get("confirmed")) + " of " + Show(outcome->Get("contacts")) +
-               " contacts confirmed, begins within " + Show(outcome->Get("begin_width_s")) +
-               " s at most; a step " + Show(outcome->Get("events_per_step_max")) + " events, " +
-               Show(outcome->Get("work_per_step_max")) + " units; queue " +
-               Show(outcome->Get("queued_max")) + " at most");
+  const auto show = [outcome](const char* name) { return Show(outcome->Get(name)); };
+  const bool near = outcome->Get("near_clearances") > 0;
+  outcome->Say(show("confirmed") + " of " + show("contacts") +
+               " contacts confirmed, begins within " + show("begin_width_s") +
+               " s and ends within " + show("end_width_s") + " s at most, not free for " +
+               show("longer_s") + " s more than in contact; " +
+               (near ? "none of " + show("near_clearances") + " near clearances idle; " : "") +
+               "a step " + show("events_per_step_max") + " events, " + show("work_per_step_max") +
+               " units; queue " + show("queued_max") + " at most");
 }
 
 }  // namespace collision::stress

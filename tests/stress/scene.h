@@ -26,8 +26,18 @@ Motion Falling(const Eigen::Vector3d& p, const Eigen::Vector3d& v, const Eigen::
 struct Meeting {
   std::uint32_t a = 0, b = 0;
   Seconds begin = 0, end = 0;  ///< `end` may be +infinity.
+  Seconds width = 0;  ///< Of its brackets at most, where that is not everybody's; 0: it is.
   bool announced = false;
 };
+
+/// K of the distance of two balls in an event: its bracket is as wide as the motion within the bounds
+/// since the last states leaves open, and K units in the last place of places and sizes.
+///
+/// Each of its ends is rounded outward by a unit of some of these at most, for each operation: the
+/// time since the state, its product with the velocity, the sum with the place, the difference of
+/// the two, a square, two sums, a root, the sum of the radii, that of what is open, and the
+/// difference with either. These are 12; of the motion since the segment's start four more.
+inline constexpr double kDistanceUnits = 2 * 16;
 
 /// Judges while it runs, at every step: an announced time never lies behind a contact (never late),
 /// brackets are finite and ordered, and the queue holds no more than agents and pairs.
@@ -39,18 +49,28 @@ class Scene {
   std::uint32_t Add(const AgentDeclaration& declaration, Motion motion, int every = 1);
 
   /// All that is true of who touches whom: pairs that are not named never do.
-  void Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end);
+  void Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end, Seconds width = 0);
 
   /// One step to `now`: everybody whose turn it is tells a state, then the detector advances.
   void StepTo(Instant now);
   void Run(std::int64_t step_ns, int steps);
 
+  /// From here on no clearance may be idle: who could touch no other ball within the temporal
+  /// resolution (where nobody accelerates, within announce_within) is clear for as long; nearer than
+  /// that until it could, as the newest states go, if lengths were off by kPairUnits; but for a
+  /// nanosecond. By exact arithmetic.
+  void ForbidIdle() { idle_forbidden_ = true; }
+
   /// Whether every contact was told, with brackets that contain the truth; nobody else touches. Begin
-  /// brackets are at most `width` wide where contact is confirmed; `confirmed` says that all must be.
-  void Judge(Seconds width, bool confirmed);
+  /// and end brackets are at most `width` wide where contact is confirmed; `confirmed` says that all
+  /// must be. What is not certified free is longer than the contact by 2 `width` at most, whether it
+  /// is confirmed or in doubt. `end_width`, if it is not 0: of end brackets, where contact cannot be
+  /// certain throughout.
+  void Judge(Seconds width, bool confirmed, Seconds end_width = 0);
 
   const std::vector<CollisionEvent>& events() const { return events_; }
   Detector& detector() { return detector_; }
+  const Detector& detector() const { return detector_; }
   Instant now() const { return now_; }
   Seconds elapsed() const { return Since(now_); }
   std::size_t events_per_step_max() const { return events_per_step_max_; }
@@ -61,27 +81,36 @@ class Scene {
   struct Agent {
     Motion motion;
     int every = 1;
+    SpaceTimeBound told;  ///< As of its newest state.
+    /// How far off it was when, of all states.
+    std::vector<std::pair<Instant, double>> places;
   };
 
   AgentId IdOf(std::uint32_t agent) const { return {1, agent, 1, 1}; }
   Seconds Since(Instant t) const;
-  MotionState StateAt(std::uint32_t agent, Instant t) const;
+  const MotionState& Tell(std::uint32_t agent, Instant t);
   void CheckAnnounced(Instant next);
   void TakeEvents();
   void CheckBrackets(const CollisionEvent& event);
   void CheckClearances();
-  bool IsToldToTouch(const Meeting& meeting) const;
+  void CheckDistance(const CollisionEvent& event);
+  void CheckIdle();
+  bool CouldTouchBy(std::uint32_t agent, Instant until) const;
+  bool IsToldToTouch(std::uint32_t a, std::uint32_t b) const;
   const CollisionEvent* Covering(const Meeting& meeting) const;
+  void JudgeWidth(const Meeting& meeting, const CollisionEvent& event, Seconds width,
+                  Seconds end_width);
   bool TouchAtAll(const CollisionEvent& event) const;
 
   Detector detector_;
-  double announce_within_;
+  const DetectorOptions options_;
   Instant start_, now_;
   Outcome* outcome_;
   std::vector<Agent> agents_;
   std::vector<Meeting> meetings_;
   std::vector<CollisionEvent> events_;  ///< All revisions.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<std::uint32_t, std::size_t>> newest_;
+  bool idle_forbidden_ = false, anybody_accelerates_ = false;
   int steps_ = 0;
   std::size_t events_per_step_max_ = 0, queued_max_ = 0;
   std::uint64_t work_per_step_max_ = 0;
