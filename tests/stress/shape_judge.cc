@@ -1,5 +1,6 @@
 #include "tests/stress/shape_judge.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/support/meshes.h"
@@ -75,6 +76,16 @@ void JudgeTimes(const Body& a, const Body& b, double duration, long double begin
   };
   judge(found.begin, begin, "begin");
   judge(found.end, end, "end");
+}
+
+void JudgeStay(const ContactTime& found, long double begin, long double end, double unit,
+               const std::string& what, Outcome* outcome) {
+  outcome->Expect(found.begin.lower <= begin && found.end.upper >= end, what + ": missed");
+  const auto longer =
+      static_cast<double>(std::max(begin - found.begin.lower, found.end.upper - end));
+  const double most = kShapeUnits * unit + 1e-12 * static_cast<double>(end);
+  outcome->Greatest("stay_units", kShapeUnits * longer / most);
+  outcome->Expect(longer <= most, what + ": not free for " + Show(longer) + " s before or after");
 }
 
 void SayTimes(Outcome* outcome) {

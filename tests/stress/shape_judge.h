@@ -42,6 +42,11 @@ inline constexpr double kShapeUnits = 128;
 void JudgeTimes(const Body& a, const Body& b, double duration, long double begin, long double end,
                 double speed, const std::string& what, Outcome* outcome);
 
+/// Where contact is not certain: it is not excluded on [begin, end], and no sooner or later than a
+/// bracket may be wide. `unit` in seconds.
+void JudgeStay(const ContactTime& found, long double begin, long double end, double unit,
+               const std::string& what, Outcome* outcome);
+
 /// What holds of every answer: a finite, ordered one within the work allowed.
 void JudgeForm(const ContactTime& found, double duration, std::uint64_t units,
                const std::string& what, Outcome* outcome);
