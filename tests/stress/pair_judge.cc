@@ -42,12 +42,11 @@ struct ExactGap {
   DyadicPolynomial distance, reach, size;
 
   ExactGap(const SpaceTimeBound& a, const SpaceTimeBound& b, int sign_of_u) {
-    const Dyadic M =
-        Dyadic(a.declaration.acceleration_max) + Dyadic(b.declaration.acceleration_max);
-    reach = {Dyadic(a.declaration.radius) + Dyadic(b.declaration.radius),
-             {},
-             Dyadic(0.5 * sign_of_u) * M};
-    size = reach;
+    const Dyadic half_M = Dyadic(0.5) * (Dyadic(a.declaration.acceleration_max) +
+                                         Dyadic(b.declaration.acceleration_max));
+    const Dyadic radii = Dyadic(a.declaration.radius) + Dyadic(b.declaration.radius);
+    reach = {radii, {}, Dyadic(1.0 * sign_of_u) * half_M};
+    size = {radii, {}, half_M};
     for (int i = 0; i < 3; ++i) {
       const Dyadic p = Dyadic(b.state.p_WA[i]) - Dyadic(a.state.p_WA[i]);
       const Dyadic v = Dyadic(b.state.v_WA[i]) - Dyadic(a.state.v_WA[i]);
@@ -79,38 +78,49 @@ struct ExactGap {
     return ValueAt(reach, x).Sign() >= 0 && ValueAt(With(0), x).Sign() <= 0;
   }
 
-  /// Bodies that are smaller by a share of all that counts, which at last is more than they are; M = 0.
-  bool SmallerApartUpTo(double share, const Dyadic& until) const {
+  /// Bodies that are smaller by a share of all that counts, which at last is more than they are.
+  /// Requires sign_of_u < 0.
+  bool SmallerApartOn(double share, const Dyadic& from, const Dyadic& until) const {
     DyadicPolynomial left = Reach(-share);
     left[0] = left[0] - Dyadic(kContactUnits * 0x1p-1074);
     if (left[0].Sign() < 0) return true;
+    // c0 + c1 x + c2 x², where c1 and c2 are not positive: its root, rounded down.
+    const Dyadic d = left[1] * left[1] - Dyadic(4.0) * left[2] * left[0];
+    const Dyadic slope = Dyadic::Root(d, true) - left[1];
     Dyadic to = until;
-    if (left.size() > 1 && left[1].Sign() < 0) {
-      to = std::min(to, Dyadic::Quotient(left[0], -left[1], false));
+    if (slope.Sign() > 0) {
+      to = std::min(to, Dyadic::Quotient(Dyadic(2.0) * left[0], slope, false));
     }
+    if (to <= from) return true;
     ProofCounts counts;
-    return IsPositive(distance + Dyadic(-1.0) * (left * left), Dyadic(), to, &counts);
+    return IsPositive(distance + Dyadic(-1.0) * (left * left), from, to, &counts);
   }
 };
 
-/// Bodies that are larger by K units touch at the end of what is told to be free; and those that are
-/// smaller by as much do not before what is told to be contact.
+/// Bodies that are larger by K units touch at the end of what is told to be free, and at its start
+/// afterwards; and those that are smaller by as much do not before what is told to be contact, nor
+/// after it.
 void JudgeWidth(const SpaceTimeBound& a, const SpaceTimeBound& b, const SegmentVerdict& verdict,
                 double duration, Outcome* outcome) {
-  const ExactGap larger(LargerBy(a, kContactUnits), b, 1);
+  const ExactGap larger(LargerBy(a, kContactUnits), b, 1), smaller(a, b, -1);
   const double share = kContactUnits * 0x1p-52;
-  if (verdict.free_until != kInfinity) {
-    const double at = std::max(0.0, verdict.free_until);
-    const Dyadic later = Dyadic(std::min(duration, at * (1 + 0x1p-50)));
-    outcome->Expect(ValueAt(larger.With(share), later).Sign() <= 0 ||
+  const auto expect_near = [&](double at, double further) {
+    outcome->Expect(ValueAt(larger.With(share), Dyadic(further)).Sign() <= 0 ||
                         ValueAt(larger.With(share), Dyadic(at)).Sign() <= 0,
                     Named("not free, though it is,", a, b, at));
-  }
+  };
+  const double until = std::max(0.0, verdict.free_until), from = std::max(0.0, verdict.free_from);
+  if (until != kInfinity) expect_near(until, std::min(duration, until * (1 + 0x1p-50)));
+  const double resolution = kContactResolution * duration;
+  if (verdict.free_from != -kInfinity) expect_near(from, std::max(0.0, from - resolution));
   const bool found = verdict.contact_from <= verdict.contact_to;
-  const double until =
-      found ? std::max(0.0, verdict.contact_from - kContactResolution * duration) : duration;
-  outcome->Expect(ExactGap(a, b, 1).SmallerApartUpTo(share, Dyadic(until)),
-                  Named("contact is told late,", a, b, until));
+  const double first = found ? std::max(0.0, verdict.contact_from - resolution) : duration;
+  outcome->Expect(smaller.SmallerApartOn(share, Dyadic(), Dyadic(first)),
+                  Named("contact is told late,", a, b, first));
+  const double last = verdict.contact_to + resolution;
+  if (!found || last >= duration) return;
+  outcome->Expect(smaller.SmallerApartOn(share, Dyadic(last), Dyadic(duration)),
+                  Named("contact is told to end early,", a, b, last));
 }
 
 bool IsOrdered(const SegmentVerdict& v, double duration) {
@@ -184,9 +194,7 @@ void JudgeContact(const SpaceTimeBound& a, const SpaceTimeBound& b, double durat
       outcome->Expect(inner.TouchesAt(at), Named("no contact", a, b, at));
     }
   }
-  if (a.declaration.acceleration_max == 0 && b.declaration.acceleration_max == 0) {
-    JudgeWidth(a, b, verdict, duration, outcome);
-  }
+  JudgeWidth(a, b, verdict, duration, outcome);
 }
 
 void SayJudged(Outcome* outcome) {

@@ -33,11 +33,12 @@ void JudgePair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from, O
 
 /// K of the brackets of a contact of two balls.
 inline constexpr double kContactUnits = 16;
-/// Beside it, for where contact begins and ends: this share of the segment.
+/// Beside it, for where contact begins and ends, and where it is free afterwards: this share of the
+/// segment.
 inline constexpr double kContactResolution = 1.01e-13;
 
 /// JudgeSegment() over [stamp, stamp + duration]: ordered, free where it says so, touching where it
-/// says so, and each end within K units. Requires equal stamps, and for the width M = 0.
+/// says so, and each end within K units. Requires equal stamps.
 void JudgeContact(const SpaceTimeBound& a, const SpaceTimeBound& b, double duration,
                   Outcome* outcome);
 

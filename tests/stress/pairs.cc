@@ -215,9 +215,8 @@ void OnePlace(const Setting& setting, Outcome* outcome) {
 
 const char* const kPromise =
     "never late against exact arithmetic; finite, ordered; as narrow as inputs 4 (meeting) and 16 "
-    "(contact) units in the last place off would force, beyond 1e-9 of the time (meeting) and "
-    "1e-13 "
-    "of the segment (contact)";
+    "(contact, where it begins and ends) units in the last place off would force, beyond 1e-9 of "
+    "the time (meeting) and 1e-13 of the segment (contact)";
 
 }  // namespace
 
