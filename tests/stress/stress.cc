@@ -1,8 +1,14 @@
 // ./run stress: stiff and extreme scenes, each with what is promised and what was measured.
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <set>
+#include <sstream>
 
 #include "tests/bench/json.h"
 #include "tests/bench/measure.h"
@@ -52,6 +58,9 @@ void Print(const Row& row) {
   std::fflush(stdout);
 }
 
+/// Fields of a case beside its numbers.
+constexpr std::size_t kFields = 8;
+
 std::string Measurement(const Row& row) {
   std::vector<bench::Field> fields = {
       bench::Text("part", "stress"),
@@ -83,6 +92,32 @@ std::string Json(const std::vector<Row>& rows) {
   figures.Set("stress_checks", checks);
   figures.Set("stress_cpu_s", seconds);
   return figures.Json(measurements);
+}
+
+/// Whether a reader takes the file, and finds every case in it with all its fields, each once.
+bool IsReadBack(const std::string& path, const std::vector<Row>& rows) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  google::protobuf::Struct file;
+  const auto status = google::protobuf::util::JsonStringToMessage(text.str(), &file);
+  if (!status.ok()) {
+    std::fprintf(stderr, "%s: %s\n", path.c_str(), status.ToString().c_str());
+    return false;
+  }
+  const auto& measurements = file.fields().at("measurements").list_value().values();
+  bool same = measurements.size() == static_cast<int>(rows.size());
+  for (int i = 0; same && i < measurements.size(); ++i) {
+    const auto& fields = measurements[i].struct_value().fields();
+    const Row& row = rows[static_cast<std::size_t>(i)];
+    same = fields.size() == kFields + row.outcome.numbers().size() &&
+           fields.at("promised").string_value() == row.what.promise;
+    for (const auto& [name, value] : row.outcome.numbers()) {
+      same = same && fields.contains(name) &&
+             std::abs(fields.at(name).number_value() - value) <= 1e-8 * std::abs(value);
+    }
+  }
+  if (!same) std::fprintf(stderr, "%s is not what was measured\n", path.c_str());
+  return same;
 }
 
 /// Every case must be registered as a test, and every test be a case.
@@ -118,6 +153,7 @@ int RunAll(const Options& options) {
       std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.outcome.passed(); });
   std::printf("%zu cases, %td broken\n", rows.size(), broken);
   if (const int status = bench::WriteJson(options.json, Json(rows)); status != 0) return status;
+  if (!options.json.empty() && !IsReadBack(options.json, rows)) return kBroken;
   return broken == 0 ? 0 : kBroken;
 }
 
