@@ -75,6 +75,13 @@ void JudgeState(const SpaceTimeBound& before, const MotionState& next, Outcome* 
   outcome->Expect(
       position.Within(Exact(check.position_drift)) && velocity.Within(Exact(check.velocity_drift)),
       "a state that is kept lies beyond the drift that is told");
+  const auto share = [](double drift, const Exact& most) {
+    return drift > 0 ? drift / most.convert_to<double>() : 0;
+  };
+  outcome->Greatest("drift_share", std::max(share(check.position_drift, more_p),
+                                            share(check.velocity_drift, more_v)));
+  outcome->Expect(Exact(check.position_drift) <= more_p && Exact(check.velocity_drift) <= more_v,
+                  "a drift that rounding does not explain");
 }
 
 // A state after a step of 1 ns to a century, with all of M, a little less, or a little more, all the
@@ -115,7 +122,8 @@ std::vector<Case> ContractCases() {
       {"extreme", "contract",
        "in exact arithmetic: an honest state is never a breach, one that is "
        "1000 steps' rounding and a nanosecond beyond its bound, or beyond what any motion leads "
-       "to, always is, and what is kept lies within the drift that is told",
+       "to, always is, and what is kept lies within the drift that is told, which is no more than "
+       "that rounding and nanosecond",
        Contract}};
 }
 
