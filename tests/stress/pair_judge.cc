@@ -78,18 +78,18 @@ struct ExactGap {
     return ValueAt(reach, x).Sign() >= 0 && ValueAt(With(0), x).Sign() <= 0;
   }
 
-  /// Bodies that are smaller by a share of all that counts, which at last is more than they are.
-  /// Requires sign_of_u < 0.
-  bool SmallerApartOn(double share, const Dyadic& from, const Dyadic& until) const {
-    DyadicPolynomial left = Reach(-share);
-    left[0] = left[0] - Dyadic(kContactUnits * 0x1p-1074);
+  /// Bodies that are smaller by a share of all that counts up to `end` (pair_judge.h). Requires
+  /// sign_of_u < 0.
+  bool SmallerApartOn(double share, const Dyadic& from, const Dyadic& until,
+                      const Dyadic& end) const {
+    DyadicPolynomial left = reach;
+    const Dyadic largest = size[0] + size[1] * end + Dyadic(2.0) * reach[0];
+    left[0] = left[0] - Dyadic(share) * largest - Dyadic(kContactUnits * 0x1p-1074);
     if (left[0].Sign() < 0) return true;
-    // c0 + c1 x + c2 x², where c1 and c2 are not positive: its root, rounded down.
-    const Dyadic d = left[1] * left[1] - Dyadic(4.0) * left[2] * left[0];
-    const Dyadic slope = Dyadic::Root(d, true) - left[1];
+    // c0 + c2 x², where c2 is not positive: up to its root, rounded down.
     Dyadic to = until;
-    if (slope.Sign() > 0) {
-      to = std::min(to, Dyadic::Quotient(Dyadic(2.0) * left[0], slope, false));
+    if (left[2].Sign() < 0) {
+      to = std::min(to, Dyadic::Root(Dyadic::Quotient(left[0], -left[2], false), false));
     }
     if (to <= from) return true;
     ProofCounts counts;
@@ -115,11 +115,11 @@ void JudgeWidth(const SpaceTimeBound& a, const SpaceTimeBound& b, const SegmentV
   if (verdict.free_from != -kInfinity) expect_near(from, std::max(0.0, from - resolution));
   const bool found = verdict.contact_from <= verdict.contact_to;
   const double first = found ? std::max(0.0, verdict.contact_from - resolution) : duration;
-  outcome->Expect(smaller.SmallerApartOn(share, Dyadic(), Dyadic(first)),
+  outcome->Expect(smaller.SmallerApartOn(share, Dyadic(), Dyadic(first), Dyadic(duration)),
                   Named("contact is told late,", a, b, first));
   const double last = verdict.contact_to + resolution;
   if (!found || last >= duration) return;
-  outcome->Expect(smaller.SmallerApartOn(share, Dyadic(last), Dyadic(duration)),
+  outcome->Expect(smaller.SmallerApartOn(share, Dyadic(last), Dyadic(duration), Dyadic(duration)),
                   Named("contact is told to end early,", a, b, last));
 }
 

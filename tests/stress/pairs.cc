@@ -214,7 +214,7 @@ void OnePlace(const Setting& setting, Outcome* outcome) {
 }
 
 const char* const kPromise =
-    "never late against exact arithmetic; finite, ordered; as narrow as inputs 4 (meeting) and 16 "
+    "never late against exact arithmetic; finite, ordered; as narrow as inputs 4 (meeting) and 21 "
     "(contact, where it begins and ends) units in the last place off would force, beyond 1e-9 of "
     "the time (meeting) and 1e-13 of the segment (contact)";
 
@@ -232,7 +232,7 @@ std::vector<Case> PairCases() {
       {"extreme", "zero-radius", kPromise, ZeroRadius},
       {"extreme", "denormals",
        "never late against exact arithmetic; finite, ordered; as narrow as inputs 18 (meeting) and "
-       "16 (contact) of the smallest numbers off would force",
+       "21 (contact) of the smallest numbers off would force",
        Denormals},
       {"extreme", "grazing", kPromise, Grazing},
       {"extreme", "one-place", kPromise, OnePlace}};
