@@ -13,6 +13,8 @@
 namespace collision {
 
 struct AgentRecord {
+  static constexpr std::uint64_t kNotAsked = ~std::uint64_t{0};
+
   AgentId id;
   AgentDeclaration declaration;  ///< Counts for the next state on; the newest bound has its own.
   History history;
@@ -29,7 +31,7 @@ struct AgentRecord {
   /// anew.
   std::optional<Instant> renewed_from;
   ClearanceCause renewed_cause = ClearanceCause::kNone;
-  std::uint64_t asked = 0;           ///< The step in which it was last asked.
+  std::uint64_t asked = 0;           ///< The step in which it was last asked, or kNotAsked.
   KeyMargin margin;                  ///< What is left of it since the last renewal.
   bool changed = false;              ///< Since the last step: listed as such.
   bool touched = false;              ///< Its clearance may have changed: listed as such.

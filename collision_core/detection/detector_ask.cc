@@ -1,5 +1,6 @@
 // The detector's questions to the broad phase, and the keys that follow.
 #include <algorithm>
+#include <utility>
 
 #include "collision_core/detection/detector_implementation.h"
 
@@ -37,7 +38,6 @@ void Detector::Implementation::NoteKeys(std::uint32_t agent) {
     queue_.Set(agent, AnnounceUntil());  // something has changed: asked again in the next step
     return;
   }
-  key_rows_.SetCalmKey(agent, record.keys.calm());
   queue_.Set(agent, record.asked == step_ ? record.keys.first() : DueAt(record));
   if (latest_.Contains(agent)) latest_.Set(agent, Reversed(record.keys.calm()));
   Touch(agent);
@@ -123,9 +123,13 @@ void Detector::Implementation::AskEverybody(std::uint32_t agent) {
   AgentRecord& record = At(agent);
   const bool renewed = record.renewed_from.has_value();
   const bool was_saturated = record.saturated;
-  const AgentKeys before = record.keys;
-  const Instant covered = record.renewed_from.value_or(before.first());
-  const auto covered_of = [&](int group) { return renewed ? covered : before.of(group); };
+  const AgentKeys before = std::move(record.keys);
+  // A saturated agent was promised nothing up to now.
+  const Instant covered = std::min(was_saturated ? now_ : before.first(),
+                                   record.renewed_from.value_or(Instant::Never()));
+  const auto covered_of = [&](int group) {
+    return renewed || was_saturated || group == kEverybody ? covered : before.of(group);
+  };
   record.renewed_from.reset();
   if (was_saturated) Unsaturate(agent);
   latest_.Remove(agent);
@@ -137,7 +141,7 @@ void Detector::Implementation::AskEverybody(std::uint32_t agent) {
   groups_.clear();
   restlessness_.RestlessBeside(agent, &groups_);
   const int calm = groups_.empty() ? kEverybody : Restlessness::kCalm;
-  Next next = AskAbout(calm, agent, renewed, was_saturated, covered_of(Restlessness::kCalm));
+  Next next = AskAbout(calm, agent, renewed, was_saturated, covered_of(calm));
   if (!record.saturated) record.keys.SetAll(next.key);
   for (const int group : groups_) {
     if (record.saturated || TracksAll(agent, group)) continue;
@@ -165,8 +169,7 @@ Detector::Implementation::Next Detector::Implementation::AskAbout(int group, std
                                                                   bool renewed, bool was_saturated,
                                                                   Instant covered) {
   asking_ = group;
-  // A saturated agent was promised nothing.
-  if (renewed || !was_saturated) TrackUncovered(agent, renewed, covered);
+  TrackUncovered(agent, renewed, covered);
   const Instant from = std::min(now_, covered);
   if (IsCrowded(agent, from, was_saturated)) {
     crowd_ = true;
@@ -179,7 +182,7 @@ Detector::Implementation::Next Detector::Implementation::AskAbout(int group, std
 bool Detector::Implementation::NeedOnlyAskRestless(std::uint32_t agent) const {
   const AgentRecord& record = At(agent);
   return !record.renewed_from && !record.saturated && !many_ && RoomFor(record) > 0 &&
-         record.keys.calm() > DueUntil(record);
+         restlessness_.Divides(agent) && record.keys.calm() > DueUntil(record);
 }
 
 // It stays in latest_: about who is renewed in this step, and not restless, it is not asked.

@@ -125,8 +125,9 @@ class Detector::Implementation {
   static Instant DueAt(const AgentRecord& agent);
   /// Up to which the agent is certified free of the partner, if they are not tracked.
   Instant KeyOf(std::uint32_t agent, std::uint32_t partner) const {
-    const int group = restlessness_.GroupOf(partner, agent);
-    return group == Restlessness::kCalm ? key_rows_.calm_key(agent) : At(agent).keys.of(group);
+    const AgentKeys& keys = At(agent).keys;
+    if (!restlessness_.Divides(agent)) return keys.first();
+    return keys.of(restlessness_.GroupOf(partner, agent));
   }
   void LowerKeyOf(std::uint32_t agent, std::uint32_t partner, Instant when);
   void SettleKeys();

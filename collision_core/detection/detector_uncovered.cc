@@ -27,8 +27,8 @@ double Span(Instant a, Instant b, double skew) {
   return b <= a ? 0 : SecondsBetween(a, b).upper + 2 * skew;
 }
 
-/// Whether the agent may get from its newest bound into the ball of `around`, `reach` wide beside
-/// its radius, in so much time.
+/// Whether the agent may get from its newest bound, within so much time of it, into the ball of
+/// `around`, `reach` wide beside its radius.
 bool GetsInto(const SpaceTimeBound& around, double reach, const SpaceTimeBound& bound, double t) {
   const double sum = reach + around.declaration.radius + bound.declaration.radius +
                      2 * bound.state.position_error + PathOf(bound, t);
@@ -41,8 +41,8 @@ bool GetsInto(const SpaceTimeBound& around, double reach, const SpaceTimeBound& 
 void Detector::Implementation::TrackUncovered(std::uint32_t agent, bool renewed, Instant covered) {
   const AgentRecord& record = At(agent);
   // Else it is covered beyond its own newest state, and so is everybody else: whose state lies beyond
-  // the key is renewed or asked first of all (AskAll).
-  if (!renewed && record.stamp() <= covered) return;
+  // the key is renewed or asked first of all (AskAll), but for the saturated.
+  if (!renewed && record.stamp() <= covered && saturated_.empty()) return;
   candidates_.clear();
   const Instant from = renewed ? std::max(covered, record.admitted_from) : covered;
   if (extremes_.bounds().newest > from) FindAround(agent, from);
@@ -62,8 +62,8 @@ void Detector::Implementation::TrackIfUncovered(std::uint32_t agent, std::uint32
       !CanMeet(record.bound().declaration, other.bound().declaration)) {
     return;
   }
-  const Instant free_until =
-      renewed ? UncoveredFrom(record, other, covered) : std::max(covered, KeyOf(partner, agent));
+  Instant free_until = renewed ? UncoveredFrom(record, other, covered) : covered;
+  if (!renewed && !other.saturated) free_until = std::max(free_until, KeyOf(partner, agent));
   const Instant known_from = std::max(record.stamp(), other.stamp());
   if (free_until >= known_from || FreeOver(record, other, free_until, known_from)) return;
   Track(agent, partner, free_until, renewed);
@@ -97,7 +97,9 @@ void Detector::Implementation::FindAround(std::uint32_t agent, Instant from) {
     broad_phase_.Meetings(agent, from, scene.newest, scene.newest, skip, &found_);
     for (const Meeting& meeting : found_) {
       const AgentRecord& partner = At(meeting.partner);
-      if (GetsInto(around, own, partner.margin.Widen(partner.bound()), others_time)) {
+      const SpaceTimeBound bound = partner.margin.Widen(partner.bound());
+      const double time = Span(partner.stamp(), scene.newest, options_.skew);
+      if (GetsInto(around, own, bound, std::max(others_time, time))) {
         candidates_.push_back(meeting.partner);
       }
     }

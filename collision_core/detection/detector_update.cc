@@ -108,6 +108,7 @@ bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& 
   record.declaration = declaration;
   record.heard = state.stamp;
   record.admitted_from = state.stamp;
+  record.keys.SetAll(Instant::Never());
   index_[id] = agent;
   NoteFull(agent);
   scene_.Add(record.features);
@@ -156,6 +157,7 @@ UpdateOutcome Detector::Implementation::Return(std::uint32_t agent, const SpaceT
   AgentRecord& record = At(agent);
   record.expired = false;
   record.admitted_from = next.state.stamp;
+  record.keys.SetAll(Instant::Never());
   record.history.Clear();
   Store(agent, next, Link::kJumped);
   Renew(agent, next.state.stamp, ClearanceCause::kAdmission, effective_from);
@@ -188,7 +190,10 @@ UpdateOutcome Detector::Implementation::Keep(std::uint32_t agent, const SpaceTim
     return UpdateOutcome::kKept;
   }
   Narrow(agent);
-  if (record.keys.first() < stamp && !record.saturated) queue_.Set(agent, DueAt(record));
+  if (record.keys.first() < stamp && !record.saturated) {
+    record.asked = AgentRecord::kNotAsked;
+    queue_.Set(agent, DueAt(record));
+  }
   return UpdateOutcome::kKept;
 }
 

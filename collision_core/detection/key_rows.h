@@ -8,17 +8,13 @@
 
 namespace collision {
 
-/// Of each agent what the test needs, side by side: its newest bound in short, and its key.
+/// Of each agent what the test needs, side by side: its newest bound in short.
 class KeyRows {
  public:
   explicit KeyRows(double skew) : skew_(skew) {}
 
   /// The bound that keys come from, where an agent that has jumped may still be before the jump.
   void Put(std::uint32_t agent, const SpaceTimeBound& bound);
-  /// Up to when it relies on being free of those that are calm beside it.
-  void SetCalmKey(std::uint32_t agent, Instant key) { rows_[agent].calm_key = key; }
-  Instant calm_key(std::uint32_t agent) const { return rows_[agent].calm_key; }
-
   /// True only if no motions within the two bounds bring them together before `until`. Says so
   /// mostly, where the two are well apart until then.
   bool CertainlyLater(std::uint32_t agent, std::uint32_t partner, Instant until) const;
@@ -33,7 +29,6 @@ class KeyRows {
     double acceleration_max;
     double time_step;
     Instant stamp;
-    Instant calm_key = Instant::Always();
   };
 
   double skew_;

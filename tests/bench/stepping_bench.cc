@@ -26,12 +26,11 @@ struct SceneLength {
   double seconds;        ///< In full; 0: the scene's own.
   double quick_seconds;  ///< 0: not in a quick run.
 };
-constexpr SceneLength kScenes[] = {{"iridium-cosmos", 0, 660}, {"corridor", 0, 110},
-                                   {"spaceships", 0, 10},      {"spaceships-100", 0, 8},
-                                   {"spaceships-500", 0, 0},   {"swarm-100", 0, 20},
-                                   {"swarm-1000", 0, 0},       {"swarm", 2, 0},
-                                   {"terrain", 0, 0},          {"terrain-million", 0, 0},
-                                   {"drone-arms", 0, 0}};
+constexpr SceneLength kScenes[] = {
+    {"iridium-cosmos", 0, 660}, {"corridor", 0, 110},     {"spaceships", 0, 10},
+    {"spaceships-100", 0, 8},   {"spaceships-500", 0, 0}, {"swarm-100", 0, 20},
+    {"swarm-1000", 0, 0},       {"swarm", 2, 0},          {"terrain", 0, 0},
+    {"terrain-million", 0, 0},  {"drone-arms", 0, 0}};
 
 /// How long the shrunk contact lasts [s]; the true one 0.123.
 constexpr double kLengths[] = {0.1, 0.06, 0.03, 0.02, 0.0167, 0.01, 0.005, 0.002, 0.001};

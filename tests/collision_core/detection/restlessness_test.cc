@@ -63,6 +63,25 @@ TEST(Restlessness, NoneIsCalmerThanAny) {
   for (std::uint32_t k = 0; k < 6; ++k) EXPECT_FALSE(IsRestless(scene, 5, k)) << k;
 }
 
+// Of those that declare none only so many are asked about each other by themselves.
+TEST(Restlessness, NotWhereManyDeclareNone) {
+  constexpr std::uint32_t kMost = Restlessness::kDeclareNoneMax;
+  Restlessness scene;
+  scene.Set(0, 1);
+  scene.Set(1, 1e3);
+  for (std::uint32_t k = 0; k < kMost; ++k) {
+    scene.Set(2 + k, 0);
+    EXPECT_TRUE(scene.Divides(2) && IsRestless(scene, 0, 2));
+  }
+  scene.Set(2 + kMost, 0);
+  EXPECT_FALSE(scene.Divides(2) || IsRestless(scene, 0, 2) || IsRestless(scene, 1, 2));
+  EXPECT_TRUE(RestlessBeside(scene, 2).empty());
+  EXPECT_TRUE(scene.Divides(0) && IsRestless(scene, 1, 0));
+  scene.Remove(5);
+  EXPECT_TRUE(scene.Divides(2) && IsRestless(scene, 0, 2));
+  EXPECT_EQ(scene.Count(0), kMost);
+}
+
 TEST(Restlessness, KnowsWhoIsThere) {
   constexpr std::uint32_t kAgents = 12;
   Random random(2);
