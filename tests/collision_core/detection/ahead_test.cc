@@ -118,7 +118,20 @@ TEST(StateAhead, BehindOneThatIsSaturated) {
   EXPECT_LE(detector.ClearanceOf(Id(0))->clear_until, At(1.8));
 }
 
+// In the step after it speaks the other one is asked, but not itself.
 TEST(StateAhead, OfOneThatIsSaturated) {
+  Detector detector(Options(1));
+  Crowd(&detector);
+  for (const double now : {0.3, 0.6, 0.9, 1.2, 1.29}) detector.Advance(At(now));
+  EXPECT_EQ(Speak(1, State(5, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
+  for (const double now : {1.3, 1.5, 1.7}) {
+    detector.Advance(At(now));
+    EXPECT_LE(detector.ClearanceOf(Id(0))->clear_until, At(1.8)) << now;
+  }
+}
+
+// It is asked first, and still has no room; then the other one.
+TEST(StateAhead, OfOneThatStaysSaturated) {
   Detector detector(Options(1));
   Crowd(&detector);
   EXPECT_EQ(Speak(1, State(5, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
