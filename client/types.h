@@ -86,7 +86,7 @@ struct Event {
   TimeBracket end;
   bool continuous = true;
   bool began_before = false;
-  std::int64_t evaluated_at_ns = kNever;  ///< The rest holds then; kNever: not evaluated.
+  std::int64_t evaluated_at_ns = kNever;  ///< The rest holds in this nanosecond; kNever: at none.
   double separation_lower_m = 0;
   double separation_upper_m = 0;
   double depth_lower_m = 0;

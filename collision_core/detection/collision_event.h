@@ -37,7 +37,7 @@ struct CollisionEvent {
   bool continuous = true;  ///< No gap in certified contact from begin.latest to end.earliest.
   bool began_before =
       false;  ///< They may have touched before one was admitted, jumped or broke its bound.
-  Instant evaluated_at = Instant::Never();  ///< The rest holds then; Never(): not evaluated.
+  Instant evaluated_at = Instant::Never();  ///< The rest holds in this ns; Never(): at none.
   double separation_lower = 0;              ///< Distance of the surfaces [m]; <= 0: in contact.
   double separation_upper = 0;
   double depth_lower = 0;  ///< Translational penetration depth is at least this [m].

@@ -5,15 +5,12 @@
 
 #include "collision_core/broad_phase/crossing_order.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kRounds = 100;
-#else
-constexpr int kRounds = 2000;
-#endif
+constexpr int kRounds = kSanitized ? 100 : 2000;
 
 std::int64_t WholeWithin(std::int64_t extent, Random* random) {
   return static_cast<std::int64_t>(random->Below(2 * extent + 1)) - extent;

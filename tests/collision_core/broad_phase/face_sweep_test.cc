@@ -3,15 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/broad_phase/face_sweep_scenes.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kScenes = 40;
-#else
-constexpr int kScenes = 250;
-#endif
+constexpr int kScenes = kSanitized ? 40 : 250;
 
 /// The same pair, at the same time, bit for bit.
 void ExpectSame(const std::optional<PairMeeting>& expected,

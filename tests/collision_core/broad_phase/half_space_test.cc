@@ -10,15 +10,12 @@
 #include "collision_core/motion/speed_cap.h"
 #include "tests/support/exact.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kCases = 1000;
-#else
-constexpr int kCases = 40000;
-#endif
+constexpr int kCases = kSanitized ? 1000 : 40000;
 
 constexpr Instant kFrom = Instant::FromNanoseconds(2'000'000'000);
 constexpr BroadQuery kForever{BoundKind::kHorn, kFrom, Instant::Never()};

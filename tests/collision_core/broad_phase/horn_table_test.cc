@@ -7,15 +7,12 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kPairs = 4000;
-#else
-constexpr int kPairs = 200000;
-#endif
+constexpr int kPairs = kSanitized ? 4000 : 200000;
 
 constexpr Instant kStart = Instant::FromNanoseconds(5'000'000'000'000);
 

@@ -11,15 +11,12 @@
 
 #include "tests/support/exact.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kScenes = 40;
-#else
-constexpr int kScenes = 600;
-#endif
+constexpr int kScenes = kSanitized ? 40 : 600;
 constexpr int kBalls = 37;  // Fills no vector.
 
 struct Ball {

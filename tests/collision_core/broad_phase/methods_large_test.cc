@@ -12,15 +12,12 @@
 #include <utility>
 
 #include "tests/collision_core/broad_phase/method_scenes.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kSizes[] = {140, 600};
-#else
-constexpr int kSizes[] = {140, 600, 2300};
-#endif
+constexpr int kSizes[] = {140, 600, kSanitized ? 1200 : 2300};
 
 constexpr double kWindow = 1;
 

@@ -9,15 +9,12 @@
 
 #include "collision_core/broad_phase/chosen_broad_phase.h"
 #include "tests/collision_core/broad_phase/rules_table.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kHistories = 1;
-#else
-constexpr int kHistories = 4;
-#endif
+constexpr int kHistories = kSanitized ? 1 : 4;
 constexpr int kSteps = 40;
 
 std::vector<std::string> Texts(const std::vector<Meeting>& meetings) {

@@ -8,15 +8,12 @@
 #include <memory>
 
 #include "tests/collision_core/broad_phase/method_scenes.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kScenes = 6;
-#else
-constexpr int kScenes = 60;
-#endif
+constexpr int kScenes = kSanitized ? 6 : 60;
 
 using Agents = std::vector<std::optional<SpaceTimeBound>>;
 

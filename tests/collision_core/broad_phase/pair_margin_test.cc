@@ -10,15 +10,12 @@
 #include "tests/support/exact.h"
 #include "tests/support/exact_meeting.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kPairs = 300;
-#else
-constexpr int kPairs = 20000;
-#endif
+constexpr int kPairs = kSanitized ? 300 : 20000;
 
 constexpr Instant kFrom = Instant::FromNanoseconds(1'000'000'000);
 

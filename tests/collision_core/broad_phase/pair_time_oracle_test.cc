@@ -15,6 +15,7 @@
 #include "collision_core/broad_phase/pair_time.h"
 #include "tests/support/exact_meeting.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
@@ -26,11 +27,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 long PairsInAll() {
   if (const char* asked = std::getenv("COLLISION_ORACLE_PAIRS")) return std::atol(asked);
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return 20'000;
-#else
-  return 1'000'000;
-#endif
+  return kSanitized ? 20'000 : 1'000'000;
 }
 
 struct Pair {

@@ -4,15 +4,12 @@
 
 #include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kPairs = 300;
-#else
-constexpr int kPairs = 4000;
-#endif
+constexpr int kPairs = kSanitized ? 300 : 4000;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 

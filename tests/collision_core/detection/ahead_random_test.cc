@@ -12,15 +12,12 @@
 #include "collision_core/broad_phase/pair_time.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint64_t kHistories = 20;
-#else
-constexpr std::uint64_t kHistories = 60;
-#endif
+constexpr std::uint64_t kHistories = kSanitized ? 20 : 60;
 
 /// A line from a stamp on, up to the next one.
 struct Leg {

@@ -13,15 +13,10 @@
 #include "tests/collision_core/detection/allocations.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSlow = true;
-#else
-constexpr bool kSlow = false;
-#endif
 
 Instant Exactly(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
 
@@ -98,7 +93,7 @@ TEST(Incremental, AStepCostsWhatIsDue) {
 // 50 million questions; tracked are no more pairs than there is room for, and asking goes no
 // further.
 TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
-  const std::uint32_t agents = kSlow ? 1000 : 10000;
+  const std::uint32_t agents = kSanitized ? 1000 : 10000;
   DetectorOptions options;
   options.agents_max = agents;
   options.pairs_max = 1000;
@@ -118,7 +113,7 @@ TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
   }
   EXPECT_LE(detector.pairs_tracked(), 1000u);
   // Of few agents the tracked pairs are a larger part; all pairs would be half the square.
-  const std::uint64_t most = (kSlow ? 200u : 40u) * agents;
+  const std::uint64_t most = (kSanitized ? 200u : 40u) * agents;
   EXPECT_LT(detector.counters().pair_queries, most);
   EXPECT_EQ(detector.Earliest().earliest, At(0));
   const std::uint64_t before = detector.counters().pair_queries;
@@ -128,7 +123,7 @@ TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
   }
   // Each is asked once more whether it is still crowded.
   EXPECT_LT(detector.counters().pair_queries - before,
-            20u * 3 * 1000 + (kSlow ? 40u : 10u) * agents);
+            20u * 3 * 1000 + (kSanitized ? 40u : 10u) * agents);
 }
 
 // What cannot be tracked counts for the earliest intersection as well.
@@ -317,7 +312,7 @@ class RandomHistory {
 };
 
 TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
-  const int steps = kSlow ? 60 : 600;
+  const int steps = kSanitized ? 60 : 600;
   for (const double box : {60, 150, 400}) {
     std::optional<std::vector<std::int64_t>> log;
     for (const BroadPhaseMethod method :
@@ -335,7 +330,7 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
         EXPECT_GT(history.compared(), steps / 10);
         EXPECT_GT(history.counters().jumps, 5u);
         EXPECT_GT(history.counters().breaches, 5u);
-        EXPECT_GT(history.counters().widenings, kSlow ? 2u : 5u);
+        EXPECT_GT(history.counters().widenings, kSanitized ? 2u : 5u);
         EXPECT_GT(history.counters().updates_kept, 500u);
       }
       EXPECT_EQ(history.log(), *log);

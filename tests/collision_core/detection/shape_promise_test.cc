@@ -11,6 +11,7 @@
 #include "tests/collision_core/detection/line.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/solids.h"
 
 namespace collision {
@@ -210,17 +211,19 @@ void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
   CheckEvents(events, met, first, outcome);
 }
 
+constexpr int kEncounters = kSanitized ? 20 : 80;
+
 void CheckEncounters(bool of_solids) {
   Outcome outcome;
-  for (std::uint64_t seed = 1; seed <= 80 && !testing::Test::HasFailure(); ++seed) {
+  for (int seed = 1; seed <= kEncounters && !testing::Test::HasFailure(); ++seed) {
     CheckEncounter(seed, of_solids, &outcome);
   }
-  EXPECT_GT(outcome.contacts, 25);
-  EXPECT_GT(outcome.confirmed, 20);
-  EXPECT_GT(outcome.promised, 2000);
+  EXPECT_GT(outcome.contacts, kEncounters / 4);
+  EXPECT_GT(outcome.confirmed, kEncounters / 5);
+  EXPECT_GT(outcome.promised, 25 * kEncounters);
   // Looking ahead is of use.
   EXPECT_GT(outcome.far_ahead, outcome.promised / 4);
-  EXPECT_GT(outcome.directions, 5);
+  EXPECT_GT(outcome.directions, kEncounters / 20);
 }
 
 TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) { CheckEncounters(false); }

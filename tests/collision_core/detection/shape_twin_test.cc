@@ -13,12 +13,14 @@
 #include "tests/collision_core/detection/line.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
 constexpr double kEnd = 4;
 constexpr int kTicksPerSecond = 16;
+constexpr int kScenes = kSanitized ? 8 : 32;
 constexpr ShapeOptions kCoarse{.triangles_per_leaf = 16};
 
 using ShapePointer = std::shared_ptr<const Shape>;
@@ -126,7 +128,7 @@ Scene RandomScene(std::uint64_t seed) {
 TEST(ShapeTwin, TheSameTreeTellsTheSame) {
   std::set<EventStatus> seen;
   int events = 0;
-  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+  for (int seed = 1; seed <= kScenes; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = RandomScene(seed);
     const auto same = [&](std::uint32_t i, int) { return scene.ships[i].declaration.shape; };
@@ -145,7 +147,7 @@ TEST(ShapeTwin, TheSameTreeTellsTheSame) {
       ++events;
     }
   }
-  EXPECT_GT(events, 40);
+  EXPECT_GT(events, 5 * kScenes / 4);
   EXPECT_TRUE(seen.contains(EventStatus::kConfirmed) && seen.contains(EventStatus::kEnded));
 }
 
@@ -153,7 +155,7 @@ TEST(ShapeTwin, TheSameTreeTellsTheSame) {
 //         because of it.
 TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
   int confirmed = 0, switched = 0;
-  for (std::uint64_t seed = 1; seed <= 32; ++seed) {
+  for (int seed = 1; seed <= kScenes; ++seed) {
     SCOPED_TRACE(seed);
     const Scene scene = RandomScene(seed);
     std::vector<ShapePointer> fine;
@@ -184,8 +186,8 @@ TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
       }
     }
   }
-  EXPECT_GT(switched, 60);
-  EXPECT_GT(confirmed, 10);
+  EXPECT_GT(switched, 2 * kScenes);
+  EXPECT_GT(confirmed, kScenes / 4);
 }
 
 }  // namespace

@@ -7,15 +7,12 @@
 #include "collision_core/motion/hypertrapezoid.h"
 #include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kMotions = 100;
-#else
-constexpr int kMotions = 1000;
-#endif
+constexpr int kMotions = kSanitized ? 100 : 1000;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 

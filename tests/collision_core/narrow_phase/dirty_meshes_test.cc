@@ -7,15 +7,12 @@
 #include "collision_core/narrow_phase/separation_search.h"
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr std::uint32_t kMeshes = 10 * kDirtKinds;
-#else
-constexpr std::uint32_t kMeshes = 80 * kDirtKinds;
-#endif
+constexpr std::uint32_t kMeshes = kSanitized ? 10 * kDirtKinds : 80 * kDirtKinds;
 
 // Brute force over more pairs of triangles than this takes too long.
 constexpr std::size_t kPairsMax = 6000;

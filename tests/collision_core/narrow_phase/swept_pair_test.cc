@@ -8,6 +8,7 @@
 
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/sanitized.h"
 
 namespace collision {
 namespace {
@@ -163,9 +164,10 @@ Count ExpectNeverLate(Wish wish, std::uint64_t first, int cases, std::uint64_t u
 TEST(SweptPair, NeverLate) {
   for (const Wish wish :
        {Wish{false, false}, Wish{true, false}, Wish{false, true}, Wish{true, true}}) {
-    const Count count = ExpectNeverLate(wish, 1, 120, kPlenty);
-    EXPECT_GT(count.touching, 30);
-    EXPECT_GT(count.never, 10);
+    constexpr int kCases = kSanitized ? 30 : 120;
+    const Count count = ExpectNeverLate(wish, 1, kCases, kPlenty);
+    EXPECT_GT(count.touching, kCases / 4);
+    EXPECT_GT(count.never, kCases / 12);
   }
 }
 

@@ -9,17 +9,14 @@
 #include "collision_core/shape/shape.h"
 #include "collision_core/shape/tree_check.h"
 #include "tests/support/dirty_meshes.h"
+#include "tests/support/sanitized.h"
 #include "tests/support/tree_coverage.h"
 #include "tests/support/tree_distances.h"
 
 namespace collision {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kDirtyMeshes = 4 * kDirtKinds;
-#else
-constexpr int kDirtyMeshes = 24 * kDirtKinds;
-#endif
+constexpr int kDirtyMeshes = kSanitized ? 4 * kDirtKinds : 24 * kDirtKinds;
 
 /// One of few and small options, often the defaults.
 ShapeOptions SomeOptions(TreeBuilder builder, Random& random) {
