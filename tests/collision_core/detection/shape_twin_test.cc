@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kEnd = 4;
 constexpr int kTicksPerSecond = 16;
-constexpr int kScenes = kSanitized ? 8 : 32;
+constexpr int kScenes = kSanitized ? 16 : 32;
 constexpr ShapeOptions kCoarse{.triangles_per_leaf = 16};
 
 using ShapePointer = std::shared_ptr<const Shape>;
