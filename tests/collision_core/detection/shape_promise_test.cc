@@ -218,12 +218,12 @@ void CheckEncounters(bool of_solids) {
   for (int seed = 1; seed <= kEncounters && !testing::Test::HasFailure(); ++seed) {
     CheckEncounter(seed, of_solids, &outcome);
   }
-  EXPECT_GT(outcome.contacts, kEncounters / 4);
-  EXPECT_GT(outcome.confirmed, kEncounters / 5);
+  EXPECT_GT(outcome.contacts, 5 * kEncounters / 16);
+  EXPECT_GT(outcome.confirmed, kEncounters / 4);
   EXPECT_GT(outcome.promised, 25 * kEncounters);
   // Looking ahead is of use.
   EXPECT_GT(outcome.far_ahead, outcome.promised / 4);
-  EXPECT_GT(outcome.directions, kEncounters / 20);
+  EXPECT_GT(outcome.directions, kEncounters / 16);
 }
 
 TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) { CheckEncounters(false); }

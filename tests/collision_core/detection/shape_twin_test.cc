@@ -187,7 +187,7 @@ TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
     }
   }
   EXPECT_GT(switched, 2 * kScenes);
-  EXPECT_GT(confirmed, kScenes / 4);
+  EXPECT_GT(confirmed, kScenes / 3);
 }
 
 }  // namespace
