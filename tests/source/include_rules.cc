@@ -18,14 +18,16 @@ struct Layer {
 const std::vector<Layer>& Layers() {
   static const std::string core = "collision_core/";
   static const std::vector<Layer> layers = {
-      {core + "numeric/", {core + "numeric/"}},
-      {core + "motion/", {core + "numeric/", core + "motion/"}},
+      {core + "base/", {core + "base/"}},
+      {core + "numeric/", {core + "base/", core + "numeric/"}},
+      {core + "motion/", {core + "base/", core + "numeric/", core + "motion/"}},
       // A shape does not know that it moves.
-      {core + "shape/", {core + "numeric/", core + "shape/"}},
+      {core + "shape/", {core + "base/", core + "numeric/", core + "shape/"}},
       {core + "broad_phase/",
-       {core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/"}},
+       {core + "base/", core + "numeric/", core + "motion/", core + "shape/",
+        core + "broad_phase/"}},
       {core + "narrow_phase/",
-       {core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/",
+       {core + "base/", core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/",
         core + "narrow_phase/"}},
       {core, {core}},
       // A tree at rest is made of the core's own data; daemon and tools write the same.
