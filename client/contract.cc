@@ -75,8 +75,8 @@ bool SameDeclaration(const State& told, const State& next) {
 }
 
 /// Of a state, what its path is judged by.
-MotionState ToCore(const State& state) {
-  MotionState core;
+motion::MotionState ToCore(const State& state) {
+  motion::MotionState core;
   core.stamp = Instant::FromNanoseconds(state.stamp_ns);
   core.p_WA = Eigen::Map<const Eigen::Vector3d>(state.position_m.data());
   core.v_WA = Eigen::Map<const Eigen::Vector3d>(state.velocity_m_s.data());
@@ -85,8 +85,8 @@ MotionState ToCore(const State& state) {
   return core;
 }
 
-SpaceTimeBound ToCore(const MotionBounds& bounds, const State& state) {
-  SpaceTimeBound core;
+motion::SpaceTimeBound ToCore(const MotionBounds& bounds, const State& state) {
+  motion::SpaceTimeBound core;
   core.state = ToCore(state);
   core.declaration.acceleration_max = bounds.acceleration_max_m_s2;
   core.declaration.time_step = bounds.time_step_s;

@@ -13,7 +13,7 @@
 #include "client/mesh/reader.h"
 #include "client/mesh/scan.h"
 #include "client/validation.h"
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 
 namespace collision::client {
 namespace {
@@ -115,13 +115,13 @@ Vector3 BoxCentre(const FilePolygons& polygons) {
   return {(lower[0] + upper[0]) / 2, (lower[1] + upper[1]) / 2, (lower[2] + upper[2]) / 2};
 }
 
-PolygonMesh InBodyFrame(FilePolygons polygons, const MeshFileOptions& options) {
+geometry::PolygonMesh InBodyFrame(FilePolygons polygons, const MeshFileOptions& options) {
   for (Vector3& p : polygons.vertices) {
     p = InBodyAxes(p, *options.up);
     for (double& x : p) x *= options.unit_m;
   }
   const Vector3 origin = options.centre ? BoxCentre(polygons) : options.reference_m;
-  PolygonMesh mesh;
+  geometry::PolygonMesh mesh;
   mesh.vertices.reserve(polygons.vertices.size());
   for (const Vector3& p : polygons.vertices) {
     mesh.vertices.emplace_back(p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]);
@@ -131,12 +131,13 @@ PolygonMesh InBodyFrame(FilePolygons polygons, const MeshFileOptions& options) {
   return mesh;
 }
 
-std::shared_ptr<const Shape> MakeShape(const PolygonMesh& polygons, MeshFileReport* report) {
+std::shared_ptr<const Shape> MakeShape(const geometry::PolygonMesh& polygons,
+                                       MeshFileReport* report) {
   if (const auto refusal = RefusalOf(polygons, kShapeTrianglesMax)) {
     throw std::runtime_error(*refusal);
   }
-  MeshRepair repair;
-  const TriangleMesh mesh = Triangulate(polygons, &repair);
+  geometry::MeshRepair repair;
+  const geometry::TriangleMesh mesh = Triangulate(polygons, &repair);
   if (mesh.triangles.empty()) {
     throw std::runtime_error("all " + std::to_string(report->dropped + repair.dropped) +
                              " faces are degenerate: none has an area");

@@ -8,7 +8,7 @@
 
 #include "client/solid_check.h"
 #include "client/validation.h"
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "idl/shape_bytes.h"
 
 namespace collision::client {
@@ -27,8 +27,8 @@ struct PositionHash {
   }
 };
 
-TriangleMesh MeshOf(const Triangles& triangles) {
-  TriangleMesh mesh;
+geometry::TriangleMesh MeshOf(const Triangles& triangles) {
+  geometry::TriangleMesh mesh;
   mesh.vertices.reserve(triangles.vertices_m.size());
   for (const Vector3& p : triangles.vertices_m) mesh.vertices.emplace_back(p[0], p[1], p[2]);
   mesh.triangles = triangles.indices;
@@ -36,12 +36,12 @@ TriangleMesh MeshOf(const Triangles& triangles) {
 }
 
 /// Each position that a triangle uses, once, in the order of use.
-Triangles Compact(const TriangleMesh& mesh) {
+Triangles Compact(const geometry::TriangleMesh& mesh) {
   Triangles compact;
   compact.indices.reserve(mesh.triangles.size());
   std::unordered_map<Vector3, std::uint32_t, PositionHash> seen;
-  for (const Triangle& triangle : mesh.triangles) {
-    Triangle& indices = compact.indices.emplace_back();
+  for (const geometry::Triangle& triangle : mesh.triangles) {
+    geometry::Triangle& indices = compact.indices.emplace_back();
     for (int i = 0; i < 3; ++i) {
       const auto& v = mesh.vertices[triangle[i]];
       const Vector3 position{v.x() + 0.0, v.y() + 0.0, v.z() + 0.0};  // -0 becomes 0.
@@ -54,15 +54,15 @@ Triangles Compact(const TriangleMesh& mesh) {
   return compact;
 }
 
-void RequireFit(const TriangleMesh& mesh) {
+void RequireFit(const geometry::TriangleMesh& mesh) {
   if (const auto refusal = RefusalOf(mesh, kShapeTrianglesMax)) {
     throw std::invalid_argument(*refusal);
   }
 }
 
 /// The triangles that have an area, with their vertices; throws if none has.
-TriangleMesh Repaired(const Triangles& triangles, std::size_t* dropped) {
-  TriangleMesh mesh = MeshOf(triangles);
+geometry::TriangleMesh Repaired(const Triangles& triangles, std::size_t* dropped) {
+  geometry::TriangleMesh mesh = MeshOf(triangles);
   RequireFit(mesh);
   *dropped = DropDegenerate(&mesh);
   if (!mesh.triangles.empty()) return mesh;
@@ -83,9 +83,9 @@ std::shared_ptr<const Shape> Shape::Make(Geometry geometry) {
   const Triangles& given = geometry.triangles;
   if (geometry.solids.empty() || !given.vertices_m.empty() || !given.indices.empty()) {
     shape->geometry_.triangles = Compact(Repaired(given, &shape->dropped_));
-    const TriangleMesh mesh = MeshOf(shape->geometry_.triangles);
+    const geometry::TriangleMesh mesh = MeshOf(shape->geometry_.triangles);
     RequireFit(mesh);  // Without the vertices that no triangle uses it may be a point.
-    const MeshFacts facts = FactsOf(mesh);
+    const geometry::MeshFacts facts = FactsOf(mesh);
     shape->radius_m_ = facts.radius;
     shape->closed_ = facts.closed;
   }

@@ -17,20 +17,20 @@ namespace {
 Eigen::Vector3d VectorOf(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
 /// A kind that is none of them becomes a triangle, which is refused.
-ConvexCore CoreOf(Solid::Kind kind) {
+geometry::ConvexCore CoreOf(Solid::Kind kind) {
   switch (kind) {
     case Solid::Kind::kBall:
-      return ConvexCore::kPoint;
+      return geometry::ConvexCore::kPoint;
     case Solid::Kind::kCapsule:
-      return ConvexCore::kSegment;
+      return geometry::ConvexCore::kSegment;
     case Solid::Kind::kBox:
-      return ConvexCore::kBox;
+      return geometry::ConvexCore::kBox;
     case Solid::Kind::kEllipsoid:
-      return ConvexCore::kEllipsoid;
+      return geometry::ConvexCore::kEllipsoid;
     case Solid::Kind::kHull:
-      return ConvexCore::kHull;
+      return geometry::ConvexCore::kHull;
   }
-  return ConvexCore::kTriangle;
+  return geometry::ConvexCore::kTriangle;
 }
 
 SolidKind KindOf(Solid::Kind kind) {
@@ -49,8 +49,8 @@ SolidKind KindOf(Solid::Kind kind) {
   return SolidKind::kHull;
 }
 
-ConvexDescription DescriptionOf(const Solid& solid) {
-  ConvexDescription description;
+shape::ConvexDescription DescriptionOf(const Solid& solid) {
+  shape::ConvexDescription description;
   description.core = CoreOf(solid.kind);
   description.half = VectorOf(solid.half_extents_m);
   description.points.reserve(solid.points_m.size());
@@ -150,7 +150,7 @@ std::vector<Solid> Canonical(std::vector<Solid> solids) {
 double RadiusOf(const std::vector<Solid>& solids) {
   double radius = 0;
   for (const Solid& solid : solids) {
-    radius = std::max(radius, ConvexSolid::Build(DescriptionOf(solid)).facts().radius);
+    radius = std::max(radius, shape::ConvexSolid::Build(DescriptionOf(solid)).facts().radius);
   }
   return radius;
 }

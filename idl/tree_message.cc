@@ -13,10 +13,10 @@ bool IsOfOneLength(const v1::SphereTree& message) {
 
 }  // namespace
 
-v1::SphereTree ToMessage(const SphereTree& tree) {
+v1::SphereTree ToMessage(const sphere_tree::SphereTree& tree) {
   v1::SphereTree message;
   message.set_levels(tree.levels);
-  for (const SphereNode& node : tree.nodes) {
+  for (const sphere_tree::SphereNode& node : tree.nodes) {
     for (const double x : node.centre) message.add_centre_m(x);
     message.add_radius_m(node.radius);
     message.add_signed_distance_m(node.signed_distance);
@@ -31,13 +31,13 @@ v1::SphereTree ToMessage(const SphereTree& tree) {
   return message;
 }
 
-std::optional<SphereTree> FromMessage(const v1::SphereTree& message) {
+std::optional<sphere_tree::SphereTree> FromMessage(const v1::SphereTree& message) {
   if (!IsOfOneLength(message)) return std::nullopt;
-  SphereTree tree;
+  sphere_tree::SphereTree tree;
   tree.levels = message.levels();
   tree.nodes.resize(static_cast<std::size_t>(message.radius_m_size()));
   for (int i = 0; i < message.radius_m_size(); ++i) {
-    SphereNode& node = tree.nodes[static_cast<std::size_t>(i)];
+    sphere_tree::SphereNode& node = tree.nodes[static_cast<std::size_t>(i)];
     for (int axis = 0; axis < 3; ++axis) node.centre[axis] = message.centre_m(3 * i + axis);
     node.radius = message.radius_m(i);
     node.signed_distance = message.signed_distance_m(i);
@@ -52,10 +52,10 @@ std::optional<SphereTree> FromMessage(const v1::SphereTree& message) {
   return tree;
 }
 
-v1::TreeRecipe RecipeOf(const ShapeOptions& options) {
+v1::TreeRecipe RecipeOf(const sphere_tree::ShapeOptions& options) {
   v1::TreeRecipe recipe;
-  recipe.set_builder(options.builder == TreeBuilder::kFitted ? v1::TreeRecipe::FITTED
-                                                             : v1::TreeRecipe::OCTREE);
+  recipe.set_builder(options.builder == sphere_tree::TreeBuilder::kFitted ? v1::TreeRecipe::FITTED
+                                                                          : v1::TreeRecipe::OCTREE);
   recipe.set_triangles_per_leaf(options.triangles_per_leaf);
   recipe.set_levels_max(options.levels_max);
   recipe.set_nodes_max(options.nodes_max);

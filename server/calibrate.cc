@@ -4,7 +4,7 @@
 #include <ctime>
 #include <vector>
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::server {
 namespace {
@@ -22,7 +22,7 @@ Eigen::Vector3d Bump(const Eigen::Vector3d& p) {
   return p * (1 + 0.125 * (p.x() * p.y() + p.y() * p.z() - p.z() * p.x()));
 }
 
-void AddFace(int axis, bool positive, TriangleMesh* mesh) {
+void AddFace(int axis, bool positive, geometry::TriangleMesh* mesh) {
   const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
   for (std::uint32_t i = 0; i <= kCells; ++i) {
     for (std::uint32_t j = 0; j <= kCells; ++j) {
@@ -37,7 +37,7 @@ void AddFace(int axis, bool positive, TriangleMesh* mesh) {
     for (std::uint32_t j = 0; j < kCells; ++j) {
       const std::uint32_t a = first + i * (kCells + 1) + j;
       const std::uint32_t b = a + kCells + 1;
-      Triangle lower = {a, b, b + 1}, upper = {a, b + 1, a + 1};
+      geometry::Triangle lower = {a, b, b + 1}, upper = {a, b + 1, a + 1};
       if (!positive) {
         std::swap(lower[1], lower[2]);
         std::swap(upper[1], upper[2]);
@@ -48,35 +48,36 @@ void AddFace(int axis, bool positive, TriangleMesh* mesh) {
   }
 }
 
-BodySegment BumpyCube() {
-  TriangleMesh mesh;
+narrow_phase::BodySegment BumpyCube() {
+  geometry::TriangleMesh mesh;
   for (int axis = 0; axis < 3; ++axis) {
     for (const bool positive : {false, true}) AddFace(axis, positive, &mesh);
   }
-  BodySegment body;
-  body.shape = Shape::Build(std::move(mesh));
+  narrow_phase::BodySegment body;
+  body.shape = shape::Shape::Build(std::move(mesh));
   return body;
 }
 
 /// From deep inside each other to well apart, turned by 3-4-5 about two axes.
-std::vector<RelativePose> Poses() {
+std::vector<narrow_phase::RelativePose> Poses() {
   Eigen::Matrix3d about_z, about_x;
   about_z << 0.6, -0.8, 0, 0.8, 0.6, 0, 0, 0, 1;
   about_x << 1, 0, 0, 0, 0.8, -0.6, 0, 0.6, 0.8;
-  std::vector<RelativePose> poses;
+  std::vector<narrow_phase::RelativePose> poses;
   for (int i = 0; i < 24; ++i) {
-    RelativePose& pose = poses.emplace_back();
+    narrow_phase::RelativePose& pose = poses.emplace_back();
     pose.matrix = i % 2 == 0 ? Eigen::Matrix3d(about_z * about_x) : about_z;
     pose.offset = Eigen::Vector3d(1.2 + 0.1 * i, 0.3, -0.2);
   }
   return poses;
 }
 
-std::uint64_t LookOnce(const Surface& a, const Surface& b, const std::vector<RelativePose>& poses) {
+std::uint64_t LookOnce(const narrow_phase::BodyTree& a, const narrow_phase::BodyTree& b,
+                       const std::vector<narrow_phase::RelativePose>& poses) {
   std::uint64_t spent = 0;
-  for (const RelativePose& pose : poses) {
-    Work work(kBudget);
-    LookAt(a, b, pose, Goal::kDecision, &work);
+  for (const narrow_phase::RelativePose& pose : poses) {
+    WorkBudget work(kBudget);
+    QuerySeparation(a, b, pose, narrow_phase::Goal::kDecision, &work);
     spent += work.spent();
   }
   return spent;
@@ -85,9 +86,9 @@ std::uint64_t LookOnce(const Surface& a, const Surface& b, const std::vector<Rel
 }  // namespace
 
 double MeasureWorkUnitsPerUs() {
-  const BodySegment body = BumpyCube();
-  const Surface a(body), b(body);
-  const std::vector<RelativePose> poses = Poses();
+  const narrow_phase::BodySegment body = BumpyCube();
+  const narrow_phase::BodyTree a(body), b(body);
+  const std::vector<narrow_phase::RelativePose> poses = Poses();
   std::vector<double> rates;
   for (int i = 0; i < kMeasurements; ++i) {
     const double start = ProcessorTime();

@@ -30,7 +30,7 @@ void CheckLater(const char* field, std::int64_t ns, FieldCheck* check) {
 
 /// Off by e from unit length, so its components carry an error of about e; across the quaternion
 /// that turns the rotation by up to 2 asin(e) <= 2 e (1 + e²) for e <= 1e-3.
-void TakeOrientation(const v1::Quaternion& wire, FieldCheck* check, MotionState* state) {
+void TakeOrientation(const v1::Quaternion& wire, FieldCheck* check, motion::MotionState* state) {
   for (const double component : {wire.w(), wire.x(), wire.y(), wire.z()}) {
     check->Number("orientation", component, -2, 2);
   }
@@ -52,7 +52,7 @@ void TakeOrientation(const v1::Quaternion& wire, FieldCheck* check, MotionState*
 }
 
 /// Zero is "not declared". Normalising changes its length, not where it points.
-void TakeDirection(const v1::AgentState& wire, FieldCheck* check, MotionState* state) {
+void TakeDirection(const v1::AgentState& wire, FieldCheck* check, motion::MotionState* state) {
   check->Vector("thrust_direction", wire.thrust_direction(), 2);
   if (!check->passed()) return;
   const Eigen::Vector3d direction = ToVector(wire.thrust_direction());
@@ -82,7 +82,7 @@ std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock) {
   return CheckName(clock.simulator_id(), clock.simulator_name(), At(clock));
 }
 
-Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
+Decoded<motion::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
   FieldCheck check(At(wire));
   check.Integer("slot", wire.slot(), 0, kSlotMax);
   check.Text("agent_name", wire.agent_name(), kNameMax);
@@ -101,15 +101,15 @@ Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
   if (!check.passed()) return *check.refusal();
   const double alpha = wire.angular_acceleration_max_rad_s2();
   const double cap = wire.speed_max_m_s();
-  return AgentDeclaration{.radius = wire.radius_m(),
-                          .acceleration_max = wire.acceleration_max_m_s2(),
-                          .time_step = wire.time_step_s(),
-                          .speed_max = cap > 0 ? cap : kInfinity,
-                          .group = wire.group(),
-                          .mask = wire.mask(),
-                          .angular_acceleration_max = alpha < 0 ? -1 : alpha,
-                          .shape = nullptr,
-                          .shape_awaited = !hash.empty()};
+  return motion::AgentDeclaration{.radius = wire.radius_m(),
+                                  .acceleration_max = wire.acceleration_max_m_s2(),
+                                  .time_step = wire.time_step_s(),
+                                  .speed_max = cap > 0 ? cap : numeric::kInfinity,
+                                  .group = wire.group(),
+                                  .mask = wire.mask(),
+                                  .angular_acceleration_max = alpha < 0 ? -1 : alpha,
+                                  .shape = nullptr,
+                                  .shape_awaited = !hash.empty()};
 }
 
 std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk) {
@@ -125,8 +125,8 @@ std::optional<Refusal> CheckSlot(const v1::AgentStates& chunk, const v1::AgentSt
   return check.refusal();
 }
 
-Decoded<MotionState> DecodeState(const v1::AgentStates& chunk, const v1::AgentState& wire,
-                                 const StampRules& rules) {
+Decoded<motion::MotionState> DecodeState(const v1::AgentStates& chunk, const v1::AgentState& wire,
+                                         const StampRules& rules) {
   FieldCheck check(At(chunk, wire));
   check.Vector("position_m", wire.position_m(), kCoordinateMax);
   check.Vector("velocity_m_s", wire.velocity_m_s(), kSpeedMax);
@@ -142,22 +142,23 @@ Decoded<MotionState> DecodeState(const v1::AgentStates& chunk, const v1::AgentSt
                   v1::REJECTED_STALE);
   }
 
-  MotionState state{.stamp = Instant::FromNanoseconds(wire.stamp_ns()),
-                    .p_WA = ToVector(wire.position_m()),
-                    .v_WA = ToVector(wire.velocity_m_s()),
-                    .w_WB = ToVector(wire.angular_velocity_rad_s()),
-                    .position_error = wire.position_error_m(),
-                    .velocity_error = wire.velocity_error_m_s(),
-                    .rotation_error = wire.rotation_error_rad(),
-                    .expiry = Instant::FromNanoseconds(wire.expiry_ns()),
-                    .discontinuity = wire.discontinuity()};
+  motion::MotionState state{.stamp = Instant::FromNanoseconds(wire.stamp_ns()),
+                            .p_WA = ToVector(wire.position_m()),
+                            .v_WA = ToVector(wire.velocity_m_s()),
+                            .w_WB = ToVector(wire.angular_velocity_rad_s()),
+                            .position_error = wire.position_error_m(),
+                            .velocity_error = wire.velocity_error_m_s(),
+                            .rotation_error = wire.rotation_error_rad(),
+                            .expiry = Instant::FromNanoseconds(wire.expiry_ns()),
+                            .discontinuity = wire.discontinuity()};
   TakeOrientation(wire.orientation(), &check, &state);
   TakeDirection(wire, &check, &state);
   if (!check.passed()) return *check.refusal();
   return state;
 }
 
-std::optional<Refusal> CheckStamp(const AgentId& agent, Instant stamp, const StampRules& rules) {
+std::optional<Refusal> CheckStamp(const detection::AgentId& agent, Instant stamp,
+                                  const StampRules& rules) {
   FieldCheck check({.topic = v1::TOPIC_AGENT_STATES,
                     .simulator_id = agent.simulator,
                     .run = agent.run,

@@ -42,7 +42,7 @@ std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock);
 
 /// The declaration of an agent. A speed cap of 0 is none: what was recorded before there was one, or
 /// left the field out, says nothing about speed. Whoever names a shape awaits it: only the intake knows what has arrived.
-Decoded<AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
+Decoded<motion::AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
 
 /// What is known about the times a state may carry.
 struct StampRules {
@@ -53,8 +53,8 @@ struct StampRules {
 
 /// A quaternion that is nearly of unit length is normalised and its rotation error grows by what
 /// that may hide.
-Decoded<MotionState> DecodeState(const v1::AgentStates& chunk, const v1::AgentState& state,
-                                 const StampRules& rules);
+Decoded<motion::MotionState> DecodeState(const v1::AgentStates& chunk, const v1::AgentState& state,
+                                         const StampRules& rules);
 
 /// Whether a chunk as a whole may be taken: its size.
 std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk);
@@ -63,7 +63,8 @@ std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk);
 std::optional<Refusal> CheckSlot(const v1::AgentStates& chunk, const v1::AgentState& state);
 
 /// Asks again for a state that has waited: its rules may not have been known when it came.
-std::optional<Refusal> CheckStamp(const AgentId& agent, Instant stamp, const StampRules& rules);
+std::optional<Refusal> CheckStamp(const detection::AgentId& agent, Instant stamp,
+                                  const StampRules& rules);
 
 struct ClockRules {
   Instant earliest = Instant::Always();  ///< The clock told last in this run.

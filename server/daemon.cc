@@ -20,20 +20,20 @@ namespace collision::server {
 namespace {
 
 /// Not set: a recording from before the field.
-BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
+broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
   switch (method) {
     case v1::Config::ALL_PAIRS:
-      return BroadPhaseMethod::kAllPairs;
+      return broad_phase::BroadPhaseMethod::kAllPairs;
     case v1::Config::FACE_SWEEP:
-      return BroadPhaseMethod::kFaceSweep;
+      return broad_phase::BroadPhaseMethod::kFaceSweep;
     case v1::Config::SPATIAL_INDEX:
-      return BroadPhaseMethod::kSpatialIndex;
+      return broad_phase::BroadPhaseMethod::kSpatialIndex;
     default:
-      return BroadPhaseMethod::kAuto;
+      return broad_phase::BroadPhaseMethod::kAuto;
   }
 }
 
-DetectorOptions OptionsOf(const v1::Config& config) {
+detection::DetectorOptions OptionsOf(const v1::Config& config) {
   return {.temporal_resolution = config.temporal_resolution_s(),
           .announce_within = config.announce_within_s(),
           .skew = config.clock().skew_max_s(),
@@ -153,7 +153,7 @@ class Daemon::Implementation {
     if (world_.simulated() && !inputs && world_.now() == advanced_to_) return;
     advanced_to_ = world_.now();
     detector_.Advance(world_.now());
-    for (const AgentClearance& clearance : detector_.TakeChangedClearances()) {
+    for (const detection::AgentClearance& clearance : detector_.TakeChangedClearances()) {
       Keep(clearance);
     }
     world_.UpdateGrants();
@@ -181,7 +181,7 @@ class Daemon::Implementation {
     bus_.Flush();
   }
 
-  void Keep(const AgentClearance& clearance) {
+  void Keep(const detection::AgentClearance& clearance) {
     Simulator* simulator = world_.Find(clearance.agent.simulator);
     if (simulator == nullptr || simulator->run != clearance.agent.run) return;
     const auto slot = simulator->slots.find(clearance.agent.slot);
@@ -198,7 +198,7 @@ class Daemon::Implementation {
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   ShapeStore shapes_;
   World world_;
-  Detector detector_;
+  detection::Detector detector_;
   Rejections rejections_;
   Intake intake_;
   Publisher publisher_;

@@ -4,11 +4,11 @@ namespace collision::server {
 namespace {
 
 // The enumerations of core and wire agree value by value.
-static_assert(static_cast<int>(EventStatus::kEnded) == v1::EVENT_ENDED);
-static_assert(static_cast<int>(EventStatus::kUndecided) == v1::EVENT_UNDECIDED);
-static_assert(static_cast<int>(EventLimit::kGeometry) == v1::LIMIT_GEOMETRY);
-static_assert(static_cast<int>(ClearanceCause::kSkew) == v1::CAUSE_SKEW);
-static_assert(static_cast<int>(ClearanceCause::kBreach) == v1::CAUSE_BREACH);
+static_assert(static_cast<int>(detection::EventStatus::kEnded) == v1::EVENT_ENDED);
+static_assert(static_cast<int>(detection::EventStatus::kUndecided) == v1::EVENT_UNDECIDED);
+static_assert(static_cast<int>(narrow_phase::EventLimit::kGeometry) == v1::LIMIT_GEOMETRY);
+static_assert(static_cast<int>(detection::ClearanceCause::kSkew) == v1::CAUSE_SKEW);
+static_assert(static_cast<int>(detection::ClearanceCause::kBreach) == v1::CAUSE_BREACH);
 
 v1::Vector3 Encode(const Eigen::Vector3d& v) {
   v1::Vector3 wire;
@@ -18,7 +18,7 @@ v1::Vector3 Encode(const Eigen::Vector3d& v) {
   return wire;
 }
 
-v1::TimeBracket Encode(const TimeBracket& bracket) {
+v1::TimeBracket Encode(const detection::TimeBracket& bracket) {
   v1::TimeBracket wire;
   wire.set_earliest_ns(bracket.earliest.nanoseconds());
   wire.set_latest_ns(bracket.latest.nanoseconds());
@@ -27,7 +27,7 @@ v1::TimeBracket Encode(const TimeBracket& bracket) {
 
 }  // namespace
 
-v1::AgentId Encode(const AgentId& id) {
+v1::AgentId Encode(const detection::AgentId& id) {
   v1::AgentId wire;
   wire.set_simulator_id(id.simulator);
   wire.set_run(id.run);
@@ -36,7 +36,7 @@ v1::AgentId Encode(const AgentId& id) {
   return wire;
 }
 
-v1::CollisionEvent Encode(const CollisionEvent& event) {
+v1::CollisionEvent Encode(const detection::CollisionEvent& event) {
   v1::CollisionEvent wire;
   wire.set_pair_slot(event.pair_slot);
   wire.set_now_ns(event.now.nanoseconds());
@@ -63,7 +63,7 @@ v1::CollisionEvent Encode(const CollisionEvent& event) {
   return wire;
 }
 
-v1::EarliestIntersection Encode(const EarliestAnswer& answer) {
+v1::EarliestIntersection Encode(const detection::EarliestAnswer& answer) {
   v1::EarliestIntersection wire;
   wire.set_found(answer.found);
   wire.set_earliest_ns(answer.earliest.nanoseconds());
@@ -72,8 +72,9 @@ v1::EarliestIntersection Encode(const EarliestAnswer& answer) {
   return wire;
 }
 
-v1::AgentClearance Encode(const AgentClearance& clearance, std::uint64_t acknowledged_sequence,
-                          std::uint32_t acknowledged_revision, Instant state_wanted) {
+v1::AgentClearance Encode(const detection::AgentClearance& clearance,
+                          std::uint64_t acknowledged_sequence, std::uint32_t acknowledged_revision,
+                          Instant state_wanted) {
   v1::AgentClearance wire;
   wire.set_slot(clearance.agent.slot);
   wire.set_generation(clearance.agent.generation);

@@ -6,13 +6,14 @@
 
 namespace collision::server {
 
-v1::AgentId Encode(const AgentId& id);
-v1::CollisionEvent Encode(const CollisionEvent& event);
-v1::EarliestIntersection Encode(const EarliestAnswer& answer);
+v1::AgentId Encode(const detection::AgentId& id);
+v1::CollisionEvent Encode(const detection::CollisionEvent& event);
+v1::EarliestIntersection Encode(const detection::EarliestAnswer& answer);
 
 /// `acknowledged_sequence` and `acknowledged_revision` of what is in force for the agent;
 /// `state_wanted` as StateDemand tells.
-v1::AgentClearance Encode(const AgentClearance& clearance, std::uint64_t acknowledged_sequence,
-                          std::uint32_t acknowledged_revision, Instant state_wanted);
+v1::AgentClearance Encode(const detection::AgentClearance& clearance,
+                          std::uint64_t acknowledged_sequence, std::uint32_t acknowledged_revision,
+                          Instant state_wanted);
 
 }  // namespace collision::server

@@ -5,8 +5,8 @@
 
 namespace collision::server {
 
-Intake::Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections,
-               ShapeStore* shapes)
+Intake::Intake(const v1::Config& config, World* world, detection::Detector* detector,
+               Rejections* rejections, ShapeStore* shapes)
     : agents_max_(config.agents_max()),
       undescribed_after_ns_(ToNanoseconds(config.undescribed_after_s())),
       world_(*world),
@@ -63,13 +63,13 @@ void Intake::TakeDescription(const v1::Input& input) {
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
   simulator->descriptions_seen = std::max(simulator->descriptions_seen, wire.sequence());
-  const Decoded<AgentDeclaration> decoded = DecodeDescription(wire);
+  const Decoded<motion::AgentDeclaration> decoded = DecodeDescription(wire);
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return Refuse(*refusal);
-  Describe(simulator, wire, std::get<AgentDeclaration>(decoded));
+  Describe(simulator, wire, std::get<motion::AgentDeclaration>(decoded));
 }
 
 void Intake::Describe(Simulator* simulator, const v1::AgentDescription& wire,
-                      const AgentDeclaration& declaration) {
+                      const motion::AgentDeclaration& declaration) {
   Slot& slot = simulator->slots[wire.slot()];
   if (wire.generation() < slot.generations_over) return;
   if (Simulator::Describes(slot, wire.generation())) {
@@ -123,10 +123,10 @@ void Intake::TakeState(Simulator* simulator, const v1::AgentStates& chunk,
   slot.handled = order;
   const bool described = Simulator::Describes(slot, wire.generation());
   const bool admitted = described && slot.agent->admitted;
-  const Decoded<MotionState> decoded =
+  const Decoded<motion::MotionState> decoded =
       DecodeState(chunk, wire, world_.RulesForState(*simulator, admitted));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return Refuse(*refusal);
-  const MotionState& state = std::get<MotionState>(decoded);
+  const motion::MotionState& state = std::get<motion::MotionState>(decoded);
   if (admitted) {
     UpdateAgent(simulator, wire.slot(), &*slot.agent, wire.sequence(), state);
   } else {

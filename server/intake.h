@@ -35,8 +35,8 @@ inline constexpr std::size_t kUndescribedMax = kSlotMax + 1;
 class Intake {
  public:
   /// Everything passed in outlives this.
-  Intake(const v1::Config& config, World* world, Detector* detector, Rejections* rejections,
-         ShapeStore* shapes);
+  Intake(const v1::Config& config, World* world, detection::Detector* detector,
+         Rejections* rejections, ShapeStore* shapes);
 
   void Apply(const v1::Input& input);
 
@@ -53,7 +53,7 @@ class Intake {
  private:
   struct Undescribed {
     std::int64_t due_ns;
-    AgentId agent;
+    detection::AgentId agent;
     std::string shape = {};  ///< Its hash, where it is the shape that is missing.
   };
 
@@ -76,7 +76,7 @@ class Intake {
   void TakeShapeReady(const v1::ShapeReady& ready);
 
   void Describe(Simulator* simulator, const v1::AgentDescription& wire,
-                const AgentDeclaration& declaration);
+                const motion::AgentDeclaration& declaration);
 
   /// The agent refers to this shape from now on, and to no other; empty: to none.
   void ReferTo(const std::string& hash, Simulator* simulator, std::uint32_t slot, Agent* agent);
@@ -84,7 +84,7 @@ class Intake {
   /// Gives the agent its shape if that is visible and fits. Else it stays its ball.
   void GiveShape(Simulator* simulator, std::uint32_t slot, Agent* agent);
   void UpdateAgent(Simulator* simulator, std::uint32_t slot, Agent* agent, std::uint64_t sequence,
-                   const MotionState& state);
+                   const motion::MotionState& state);
   void KeepWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
   void RemoveAgent(Simulator* simulator, std::uint32_t slot);
@@ -93,9 +93,9 @@ class Intake {
   /// Whoever waits for the id of a simulator that has gone gets it.
   void HandOver(Simulator* simulator);
   void ReportUndescribed();
-  void AwaitShape(const AgentId& id, const std::string& hash);
+  void AwaitShape(const detection::AgentId& id, const std::string& hash);
   void ReportMissingShapes();
-  void ReportMissingShape(const AgentId& id, const std::string& hash);
+  void ReportMissingShape(const detection::AgentId& id, const std::string& hash);
 
   /// Frees the shapes of those who left.
   void ReleaseShapes();
@@ -111,7 +111,7 @@ class Intake {
   const std::uint32_t agents_max_;
   const std::int64_t undescribed_after_ns_;
   World& world_;
-  Detector& detector_;
+  detection::Detector& detector_;
   Rejections& rejections_;
   ShapeStore& shapes_;
   IntakeCounters counters_;

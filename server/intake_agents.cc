@@ -10,12 +10,12 @@
 namespace collision::server {
 
 void Intake::UpdateAgent(Simulator* simulator, std::uint32_t slot, Agent* agent,
-                         std::uint64_t sequence, const MotionState& state) {
-  const AgentId id = simulator->IdOf(slot, agent->generation);
-  const UpdateOutcome outcome =
-      state.stamp < agent->stamp ? UpdateOutcome::kOlder
+                         std::uint64_t sequence, const motion::MotionState& state) {
+  const detection::AgentId id = simulator->IdOf(slot, agent->generation);
+  const detection::UpdateOutcome outcome =
+      state.stamp < agent->stamp ? detection::UpdateOutcome::kOlder
                                  : detector_.Update(id, state, world_.EffectiveFrom(state.stamp));
-  if (outcome == UpdateOutcome::kOlder) {
+  if (outcome == detection::UpdateOutcome::kOlder) {
     ++counters_.states_older;
     return;
   }
@@ -24,7 +24,7 @@ void Intake::UpdateAgent(Simulator* simulator, std::uint32_t slot, Agent* agent,
   agent->stamp = state.stamp;
   agent->acknowledged_sequence = sequence;
   simulator->chunks_changed.insert(slot / kSlotsPerChunk);
-  if (outcome == UpdateOutcome::kBreached) {
+  if (outcome == detection::UpdateOutcome::kBreached) {
     Log(spdlog::level::warn, "bound broken",
         fmt::format(
             "simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns breaks what "
@@ -42,7 +42,7 @@ void Intake::KeepWaiting(Simulator* simulator, std::uint32_t slot_index,
     return;
   }
   if (first && !Simulator::Describes(slot, waiting.generation)) {
-    const AgentId id = simulator->IdOf(slot_index, waiting.generation);
+    const detection::AgentId id = simulator->IdOf(slot_index, waiting.generation);
     if (undescribed_.size() >= kUndescribedMax) {
       return Refuse(NotDescribed(id, fmt::format("not kept: {} wait already", kUndescribedMax)));
     }
@@ -58,7 +58,7 @@ void Intake::AdmitIfComplete(Simulator* simulator, std::uint32_t slot_index) {
   if (slot.waiting->generation != slot.agent->generation) return;
   if (simulator->other_time || (world_.simulated() && !simulator->clock)) return;
   Agent& agent = *slot.agent;
-  const AgentId id = simulator->IdOf(slot_index, agent.generation);
+  const detection::AgentId id = simulator->IdOf(slot_index, agent.generation);
   if (detector_.agents() >= agents_max_) {
     if (!std::exchange(agent.told_no_room, true)) Refuse(NoRoom(id, agents_max_));
     return;
@@ -101,7 +101,7 @@ void Intake::RemoveAgents(Simulator* simulator) {
 
 void Intake::ReportUndescribed() {
   while (!undescribed_.empty() && undescribed_.front().due_ns <= world_.monotonic_ns()) {
-    const AgentId id = undescribed_.front().agent;
+    const detection::AgentId id = undescribed_.front().agent;
     undescribed_.pop_front();
     const Simulator* simulator = world_.Find(id.simulator);
     if (simulator == nullptr || simulator->run != id.run) continue;

@@ -15,7 +15,7 @@ namespace {
 /// by rounding.
 constexpr double kRadiusAllowance = 1 + 1e-9;
 
-std::string SurfaceText(const Shape& shape, std::size_t dropped) {
+std::string SurfaceText(const shape::Shape& shape, std::size_t dropped) {
   const std::size_t triangles = shape.mesh().triangles.size();
   if (triangles == 0) return "no surface";
   return fmt::format("{} triangles ({} degenerate ones dropped), {}", triangles, dropped,
@@ -24,7 +24,7 @@ std::string SurfaceText(const Shape& shape, std::size_t dropped) {
 
 void TellShape(const std::string& hash, const ReadyShape& ready) {
   const BuiltShape& built = ready.built;
-  const Shape& shape = *built.shape;
+  const shape::Shape& shape = *built.shape;
   std::string what = "refined";
   if (!ready.refined) {
     what = SurfaceText(shape, built.dropped);
@@ -69,7 +69,8 @@ void Intake::TakeShapeReady(const v1::ShapeReady& message) {
   if (!ready->built.shape) {
     for (const std::uint64_t owner : ready->owners) {
       const Simulator* simulator = world_.Find(owner);
-      const AgentId nobody{.simulator = owner, .run = simulator != nullptr ? simulator->run : 0};
+      const detection::AgentId nobody{.simulator = owner,
+                                      .run = simulator != nullptr ? simulator->run : 0};
       Refuse(ShapeRefusal(nobody, v1::TOPIC_SHAPE, "bytes",
                           "shape " + ShortHash(hash) + ": " + ready->built.refusal));
     }
@@ -105,8 +106,8 @@ void Intake::ReferTo(const std::string& hash, Simulator* simulator, std::uint32_
 }
 
 void Intake::GiveShape(Simulator* simulator, std::uint32_t slot, Agent* agent) {
-  AgentDeclaration& declaration = agent->declaration;
-  std::shared_ptr<const Shape> shape = shapes_.Find(agent->shape_hash);
+  motion::AgentDeclaration& declaration = agent->declaration;
+  std::shared_ptr<const shape::Shape> shape = shapes_.Find(agent->shape_hash);
   if (!shape) return;
   const double radius = shape->facts().radius;
   if (radius <= declaration.radius * kRadiusAllowance) {
@@ -123,7 +124,7 @@ void Intake::GiveShape(Simulator* simulator, std::uint32_t slot, Agent* agent) {
           declaration.radius, ShortHash(agent->shape_hash), radius, radius, kRadiusMax)));
 }
 
-void Intake::AwaitShape(const AgentId& id, const std::string& hash) {
+void Intake::AwaitShape(const detection::AgentId& id, const std::string& hash) {
   // Beyond, it is told at once.
   if (shapes_awaited_.size() >= kUndescribedMax) return ReportMissingShape(id, hash);
   shapes_awaited_.push_back({world_.monotonic_ns() + undescribed_after_ns_, id, hash});
@@ -137,7 +138,7 @@ void Intake::ReportMissingShapes() {
   }
 }
 
-void Intake::ReportMissingShape(const AgentId& id, const std::string& hash) {
+void Intake::ReportMissingShape(const detection::AgentId& id, const std::string& hash) {
   const Simulator* simulator = world_.Find(id.simulator);
   if (simulator == nullptr || simulator->run != id.run) return;
   const auto slot = simulator->slots.find(id.slot);

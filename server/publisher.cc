@@ -50,8 +50,8 @@ void Publisher::PublishChunk(const World& world, const Simulator& simulator, std
   bus_.Publish(output);
 }
 
-void Publisher::PublishEvents(const std::vector<CollisionEvent>& events) {
-  for (const CollisionEvent& event : events) {
+void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events) {
+  for (const detection::CollisionEvent& event : events) {
     v1::Output output;
     *output.mutable_collision_event() = Encode(event);
     event_log_.Add(output.collision_event());
@@ -60,7 +60,7 @@ void Publisher::PublishEvents(const std::vector<CollisionEvent>& events) {
   }
 }
 
-void Publisher::PublishEarliest(const EarliestAnswer& answer, Instant now) {
+void Publisher::PublishEarliest(const detection::EarliestAnswer& answer, Instant now) {
   v1::EarliestIntersection wire = Encode(answer);
   if (earliest_ && earliest_->SerializeAsString() == wire.SerializeAsString()) return;
   earliest_ = wire;

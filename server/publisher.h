@@ -22,10 +22,10 @@ class Publisher {
   /// marks.
   void PublishClearances(World* world);
 
-  void PublishEvents(const std::vector<CollisionEvent>& events);
+  void PublishEvents(const std::vector<detection::CollisionEvent>& events);
 
   /// Only if it differs from the last one published.
-  void PublishEarliest(const EarliestAnswer& answer, Instant now);
+  void PublishEarliest(const detection::EarliestAnswer& answer, Instant now);
 
   void PublishRejections(std::vector<v1::Rejection> rejections);
 

@@ -30,7 +30,7 @@ Refusal At(const v1::SimulatorClock& wire) {
       .topic = v1::TOPIC_SIMULATOR_CLOCK, .simulator_id = wire.simulator_id(), .run = wire.run()};
 }
 
-Refusal NotDescribed(const AgentId& agent, std::string detail) {
+Refusal NotDescribed(const detection::AgentId& agent, std::string detail) {
   return {.reason = v1::REJECTED_NOT_DESCRIBED,
           .topic = v1::TOPIC_AGENT_STATES,
           .simulator_id = agent.simulator,
@@ -41,7 +41,7 @@ Refusal NotDescribed(const AgentId& agent, std::string detail) {
           .detail = std::move(detail)};
 }
 
-Refusal NoRoom(const AgentId& agent, std::uint32_t agents_max) {
+Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max) {
   return {
       .reason = v1::REJECTED_TOO_MANY_AGENTS,
       .topic = v1::TOPIC_AGENT_DESCRIPTION,
@@ -70,7 +70,8 @@ Refusal NotItsOwn(const v1::ShapeRemoval& wire) {
           .detail = "a removal by another sender; allowed: by its owner"};
 }
 
-Refusal ShapeRefusal(const AgentId& agent, v1::Topic topic, std::string field, std::string detail) {
+Refusal ShapeRefusal(const detection::AgentId& agent, v1::Topic topic, std::string field,
+                     std::string detail) {
   return {.reason = v1::REJECTED_BAD_SHAPE,
           .topic = topic,
           .simulator_id = agent.simulator,

@@ -29,17 +29,18 @@ Refusal At(const v1::AgentStates& chunk, const v1::AgentState& wire);
 Refusal At(const v1::SimulatorClock& wire);
 
 /// A state of an agent that nothing has described.
-Refusal NotDescribed(const AgentId& agent, std::string detail);
+Refusal NotDescribed(const detection::AgentId& agent, std::string detail);
 
 /// A complete agent for which there is no room.
-Refusal NoRoom(const AgentId& agent, std::uint32_t agents_max);
+Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max);
 
 /// A removal that does not come from the owner.
 Refusal NotItsOwn(const v1::AgentRemoval& wire);
 Refusal NotItsOwn(const v1::ShapeRemoval& wire);
 
 /// What the owner of an agent is told of its shape; of an agent that refers to it, or of none.
-Refusal ShapeRefusal(const AgentId& agent, v1::Topic topic, std::string field, std::string detail);
+Refusal ShapeRefusal(const detection::AgentId& agent, v1::Topic topic, std::string field,
+                     std::string detail);
 
 /// Texts on the wire are bounded.
 inline constexpr std::size_t kDetailMax = 256;

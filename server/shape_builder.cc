@@ -22,22 +22,25 @@ class Stopwatch {
 };
 
 /// With the wanted tree, kept for the next time.
-std::shared_ptr<const Shape> BuildSurface(const std::string& hash, TriangleMesh mesh,
-                                          const BuildOptions& options, const Shape* twin) {
-  auto surface = Shape::Build(std::move(mesh), options.tree, twin);
+std::shared_ptr<const shape::Shape> BuildSurface(const std::string& hash,
+                                                 geometry::TriangleMesh mesh,
+                                                 const BuildOptions& options,
+                                                 const shape::Shape* twin) {
+  auto surface = shape::Shape::Build(std::move(mesh), options.tree, twin);
   if (options.cache) options.cache->Store(hash, surface->tree());
   return surface;
 }
 
 /// Read or built: the same tree.
-std::shared_ptr<const Shape> SurfaceOf(const std::string& hash, TriangleMesh mesh, bool may_wait,
-                                       const BuildOptions& options, BuiltShape* built) {
-  std::optional<SphereTree> cached;
+std::shared_ptr<const shape::Shape> SurfaceOf(const std::string& hash, geometry::TriangleMesh mesh,
+                                              bool may_wait, const BuildOptions& options,
+                                              BuiltShape* built) {
+  std::optional<sphere_tree::SphereTree> cached;
   if (options.cache) cached = options.cache->Load(hash, mesh);
   built->from_cache = cached.has_value();
-  if (cached) return Shape::FromTree(std::move(mesh), std::move(*cached));
+  if (cached) return shape::Shape::FromTree(std::move(mesh), std::move(*cached));
   built->coarse = !may_wait && mesh.triangles.size() > kCoarseFirstTriangles;
-  if (built->coarse) return Shape::Build(std::move(mesh), kCoarseTree);
+  if (built->coarse) return shape::Shape::Build(std::move(mesh), kCoarseTree);
   return BuildSurface(hash, std::move(mesh), options, nullptr);
 }
 
@@ -54,7 +57,7 @@ BuiltShape Build(const std::string& hash, std::string bytes, bool may_wait,
     built.shape = SurfaceOf(hash, std::move(decoded->mesh), may_wait, options, &built);
   }
   if (!decoded->solids.empty()) {
-    built.shape = Shape::Compound(std::move(built.shape), std::move(decoded->solids));
+    built.shape = shape::Shape::Compound(std::move(built.shape), std::move(decoded->solids));
   }
   built.microseconds = stopwatch.microseconds();
   return built;
@@ -64,7 +67,8 @@ BuiltShape Build(const std::string& hash, std::string bytes, bool may_wait,
 
 BuildOptions BuildOptionsOf(const v1::Config& complete) {
   BuildOptions options{.triangles_max = complete.shape_triangles_max()};
-  if (complete.tree_builder() == v1::Config::FITTED) options.tree.builder = TreeBuilder::kFitted;
+  if (complete.tree_builder() == v1::Config::FITTED)
+    options.tree.builder = sphere_tree::TreeBuilder::kFitted;
   return options;
 }
 
@@ -76,12 +80,14 @@ BuiltShape BuildFirst(const std::string& hash, std::string bytes, const BuildOpt
   return Build(hash, std::move(bytes), false, options);
 }
 
-BuiltShape Refine(const std::string& hash, const Shape& coarse, const BuildOptions& options) {
+BuiltShape Refine(const std::string& hash, const shape::Shape& coarse,
+                  const BuildOptions& options) {
   const Stopwatch stopwatch;
   BuiltShape built;
   const bool compound = !coarse.solids().empty();
   built.shape = BuildSurface(hash, coarse.mesh(), options, compound ? nullptr : &coarse);
-  if (compound) built.shape = Shape::Compound(std::move(built.shape), coarse.solids(), &coarse);
+  if (compound)
+    built.shape = shape::Shape::Compound(std::move(built.shape), coarse.solids(), &coarse);
   built.microseconds = stopwatch.microseconds();
   return built;
 }

@@ -20,12 +20,13 @@ namespace collision::server {
 inline constexpr std::size_t kCoarseFirstTriangles = 4096;
 
 /// The coarse one: looser balls, built in a tenth of the time.
-inline constexpr ShapeOptions kCoarseTree{.builder = TreeBuilder::kHalved};
+inline constexpr sphere_tree::ShapeOptions kCoarseTree{.builder =
+                                                           sphere_tree::TreeBuilder::kHalved};
 
 /// How shapes are built.
 struct BuildOptions {
   std::size_t triangles_max = 0;
-  ShapeOptions tree = {};
+  sphere_tree::ShapeOptions tree = {};
   /// Of trees that `tree` makes; null: none. A builder may outlive who made it, so it shares it.
   std::shared_ptr<TreeCache> cache = nullptr;
 };
@@ -35,12 +36,12 @@ BuildOptions BuildOptionsOf(const v1::Config& complete);
 
 /// What became of a shape's bytes. The same bytes give the same, in every build and every replay.
 struct BuiltShape {
-  std::shared_ptr<const Shape> shape;  ///< Null: refused.
-  std::string refusal;                 ///< Then why: the value and the allowed range.
-  bool coarse = false;                 ///< Its tree is the coarse one; Refine() makes the other.
-  std::size_t dropped = 0;             ///< Degenerate triangles.
-  std::int64_t microseconds = 0;       ///< What it took: for people, not part of what follows.
-  bool from_cache = false;             ///< Likewise.
+  std::shared_ptr<const shape::Shape> shape;  ///< Null: refused.
+  std::string refusal;                        ///< Then why: the value and the allowed range.
+  bool coarse = false;            ///< Its tree is the coarse one; Refine() makes the other.
+  std::size_t dropped = 0;        ///< Degenerate triangles.
+  std::int64_t microseconds = 0;  ///< What it took: for people, not part of what follows.
+  bool from_cache = false;        ///< Likewise.
 };
 
 /// Decodes, validates, repairs and builds, or takes the surface's tree from the cache: that is where
@@ -51,7 +52,7 @@ BuiltShape BuildShape(const std::string& hash, std::string bytes, const BuildOpt
 BuiltShape BuildFirst(const std::string& hash, std::string bytes, const BuildOptions& options);
 
 /// What BuildShape() makes of the same bytes, as a twin of what BuildFirst() made of them.
-BuiltShape Refine(const std::string& hash, const Shape& coarse, const BuildOptions& options);
+BuiltShape Refine(const std::string& hash, const shape::Shape& coarse, const BuildOptions& options);
 
 /// A tree that is there, or is to be used from now on: of which shape, and which of its two.
 struct ReadyTree {
@@ -112,8 +113,8 @@ class InlineShapeBuilder final : public ShapeBuilder {
 
  private:
   struct Job {
-    std::string bytes;                    ///< Until the first tree is built.
-    std::shared_ptr<const Shape> coarse;  ///< From then on.
+    std::string bytes;                           ///< Until the first tree is built.
+    std::shared_ptr<const shape::Shape> coarse;  ///< From then on.
   };
 
   const BuildOptions options_;

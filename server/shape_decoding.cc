@@ -18,16 +18,16 @@ using Refusal = std::optional<std::string>;
 struct Kind {
   SolidKind kind;
   const char* name;
-  ConvexCore core;
+  geometry::ConvexCore core;
   bool uses_half[3];  ///< Which of half_extents count.
 };
 
 constexpr Kind kKinds[] = {
-    {SolidKind::kBall, "ball", ConvexCore::kPoint, {false, false, false}},
-    {SolidKind::kCapsule, "capsule", ConvexCore::kSegment, {false, false, true}},
-    {SolidKind::kBox, "box", ConvexCore::kBox, {true, true, true}},
-    {SolidKind::kEllipsoid, "ellipsoid", ConvexCore::kEllipsoid, {true, true, true}},
-    {SolidKind::kHull, "hull", ConvexCore::kHull, {false, false, false}},
+    {SolidKind::kBall, "ball", geometry::ConvexCore::kPoint, {false, false, false}},
+    {SolidKind::kCapsule, "capsule", geometry::ConvexCore::kSegment, {false, false, true}},
+    {SolidKind::kBox, "box", geometry::ConvexCore::kBox, {true, true, true}},
+    {SolidKind::kEllipsoid, "ellipsoid", geometry::ConvexCore::kEllipsoid, {true, true, true}},
+    {SolidKind::kHull, "hull", geometry::ConvexCore::kHull, {false, false, false}},
 };
 
 const Kind* FindKind(SolidKind kind) {
@@ -37,16 +37,16 @@ const Kind* FindKind(SolidKind kind) {
   return nullptr;
 }
 
-TriangleMesh MeshOf(const ShapeContent& content) {
-  TriangleMesh mesh;
+geometry::TriangleMesh MeshOf(const ShapeContent& content) {
+  geometry::TriangleMesh mesh;
   mesh.vertices.reserve(content.vertices.size());
   for (const auto& [x, y, z] : content.vertices) mesh.vertices.emplace_back(x, y, z);
   mesh.triangles.assign(content.triangles.begin(), content.triangles.end());
   return mesh;
 }
 
-ConvexDescription DescriptionOf(const SolidContent& solid, const Kind& kind) {
-  ConvexDescription description;
+shape::ConvexDescription DescriptionOf(const SolidContent& solid, const Kind& kind) {
+  shape::ConvexDescription description;
   description.core = kind.core;
   description.half = {solid.half_extents[0], solid.half_extents[1], solid.half_extents[2]};
   description.rounding = solid.rounding;
@@ -67,7 +67,7 @@ Refusal RefusalOfUnused(const SolidContent& solid, const Kind& kind) {
     return fmt::format("half_extents[{}] is {}; allowed is 0: a {} has none along {}", i,
                        solid.half_extents[i], kind.name, "xyz"[i]);
   }
-  if (kind.core == ConvexCore::kHull || solid.points.empty()) return std::nullopt;
+  if (kind.core == geometry::ConvexCore::kHull || solid.points.empty()) return std::nullopt;
   return fmt::format("there are {} points; allowed are 0: a {} has none", solid.points.size(),
                      kind.name);
 }
@@ -117,8 +117,9 @@ std::string NameOf(const ShapeContent& content, std::size_t i) {
 }
 
 Refusal RefusalOfSolids(const ShapeContent& content) {
-  if (content.solids.size() > kSolidsMax) {
-    return fmt::format("{} convex solids; allowed: 0 to {}", content.solids.size(), kSolidsMax);
+  if (content.solids.size() > shape::kSolidsMax) {
+    return fmt::format("{} convex solids; allowed: 0 to {}", content.solids.size(),
+                       shape::kSolidsMax);
   }
   std::size_t points = 0;
   for (const SolidContent& solid : content.solids) points += solid.points.size();
@@ -135,7 +136,7 @@ Refusal RefusalOfSolids(const ShapeContent& content) {
 
 /// The surface, repaired and taken away; none at all is allowed beside solids.
 Refusal TakeMesh(ShapeContent* content, std::size_t triangles_max, DecodedShape* decoded) {
-  TriangleMesh mesh = MeshOf(*content);
+  geometry::TriangleMesh mesh = MeshOf(*content);
   content->vertices = {};
   content->triangles = {};
   const bool has_surface = !mesh.vertices.empty() || !mesh.triangles.empty();
@@ -167,7 +168,8 @@ std::optional<DecodedShape> DecodeAndCheck(std::string bytes, std::size_t triang
   }
   decoded.solids.reserve(content->solids.size());
   for (const SolidContent& solid : content->solids) {
-    decoded.solids.push_back(ConvexSolid::Build(DescriptionOf(solid, *FindKind(solid.kind))));
+    decoded.solids.push_back(
+        shape::ConvexSolid::Build(DescriptionOf(solid, *FindKind(solid.kind))));
   }
   return decoded;
 }

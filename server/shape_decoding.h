@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/shape/convex_solid.h"
-#include "collision_core/shape/triangle_mesh.h"
 
 namespace collision::server {
 
@@ -16,8 +16,8 @@ inline constexpr std::size_t kSolidPointsMax = std::size_t{1} << 20;
 
 /// Ready to be built: a surface, convex solids, or both.
 struct DecodedShape {
-  TriangleMesh mesh;  ///< Without degenerate triangles; without any: there is no surface.
-  std::vector<ConvexSolid> solids;
+  geometry::TriangleMesh mesh;  ///< Without degenerate triangles; without any: there is no surface.
+  std::vector<shape::ConvexSolid> solids;
   std::size_t dropped = 0;  ///< Degenerate triangles.
 };
 

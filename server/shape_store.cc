@@ -17,8 +17,8 @@ constexpr std::uint64_t kRefusedPartsMax = 65536;
 constexpr std::uint64_t kBytesPerTriangleMax = 3 * kShapeVertexBytes + kShapeTriangleBytes;
 
 /// Of what comes on top of the mesh, which is counted like the bytes that brought it.
-std::size_t TreeBytesOf(const Shape& shape) {
-  const TriangleMesh& mesh = shape.mesh();
+std::size_t TreeBytesOf(const shape::Shape& shape) {
+  const geometry::TriangleMesh& mesh = shape.mesh();
   return shape.bytes() - mesh.vertices.capacity() * sizeof mesh.vertices[0] -
          mesh.triangles.capacity() * sizeof mesh.triangles[0];
 }
@@ -26,7 +26,7 @@ std::size_t TreeBytesOf(const Shape& shape) {
 /// Beyond, it has too many triangles, solids or points of solids for certain.
 std::uint64_t ShapeBytesMax(std::uint64_t triangles_max) {
   return kShapeHeaderBytes + kBytesPerTriangleMax * triangles_max + kSolidHeaderBytes +
-         kSolidBytes * kSolidsMax + kShapeVertexBytes * kSolidPointsMax;
+         kSolidBytes * shape::kSolidsMax + kShapeVertexBytes * kSolidPointsMax;
 }
 
 Refusal BadShape(const v1::ShapePart& part, const char* field, std::string what) {
@@ -232,7 +232,7 @@ void ShapeStore::FreeIfUnwanted(const std::string& hash) {
 }
 
 /// In place of what was there, null for nothing; counted.
-void ShapeStore::SetShape(std::shared_ptr<const Shape> shape, bool coarse, Known* known) {
+void ShapeStore::SetShape(std::shared_ptr<const shape::Shape> shape, bool coarse, Known* known) {
   if (known->shape) {
     --counters_.visible;
     counters_.coarse -= known->coarse;
@@ -269,7 +269,7 @@ std::optional<ReadyShape> ShapeStore::MakeVisible(const ReadyTree& tree) {
   return ready;
 }
 
-std::shared_ptr<const Shape> ShapeStore::Find(const std::string& hash) const {
+std::shared_ptr<const shape::Shape> ShapeStore::Find(const std::string& hash) const {
   const auto known = shapes_.find(hash);
   return known == shapes_.end() ? nullptr : known->second.shape;
 }

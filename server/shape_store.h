@@ -77,7 +77,7 @@ class ShapeStore {
   std::optional<ReadyShape> MakeVisible(const ReadyTree& tree);
 
   /// Null: not visible.
-  std::shared_ptr<const Shape> Find(const std::string& hash) const;
+  std::shared_ptr<const shape::Shape> Find(const std::string& hash) const;
 
   /// Of what one simulator wrote.
   ShapeProgress ProgressOf(std::uint64_t simulator, const std::string& hash) const;
@@ -90,10 +90,10 @@ class ShapeStore {
 
  private:
   struct Known {
-    std::uint64_t bytes = 0;                  ///< As it travels; its mesh takes as much.
-    std::map<std::uint64_t, PartSet> owners;  ///< And which parts they have not disposed of.
-    std::shared_ptr<const Shape> shape;       ///< Null: being built.
-    bool coarse = false;                      ///< A better tree of it is being built.
+    std::uint64_t bytes = 0;                    ///< As it travels; its mesh takes as much.
+    std::map<std::uint64_t, PartSet> owners;    ///< And which parts they have not disposed of.
+    std::shared_ptr<const shape::Shape> shape;  ///< Null: being built.
+    bool coarse = false;                        ///< A better tree of it is being built.
   };
   using Key = std::pair<std::string, std::uint64_t>;  ///< Hash, simulator.
   using Gatherings = std::map<Key, ShapeGathering>;
@@ -106,7 +106,7 @@ class ShapeStore {
   void Refuse(ShapeGathering* gathering);
   void Forget(Gatherings::iterator gathering);
   void FreeIfUnwanted(const std::string& hash);
-  void SetShape(std::shared_ptr<const Shape> shape, bool coarse, Known* known);
+  void SetShape(std::shared_ptr<const shape::Shape> shape, bool coarse, Known* known);
 
   const std::uint64_t triangles_max_;
   const std::uint64_t shapes_max_;

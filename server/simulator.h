@@ -18,20 +18,20 @@ namespace collision::server {
 struct Agent {
   std::uint32_t generation = 0;
   std::uint32_t revision = 0;
-  AgentDeclaration declaration;
+  motion::AgentDeclaration declaration;
   std::string shape_hash = {};  ///< Empty: the ball is its shape.
   bool admitted = false;
   bool told_no_room = false;
-  Instant stamp = Instant::Always();             ///< Of the newest state in force.
-  std::uint64_t acknowledged_sequence = 0;       ///< Likewise its sequence.
-  std::optional<AgentClearance> clearance = {};  ///< As last told by the detector.
+  Instant stamp = Instant::Always();                        ///< Of the newest state in force.
+  std::uint64_t acknowledged_sequence = 0;                  ///< Likewise its sequence.
+  std::optional<detection::AgentClearance> clearance = {};  ///< As last told by the detector.
 };
 
 /// The newest state of an agent that cannot be admitted yet.
 struct WaitingState {
   std::uint32_t generation = 0;
   std::uint64_t sequence = 0;
-  MotionState state;
+  motion::MotionState state;
 };
 
 /// One slot, through all its generations.
@@ -92,7 +92,7 @@ struct Simulator {
     return slot.agent && slot.agent->generation == generation;
   }
 
-  AgentId IdOf(std::uint32_t slot, std::uint32_t generation) const {
+  detection::AgentId IdOf(std::uint32_t slot, std::uint32_t generation) const {
     return {.simulator = id, .slot = slot, .run = run, .generation = generation};
   }
 

@@ -27,7 +27,7 @@ class StateDemand {
       : announce_within_(config.announce_within_s()),
         temporal_resolution_(config.temporal_resolution_s()) {}
 
-  Instant WantedAt(const AgentClearance& clearance, Instant stamp, Instant now) const;
+  Instant WantedAt(const detection::AgentClearance& clearance, Instant stamp, Instant now) const;
 
  private:
   /// When the detector decides whether a meeting is announced.

@@ -96,7 +96,7 @@ void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
 }
 
 void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
-  const DetectorCounters& detector = sources.detector.counters();
+  const detection::DetectorCounters& detector = sources.detector.counters();
   for (int kind = 0; kind < v1::EventStatus_ARRAYSIZE; ++kind) {
     std::string name = LowerCase(v1::EventStatus_Name(static_cast<v1::EventStatus>(kind)));
     name.replace(0, std::string("event").size(), "events");
@@ -139,7 +139,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddShapes(sources.shapes.counters(), &status);
   AddDetection(sources, &status);
   for (const v1::Counter& counter : sources.network) *status.add_counters() = counter;
-  const Detector::Profile profile = sources.detector.profile();
+  const detection::Detector::Profile profile = sources.detector.profile();
   status.set_broad_phase(profile.broad_phase.substr(0, kBroadPhaseTextMax));
   status.set_broad_phase_why(profile.why.substr(0, kWhyTextMax));
   for (const std::string& text : profile.left_out) {

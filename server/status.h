@@ -21,7 +21,7 @@ struct StepCounters {
 struct StatusSources {
   const v1::Config& config;
   const World& world;
-  const Detector& detector;
+  const detection::Detector& detector;
   const Intake& intake;
   const ShapeStore& shapes;
   const Rejections& rejections;

@@ -36,9 +36,9 @@ struct ThreadedShapeBuilder::Shared {
     std::string hash;
     std::string bytes;  ///< Until it is begun.
     std::size_t size = 0;
-    std::shared_ptr<const Shape> refining;  ///< With the coarse tree, from then on.
-    std::optional<BuiltShape> coarse;       ///< Finished, and neither handed out nor outdone.
-    std::optional<BuiltShape> whole;        ///< Finished.
+    std::shared_ptr<const shape::Shape> refining;  ///< With the coarse tree, from then on.
+    std::optional<BuiltShape> coarse;  ///< Finished, and neither handed out nor outdone.
+    std::optional<BuiltShape> whole;   ///< Finished.
   };
 
   BuildOptions options;
@@ -131,7 +131,7 @@ void ThreadedShapeBuilder::Work(std::shared_ptr<Shared> shared, const Limits& li
     if (shared->stopped) break;
     if (!shared->Wanted(*job)) continue;
     std::string bytes = std::move(job->bytes);
-    const std::shared_ptr<const Shape> coarse = job->refining;
+    const std::shared_ptr<const shape::Shape> coarse = job->refining;
     lock.unlock();
     BuiltShape built = coarse ? Refine(job->hash, *coarse, shared->options)
                               : BuildFirst(job->hash, std::move(bytes), shared->options);

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "collision_core/shape/shape.h"
-#include "collision_core/shape/tree_check.h"
+#include "collision_core/sphere_tree/tree_check.h"
 #include "idl/sha256.h"
 #include "idl/tree_message.h"
 #include "server/logging.h"
@@ -39,8 +39,8 @@ std::string Checksum(const std::string& content_hash, const std::string& recipe_
 
 /// Closed, bumpy, uneven, with a sharp rim: something of everything that builders look at. Only
 /// products and sums, so that it is the same everywhere.
-TriangleMesh Probe() {
-  TriangleMesh mesh;
+geometry::TriangleMesh Probe() {
+  geometry::TriangleMesh mesh;
   constexpr std::uint32_t n = kProbeCells;
   for (const double side : {-1.0, 1.0}) {
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -54,7 +54,7 @@ TriangleMesh Probe() {
     for (std::uint32_t j = 0; j < n; ++j) {
       for (std::uint32_t i = 0; i < n; ++i) {
         const std::uint32_t a = first + j * (n + 1) + i, b = a + n + 1;
-        Triangle lower = {a, a + 1, b + 1}, upper = {a, b + 1, b};
+        geometry::Triangle lower = {a, a + 1, b + 1}, upper = {a, b + 1, b};
         if (side < 0) std::swap(lower[1], lower[2]), std::swap(upper[1], upper[2]);
         mesh.triangles.push_back(lower);
         mesh.triangles.push_back(upper);
@@ -67,12 +67,12 @@ TriangleMesh Probe() {
 
 }  // namespace
 
-std::string BuilderFingerprint(const ShapeOptions& options) {
-  return Sha256(ToMessage(Shape::Build(Probe(), options)->tree()).SerializeAsString());
+std::string BuilderFingerprint(const sphere_tree::ShapeOptions& options) {
+  return Sha256(ToMessage(shape::Shape::Build(Probe(), options)->tree()).SerializeAsString());
 }
 
 TreeCache::TreeCache(const std::string& folder, std::uint64_t bytes_max,
-                     const ShapeOptions& options)
+                     const sphere_tree::ShapeOptions& options)
     : recipe_(RecipeOf(options)), folder_(folder, bytes_max) {
   recipe_.set_builder_fingerprint(BuilderFingerprint(options));
   recipe_bytes_ = recipe_.SerializeAsString();
@@ -85,12 +85,12 @@ std::string TreeCache::NameOf(const std::string& content_hash) const {
   return HexText(content_hash) + "-" + HexText(recipe.substr(0, kRecipeBytesInName));
 }
 
-std::optional<SphereTree> TreeCache::Load(const std::string& content_hash,
-                                          const TriangleMesh& mesh) {
+std::optional<sphere_tree::SphereTree> TreeCache::Load(const std::string& content_hash,
+                                                       const geometry::TriangleMesh& mesh) {
   const std::string name = NameOf(content_hash);
   const std::lock_guard lock(folder_mutex_);
   std::string fault;
-  std::optional<SphereTree> tree;
+  std::optional<sphere_tree::SphereTree> tree;
   const std::optional<std::string> bytes = folder_.Read(name, &fault);
   if (bytes) tree = Read(*bytes, content_hash, mesh, &fault);
   if (tree) {
@@ -105,8 +105,10 @@ std::optional<SphereTree> TreeCache::Load(const std::string& content_hash,
   return tree;
 }
 
-std::optional<SphereTree> TreeCache::Read(const std::string& bytes, const std::string& content_hash,
-                                          const TriangleMesh& mesh, std::string* fault) const {
+std::optional<sphere_tree::SphereTree> TreeCache::Read(const std::string& bytes,
+                                                       const std::string& content_hash,
+                                                       const geometry::TriangleMesh& mesh,
+                                                       std::string* fault) const {
   const google::protobuf::LogSilencer silent;  // The fault says it.
   v1::TreeFile file;
   if (!file.ParseFromString(bytes)) {
@@ -121,7 +123,7 @@ std::optional<SphereTree> TreeCache::Read(const std::string& bytes, const std::s
     *fault = "damaged: its checksum is another";
   } else {
     v1::SphereTree message;
-    std::optional<SphereTree> tree;
+    std::optional<sphere_tree::SphereTree> tree;
     if (message.ParseFromString(file.tree())) tree = FromMessage(message);
     const auto refusal = tree ? RefusalOf(*tree, mesh) : std::optional<std::string>("no tree");
     if (!refusal) return tree;
@@ -130,7 +132,7 @@ std::optional<SphereTree> TreeCache::Read(const std::string& bytes, const std::s
   return std::nullopt;
 }
 
-void TreeCache::Store(const std::string& content_hash, const SphereTree& tree) {
+void TreeCache::Store(const std::string& content_hash, const sphere_tree::SphereTree& tree) {
   v1::TreeFile file;
   file.set_format(kFormat);
   file.set_content_hash(content_hash);

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
-#include "collision_core/shape/shape_options.h"
-#include "collision_core/shape/sphere_tree.h"
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
+#include "collision_core/sphere_tree/sphere_tree.h"
+#include "collision_core/sphere_tree/tree_options.h"
 #include "idl/sphere_tree.pb.h"
 #include "server/tree_folder.h"
 
@@ -40,21 +40,25 @@ class TreeCache {
  public:
   /// Makes the folder if need be, and makes it fit `bytes_max`. Throws std::runtime_error, with the
   /// folder and the cause, if there can be none.
-  TreeCache(const std::string& folder, std::uint64_t bytes_max, const ShapeOptions& options);
+  TreeCache(const std::string& folder, std::uint64_t bytes_max,
+            const sphere_tree::ShapeOptions& options);
 
   /// The tree that these options make of this mesh, which is what the bytes of that hash describe;
   /// nullopt: it is to be built.
-  std::optional<SphereTree> Load(const std::string& content_hash, const TriangleMesh& mesh);
+  std::optional<sphere_tree::SphereTree> Load(const std::string& content_hash,
+                                              const geometry::TriangleMesh& mesh);
 
   /// Keeps a tree for Load(). It never fails: what cannot be kept is counted and told.
-  void Store(const std::string& content_hash, const SphereTree& tree);
+  void Store(const std::string& content_hash, const sphere_tree::SphereTree& tree);
 
   TreeCacheCounters counters() const;
 
  private:
   std::string NameOf(const std::string& content_hash) const;
-  std::optional<SphereTree> Read(const std::string& bytes, const std::string& content_hash,
-                                 const TriangleMesh& mesh, std::string* fault) const;
+  std::optional<sphere_tree::SphereTree> Read(const std::string& bytes,
+                                              const std::string& content_hash,
+                                              const geometry::TriangleMesh& mesh,
+                                              std::string* fault) const;
   /// With the folder's own numbers. The caller holds the folder.
   void Count(std::uint64_t TreeCacheCounters::*counter);
 
@@ -67,6 +71,6 @@ class TreeCache {
 };
 
 /// What a builder makes of a fixed mesh, as a hash. Takes some milliseconds.
-std::string BuilderFingerprint(const ShapeOptions& options);
+std::string BuilderFingerprint(const sphere_tree::ShapeOptions& options);
 
 }  // namespace collision::server

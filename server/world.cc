@@ -132,14 +132,15 @@ bool World::TakeClock(Simulator* simulator) {
 }
 
 Instant World::LatestAllowed(const Simulator& simulator) const {
-  if (!simulated_) return AddRoundedDown(now_, skew_);
+  if (!simulated_) return numeric::AddRoundedDown(now_, skew_);
   const bool waits = simulator.lock_step && simulator.granted;
   if (!started_ && !waits && !simulator.first_clock) return Instant::Never();
   Instant latest = simulator.granted.value_or(Instant::Always());
-  if (started_ && !waits) latest = std::max(latest, AddRoundedDown(now_, grant_ahead_max_));
+  if (started_ && !waits)
+    latest = std::max(latest, numeric::AddRoundedDown(now_, grant_ahead_max_));
   // A clock that does not begin at the run's start was granted by a service before this one.
   if (simulator.first_clock && (!waits || *simulator.first_clock > Instant())) {
-    latest = std::max(latest, AddRoundedDown(*simulator.first_clock, grant_ahead_max_));
+    latest = std::max(latest, numeric::AddRoundedDown(*simulator.first_clock, grant_ahead_max_));
   }
   return latest;
 }
@@ -165,8 +166,8 @@ Instant World::EffectiveFrom(Instant stamp) const {
 
 void World::UpdateGrants() {
   if (!simulated_ || !started_) return;
-  const Instant least = AddRoundedDown(now_, temporal_resolution_);
-  const Instant greatest = AddRoundedDown(now_, grant_ahead_max_);
+  const Instant least = numeric::AddRoundedDown(now_, temporal_resolution_);
+  const Instant greatest = numeric::AddRoundedDown(now_, grant_ahead_max_);
   for (auto& [id, simulator] : simulators_) {
     if (!simulator.clock) continue;
     Instant clear = greatest;

@@ -101,7 +101,7 @@ void Check(const SphereTreeOptions& options) {
   }
 }
 
-std::uint32_t LevelOf(const SphereTreeOptions& options, const SphereTree& tree) {
+std::uint32_t LevelOf(const SphereTreeOptions& options, const sphere_tree::SphereTree& tree) {
   if (!options.level) return LevelWithin(tree, kPictureBallsMax);
   if (*options.level < tree.levels) return *options.level;
   throw UsageError("--level: " + std::to_string(*options.level) + ", allowed: 0 to " +
@@ -184,8 +184,9 @@ CLI::App* AddSphereTreeCommand(CLI::App* app, SphereTreeOptions* options) {
 int RunSphereTree(const SphereTreeOptions& options) {
   try {
     Check(options);
-    ShapeOptions build{.levels_max = options.levels - 1};
-    build.builder = options.builder == "fitted" ? TreeBuilder::kFitted : TreeBuilder::kOctree;
+    sphere_tree::ShapeOptions build{.levels_max = options.levels - 1};
+    build.builder = options.builder == "fitted" ? sphere_tree::TreeBuilder::kFitted
+                                                : sphere_tree::TreeBuilder::kOctree;
     Deliver(options, BuildMeshTree(options.mesh, options.frame, build));
     std::cout.flush();
     if (!std::cout) throw OutputError("the output cannot be written");

@@ -16,9 +16,9 @@ namespace {
 constexpr std::size_t kRoundBallsMax = 2000;
 
 /// An icosahedron in the unit ball.
-TriangleMesh Icosahedron() {
+geometry::TriangleMesh Icosahedron() {
   const double a = std::sqrt((5 - std::sqrt(5.0)) / 10), b = std::sqrt((5 + std::sqrt(5.0)) / 10);
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   mesh.vertices = {{-a, b, 0},  {a, b, 0},  {-a, -b, 0}, {a, -b, 0}, {0, -a, b},  {0, a, b},
                    {0, -a, -b}, {0, a, -b}, {b, 0, -a},  {b, 0, a},  {-b, 0, -a}, {-b, 0, a}};
   mesh.triangles = {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
@@ -29,7 +29,7 @@ TriangleMesh Icosahedron() {
 }
 
 /// Each triangle in four, the new corners moved out to the unit ball.
-TriangleMesh Divided(TriangleMesh mesh) {
+geometry::TriangleMesh Divided(geometry::TriangleMesh mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
   const auto middle = [&](std::uint32_t a, std::uint32_t b) {
     const auto next = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -39,7 +39,7 @@ TriangleMesh Divided(TriangleMesh mesh) {
     }
     return found->second;
   };
-  std::vector<Triangle> triangles;
+  std::vector<geometry::Triangle> triangles;
   for (const auto& [a, b, c] : mesh.triangles) {
     const std::uint32_t ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
     triangles.insert(triangles.end(), {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
@@ -52,7 +52,7 @@ TriangleMesh Divided(TriangleMesh mesh) {
 
 std::string LevelObj(const MeshTree& mesh_tree, std::uint32_t level) {
   const std::vector<std::uint32_t> cut = mesh_tree.tree().Cut(level);
-  TriangleMesh unit = Icosahedron();
+  geometry::TriangleMesh unit = Icosahedron();
   if (cut.size() <= kRoundBallsMax) unit = Divided(std::move(unit));
   std::string text = "# level " + std::to_string(level) + " of the " +
                      BuilderName(mesh_tree.options.builder) + " tree of " + mesh_tree.file +
@@ -60,7 +60,7 @@ std::string LevelObj(const MeshTree& mesh_tree, std::uint32_t level) {
   char line[128];
   std::size_t before = 1;  // OBJ counts from 1, through all objects.
   for (const std::uint32_t index : cut) {
-    const SphereNode& node = mesh_tree.tree().nodes[index];
+    const sphere_tree::SphereNode& node = mesh_tree.tree().nodes[index];
     text += "o ball_" + std::to_string(index) + "\n";
     for (const Eigen::Vector3d& direction : unit.vertices) {
       const Eigen::Vector3d p = node.centre + node.radius * direction;
@@ -82,7 +82,7 @@ std::string LevelJson(const MeshTree& mesh_tree, std::uint32_t level) {
   message.set_builder(BuilderName(mesh_tree.options.builder));
   message.set_level(level);
   for (const std::uint32_t index : mesh_tree.tree().Cut(level)) {
-    const SphereNode& node = mesh_tree.tree().nodes[index];
+    const sphere_tree::SphereNode& node = mesh_tree.tree().nodes[index];
     v1::TreeBall* ball = message.add_balls();
     ball->set_node(index);
     ball->set_x_m(node.centre.x());

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "client/tools/sphere_tree_raster.h"
-#include "collision_core/shape/tree_cut.h"
+#include "collision_core/sphere_tree/tree_cut.h"
 
 namespace collision::client {
 namespace {
@@ -51,10 +51,10 @@ Eigen::Matrix3d AxesAlongTheShortest(const Vector3d& extent) {
 
 /// Room for the mesh and for the balls.
 View ViewOf(const MeshTree& mesh_tree, const std::vector<std::uint32_t>& cut) {
-  const MeshFacts& facts = mesh_tree.shape->facts();
+  const geometry::MeshFacts& facts = mesh_tree.shape->facts();
   Vector3d lower = facts.lower, upper = facts.upper;
   for (const std::uint32_t index : cut) {
-    const SphereNode& node = mesh_tree.tree().nodes[index];
+    const sphere_tree::SphereNode& node = mesh_tree.tree().nodes[index];
     lower = lower.cwiseMin(node.centre - Vector3d::Constant(node.radius));
     upper = upper.cwiseMax(node.centre + Vector3d::Constant(node.radius));
   }
@@ -102,11 +102,13 @@ std::string Colour(double share) {
   return Text("rgb(%d,%d,%d)", mix(0), mix(1), mix(2));
 }
 
-double OvershootOf(const SphereNode& node) { return node.radius + node.signed_distance; }
+double OvershootOf(const sphere_tree::SphereNode& node) {
+  return node.radius + node.signed_distance;
+}
 
 /// The farthest first.
-std::string Balls(const SphereTree& tree, std::vector<std::uint32_t> cut, const View& view,
-                  double overshoot_max) {
+std::string Balls(const sphere_tree::SphereTree& tree, std::vector<std::uint32_t> cut,
+                  const View& view, double overshoot_max) {
   const auto depth = [&](std::uint32_t index) {
     return view.axes.row(2).dot(tree.nodes[index].centre);
   };
@@ -118,7 +120,7 @@ std::string Balls(const SphereTree& tree, std::vector<std::uint32_t> cut, const 
       Text("<g fill-opacity=\"%.3f\" stroke-opacity=\"0.75\" stroke-width=\"%.2f\">\n", opacity,
            cut.size() > 200 ? 1.0 : 1.6);
   for (const std::uint32_t index : cut) {
-    const SphereNode& node = tree.nodes[index];
+    const sphere_tree::SphereNode& node = tree.nodes[index];
     const Vector3d at = kUnitsPerCell * view.Cell(node.centre);
     const double share = overshoot_max > 0 ? OvershootOf(node) / overshoot_max : 0;
     const std::string colour = Colour(share);
@@ -166,7 +168,8 @@ std::string Legend(double right, double y, double overshoot_max) {
 std::string LevelPicture(const MeshTree& mesh_tree, std::uint32_t level) {
   const std::vector<std::uint32_t> cut = mesh_tree.tree().Cut(level);
   const View view = ViewOf(mesh_tree, cut);
-  const Overshoot overshoot = collision::OvershootOf(mesh_tree.tree(), cut);
+  const sphere_tree::Overshoot overshoot =
+      collision::sphere_tree::OvershootOf(mesh_tree.tree(), cut);
   const int width = std::max(kWidthMin, kUnitsPerCell * view.columns + 2 * kMargin);
   const int height = kUnitsPerCell * view.rows + kHead + kFoot;
   const double percent = 100 / mesh_tree.diagonal();

@@ -83,7 +83,7 @@ class Raster {
 
 }  // namespace
 
-std::vector<std::uint8_t> Shaded(const TriangleMesh& mesh, const View& view) {
+std::vector<std::uint8_t> Shaded(const geometry::TriangleMesh& mesh, const View& view) {
   Raster raster(view);
   for (const auto& [a, b, c] : mesh.triangles) {
     raster.Add(view.Cell(mesh.vertices[a]), view.Cell(mesh.vertices[b]),

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 
 namespace collision::client {
 
@@ -26,6 +26,6 @@ struct View {
 inline constexpr int kTones = 12;
 
 /// The tone of each cell, row by row: 0 where there is nothing, else 1 (dark) to kTones (light).
-std::vector<std::uint8_t> Shaded(const TriangleMesh& mesh, const View& view);
+std::vector<std::uint8_t> Shaded(const geometry::TriangleMesh& mesh, const View& view);
 
 }  // namespace collision::client

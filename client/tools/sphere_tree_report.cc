@@ -11,7 +11,7 @@
 
 #include "client/shape.h"
 #include "client/tools/collisionctl_text.h"
-#include "collision_core/shape/tree_cut.h"
+#include "collision_core/sphere_tree/tree_cut.h"
 
 namespace collision::client {
 namespace {
@@ -57,8 +57,8 @@ class Progress {
   std::thread teller_;
 };
 
-TriangleMesh MeshOf(const Triangles& triangles) {
-  TriangleMesh mesh;
+geometry::TriangleMesh MeshOf(const Triangles& triangles) {
+  geometry::TriangleMesh mesh;
   mesh.vertices.reserve(triangles.vertices_m.size());
   for (const Vector3& p : triangles.vertices_m) mesh.vertices.emplace_back(p[0], p[1], p[2]);
   mesh.triangles = triangles.indices;
@@ -67,7 +67,7 @@ TriangleMesh MeshOf(const Triangles& triangles) {
 
 void SetCut(const MeshTree& mesh_tree, const std::vector<std::uint32_t>& cut,
             v1::TreeCutReport* report) {
-  const Overshoot overshoot = OvershootOf(mesh_tree.tree(), cut);
+  const sphere_tree::Overshoot overshoot = OvershootOf(mesh_tree.tree(), cut);
   const double percent = 100 / mesh_tree.diagonal();
   report->set_balls(static_cast<std::uint32_t>(cut.size()));
   report->set_overshoot_max_m(overshoot.max);
@@ -104,7 +104,7 @@ constexpr const char* kOpenText =
 }  // namespace
 
 MeshTree BuildMeshTree(const std::string& file, const MeshFileOptions& frame,
-                       const ShapeOptions& options) {
+                       const sphere_tree::ShapeOptions& options) {
   MeshTree result;
   result.file = file;
   result.options = options;
@@ -112,20 +112,20 @@ MeshTree BuildMeshTree(const std::string& file, const MeshFileOptions& frame,
   result.content_hash = HexText(read->hash());
   const Progress progress("building the " + std::string(BuilderName(options.builder)) +
                           " tree of " + std::to_string(result.read.triangles) + " triangles");
-  TriangleMesh mesh = MeshOf(read->triangles());
+  geometry::TriangleMesh mesh = MeshOf(read->triangles());
   const auto start = std::chrono::steady_clock::now();
-  result.shape = collision::Shape::Build(std::move(mesh), options);
+  result.shape = collision::shape::Shape::Build(std::move(mesh), options);
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   result.build_seconds = taken.count();
   return result;
 }
 
-const char* BuilderName(TreeBuilder builder) {
-  return builder == TreeBuilder::kFitted ? "fitted" : "octree";
+const char* BuilderName(sphere_tree::TreeBuilder builder) {
+  return builder == sphere_tree::TreeBuilder::kFitted ? "fitted" : "octree";
 }
 
 v1::TreeReport ReportOf(const MeshTree& mesh_tree) {
-  const SphereTree& tree = mesh_tree.tree();
+  const sphere_tree::SphereTree& tree = mesh_tree.tree();
   v1::TreeReport report;
   report.set_file(mesh_tree.file);
   report.set_triangles(static_cast<std::uint32_t>(mesh_tree.shape->mesh().triangles.size()));
@@ -163,7 +163,7 @@ std::string ReportText(const MeshTree& mesh_tree, const v1::TreeReport& report) 
   return text + "\n" + TableOf("AT MOST", report.cuts());
 }
 
-std::uint32_t LevelWithin(const SphereTree& tree, std::size_t balls_max) {
+std::uint32_t LevelWithin(const sphere_tree::SphereTree& tree, std::size_t balls_max) {
   std::uint32_t level = 0;
   while (level + 1 < tree.levels && tree.Cut(level + 1).size() <= balls_max) ++level;
   return level;

@@ -19,11 +19,11 @@ struct MeshTree {
   std::string file;
   MeshFileReport read;  ///< What became of the file's faces.
   std::string content_hash;
-  ShapeOptions options;
-  std::shared_ptr<const collision::Shape> shape;
+  sphere_tree::ShapeOptions options;
+  std::shared_ptr<const collision::shape::Shape> shape;
   double build_seconds = 0;
 
-  const SphereTree& tree() const { return shape->tree(); }
+  const sphere_tree::SphereTree& tree() const { return shape->tree(); }
   /// Of the box [m].
   double diagonal() const { return (shape->facts().upper - shape->facts().lower).norm(); }
 };
@@ -31,10 +31,10 @@ struct MeshTree {
 /// Reads and builds. Where somebody watches the error output, it tells there from the second second
 /// on how long it has been building. Throws what LoadShape() throws.
 MeshTree BuildMeshTree(const std::string& file, const MeshFileOptions& frame,
-                       const ShapeOptions& options);
+                       const sphere_tree::ShapeOptions& options);
 
 /// "octree" or "fitted".
-const char* BuilderName(TreeBuilder builder);
+const char* BuilderName(sphere_tree::TreeBuilder builder);
 
 /// Every level, and the cuts of at most 8, 64 and 512 balls, with what building took.
 v1::TreeReport ReportOf(const MeshTree& mesh_tree);
@@ -43,6 +43,6 @@ v1::TreeReport ReportOf(const MeshTree& mesh_tree);
 std::string ReportText(const MeshTree& mesh_tree, const v1::TreeReport& report);
 
 /// The last level of no more than `balls_max` balls.
-std::uint32_t LevelWithin(const SphereTree& tree, std::size_t balls_max);
+std::uint32_t LevelWithin(const sphere_tree::SphereTree& tree, std::size_t balls_max);
 
 }  // namespace collision::client

@@ -4,7 +4,7 @@
 #include <compare>
 #include <cstdint>
 
-namespace collision {
+namespace collision::detection {
 
 /// A slot is reused with a new generation; a simulator that rewinds starts a higher run. The order
 /// decides which agent of a pair is the lower one; normals point from lower to higher.
@@ -17,4 +17,4 @@ struct AgentId {
   friend constexpr auto operator<=>(const AgentId&, const AgentId&) = default;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

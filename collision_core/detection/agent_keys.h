@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "collision_core/base/instant.h"
 #include "collision_core/detection/restlessness.h"
-#include "collision_core/motion/instant.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// One key for each group beside the agent (Restlessness::GroupOf): that of the calm holds for
 /// every class that has no earlier one.
@@ -64,4 +64,4 @@ class AgentKeys {
   std::vector<OfClass> earlier_;  // of restless classes, earlier than calm_ when they were set
 };
 
-}  // namespace collision
+}  // namespace collision::detection

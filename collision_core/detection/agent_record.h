@@ -10,13 +10,14 @@
 #include "collision_core/detection/key_margin.h"
 #include "collision_core/detection/scene_profile.h"
 
-namespace collision {
+namespace collision::detection {
 
 struct AgentRecord {
   static constexpr std::uint64_t kNotAsked = ~std::uint64_t{0};
 
   AgentId id;
-  AgentDeclaration declaration;  ///< Counts for the next state on; the newest bound has its own.
+  motion::AgentDeclaration
+      declaration;  ///< Counts for the next state on; the newest bound has its own.
   History history;
   Instant heard = Instant::Always();          ///< The owner has told everything up to here.
   Instant admitted_from = Instant::Always();  ///< Nothing is known, or promised, of it before.
@@ -48,8 +49,8 @@ struct AgentRecord {
   Instant void_from = Instant::Never();
   Instant effective_from = Instant::Always();
 
-  const SpaceTimeBound& bound() const { return history.newest(); }
+  const motion::SpaceTimeBound& bound() const { return history.newest(); }
   Instant stamp() const { return bound().state.stamp; }
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -4,8 +4,9 @@
 #include <limits>
 
 #include "collision_core/detection/judge.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 // To evaluate a contact when it is confirmed this part of a turn's work is allowed, beside what the turn took.
@@ -23,8 +24,8 @@ constexpr double kRevisionShare = 0.25;
 constexpr double kNarrowerShare = 0.99;
 
 bool Narrower(const TimeBracket& found, const TimeBracket& published) {
-  return SecondsBetween(found.earliest, found.latest).upper <
-         kNarrowerShare * SecondsBetween(published.earliest, published.latest).lower;
+  return numeric::SecondsBetween(found.earliest, found.latest).upper <
+         kNarrowerShare * numeric::SecondsBetween(published.earliest, published.latest).lower;
 }
 
 // A later look may tell less than an earlier one (its work was spent elsewhere). Both are certain, unless a bound
@@ -55,7 +56,7 @@ void TakeBrackets(const ContactEpisode& episode, const PairRecord& pair, Collisi
 
 double SecondsLeft(Instant now, Instant t) {
   if (t.is_never()) return std::numeric_limits<double>::infinity();
-  return t <= now ? 0 : SecondsBetween(now, t).upper;
+  return t <= now ? 0 : numeric::SecondsBetween(now, t).upper;
 }
 
 }  // namespace
@@ -135,7 +136,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     Confirm(subject, episode);
     TakeBrackets(episode, subject.pair, &event);
     event.end.latest = episode.end.latest;
-    if (episode.exhausted) event.limited_by = EventLimit::kBudget;
+    if (episode.exhausted) event.limited_by = narrow_phase::EventLimit::kBudget;
     Emit(subject, EventStatus::kEnded);
   } else if (subject.pair.announced && event.status == EventStatus::kConfirmed) {
     if (episode.end.latest <= event.begin.latest) {
@@ -154,7 +155,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     event.begin = episode.begin;
     event.end = episode.end;
     Evaluate(subject, episode.nearest, episode.normal);
-    if (episode.exhausted) event.limited_by = EventLimit::kBudget;
+    if (episode.exhausted) event.limited_by = narrow_phase::EventLimit::kBudget;
     Emit(subject, EventStatus::kUndecided);
   }
   subject.pair.announced = false;
@@ -172,7 +173,7 @@ void Announcer::Possible(const Subject& subject, const ContactTracker& preview) 
   const double left = SecondsLeft(now_, event.begin.earliest);
   const double moved = earliest < event.begin.earliest
                            ? std::numeric_limits<double>::infinity()
-                           : SecondsBetween(event.begin.earliest, earliest).lower;
+                           : numeric::SecondsBetween(event.begin.earliest, earliest).lower;
   if (moved <= kRevisionShare * left || moved <= options_.temporal_resolution) return;
   event.begin.earliest = earliest;
   Emit(subject, EventStatus::kPossible);
@@ -186,11 +187,11 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   TakeBrackets(episode, subject.pair, &event);
   event.began_before = episode.began_before;
   const Instant at = episode.begin.latest;
-  Work work(subject.work_allowed / kEvaluationShare);
+  WorkBudget work(subject.work_allowed / kEvaluationShare);
   const History& lower = subject.lower.history;
   const History& higher = subject.higher.history;
   Evaluate(subject, {at, ProximityOf(lower, higher, at, &work)}, episode.normal);
-  if (episode.exhausted) event.limited_by = EventLimit::kBudget;
+  if (episode.exhausted) event.limited_by = narrow_phase::EventLimit::kBudget;
   subject.pair.work += work.spent();
   counters_->work_units += work.spent();
   Emit(subject, EventStatus::kConfirmed);
@@ -223,10 +224,10 @@ void Announcer::Emit(const Subject& subject, EventStatus status) {
 }
 
 void Announcer::Evaluate(const Subject& subject, const Nearest& nearest,
-                         const ContactNormal& normal) {
+                         const narrow_phase::ContactNormal& normal) {
   if (nearest.at.is_never()) return;
   CollisionEvent& event = subject.pair.event;
-  const Proximity& found = nearest.found;
+  const narrow_phase::Proximity& found = nearest.found;
   event.evaluated_at = nearest.at;
   event.separation_lower = found.separation.lower;
   event.separation_upper = found.separation.upper;
@@ -241,4 +242,4 @@ void Announcer::Evaluate(const Subject& subject, const Nearest& nearest,
   event.limited_by = found.limited_by;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -6,7 +6,7 @@
 #include "collision_core/detection/agent_record.h"
 #include "collision_core/detection/pair_table.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// Turns what is known of a pair into revisions of events: possible before confirmed, confirmed
 /// before ended, each status once, and further revisions only where a bracket moved enough to
@@ -41,7 +41,8 @@ class Announcer {
   void Confirm(const Subject& subject, const ContactEpisode& episode);
   void Open(const Subject& subject, Instant free_until, bool began_before);
   void Emit(const Subject& subject, EventStatus status);
-  void Evaluate(const Subject& subject, const Nearest& at, const ContactNormal& normal);
+  void Evaluate(const Subject& subject, const Nearest& at,
+                const narrow_phase::ContactNormal& normal);
 
   DetectorOptions options_;
   DetectorCounters* counters_;
@@ -49,4 +50,4 @@ class Announcer {
   std::vector<CollisionEvent> events_;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -4,11 +4,11 @@
 #include <Eigen/Core>
 #include <cstdint>
 
+#include "collision_core/base/instant.h"
 #include "collision_core/detection/agent_id.h"
-#include "collision_core/motion/instant.h"
-#include "collision_core/narrow_phase/proximity.h"
+#include "collision_core/narrow_phase/pose/proximity.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// possible -> confirmed | dismissed | undecided | withdrawn;  confirmed -> ended.
 enum class EventStatus { kPossible, kConfirmed, kDismissed, kUndecided, kWithdrawn, kEnded };
@@ -47,8 +47,8 @@ struct CollisionEvent {
   double normal_error = 0;                           ///< Angle [rad].
   /// Of the sphere trees, down to which the pair was looked at; 0: balls.
   std::uint32_t level = 0;
-  std::uint64_t work = 0;  ///< Work units spent on this contact.
-  EventLimit limited_by = EventLimit::kMotion;
+  std::uint64_t work = 0;  ///< WorkBudget units spent on this contact.
+  narrow_phase::EventLimit limited_by = narrow_phase::EventLimit::kMotion;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

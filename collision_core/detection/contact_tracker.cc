@@ -2,16 +2,18 @@
 
 #include <algorithm>
 
-namespace collision {
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
 namespace {
 
 // Two states that no motion joins are a breach (motion/contract_between.h), but for what rounding may
 // explain; and where states were thinned out, each may have followed from the last with an error of
 // its own, and the last not from the first. Then one bound says apart, and another touching, at the
 // same time. There nothing is certain, and brackets hold what both say.
-SegmentVerdict WithoutContradiction(SegmentVerdict verdict) {
+narrow_phase::SegmentResult WithoutContradiction(narrow_phase::SegmentResult verdict) {
   if (verdict.contact_from > verdict.contact_to) return verdict;
-  const SegmentVerdict said = verdict;
+  const narrow_phase::SegmentResult said = verdict;
   if (said.free_until > said.contact_from) {
     verdict.free_until = said.contact_from;
     verdict.contact_from = said.free_until;
@@ -43,7 +45,7 @@ void ContactTracker::RetractFree(Instant until, bool began_before) {
   began_before_ |= began_before;
 }
 
-void ContactTracker::Open(Instant free_until, const ContactNormal& normal) {
+void ContactTracker::Open(Instant free_until, const narrow_phase::ContactNormal& normal) {
   open_ = true;
   episode_ = ContactEpisode{};
   episode_.begin.earliest = free_until;
@@ -64,15 +66,15 @@ void ContactTracker::Close(Instant free_from) {
 }
 
 // Contact on [contact_from, contact_to] of a segment that starts at `from`.
-void ContactTracker::Touch(const SegmentVerdict& verdict, Instant from, Instant to) {
+void ContactTracker::Touch(const narrow_phase::SegmentResult& verdict, Instant from, Instant to) {
   // Rounded outward: contact has begun by `first`, and lasts at least until `last`.
-  const Instant first = std::min(AddRoundedUp(from, verdict.contact_from), to);
-  const Instant last = std::min(AddRoundedDown(from, verdict.contact_to), to);
+  const Instant first = std::min(numeric::AddRoundedUp(from, verdict.contact_from), to);
+  const Instant last = std::min(numeric::AddRoundedDown(from, verdict.contact_to), to);
   const bool joins = episode_.contact && contact_until_ >= from && verdict.contact_from <= 0;
   if (!episode_.contact) {
     episode_.contact = true;
     episode_.begin.latest = first;
-    episode_.end.earliest = std::min(AddRoundedDown(from, verdict.contact_from), to);
+    episode_.end.earliest = std::min(numeric::AddRoundedDown(from, verdict.contact_from), to);
   } else if (!joins) {
     episode_.continuous = false;
   }
@@ -86,11 +88,11 @@ void ContactTracker::Touch(const SegmentVerdict& verdict, Instant from, Instant 
   }
 }
 
-void ContactTracker::Apply(const SegmentVerdict& said, Instant to, const Nearest& nearest,
-                           const ContactNormal& normal) {
-  const SegmentVerdict verdict = WithoutContradiction(said);
+void ContactTracker::Apply(const narrow_phase::SegmentResult& said, Instant to,
+                           const Nearest& nearest, const narrow_phase::ContactNormal& normal) {
+  const narrow_phase::SegmentResult verdict = WithoutContradiction(said);
   const Instant from = at_;
-  const Instant free_until = AddRoundedDown(from, verdict.free_until);
+  const Instant free_until = numeric::AddRoundedDown(from, verdict.free_until);
   const bool free_throughout = free_until >= to;
   const bool free_at_start = verdict.free_until > 0;
   at_ = to;
@@ -105,7 +107,7 @@ void ContactTracker::Apply(const SegmentVerdict& said, Instant to, const Nearest
     episode_.nearest = nearest;
   }
   if (verdict.contact_from <= verdict.contact_to) Touch(verdict, from, to);
-  const Instant free_from = AddRoundedUp(from, verdict.free_from);
+  const Instant free_from = numeric::AddRoundedUp(from, verdict.free_from);
   if (free_from < to) Close(free_from);
 }
 
@@ -115,4 +117,4 @@ std::vector<ContactEpisode> ContactTracker::TakeFinished() {
   return finished;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -4,14 +4,14 @@
 #include <vector>
 
 #include "collision_core/detection/collision_event.h"
-#include "collision_core/narrow_phase/shape_contact.h"
+#include "collision_core/narrow_phase/contact/shape_contact.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// How near the two are at one instant.
 struct Nearest {
   Instant at = Instant::Never();  ///< Never(): none.
-  Proximity found;
+  narrow_phase::Proximity found;
   bool exhausted = false;  ///< For want of work something was not looked at.
 };
 
@@ -27,7 +27,7 @@ struct ContactEpisode {
   /// Where, of the instants looked at, the surfaces were certified to be nearest.
   Nearest nearest;
   /// Of shapes: how they came near each other.
-  ContactNormal normal;
+  narrow_phase::ContactNormal normal;
 };
 
 /// Follows one pair through time, segment after segment without a gap. Copyable: a copy that runs
@@ -57,17 +57,17 @@ class ContactTracker {
 
   /// The verdict on [at(), to]; `nearest` is given where the verdict is not all free, `normal` where
   /// shapes came near each other.
-  void Apply(const SegmentVerdict& said, Instant to, const Nearest& nearest,
-             const ContactNormal& normal);
+  void Apply(const narrow_phase::SegmentResult& said, Instant to, const Nearest& nearest,
+             const narrow_phase::ContactNormal& normal);
 
   /// Episodes that have ended since the last call.
   std::vector<ContactEpisode> TakeFinished();
   const std::vector<ContactEpisode>& finished() const { return finished_; }
 
  private:
-  void Open(Instant free_until, const ContactNormal& normal);
+  void Open(Instant free_until, const narrow_phase::ContactNormal& normal);
   void Close(Instant free_from);
-  void Touch(const SegmentVerdict& verdict, Instant from, Instant to);
+  void Touch(const narrow_phase::SegmentResult& verdict, Instant from, Instant to);
 
   Instant at_;
   bool open_ = false;
@@ -77,4 +77,4 @@ class ContactTracker {
   std::vector<ContactEpisode> finished_;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -2,21 +2,21 @@
 
 #include "collision_core/detection/detector_implementation.h"
 
-namespace collision {
+namespace collision::detection {
 
 Detector::Detector(const DetectorOptions& options)
     : implementation_(std::make_unique<Implementation>(options)) {}
 Detector::~Detector() = default;
 
-bool Detector::Admit(const AgentId& id, const AgentDeclaration& declaration,
-                     const MotionState& state, Instant effective_from) {
+bool Detector::Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+                     const motion::MotionState& state, Instant effective_from) {
   return implementation_->Admit(id, declaration, state, effective_from);
 }
-UpdateOutcome Detector::Update(const AgentId& id, const MotionState& state,
+UpdateOutcome Detector::Update(const AgentId& id, const motion::MotionState& state,
                                Instant effective_from) {
   return implementation_->Update(id, state, effective_from);
 }
-bool Detector::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
+bool Detector::Redeclare(const AgentId& id, const motion::AgentDeclaration& declaration,
                          Instant effective_from) {
   return implementation_->Redeclare(id, declaration, effective_from);
 }
@@ -40,4 +40,4 @@ std::size_t Detector::queued() const { return implementation_->queued(); }
 const DetectorCounters& Detector::counters() const { return implementation_->counters_; }
 Detector::Profile Detector::profile() const { return implementation_->DescribeScene(); }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/broad_phase/chosen_broad_phase.h"
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
 #include "collision_core/detection/collision_event.h"
 #include "collision_core/motion/contract.h"
 #include "collision_core/motion/motion_state.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// Every bound of the detector, with what happens at it.
 struct DetectorOptions {
@@ -23,7 +23,7 @@ struct DetectorOptions {
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
   std::uint32_t history_max =
       64;  ///< States kept for judging; beyond, the oldest go and brackets widen.
-  /// Work that the narrow phase may spend on two shapes in one turn (narrow_phase/work.h); beyond,
+  /// WorkBudget that the narrow phase may spend on two shapes in one turn (narrow_phase/work.h); beyond,
   /// brackets stay wider and say that the budget limited them.
   std::uint64_t work_units_per_turn = 40000;
   /// Likewise in one step on all pairs with shapes, shared out among those whose turn it is
@@ -32,7 +32,7 @@ struct DetectorOptions {
   /// but each turn's.
   std::uint64_t work_units_per_step = 0;
   /// The method that finds who may meet; changes what it costs, never what is told.
-  BroadPhaseMethod broad_phase = BroadPhaseMethod::kAuto;
+  broad_phase::BroadPhaseMethod broad_phase = broad_phase::BroadPhaseMethod::kAuto;
 };
 
 /// Why a clearance was lowered.
@@ -106,15 +106,16 @@ class Detector {
   /// False if `agents_max` is reached or the id is present. An agent that comes after Remove() has
   /// another id (a new generation): the former one is judged a last time beside it. `effective_from`: the greatest time
   /// granted to anybody it can meet (simulated clock), else the state's stamp.
-  bool Admit(const AgentId& id, const AgentDeclaration& declaration, const MotionState& state,
-             Instant effective_from);
+  bool Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+             const motion::MotionState& state, Instant effective_from);
 
   /// `effective_from` is used where the state jumps, widens or breaches.
-  UpdateOutcome Update(const AgentId& id, const MotionState& state, Instant effective_from);
+  UpdateOutcome Update(const AgentId& id, const motion::MotionState& state, Instant effective_from);
 
   /// A new declaration. What widens counts at once (and is told as effective from
   /// `effective_from`); what narrows counts from the next state on. False: unknown agent.
-  bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
+  bool Redeclare(const AgentId& id, const motion::AgentDeclaration& declaration,
+                 Instant effective_from);
 
   /// Open events of the agent are withdrawn (ended, where confirmed). False: unknown agent.
   bool Remove(const AgentId& id);
@@ -159,4 +160,4 @@ class Detector {
   std::unique_ptr<Implementation> implementation_;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

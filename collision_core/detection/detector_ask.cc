@@ -3,8 +3,9 @@
 #include <utility>
 
 #include "collision_core/detection/detector_implementation.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 /// An agent's next meeting beyond announce_within is looked for up to a horizon, and if there is
@@ -84,7 +85,7 @@ void Detector::Implementation::SettleKeys() {
     latest_.Set(agent, Reversed(record.keys.calm()));
   }
   fresh_.clear();
-  const BroadPhaseWork work = broad_phase_.work();
+  const broad_phase::BroadPhaseWork work = broad_phase_.work();
   counters_.pair_queries += work.pair_queries - broad_queries_seen_;
   counters_.filter_tests = work.filter_tests + looks_;
   counters_.broad_units = static_cast<std::uint64_t>(broad_phase_.units());
@@ -226,7 +227,7 @@ bool Detector::Implementation::TracksAll(std::uint32_t agent, int group) const {
 bool Detector::Implementation::IsCrowded(std::uint32_t agent, Instant from, bool was_saturated) {
   const AgentRecord& record = At(agent);
   if (RoomFor(record) > 0) return false;
-  const SpaceTimeBound bound = record.margin.Widen(record.bound());
+  const motion::SpaceTimeBound bound = record.margin.Widen(record.bound());
   const std::uint32_t before = was_saturated ? record.crowded_with : kNobody;
   for (const std::uint32_t partner : {before, crowded_[0], crowded_[1]}) {
     if (partner >= agents_.size() || partner == agent || !agents_[partner]) continue;
@@ -234,8 +235,9 @@ bool Detector::Implementation::IsCrowded(std::uint32_t agent, Instant from, bool
     if (other.expired || Marked(partner)) continue;
     if (!CanMeet(record.bound().declaration, other.bound().declaration)) continue;
     ++counters_.pair_queries;
-    const SpaceTimeBound bound_of_other = other.margin.Widen(other.bound());
-    if (EarliestIntersection(bound, bound_of_other, from).instant() > AnnounceUntil()) continue;
+    const motion::SpaceTimeBound bound_of_other = other.margin.Widen(other.bound());
+    if (intersection::EarliestIntersection(bound, bound_of_other, from).instant() > AnnounceUntil())
+      continue;
     Saturate(agent, partner);
     return true;
   }
@@ -302,7 +304,7 @@ void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, I
   look();
   if (first_.size() > room) first_full = std::min(first_full, first_.front());
   const std::uint32_t end = first_.size() > room ? first_.front() : kNobody;
-  std::erase_if(found_, [&](const Meeting& meeting) {
+  std::erase_if(found_, [&](const broad_phase::Meeting& meeting) {
     return meeting.time.instant() <= until && (IsFull(meeting.partner) || meeting.partner >= end);
   });
   SortByPartner(0, &found_);
@@ -314,7 +316,7 @@ void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, b
                                             Instant covered) {
   const AgentRecord& record = At(agent);
   const Instant until = AnnounceUntil();
-  for (const Meeting& meeting : found_) {
+  for (const broad_phase::Meeting& meeting : found_) {
     Instant when = meeting.time.instant();
     if (when > until) continue;
     const AgentRecord& partner = At(meeting.partner);
@@ -331,7 +333,7 @@ void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, b
 // The earliest of found_ that is not tracked.
 Detector::Implementation::Next Detector::Implementation::FirstFound() const {
   Next next;
-  for (const Meeting& meeting : found_) {
+  for (const broad_phase::Meeting& meeting : found_) {
     if (Marked(meeting.partner) || meeting.time.instant() >= next.key) continue;
     next = {meeting.time.instant(), meeting.partner};
   }
@@ -384,7 +386,7 @@ Instant Detector::Implementation::Horizon(int step) const {
   if (step > kHorizons) return Instant::Never();
   double ahead = options_.announce_within;
   for (int k = 0; k < step; ++k) ahead *= kHorizonFactor;
-  return AddRoundedUp(now_, ahead);
+  return numeric::AddRoundedUp(now_, ahead);
 }
 
 // Questions begin with the horizon that half of the last keys lay within, of agents as restless.
@@ -407,7 +409,7 @@ void Detector::Implementation::Saturate(std::uint32_t agent, std::uint32_t partn
   latest_.Remove(agent);
   Touch(agent);
   const double rest = kSaturatedShare * options_.announce_within;
-  queue_.Set(agent, AddRoundedUp(AddRoundedDown(AnnounceUntil(), rest), 1e-9));
+  queue_.Set(agent, numeric::AddRoundedUp(numeric::AddRoundedDown(AnnounceUntil(), rest), 1e-9));
   if (record.saturated) return;
   ++counters_.saturations;
   record.saturated = true;
@@ -424,4 +426,4 @@ void Detector::Implementation::Unsaturate(std::uint32_t agent) {
   saturated_.pop_back();
 }
 
-}  // namespace collision
+}  // namespace collision::detection

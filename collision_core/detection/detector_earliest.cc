@@ -4,8 +4,9 @@
 
 #include "collision_core/detection/detector_implementation.h"
 #include "collision_core/detection/judge.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 /// Lower bounds come from the canonical routine as well, asked at an earlier time, and what it tells
@@ -17,7 +18,8 @@ Instant MeetsBy(Instant now, Instant told) {
   constexpr double kEarliness = 0x1p-29;
   constexpr double kInstantRounding = 2e-9;
   if (told.is_never() || told <= now) return told;
-  return AddRoundedUp(told, kEarliness * SecondsBetween(now, told).upper + kInstantRounding);
+  return numeric::AddRoundedUp(
+      told, kEarliness * numeric::SecondsBetween(now, told).upper + kInstantRounding);
 }
 
 }  // namespace
@@ -49,7 +51,8 @@ struct Detector::Implementation::EarliestSearch {
 
   Instant Canonical(std::uint32_t a, std::uint32_t b) {
     ++detector.counters_.pair_queries;
-    return EarliestIntersection(detector.At(a).bound(), detector.At(b).bound(), detector.now_)
+    return intersection::EarliestIntersection(detector.At(a).bound(), detector.At(b).bound(),
+                                              detector.now_)
         .instant();
   }
 
@@ -112,9 +115,10 @@ Instant Detector::Implementation::EarliestSearch::NotBefore(const PairRecord& pa
   ++detector.counters_.pair_queries;
   const AgentRecord& a = detector.At(pair.lower);
   const AgentRecord& b = detector.At(pair.higher);
-  Instant bound = EarliestIntersection(KeyMargin(a.bound()).Widen(a.bound()),
-                                       KeyMargin(b.bound()).Widen(b.bound()), detector.now_)
-                      .instant();
+  Instant bound =
+      intersection::EarliestIntersection(KeyMargin(a.bound()).Widen(a.bound()),
+                                         KeyMargin(b.bound()).Widen(b.bound()), detector.now_)
+          .instant();
   if (pair.clear_until < std::max(a.stamp(), b.stamp())) bound = std::min(bound, pair.clear_until);
   return std::max(Instant::FromNanoseconds(Instant::Always().nanoseconds() + 1),
                   std::min(bound, pair.ahead_from));
@@ -150,11 +154,11 @@ void Detector::Implementation::EarliestSearch::OfferPartners(std::uint32_t agent
 
 void Detector::Implementation::EarliestSearch::OfferMeetings(std::uint32_t agent, Instant until,
                                                              Instant horizon) {
-  std::vector<Meeting>& found = detector.found_;
+  std::vector<broad_phase::Meeting>& found = detector.found_;
   found.clear();
   const auto skip = [this](std::uint32_t partner) { return detector.Marked(partner); };
   detector.broad_phase_.Meetings(agent, detector.now_, until, horizon, skip, &found);
-  for (const Meeting& meeting : found) {
+  for (const broad_phase::Meeting& meeting : found) {
     Offer(agent, meeting.partner, Canonical(agent, meeting.partner));
   }
 }
@@ -189,4 +193,4 @@ EarliestAnswer Detector::Implementation::Earliest() {
   return search.best;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

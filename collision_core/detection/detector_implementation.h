@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "collision_core/broad_phase/chosen_broad_phase.h"
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
 #include "collision_core/detection/agent_record.h"
 #include "collision_core/detection/announcer.h"
 #include "collision_core/detection/detector.h"
@@ -18,8 +18,9 @@
 #include "collision_core/detection/restlessness.h"
 #include "collision_core/detection/scene_extremes.h"
 #include "collision_core/detection/work_shares.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// What keeps never-late true between two steps:
 ///  - every two agents that can meet are either a tracked pair, whose tracker says up to when they
@@ -32,10 +33,11 @@ class Detector::Implementation {
  public:
   explicit Implementation(const DetectorOptions& options);
 
-  bool Admit(const AgentId& id, const AgentDeclaration& declaration, const MotionState& state,
-             Instant effective_from);
-  UpdateOutcome Update(const AgentId& id, const MotionState& state, Instant effective_from);
-  bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
+  bool Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+             const motion::MotionState& state, Instant effective_from);
+  UpdateOutcome Update(const AgentId& id, const motion::MotionState& state, Instant effective_from);
+  bool Redeclare(const AgentId& id, const motion::AgentDeclaration& declaration,
+                 Instant effective_from);
   bool Remove(const AgentId& id);
   void Hear(const AgentId& id, Instant until);
   void Advance(Instant now);
@@ -76,15 +78,17 @@ class Detector::Implementation {
   AgentRecord* Find(const AgentId& id);
   AgentRecord& At(std::uint32_t agent) { return *agents_[agent]; }
   const AgentRecord& At(std::uint32_t agent) const { return *agents_[agent]; }
-  Instant AnnounceUntil() const { return AddRoundedDown(now_, options_.announce_within); }
+  Instant AnnounceUntil() const { return numeric::AddRoundedDown(now_, options_.announce_within); }
 
   // Updates (detector_update.cc).
-  void Store(std::uint32_t agent, const SpaceTimeBound& bound, Link link);
-  UpdateOutcome Return(std::uint32_t agent, const SpaceTimeBound& next, Instant effective_from);
-  UpdateOutcome Jump(std::uint32_t agent, const SpaceTimeBound& next, Instant effective_from);
-  UpdateOutcome Keep(std::uint32_t agent, const SpaceTimeBound& next, const ContractCheck& check,
+  void Store(std::uint32_t agent, const motion::SpaceTimeBound& bound, Link link);
+  UpdateOutcome Return(std::uint32_t agent, const motion::SpaceTimeBound& next,
+                       Instant effective_from);
+  UpdateOutcome Jump(std::uint32_t agent, const motion::SpaceTimeBound& next,
                      Instant effective_from);
-  void Break(std::uint32_t agent, const SpaceTimeBound& next, Instant effective_from);
+  UpdateOutcome Keep(std::uint32_t agent, const motion::SpaceTimeBound& next,
+                     const motion::ContractCheck& check, Instant effective_from);
+  void Break(std::uint32_t agent, const motion::SpaceTimeBound& next, Instant effective_from);
   void Put(std::uint32_t agent);
   void Narrow(std::uint32_t agent);
   void NoteBound(std::uint32_t agent);
@@ -155,7 +159,7 @@ class Detector::Implementation {
   void TrackUncovered(std::uint32_t agent, bool renewed, Instant covered);
   void TrackIfUncovered(std::uint32_t agent, std::uint32_t partner, bool renewed, Instant covered);
   void FindAround(std::uint32_t agent, Instant from);
-  double OwnReach(const SpaceTimeBound& motion, Instant from) const;
+  double OwnReach(const motion::SpaceTimeBound& motion, Instant from) const;
   Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covered) const;
   bool FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from, Instant to);
 
@@ -165,7 +169,7 @@ class Detector::Implementation {
   void ShareOut();
   WorkClaim ClaimOf(std::uint32_t slot) const;
   void Turn(std::uint32_t slot, std::uint64_t allowed, bool last);
-  void Judge(std::uint32_t slot, bool last, ContactTracker* preview, Work* work);
+  void Judge(std::uint32_t slot, bool last, ContactTracker* preview, WorkBudget* work);
   void NoteContactAhead(const ContactTracker& preview, PairRecord* pair) const;
   void NoteDue(std::uint32_t slot);
   Instant RestOf(std::uint32_t slot, const ContactTracker& preview) const;
@@ -180,7 +184,7 @@ class Detector::Implementation {
   std::unordered_map<AgentId, std::uint32_t, IdHash> index_;  // never walked over
   std::vector<std::unique_ptr<AgentRecord>> agents_;          // by index; null: free
   std::vector<std::uint32_t> free_;
-  ChosenBroadPhase broad_phase_;
+  broad_phase::AdaptiveBroadPhase broad_phase_;
   std::uint64_t broad_queries_seen_ = 0;
   FormerMotions former_;
   SceneExtremes extremes_;
@@ -206,7 +210,7 @@ class Detector::Implementation {
   std::vector<std::uint32_t> fresh_;      // asked since the last SettleKeys()
 
   // Kept for their memory.
-  std::vector<Meeting> found_;
+  std::vector<broad_phase::Meeting> found_;
   std::vector<std::uint32_t> candidates_, slots_, first_;
   std::vector<int> groups_;           // that an agent is asked about by themselves
   std::vector<WorkClaim> claims_;     // of slots_
@@ -226,4 +230,4 @@ class Detector::Implementation {
   std::vector<std::uint8_t> full_;         // by agent: as many tracked pairs as it may have
 };
 
-}  // namespace collision
+}  // namespace collision::detection

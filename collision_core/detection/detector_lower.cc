@@ -3,7 +3,7 @@
 
 #include "collision_core/detection/detector_implementation.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 /// Keys beyond this horizon are far.
@@ -12,7 +12,7 @@ constexpr int kFarHorizon = 4;
 /// With so few keys all are looked at one by one.
 constexpr std::size_t kFewKeys = 32;
 
-/// Work in units of a filter's test, about as it takes time: to look at one key, at a place, at a
+/// WorkBudget in units of a filter's test, about as it takes time: to look at one key, at a place, at a
 /// partner that the broad phase offers, and a pair query.
 constexpr std::uint64_t kKeyUnits = 16;
 constexpr std::uint64_t kVisitUnits = 16;
@@ -63,12 +63,13 @@ std::uint64_t Detector::Implementation::LowerFarKeys(std::uint32_t agent, Instan
   });
   if (candidates_.empty()) return sooner;
   std::sort(candidates_.begin(), candidates_.end());
-  const SpaceTimeBound bound = At(agent).margin.Widen(At(agent).bound());
+  const motion::SpaceTimeBound bound = At(agent).margin.Widen(At(agent).bound());
   for (const std::uint32_t partner : candidates_) {
     const AgentRecord& other = At(partner);
     ++counters_.pair_queries;
-    const SpaceTimeBound bound_of_other = other.margin.Widen(other.bound());
-    LowerKey(partner, agent, EarliestIntersection(bound, bound_of_other, from).instant());
+    const motion::SpaceTimeBound bound_of_other = other.margin.Widen(other.bound());
+    LowerKey(partner, agent,
+             intersection::EarliestIntersection(bound, bound_of_other, from).instant());
   }
   return sooner;
 }
@@ -82,13 +83,14 @@ std::uint64_t Detector::Implementation::LowerNearKeys(std::uint32_t agent, Insta
     return Marked(partner) || !latest_.Contains(partner) ||
            key_rows_.CertainlyLater(agent, partner, KeyOf(partner, agent));
   };
-  const BroadPhaseWork before = broad_phase_.work();
+  const broad_phase::BroadPhaseWork before = broad_phase_.work();
   found_.clear();
   broad_phase_.Meetings(agent, from, horizon, horizon, skip, &found_);
-  const BroadPhaseWork after = broad_phase_.work();
+  const broad_phase::BroadPhaseWork after = broad_phase_.work();
   looks_ += offers;
   SortByPartner(0, &found_);
-  for (const Meeting& meeting : found_) LowerKey(meeting.partner, agent, meeting.time.instant());
+  for (const broad_phase::Meeting& meeting : found_)
+    LowerKey(meeting.partner, agent, meeting.time.instant());
   return after.filter_tests - before.filter_tests + kVisitUnits * (after.visits - before.visits) +
          kQueryUnits * (after.pair_queries - before.pair_queries) + kOfferUnits * offers;
 }
@@ -128,4 +130,4 @@ void Detector::Implementation::LowerKey(std::uint32_t partner, std::uint32_t age
   if (sooner) Tell(partner, agent);
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -4,8 +4,9 @@
 
 #include "collision_core/detection/detector_implementation.h"
 #include "collision_core/detection/judge.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 // Shapes are looked at so far ahead, in units of announce_within: a little beyond what the
@@ -109,7 +110,7 @@ void Detector::Implementation::NoteDue(std::uint32_t slot) {
   const PairRecord& pair = pairs_[slot];
   const double ahead = pair.announced ? options_.temporal_resolution : options_.announce_within;
   // Rounded as now + ahead is: clear_until <= now + ahead exactly if due <= now.
-  const Instant due = std::min(AddRoundedUp(pair.clear_until, -ahead), pair.settles);
+  const Instant due = std::min(numeric::AddRoundedUp(pair.clear_until, -ahead), pair.settles);
   pairs_due_.Set(slot, pair.in_contact ? pair.rests_until : due);
 }
 
@@ -126,18 +127,18 @@ Instant Detector::Implementation::RestOf(std::uint32_t slot, const ContactTracke
   const bool begun = pair.tracker.in_contact() ||
                      (preview.in_contact() && preview.episode().begin.latest <= pair.tracker.at());
   if (!begun || !preview.in_contact() || !preview.finished().empty()) return Instant::Always();
-  const SpaceTimeBound& a = At(pair.lower).bound();
-  const SpaceTimeBound& b = At(pair.higher).bound();
-  for (const SpaceTimeBound* bound : {&a, &b}) {
-    const AgentDeclaration& declaration = bound->declaration;
+  const motion::SpaceTimeBound& a = At(pair.lower).bound();
+  const motion::SpaceTimeBound& b = At(pair.higher).bound();
+  for (const motion::SpaceTimeBound* bound : {&a, &b}) {
+    const motion::AgentDeclaration& declaration = bound->declaration;
     if (declaration.shape || declaration.shape_awaited) return Instant::Always();
     if (bound->state.stamp > preview.at()) return Instant::Always();
   }
   const Eigen::Vector3d w = b.state.v_WA - a.state.v_WA;
-  double left = kInfinity;
+  double left = numeric::kInfinity;
   for (const Instant at : {preview.at(), now_}) {
-    const double tau_A = SecondsBetween(a.state.stamp, at).middle();
-    const double tau_B = SecondsBetween(b.state.stamp, at).middle();
+    const double tau_A = numeric::SecondsBetween(a.state.stamp, at).middle();
+    const double tau_B = numeric::SecondsBetween(b.state.stamp, at).middle();
     const Eigen::Vector3d d =
         (b.state.p_WA - a.state.p_WA) + tau_B * b.state.v_WA - tau_A * a.state.v_WA;
     const double sum = a.state.p_WA.norm() + b.state.p_WA.norm() + tau_A * a.state.v_WA.norm() +
@@ -148,8 +149,8 @@ Instant Detector::Implementation::RestOf(std::uint32_t slot, const ContactTracke
   const double rest =
       kRestShare * options_.announce_within * (1 + static_cast<double>(slot % kTimes) / kTimes) / 2;
   const double speed = w.norm();
-  const double apart = speed > 0 ? (1 - kMargin) * left / speed : kInfinity;
-  return AddRoundedDown(now_, std::min(rest, apart));
+  const double apart = speed > 0 ? (1 - kMargin) * left / speed : numeric::kInfinity;
+  return numeric::AddRoundedDown(now_, std::min(rest, apart));
 }
 
 // Up to here no later state of the agent is waited for. States of its own rate may still narrow
@@ -160,7 +161,8 @@ double Detector::Implementation::Patience(const AgentRecord& agent) const {
 }
 
 Instant Detector::Implementation::SettledUntil(const AgentRecord& agent) const {
-  return std::max(agent.stamp(), std::min(agent.heard, AddRoundedDown(now_, -Patience(agent))));
+  return std::max(agent.stamp(),
+                  std::min(agent.heard, numeric::AddRoundedDown(now_, -Patience(agent))));
 }
 
 // States may reach beyond now: then contacts that have not begun yet are known, and their ends.
@@ -187,7 +189,7 @@ void Detector::Implementation::Turn(std::uint32_t slot, std::uint64_t allowed, b
     return;
   }
   // One budget for all that this turn looks at, what is settled first.
-  Work work(allowed);
+  WorkBudget work(allowed);
   ContactTracker preview = pair.tracker;
   Judge(slot, last, &preview, &work);
   pair.work += work.spent();
@@ -197,9 +199,10 @@ void Detector::Implementation::Turn(std::uint32_t slot, std::uint64_t allowed, b
   NoteContactAhead(preview, &pair);
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
-  pair.settles = preview.finished().empty() ? Instant::Never()
-                                            : AddRoundedUp(preview.finished().front().end.latest,
-                                                           std::max(Patience(a), Patience(b)));
+  pair.settles = preview.finished().empty()
+                     ? Instant::Never()
+                     : numeric::AddRoundedUp(preview.finished().front().end.latest,
+                                             std::max(Patience(a), Patience(b)));
   pair.unsettled_until =
       preview.finished().empty() ? Instant::Always() : preview.finished().back().end.latest;
   pair.turned = step_;
@@ -218,12 +221,12 @@ void Detector::Implementation::Turn(std::uint32_t slot, std::uint64_t allowed, b
 
 // Judges the pair's three horizons one after the other; `preview` ends at the last that holds.
 void Detector::Implementation::Judge(std::uint32_t slot, bool last, ContactTracker* preview,
-                                     Work* work) {
+                                     WorkBudget* work) {
   PairRecord& pair = pairs_[slot];
   const AgentRecord& a = At(pair.lower);
   const AgentRecord& b = At(pair.higher);
   const auto judge = [&](Instant until, ContactTracker* tracker) {
-    const Judged judged = collision::Judge(a.history, b.history, until, work, tracker);
+    const Judged judged = detection::Judge(a.history, b.history, until, work, tracker);
     counters_.segments += judged.segments;
     counters_.glances += judged.at_a_glance;
   };
@@ -247,7 +250,7 @@ void Detector::Implementation::Judge(std::uint32_t slot, bool last, ContactTrack
   judge(std::min(std::max(a.stamp(), b.stamp()), there), &outlook);
   if (!outlook.free() || outlook.finished().size() != preview->finished().size()) return;
   const Instant from = std::min(now_, outlook.at());
-  const Instant earliest = EarliestIntersection(a.bound(), b.bound(), from).instant();
+  const Instant earliest = intersection::EarliestIntersection(a.bound(), b.bound(), from).instant();
   ++counters_.pair_queries;
   if (from == now_) {
     pair.earliest = earliest;
@@ -257,7 +260,7 @@ void Detector::Implementation::Judge(std::uint32_t slot, bool last, ContactTrack
   if (HaveShapes(a.history, b.history) && WearsOut(pair.looked_ahead, now_, outlook.at())) {
     pair.looked_ahead = now_;
     // Balls that overlap need not touch: as far ahead as decides what is announced.
-    const Instant ahead = AddRoundedDown(now_, kLookAhead * options_.announce_within);
+    const Instant ahead = numeric::AddRoundedDown(now_, kLookAhead * options_.announce_within);
     outlook.ExtendFree(
         ShapesFreeAhead(a.history, b.history, outlook.at(), std::min(ahead, there), work));
   }
@@ -305,8 +308,8 @@ bool Detector::Implementation::Untrack(std::uint32_t slot) {
   Instant key = pair.clear_until;
   if (!HaveShapes(a.history, b.history)) {
     ++counters_.pair_queries;
-    const PairTime wide =
-        EarliestIntersection(a.margin.Widen(a.bound()), b.margin.Widen(b.bound()), now_);
+    const intersection::IntersectionTime wide = intersection::EarliestIntersection(
+        a.margin.Widen(a.bound()), b.margin.Widen(b.bound()), now_);
     key = std::min(key, wide.instant());
   }
   if (key <= AnnounceUntil() || key < std::max(a.stamp(), b.stamp())) return false;
@@ -335,4 +338,4 @@ void Detector::Implementation::Release(std::uint32_t slot) {
   pairs_.Remove(slot);
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -2,8 +2,9 @@
 #include <algorithm>
 
 #include "collision_core/detection/detector_implementation.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 /// News may be so late, in units of announce_within, and still find what was known of the time it
@@ -77,9 +78,9 @@ void Detector::Implementation::ForgetPast() {
     const bool counts = record != nullptr && !record->expired && record->leaving == 0;
     return counts ? &record->bound() : nullptr;
   });
-  const Instant late = AddRoundedDown(now_, -kLateness * options_.announce_within);
+  const Instant late = numeric::AddRoundedDown(now_, -kLateness * options_.announce_within);
   const Instant since = std::max(late, std::min(now_, extremes_.bounds().oldest));
-  former_.Forget(AddRoundedDown(since, -options_.skew));
+  former_.Forget(numeric::AddRoundedDown(since, -options_.skew));
   for (const std::uint32_t agent : changed_) {
     if (agents_[agent] == nullptr) continue;
     AgentRecord& record = At(agent);
@@ -93,4 +94,4 @@ void Detector::Implementation::ForgetPast() {
   changed_.clear();
 }
 
-}  // namespace collision
+}  // namespace collision::detection

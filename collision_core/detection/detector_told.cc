@@ -3,7 +3,7 @@
 
 #include "collision_core/detection/detector_implementation.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 bool Same(const AgentClearance& a, const AgentClearance& b) {
@@ -83,4 +83,4 @@ Detector::Profile Detector::Implementation::DescribeScene() const {
           .left_out = scene_.LeftOut()};
 }
 
-}  // namespace collision
+}  // namespace collision::detection

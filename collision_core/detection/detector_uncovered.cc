@@ -6,8 +6,9 @@
 #include <algorithm>
 
 #include "collision_core/detection/detector_implementation.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 /// |v| t + M t (t + h) is more than the path that either direction of the horn allows, and has room
@@ -17,19 +18,20 @@ double Path(double speed, double acceleration_max, double time_step, double t) {
 }
 
 /// Of one agent, from where its newest state says.
-double PathOf(const SpaceTimeBound& bound, double t) {
+double PathOf(const motion::SpaceTimeBound& bound, double t) {
   return Path(bound.state.v_WA.norm() + bound.state.velocity_error,
               bound.declaration.acceleration_max, bound.declaration.time_step, t);
 }
 
 /// Twice the skew: of either clock.
 double Span(Instant a, Instant b, double skew) {
-  return b <= a ? 0 : SecondsBetween(a, b).upper + 2 * skew;
+  return b <= a ? 0 : numeric::SecondsBetween(a, b).upper + 2 * skew;
 }
 
 /// Whether the agent may get from its newest bound, within so much time of it, into the ball of
 /// `around`, `reach` wide beside its radius.
-bool GetsInto(const SpaceTimeBound& around, double reach, const SpaceTimeBound& bound, double t) {
+bool GetsInto(const motion::SpaceTimeBound& around, double reach,
+              const motion::SpaceTimeBound& bound, double t) {
   const double sum = reach + around.declaration.radius + bound.declaration.radius +
                      2 * bound.state.position_error + PathOf(bound, t);
   const double magnitude = around.state.p_WA.norm() + bound.state.p_WA.norm();
@@ -82,9 +84,9 @@ void Detector::Implementation::FindAround(std::uint32_t agent, Instant from) {
   const double others = 2 * scene.position_error_max + Path(scene.speed_max, scene.acceleration_max,
                                                             scene.time_step_max, others_time);
   const auto skip = [&](std::uint32_t partner) { return IsLeftOut(agent, partner); };
-  At(agent).history.ForEachMotion(from, [&](const SpaceTimeBound& motion) {
+  At(agent).history.ForEachMotion(from, [&](const motion::SpaceTimeBound& motion) {
     const double own = OwnReach(motion, from);
-    SpaceTimeBound around;
+    motion::SpaceTimeBound around;
     around.state.stamp = from;
     around.state.p_WA = motion.state.p_WA;
     around.state.position_error = std::min(own + others, 1e300);
@@ -95,9 +97,9 @@ void Detector::Implementation::FindAround(std::uint32_t agent, Instant from) {
     broad_phase_.Put(agent, around);
     found_.clear();
     broad_phase_.Meetings(agent, from, scene.newest, scene.newest, skip, &found_);
-    for (const Meeting& meeting : found_) {
+    for (const broad_phase::Meeting& meeting : found_) {
       const AgentRecord& partner = At(meeting.partner);
-      const SpaceTimeBound bound = partner.margin.Widen(partner.bound());
+      const motion::SpaceTimeBound bound = partner.margin.Widen(partner.bound());
       const double time = Span(partner.stamp(), scene.newest, options_.skew);
       if (GetsInto(around, own, bound, std::max(others_time, time))) {
         candidates_.push_back(meeting.partner);
@@ -109,7 +111,8 @@ void Detector::Implementation::FindAround(std::uint32_t agent, Instant from) {
 }
 
 // How far from its place the agent may have been in this motion since `from`.
-double Detector::Implementation::OwnReach(const SpaceTimeBound& motion, Instant from) const {
+double Detector::Implementation::OwnReach(const motion::SpaceTimeBound& motion,
+                                          Instant from) const {
   const double skew = options_.skew;
   const Instant stamp = motion.state.stamp;
   const double time =
@@ -125,11 +128,11 @@ Instant Detector::Implementation::UncoveredFrom(const AgentRecord& a, const Agen
 
 bool Detector::Implementation::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,
                                         Instant to) {
-  const SpaceTimeBound* bound_a = a.history.Uninterrupted(from);
-  const SpaceTimeBound* bound_b = b.history.Uninterrupted(from);
+  const motion::SpaceTimeBound* bound_a = a.history.Uninterrupted(from);
+  const motion::SpaceTimeBound* bound_b = b.history.Uninterrupted(from);
   if (bound_a == nullptr || bound_b == nullptr) return false;
   ++counters_.pair_queries;
-  return EarliestIntersection(*bound_a, *bound_b, from).instant() >= to;
+  return intersection::EarliestIntersection(*bound_a, *bound_b, from).instant() >= to;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

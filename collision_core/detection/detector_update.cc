@@ -2,31 +2,33 @@
 #include <algorithm>
 
 #include "collision_core/detection/detector_implementation.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 // Whether somebody might have been met under the first that cannot be under the second.
-bool Narrower(const AgentDeclaration& before, const AgentDeclaration& next) {
+bool Narrower(const motion::AgentDeclaration& before, const motion::AgentDeclaration& next) {
   return next.radius < before.radius || next.acceleration_max < before.acceleration_max ||
          next.time_step < before.time_step;
 }
 
 // The same body, though perhaps with another tree.
-bool SameBody(const std::shared_ptr<const Shape>& a, const std::shared_ptr<const Shape>& b) {
+bool SameBody(const std::shared_ptr<const shape::Shape>& a,
+              const std::shared_ptr<const shape::Shape>& b) {
   return a == b || (a && b && a->IsSameBodyAs(*b));
 }
 
 // What is in force until the next state. A shape that was awaited has been there since the state that it is in force
 // with; one that the owner changed since, or changes now, is somewhere within the ball until the next state.
-void Reshape(const AgentDeclaration& before, const AgentDeclaration& declaration,
+void Reshape(const motion::AgentDeclaration& before, const motion::AgentDeclaration& declaration,
              AgentRecord* record) {
-  AgentDeclaration& in_force = record->history.newest().declaration;
+  motion::AgentDeclaration& in_force = record->history.newest().declaration;
   const bool arrived = before.shape_awaited && declaration.shape != nullptr;
   const bool same = SameBody(declaration.shape, before.shape) &&
                     declaration.shape_awaited == before.shape_awaited;
   // Another tree says nothing new of the past: it counts there, too, and the former one is of no use.
-  if (same && declaration.shape) record->history.Retree(declaration.shape);
+  if (same && declaration.shape) record->history.ReplaceTree(declaration.shape);
   if (arrived && !record->reshaped) {
     in_force.shape = declaration.shape;
     in_force.shape_awaited = false;
@@ -40,15 +42,15 @@ void Reshape(const AgentDeclaration& before, const AgentDeclaration& declaration
 
 // Puts in force what is wider than before; what is narrower waits for the next state. True if
 // somebody who relied on the bound must be asked anew.
-bool Widen(const AgentDeclaration& declaration, AgentRecord* record) {
-  AgentDeclaration& in_force = record->history.newest().declaration;
-  const AgentDeclaration before = in_force;
+bool Widen(const motion::AgentDeclaration& declaration, AgentRecord* record) {
+  motion::AgentDeclaration& in_force = record->history.newest().declaration;
+  const motion::AgentDeclaration before = in_force;
   in_force.radius = std::max(before.radius, declaration.radius);
   in_force.acceleration_max = std::max(before.acceleration_max, declaration.acceleration_max);
   in_force.speed_max = std::max(before.speed_max, declaration.speed_max);
   in_force.time_step = std::max(before.time_step, declaration.time_step);
-  in_force.angular_acceleration_max =
-      WiderAngularBound(before.angular_acceleration_max, declaration.angular_acceleration_max);
+  in_force.angular_acceleration_max = motion::WiderAngularBound(
+      before.angular_acceleration_max, declaration.angular_acceleration_max);
   const bool spins_faster = in_force.angular_acceleration_max != before.angular_acceleration_max;
   Reshape(before, declaration, record);
   in_force.group = declaration.group;
@@ -66,7 +68,7 @@ Detector::Implementation::Implementation(const DetectorOptions& options)
       announcer_(options, &counters_),
       options_(options),
       broad_phase_(options.broad_phase),
-      former_(std::make_unique<ChosenBroadPhase>(), options.agents_max),
+      former_(std::make_unique<broad_phase::AdaptiveBroadPhase>(), options.agents_max),
       key_rows_(options.skew) {
   for (auto& of_class : horizons_) of_class.fill(1);
 }
@@ -89,8 +91,8 @@ AgentRecord* Detector::Implementation::Find(const AgentId& id) {
   return found == index_.end() ? nullptr : agents_[found->second].get();
 }
 
-bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& declaration,
-                                     const MotionState& state, Instant effective_from) {
+bool Detector::Implementation::Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+                                     const motion::MotionState& state, Instant effective_from) {
   if (index_.size() >= options_.agents_max || index_.contains(id)) return false;
   std::uint32_t agent;
   if (free_.empty()) {
@@ -117,33 +119,34 @@ bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& 
   return true;
 }
 
-UpdateOutcome Detector::Implementation::Update(const AgentId& id, const MotionState& state,
+UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::MotionState& state,
                                                Instant effective_from) {
   const auto found = index_.find(id);
   if (found == index_.end()) return UpdateOutcome::kUnknown;
   const std::uint32_t agent = found->second;
   AgentRecord& record = At(agent);
   if (state.stamp < record.stamp()) return UpdateOutcome::kOlder;
-  const SpaceTimeBound next{state, record.declaration, options_.skew};
+  const motion::SpaceTimeBound next{state, record.declaration, options_.skew};
   if (record.expired) return Return(agent, next, effective_from);
   if (state.discontinuity) return Jump(agent, next, effective_from);
-  const ContractCheck check = CheckContract(record.bound(), state);
+  const motion::ContractCheck check = CheckContract(record.bound(), state);
   switch (check.verdict) {
-    case ContractVerdict::kKept:
+    case motion::ContractVerdict::kKept:
       return Keep(agent, next, check, effective_from);
-    case ContractVerdict::kWidened:
+    case motion::ContractVerdict::kWidened:
       ++counters_.widenings;
       Store(agent, next, Link::kFollows);
       Renew(agent, state.stamp, ClearanceCause::kWidening, effective_from);
       return UpdateOutcome::kWidened;
-    case ContractVerdict::kBreached:
+    case motion::ContractVerdict::kBreached:
       break;
   }
   Break(agent, next, effective_from);
   return UpdateOutcome::kBreached;
 }
 
-void Detector::Implementation::Store(std::uint32_t agent, const SpaceTimeBound& bound, Link link) {
+void Detector::Implementation::Store(std::uint32_t agent, const motion::SpaceTimeBound& bound,
+                                     Link link) {
   AgentRecord& record = At(agent);
   record.history.Push(bound, link, options_.history_max);
   record.reshaped = false;
@@ -152,7 +155,8 @@ void Detector::Implementation::Store(std::uint32_t agent, const SpaceTimeBound& 
 }
 
 // It had expired: it starts anew.
-UpdateOutcome Detector::Implementation::Return(std::uint32_t agent, const SpaceTimeBound& next,
+UpdateOutcome Detector::Implementation::Return(std::uint32_t agent,
+                                               const motion::SpaceTimeBound& next,
                                                Instant effective_from) {
   AgentRecord& record = At(agent);
   record.expired = false;
@@ -164,19 +168,23 @@ UpdateOutcome Detector::Implementation::Return(std::uint32_t agent, const SpaceT
   return UpdateOutcome::kJumped;
 }
 
-UpdateOutcome Detector::Implementation::Jump(std::uint32_t agent, const SpaceTimeBound& next,
+UpdateOutcome Detector::Implementation::Jump(std::uint32_t agent,
+                                             const motion::SpaceTimeBound& next,
                                              Instant effective_from) {
   ++counters_.jumps;
   const Instant stamp = next.state.stamp;
-  former_.Keep(agent, At(agent).bound(), AddRoundedUp(stamp, options_.skew));
+  former_.Keep(agent, At(agent).bound(), numeric::AddRoundedUp(stamp, options_.skew));
   Store(agent, next, Link::kJumped);
   // By our clock the jump may have come earlier by the skew.
-  Renew(agent, AddRoundedDown(stamp, -options_.skew), ClearanceCause::kTeleport, effective_from);
+  Renew(agent, numeric::AddRoundedDown(stamp, -options_.skew), ClearanceCause::kTeleport,
+        effective_from);
   return UpdateOutcome::kJumped;
 }
 
-UpdateOutcome Detector::Implementation::Keep(std::uint32_t agent, const SpaceTimeBound& next,
-                                             const ContractCheck& check, Instant effective_from) {
+UpdateOutcome Detector::Implementation::Keep(std::uint32_t agent,
+                                             const motion::SpaceTimeBound& next,
+                                             const motion::ContractCheck& check,
+                                             Instant effective_from) {
   ++counters_.updates_kept;
   AgentRecord& record = At(agent);
   const bool covered = record.margin.Spend(check, record.bound().state);
@@ -197,7 +205,7 @@ UpdateOutcome Detector::Implementation::Keep(std::uint32_t agent, const SpaceTim
   return UpdateOutcome::kKept;
 }
 
-void Detector::Implementation::Break(std::uint32_t agent, const SpaceTimeBound& next,
+void Detector::Implementation::Break(std::uint32_t agent, const motion::SpaceTimeBound& next,
                                      Instant effective_from) {
   ++counters_.breaches;
   AgentRecord& record = At(agent);
@@ -212,7 +220,8 @@ void Detector::Implementation::Break(std::uint32_t agent, const SpaceTimeBound& 
   }
 }
 
-bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
+bool Detector::Implementation::Redeclare(const AgentId& id,
+                                         const motion::AgentDeclaration& declaration,
                                          Instant effective_from) {
   const auto found = index_.find(id);
   if (found == index_.end()) return false;
@@ -250,14 +259,14 @@ void Detector::Implementation::Hear(const AgentId& id, Instant until) {
 }
 
 void Detector::Implementation::Put(std::uint32_t agent) {
-  const SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
+  const motion::SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
   broad_phase_.Put(agent, wide);
   key_rows_.Put(agent, wide);
   NoteBound(agent);
 }
 
 void Detector::Implementation::Narrow(std::uint32_t agent) {
-  const SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
+  const motion::SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
   broad_phase_.Narrow(agent, wide);
   key_rows_.Put(agent, wide);
   NoteBound(agent);
@@ -266,7 +275,7 @@ void Detector::Implementation::Narrow(std::uint32_t agent) {
 // What is kept of the newest bound beside the broad phase.
 void Detector::Implementation::NoteBound(std::uint32_t agent) {
   AgentRecord& record = At(agent);
-  const SpaceTimeBound& bound = record.bound();
+  const motion::SpaceTimeBound& bound = record.bound();
   extremes_.Include(bound);
   if (bound.state.expiry.is_never()) {
     expiries_.Remove(agent);
@@ -334,4 +343,4 @@ void Detector::Implementation::Tell(std::uint32_t agent, std::uint32_t cause) {
   Touch(agent);
 }
 
-}  // namespace collision
+}  // namespace collision::detection

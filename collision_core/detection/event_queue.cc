@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace collision {
+namespace collision::detection {
 
 void EventQueue::Set(std::uint32_t index, Instant key) {
   if (place_.size() <= index) place_.resize(index + 1, kAbsent);
@@ -75,4 +75,4 @@ void EventQueue::SiftDown(std::size_t at) {
   Place(at, entry);
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/motion/instant.h"
+#include "collision_core/base/instant.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// A binary heap of (key, index), with each index's place known so that its key can change in O(log
 /// n). Equal keys come in the order of the indices, so that the order never depends on history.
@@ -44,4 +44,4 @@ class EventQueue {
   std::vector<std::uint32_t> place_;  // by index
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-namespace collision {
+namespace collision::detection {
 
-void FormerMotions::Keep(std::uint32_t agent, SpaceTimeBound bound, Instant until) {
+void FormerMotions::Keep(std::uint32_t agent, motion::SpaceTimeBound bound, Instant until) {
   if (motions_max_ == 0) return;
   if (motions_.size() == motions_max_) DropFirst();
   if (agents_.empty()) agents_.push_back(kAsking);
@@ -31,7 +31,7 @@ void FormerMotions::Forget(Instant since) {
   while (!motions_.empty() && motions_.front().until <= since) DropFirst();
 }
 
-void FormerMotions::Find(const SpaceTimeBound& around, Instant from, Instant until,
+void FormerMotions::Find(const motion::SpaceTimeBound& around, Instant from, Instant until,
                          std::vector<std::uint32_t>* agents) {
   if (motions_.empty()) return;
   method_->Put(kAsking, around);
@@ -39,7 +39,7 @@ void FormerMotions::Find(const SpaceTimeBound& around, Instant from, Instant unt
   method_->Meetings(
       kAsking, from, until, until, [](std::uint32_t) { return false; }, &found_);
   method_->Remove(kAsking);
-  for (const Meeting& meeting : found_) agents->push_back(agents_[meeting.partner]);
+  for (const broad_phase::Meeting& meeting : found_) agents->push_back(agents_[meeting.partner]);
 }
 
-}  // namespace collision
+}  // namespace collision::detection

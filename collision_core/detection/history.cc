@@ -2,36 +2,39 @@
 
 #include <algorithm>
 
-namespace collision {
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
 namespace {
 
 // The declaration under which an agent moved between two states: whatever either allowed.
-AgentDeclaration Widest(const AgentDeclaration& a, const AgentDeclaration& b) {
-  AgentDeclaration widest = b;
+motion::AgentDeclaration Widest(const motion::AgentDeclaration& a,
+                                const motion::AgentDeclaration& b) {
+  motion::AgentDeclaration widest = b;
   widest.radius = std::max(a.radius, b.radius);
   widest.acceleration_max = std::max(a.acceleration_max, b.acceleration_max);
   widest.time_step = std::max(a.time_step, b.time_step);
   widest.angular_acceleration_max =
-      WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max);
+      motion::WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max);
   return widest;
 }
 
-bool HasShape(const AgentDeclaration& declaration) {
+bool HasShape(const motion::AgentDeclaration& declaration) {
   return declaration.shape != nullptr || declaration.shape_awaited;
 }
 
 }  // namespace
 
-void History::Push(const SpaceTimeBound& bound, Link link, std::size_t capacity) {
+void History::Push(const motion::SpaceTimeBound& bound, Link link, std::size_t capacity) {
   if (samples_.size() >= capacity) Thin();
   // Where nothing can be spared, the oldest goes, and what it covered becomes unknown.
   if (samples_.size() >= capacity) samples_.erase(samples_.begin());
   samples_.push_back({bound, link});
 }
 
-void History::Retree(const std::shared_ptr<const Shape>& shape) {
+void History::ReplaceTree(const std::shared_ptr<const shape::Shape>& shape) {
   for (Sample& sample : samples_) {
-    std::shared_ptr<const Shape>& known = sample.bound.declaration.shape;
+    std::shared_ptr<const shape::Shape>& known = sample.bound.declaration.shape;
     if (known && known->IsSameBodyAs(*shape)) known = shape;
   }
 }
@@ -66,7 +69,8 @@ std::size_t History::InForce(Instant t) const {
 
 double History::LastInterval() const {
   if (samples_.size() < 2) return 0;
-  return SecondsBetween(samples_[samples_.size() - 2].bound.state.stamp, newest().state.stamp)
+  return numeric::SecondsBetween(samples_[samples_.size() - 2].bound.state.stamp,
+                                 newest().state.stamp)
       .upper;
 }
 
@@ -76,12 +80,12 @@ Instant History::NextCutAfter(Instant t) const {
     if (at > t) next = std::min(next, at);
   };
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const SpaceTimeBound& bound = samples_[i].bound;
+    const motion::SpaceTimeBound& bound = samples_[i].bound;
     cut(bound.state.stamp);
     cut(bound.state.expiry);
     if (i > 0 && samples_[i].link == Link::kJumped && bound.skew > 0) {
-      cut(AddRoundedDown(bound.state.stamp, -bound.skew));
-      cut(AddRoundedUp(bound.state.stamp, bound.skew));
+      cut(numeric::AddRoundedDown(bound.state.stamp, -bound.skew));
+      cut(numeric::AddRoundedUp(bound.state.stamp, bound.skew));
     }
   }
   return next;
@@ -96,7 +100,7 @@ Instant History::LastStampBefore(Instant t) const {
   return Instant::Never();
 }
 
-const SpaceTimeBound* History::Uninterrupted(Instant t) const {
+const motion::SpaceTimeBound* History::Uninterrupted(Instant t) const {
   const std::size_t k = InForce(t);
   if (k == samples_.size()) return nullptr;
   for (std::size_t later = k + 1; later < samples_.size(); ++later) {
@@ -106,49 +110,49 @@ const SpaceTimeBound* History::Uninterrupted(Instant t) const {
 }
 
 bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
-  const SpaceTimeBound& bound = samples_[i].bound;
+  const motion::SpaceTimeBound& bound = samples_[i].bound;
   return samples_[i].link == Link::kJumped && bound.skew > 0 &&
-         AddRoundedDown(bound.state.stamp, -bound.skew) <= from &&
-         to <= AddRoundedUp(bound.state.stamp, bound.skew);
+         numeric::AddRoundedDown(bound.state.stamp, -bound.skew) <= from &&
+         to <= numeric::AddRoundedUp(bound.state.stamp, bound.skew);
 }
 
 // By our clock the jump may have come anywhere within the skew: the agent moves as before it, or as after it, so
 // that one ball must contain both. With c, u of before and c', u' of after, all of both lies within
 //   u + u' + |c' − c| <= u + u' + |Δc| + |Δv| δ   about c(δ).
-BodySegment History::OverJump(std::size_t i, Instant from, Instant to) const {
-  BodySegment segment;
+narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant to) const {
+  narrow_phase::BodySegment segment;
   for (std::size_t other = i + 1; other < samples_.size(); ++other) {
     if (JumpsNear(other, from, to)) return segment;  // more than two motions: nothing is said
   }
-  const SpaceTimeBound& before = samples_[i - 1].bound;
-  const SpaceTimeBound& after = samples_[i].bound;
+  const motion::SpaceTimeBound& before = samples_[i - 1].bound;
+  const motion::SpaceTimeBound& after = samples_[i].bound;
   segment.awaited = HasShape(before.declaration) || HasShape(after.declaration);
   if (from < before.state.stamp || after.declaration != before.declaration) return segment;
-  MovingBall ball = ForwardBall(before, from);
-  const MovingBall jumped =
+  motion::MovingBall ball = ForwardBall(before, from);
+  const motion::MovingBall jumped =
       from >= after.state.stamp ? ForwardBall(after, from) : BackwardBall(after, from);
-  ball.u0 = ball.u0 + jumped.u0 + Norm(jumped.centre - ball.centre);
-  ball.u1 = ball.u1 + jumped.u1 + Norm(jumped.velocity - ball.velocity);
+  ball.u0 = ball.u0 + jumped.u0 + numeric::Norm(jumped.centre - ball.centre);
+  ball.u1 = ball.u1 + jumped.u1 + numeric::Norm(jumped.velocity - ball.velocity);
   ball.u2 = ball.u2 + jumped.u2;
   segment.ball.radius = before.declaration.radius;
   segment.ball.bounds.push_back(ball);
   return segment;
 }
 
-BodySegment History::Over(Instant from, Instant to) const {
-  BodySegment segment;
+narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
+  narrow_phase::BodySegment segment;
   const std::size_t k = InForce(from);
   if (k == samples_.size()) return segment;
   for (std::size_t i = 1; i < samples_.size(); ++i) {
     if (JumpsNear(i, from, to)) return OverJump(i, from, to);
   }
   const bool has_next = k + 1 < samples_.size();
-  SpaceTimeBound last = samples_[k].bound;
-  SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
-  BallSegment& ball = segment.ball;
+  motion::SpaceTimeBound last = samples_[k].bound;
+  motion::SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
+  narrow_phase::BallSegment& ball = segment.ball;
   ball.radius = std::min(last.declaration.radius, next.declaration.radius);
-  const Interval spread =
-      Interval(std::max(last.declaration.radius, next.declaration.radius)) - ball.radius;
+  const numeric::Interval spread =
+      numeric::Interval(std::max(last.declaration.radius, next.declaration.radius)) - ball.radius;
   if (last.declaration.shape == next.declaration.shape) segment.shape = last.declaration.shape;
   segment.awaited = !segment.shape && (HasShape(last.declaration) || HasShape(next.declaration));
   last.declaration = next.declaration = Widest(last.declaration, next.declaration);
@@ -157,14 +161,14 @@ BodySegment History::Over(Instant from, Instant to) const {
   const bool at_last = to == last.state.stamp;
   if (to <= last.state.expiry && (!broken || at_last)) {
     ball.bounds.push_back(ForwardBall(last, from));
-    if (segment.shape) segment.turns.push_back(ForwardTurn(last, from));
+    if (segment.shape) segment.turns.push_back(ForwardRotation(last, from));
   }
   if (has_next && samples_[k + 1].link == Link::kFollows) {
     ball.bounds.push_back(BackwardBall(next, from));
-    if (segment.shape) segment.turns.push_back(BackwardTurn(next, from));
+    if (segment.shape) segment.turns.push_back(BackwardRotation(next, from));
   }
-  for (MovingBall& bound : ball.bounds) bound.u0 = bound.u0 + spread;
+  for (motion::MovingBall& bound : ball.bounds) bound.u0 = bound.u0 + spread;
   return segment;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

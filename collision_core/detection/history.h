@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <vector>
 
-#include "collision_core/narrow_phase/body_segment.h"
+#include "collision_core/narrow_phase/pose/body_segment.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// How a state follows from the one before it.
 enum class Link {
@@ -20,22 +20,22 @@ enum class Link {
 class History {
  public:
   struct Sample {
-    SpaceTimeBound bound;
+    motion::SpaceTimeBound bound;
     Link link;
   };
 
   void Clear() { samples_.clear(); }
-  void Push(const SpaceTimeBound& bound, Link link, std::size_t capacity);
+  void Push(const motion::SpaceTimeBound& bound, Link link, std::size_t capacity);
 
   /// Every sample with a twin of this shape has it from now on: the same body, by a better tree.
-  void Retree(const std::shared_ptr<const Shape>& shape);
+  void ReplaceTree(const std::shared_ptr<const shape::Shape>& shape);
 
   /// Forgets what is not needed from `since` on: later calls of Uninterrupted() and Over() may not go before
   /// it. The newest two samples stay.
   void Trim(Instant since);
 
-  const SpaceTimeBound& newest() const { return samples_.back().bound; }
-  SpaceTimeBound& newest() { return samples_.back().bound; }
+  const motion::SpaceTimeBound& newest() const { return samples_.back().bound; }
+  motion::SpaceTimeBound& newest() { return samples_.back().bound; }
 
   /// The seconds between the newest two samples; 0 if there is only one.
   double LastInterval() const;
@@ -49,7 +49,7 @@ class History {
   Instant LastStampBefore(Instant t) const;
 
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
-  const SpaceTimeBound* Uninterrupted(Instant t) const;
+  const motion::SpaceTimeBound* Uninterrupted(Instant t) const;
 
   /// Calls `use` with the last bound of each motion since `from`: a jump or a breach begins a new
   /// one. Radius and acceleration are the greatest so far.
@@ -58,11 +58,11 @@ class History {
     const std::size_t in_force = InForce(from);
     double radius = 0, acceleration_max = 0;
     for (std::size_t i = in_force < samples_.size() ? in_force : 0; i < samples_.size(); ++i) {
-      const AgentDeclaration& declaration = samples_[i].bound.declaration;
+      const motion::AgentDeclaration& declaration = samples_[i].bound.declaration;
       radius = std::max(radius, declaration.radius);
       acceleration_max = std::max(acceleration_max, declaration.acceleration_max);
       if (i + 1 < samples_.size() && samples_[i + 1].link == Link::kFollows) continue;
-      SpaceTimeBound motion = samples_[i].bound;
+      motion::SpaceTimeBound motion = samples_[i].bound;
       motion.declaration.radius = radius;
       motion.declaration.acceleration_max = acceleration_max;
       use(motion);
@@ -72,15 +72,15 @@ class History {
   /// What is certain on [from, to], where no cut lies strictly between. With samples of unequal
   /// radius the smaller counts, and the difference is added to the uncertainty; with samples of
   /// unequal shape, and about a jump, the shape counts as awaited.
-  BodySegment Over(Instant from, Instant to) const;
+  narrow_phase::BodySegment Over(Instant from, Instant to) const;
 
  private:
   void Thin();
   bool JumpsNear(std::size_t i, Instant from, Instant to) const;
-  BodySegment OverJump(std::size_t i, Instant from, Instant to) const;
+  narrow_phase::BodySegment OverJump(std::size_t i, Instant from, Instant to) const;
   std::size_t InForce(Instant t) const;  // index of the last sample with stamp <= t; size() if none
 
   std::vector<Sample> samples_;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -2,14 +2,16 @@
 
 #include <algorithm>
 
-#include "collision_core/narrow_phase/ball_proximity.h"
+#include "collision_core/narrow_phase/contact/ball_proximity.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 // Where two balls were certified to be nearest: looked for at the ends and where the centres' lines
 // are nearest.
-Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, double duration) {
+Nearest NearestOf(const narrow_phase::BallSegment& a, const narrow_phase::BallSegment& b,
+                  Instant from, double duration) {
   Nearest nearest;
   if (a.bounds.empty() || b.bounds.empty()) return nearest;
   const Eigen::Vector3d d = (b.bounds[0].centre - a.bounds[0].centre).middle();
@@ -17,9 +19,9 @@ Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, doub
   const double speed_squared = w.squaredNorm();
   const double bottom = speed_squared > 0 ? -d.dot(w) / speed_squared : 0;
   for (const double delta : {0.0, std::clamp(bottom, 0.0, duration), duration}) {
-    const Proximity found = BallProximity(a, b, delta);
+    const narrow_phase::Proximity found = BallProximity(a, b, delta);
     if (nearest.at.is_never() || found.separation.upper < nearest.found.separation.upper) {
-      nearest = {AddRoundedDown(from, delta), found};
+      nearest = {numeric::AddRoundedDown(from, delta), found};
     }
   }
   return nearest;
@@ -28,43 +30,44 @@ Nearest NearestOf(const BallSegment& a, const BallSegment& b, Instant from, doub
 // Of a shape that has not arrived only the ball is known: it can exclude a contact, not confirm
 // one, nor how near the two are.
 Nearest AwaitedNearest(Nearest nearest) {
-  nearest.found.separation.upper = kInfinity;
+  nearest.found.separation.upper = numeric::kInfinity;
   nearest.found.depth_lower = 0;
-  nearest.found.point_error = kInfinity;
+  nearest.found.point_error = numeric::kInfinity;
   nearest.found.normal_error = std::numbers::pi;
-  nearest.found.limited_by = EventLimit::kGeometry;
+  nearest.found.limited_by = narrow_phase::EventLimit::kGeometry;
   return nearest;
 }
 
 // They may touch as soon as the segment begins: then the direction is that of the last state
 // before, whose pose is known better than any other's. None where a jump lies between, or where a
 // shape was not known then.
-ContactNormal NormalBefore(const History& a, const History& b, Instant from, Work* work) {
+narrow_phase::ContactNormal NormalBefore(const History& a, const History& b, Instant from,
+                                         WorkBudget* work) {
   const Instant of_a = a.LastStampBefore(from), of_b = b.LastStampBefore(from);
   if (of_a.is_never() || of_b.is_never()) return {};
   const Instant before = std::max(of_a, of_b);
   const Instant to = std::min({from, a.NextCutAfter(before), b.NextCutAfter(before)});
-  const BodySegment body_a = a.Over(before, to), body_b = b.Over(before, to);
+  const narrow_phase::BodySegment body_a = a.Over(before, to), body_b = b.Over(before, to);
   if (body_a.awaited || body_b.awaited || (body_a.is_ball() && body_b.is_ball())) return {};
   return NormalAt(body_a, body_b, 0, work);
 }
 
 // Whether a glance was enough.
 bool JudgeOne(const History& history_a, const History& history_b, Instant from, Instant to,
-              Work* work, ContactTracker* tracker) {
-  const BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
-  const double duration = SecondsBetween(from, to).upper;
+              WorkBudget* work, ContactTracker* tracker) {
+  const narrow_phase::BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
+  const double duration = numeric::SecondsBetween(from, to).upper;
   const bool balls = a.is_ball() && b.is_ball();
   work->Spend(1);
   if (balls) {
-    if (const auto contact = ContactAtAGlance(a.ball, b.ball, duration)) {
+    if (const auto contact = QuickBallContact(a.ball, b.ball, duration)) {
       tracker->Apply(*contact, to, {}, {});
       return true;
     }
   }
-  SegmentVerdict times = JudgeSegment(a.ball, b.ball, duration);
+  narrow_phase::SegmentResult times = EvaluateBallSegment(a.ball, b.ball, duration);
   Nearest nearest;
-  ContactNormal normal;
+  narrow_phase::ContactNormal normal;
   if (times.free_until < duration) {
     if (a.awaited || b.awaited) {
       times.contact_from = 1, times.contact_to = 0;
@@ -75,15 +78,16 @@ bool JudgeOne(const History& history_a, const History& history_b, Instant from, 
       const bool contact = goes_on || times.contact_from <= times.contact_to;
       if (!contact) nearest = NearestOf(a.ball, b.ball, from, duration);
     } else {
-      const ShapeVerdict verdict = JudgeShapes(a, b, duration, times, work);
+      const narrow_phase::ShapeSegmentResult verdict =
+          EvaluateShapeSegment(a, b, duration, times, work);
       times = verdict.times;
       normal = verdict.normal;
       if (tracker->free() && times.free_until < duration && !normal.tells()) {
-        const ContactNormal before = NormalBefore(history_a, history_b, from, work);
+        const narrow_phase::ContactNormal before = NormalBefore(history_a, history_b, from, work);
         if (before.known && (!normal.known || before.error < normal.error)) normal = before;
       }
       if (verdict.looked) {
-        nearest = {std::min(AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest,
+        nearest = {std::min(numeric::AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest,
                    verdict.exhausted};
       }
     }
@@ -94,7 +98,7 @@ bool JudgeOne(const History& history_a, const History& history_b, Instant from, 
 
 }  // namespace
 
-Judged Judge(const History& a, const History& b, Instant until, Work* work,
+Judged Judge(const History& a, const History& b, Instant until, WorkBudget* work,
              ContactTracker* tracker) {
   Judged judged;
   while (tracker->at() < until) {
@@ -111,21 +115,22 @@ bool HaveShapes(const History& a, const History& b) {
 }
 
 Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
-                        Work* work) {
+                        WorkBudget* work) {
   until = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
   if (until <= from) return from;
-  const BodySegment of_a = a.Over(from, until);
-  const BodySegment of_b = b.Over(from, until);
+  const narrow_phase::BodySegment of_a = a.Over(from, until);
+  const narrow_phase::BodySegment of_b = b.Over(from, until);
   if (of_a.awaited || of_b.awaited || (of_a.is_ball() && of_b.is_ball())) return from;
-  const double duration = SecondsBetween(from, until).upper;
+  const double duration = numeric::SecondsBetween(from, until).upper;
   const double free = FreeAhead(of_a, of_b, 0, duration, work);
-  return std::min(until, AddRoundedDown(from, free));
+  return std::min(until, numeric::AddRoundedDown(from, free));
 }
 
-Proximity ProximityOf(const History& a, const History& b, Instant at, Work* work) {
+narrow_phase::Proximity ProximityOf(const History& a, const History& b, Instant at,
+                                    WorkBudget* work) {
   work->Spend(1);
-  const BodySegment of_a = a.Over(at, at);
-  const BodySegment of_b = b.Over(at, at);
+  const narrow_phase::BodySegment of_a = a.Over(at, at);
+  const narrow_phase::BodySegment of_b = b.Over(at, at);
   if (of_a.is_ball() && of_b.is_ball()) return BallProximity(of_a.ball, of_b.ball, 0);
   if (of_a.awaited || of_b.awaited) {
     return AwaitedNearest({at, BallProximity(of_a.ball, of_b.ball, 0)}).found;
@@ -133,4 +138,4 @@ Proximity ProximityOf(const History& a, const History& b, Instant at, Work* work
   return ShapeProximity(of_a, of_b, 0, work);
 }
 
-}  // namespace collision
+}  // namespace collision::detection

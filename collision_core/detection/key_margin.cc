@@ -2,9 +2,9 @@
 
 #include "collision_core/numeric/rounding.h"
 
-namespace collision {
+namespace collision::detection {
 
-KeyMargin::KeyMargin(const SpaceTimeBound& bound) {
+KeyMargin::KeyMargin(const motion::SpaceTimeBound& bound) {
   constexpr double kShare = 0x1p-40;
   constexpr double kStampRounding = 4e-9;
   const double speed = bound.state.v_WA.norm();
@@ -17,11 +17,11 @@ KeyMargin::KeyMargin(const SpaceTimeBound& bound) {
 // unit in its last place, 2^-52 of it, and the next one is never too large. So drift and that unit
 // taken off keep the next widened bound inside the one before; twice the unit covers the rounding
 // of the product below. Zero and a margin add up exactly.
-bool KeyMargin::Spend(const ContractCheck& check, const MotionState& before) {
+bool KeyMargin::Spend(const motion::ContractCheck& check, const motion::MotionState& before) {
   constexpr double kSumRounding = 0x1p-51;
   const auto spend = [](double drift, double error, double* left) {
-    const double lost = AddUp(drift, kSumRounding * (error > 0 ? error + *left : 0));
-    *left = AddDown(*left, -lost);
+    const double lost = numeric::AddUp(drift, kSumRounding * (error > 0 ? error + *left : 0));
+    *left = numeric::AddDown(*left, -lost);
     return *left >= 0;
   };
   const bool position = spend(check.position_drift, before.position_error, &position_);
@@ -29,10 +29,10 @@ bool KeyMargin::Spend(const ContractCheck& check, const MotionState& before) {
   return position && velocity;
 }
 
-SpaceTimeBound KeyMargin::Widen(const SpaceTimeBound& bound) const {
-  SpaceTimeBound wide = bound;
-  wide.state.position_error = AddDown(bound.state.position_error, position_);
-  wide.state.velocity_error = AddDown(bound.state.velocity_error, velocity_);
+motion::SpaceTimeBound KeyMargin::Widen(const motion::SpaceTimeBound& bound) const {
+  motion::SpaceTimeBound wide = bound;
+  wide.state.position_error = numeric::AddDown(bound.state.position_error, position_);
+  wide.state.velocity_error = numeric::AddDown(bound.state.velocity_error, velocity_);
   if (bound.state.discontinuity && bound.skew > 0) {
     // The jump may have come earlier by the skew: where it has been since then belongs to the bound.
     const double speed = bound.state.v_WA.norm() + bound.declaration.acceleration_max * bound.skew;
@@ -41,4 +41,4 @@ SpaceTimeBound KeyMargin::Widen(const SpaceTimeBound& bound) const {
   return wide;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 /// NaN, with which nothing is certain, if they are centuries apart.
@@ -17,11 +17,11 @@ double Seconds(Instant from, Instant to) {
 
 }  // namespace
 
-void KeyRows::Put(std::uint32_t agent, const SpaceTimeBound& bound) {
+void KeyRows::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
   if (rows_.size() <= agent) rows_.resize(agent + 1);
   Row& row = rows_[agent];
-  const MotionState& state = bound.state;
-  const AgentDeclaration& declaration = bound.declaration;
+  const motion::MotionState& state = bound.state;
+  const motion::AgentDeclaration& declaration = bound.declaration;
   row.p = state.p_WA;
   row.v = state.v_WA;
   row.speed = state.v_WA.norm();
@@ -59,4 +59,4 @@ bool KeyRows::CertainlyLater(std::uint32_t agent, std::uint32_t partner, Instant
   return (d + w * nearest).norm() > reach + margin;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -6,7 +6,7 @@
 
 #include "collision_core/motion/space_time_bound.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// Of each agent what the test needs, side by side: its newest bound in short.
 class KeyRows {
@@ -14,7 +14,7 @@ class KeyRows {
   explicit KeyRows(double skew) : skew_(skew) {}
 
   /// The bound that keys come from, where an agent that has jumped may still be before the jump.
-  void Put(std::uint32_t agent, const SpaceTimeBound& bound);
+  void Put(std::uint32_t agent, const motion::SpaceTimeBound& bound);
   /// True only if no motions within the two bounds bring them together before `until`. Says so
   /// mostly, where the two are well apart until then.
   bool CertainlyLater(std::uint32_t agent, std::uint32_t partner, Instant until) const;
@@ -35,4 +35,4 @@ class KeyRows {
   std::vector<Row> rows_;  // by agent
 };
 
-}  // namespace collision
+}  // namespace collision::detection

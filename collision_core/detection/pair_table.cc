@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace collision {
+namespace collision::detection {
 
 std::optional<std::uint32_t> PairTable::Add(const PairRecord& pair) {
   if (size_ == pairs_max_) return std::nullopt;
@@ -67,4 +67,4 @@ void PairTable::Forget(std::uint32_t agent) {
   numbers_[agent] = Numbers();
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -8,7 +8,7 @@
 
 #include "collision_core/detection/contact_tracker.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// More work than any turn may spend.
 inline constexpr std::uint64_t kAllWanted = ~std::uint64_t{0};
@@ -95,4 +95,4 @@ class PairTable {
   std::vector<Numbers> numbers_;  // by agent
 };
 
-}  // namespace collision
+}  // namespace collision::detection

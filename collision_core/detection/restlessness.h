@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace collision {
+namespace collision::detection {
 
 /// A scene's agents by classes of their acceleration bounds, each class 8 times the one before.
 /// Beside an agent whoever stands two classes above is restless: surely with 64 times its bound,
@@ -75,4 +75,4 @@ class Restlessness {
   std::vector<std::uint8_t> classes_;  // by agent
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace collision {
+namespace collision::detection {
 
-void SceneExtremes::Bounds::Include(const SpaceTimeBound& bound) {
-  const MotionState& state = bound.state;
+void SceneExtremes::Bounds::Include(const motion::SpaceTimeBound& bound) {
+  const motion::MotionState& state = bound.state;
   oldest = std::min(oldest, state.stamp);
   newest = std::max(newest, state.stamp);
   speed_max = std::max(speed_max, state.v_WA.norm() + state.velocity_error);
@@ -14,4 +14,4 @@ void SceneExtremes::Bounds::Include(const SpaceTimeBound& bound) {
   time_step_max = std::max(time_step_max, bound.declaration.time_step);
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -3,7 +3,7 @@
 
 #include "collision_core/motion/space_time_bound.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// Kept without a walk over all agents: each new state is included at once, and a round that looks
 /// at a few agents a step forgets what is no longer so. Until a round is over the bounds may be
@@ -18,7 +18,7 @@ class SceneExtremes {
     double acceleration_max = 0;
     double time_step_max = 0;
 
-    void Include(const SpaceTimeBound& bound);
+    void Include(const motion::SpaceTimeBound& bound);
   };
 
   /// So many agents are looked at in a step, and so many more for each that has changed.
@@ -27,7 +27,7 @@ class SceneExtremes {
 
   const Bounds& bounds() const { return bounds_; }
 
-  void Include(const SpaceTimeBound& bound) {
+  void Include(const motion::SpaceTimeBound& bound) {
     bounds_.Include(bound);
     next_.Include(bound);
   }
@@ -42,7 +42,7 @@ class SceneExtremes {
       Restart();
     }
     for (; looks > 0; --looks) {
-      if (const SpaceTimeBound* bound = bound_of(at_)) next_.Include(*bound);
+      if (const motion::SpaceTimeBound* bound = bound_of(at_)) next_.Include(*bound);
       if (++at_ < size) continue;
       bounds_ = next_;
       Restart();
@@ -59,4 +59,4 @@ class SceneExtremes {
   std::size_t at_ = 0;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -1,6 +1,6 @@
 #include "collision_core/detection/scene_profile.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 enum Feature {
@@ -19,15 +19,15 @@ enum Feature {
 
 }  // namespace
 
-SceneProfile::Features SceneProfile::Of(const SpaceTimeBound& bound) {
-  const MotionState& state = bound.state;
-  const AgentDeclaration& declaration = bound.declaration;
+SceneProfile::Features SceneProfile::Of(const motion::SpaceTimeBound& bound) {
+  const motion::MotionState& state = bound.state;
+  const motion::AgentDeclaration& declaration = bound.declaration;
   const bool shaped = declaration.shape || declaration.shape_awaited;
   const bool turning = declaration.angular_acceleration_max != 0 || !state.w_WB.isZero();
   unsigned features = 0;
   const auto set = [&](Feature feature, bool needed) { features |= needed ? 1u << feature : 0; };
   set(kAccelerating, declaration.acceleration_max > 0);
-  set(kCapped, declaration.speed_max < kInfinity);
+  set(kCapped, declaration.speed_max < numeric::kInfinity);
   set(kDirected, !state.direction.isZero());
   set(kStepping, declaration.time_step > 0);
   set(kUncertain, state.position_error > 0 || state.velocity_error > 0);
@@ -66,4 +66,4 @@ std::vector<std::string> SceneProfile::LeftOut() const {
   return left_out;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -8,7 +8,7 @@
 
 #include "collision_core/motion/space_time_bound.h"
 
-namespace collision {
+namespace collision::detection {
 
 /// Counts which parts of the mathematics the scene uses; by what the agents declare and say, never
 /// by measured time, so that the same scene gives the same profile everywhere. O(1) per change.
@@ -17,7 +17,7 @@ class SceneProfile {
   /// One bit for each part that an agent needs.
   using Features = std::uint16_t;
 
-  static Features Of(const SpaceTimeBound& bound);
+  static Features Of(const motion::SpaceTimeBound& bound);
 
   void Add(Features features) { Count(features, 1); }
   void Remove(Features features) { Count(features, -1); }
@@ -33,4 +33,4 @@ class SceneProfile {
   std::array<std::int64_t, kFeatures> counts_{};
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace collision {
+namespace collision::detection {
 
 // Water is poured into vessels of different width, the one that is full first at the front: what it
 // does not take rises in the others. Products stay below 2^48, wanted ones are cut to the total.
@@ -27,4 +27,4 @@ const std::vector<std::uint64_t>& WorkShares::Of(const std::vector<WorkClaim>& c
   return shares_;
 }
 
-}  // namespace collision
+}  // namespace collision::detection

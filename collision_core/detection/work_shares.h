@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace collision {
+namespace collision::detection {
 
 /// What a pair would use, and how much it matters beside the others.
 struct WorkClaim {
@@ -27,4 +27,4 @@ class WorkShares {
   std::vector<std::uint32_t> order_;
 };
 
-}  // namespace collision
+}  // namespace collision::detection

@@ -5,8 +5,9 @@
 #include "collision_core/motion/contract_between.h"
 #include "collision_core/motion/contract_cap.h"
 #include "collision_core/numeric/rotation.h"
+#include "collision_core/numeric/seconds.h"
 
-namespace collision {
+namespace collision::motion {
 namespace {
 
 /// Steps a sender's integrator may take between two states; each rounds p twice and v once, by half
@@ -44,63 +45,69 @@ Allowance RoundingAllowance(const SpaceTimeBound& before, const MotionState& nex
 
 /// The deviations from uniform motion, and how far each may go.
 struct Deviations {
-  IntervalVector position, velocity;
-  Interval position_length, velocity_length;
+  numeric::IntervalVector position, velocity;
+  numeric::Interval position_length, velocity_length;
 };
 
-Deviations DeviationsOf(const SpaceTimeBound& before, const MotionState& next, Interval s) {
+Deviations DeviationsOf(const SpaceTimeBound& before, const MotionState& next,
+                        numeric::Interval s) {
   Deviations e;
-  const IntervalVector v(before.state.v_WA);
-  e.position = IntervalVector(next.p_WA) - IntervalVector(before.state.p_WA) - s * v;
-  e.velocity = IntervalVector(next.v_WA) - v;
-  e.position_length = Norm(e.position);
-  e.velocity_length = Norm(e.velocity);
+  const numeric::IntervalVector v(before.state.v_WA);
+  e.position =
+      numeric::IntervalVector(next.p_WA) - numeric::IntervalVector(before.state.p_WA) - s * v;
+  e.velocity = numeric::IntervalVector(next.v_WA) - v;
+  e.position_length = numeric::Norm(e.position);
+  e.velocity_length = numeric::Norm(e.velocity);
   return e;
 }
 
 struct Limits {
-  Interval position, velocity;
+  numeric::Interval position, velocity;
 };
 
 /// No true motion goes further. Both stamps may be off by κ, in opposite ways; both states err.
-Limits LimitsOfMotion(const SpaceTimeBound& before, const MotionState& next, Interval s) {
+Limits LimitsOfMotion(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
   const MotionState& old = before.state;
-  const Interval skew = Interval(2) * before.skew;
-  const Interval sigma = s + skew;
-  const Interval acceleration_max = before.declaration.acceleration_max;
-  return {Interval(old.position_error) + next.position_error +
-              Norm(IntervalVector(old.v_WA)) * skew + Interval(old.velocity_error) * sigma +
-              Interval(0.5) * acceleration_max * sigma * (sigma + before.declaration.time_step),
-          Interval(old.velocity_error) + next.velocity_error + acceleration_max * sigma};
+  const numeric::Interval skew = numeric::Interval(2) * before.skew;
+  const numeric::Interval sigma = s + skew;
+  const numeric::Interval acceleration_max = before.declaration.acceleration_max;
+  return {numeric::Interval(old.position_error) + next.position_error +
+              numeric::Norm(numeric::IntervalVector(old.v_WA)) * skew +
+              numeric::Interval(old.velocity_error) * sigma +
+              numeric::Interval(0.5) * acceleration_max * sigma *
+                  (sigma + before.declaration.time_step),
+          numeric::Interval(old.velocity_error) + next.velocity_error + acceleration_max * sigma};
 }
 
 /// Within these the new horn lies inside the old one: u'(0) + |e_p| <= u(s) and the slopes
-/// likewise, written out so that what both sides share cancels (README.md beside this file).
-Limits LimitsOfHorn(const SpaceTimeBound& before, const MotionState& next, Interval s) {
+/// likewise, written out so that what both sides share cancels (contract.h).
+Limits LimitsOfHorn(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
   const MotionState& old = before.state;
-  const Interval skew = before.skew;
-  const Interval acceleration_max = before.declaration.acceleration_max;
-  const Interval less_speed = Norm(IntervalVector(old.v_WA)) - Norm(IntervalVector(next.v_WA));
-  const Interval less_velocity_error = Interval(old.velocity_error) - next.velocity_error;
-  return {Interval(old.position_error) - next.position_error + less_speed * skew +
-              Interval(old.velocity_error) * s + less_velocity_error * skew +
-              Interval(0.5) * acceleration_max * s *
-                  (s + Interval(2) * skew + before.declaration.time_step),
+  const numeric::Interval skew = before.skew;
+  const numeric::Interval acceleration_max = before.declaration.acceleration_max;
+  const numeric::Interval less_speed = numeric::Norm(numeric::IntervalVector(old.v_WA)) -
+                                       numeric::Norm(numeric::IntervalVector(next.v_WA));
+  const numeric::Interval less_velocity_error =
+      numeric::Interval(old.velocity_error) - next.velocity_error;
+  return {numeric::Interval(old.position_error) - next.position_error + less_speed * skew +
+              numeric::Interval(old.velocity_error) * s + less_velocity_error * skew +
+              numeric::Interval(0.5) * acceleration_max * s *
+                  (s + numeric::Interval(2) * skew + before.declaration.time_step),
           less_velocity_error + acceleration_max * s};
 }
 
 /// How far the deviation points against a direction that held all the way, at least and at most.
 struct Against {
-  Interval position = 0, velocity = 0;
+  numeric::Interval position = 0, velocity = 0;
 };
 
 Against AgainstDirection(const SpaceTimeBound& before, const MotionState& next,
                          const Deviations& deviations) {
   if (DirectionHoldsFor(before, next.stamp) < 0) return {};
-  const IntervalVector d(before.state.direction);
-  const Interval length = Norm(d);
-  return {Max(0, -Dot(deviations.position, d) / length),
-          Max(0, -Dot(deviations.velocity, d) / length)};
+  const numeric::IntervalVector d(before.state.direction);
+  const numeric::Interval length = numeric::Norm(d);
+  return {numeric::Max(0, -Dot(deviations.position, d) / length),
+          numeric::Max(0, -Dot(deviations.velocity, d) / length)};
 }
 
 /// The old direction made the boxes smaller beyond next.stamp, and the new one does not do so as
@@ -113,14 +120,14 @@ bool LosesDirection(const SpaceTimeBound& before, const MotionState& next) {
 }
 
 /// `length` certainly exceeds `limit` by this much; 0 if by less than rounding may have cost.
-double Excess(Interval length, Interval limit, double allowed) {
+double Excess(numeric::Interval length, numeric::Interval limit, double allowed) {
   const double least = (length - limit).lower;
   return least > allowed ? least : 0;
 }
 
 /// Fills the excesses and drifts of position and velocity. False if the drifts exceed what rounding
 /// explains.
-bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, Interval s,
+bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s,
                       ContractCheck* check) {
   const Allowance allowance = RoundingAllowance(before, next, s.upper);
   const Deviations deviations = DeviationsOf(before, next, s);
@@ -144,9 +151,9 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, Int
 
   const Limits horn = LimitsOfHorn(before, next, s);
   check->position_drift =
-      (Max(0, deviations.position_length - horn.position) + against.position).upper;
+      (numeric::Max(0, deviations.position_length - horn.position) + against.position).upper;
   check->velocity_drift =
-      (Max(0, deviations.velocity_length - horn.velocity) + against.velocity).upper;
+      (numeric::Max(0, deviations.velocity_length - horn.velocity) + against.velocity).upper;
   if (HasSpeedCap(before.declaration)) {
     const CapCheck cap = CheckCap(before, next);
     const auto exceed = [](double excess, double allowed, double* of) {
@@ -160,14 +167,15 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, Int
          check->velocity_drift <= 2 * allowance.velocity;
 }
 
-// Rotation. Let Φ(R, R̂) be the angle of R R̂ᵀ, a metric on rotations that no rotation applied to both,
-// from either side, changes. R turns at ω(t), R̂ at the constant ω, both in W. In a short dt, by the
-// triangle inequality through exp(ω dt) R,
-//   Φ(exp(ω(t) dt) R, exp(ω dt) R̂) <= Φ(exp(ω(t) dt), exp(ω dt)) + Φ(R, R̂) = |ω(t) − ω| dt + Φ(R, R̂)
-// to first order: Φ grows at most at the rate |ω(t) − ω| <= α τ, so Φ <= ½ α τ². An integrator of step
-// h turns by exp(ω_k h) with ω_k = ω_{k−1} + a_k h, |a_k| <= α: step k adds at most α k h · h, and
-// after n steps Φ <= ½ α h² n (n + 1) = ½ α τ (τ + h). An error of the orientation at the start stays
-// what it is; stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
+// Rotation. Let Φ(R, S) be the angle of R Sᵀ, a metric on rotations that no rotation applied to
+// both, from either side, changes. R turns at ω(t), the prediction S at the constant ω, both in W.
+// In a short dt, by the triangle inequality through exp(ω dt) R, to first order
+//   Φ(exp(ω(t) dt) R, exp(ω dt) S) <= Φ(exp(ω(t) dt), exp(ω dt)) + Φ(R, S)
+//                                   = |ω(t) − ω| dt + Φ(R, S):
+// Φ grows at most at the rate |ω(t) − ω| <= α τ, so Φ <= ½ α τ². An integrator of step h turns by
+// exp(ω_k h) with ω_k = ω_{k−1} + a_k h, |a_k| <= α: step k adds at most α k h · h, and after n steps
+// Φ <= ½ α h² n (n + 1) = ½ α τ (τ + h). An error of the orientation at the start stays what it is;
+// stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
 
 /// Whether the declaration says anything of the orientation that matters.
 bool BoundsRotation(const AgentDeclaration& declaration) {
@@ -176,24 +184,27 @@ bool BoundsRotation(const AgentDeclaration& declaration) {
 }
 
 /// No true motion turns further: the orientation, then the angular velocity.
-Limits LimitsOfTurning(const SpaceTimeBound& before, const MotionState& next, Interval s) {
-  const Interval skew = Interval(2) * before.skew, sigma = s + skew;
-  const Interval acceleration_max = before.declaration.angular_acceleration_max;
-  return {Interval(before.state.rotation_error) + next.rotation_error +
-              Norm(IntervalVector(before.state.w_WB)) * skew +
-              Interval(0.5) * acceleration_max * sigma * (sigma + before.declaration.time_step),
+Limits LimitsOfTurning(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
+  const numeric::Interval skew = numeric::Interval(2) * before.skew, sigma = s + skew;
+  const numeric::Interval acceleration_max = before.declaration.angular_acceleration_max;
+  return {numeric::Interval(before.state.rotation_error) + next.rotation_error +
+              numeric::Norm(numeric::IntervalVector(before.state.w_WB)) * skew +
+              numeric::Interval(0.5) * acceleration_max * sigma *
+                  (sigma + before.declaration.time_step),
           acceleration_max * sigma};
 }
 
 /// Within these the new bound on the orientation lies inside the old one, as LimitsOfHorn().
-Limits LimitsOfTurningHorn(const SpaceTimeBound& before, const MotionState& next, Interval s) {
+Limits LimitsOfTurningHorn(const SpaceTimeBound& before, const MotionState& next,
+                           numeric::Interval s) {
   const MotionState& old = before.state;
-  const Interval skew = before.skew;
-  const Interval acceleration_max = before.declaration.angular_acceleration_max;
-  const Interval less_speed = Norm(IntervalVector(old.w_WB)) - Norm(IntervalVector(next.w_WB));
-  return {Interval(old.rotation_error) - next.rotation_error + less_speed * skew +
-              Interval(0.5) * acceleration_max * s *
-                  (s + Interval(2) * skew + before.declaration.time_step),
+  const numeric::Interval skew = before.skew;
+  const numeric::Interval acceleration_max = before.declaration.angular_acceleration_max;
+  const numeric::Interval less_speed = numeric::Norm(numeric::IntervalVector(old.w_WB)) -
+                                       numeric::Norm(numeric::IntervalVector(next.w_WB));
+  return {numeric::Interval(old.rotation_error) - next.rotation_error + less_speed * skew +
+              numeric::Interval(0.5) * acceleration_max * s *
+                  (s + numeric::Interval(2) * skew + before.declaration.time_step),
           acceleration_max * s};
 }
 
@@ -208,18 +219,20 @@ Allowance TurnRoundingAllowance(const SpaceTimeBound& before, const MotionState&
 }
 
 /// As CheckTranslation(), of orientation and angular velocity.
-bool CheckRotation(const SpaceTimeBound& before, const MotionState& next, Interval s,
+bool CheckRotation(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s,
                    ContractCheck* check) {
   const MotionState& old = before.state;
-  const Interval angle = AngleBetween(Turned(old.q_WB, old.w_WB, s), UnitQuaternion(next.q_WB));
-  const Interval change = Norm(IntervalVector(next.w_WB) - IntervalVector(old.w_WB));
+  const numeric::Interval angle =
+      AngleBetween(Turned(old.q_WB, old.w_WB, s), numeric::UnitQuaternion(next.q_WB));
+  const numeric::Interval change =
+      numeric::Norm(numeric::IntervalVector(next.w_WB) - numeric::IntervalVector(old.w_WB));
   const Allowance allowance = TurnRoundingAllowance(before, next, s.upper);
   const Limits motion = LimitsOfTurning(before, next, s);
   check->rotation_excess = Excess(angle, motion.position, allowance.position);
   check->angular_velocity_excess = Excess(change, motion.velocity, allowance.velocity);
   const Limits horn = LimitsOfTurningHorn(before, next, s);
-  check->rotation_drift = Max(0, angle - horn.position).upper;
-  check->angular_velocity_drift = Max(0, change - horn.velocity).upper;
+  check->rotation_drift = numeric::Max(0, angle - horn.position).upper;
+  check->angular_velocity_drift = numeric::Max(0, change - horn.velocity).upper;
   return check->rotation_drift <= 2 * allowance.position &&
          check->angular_velocity_drift <= 2 * allowance.velocity;
 }
@@ -227,7 +240,7 @@ bool CheckRotation(const SpaceTimeBound& before, const MotionState& next, Interv
 }  // namespace
 
 ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next) {
-  const Interval s = SecondsBetween(before.state.stamp, next.stamp);
+  const numeric::Interval s = numeric::SecondsBetween(before.state.stamp, next.stamp);
   ContractCheck check;
   bool is_inside = CheckTranslation(before, next, s, &check);
   if (BoundsRotation(before.declaration)) {
@@ -246,4 +259,4 @@ ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& nex
   return check;
 }
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -1,10 +1,11 @@
-// Does a new state honour what the last one promised?
+// Does a new state honour what the last one declared?
 #pragma once
 
 #include "collision_core/motion/space_time_bound.h"
 
-namespace collision {
+namespace collision::motion {
 
+/// How a new state stands to the bound of the state before it.
 enum class ContractVerdict {
   kKept,      ///< The new horn lies inside the old one, up to the rounding allowance below.
   kWidened,   ///< The new state could follow from the old, but its errors, direction, rotation
@@ -12,10 +13,12 @@ enum class ContractVerdict {
   kBreached,  ///< No motion under the declared bound leads from the old state to the new.
 };
 
+/// The verdict, by how much a breach exceeds the bounds (certified: at least that much), and how
+/// much room the new bound takes beyond the old one because of rounding.
 struct ContractCheck {
   ContractVerdict verdict = ContractVerdict::kKept;
-  double position_excess =
-      0;  ///< How far the position lies outside, at least [m]; 0 unless breached.
+  /// How far the position lies outside, at least [m]; 0 unless breached.
+  double position_excess = 0;
   double velocity_excess = 0;          ///< Likewise for the velocity [m/s].
   double rotation_excess = 0;          ///< Likewise for the orientation, as an angle [rad].
   double angular_velocity_excess = 0;  ///< Likewise for the angular velocity [rad/s].
@@ -32,18 +35,49 @@ struct ContractCheck {
   double angular_velocity_drift = 0;
 };
 
-/// Compares `next` with the bound before it (same declaration, next.stamp >= before.state.stamp),
-/// with s = next.stamp − before.stamp:
-///   |p' − c(t0')| <= ½ M s (s + h) + errors  and  |v' − v| <= M s + errors.
-/// A position check alone would let an agent arrive with any velocity; and both together a velocity
-/// with which it cannot have come from there, so at every instant between the two the forward ball
-/// of the one and the backward ball of the other must have a point in common
-/// (contract_between.h). Under a speed cap V also
-/// |v'| <= V, and p' in the old capped ball and box (speed_cap.h); the declaration and with it the
-/// cap must be the same. For an agent that has a shape
-/// (or will have) and declares α, with Φ the angle between two orientations, likewise
-///   Φ(q', exp(ω s) q) <= ½ α s (s + h) + errors  and  |ω' − ω| <= α s + errors;
-/// of a ball the rotation is not looked at. O(1), allocates nothing.
+/// Compares `next` with the bound of the state before it. With s = next.stamp − before.state.stamp:
+///
+///   |p' − c(t0')| <= ½ M s (s + h) + errors   and   |v' − v| <= M s + errors.
+///
+/// A check of the position alone would accept any velocity, and both together still accept a
+/// velocity with which the agent cannot have come from there. So at every instant between the two
+/// states the forward ball of the one and the backward ball of the other must have a point in
+/// common (contract_between.h). Under a speed cap V also |v'| <= V, and p' must lie in the old
+/// capped ball and box (speed_cap.h). An agent that has, or will have, a shape and declares α is
+/// also checked for its rotation, with Φ the angle between two orientations:
+///
+///   Φ(q', exp(ω s) q) <= ½ α s (s + h) + errors   and   |ω' − ω| <= α s + errors.
+///
+/// Requires the same declaration for both states and next.stamp >= before.state.stamp. O(1),
+/// allocates nothing.
+///
+/// Why this keeps standing answers valid. The new horn is inside the old one if for all τ' >= 0,
+/// with e_p = p' − p − v s and e_v = v' − v,
+///
+///   |e_p + e_v τ'| + u'(τ') <= u(s + τ').
+///
+/// Both sides have the same quadratic term, so it is enough to compare constants and slopes:
+///
+///   |e_p| <= ε_p − ε_p' + (|v| − |v'|) κ + ε_v (s + κ) − ε_v' κ + ½ M s (s + 2 κ + h)
+///   |e_v| <= ε_v − ε_v' + M s
+///
+/// Then the state is *kept*. If errors and skew (of both stamps: 2 κ) still explain it, it is
+/// *widened*, else *breached*. A motion against a direction that held all the way is a breach; a
+/// half ball of e_p and one of e_v add up to the half ball of the old horn, so a kept state's box
+/// lies inside the old box too. For rotations, with Φ_e the angle from the prediction to q', the
+/// conditions are
+///
+///   Φ_e <= ε_R − ε_R' + (|ω| − |ω'|) κ + ½ α s (s + 2 κ + h)   and   |ω' − ω| <= α s.
+///
+/// States with ε_p > 0 are often *widened*: a new estimate may be off the old centre by both
+/// errors.
+///
+/// Rounding allowance. The sums of an honest integrator are off by up to half a unit in the last
+/// place of p for each addition; over at most 1000 steps between two states that is 1000 · 2^-52
+/// |p|, likewise for v, and the error of v moves p for s. A stamp in whole nanoseconds is off by
+/// half of one, so s by up to 1 ns: |v| · 1 ns and M · 1 ns. For the angle it is 1000 · 2^-49 rad
+/// (the exponential and the product of each step), the error of ω for s, and |ω| · 1 ns. What is
+/// actually used is returned as drift: the published bounds must leave that much room.
 ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next);
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace collision {
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::motion {
 namespace {
 
 using Eigen::Vector3d;
@@ -59,10 +61,10 @@ double Enlarging(const Span& span) {
              : 0;
 }
 
-/// Where the gap is greatest after the centres are nearest. There |D|' is concave (as x / √(x² + q²)
-/// for x >= 0) and R' linear, so |D|' − R' turns from above 0 to below it once at most, and Newton's
-/// method comes down to there from the end without ever passing it. If it does not turn, the gap is
-/// greatest at one of the ends.
+/// Where the gap is greatest after the centres are nearest. There |D|' is concave (as x / √(x² +
+/// q²) for x >= 0) and R' linear, so |D|' − R' turns from above 0 to below it once at most, and
+/// Newton's method comes down to there from the end without ever passing it. If it does not turn,
+/// the gap is greatest at one of the ends.
 double FarthestAfterNearest(const Span& span) {
   const Vector3d w = span.to - span.from;
   const double square = w.squaredNorm(), across = span.from.cross(w).squaredNorm();
@@ -83,7 +85,8 @@ double FarthestAfterNearest(const Span& span) {
   return x;
 }
 
-/// The share of the time between at which the balls are farthest apart; below 0 if they always meet.
+/// The share of the time between at which the balls are farthest apart; below 0 if they always
+/// meet.
 double FarthestOf(const Span& span) {
   double best = -1, greatest = 0;
   for (const double x :
@@ -101,7 +104,7 @@ double FarthestOf(const Span& span) {
 // instants lie within κ of their stamps, and both horns hold for it at every instant.
 double GapBetween(const SpaceTimeBound& before, const MotionState& next) {
   const Instant base = before.state.stamp;
-  const Interval duration = SecondsBetween(base, next.stamp);
+  const numeric::Interval duration = numeric::SecondsBetween(base, next.stamp);
   const Span span = SpanOf(before, next, duration.middle());
   if (MeetAtAGlance(span)) return 0;
   const double share = FarthestOf(span.Scaled(Enlarging(span)));
@@ -110,9 +113,10 @@ double GapBetween(const SpaceTimeBound& before, const MotionState& next) {
   const double s = std::min(share * duration.lower, duration.lower);
   const MovingBall forward = ForwardBall(before, base);
   const MovingBall backward = BackwardBall({next, before.declaration, before.skew}, base);
-  const IntervalVector offset =
-      (forward.centre - backward.centre) + Interval(s) * (forward.velocity - backward.velocity);
-  return std::max(0.0, (Norm(offset) - (forward.u() + backward.u()).At(s)).lower);
+  const numeric::IntervalVector offset =
+      (forward.centre - backward.centre) +
+      numeric::Interval(s) * (forward.velocity - backward.velocity);
+  return std::max(0.0, (numeric::Norm(offset) - (forward.u() + backward.u()).At(s)).lower);
 }
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -1,23 +1,33 @@
-// The part of the contract that counts between two states: can one motion lead from the one to the
-// other?
+// Can one motion lead from one state to the next? The part of the contract between two states.
 #pragma once
 
 #include "collision_core/motion/space_time_bound.h"
 
-namespace collision {
+namespace collision::motion {
 
-/// How far apart the forward ball of `before` and the backward ball of `next` come at some instant
-/// between the two, at least [m]; 0 unless it is proved that they are apart there. Whoever moved
-/// under the declaration from the one state to the other is in both balls all the while, so beyond
-/// rounding at the sender more than 0 is a breach. With T = next.stamp − before.stamp:
+/// How far apart the forward ball of `before` and the backward ball of `next` are at some instant
+/// between the two states, at least [m]; 0 unless they are proved to be apart there. An agent that
+/// moved under its declaration from the one state to the other is in both balls all the while, so
+/// anything above 0, beyond the sender's rounding, is a breach. With T = next.stamp −
+/// before.state.stamp:
 ///
 ///   max over s in [0, T] of |D(s)| − R(s),   D(s) = p + v s − p' + v' (T − s),
 ///   R(s) = u(s) + u'(T − s), without errors ½ M s² + ½ M (T − s)².
 ///
-/// s = T is the check of the position, s = 0 the same backward in time. Where a motion is along one
-/// line, there is one if and only if this is 0 and |v' − v| <= M T; README.md beside this file.
-/// Same declaration, skew and order of stamps as CheckContract(). Of honest states mostly a glance
-/// in plain doubles; allocates nothing.
+/// Derivation. D(s) is the offset of the forward ball's centre from the backward ball's. For a true
+/// motion −D(s) = ∫ (s − t) a dt, so |D(s)| <= M ∫ |s − t| dt = ½ M s² + ½ M (T − s)², the sum of
+/// both radii; with errors, skew and step both horns hold as they are. s = T is the check of the
+/// position, s = 0 the same backward in time, and s → ∞ that of the velocity. Together these are
+/// the bounds of λ · ∫ (s − t) a dt for every vector λ: along one line a motion exists if and only
+/// if the result is 0 and |v' − v| <= M T; across it, where thrust may turn, the check leaves a
+/// little more than can be reached. Only 0 <= s <= T is searched: with the velocity's bound the
+/// rest follows.
+///
+/// Which s is tested comes from plain doubles; that the balls are apart there is proved in
+/// intervals, beyond the rounding allowance of p' and, for T, of v' (contract.h).
+///
+/// Requires the same declaration, skew and order of stamps as CheckContract(). Honest states are
+/// mostly decided by a quick test in plain doubles. Allocates nothing.
 double GapBetween(const SpaceTimeBound& before, const MotionState& next);
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -1,6 +1,8 @@
 #include "collision_core/motion/contract_cap.h"
 
-namespace collision {
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::motion {
 namespace {
 
 /// Both states, and what the checks share.
@@ -10,7 +12,7 @@ class Comparison {
       : before_(before),
         after_{next, before.declaration, before.skew},
         lenient_(before),
-        step_(IntervalVector(next.p_WA) - IntervalVector(before.state.p_WA)) {
+        step_(numeric::IntervalVector(next.p_WA) - numeric::IntervalVector(before.state.p_WA)) {
     // Both stamps may be off, in opposite ways.
     lenient_.skew = 2 * before.skew;
     new_errors_ = ForwardErrors(after_, next.stamp).c0;
@@ -18,8 +20,8 @@ class Comparison {
   }
 
   CapCheck Result() {
-    const Interval too_fast = Norm(IntervalVector(after_.state.v_WA)) -
-                              after_.state.velocity_error - before_.declaration.speed_max;
+    const numeric::Interval too_fast = numeric::Norm(numeric::IntervalVector(after_.state.v_WA)) -
+                                       after_.state.velocity_error - before_.declaration.speed_max;
     check_.velocity_excess = std::max(0.0, too_fast.lower);
     CompareBalls();
     const bool use_direction = DirectionHoldsFor(before_, after_.state.stamp) >= 0;
@@ -38,24 +40,24 @@ class Comparison {
   void CompareBalls() {
     const CappedBall cap = CapBall(before_);
     const double early = TakenOverEarly(cap.from, CapTakesOver(after_));
-    const double speed = Norm(IntervalVector(before_.state.v_WA)).upper;
-    Drift(EarlyGrowth(Interval(2) * speed, early));
+    const double speed = numeric::Norm(numeric::IntervalVector(before_.state.v_WA)).upper;
+    Drift(EarlyGrowth(numeric::Interval(2) * speed, early));
     if (cap.from >= after_.state.stamp) return;
-    const Interval away = Norm(step_ - cap.shift);
+    const numeric::Interval away = numeric::Norm(step_ - cap.shift);
     Drift(away + (new_errors_ + new_deviation_) - cap.UFrom(after_.state.stamp).c0);
     Exceed(away, cap.from, cap.speed);
   }
 
   /// Likewise one face.
-  void CompareFaces(int axis, int sign, Interval fraction) {
+  void CompareFaces(int axis, int sign, numeric::Interval fraction) {
     const CappedFace cap = CapFace(before_, axis, sign, fraction);
     const double along = sign * after_.state.v_WA[axis];
     const double early = TakenOverEarly(cap.from, FaceCapTakesOver(after_, along, fraction.upper));
     Drift(EarlyGrowth(0, early));
     if (cap.from >= after_.state.stamp) return;
-    const Interval step = axis == 0 ? step_.x : axis == 1 ? step_.y : step_.z;
-    const Interval away = Interval(sign) * step - cap.shift;
-    const Interval u = new_errors_ + fraction * new_deviation_;
+    const numeric::Interval step = axis == 0 ? step_.x : axis == 1 ? step_.y : step_.z;
+    const numeric::Interval away = numeric::Interval(sign) * step - cap.shift;
+    const numeric::Interval u = new_errors_ + fraction * new_deviation_;
     Drift(away + u - cap.UFrom(after_.state.stamp).c0);
     if (fraction.lower == 1) Exceed(away, cap.from, cap.speed);
   }
@@ -63,27 +65,30 @@ class Comparison {
   /// Seconds by which the new bound turns to the cap before the old one does.
   double TakenOverEarly(Instant old_from, Instant new_from) const {
     if (new_from >= old_from) return 0;
-    return old_from.is_never() ? kInfinity : SecondsBetween(new_from, old_from).upper;
+    return old_from.is_never() ? numeric::kInfinity
+                               : numeric::SecondsBetween(new_from, old_from).upper;
   }
 
   /// What that adds: the velocities of the new ball fill the cap's, those of the old one fall short
   /// of it by 2 |v| + M t in the direction −v, t before it turns; of a face by M t.
-  Interval EarlyGrowth(Interval shortfall, double early) const {
+  numeric::Interval EarlyGrowth(numeric::Interval shortfall, double early) const {
     if (early == 0) return 0;
-    if (early == kInfinity) return {0, kInfinity};
-    return Interval(early) *
-           (shortfall + Interval(before_.declaration.acceleration_max) * Interval(early));
+    if (early == numeric::kInfinity) return {0, numeric::kInfinity};
+    return numeric::Interval(early) *
+           (shortfall +
+            numeric::Interval(before_.declaration.acceleration_max) * numeric::Interval(early));
   }
 
-  void Drift(Interval outside) {
+  void Drift(numeric::Interval outside) {
     check_.position_drift = std::max(check_.position_drift, outside.upper);
   }
 
   /// No true motion is further `away` from where the cap took over: errors, both skews, and V'
   /// since. If the true time was shorter than up to `from`, |v| 2κ covers the difference.
-  void Exceed(Interval away, Instant from, Interval speed) {
-    const Interval since = SecondsBetween(from, after_.state.stamp) + Interval(2) * before_.skew;
-    const Interval limit =
+  void Exceed(numeric::Interval away, Instant from, numeric::Interval speed) {
+    const numeric::Interval since =
+        numeric::SecondsBetween(from, after_.state.stamp) + numeric::Interval(2) * before_.skew;
+    const numeric::Interval limit =
         ForwardBall(lenient_, from).u0 + after_.state.position_error + speed * since;
     check_.position_excess = std::max(check_.position_excess, (away - limit).lower);
   }
@@ -91,8 +96,8 @@ class Comparison {
   const SpaceTimeBound& before_;
   const SpaceTimeBound after_;
   SpaceTimeBound lenient_;
-  IntervalVector step_;
-  Interval new_errors_, new_deviation_;  // The two parts of the new u at its stamp.
+  numeric::IntervalVector step_;
+  numeric::Interval new_errors_, new_deviation_;  // The two parts of the new u at its stamp.
   CapCheck check_;
 };
 
@@ -102,4 +107,4 @@ CapCheck CheckCap(const SpaceTimeBound& before, const MotionState& next) {
   return Comparison(before, next).Result();
 }
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -3,7 +3,7 @@
 
 #include "collision_core/motion/speed_cap.h"
 
-namespace collision {
+namespace collision::motion {
 
 /// How `next` stands against the cap of the bound before it; before any allowance for rounding.
 struct CapCheck {
@@ -16,4 +16,4 @@ struct CapCheck {
 /// Requires a cap and next.stamp >= before.state.stamp. O(1), allocates nothing.
 CapCheck CheckCap(const SpaceTimeBound& before, const MotionState& next);
 
-}  // namespace collision
+}  // namespace collision::motion

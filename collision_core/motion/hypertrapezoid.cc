@@ -1,6 +1,8 @@
 #include "collision_core/motion/hypertrapezoid.h"
 
-namespace collision {
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::motion {
 namespace {
 
 /// The part of the window, as fractions of it, on which a line from `start` to `end` is <= 0.
@@ -10,13 +12,13 @@ struct Span {
   double exit = 1;
 };
 
-Span NotPositive(Interval start, Interval end) {
+Span NotPositive(numeric::Interval start, numeric::Interval end) {
   const bool at_start = start.lower <= 0, at_end = end.lower <= 0;
   if (at_start && at_end) return {};
   if (!at_start && !at_end) return {1, 0};
   // Exactly one is positive, so their difference cannot be zero.
-  if (at_start) return {0, (-start.lower / (Interval(end.lower) - start.lower)).upper};
-  return {(start.lower / (Interval(start.lower) - end.lower)).lower, 1};
+  if (at_start) return {0, (-start.lower / (numeric::Interval(end.lower) - start.lower)).upper};
+  return {(start.lower / (numeric::Interval(start.lower) - end.lower)).lower, 1};
 }
 
 }  // namespace
@@ -27,7 +29,7 @@ Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, In
   const FaceBox last = BoxAt(bound, end, use_direction);
   Hypertrapezoid h;
   h.start = start;
-  h.duration = SecondsBetween(start, end).lower;
+  h.duration = numeric::SecondsBetween(start, end).lower;
   for (int axis = 0; axis < 3; ++axis) {
     h.lower_start[axis] = first.lower[axis].lower;
     h.lower_end[axis] = last.lower[axis].lower;
@@ -40,8 +42,9 @@ Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, In
 double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b) {
   Span overlap;
   const auto meet = [&overlap](const Hypertrapezoid& below, const Hypertrapezoid& above, int axis) {
-    const Span span = NotPositive(Interval(above.lower_start[axis]) - below.upper_start[axis],
-                                  Interval(above.lower_end[axis]) - below.upper_end[axis]);
+    const Span span =
+        NotPositive(numeric::Interval(above.lower_start[axis]) - below.upper_start[axis],
+                    numeric::Interval(above.lower_end[axis]) - below.upper_end[axis]);
     overlap.entry = std::max(overlap.entry, span.entry);
     overlap.exit = std::min(overlap.exit, span.exit);
   };
@@ -49,8 +52,8 @@ double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b) {
     meet(a, b, axis);
     meet(b, a, axis);
   }
-  if (overlap.entry > overlap.exit) return kInfinity;
-  return MultiplyDown(overlap.entry, std::min(a.duration, b.duration));
+  if (overlap.entry > overlap.exit) return numeric::kInfinity;
+  return numeric::MultiplyDown(overlap.entry, std::min(a.duration, b.duration));
 }
 
 Hypertrapezoid Unite(const Hypertrapezoid& a, const Hypertrapezoid& b) {
@@ -64,4 +67,4 @@ Hypertrapezoid Unite(const Hypertrapezoid& a, const Hypertrapezoid& b) {
   return h;
 }
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -3,12 +3,13 @@
 
 #include "collision_core/motion/space_time_bound.h"
 
-namespace collision {
+namespace collision::motion {
 
-/// Over [start, end] each face of the horn's box is replaced by the chord between its two ends. The
-/// faces are convex in t, so no chord cuts inside. Values are rounded outward; a face at t is the
-/// mean of its two ends, weighted by the exact fraction of the window. Source: Hubbard 1995,
-/// section 3.
+/// The box of a horn over the window [start, start + duration], with flat faces: each of the six
+/// faces of the box is replaced by the chord between its values at the two ends. The faces of the
+/// horn's box are convex in time, so a chord never cuts inside. Values are rounded outward; a face
+/// at time t is the mean of its two ends, weighted by the exact fraction of the window. World frame
+/// W, metres. Source: Hubbard 1995 (space_time_bound.h), section 3.
 struct Hypertrapezoid {
   Instant start;
   double duration = 0;                  ///< Of the window [s], rounded down.
@@ -16,15 +17,18 @@ struct Hypertrapezoid {
   double upper_start[3], upper_end[3];
 };
 
-/// Requires stamp <= start <= end. Where the declared direction ends inside the window, the full
-/// ball counts.
+/// The hypertrapezoid of a bound. If the declared direction ends inside the window, the full ball
+/// counts. Requires state.stamp <= start <= end.
 Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, Instant end);
 
-/// Seconds after the (shared) start when two hypertrapezoids first overlap, rounded down; 0 if they
-/// overlap there; +infinity if not within the window.
+/// Seconds after the start when two hypertrapezoids first overlap, rounded down: 0 if they overlap
+/// there, +infinity if they do not overlap within the window. They overlap during one interval at
+/// most: from the latest of the three per-axis entries to the earliest of the three exits. Requires
+/// the same window for both.
 double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b);
 
-/// One hypertrapezoid that contains both (same window).
+/// One hypertrapezoid that contains both. The union of two boxes has convex upper faces, so the
+/// chord over the same window contains it. Requires the same window for both.
 Hypertrapezoid Unite(const Hypertrapezoid& a, const Hypertrapezoid& b);
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -1,4 +1,4 @@
-// What the owner of an agent says about it.
+// What the owner of an agent reports: its state, and the bounds of its motion.
 #pragma once
 
 #include <Eigen/Core>
@@ -6,14 +6,18 @@
 #include <cstdint>
 #include <memory>
 
-#include "collision_core/motion/instant.h"
+#include "collision_core/base/instant.h"
+#include "collision_core/numeric/rounding.h"
 
-namespace collision {
-
+namespace collision::shape {
 class Shape;
+}  // namespace collision::shape
 
-/// An agent's last state. World frame W, body frame B, SI units. Values are trusted here: the
-/// server refuses bad input at the edge.
+namespace collision::motion {
+
+/// An agent's last state, as its owner reported it. World frame W, body frame B, SI units. Values
+/// are trusted here: the server's codec refuses bad input with a reason. Requires finite numbers,
+/// errors >= 0, and a quaternion that is not zero.
 struct MotionState {
   Instant stamp;                                   ///< When it held at its sender.
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< Reference point [m].
@@ -30,29 +34,33 @@ struct MotionState {
   bool discontinuity = false;         ///< The motion jumped here; no breach.
 };
 
-/// What holds from state to state.
+/// What the owner declares about an agent once, and what then holds from state to state. A change
+/// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
+/// detector asks about all partners again.
 struct AgentDeclaration {
-  double radius = 0;  ///< Ball about the reference point that contains the agent [m], >= 0.
+  /// r: radius of a ball about the reference point that contains the agent in every orientation
+  /// [m], >= 0.
+  double radius = 0;
   double acceleration_max = 0;  ///< M [m/s²], >= 0.
   double time_step = 0;         ///< h of an Euler integrator, of either kind [s]; 0: continuous.
   /// V: |velocity| of the reference point never exceeds it [m/s], >= 0; +infinity: not declared.
   /// What it changes in the bound, and why to raise it is a widening: speed_cap.h.
-  double speed_max = kInfinity;
-  std::uint32_t group = 1;   ///< Bits this agent is.
-  std::uint32_t mask = ~0u;  ///< Bits it can meet.
+  double speed_max = numeric::kInfinity;
+  std::uint32_t group = 1;   ///< Bits of the groups that the agent belongs to.
+  std::uint32_t mask = ~0u;  ///< Bits of the groups that it can meet.
   /// α >= |angular acceleration| [rad/s²], gyroscopic terms included; < 0: not declared, then
   /// nothing is known of the orientation between two states. Counts for shapes only.
   double angular_acceleration_max = -1;
-  std::shared_ptr<const Shape> shape =
-      nullptr;  ///< Within the ball of `radius`; null: the ball itself.
-  /// Its shape is not known yet: somewhere within the ball, which then excludes contacts but
-  /// confirms none. `shape` is null.
+  /// The shape, within the ball of `radius`; null: the ball itself.
+  std::shared_ptr<const shape::Shape> shape = nullptr;
+  /// The shape is not known yet: it lies somewhere within the ball. The ball then excludes contacts
+  /// but confirms none. `shape` is null.
   bool shape_awaited = false;
 
   friend bool operator==(const AgentDeclaration&, const AgentDeclaration&) = default;
 };
 
-/// The one of two angular acceleration bounds that holds wherever either does; < 0: none.
+/// The larger of two bounds on the angular acceleration; < 0 (not declared) if either is.
 inline double WiderAngularBound(double a, double b) { return a < 0 || b < 0 ? -1 : a < b ? b : a; }
 
 /// A pair can meet only if each is in a group that the other's mask names.
@@ -60,4 +68,4 @@ inline bool CanMeet(const AgentDeclaration& a, const AgentDeclaration& b) {
   return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
 }
 
-}  // namespace collision
+}  // namespace collision::motion

@@ -3,62 +3,89 @@
 
 #include "collision_core/motion/space_time_bound.h"
 
-namespace collision {
+namespace collision::motion {
 
-/// Under a cap V no velocity leaves the ball of radius V' = V + ½ M h about zero (an integrator of
-/// step h moves ½ M h faster within a step than at its ends). So from any instant t_s on, whatever
-/// contained A then, grown by V' (t − t_s), contains it still. Two such bounds are used beside the
-/// horn; of what separates two agents the later counts, as it does for ball and box:
-///   the capped ball   the horn's ball until |v| + ε_v + M σ = V, that ball grown by V' afterwards;
-///   the capped box    each face until its slope v_x + ε_v + M σ = V, from then on at slope V':
-///                     a face's velocity is min(v_x + ε_v + M σ, V), integrated.
-/// Both are convex in time, and both *nest*: what an honest agent reports later lies inside, so that
-/// no answer is taken back. The ball v, radius ∫ min(M σ, V + |v|), is a bound as well, but as fast
-/// sideways as along v: an honest turn leaves it. Derivations: README.md beside this file.
+/// Whether the agent declares a speed cap V: |velocity| of its reference point never exceeds V
+/// [m/s].
 ///
-/// Changing a cap may make answers earlier, also to a lower one (its ball turns sooner): a widening.
-/// Declaring one where there was none never does.
+/// Under a cap, from any instant t_s on, whatever contained the agent then, grown by V' (t − t_s),
+/// contains it still. V' = V + ½ M h, because the motion counted within an integrator's step of h
+/// has the speed |v + a s + ½ a h|, where |v| and |v + a h| are at most V. Two such bounds are used
+/// beside the horn; of everything that separates two agents the latest counts, as for balls and
+/// boxes:
+///
+/// - The *capped ball* is the horn's ball until |v| + ε_v + M σ = V. From then on it keeps the
+///   centre's line, and its radius grows by V'. Before, every velocity of the horn is below V;
+///   after, every velocity is allowed.
+/// - The *capped box*: each face with normal x follows the horn until v_x + ε_v + f M σ + ½ f M h =
+///   V', then has the slope V' (f is the fraction that a declared direction leaves). That is
+///   min(v_x + M τ, V) integrated, not the lesser of two positions, so its slopes never fall: faces
+///   are convex, and a chord over a window never cuts inside.
+///
+/// The instants of change are whole nanoseconds, rounded down (at once, if within 2^-40 V of the
+/// cap). Any instant would be sound, so nothing depends on the rounding.
+///
+/// Why not the ball of radius ∫ min(M σ, V + |v|) about the uniform motion? It is sound, but not
+/// *nested*: its velocities finally fill the ball of radius V + |v| about v, and after a turn,
+/// about v', another one; every honest turn would be a widening. A ball that contains the balls of
+/// all later states needs the velocities |·| <= V as soon as |v| may be V: the capped ball. It is
+/// loose for short times, where the horn is tight, so both are used. Head-on it is exact: |v| τ + ½
+/// M τ² up to V, and V from there on.
+///
+/// Nesting. Let T be the time at which the old ball changes, |v| + ε_v + M (T + κ) = V. With |e_v|
+/// <= ε_v − ε_v' + M s the new one changes at T' >= T − s, which is later. While both are horns,
+/// the conditions of contract.h apply. From T on the old ball grows by all velocities up to V',
+/// which include every velocity of the new one, before T' and after. So the new ball need only be
+/// inside at its own stamp, or, if the old one has not changed by then, when it does; for s > T
+/// that means that U'(0) lies in the capped ball. For faces the same holds with the slopes of one
+/// direction. If rounding makes T' earlier by x after all, the balls differ by (2 |v| + M x) x and
+/// the faces by M x²: that is reported as drift.
+///
+/// Breach: |v'| > V + ε_v', or p' farther from where the cap took over than errors, 2 κ and V'
+/// explain, beyond the rounding allowance. Changing or dropping a cap is a widening, also lowering
+/// it (the ball then changes sooner); declaring one where there was none is not.
 inline bool HasSpeedCap(const AgentDeclaration& declaration) {
-  return declaration.speed_max < kInfinity;
+  return declaration.speed_max < numeric::kInfinity;
 }
 
-/// V' [m/s].
-Interval CappedSpeed(const AgentDeclaration& declaration);
+/// V' = V + ½ M h [m/s]. Requires a cap.
+numeric::Interval CappedSpeed(const AgentDeclaration& declaration);
 
-/// When the capped ball leaves the horn: at the state's stamp at the earliest, Never() at the latest.
-/// To the nanosecond below; any instant would be sound.
+/// When the capped ball leaves the horn: not before the state's stamp; Never() if it never does.
+/// Rounded down to the nanosecond; any instant would be sound. Requires a cap.
 Instant CapTakesOver(const SpaceTimeBound& bound);
 
-/// Likewise one face: `along` is v's component out of it, and `fraction` of ½ M σ(σ + h) counts
-/// there.
+/// The same for one face: `along` is the component of v along the face's outward normal [m/s], and
+/// `fraction` is how much of ½ M σ (σ + h) counts there.
 Instant FaceCapTakesOver(const SpaceTimeBound& bound, double along, double fraction);
 
 /// The capped ball at t >= from: A is within radius + u + speed · (t − from) of p_WA + shift.
 struct CappedBall {
   Instant from;
-  IntervalVector shift;
-  Interval u;
-  Interval speed;
+  numeric::IntervalVector shift;
+  numeric::Interval u;
+  numeric::Interval speed;
 
   /// u as a quadratic in the seconds after `base`, valid at and after `from`.
-  Quadratic UFrom(Instant base) const;
+  numeric::Quadratic UFrom(Instant base) const;
 };
 
-/// The bound must have a cap. `from` may be Never(): then nothing else is filled.
+/// The capped ball of a bound. Requires a cap. `from` may be Never(); then only `from` is set.
 CappedBall CapBall(const SpaceTimeBound& bound);
 
 /// One face under the cap at t >= from: A reaches up to radius + u + speed · (t − from) from
 /// p_WA + shift along the face's normal.
 struct CappedFace {
   Instant from;
-  Interval shift;
-  Interval u;
-  Interval speed;
+  numeric::Interval shift;
+  numeric::Interval u;
+  numeric::Interval speed;
 
-  Quadratic UFrom(Instant base) const;
+  numeric::Quadratic UFrom(Instant base) const;
 };
 
-/// Of the face whose normal is `sign` (1 or −1) times the axis.
-CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, Interval fraction);
+/// The capped face whose outward normal is `sign` (1 or −1) times the axis. `fraction` is how much
+/// of ½ M σ (σ + h) counts there (DirectionalReach). Requires a cap.
+CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval fraction);
 
-}  // namespace collision
+}  // namespace collision::motion

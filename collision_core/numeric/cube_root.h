@@ -3,9 +3,11 @@
 
 #include <cmath>
 
-namespace collision {
+namespace collision::numeric {
 
-/// Of a > 0, good to about fifteen digits; the library's differs from machine to machine.
+/// The cube root of a > 0 to about fifteen digits, by Newton's method; the same bits on every
+/// machine, which std::cbrt does not promise. Not certified: use it where any value near the root
+/// will do.
 inline double CubeRoot(double a) {
   int exponent;
   std::frexp(a, &exponent);
@@ -14,4 +16,4 @@ inline double CubeRoot(double a) {
   return root;
 }
 
-}  // namespace collision
+}  // namespace collision::numeric

@@ -1,6 +1,6 @@
 #include "collision_core/numeric/interval.h"
 
-namespace collision {
+namespace collision::numeric {
 
 Interval MultiplyWide(const Interval& a, const Interval& b) {
   if (a.upper <= 0) return -MultiplyWide(-a, b);
@@ -13,4 +13,4 @@ Interval MultiplyWide(const Interval& a, const Interval& b) {
           std::max(MultiplyUp(a.lower, b.lower), MultiplyUp(a.upper, b.upper))};
 }
 
-}  // namespace collision
+}  // namespace collision::numeric

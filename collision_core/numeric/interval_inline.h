@@ -6,7 +6,7 @@
 #include "collision_core/numeric/interval.h"
 #include "collision_core/numeric/rounding.h"
 
-namespace collision {
+namespace collision::numeric {
 
 inline Interval operator+(Interval a, Interval b) {
   return {AddDown(a.lower, b.lower), AddUp(a.upper, b.upper)};
@@ -91,4 +91,4 @@ inline Interval Norm(const IntervalVector& v) {
   return norm(v);
 }
 
-}  // namespace collision
+}  // namespace collision::numeric

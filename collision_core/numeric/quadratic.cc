@@ -1,6 +1,6 @@
 #include "collision_core/numeric/quadratic.h"
 
-namespace collision {
+namespace collision::numeric {
 
 Quadratic Quadratic::From(double start) const {
   return {At(start), c1 + Interval(2 * start) * c2, c2};
@@ -29,4 +29,4 @@ double FirstZero(double gap, double closing, double growth) {
   return ((root - Interval(closing)) / (Interval(2) * growth)).lower;
 }
 
-}  // namespace collision
+}  // namespace collision::numeric

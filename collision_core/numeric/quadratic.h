@@ -3,9 +3,10 @@
 
 #include "collision_core/numeric/interval.h"
 
-namespace collision {
+namespace collision::numeric {
 
-/// c0 + c1 x + c2 x² for every choice of coefficients in the intervals.
+/// c0 + c1 x + c2 x² for every choice of coefficients in the intervals. Gaps, reaches and horns are
+/// all of this form, with x in seconds.
 struct Quadratic {
   Interval c0, c1, c2;
 
@@ -17,11 +18,13 @@ struct Quadratic {
   Quadratic BackwardFrom(double end) const;
 };
 
+/// Coefficient by coefficient, outward rounded.
 Quadratic operator+(const Quadratic& a, const Quadratic& b);
 Quadratic operator*(Interval s, const Quadratic& a);
 
-/// A lower bound, off by a few units in the last place, on the least x >= 0 with gap − closing x −
-/// growth x² <= 0; +infinity if there is none. Requires growth >= 0; 0 if gap <= 0.
+/// A certified lower bound on the least x >= 0 with gap − closing x − growth x² <= 0, off by a few
+/// units in the last place; +infinity if there is no such x, 0 if gap <= 0. It is the step by which
+/// every conservative advancement of the service moves on. Requires growth >= 0.
 double FirstZero(double gap, double closing, double growth);
 
-}  // namespace collision
+}  // namespace collision::numeric

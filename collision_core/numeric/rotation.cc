@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace collision {
+namespace collision::numeric {
 namespace {
 
 const Interval kEverything(-1, 1);
@@ -76,8 +76,8 @@ SinCos PointSinCos(double x) {
 }
 
 /// The arc tangent of one number t in [0, 1]. Halved twice by atan t = 2 atan(t / (1 + √(1 + t²)))
-/// it is at most tan(π/16) < 0.2; then the series 1 − t²/3 + t⁴/5 − …, whose 13 terms leave out less
-/// than 0.2^26 / 27 < 2^-64. A halving is off by 3.1ε, relative (√ and the sums, of positive
+/// it is at most tan(π/16) < 0.2; then the series 1 − t²/3 + t⁴/5 − …, whose 13 terms leave out
+/// less than 0.2^26 / 27 < 2^-64. A halving is off by 3.1ε, relative (√ and the sums, of positive
 /// numbers), and hands on at most what it was given; the series by less than 1.3ε, the last product
 /// by ε: together below 9ε.
 Interval ArcTangent(double t) {
@@ -132,7 +132,8 @@ IntervalQuaternion Product(const IntervalQuaternion& a, const IntervalQuaternion
 }  // namespace
 
 SinCos SinCosOf(Interval x) {
-  if (!(x.lower >= -kTurnMax && x.upper <= kTurnMax)) return {kEverything, kEverything};
+  if (!(x.lower >= -kRotationAngleMax && x.upper <= kRotationAngleMax))
+    return {kEverything, kEverything};
   const double middle = x.middle();
   const SinCos point = PointSinCos(middle);
   // Neither changes faster than its argument.
@@ -150,7 +151,7 @@ IntervalQuaternion Turned(const Eigen::Quaterniond& q, const Eigen::Vector3d& w_
   const IntervalQuaternion start = UnitQuaternion(q);
   if (w_WB.isZero(0) || (seconds.lower == 0 && seconds.upper == 0)) return start;
   const Interval angle = Norm(IntervalVector(w_WB)) * seconds;
-  if (!(Abs(angle).upper <= kTurnMax)) {
+  if (!(Abs(angle).upper <= kRotationAngleMax)) {
     return {kEverything, kEverything, kEverything, kEverything};
   }
   const Four axis = Unit({w_WB.x(), w_WB.y(), w_WB.z(), 0});
@@ -195,4 +196,4 @@ Rotation RotationOf(const IntervalQuaternion& q) {
   return rotation;
 }
 
-}  // namespace collision
+}  // namespace collision::numeric

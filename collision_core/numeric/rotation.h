@@ -5,19 +5,21 @@
 
 #include "collision_core/numeric/interval.h"
 
-namespace collision {
+namespace collision::numeric {
 
-/// sin x and cos x for every x of the interval; no library function is called, so that every
-/// platform gives the same bits. |x| up to kTurnMax; beyond, [-1, 1].
+/// sin x and cos x for every x of the interval [rad], each known to about 1.2e-15. No library
+/// function is called, so every platform gives the same bits. For |x| beyond kRotationAngleMax both are [−1,
+/// 1].
 struct SinCos {
   Interval sin, cos;
 };
+/// See SinCos.
 SinCos SinCosOf(Interval x);
 
-/// Angles beyond this [rad] are not followed: a million radians lose six digits.
-inline constexpr double kTurnMax = 1e6;
+/// Angles beyond this [rad] are not followed: at a million radians six digits are lost.
+inline constexpr double kRotationAngleMax = 1e6;
 
-/// w, x, y, z; contains an exact unit quaternion.
+/// Contains an exact unit quaternion; body to world.
 struct IntervalQuaternion {
   Interval w, x, y, z;
 };
@@ -27,7 +29,7 @@ IntervalQuaternion UnitQuaternion(const Eigen::Quaterniond& q);
 
 /// The orientation after turning from `q` with constant angular velocity `w_WB` (in the world
 /// frame) for `seconds` (negative: before): exp(w τ) q, for every τ of the interval. Everything
-/// (all components [-1, 1]) if |w τ| may exceed kTurnMax.
+/// (all components [-1, 1]) if |w τ| may exceed kRotationAngleMax.
 IntervalQuaternion Turned(const Eigen::Quaterniond& q, const Eigen::Vector3d& w_WB,
                           Interval seconds);
 
@@ -40,6 +42,7 @@ struct Rotation {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   double error = 0;
 };
+/// The matrix of a quaternion; its error is about 4e-15 for angles up to kRotationAngleMax.
 Rotation RotationOf(const IntervalQuaternion& q);
 
-}  // namespace collision
+}  // namespace collision::numeric

@@ -23,7 +23,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace collision {
+namespace collision::numeric {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -113,4 +113,4 @@ inline double SqrtUp(double a) {
   return ErrorIsExact(a) && RootResidue(a, root) <= 0 ? root : NextUp(root);
 }
 
-}  // namespace collision
+}  // namespace collision::numeric

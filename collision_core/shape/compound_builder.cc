@@ -6,7 +6,7 @@
 
 #include "collision_core/numeric/rounding.h"
 
-namespace collision {
+namespace collision::shape {
 namespace {
 
 using Eigen::Vector3d;
@@ -20,28 +20,31 @@ double LengthUp(const Vector3d& v) { return (1 + 0x1p-50) * v.norm() + 0x1p-500;
 
 /// A node to be; of a gathering, the range of parts below it.
 struct Part {
-  SphereNode node;
+  sphere_tree::SphereNode node;
   bool is_surface = false;
   std::vector<Part> children = {};
 };
 
 /// Of a point to a solid, by the ball that is known to be in it: a point d away from that ball's
 /// centre is no further than d − inradius from it, and nearer than that it has so much about it. Of
-/// what has no inside a point of the core is known, to within `error` and the rounding of a support.
+/// what has no inside a point of the core is known, to within `error` and the rounding of a
+/// support.
 double DistanceUp(const Vector3d& point, const ConvexSolid& solid) {
   const ConvexFacts& facts = solid.facts();
   const double lost = 0x1p-50 * (point.cwiseAbs().sum() + facts.radius);
   if (facts.inradius > 0) {
-    return AddUp(AddUp(LengthUp(point - facts.inner_point), lost), -facts.inradius);
+    return numeric::AddUp(numeric::AddUp(LengthUp(point - facts.inner_point), lost),
+                          -facts.inradius);
   }
-  const ConvexSet& set = solid.set();
+  const geometry::ConvexSet& set = solid.set();
   const Vector3d seen = point - set.centre;
-  const double off = AddUp(set.error, MultiplyUp(kSupportError, set.span));
-  return AddUp(AddUp(LengthUp(seen - set.SupportPoint(seen)), lost), off);
+  const double off =
+      numeric::AddUp(set.error, numeric::MultiplyUp(geometry::kSupportError, set.span));
+  return numeric::AddUp(numeric::AddUp(LengthUp(seen - set.SupportPoint(seen)), lost), off);
 }
 
-SphereNode NodeOf(const ConvexSolid& solid, std::uint32_t element) {
-  SphereNode node;
+sphere_tree::SphereNode NodeOf(const ConvexSolid& solid, std::uint32_t element) {
+  sphere_tree::SphereNode node;
   node.centre = solid.facts().ball_centre;
   node.radius = solid.facts().ball_radius;
   node.signed_distance = DistanceUp(node.centre, solid);
@@ -51,28 +54,28 @@ SphereNode NodeOf(const ConvexSolid& solid, std::uint32_t element) {
 }
 
 /// Of two centres, rounded up.
-double BetweenUp(const SphereNode& a, const SphereNode& b) {
+double BetweenUp(const sphere_tree::SphereNode& a, const sphere_tree::SphereNode& b) {
   const double lost = 0x1p-52 * (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
-  return AddUp(LengthUp(a.centre - b.centre), lost);
+  return numeric::AddUp(LengthUp(a.centre - b.centre), lost);
 }
 
 /// About the balls of its children: from the middle of their box in steps towards the farthest.
 void Enclose(Part* parent) {
-  Vector3d lower = Vector3d::Constant(kInfinity), upper = -lower;
+  Vector3d lower = Vector3d::Constant(numeric::kInfinity), upper = -lower;
   for (const Part& part : parent->children) {
-    const SphereNode& node = part.node;
+    const sphere_tree::SphereNode& node = part.node;
     lower = lower.cwiseMin((node.centre.array() - node.radius).matrix());
     upper = upper.cwiseMax((node.centre.array() + node.radius).matrix());
   }
-  const SphereNode* farthest = nullptr;
-  const auto measure = [&](SphereNode* node) {
+  const sphere_tree::SphereNode* farthest = nullptr;
+  const auto measure = [&](sphere_tree::SphereNode* node) {
     node->radius = 0;
     for (const Part& part : parent->children) {
-      const double far = AddUp(BetweenUp(*node, part.node), part.node.radius);
+      const double far = numeric::AddUp(BetweenUp(*node, part.node), part.node.radius);
       if (far > node->radius) node->radius = far, farthest = &part.node;
     }
   };
-  SphereNode node;
+  sphere_tree::SphereNode node;
   node.centre = 0.5 * lower + 0.5 * upper;
   measure(&node);
   parent->node = node;
@@ -87,9 +90,10 @@ void Enclose(Part* parent) {
     if (node.radius < parent->node.radius) parent->node = node;
   }
   // What is so near to a child's centre is as near to the whole.
-  parent->node.signed_distance = kInfinity;
+  parent->node.signed_distance = numeric::kInfinity;
   for (const Part& part : parent->children) {
-    const double distance = AddUp(BetweenUp(parent->node, part.node), part.node.signed_distance);
+    const double distance =
+        numeric::AddUp(BetweenUp(parent->node, part.node), part.node.signed_distance);
     parent->node.signed_distance = std::min(parent->node.signed_distance, distance);
   }
 }
@@ -135,18 +139,19 @@ Part Gathered(std::span<Part> parts) {
 /// Level by level: gatherings and solids from the parts, the surface's nodes from its own tree.
 class Flattening {
  public:
-  explicit Flattening(const SphereTree* surface) : surface_(surface) {
+  explicit Flattening(const sphere_tree::SphereTree* surface) : surface_(surface) {
     if (surface_) tree_.triangle_indices = surface_->triangle_indices;
   }
 
-  SphereTree Run(const Part& root) {
+  sphere_tree::SphereTree Run(const Part& root) {
     std::vector<Place> level = {{&root, 0}};
     for (std::uint32_t depth = 0; !level.empty(); ++depth) {
       tree_.levels = depth + 1;
       const auto next = static_cast<std::uint32_t>(tree_.nodes.size() + level.size());
       std::vector<Place> below;
       for (const Place& place : level) {
-        SphereNode node = place.part ? place.part->node : surface_->nodes[place.of_surface];
+        sphere_tree::SphereNode node =
+            place.part ? place.part->node : surface_->nodes[place.of_surface];
         node.level = depth;
         node.first_child = next + static_cast<std::uint32_t>(below.size());
         const std::size_t before = below.size();
@@ -172,26 +177,27 @@ class Flattening {
       for (const Part& child : place.part->children) below->push_back({&child, 0});
       return;
     }
-    const SphereNode& own = surface_->nodes[place.of_surface];
+    const sphere_tree::SphereNode& own = surface_->nodes[place.of_surface];
     for (std::uint32_t i = 0; i < own.children; ++i)
       below->push_back({nullptr, own.first_child + i});
   }
 
   /// A solid's leaf has no triangles yet but a number.
-  void SetElement(SphereNode* node) {
+  void SetElement(sphere_tree::SphereNode* node) {
     const std::uint32_t element = node->first_triangle;
     node->first_triangle = static_cast<std::uint32_t>(tree_.triangle_indices.size());
     tree_.triangle_indices.push_back(element);
   }
 
-  const SphereTree* const surface_;
-  SphereTree tree_;
+  const sphere_tree::SphereTree* const surface_;
+  sphere_tree::SphereTree tree_;
 };
 
 }  // namespace
 
-SphereTree BuildCompound(const SphereTree* surface, std::uint32_t triangles,
-                         std::span<const ConvexSolid> solids) {
+sphere_tree::SphereTree BuildCompound(const sphere_tree::SphereTree* surface,
+                                      std::uint32_t triangles,
+                                      std::span<const ConvexSolid> solids) {
   std::vector<Part> parts;
   if (surface) parts.push_back({surface->root(), true});
   for (std::size_t i = 0; i < solids.size(); ++i) {
@@ -200,10 +206,10 @@ SphereTree BuildCompound(const SphereTree* surface, std::uint32_t triangles,
   return Flattening(surface).Run(Gathered(parts));
 }
 
-void AddSolids(std::span<const ConvexSolid> solids, MeshFacts* facts) {
+void AddSolids(std::span<const ConvexSolid> solids, geometry::MeshFacts* facts) {
   if (facts->components == 0) {
     facts->closed = true;
-    facts->lower = Vector3d::Constant(kInfinity), facts->upper = -facts->lower;
+    facts->lower = Vector3d::Constant(numeric::kInfinity), facts->upper = -facts->lower;
   }
   facts->components += solids.size();
   for (const ConvexSolid& solid : solids) {
@@ -213,4 +219,4 @@ void AddSolids(std::span<const ConvexSolid> solids, MeshFacts* facts) {
   }
 }
 
-}  // namespace collision
+}  // namespace collision::shape

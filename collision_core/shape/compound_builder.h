@@ -3,22 +3,23 @@
 
 #include <span>
 
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/shape/convex_solid.h"
-#include "collision_core/shape/sphere_tree.h"
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/sphere_tree/sphere_tree.h"
 
-namespace collision {
+namespace collision::shape {
 
-/// Every solid is a leaf of its own, with the element `triangles` + its number as its only one; the
-/// surface's tree (of `triangles` triangles; null: none) hangs below as it is. Above them up to eight
-/// balls at a time are gathered, near ones together. A signed distance is that to one of the union,
-/// which the union is no further from: of a solid to a ball inside it.
+/// Builds one tree over convex solids and a surface. Every solid is a leaf of its own, with the
+/// element `triangles` + its number as its only one; the surface's tree (of `triangles` triangles;
+/// null: none) hangs below as it is. Above them up to eight near balls at a time are gathered into
+/// one. The signed distance of a gathering is that of its best child, plus the way between the two
+/// centres; the union is at least as near.
 ///
-/// Requires a solid. Takes n log n for n of them, and the copy of the surface's tree.
-SphereTree BuildCompound(const SphereTree* surface, std::uint32_t triangles,
-                         std::span<const ConvexSolid> solids);
+/// O(n log n) for n solids, plus the copy of the surface's tree. Requires a solid.
+sphere_tree::SphereTree BuildCompound(const sphere_tree::SphereTree* surface,
+                                      std::uint32_t triangles, std::span<const ConvexSolid> solids);
 
-/// Of a surface (or nothing: facts as constructed) and solids together.
-void AddSolids(std::span<const ConvexSolid> solids, MeshFacts* facts);
+/// Extends the facts of a surface (as constructed, if there is none) by those of solids.
+void AddSolids(std::span<const ConvexSolid> solids, geometry::MeshFacts* facts);
 
-}  // namespace collision
+}  // namespace collision::shape

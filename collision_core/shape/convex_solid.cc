@@ -3,22 +3,22 @@
 #include <algorithm>
 #include <span>
 
+#include "collision_core/geometry/convex/epa.h"
+#include "collision_core/geometry/triangle/enclosing_ball.h"
 #include "collision_core/numeric/interval.h"
 #include "collision_core/numeric/rotation.h"
-#include "collision_core/shape/convex_polytope.h"
-#include "collision_core/shape/enclosing_ball.h"
 
-namespace collision {
+namespace collision::shape {
 namespace {
 
 using Eigen::Vector3d;
 
-double LengthUp(const Vector3d& v) { return Norm(IntervalVector(v)).upper; }
+double LengthUp(const Vector3d& v) { return numeric::Norm(numeric::IntervalVector(v)).upper; }
 
 /// No rotation stays without error.
-Rotation RotationOf(const Eigen::Quaterniond& q) {
+numeric::Rotation RotationOf(const Eigen::Quaterniond& q) {
   if (q.vec().isZero(0)) return {};
-  return RotationOf(UnitQuaternion(q));
+  return RotationOf(numeric::UnitQuaternion(q));
 }
 
 /// A vector computed in intervals, and how far it may be from the exact one.
@@ -27,42 +27,45 @@ struct Rounded {
   double error;
 };
 
-Rounded RoundedOf(const IntervalVector& v) {
+Rounded RoundedOf(const numeric::IntervalVector& v) {
   const Vector3d middle = v.middle();
-  return {middle, Norm(v - IntervalVector(middle)).upper};
+  return {middle, numeric::Norm(v - numeric::IntervalVector(middle)).upper};
 }
 
-Rounded Placed(const Rotation& rotation, const Vector3d& x, const Vector3d& offset) {
+Rounded Placed(const numeric::Rotation& rotation, const Vector3d& x, const Vector3d& offset) {
   const auto row = [&](int i) {
-    return Dot(IntervalVector(Vector3d(rotation.matrix.row(i))), IntervalVector(x)) +
-           Interval(offset[i]);
+    return Dot(numeric::IntervalVector(Vector3d(rotation.matrix.row(i))),
+               numeric::IntervalVector(x)) +
+           numeric::Interval(offset[i]);
   };
   Rounded placed = RoundedOf({row(0), row(1), row(2)});
-  placed.error = AddUp(placed.error, MultiplyUp(rotation.error, LengthUp(x)));
+  placed.error = numeric::AddUp(placed.error, numeric::MultiplyUp(rotation.error, LengthUp(x)));
   return placed;
 }
 
 /// Of the core's own axes: a segment lies along z, which becomes its first generator.
 Vector3d HalfOf(const ConvexDescription& d, int generator) {
-  if (d.core == ConvexCore::kSegment) {
+  if (d.core == geometry::ConvexCore::kSegment) {
     return generator == 0 ? Vector3d(0, 0, d.half.z()) : Vector3d(0, 0, 0);
   }
   return d.half[generator] * Vector3d::Unit(generator);
 }
 
-void SetGenerators(const ConvexDescription& d, const Rotation& rotation, ConvexSet* set) {
+void SetGenerators(const ConvexDescription& d, const numeric::Rotation& rotation,
+                   geometry::ConvexSet* set) {
   for (int i = 0; i < 3; ++i) {
     const Vector3d half = HalfOf(d, i);
     const Rounded generator = Placed(rotation, half, Vector3d::Zero());
     set->generators.col(i) = generator.value;
-    set->error = AddUp(set->error, generator.error);
-    set->span = AddUp(set->span, LengthUp(generator.value));
+    set->error = numeric::AddUp(set->error, generator.error);
+    set->span = numeric::AddUp(set->span, LengthUp(generator.value));
   }
 }
 
 /// The points seen from the middle of their box: where the body's origin is counts for nothing.
-std::shared_ptr<const ConvexPoints> SetPoints(const ConvexDescription& d, const Rotation& rotation,
-                                              ConvexSet* set) {
+std::shared_ptr<const geometry::ConvexPoints> SetPoints(const ConvexDescription& d,
+                                                        const numeric::Rotation& rotation,
+                                                        geometry::ConvexSet* set) {
   Vector3d lower = d.points[0], upper = d.points[0];
   for (const Vector3d& p : d.points) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
   const Vector3d middle = 0.5 * lower + 0.5 * upper;
@@ -70,43 +73,45 @@ std::shared_ptr<const ConvexPoints> SetPoints(const ConvexDescription& d, const 
   seen.reserve(d.points.size());
   double lost = 0;
   for (const Vector3d& p : d.points) {
-    const Rounded from_middle = RoundedOf(IntervalVector(p) - IntervalVector(middle));
+    const Rounded from_middle =
+        RoundedOf(numeric::IntervalVector(p) - numeric::IntervalVector(middle));
     lost = std::max(lost, from_middle.error);
     seen.push_back(from_middle.value);
   }
-  auto points = std::make_shared<const ConvexPoints>(seen);
+  auto points = std::make_shared<const geometry::ConvexPoints>(seen);
   const Rounded centre = Placed(rotation, middle, d.p_BS);
   set->centre = centre.value;
   set->generators = rotation.matrix;
   set->span = 2 * points->reach();
-  set->error = AddUp(AddUp(lost, centre.error), MultiplyUp(rotation.error, points->reach()));
+  set->error = numeric::AddUp(numeric::AddUp(lost, centre.error),
+                              numeric::MultiplyUp(rotation.error, points->reach()));
   set->points = points.get();
   return points;
 }
 
 /// Corners in the body frame, none for an ellipsoid; off by less than kSupportError span.
-std::vector<Vector3d> CornersOf(const ConvexSet& set) {
+std::vector<Vector3d> CornersOf(const geometry::ConvexSet& set) {
   std::vector<Vector3d> corners;
   const auto add = [&](const Vector3d& seen) { corners.push_back(set.centre + seen); };
   const Eigen::Matrix3d& g = set.generators;
   switch (set.core) {
-    case ConvexCore::kEllipsoid:
+    case geometry::ConvexCore::kEllipsoid:
       break;
-    case ConvexCore::kPoint:
+    case geometry::ConvexCore::kPoint:
       add(Vector3d::Zero());
       break;
-    case ConvexCore::kSegment:
+    case geometry::ConvexCore::kSegment:
       for (const int sign : {-1, 1}) add(sign * g.col(0));
       break;
-    case ConvexCore::kTriangle:
+    case geometry::ConvexCore::kTriangle:
       for (int i = 0; i < 3; ++i) add(g.col(i));
       break;
-    case ConvexCore::kBox:
+    case geometry::ConvexCore::kBox:
       for (int i = 0; i < 8; ++i) {
         add(g * Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
       }
       break;
-    case ConvexCore::kHull:
+    case geometry::ConvexCore::kHull:
       for (std::uint32_t i = 0; i < set.points->size(); ++i) add(g * (*set.points)[i]);
       break;
   }
@@ -114,49 +119,54 @@ std::vector<Vector3d> CornersOf(const ConvexSet& set) {
 }
 
 /// What any computed corner, seen from the origin, may be off by.
-double CornerError(const ConvexSet& set) {
-  const double rounding = MultiplyUp(0x1p-52, AddUp(LengthUp(set.centre), set.span));
-  return AddUp(AddUp(rounding, MultiplyUp(kSupportError, set.span)), set.error);
+double CornerError(const geometry::ConvexSet& set) {
+  const double rounding =
+      numeric::MultiplyUp(0x1p-52, numeric::AddUp(LengthUp(set.centre), set.span));
+  return numeric::AddUp(
+      numeric::AddUp(rounding, numeric::MultiplyUp(geometry::kSupportError, set.span)), set.error);
 }
 
-void SetBalls(const ConvexSet& set, double reach, ConvexFacts* facts) {
+void SetBalls(const geometry::ConvexSet& set, double reach, ConvexFacts* facts) {
   const std::vector<Vector3d> corners = CornersOf(set);
-  const double more = AddUp(CornerError(set), set.rounding);
+  const double more = numeric::AddUp(CornerError(set), set.rounding);
   facts->ball_centre = set.centre;
-  facts->ball_radius = AddUp(reach, more);
-  facts->radius = AddUp(LengthUp(set.centre), facts->ball_radius);
+  facts->ball_radius = numeric::AddUp(reach, more);
+  facts->radius = numeric::AddUp(LengthUp(set.centre), facts->ball_radius);
   if (corners.empty()) return;
-  const EnclosingBall ball = SmallBallAround(corners);
-  const double radius = AddUp(ball.radius, more);
+  const geometry::EnclosingBall ball = geometry::SmallBallAround(corners);
+  const double radius = numeric::AddUp(ball.radius, more);
   if (radius < facts->ball_radius) facts->ball_centre = ball.centre, facts->ball_radius = radius;
   double furthest = 0;
   for (const Vector3d& corner : corners) furthest = std::max(furthest, LengthUp(corner));
-  facts->radius = AddUp(furthest, more);
+  facts->radius = numeric::AddUp(furthest, more);
 }
 
-void SetBox(const ConvexSet& set, ConvexFacts* facts) {
-  const double more = AddUp(CornerError(set), set.rounding);
+void SetBox(const geometry::ConvexSet& set, ConvexFacts* facts) {
+  const double more = numeric::AddUp(CornerError(set), set.rounding);
   for (int i = 0; i < 3; ++i) {
     const Vector3d n = Vector3d::Unit(i);
-    facts->upper[i] = AddUp(set.centre[i] + set.SupportPoint(n)[i], more);
-    facts->lower[i] = AddDown(set.centre[i] + set.SupportPoint(-n)[i], -more);
+    facts->upper[i] = numeric::AddUp(set.centre[i] + set.SupportPoint(n)[i], more);
+    facts->lower[i] = numeric::AddDown(set.centre[i] + set.SupportPoint(-n)[i], -more);
   }
 }
 
 /// A ball in the core about its centre, known from its measures.
 double CoreInradius(const ConvexDescription& d) {
-  const bool known = d.core == ConvexCore::kBox || d.core == ConvexCore::kEllipsoid;
+  const bool known =
+      d.core == geometry::ConvexCore::kBox || d.core == geometry::ConvexCore::kEllipsoid;
   return known ? d.half.minCoeff() : 0;
 }
 
-void SetInside(const ConvexDescription& d, const ConvexSet& set, ConvexFacts* facts) {
+void SetInside(const ConvexDescription& d, const geometry::ConvexSet& set, ConvexFacts* facts) {
   facts->inner_point = set.centre;
-  facts->inradius = std::max(0.0, AddDown(AddDown(CoreInradius(d), -set.error), set.rounding));
-  if (d.core == ConvexCore::kHull) {
-    const InscribedBall inside = LargeBallInside(set);
+  facts->inradius =
+      std::max(0.0, numeric::AddDown(numeric::AddDown(CoreInradius(d), -set.error), set.rounding));
+  if (d.core == geometry::ConvexCore::kHull) {
+    const geometry::InscribedBall inside = LargeBallInside(set);
     facts->inner_point = inside.centre;
-    const double radius = AddDown(inside.radius, -set.error);
-    facts->inradius = std::max(0.0, AddDown(std::max(0.0, radius), set.rounding - set.error));
+    const double radius = numeric::AddDown(inside.radius, -set.error);
+    facts->inradius =
+        std::max(0.0, numeric::AddDown(std::max(0.0, radius), set.rounding - set.error));
   }
 }
 
@@ -164,18 +174,18 @@ void SetInside(const ConvexDescription& d, const ConvexSet& set, ConvexFacts* fa
 
 ConvexSolid ConvexSolid::Build(const ConvexDescription& d) {
   ConvexSolid solid;
-  const Rotation rotation = RotationOf(d.q_BS);
-  ConvexSet& set = solid.set_;
+  const numeric::Rotation rotation = RotationOf(d.q_BS);
+  geometry::ConvexSet& set = solid.set_;
   set.core = d.core;
   set.rounding = d.rounding;
   double reach = 0;
-  if (d.core == ConvexCore::kHull) {
+  if (d.core == geometry::ConvexCore::kHull) {
     solid.points_ = SetPoints(d, rotation, &set);
     reach = solid.points_->reach();
   } else {
     set.centre = d.p_BS;
-    if (d.core != ConvexCore::kPoint) SetGenerators(d, rotation, &set);
-    reach = d.core == ConvexCore::kEllipsoid ? d.half.maxCoeff() : set.span;
+    if (d.core != geometry::ConvexCore::kPoint) SetGenerators(d, rotation, &set);
+    reach = d.core == geometry::ConvexCore::kEllipsoid ? d.half.maxCoeff() : set.span;
   }
   SetBalls(set, reach, &solid.facts_);
   SetBox(set, &solid.facts_);
@@ -183,4 +193,4 @@ ConvexSolid ConvexSolid::Build(const ConvexDescription& d) {
   return solid;
 }
 
-}  // namespace collision
+}  // namespace collision::shape

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-namespace collision {
+namespace collision::shape {
 namespace {
 
 using Eigen::Vector3d;
@@ -11,7 +11,8 @@ using Eigen::Vector3d;
 /// Few points need no fine cells.
 std::uint32_t CellsFor(std::size_t points) { return points <= 16 ? 2 : points <= 128 ? 4 : 8; }
 
-/// No less, and not zero: a cast is off by 2^-24 of itself, or by less than the least normal number.
+/// No less, and not zero: a cast is off by 2^-24 of itself, or by less than the least normal
+/// number.
 float FloatUp(double x) {
   const auto rounded = static_cast<float>(x);
   return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
@@ -144,4 +145,4 @@ void OuterHull::Divide(const Patch& patch, const std::vector<Vector3d>& points) 
   }
 }
 
-}  // namespace collision
+}  // namespace collision::shape

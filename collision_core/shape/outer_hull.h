@@ -8,29 +8,33 @@
 #include <span>
 #include <vector>
 
-namespace collision {
+namespace collision::shape {
 
-/// Of these points one reaches farthest along a direction of the cell, or by no more than `more`
-/// less than all of the body, where the direction's greatest coordinate is 1. In single precision,
-/// seen from the hull's origin; places left over repeat the first point. One line of a cache.
+/// Points for one cell of directions: one of them reaches farthest along a direction of the cell,
+/// or by no more than `more` less than the whole body, where the direction's greatest coordinate is
+/// 1. In single precision, seen from the hull's origin; unused places repeat the first point. One
+/// cache line.
 struct alignas(64) HullCell {
   static constexpr std::uint32_t kPoints = 4;
   float x[kPoints], y[kPoints], z[kPoints];
   float more;
 };
 
-/// Contains a shape, and not much more than its convex hull: mostly nothing where corners are few, some
-/// hundredths of the size along round sides. At most 24 kB, however many triangles there are.
+/// A convex body that contains a shape and is little more than its convex hull; at most 24 kB,
+/// however many triangles there are. In single precision, to be asked how far the shape reaches
+/// along a direction.
 ///
-/// Directions are sorted into the cells of a cube around them, as in convex_points.h; but a cell
-/// keeps four points at most. On a face of the cube, along (1, u, v), the difference of two points is
-/// linear in u and v: it is greatest at a corner of the cell. So it is known by how much a point that
-/// was left out may exceed those that were kept.
+/// Directions are sorted into the cells of a cube, as in convex_points.h, but a cell keeps four
+/// points at most: one line of a cache. On a face of the cube, along (1, u, v), the difference of
+/// two points is linear in u and v and greatest at a corner of the cell, so it is known by how much
+/// a point that was left out may exceed those that were kept (`HullCell::more`). The body exceeds
+/// the convex hull by nothing along half of the directions (homer, spot), by 0.1 % of the diameter
+/// along half of rocker-arm's, by 2 % at most. Making it takes about a microsecond a vertex.
 class OuterHull {
  public:
-  /// Of nothing.
+  /// The hull of nothing.
   OuterHull() = default;
-  /// Around all that is within `rounding` of the points' convex hull [m]. Requires a point; finite
+  /// Around everything within `rounding` of the points' convex hull [m]. Requires a point; finite
   /// coordinates below 1e15 m, whose squares single precision holds.
   OuterHull(std::span<const Eigen::Vector3d> points, double rounding);
 
@@ -109,4 +113,4 @@ inline OuterHull::Support OuterHull::Along(const Eigen::Vector3f& n) const {
   return {foremost.height + foremost.more, foremost.point};
 }
 
-}  // namespace collision
+}  // namespace collision::shape

@@ -5,19 +5,20 @@
 #include <utility>
 
 #include "collision_core/shape/compound_builder.h"
-#include "collision_core/shape/fitted_builder.h"
-#include "collision_core/shape/halved_builder.h"
-#include "collision_core/shape/hull_around.h"
-#include "collision_core/shape/octree_builder.h"
-#include "collision_core/shape/surface_query.h"
+#include "collision_core/shape/hull_builder.h"
+#include "collision_core/sphere_tree/fitted/fitted_builder.h"
+#include "collision_core/sphere_tree/median_split/median_split_builder.h"
+#include "collision_core/sphere_tree/octree/octree_builder.h"
+#include "collision_core/sphere_tree/surface_query.h"
 
-namespace collision {
+namespace collision::shape {
 namespace {
 
 /// Negative only where certain: inside a closed solid the ball of that radius meets no triangle.
-double SignedDistanceAt(const SphereNode& node, bool closed, SurfaceQuery* query) {
+double SignedDistanceAt(const sphere_tree::SphereNode& node, bool closed,
+                        sphere_tree::SurfaceQuery* query) {
   // The node's ball contains some of the surface, so its radius bounds the distance.
-  const Interval distance = query->DistanceTo(node.centre, node.radius);
+  const numeric::Interval distance = query->DistanceTo(node.centre, node.radius);
   if (!closed || query->WindingNumberAt(node.centre).value_or(0) == 0) return distance.upper;
   return -distance.lower;
 }
@@ -25,32 +26,39 @@ double SignedDistanceAt(const SphereNode& node, bool closed, SurfaceQuery* query
 /// Of a quick tree so many balls are measured: enough to tell a deep contact.
 constexpr std::size_t kHalvedMeasured = 1024;
 
-/// Nodes and triangles looked at for a ball, on average at most. Meshes as people make them need up to
-/// 240; copies upon each other are all as far from everything, and would all be measured each time.
+/// Nodes and triangles looked at for a ball, on average at most. Meshes as people make them need up
+/// to 240; copies upon each other are all as far from everything, and would all be measured each
+/// time.
 constexpr std::size_t kWorkPerBall = 1024;
 
-/// Of the first `count` nodes, as long as there is work left for them; of the others the radius stays.
-void MeasureCentres(const TriangleMesh& mesh, bool closed, std::size_t count, SphereTree* tree) {
-  SurfaceQuery query(mesh, *tree);
+/// Of the first `count` nodes, as long as there is work left for them; of the others the radius
+/// stays.
+void MeasureCentres(const geometry::TriangleMesh& mesh, bool closed, std::size_t count,
+                    sphere_tree::SphereTree* tree) {
+  sphere_tree::SurfaceQuery query(mesh, *tree);
   const auto nodes = std::span(tree->nodes).first(std::min(count, tree->nodes.size()));
-  for (SphereNode& node : nodes) {
+  for (sphere_tree::SphereNode& node : nodes) {
     if (query.work() >= kWorkPerBall * nodes.size()) return;
     node.signed_distance = SignedDistanceAt(node, closed, &query);
   }
 }
 
 /// All but the layout for traversals.
-SphereTree BuildTree(const TriangleMesh& mesh, const ShapeOptions& options, bool closed) {
-  if (options.builder == TreeBuilder::kFitted) return BuildFitted(mesh, options, closed);
-  const bool halved = options.builder == TreeBuilder::kHalved;
-  SphereTree tree = halved ? BuildHalved(mesh, options) : BuildOctree(mesh, options);
+sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
+                                  const sphere_tree::ShapeOptions& options, bool closed) {
+  if (options.builder == sphere_tree::TreeBuilder::kFitted)
+    return BuildFitted(mesh, options, closed);
+  const bool halved = options.builder == sphere_tree::TreeBuilder::kHalved;
+  sphere_tree::SphereTree tree =
+      halved ? BuildMedianSplit(mesh, options) : BuildOctree(mesh, options);
   MeasureCentres(mesh, closed, halved ? kHalvedMeasured : tree.nodes.size(), &tree);
   return tree;
 }
 
 }  // namespace
 
-std::shared_ptr<const Shape> Shape::Build(TriangleMesh mesh, const ShapeOptions& options,
+std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
+                                          const sphere_tree::ShapeOptions& options,
                                           const Shape* twin) {
   std::shared_ptr<Shape> shape(new Shape());
   if (twin) shape->body_ = twin->body_;
@@ -58,18 +66,19 @@ std::shared_ptr<const Shape> Shape::Build(TriangleMesh mesh, const ShapeOptions&
   shape->tree_ = BuildTree(mesh, options, shape->facts_.closed);
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
-  shape->packed_ = PackedTree(shape->mesh_, shape->tree_);
+  shape->packed_ = sphere_tree::PackedTree(shape->mesh_, shape->tree_);
   shape->hull_ = HullAround(shape->mesh_, {});
   return shape;
 }
 
-std::shared_ptr<const Shape> Shape::FromTree(TriangleMesh mesh, SphereTree tree) {
+std::shared_ptr<const Shape> Shape::FromTree(geometry::TriangleMesh mesh,
+                                             sphere_tree::SphereTree tree) {
   std::shared_ptr<Shape> shape(new Shape());
   shape->facts_ = FactsOf(mesh);
   shape->tree_ = std::move(tree);
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
-  shape->packed_ = PackedTree(shape->mesh_, shape->tree_);
+  shape->packed_ = sphere_tree::PackedTree(shape->mesh_, shape->tree_);
   shape->hull_ = HullAround(shape->mesh_, {});
   return shape;
 }
@@ -84,22 +93,22 @@ std::shared_ptr<const Shape> Shape::Compound(std::shared_ptr<const Shape> surfac
   }
   AddSolids(solids, &shape->facts_);
   for (const ConvexSolid& solid : solids) {
-    const ConvexSet& set = solid.set();
+    const geometry::ConvexSet& set = solid.set();
     shape->component_points_.push_back(set.centre + set.SupportPoint(Eigen::Vector3d::UnitX()));
   }
   const auto triangles = static_cast<std::uint32_t>(surface ? surface->mesh().triangles.size() : 0);
   shape->tree_ = BuildCompound(surface ? &surface->tree() : nullptr, triangles, solids);
   shape->surface_ = std::move(surface);
   shape->solids_ = std::move(solids);
-  shape->packed_ = PackedTree(shape->mesh(), shape->tree_);
+  shape->packed_ = sphere_tree::PackedTree(shape->mesh(), shape->tree_);
   shape->hull_ = HullAround(shape->mesh(), shape->solids_);
   return shape;
 }
 
-Interval Shape::DistanceTo(const Eigen::Vector3d& point) const {
+numeric::Interval Shape::DistanceTo(const Eigen::Vector3d& point) const {
   if (surface_) return surface_->DistanceTo(point);
-  if (mesh_.triangles.empty()) return {kInfinity, kInfinity};
-  return SurfaceQuery(mesh_, tree_).DistanceTo(point, kInfinity);
+  if (mesh_.triangles.empty()) return {numeric::kInfinity, numeric::kInfinity};
+  return sphere_tree::SurfaceQuery(mesh_, tree_).DistanceTo(point, numeric::kInfinity);
 }
 
 std::optional<int> Shape::WindingNumberAt(const Eigen::Vector3d& point) const {
@@ -108,15 +117,15 @@ std::optional<int> Shape::WindingNumberAt(const Eigen::Vector3d& point) const {
   const bool is_outside_box =
       (point.array() < facts_.lower.array()).any() || (point.array() > facts_.upper.array()).any();
   if (is_outside_box) return 0;
-  return SurfaceQuery(mesh_, tree_).WindingNumberAt(point);
+  return sphere_tree::SurfaceQuery(mesh_, tree_).WindingNumberAt(point);
 }
 
 std::size_t Shape::bytes() const {
   std::size_t bytes = surface_ ? surface_->bytes() : 0;
   for (const ConvexSolid& solid : solids_) bytes += solid.bytes();
   return bytes + sizeof *this + mesh_.vertices.capacity() * sizeof(Eigen::Vector3d) +
-         mesh_.triangles.capacity() * sizeof(Triangle) + tree_.bytes() + packed_.bytes() +
+         mesh_.triangles.capacity() * sizeof(geometry::Triangle) + tree_.bytes() + packed_.bytes() +
          hull_.bytes() + component_points_.capacity() * sizeof(Eigen::Vector3d);
 }
 
-}  // namespace collision
+}  // namespace collision::shape

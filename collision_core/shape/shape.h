@@ -5,59 +5,69 @@
 #include <optional>
 #include <vector>
 
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/numeric/interval.h"
 #include "collision_core/shape/convex_solid.h"
 #include "collision_core/shape/outer_hull.h"
-#include "collision_core/shape/packed_tree.h"
-#include "collision_core/shape/shape_options.h"
-#include "collision_core/shape/sphere_tree.h"
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/sphere_tree/packed_tree.h"
+#include "collision_core/sphere_tree/sphere_tree.h"
+#include "collision_core/sphere_tree/tree_options.h"
 
-namespace collision {
+namespace collision::shape {
 
-/// Convex solids of one shape at most.
+/// The most convex solids of one shape.
 inline constexpr std::size_t kSolidsMax = std::size_t{1} << 16;
 
-/// A surface of triangles, convex solids, or both, with their sphere tree. Immutable once built;
-/// shared by all agents of that shape, and between threads.
+/// A surface of triangles, convex solids, or both, with their sphere tree. The façade of shapes for
+/// the other rooms. Immutable once built; shared by all agents of that shape, and between threads.
+/// Body frame B, metres.
 ///
-/// Its *elements* are the triangles of the surface, by their numbers, and then the solids. The body
-/// is the union of them all, and if the surface is closed of what is inside.
+/// The *elements* of a shape are the triangles of the surface, by their numbers, and then the
+/// solids. The body is the union of them all and, if the surface is closed, of its inside. One
+/// numbering serves the tree, a search, and what is remembered of a contact. A solid is a leaf of
+/// its own; up to eight near ones at a time are gathered into a ball, and the surface's tree (which
+/// the cache keeps) hangs among them unchanged. Nothing is inside a solid without touching it, so
+/// winding numbers are asked of the surface only.
+///
+/// *Twins* are shapes of one body with different trees, for example a coarse tree and the fitted
+/// tree that replaces it. What is known of an agent with the one shape holds with the other.
 class Shape {
  public:
-  /// Requires a mesh that passed RefusalOf() and has no degenerate triangles. Deterministic: the
-  /// same mesh and options give the same bits. Takes about 50 µs a triangle, the fitted builder 100.
-  /// `twin`, here and below: a shape of the same mesh and solids with another tree; null: none.
-  static std::shared_ptr<const Shape> Build(TriangleMesh mesh, const ShapeOptions& options = {},
+  /// Builds a shape of a surface. Takes about 50 µs a triangle, with the fitted builder 100.
+  /// Deterministic: the same mesh and options give the same bits. `twin`, here and below: a shape
+  /// of the same mesh and solids with another tree; null: none. Requires a mesh that passed
+  /// RefusalOf() and has no degenerate triangles.
+  static std::shared_ptr<const Shape> Build(geometry::TriangleMesh mesh,
+                                            const sphere_tree::ShapeOptions& options = {},
                                             const Shape* twin = nullptr);
 
-  /// The shape that Build() made of the same mesh, from its tree, without the work. Requires that
-  /// RefusalOf(tree, mesh) is nothing; what the tree says of distances is taken on trust.
-  static std::shared_ptr<const Shape> FromTree(TriangleMesh mesh, SphereTree tree);
+  /// The shape that Build() made of the same mesh, from its tree, without the work. The distances
+  /// in the tree are trusted. Requires that RefusalOf(tree, mesh) is nullopt.
+  static std::shared_ptr<const Shape> FromTree(geometry::TriangleMesh mesh,
+                                               sphere_tree::SphereTree tree);
 
-  /// Surface and solids as one. `surface`: made by Build() or FromTree(), or null. Requires one to
-  /// kSolidsMax solids.
+  /// A surface and solids as one body. `surface`: made by Build() or FromTree(), or null. Requires
+  /// one to kSolidsMax solids.
   static std::shared_ptr<const Shape> Compound(std::shared_ptr<const Shape> surface,
                                                std::vector<ConvexSolid> solids,
                                                const Shape* twin = nullptr);
 
-  /// Twins, whichever was made first: only their trees differ, so that what is known of an agent
-  /// with the one holds with the other.
+  /// Whether the two are twins: only their trees differ.
   bool IsSameBodyAs(const Shape& other) const { return body_ == other.body_; }
 
-  /// Of the surface; empty if there is none.
-  const TriangleMesh& mesh() const { return surface_ ? surface_->mesh_ : mesh_; }
+  /// The triangles of the surface; empty if there is none.
+  const geometry::TriangleMesh& mesh() const { return surface_ ? surface_->mesh_ : mesh_; }
   const std::vector<ConvexSolid>& solids() const { return solids_; }
   bool IsSolid(std::uint32_t element) const { return element >= mesh().triangles.size(); }
   const ConvexSolid& SolidAt(std::uint32_t element) const {
     return solids_[element - mesh().triangles.size()];
   }
 
-  const MeshFacts& facts() const { return facts_; }
-  const SphereTree& tree() const { return tree_; }
+  const geometry::MeshFacts& facts() const { return facts_; }
+  const sphere_tree::SphereTree& tree() const { return tree_; }
   /// The same tree, for traversals.
-  const PackedTree& packed() const { return packed_; }
-  /// A convex body around triangles and solids.
+  const sphere_tree::PackedTree& packed() const { return packed_; }
+  /// A convex body that contains all triangles and solids.
   const OuterHull& hull() const { return hull_; }
 
   /// Whether the surface bounds a solid: the triangles and all points of winding number other than
@@ -69,27 +79,27 @@ class Shape {
   const std::vector<Eigen::Vector3d>& component_points() const { return component_points_; }
 
   /// The distance of a point (body frame) to the surface, certified; +infinity if there is none.
-  Interval DistanceTo(const Eigen::Vector3d& point) const;
+  numeric::Interval DistanceTo(const Eigen::Vector3d& point) const;
 
   /// The winding number of the surface about a point (body frame): exact, or nullopt if the point
   /// lies on the surface or too near to tell. Requires closed().
   std::optional<int> WindingNumberAt(const Eigen::Vector3d& point) const;
 
-  /// What mesh, solids and tree keep in memory.
+  /// Memory in use by mesh, solids and tree [bytes].
   std::size_t bytes() const;
 
  private:
   Shape() = default;
 
-  TriangleMesh mesh_;
+  geometry::TriangleMesh mesh_;
   std::shared_ptr<const Shape> surface_;  ///< Of a compound.
   std::vector<ConvexSolid> solids_;
-  MeshFacts facts_;
-  SphereTree tree_;
-  PackedTree packed_;
+  geometry::MeshFacts facts_;
+  sphere_tree::SphereTree tree_;
+  sphere_tree::PackedTree packed_;
   OuterHull hull_;
   std::vector<Eigen::Vector3d> component_points_;
   std::shared_ptr<const char> body_ = std::make_shared<const char>();  ///< One of all twins.
 };
 
-}  // namespace collision
+}  // namespace collision::shape

@@ -6,8 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/broad_phase/all_pairs.h"
-#include "collision_core/broad_phase/pair_time.h"
+#include "collision_core/broad_phase/index/all_pairs.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/baselines/ball_bound.h"
 #include "tests/baselines/scenes.h"
 #include "tests/support/random.h"
@@ -35,7 +36,8 @@ TEST(PlainMeetingTime, AgreesWithTheCanonicalRoutine) {
   for (int i = 0; i < 20'000; ++i) {
     const BallAgent a = Draw(random), b = Draw(random);
     const double limit = random.Uniform(0.5, 3);
-    const PairTime exact = EarliestIntersection(BoundOf(a), BoundOf(b), Instant());
+    const intersection::IntersectionTime exact =
+        intersection::EarliestIntersection(BoundOf(a), BoundOf(b), Instant());
     const double expected = std::max(a.stamp, b.stamp) + exact.seconds;
     const double plain = PlainMeetingTime(a, b, limit);
     if (std::abs(expected - limit) < 1e-6) continue;
@@ -69,9 +71,10 @@ TEST(SweptBox, HoldsTheHornAndTouchesIt) {
 }
 
 double FirstMeeting(const BallScene& scene) {
-  AllPairs all;
+  broad_phase::AllPairs all;
   for (std::size_t i = 0; i < scene.size(); ++i) all.Put(i, BoundOf(scene[i]));
-  const auto first = all.Earliest({BoundKind::kHorn, Instant(), AddRoundedDown(Instant(), 10)});
+  const auto first = all.Earliest(
+      {intersection::BoundKind::kHorn, Instant(), numeric::AddRoundedDown(Instant(), 10)});
   return first ? static_cast<double>(first->time.instant().nanoseconds()) * 1e-9 : 10;
 }
 

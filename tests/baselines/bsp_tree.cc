@@ -18,14 +18,14 @@ constexpr std::size_t kSplitCost = 6;
 
 }  // namespace
 
-BspTree::BspTree(const TriangleMesh& mesh) {
+BspTree::BspTree(const geometry::TriangleMesh& mesh) {
   double largest = 0;
   for (const Eigen::Vector3d& p : mesh.vertices) {
     largest = std::max(largest, p.cwiseAbs().maxCoeff());
   }
   tolerance_ = kToleranceShare * largest;
   std::vector<Face> faces;
-  for (const Triangle& t : mesh.triangles) {
+  for (const geometry::Triangle& t : mesh.triangles) {
     Face face;
     for (const std::uint32_t v : t) face.polygon.push_back(mesh.vertices[v]);
     const auto& p = face.polygon;

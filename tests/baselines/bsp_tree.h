@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 
 namespace collision::baselines {
 
@@ -17,7 +17,7 @@ class BspTree {
  public:
   /// Requires closed, outward triangles that do not cross each other. Of a few candidates for each
   /// cut the one that splits few faces and leaves as many on one side as on the other.
-  explicit BspTree(const TriangleMesh& mesh);
+  explicit BspTree(const geometry::TriangleMesh& mesh);
 
   /// Whether the two solids have a point in common. B's faces go down A's tree, split where they
   /// cross its planes, until a piece arrives inside; and A's down B's. x_A = rotation x_B + offset.

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/support/meshes.h"
 #include "tests/support/random.h"
 
@@ -16,7 +16,8 @@ namespace {
 
 const Eigen::Matrix3d kUpright = Eigen::Matrix3d::Identity();
 
-bool Meet(const TriangleMesh& a, const TriangleMesh& b, const Eigen::Vector3d& offset) {
+bool Meet(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b,
+          const Eigen::Vector3d& offset) {
   return BspTree::Intersect(BspTree(a), BspTree(b), kUpright, offset);
 }
 
@@ -25,9 +26,9 @@ Eigen::Matrix3d RandomRotation(Random& random) {
   return Eigen::AngleAxisd(random.Uniform(0, 3), axis).toRotationMatrix();
 }
 
-BodySegment BodyOf(const TriangleMesh& mesh) {
-  BodySegment body;
-  body.shape = Shape::Build(mesh);
+narrow_phase::BodySegment BodyOf(const geometry::TriangleMesh& mesh) {
+  narrow_phase::BodySegment body;
+  body.shape = shape::Shape::Build(mesh);
   return body;
 }
 
@@ -59,20 +60,23 @@ TEST(BspTree, TheNotchOfAnLIsOutside) {
 
 TEST(BspTree, SaysWhatIsCertain) {
   Random random(11);
-  const TriangleMesh meshes[] = {Cube(0.7), Tetrahedron(0.8), LShape(), Frame(), Star(2, random)};
+  const geometry::TriangleMesh meshes[] = {Cube(0.7), Tetrahedron(0.8), LShape(), Frame(),
+                                           Star(2, random)};
   int touching = 0, apart = 0;
-  for (const TriangleMesh& mesh_a : meshes) {
-    for (const TriangleMesh& mesh_b : meshes) {
+  for (const geometry::TriangleMesh& mesh_a : meshes) {
+    for (const geometry::TriangleMesh& mesh_b : meshes) {
       const BspTree tree_a(mesh_a), tree_b(mesh_b);
-      const BodySegment body_a = BodyOf(mesh_a), body_b = BodyOf(mesh_b);
+      const narrow_phase::BodySegment body_a = BodyOf(mesh_a), body_b = BodyOf(mesh_b);
       for (int i = 0; i < 40; ++i) {
         const Eigen::Matrix3d rotation = RandomRotation(random);
         const Eigen::Vector3d offset = random.Uniform(0, 4) * random.UnitVector();
-        Work work(100'000'000);
-        const Verdict verdict =
-            DecideAt(Surface(body_a), Surface(body_b), PoseOf(rotation, offset), &work).verdict;
-        if (verdict == Verdict::kUndecided) continue;
-        const bool touches = verdict == Verdict::kTouching;
+        WorkBudget work(100'000'000);
+        const narrow_phase::Verdict verdict =
+            DecideAt(narrow_phase::BodyTree(body_a), narrow_phase::BodyTree(body_b),
+                     narrow_phase::PoseOf(rotation, offset), &work)
+                .verdict;
+        if (verdict == narrow_phase::Verdict::kUndecided) continue;
+        const bool touches = verdict == narrow_phase::Verdict::kTouching;
         ++(touches ? touching : apart);
         EXPECT_EQ(BspTree::Intersect(tree_a, tree_b, rotation, offset), touches)
             << "offset " << offset.transpose() << ", pose " << i;

@@ -13,14 +13,14 @@ inline Instant InstantOf(const MovingCubes& cubes, std::int64_t frames_later = 0
 }
 
 /// The horn of one cube's ball from the present frame on.
-inline SpaceTimeBound BoundOf(const MovingCubes& cubes, std::uint32_t cube) {
-  SpaceTimeBound bound = BoundOf(cubes.Ball(cube));
+inline motion::SpaceTimeBound BoundOf(const MovingCubes& cubes, std::uint32_t cube) {
+  motion::SpaceTimeBound bound = BoundOf(cubes.Ball(cube));
   bound.state.stamp = InstantOf(cubes);
   return bound;
 }
 
 /// Appends every pair that may first meet at or after `from`, by `until`.
-void AllMeetings(BroadPhase* phase, std::uint32_t agents, Instant from, Instant until,
-                 std::vector<PairMeeting>* meetings);
+void AllMeetings(broad_phase::BroadPhase* phase, std::uint32_t agents, Instant from, Instant until,
+                 std::vector<intersection::IntersectingPair>* meetings);
 
 }  // namespace collision::baselines

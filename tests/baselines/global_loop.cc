@@ -17,7 +17,8 @@ std::optional<CubePair> GlobalLoop::Look(const MovingCubes& cubes) {
     phase_->Put(cube, BoundOf(cubes, cube));
   }
   work_.rebuilds += cubes.count();
-  const BroadQuery query{BoundKind::kHorn, now, InstantOf(cubes, kHorizonFrames)};
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, now,
+                                       InstantOf(cubes, kHorizonFrames)};
   const auto earliest = phase_->Earliest(query);
   ++work_.questions;
   t_end_ = earliest ? earliest->time.instant() : query.until;
@@ -28,7 +29,7 @@ std::optional<CubePair> GlobalLoop::Look(const MovingCubes& cubes) {
   AllMeetings(phase_.get(), cubes.count(), now, now, &could_overlap_);
   work_.questions += cubes.count();
   std::optional<CubePair> first;
-  for (const PairMeeting& meeting : could_overlap_) {
+  for (const intersection::IntersectingPair& meeting : could_overlap_) {
     Test(cubes, meeting.lower, meeting.higher, &first);
   }
   return first;

@@ -15,14 +15,14 @@ namespace collision::baselines {
 /// the next frame is t_end. Source: Hubbard 1995, section 4.
 class GlobalLoop : public CollisionLoop {
  public:
-  explicit GlobalLoop(std::unique_ptr<BroadPhase> phase) : phase_(std::move(phase)) {}
+  explicit GlobalLoop(std::unique_ptr<broad_phase::BroadPhase> phase) : phase_(std::move(phase)) {}
 
   std::optional<CubePair> Look(const MovingCubes& cubes) override;
 
  private:
-  std::unique_ptr<BroadPhase> phase_;
+  std::unique_ptr<broad_phase::BroadPhase> phase_;
   Instant t_end_ = Instant::Always();
-  std::vector<PairMeeting> could_overlap_;
+  std::vector<intersection::IntersectingPair> could_overlap_;
 };
 
 }  // namespace collision::baselines

@@ -4,7 +4,7 @@ namespace collision::baselines {
 
 void LazyEarliest::Ask(std::uint32_t agent, Instant now) {
   ++asked_;
-  const Instant until = AddRoundedDown(now, horizon_);
+  const Instant until = numeric::AddRoundedDown(now, horizon_);
   const auto meeting = asker_->Ask(agent, now, until);
   // Without one it is asked again when the horizon asked about is over.
   const std::uint32_t partner = meeting ? meeting->partner : agent;
@@ -13,7 +13,7 @@ void LazyEarliest::Ask(std::uint32_t agent, Instant now) {
 }
 
 std::optional<LazyEarliest::Found> LazyEarliest::Earliest(Instant now) {
-  const Instant until = AddRoundedDown(now, horizon_);
+  const Instant until = numeric::AddRoundedDown(now, horizon_);
   while (!queue_.empty() && queue_.top_key() <= until) {
     const std::uint32_t agent = queue_.top();
     const Entry& entry = entries_[agent];

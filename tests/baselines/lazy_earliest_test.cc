@@ -6,7 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/broad_phase/all_pairs.h"
+#include "collision_core/broad_phase/index/all_pairs.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/baselines/ball_bound.h"
 #include "tests/baselines/scenes.h"
 #include "tests/support/random.h"
@@ -19,13 +20,13 @@ constexpr double kLookAhead = 0.7;
 class AllPairsAsker : public AgentAsker {
  public:
   std::optional<AgentMeeting> Ask(std::uint32_t agent, Instant from, Instant until) override {
-    const auto meeting = phase.EarliestOf(agent, {BoundKind::kHorn, from, until});
+    const auto meeting = phase.EarliestOf(agent, {intersection::BoundKind::kHorn, from, until});
     if (!meeting) return std::nullopt;
     return AgentMeeting{meeting->lower == agent ? meeting->higher : meeting->lower,
                         meeting->time.instant()};
   }
 
-  AllPairs phase;
+  broad_phase::AllPairs phase;
 };
 
 TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
@@ -52,12 +53,12 @@ TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
       state.p_WA += state.v_WA * since + 0.5 * since * since * acceleration[agent];
       state.v_WA += acceleration[agent] * since;
       state.stamp = t;
-      const SpaceTimeBound bound = BoundOf(state);
+      const motion::SpaceTimeBound bound = BoundOf(state);
       asker.phase.Narrow(agent, bound);
       lazy.Renewed(agent);
       const Instant now = bound.state.stamp;
-      const auto expected =
-          asker.phase.Earliest({BoundKind::kHorn, now, AddRoundedDown(now, kLookAhead)});
+      const auto expected = asker.phase.Earliest(
+          {intersection::BoundKind::kHorn, now, numeric::AddRoundedDown(now, kLookAhead)});
       const auto found = lazy.Earliest(now);
       ASSERT_EQ(found.has_value(), expected.has_value()) << step;
       if (!found) continue;

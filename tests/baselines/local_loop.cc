@@ -32,7 +32,7 @@ bool LocalLoop::Renew(const MovingCubes& cubes, std::uint32_t cube) {
   ++work_.rebuilds;
   const bool is_new = frame_of_bound_[cube] < 0;
   frame_of_bound_[cube] = cubes.frame();
-  const SpaceTimeBound bound = BoundOf(cubes, cube);
+  const motion::SpaceTimeBound bound = BoundOf(cubes, cube);
   if (is_new) {
     phase_->Put(cube, bound);
   } else {
@@ -57,12 +57,12 @@ void LocalLoop::Ask(const MovingCubes& cubes, std::uint32_t cube) {
     // A partner whose bound is old only seems near: renew it before it counts.
     bool renewed = false;
     Instant next = horizon;
-    for (const Meeting& meeting : meetings_) {
+    for (const broad_phase::Meeting& meeting : meetings_) {
       renewed |= Renew(cubes, meeting.partner);
       next = std::min(next, std::max(meeting.time.instant(), soon));
     }
     if (renewed) continue;
-    for (const Meeting& meeting : meetings_) {
+    for (const broad_phase::Meeting& meeting : meetings_) {
       if (meeting.time.instant() > soon) continue;
       close_.push_back(std::minmax(cube, meeting.partner));
       partners_[cube].push_back(meeting.partner);
@@ -84,7 +84,8 @@ std::optional<CubePair> LocalLoop::TestClosePairs(const MovingCubes& cubes) {
     const BallAgent ball_a = cubes.Ball(a), ball_b = cubes.Ball(b);
     const double reach = ball_a.radius + ball_b.radius;
     if ((ball_a.p_WA - ball_b.p_WA).squaredNorm() <= reach * reach) return false;
-    const PairTime time = EarliestIntersection(BoundOf(cubes, a), BoundOf(cubes, b), now);
+    const intersection::IntersectionTime time =
+        intersection::EarliestIntersection(BoundOf(cubes, a), BoundOf(cubes, b), now);
     if (time.instant() <= apart) return false;
     std::erase(partners_[a], b), std::erase(partners_[b], a);
     if (time.instant() < keys_[a]) queue_.Set(a, keys_[a] = time.instant());

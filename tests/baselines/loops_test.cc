@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision_core/broad_phase/all_pairs.h"
+#include "collision_core/broad_phase/index/all_pairs.h"
 #include "tests/baselines/global_loop.h"
 #include "tests/baselines/local_loop.h"
 #include "tests/baselines/time_stepping.h"
@@ -40,9 +40,12 @@ TEST_P(Loops, FindTheSameFirstCollision) {
   for (const double cell : {1.0, 3.0, 8.0}) {
     EXPECT_EQ(OutcomeOf<TurkHash>(options, cell).first, naive.first) << "cell " << cell;
   }
-  EXPECT_EQ(OutcomeOf<GlobalLoop>(options, std::make_unique<AllPairs>()).first, naive.first);
-  EXPECT_EQ(OutcomeOf<LocalLoop>(options, std::make_unique<AllPairs>()).first, naive.first);
-  EXPECT_EQ(OutcomeOf<WindowLoop>(options, std::make_unique<AllPairs>()).first, naive.first);
+  EXPECT_EQ(OutcomeOf<GlobalLoop>(options, std::make_unique<broad_phase::AllPairs>()).first,
+            naive.first);
+  EXPECT_EQ(OutcomeOf<LocalLoop>(options, std::make_unique<broad_phase::AllPairs>()).first,
+            naive.first);
+  EXPECT_EQ(OutcomeOf<WindowLoop>(options, std::make_unique<broad_phase::AllPairs>()).first,
+            naive.first);
 }
 
 std::vector<MovingCubes::Options> Configurations() {
@@ -72,9 +75,9 @@ TEST(Loops, AgreeInEveryFrameAfterTheFirstCollisionToo) {
     TimeStepping naive;
     std::vector<std::unique_ptr<CollisionLoop>> loops;
     loops.push_back(std::make_unique<TurkHash>(2));
-    loops.push_back(std::make_unique<GlobalLoop>(std::make_unique<AllPairs>()));
-    loops.push_back(std::make_unique<LocalLoop>(std::make_unique<AllPairs>()));
-    loops.push_back(std::make_unique<WindowLoop>(std::make_unique<AllPairs>()));
+    loops.push_back(std::make_unique<GlobalLoop>(std::make_unique<broad_phase::AllPairs>()));
+    loops.push_back(std::make_unique<LocalLoop>(std::make_unique<broad_phase::AllPairs>()));
+    loops.push_back(std::make_unique<WindowLoop>(std::make_unique<broad_phase::AllPairs>()));
     for (int frame = 0; frame < 150; ++frame, cubes.NextFrame()) {
       const auto expected = naive.Look(cubes);
       frames_with_overlap += expected.has_value();
@@ -102,9 +105,12 @@ TEST(Loops, LocalRebuildsLessThanGlobal) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     MovingCubes::Options options;
     options.count = 60, options.density = 0.001, options.seed = seed;
-    const Outcome of_global = OutcomeOf<GlobalLoop>(options, std::make_unique<AllPairs>());
-    const Outcome of_local = OutcomeOf<LocalLoop>(options, std::make_unique<AllPairs>());
-    const Outcome of_window = OutcomeOf<WindowLoop>(options, std::make_unique<AllPairs>());
+    const Outcome of_global =
+        OutcomeOf<GlobalLoop>(options, std::make_unique<broad_phase::AllPairs>());
+    const Outcome of_local =
+        OutcomeOf<LocalLoop>(options, std::make_unique<broad_phase::AllPairs>());
+    const Outcome of_window =
+        OutcomeOf<WindowLoop>(options, std::make_unique<broad_phase::AllPairs>());
     global += of_global.work.rebuilds, local += of_local.work.rebuilds;
     window += of_window.work.rebuilds;
     naive += OutcomeOf<TimeStepping>(options).work.pair_tests;

@@ -26,7 +26,7 @@ bool WindowLoop::ListInOnePass(const MovingCubes& cubes) {
   const double half = 0.5 * static_cast<double>(frames_) * MovingCubes::kFrame * (1 + 0x1p-40);
   const BallAgent any = cubes.Ball(0);
   const double still = any.radius + 2 * any.acceleration_max * half * half;
-  const auto at = [&](std::uint32_t cube, ReachPoint* point) {
+  const auto at = [&](std::uint32_t cube, broad_phase::ReachPoint* point) {
     const Eigen::Vector3d &p = cubes.position(cube), &v = cubes.velocity(cube);
     for (int axis = 0; axis < 3; ++axis) point->c[axis] = p[axis] + v[axis] * half;
     point->reach = static_cast<float>((still + std::sqrt(v.squaredNorm()) * half) * kUp);
@@ -41,7 +41,8 @@ void WindowLoop::ListByPhase(const MovingCubes& cubes) {
   for (std::uint32_t cube = 0; cube < cubes.count(); ++cube) {
     phase_->Put(cube, BoundOf(cubes, cube));
   }
-  phase_->NearPairs({BoundKind::kHorn, InstantOf(cubes), InstantOf(cubes, frames_)}, &list_);
+  phase_->NearPairs({intersection::BoundKind::kHorn, InstantOf(cubes), InstantOf(cubes, frames_)},
+                    &list_);
 }
 
 void WindowLoop::ListAll(const MovingCubes& cubes) {
@@ -69,7 +70,7 @@ void WindowLoop::MakeList(const MovingCubes& cubes) {
 std::optional<CubePair> WindowLoop::Look(const MovingCubes& cubes) {
   if (cubes.frame() > covered_) MakeList(cubes);
   std::optional<CubePair> first;
-  for (const NearPair& pair : list_) Test(cubes, pair.lower, pair.higher, &first);
+  for (const broad_phase::NearPair& pair : list_) Test(cubes, pair.lower, pair.higher, &first);
   return first;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/broad_phase.h"
-#include "collision_core/broad_phase/point_grid.h"
+#include "collision_core/broad_phase/filter/point_grid.h"
 #include "tests/baselines/collision_loop.h"
 
 namespace collision::baselines {
@@ -18,7 +18,7 @@ namespace collision::baselines {
 /// how far it reaches from there. Crowds, which suit no grid, are left to the broad phase given.
 class WindowLoop : public CollisionLoop {
  public:
-  explicit WindowLoop(std::unique_ptr<BroadPhase> phase) : phase_(std::move(phase)) {}
+  explicit WindowLoop(std::unique_ptr<broad_phase::BroadPhase> phase) : phase_(std::move(phase)) {}
 
   std::optional<CubePair> Look(const MovingCubes& cubes) override;
 
@@ -28,11 +28,11 @@ class WindowLoop : public CollisionLoop {
   bool ListInOnePass(const MovingCubes& cubes);
   void ListByPhase(const MovingCubes& cubes);
 
-  std::unique_ptr<BroadPhase> phase_;
+  std::unique_ptr<broad_phase::BroadPhase> phase_;
   std::int64_t frames_ = 2;    ///< The window's length.
   std::int64_t covered_ = -1;  ///< The last frame of which the list knows.
-  PointGrid grid_;
-  std::vector<NearPair> list_;
+  broad_phase::PointGrid grid_;
+  std::vector<broad_phase::NearPair> list_;
 };
 
 }  // namespace collision::baselines

@@ -16,14 +16,14 @@ namespace {
 /// Of the greatest acceleration, so that rounding cannot pass it.
 constexpr double kForce = 0.99;
 
-AgentId IdOf(std::size_t agent) { return {1, static_cast<std::uint32_t>(agent), 1, 1}; }
+detection::AgentId IdOf(std::size_t agent) { return {1, static_cast<std::uint32_t>(agent), 1, 1}; }
 
 DetectorScene Told(const std::string& name, const baselines::BallScene& balls, int steps) {
   DetectorScene scene;
   scene.name = name;
   scene.steps = steps;
   for (const baselines::BallAgent& ball : balls) {
-    const SpaceTimeBound bound = baselines::BoundOf(ball);
+    const motion::SpaceTimeBound bound = baselines::BoundOf(ball);
     scene.agents.push_back({bound.state, bound.declaration});
     scene.agents.back().state.stamp = Instant();
   }
@@ -31,14 +31,14 @@ DetectorScene Told(const std::string& name, const baselines::BallScene& balls, i
 }
 
 /// The motion goes on for one step under a constant acceleration.
-void Move(double step, const Eigen::Vector3d& acceleration, MotionState* state) {
+void Move(double step, const Eigen::Vector3d& acceleration, motion::MotionState* state) {
   state->p_WA += step * state->v_WA + (0.5 * step * step) * acceleration;
   state->v_WA += step * acceleration;
-  state->stamp = AddRoundedDown(state->stamp, step);
+  state->stamp = numeric::AddRoundedDown(state->stamp, step);
 }
 
-void Take(Detector* detector, NumberHash* hash, DetectorCost* cost) {
-  for (const CollisionEvent& event : detector->events()) {
+void Take(detection::Detector* detector, NumberHash* hash, DetectorCost* cost) {
+  for (const detection::CollisionEvent& event : detector->events()) {
     hash->Add(static_cast<double>(event.lower.slot)),
         hash->Add(static_cast<double>(event.higher.slot));
     hash->Add(static_cast<double>(event.status));
@@ -46,7 +46,7 @@ void Take(Detector* detector, NumberHash* hash, DetectorCost* cost) {
     hash->Add(static_cast<double>(event.begin.latest.nanoseconds()));
     ++cost->messages;
   }
-  for (const AgentClearance& clearance : detector->TakeChangedClearances()) {
+  for (const detection::AgentClearance& clearance : detector->TakeChangedClearances()) {
     hash->Add(static_cast<double>(clearance.agent.slot));
     hash->Add(static_cast<double>(clearance.clear_until.nanoseconds()));
     ++cost->messages;
@@ -85,9 +85,9 @@ DetectorCost Cost(const DetectorScene& scene, const Variation& variation) {
   DetectorCost cost;
   NumberHash hash;
   const auto bytes_before = LiveBytes();
-  DetectorOptions options = variation.options;
+  detection::DetectorOptions options = variation.options;
   options.agents_max = static_cast<std::uint32_t>(agents.size());
-  Detector detector(options);
+  detection::Detector detector(options);
   double start = CpuNow();
   for (std::size_t i = 0; i < agents.size(); ++i) {
     if (variation.change) variation.change(&agents[i]);

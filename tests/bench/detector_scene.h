@@ -11,8 +11,8 @@
 namespace collision::bench {
 
 struct SceneAgent {
-  MotionState state;
-  AgentDeclaration declaration;
+  motion::MotionState state;
+  motion::AgentDeclaration declaration;
 };
 
 struct DetectorScene {
@@ -29,18 +29,18 @@ std::vector<DetectorScene> DetectorScenes(bool few, int steps);
 
 /// What is declared on top, of every agent: it must not change how they move.
 struct Variation {
-  DetectorOptions options;
+  detection::DetectorOptions options;
   std::function<void(SceneAgent*)> change = nullptr;
   bool forces = true;  ///< Random ones, within what is declared; else all coast.
 };
 
 struct DetectorCost {
   double broad_units = 0, narrow_units = 0;
-  double seconds = 0;         ///< Processor's time in the detector.
-  double bytes = 0;           ///< More in use at the end than before it was made.
-  double messages = 0;        ///< Events and changed clearances.
-  std::string hash;           ///< Of all events and clearances.
-  Detector::Profile profile;  ///< At the end.
+  double seconds = 0;                    ///< Processor's time in the detector.
+  double bytes = 0;                      ///< More in use at the end than before it was made.
+  double messages = 0;                   ///< Events and changed clearances.
+  std::string hash;                      ///< Of all events and clearances.
+  detection::Detector::Profile profile;  ///< At the end.
 
   double units() const { return broad_units + narrow_units; }
 };

@@ -24,7 +24,7 @@ struct Edge {
 
 class Collapse {
  public:
-  explicit Collapse(const TriangleMesh& mesh)
+  explicit Collapse(const geometry::TriangleMesh& mesh)
       : mesh_(mesh), around_(mesh.vertices.size()), stamps_(mesh.vertices.size()) {
     left_ = mesh_.triangles.size();
     gone_.resize(left_);
@@ -34,14 +34,14 @@ class Collapse {
     for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) OfferEdges(v, true);
   }
 
-  TriangleMesh Down(std::size_t triangles) {
+  geometry::TriangleMesh Down(std::size_t triangles) {
     while (left_ > triangles && !edges_.empty()) {
       const Edge edge = edges_.top();
       edges_.pop();
       if (edge.stamps[0] != stamps_[edge.a] || edge.stamps[1] != stamps_[edge.b]) continue;
       if (MayGo(edge)) Merge(edge);
     }
-    TriangleMesh result{mesh_.vertices, {}};
+    geometry::TriangleMesh result{mesh_.vertices, {}};
     for (std::size_t t = 0; t < gone_.size(); ++t) {
       if (!gone_[t]) result.triangles.push_back(mesh_.triangles[t]);
     }
@@ -96,7 +96,7 @@ class Collapse {
   void Merge(const Edge& edge) {
     mesh_.vertices[edge.a] = 0.5 * (mesh_.vertices[edge.a] + mesh_.vertices[edge.b]);
     for (const std::uint32_t t : std::set<std::uint32_t>(around_[edge.b])) {
-      Triangle& triangle = mesh_.triangles[t];
+      geometry::Triangle& triangle = mesh_.triangles[t];
       if (around_[edge.a].count(t)) {
         for (const std::uint32_t v : triangle) around_[v].erase(t);
         gone_[t] = true, --left_;
@@ -110,7 +110,7 @@ class Collapse {
     OfferEdges(edge.a, false);
   }
 
-  TriangleMesh mesh_;
+  geometry::TriangleMesh mesh_;
   std::vector<std::set<std::uint32_t>> around_;  ///< Triangles of a vertex.
   std::vector<std::uint32_t> stamps_;            ///< Of a vertex: an edge of an older one is stale.
   std::vector<bool> gone_;
@@ -120,7 +120,7 @@ class Collapse {
 
 }  // namespace
 
-TriangleMesh Collapsed(const TriangleMesh& mesh, std::size_t triangles) {
+geometry::TriangleMesh Collapsed(const geometry::TriangleMesh& mesh, std::size_t triangles) {
   return Collapse(mesh).Down(triangles);
 }
 

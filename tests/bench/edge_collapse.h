@@ -1,7 +1,7 @@
 // A mesh with fewer triangles that is as closed as it was.
 #pragma once
 
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 
 namespace collision::bench {
 
@@ -9,6 +9,6 @@ namespace collision::bench {
 /// edge may go. An edge may go where the mesh stays a manifold (the ends have just two neighbours in
 /// common) and no triangle turns its normal by more than about 80 degrees. Requires a closed
 /// manifold of one component with no two vertices in one place. Deterministic.
-TriangleMesh Collapsed(const TriangleMesh& mesh, std::size_t triangles);
+geometry::TriangleMesh Collapsed(const geometry::TriangleMesh& mesh, std::size_t triangles);
 
 }  // namespace collision::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/support/random.h"
 
 namespace collision::bench {
@@ -16,7 +16,7 @@ constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
 constexpr std::int64_t kSameFrames = 30;
 constexpr double kShareOfM = 0.999;
 /// A ship turns no faster [rad/s], and leaves a contact no slower [m/s].
-constexpr double kTurnMax = 1.5, kSpeedApart = 1;
+constexpr double kRotationAngleMax = 1.5, kSpeedApart = 1;
 
 /// Beyond, the box is too small for them.
 constexpr int kDrawsMax = 1'000'000;
@@ -30,11 +30,12 @@ Eigen::Vector3d InBox(Random& random, const Eigen::Vector3d& half) {
   return {x, y, random.Uniform(-half.z(), half.z())};
 }
 
-Verdict VerdictOf(const ShipKind& a, const ShipKind& b, const ShipPose& pose) {
-  BodySegment body_a, body_b;
+narrow_phase::Verdict VerdictOf(const ShipKind& a, const ShipKind& b, const ShipPose& pose) {
+  narrow_phase::BodySegment body_a, body_b;
   body_a.shape = a.shape, body_b.shape = b.shape;
-  Work work(kUnlimited);
-  return DecideAt(Surface(body_a), Surface(body_b), PoseOf(pose.rotation, pose.offset), &work)
+  WorkBudget work(kUnlimited);
+  return DecideAt(narrow_phase::BodyTree(body_a), narrow_phase::BodyTree(body_b),
+                  narrow_phase::PoseOf(pose.rotation, pose.offset), &work)
       .verdict;
 }
 
@@ -54,9 +55,9 @@ Flight::Flight(const ShipKind& spaceship, const ShipKind& drone, const FlightOpt
     std::vector<ShipPair> touching;
     for (const ShipPair& pair : NearPairs(frame)) {
       const ShipPose pose = PoseBetween(at(frame, pair.lower), at(frame, pair.higher));
-      const Verdict verdict = VerdictOf(kind(pair.lower), kind(pair.higher), pose);
-      undecided_ += verdict == Verdict::kUndecided;
-      if (verdict != Verdict::kApart) touching.push_back(pair);
+      const narrow_phase::Verdict verdict = VerdictOf(kind(pair.lower), kind(pair.higher), pose);
+      undecided_ += verdict == narrow_phase::Verdict::kUndecided;
+      if (verdict != narrow_phase::Verdict::kApart) touching.push_back(pair);
     }
     for (const ShipPair& pair : touching) {
       Bounce(&states_.back(), pair, Mixed(options_.seed, pair.lower + (pair.higher << 10), frame));
@@ -76,7 +77,7 @@ void Flight::Place() {
     const auto ship = static_cast<std::uint32_t>(states.size());
     state.p_WA = InBox(random, half_);
     state.v_WA = 0.7 * kind(ship).speed_max * random.UnitVector();
-    state.w_WB = random.Uniform(0, kTurnMax) * random.UnitVector();
+    state.w_WB = random.Uniform(0, kRotationAngleMax) * random.UnitVector();
     state.q_WB = Eigen::AngleAxisd(random.Uniform(0, 3), random.UnitVector());
     state.matrix_WB = state.q_WB.toRotationMatrix();
     bool free = true;
@@ -98,7 +99,7 @@ void Flight::Bounce(std::vector<ShipState>* states, const ShipPair& pair, std::u
   Random random(seed);
   for (ShipState* state : {&a, &b}) {
     state->v_WA += (state == &a ? -push : push) * n;
-    state->w_WB = random.Uniform(0, kTurnMax) * random.UnitVector();
+    state->w_WB = random.Uniform(0, kRotationAngleMax) * random.UnitVector();
     state->jumped = true;
   }
   ++bounces_;
@@ -132,9 +133,9 @@ std::vector<ShipState> Flight::Next(const std::vector<ShipState>& states,
   return next;
 }
 
-SpaceTimeBound Flight::BoundOf(std::int64_t frame, std::uint32_t ship) const {
+motion::SpaceTimeBound Flight::BoundOf(std::int64_t frame, std::uint32_t ship) const {
   const ShipState& state = at(frame, ship);
-  SpaceTimeBound bound;
+  motion::SpaceTimeBound bound;
   bound.state.stamp = InstantOf(frame);
   bound.state.p_WA = state.p_WA;
   bound.state.v_WA = state.v_WA;

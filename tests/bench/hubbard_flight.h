@@ -28,8 +28,8 @@ struct ShipPair {
 
 /// Two kinds of ships: the first is the spaceship, all others are drones.
 struct ShipKind {
-  TriangleMesh mesh;
-  std::shared_ptr<const Shape> shape;
+  geometry::TriangleMesh mesh;
+  std::shared_ptr<const shape::Shape> shape;
   double radius = 0;            ///< About the reference point [m].
   double acceleration_max = 0;  ///< M [m/s²]
   double speed_max = 0;         ///< A ship that flies faster brakes [m/s].
@@ -60,7 +60,7 @@ class Flight {
   static Instant InstantOf(std::int64_t frame) {
     return Instant::FromNanoseconds(frame * kFrameNs);
   }
-  SpaceTimeBound BoundOf(std::int64_t frame, std::uint32_t ship) const;
+  motion::SpaceTimeBound BoundOf(std::int64_t frame, std::uint32_t ship) const;
 
   bool BallsOverlap(std::int64_t frame, const ShipPair& pair) const;
   /// All pairs whose balls overlap in the frame, in order.

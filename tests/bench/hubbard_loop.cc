@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "collision_core/broad_phase/pair_time.h"
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::bench {
 namespace {
@@ -74,7 +74,7 @@ class TurkShips : public ShipBroadPhase {
 
 class HornShips : public ShipBroadPhase {
  public:
-  explicit HornShips(std::unique_ptr<BroadPhase> phase) : phase_(std::move(phase)) {}
+  explicit HornShips(std::unique_ptr<broad_phase::BroadPhase> phase) : phase_(std::move(phase)) {}
 
   void Look(const Flight& flight, std::int64_t frame, std::vector<ShipPair>* near) override {
     if (frame >= until_) {
@@ -109,10 +109,12 @@ class HornShips : public ShipBroadPhase {
       phase_->Put(ship, flight.BoundOf(frame, ship));
     }
     found_.clear();
-    phase_->NearPairs({BoundKind::kHorn, Flight::InstantOf(frame), Flight::InstantOf(until_)},
-                      &found_);
+    phase_->NearPairs(
+        {intersection::BoundKind::kHorn, Flight::InstantOf(frame), Flight::InstantOf(until_)},
+        &found_);
     list_.clear();
-    for (const NearPair& pair : found_) list_.push_back({{pair.lower, pair.higher}, frame});
+    for (const broad_phase::NearPair& pair : found_)
+      list_.push_back({{pair.lower, pair.higher}, frame});
   }
 
   void AskAnew(const Flight& flight, std::int64_t frame, std::uint32_t ship) {
@@ -124,7 +126,7 @@ class HornShips : public ShipBroadPhase {
     const Instant until = Flight::InstantOf(until_);
     const auto nobody = [](std::uint32_t) { return false; };
     phase_->Meetings(ship, Flight::InstantOf(frame), until, until, nobody, &meetings_);
-    for (const Meeting& meeting : meetings_) {
+    for (const broad_phase::Meeting& meeting : meetings_) {
       const auto [lower, higher] = std::minmax(ship, meeting.partner);
       list_.push_back({{lower, higher}, frame});
     }
@@ -133,36 +135,37 @@ class HornShips : public ShipBroadPhase {
   /// The last frame before they may meet, and one at least: rounded down, never late.
   std::int64_t DueOf(const Flight& flight, std::int64_t frame, const ShipPair& pair) const {
     const Instant now = Flight::InstantOf(frame), until = Flight::InstantOf(until_);
-    const PairTime time = EarliestIntersection(flight.BoundOf(frame, pair.lower),
-                                               flight.BoundOf(frame, pair.higher), now, until);
-    if (!(time.seconds < kInfinity)) return until_;
+    const intersection::IntersectionTime time = intersection::EarliestIntersection(
+        flight.BoundOf(frame, pair.lower), flight.BoundOf(frame, pair.higher), now, until);
+    if (!(time.seconds < numeric::kInfinity)) return until_;
     const auto frames = static_cast<std::int64_t>(time.seconds / Flight::kFrame);
     return std::min(until_, frame + std::max<std::int64_t>(1, frames));
   }
 
-  std::unique_ptr<BroadPhase> phase_;
+  std::unique_ptr<broad_phase::BroadPhase> phase_;
   std::int64_t until_ = -1;  ///< The list knows of the frames before this one.
   std::vector<Listed> list_;
-  std::vector<NearPair> found_;
-  std::vector<Meeting> meetings_;
+  std::vector<broad_phase::NearPair> found_;
+  std::vector<broad_phase::Meeting> meetings_;
 };
 
 }  // namespace
 
 std::unique_ptr<ShipBroadPhase> MakeTurk(double cell) { return std::make_unique<TurkShips>(cell); }
 
-std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<BroadPhase> phase) {
+std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::BroadPhase> phase) {
   return std::make_unique<HornShips>(std::move(phase));
 }
 
 ShipComparison BySphereTrees(const ShipKind& spaceship, const ShipKind& drone) {
-  BodySegment of_spaceship, of_drone;
+  narrow_phase::BodySegment of_spaceship, of_drone;
   of_spaceship.shape = spaceship.shape, of_drone.shape = drone.shape;
   return [of_spaceship, of_drone](const Flight& flight, std::int64_t frame, const ShipPair& pair) {
-    const Surface a(pair.lower == 0 ? of_spaceship : of_drone), b(of_drone);
+    const narrow_phase::BodyTree a(pair.lower == 0 ? of_spaceship : of_drone), b(of_drone);
     const ShipPose pose = PoseBetween(flight.at(frame, pair.lower), flight.at(frame, pair.higher));
-    Work work(kUnlimited);
-    return DecideAt(a, b, PoseOf(pose.rotation, pose.offset), &work).verdict != Verdict::kApart;
+    WorkBudget work(kUnlimited);
+    return DecideAt(a, b, narrow_phase::PoseOf(pose.rotation, pose.offset), &work).verdict !=
+           narrow_phase::Verdict::kApart;
   };
 }
 

@@ -1,7 +1,7 @@
 // The spaceship simulator measured: pair tests, frames, and whether all see the same contacts.
 #include <algorithm>
 
-#include "collision_core/broad_phase/chosen_broad_phase.h"
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
 #include "tests/bench/frame_times.h"
 #include "tests/bench/hubbard_parts.h"
 #include "tests/bench/measure.h"
@@ -53,7 +53,7 @@ struct NarrowTimes {
 NarrowTimes MeasureNarrow(const HubbardSettings& settings, const HubbardScene& scene,
                           const std::vector<Test>& tests, const ShipComparison& compare,
                           const std::string& method, HubbardReport* report) {
-  std::vector<double> least(tests.size(), kInfinity);
+  std::vector<double> least(tests.size(), numeric::kInfinity);
   NumberHash hash;
   std::size_t contacts = 0, wrong = 0;
   for (int pass = 0; pass <= settings.repetitions(); ++pass) {
@@ -102,7 +102,7 @@ using MakeShipBroadPhase = std::function<std::unique_ptr<ShipBroadPhase>()>;
 Run Fly(const Flight& flight, const MakeShipBroadPhase& make, const ShipComparison& compare,
         int repetitions) {
   Run run;
-  run.frames.assign(static_cast<std::size_t>(flight.frames()), kInfinity);
+  run.frames.assign(static_cast<std::size_t>(flight.frames()), numeric::kInfinity);
   std::vector<ShipPair> near, touching;
   for (int repetition = 0; repetition < repetitions; ++repetition) {
     const auto broad = make();
@@ -162,7 +162,7 @@ double Compare(const Run& theirs, const Run& ours, const std::string& name, Hubb
 /// The cell in which the hash alone takes the least total.
 double BestCell(const Flight& flight) {
   const ShipComparison none = [](const Flight&, std::int64_t, const ShipPair&) { return false; };
-  double best = 0, least = kInfinity;
+  double best = 0, least = numeric::kInfinity;
   for (const double cell : kCells) {
     const double total = Fly(
                              flight, [cell] { return MakeTurk(cell); }, none, 2)
@@ -196,7 +196,9 @@ void NarrowRows(const HubbardSettings& settings, const HubbardScene& scene, Hubb
 
 void BothRows(const HubbardSettings& settings, const HubbardScene& scene, HubbardReport* report) {
   const std::string of_trees = " and sphere trees", of_bsp = " and BSP trees";
-  const MakeShipBroadPhase horns = [] { return MakeHorns(std::make_unique<ChosenBroadPhase>()); };
+  const MakeShipBroadPhase horns = [] {
+    return MakeHorns(std::make_unique<broad_phase::AdaptiveBroadPhase>());
+  };
   const double cell = BestCell(scene.flight);
   const MakeShipBroadPhase turk = [cell] { return MakeTurk(cell); };
   const ShipComparison trees = BySphereTrees(scene.spaceship, scene.drone);

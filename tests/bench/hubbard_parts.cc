@@ -45,12 +45,12 @@ std::string RowJson(const HubbardRow& row) {
 
 std::optional<ShipKind> ReadKind(const std::string& path, double acceleration_max,
                                  double speed_max) {
-  const PolygonMesh polygons = ReadObj(path);
+  const geometry::PolygonMesh polygons = ReadObj(path);
   if (polygons.sizes.empty()) return std::nullopt;
-  MeshRepair repair;
+  geometry::MeshRepair repair;
   ShipKind kind;
   kind.mesh = Triangulate(polygons, &repair);
-  kind.shape = Shape::Build(kind.mesh, {.builder = TreeBuilder::kFitted});
+  kind.shape = shape::Shape::Build(kind.mesh, {.builder = sphere_tree::TreeBuilder::kFitted});
   kind.radius = kind.shape->facts().radius;
   kind.acceleration_max = acceleration_max, kind.speed_max = speed_max;
   return kind;

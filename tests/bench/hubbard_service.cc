@@ -3,6 +3,7 @@
 #include <map>
 
 #include "collision_core/detection/detector.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/bench/frame_times.h"
 #include "tests/bench/hubbard_parts.h"
 #include "tests/bench/measure.h"
@@ -17,10 +18,10 @@ constexpr std::uint64_t kBudgets[] = {10, 30, 100, 300, 1000, 3000, 10'000, 0};
 constexpr double kError = 1e-9;
 constexpr double kAnnounceWithin = 0.1;
 
-AgentId IdOf(std::uint32_t ship) { return {1, ship, 1, 1}; }
+detection::AgentId IdOf(std::uint32_t ship) { return {1, ship, 1, 1}; }
 
-MotionState StateOf(const Flight& flight, std::int64_t frame, std::uint32_t ship) {
-  MotionState state = flight.BoundOf(frame, ship).state;
+motion::MotionState StateOf(const Flight& flight, std::int64_t frame, std::uint32_t ship) {
+  motion::MotionState state = flight.BoundOf(frame, ship).state;
   state.position_error = state.velocity_error = state.rotation_error = kError;
   return state;
 }
@@ -29,18 +30,18 @@ MotionState StateOf(const Flight& flight, std::int64_t frame, std::uint32_t ship
 using ContactKey = std::pair<ShipPair, std::uint32_t>;
 struct Run {
   std::vector<double> frames;  ///< The processor's time [s].
-  std::map<ContactKey, CollisionEvent> contacts;
+  std::map<ContactKey, detection::CollisionEvent> contacts;
   std::size_t undecided_at_work = 0;  ///< Pairs that waited for a verdict, summed over frames.
   NumberHash hash;
 };
 
-bool IsOver(EventStatus status) {
-  return status == EventStatus::kDismissed || status == EventStatus::kWithdrawn ||
-         status == EventStatus::kEnded;
+bool IsOver(detection::EventStatus status) {
+  return status == detection::EventStatus::kDismissed ||
+         status == detection::EventStatus::kWithdrawn || status == detection::EventStatus::kEnded;
 }
 
-void Keep(const std::vector<CollisionEvent>& events, Run* run) {
-  for (const CollisionEvent& event : events) {
+void Keep(const std::vector<detection::CollisionEvent>& events, Run* run) {
+  for (const detection::CollisionEvent& event : events) {
     run->contacts[{{event.lower.slot, event.higher.slot}, event.contact}] = event;
     run->hash.Add(event.lower.slot), run->hash.Add(event.higher.slot);
     run->hash.Add(static_cast<double>(event.status));
@@ -50,10 +51,10 @@ void Keep(const std::vector<CollisionEvent>& events, Run* run) {
 }
 
 Run Fly(const Flight& flight, std::uint64_t units) {
-  DetectorOptions options;
+  detection::DetectorOptions options;
   options.announce_within = kAnnounceWithin;
   options.work_units_per_step = units;
-  Detector detector(options);
+  detection::Detector detector(options);
   for (std::uint32_t ship = 0; ship < flight.ships(); ++ship) {
     detector.Admit(IdOf(ship), flight.BoundOf(0, ship).declaration, StateOf(flight, 0, ship),
                    Flight::InstantOf(0));
@@ -70,8 +71,8 @@ Run Fly(const Flight& flight, std::uint64_t units) {
     run.frames.push_back(watch.seconds());
     Keep(detector.events(), &run);
     for (const auto& [key, event] : run.contacts) {
-      run.undecided_at_work +=
-          event.status == EventStatus::kPossible && event.limited_by == EventLimit::kBudget;
+      run.undecided_at_work += event.status == detection::EventStatus::kPossible &&
+                               event.limited_by == narrow_phase::EventLimit::kBudget;
     }
   }
   return run;
@@ -84,8 +85,8 @@ struct Verdicts {
   std::vector<double> widths;  ///< Of the begins of confirmed contacts [s].
 };
 
-bool Covers(const CollisionEvent& event, Instant at) {
-  if (event.status == EventStatus::kDismissed) return false;
+bool Covers(const detection::CollisionEvent& event, Instant at) {
+  if (event.status == detection::EventStatus::kDismissed) return false;
   return event.begin.earliest <= at && at <= event.end.latest;
 }
 
@@ -104,15 +105,17 @@ Verdicts VerdictsOf(const Flight& flight, const Run& run) {
     }
   }
   for (const auto& [key, event] : run.contacts) {
-    const bool confirmed =
-        event.status == EventStatus::kConfirmed || event.status == EventStatus::kEnded;
+    const bool confirmed = event.status == detection::EventStatus::kConfirmed ||
+                           event.status == detection::EventStatus::kEnded;
     verdicts.confirmed += confirmed;
-    verdicts.undecided += event.status == EventStatus::kUndecided;
-    verdicts.possible += event.status == EventStatus::kPossible;
-    verdicts.by_budget += !IsOver(event.status) && event.limited_by == EventLimit::kBudget;
+    verdicts.undecided += event.status == detection::EventStatus::kUndecided;
+    verdicts.possible += event.status == detection::EventStatus::kPossible;
+    verdicts.by_budget +=
+        !IsOver(event.status) && event.limited_by == narrow_phase::EventLimit::kBudget;
     verdicts.between_frames += confirmed && !shown.contains(key);
     if (confirmed && event.begin.latest != Instant::Never()) {
-      verdicts.widths.push_back(SecondsBetween(event.begin.earliest, event.begin.latest).upper);
+      verdicts.widths.push_back(
+          numeric::SecondsBetween(event.begin.earliest, event.begin.latest).upper);
     }
   }
   return verdicts;

@@ -28,7 +28,7 @@ class UpdatedMethod : public Updated, private baselines::AgentAsker {
   }
 
   void Update(std::uint32_t agent, const baselines::BallAgent& state) override {
-    const SpaceTimeBound bound = baselines::BoundOf(state);
+    const motion::SpaceTimeBound bound = baselines::BoundOf(state);
     now_ = bound.state.stamp;
     method_->Narrow(agent, bound);
     earliest_.Renewed(agent);
@@ -46,13 +46,13 @@ class UpdatedMethod : public Updated, private baselines::AgentAsker {
  private:
   std::optional<baselines::AgentMeeting> Ask(std::uint32_t agent, Instant from,
                                              Instant until) override {
-    const auto meeting = method_->EarliestOf(agent, {BoundKind::kHorn, from, until});
+    const auto meeting = method_->EarliestOf(agent, {intersection::BoundKind::kHorn, from, until});
     if (!meeting) return std::nullopt;
     return baselines::AgentMeeting{meeting->lower == agent ? meeting->higher : meeting->lower,
                                    meeting->time.instant()};
   }
 
-  std::unique_ptr<BroadPhase> method_;
+  std::unique_ptr<broad_phase::BroadPhase> method_;
   Instant now_;
   baselines::LazyEarliest earliest_;
 };

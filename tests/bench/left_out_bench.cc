@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "collision_core/numeric/seconds.h"
 #include "collision_core/shape/shape.h"
 #include "tests/bench/detector_scene.h"
 #include "tests/bench/json.h"
@@ -31,10 +32,10 @@ struct Part {
   Variation without, with;
 };
 
-std::shared_ptr<const Shape> UnitBall() {
-  ConvexDescription ball;
+std::shared_ptr<const shape::Shape> UnitBall() {
+  shape::ConvexDescription ball;
   ball.rounding = 1;
-  return Shape::Compound(nullptr, {ConvexSolid::Build(ball)});
+  return shape::Shape::Compound(nullptr, {shape::ConvexSolid::Build(ball)});
 }
 
 Part MakePart(const std::string& name, const std::string& left_out, const Variation& without,
@@ -82,8 +83,8 @@ std::vector<Part> Parts() {
   const Variation uncertain = Changed([](SceneAgent* agent) {
     agent->state.position_error = agent->state.velocity_error = kNothing;
   });
-  const Variation expiring =
-      Changed([](SceneAgent* agent) { agent->state.expiry = AddRoundedDown(Instant(), 1e9); });
+  const Variation expiring = Changed(
+      [](SceneAgent* agent) { agent->state.expiry = numeric::AddRoundedDown(Instant(), 1e9); });
   const Variation masked = Changed([](SceneAgent* agent) { agent->declaration.group = 3; });
   std::vector<Part> parts;
   parts.push_back(MakePart("parabolic growth", "parabolic growth", coasting, growing));
@@ -130,17 +131,18 @@ void Profile(const DetectorScene& scene, Bench* bench) {
   const auto agents = Number("agents", static_cast<double>(scene.agents.size()));
   std::optional<DetectorCost> best, chosen;
   std::string best_name;
-  for (const BroadPhaseMethod method :
-       {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kSpatialIndex, BroadPhaseMethod::kFaceSweep,
-        BroadPhaseMethod::kAuto}) {
-    if (method == BroadPhaseMethod::kFaceSweep && scene.agents.size() > kFaceSweepMax) continue;
+  for (const broad_phase::BroadPhaseMethod method :
+       {broad_phase::BroadPhaseMethod::kAllPairs, broad_phase::BroadPhaseMethod::kSpatialIndex,
+        broad_phase::BroadPhaseMethod::kFaceSweep, broad_phase::BroadPhaseMethod::kAuto}) {
+    if (method == broad_phase::BroadPhaseMethod::kFaceSweep && scene.agents.size() > kFaceSweepMax)
+      continue;
     Variation variation;
     variation.options.broad_phase = method;
     const DetectorCost cost = Cost(scene, variation);
     AddRow(
         {Text("part", "method"), Text("scene", scene.name), agents, Text("method", Name(method))},
         cost, bench);
-    if (method == BroadPhaseMethod::kAuto) {
+    if (method == broad_phase::BroadPhaseMethod::kAuto) {
       chosen = cost;
     } else if (!best || cost.units() < best->units()) {
       best = cost, best_name = Name(method);

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "collision_core/broad_phase/all_pairs.h"
-#include "collision_core/broad_phase/chosen_broad_phase.h"
-#include "collision_core/broad_phase/face_sweep.h"
-#include "collision_core/broad_phase/spatial_index.h"
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
+#include "collision_core/broad_phase/face_sweep/face_sweep.h"
+#include "collision_core/broad_phase/index/all_pairs.h"
+#include "collision_core/broad_phase/index/spatial_index.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/baselines/ball_bound.h"
 #include "tests/bench/contestant.h"
 #include "tests/bench/measure.h"
@@ -32,8 +33,8 @@ class MethodContestant : public Contestant {
     }
     timed.fill = filling.seconds();
     const CpuStopwatch asking;
-    BroadQuery query;
-    query.until = AddRoundedDown(query.from, horizon);
+    intersection::BroadQuery query;
+    query.until = numeric::AddRoundedDown(query.from, horizon);
     const auto meeting = method_->Earliest(query);
     timed.answer_in = asking.seconds();
     if (meeting) {
@@ -43,17 +44,17 @@ class MethodContestant : public Contestant {
   }
 
  private:
-  std::unique_ptr<BroadPhase> method_;
+  std::unique_ptr<broad_phase::BroadPhase> method_;
 };
 
 }  // namespace
 
 const std::vector<Method>& OurMethods() {
   static const std::vector<Method> methods = {
-      MethodOf<AllPairs>("all-pairs"),
-      MethodOf<FaceSweep>("face-sweep"),
-      MethodOf<SpatialIndex>("spatial-index"),
-      MethodOf<ChosenBroadPhase>("chosen"),
+      MethodOf<broad_phase::AllPairs>("all-pairs"),
+      MethodOf<broad_phase::FaceSweep>("face-sweep"),
+      MethodOf<broad_phase::SpatialIndex>("spatial-index"),
+      MethodOf<broad_phase::AdaptiveBroadPhase>("chosen"),
   };
   return methods;
 }

@@ -13,7 +13,7 @@ namespace collision::bench {
 /// A method of ours: one line each.
 struct Method {
   std::string name;
-  std::function<std::unique_ptr<BroadPhase>()> make;
+  std::function<std::unique_ptr<broad_phase::BroadPhase>()> make;
 };
 const std::vector<Method>& OurMethods();
 

@@ -10,8 +10,8 @@ namespace {
 /// It looks at every face of both: beyond, it would only take the others' time.
 constexpr std::size_t kTrianglesMax = 1000;
 
-TriangleMesh MeshOf(const PlainMesh& plain) {
-  TriangleMesh mesh;
+geometry::TriangleMesh MeshOf(const PlainMesh& plain) {
+  geometry::TriangleMesh mesh;
   for (const auto& p : plain.vertices) mesh.vertices.emplace_back(p[0], p[1], p[2]);
   mesh.triangles = plain.triangles;
   return mesh;

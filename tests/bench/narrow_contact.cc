@@ -10,11 +10,11 @@ namespace collision::bench {
 namespace {
 
 /// As narrow as can be.
-constexpr ContactTolerance kTolerance{0, 1e-12};
+constexpr narrow_phase::ContactTolerance kTolerance{0, 1e-12};
 
-std::string TextOf(const ContactTime& found) {
-  if (found.status == ContactStatus::kFree) return "apart throughout";
-  const bool contact = found.status == ContactStatus::kContact;
+std::string TextOf(const narrow_phase::TimeOfContactResult& found) {
+  if (found.status == narrow_phase::ContactStatus::kFree) return "apart throughout";
+  const bool contact = found.status == narrow_phase::ContactStatus::kContact;
   return std::string(contact ? "begins" : "undecided, if at all") +
          Format(" in [%.13g,", found.begin.lower) + Format(" %.13g],", found.begin.upper) +
          Format(" %.2g wide", found.begin.upper - found.begin.lower) +
@@ -22,14 +22,14 @@ std::string TextOf(const ContactTime& found) {
 }
 
 /// Bodies that touch by nothing may be free, touching or undecided, but not late.
-bool Holds(const ContactTime& found, const ContactCase& of) {
-  if (!of.begin) return found.status == ContactStatus::kFree;
+bool Holds(const narrow_phase::TimeOfContactResult& found, const ContactCase& of) {
+  if (!of.begin) return found.status == narrow_phase::ContactStatus::kFree;
   // What rounding the states to doubles may have moved the answer by.
   const double slack = 1e-14 * *of.begin;
-  if (found.status == ContactStatus::kFree) return false;
+  if (found.status == narrow_phase::ContactStatus::kFree) return false;
   if (found.begin.lower > *of.begin + slack) return false;
-  return of.touches_by_nothing ||
-         (found.status == ContactStatus::kContact && found.begin.upper >= *of.begin - slack);
+  return of.touches_by_nothing || (found.status == narrow_phase::ContactStatus::kContact &&
+                                   found.begin.upper >= *of.begin - slack);
 }
 
 std::string TextOf(const std::optional<double>& found, const ContactCase& of) {
@@ -67,7 +67,7 @@ void ContactCasesPart(const NarrowSettings& settings, NarrowReport* report) {
         of.begin ? Format("truth %.13g: ", *of.begin) : std::string("truth: never: ");
     if (Wanted(settings, row)) {
       const ContactShapes shapes{ShapeOf(of.a), ShapeOf(of.b)};
-      ContactTime found;
+      narrow_phase::TimeOfContactResult found;
       row.warm = LeastTime([&] { found = OurContact(of, shapes, kTolerance); }, 5);
       row.remark = truth + TextOf(found) + (Holds(found, of) ? "" : ": WRONG");
       row.more = {Number("begin_lower_s", found.begin.lower),

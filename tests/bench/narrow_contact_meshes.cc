@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint64_t kSeed = 9;
 
 /// As narrow as the libraries are asked for, of the step of 1 s.
-constexpr ContactTolerance kTolerance{1e-4, 0};
+constexpr narrow_phase::ContactTolerance kTolerance{1e-4, 0};
 
 /// FCL's advancement has no other end where it makes no progress [s].
 constexpr double kCutOff = 5;
@@ -67,14 +67,14 @@ Told Tell(const ContactLibrary& library, const ContactCase& of) {
 
 /// All steps, ours.
 struct OurSteps {
-  std::vector<ContactTime> found;
+  std::vector<narrow_phase::TimeOfContactResult> found;
   std::vector<double> seconds, work;
 
   std::string Text() const {
     std::size_t contacts = 0, undecided = 0;
-    for (const ContactTime& one : found) {
-      contacts += one.status == ContactStatus::kContact;
-      undecided += one.status == ContactStatus::kUndecided;
+    for (const narrow_phase::TimeOfContactResult& one : found) {
+      contacts += one.status == narrow_phase::ContactStatus::kContact;
+      undecided += one.status == narrow_phase::ContactStatus::kUndecided;
     }
     return std::to_string(found.size()) + " steps, " + std::to_string(contacts) + " contacts, " +
            std::to_string(undecided) + " undecided; p90 " + SecondsText(Quantile(seconds, 0.9)) +
@@ -88,7 +88,7 @@ OurSteps AskOurs(const std::vector<ContactCase>& cases, const ContactShapes& sha
   OurSteps steps;
   for (const ContactCase& of : cases) {
     double least = std::numeric_limits<double>::infinity();
-    ContactTime found;
+    narrow_phase::TimeOfContactResult found;
     for (int i = 0; i < 2; ++i) {
       const CpuStopwatch watch;
       found = OurContact(of, shapes, kTolerance);
@@ -108,15 +108,15 @@ void AskLibrary(const std::vector<ContactCase>& cases, const ContactLibrary& lib
   std::size_t missed = 0, endless = 0, other = 0;
   library.prepare(cases.front().a.mesh);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const ContactTime& found = ours.found[i];
+    const narrow_phase::TimeOfContactResult& found = ours.found[i];
     const Told told = Tell(library, cases[i]);
     endless += !told.ended;
     if (!told.ended) continue;
     all.push_back(told.seconds);
     std::optional<double> begin;
-    if (found.status == ContactStatus::kContact) begin = found.begin.upper;
-    const bool right =
-        found.status != ContactStatus::kUndecided && IsRight(told.begin, begin, cases[i].duration);
+    if (found.status == narrow_phase::ContactStatus::kContact) begin = found.begin.upper;
+    const bool right = found.status != narrow_phase::ContactStatus::kUndecided &&
+                       IsRight(told.begin, begin, cases[i].duration);
     missed += !right && begin && !told.begin;
     other += !right && told.begin;
     if (right) theirs.push_back(told.seconds), own.push_back(ours.seconds[i]);

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tests/collision_core/shape/meshes.h"
+#include "tests/collision_core/sphere_tree/meshes.h"
 
 namespace collision::bench {
 namespace {
@@ -11,16 +11,17 @@ constexpr std::uint64_t kPlenty = 400'000'000;
 
 Eigen::Vector3d VectorOf(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-TriangleMesh MeshOf(const MovingBody& body) {
+geometry::TriangleMesh MeshOf(const MovingBody& body) {
   if (body.kind == MovingBody::Kind::kBox) return Box(-VectorOf(body.half), VectorOf(body.half));
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (const auto& p : body.mesh->vertices) mesh.vertices.push_back(VectorOf(p));
   mesh.triangles = body.mesh->triangles;
   return mesh;
 }
 
-SpaceTimeBound BoundOf(const MovingBody& body, double at, std::shared_ptr<const Shape> shape) {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound BoundOf(const MovingBody& body, double at,
+                               std::shared_ptr<const shape::Shape> shape) {
+  motion::SpaceTimeBound bound;
   bound.state.stamp = Instant::FromNanoseconds(std::llround(at * 1e9));
   bound.state.p_WA = VectorOf(body.p);
   bound.state.v_WA = VectorOf(body.v);
@@ -32,9 +33,9 @@ SpaceTimeBound BoundOf(const MovingBody& body, double at, std::shared_ptr<const 
   return bound;
 }
 
-KnownMotion MotionOf(const MovingBody& body, const ContactCase& of,
-                     const std::shared_ptr<const Shape>& shape) {
-  KnownMotion motion;
+narrow_phase::KnownMotion MotionOf(const MovingBody& body, const ContactCase& of,
+                                   const std::shared_ptr<const shape::Shape>& shape) {
+  narrow_phase::KnownMotion motion;
   motion.last = BoundOf(body, 0, shape);
   if (of.both_ends) motion.next = BoundOf(body.After(of.duration), of.duration, shape);
   return motion;
@@ -42,14 +43,14 @@ KnownMotion MotionOf(const MovingBody& body, const ContactCase& of,
 
 }  // namespace
 
-std::shared_ptr<const Shape> ShapeOf(const MovingBody& body) {
+std::shared_ptr<const shape::Shape> ShapeOf(const MovingBody& body) {
   if (body.kind == MovingBody::Kind::kBall) return nullptr;
-  return Shape::Build(MeshOf(body), {.builder = TreeBuilder::kFitted});
+  return shape::Shape::Build(MeshOf(body), {.builder = sphere_tree::TreeBuilder::kFitted});
 }
 
-ContactTime OurContact(const ContactCase& of, const ContactShapes& shapes,
-                       const ContactTolerance& tolerance) {
-  Work work(kPlenty);
+narrow_phase::TimeOfContactResult OurContact(const ContactCase& of, const ContactShapes& shapes,
+                                             const narrow_phase::ContactTolerance& tolerance) {
+  WorkBudget work(kPlenty);
   return TimeOfContact(MotionOf(of.a, of, shapes.a), MotionOf(of.b, of, shapes.b), Instant(),
                        Instant::FromNanoseconds(std::llround(of.duration * 1e9)), tolerance, &work);
 }

@@ -4,21 +4,21 @@
 #include <cmath>
 #include <memory>
 
-#include "collision_core/narrow_phase/contact_time.h"
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "tests/bench/narrow_contact_case.h"
 
 namespace collision::bench {
 
 struct ContactShapes {
-  std::shared_ptr<const Shape> a, b;  ///< Null: a ball.
+  std::shared_ptr<const shape::Shape> a, b;  ///< Null: a ball.
 };
 
 /// Null for a ball.
-std::shared_ptr<const Shape> ShapeOf(const MovingBody& body);
+std::shared_ptr<const shape::Shape> ShapeOf(const MovingBody& body);
 
 /// Both bodies told by their states, which are exact and change by nothing but what they say.
-ContactTime OurContact(const ContactCase& of, const ContactShapes& shapes,
-                       const ContactTolerance& tolerance);
+narrow_phase::TimeOfContactResult OurContact(const ContactCase& of, const ContactShapes& shapes,
+                                             const narrow_phase::ContactTolerance& tolerance);
 
 /// What a library's time may be off to count as right, of the step; it is asked for a tenth.
 inline constexpr double kContactRight = 1e-3;

@@ -10,12 +10,12 @@ namespace {
 
 constexpr std::uint64_t kSeed = 5;
 
-NarrowQueries AllQueries(const BenchMesh& mesh, const std::shared_ptr<const Shape>& shape) {
+NarrowQueries AllQueries(const BenchMesh& mesh, const std::shared_ptr<const shape::Shape>& shape) {
   NarrowQueries queries = OurQueries(shape, mesh.diameter(), "ours", Who::kOurs);
   const auto append = [&queries](NarrowQueries more) {
     for (NarrowQuery& query : more) queries.push_back(std::move(query));
   };
-  append(OurQueries(Shape::Build(mesh.mesh), mesh.diameter(), "ours, octree", Who::kOther));
+  append(OurQueries(shape::Shape::Build(mesh.mesh), mesh.diameter(), "ours, octree", Who::kOther));
   append(PeerQueries(PlainOf(mesh.mesh)));
   return queries;
 }
@@ -25,7 +25,8 @@ NarrowQueries AllQueries(const BenchMesh& mesh, const std::shared_ptr<const Shap
 void ContestPart(const NarrowSettings& settings, NarrowReport* report) {
   KeepMemory();
   for (const BenchMesh& mesh : ContestMeshes(settings.data_dir, settings.quick)) {
-    const auto shape = Shape::Build(mesh.mesh, {.builder = TreeBuilder::kFitted});
+    const auto shape =
+        shape::Shape::Build(mesh.mesh, {.builder = sphere_tree::TreeBuilder::kFitted});
     NarrowQueries queries;
     for (const GapClass& gap : GapClasses()) {
       Cell cell{"", mesh.name, mesh.mesh.triangles.size(), mesh.diameter(), gap};

@@ -14,18 +14,18 @@ constexpr std::uint64_t kSeed = 5;
 
 NarrowQueries OurConvexQueries(const ConvexPair& pair) {
   const auto decide = [pair](const PlainPose& at) -> Reply {
-    switch (pair.VerdictAt(PoseOf(at))) {
-      case Verdict::kApart:
+    switch (pair.VerdictAt(narrow_phase::PoseOf(at))) {
+      case narrow_phase::Verdict::kApart:
         return Plain(0);
-      case Verdict::kTouching:
+      case narrow_phase::Verdict::kTouching:
         return Plain(1);
-      case Verdict::kUndecided:
+      case narrow_phase::Verdict::kUndecided:
         break;
     }
     return {0, 1};
   };
   const auto measure = [pair](const PlainPose& at) -> Reply {
-    const Interval distance = pair.DistanceAt(PoseOf(at), kDistanceShare, 0);
+    const numeric::Interval distance = pair.DistanceAt(narrow_phase::PoseOf(at), kDistanceShare, 0);
     return {distance.lower, distance.upper};
   };
   return {{"ours", Task::kDecision, Who::kOurs, decide},

@@ -12,14 +12,15 @@ namespace collision::bench {
 /// A capsule, a box and a hull of 18 points, all of a bounding diameter of 2 m.
 std::vector<PlainConvex> Convexes();
 
-ConvexSolid SolidOf(const PlainConvex& convex);
+shape::ConvexSolid SolidOf(const PlainConvex& convex);
 
 struct ConvexPair {
-  ConvexSolid a, b;
+  shape::ConvexSolid a, b;
 
-  Verdict VerdictAt(const RelativePose& pose) const;
+  narrow_phase::Verdict VerdictAt(const narrow_phase::RelativePose& pose) const;
   /// Until it is narrow enough: relative to its lower end `share`, or `width` [m].
-  Interval DistanceAt(const RelativePose& pose, double share, double width) const;
+  numeric::Interval DistanceAt(const narrow_phase::RelativePose& pose, double share,
+                               double width) const;
 };
 
 PairOracle OracleOf(const ConvexPair& pair);

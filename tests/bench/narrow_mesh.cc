@@ -1,7 +1,7 @@
 #include "tests/bench/narrow_mesh.h"
 
 #include "tests/bench/edge_collapse.h"
-#include "tests/collision_core/shape/meshes.h"
+#include "tests/collision_core/sphere_tree/meshes.h"
 #include "tests/support/obj.h"
 
 namespace collision::bench {
@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kFew = 500;
 
-void Normalise(TriangleMesh* mesh) {
-  const MeshFacts facts = FactsOf(*mesh);
+void Normalise(geometry::TriangleMesh* mesh) {
+  const geometry::MeshFacts facts = FactsOf(*mesh);
   const Eigen::Vector3d middle = 0.5 * (facts.lower + facts.upper);
   for (Eigen::Vector3d& p : mesh->vertices) p -= middle;
   const double radius = FactsOf(*mesh).radius;
@@ -18,12 +18,12 @@ void Normalise(TriangleMesh* mesh) {
 }
 
 /// Only vertices that a triangle has, each position once: some libraries need that.
-TriangleMesh Compact(const TriangleMesh& mesh) {
+geometry::TriangleMesh Compact(const geometry::TriangleMesh& mesh) {
   constexpr auto kNone = static_cast<std::uint32_t>(-1);
   const auto merged = MergedVertices(mesh);
   std::vector<std::uint32_t> index(mesh.vertices.size(), kNone);
-  TriangleMesh compact;
-  for (Triangle t : mesh.triangles) {
+  geometry::TriangleMesh compact;
+  for (geometry::Triangle t : mesh.triangles) {
     for (std::uint32_t& v : t) {
       std::uint32_t& known = index[merged[v]];
       if (known == kNone) {
@@ -37,7 +37,7 @@ TriangleMesh Compact(const TriangleMesh& mesh) {
   return compact;
 }
 
-BenchMesh Made(const std::string& name, TriangleMesh mesh) {
+BenchMesh Made(const std::string& name, geometry::TriangleMesh mesh) {
   mesh = Compact(mesh);
   Normalise(&mesh);
   return {name, std::move(mesh)};
@@ -45,7 +45,7 @@ BenchMesh Made(const std::string& name, TriangleMesh mesh) {
 
 }  // namespace
 
-PlainMesh PlainOf(const TriangleMesh& mesh) {
+PlainMesh PlainOf(const geometry::TriangleMesh& mesh) {
   PlainMesh plain;
   for (const Eigen::Vector3d& p : mesh.vertices) plain.vertices.push_back({p.x(), p.y(), p.z()});
   plain.triangles = mesh.triangles;
@@ -53,9 +53,9 @@ PlainMesh PlainOf(const TriangleMesh& mesh) {
 }
 
 std::optional<BenchMesh> ReadBenchMesh(const std::string& data_dir, const std::string& name) {
-  const PolygonMesh polygons = ReadObj(data_dir + "/meshes/" + name + ".obj");
+  const geometry::PolygonMesh polygons = ReadObj(data_dir + "/meshes/" + name + ".obj");
   if (polygons.sizes.empty()) return std::nullopt;
-  MeshRepair repair;
+  geometry::MeshRepair repair;
   return Made(name, Triangulate(polygons, &repair));
 }
 

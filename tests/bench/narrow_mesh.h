@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "tests/bench/narrow_query.h"
 
 namespace collision::bench {
@@ -13,12 +13,12 @@ namespace collision::bench {
 /// The middle of its box is the reference point; its radius about that is 1 m.
 struct BenchMesh {
   std::string name;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
 
   double diameter() const { return 2; }  ///< Of the bounding ball [m].
 };
 
-PlainMesh PlainOf(const TriangleMesh& mesh);
+PlainMesh PlainOf(const geometry::TriangleMesh& mesh);
 
 /// One file of the data folder, merged at equal positions, centred and scaled; nullopt: not there.
 std::optional<BenchMesh> ReadBenchMesh(const std::string& data_dir, const std::string& name);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/bench/narrow_pose.h"
 
 namespace collision::bench {
@@ -10,33 +10,35 @@ namespace {
 
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
 
-Reply Decide(const BodySegment& body, const PlainPose& at) {
-  const Surface a(body), b(body);
-  Work work(kUnlimited);
+Reply Decide(const narrow_phase::BodySegment& body, const PlainPose& at) {
+  const narrow_phase::BodyTree a(body), b(body);
+  WorkBudget work(kUnlimited);
   switch (DecideAt(a, b, PoseOf(at), &work).verdict) {
-    case Verdict::kApart:
+    case narrow_phase::Verdict::kApart:
       return Plain(0);
-    case Verdict::kTouching:
+    case narrow_phase::Verdict::kTouching:
       return Plain(1);
-    case Verdict::kUndecided:
+    case narrow_phase::Verdict::kUndecided:
       break;
   }
   return {0, 1};
 }
 
-Reply Bracket(const BodySegment& body, const PlainPose& at, double width, double share) {
-  const Surface a(body), b(body);
-  Work work(kUnlimited);
-  const Look look = BracketAt(a, b, PoseOf(at), width, share, &work);
+Reply Bracket(const narrow_phase::BodySegment& body, const PlainPose& at, double width,
+              double share) {
+  const narrow_phase::BodyTree a(body), b(body);
+  WorkBudget work(kUnlimited);
+  const narrow_phase::SeparationBracket look =
+      BracketSeparation(a, b, PoseOf(at), width, share, &work);
   if (look.upper <= 0 || look.crossing_margin >= 0) return Plain(0);
   return {std::max(0.0, look.lower), look.upper};
 }
 
 }  // namespace
 
-NarrowQueries OurQueries(std::shared_ptr<const Shape> shape, double diameter,
+NarrowQueries OurQueries(std::shared_ptr<const shape::Shape> shape, double diameter,
                          const std::string& name, Who who) {
-  const BodySegment body = BodyOf(std::move(shape));
+  const narrow_phase::BodySegment body = BodyOf(std::move(shape));
   const double width = kBracketShare * diameter;
   return {
       {name, Task::kDecision, who, [body](const PlainPose& at) { return Decide(body, at); }},

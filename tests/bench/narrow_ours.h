@@ -13,7 +13,7 @@ inline constexpr double kDistanceShare = 1e-6;
 inline constexpr double kBracketShare = 0.01;
 
 /// Decision, distance and bracket; from the pose as the caller has it to the certified answer.
-NarrowQueries OurQueries(std::shared_ptr<const Shape> shape, double diameter,
+NarrowQueries OurQueries(std::shared_ptr<const shape::Shape> shape, double diameter,
                          const std::string& name, Who who);
 
 }  // namespace collision::bench

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/support/random.h"
 
 namespace collision::bench {
@@ -49,19 +49,23 @@ class Sampler {
   }
 
  private:
-  RelativePose At(double along) const { return collision::PoseOf(rotation_, along * direction_); }
+  narrow_phase::RelativePose At(double along) const {
+    return collision::narrow_phase::PoseOf(rotation_, along * direction_);
+  }
 
-  bool Touch(double along) const { return oracle_.decide(At(along)) == Verdict::kTouching; }
+  bool Touch(double along) const {
+    return oracle_.decide(At(along)) == narrow_phase::Verdict::kTouching;
+  }
 
   std::optional<PlainPose> Gap(double wanted) const {
     const double close = 0.1 * kGapTolerance * wanted;
     const auto along =
         Boundary(close, [&](double at) { return oracle_.distance(At(at), close).upper <= wanted; });
     if (!along) return std::nullopt;
-    const Interval distance = oracle_.distance(At(*along), close);
+    const numeric::Interval distance = oracle_.distance(At(*along), close);
     const double off = kGapTolerance * wanted;
     if (distance.lower < wanted - off || distance.upper > wanted + off) return std::nullopt;
-    if (oracle_.decide(At(*along)) != Verdict::kApart) return std::nullopt;
+    if (oracle_.decide(At(*along)) != narrow_phase::Verdict::kApart) return std::nullopt;
     return PlainOf(rotation_, *along * direction_);
   }
 
@@ -93,33 +97,36 @@ const std::vector<GapClass>& GapClasses() {
   return classes;
 }
 
-RelativePose PoseOf(const PlainPose& pose) {
+narrow_phase::RelativePose PoseOf(const PlainPose& pose) {
   Eigen::Matrix3d rotation;
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) rotation(i, j) = pose.rotation[i][j];
   }
-  return collision::PoseOf(rotation, {pose.offset[0], pose.offset[1], pose.offset[2]});
+  return collision::narrow_phase::PoseOf(rotation,
+                                         {pose.offset[0], pose.offset[1], pose.offset[2]});
 }
 
-BodySegment BodyOf(std::shared_ptr<const Shape> shape) {
-  BodySegment body;
+narrow_phase::BodySegment BodyOf(std::shared_ptr<const shape::Shape> shape) {
+  narrow_phase::BodySegment body;
   body.shape = std::move(shape);
   return body;
 }
 
-PoseSample SamplePoses(std::shared_ptr<const Shape> shape, double diameter, const GapClass& gap,
-                       std::size_t count, std::uint64_t seed) {
-  const BodySegment body = BodyOf(std::move(shape));
-  const PairOracle oracle = {[body](const RelativePose& pose) {
-                               Work work(kUnlimited);
-                               return DecideAt(Surface(body), Surface(body), pose, &work).verdict;
-                             },
-                             [body](const RelativePose& pose, double width) {
-                               Work work(kUnlimited);
-                               const Look look =
-                                   BracketAt(Surface(body), Surface(body), pose, width, 0, &work);
-                               return Interval(look.lower, look.upper);
-                             }};
+PoseSample SamplePoses(std::shared_ptr<const shape::Shape> shape, double diameter,
+                       const GapClass& gap, std::size_t count, std::uint64_t seed) {
+  const narrow_phase::BodySegment body = BodyOf(std::move(shape));
+  const PairOracle oracle = {
+      [body](const narrow_phase::RelativePose& pose) {
+        WorkBudget work(kUnlimited);
+        return DecideAt(narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, &work)
+            .verdict;
+      },
+      [body](const narrow_phase::RelativePose& pose, double width) {
+        WorkBudget work(kUnlimited);
+        const narrow_phase::SeparationBracket look = BracketSeparation(
+            narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, width, 0, &work);
+        return numeric::Interval(look.lower, look.upper);
+      }};
   return SamplePoses(oracle, diameter, gap, count, seed);
 }
 

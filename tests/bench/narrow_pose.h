@@ -5,8 +5,8 @@
 #include <memory>
 #include <vector>
 
-#include "collision_core/narrow_phase/relative_pose.h"
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/pose/relative_pose.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "collision_core/shape/shape.h"
 #include "tests/bench/narrow_query.h"
 
@@ -20,10 +20,10 @@ struct GapClass {
 };
 const std::vector<GapClass>& GapClasses();
 
-RelativePose PoseOf(const PlainPose& pose);
+narrow_phase::RelativePose PoseOf(const PlainPose& pose);
 
 /// The shape as a body that stands still.
-BodySegment BodyOf(std::shared_ptr<const Shape> shape);
+narrow_phase::BodySegment BodyOf(std::shared_ptr<const shape::Shape> shape);
 
 struct PoseSample {
   std::vector<PlainPose> poses;
@@ -32,9 +32,9 @@ struct PoseSample {
 
 /// What is certain of two bodies at a pose.
 struct PairOracle {
-  std::function<Verdict(const RelativePose&)> decide;
+  std::function<narrow_phase::Verdict(const narrow_phase::RelativePose&)> decide;
   /// The distance, within `width` [m]; where they touch, 0.
-  std::function<Interval(const RelativePose&, double width)> distance;
+  std::function<numeric::Interval(const narrow_phase::RelativePose&, double width)> distance;
 };
 
 /// `count` poses of the class. Rotation and direction are drawn, all equally likely; B is moved along
@@ -47,7 +47,7 @@ PoseSample SamplePoses(PairOracle oracle, double diameter, const GapClass& gap, 
                        std::uint64_t seed);
 
 /// The same of two bodies of one shape.
-PoseSample SamplePoses(std::shared_ptr<const Shape> shape, double diameter, const GapClass& gap,
-                       std::size_t count, std::uint64_t seed);
+PoseSample SamplePoses(std::shared_ptr<const shape::Shape> shape, double diameter,
+                       const GapClass& gap, std::size_t count, std::uint64_t seed);
 
 }  // namespace collision::bench

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision_core/narrow_phase/refinement.h"
+#include "collision_core/narrow_phase/separation/refinement.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/narrow_parts.h"
 #include "tests/bench/narrow_pose.h"
@@ -12,23 +12,25 @@ namespace {
 
 constexpr std::uint64_t kSeed = 11;
 constexpr std::size_t kPosesEach = 10;
-constexpr BracketWidth kNarrow = {0, 1e-6};
+constexpr narrow_phase::BracketWidth kNarrow = {0, 1e-6};
 /// Units for each pair.
 constexpr std::uint64_t kBudgets[] = {4, 16, 64, 256, 1024, 4096};
 
 /// Bodies of one shape at poses of all gap classes.
 struct Scene {
   explicit Scene(const BenchMesh& mesh)
-      : body(BodyOf(Shape::Build(mesh.mesh, {.builder = TreeBuilder::kFitted}))), surface(body) {
+      : body(
+            BodyOf(shape::Shape::Build(mesh.mesh, {.builder = sphere_tree::TreeBuilder::kFitted}))),
+        surface(body) {
     for (const GapClass& gap : GapClasses()) {
       const auto sample = SamplePoses(body.shape, mesh.diameter(), gap, kPosesEach, kSeed);
       for (const PlainPose& pose : sample.poses) poses.push_back(PoseOf(pose));
     }
   }
 
-  const BodySegment body;
-  const Surface surface;
-  std::vector<RelativePose> poses;
+  const narrow_phase::BodySegment body;
+  const narrow_phase::BodyTree surface;
+  std::vector<narrow_phase::RelativePose> poses;
 };
 
 struct Shared {
@@ -38,11 +40,13 @@ struct Shared {
   double seconds = 0;
 };
 
-Shared Refine(const Scene& scene, RefinementOrder order, std::uint64_t units, NumberHash* hash) {
-  Refinement refinement(order);
-  Work work(units * scene.poses.size());
-  for (const RelativePose& pose : scene.poses) {
-    refinement.Add(scene.surface, scene.surface, pose, 1, Goal::kDecision, kNarrow, &work);
+Shared Refine(const Scene& scene, narrow_phase::RefinementOrder order, std::uint64_t units,
+              NumberHash* hash) {
+  narrow_phase::Refinement refinement(order);
+  WorkBudget work(units * scene.poses.size());
+  for (const narrow_phase::RelativePose& pose : scene.poses) {
+    refinement.Add(scene.surface, scene.surface, pose, 1, narrow_phase::Goal::kDecision, kNarrow,
+                   &work);
   }
   const double start = CpuNow();
   refinement.Refine(&work);
@@ -52,7 +56,7 @@ Shared Refine(const Scene& scene, RefinementOrder order, std::uint64_t units, Nu
   shared.coarse = refinement.Coarse().size();
   shared.spent = work.spent();
   for (std::size_t pair = 0; pair < refinement.size(); ++pair) {
-    const RefinedPair at = refinement.At(pair);
+    const narrow_phase::RefinedPair at = refinement.At(pair);
     hash->Add(at.lower), hash->Add(at.upper);
     if (!at.done) shared.widest = std::max(shared.widest, at.upper - at.lower);
   }
@@ -72,8 +76,10 @@ void RefinementPart(const NarrowSettings& settings, NarrowReport* report) {
     const Scene scene(mesh);
     for (const std::uint64_t units : kBudgets) {
       NumberHash hash;
-      const Shared level = Refine(scene, RefinementOrder::kLevelByLevel, units, &hash);
-      const Shared largest = Refine(scene, RefinementOrder::kLargestFirst, units, &hash);
+      const Shared level =
+          Refine(scene, narrow_phase::RefinementOrder::kLevelByLevel, units, &hash);
+      const Shared largest =
+          Refine(scene, narrow_phase::RefinementOrder::kLargestFirst, units, &hash);
       NarrowRow of_budget = row;
       of_budget.gap = std::to_string(units) + " units";
       of_budget.warm = largest.seconds;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "collision_core/narrow_phase/separation.h"
-#include "collision_core/shape/octree_builder.h"
-#include "collision_core/shape/tree_cut.h"
+#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/sphere_tree/octree/octree_builder.h"
+#include "collision_core/sphere_tree/tree_cut.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/narrow_ours.h"
 #include "tests/bench/narrow_parts.h"
@@ -22,7 +22,7 @@ constexpr std::size_t kCutMax = 700;
 constexpr std::uint32_t kLevelsMax = 6;
 /// The proof of one tree's coverage may take so long [s].
 constexpr double kProofCutOff = 60;
-constexpr ShapeOptions kFitted{.builder = TreeBuilder::kFitted};
+constexpr sphere_tree::ShapeOptions kFitted{.builder = sphere_tree::TreeBuilder::kFitted};
 
 NarrowRow RowOf(const std::string& part, const BenchMesh& mesh, const std::string& contestant) {
   NarrowRow row;
@@ -35,26 +35,26 @@ NarrowRow RowOf(const std::string& part, const BenchMesh& mesh, const std::strin
 
 /// The octree as DESIGN.md has it: each ball circumscribes its octant. Ours keeps the smaller of that
 /// one and one about what the octant holds. Signed distances as deep as cuts are compared.
-SphereTree CircumscribedOctree(const BenchMesh& mesh, const Shape& shape) {
-  SphereTree tree = BuildCircumscribedOctree(mesh.mesh, {});
-  for (SphereNode& node : tree.nodes) {
+sphere_tree::SphereTree CircumscribedOctree(const BenchMesh& mesh, const shape::Shape& shape) {
+  sphere_tree::SphereTree tree = BuildCircumscribedOctree(mesh.mesh, {});
+  for (sphere_tree::SphereNode& node : tree.nodes) {
     if (node.level > kLevelsMax) break;
-    const Interval distance = shape.DistanceTo(node.centre);
+    const numeric::Interval distance = shape.DistanceTo(node.centre);
     const bool inside = shape.WindingNumberAt(node.centre).value_or(0) != 0;
     node.signed_distance = inside ? -distance.lower : distance.upper;
   }
   return tree;
 }
 
-void CompareCuts(const BenchMesh& mesh, const SphereTree& octree, const SphereTree& fitted,
-                 const std::string& reference_name, const std::string& figure,
-                 NarrowReport* report) {
+void CompareCuts(const BenchMesh& mesh, const sphere_tree::SphereTree& octree,
+                 const sphere_tree::SphereTree& fitted, const std::string& reference_name,
+                 const std::string& figure, NarrowReport* report) {
   for (std::uint32_t level = 1; level < std::min(octree.levels, kLevelsMax + 1); ++level) {
     const auto reference_cut = octree.Cut(level);
     if (reference_cut.size() > kCutMax) break;
-    const Overshoot reference = OvershootOf(octree, reference_cut);
+    const sphere_tree::Overshoot reference = OvershootOf(octree, reference_cut);
     const auto cut = CutOfCount(fitted, reference_cut.size());
-    const Overshoot ours = OvershootOf(fitted, cut);
+    const sphere_tree::Overshoot ours = OvershootOf(fitted, cut);
     const double mean = ours.mean / reference.mean, max = ours.max / reference.max;
     NarrowRow row = RowOf("trees", mesh, "ours");
     row.gap = "level " + std::to_string(level);
@@ -76,7 +76,7 @@ void CompareCuts(const BenchMesh& mesh, const SphereTree& octree, const SphereTr
 }
 
 /// Exact, and so in a process of its own: another library may count with the same numbers.
-void AddCoverage(const BenchMesh& mesh, const SphereTree& tree, NarrowReport* report) {
+void AddCoverage(const BenchMesh& mesh, const sphere_tree::SphereTree& tree, NarrowReport* report) {
   const ApartResult proof = RunApart(kProofCutOff, [&] {
     DyadicPool::Install();
     return std::vector<double>{TreeCoverage(mesh.mesh, tree).ProvenShare()};
@@ -108,7 +108,8 @@ double LeastOf(const std::function<void()>& work) {
 void TreesPart(const NarrowSettings& settings, NarrowReport* report) {
   for (const BenchMesh& mesh : ClosedMeshes(settings.data_dir)) {
     if (!Wanted(settings, RowOf("trees", mesh, "ours"))) continue;
-    const auto octree = Shape::Build(mesh.mesh), fitted = Shape::Build(mesh.mesh, kFitted);
+    const auto octree = shape::Shape::Build(mesh.mesh),
+               fitted = shape::Shape::Build(mesh.mesh, kFitted);
     CompareCuts(mesh, octree->tree(), fitted->tree(), "octree", "octree", report);
     CompareCuts(mesh, CircumscribedOctree(mesh, *octree), fitted->tree(), "circumscribed octree",
                 "circumscribed_octree", report);
@@ -120,9 +121,9 @@ void BuildPart(const NarrowSettings& settings, NarrowReport* report) {
   for (const BenchMesh& mesh : ContestMeshes(settings.data_dir, settings.quick)) {
     if (!Wanted(settings, RowOf("build", mesh, "ours"))) continue;
     const PlainMesh plain = PlainOf(mesh.mesh);
-    std::shared_ptr<const Shape> shape;
+    std::shared_ptr<const shape::Shape> shape;
     NarrowRow ours = RowOf("build", mesh, "ours");
-    ours.warm = LeastOf([&] { shape = Shape::Build(mesh.mesh, kFitted); });
+    ours.warm = LeastOf([&] { shape = shape::Shape::Build(mesh.mesh, kFitted); });
     const auto nodes = static_cast<double>(shape->tree().nodes.size());
     ours.remark = Format("%g nodes", nodes) +
                   Format(", %.3g bytes a node", static_cast<double>(shape->tree().bytes()) / nodes);
@@ -130,7 +131,7 @@ void BuildPart(const NarrowSettings& settings, NarrowReport* report) {
                  Number("tree_bytes", static_cast<double>(shape->tree().bytes())),
                  Number("shape_bytes", static_cast<double>(shape->bytes()))};
     NarrowRow octree = RowOf("build", mesh, "ours, octree");
-    octree.warm = LeastOf([&] { shape = Shape::Build(mesh.mesh); });
+    octree.warm = LeastOf([&] { shape = shape::Shape::Build(mesh.mesh); });
     const double ours_seconds = *ours.warm;
     report->Add(std::move(ours));
     report->Add(std::move(octree));
@@ -147,8 +148,8 @@ void BudgetPart(const NarrowSettings& settings, NarrowReport* report) {
   for (const BenchMesh& mesh : ContestMeshes(settings.data_dir, true)) {
     NarrowRow row = RowOf("budget", mesh, "ours");
     if (!Wanted(settings, row)) continue;
-    const BodySegment body = BodyOf(Shape::Build(mesh.mesh, kFitted));
-    const Surface surface(body);
+    const narrow_phase::BodySegment body = BodyOf(shape::Shape::Build(mesh.mesh, kFitted));
+    const narrow_phase::BodyTree surface(body);
     std::uint64_t overrun = 0;
     std::size_t looks = 0;
     NumberHash hash;
@@ -156,8 +157,9 @@ void BudgetPart(const NarrowSettings& settings, NarrowReport* report) {
       const auto sample = SamplePoses(body.shape, mesh.diameter(), gap, 10, kSeed);
       for (const PlainPose& pose : sample.poses) {
         for (std::uint64_t budget = 1; budget <= 100'000; budget = budget * 3 / 2 + 1) {
-          Work work(budget);
-          const Look look = BracketAt(surface, surface, PoseOf(pose), 0, 0, &work);
+          WorkBudget work(budget);
+          const narrow_phase::SeparationBracket look =
+              BracketSeparation(surface, surface, PoseOf(pose), 0, 0, &work);
           hash.Add(look.lower), hash.Add(look.upper), ++looks;
           if (work.spent() > budget) overrun = std::max(overrun, work.spent() - budget);
         }

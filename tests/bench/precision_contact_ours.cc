@@ -2,7 +2,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/bench/json.h"
 #include "tests/bench/narrow_contact_ours.h"
 #include "tests/bench/precision_contact.h"
@@ -16,21 +16,22 @@ constexpr double kTolerances[] = {1e-1, 3e-2, 1e-2, 1e-3, 1e-4,  1e-5,
                                   1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-12};
 constexpr double kRates[] = {60, 240, 1000, 10'000};
 
-ContactReply Told(const ContactTime& found) {
+ContactReply Told(const narrow_phase::TimeOfContactResult& found) {
   using Verdict = ContactReply::Verdict;
-  const Verdict verdict = found.status == ContactStatus::kFree      ? Verdict::kFree
-                          : found.status == ContactStatus::kContact ? Verdict::kContact
-                                                                    : Verdict::kUndecided;
+  const Verdict verdict = found.status == narrow_phase::ContactStatus::kFree ? Verdict::kFree
+                          : found.status == narrow_phase::ContactStatus::kContact
+                              ? Verdict::kContact
+                              : Verdict::kUndecided;
   return {verdict, found.begin.lower, found.begin.upper};
 }
 
 /// A box as a convex solid.
-std::shared_ptr<const Shape> SolidShapeOf(const MovingBody& body) {
+std::shared_ptr<const shape::Shape> SolidShapeOf(const MovingBody& body) {
   if (body.kind == MovingBody::Kind::kBall) return nullptr;
-  ConvexDescription box;
-  box.core = ConvexCore::kBox;
+  shape::ConvexDescription box;
+  box.core = geometry::ConvexCore::kBox;
   box.half = {body.half[0], body.half[1], body.half[2]};
-  return Shape::Compound(nullptr, {ConvexSolid::Build(box)});
+  return shape::Shape::Compound(nullptr, {shape::ConvexSolid::Build(box)});
 }
 
 ContactMethod Ours(const std::string& name, bool solids, double tolerance) {
@@ -46,20 +47,20 @@ ContactMethod Ours(const std::string& name, bool solids, double tolerance) {
     // Two balls are the same either way.
     if (solids && !shapes.a && !shapes.b) return nullptr;
     return [of, shapes, tolerance] {
-      return Told(OurContact(of, shapes, ContactTolerance{tolerance, 0}));
+      return Told(OurContact(of, shapes, narrow_phase::ContactTolerance{tolerance, 0}));
     };
   };
   return method;
 }
 
-BodySegment BodyOf(const MovingBody& body) {
-  BodySegment segment;
+narrow_phase::BodySegment BodyOf(const MovingBody& body) {
+  narrow_phase::BodySegment segment;
   segment.shape = ShapeOf(body);
   segment.ball.radius = segment.shape ? segment.shape->facts().radius : body.half[0];
   return segment;
 }
 
-RelativePose PoseAt(const ContactCase& of, double seconds) {
+narrow_phase::RelativePose PoseAt(const ContactCase& of, double seconds) {
   const MovingBody a = of.a.After(seconds), b = of.b.After(seconds);
   const auto matrix = [](const MovingBody& body) {
     return Eigen::Quaterniond(body.q[0], body.q[1], body.q[2], body.q[3])
@@ -67,7 +68,8 @@ RelativePose PoseAt(const ContactCase& of, double seconds) {
         .toRotationMatrix();
   };
   const Eigen::Vector3d between(b.p[0] - a.p[0], b.p[1] - a.p[1], b.p[2] - a.p[2]);
-  return collision::PoseOf(matrix(a).transpose() * matrix(b), matrix(a).transpose() * between);
+  return collision::narrow_phase::PoseOf(matrix(a).transpose() * matrix(b),
+                                         matrix(a).transpose() * between);
 }
 
 bool BallsTouch(const ContactCase& of, double seconds) {
@@ -80,16 +82,17 @@ bool BallsTouch(const ContactCase& of, double seconds) {
   return square <= reach * reach;
 }
 
-std::optional<double> Step(const ContactCase& of, const BodySegment& a, const BodySegment& b,
-                           double rate) {
+std::optional<double> Step(const ContactCase& of, const narrow_phase::BodySegment& a,
+                           const narrow_phase::BodySegment& b, double rate) {
   const auto frames = static_cast<int>(std::lround(of.duration * rate));
   const bool balls = !a.shape && !b.shape;
   for (int frame = 0; frame <= frames; ++frame) {
     const double at = frame / rate;
-    Work work(kUnlimited);
+    WorkBudget work(kUnlimited);
     const bool touch = balls ? BallsTouch(of, at)
-                             : DecideAt(Surface(a), Surface(b), PoseAt(of, at), &work).verdict ==
-                                   Verdict::kTouching;
+                             : DecideAt(narrow_phase::BodyTree(a), narrow_phase::BodyTree(b),
+                                        PoseAt(of, at), &work)
+                                       .verdict == Verdict::kTouching;
     if (touch) return at;
   }
   return std::nullopt;

@@ -21,15 +21,17 @@ std::vector<BenchMesh> Meshes(const PrecisionSettings& settings) {
   return meshes;
 }
 
-PairOracle OracleOf(const BodySegment& body) {
-  return {[body](const RelativePose& pose) {
-            Work work(kUnlimited);
-            return DecideAt(Surface(body), Surface(body), pose, &work).verdict;
+PairOracle OracleOf(const narrow_phase::BodySegment& body) {
+  return {[body](const narrow_phase::RelativePose& pose) {
+            WorkBudget work(kUnlimited);
+            return DecideAt(narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, &work)
+                .verdict;
           },
-          [body](const RelativePose& pose, double width) {
-            Work work(kUnlimited);
-            const Look look = BracketAt(Surface(body), Surface(body), pose, width, 0, &work);
-            return Interval(look.lower, look.upper);
+          [body](const narrow_phase::RelativePose& pose, double width) {
+            WorkBudget work(kUnlimited);
+            const narrow_phase::SeparationBracket look = BracketSeparation(
+                narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, width, 0, &work);
+            return numeric::Interval(look.lower, look.upper);
           }};
 }
 
@@ -40,8 +42,9 @@ void MeshesPart(const PrecisionSettings& settings, PrecisionReport* report) {
   for (const BenchMesh& mesh : Meshes(settings)) {
     PrecisionRow any;
     any.part = "precision", any.mesh = mesh.name;
-    const auto fitted = Shape::Build(mesh.mesh, {.builder = TreeBuilder::kFitted});
-    PrecisionMethods methods = OurMeshMethods({fitted, Shape::Build(mesh.mesh)});
+    const auto fitted =
+        shape::Shape::Build(mesh.mesh, {.builder = sphere_tree::TreeBuilder::kFitted});
+    PrecisionMethods methods = OurMeshMethods({fitted, shape::Shape::Build(mesh.mesh)});
     Append(MeshPeers(PlainOf(mesh.mesh)), &methods);
     const MeshTruth truth(mesh.mesh);
     for (const Motion motion : kMotions) {
@@ -74,7 +77,7 @@ void ConvexesPart(const PrecisionSettings& settings, PrecisionReport* report) {
     for (std::size_t k = i; k < all.size(); ++k) {
       const PlainConvex &a = all[i], &b = all[k];
       const std::string name = a.name + " and " + b.name;
-      const ConvexPair pair{SolidOf(a), SolidOf(b)};
+      const geometry::ConvexPair pair{SolidOf(a), SolidOf(b)};
       PrecisionMethods methods = OurConvexMethods(pair);
       Append(ConvexPeers(a, b), &methods);
       for (const Motion motion : kMotions) {

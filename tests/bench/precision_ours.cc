@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "collision_core/narrow_phase/convex_distance.h"
-#include "collision_core/narrow_phase/refinement.h"
+#include "collision_core/narrow_phase/convex_pair/convex_distance.h"
+#include "collision_core/narrow_phase/separation/refinement.h"
 #include "tests/bench/narrow_pose.h"
 
 namespace collision::bench {
@@ -12,47 +12,49 @@ namespace {
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
 constexpr std::uint64_t kBudgets[] = {1, 4, 16, 64, 128, 256, 512, 1024, 4096, 1 << 16};
 constexpr double kWidths[] = {0.3, 0.1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-constexpr BracketWidth kAsNarrowAsCanBe{0, 0};
+constexpr narrow_phase::BracketWidth kAsNarrowAsCanBe{0, 0};
 
 const char kByBudget[] = "work units a pair; at last the rounding of the pose";
 const char kByWidth[] = "the width asked for; at last the rounding of the pose";
 const char kByRounding[] = "the rounding of the pose";
 
-Reply Told(const Look& look) {
+Reply Told(const narrow_phase::SeparationBracket& look) {
   if (look.upper <= 0 || look.crossing_margin >= 0) return Plain(0);
   return {std::max(0.0, look.lower), look.upper};
 }
 
-Reply Told(Verdict verdict) {
-  if (verdict == Verdict::kUndecided) return {0, 1};
-  return Plain(verdict == Verdict::kTouching);
+Reply Told(narrow_phase::Verdict verdict) {
+  if (verdict == narrow_phase::Verdict::kUndecided) return {0, 1};
+  return Plain(verdict == narrow_phase::Verdict::kTouching);
 }
 
 /// The pair that may be nearest is opened first, so that both ends move all the time.
-Reply ByBudget(const BodySegment& body, const PlainPose& at, std::uint64_t units) {
-  const Surface surface(body);
-  const RelativePose pose = PoseOf(at);
-  Work work(units);
-  SeparationSearch search(surface, surface, pose, Goal::kDecision, kAsNarrowAsCanBe,
-                          SearchOrder::kNearest);
+Reply ByBudget(const narrow_phase::BodySegment& body, const PlainPose& at, std::uint64_t units) {
+  const narrow_phase::BodyTree surface(body);
+  const narrow_phase::RelativePose pose = PoseOf(at);
+  WorkBudget work(units);
+  narrow_phase::SeparationSearch search(surface, surface, pose, narrow_phase::Goal::kDecision,
+                                        kAsNarrowAsCanBe, narrow_phase::SearchOrder::kNearest);
   search.Start(&work);
   search.Refine(&work);
   return Told(search.Told());
 }
 
-Reply ByWidth(const BodySegment& body, const PlainPose& at, double width) {
-  const Surface surface(body);
-  Work work(kUnlimited);
-  return Told(BracketAt(surface, surface, PoseOf(at), width, 0, &work));
+Reply ByWidth(const narrow_phase::BodySegment& body, const PlainPose& at, double width) {
+  const narrow_phase::BodyTree surface(body);
+  WorkBudget work(kUnlimited);
+  return Told(BracketSeparation(surface, surface, PoseOf(at), width, 0, &work));
 }
 
-std::vector<Reply> Together(const BodySegment& body, const std::vector<PlainPose>& poses,
-                            RefinementOrder order, std::uint64_t units) {
-  const Surface surface(body);
-  Refinement refinement(order);
-  Work work(units * poses.size());
+std::vector<Reply> Together(const narrow_phase::BodySegment& body,
+                            const std::vector<PlainPose>& poses,
+                            narrow_phase::RefinementOrder order, std::uint64_t units) {
+  const narrow_phase::BodyTree surface(body);
+  narrow_phase::Refinement refinement(order);
+  WorkBudget work(units * poses.size());
   for (const PlainPose& at : poses) {
-    refinement.Add(surface, surface, PoseOf(at), 1, Goal::kDecision, kAsNarrowAsCanBe, &work);
+    refinement.Add(surface, surface, PoseOf(at), 1, narrow_phase::Goal::kDecision, kAsNarrowAsCanBe,
+                   &work);
   }
   refinement.Refine(&work);
   std::vector<Reply> replies;
@@ -70,7 +72,8 @@ PrecisionMethod Ours(const std::string& name, const std::string& setting, const 
 
 std::string Units(std::uint64_t units) { return std::to_string(units) + " units"; }
 
-void AddTree(const std::string& name, const BodySegment& body, PrecisionMethods* methods) {
+void AddTree(const std::string& name, const narrow_phase::BodySegment& body,
+             PrecisionMethods* methods) {
   for (const std::uint64_t units : kBudgets) {
     methods->push_back(Ours(name + ", by budget", Units(units), kByBudget));
     methods->back().ask = [body, units](const PlainPose& at) { return ByBudget(body, at, units); };
@@ -81,10 +84,10 @@ void AddTree(const std::string& name, const BodySegment& body, PrecisionMethods*
   }
 }
 
-void AddRefinement(const BodySegment& body, PrecisionMethods* methods) {
-  const std::pair<RefinementOrder, const char*> orders[] = {
-      {RefinementOrder::kLevelByLevel, "refinement, level by level"},
-      {RefinementOrder::kLargestFirst, "refinement, largest first"}};
+void AddRefinement(const narrow_phase::BodySegment& body, PrecisionMethods* methods) {
+  const std::pair<narrow_phase::RefinementOrder, const char*> orders[] = {
+      {narrow_phase::RefinementOrder::kLevelByLevel, "refinement, level by level"},
+      {narrow_phase::RefinementOrder::kLargestFirst, "refinement, largest first"}};
   for (const auto& [order, name] : orders) {
     for (const std::uint64_t units : kBudgets) {
       methods->push_back(Ours(name, Units(units), "the budget that all pairs share"));
@@ -95,18 +98,19 @@ void AddRefinement(const BodySegment& body, PrecisionMethods* methods) {
   }
 }
 
-Interval Patiently(const ConvexPair& pair, const PlainPose& at, std::uint64_t units) {
-  Work work(units);
-  const RelativePose pose = PoseOf(at);
-  const Interval found = IntervalOf(PosedA(pair.a.set(), pose), PosedB(pair.b.set(), pose),
-                                    {.goal = ConvexGoal::kDistance}, &work);
+numeric::Interval Patiently(const geometry::ConvexPair& pair, const PlainPose& at,
+                            std::uint64_t units) {
+  WorkBudget work(units);
+  const narrow_phase::RelativePose pose = PoseOf(at);
+  const numeric::Interval found = IntervalOf(PosedA(pair.a.set(), pose), PosedB(pair.b.set(), pose),
+                                             {.goal = narrow_phase::ConvexGoal::kDistance}, &work);
   return {std::max(0.0, found.lower), std::max(0.0, found.upper)};
 }
 
 }  // namespace
 
 PrecisionMethods OurMeshMethods(const TwoTrees& trees) {
-  const BodySegment fitted = BodyOf(trees.fitted), octree = BodyOf(trees.octree);
+  const narrow_phase::BodySegment fitted = BodyOf(trees.fitted), octree = BodyOf(trees.octree);
   PrecisionMethods methods;
   AddTree("fitted tree", fitted, &methods);
   AddTree("octree", octree, &methods);
@@ -116,31 +120,31 @@ PrecisionMethods OurMeshMethods(const TwoTrees& trees) {
   methods.push_back(Ours("yes or no", "", kByRounding));
   methods.back().decides = true;
   methods.back().ask = [fitted](const PlainPose& at) {
-    const Surface surface(fitted);
-    Work work(kUnlimited);
+    const narrow_phase::BodyTree surface(fitted);
+    WorkBudget work(kUnlimited);
     return Told(DecideAt(surface, surface, PoseOf(at), &work).verdict);
   };
   return methods;
 }
 
-PrecisionMethods OurConvexMethods(const ConvexPair& pair) {
+PrecisionMethods OurConvexMethods(const geometry::ConvexPair& pair) {
   PrecisionMethods methods;
   for (const double width : kWidths) {
     methods.push_back(Ours("convex routine, by width", SettingText("", width, "m"), kByWidth));
     methods.back().ask = [pair, width](const PlainPose& at) -> Reply {
-      const Interval found = pair.DistanceAt(PoseOf(at), 0, width);
+      const numeric::Interval found = pair.DistanceAt(PoseOf(at), 0, width);
       return {found.lower, found.upper};
     };
   }
   methods.push_back(Ours("convex routine, by width", "0 m", kByRounding));
   methods.back().ask = [pair](const PlainPose& at) -> Reply {
-    const Interval found = pair.DistanceAt(PoseOf(at), 0, 0);
+    const numeric::Interval found = pair.DistanceAt(PoseOf(at), 0, 0);
     return {found.lower, found.upper};
   };
   for (const std::uint64_t units : {1, 2, 3, 4, 6, 8, 12, 16, 32, 64}) {
     methods.push_back(Ours("patient search, by budget", Units(units), kByBudget));
     methods.back().ask = [pair, units](const PlainPose& at) -> Reply {
-      const Interval found = Patiently(pair, at, units);
+      const numeric::Interval found = Patiently(pair, at, units);
       return {found.lower, found.upper};
     };
   }

@@ -11,7 +11,7 @@ namespace collision::bench {
 
 /// Two trees of one mesh.
 struct TwoTrees {
-  std::shared_ptr<const Shape> fitted, octree;
+  std::shared_ptr<const shape::Shape> fitted, octree;
 };
 
 /// By budget, by width asked for, down to the triangles, yes or no, and many that share a budget.

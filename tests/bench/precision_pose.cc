@@ -30,7 +30,9 @@ struct Placement {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d direction;
 
-  RelativePose At(double along) const { return collision::PoseOf(rotation, along * direction); }
+  narrow_phase::RelativePose At(double along) const {
+    return collision::narrow_phase::PoseOf(rotation, along * direction);
+  }
   PlainPose Plainly(double along) const {
     const Eigen::Vector3d offset = along * direction;
     PlainPose pose;
@@ -77,7 +79,7 @@ class Drawer {
 
   std::optional<JudgedPose> Overlap(const Placement& placement, double share) const {
     const auto touch = Boundary(diameter_, 0.5 * kFinest, [&](double at) {
-      return oracle_.decide(placement.At(at)) == Verdict::kTouching;
+      return oracle_.decide(placement.At(at)) == narrow_phase::Verdict::kTouching;
     });
     if (!touch) return std::nullopt;
     const PlainPose pose = placement.Plainly(*touch - share * diameter_);

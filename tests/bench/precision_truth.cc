@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision_core/narrow_phase/triangle_pair.h"
+#include "collision_core/geometry/triangle/triangle_pair.h"
 #include "tests/bench/narrow_convex_pair.h"
 #include "tests/support/exact_convex.h"
 #include "tests/support/exact_triangle.h"
@@ -36,7 +36,7 @@ struct Placed {
 
 /// A triangle where it is, about, with its box.
 struct Boxed {
-  TrianglePoints points;
+  geometry::TrianglePoints points;
   Eigen::Vector3d lower, upper;
   std::uint32_t index;
 
@@ -45,10 +45,10 @@ struct Boxed {
   }
 };
 
-std::vector<Boxed> BoxedTriangles(const TriangleMesh& mesh,
+std::vector<Boxed> BoxedTriangles(const geometry::TriangleMesh& mesh,
                                   const std::vector<Eigen::Vector3d>& at) {
   std::vector<Boxed> all;
-  for (const Triangle& t : mesh.triangles) {
+  for (const geometry::Triangle& t : mesh.triangles) {
     Boxed boxed{{at[t[0]], at[t[1]], at[t[2]]}, {}, {}, static_cast<std::uint32_t>(all.size())};
     boxed.lower = boxed.points[0].cwiseMin(boxed.points[1]).cwiseMin(boxed.points[2]);
     boxed.upper = boxed.points[0].cwiseMax(boxed.points[1]).cwiseMax(boxed.points[2]);
@@ -83,7 +83,7 @@ std::vector<NearPairOfTriangles> NearTriangles(std::vector<Boxed> of_a, std::vec
   for (const Boxed& a : of_a) {
     for (const Boxed& b : of_b) {
       if (a.DistanceTo(b.lower, b.upper) > within) continue;
-      const double lower = DistanceOf(a.points, b.points).distance.lower;
+      const double lower = geometry::DistanceOf(a.points, b.points).distance.lower;
       if (lower <= within) near.push_back({lower, a.index, b.index});
     }
   }
@@ -93,7 +93,7 @@ std::vector<NearPairOfTriangles> NearTriangles(std::vector<Boxed> of_a, std::vec
   return near;
 }
 
-ExactTriangle TriangleAt(const TriangleMesh& mesh, std::uint32_t index,
+ExactTriangle TriangleAt(const geometry::TriangleMesh& mesh, std::uint32_t index,
                          const ExactPlacement& placement) {
   ExactTriangle triangle;
   for (int i = 0; i < 3; ++i) {
@@ -102,12 +102,12 @@ ExactTriangle TriangleAt(const TriangleMesh& mesh, std::uint32_t index,
   return triangle;
 }
 
-ConvexDescription DescriptionOf(const PlainConvex& convex) {
-  ConvexDescription description;
+shape::ConvexDescription DescriptionOf(const PlainConvex& convex) {
+  shape::ConvexDescription description;
   description.half = {convex.half[0], convex.half[1], convex.half[2]};
-  description.core = convex.kind == PlainConvex::Kind::kCapsule ? ConvexCore::kSegment
-                     : convex.kind == PlainConvex::Kind::kBox   ? ConvexCore::kBox
-                                                                : ConvexCore::kHull;
+  description.core = convex.kind == PlainConvex::Kind::kCapsule ? geometry::ConvexCore::kSegment
+                     : convex.kind == PlainConvex::Kind::kBox   ? geometry::ConvexCore::kBox
+                                                                : geometry::ConvexCore::kHull;
   for (const auto& p : convex.hull.vertices) description.points.emplace_back(p[0], p[1], p[2]);
   return description;
 }
@@ -130,7 +130,7 @@ double MeshTruth::DistanceAt(const PlainPose& pose, double upper) const {
     if (least < 0 || square < least) least = square;
     if (least == 0) break;
   }
-  return least < 0 ? kInfinity : Rooted(least, 0);
+  return least < 0 ? numeric::kInfinity : Rooted(least, 0);
 }
 
 double ConvexTruthAt(const PlainConvex& a, const PlainConvex& b, const PlainPose& pose) {

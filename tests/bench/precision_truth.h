@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "tests/bench/narrow_convex.h"
 
 namespace collision::bench {
@@ -12,7 +12,7 @@ namespace collision::bench {
 /// doubles they are no rotation, and nobody can ask for more.
 class MeshTruth {
  public:
-  explicit MeshTruth(TriangleMesh mesh) : mesh_(std::move(mesh)) {}
+  explicit MeshTruth(geometry::TriangleMesh mesh) : mesh_(std::move(mesh)) {}
 
   /// [m], rounded to the nearest double; 0: the surfaces have a point in common. By rational
   /// arithmetic (support/exact_triangle.h) over all pairs of triangles that may be as near as
@@ -20,7 +20,7 @@ class MeshTruth {
   double DistanceAt(const PlainPose& pose, double upper) const;
 
  private:
-  TriangleMesh mesh_;
+  geometry::TriangleMesh mesh_;
 };
 
 /// Capsules, boxes and hulls: the hulls of their cores' corners, by rational arithmetic

@@ -28,7 +28,7 @@ class UpdatedBullet : public Updated, private baselines::AgentAsker, private btD
 
   void Update(std::uint32_t agent, const baselines::BallAgent& state) override {
     agents_[agent] = state;
-    now_ = AddRoundedDown(Instant(), state.stamp);
+    now_ = numeric::AddRoundedDown(Instant(), state.stamp);
     btDbvtVolume box = BulletBox(baselines::SweptBoxOf(state, state.stamp + reach_));
     tree_.update(leaves_[agent], box);
     earliest_.Renewed(agent);
@@ -54,7 +54,7 @@ class UpdatedBullet : public Updated, private baselines::AgentAsker, private btD
     const btDbvtVolume box = BulletBox(baselines::SweptBoxOf(agents_[agent], first_));
     tree_.collideTVNoStackAlloc(tree_.m_root, box, stack_, *this);
     if (partner_ == agent) return std::nullopt;
-    return baselines::AgentMeeting{partner_, AddRoundedDown(Instant(), first_)};
+    return baselines::AgentMeeting{partner_, numeric::AddRoundedDown(Instant(), first_)};
   }
 
   void Process(const btDbvtNode* leaf) override {

@@ -19,8 +19,8 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 Vector3 ToArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 Eigen::Vector3d ToVector(const Vector3& v) { return {v[0], v[1], v[2]}; }
 
-MotionState ToCore(const State& state) {
-  MotionState core;
+motion::MotionState ToCore(const State& state) {
+  motion::MotionState core;
   core.stamp = Instant::FromNanoseconds(state.stamp_ns);
   core.p_WA = ToVector(state.position_m);
   core.v_WA = ToVector(state.velocity_m_s);
@@ -36,8 +36,9 @@ MotionState ToCore(const State& state) {
   return core;
 }
 
-ContractVerdict ServiceSays(const MotionBounds& bounds, const State& told, const State& next) {
-  SpaceTimeBound before;
+motion::ContractVerdict ServiceSays(const MotionBounds& bounds, const State& told,
+                                    const State& next) {
+  motion::SpaceTimeBound before;
   before.state = ToCore(told);
   before.declaration.acceleration_max = bounds.acceleration_max_m_s2;
   before.declaration.time_step = bounds.time_step_s;
@@ -99,11 +100,11 @@ TEST(Contract, WhatIsKeptBackBreaksNothingAtTheService) {
   int kept_back = 0, breached = 0;
   for (int i = 0; i < 50000; ++i) {
     const Said said = RandomPair(&random);
-    const ContractVerdict verdict = ServiceSays(said.bounds, said.told, said.next);
-    breached += verdict == ContractVerdict::kBreached;
+    const motion::ContractVerdict verdict = ServiceSays(said.bounds, said.told, said.next);
+    breached += verdict == motion::ContractVerdict::kBreached;
     if (!StandsIn(said.bounds, said.told, said.next)) continue;
     ++kept_back;
-    ASSERT_NE(verdict, ContractVerdict::kBreached) << i;
+    ASSERT_NE(verdict, motion::ContractVerdict::kBreached) << i;
   }
   EXPECT_GT(kept_back, 5000);
   EXPECT_GT(breached, 5000);

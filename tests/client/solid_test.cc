@@ -148,7 +148,7 @@ TEST(Solid, ARefusalNamesSolidFieldValueAndRange) {
       << "vertices without triangles are a mesh that was lost";
   EXPECT_EQ(Refusal({.solids = std::vector<Solid>(kShapeSolidsMax + 1)}),
             "solids: there are 65537; allowed are 0 to 65536");
-  EXPECT_EQ(kShapeSolidsMax, kSolidsMax) << "the service's limit";
+  EXPECT_EQ(kShapeSolidsMax, shape::kSolidsMax) << "the service's limit";
   Triangles broken = Tetrahedron();
   broken.indices[0][0] = 9;
   EXPECT_NE(Refusal({.triangles = broken, .solids = {Solid::Ball(1)}}).find("vertex 9"),

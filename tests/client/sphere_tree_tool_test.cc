@@ -14,7 +14,7 @@
 #include "client/tools/sphere_tree_command.h"
 #include "client/tools/sphere_tree_export.h"
 #include "client/tools/sphere_tree_picture.h"
-#include "collision_core/shape/tree_check.h"
+#include "collision_core/sphere_tree/tree_check.h"
 #include "idl/tree_message.h"
 
 namespace collision::client {
@@ -87,7 +87,7 @@ TEST_F(SphereTreeTool, ReportsWhatTheTreeIs) {
   for (const v1::TreeCutReport& level : report.levels()) {
     double greatest = 0, sum = 0;
     std::uint32_t balls = 0;
-    for (const SphereNode& node : built.tree().nodes) {
+    for (const sphere_tree::SphereNode& node : built.tree().nodes) {
       if (node.level > level.level() || (node.level < level.level() && node.children > 0)) continue;
       greatest = std::max(greatest, node.radius + node.signed_distance);
       sum += node.radius + node.signed_distance;
@@ -116,7 +116,7 @@ TEST_F(SphereTreeTool, ExportsBallsThatOtherProgramsRead) {
   const std::vector<std::uint32_t> cut = built.tree().Cut(level);
   std::istringstream lines(LevelObj(built, level));
   std::size_t balls = 0, corners = 0, corners_before = 0, faces = 0;
-  const SphereNode* node = nullptr;
+  const sphere_tree::SphereNode* node = nullptr;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
     std::string word;
@@ -151,7 +151,7 @@ TEST_F(SphereTreeTool, ExportsMessages) {
   const std::vector<std::uint32_t> cut = built.tree().Cut(1);
   ASSERT_EQ(static_cast<std::size_t>(level.balls_size()), cut.size());
   for (int i = 0; i < level.balls_size(); ++i) {
-    const SphereNode& node = built.tree().nodes[cut[i]];
+    const sphere_tree::SphereNode& node = built.tree().nodes[cut[i]];
     EXPECT_EQ(level.balls(i).node(), cut[i]);
     EXPECT_EQ(level.balls(i).z_m(), node.centre.z());
     EXPECT_EQ(level.balls(i).radius_m(), node.radius);
@@ -159,7 +159,7 @@ TEST_F(SphereTreeTool, ExportsMessages) {
   }
   v1::SphereTree message;
   ASSERT_TRUE(message.ParseFromString(TreeBinary(built)));
-  const std::optional<SphereTree> tree = FromMessage(message);
+  const std::optional<sphere_tree::SphereTree> tree = FromMessage(message);
   ASSERT_TRUE(tree);
   EXPECT_EQ(RefusalOf(*tree, built.shape->mesh()), std::nullopt);
   EXPECT_EQ(tree->nodes.size(), built.tree().nodes.size());

@@ -9,7 +9,7 @@
 namespace collision::fuzz {
 
 struct Ballistic {
-  MotionState state;
+  motion::MotionState state;
   double radius = 0;
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
-#include "collision_core/narrow_phase/contact_time.h"
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
+#include "collision_core/numeric/seconds.h"
 #include "server/codec.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/fuzz/fuzzed_messages.h"
@@ -15,7 +16,7 @@ constexpr std::size_t kTrianglesJudged = 12;  // the truth takes each against ea
 
 /// An agent that flies and turns on as its state says: one motion that its bound allows.
 struct Flier {
-  SpaceTimeBound bound;
+  motion::SpaceTimeBound bound;
   TrueMotion motion;
   Real from = 0;  ///< Of the segment, after the state's stamp [s].
 
@@ -25,7 +26,7 @@ struct Flier {
 
   /// What long double loses of it by `t`.
   Real Lost(Real t) const {
-    const MotionState& state = bound.state;
+    const motion::MotionState& state = bound.state;
     const Real turned = (from + t) * state.w_WB.cast<Real>().norm();
     return 1e-17L * (state.p_WA.cast<Real>().norm() + (from + t) * state.v_WA.cast<Real>().norm() +
                      bound.declaration.radius * (1 + turned));
@@ -33,7 +34,7 @@ struct Flier {
 
   /// The oracle knows balls and small surfaces.
   bool judged() const {
-    const Shape* shape = bound.declaration.shape.get();
+    const shape::Shape* shape = bound.declaration.shape.get();
     if (bound.state.v_WA.norm() > bound.declaration.speed_max) return false;
     return shape == nullptr ||
            (shape->solids().empty() && shape->mesh().triangles.size() <= kTrianglesJudged);
@@ -48,16 +49,17 @@ std::optional<Flier> FuzzedFlier(Instant from, FuzzedData* data) {
   const v1::AgentState wire = FuzzedState(from.nanoseconds(), data);
   const auto declaration = server::DecodeDescription(description);
   const auto state = server::DecodeState({}, wire, {.latest = from});
-  if (!std::holds_alternative<AgentDeclaration>(declaration)) return std::nullopt;
-  if (!std::holds_alternative<MotionState>(state)) return std::nullopt;
+  if (!std::holds_alternative<motion::AgentDeclaration>(declaration)) return std::nullopt;
+  if (!std::holds_alternative<motion::MotionState>(state)) return std::nullopt;
   Flier flier;
-  flier.bound = {std::get<MotionState>(state), std::get<AgentDeclaration>(declaration), 0};
+  flier.bound = {std::get<motion::MotionState>(state),
+                 std::get<motion::AgentDeclaration>(declaration), 0};
   flier.bound.declaration.shape = FuzzedBody(data);
-  if (const Shape* shape = flier.bound.declaration.shape.get()) {
+  if (const shape::Shape* shape = flier.bound.declaration.shape.get()) {
     double& radius = flier.bound.declaration.radius;
     radius = std::max(radius, shape->facts().radius);
   }
-  const MotionState& told = flier.bound.state;
+  const motion::MotionState& told = flier.bound.state;
   flier.motion.start = {.p = told.p_WA.cast<Real>(),
                         .v = told.v_WA.cast<Real>(),
                         .w = told.w_WB.cast<Real>(),
@@ -85,7 +87,7 @@ bool CertainlyApart(const Flier& a, const Flier& b, Real t) {
   return SolidDistance(a.At(t), b.At(t)) > 4 * (a.Lost(t) + b.Lost(t));
 }
 
-void CheckForm(const ContactTime& time, double duration) {
+void CheckForm(const narrow_phase::TimeOfContactResult& time, double duration) {
   for (const double value : {time.begin.lower, time.begin.upper, time.end.lower, time.end.upper}) {
     Require(value >= 0 && value <= duration, "outside of [0, ", duration, "]: ", value);
   }
@@ -93,19 +95,20 @@ void CheckForm(const ContactTime& time, double duration) {
           "not ordered: begin ", time.begin.lower, " ", time.begin.upper, " end ", time.end.lower,
           " ", time.end.upper);
   Require(time.within >= 0, "within ", time.within);
-  if (time.status != ContactStatus::kContact) return;
+  if (time.status != narrow_phase::ContactStatus::kContact) return;
   Require(time.begin.upper <= time.end.lower, "ends before it begins: ", time.begin.upper, " ",
           time.end.lower);
 }
 
-void CheckTruth(const Flier& a, const Flier& b, const ContactTime& time, double duration) {
+void CheckTruth(const Flier& a, const Flier& b, const narrow_phase::TimeOfContactResult& time,
+                double duration) {
   for (int i = 0; i <= kSamples; ++i) {
     const double t = std::min(duration * i / kSamples, duration);
-    const bool free =
-        time.status == ContactStatus::kFree || t < time.begin.lower || t > time.end.upper;
+    const bool free = time.status == narrow_phase::ContactStatus::kFree || t < time.begin.lower ||
+                      t > time.end.upper;
     if (free) Require(!CertainlyTouch(a, b, t), "they touch at ", t, ", told to be free");
   }
-  if (time.status != ContactStatus::kContact) return;
+  if (time.status != narrow_phase::ContactStatus::kContact) return;
   Require(!CertainlyApart(a, b, time.begin.upper), "apart at ", time.begin.upper, " = begin.upper");
   Require(!CertainlyApart(a, b, time.end.lower), "apart at ", time.end.lower, " = end.lower");
 }
@@ -117,14 +120,14 @@ void FuzzContact(Bytes bytes) {
   FuzzedData data(bytes);
   const Instant from = Instant::FromNanoseconds(2'000'000'000);
   const double wanted = data.UpTo(1000);
-  const Instant to = AddRoundedDown(from, wanted);
-  const ContactTolerance tolerance{.absolute = data.OneOf(kTolerances),
-                                   .relative = data.OneOf(kTolerances)};
+  const Instant to = numeric::AddRoundedDown(from, wanted);
+  const narrow_phase::ContactTolerance tolerance{.absolute = data.OneOf(kTolerances),
+                                                 .relative = data.OneOf(kTolerances)};
   const std::uint64_t allowed = data.Bits(2) % 8000;
   const auto a = FuzzedFlier(from, &data), b = FuzzedFlier(from, &data);
   if (!a || !b) return;
-  Work work(allowed);
-  const ContactTime time = TimeOfContact(
+  WorkBudget work(allowed);
+  const narrow_phase::TimeOfContactResult time = TimeOfContact(
       {.last = a->bound, .next = {}}, {.last = b->bound, .next = {}}, from, to, tolerance, &work);
   const double duration = static_cast<double>(to.nanoseconds() - from.nanoseconds()) / 1e9;
   CheckForm(time, duration * (1 + 1e-15));

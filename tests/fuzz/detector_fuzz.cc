@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "collision_core/detection/detector.h"
+#include "collision_core/numeric/seconds.h"
 #include "server/codec.h"
 #include "server/encode.h"
 #include "tests/fuzz/answers.h"
@@ -18,13 +19,14 @@ namespace {
 constexpr std::uint32_t kAgents = 5;
 constexpr int kCallsMax = 120;
 constexpr int kStepsMax = 24;
-constexpr BroadPhaseMethod kMethods[] = {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kFaceSweep,
-                                         BroadPhaseMethod::kSpatialIndex};
+constexpr broad_phase::BroadPhaseMethod kMethods[] = {broad_phase::BroadPhaseMethod::kAllPairs,
+                                                      broad_phase::BroadPhaseMethod::kFaceSweep,
+                                                      broad_phase::BroadPhaseMethod::kSpatialIndex};
 
-DetectorOptions FuzzedOptions(FuzzedData* data) {
+detection::DetectorOptions FuzzedOptions(FuzzedData* data) {
   constexpr double kResolutions[] = {1.0 / 60, 0.001, 1, 1e-6};
   constexpr double kSkews[] = {0, 0.002, 1e-9, 60};
-  DetectorOptions options;
+  detection::DetectorOptions options;
   options.temporal_resolution = data->OneOf(kResolutions);
   options.announce_within = options.temporal_resolution * static_cast<double>(1 + data->Byte());
   options.skew = data->OneOf(kSkews);
@@ -37,7 +39,7 @@ DetectorOptions FuzzedOptions(FuzzedData* data) {
   return options;
 }
 
-bool Same(const AgentClearance& a, const AgentClearance& b) {
+bool Same(const detection::AgentClearance& a, const detection::AgentClearance& b) {
   return a.agent == b.agent && a.clear_until == b.clear_until && a.not_clear == b.not_clear &&
          a.in_contact == b.in_contact && a.saturated == b.saturated &&
          a.effective_from == b.effective_from && a.cause == b.cause && a.void_from == b.void_from &&
@@ -47,17 +49,17 @@ bool Same(const AgentClearance& a, const AgentClearance& b) {
 /// What is known of an agent apart from the detector.
 struct Told {
   Ballistic ball;
-  AgentDeclaration declaration;
+  motion::AgentDeclaration declaration;
   bool contradicts = false;  ///< Faster than its own cap: no motion is allowed at all.
 };
 
 /// One detector for each method; every call goes to all, and their answers must be equal.
 class Detectors {
  public:
-  explicit Detectors(DetectorOptions options) {
-    for (const BroadPhaseMethod method : kMethods) {
+  explicit Detectors(detection::DetectorOptions options) {
+    for (const broad_phase::BroadPhaseMethod method : kMethods) {
       options.broad_phase = method;
-      detectors_.push_back(std::make_unique<Detector>(options));
+      detectors_.push_back(std::make_unique<detection::Detector>(options));
     }
   }
 
@@ -90,44 +92,44 @@ class Detectors {
   }
 
   void CompareEarliest() {
-    const EarliestAnswer first = detectors_.front()->Earliest();
+    const detection::EarliestAnswer first = detectors_.front()->Earliest();
     for (std::size_t i = 1; i < detectors_.size(); ++i) {
-      const EarliestAnswer other = detectors_[i]->Earliest();
+      const detection::EarliestAnswer other = detectors_[i]->Earliest();
       Require(other.found == first.found && other.earliest == first.earliest &&
                   (!first.found || (other.lower == first.lower && other.higher == first.higher)),
               "earliest of ", Name(kMethods[i]), ": ", Shown(other), ", not ", Shown(first));
     }
   }
 
-  const Detector& first() const { return *detectors_.front(); }
+  const detection::Detector& first() const { return *detectors_.front(); }
 
  private:
-  static std::vector<std::string> EventsOf(const Detector& detector) {
+  static std::vector<std::string> EventsOf(const detection::Detector& detector) {
     std::vector<std::string> events;
-    for (const CollisionEvent& event : detector.events()) {
+    for (const detection::CollisionEvent& event : detector.events()) {
       events.push_back(server::Encode(event).SerializeAsString());
     }
     return events;
   }
 
-  static std::string Shown(const EarliestAnswer& answer) {
+  static std::string Shown(const detection::EarliestAnswer& answer) {
     return server::Encode(answer).ShortDebugString();
   }
 
-  static std::string Shown(const Detector& detector) {
+  static std::string Shown(const detection::Detector& detector) {
     std::string text;
-    for (const CollisionEvent& event : detector.events()) {
+    for (const detection::CollisionEvent& event : detector.events()) {
       text += server::Encode(event).ShortDebugString() + "\n";
     }
     return text;
   }
 
-  std::vector<std::unique_ptr<Detector>> detectors_;
+  std::vector<std::unique_ptr<detection::Detector>> detectors_;
 };
 
 class Session {
  public:
-  explicit Session(const DetectorOptions& options) : detectors_(options) {}
+  explicit Session(const detection::DetectorOptions& options) : detectors_(options) {}
 
   /// False: no more steps.
   bool Call(FuzzedData* data) {
@@ -138,7 +140,7 @@ class Session {
         Redeclare(slot, data);
         return true;
       case 2:
-        detectors_.All("Remove", [&](Detector& d) { return d.Remove(IdOf(slot)); });
+        detectors_.All("Remove", [&](detection::Detector& d) { return d.Remove(IdOf(slot)); });
         if (told_.erase(slot) != 0) ++generations_[slot];
         return true;
       case 3:
@@ -148,7 +150,7 @@ class Session {
         Tell(slot, data);
         return true;
       case 7:
-        detectors_.All("Hear", [&](Detector& d) {
+        detectors_.All("Hear", [&](detection::Detector& d) {
           d.Hear(IdOf(slot), now_);
           return true;
         });
@@ -160,18 +162,18 @@ class Session {
   }
 
  private:
-  AgentId IdOf(std::uint32_t slot) const {
+  detection::AgentId IdOf(std::uint32_t slot) const {
     return {.simulator = 1, .slot = slot, .run = 1, .generation = generations_[slot]};
   }
 
-  std::optional<AgentDeclaration> Declaration(FuzzedData* data) {
+  std::optional<motion::AgentDeclaration> Declaration(FuzzedData* data) {
     v1::AgentDescription wire = FuzzedDeclaration("alpha", data);
     wire.clear_shape_hash();
     wire.set_slot(0);
     wire.set_agent_name("");
     auto decoded = server::DecodeDescription(wire);
-    if (!std::holds_alternative<AgentDeclaration>(decoded)) return std::nullopt;
-    auto declaration = std::get<AgentDeclaration>(decoded);
+    if (!std::holds_alternative<motion::AgentDeclaration>(decoded)) return std::nullopt;
+    auto declaration = std::get<motion::AgentDeclaration>(decoded);
     const std::uint8_t kind = data->Byte();
     if (kind >= 250) declaration.shape_awaited = true;
     if (kind >= 192 && kind < 250) declaration.shape = FuzzedBody(data);
@@ -183,47 +185,49 @@ class Session {
   }
 
   /// As the codec lets it through: from the past, or as far ahead as time may have been granted.
-  std::optional<MotionState> State(FuzzedData* data) {
+  std::optional<motion::MotionState> State(FuzzedData* data) {
     const v1::AgentState wire = FuzzedState(now_.nanoseconds(), data);
-    const server::StampRules rules{.latest = AddRoundedDown(now_, 10)};
+    const server::StampRules rules{.latest = numeric::AddRoundedDown(now_, 10)};
     auto decoded = server::DecodeState({}, wire, rules);
-    if (!std::holds_alternative<MotionState>(decoded)) return std::nullopt;
-    return std::get<MotionState>(decoded);
+    if (!std::holds_alternative<motion::MotionState>(decoded)) return std::nullopt;
+    return std::get<motion::MotionState>(decoded);
   }
 
-  void Note(std::uint32_t slot, const MotionState& state, const AgentDeclaration& declaration) {
+  void Note(std::uint32_t slot, const motion::MotionState& state,
+            const motion::AgentDeclaration& declaration) {
     Told& told = told_[slot];
     told = {.ball = {.state = state, .radius = declaration.radius}, .declaration = declaration};
     told.contradicts = !(state.v_WA.norm() <= declaration.speed_max);
   }
 
   void Tell(std::uint32_t slot, FuzzedData* data) {
-    const std::optional<MotionState> state = State(data);
+    const std::optional<motion::MotionState> state = State(data);
     if (!state) return;
     const Instant from = std::max(now_, state->stamp);
     const auto known = told_.find(slot);
     if (known == told_.end()) {
       const auto declaration = Declaration(data);
       if (!declaration) return;
-      if (detectors_.All("Admit", [&](Detector& d) {
+      if (detectors_.All("Admit", [&](detection::Detector& d) {
             return d.Admit(IdOf(slot), *declaration, *state, from);
           })) {
         Note(slot, *state, *declaration);
       }
       return;
     }
-    const UpdateOutcome outcome =
-        detectors_.All("Update", [&](Detector& d) { return d.Update(IdOf(slot), *state, from); });
-    if (outcome == UpdateOutcome::kOlder) return;
-    Require(outcome != UpdateOutcome::kUnknown, "an agent that was admitted is unknown");
+    const detection::UpdateOutcome outcome = detectors_.All(
+        "Update", [&](detection::Detector& d) { return d.Update(IdOf(slot), *state, from); });
+    if (outcome == detection::UpdateOutcome::kOlder) return;
+    Require(outcome != detection::UpdateOutcome::kUnknown, "an agent that was admitted is unknown");
     Note(slot, *state, known->second.declaration);
   }
 
   void Redeclare(std::uint32_t slot, FuzzedData* data) {
     const auto declaration = Declaration(data);
     if (!declaration) return;
-    const bool known = detectors_.All(
-        "Redeclare", [&](Detector& d) { return d.Redeclare(IdOf(slot), *declaration, now_); });
+    const bool known = detectors_.All("Redeclare", [&](detection::Detector& d) {
+      return d.Redeclare(IdOf(slot), *declaration, now_);
+    });
     Require(known == told_.contains(slot), "Redeclare() of ", slot);
     if (known) Note(slot, told_[slot].ball.state, *declaration);
   }
@@ -231,10 +235,10 @@ class Session {
   void Step(FuzzedData* data) {
     const std::uint8_t kind = data->Byte();
     const double seconds = kind < 240 ? kind / 64.0 : data->UpTo(1e9);
-    now_ = std::min(AddRoundedDown(now_, seconds),
+    now_ = std::min(numeric::AddRoundedDown(now_, seconds),
                     Instant::FromNanoseconds(server::kInstantMax - 20'000'000'000));
     detectors_.Advance(now_);
-    for (const CollisionEvent& event : detectors_.first().events()) {
+    for (const detection::CollisionEvent& event : detectors_.first().events()) {
       CheckEvent(server::Encode(event));
       Require(event.now <= now_, "told for later than now");
       status_[{event.lower, event.higher}] = event.status;
@@ -260,8 +264,8 @@ class Session {
     }
     const auto status =
         status_.find({std::min(IdOf(slot_a), IdOf(slot_b)), std::max(IdOf(slot_a), IdOf(slot_b))});
-    if (status != status_.end() &&
-        (status->second == EventStatus::kPossible || status->second == EventStatus::kConfirmed)) {
+    if (status != status_.end() && (status->second == detection::EventStatus::kPossible ||
+                                    status->second == detection::EventStatus::kConfirmed)) {
       return;
     }
     const auto of_a = detectors_.first().ClearanceOf(IdOf(slot_a));
@@ -285,14 +289,14 @@ class Session {
   int steps_ = 0;
   std::map<std::uint32_t, Told> told_;
   std::uint32_t generations_[kAgents] = {};
-  std::map<std::pair<AgentId, AgentId>, EventStatus> status_;
+  std::map<std::pair<detection::AgentId, detection::AgentId>, detection::EventStatus> status_;
 };
 
 }  // namespace
 
 void FuzzDetector(Bytes bytes) {
   FuzzedData data(bytes);
-  const DetectorOptions options = FuzzedOptions(&data);
+  const detection::DetectorOptions options = FuzzedOptions(&data);
   Session session(options);
   for (int call = 0; call < kCallsMax && !data.empty(); ++call) {
     if (!session.Call(&data)) return;

@@ -1,6 +1,6 @@
 #include "tests/fuzz/fuzzed_shapes.h"
 
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "tests/server/shapes.h"
 
 namespace collision::fuzz {
@@ -32,21 +32,23 @@ client::Solid FuzzedSolid(FuzzedData* data) {
   return solid;
 }
 
-std::shared_ptr<const Shape> Built(const ShapeContent& content) {
-  TriangleMesh mesh;
+std::shared_ptr<const shape::Shape> Built(const ShapeContent& content) {
+  geometry::TriangleMesh mesh;
   for (const auto& [x, y, z] : content.vertices) mesh.vertices.emplace_back(x, y, z);
   mesh.triangles = content.triangles;
-  return Shape::Build(std::move(mesh), {.builder = TreeBuilder::kFitted});
+  return shape::Shape::Build(std::move(mesh), {.builder = sphere_tree::TreeBuilder::kFitted});
 }
 
-std::shared_ptr<const Shape> Solids() {
-  const ConvexDescription capsule{.core = ConvexCore::kSegment,
-                                  .half = {0, 0, 0.5},
-                                  .points = {},
-                                  .rounding = 0.25,
-                                  .p_BS = {0.5, 0, 0}};
-  const ConvexDescription box{.core = ConvexCore::kBox, .half = {0.5, 0.25, 0.125}, .points = {}};
-  return Shape::Compound(nullptr, {ConvexSolid::Build(capsule), ConvexSolid::Build(box)});
+std::shared_ptr<const shape::Shape> Solids() {
+  const shape::ConvexDescription capsule{.core = geometry::ConvexCore::kSegment,
+                                         .half = {0, 0, 0.5},
+                                         .points = {},
+                                         .rounding = 0.25,
+                                         .p_BS = {0.5, 0, 0}};
+  const shape::ConvexDescription box{
+      .core = geometry::ConvexCore::kBox, .half = {0.5, 0.25, 0.125}, .points = {}};
+  return shape::Shape::Compound(
+      nullptr, {shape::ConvexSolid::Build(capsule), shape::ConvexSolid::Build(box)});
 }
 
 }  // namespace
@@ -68,8 +70,8 @@ client::Geometry FuzzedGeometry(FuzzedData* data) {
   return geometry;
 }
 
-std::shared_ptr<const Shape> FuzzedBody(FuzzedData* data) {
-  static const std::shared_ptr<const Shape> kBodies[] = {
+std::shared_ptr<const shape::Shape> FuzzedBody(FuzzedData* data) {
+  static const std::shared_ptr<const shape::Shape> kBodies[] = {
       nullptr, Built(server::Cube(1)), Built(server::FineCube(2)),
       Built({.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .triangles = {{0, 1, 2}}}), Solids()};
   return data->OneOf(kBodies);

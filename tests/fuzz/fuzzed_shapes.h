@@ -14,6 +14,6 @@ namespace collision::fuzz {
 client::Geometry FuzzedGeometry(FuzzedData* data);
 
 /// A body of size 1 or so, or null: a ball. Always the same few, so that they cost nothing to build.
-std::shared_ptr<const Shape> FuzzedBody(FuzzedData* data);
+std::shared_ptr<const shape::Shape> FuzzedBody(FuzzedData* data);
 
 }  // namespace collision::fuzz

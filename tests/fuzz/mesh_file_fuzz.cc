@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "client/mesh_file.h"
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "server/shape_builder.h"
 #include "tests/fuzz/scratch_file.h"
 #include "tests/fuzz/targets.h"

@@ -4,8 +4,8 @@
 #include <stdexcept>
 
 #include "client/shape.h"
-#include "collision_core/narrow_phase/separation.h"
-#include "collision_core/shape/tree_check.h"
+#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/sphere_tree/tree_check.h"
 #include "idl/shape_bytes.h"
 #include "idl/tree_message.h"
 #include "server/shape_builder.h"
@@ -19,28 +19,31 @@ constexpr std::size_t kTrianglesMax = 64;
 constexpr std::uint64_t kUnits = 20000;
 
 server::BuiltShape Built(const std::string& bytes, FuzzedData* data) {
-  const TreeBuilder builder = data->Flag() ? TreeBuilder::kOctree : TreeBuilder::kFitted;
+  const sphere_tree::TreeBuilder builder =
+      data->Flag() ? sphere_tree::TreeBuilder::kOctree : sphere_tree::TreeBuilder::kFitted;
   return server::BuildShape(Sha256(bytes), bytes,
                             {.triangles_max = kTrianglesMax,
                              .tree = {.builder = builder, .nodes_max = std::size_t{1} << 12}});
 }
 
-BodySegment BodyOf(const std::shared_ptr<const Shape>& shape) {
-  BodySegment body;
+narrow_phase::BodySegment BodyOf(const std::shared_ptr<const shape::Shape>& shape) {
+  narrow_phase::BodySegment body;
   body.shape = shape;
   body.ball.radius = shape->facts().radius;
   return body;
 }
 
 /// The tree may lie about distances, but no traversal leaves it or fails to end.
-void LookWith(const std::shared_ptr<const Shape>& shape, FuzzedData* data) {
-  const BodySegment a = BodyOf(shape), b = BodyOf(shape);
+void LookWith(const std::shared_ptr<const shape::Shape>& shape, FuzzedData* data) {
+  const narrow_phase::BodySegment a = BodyOf(shape), b = BodyOf(shape);
   const double reach = shape->facts().radius;
   const Eigen::Vector3d offset(data->Within(4 * reach), data->Within(4 * reach), 0);
   const auto turn = Eigen::Quaterniond(1, data->Within(1), data->Within(1), 0).normalized();
-  Work work(kUnits);
-  const RelativePose pose = PoseOf(turn.toRotationMatrix(), offset);
-  const Look look = LookAt(Surface(a), Surface(b), pose, Goal::kNearest, &work);
+  WorkBudget work(kUnits);
+  const narrow_phase::RelativePose pose = narrow_phase::PoseOf(turn.toRotationMatrix(), offset);
+  const narrow_phase::SeparationBracket look =
+      QuerySeparation(narrow_phase::BodyTree(a), narrow_phase::BodyTree(b), pose,
+                      narrow_phase::Goal::kNearest, &work);
   Require(!std::isnan(look.lower) && !std::isnan(look.upper), "no number: ", look.lower, " ",
           look.upper);
   Require(work.spent() <= kUnits + kBatchUnits, "spent ", work.spent());
@@ -70,10 +73,10 @@ void Damage(v1::SphereTree* tree, FuzzedData* data) {
   if (data->Byte() == 255) values.RemoveLast();
 }
 
-void CheckTree(const std::shared_ptr<const Shape>& shape, FuzzedData* data) {
+void CheckTree(const std::shared_ptr<const shape::Shape>& shape, FuzzedData* data) {
   if (shape->mesh().triangles.empty() || !shape->solids().empty()) return;
   v1::SphereTree message = ToMessage(shape->tree());
-  const std::optional<SphereTree> back = FromMessage(message);
+  const std::optional<sphere_tree::SphereTree> back = FromMessage(message);
   Require(back.has_value(), "its own tree cannot be read back");
   const auto refusal = RefusalOf(*back, shape->mesh());
   Require(!refusal, "its own tree is refused: ", refusal.value_or(""));
@@ -82,9 +85,9 @@ void CheckTree(const std::shared_ptr<const Shape>& shape, FuzzedData* data) {
     const google::protobuf::LogSilencer silent;
     if (!message.ParseFromString(data->Text(1024))) return;
   }
-  std::optional<SphereTree> tree = FromMessage(message);
+  std::optional<sphere_tree::SphereTree> tree = FromMessage(message);
   if (!tree || RefusalOf(*tree, shape->mesh())) return;
-  LookWith(Shape::FromTree(shape->mesh(), std::move(*tree)), data);
+  LookWith(shape::Shape::FromTree(shape->mesh(), std::move(*tree)), data);
 }
 
 /// What the client takes, the service takes as the same body.

@@ -161,22 +161,21 @@ std::string PageOf(const v1::Results& results, const std::vector<Section>& secti
          "</body></html>\n";
 }
 
-std::string WithPlots(const std::string& readme, const v1::Results& results,
+std::string WithPlots(const std::string& page, const v1::Results& results,
                       const std::string& plots_folder) {
-  const std::size_t begin = readme.find(kBegin), end = readme.find(kEnd);
+  const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
   if (begin == std::string::npos || end == std::string::npos || end < begin) {
-    throw std::runtime_error(std::string("the README has no '") + kEnd + "' after '" + kBegin +
-                             "'");
+    throw std::runtime_error(std::string("the page has no '") + kEnd + "' after '" + kBegin + "'");
   }
   std::string lines;
-  for (const ReadmePlot& plot : ReadmePlots()) {
+  for (const MeasuredPlot& plot : MeasuredPlots()) {
     lines += "![" + plot.caption + "](" + plots_folder + "/" + plot.id + ".svg)\n\n" +
              plot.caption + "\n\n";
   }
   lines += "From `./run report" + std::string(results.quick() ? " --quick" : "") + "` of " +
            results.finished().substr(0, 10) + " on " + results.machine().processor() + ", " +
            std::to_string(results.machine().processors()) + " cores.\n";
-  return readme.substr(0, begin + sizeof kBegin - 1) + lines + readme.substr(end);
+  return page.substr(0, begin + sizeof kBegin - 1) + lines + page.substr(end);
 }
 
 }  // namespace collision::report

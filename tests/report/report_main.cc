@@ -18,7 +18,7 @@ namespace collision::report {
 namespace {
 
 struct Options {
-  std::string parts, results, out, compare, readme, plots;
+  std::string parts, results, out, compare, measured, plots;
 };
 
 // Returns what is broken.
@@ -41,18 +41,18 @@ std::vector<std::string> Write(const Options& options) {
   WriteFile(options.out + "/index.html",
             PageOf(results, sections, pictures, comparison ? &*comparison : nullptr));
   if (comparison) std::printf("%s", TextOf(*comparison).c_str());
-  if (options.readme.empty()) return BrokenIn(results);
+  if (options.measured.empty()) return BrokenIn(results);
   std::filesystem::create_directories(options.plots);
-  for (const ReadmePlot& plot : ReadmePlots()) {
+  for (const MeasuredPlot& plot : MeasuredPlots()) {
     const auto picture = pictures.find(plot.id);
     if (picture == pictures.end()) {
-      throw std::runtime_error("plot " + plot.id + " of the README was not measured");
+      throw std::runtime_error("plot " + plot.id + " of the measurements was not measured");
     }
     WriteFile(options.plots + "/" + plot.id + ".svg", picture->second);
   }
-  const auto folder = std::filesystem::absolute(options.readme).parent_path();
+  const auto folder = std::filesystem::absolute(options.measured).parent_path();
   const std::string named = std::filesystem::relative(options.plots, folder).string();
-  WriteFile(options.readme, WithPlots(ReadFile(options.readme), results, named));
+  WriteFile(options.measured, WithPlots(ReadFile(options.measured), results, named));
   return BrokenIn(results);
 }
 
@@ -72,8 +72,8 @@ int main(int count, char** arguments) {
   app.add_option("--results", options.results, "results.json of a report, instead of --parts");
   app.add_option("--out", options.out, "folder of the page");
   app.add_option("--compare", options.compare, "results.json of an older report: say what moved");
-  app.add_option("--readme", options.readme, "replace the plots between this file's marks");
-  app.add_option("--plots", options.plots, "folder of the README's plots");
+  app.add_option("--measured", options.measured, "replace the plots between this file's marks");
+  app.add_option("--plots", options.plots, "folder of that page's plots");
   CLI11_PARSE(app, count, arguments);
   try {
     if (reference) {

@@ -169,11 +169,11 @@ TEST(ReportPage, MarksWhatIsBroken) {
 }
 
 TEST(ReportPage, ReplacesThePlotsBetweenTheMarks) {
-  const std::string readme = "a\n<!-- report: begin -->\nold\n<!-- report: end -->\nb\n";
-  const std::string changed = WithPlots(readme, {}, "plots");
+  const std::string page = "a\n<!-- report: begin -->\nold\n<!-- report: end -->\nb\n";
+  const std::string changed = WithPlots(page, {}, "plots");
   EXPECT_EQ(changed.find("old"), std::string::npos);
   EXPECT_TRUE(changed.starts_with("a\n") && changed.ends_with("<!-- report: end -->\nb\n"));
-  EXPECT_NE(changed.find("(plots/" + ReadmePlots()[0].id + ".svg)"), std::string::npos);
+  EXPECT_NE(changed.find("(plots/" + MeasuredPlots()[0].id + ".svg)"), std::string::npos);
   EXPECT_THROW(WithPlots("no marks", {}, "plots"), std::runtime_error);
 }
 

@@ -402,7 +402,7 @@ std::vector<Section> SectionsOf(const v1::Results& results) {
           LeftOut(results),   Stress(results),     Trust(results)};
 }
 
-std::vector<ReadmePlot> ReadmePlots() {
+std::vector<MeasuredPlot> MeasuredPlots() {
   return {{"distance-translation-homer-500",
            "Error against run time: the width of our certified bracket, and the true error of the "
            "libraries, over the time of a query"},

@@ -28,10 +28,10 @@ struct Section {
 /// a folded table at least.
 std::vector<Section> SectionsOf(const v1::Results& results);
 
-/// The plots that the README shows, by their ids, and what is written below each.
-struct ReadmePlot {
+/// The plots that MEASURED.md shows, by their ids, and the caption of each.
+struct MeasuredPlot {
   std::string id, caption;
 };
-std::vector<ReadmePlot> ReadmePlots();
+std::vector<MeasuredPlot> MeasuredPlots();
 
 }  // namespace collision::report

@@ -15,12 +15,12 @@ struct Body {
   double radius = 0;
 };
 
-void AddMesh(const TriangleMesh& mesh, ShapeContent* content) {
+void AddMesh(const geometry::TriangleMesh& mesh, ShapeContent* content) {
   for (const auto& p : mesh.vertices) content->vertices.push_back({p.x(), p.y(), p.z()});
   content->triangles.insert(content->triangles.end(), mesh.triangles.begin(), mesh.triangles.end());
 }
 
-Body MeshBody(const TriangleMesh& mesh, double radius) {
+Body MeshBody(const geometry::TriangleMesh& mesh, double radius) {
   ShapeContent content;
   AddMesh(mesh, &content);
   return {EncodeShape(content), radius};

@@ -38,8 +38,8 @@ const std::string& LargeBytes() {
   return bytes;
 }
 
-bool SameBits(const SphereTree& a, const SphereTree& b) {
-  const auto same = [](const SphereNode& x, const SphereNode& y) {
+bool SameBits(const sphere_tree::SphereTree& a, const sphere_tree::SphereTree& b) {
+  const auto same = [](const sphere_tree::SphereNode& x, const sphere_tree::SphereNode& y) {
     return x.centre == y.centre && x.radius == y.radius && x.signed_distance == y.signed_distance &&
            x.first_child == y.first_child && x.first_triangle == y.first_triangle;
   };

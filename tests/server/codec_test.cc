@@ -17,7 +17,7 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
-Decoded<MotionState> Decode(const v1::AgentState& state, const StampRules& rules = {}) {
+Decoded<motion::MotionState> Decode(const v1::AgentState& state, const StampRules& rules = {}) {
   return DecodeState(Chunk("a"), state, rules);
 }
 
@@ -60,7 +60,7 @@ std::vector<StateCase> BadStates() {
 // Goal:   every value that is not one, or lies outside its range, is refused with its field and
 // reason. Method: one good state, spoiled in one place at a time; the good one passes.
 TEST(Codec, RefusesBadStatesByField) {
-  ASSERT_TRUE(std::holds_alternative<MotionState>(Decode(State(3, 5, 1))));
+  ASSERT_TRUE(std::holds_alternative<motion::MotionState>(Decode(State(3, 5, 1))));
   for (const StateCase& bad : BadStates()) {
     v1::AgentState state = State(3, 5, 1);
     bad.spoil(&state);
@@ -85,20 +85,20 @@ TEST(Codec, AcceptsTheLimits) {
   state.set_position_error_m(kRadiusMax);
   state.set_rotation_error_rad(kRotationErrorMax);
   state.set_expiry_ns(kInstantMax);
-  EXPECT_TRUE(std::holds_alternative<MotionState>(Decode(state)));
+  EXPECT_TRUE(std::holds_alternative<motion::MotionState>(Decode(state)));
   v1::AgentDescription description = Description("a", kSlotMax);
   description.set_radius_m(0);
   description.set_acceleration_max_m_s2(kAccelerationMax);
   description.set_shape_hash(std::string(kShapeHashBytes, '\0'));
   const auto ball = DecodeDescription(description);
-  ASSERT_TRUE(std::holds_alternative<AgentDeclaration>(ball));
-  EXPECT_FALSE(std::get<AgentDeclaration>(ball).shape_awaited);
+  ASSERT_TRUE(std::holds_alternative<motion::AgentDeclaration>(ball));
+  EXPECT_FALSE(std::get<motion::AgentDeclaration>(ball).shape_awaited);
   description.set_shape_hash(std::string(kShapeHashBytes, 'h'));
   description.set_angular_acceleration_max_rad_s2(kAccelerationMax);
   const auto shaped = DecodeDescription(description);
-  ASSERT_TRUE(std::holds_alternative<AgentDeclaration>(shaped));
-  EXPECT_TRUE(std::get<AgentDeclaration>(shaped).shape_awaited);
-  EXPECT_EQ(std::get<AgentDeclaration>(shaped).angular_acceleration_max, kAccelerationMax);
+  ASSERT_TRUE(std::holds_alternative<motion::AgentDeclaration>(shaped));
+  EXPECT_TRUE(std::get<motion::AgentDeclaration>(shaped).shape_awaited);
+  EXPECT_EQ(std::get<motion::AgentDeclaration>(shaped).angular_acceleration_max, kAccelerationMax);
 }
 
 // Goal:   an angular acceleration that is not declared is one number, whatever was sent for it.
@@ -106,7 +106,7 @@ TEST(Codec, TakesTheAngularAcceleration) {
   v1::AgentDescription description = Description("a", 1);
   for (const auto& [sent, taken] : {std::pair(-7.0, -1.0), {-0.0, 0.0}, {0.0, 0.0}, {2.5, 2.5}}) {
     description.set_angular_acceleration_max_rad_s2(sent);
-    const auto decoded = std::get<AgentDeclaration>(DecodeDescription(description));
+    const auto decoded = std::get<motion::AgentDeclaration>(DecodeDescription(description));
     EXPECT_EQ(decoded.angular_acceleration_max, taken);
   }
 }
@@ -121,13 +121,14 @@ TEST(Codec, TakesTheSpeedCap) {
                                     {0.0, kInf},
                                     {-0.0, kInf}}) {
     description.set_speed_max_m_s(sent);
-    EXPECT_EQ(std::get<AgentDeclaration>(DecodeDescription(description)).speed_max, taken) << sent;
+    EXPECT_EQ(std::get<motion::AgentDeclaration>(DecodeDescription(description)).speed_max, taken)
+        << sent;
   }
   description.set_speed_max_m_s(7);
   v1::AgentDescription recorded;
   ASSERT_TRUE(recorded.ParseFromString(description.SerializeAsString()));
   recorded.clear_speed_max_m_s();
-  EXPECT_EQ(std::get<AgentDeclaration>(DecodeDescription(recorded)).speed_max, kInf);
+  EXPECT_EQ(std::get<motion::AgentDeclaration>(DecodeDescription(recorded)).speed_max, kInf);
 }
 
 // Goal:   a quaternion off by less than 1e-3 is normalised, and its error covers what that may
@@ -138,11 +139,11 @@ TEST(Codec, NormalisesQuaternionsConservatively) {
   state.mutable_orientation()->set_w(0.6 * 1.0009);
   state.mutable_orientation()->set_z(0.8 * 1.0009);
   state.set_rotation_error_rad(0.1);
-  const auto near = std::get<MotionState>(Decode(state));
+  const auto near = std::get<motion::MotionState>(Decode(state));
   EXPECT_NEAR(near.q_WB.norm(), 1, 1e-15);
   EXPECT_GE(near.rotation_error, 0.1 + 2 * std::asin(0.0009));
   EXPECT_LE(near.rotation_error, 0.1 + 0.0019);
-  const auto exact = std::get<MotionState>(Decode(State(0, 0, 1)));
+  const auto exact = std::get<motion::MotionState>(Decode(State(0, 0, 1)));
   EXPECT_EQ(exact.rotation_error, 0);
 }
 
@@ -150,7 +151,7 @@ TEST(Codec, NormalisesTheThrustDirection) {
   v1::AgentState state = State(0, 0, 1);
   state.mutable_thrust_direction()->set_y(-1.0009);
   state.set_direction_until_ns(7);
-  const auto decoded = std::get<MotionState>(Decode(state));
+  const auto decoded = std::get<motion::MotionState>(Decode(state));
   EXPECT_EQ(decoded.direction, Eigen::Vector3d(0, -1, 0));
   EXPECT_EQ(decoded.direction_until, Instant::FromNanoseconds(7));
 }
@@ -163,13 +164,13 @@ TEST(Codec, ChecksStamps) {
   v1::AgentState state = State(0, 101, 1);
   EXPECT_EQ(std::get<Refusal>(Decode(state, rules)).reason, v1::REJECTED_FUTURE_STAMP);
   state.set_stamp_ns(100);
-  EXPECT_TRUE(std::holds_alternative<MotionState>(Decode(state, rules)));
+  EXPECT_TRUE(std::holds_alternative<motion::MotionState>(Decode(state, rules)));
   state.set_stamp_ns(49);
-  EXPECT_TRUE(std::holds_alternative<MotionState>(Decode(state, rules)));
+  EXPECT_TRUE(std::holds_alternative<motion::MotionState>(Decode(state, rules)));
   state.set_discontinuity(true);
   EXPECT_EQ(std::get<Refusal>(Decode(state, rules)).reason, v1::REJECTED_STALE);
   state.set_stamp_ns(50);
-  EXPECT_TRUE(std::holds_alternative<MotionState>(Decode(state, rules)));
+  EXPECT_TRUE(std::holds_alternative<motion::MotionState>(Decode(state, rules)));
 }
 
 struct DescriptionCase {

@@ -221,7 +221,7 @@ TEST(ThreadedShapeBuilder, BuildsWhatTheInlineOneBuilds) {
   ASSERT_TRUE(a && b);
   ASSERT_EQ(a->tree().nodes.size(), b->tree().nodes.size());
   for (std::size_t i = 0; i < a->tree().nodes.size(); ++i) {
-    const SphereNode &x = a->tree().nodes[i], &y = b->tree().nodes[i];
+    const sphere_tree::SphereNode &x = a->tree().nodes[i], &y = b->tree().nodes[i];
     EXPECT_EQ(x.centre, y.centre);
     EXPECT_EQ(x.radius, y.radius);
     EXPECT_EQ(x.signed_distance, y.signed_distance);

@@ -89,7 +89,7 @@ TEST(ShapeSolids, AreWhatTheBytesDescribe) {
     ASSERT_TRUE(built.shape) << built.refusal;
     EXPECT_EQ(built.shape->solids().size(), content.solids.size());
     EXPECT_EQ(built.shape->mesh().triangles.size(), content.triangles.size());
-    const MeshFacts& facts = built.shape->facts();
+    const geometry::MeshFacts& facts = built.shape->facts();
     EXPECT_NEAR(facts.lower.x(), -1, 1e-9);
     EXPECT_NEAR(facts.upper.x(), 1, 1e-9);
     EXPECT_GE(facts.upper.x(), 1);
@@ -109,7 +109,7 @@ TEST(ShapeSolids, StandWhereAndAsTheyAreTold) {
                            .points = {{2, 0, 0}, {0, 0.25, 0}, {0, -0.25, 0}, {0, 0, 0.125}}};
   const BuiltShape built = BuildShape("", EncodeShape(Of({thorn})), {.triangles_max = 100});
   ASSERT_TRUE(built.shape) << built.refusal;
-  const MeshFacts& facts = built.shape->facts();
+  const geometry::MeshFacts& facts = built.shape->facts();
   const Eigen::Vector3d lower(-0.25, 0, 5), upper(0.25, 2, 5.125);
   EXPECT_LT((facts.lower - lower).norm(), 1e-9) << facts.lower.transpose();
   EXPECT_LT((facts.upper - upper).norm(), 1e-9) << facts.upper.transpose();
@@ -152,7 +152,7 @@ TEST(ShapeSolids, EachBadNumberIsNamed) {
        [](auto* s) { s->points.push_back({}); }},
       {"points: there are 0; allowed are 1 to", [](auto* s) { s->points.clear(); }, Hull()},
       {"points: there are 65537; allowed are 1 to 65536",
-       [](auto* s) { s->points.resize(kHullPointsMax + 1); }, Hull()},
+       [](auto* s) { s->points.resize(shape::kHullPointsMax + 1); }, Hull()},
       {"points[6].y is nan; allowed are finite", [](auto* s) { s->points[6][1] = kNan; }, Hull()},
   };
   for (const Spoilt& spoilt : cases) {
@@ -167,7 +167,7 @@ TEST(ShapeSolids, EachBadNumberIsNamed) {
 
 // Goal:   as many solids and points as allowed are taken, one more is refused.
 TEST(ShapeSolids, LimitsOfNumberHold) {
-  std::vector<SolidContent> balls(kSolidsMax, {.kind = SolidKind::kBall, .rounding = 0.5});
+  std::vector<SolidContent> balls(shape::kSolidsMax, {.kind = SolidKind::kBall, .rounding = 0.5});
   for (std::size_t i = 0; i < balls.size(); ++i) {
     balls[i].position = {static_cast<double>(i % 64), static_cast<double>(i / 64), 0};
   }

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-Instant At(double seconds) { return AddRoundedDown(Instant(), seconds); }
+Instant At(double seconds) { return numeric::AddRoundedDown(Instant(), seconds); }
 
 StateDemand Demand() {
   v1::Config config;
@@ -53,7 +53,8 @@ TEST(StateDemand, AtHandAtEveryStep) {
 // The first meeting is announced already; the next one may be soon.
 TEST(StateDemand, FreshBeforeOthersAreAnnounced) {
   const auto wanted = [](double stamp, double clear, double unannounced) {
-    const AgentClearance clearance{.clear_until = At(clear), .unannounced_until = At(unannounced)};
+    const detection::AgentClearance clearance{.clear_until = At(clear),
+                                              .unannounced_until = At(unannounced)};
     return Demand().WantedAt(clearance, At(stamp), At(10));
   };
   EXPECT_EQ(wanted(9.75, 11, 12.5), At(10.375)) << "half-way to the first comes before";
@@ -64,7 +65,7 @@ TEST(StateDemand, FreshBeforeOthersAreAnnounced) {
 
 // A contact that is over is told better by a state newer than its end, and by no more than one.
 TEST(StateDemand, OnceAfterAContact) {
-  const AgentClearance clearance{.clear_until = At(100), .unsettled_until = At(9.5)};
+  const detection::AgentClearance clearance{.clear_until = At(100), .unsettled_until = At(9.5)};
   EXPECT_EQ(Demand().WantedAt(clearance, At(9.25), At(10)), At(10));
   EXPECT_EQ(Demand().WantedAt(clearance, At(9.5), At(10)), At(98));
 }
@@ -73,9 +74,12 @@ TEST(StateDemand, OnceAfterAContact) {
 TEST(StateDemand, ExtremesAreDecided) {
   const Instant first = Instant::FromNanoseconds(-(std::int64_t{1} << 62));
   const Instant last = Instant::FromNanoseconds(std::int64_t{1} << 62);
-  EXPECT_EQ(Demand().WantedAt({.clear_until = last}, first, AddRoundedDown(last, -1)).nanoseconds(),
+  EXPECT_EQ(Demand()
+                .WantedAt({.clear_until = last}, first, numeric::AddRoundedDown(last, -1))
+                .nanoseconds(),
             0);
-  EXPECT_EQ(Demand().WantedAt({.clear_until = last}, first, first), AddRoundedDown(last, -2));
+  EXPECT_EQ(Demand().WantedAt({.clear_until = last}, first, first),
+            numeric::AddRoundedDown(last, -2));
 }
 
 // In the sample as published: two agents 100 m apart with M = 2 m/s² meet after 7.07 s less their

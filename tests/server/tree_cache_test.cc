@@ -69,8 +69,8 @@ void SetContents(const fs::path& file, const std::string& bytes) {
 
 std::string HashOf(int number) { return Sha256("shape " + std::to_string(number)); }
 
-bool SameBits(const SphereTree& a, const SphereTree& b) {
-  const auto same = [](const SphereNode& x, const SphereNode& y) {
+bool SameBits(const sphere_tree::SphereTree& a, const sphere_tree::SphereTree& b) {
+  const auto same = [](const sphere_tree::SphereNode& x, const sphere_tree::SphereNode& y) {
     return x.centre == y.centre && x.radius == y.radius && x.signed_distance == y.signed_distance &&
            x.first_child == y.first_child && x.children == y.children &&
            x.first_triangle == y.first_triangle && x.triangles == y.triangles && x.level == y.level;
@@ -81,8 +81,9 @@ bool SameBits(const SphereTree& a, const SphereTree& b) {
 
 // Goal:   what was kept comes back bit for bit, in this process and the next, and nothing else does.
 TEST_F(TreeCacheTest, GivesBackWhatWasKept) {
-  const TriangleMesh mesh = LShape(), other = Sheet(1, 20);
-  const SphereTree tree = Shape::Build(mesh)->tree(), other_tree = Shape::Build(other)->tree();
+  const geometry::TriangleMesh mesh = LShape(), other = Sheet(1, 20);
+  const sphere_tree::SphereTree tree = shape::Shape::Build(mesh)->tree(),
+                                other_tree = shape::Shape::Build(other)->tree();
   {
     TreeCache cache(folder_ + "/made/with/those/above", kRoomy, {});
     EXPECT_EQ(cache.Load(HashOf(1), mesh), std::nullopt);
@@ -101,17 +102,20 @@ TEST_F(TreeCacheTest, GivesBackWhatWasKept) {
 
 // Goal:   a tree that is built in another way is another tree.
 TEST_F(TreeCacheTest, KnowsHowATreeWasBuilt) {
-  const TriangleMesh mesh = LShape();
+  const geometry::TriangleMesh mesh = LShape();
   TreeCache cache(folder_, kRoomy, {});
-  cache.Store(HashOf(1), Shape::Build(mesh)->tree());
-  for (const ShapeOptions& options :
-       {ShapeOptions{.builder = TreeBuilder::kFitted}, ShapeOptions{.triangles_per_leaf = 5},
-        ShapeOptions{.levels_max = 11}, ShapeOptions{.nodes_max = 1000}}) {
+  cache.Store(HashOf(1), shape::Shape::Build(mesh)->tree());
+  for (const sphere_tree::ShapeOptions& options :
+       {sphere_tree::ShapeOptions{.builder = sphere_tree::TreeBuilder::kFitted},
+        sphere_tree::ShapeOptions{.triangles_per_leaf = 5},
+        sphere_tree::ShapeOptions{.levels_max = 11},
+        sphere_tree::ShapeOptions{.nodes_max = 1000}}) {
     TreeCache another(folder_, kRoomy, options);
     EXPECT_EQ(another.Load(HashOf(1), mesh), std::nullopt);
     EXPECT_EQ(another.counters().misses, 1u);
   }
-  EXPECT_NE(BuilderFingerprint({}), BuilderFingerprint({.builder = TreeBuilder::kFitted}));
+  EXPECT_NE(BuilderFingerprint({}),
+            BuilderFingerprint({.builder = sphere_tree::TreeBuilder::kFitted}));
   EXPECT_NE(BuilderFingerprint({}), BuilderFingerprint({.triangles_per_leaf = 1}));
   EXPECT_EQ(BuilderFingerprint({}), BuilderFingerprint({}));
 }
@@ -130,8 +134,8 @@ std::string Resealed(v1::TreeFile file) {
 //         tree that is kept.
 // Method: one file, spoilt in every way we know; those that only a new checksum can hide, with one.
 TEST_F(TreeCacheTest, FilesOfAnyOtherKindAreHarmless) {
-  const TriangleMesh mesh = LShape();
-  const SphereTree tree = Shape::Build(mesh)->tree();
+  const geometry::TriangleMesh mesh = LShape();
+  const sphere_tree::SphereTree tree = shape::Shape::Build(mesh)->tree();
   TreeCache cache(folder_, kRoomy, {});
   cache.Store(HashOf(1), tree);
   const fs::path path = Files().at(0);
@@ -182,8 +186,8 @@ TEST_F(TreeCacheTest, FilesOfAnyOtherKindAreHarmless) {
 // Method: cut off at every 7th byte; 2000 files with a few bytes changed.
 TEST_F(TreeCacheTest, DamageIsNeverTakenForATree) {
   Random random(9);
-  const TriangleMesh mesh = Tetrahedron(1);
-  const SphereTree tree = Shape::Build(mesh)->tree();
+  const geometry::TriangleMesh mesh = Tetrahedron(1);
+  const sphere_tree::SphereTree tree = shape::Shape::Build(mesh)->tree();
   TreeCache cache(folder_, kRoomy, {});
   cache.Store(HashOf(1), tree);
   const fs::path path = Files().at(0);
@@ -207,8 +211,8 @@ TEST_F(TreeCacheTest, DamageIsNeverTakenForATree) {
 
 // Goal:   what stands where a file should be, and is none, is neither followed nor waited for.
 TEST_F(TreeCacheTest, NeitherFollowsLinksNorWaitsAtPipes) {
-  const TriangleMesh mesh = LShape();
-  const SphereTree tree = Shape::Build(mesh)->tree();
+  const geometry::TriangleMesh mesh = LShape();
+  const sphere_tree::SphereTree tree = shape::Shape::Build(mesh)->tree();
   TreeCache cache(folder_, kRoomy, {});
   cache.Store(HashOf(1), tree);
   const fs::path path = Files().at(0), elsewhere = folder_ + "/elsewhere";
@@ -239,8 +243,8 @@ TEST_F(TreeCacheTest, NeitherFollowsLinksNorWaitsAtPipes) {
 // Goal:   the folder never exceeds its bound; what was used least lately goes first, and what is
 //         not the cache's own stays.
 TEST_F(TreeCacheTest, KeepsItsBoundByRemovingWhatWasUsedLeastLately) {
-  const TriangleMesh mesh = LShape();
-  const SphereTree tree = Shape::Build(mesh)->tree();
+  const geometry::TriangleMesh mesh = LShape();
+  const sphere_tree::SphereTree tree = shape::Shape::Build(mesh)->tree();
   std::uint64_t one = 0;
   {
     TreeCache cache(folder_, kRoomy, {});
@@ -307,11 +311,11 @@ TEST_F(TreeCacheTest, FoldersThatAreNone) {
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find(folder_ + "/file/below: "), std::string::npos);
   }
-  const TriangleMesh mesh = LShape();
+  const geometry::TriangleMesh mesh = LShape();
   TreeCache cache(folder_, kRoomy, {});
   fs::remove_all(folder_);
   EXPECT_EQ(cache.Load(HashOf(1), mesh), std::nullopt);
-  cache.Store(HashOf(1), Shape::Build(mesh)->tree());
+  cache.Store(HashOf(1), shape::Shape::Build(mesh)->tree());
   EXPECT_EQ(cache.counters().failed, 1u);
   EXPECT_EQ(cache.counters().misses, 1u);
 }
@@ -319,7 +323,7 @@ TEST_F(TreeCacheTest, FoldersThatAreNone) {
 // Goal:   whether a tree is built or read makes no difference to what is built from the bytes, and
 //         shapes that are refused leave nothing behind.
 TEST_F(TreeCacheTest, AShapeFromTheCacheIsTheShape) {
-  const auto cache = std::make_shared<TreeCache>(folder_, kRoomy, ShapeOptions{});
+  const auto cache = std::make_shared<TreeCache>(folder_, kRoomy, sphere_tree::ShapeOptions{});
   const BuildOptions with{.triangles_max = 100, .cache = cache};
   const std::string bytes = EncodeShape(Cube(1)), hash = Sha256(bytes);
   const BuiltShape first = BuildShape(hash, bytes, with), second = BuildShape(hash, bytes, with);

@@ -9,7 +9,7 @@
 namespace collision::server {
 namespace {
 
-using PairKey = std::tuple<AgentId, AgentId>;
+using PairKey = std::tuple<detection::AgentId, detection::AgentId>;
 
 /// One contact as the service told it: the first time it spoke of it, and its last word.
 struct Story {
@@ -18,11 +18,11 @@ struct Story {
 };
 
 struct Body {
-  AgentId id;
+  detection::AgentId id;
   const SimulatedAgent* agent;
 };
 
-AgentId ToId(const v1::AgentId& wire) {
+detection::AgentId ToId(const v1::AgentId& wire) {
   return {wire.simulator_id(), wire.slot(), wire.run(), wire.generation()};
 }
 
@@ -48,7 +48,7 @@ bool Holds(const v1::TimeBracket& bracket, std::int64_t t_ns, std::int64_t toler
   return bracket.earliest_ns() <= t_ns + tolerance_ns && t_ns - tolerance_ns <= bracket.latest_ns();
 }
 
-std::string Show(const Body& a, const Body& b, const Meeting& meeting) {
+std::string Show(const Body& a, const Body& b, const broad_phase::Meeting& meeting) {
   return "slots " + std::to_string(a.id.slot) + " and " + std::to_string(b.id.slot) +
          " touch in [" + std::to_string(meeting.begin_ns) + ", " + std::to_string(meeting.end_ns) +
          "] ns, " + std::to_string(meeting.depth) + " m deep";
@@ -56,8 +56,8 @@ std::string Show(const Body& a, const Body& b, const Meeting& meeting) {
 
 /// The story that covers the meeting: its begin bracket, or all that is not certified free, holds
 /// the begin.
-const Story* Find(const std::map<std::uint32_t, Story>& stories, const Meeting& meeting,
-                  std::int64_t tolerance_ns) {
+const Story* Find(const std::map<std::uint32_t, Story>& stories,
+                  const broad_phase::Meeting& meeting, std::int64_t tolerance_ns) {
   for (const auto& [contact, story] : stories) {
     const v1::CollisionEvent& event = story.last;
     if (event.status() == v1::EVENT_DISMISSED) continue;
@@ -75,7 +75,7 @@ struct Promise {
   std::int64_t now_ns;
   std::int64_t clear_until_ns;
 };
-using Promises = std::map<AgentId, std::vector<Promise>>;
+using Promises = std::map<detection::AgentId, std::vector<Promise>>;
 
 Promises PromisesOf(const std::vector<v1::Output>& published) {
   Promises promises;
@@ -99,13 +99,13 @@ std::int64_t LastSurprise(const Body& body, std::int64_t before_ns) {
   return last;
 }
 
-void CheckPromises(const Body& a, const Body& b, const Meeting& meeting, const Story* story,
-                   const Promises& promises, CheckerResult* result) {
+void CheckPromises(const Body& a, const Body& b, const broad_phase::Meeting& meeting,
+                   const Story* story, const Promises& promises, CheckerResult* result) {
   const std::int64_t announced =
       story == nullptr ? std::numeric_limits<std::int64_t>::max() : story->first_now_ns;
   const std::int64_t known_from =
       std::max(LastSurprise(a, meeting.begin_ns), LastSurprise(b, meeting.begin_ns));
-  for (const AgentId& id : {a.id, b.id}) {
+  for (const detection::AgentId& id : {a.id, b.id}) {
     const auto told = promises.find(id);
     if (told == promises.end()) continue;
     for (const Promise& promise : told->second) {
@@ -122,7 +122,7 @@ void CheckPromises(const Body& a, const Body& b, const Meeting& meeting, const S
   }
 }
 
-void CheckMeeting(const Body& a, const Body& b, const Meeting& meeting,
+void CheckMeeting(const Body& a, const Body& b, const broad_phase::Meeting& meeting,
                   const std::map<std::uint32_t, Story>& stories, const Promises& promises,
                   const CheckerOptions& options, CheckerResult* result) {
   const auto violate = [&](const std::string& what) {
@@ -154,14 +154,15 @@ void CheckMeeting(const Body& a, const Body& b, const Meeting& meeting,
 }
 
 /// A confirmed event without a meeting that touches its certified part is false.
-void CheckConfirmed(const Body& a, const Body& b, const std::vector<Meeting>& meetings,
+void CheckConfirmed(const Body& a, const Body& b, const std::vector<broad_phase::Meeting>& meetings,
                     const std::map<std::uint32_t, Story>& stories, CheckerResult* result) {
   for (const auto& [contact, story] : stories) {
     if (!Confirmed(story.last)) continue;
     const std::int64_t certified = story.last.begin().latest_ns();
-    const bool is_true = std::any_of(meetings.begin(), meetings.end(), [&](const Meeting& m) {
-      return m.begin_ns - 100 <= certified && certified <= m.end_ns + 100;
-    });
+    const bool is_true =
+        std::any_of(meetings.begin(), meetings.end(), [&](const broad_phase::Meeting& m) {
+          return m.begin_ns - 100 <= certified && certified <= m.end_ns + 100;
+        });
     if (is_true) continue;
     result->violations.push_back("slots " + std::to_string(a.id.slot) + " and " +
                                  std::to_string(b.id.slot) + ": confirmed in contact at " +
@@ -189,11 +190,11 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
       const Body &a = bodies[i], &b = bodies[j];
       const std::int64_t from = std::max(a.agent->from_ns, b.agent->from_ns);
       const std::int64_t to = std::min({a.agent->until_ns, b.agent->until_ns, end_ns});
-      const std::vector<Meeting> meetings =
+      const std::vector<broad_phase::Meeting> meetings =
           Meetings(a.agent->motion, b.agent->motion, a.agent->radius + b.agent->radius, from, to);
       const auto found = stories.find({a.id, b.id});
       const auto& told = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
-      for (const Meeting& meeting : meetings) {
+      for (const broad_phase::Meeting& meeting : meetings) {
         if (meeting.depth < options.grazing) continue;
         CheckMeeting(a, b, meeting, told, promises, options, &result);
       }
@@ -205,7 +206,7 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
 
 std::vector<int> CountStatuses(const std::vector<v1::Output>& published) {
   std::vector<int> counts(v1::EventStatus_ARRAYSIZE, 0);
-  std::map<std::tuple<AgentId, AgentId, std::uint32_t>, v1::EventStatus> last;
+  std::map<std::tuple<detection::AgentId, detection::AgentId, std::uint32_t>, v1::EventStatus> last;
   for (const v1::Output& output : published) {
     if (!output.has_collision_event()) continue;
     const v1::CollisionEvent& event = output.collision_event();

@@ -31,7 +31,7 @@ v1::CollisionEvent LastEvent(const Scenario& scenario) {
 }
 
 /// Whether any clearance of `agent` named this cause.
-bool Named(const Scenario& scenario, const AgentId& agent, v1::ClearanceCause cause) {
+bool Named(const Scenario& scenario, const detection::AgentId& agent, v1::ClearanceCause cause) {
   for (const v1::Output& output : scenario.published()) {
     if (!output.has_clearance() || output.clearance().simulator_id() != agent.simulator) continue;
     for (const v1::AgentClearance& clearance : output.clearance().agents()) {

@@ -26,18 +26,18 @@ constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0xf98a044c5fc1f8c0},
 constexpr std::int64_t kEnd = 8 * kSecond;
 
 struct Kind {
-  std::shared_ptr<const Shape> shape;  // null: a ball
+  std::shared_ptr<const shape::Shape> shape;  // null: a ball
   std::string bytes;
 };
 
 const std::vector<Kind>& Kinds() {
   static const std::vector<Kind> kinds = [] {
     std::vector<Kind> made(1);
-    for (const TriangleMesh& mesh : {LShape(), Rod(1.2, 0.15), Tetrahedron(0.6)}) {
+    for (const geometry::TriangleMesh& mesh : {LShape(), Rod(1.2, 0.15), Tetrahedron(0.6)}) {
       ShapeContent content;
       for (const auto& p : mesh.vertices) content.vertices.push_back({p.x(), p.y(), p.z()});
       content.triangles = mesh.triangles;
-      made.push_back({Shape::Build(mesh), EncodeShape(content)});
+      made.push_back({shape::Shape::Build(mesh), EncodeShape(content)});
     }
     return made;
   }();
@@ -45,9 +45,9 @@ const std::vector<Kind>& Kinds() {
 }
 
 struct Player {
-  AgentId id;
+  detection::AgentId id;
   SimulatedAgent agent;
-  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const shape::Shape> shape;
 
   TrueBody At(std::int64_t t_ns) const {
     TruePose pose;
@@ -94,7 +94,7 @@ std::int64_t FirstTouch(const Player& a, const Player& b) {
   return kEnd;
 }
 
-bool IsOf(const v1::AgentId& wire, const AgentId& id) {
+bool IsOf(const v1::AgentId& wire, const detection::AgentId& id) {
   return wire.simulator_id() == id.simulator && wire.slot() == id.slot;
 }
 
@@ -126,13 +126,13 @@ Told WhatWasTold(const Scenario& scenario, const Player& a, const Player& b, std
 
 int CheckNeverLate(const Scenario& scenario) {
   const std::vector<Player> players = PlayersOf(scenario);
-  std::map<AgentId, std::int64_t> first_of;
+  std::map<detection::AgentId, std::int64_t> first_of;
   int contacts = 0;
   for (std::size_t i = 0; i < players.size(); ++i) {
     for (std::size_t k = i + 1; k < players.size(); ++k) {
       const Player &a = players[i], &b = players[k];
       const std::int64_t touch = FirstTouch(a, b);
-      for (const AgentId& id : {a.id, b.id}) {
+      for (const detection::AgentId& id : {a.id, b.id}) {
         const auto [first, added] = first_of.try_emplace(id, touch);
         first->second = std::min(first->second, touch);
       }
@@ -147,7 +147,8 @@ int CheckNeverLate(const Scenario& scenario) {
     if (!output.has_clearance()) continue;
     const v1::Clearance& sample = output.clearance();
     for (const v1::AgentClearance& agent : sample.agents()) {
-      const AgentId id{sample.simulator_id(), agent.slot(), sample.run(), agent.generation()};
+      const detection::AgentId id{sample.simulator_id(), agent.slot(), sample.run(),
+                                  agent.generation()};
       const auto first = first_of.find(id);
       const bool binds = first != first_of.end() && sample.now_ns() > 0 &&
                          sample.now_ns() < first->second && first->second < kEnd;

@@ -52,7 +52,7 @@ class SimulatedSimulator {
   void Kill();
 
   std::uint64_t id() const { return id_; }
-  AgentId AgentAt(std::uint32_t slot) const { return {id_, slot, options_.run, 1}; }
+  detection::AgentId AgentAt(std::uint32_t slot) const { return {id_, slot, options_.run, 1}; }
   std::int64_t clock_ns() const { return clock_ns_; }
   std::int64_t granted_ns() const { return granted_ns_; }
   bool finished() const { return finished_; }

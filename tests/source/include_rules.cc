@@ -79,12 +79,12 @@ bool IsDds(const std::string& name) {
 }
 
 bool IsWideInterface(const std::string& name) {
-  return name == "collision_core/broad_phase/lane_scan.h" ||
-         name == "collision_core/broad_phase/point_scan.h" ||
-         name == "collision_core/broad_phase/lane_scan_wide.h" ||
-         name == "collision_core/narrow_phase/pack_scan.h" ||
+  return name == "collision_core/broad_phase/filter/sphere_filter.h" ||
+         name == "collision_core/broad_phase/filter/point_filter.h" ||
+         name == "collision_core/broad_phase/filter/sphere_filter_wide.h" ||
+         name == "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h" ||
          StartsWith(name, "collision_core/narrow_phase/pack_scan_wide") ||
-         name == "collision_core/shape/ball_pack.h";
+         name == "collision_core/sphere_tree/packed_layout.h";
 }
 
 bool IsWide(const std::string& path) {

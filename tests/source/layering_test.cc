@@ -20,10 +20,10 @@ std::vector<std::string> ViolationsOf(const Planted& planted) {
 
 TEST(Layering, BadIncludesAreFoundWithTheirLine) {
   const Planted bad[] = {
-      {"collision_core/numeric/a.h", "\"collision_core/motion/instant.h\""},
-      {"collision_core/motion/a.h", "\"collision_core/broad_phase/pair_time.h\""},
-      {"collision_core/shape/a.h", "\"collision_core/motion/instant.h\""},
-      {"collision_core/shape/a.cc", "\"collision_core/narrow_phase/triangle_pair.h\""},
+      {"collision_core/numeric/a.h", "\"collision_core/base/instant.h\""},
+      {"collision_core/motion/a.h", "\"collision_core/intersection/earliest_intersection.h\""},
+      {"collision_core/shape/a.h", "\"collision_core/base/instant.h\""},
+      {"collision_core/shape/a.cc", "\"collision_core/geometry/triangle/triangle_pair.h\""},
       {"collision_core/broad_phase/a.cc", "\"collision_core/narrow_phase/a.h\""},
       {"collision_core/narrow_phase/a.cc", "\"collision_core/detection/a.h\""},
       {"collision_core/detection/a.h", "\"idl/messages.pb.h\""},
@@ -33,7 +33,7 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"collision_core/detection/a.cc", "<unistd.h>"},
       {"collision_core/detection/a.cc", "<dds/dds.h>"},
       {"collision_core/motion/a.cc", "\"../detection/detector.h\""},
-      {"idl/dds/a.h", "\"collision_core/motion/instant.h\""},
+      {"idl/dds/a.h", "\"collision_core/base/instant.h\""},
       {"server/daemon.cc", "<dds/dds.h>"},
       {"server/daemon.cc", "\"collision.h\""},
       {"server/daemon.cc", "\"client/world.h\""},
@@ -41,11 +41,11 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"client/world.h", "\"idl/messages.pb.h\""},
       {"client/world.cc", "  \"server/clock.h\""},
       {"client/world.cc", "<dds/dds.h>"},
-      {"client/tools/motion_checker.cc", "\"collision_core/motion/instant.h\""},
+      {"client/tools/motion_checker.cc", "\"collision_core/base/instant.h\""},
       {"client/tools/motion_checker.cc", "\"server/event_log.h\""},
-      {"client/tools/sphere_tree_report.h", "\"collision_core/motion/instant.h\""},
+      {"client/tools/sphere_tree_report.h", "\"collision_core/base/instant.h\""},
       {"client/tools/collisionctl_text.cc", "\"collision_core/shape/shape.h\""},
-      {"idl/tree_message.cc", "\"collision_core/motion/instant.h\""},
+      {"idl/tree_message.cc", "\"collision_core/base/instant.h\""},
       {"idl/shape_bytes.cc", "\"collision_core/shape/shape.h\""},
       {"elsewhere/a.h", "\"client/types.h\""},
   };
@@ -60,15 +60,15 @@ TEST(Layering, GoodIncludesAreLeftAlone) {
   const Planted good[] = {
       {"collision_core/motion/a.h", "\"collision_core/numeric/interval.h\""},
       {"collision_core/shape/a.cc", "\"collision_core/numeric/interval.h\""},
-      {"collision_core/narrow_phase/a.h", "\"collision_core/shape/sphere_tree.h\""},
+      {"collision_core/narrow_phase/a.h", "\"collision_core/sphere_tree/sphere_tree.h\""},
       {"collision_core/detection/a.h", "\"collision_core/broad_phase/a.h\""},
       {"collision_core/numeric/a.h", "<Eigen/Core>"},
       {"collision_core/numeric/a.h", "<cmath>"},
       {"idl/dds/a.cc", "<dds/dds.h>"},
-      {"server/codec.cc", "\"collision_core/motion/instant.h\""},
+      {"server/codec.cc", "\"collision_core/base/instant.h\""},
       {"client/world.cc", "\"idl/messages.pb.h\""},
       {"client/tools/sphere_tree_report.h", "\"collision_core/shape/shape.h\""},
-      {"idl/tree_message.h", "\"collision_core/shape/sphere_tree.h\""},
+      {"idl/tree_message.h", "\"collision_core/sphere_tree/sphere_tree.h\""},
       {"client/world.h", "\"client/types.h\""},
   };
   for (const Planted& planted : good) EXPECT_EQ(ViolationsOf(planted), std::vector<std::string>{});

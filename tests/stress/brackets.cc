@@ -1,7 +1,7 @@
 // How far apart two bodies are, at the extremes of size and form: brackets against exact arithmetic.
 #include <cmath>
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/stress/shape_judge.h"
 #include "tests/support/exact_convex.h"
 #include "tests/support/exact_triangle.h"
@@ -31,19 +31,19 @@ constexpr double kUnitsTurned = 6;
 constexpr double kParallel = 0x1p-40;
 constexpr std::uint64_t kUnits = 200'000;
 
-std::shared_ptr<const Shape> FormOf(int kind, double size) {
+std::shared_ptr<const shape::Shape> FormOf(int kind, double size) {
   if (kind == 0) return BoxShape(Vector3d::Constant(size), false);
   if (kind == 1) return BoxShape({size, size * 0x1p-12, size * 0x1p-12}, false);
   if (kind == 2) return BoxShape({size * 0x1p-12, size, size}, false);
-  TriangleMesh triangle;
+  geometry::TriangleMesh triangle;
   triangle.vertices = {{-size, -size, 0}, {size, -size / 2, 0}, {0, size, size / 4}};
   triangle.triangles = {{0, 1, 2}};
-  return Shape::Build(triangle);
+  return shape::Shape::Build(triangle);
 }
 
-std::vector<ExactTriangle> TrianglesOf(const Shape& shape, const ExactPlacement& placement) {
+std::vector<ExactTriangle> TrianglesOf(const shape::Shape& shape, const ExactPlacement& placement) {
   std::vector<ExactTriangle> triangles;
-  for (const Triangle& t : shape.mesh().triangles) {
+  for (const geometry::Triangle& t : shape.mesh().triangles) {
     ExactTriangle corners;
     for (int i = 0; i < 3; ++i) {
       corners[i] = placement(ExactVector(shape.mesh().vertices[t[i]]));
@@ -53,7 +53,8 @@ std::vector<ExactTriangle> TrianglesOf(const Shape& shape, const ExactPlacement&
   return triangles;
 }
 
-Exact SquareOfSurfaces(const Shape& a, const Shape& b, const RelativePose& pose) {
+Exact SquareOfSurfaces(const shape::Shape& a, const shape::Shape& b,
+                       const narrow_phase::RelativePose& pose) {
   const auto of_a = TrianglesOf(a, {}),
              of_b = TrianglesOf(b, PlacementOf(pose.matrix, pose.offset));
   Exact least = -1;
@@ -68,8 +69,9 @@ Exact SquareOfSurfaces(const Shape& a, const Shape& b, const RelativePose& pose)
 }
 
 /// Whether a solid holds a point of the other one: then they touch, whatever their surfaces do.
-bool Nested(const Surface& a, const Surface& b, const RelativePose& pose) {
-  const auto inside = [](const Shape& shape, const Vector3d& x) {
+bool Nested(const narrow_phase::BodyTree& a, const narrow_phase::BodyTree& b,
+            const narrow_phase::RelativePose& pose) {
+  const auto inside = [](const shape::Shape& shape, const Vector3d& x) {
     return shape.closed() && (x.array() >= shape.facts().lower.array()).all() &&
            (x.array() <= shape.facts().upper.array()).all();
   };
@@ -82,9 +84,10 @@ double SineOf(const Vector3d& e, const Vector3d& f) {
 }
 
 /// The edges of all triangles, and the least sine of two that make a normal.
-double EdgesOf(const Shape& shape, const Eigen::Matrix3d& turn, std::vector<Vector3d>* edges) {
+double EdgesOf(const shape::Shape& shape, const Eigen::Matrix3d& turn,
+               std::vector<Vector3d>* edges) {
   double least = 1;
-  for (const Triangle& t : shape.mesh().triangles) {
+  for (const geometry::Triangle& t : shape.mesh().triangles) {
     const auto& x = shape.mesh().vertices;
     const std::size_t first = edges->size();
     for (int i = 0; i < 3; ++i) edges->push_back(turn * (x[t[(i + 1) % 3]] - x[t[i]]));
@@ -94,7 +97,8 @@ double EdgesOf(const Shape& shape, const Eigen::Matrix3d& turn, std::vector<Vect
 }
 
 /// K of the bracket of two bodies.
-double UnitsOf(const Shape& a, const Shape& b, const RelativePose& pose) {
+double UnitsOf(const shape::Shape& a, const shape::Shape& b,
+               const narrow_phase::RelativePose& pose) {
   std::vector<Vector3d> of_a, of_b;
   double least =
       std::min(EdgesOf(a, Eigen::Matrix3d::Identity(), &of_a), EdgesOf(b, pose.matrix, &of_b));
@@ -107,19 +111,19 @@ double UnitsOf(const Shape& a, const Shape& b, const RelativePose& pose) {
   return kBracketUnits + kUnitsTurned / least;
 }
 
-BodySegment At(std::shared_ptr<const Shape> shape) {
-  BodySegment body;
+narrow_phase::BodySegment At(std::shared_ptr<const shape::Shape> shape) {
+  narrow_phase::BodySegment body;
   body.ball.radius = shape->facts().radius;
   body.shape = std::move(shape);
   return body;
 }
 
-void JudgeBracket(const BodySegment& first, const BodySegment& second, const RelativePose& pose,
-                  Outcome* outcome) {
-  const Surface a(first), b(second);
-  Work work(kUnits), again(kUnits);
-  const Look look = BracketAt(a, b, pose, 0, 0, &work);
-  const Decision decision = DecideAt(a, b, pose, &again);
+void JudgeBracket(const narrow_phase::BodySegment& first, const narrow_phase::BodySegment& second,
+                  const narrow_phase::RelativePose& pose, Outcome* outcome) {
+  const narrow_phase::BodyTree a(first), b(second);
+  WorkBudget work(kUnits), again(kUnits);
+  const Look look = BracketSeparation(a, b, pose, 0, 0, &work);
+  const narrow_phase::Decision decision = DecideAt(a, b, pose, &again);
   const Exact square = SquareOfSurfaces(*first.shape, *second.shape, pose);
   outcome->Add("poses", 1);
   outcome->Expect(!std::isnan(look.lower) && !std::isnan(look.upper), "not a number");
@@ -130,10 +134,10 @@ void JudgeBracket(const BodySegment& first, const BodySegment& second, const Rel
   const bool nested = Nested(a, b, pose);
   if (square == 0 || nested) {
     outcome->Add("touching", 1);
-    outcome->Expect(decision.verdict != Verdict::kApart, "contact is told as apart");
+    outcome->Expect(decision.verdict != narrow_phase::Verdict::kApart, "contact is told as apart");
     return;
   }
-  outcome->Expect(decision.verdict != Verdict::kTouching, "apart is told as contact");
+  outcome->Expect(decision.verdict != narrow_phase::Verdict::kTouching, "apart is told as contact");
   outcome->Expect(IsAtLeast(look.upper, square, 0), "the distance's upper end is below the truth");
   const double unit = 0x1p-52 * (pose.offset.norm() + a.reach() + b.reach());
   const double width = (look.upper - std::max(0.0, look.lower)) / unit;
@@ -150,14 +154,14 @@ void Brackets(const Setting& setting, Outcome* outcome) {
     const double size = std::ldexp(1, static_cast<int>(random.Below(38)) - 18);
     const double other =
         random.Chance(0.5) ? size : std::ldexp(1, static_cast<int>(random.Below(38)) - 18);
-    const BodySegment a = At(FormOf(static_cast<int>(random.Below(4)), size));
-    const BodySegment b = At(FormOf(static_cast<int>(random.Below(4)), other));
+    const narrow_phase::BodySegment a = At(FormOf(static_cast<int>(random.Below(4)), size));
+    const narrow_phase::BodySegment b = At(FormOf(static_cast<int>(random.Below(4)), other));
     Eigen::Quaterniond turn(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1),
                             random.Uniform(-1, 1));
     if (random.Chance(0.3)) turn = Eigen::Quaterniond::Identity();
     const double reach = a.ball.radius + b.ball.radius;
     const Vector3d offset = reach * random.LogUniform(1e-3, 3) * random.UnitVector();
-    JudgeBracket(a, b, PoseOf(turn.normalized().toRotationMatrix(), offset), outcome);
+    JudgeBracket(a, b, narrow_phase::PoseOf(turn.normalized().toRotationMatrix(), offset), outcome);
   }
   outcome->Say(Show(outcome->Get("poses")) + " poses (" + Show(outcome->Get("touching")) +
                " in contact), the widest bracket " + Show(outcome->Get("width_units")) +
@@ -170,13 +174,13 @@ void BracketGrazing(const Setting& setting, Outcome* outcome) {
   Random random(502);
   for (int i = 0; i < setting.Many(80, 800); ++i) {
     const double size = std::ldexp(1, static_cast<int>(random.Below(38)) - 18);
-    const BodySegment a = At(FormOf(static_cast<int>(random.Below(3)), size));
-    const BodySegment b = At(FormOf(static_cast<int>(random.Below(3)), size));
+    const narrow_phase::BodySegment a = At(FormOf(static_cast<int>(random.Below(3)), size));
+    const narrow_phase::BodySegment b = At(FormOf(static_cast<int>(random.Below(3)), size));
     const double touching = a.shape->facts().upper.x() + b.shape->facts().upper.x();
     const double y = random.Uniform(-0.5, 0.5) * size * 0x1p-12;
     for (const double x :
          {std::nextafter(touching, 0), touching, std::nextafter(touching, 1e300)}) {
-      JudgeBracket(a, b, PoseOf(Eigen::Matrix3d::Identity(), {x, y, 0}), outcome);
+      JudgeBracket(a, b, narrow_phase::PoseOf(Eigen::Matrix3d::Identity(), {x, y, 0}), outcome);
     }
   }
   outcome->Say(Show(outcome->Get("poses")) + " poses (" + Show(outcome->Get("touching")) +

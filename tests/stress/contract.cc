@@ -32,29 +32,30 @@ struct Excess {
 
 Exact SumOf(const ExactVector& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 
-Excess OfPosition(const SpaceTimeBound& before, const MotionState& next) {
+Excess OfPosition(const motion::SpaceTimeBound& before, const motion::MotionState& next) {
   const Exact s = ExactSeconds(before.state.stamp, next.stamp);
   const ExactVector p(before.state.p_WA), v(before.state.v_WA), q(next.p_WA);
   const Exact reach = Exact(before.declaration.acceleration_max) / 2 * s * s;
   return {q - p - s * v, reach, SumOf(p) + SumOf(q)};
 }
 
-Excess OfVelocity(const SpaceTimeBound& before, const MotionState& next) {
+Excess OfVelocity(const motion::SpaceTimeBound& before, const motion::MotionState& next) {
   const Exact s = ExactSeconds(before.state.stamp, next.stamp);
   const ExactVector v(before.state.v_WA), w(next.v_WA);
   const Exact reach = Exact(before.declaration.acceleration_max) * s;
   return {w - v, reach, SumOf(v) + SumOf(w) + reach};
 }
 
-void JudgeState(const SpaceTimeBound& before, const MotionState& next, Outcome* outcome) {
-  const ContractCheck check = CheckContract(before, next);
+void JudgeState(const motion::SpaceTimeBound& before, const motion::MotionState& next,
+                Outcome* outcome) {
+  const motion::ContractCheck check = CheckContract(before, next);
   const Excess position = OfPosition(before, next), velocity = OfVelocity(before, next);
   const Exact s = ExactSeconds(before.state.stamp, next.stamp);
   const Exact lost(kSteps * 0x1p-52), speed = velocity.size;
   const Exact more_v =
       lost * speed + Exact(kNanosecond) * Exact(before.declaration.acceleration_max);
   const Exact more_p = lost * (position.size + speed * s) + more_v * s + Exact(kNanosecond) * speed;
-  const bool breached = check.verdict == ContractVerdict::kBreached;
+  const bool breached = check.verdict == motion::ContractVerdict::kBreached;
   outcome->Add(breached ? "breaches" : "states_kept", 1);
   const bool apart = BallsComeApart(before, next);
   if (position.Within(0) && velocity.Within(0) && !apart) {
@@ -92,13 +93,14 @@ void Contract(const Setting& setting, Outcome* outcome) {
     const auto any = [&random](double lo, double hi) {
       return random.Chance(0.15) ? 0 : random.LogUniform(lo, hi);
     };
-    SpaceTimeBound before = Ball(any(1e-12, 1e15) * random.UnitVector(),
-                                 any(1e-12, 299792458) * random.UnitVector(), 1, any(1e-12, 1e18));
+    motion::SpaceTimeBound before =
+        Ball(any(1e-12, 1e15) * random.UnitVector(), any(1e-12, 299792458) * random.UnitVector(), 1,
+             any(1e-12, 1e18));
     const std::int64_t century = 3'155'760'000'000'000'000;
     before.state.stamp = Instant::FromNanoseconds(random.Chance(0.5) ? century : -century);
     const auto step =
         static_cast<std::int64_t>(random.LogUniform(1, random.Chance(0.5) ? 1e9 : 1e18));
-    MotionState next = before.state;
+    motion::MotionState next = before.state;
     next.stamp = Instant::FromNanoseconds(before.state.stamp.nanoseconds() + step);
     const double s = static_cast<double>(step) * 1e-9;
     const double off = random.Chance(0.5) ? random.LogUniform(1e-17, 10) : 0;

@@ -11,15 +11,15 @@ using Eigen::Vector3d;
 
 constexpr std::int64_t kStep = 1'000'000'000 / 64;
 
-AgentDeclaration BallOf(double radius, double acceleration_max = 0) {
-  AgentDeclaration declaration;
+motion::AgentDeclaration BallOf(double radius, double acceleration_max = 0) {
+  motion::AgentDeclaration declaration;
   declaration.radius = radius;
   declaration.acceleration_max = acceleration_max;
   return declaration;
 }
 
-DetectorOptions OptionsFor(std::uint32_t agents) {
-  DetectorOptions options;
+detection::DetectorOptions OptionsFor(std::uint32_t agents) {
+  detection::DetectorOptions options;
   options.agents_max = agents;
   return options;
 }
@@ -28,14 +28,15 @@ double RadiusOf(std::uint32_t agent) { return agent % 3 == 0 ? 0 : 1; }
 
 // Where everybody is is known exactly when they are admitted, all at once: so is what they touch.
 void JudgePairs(const Scene& scene, Outcome* outcome) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, const CollisionEvent*> newest;
-  for (const CollisionEvent& event : scene.events()) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, const detection::CollisionEvent*> newest;
+  for (const detection::CollisionEvent& event : scene.events()) {
     newest[{event.lower.slot, event.higher.slot}] = &event;
   }
   outcome->Expect(newest.size() == scene.detector().pairs_tracked(), "a tracked pair is not told");
   for (const auto& [pair, event] : newest) {
     const double truth = -RadiusOf(pair.first) - RadiusOf(pair.second);
-    outcome->Expect(event->status == EventStatus::kConfirmed, "a contact is not confirmed");
+    outcome->Expect(event->status == detection::EventStatus::kConfirmed,
+                    "a contact is not confirmed");
     outcome->Expect(event->separation_lower <= truth && truth <= event->separation_upper,
                     "the distance is not in its bracket");
     const std::int64_t begin[] = {event->begin.earliest.nanoseconds(),
@@ -51,13 +52,13 @@ void JudgePairs(const Scene& scene, Outcome* outcome) {
 void OnePoint(const Setting& setting, Outcome* outcome) {
   const auto agents = static_cast<std::uint32_t>(setting.Many(400, 6000));
   const int steps = setting.Many(32, 128);
-  const DetectorOptions options = OptionsFor(agents);
+  const detection::DetectorOptions options = OptionsFor(agents);
   Scene scene(options, Instant(), outcome);
   for (std::uint32_t k = 0; k < agents; ++k) {
     scene.Add(BallOf(RadiusOf(k), 0.1), Straight({0, 0, 0}, {0, 0, 0}), 8);
   }
   scene.Run(kStep, 1);
-  Detector& detector = scene.detector();
+  detection::Detector& detector = scene.detector();
   const std::uint64_t admission = detector.counters().pair_queries;
   scene.Run(kStep, steps);
   JudgePairs(scene, outcome);

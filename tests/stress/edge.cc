@@ -2,8 +2,8 @@
 #include <cmath>
 #include <limits>
 
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/shape/convex_solid.h"
-#include "collision_core/shape/triangle_mesh.h"
 #include "server/codec.h"
 #include "tests/server/messages.h"
 #include "tests/stress/case.h"
@@ -95,15 +95,15 @@ void Stamps(Outcome* outcome) {
 
 void Meshes(Outcome* outcome) {
   for (const double size : {1e-12, 1e-9, 1e-6, 1.0, 1e6, 1e9, 1e12}) {
-    const TriangleMesh mesh = Cube(size / 2);
+    const geometry::TriangleMesh mesh = Cube(size / 2);
     const double diagonal = size * std::sqrt(3);
-    const bool allowed = diagonal >= kMeshSizeMin && diagonal <= kMeshSizeMax;
+    const bool allowed = diagonal >= geometry::kMeshSizeMin && diagonal <= geometry::kMeshSizeMax;
     outcome->Expect(allowed != collision::RefusalOf(mesh, 100).has_value(),
                     "a mesh of " + Show(size) + " m");
-    ConvexDescription box;
-    box.core = ConvexCore::kBox;
+    shape::ConvexDescription box;
+    box.core = geometry::ConvexCore::kBox;
     box.half = Eigen::Vector3d::Constant(size / 2);
-    const bool box_allowed = diagonal >= kConvexSizeMin && diagonal <= kConvexSizeMax;
+    const bool box_allowed = diagonal >= shape::kConvexSizeMin && diagonal <= shape::kConvexSizeMax;
     outcome->Expect(box_allowed != collision::RefusalOf(box).has_value(),
                     "a box of " + Show(size) + " m");
     outcome->Add(allowed ? "accepted" : "refused", 2);
@@ -154,7 +154,7 @@ void HairOffUnit(const Setting& setting, Outcome* outcome) {
       wire->set_z(static_cast<double>(meant.z()) + noise[3]);
     }
     const auto decoded = server::DecodeState(Chunk("alpha"), state, {});
-    const auto* taken = std::get_if<MotionState>(&decoded);
+    const auto* taken = std::get_if<motion::MotionState>(&decoded);
     if (!outcome->Expect(taken != nullptr, "a hair off unit is refused")) continue;
     const double length = taken->q_WB.norm();
     outcome->Expect(std::abs(length - 1) <= 0x1p-50, "not of unit length");

@@ -57,14 +57,16 @@ Swing SwingOf(int pair) {
   return {half_period, 8 / (half_period * half_period), 3 + 0.125 * pair};
 }
 
-AgentId Id(int pair, int which) { return {1, static_cast<std::uint32_t>(2 * pair + which), 1, 1}; }
+detection::AgentId Id(int pair, int which) {
+  return {1, static_cast<std::uint32_t>(2 * pair + which), 1, 1};
+}
 
-MotionState StateOf(int pair, int which, std::int64_t ns) {
+motion::MotionState StateOf(int pair, int which, std::int64_t ns) {
   const Swing swing = SwingOf(pair);
   double x, v;
   swing.At(ns, &x, &v);
   const double side = which == 0 ? -1 : 1;
-  MotionState state;
+  motion::MotionState state;
   state.stamp = Instant::FromNanoseconds(ns);
   state.p_WA = {side * (swing.middle / 2 + x), 16.0 * pair, 0};
   state.v_WA = {side * v, 0, 0};
@@ -84,10 +86,10 @@ struct Stretch {
 
 class LongRun {
  public:
-  explicit LongRun(Outcome* outcome) : detector_(DetectorOptions{}), outcome_(outcome) {
+  explicit LongRun(Outcome* outcome) : detector_(detection::DetectorOptions{}), outcome_(outcome) {
     for (int pair = 0; pair < kPairs; ++pair) {
       for (const int which : {0, 1}) {
-        AgentDeclaration declaration;
+        motion::AgentDeclaration declaration;
         declaration.radius = 1;
         declaration.acceleration_max = SwingOf(pair).M;
         detector_.Admit(Id(pair, which), declaration, StateOf(pair, which, 0), Instant());
@@ -121,16 +123,16 @@ class LongRun {
   void Step(Stretch* stretch) {
     for (int pair = 0; pair < kPairs; ++pair) {
       for (const int which : {0, 1}) {
-        const MotionState state = StateOf(pair, which, now_);
-        const UpdateOutcome told = detector_.Update(Id(pair, which), state, state.stamp);
-        outcome_->Expect(told == UpdateOutcome::kKept, "an honest state is not kept");
+        const motion::MotionState state = StateOf(pair, which, now_);
+        const detection::UpdateOutcome told = detector_.Update(Id(pair, which), state, state.stamp);
+        outcome_->Expect(told == detection::UpdateOutcome::kKept, "an honest state is not kept");
         detector_.Hear(Id(pair, which), state.stamp);
       }
     }
     detector_.Advance(Instant::FromNanoseconds(now_));
     ++stretch->steps;
     stretch->queued = std::max(stretch->queued, detector_.queued());
-    for (const CollisionEvent& event : detector_.events()) Take(event, stretch);
+    for (const detection::CollisionEvent& event : detector_.events()) Take(event, stretch);
     for (int pair = 0; pair < kPairs; ++pair) CheckClear(pair, stretch);
   }
 
@@ -151,16 +153,16 @@ class LongRun {
     }
   }
 
-  void Take(const CollisionEvent& event, Stretch* stretch) {
+  void Take(const detection::CollisionEvent& event, Stretch* stretch) {
     const int pair = static_cast<int>(event.lower.slot / 2);
     outcome_->Expect(event.higher.slot == event.lower.slot + 1, "a contact of two that never meet");
-    touching_[pair] = event.status == EventStatus::kConfirmed;
-    if (event.status != EventStatus::kEnded) return;
+    touching_[pair] = event.status == detection::EventStatus::kConfirmed;
+    if (event.status != detection::EventStatus::kEnded) return;
     // The contacts of a pair come one after the other; the next is the one of its number.
     long double begin, end;
     const std::int64_t number = told_[pair]++;
     SwingOf(pair).Contact(number, &begin, &end);
-    const auto contains = [&](const TimeBracket& bracket, long double truth) {
+    const auto contains = [&](const detection::TimeBracket& bracket, long double truth) {
       const long double slack = 0x1p-58L * truth;
       return bracket.earliest.nanoseconds() / 1e9L <= truth + slack &&
              bracket.latest.nanoseconds() / 1e9L >= truth - slack;
@@ -168,7 +170,7 @@ class LongRun {
     outcome_->Expect(contains(event.begin, begin), "a begin is not in its bracket");
     outcome_->Expect(contains(event.end, end), "an end is not in its bracket");
     const double most = SwingOf(pair).Width(kStepSeconds);
-    for (const TimeBracket& bracket : {event.begin, event.end}) {
+    for (const detection::TimeBracket& bracket : {event.begin, event.end}) {
       const double width =
           static_cast<double>(bracket.latest.nanoseconds() - bracket.earliest.nanoseconds()) /
           kSecond;
@@ -179,7 +181,7 @@ class LongRun {
     ++stretch->contacts;
   }
 
-  Detector detector_;
+  detection::Detector detector_;
   Outcome* outcome_;
   std::int64_t now_ = 0;
   std::map<int, std::int64_t> told_;

@@ -9,7 +9,8 @@
 namespace collision::stress {
 namespace {
 
-std::string Named(const char* what, const SpaceTimeBound& a, const SpaceTimeBound& b, double at) {
+std::string Named(const char* what, const motion::SpaceTimeBound& a,
+                  const motion::SpaceTimeBound& b, double at) {
   const Eigen::Vector3d d = b.state.p_WA - a.state.p_WA, v = b.state.v_WA - a.state.v_WA;
   return std::string(what) + " at " + Show(at) + " s: distance " + Show(d.cwiseAbs().maxCoeff()) +
          " m, speed " + Show(v.cwiseAbs().maxCoeff()) + " m/s, radii " +
@@ -19,7 +20,7 @@ std::string Named(const char* what, const SpaceTimeBound& a, const SpaceTimeBoun
 }
 
 /// Near the denormals a unit in the last place is no share of anything: radius and M grow by so many.
-SpaceTimeBound LargerBy(SpaceTimeBound bound, double units) {
+motion::SpaceTimeBound LargerBy(motion::SpaceTimeBound bound, double units) {
   bound.declaration.radius += units * 0x1p-1074;
   if (bound.declaration.acceleration_max > 0) {
     bound.declaration.acceleration_max += units * 0x1p-1074;
@@ -28,7 +29,8 @@ SpaceTimeBound LargerBy(SpaceTimeBound bound, double units) {
 }
 
 /// The least K of some tried for which the answer is the exact one; 1024: none of them.
-double UnitsEarly(const SpaceTimeBound& a, const SpaceTimeBound& b, const PairTime& time) {
+double UnitsEarly(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
+                  const intersection::IntersectionTime& time) {
   const Dyadic later = ExactMeeting::Nanoseconds(time.seconds) * Dyadic(1 + 1e-9);
   for (const double units : {0.0, 1.0, 2.0, 4.0, 8.0, kDenormalUnits, 64.0}) {
     const ExactMeeting larger(LargerBy(a, units), b, time.base, {false, units * 0x1p-52});
@@ -41,7 +43,7 @@ double UnitsEarly(const SpaceTimeBound& a, const SpaceTimeBound& b, const PairTi
 struct ExactGap {
   DyadicPolynomial distance, reach, size;
 
-  ExactGap(const SpaceTimeBound& a, const SpaceTimeBound& b, int sign_of_u) {
+  ExactGap(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, int sign_of_u) {
     const Dyadic half_M = Dyadic(0.5) * (Dyadic(a.declaration.acceleration_max) +
                                          Dyadic(b.declaration.acceleration_max));
     const Dyadic radii = Dyadic(a.declaration.radius) + Dyadic(b.declaration.radius);
@@ -100,8 +102,8 @@ struct ExactGap {
 /// Bodies that are larger by K units touch at the end of what is told to be free, and at its start
 /// afterwards; and those that are smaller by as much do not before what is told to be contact, nor
 /// after it.
-void JudgeWidth(const SpaceTimeBound& a, const SpaceTimeBound& b, const SegmentVerdict& verdict,
-                double duration, Outcome* outcome) {
+void JudgeWidth(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
+                const narrow_phase::SegmentResult& verdict, double duration, Outcome* outcome) {
   const ExactGap larger(LargerBy(a, kContactUnits), b, 1), smaller(a, b, -1);
   const double share = kContactUnits * 0x1p-52;
   const auto expect_near = [&](double at, double further) {
@@ -110,9 +112,9 @@ void JudgeWidth(const SpaceTimeBound& a, const SpaceTimeBound& b, const SegmentV
                     Named("not free, though it is,", a, b, at));
   };
   const double until = std::max(0.0, verdict.free_until), from = std::max(0.0, verdict.free_from);
-  if (until != kInfinity) expect_near(until, std::min(duration, until * (1 + 0x1p-50)));
+  if (until != numeric::kInfinity) expect_near(until, std::min(duration, until * (1 + 0x1p-50)));
   const double resolution = kContactResolution * duration;
-  if (verdict.free_from != -kInfinity) expect_near(from, std::max(0.0, from - resolution));
+  if (verdict.free_from != -numeric::kInfinity) expect_near(from, std::max(0.0, from - resolution));
   const bool found = verdict.contact_from <= verdict.contact_to;
   const double first = found ? std::max(0.0, verdict.contact_from - resolution) : duration;
   outcome->Expect(smaller.SmallerApartOn(share, Dyadic(), Dyadic(first), Dyadic(duration)),
@@ -123,11 +125,11 @@ void JudgeWidth(const SpaceTimeBound& a, const SpaceTimeBound& b, const SegmentV
                   Named("contact is told to end early,", a, b, last));
 }
 
-bool IsOrdered(const SegmentVerdict& v, double duration) {
+bool IsOrdered(const narrow_phase::SegmentResult& v, double duration) {
   const bool numbers = !std::isnan(v.free_until) && !std::isnan(v.free_from) &&
                        std::isfinite(v.contact_from) && std::isfinite(v.contact_to);
   if (!numbers) return false;
-  if (v.free_until != kInfinity && v.free_until >= duration && duration > 0) return false;
+  if (v.free_until != numeric::kInfinity && v.free_until >= duration && duration > 0) return false;
   if (v.contact_from > v.contact_to) return true;
   return v.free_until <= v.contact_from && v.contact_to <= v.free_from && v.contact_from >= 0 &&
          v.contact_to <= duration;
@@ -135,9 +137,9 @@ bool IsOrdered(const SegmentVerdict& v, double duration) {
 
 }  // namespace
 
-SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double radius,
-                    double acceleration_max) {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double radius,
+                            double acceleration_max) {
+  motion::SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
   bound.declaration.radius = radius;
@@ -145,17 +147,17 @@ SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double r
   return bound;
 }
 
-void JudgePair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from, Outcome* outcome,
-               double units_max) {
-  const PairTime time = EarliestIntersection(a, b, from);
+void JudgePair(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant from,
+               Outcome* outcome, double units_max) {
+  const intersection::IntersectionTime time = intersection::EarliestIntersection(a, b, from);
   outcome->Add("pairs", 1);
   outcome->Expect(time.seconds >= 0, Named("not a time", a, b, time.seconds));
-  outcome->Expect(time.seconds == EarliestIntersection(b, a, from).seconds,
+  outcome->Expect(time.seconds == intersection::EarliestIntersection(b, a, from).seconds,
                   Named("not the same for (B, A)", a, b, time.seconds));
   if (NeverMoves(a) && NeverMoves(b)) return;
   const ExactMeeting outer(a, b, time.base, {true, 0});
   std::optional<Dyadic> until;
-  if (time.seconds != kInfinity) until = ExactMeeting::Nanoseconds(time.seconds);
+  if (time.seconds != numeric::kInfinity) until = ExactMeeting::Nanoseconds(time.seconds);
   ProofCounts counts;
   outcome->Expect(outer.FreeBefore(until, &counts), Named("late", a, b, time.seconds));
   if (!until) return;
@@ -166,17 +168,17 @@ void JudgePair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from, O
                   Named(("idle by " + Show(units) + " units").c_str(), a, b, time.seconds));
 }
 
-void JudgeContact(const SpaceTimeBound& a, const SpaceTimeBound& b, double duration,
+void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, double duration,
                   Outcome* outcome) {
   const Instant base = a.state.stamp;
-  const SegmentVerdict verdict =
-      JudgeSegment({a.declaration.radius, {ForwardBall(a, base)}},
-                   {b.declaration.radius, {ForwardBall(b, base)}}, duration);
+  const narrow_phase::SegmentResult verdict =
+      EvaluateBallSegment({a.declaration.radius, {ForwardBall(a, base)}},
+                          {b.declaration.radius, {ForwardBall(b, base)}}, duration);
   outcome->Add("segments", 1);
   if (!outcome->Expect(IsOrdered(verdict, duration), Named("not ordered", a, b, duration))) return;
   const ExactGap outer(a, b, 1), inner(a, b, -1);
   const Dyadic end(duration);
-  const bool throughout = verdict.free_until == kInfinity;
+  const bool throughout = verdict.free_until == numeric::kInfinity;
   if (throughout || verdict.free_until > 0) {
     outcome->Expect(outer.ApartOn(Dyadic(), throughout ? end : Dyadic(verdict.free_until)),
                     Named("late", a, b, verdict.free_until));

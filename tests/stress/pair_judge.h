@@ -7,15 +7,15 @@
 // on, by just as much as its inputs force.
 #pragma once
 
-#include "collision_core/broad_phase/pair_time.h"
-#include "collision_core/narrow_phase/ball_contact.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/narrow_phase/contact/ball_contact.h"
 #include "tests/stress/case.h"
 
 namespace collision::stress {
 
 /// A ball that moves with constant velocity, up to M.
-SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double radius,
-                    double acceleration_max = 0);
+motion::SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double radius,
+                            double acceleration_max = 0);
 
 /// K of the earliest possible intersection; beyond it 1e-9 of the time are allowed.
 inline constexpr double kPairUnits = 4;
@@ -28,8 +28,8 @@ inline constexpr double kPairUnits = 4;
 inline constexpr double kDenormalUnits = 18;
 
 /// EarliestIntersection(): not late, K units early at most, the same for (B, A), finite or never.
-void JudgePair(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant from, Outcome* outcome,
-               double units_max = kPairUnits);
+void JudgePair(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant from,
+               Outcome* outcome, double units_max = kPairUnits);
 
 /// K of the brackets of a contact of two balls, counted in roundings, each a unit at most
 /// (numeric/rounding.h), of |Δp| + |Δv δ| (P), r and u.
@@ -51,9 +51,9 @@ inline constexpr double kContactUnits = 21;
 /// segment.
 inline constexpr double kContactResolution = 1.01e-13;
 
-/// JudgeSegment() over [stamp, stamp + duration]: ordered, free where it says so, touching where it
+/// EvaluateBallSegment() over [stamp, stamp + duration]: ordered, free where it says so, touching where it
 /// says so, and each end within K units. Requires equal stamps.
-void JudgeContact(const SpaceTimeBound& a, const SpaceTimeBound& b, double duration,
+void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, double duration,
                   Outcome* outcome);
 
 /// The sentence for both: how many were asked, and how wide the widest was.

@@ -24,7 +24,7 @@ struct Draw {
 
 /// A passage: B comes from some way off, past A at some share of the radii or through it.
 struct Passage {
-  SpaceTimeBound a, b;
+  motion::SpaceTimeBound a, b;
   double duration = 0;  ///< Longer than the way takes.
 };
 
@@ -187,7 +187,7 @@ void Grazing(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(800, 40000); ++i) {
     const double miss = random.LogUniform(1e-12, 1e12), speed = random.LogUniform(1e-6, kLight);
     const double away = miss * random.LogUniform(1e-3, 1e3);
-    for (const double radius : {NextDown(miss), miss, NextUp(miss)}) {
+    for (const double radius : {numeric::NextDown(miss), miss, numeric::NextUp(miss)}) {
       const Passage passage{Ball({0, 0, 0}, {0, 0, 0}, radius),
                             Ball({-away, miss, 0}, {speed, 0, 0}, 0), 2 * away / speed};
       JudgeBoth(passage, outcome);

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "collision_core/broad_phase/pair_time.h"
 #include "collision_core/detection/judge.h"
+#include "collision_core/intersection/earliest_intersection.h"
 
 // The linker takes __wrap_X for X wherever one source of the core calls another (CMakeLists.txt
 // beside this file), and __real_X is then X itself. Names are those of the C++ ABI that g++ and
@@ -20,22 +20,27 @@ thread_local QuestionLog* log = nullptr;
 
 }  // namespace
 
-using Bound = SpaceTimeBound;
+using Bound = motion::SpaceTimeBound;
 
-PairTime RealAsk(const Bound& a, const Bound& b, Instant from) asm("__real_" COLLISION_ASK);
-PairTime RealMeet(const Bound& a, const Bound& b, Instant from, Instant until,
-                  double margin) asm("__real_" COLLISION_ASK "S3_d");
-Judged RealJudge(const History& a, const History& b, Instant until, Work* work,
-                 ContactTracker* tracker) asm("__real_" COLLISION_JUDGE);
+intersection::IntersectionTime RealAsk(const Bound& a, const Bound& b,
+                                       Instant from) asm("__real_" COLLISION_ASK);
+intersection::IntersectionTime RealMeet(const Bound& a, const Bound& b, Instant from, Instant until,
+                                        double margin) asm("__real_" COLLISION_ASK "S3_d");
+detection::Judged RealJudge(const detection::History& a, const detection::History& b, Instant until,
+                            WorkBudget* work,
+                            detection::ContactTracker* tracker) asm("__real_" COLLISION_JUDGE);
 
-PairTime WrappedAsk(const Bound& a, const Bound& b, Instant from) asm("__wrap_" COLLISION_ASK);
-PairTime WrappedMeet(const Bound& a, const Bound& b, Instant from, Instant until,
-                     double margin) asm("__wrap_" COLLISION_ASK "S3_d");
-Judged WrappedJudge(const History& a, const History& b, Instant until, Work* work,
-                    ContactTracker* tracker) asm("__wrap_" COLLISION_JUDGE);
+intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b,
+                                          Instant from) asm("__wrap_" COLLISION_ASK);
+intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Instant from,
+                                           Instant until,
+                                           double margin) asm("__wrap_" COLLISION_ASK "S3_d");
+detection::Judged WrappedJudge(const detection::History& a, const detection::History& b,
+                               Instant until, WorkBudget* work,
+                               detection::ContactTracker* tracker) asm("__wrap_" COLLISION_JUDGE);
 
-PairTime WrappedAsk(const Bound& a, const Bound& b, Instant from) {
-  const PairTime time = RealAsk(a, b, from);
+intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instant from) {
+  const intersection::IntersectionTime time = RealAsk(a, b, from);
   if (log != nullptr) {
     log->Note(
         Question::kAsked, a.declaration.radius, b.declaration.radius,
@@ -44,7 +49,8 @@ PairTime WrappedAsk(const Bound& a, const Bound& b, Instant from) {
   return time;
 }
 
-PairTime WrappedMeet(const Bound& a, const Bound& b, Instant from, Instant until, double margin) {
+intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Instant from,
+                                           Instant until, double margin) {
   if (log != nullptr) {
     log->Note(Question::kMet, a.declaration.radius, b.declaration.radius,
               {.from = from.nanoseconds()});
@@ -52,8 +58,9 @@ PairTime WrappedMeet(const Bound& a, const Bound& b, Instant from, Instant until
   return RealMeet(a, b, from, until, margin);
 }
 
-Judged WrappedJudge(const History& a, const History& b, Instant until, Work* work,
-                    ContactTracker* tracker) {
+detection::Judged WrappedJudge(const detection::History& a, const detection::History& b,
+                               Instant until, WorkBudget* work,
+                               detection::ContactTracker* tracker) {
   if (log != nullptr) {
     log->Note(Question::kJudged, a.newest().declaration.radius, b.newest().declaration.radius,
               {.from = until.nanoseconds()});

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "collision_core/motion/instant.h"
+#include "collision_core/base/instant.h"
 
 namespace collision::stress {
 

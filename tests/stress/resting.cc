@@ -2,7 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision_core/narrow_phase/work.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/numeric/seconds.h"
 #include "collision_core/shape/shape.h"
 #include "tests/stress/scene.h"
 #include "tests/support/meshes.h"
@@ -29,18 +30,18 @@ constexpr double kBystanders = 1.5;
 /// Revisions of events in a step at most, for each pair that is tracked.
 constexpr double kEventsPerPair = 4;
 
-std::shared_ptr<const Shape> CubeShape() {
-  static const auto cube = Shape::Build(Cube(0.5));
+std::shared_ptr<const shape::Shape> CubeShape() {
+  static const auto cube = shape::Shape::Build(Cube(0.5));
   return cube;
 }
 
-std::shared_ptr<const Shape> SlabShape() {
-  static const auto slab = Shape::Build(Box({-16, -16, -1}, {16, 16, 0}));
+std::shared_ptr<const shape::Shape> SlabShape() {
+  static const auto slab = shape::Shape::Build(Box({-16, -16, -1}, {16, 16, 0}));
   return slab;
 }
 
-AgentDeclaration Of(std::shared_ptr<const Shape> shape, double acceleration_max) {
-  AgentDeclaration declaration;
+motion::AgentDeclaration Of(std::shared_ptr<const shape::Shape> shape, double acceleration_max) {
+  motion::AgentDeclaration declaration;
   declaration.radius = shape->facts().radius;
   declaration.acceleration_max = acceleration_max;
   declaration.angular_acceleration_max = acceleration_max;
@@ -48,16 +49,16 @@ AgentDeclaration Of(std::shared_ptr<const Shape> shape, double acceleration_max)
   return declaration;
 }
 
-AgentDeclaration BallOf(double radius, double acceleration_max) {
-  AgentDeclaration declaration;
+motion::AgentDeclaration BallOf(double radius, double acceleration_max) {
+  motion::AgentDeclaration declaration;
   declaration.radius = radius;
   declaration.acceleration_max = acceleration_max;
   return declaration;
 }
 
 /// What the work of a step is limited to here.
-DetectorOptions Limited() {
-  DetectorOptions options;
+detection::DetectorOptions Limited() {
+  detection::DetectorOptions options;
   options.work_units_per_turn = 20'000;
   options.work_units_per_step = 60'000;
   return options;
@@ -66,8 +67,8 @@ DetectorOptions Limited() {
 /// Two far from everything else, which meet after `begin` seconds: nobody may starve them. Returns
 /// the first of them; the second comes next. Between two states each surface is known to T²/8 of the
 /// greatest acceleration of its points, ahead and behind; they close at 2 m/s.
-std::uint32_t AddPair(Scene* scene, const AgentDeclaration& declaration, const Vector3d& far,
-                      double begin) {
+std::uint32_t AddPair(Scene* scene, const motion::AgentDeclaration& declaration,
+                      const Vector3d& far, double begin) {
   const Vector3d x(1, 0, 0);
   const double half = 0.5 + begin;
   const auto a = scene->Add(declaration, Straight(far - half * x, x));
@@ -95,12 +96,13 @@ struct Service {
 void ExpectServed(const Scene& scene, std::uint32_t cube, double begin, const Service& service,
                   Outcome* outcome) {
   const auto confirmed = std::find_if(
-      scene.events().begin(), scene.events().end(), [cube](const CollisionEvent& event) {
-        return event.lower.slot == cube && event.status == EventStatus::kConfirmed;
+      scene.events().begin(), scene.events().end(), [cube](const detection::CollisionEvent& event) {
+        return event.lower.slot == cube && event.status == detection::EventStatus::kConfirmed;
       });
   if (!outcome->Expect(confirmed != scene.events().end(), "a pair of cubes is starved")) return;
-  const double after = SecondsBetween(Instant(), confirmed->now).upper - begin;
-  const double found = SecondsBetween(confirmed->begin.earliest, confirmed->begin.latest).upper;
+  const double after = numeric::SecondsBetween(Instant(), confirmed->now).upper - begin;
+  const double found =
+      numeric::SecondsBetween(confirmed->begin.earliest, confirmed->begin.latest).upper;
   outcome->Greatest("cubes_told_after_s", after);
   outcome->Greatest("cubes_width_s", found);
   outcome->Expect(after <= service.after, "a pair of cubes is starved: told late");
@@ -144,7 +146,7 @@ void ExpectClear(Scene& scene, std::uint32_t agent, Seconds begin, Outcome* outc
   if (scene.elapsed() >= begin) return;
   const auto clearance = scene.detector().ClearanceOf({1, agent, 1, 1});
   if (!outcome->Expect(clearance.has_value(), "no clearance")) return;
-  const Seconds ahead = SecondsBetween(scene.now(), clearance->clear_until).upper;
+  const Seconds ahead = numeric::SecondsBetween(scene.now(), clearance->clear_until).upper;
   const Seconds early = std::min<Seconds>(kAhead, begin - scene.elapsed()) - ahead;
   outcome->Greatest("clear_early_s", static_cast<double>(early));
   outcome->Expect(early <= 3e-9, "idle: clear for less than it could be");
@@ -154,7 +156,7 @@ void ExpectClear(Scene& scene, std::uint32_t agent, Seconds begin, Outcome* outc
 void ShapeScenes(const Setting&, Outcome* outcome) {
   for (int exponent = -20; exponent <= 20; exponent += 5) {
     const double half = std::ldexp(1, exponent);
-    const auto cube = Shape::Build(Cube(half));
+    const auto cube = shape::Shape::Build(Cube(half));
     Scene scene(Limited(), Instant(), outcome);
     const Vector3d x(1, 0, 0);
     const double away = 7 * half + 4 * half * kHalfStep;
@@ -186,7 +188,7 @@ void Stack(const Setting& setting, Outcome* outcome) {
 /// Along x from `from`, and turning as a ball of radius 1 does that rolls: v = ω r.
 Motion Roll(const Vector3d& from, double speed) {
   return [=](Seconds t) {
-    MotionState state;
+    motion::MotionState state;
     const double s = static_cast<double>(t);
     state.p_WA = from + speed * s * Vector3d(1, 0, 0);
     state.v_WA = {speed, 0, 0};
@@ -201,7 +203,7 @@ Motion Roll(const Vector3d& from, double speed) {
 void Rolling(const Setting& setting, Outcome* outcome) {
   Scene scene(Limited(), Instant(), outcome);
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
-  const auto round = Shape::Build(Sphere(2));
+  const auto round = shape::Shape::Build(Sphere(2));
   const double speed = 1;
   // Of triangles it touches the slab with its corners only, if at all.
   const auto ball = scene.Add(Of(round, 0.01), Roll({-8, 0, 1}, speed));
@@ -219,13 +221,13 @@ constexpr double kError = 1e-9;  ///< Of place [m] and velocity [m/s].
 struct Bouncing {
   double speed = 4, gravity = 8, restitution = 0.5;
 
-  MotionState At(Seconds t) const {
+  motion::MotionState At(Seconds t) const {
     Seconds u = speed, from = 0;
     while (u > 1e-9L && t > from + 2 * u / gravity) {
       from += 2 * u / gravity;
       u *= restitution;
     }
-    MotionState state;
+    motion::MotionState state;
     const Seconds s = t - from;
     if (u <= 1e-9L) u = 0;
     const Seconds z = u > 0 ? u * s - gravity * s * s / 2 : 0;
@@ -268,7 +270,7 @@ void ChatteringJumps(const Setting& setting, Outcome* outcome) {
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
   double last = 0;
   scene.Add(BallOf(0.5, bouncing.gravity), [bouncing, last](Seconds t) mutable {
-    MotionState state = bouncing.At(t);
+    motion::MotionState state = bouncing.At(t);
     const double fell = last - bouncing.gravity * kStepSeconds;
     state.discontinuity = std::abs(state.v_WA.z() - fell) > 1e-6 && t > 0;
     last = state.v_WA.z();
@@ -288,13 +290,13 @@ void AddGreedy(Scene* scene) {
     scene->Add(Of(CubeShape(), 0.01), Straight({aside, 0, 0.5 + k}, {0, 0, 0}));
     scene->Touch(k, k + 1, 0, INFINITY);
   }
-  const auto ball = scene->Add(Of(Shape::Build(Sphere(2)), 0.01), Roll({-8, 8, 1}, 1));
+  const auto ball = scene->Add(Of(shape::Shape::Build(Sphere(2)), 0.01), Roll({-8, 8, 1}, 1));
   scene->Touch(0, ball, 0, INFINITY);
   const Bouncing bouncing;
   auto chattering = Of(CubeShape(), 4 * bouncing.speed / kStepSeconds);
   chattering.angular_acceleration_max = 0.01;
   const auto cube = scene->Add(chattering, [bouncing](Seconds t) {
-    MotionState state = bouncing.At(t);
+    motion::MotionState state = bouncing.At(t);
     state.p_WA += Vector3d(8, -8, 0);
     return state;
   });
@@ -307,7 +309,7 @@ void AddGreedy(Scene* scene) {
 void Starving(const Setting& setting, Outcome* outcome) {
   const int steps = setting.Many(256, 1024);
   for (const std::uint64_t units : {16'000, 8'000, 4'000}) {
-    DetectorOptions options;
+    detection::DetectorOptions options;
     options.work_units_per_turn = units;
     options.work_units_per_step = units;
     Scene scene(options, Instant(), outcome);

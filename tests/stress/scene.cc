@@ -14,26 +14,29 @@ constexpr Seconds kTruthShare = 0x1p-58L;
 
 constexpr double kNanosecond = 1e-9;
 
-MotionState At(const Eigen::Vector3d& p, const Eigen::Vector3d& v) {
-  MotionState state;
+motion::MotionState At(const Eigen::Vector3d& p, const Eigen::Vector3d& v) {
+  motion::MotionState state;
   state.p_WA = p;
   state.v_WA = v;
   return state;
 }
 
-bool IsOpen(const CollisionEvent& event) {
-  return event.status == EventStatus::kPossible || event.status == EventStatus::kConfirmed;
+bool IsOpen(const detection::CollisionEvent& event) {
+  return event.status == detection::EventStatus::kPossible ||
+         event.status == detection::EventStatus::kConfirmed;
 }
 
-bool IsContact(const CollisionEvent& event) {
-  return event.status == EventStatus::kConfirmed || event.status == EventStatus::kEnded;
+bool IsContact(const detection::CollisionEvent& event) {
+  return event.status == detection::EventStatus::kConfirmed ||
+         event.status == detection::EventStatus::kEnded;
 }
 
 /// By plain doubles, and far more than they lose: twice the way of both does not join them.
-bool IsFar(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant now, Instant until) {
-  const auto way = [&](const SpaceTimeBound& bound) {
-    const double s = SecondsBetween(bound.state.stamp, std::max(now, until)).upper;
-    const MotionState& state = bound.state;
+bool IsFar(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant now,
+           Instant until) {
+  const auto way = [&](const motion::SpaceTimeBound& bound) {
+    const double s = numeric::SecondsBetween(bound.state.stamp, std::max(now, until)).upper;
+    const motion::MotionState& state = bound.state;
     return bound.declaration.radius + state.position_error +
            s * (state.v_WA.norm() + state.velocity_error) +
            s * s / 2 * bound.declaration.acceleration_max;
@@ -61,14 +64,14 @@ Motion Falling(const Eigen::Vector3d& p, const Eigen::Vector3d& v, const Eigen::
   };
 }
 
-Scene::Scene(const DetectorOptions& options, Instant start, Outcome* outcome)
+Scene::Scene(const detection::DetectorOptions& options, Instant start, Outcome* outcome)
     : detector_(options), options_(options), start_(start), now_(start), outcome_(outcome) {}
 
 Seconds Scene::Since(Instant t) const {
   return static_cast<Seconds>(t.nanoseconds() - start_.nanoseconds()) / 1e9L;
 }
 
-const MotionState& Scene::Tell(std::uint32_t agent, Instant t) {
+const motion::MotionState& Scene::Tell(std::uint32_t agent, Instant t) {
   Agent& it = agents_[agent];
   it.told.state = it.motion(Since(t));
   it.told.state.stamp = t;
@@ -76,7 +79,7 @@ const MotionState& Scene::Tell(std::uint32_t agent, Instant t) {
   return it.told.state;
 }
 
-std::uint32_t Scene::Add(const AgentDeclaration& declaration, Motion motion, int every) {
+std::uint32_t Scene::Add(const motion::AgentDeclaration& declaration, Motion motion, int every) {
   const auto agent = static_cast<std::uint32_t>(agents_.size());
   agents_.emplace_back();
   agents_[agent].motion = std::move(motion);
@@ -102,9 +105,10 @@ void Scene::StepTo(Instant now) {
   ++steps_;
   for (std::uint32_t agent = 0; agent < agents_.size(); ++agent) {
     if (steps_ % agents_[agent].every == 0) {
-      const UpdateOutcome told = detector_.Update(IdOf(agent), Tell(agent, now), now);
-      outcome_->Expect(told == UpdateOutcome::kKept || told == UpdateOutcome::kJumped,
-                       Named("an honest state is not kept", agent, agent, Since(now)));
+      const detection::UpdateOutcome told = detector_.Update(IdOf(agent), Tell(agent, now), now);
+      outcome_->Expect(
+          told == detection::UpdateOutcome::kKept || told == detection::UpdateOutcome::kJumped,
+          Named("an honest state is not kept", agent, agent, Since(now)));
     }
     detector_.Hear(IdOf(agent), now);
   }
@@ -131,7 +135,7 @@ void Scene::CheckAnnounced(Instant next) {
 
 void Scene::TakeEvents() {
   events_per_step_max_ = std::max(events_per_step_max_, detector_.events().size());
-  for (const CollisionEvent& event : detector_.events()) {
+  for (const detection::CollisionEvent& event : detector_.events()) {
     CheckBrackets(event);
     newest_[{event.lower.slot, event.higher.slot}][event.contact] = events_.size();
     events_.push_back(event);
@@ -142,7 +146,7 @@ void Scene::TakeEvents() {
   }
 }
 
-void Scene::CheckBrackets(const CollisionEvent& event) {
+void Scene::CheckBrackets(const detection::CollisionEvent& event) {
   const Seconds at = Since(event.now);
   const auto expect = [&](bool holds, const char* what) {
     outcome_->Expect(holds, Named(what, event.lower.slot, event.higher.slot, at));
@@ -160,18 +164,18 @@ void Scene::CheckBrackets(const CollisionEvent& event) {
 
 // How far apart two balls are: as closely as the motion since their last states leaves it. What is
 // told of an instant may hold up to a nanosecond later.
-void Scene::CheckDistance(const CollisionEvent& event) {
+void Scene::CheckDistance(const detection::CollisionEvent& event) {
   double open = 0, size = 0;
   for (const std::uint32_t agent : {event.lower.slot, event.higher.slot}) {
     const Agent& it = agents_[agent];
-    const AgentDeclaration& declaration = it.told.declaration;
+    const motion::AgentDeclaration& declaration = it.told.declaration;
     if (declaration.shape) return;
     const auto next =
         std::upper_bound(it.places.begin() + 1, it.places.end(), event.evaluated_at,
                          [](Instant at, const auto& place) { return at < place.first; });
     const auto last = std::prev(next);
-    const double s = SecondsBetween(last->first, event.evaluated_at).upper + kNanosecond;
-    const MotionState& state = it.told.state;
+    const double s = numeric::SecondsBetween(last->first, event.evaluated_at).upper + kNanosecond;
+    const motion::MotionState& state = it.told.state;
     open +=
         state.position_error + s * state.velocity_error + s * s / 2 * declaration.acceleration_max;
     size += declaration.radius + last->second + (next == it.places.end() ? last : next)->second;
@@ -205,7 +209,7 @@ void Scene::CheckClearances() {
 void Scene::CheckIdle() {
   const double asked_again =
       anybody_accelerates_ ? options_.temporal_resolution : options_.announce_within;
-  const Instant soon = AddRoundedDown(now_, asked_again);
+  const Instant soon = numeric::AddRoundedDown(now_, asked_again);
   for (std::uint32_t agent = 0; agent < agents_.size(); ++agent) {
     const auto clearance = detector_.ClearanceOf(IdOf(agent));
     if (!clearance || clearance->saturated || clearance->clear_until >= soon) continue;
@@ -218,9 +222,9 @@ void Scene::CheckIdle() {
 /// Whether anybody that is not told to touch it could by a nanosecond after `until`.
 bool Scene::CouldTouchBy(std::uint32_t agent, Instant until) const {
   const Dyadic by = ExactMeeting::Between(now_, std::max(now_, until)) + Dyadic(1.0);
-  const SpaceTimeBound& bound = agents_[agent].told;
+  const motion::SpaceTimeBound& bound = agents_[agent].told;
   for (std::uint32_t other = 0; other < agents_.size(); ++other) {
-    const SpaceTimeBound& partner = agents_[other].told;
+    const motion::SpaceTimeBound& partner = agents_[other].told;
     if (other == agent || !CanMeet(bound.declaration, partner.declaration)) continue;
     if (IsFar(bound, partner, now_, until)) continue;
     if (IsToldToTouch(std::min(agent, other), std::max(agent, other))) continue;
@@ -234,19 +238,21 @@ bool Scene::IsToldToTouch(std::uint32_t a, std::uint32_t b) const {
   const auto of_pair = newest_.find({a, b});
   if (of_pair == newest_.end()) return false;
   return std::any_of(of_pair->second.begin(), of_pair->second.end(), [&](const auto& contact) {
-    return events_[contact.second].status == EventStatus::kConfirmed;
+    return events_[contact.second].status == detection::EventStatus::kConfirmed;
   });
 }
 
-const CollisionEvent* Scene::Covering(const Meeting& meeting) const {
+const detection::CollisionEvent* Scene::Covering(const Meeting& meeting) const {
   const auto of_pair = newest_.find({meeting.a, meeting.b});
   if (of_pair == newest_.end()) return nullptr;
   const Seconds slack = kTruthShare * std::fabs(meeting.begin);
   for (const auto& [contact, index] : of_pair->second) {
-    const CollisionEvent& event = events_[index];
+    const detection::CollisionEvent& event = events_[index];
     // Of touches that last no time one event may cover several.
-    const bool whole = event.status == EventStatus::kUndecided || meeting.end <= meeting.begin;
-    if (!IsContact(event) && event.status != EventStatus::kUndecided && !IsOpen(event)) continue;
+    const bool whole =
+        event.status == detection::EventStatus::kUndecided || meeting.end <= meeting.begin;
+    if (!IsContact(event) && event.status != detection::EventStatus::kUndecided && !IsOpen(event))
+      continue;
     const Instant latest = whole ? event.end.latest : event.begin.latest;
     if (!event.began_before && Since(event.begin.earliest) > meeting.begin + slack) continue;
     if (!latest.is_never() && Since(latest) < meeting.begin - slack) continue;
@@ -255,7 +261,7 @@ const CollisionEvent* Scene::Covering(const Meeting& meeting) const {
   return nullptr;
 }
 
-bool Scene::TouchAtAll(const CollisionEvent& event) const {
+bool Scene::TouchAtAll(const detection::CollisionEvent& event) const {
   return std::any_of(meetings_.begin(), meetings_.end(), [&](const Meeting& meeting) {
     return meeting.a == event.lower.slot && meeting.b == event.higher.slot;
   });
@@ -265,7 +271,7 @@ void Scene::Judge(Seconds width, bool confirmed, Seconds end_width) {
   for (const Meeting& meeting : meetings_) {
     if (meeting.begin > elapsed()) continue;
     outcome_->Add("contacts", 1);
-    const CollisionEvent* event = Covering(meeting);
+    const detection::CollisionEvent* event = Covering(meeting);
     if (!outcome_->Expect(event != nullptr,
                           Named("no event covers it", meeting.a, meeting.b, meeting.begin))) {
       continue;
@@ -277,22 +283,22 @@ void Scene::Judge(Seconds width, bool confirmed, Seconds end_width) {
     if (!IsContact(*event)) continue;
     outcome_->Add("confirmed", 1);
     // Touches that last no time may be several in one event.
-    if (event->status != EventStatus::kEnded || meeting.end <= meeting.begin) continue;
+    if (event->status != detection::EventStatus::kEnded || meeting.end <= meeting.begin) continue;
     const Seconds slack = kTruthShare * std::fabs(meeting.end);
     outcome_->Expect(Since(event->end.earliest) <= meeting.end + slack &&
                          Since(event->end.latest) >= meeting.end - slack,
                      Named("the end is not in its bracket", meeting.a, meeting.b, meeting.end));
   }
-  for (const CollisionEvent& event : events_) {
+  for (const detection::CollisionEvent& event : events_) {
     outcome_->Expect(
         !IsContact(event) || TouchAtAll(event),
         Named("a contact that is none", event.lower.slot, event.higher.slot, Since(event.now)));
   }
 }
 
-void Scene::JudgeWidth(const Meeting& meeting, const CollisionEvent& event, Seconds width,
-                       Seconds end_width) {
-  const auto judge = [&](const TimeBracket& bracket, Seconds most, const char* what) {
+void Scene::JudgeWidth(const Meeting& meeting, const detection::CollisionEvent& event,
+                       Seconds width, Seconds end_width) {
+  const auto judge = [&](const detection::TimeBracket& bracket, Seconds most, const char* what) {
     const Seconds found = Since(bracket.latest) - Since(bracket.earliest);
     outcome_->Greatest(std::string(what) + "_width_s", static_cast<double>(found));
     outcome_->Expect(found <= most, Named((std::string("a wide bracket of the ") + what).c_str(),
@@ -301,7 +307,7 @@ void Scene::JudgeWidth(const Meeting& meeting, const CollisionEvent& event, Seco
   if (IsContact(event) && meeting.begin > 0) judge(event.begin, width, "begin");
   // Touches that last no time may be several in one event.
   if (meeting.end <= meeting.begin || std::isinf(meeting.end) || IsOpen(event)) return;
-  if (event.status == EventStatus::kEnded) judge(event.end, end_width, "end");
+  if (event.status == detection::EventStatus::kEnded) judge(event.end, end_width, "end");
   const Seconds longer =
       Since(event.end.latest) - Since(event.begin.earliest) - (meeting.end - meeting.begin);
   outcome_->Add("stays", 1);

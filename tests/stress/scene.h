@@ -15,7 +15,7 @@ namespace collision::stress {
 using Seconds = long double;
 
 /// The state of an agent so many seconds after the start; the stamp is filled in.
-using Motion = std::function<MotionState(Seconds)>;
+using Motion = std::function<motion::MotionState(Seconds)>;
 
 /// A motion with constant velocity. Exact where the numbers are dyadic.
 Motion Straight(const Eigen::Vector3d& p, const Eigen::Vector3d& v);
@@ -43,10 +43,10 @@ inline constexpr double kDistanceUnits = 2 * 16;
 /// brackets are finite and ordered, and the queue holds no more than agents and pairs.
 class Scene {
  public:
-  Scene(const DetectorOptions& options, Instant start, Outcome* outcome);
+  Scene(const detection::DetectorOptions& options, Instant start, Outcome* outcome);
 
   /// At rest at the start of the scene or later; told every `every` steps.
-  std::uint32_t Add(const AgentDeclaration& declaration, Motion motion, int every = 1);
+  std::uint32_t Add(const motion::AgentDeclaration& declaration, Motion motion, int every = 1);
 
   /// All that is true of who touches whom: pairs that are not named never do.
   void Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end, Seconds width = 0);
@@ -68,9 +68,9 @@ class Scene {
   /// certain throughout.
   void Judge(Seconds width, bool confirmed, Seconds end_width = 0);
 
-  const std::vector<CollisionEvent>& events() const { return events_; }
-  Detector& detector() { return detector_; }
-  const Detector& detector() const { return detector_; }
+  const std::vector<detection::CollisionEvent>& events() const { return events_; }
+  detection::Detector& detector() { return detector_; }
+  const detection::Detector& detector() const { return detector_; }
   Instant now() const { return now_; }
   Seconds elapsed() const { return Since(now_); }
   std::size_t events_per_step_max() const { return events_per_step_max_; }
@@ -81,34 +81,34 @@ class Scene {
   struct Agent {
     Motion motion;
     int every = 1;
-    SpaceTimeBound told;  ///< As of its newest state.
+    motion::SpaceTimeBound told;  ///< As of its newest state.
     /// How far off it was when, of all states.
     std::vector<std::pair<Instant, double>> places;
   };
 
-  AgentId IdOf(std::uint32_t agent) const { return {1, agent, 1, 1}; }
+  detection::AgentId IdOf(std::uint32_t agent) const { return {1, agent, 1, 1}; }
   Seconds Since(Instant t) const;
-  const MotionState& Tell(std::uint32_t agent, Instant t);
+  const motion::MotionState& Tell(std::uint32_t agent, Instant t);
   void CheckAnnounced(Instant next);
   void TakeEvents();
-  void CheckBrackets(const CollisionEvent& event);
+  void CheckBrackets(const detection::CollisionEvent& event);
   void CheckClearances();
-  void CheckDistance(const CollisionEvent& event);
+  void CheckDistance(const detection::CollisionEvent& event);
   void CheckIdle();
   bool CouldTouchBy(std::uint32_t agent, Instant until) const;
   bool IsToldToTouch(std::uint32_t a, std::uint32_t b) const;
-  const CollisionEvent* Covering(const Meeting& meeting) const;
-  void JudgeWidth(const Meeting& meeting, const CollisionEvent& event, Seconds width,
+  const detection::CollisionEvent* Covering(const Meeting& meeting) const;
+  void JudgeWidth(const Meeting& meeting, const detection::CollisionEvent& event, Seconds width,
                   Seconds end_width);
-  bool TouchAtAll(const CollisionEvent& event) const;
+  bool TouchAtAll(const detection::CollisionEvent& event) const;
 
-  Detector detector_;
-  const DetectorOptions options_;
+  detection::Detector detector_;
+  const detection::DetectorOptions options_;
   Instant start_, now_;
   Outcome* outcome_;
   std::vector<Agent> agents_;
   std::vector<Meeting> meetings_;
-  std::vector<CollisionEvent> events_;  ///< All revisions.
+  std::vector<detection::CollisionEvent> events_;  ///< All revisions.
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::map<std::uint32_t, std::size_t>> newest_;
   bool idle_forbidden_ = false, anybody_accelerates_ = false;
   int steps_ = 0;

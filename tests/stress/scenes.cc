@@ -16,8 +16,8 @@ constexpr double kHalfStep = kStepSeconds / 2;  ///< What begins then lies betwe
 constexpr double kLight = 299792458;
 
 /// Agents of one group meet only those of that group.
-AgentDeclaration Declared(double radius, double acceleration_max = 0, int group = 0) {
-  AgentDeclaration declaration;
+motion::AgentDeclaration Declared(double radius, double acceleration_max = 0, int group = 0) {
+  motion::AgentDeclaration declaration;
   declaration.radius = radius;
   declaration.acceleration_max = acceleration_max;
   declaration.group = declaration.mask = 1u << group;
@@ -57,7 +57,7 @@ void AccelerationScenes(const Setting&, Outcome* outcome) {
 
 // Ten pairs that meet after 0.75 µs, 7.5 µs, ... 750 s, while steps grow from 1/2 µs on.
 void TimeScales(const Setting&, Outcome* outcome) {
-  DetectorOptions options;
+  detection::DetectorOptions options;
   options.announce_within = 0.5;
   options.temporal_resolution = 1e-6;
   Scene scene(options, Instant(), outcome);

@@ -19,8 +19,8 @@ double ScaleOf(const Body& a, const Body& b) {
 
 }  // namespace
 
-SpaceTimeBound Body::Bound() const {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound Body::Bound() const {
+  motion::SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
   bound.state.w_WB = w;
@@ -31,21 +31,22 @@ SpaceTimeBound Body::Bound() const {
   return bound;
 }
 
-std::shared_ptr<const Shape> BoxShape(const Eigen::Vector3d& half, bool solid) {
-  if (solid) return Shape::Compound(nullptr, {SolidBox(-half, half)});
-  return Shape::Build(Box(-half, half));
+std::shared_ptr<const shape::Shape> BoxShape(const Eigen::Vector3d& half, bool solid) {
+  if (solid) return shape::Shape::Compound(nullptr, {SolidBox(-half, half)});
+  return shape::Shape::Build(Box(-half, half));
 }
 
-ContactTime FindContact(const Body& a, const Body& b, double duration, std::uint64_t units) {
-  const BodyPair pair = SegmentsOf({a.Bound(), {}}, {b.Bound(), {}}, Instant());
-  Work work(units);
+narrow_phase::TimeOfContactResult FindContact(const Body& a, const Body& b, double duration,
+                                              std::uint64_t units) {
+  const narrow_phase::BodyPair pair = SegmentsOf({a.Bound(), {}}, {b.Bound(), {}}, Instant());
+  WorkBudget work(units);
   return TimeOfContact(pair.a, pair.b, duration, {}, &work);
 }
 
-void JudgeForm(const ContactTime& found, double duration, std::uint64_t units,
+void JudgeForm(const narrow_phase::TimeOfContactResult& found, double duration, std::uint64_t units,
                const std::string& what, Outcome* outcome) {
-  const Interval ends[] = {found.begin, found.end};
-  for (const Interval& end : ends) {
+  const numeric::Interval ends[] = {found.begin, found.end};
+  for (const numeric::Interval& end : ends) {
     outcome->Expect(end.lower >= 0 && end.lower <= end.upper && end.upper <= duration,
                     what + ": the bracket is not ordered");
   }
@@ -58,12 +59,13 @@ void JudgeForm(const ContactTime& found, double duration, std::uint64_t units,
 
 void JudgeTimes(const Body& a, const Body& b, double duration, long double begin, long double end,
                 double speed, const std::string& what, Outcome* outcome) {
-  const ContactTime found = FindContact(a, b, duration, kPlenty);
+  const narrow_phase::TimeOfContactResult found = FindContact(a, b, duration, kPlenty);
   JudgeForm(found, duration, kPlenty, what, outcome);
-  if (!outcome->Expect(found.status == ContactStatus::kContact, what + ": contact is not found")) {
+  if (!outcome->Expect(found.status == narrow_phase::ContactStatus::kContact,
+                       what + ": contact is not found")) {
     return;
   }
-  const auto judge = [&](Interval bracket, long double truth, const char* which) {
+  const auto judge = [&](numeric::Interval bracket, long double truth, const char* which) {
     // The truth itself is known to long double.
     const long double slack = 0x1p-60L * truth;
     outcome->Expect(bracket.lower <= truth + slack && bracket.upper >= truth - slack,
@@ -78,8 +80,8 @@ void JudgeTimes(const Body& a, const Body& b, double duration, long double begin
   judge(found.end, end, "end");
 }
 
-void JudgeStay(const ContactTime& found, long double begin, long double end, double unit,
-               const std::string& what, Outcome* outcome) {
+void JudgeStay(const narrow_phase::TimeOfContactResult& found, long double begin, long double end,
+               double unit, const std::string& what, Outcome* outcome) {
   outcome->Expect(found.begin.lower <= begin && found.end.upper >= end, what + ": missed");
   const auto longer =
       static_cast<double>(std::max(begin - found.begin.lower, found.end.upper - end));

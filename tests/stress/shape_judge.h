@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "collision_core/narrow_phase/contact_time.h"
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "collision_core/shape/shape.h"
 #include "tests/stress/case.h"
 
@@ -11,20 +11,21 @@ namespace collision::stress {
 
 /// A body that moves and turns with constant velocities, known exactly at the start.
 struct Body {
-  std::shared_ptr<const Shape> shape = nullptr;  ///< Null: a ball of `radius`.
+  std::shared_ptr<const shape::Shape> shape = nullptr;  ///< Null: a ball of `radius`.
   double radius = 0;
   Eigen::Vector3d p{0, 0, 0}, v{0, 0, 0}, w{0, 0, 0};
   Eigen::Quaterniond q{1, 0, 0, 0};
 
-  SpaceTimeBound Bound() const;
+  motion::SpaceTimeBound Bound() const;
 };
 
-std::shared_ptr<const Shape> BoxShape(const Eigen::Vector3d& half, bool solid);
+std::shared_ptr<const shape::Shape> BoxShape(const Eigen::Vector3d& half, bool solid);
 
 /// Both seen from a frame that moves along with A, as the service sees them.
-ContactTime FindContact(const Body& a, const Body& b, double duration, std::uint64_t units);
+narrow_phase::TimeOfContactResult FindContact(const Body& a, const Body& b, double duration,
+                                              std::uint64_t units);
 
-/// Work that is plenty for a pair of simple bodies.
+/// WorkBudget that is plenty for a pair of simple bodies.
 inline constexpr std::uint64_t kPlenty = 2'000'000;
 
 /// K of times of contact: a bracket is at most 1e-12 of the time wide, and K units in the last place
@@ -44,11 +45,11 @@ void JudgeTimes(const Body& a, const Body& b, double duration, long double begin
 
 /// Where contact is not certain: it is not excluded on [begin, end], and no sooner or later than a
 /// bracket may be wide. `unit` in seconds.
-void JudgeStay(const ContactTime& found, long double begin, long double end, double unit,
-               const std::string& what, Outcome* outcome);
+void JudgeStay(const narrow_phase::TimeOfContactResult& found, long double begin, long double end,
+               double unit, const std::string& what, Outcome* outcome);
 
 /// What holds of every answer: a finite, ordered one within the work allowed.
-void JudgeForm(const ContactTime& found, double duration, std::uint64_t units,
+void JudgeForm(const narrow_phase::TimeOfContactResult& found, double duration, std::uint64_t units,
                const std::string& what, Outcome* outcome);
 
 void SayTimes(Outcome* outcome);

@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 
 constexpr double kLight = 299792458;
 
-std::shared_ptr<const Shape> CubeOf(double half, bool solid) {
+std::shared_ptr<const shape::Shape> CubeOf(double half, bool solid) {
   return BoxShape(Vector3d::Constant(half), solid);
 }
 
@@ -99,20 +99,21 @@ void NeedlesAndPlates(const Setting&, Outcome* outcome) {
 // Surfaces of one triangle: through each other, and a ball, and a point, through one.
 void OneTriangle(const Setting&, Outcome* outcome) {
   for (const double size : {0x1p-19, 1.0, 0x1p19}) {
-    TriangleMesh flat, upright;
+    geometry::TriangleMesh flat, upright;
     flat.vertices = {{-size, -size, 0}, {size, -size, 0}, {0, size, 0}};
     upright.vertices = {{0, -size / 4, size}, {0, size / 4, size}, {0, 0, -size}};
     flat.triangles = upright.triangles = {{0, 1, 2}};
-    const Body a{Shape::Build(flat)};
+    const Body a{shape::Shape::Build(flat)};
     const Vector3d above(0, 0, 3 * size), down(0, 0, -4 * size);
     const std::string of = " of " + Show(size) + " m";
-    JudgeTimes(a, {Shape::Build(upright), 0, above, down}, 2, 0.5L, 1, 4 * size, "triangles" + of,
-               outcome);
+    JudgeTimes(a, {shape::Shape::Build(upright), 0, above, down}, 2, 0.5L, 1, 4 * size,
+               "triangles" + of, outcome);
     JudgeTimes(a, {nullptr, size / 2, above, down}, 2, 0.625L, 0.875L, 4 * size,
                "triangle and ball" + of, outcome);
-    const ContactTime point = FindContact(a, {nullptr, 0, above, down}, 2, kPlenty);
+    const narrow_phase::TimeOfContactResult point =
+        FindContact(a, {nullptr, 0, above, down}, 2, kPlenty);
     JudgeForm(point, 2, kPlenty, "triangle and point", outcome);
-    outcome->Expect(point.status != ContactStatus::kFree,
+    outcome->Expect(point.status != narrow_phase::ContactStatus::kFree,
                     "a point that passes through a triangle is missed");
     JudgeStay(point, 0.75, 0.75, 0x1p-52 * 4 * size / (4 * size), "triangle and point" + of,
               outcome);
@@ -123,18 +124,20 @@ void OneTriangle(const Setting&, Outcome* outcome) {
 // A sheet of a million triangles: a ball falls through it, and a cube.
 void MillionTriangles(const Setting& setting, Outcome* outcome) {
   const auto cells = static_cast<std::uint32_t>(setting.Many(64, 708));
-  ShapeOptions options;
-  options.builder = TreeBuilder::kHalved;
-  const Body sheet{Shape::Build(Sheet(64, cells), options)};
+  sphere_tree::ShapeOptions options;
+  options.builder = sphere_tree::TreeBuilder::kHalved;
+  const Body sheet{shape::Shape::Build(Sheet(64, cells), options)};
   const auto triangles = static_cast<double>(sheet.shape->mesh().triangles.size());
   outcome->Set("triangles", triangles);
   const Vector3d above(5.25, -7.125, 3), down(0, 0, -4);
   JudgeTimes(sheet, {nullptr, 0.5, above, down}, 2, 0.625L, 0.875L, 4, "a ball", outcome);
   JudgeTimes(sheet, {CubeOf(0.5, false), 0, above, down}, 2, 0.625L, 0.875L, 4, "a cube", outcome);
   JudgeTimes(sheet, {CubeOf(0.5, true), 0, above, down}, 2, 0.625L, 0.875L, 4, "a solid", outcome);
-  const ContactTime beside = FindContact(sheet, {nullptr, 0.5, {66, 0, 3}, down}, 2, kPlenty);
+  const narrow_phase::TimeOfContactResult beside =
+      FindContact(sheet, {nullptr, 0.5, {66, 0, 3}, down}, 2, kPlenty);
   JudgeForm(beside, 2, kPlenty, "beside it", outcome);
-  outcome->Expect(beside.status == ContactStatus::kFree, "what falls beside it is not free");
+  outcome->Expect(beside.status == narrow_phase::ContactStatus::kFree,
+                  "what falls beside it is not free");
   SayTimes(outcome);
 }
 
@@ -145,19 +148,19 @@ void Grazing(const Setting&, Outcome* outcome) {
       for (const double aside : {2 - 0x1p-52, 2.0, 2 + 0x1p-51}) {
         const auto cube = CubeOf(size, solid);
         const Body b{cube, 0, {-10 * size, aside * size, 0}, {16 * size, 0, 0}};
-        const ContactTime found = FindContact({cube}, b, 2, kPlenty);
+        const narrow_phase::TimeOfContactResult found = FindContact({cube}, b, 2, kPlenty);
         const std::string what = "aside by " + Show((aside - 2) / 0x1p-52) + " units";
         JudgeForm(found, 2, kPlenty, what, outcome);
         if (aside <= 2) {
-          outcome->Expect(found.status != ContactStatus::kFree, what + ": missed");
+          outcome->Expect(found.status != narrow_phase::ContactStatus::kFree, what + ": missed");
         } else {
-          outcome->Expect(found.status != ContactStatus::kContact,
+          outcome->Expect(found.status != narrow_phase::ContactStatus::kContact,
                           what + ": a contact that is none");
         }
-        if (found.status != ContactStatus::kFree) {
+        if (found.status != narrow_phase::ContactStatus::kFree) {
           JudgeStay(found, 0.5, 0.75, 0x1p-52 * 12 * size / (16 * size), what, outcome);
         }
-        if (found.status != ContactStatus::kUndecided) continue;
+        if (found.status != narrow_phase::ContactStatus::kUndecided) continue;
         outcome->Greatest("width_units", found.within / (0x1p-52 * 12 * size));
         outcome->Expect(found.within <= kShapeUnits * 0x1p-52 * 12 * size,
                         what + ": undecided within " + Show(found.within) + " m");
@@ -204,16 +207,17 @@ long double TouchOfBar(const Body& ball, long double from, long double step) {
 // Where the turn is beyond measure the bar may be turned any way: what flies past is not free while it
 // is within the bar's reach, and no longer.
 void JudgeUnknownTurn(Body bar, Outcome* outcome) {
-  constexpr double kDuration = 1, kNearest = 0.5, kAside = 1.5, kSpeed = 8;
-  bar.w = {0, 0, 4 * kTurnMax};
-  const Body ball{nullptr, 0.25, {-kSpeed * kNearest, kAside, 0}, {kSpeed, 0, 0}};
+  constexpr double kDuration = 1, narrow_phase::kNearest = 0.5, kAside = 1.5, kSpeed = 8;
+  bar.w = {0, 0, 4 * numeric::kRotationAngleMax};
+  const Body ball{nullptr, 0.25, {-kSpeed * narrow_phase::kNearest, kAside, 0}, {kSpeed, 0, 0}};
   const double reach = kBar.norm() + ball.radius;
   const long double half = std::sqrt(reach * reach - kAside * static_cast<long double>(kAside)) / 8;
-  const ContactTime found = FindContact(bar, ball, kDuration, kPlenty);
+  const narrow_phase::TimeOfContactResult found = FindContact(bar, ball, kDuration, kPlenty);
   JudgeForm(found, kDuration, kPlenty, "turned beyond measure", outcome);
-  outcome->Expect(found.status == ContactStatus::kUndecided, "turned beyond measure, and decided");
-  JudgeStay(found, kNearest - half, kNearest + half, 0x1p-52 * 6.25 / kSpeed,
-            "turned beyond measure", outcome);
+  outcome->Expect(found.status == narrow_phase::ContactStatus::kUndecided,
+                  "turned beyond measure, and decided");
+  JudgeStay(found, narrow_phase::kNearest - half, narrow_phase::kNearest + half,
+            0x1p-52 * 6.25 / kSpeed, "turned beyond measure", outcome);
 }
 
 // What stays beyond the reach of the bar is free; what comes down on it touches it within half a
@@ -223,9 +227,10 @@ void Spinning(const Setting&, Outcome* outcome) {
     Body bar{BoxShape(kBar, solid)};
     bar.w = {0, 0, kSpin};
     const Body beyond{nullptr, 0.25, {-4, 2.3, 0}, {8, 0, 0}};
-    const ContactTime free = FindContact(bar, beyond, 0.9, kPlenty);
+    const narrow_phase::TimeOfContactResult free = FindContact(bar, beyond, 0.9, kPlenty);
     JudgeForm(free, 0.9, kPlenty, "beyond its reach", outcome);
-    outcome->Expect(free.status == ContactStatus::kFree, "what is beyond its reach is not free");
+    outcome->Expect(free.status == narrow_phase::ContactStatus::kFree,
+                    "what is beyond its reach is not free");
     // The ball is as low as the bar's face at 0.3125 s, and has passed the other one at 0.6875 s; the
     // bar is below it once in half a turn.
     const Body falling{nullptr, 0.25, {0.75, 0.5, 1}, {0, 0, -2}};

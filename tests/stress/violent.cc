@@ -49,7 +49,7 @@ constexpr Wild kWild[] = {
 
 /// Everything that was told and asked of calm agents among themselves.
 struct Told {
-  std::vector<CollisionEvent> events;
+  std::vector<detection::CollisionEvent> events;
   QuestionLog::Questions of[kQuestions];
   std::uint64_t queries = 0;
 };
@@ -57,7 +57,7 @@ struct Told {
 // Round and round among them, at 200 m/s and 4000 m/s², half of what it might.
 Motion Round(std::uint32_t which, int jumps_every) {
   return [=, steps = 0](Seconds t) mutable {
-    MotionState state;
+    motion::MotionState state;
     const double angle = static_cast<double>(20 * t) + which;
     state.p_WA = {10 * std::cos(angle), 10 * std::sin(angle), 4.0 * which};
     state.v_WA = {-200 * std::sin(angle), 200 * std::cos(angle), 0};
@@ -67,16 +67,16 @@ Motion Round(std::uint32_t which, int jumps_every) {
   };
 }
 
-AgentDeclaration Ball(double radius, double acceleration_max) {
-  AgentDeclaration declaration;
+motion::AgentDeclaration Ball(double radius, double acceleration_max) {
+  motion::AgentDeclaration declaration;
   declaration.radius = radius;
   declaration.acceleration_max = acceleration_max;
   return declaration;
 }
 
-Told RunAmong(const Wild& wild, bool violent, BroadPhaseMethod method, int steps,
+Told RunAmong(const Wild& wild, bool violent, broad_phase::BroadPhaseMethod method, int steps,
               Outcome* outcome) {
-  DetectorOptions options;
+  detection::DetectorOptions options;
   options.announce_within = wild.announce_within;
   options.broad_phase = method;
   QuestionLog log;
@@ -98,7 +98,7 @@ Told RunAmong(const Wild& wild, bool violent, BroadPhaseMethod method, int steps
     scene.StepTo(now);
   }
   Told told;
-  for (const CollisionEvent& event : scene.events()) {
+  for (const detection::CollisionEvent& event : scene.events()) {
     if (event.higher.slot < kCalm) told.events.push_back(event);
   }
   for (int q = 0; q < kQuestions; ++q) {
@@ -110,7 +110,7 @@ Told RunAmong(const Wild& wild, bool violent, BroadPhaseMethod method, int steps
   return told;
 }
 
-auto BitsOf(const CollisionEvent& e) {
+auto BitsOf(const detection::CollisionEvent& e) {
   return std::tuple(e.lower, e.higher, e.contact, e.revision, e.now, e.status, e.begin.earliest,
                     e.begin.latest, e.end.earliest, e.end.latest, e.separation_lower,
                     e.separation_upper, e.depth_lower, e.work, e.limited_by);
@@ -137,9 +137,11 @@ std::set<std::tuple<double, double, std::int64_t>> TimesOf(
 }
 
 void JudgeSame(const Told& alone, const Told& among, const std::string& where, Outcome* outcome) {
-  const bool same_events = std::equal(
-      alone.events.begin(), alone.events.end(), among.events.begin(), among.events.end(),
-      [](const CollisionEvent& a, const CollisionEvent& b) { return BitsOf(a) == BitsOf(b); });
+  const bool same_events =
+      std::equal(alone.events.begin(), alone.events.end(), among.events.begin(), among.events.end(),
+                 [](const detection::CollisionEvent& a, const detection::CollisionEvent& b) {
+                   return BitsOf(a) == BitsOf(b);
+                 });
   outcome->Expect(same_events, where + "other events of calm ones");
   outcome->Expect(Of(alone, Question::kJudged) == Of(among, Question::kJudged),
                   where + "calm pairs are judged more often, or at other times");
@@ -151,14 +153,14 @@ void JudgeSame(const Told& alone, const Told& among, const std::string& where, O
 // met by whom it is asked about. What the other methods spare of that depends on where everybody is,
 // also on the violent one: with and without it they may ask a pair less often, but never at a time
 // at which the sweep asks none.
-void JudgeMet(const Wild& wild, BroadPhaseMethod method, const Told& alone, const Told& among,
-              const Told& swept, Outcome* outcome) {
+void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told& alone,
+              const Told& among, const Told& swept, Outcome* outcome) {
   const std::string where = std::string(Name(method)) + ", " + wild.name + ": ";
   JudgeSame(alone, among, where, outcome);
   const auto all = TimesOf(Of(swept, Question::kMet));
   const auto times = TimesOf(Of(among, Question::kMet));
   const auto without = TimesOf(Of(alone, Question::kMet));
-  if (method == BroadPhaseMethod::kFaceSweep) {
+  if (method == broad_phase::BroadPhaseMethod::kFaceSweep) {
     outcome->Expect(times == all && without == all,
                     where + "calm ones are asked about each other at other times");
   }
@@ -177,11 +179,13 @@ void JudgeMet(const Wild& wild, BroadPhaseMethod method, const Told& alone, cons
 void Violent(const Setting& setting, Outcome* outcome) {
   const int steps = setting.Many(640, 6400);
   for (const Wild& wild : kWild) {
-    const Told swept = RunAmong(wild, false, BroadPhaseMethod::kFaceSweep, steps, outcome);
+    const Told swept =
+        RunAmong(wild, false, broad_phase::BroadPhaseMethod::kFaceSweep, steps, outcome);
     outcome->Expect(CountOf(Of(swept, Question::kMet)) > kCalm * kCalm,
                     "no question was taken down");
-    for (const auto method : {BroadPhaseMethod::kFaceSweep, BroadPhaseMethod::kAllPairs,
-                              BroadPhaseMethod::kSpatialIndex, BroadPhaseMethod::kAuto}) {
+    for (const auto method :
+         {broad_phase::BroadPhaseMethod::kFaceSweep, broad_phase::BroadPhaseMethod::kAllPairs,
+          broad_phase::BroadPhaseMethod::kSpatialIndex, broad_phase::BroadPhaseMethod::kAuto}) {
       const Told alone = RunAmong(wild, false, method, steps, outcome);
       const Told among = RunAmong(wild, true, method, steps, outcome);
       JudgeMet(wild, method, alone, among, swept, outcome);

@@ -19,25 +19,26 @@ inline Eigen::Vector3d Point(Random& random, double size) {
 
 /// Closed, with a corner at each point.
 inline void AddTetrahedron(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                           const Eigen::Vector3d& c, const Eigen::Vector3d& d, TriangleMesh* mesh) {
+                           const Eigen::Vector3d& c, const Eigen::Vector3d& d,
+                           geometry::TriangleMesh* mesh) {
   const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
   mesh->vertices.insert(mesh->vertices.end(), {a, b, c, d});
-  const Triangle faces[] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  for (const Triangle& t : faces) {
+  const geometry::Triangle faces[] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  for (const geometry::Triangle& t : faces) {
     mesh->triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
 }
 
 inline void AddTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const Eigen::Vector3d& c, TriangleMesh* mesh) {
+                        const Eigen::Vector3d& c, geometry::TriangleMesh* mesh) {
   const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
   mesh->vertices.insert(mesh->vertices.end(), {a, b, c});
   mesh->triangles.push_back({first, first + 1, first + 2});
 }
 
 /// Triangles anywhere, of sizes from 1e-9 to 1.
-inline TriangleMesh Soup(Random& random) {
-  TriangleMesh mesh;
+inline geometry::TriangleMesh Soup(Random& random) {
+  geometry::TriangleMesh mesh;
   for (std::uint64_t i = 1 + random.Below(150); i > 0; --i) {
     const Eigen::Vector3d a = Point(random, 1);
     const double size = random.LogUniform(1e-9, 1);
@@ -47,8 +48,8 @@ inline TriangleMesh Soup(Random& random) {
 }
 
 /// Needles, some with corners nearly or exactly on a line.
-inline TriangleMesh Slivers(Random& random) {
-  TriangleMesh mesh;
+inline geometry::TriangleMesh Slivers(Random& random) {
+  geometry::TriangleMesh mesh;
   for (std::uint64_t i = 1 + random.Below(80); i > 0; --i) {
     const Eigen::Vector3d a = Point(random, 1), b = Point(random, 1);
     const double off = random.Chance(0.1) ? 0 : random.LogUniform(1e-16, 1e-3);
@@ -58,8 +59,8 @@ inline TriangleMesh Slivers(Random& random) {
 }
 
 /// All triangles in one corner, or along one edge.
-inline TriangleMesh Fan(Random& random) {
-  TriangleMesh mesh;
+inline geometry::TriangleMesh Fan(Random& random) {
+  geometry::TriangleMesh mesh;
   const Eigen::Vector3d apex = Point(random, 1), other = Point(random, 1);
   const bool along_edge = random.Chance(0.5);
   for (std::uint64_t i = 1 + random.Below(120); i > 0; --i) {
@@ -71,12 +72,12 @@ inline TriangleMesh Fan(Random& random) {
 }
 
 /// The same triangles several times, some turned round.
-inline TriangleMesh Repeated(Random& random) {
-  TriangleMesh mesh = random.Chance(0.5) ? Cube(0.5) : Soup(random);
+inline geometry::TriangleMesh Repeated(Random& random) {
+  geometry::TriangleMesh mesh = random.Chance(0.5) ? Cube(0.5) : Soup(random);
   const std::size_t once = mesh.triangles.size();
   for (std::uint64_t copies = 1 + random.Below(12); copies > 0; --copies) {
     for (std::size_t i = 0; i < once; ++i) {
-      Triangle t = mesh.triangles[i];
+      geometry::Triangle t = mesh.triangles[i];
       if (random.Chance(0.3)) std::swap(t[0], t[1]);
       mesh.triangles.push_back(t);
     }
@@ -85,17 +86,17 @@ inline TriangleMesh Repeated(Random& random) {
 }
 
 /// Exactly flat, with triangles upon each other.
-inline TriangleMesh Flat(Random& random) {
-  TriangleMesh mesh = Soup(random);
+inline geometry::TriangleMesh Flat(Random& random) {
+  geometry::TriangleMesh mesh = Soup(random);
   const int axis = static_cast<int>(random.Below(3));
   for (Eigen::Vector3d& p : mesh.vertices) p[axis] = 0.25;
   return mesh;
 }
 
 /// Closed, but some triangles are missing, turned round or corners of others.
-inline TriangleMesh Damaged(Random& random) {
-  TriangleMesh mesh = Star(2, random);
-  for (Triangle& t : mesh.triangles) {
+inline geometry::TriangleMesh Damaged(Random& random) {
+  geometry::TriangleMesh mesh = Star(2, random);
+  for (geometry::Triangle& t : mesh.triangles) {
     if (random.Chance(0.05)) std::swap(t[0], t[1]);
     if (random.Chance(0.02)) t[0] = static_cast<std::uint32_t>(random.Below(mesh.vertices.size()));
   }
@@ -104,15 +105,15 @@ inline TriangleMesh Damaged(Random& random) {
 }
 
 /// One part a million times finer than the other.
-inline TriangleMesh Uneven(Random& random) {
+inline geometry::TriangleMesh Uneven(Random& random) {
   const double size = random.LogUniform(1e-7, 1e-3);
   return Joined(Box({-1, -1, -1}, {1, 1, 1}),
                 Moved(Scaled(Star(2, random), size), Point(random, 1)));
 }
 
 /// Needles from one corner in all directions, or in nearly one; or closed ones.
-inline TriangleMesh NeedleFan(Random& random) {
-  TriangleMesh mesh;
+inline geometry::TriangleMesh NeedleFan(Random& random) {
+  geometry::TriangleMesh mesh;
   const Eigen::Vector3d apex = Point(random, 1), along = random.UnitVector();
   const bool closed = random.Chance(0.5);
   const double spread = random.Chance(0.5) ? 2 : random.LogUniform(1e-9, 1e-2);
@@ -130,8 +131,8 @@ inline TriangleMesh NeedleFan(Random& random) {
 }
 
 /// Large triangles, or tetrahedra, most of which cross each other.
-inline TriangleMesh Crossing(Random& random) {
-  TriangleMesh mesh;
+inline geometry::TriangleMesh Crossing(Random& random) {
+  geometry::TriangleMesh mesh;
   const bool closed = random.Chance(0.5);
   for (std::uint64_t i = 1 + random.Below(closed ? 15 : 60); i > 0; --i) {
     const Eigen::Vector3d a = Point(random, 1), b = Point(random, 1), c = Point(random, 1);
@@ -145,9 +146,9 @@ inline TriangleMesh Crossing(Random& random) {
 }
 
 /// Copies nearly upon each other.
-inline TriangleMesh NearCopies(Random& random) {
-  const TriangleMesh one = random.Chance(0.5) ? Cube(0.5) : Crossing(random);
-  TriangleMesh mesh = one;
+inline geometry::TriangleMesh NearCopies(Random& random) {
+  const geometry::TriangleMesh one = random.Chance(0.5) ? Cube(0.5) : Crossing(random);
+  geometry::TriangleMesh mesh = one;
   while (mesh.triangles.size() + one.triangles.size() <= 60) {
     mesh = Joined(std::move(mesh), Moved(one, Point(random, random.LogUniform(1e-17, 1e-9))));
   }
@@ -155,8 +156,8 @@ inline TriangleMesh NearCopies(Random& random) {
 }
 
 /// Triangles or boxes from 1 to 1e-9, the small ones near a corner of the large.
-inline TriangleMesh Shrinking(Random& random) {
-  TriangleMesh mesh;
+inline geometry::TriangleMesh Shrinking(Random& random) {
+  geometry::TriangleMesh mesh;
   const bool closed = random.Chance(0.5);
   for (int i = 0; i < 10; ++i) {
     const double size = std::ldexp(1.0, -3 * i);
@@ -175,8 +176,8 @@ inline TriangleMesh Shrinking(Random& random) {
 /// As meshes come: soup, slivers, fans, copies, flat ones, thin ones, uneven ones, ones that cross
 /// themselves, nest, touch, fall apart; closed and open; near to the origin and far away. Without degenerate
 /// triangles; not one that RefusalOf() refuses, if some triangle is left.
-inline TriangleMesh DirtyMesh(std::uint32_t kind, Random& random) {
-  const auto make = [&]() -> TriangleMesh {
+inline geometry::TriangleMesh DirtyMesh(std::uint32_t kind, Random& random) {
+  const auto make = [&]() -> geometry::TriangleMesh {
     switch (kind % kDirtKinds) {
       case 0:
         return dirt::Soup(random);
@@ -216,7 +217,7 @@ inline TriangleMesh DirtyMesh(std::uint32_t kind, Random& random) {
         return Joined(Sheet(1, 6), dirt::Soup(random));
     }
   };
-  TriangleMesh mesh = make();
+  geometry::TriangleMesh mesh = make();
   if (random.Chance(0.3)) mesh = Scaled(mesh, random.LogUniform(1e-3, 1e3));
   if (random.Chance(0.3)) mesh = Moved(mesh, dirt::Point(random, random.LogUniform(1, 5e6)));
   DropDegenerate(&mesh);

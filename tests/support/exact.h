@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/motion/instant.h"
+#include "collision_core/base/instant.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision {
@@ -14,7 +14,7 @@ namespace collision {
 using Exact = boost::multiprecision::mpq_rational;
 
 /// Does the interval contain an exact value? Its ends may be infinite.
-inline bool Contains(const Interval& interval, const Exact& value) {
+inline bool Contains(const numeric::Interval& interval, const Exact& value) {
   return (std::isinf(interval.lower) ? interval.lower < 0 : Exact(interval.lower) <= value) &&
          (std::isinf(interval.upper) ? interval.upper > 0 : value <= Exact(interval.upper));
 }

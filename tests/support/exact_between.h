@@ -10,9 +10,9 @@ namespace collision {
 /// Is |D| > share R + more at some instant between the two: D from the centre of the later state's
 /// backward horn to that of the earlier one's forward horn, R both radii? With skew, speeds must be
 /// rational.
-inline bool BallsComeApart(const SpaceTimeBound& before, const MotionState& next,
+inline bool BallsComeApart(const motion::SpaceTimeBound& before, const motion::MotionState& next,
                            const Exact& share = 1, const Exact& more = 0) {
-  const SpaceTimeBound after{next, before.declaration, before.skew};
+  const motion::SpaceTimeBound after{next, before.declaration, before.skew};
   const Instant base = before.state.stamp;
   const ExactHorn forward(before, base), backward(after, base, -1);
   ExactPolynomial radii(3);

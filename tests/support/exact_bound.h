@@ -23,7 +23,7 @@ struct ExactHorn {
   ExactPolynomial u;
 
   /// `direction` +1: forward of the stamp, −1: backward. With skew, |v| must be rational.
-  ExactHorn(const SpaceTimeBound& bound, Instant base, int direction = 1) {
+  ExactHorn(const motion::SpaceTimeBound& bound, Instant base, int direction = 1) {
     const Exact tau = ExactSeconds(bound.state.stamp, base);
     Exact square = 0;
     for (int i = 0; i < 3; ++i) {

@@ -39,17 +39,17 @@ inline ExactPlacement PlacementOf(const Eigen::Matrix3d& matrix, const Eigen::Ve
 }
 
 /// The corners of the core in the body frame; not for ellipsoids.
-inline std::vector<ExactVector> ExactCorners(const ConvexDescription& d) {
+inline std::vector<ExactVector> ExactCorners(const shape::ConvexDescription& d) {
   const ExactPlacement placement = PlacementOf(d.q_BS, d.p_BS);
   std::vector<ExactVector> corners;
   const auto add = [&](const Eigen::Vector3d& x) { corners.push_back(placement(ExactVector(x))); };
   const Eigen::Vector3d& h = d.half;
-  if (d.core == ConvexCore::kPoint) add({0, 0, 0});
+  if (d.core == geometry::ConvexCore::kPoint) add({0, 0, 0});
   for (const int i : {-1, 1}) {
-    if (d.core == ConvexCore::kSegment) add({0, 0, i * h.z()});
+    if (d.core == geometry::ConvexCore::kSegment) add({0, 0, i * h.z()});
     for (const int j : {-1, 1}) {
       for (const int k : {-1, 1}) {
-        if (d.core == ConvexCore::kBox) add({i * h.x(), j * h.y(), k * h.z()});
+        if (d.core == geometry::ConvexCore::kBox) add({i * h.x(), j * h.y(), k * h.z()});
       }
     }
   }
@@ -191,13 +191,14 @@ inline Exact SquareOfDepth(const ExactPoints& a, const ExactPoints& b,
 }
 
 /// The three directions of a box's edges, or the one of a segment.
-inline ExactPoints EdgeDirections(const ConvexDescription& d, const ExactPlacement& pose) {
+inline ExactPoints EdgeDirections(const shape::ConvexDescription& d, const ExactPlacement& pose) {
   const ExactPlacement placement = PlacementOf(d.q_BS, {0, 0, 0});
   ExactPlacement turn = pose;
   turn.offset = {0, 0, 0};
   ExactPoints edges;
   for (int i = 0; i < 3; ++i) {
-    if (d.core == ConvexCore::kBox || (d.core == ConvexCore::kSegment && i == 2)) {
+    if (d.core == geometry::ConvexCore::kBox ||
+        (d.core == geometry::ConvexCore::kSegment && i == 2)) {
       edges.push_back(turn(placement(ExactVector(Eigen::Vector3d(Eigen::Vector3d::Unit(i))))));
     }
   }

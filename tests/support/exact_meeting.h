@@ -25,7 +25,8 @@ class ExactMeeting {
     double share = 0;
   };
 
-  ExactMeeting(const SpaceTimeBound& a, const SpaceTimeBound& b, Instant base, Options options)
+  ExactMeeting(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
+               Options options)
       : a_(a, base, options.up), b_(b, base, options.up), share_(options.share) {
     for (int i = 0; i < 3; ++i) {
       between_[i] = Scaled2(Dyadic(b.state.p_WA[i]) - Dyadic(a.state.p_WA[i]));
@@ -81,13 +82,13 @@ class ExactMeeting {
   };
 
   struct Agent {
-    const SpaceTimeBound& bound;
+    const motion::SpaceTimeBound& bound;
     Instant base;
     bool up;
     Dyadic since;  ///< From the stamp to the base [ns].
     DyadicPolynomial errors, deviation;
 
-    Agent(const SpaceTimeBound& bound, Instant base, bool up)
+    Agent(const motion::SpaceTimeBound& bound, Instant base, bool up)
         : bound(bound), base(base), up(up), since(Between(bound.state.stamp, base)) {
       const Dyadic skew = kNano() * Dyadic(bound.skew);
       const DyadicPolynomial sigma = {since + skew, 1.0};
@@ -109,7 +110,7 @@ class ExactMeeting {
 
     /// V' = V + ½ M h, a nanosecond's worth of it.
     Dyadic CapSlope() const {
-      const AgentDeclaration& d = bound.declaration;
+      const motion::AgentDeclaration& d = bound.declaration;
       return kNano() *
              (Dyadic(d.speed_max) + (Dyadic(d.acceleration_max) * Dyadic(d.time_step)).Scaled(-1));
     }
@@ -146,7 +147,8 @@ class ExactMeeting {
       Reach horn{{}, {}, errors + Fraction(axis, sign, holds) * deviation};
       horn.line[0] = {along * LineAt0(axis), along * Slope(axis)};
       if (!HasSpeedCap(bound.declaration)) return {horn};
-      const DirectionalReach reach = holds ? ReachOfDirection(bound.state) : DirectionalReach();
+      const motion::DirectionalReach reach =
+          holds ? ReachOfDirection(bound.state) : motion::DirectionalReach();
       const Instant takes_over =
           FaceCapTakesOver(bound, sign * bound.state.v_WA[axis],
                            (sign > 0 ? reach.upward : reach.downward)[axis].upper);
@@ -165,7 +167,7 @@ class ExactMeeting {
     }
   };
 
-  static bool BoxesSayMore(const SpaceTimeBound& bound) {
+  static bool BoxesSayMore(const motion::SpaceTimeBound& bound) {
     return !bound.state.direction.isZero(0) || HasSpeedCap(bound.declaration);
   }
 
@@ -217,7 +219,7 @@ class ExactMeeting {
     std::vector<Timeline> conditions;  ///< All must be >= 0.
   };
 
-  void MakeBoxes(const SpaceTimeBound&, const SpaceTimeBound&, Instant) {
+  void MakeBoxes(const motion::SpaceTimeBound&, const motion::SpaceTimeBound&, Instant) {
     has_boxes_ = true;
     std::vector<Dyadic> starts = {Dyadic()};
     for (const Agent* agent : {&a_, &b_}) {

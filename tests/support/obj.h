@@ -5,13 +5,13 @@
 #include <sstream>
 #include <string>
 
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
 
 namespace collision {
 
 /// No faces if the file cannot be read. A corner is "7", "7/1/3" or, from the end, "-1".
-inline PolygonMesh ReadObj(const std::string& path) {
-  PolygonMesh mesh;
+inline geometry::PolygonMesh ReadObj(const std::string& path) {
+  geometry::PolygonMesh mesh;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line);

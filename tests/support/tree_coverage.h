@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "collision_core/shape/sphere_tree.h"
-#include "collision_core/shape/triangle_mesh.h"
+#include "collision_core/geometry/mesh/triangle_mesh.h"
+#include "collision_core/sphere_tree/sphere_tree.h"
 #include "tests/support/exact_dyadic.h"
 
 namespace collision {
@@ -19,11 +19,12 @@ namespace collision {
 /// where doubles do not decide by far, exact numbers do. Link with gmp.
 class TreeCoverage {
  public:
-  TreeCoverage(const TriangleMesh& mesh, const SphereTree& tree) : mesh_(mesh), tree_(tree) {
+  TreeCoverage(const geometry::TriangleMesh& mesh, const sphere_tree::SphereTree& tree)
+      : mesh_(mesh), tree_(tree) {
     parent_.assign(tree.nodes.size(), 0);
     leaves_of_.resize(mesh.triangles.size());
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-      const SphereNode& node = tree.nodes[i];
+      const sphere_tree::SphereNode& node = tree.nodes[i];
       for (std::uint32_t k = 0; k < node.children; ++k) parent_[node.first_child + k] = i;
       for (const std::uint32_t triangle : tree.TrianglesOf(node)) leaves_of_[triangle].push_back(i);
     }
@@ -43,7 +44,7 @@ class TreeCoverage {
     double covered = 0, all = 0;
     bool is_whole = true;
     for (std::uint32_t i = 0; i < mesh_.triangles.size(); ++i) {
-      const Triangle& t = mesh_.triangles[i];
+      const geometry::Triangle& t = mesh_.triangles[i];
       const Eigen::Vector3d u = mesh_.vertices[t[1]] - mesh_.vertices[t[0]];
       const Eigen::Vector3d v = mesh_.vertices[t[2]] - mesh_.vertices[t[0]];
       const double square = u.squaredNorm() * v.squaredNorm() - u.dot(v) * u.dot(v);
@@ -69,7 +70,7 @@ class TreeCoverage {
     std::array<Dyadic, 3> exact;
   };
 
-  static bool Contains(const SphereNode& node, const Corner& corner) {
+  static bool Contains(const sphere_tree::SphereNode& node, const Corner& corner) {
     const Eigen::Vector3d d = corner.near - node.centre;
     const double excess = d.norm() - node.radius;
     // A corner halved 150 times is off by 150 · 2^-52 of the coordinates.
@@ -117,8 +118,8 @@ class TreeCoverage {
     return IsCovered(half, leaves, halvings - 1);
   }
 
-  const TriangleMesh& mesh_;
-  const SphereTree& tree_;
+  const geometry::TriangleMesh& mesh_;
+  const sphere_tree::SphereTree& tree_;
   std::vector<std::uint32_t> parent_;
   std::vector<std::vector<std::uint32_t>> leaves_of_;
 };

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/shape/sphere_tree.h"
+#include "collision_core/sphere_tree/sphere_tree.h"
 #include "tests/support/exact_triangle.h"
 
 namespace collision {
@@ -17,9 +17,10 @@ namespace collision {
 /// far, else in exact rational numbers.
 class DistanceProof {
  public:
-  explicit DistanceProof(const TriangleMesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
+  explicit DistanceProof(const geometry::TriangleMesh& mesh)
+      : mesh_(mesh), order_(mesh.triangles.size()) {
     std::iota(order_.begin(), order_.end(), 0);
-    for (const Triangle& t : mesh.triangles) {
+    for (const geometry::Triangle& t : mesh.triangles) {
       for (const std::uint32_t c : t)
         size_ = std::max(size_, mesh.vertices[c].cwiseAbs().maxCoeff());
     }
@@ -45,7 +46,7 @@ class DistanceProof {
   };
 
   std::array<Eigen::Vector3d, 3> Corners(std::uint32_t triangle) const {
-    const Triangle& t = mesh_.triangles[triangle];
+    const geometry::Triangle& t = mesh_.triangles[triangle];
     return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
   }
 
@@ -144,7 +145,7 @@ class DistanceProof {
     return true;
   }
 
-  const TriangleMesh& mesh_;
+  const geometry::TriangleMesh& mesh_;
   std::vector<std::uint32_t> order_;
   std::vector<Box> boxes_;
   double size_ = 0;
@@ -153,13 +154,14 @@ class DistanceProof {
 /// The number of nodes whose signed distance is not shown to be an upper bound: for one that is
 /// negative, no triangle is nearer, and the winding number is not zero; else some triangle is
 /// as near.
-inline std::size_t UnprovenDistances(const TriangleMesh& mesh, const SphereTree& tree) {
+inline std::size_t UnprovenDistances(const geometry::TriangleMesh& mesh,
+                                     const sphere_tree::SphereTree& tree) {
   const DistanceProof proof(mesh);
   // In a ball that no triangle comes into, the winding number is the same everywhere: if the ray from
   // the centre meets an edge, one from beside it may not.
   const Eigen::Vector3d beside[] = {{0, 0, 0},           {0.31, 0.17, 0.05},  {-0.23, 0.29, 0.11},
                                     {0.13, -0.37, 0.07}, {-0.19, -0.11, 0.2}, {0.41, 0.03, -0.3}};
-  const auto is_inside = [&](const SphereNode& node) {
+  const auto is_inside = [&](const sphere_tree::SphereNode& node) {
     for (const Eigen::Vector3d& offset : beside) {
       if (const auto w = proof.WindingAt(node.centre - node.signed_distance * offset))
         return *w != 0;
@@ -167,7 +169,7 @@ inline std::size_t UnprovenDistances(const TriangleMesh& mesh, const SphereTree&
     return false;
   };
   std::size_t unproven = 0;
-  for (const SphereNode& node : tree.nodes) {
+  for (const sphere_tree::SphereNode& node : tree.nodes) {
     const double s = node.signed_distance;
     const bool is_proven = (s >= 0 && proof.ComesWithin(node.centre, s, false)) ||
                            (s <= 0 && !proof.ComesWithin(node.centre, -s, true) && is_inside(node));

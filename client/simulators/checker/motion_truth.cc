@@ -263,8 +263,9 @@ class LogReader {
       Fail("earlier pieces of agent \"" + motion->agent + "\" have no turn");
     const double seconds = static_cast<double>(t1_ns - t0_ns) * 1e-9;
     const double angle = (LengthOf(turn.w) + LengthOf(turn.b) * seconds) * seconds;
-    if (!(angle <= kTurnMax))
-      Fail("the turn is " + std::to_string(angle) + " rad, more than " + std::to_string(kTurnMax));
+    if (!(angle <= kRotationAngleMax))
+      Fail("the turn is " + std::to_string(angle) + " rad, more than " +
+           std::to_string(kRotationAngleMax));
     motion->pieces.back().turn = turn;
   }
 

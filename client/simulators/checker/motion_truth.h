@@ -51,7 +51,7 @@ struct AgentMotion {
 /// What is more is refused: a mistake, most likely.
 inline constexpr std::size_t kMeshItemsMax = 20'000'000;  ///< Vertices, and triangles, of a mesh.
 inline constexpr std::size_t kSolidsMax = 65536;          ///< Of one shape.
-inline constexpr double kTurnMax = 1000;                  ///< Within one piece [rad].
+inline constexpr double kRotationAngleMax = 1000;         ///< Within one piece [rad].
 
 /// Reads one motion log of format 1 to 3 (../README.md). Agents without pieces are left out. Throws
 /// std::runtime_error with "simulator:line: what" if it is malformed.

@@ -1,19 +1,19 @@
 #include <gtest/gtest.h>
 
-#include "collision_core/broad_phase/face_sweep_start.h"
-#include "collision_core/broad_phase/face_sweep_window.h"
+#include "collision_core/broad_phase/face_sweep/face_sweep_start.h"
+#include "collision_core/broad_phase/face_sweep/face_sweep_window.h"
 #include "collision_core/motion/hypertrapezoid.h"
 #include "tests/collision_core/broad_phase/face_sweep_scenes.h"
 #include "tests/support/exact_bound.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kBounds = 300;
 
-SpaceTimeBound RandomBound(Random* random) {
+motion::SpaceTimeBound RandomBound(Random* random) {
   const double scale = random->LogUniform(1e-6, 1e9);
-  SpaceTimeBound bound =
+  motion::SpaceTimeBound bound =
       Agent(RandomVector(random, scale), random->Uniform(-9, 9) * Eigen::Vector3d(2, 3, 6),
             random->Uniform(0, 1), random->Chance(0.3) ? 0 : scale);
   bound.state.position_error = random->Uniform(0, 1);
@@ -23,7 +23,7 @@ SpaceTimeBound RandomBound(Random* random) {
 }
 
 /// What the padding is a part of, but for the way from the stamp, which the faces make up for.
-Exact Magnitude(const SpaceTimeBound& bound, const FaceLines& lines) {
+Exact Magnitude(const motion::SpaceTimeBound& bound, const FaceLines& lines) {
   Exact magnitude = 0;
   for (int face = 0; face < 6; ++face) {
     magnitude += abs(Exact(lines.start[face])) + abs(Exact(lines.end[face]));
@@ -40,11 +40,11 @@ Exact Magnitude(const SpaceTimeBound& bound, const FaceLines& lines) {
 TEST(FaceLines, ContainTheHorn) {
   Random random(3);
   for (int i = 0; i < kBounds; ++i) {
-    const SpaceTimeBound bound = RandomBound(&random);
+    const motion::SpaceTimeBound bound = RandomBound(&random);
     const auto length = static_cast<std::int64_t>(random.LogUniform(1, 1e13));
     const std::int64_t start = 1'700'000'000 * kSecond;
     const std::int64_t late = random.Chance(0.5) ? random.Below(length + 1) : 0;
-    SpaceTimeBound moved = bound;
+    motion::SpaceTimeBound moved = bound;
     moved.state.stamp = At(late > 0 ? start + late : start - random.Below(length));
     const Instant counts_from = std::max(moved.state.stamp, At(start));
     const FaceLines lines = *FaceLinesOf(moved, At(start), At(start + length));
@@ -71,7 +71,7 @@ TEST(FaceLines, ContainTheHorn) {
 
 TEST(FaceLines, NotFiniteIsNone) {
   EXPECT_FALSE(FaceLinesOf(Agent({0, 0, 0}, {1e308, 0, 0}, 1), At(0), At(100 * kSecond)));
-  EXPECT_FALSE(FaceLinesOf(Agent({0, 0, 0}, {0, 0, 0}, kInfinity), At(0), At(kSecond)));
+  EXPECT_FALSE(FaceLinesOf(Agent({0, 0, 0}, {0, 0, 0}, numeric::kInfinity), At(0), At(kSecond)));
   EXPECT_FALSE(FaceLinesOf(Agent({0, 0, 0}, {0, 0, 0}, 1, 1e308), At(0), At(100 * kSecond)));
 }
 
@@ -95,9 +95,9 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Told(const AlphaTFaces& fac
 TEST(FaceSweepStart, TellsEachOverlapOnce) {
   for (int layout = 0; layout < kLayouts; ++layout) {
     Random random(40 + layout);
-    std::vector<std::optional<SpaceTimeBound>> bounds;
+    std::vector<std::optional<motion::SpaceTimeBound>> bounds;
     std::vector<std::uint32_t> agents;
-    for (SpaceTimeBound& bound : LayOut(static_cast<SweepLayout>(layout), 400, &random)) {
+    for (motion::SpaceTimeBound& bound : LayOut(static_cast<SweepLayout>(layout), 400, &random)) {
       agents.push_back(static_cast<std::uint32_t>(bounds.size()));
       bounds.emplace_back(bound);
     }
@@ -108,8 +108,10 @@ TEST(FaceSweepStart, TellsEachOverlapOnce) {
     std::size_t expected = 0;
     for (std::uint32_t a = 0; a < faces.agents().size(); ++a) {
       for (std::uint32_t b = a + 1; b < faces.agents().size(); ++b) {
-        const Hypertrapezoid h_A = MakeHypertrapezoid(*bounds[faces.agents()[a]], At(0), At(0));
-        const Hypertrapezoid h_B = MakeHypertrapezoid(*bounds[faces.agents()[b]], At(0), At(0));
+        const motion::Hypertrapezoid h_A =
+            MakeHypertrapezoid(*bounds[faces.agents()[a]], At(0), At(0));
+        const motion::Hypertrapezoid h_B =
+            MakeHypertrapezoid(*bounds[faces.agents()[b]], At(0), At(0));
         if (FirstOverlap(h_A, h_B) > 0) continue;
         ++expected;
         EXPECT_TRUE(std::binary_search(told.begin(), told.end(), std::pair(a, b)));
@@ -124,7 +126,7 @@ TEST(FaceSweepStart, TellsEachOverlapOnce) {
 // Goal:   a horn's first window fits the scene, and follows its bounds alone.
 // Method: spheres of 1 m in a heap, M = 1 m/s²: ½ M w² = ½ m at one second. No motion: no limit.
 TEST(FirstWindow, FitsTheScene) {
-  std::vector<std::optional<SpaceTimeBound>> bounds(100, Agent({1, 1, 1}, {0, 0, 0}, 1, 1));
+  std::vector<std::optional<motion::SpaceTimeBound>> bounds(100, Agent({1, 1, 1}, {0, 0, 0}, 1, 1));
   std::vector<std::uint32_t> agents(100);
   for (std::uint32_t i = 0; i < 100; ++i) agents[i] = i;
   EXPECT_EQ(kSecond, FirstWindow(bounds, agents));
@@ -152,4 +154,4 @@ TEST(WithEarliness, CoversTheCanonicalTolerance) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

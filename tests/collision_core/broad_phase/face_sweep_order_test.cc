@@ -3,11 +3,11 @@
 #include <map>
 #include <set>
 
-#include "collision_core/broad_phase/crossing_order.h"
+#include "collision_core/broad_phase/face_sweep/crossing_order.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kRounds = kSanitized ? 100 : 2000;
@@ -63,7 +63,7 @@ Crossings SweepAll(const std::vector<AlphaTFace>& faces, std::uint32_t step) {
     const auto tick =
         static_cast<std::uint32_t>(std::min<std::uint64_t>(limit, CrossingOrder::kTicks));
     while (order.HasNext(tick)) {
-      const Crossing crossing = order.Next();
+      const FaceCrossing crossing = order.Next();
       EXPECT_GE(crossing.tick, last);
       EXPECT_LE(crossing.tick, tick);
       last = crossing.tick;
@@ -164,4 +164,4 @@ TEST(CrossingQueue, IsTheLeastOfAnOrderedSet) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

@@ -21,7 +21,7 @@ double RandomAcceleration(Random* random) {
   return random->Chance(0.1) ? random->LogUniform(1e-6, 1e18) : random->Uniform(0, 5);
 }
 
-SpaceTimeBound Grazing(Random* random) {
+motion::SpaceTimeBound Grazing(Random* random) {
   const int along = static_cast<int>(random->Below(3)), across = (along + 1) % 3;
   Eigen::Vector3d p = Eigen::Vector3d::Zero(), v = Eigen::Vector3d::Zero();
   const double radius = random->Uniform(0.1, 1);
@@ -32,13 +32,13 @@ SpaceTimeBound Grazing(Random* random) {
   return Agent(p, v, radius);
 }
 
-SpaceTimeBound RandomAgent(SweepLayout layout, Random* random) {
+motion::SpaceTimeBound RandomAgent(SweepLayout layout, Random* random) {
   const double M = RandomAcceleration(random);
   switch (layout) {
     case SweepLayout::kUniform:
     case SweepLayout::kOutliers: {
-      SpaceTimeBound bound = Agent(RandomVector(random, 50), RandomVector(random, 10),
-                                   random->Uniform(0, 1), std::min(M, 1e3));
+      motion::SpaceTimeBound bound = Agent(RandomVector(random, 50), RandomVector(random, 10),
+                                           random->Uniform(0, 1), std::min(M, 1e3));
       if (layout == SweepLayout::kOutliers && random->Chance(0.05)) {
         const double far = random->LogUniform(1e6, 1e300);
         const int what = static_cast<int>(random->Below(4));
@@ -83,8 +83,8 @@ SpaceTimeBound RandomAgent(SweepLayout layout, Random* random) {
   return {};
 }
 
-Instant RandomUntil(BoundKind kind, Instant from, Random* random) {
-  switch (random->Below(kind == BoundKind::kHorn ? 7 : 6)) {
+Instant RandomUntil(intersection::BoundKind kind, Instant from, Random* random) {
+  switch (random->Below(kind == intersection::BoundKind::kHorn ? 7 : 6)) {
     case 0:
       return from;
     case 1:
@@ -102,8 +102,9 @@ Instant RandomUntil(BoundKind kind, Instant from, Random* random) {
 }
 
 /// What a scene's agents have beside their motions, each with the chance given.
-void Embellish(double chance, Instant from, bool late, SpaceTimeBound* bound, Random* random) {
-  MotionState& state = bound->state;
+void Embellish(double chance, Instant from, bool late, motion::SpaceTimeBound* bound,
+               Random* random) {
+  motion::MotionState& state = bound->state;
   if (random->Chance(chance)) {
     const std::int64_t ago = random->Chance(0.1) ? kCentury / 10 : 10 * kSecond;
     const auto by = static_cast<std::int64_t>(random->Below(ago));
@@ -131,11 +132,12 @@ void Embellish(double chance, Instant from, bool late, SpaceTimeBound* bound, Ra
 
 /// Else nearly every scene's first meeting is at once.
 void RemoveOverlapsAtStart(SweepScene* scene) {
-  std::vector<SpaceTimeBound> kept;
-  for (const SpaceTimeBound& bound : scene->agents) {
-    const bool is_apart = std::none_of(kept.begin(), kept.end(), [&](const SpaceTimeBound& other) {
-      return MeetingTime(scene->query, bound, other).instant() <= scene->query.from;
-    });
+  std::vector<motion::SpaceTimeBound> kept;
+  for (const motion::SpaceTimeBound& bound : scene->agents) {
+    const bool is_apart =
+        std::none_of(kept.begin(), kept.end(), [&](const motion::SpaceTimeBound& other) {
+          return EarliestIntersectionOf(scene->query, bound, other).instant() <= scene->query.from;
+        });
     if (is_apart) kept.push_back(bound);
   }
   scene->agents = kept;
@@ -143,8 +145,8 @@ void RemoveOverlapsAtStart(SweepScene* scene) {
 
 }  // namespace
 
-std::vector<SpaceTimeBound> LayOut(SweepLayout layout, int count, Random* random) {
-  std::vector<SpaceTimeBound> agents;
+std::vector<motion::SpaceTimeBound> LayOut(SweepLayout layout, int count, Random* random) {
+  std::vector<motion::SpaceTimeBound> agents;
   while (static_cast<int>(agents.size()) < count) {
     const bool is_again = !agents.empty() && random->Chance(0.02);
     agents.push_back(is_again ? agents[random->Below(agents.size())] : RandomAgent(layout, random));
@@ -152,27 +154,29 @@ std::vector<SpaceTimeBound> LayOut(SweepLayout layout, int count, Random* random
   return agents;
 }
 
-SweepScene RandomScene(SweepLayout layout, BoundKind kind, int count, Random* random) {
+SweepScene RandomScene(SweepLayout layout, intersection::BoundKind kind, int count,
+                       Random* random) {
   SweepScene scene;
   scene.agents = LayOut(layout, count, random);
   // The clock of 1970 as well as one that starts at zero.
   const Instant from =
       At(random->Chance(0.5) ? 0 : 1'700'000'000 * kSecond + random->Below(kSecond));
   const double chance = random->Chance(0.5) ? 0 : 0.2;
-  for (SpaceTimeBound& bound : scene.agents) {
+  for (motion::SpaceTimeBound& bound : scene.agents) {
     bound.state.stamp = from;
-    Embellish(chance, from, kind == BoundKind::kHorn, &bound, random);
+    Embellish(chance, from, kind == intersection::BoundKind::kHorn, &bound, random);
   }
   scene.query = {kind, from, RandomUntil(kind, from, random)};
   if (random->Chance(0.7)) RemoveOverlapsAtStart(&scene);
   return scene;
 }
 
-std::optional<PairMeeting> PlainEarliest(const SweepScene& scene) {
-  std::optional<PairMeeting> best;
+std::optional<intersection::IntersectingPair> PlainEarliest(const SweepScene& scene) {
+  std::optional<intersection::IntersectingPair> best;
   for (std::uint32_t a = 0; a < scene.agents.size(); ++a) {
     for (std::uint32_t b = a + 1; b < scene.agents.size(); ++b) {
-      const PairMeeting meeting{a, b, MeetingTime(scene.query, scene.agents[a], scene.agents[b])};
+      const intersection::IntersectingPair meeting{
+          a, b, EarliestIntersectionOf(scene.query, scene.agents[a], scene.agents[b])};
       if (meeting.time.instant().is_never()) continue;
       if (!best || meeting < *best) best = meeting;
     }
@@ -180,8 +184,8 @@ std::optional<PairMeeting> PlainEarliest(const SweepScene& scene) {
   return best;
 }
 
-FaceSweep Filled(const SweepScene& scene) {
-  FaceSweep sweep;
+broad_phase::FaceSweep Filled(const SweepScene& scene) {
+  broad_phase::FaceSweep sweep;
   for (std::uint32_t i = 0; i < scene.agents.size(); ++i) sweep.Put(i, scene.agents[i]);
   return sweep;
 }

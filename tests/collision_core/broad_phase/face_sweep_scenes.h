@@ -4,14 +4,14 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/broad_phase/face_sweep.h"
+#include "collision_core/broad_phase/face_sweep/face_sweep.h"
 #include "tests/support/random.h"
 
 namespace collision {
 
 struct SweepScene {
-  std::vector<SpaceTimeBound> agents;
-  BroadQuery query;
+  std::vector<motion::SpaceTimeBound> agents;
+  intersection::BroadQuery query;
 };
 
 inline constexpr std::int64_t kSecond = 1'000'000'000;
@@ -24,9 +24,9 @@ inline Eigen::Vector3d RandomVector(Random* random, double extent) {
   return {x, y, random->Uniform(-extent, extent)};
 }
 
-inline SpaceTimeBound Agent(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double radius,
-                            double acceleration_max = 0) {
-  SpaceTimeBound bound;
+inline motion::SpaceTimeBound Agent(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
+                                    double radius, double acceleration_max = 0) {
+  motion::SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
   bound.declaration.radius = radius;
@@ -51,15 +51,15 @@ enum class SweepLayout {
 inline constexpr int kLayouts = 11;
 
 /// `count` agents, with radii, motions and M as the layout has them.
-std::vector<SpaceTimeBound> LayOut(SweepLayout layout, int count, Random* random);
+std::vector<motion::SpaceTimeBound> LayOut(SweepLayout layout, int count, Random* random);
 
 /// Gives some of them stamps far apart, errors, steps, directions, expiries and masks, and a
 /// window: of length zero, tiny, usual, long or (horns) without end.
-SweepScene RandomScene(SweepLayout layout, BoundKind kind, int count, Random* random);
+SweepScene RandomScene(SweepLayout layout, intersection::BoundKind kind, int count, Random* random);
 
-/// The first meeting, by MeetingTime() of each pair in turn.
-std::optional<PairMeeting> PlainEarliest(const SweepScene& scene);
+/// The first meeting, by EarliestIntersectionOf() of each pair in turn.
+std::optional<intersection::IntersectingPair> PlainEarliest(const SweepScene& scene);
 
-FaceSweep Filled(const SweepScene& scene);
+broad_phase::FaceSweep Filled(const SweepScene& scene);
 
 }  // namespace collision

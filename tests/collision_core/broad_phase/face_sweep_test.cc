@@ -1,18 +1,18 @@
-#include "collision_core/broad_phase/face_sweep.h"
+#include "collision_core/broad_phase/face_sweep/face_sweep.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/broad_phase/face_sweep_scenes.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kScenes = kSanitized ? 40 : 250;
 
 /// The same pair, at the same time, bit for bit.
-void ExpectSame(const std::optional<PairMeeting>& expected,
-                const std::optional<PairMeeting>& answer) {
+void ExpectSame(const std::optional<intersection::IntersectingPair>& expected,
+                const std::optional<intersection::IntersectingPair>& answer) {
   ASSERT_EQ(expected.has_value(), answer.has_value());
   if (!expected) return;
   EXPECT_EQ(expected->lower, answer->lower);
@@ -21,7 +21,7 @@ void ExpectSame(const std::optional<PairMeeting>& expected,
   EXPECT_EQ(expected->time.seconds, answer->time.seconds);
 }
 
-class EveryLayout : public testing::TestWithParam<std::tuple<int, BoundKind>> {};
+class EveryLayout : public testing::TestWithParam<std::tuple<int, intersection::BoundKind>> {};
 
 // Goal:   the sweep answers as a plain loop over all pairs does, bit for bit, in every kind of
 //         scene, for both bounds; and it finds answers at all, and scenes without one.
@@ -34,7 +34,7 @@ TEST_P(EveryLayout, AnswersAsThePlainLoopDoes) {
     const int count = static_cast<int>(i % 100 == 99 ? 300 : 2 + random.Below(59));
     const SweepScene scene = RandomScene(static_cast<SweepLayout>(layout), kind, count, &random);
     FaceSweep sweep = Filled(scene);
-    const std::optional<PairMeeting> expected = PlainEarliest(scene);
+    const std::optional<intersection::IntersectingPair> expected = PlainEarliest(scene);
     with_answer += expected.has_value();
     at_start += expected && expected->time.instant() == scene.query.from;
     ExpectSame(expected, sweep.Earliest(scene.query));
@@ -47,10 +47,11 @@ TEST_P(EveryLayout, AnswersAsThePlainLoopDoes) {
   EXPECT_LT(at_start, kScenes / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(FaceSweep, EveryLayout,
-                         testing::Combine(testing::Range(0, kLayouts),
-                                          testing::Values(BoundKind::kHorn,
-                                                          BoundKind::kHypertrapezoid)));
+INSTANTIATE_TEST_SUITE_P(
+    FaceSweep, EveryLayout,
+    testing::Combine(testing::Range(0, kLayouts),
+                     testing::Values(intersection::BoundKind::kHorn,
+                                     intersection::BoundKind::kHypertrapezoid)));
 
 // Goal:   of two meetings within the same nanosecond that of the lower indices counts, though it
 //         comes later.
@@ -58,7 +59,8 @@ INSTANTIATE_TEST_SUITE_P(FaceSweep, EveryLayout,
 //         that a tick is far below a nanosecond; both orders.
 TEST(FaceSweep, TiesAreBrokenByIndexNotByCrossing) {
   for (const bool is_later_lower : {false, true}) {
-    for (const BoundKind kind : {BoundKind::kHorn, BoundKind::kHypertrapezoid}) {
+    for (const intersection::BoundKind kind :
+         {intersection::BoundKind::kHorn, intersection::BoundKind::kHypertrapezoid}) {
       SweepScene scene;
       scene.query = {kind, At(0), At(3000)};
       for (const bool is_first : {true, false}) {
@@ -67,7 +69,7 @@ TEST(FaceSweep, TiesAreBrokenByIndexNotByCrossing) {
         scene.agents.push_back(Agent({0, y, 0}, {10, 0, 0}, 0.0625));
         scene.agents.push_back(Agent({0.125 + gap, y, 0}, {0, 0, 0}, 0.0625));
       }
-      const std::optional<PairMeeting> expected = PlainEarliest(scene);
+      const std::optional<intersection::IntersectingPair> expected = PlainEarliest(scene);
       EXPECT_EQ(0u, expected->lower);
       EXPECT_EQ(At(1000), expected->time.instant());
       ExpectSame(expected, Filled(scene).Earliest(scene.query));
@@ -82,15 +84,15 @@ TEST(FaceSweep, AgentsSetApartAreAskedAgainstAll) {
   for (const double far : {1e15, 1e307}) {
     Random random(11);
     SweepScene scene;
-    scene.query = {BoundKind::kHypertrapezoid, At(0), At(100 * kSecond)};
-    if (far == 1e307) scene.query.bound = BoundKind::kHorn;
+    scene.query = {intersection::BoundKind::kHypertrapezoid, At(0), At(100 * kSecond)};
+    if (far == 1e307) scene.query.bound = intersection::BoundKind::kHorn;
     scene.agents.push_back(Agent({0, 0, 0}, {0, 0, 0}, 1));
     while (scene.agents.size() < 200) {
       const Eigen::Vector3d above(0, 0, 1e3 + 10.0 * scene.agents.size());
       scene.agents.push_back(Agent(above + RandomVector(&random, 1), {0, 0, 0}, 1));
     }
     scene.agents.push_back(Agent({-far, 0, 0}, {far, 0, 0}, 1));
-    const std::optional<PairMeeting> expected = PlainEarliest(scene);
+    const std::optional<intersection::IntersectingPair> expected = PlainEarliest(scene);
     ASSERT_TRUE(expected);
     EXPECT_EQ(200u, expected->higher);
     FaceSweep sweep = Filled(scene);
@@ -106,7 +108,7 @@ SweepScene Passing(int count, std::int64_t until, Random* random) {
     scene.agents.push_back(Agent(RandomVector(random, 40), RandomVector(random, 1), 0.5));
     scene.agents.back().declaration.mask = 0;
   }
-  scene.query = {BoundKind::kHypertrapezoid, At(0), At(until)};
+  scene.query = {intersection::BoundKind::kHypertrapezoid, At(0), At(until)};
   return scene;
 }
 
@@ -137,7 +139,7 @@ TEST(FaceSweepCost, StopsAtTheFirstMeeting) {
   scene.agents.push_back(Agent({100, 0, 0}, {1, 0, 0}, 0.5));
   scene.agents.push_back(Agent({101.02, 0, 0}, {-1, 0, 0}, 0.5));
   FaceSweep sweep = Filled(scene);
-  const std::optional<PairMeeting> meeting = sweep.Earliest(scene.query);
+  const std::optional<intersection::IntersectingPair> meeting = sweep.Earliest(scene.query);
   ASSERT_TRUE(meeting);
   EXPECT_EQ(1000u, meeting->lower);
   EXPECT_NEAR(0.01, meeting->time.seconds, 1e-9);
@@ -157,7 +159,7 @@ TEST(FaceSweepCost, EverythingAtOnePoint) {
       const double offset = turned ? 1e-3 * (kAgents - i) / kAgents : 0;
       sweep.Put(i, Agent({offset, 2, 3}, RandomVector(&random, 5), 1, 5));
     }
-    const auto meeting = sweep.Earliest({BoundKind::kHorn, At(0), Instant::Never()});
+    const auto meeting = sweep.Earliest({intersection::BoundKind::kHorn, At(0), Instant::Never()});
     ASSERT_TRUE(meeting);
     EXPECT_EQ(0u, meeting->lower);
     EXPECT_EQ(1u, meeting->higher);
@@ -171,11 +173,12 @@ TEST(FaceSweepCost, EverythingAtOnePoint) {
 TEST(FaceSweep, RemembersNothing) {
   Random random(8);
   FaceSweep sweep;
-  std::vector<std::optional<SpaceTimeBound>> bounds(80);
+  std::vector<std::optional<motion::SpaceTimeBound>> bounds(80);
   for (int step = 0; step < kScenes; ++step) {
-    const auto kind = random.Chance(0.5) ? BoundKind::kHorn : BoundKind::kHypertrapezoid;
+    const auto kind = random.Chance(0.5) ? intersection::BoundKind::kHorn
+                                         : intersection::BoundKind::kHypertrapezoid;
     const auto layout = static_cast<SweepLayout>(random.Below(kLayouts));
-    for (const SpaceTimeBound& bound : LayOut(layout, 1 + random.Below(20), &random)) {
+    for (const motion::SpaceTimeBound& bound : LayOut(layout, 1 + random.Below(20), &random)) {
       const auto agent = static_cast<std::uint32_t>(random.Below(bounds.size()));
       bounds[agent] = bound;
       sweep.Put(agent, bound);
@@ -183,7 +186,7 @@ TEST(FaceSweep, RemembersNothing) {
     const auto removed = static_cast<std::uint32_t>(random.Below(bounds.size()));
     if (bounds[removed]) sweep.Remove(removed);
     bounds[removed].reset();
-    const BroadQuery query{kind, At(0), At(random.Below(10 * kSecond))};
+    const intersection::BroadQuery query{kind, At(0), At(random.Below(10 * kSecond))};
     FaceSweep fresh;
     for (std::uint32_t i = 0; i < bounds.size(); ++i) {
       if (bounds[i]) fresh.Put(i, *bounds[i]);
@@ -193,16 +196,17 @@ TEST(FaceSweep, RemembersNothing) {
 }
 
 // Goal:   questions about one agent are those of any method.
-// Method: against MeetingTime() of each partner.
+// Method: against EarliestIntersectionOf() of each partner.
 TEST(FaceSweep, OneAgentAsksEveryPartner) {
   Random random(10);
   for (int i = 0; i < kScenes / 4; ++i) {
-    const SweepScene scene = RandomScene(SweepLayout::kUniform, BoundKind::kHorn, 30, &random);
+    const SweepScene scene =
+        RandomScene(SweepLayout::kUniform, intersection::BoundKind::kHorn, 30, &random);
     FaceSweep sweep = Filled(scene);
-    std::optional<PairMeeting> expected;
+    std::optional<intersection::IntersectingPair> expected;
     for (std::uint32_t partner = 1; partner < scene.agents.size(); ++partner) {
-      const PairMeeting meeting{0, partner,
-                                MeetingTime(scene.query, scene.agents[0], scene.agents[partner])};
+      const intersection::IntersectingPair meeting{
+          0, partner, EarliestIntersectionOf(scene.query, scene.agents[0], scene.agents[partner])};
       if (meeting.time.instant().is_never()) continue;
       if (!expected || meeting < *expected) expected = meeting;
     }
@@ -218,7 +222,7 @@ TEST(FaceSweep, OneAgentAsksEveryPartner) {
 
 TEST(FaceSweep, OfNoneOrOneIsNone) {
   FaceSweep sweep;
-  const BroadQuery query{BoundKind::kHorn, At(0), Instant::Never()};
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, At(0), Instant::Never()};
   EXPECT_FALSE(sweep.Earliest(query));
   sweep.Put(5, Agent({0, 0, 0}, {0, 0, 0}, 1));
   EXPECT_FALSE(sweep.Earliest(query));
@@ -226,4 +230,4 @@ TEST(FaceSweep, OfNoneOrOneIsNone) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

@@ -3,22 +3,24 @@
 // Method: exact rational arithmetic. The distance to the plane, n·c − offset − |n| (ρ + margin), is
 //         concave in time, so that it is positive between two times where it is so at both; its sign
 //         is that of squares, as |n| is irrational.
-#include "collision_core/broad_phase/half_space.h"
+#include "collision_core/broad_phase/index/half_space.h"
 
 #include <gtest/gtest.h>
 
 #include "collision_core/motion/speed_cap.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/exact.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kCases = kSanitized ? 1000 : 40000;
 
 constexpr Instant kFrom = Instant::FromNanoseconds(2'000'000'000);
-constexpr BroadQuery kForever{BoundKind::kHorn, kFrom, Instant::Never()};
+constexpr intersection::BroadQuery kForever{intersection::BoundKind::kHorn, kFrom,
+                                            Instant::Never()};
 
 /// What is added to the reach, as a part of all that enters: the inputs' last digits.
 constexpr double kForced = 16 * 0x1p-53;
@@ -26,7 +28,8 @@ constexpr double kForced = 16 * 0x1p-53;
 class ExactPlane {
  public:
   /// No skew: |v| κ would be irrational.
-  ExactPlane(const HalfSpace& half_space, const SpaceTimeBound& bound, double margin, Instant base)
+  ExactPlane(const HalfSpace& half_space, const motion::SpaceTimeBound& bound, double margin,
+             Instant base)
       : half_space_(half_space), bound_(bound), since_(ExactSeconds(bound.state.stamp, base)) {
     for (int i = 0; i < 3; ++i)
       square_ += Exact(half_space.normal[i]) * Exact(half_space.normal[i]);
@@ -65,7 +68,7 @@ class ExactPlane {
   /// At `tau` seconds after the stamp, of a ball that was the horn's until `turn`. At the edge is
   /// not out, except that a promise up to an instant does not count that instant itself.
   bool IsOut(const Exact& tau, const Exact& turn, double forced) const {
-    const AgentDeclaration& declaration = bound_.declaration;
+    const motion::AgentDeclaration& declaration = bound_.declaration;
     const Exact M = declaration.acceleration_max, step = declaration.time_step;
     Exact reach = radius_ + Exact(bound_.state.position_error) +
                   Exact(bound_.state.velocity_error) * turn + M * turn * (turn + step) / 2;
@@ -82,14 +85,14 @@ class ExactPlane {
   }
 
   const HalfSpace& half_space_;
-  const SpaceTimeBound& bound_;
+  const motion::SpaceTimeBound& bound_;
   Exact since_, radius_, square_ = 0;
   std::optional<Exact> cap_;  ///< Seconds after the stamp when it takes over.
 };
 
 struct Case {
   HalfSpace half_space;
-  SpaceTimeBound bound;
+  motion::SpaceTimeBound bound;
   double margin = 0;
 };
 
@@ -100,8 +103,8 @@ Case Draw(bool caps, Random* random) {
   const double size = random->LogUniform(1e-9, 1e9), length = random->LogUniform(1e-9, 1e9);
   c.half_space.normal = length * random->UnitVector();
   if (random->Chance(0.2)) c.half_space.normal = {0, 0, length};
-  MotionState& state = c.bound.state;
-  AgentDeclaration& declaration = c.bound.declaration;
+  motion::MotionState& state = c.bound.state;
+  motion::AgentDeclaration& declaration = c.bound.declaration;
   state.stamp = Instant::FromNanoseconds(static_cast<std::int64_t>(random->Below(3'000'000'000)));
   state.p_WA = size * random->LogUniform(1e-3, 1e6) * random->UnitVector();
   if (random->Chance(0.8)) state.v_WA = size * random->LogUniform(1e-3, 10) * random->UnitVector();
@@ -113,7 +116,7 @@ Case Draw(bool caps, Random* random) {
   if (random->Chance(0.2)) declaration.time_step = 0.01;
   if (random->Chance(0.3)) c.margin = size * random->LogUniform(1e-6, 10);
   if (caps) declaration.speed_max = state.v_WA.norm() * random->Uniform(1, 2);
-  const double since = std::max(0.0, SecondsBetween(state.stamp, kFrom).upper);
+  const double since = std::max(0.0, numeric::SecondsBetween(state.stamp, kFrom).upper);
   const double along = c.half_space.normal.dot(state.p_WA + since * state.v_WA);
   double gap = declaration.radius + c.margin + state.position_error + state.velocity_error * since +
                0.5 * declaration.acceleration_max * since * (since + declaration.time_step);
@@ -125,14 +128,15 @@ Case Draw(bool caps, Random* random) {
 
 /// Fatal failures tell; counts what met later than at once.
 void Judge(const Case& c, int* met) {
-  const PairTime time = MeetingTime(kForever, c.half_space, c.bound, c.margin);
+  const intersection::IntersectionTime time =
+      EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin);
   ASSERT_EQ(time.base, std::max(kFrom, c.bound.state.stamp));
   if (NeverMoves(c.bound)) {
-    ASSERT_EQ(time.seconds, kInfinity);
+    ASSERT_EQ(time.seconds, numeric::kInfinity);
     return;
   }
   const ExactPlane plane(c.half_space, c.bound, c.margin, time.base);
-  if (time.seconds == kInfinity) {
+  if (time.seconds == numeric::kInfinity) {
     // Or so far ahead that it is no instant.
     ASSERT_TRUE(plane.FreeForEver() || plane.FreeBefore(Exact(9e9), 0)) << "never is too late";
     return;
@@ -162,9 +166,10 @@ TEST(HalfSpace, SpeedCapsPostponeThem) {
     Case c = Draw(true, &random);
     Judge(c, &met);
     ASSERT_FALSE(HasFatalFailure()) << "case " << i;
-    const double capped = MeetingTime(kForever, c.half_space, c.bound, c.margin).seconds;
-    c.bound.declaration.speed_max = kInfinity;
-    const double without = MeetingTime(kForever, c.half_space, c.bound, c.margin).seconds;
+    const double capped = EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin).seconds;
+    c.bound.declaration.speed_max = numeric::kInfinity;
+    const double without =
+        EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin).seconds;
     ASSERT_TRUE(NeverMoves(c.bound) || capped >= without);
     later += capped > without;
   }
@@ -172,17 +177,19 @@ TEST(HalfSpace, SpeedCapsPostponeThem) {
   EXPECT_GT(later, kCases / 16);
 }
 
-SpaceTimeBound Falling() {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound Falling() {
+  motion::SpaceTimeBound bound;
   bound.state.p_WA = {100, -200, 7};
   bound.state.v_WA = {3, 0, -2};
   bound.declaration.radius = 1;
   return bound;
 }
 
-double Seconds(const HalfSpace& half_space, const SpaceTimeBound& bound, Instant until,
+double Seconds(const HalfSpace& half_space, const motion::SpaceTimeBound& bound, Instant until,
                double margin = 0) {
-  return MeetingTime({BoundKind::kHorn, Instant(), until}, half_space, bound, margin).seconds;
+  return EarliestIntersectionOf({intersection::BoundKind::kHorn, Instant(), until}, half_space,
+                                bound, margin)
+      .seconds;
 }
 
 // Goal:   by hand: 6 m above the floor at 2 m/s, so at 3 s; with 2 m of margin at 2 s; whatever the
@@ -195,7 +202,9 @@ TEST(HalfSpace, FallsToTheFloor) {
     EXPECT_LE(Seconds(floor, Falling(), Instant::Never(), 2), 2);
     EXPECT_GE(Seconds(floor, Falling(), Instant::Never(), 2), 2 - 1e-9);
     const Instant until = Instant::FromNanoseconds(4'000'000'000);
-    EXPECT_EQ(MeetingTime({BoundKind::kHypertrapezoid, Instant(), until}, floor, Falling()).seconds,
+    EXPECT_EQ(EarliestIntersectionOf({intersection::BoundKind::kHypertrapezoid, Instant(), until},
+                                     floor, Falling())
+                  .seconds,
               Seconds(floor, Falling(), until));
   }
 }
@@ -203,26 +212,27 @@ TEST(HalfSpace, FallsToTheFloor) {
 // Goal:   who cannot meet meets never: masks in either direction, no motion, expiry, the query's end.
 TEST(HalfSpace, MeetsOnlyWhatItMay) {
   HalfSpace floor{{0, 0, 1}, 0};
-  SpaceTimeBound bound = Falling();
+  motion::SpaceTimeBound bound = Falling();
   const Instant just_before = Instant::FromNanoseconds(2'999'999'990);
-  EXPECT_EQ(Seconds(floor, bound, just_before), kInfinity);
-  EXPECT_LT(Seconds(floor, bound, Instant::FromNanoseconds(3'000'000'000)), kInfinity);
+  EXPECT_EQ(Seconds(floor, bound, just_before), numeric::kInfinity);
+  EXPECT_LT(Seconds(floor, bound, Instant::FromNanoseconds(3'000'000'000)), numeric::kInfinity);
   bound.state.expiry = just_before;
-  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), kInfinity);
+  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   bound.state.expiry = Instant::FromNanoseconds(3'000'000'010);
-  EXPECT_LT(Seconds(floor, bound, Instant::Never()), kInfinity);
+  EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   floor.group = 2, floor.mask = 1;
-  EXPECT_LT(Seconds(floor, bound, Instant::Never()), kInfinity);
+  EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   bound.declaration.mask = 1;
-  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), kInfinity);
+  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   bound.declaration.mask = 2;
-  EXPECT_LT(Seconds(floor, bound, Instant::Never()), kInfinity);
+  EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   bound.declaration.group = 4;
-  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), kInfinity);
+  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   bound = Falling();
   bound.state.v_WA.setZero();
   bound.state.p_WA.z() = -5;
-  EXPECT_EQ(Seconds(HalfSpace(), bound, Instant::Never()), kInfinity) << "inside, but still";
+  EXPECT_EQ(Seconds(HalfSpace(), bound, Instant::Never()), numeric::kInfinity)
+      << "inside, but still";
   bound.declaration.acceleration_max = 1e-9;
   EXPECT_EQ(Seconds(HalfSpace(), bound, Instant::Never()), 0);
 }
@@ -250,11 +260,11 @@ TEST(HalfSpaces, RefuseWhatIsNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Eigen::Vector3d& normal :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 1e-101, 0), Eigen::Vector3d(1, 2e100, 0),
-        Eigen::Vector3d(1, nan, 0), Eigen::Vector3d(kInfinity, 0, 0)}) {
+        Eigen::Vector3d(1, nan, 0), Eigen::Vector3d(numeric::kInfinity, 0, 0)}) {
     EXPECT_FALSE(list.Put(1, {normal, 0}));
   }
   EXPECT_FALSE(list.Put(1, {Eigen::Vector3d::UnitX(), nan}));
-  EXPECT_FALSE(list.Put(1, {Eigen::Vector3d::UnitX(), kInfinity}));
+  EXPECT_FALSE(list.Put(1, {Eigen::Vector3d::UnitX(), numeric::kInfinity}));
   EXPECT_EQ(list.size(), 0u);
 }
 
@@ -268,12 +278,14 @@ TEST(HalfSpaces, TheFilterRulesOutNothingThatMeets) {
     ASSERT_TRUE(list.Put(1, c.half_space));
     HornTable table;
     table.Put(0, c.bound);
-    if (table.row(0).wild || table.row(0).still) continue;
-    const PairTime time = MeetingTime(kForever, c.half_space, c.bound, c.margin);
-    const double waited = SecondsBetween(kFrom, time.base).upper, meets = waited + time.seconds;
+    if (table.row(0).unfilterable || table.row(0).still) continue;
+    const intersection::IntersectionTime time =
+        EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin);
+    const double waited = numeric::SecondsBetween(kFrom, time.base).upper,
+                 meets = waited + time.seconds;
     const HornAt horn = table.At(0, kFrom);
     const auto may = [&](double limit) { return MayReach(*list.begin(), horn, c.margin, limit); };
-    if (time.seconds < kInfinity) {
+    if (time.seconds < numeric::kInfinity) {
       ASSERT_TRUE(may(meets)) << "case " << i;
       ASSERT_TRUE(may(1.5 * meets)) << "case " << i;
       ++passed;
@@ -289,4 +301,4 @@ TEST(HalfSpaces, TheFilterRulesOutNothingThatMeets) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

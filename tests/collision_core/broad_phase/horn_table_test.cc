@@ -2,25 +2,26 @@
 //         rules out most of what comes later.
 // Method: pairs of all scales, stamps before and after the question's begin; beside the canonical
 //         answer, whose own error is at most a relative 1e-9.
-#include "collision_core/broad_phase/horn_table.h"
+#include "collision_core/broad_phase/filter/horn_table.h"
 
 #include <gtest/gtest.h>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kPairs = kSanitized ? 4000 : 200000;
 
 constexpr Instant kStart = Instant::FromNanoseconds(5'000'000'000'000);
 
-SpaceTimeBound Draw(double size, double time, Random* random) {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound Draw(double size, double time, Random* random) {
+  motion::SpaceTimeBound bound;
   const double speed = random->Chance(0.2) ? 0 : size / time * random->LogUniform(1e-3, 1e3);
   bound.state.stamp =
-      AddRoundedUp(kStart, random->Chance(0.5) ? 0 : time * random->Uniform(-2, 0.5));
+      numeric::AddRoundedUp(kStart, random->Chance(0.5) ? 0 : time * random->Uniform(-2, 0.5));
   bound.state.p_WA = random->UnitVector() * (size * random->Uniform(0, 10));
   if (random->Chance(0.2)) bound.state.p_WA.array() += size * random->LogUniform(1, 1e9);
   bound.state.v_WA = random->UnitVector() * speed;
@@ -43,18 +44,19 @@ TEST(HornTable, TheFilterIsNeverLaterThanTheCanonicalAnswer) {
     const double size = random.LogUniform(1e-9, 1e9), time = random.LogUniform(1e-3, 1e3);
     HornTable table;
     table.Put(0, Draw(size, time, &random));
-    SpaceTimeBound other = Draw(size, time, &random);
+    motion::SpaceTimeBound other = Draw(size, time, &random);
     // Near each other also where both are far from the origin.
     if (random.Chance(0.7)) {
       other.state.p_WA =
           table.bound(0).state.p_WA + random.UnitVector() * size * random.Uniform(0, 10);
     }
     table.Put(1, other);
-    const Instant answer = EarliestIntersection(table.bound(0), table.bound(1), kStart).instant();
-    const double bound = table.EarlierBound(0, 1, kStart, kInfinity);
+    const Instant answer =
+        intersection::EarliestIntersection(table.bound(0), table.bound(1), kStart).instant();
+    const double bound = table.EarlierBound(0, 1, kStart, numeric::kInfinity);
     if (answer.is_never()) continue;
     ++found;
-    const double seconds = SecondsBetween(kStart, answer).upper + 1e-9;
+    const double seconds = numeric::SecondsBetween(kStart, answer).upper + 1e-9;
     ASSERT_LE(bound * (1 - 4e-9), seconds) << "pair " << pair;
     tight += bound >= 0.99 * (seconds - 2e-9);
   }
@@ -64,14 +66,14 @@ TEST(HornTable, TheFilterIsNeverLaterThanTheCanonicalAnswer) {
 
 TEST(HornTable, CountsWhoIsThere) {
   HornTable table;
-  SpaceTimeBound bound;
+  motion::SpaceTimeBound bound;
   table.Put(3, bound);
   EXPECT_EQ(table.count(), 1u);
   EXPECT_EQ(table.size(), 4u);
   EXPECT_FALSE(table.contains(2));
   bound.declaration.radius = 1e30;
   table.Put(3, bound);
-  EXPECT_TRUE(table.row(3).wild);
+  EXPECT_TRUE(table.row(3).unfilterable);
   EXPECT_EQ(table.still_count(), 1u);
   EXPECT_EQ(table.EarlierBound(3, 3, kStart, 1), 0);
   table.Remove(3);
@@ -80,4 +82,4 @@ TEST(HornTable, CountsWhoIsThere) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

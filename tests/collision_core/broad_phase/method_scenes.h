@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/broad_phase/all_pairs.h"
-#include "collision_core/broad_phase/face_sweep.h"
-#include "collision_core/broad_phase/spatial_index.h"
+#include "collision_core/broad_phase/face_sweep/face_sweep.h"
+#include "collision_core/broad_phase/index/all_pairs.h"
+#include "collision_core/broad_phase/index/spatial_index.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/random.h"
 
 namespace collision {
@@ -17,21 +18,21 @@ inline constexpr Instant kMethodStart = Instant::FromNanoseconds(1'000'000'000'0
 
 struct NamedMethod {
   const char* name;
-  std::unique_ptr<BroadPhase> (*make)();
+  std::unique_ptr<broad_phase::BroadPhase> (*make)();
 };
 
 template <typename Method>
-std::unique_ptr<BroadPhase> MakeMethod() {
+std::unique_ptr<broad_phase::BroadPhase> MakeMethod() {
   return std::make_unique<Method>();
 }
 
-inline const NamedMethod kMethods[] = {{"AllPairs", &MakeMethod<AllPairs>},
-                                       {"SpatialIndex", &MakeMethod<SpatialIndex>},
-                                       {"FaceSweep", &MakeMethod<FaceSweep>}};
+inline const NamedMethod kMethods[] = {{"AllPairs", &MakeMethod<broad_phase::AllPairs>},
+                                       {"SpatialIndex", &MakeMethod<broad_phase::SpatialIndex>},
+                                       {"FaceSweep", &MakeMethod<broad_phase::FaceSweep>}};
 
-inline SpaceTimeBound BoundIn(double extent, double radius, double speed, double acceleration_max,
-                              Random* random) {
-  SpaceTimeBound bound;
+inline motion::SpaceTimeBound BoundIn(double extent, double radius, double speed,
+                                      double acceleration_max, Random* random) {
+  motion::SpaceTimeBound bound;
   bound.state.stamp = kMethodStart;
   for (int axis = 0; axis < 3; ++axis) bound.state.p_WA[axis] = random->Uniform(-extent, extent);
   bound.state.v_WA = random->UnitVector() * (speed * random->Uniform(0, 1));
@@ -40,7 +41,7 @@ inline SpaceTimeBound BoundIn(double extent, double radius, double speed, double
   return bound;
 }
 
-using SceneAgents = std::vector<std::optional<SpaceTimeBound>>;
+using SceneAgents = std::vector<std::optional<motion::SpaceTimeBound>>;
 
 template <typename Make>
 SceneAgents Several(int least, int most, Random* random, Make make) {
@@ -66,7 +67,7 @@ inline const NamedScene kMethodScenes[] = {
     {"clusters with outliers", true,
      [](Random* r) {
        return Several(40, 120, r, [&](int i) {
-         SpaceTimeBound bound = BoundIn(i % 9 == 0 ? 1e7 : 5, 0.2, 3, 1, r);
+         motion::SpaceTimeBound bound = BoundIn(i % 9 == 0 ? 1e7 : 5, 0.2, 3, 1, r);
          if (i % 3 == 1) bound.state.p_WA.x() += 1e5;
          return bound;
        });
@@ -86,13 +87,13 @@ inline const NamedScene kMethodScenes[] = {
      [](Random* r) { return Several(10, 60, r, [&](int) { return BoundIn(0, 0.5, 5, 2, r); }); }},
     {"identical", true,
      [](Random* r) {
-       const SpaceTimeBound bound = BoundIn(3, 0.5, 5, 2, r);
+       const motion::SpaceTimeBound bound = BoundIn(3, 0.5, 5, 2, r);
        return Several(2, 40, r, [&](int) { return bound; });
      }},
     {"lattice", true,
      [](Random* r) {
        return Several(64, 125, r, [&](int i) {
-         SpaceTimeBound bound = BoundIn(0, 0.25, 0, 1, r);
+         motion::SpaceTimeBound bound = BoundIn(0, 0.25, 0, 1, r);
          bound.state.p_WA = {2.0 * (i % 5), 2.0 * (i / 5 % 5), 2.0 * (i / 25)};
          return bound;
        });
@@ -100,7 +101,7 @@ inline const NamedScene kMethodScenes[] = {
     {"convoy", true,
      [](Random* r) {
        return Several(40, 90, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(30, 0.5, 1, 0.5, r);
+         motion::SpaceTimeBound bound = BoundIn(30, 0.5, 1, 0.5, r);
          bound.state.v_WA.x() += 1e4;
          return bound;
        });
@@ -114,7 +115,7 @@ inline const NamedScene kMethodScenes[] = {
     {"plane", true,
      [](Random* r) {
        return Several(40, 120, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(60, 0.5, 5, 1, r);
+         motion::SpaceTimeBound bound = BoundIn(60, 0.5, 5, 1, r);
          bound.state.p_WA.z() = bound.state.v_WA.z() = 0;
          return bound;
        });
@@ -122,7 +123,7 @@ inline const NamedScene kMethodScenes[] = {
     {"line", true,
      [](Random* r) {
        return Several(40, 120, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(300, 0.5, 5, 1, r);
+         motion::SpaceTimeBound bound = BoundIn(300, 0.5, 5, 1, r);
          bound.state.p_WA.tail<2>().setZero();
          return bound;
        });
@@ -132,7 +133,7 @@ inline const NamedScene kMethodScenes[] = {
     {"far from the origin", true,
      [](Random* r) {
        return Several(40, 90, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(20, 0.5, 5, 1, r);
+         motion::SpaceTimeBound bound = BoundIn(20, 0.5, 5, 1, r);
          bound.state.p_WA.array() += 1e12;
          return bound;
        });
@@ -144,15 +145,15 @@ inline const NamedScene kMethodScenes[] = {
     {"other stamps", false,
      [](Random* r) {
        return Several(10, 60, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(20, 0.5, 5, 2, r);
-         bound.state.stamp = AddRoundedUp(kMethodStart, -r->LogUniform(1e-6, 100));
+         motion::SpaceTimeBound bound = BoundIn(20, 0.5, 5, 2, r);
+         bound.state.stamp = numeric::AddRoundedUp(kMethodStart, -r->LogUniform(1e-6, 100));
          return bound;
        });
      }},
     {"errors, skew, steps", true,
      [](Random* r) {
        return Several(10, 60, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(30, 0.5, 5, 2, r);
+         motion::SpaceTimeBound bound = BoundIn(30, 0.5, 5, 2, r);
          bound.state.position_error = r->Uniform(0, 0.2);
          bound.state.velocity_error = r->Uniform(0, 0.2);
          bound.declaration.time_step = 0.01;
@@ -163,27 +164,28 @@ inline const NamedScene kMethodScenes[] = {
     {"masks and expiries", true,
      [](Random* r) {
        return Several(10, 90, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(15, 0.5, 5, 2, r);
+         motion::SpaceTimeBound bound = BoundIn(15, 0.5, 5, 2, r);
          bound.declaration.group = 1u << r->Below(4);
          bound.declaration.mask = static_cast<std::uint32_t>(r->Below(16));
-         if (r->Chance(0.5)) bound.state.expiry = AddRoundedUp(kMethodStart, r->Uniform(0, 3));
+         if (r->Chance(0.5))
+           bound.state.expiry = numeric::AddRoundedUp(kMethodStart, r->Uniform(0, 3));
          return bound;
        });
      }},
     {"directions", true,
      [](Random* r) {
        return Several(10, 90, r, [&](int) {
-         SpaceTimeBound bound = BoundIn(20, 0.5, 5, 5, r);
+         motion::SpaceTimeBound bound = BoundIn(20, 0.5, 5, 5, r);
          bound.state.direction = r->UnitVector();
          if (r->Chance(0.5))
-           bound.state.direction_until = AddRoundedUp(kMethodStart, r->Uniform(0, 3));
+           bound.state.direction_until = numeric::AddRoundedUp(kMethodStart, r->Uniform(0, 3));
          return bound;
        });
      }},
     {"beyond all measure", false,
      [](Random* r) {
        return Several(10, 60, r, [&](int i) {
-         SpaceTimeBound bound = BoundIn(20, 0.5, 5, 1, r);
+         motion::SpaceTimeBound bound = BoundIn(20, 0.5, 5, 1, r);
          if (i % 5 == 0) bound.declaration.radius = r->LogUniform(1, 1e300);
          if (i % 5 == 1) bound.state.p_WA.x() = r->LogUniform(1, 1e300);
          if (i % 5 == 2) bound.declaration.acceleration_max = r->LogUniform(1e-300, 1e18);

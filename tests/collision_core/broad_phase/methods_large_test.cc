@@ -14,7 +14,7 @@
 #include "tests/collision_core/broad_phase/method_scenes.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kSizes[] = {140, 600, kSanitized ? 1200 : 2300};
@@ -27,7 +27,7 @@ constexpr int kHypertrapezoidsMax = 600;
 struct LargeScene {
   const char* name;
   /// Agent i of n; sizes are such that few touch at the start.
-  SpaceTimeBound (*make)(int i, int n, Random* random);
+  motion::SpaceTimeBound (*make)(int i, int n, Random* random);
 };
 
 /// Half the side of a cube in which each has so much room.
@@ -39,14 +39,14 @@ const LargeScene kLargeScenes[] = {
     {"at rest", [](int, int n, Random* r) { return BoundIn(Half(n, 2000), 0.5, 0, 0.5, r); }},
     {"far away, in a moving frame",
      [](int, int n, Random* r) {
-       SpaceTimeBound bound = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
+       motion::SpaceTimeBound bound = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
        bound.state.p_WA.array() += 1e9;
        bound.state.v_WA.y() += 3e3;
        return bound;
      }},
     {"clusters",
      [](int i, int n, Random* r) {
-       SpaceTimeBound bound = BoundIn(Half(n / 5, 200), 0.2, 3, 1, r);
+       motion::SpaceTimeBound bound = BoundIn(Half(n / 5, 200), 0.2, 3, 1, r);
        bound.state.p_WA.x() += 1e6 * (i % 5);
        return bound;
      }},
@@ -56,13 +56,13 @@ const LargeScene kLargeScenes[] = {
      }},
     {"a plate",
      [](int i, int n, Random* r) {
-       SpaceTimeBound bound = BoundIn(3 * std::sqrt(n), 0.2, 2, 1, r);
+       motion::SpaceTimeBound bound = BoundIn(3 * std::sqrt(n), 0.2, 2, 1, r);
        bound.state.p_WA.z() = 1e-3 * (i % 3);
        return bound;
      }},
     {"a row",
      [](int i, int, Random* r) {
-       SpaceTimeBound bound = BoundIn(1, 0.2, 2, 1, r);
+       motion::SpaceTimeBound bound = BoundIn(1, 0.2, 2, 1, r);
        bound.state.p_WA.x() += 3 * i;
        return bound;
      }},
@@ -74,10 +74,10 @@ const LargeScene kLargeScenes[] = {
      }},
     {"masks, stamps and errors",
      [](int i, int n, Random* r) {
-       SpaceTimeBound bound = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
+       motion::SpaceTimeBound bound = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
        bound.declaration.group = 1u << (i % 3);
        bound.declaration.mask = i % 7 == 0 ? 0 : 6;
-       bound.state.stamp = AddRoundedUp(kMethodStart, -r->Uniform(0, 0.5));
+       bound.state.stamp = numeric::AddRoundedUp(kMethodStart, -r->Uniform(0, 0.5));
        bound.state.position_error = r->Uniform(0, 0.1);
        return bound;
      }},
@@ -85,12 +85,13 @@ const LargeScene kLargeScenes[] = {
 
 class LargeMethods : public testing::TestWithParam<LargeScene> {};
 
-std::vector<PairMeeting> AllMeetings(const std::vector<SpaceTimeBound>& bounds,
-                                     const BroadQuery& query) {
-  std::vector<PairMeeting> meetings;
+std::vector<intersection::IntersectingPair> AllMeetings(
+    const std::vector<motion::SpaceTimeBound>& bounds, const intersection::BroadQuery& query) {
+  std::vector<intersection::IntersectingPair> meetings;
   for (std::uint32_t a = 0; a < bounds.size(); ++a) {
     for (std::uint32_t b = a + 1; b < bounds.size(); ++b) {
-      const PairMeeting meeting{a, b, MeetingTime(query, bounds[a], bounds[b])};
+      const intersection::IntersectingPair meeting{
+          a, b, EarliestIntersectionOf(query, bounds[a], bounds[b])};
       if (!meeting.time.instant().is_never()) meetings.push_back(meeting);
     }
   }
@@ -102,7 +103,7 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
   std::size_t told = 0, expected = 0;
   for (const int count : kSizes) {
     Random random(count);
-    std::vector<SpaceTimeBound> bounds;
+    std::vector<motion::SpaceTimeBound> bounds;
     AllPairs all_pairs;
     SpatialIndex index;
     for (int i = 0; i < count; ++i) {
@@ -110,10 +111,12 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
       all_pairs.Put(i, bounds.back());
       index.Put(i, bounds.back());
     }
-    for (const BoundKind kind : {BoundKind::kHorn, BoundKind::kHypertrapezoid}) {
-      if (kind == BoundKind::kHypertrapezoid && count > kHypertrapezoidsMax) continue;
-      const BroadQuery query{kind, kMethodStart, AddRoundedUp(kMethodStart, kWindow)};
-      const std::vector<PairMeeting> meetings = AllMeetings(bounds, query);
+    for (const intersection::BoundKind kind :
+         {intersection::BoundKind::kHorn, intersection::BoundKind::kHypertrapezoid}) {
+      if (kind == intersection::BoundKind::kHypertrapezoid && count > kHypertrapezoidsMax) continue;
+      const intersection::BroadQuery query{kind, kMethodStart,
+                                           numeric::AddRoundedUp(kMethodStart, kWindow)};
+      const std::vector<intersection::IntersectingPair> meetings = AllMeetings(bounds, query);
       const auto first = std::min_element(meetings.begin(), meetings.end());
       expected += meetings.size();
       for (BroadPhase* method :
@@ -136,7 +139,7 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
           ASSERT_TRUE(pairs.insert({pair.lower, pair.higher}).second) << what << ": twice";
           ASSERT_TRUE(CanMeet(bounds[pair.lower].declaration, bounds[pair.higher].declaration));
         }
-        for (const PairMeeting& meeting : meetings) {
+        for (const intersection::IntersectingPair& meeting : meetings) {
           ASSERT_TRUE(pairs.contains({meeting.lower, meeting.higher})) << what << ": missing";
         }
         told += near.size();
@@ -160,9 +163,9 @@ TEST(LargeMethods, AQuestionFromLongBeforeTheLastOneLosesNobody) {
   for (int seed = 0; seed < 10; ++seed) {
     for (const double back : {1e2, 1e3, 1e4, 3e4, 1e5}) {
       Random random(seed);
-      std::vector<SpaceTimeBound> bounds;
+      std::vector<motion::SpaceTimeBound> bounds;
       for (int i = 0; i < 300; ++i) {
-        SpaceTimeBound bound = BoundIn(5, 0.5, 0, 0, &random);
+        motion::SpaceTimeBound bound = BoundIn(5, 0.5, 0, 0, &random);
         if (i < kFast) {
           bound.state.v_WA = {(i % 2 ? -1 : 1) * random.Uniform(500, 1000), 0, 0};
           bound.state.p_WA = -bound.state.v_WA;
@@ -172,20 +175,23 @@ TEST(LargeMethods, AQuestionFromLongBeforeTheLastOneLosesNobody) {
       }
       AllPairs all_pairs;
       SpatialIndex index;
-      const BroadQuery late{BoundKind::kHorn, AddRoundedUp(kMethodStart, back),
-                            AddRoundedUp(kMethodStart, back + 1)};
-      const BroadQuery early{BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, 3)};
+      const intersection::BroadQuery late{intersection::BoundKind::kHorn,
+                                          numeric::AddRoundedUp(kMethodStart, back),
+                                          numeric::AddRoundedUp(kMethodStart, back + 1)};
+      const intersection::BroadQuery early{intersection::BoundKind::kHorn, kMethodStart,
+                                           numeric::AddRoundedUp(kMethodStart, 3)};
       for (BroadPhase* method :
            {static_cast<BroadPhase*>(&all_pairs), static_cast<BroadPhase*>(&index)}) {
         for (std::uint32_t i = 0; i < bounds.size(); ++i) method->Put(i, bounds[i]);
         method->EarliestOf(1, late);
         for (std::uint32_t i = 0; i < kFast; ++i) {
-          std::optional<PairMeeting> first;
+          std::optional<intersection::IntersectingPair> first;
           std::size_t count = 0;
           for (std::uint32_t j = 0; j < bounds.size(); ++j) {
             if (j == i) continue;
-            const PairMeeting meeting{std::min(i, j), std::max(i, j),
-                                      MeetingTime(early, bounds[i], bounds[j])};
+            const intersection::IntersectingPair meeting{
+                std::min(i, j), std::max(i, j),
+                EarliestIntersectionOf(early, bounds[i], bounds[j])};
             if (meeting.time.instant().is_never()) continue;
             ++count;
             if (!first || meeting < *first) first = meeting;
@@ -209,13 +215,15 @@ TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
   Random random(1);
   SpatialIndex index;
   for (int i = 0; i < 200; ++i) {
-    SpaceTimeBound bound = BoundIn(20, 0.5, 5, 2, &random);
+    motion::SpaceTimeBound bound = BoundIn(20, 0.5, 5, 2, &random);
     if (i == 0) bound.state.p_WA.x() = 5e10;
     index.Put(i, bound);
   }
   for (const double window : {0.1, 1.0, 10.0, 100.0, 1e3, 1e4}) {
     std::vector<NearPair> pairs;
-    index.NearPairs({BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, window)}, &pairs);
+    index.NearPairs(
+        {intersection::BoundKind::kHorn, kMethodStart, numeric::AddRoundedUp(kMethodStart, window)},
+        &pairs);
     const std::size_t told = pairs.size();
     EXPECT_GT(told, 0u);
     std::sort(pairs.begin(), pairs.end());
@@ -224,10 +232,11 @@ TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
   }
 }
 
-// With a half-space there, and of one who is wild.
+// With a half-space there, and of one who is unfilterable.
 TEST(LargeMethods, WhoIsNotThereMeetsNobodyAndWhoIsWildIsAskedOnce) {
   constexpr std::uint32_t kCount = 500;
-  const BroadQuery query{BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, 1e6)};
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
+                                       numeric::AddRoundedUp(kMethodStart, 1e6)};
   AllPairs all_pairs;
   SpatialIndex index;
   FaceSweep sweep;
@@ -245,7 +254,7 @@ TEST(LargeMethods, WhoIsNotThereMeetsNobodyAndWhoIsWildIsAskedOnce) {
     EXPECT_TRUE(meetings.empty());
   }
   for (std::uint32_t i = 0; i < kCount; ++i) {
-    SpaceTimeBound bound = BoundIn(1e9, 0.5, 1, 0, &random);
+    motion::SpaceTimeBound bound = BoundIn(1e9, 0.5, 1, 0, &random);
     if (i == 5) bound.state.v_WA.x() = 0x1p41;
     index.Put(i, bound);
   }
@@ -260,11 +269,12 @@ TEST(LargeMethods, ACrowdMakesTheWindowShort) {
   SpatialIndex index;
   constexpr int kCount = 4000;
   for (int i = 0; i < kCount; ++i) index.Put(i, BoundIn(Half(kCount, 40), 0.2, 3, 1, &random));
-  const BroadQuery query{BoundKind::kHorn, kMethodStart, AddRoundedUp(kMethodStart, 100)};
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
+                                       numeric::AddRoundedUp(kMethodStart, 100)};
   ASSERT_TRUE(index.Earliest(query).has_value());
   EXPECT_LT(index.work().filter_tests, 20u * kCount);
   EXPECT_LT(index.work().pair_queries, 400u);
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

@@ -10,18 +10,19 @@
 
 #include "tests/collision_core/broad_phase/method_scenes.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 class MethodsAtTheLimit : public testing::TestWithParam<NamedMethod> {
  protected:
   /// Agents 0 and 1, and others who meet nobody.
-  void ExpectFound(const SpaceTimeBound& a, const SpaceTimeBound& b, const BroadQuery& query) {
+  void ExpectFound(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
+                   const intersection::BroadQuery& query) {
     const auto method = GetParam().make();
     method->Put(0, a);
     method->Put(1, b);
     for (std::uint32_t i = 0; i < 60; ++i) {
-      SpaceTimeBound far = a;
+      motion::SpaceTimeBound far = a;
       far.state.v_WA.setZero();
       far.state.p_WA =
           Eigen::Vector3d(-3000 + 50.0 * (i % 4), 600 + 300.0 * (i / 4 % 4), 300.0 * (i / 16));
@@ -43,22 +44,23 @@ TEST_P(MethodsAtTheLimit, GrazingHorns) {
   const auto on_grid = [](double x) { return std::round(x * 0x1p20) / 0x1p20; };
   int asked = 0;
   for (int trial = 0; trial < 600 && !HasFatalFailure(); ++trial) {
-    SpaceTimeBound a;
+    motion::SpaceTimeBound a;
     a.state.stamp = kMethodStart;
     a.declaration.radius = 0.5;
     a.declaration.acceleration_max = 0x1p-40;
-    SpaceTimeBound b = a;
+    motion::SpaceTimeBound b = a;
     for (int axis = 0; axis < 3; ++axis) {
       a.state.p_WA[axis] = on_grid(random.Uniform(-200, -100));
       b.state.p_WA[axis] = on_grid(random.Uniform(100, 200));
       const double meet = (b.state.p_WA[axis] - a.state.p_WA[axis]) / kMinutes;
       a.state.v_WA[axis] = on_grid(meet + random.Uniform(-0.002, 0.002));
     }
-    const BroadQuery ever{BoundKind::kHorn, kMethodStart, Instant::Never()};
-    const PairTime time = MeetingTime(ever, a, b);
+    const intersection::BroadQuery ever{intersection::BoundKind::kHorn, kMethodStart,
+                                        Instant::Never()};
+    const intersection::IntersectionTime time = EarliestIntersectionOf(ever, a, b);
     if (!(time.seconds < 2 * kMinutes)) continue;
     ++asked;
-    ExpectFound(a, b, {BoundKind::kHorn, kMethodStart, time.instant()});
+    ExpectFound(a, b, {intersection::BoundKind::kHorn, kMethodStart, time.instant()});
   }
   EXPECT_GT(asked, 100);
 }
@@ -68,15 +70,15 @@ TEST_P(MethodsAtTheLimit, HypertrapezoidsAHairApart) {
   int asked = 0;
   for (int trial = 0; trial < 300 && !HasFatalFailure(); ++trial) {
     const double speed = random.LogUniform(10, 1e4), radius = random.LogUniform(1e-6, 1);
-    SpaceTimeBound a;
+    motion::SpaceTimeBound a;
     a.state.stamp = kMethodStart;
     a.state.v_WA = speed * Eigen::Vector3d(0.3, 0.5, 0.7);
     a.declaration.radius = radius;
-    SpaceTimeBound b = a;
+    motion::SpaceTimeBound b = a;
     b.state.p_WA.setConstant(2 * radius + speed * random.LogUniform(1e-17, 1e-9));
-    const BroadQuery query{BoundKind::kHypertrapezoid, kMethodStart,
-                           AddRoundedUp(kMethodStart, 100)};
-    if (!(MeetingTime(query, a, b).seconds < kInfinity)) continue;
+    const intersection::BroadQuery query{intersection::BoundKind::kHypertrapezoid, kMethodStart,
+                                         numeric::AddRoundedUp(kMethodStart, 100)};
+    if (!(EarliestIntersectionOf(query, a, b).seconds < numeric::kInfinity)) continue;
     ++asked;
     ExpectFound(a, b, query);
   }
@@ -87,4 +89,4 @@ INSTANTIATE_TEST_SUITE_P(All, MethodsAtTheLimit, testing::ValuesIn(kMethods),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

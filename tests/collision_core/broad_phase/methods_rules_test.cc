@@ -7,11 +7,12 @@
 
 #include <set>
 
-#include "collision_core/broad_phase/chosen_broad_phase.h"
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/broad_phase/rules_table.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kHistories = kSanitized ? 1 : 4;
@@ -20,7 +21,7 @@ constexpr int kSteps = 40;
 std::vector<std::string> Texts(const std::vector<Meeting>& meetings) {
   std::vector<std::string> texts;
   for (const Meeting& meeting : meetings) {
-    texts.push_back(Text(PairMeeting{meeting.partner, 0, meeting.time}));
+    texts.push_back(Text(intersection::IntersectingPair{meeting.partner, 0, meeting.time}));
   }
   return texts;
 }
@@ -29,8 +30,10 @@ std::vector<std::string> Texts(const std::vector<Meeting>& meetings) {
 void ExpectAlike(const RulesTable& table, BroadPhase& method, Instant now, bool of_all,
                  Random* random) {
   const auto one = static_cast<std::uint32_t>(random->Below(table.end()));
-  for (const BoundKind kind : {BoundKind::kHorn, BoundKind::kHypertrapezoid}) {
-    const BroadQuery query{kind, now, AddRoundedUp(now, random->LogUniform(0.01, 5))};
+  for (const intersection::BoundKind kind :
+       {intersection::BoundKind::kHorn, intersection::BoundKind::kHypertrapezoid}) {
+    const intersection::BroadQuery query{kind, now,
+                                         numeric::AddRoundedUp(now, random->LogUniform(0.01, 5))};
     if (of_all) {
       ASSERT_EQ(Text(method.Earliest(query)), Text(table.Earliest(query)));
     }
@@ -39,9 +42,9 @@ void ExpectAlike(const RulesTable& table, BroadPhase& method, Instant now, bool 
               Text(table.Earliest(query, static_cast<int>(one))));
   }
   if (!table.Holds(one)) return;
-  const Instant from = random->Chance(0.3) ? AddRoundedUp(now, -0.2) : now;
-  const Instant until = AddRoundedUp(from, random->LogUniform(0.01, 5));
-  const Instant horizon = random->Chance(0.5) ? Instant::Never() : AddRoundedUp(until, 2);
+  const Instant from = random->Chance(0.3) ? numeric::AddRoundedUp(now, -0.2) : now;
+  const Instant until = numeric::AddRoundedUp(from, random->LogUniform(0.01, 5));
+  const Instant horizon = random->Chance(0.5) ? Instant::Never() : numeric::AddRoundedUp(until, 2);
   std::vector<Meeting> meetings;
   const auto none = [](std::uint32_t) { return false; };
   method.Meetings(one, from, until, horizon, none, &meetings);
@@ -49,7 +52,8 @@ void ExpectAlike(const RulesTable& table, BroadPhase& method, Instant now, bool 
 }
 
 /// Each pair once, none that is excluded, all that meet.
-void ExpectAllNear(const RulesTable& table, BroadPhase& method, const BroadQuery& query) {
+void ExpectAllNear(const RulesTable& table, BroadPhase& method,
+                   const intersection::BroadQuery& query) {
   std::vector<NearPair> pairs;
   method.NearPairs(query, &pairs);
   std::set<std::pair<std::uint32_t, std::uint32_t>> told;
@@ -76,18 +80,18 @@ void Change(RulesTable* table, const NamedScene& scene, Instant now, Random* ran
   } else if (kind < 0.45) {
     table->PutHalfSpace(i, DrawHalfSpace(*table, random));
   } else if (kind < 0.6 || !table->Moves(i)) {  // also where a half-space was
-    SpaceTimeBound bound = *scene.make(random).front();
+    motion::SpaceTimeBound bound = *scene.make(random).front();
     bound.state.stamp = now;
     table->Put(i, bound);
   } else if (table->bound(i).state.stamp < now) {  // a kept state, on the straight line
-    SpaceTimeBound bound = table->bound(i);
-    bound.state.p_WA += bound.state.v_WA * SecondsBetween(bound.state.stamp, now).lower;
+    motion::SpaceTimeBound bound = table->bound(i);
+    bound.state.p_WA += bound.state.v_WA * numeric::SecondsBetween(bound.state.stamp, now).lower;
     bound.state.stamp = now;
     table->Narrow(i, bound);
   }
 }
 
-std::unique_ptr<BroadPhase> MakeChosen() { return std::make_unique<ChosenBroadPhase>(); }
+std::unique_ptr<BroadPhase> MakeChosen() { return std::make_unique<AdaptiveBroadPhase>(); }
 
 class MethodsWithRules : public testing::TestWithParam<NamedMethod> {};
 
@@ -100,15 +104,16 @@ TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
       const SceneAgents agents = scene.make(&random);
       for (std::uint32_t a = 0; a < agents.size(); ++a) table.Put(a, *agents[a]);
       table.PutHalfSpace(table.end() + 1, DrawHalfSpace(table, &random));
-      Instant now = AddRoundedUp(kMethodStart, 1);
+      Instant now = numeric::AddRoundedUp(kMethodStart, 1);
       for (int step = 0; step < kSteps; ++step) {
         for (int change = 0; change < 8; ++change) Change(&table, scene, now, &random);
         ExpectAlike(table, *method, now, step % 8 == 0, &random);
         ASSERT_FALSE(HasFatalFailure()) << scene.name << ", " << history << ", step " << step;
         ASSERT_EQ(method->rules().size(), table.rules());
-        now = AddRoundedUp(now, random.Uniform(0, 0.05));
+        now = numeric::AddRoundedUp(now, random.Uniform(0, 0.05));
       }
-      const BroadQuery query{BoundKind::kHorn, now, AddRoundedUp(now, 0.5)};
+      const intersection::BroadQuery query{intersection::BoundKind::kHorn, now,
+                                           numeric::AddRoundedUp(now, 0.5)};
       ExpectAllNear(table, *method, query);
       ASSERT_FALSE(HasFatalFailure()) << scene.name << ", " << history;
     }
@@ -119,11 +124,12 @@ TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
 BroadPhaseWork WorkOfQuestions(BroadPhase* method, std::uint32_t count) {
   const BroadPhaseWork before = method->work();
   for (std::uint32_t agent = 0; agent < count; agent += 7) {
-    const Instant from = AddRoundedUp(kMethodStart, 1e-3 * agent);
+    const Instant from = numeric::AddRoundedUp(kMethodStart, 1e-3 * agent);
     std::vector<Meeting> meetings;
     const auto none = [](std::uint32_t) { return false; };
-    method->Meetings(agent, from, AddRoundedUp(from, 0.5), Instant::Never(), none, &meetings);
-    method->Earliest({BoundKind::kHorn, from, AddRoundedUp(from, 1)});
+    method->Meetings(agent, from, numeric::AddRoundedUp(from, 0.5), Instant::Never(), none,
+                     &meetings);
+    method->Earliest({intersection::BoundKind::kHorn, from, numeric::AddRoundedUp(from, 1)});
   }
   const BroadPhaseWork after = method->work();
   return {after.pair_queries - before.pair_queries, after.filter_tests - before.filter_tests,
@@ -172,9 +178,10 @@ TEST_P(MethodsWithRules, DoNotAskExcludedPairs) {
     for (std::uint32_t b = 0; b < a; ++b) ASSERT_TRUE(method->Exclude(a, b));
   }
   EXPECT_EQ(WorkOfQuestions(method.get(), kAgents).pair_queries, 0u);
-  EXPECT_FALSE(method->Earliest({BoundKind::kHypertrapezoid, kMethodStart, kMethodStart}));
+  EXPECT_FALSE(
+      method->Earliest({intersection::BoundKind::kHypertrapezoid, kMethodStart, kMethodStart}));
   std::vector<NearPair> pairs;
-  method->NearPairs({BoundKind::kHorn, kMethodStart, kMethodStart}, &pairs);
+  method->NearPairs({intersection::BoundKind::kHorn, kMethodStart, kMethodStart}, &pairs);
   EXPECT_TRUE(pairs.empty());
 }
 
@@ -182,7 +189,7 @@ TEST_P(MethodsWithRules, DoNotAskExcludedPairs) {
 //         when no pair can meet yet; an agent alone meets them too.
 TEST_P(MethodsWithRules, MeetHalfSpacesBeforeOthersAreThere) {
   const auto method = GetParam().make();
-  SpaceTimeBound bound;
+  motion::SpaceTimeBound bound;
   bound.state.stamp = kMethodStart;
   bound.state.p_WA = {3, 4, 7};
   bound.state.v_WA = {0, 0, -2};
@@ -190,13 +197,14 @@ TEST_P(MethodsWithRules, MeetHalfSpacesBeforeOthersAreThere) {
   method->Put(0, bound);
   ASSERT_TRUE(method->PutHalfSpace(1, {{0, 0, 1}, 0}));  // at 3 s
   ASSERT_TRUE(method->PutHalfSpace(2, {{0, 0, 2}, 4}));  // at 2 s
-  const BroadQuery query{BoundKind::kHorn, kMethodStart, Instant::Never()};
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
+                                       Instant::Never()};
   const auto alone = method->Earliest(query);
   ASSERT_TRUE(alone);
   EXPECT_EQ(alone->higher, 2u);
   EXPECT_LE(alone->time.seconds, 2);
   EXPECT_GE(alone->time.seconds, 2 - 1e-8);
-  bound.state.stamp = AddRoundedUp(kMethodStart, 10);
+  bound.state.stamp = numeric::AddRoundedUp(kMethodStart, 10);
   method->Put(3, bound);
   EXPECT_EQ(Text(method->Earliest(query)), Text(alone));
 }
@@ -213,7 +221,8 @@ TEST_P(MethodsWithRules, RefuseBeyondTheLimits) {
   }
   EXPECT_FALSE(method->PutHalfSpace(1, HalfSpace())) << "an agent's index, and it stays";
   EXPECT_EQ(method->half_spaces().size(), HalfSpaces::kCountMax);
-  const BroadQuery query{BoundKind::kHorn, kMethodStart, Instant::Never()};
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
+                                       Instant::Never()};
   const auto expected = method->EarliestOf(1, query);
   ASSERT_TRUE(expected);
   EXPECT_FALSE(method->PutHalfSpace(9, HalfSpace()));
@@ -227,4 +236,4 @@ INSTANTIATE_TEST_SUITE_P(All, MethodsWithRules, testing::ValuesIn(kAll),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

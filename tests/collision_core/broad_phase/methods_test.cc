@@ -10,36 +10,40 @@
 #include "tests/collision_core/broad_phase/method_scenes.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 constexpr int kScenes = kSanitized ? 6 : 60;
 
-using Agents = std::vector<std::optional<SpaceTimeBound>>;
+using Agents = std::vector<std::optional<motion::SpaceTimeBound>>;
 
-std::optional<PairMeeting> Oracle(const Agents& agents, const BroadQuery& query, int only = -1) {
-  std::optional<PairMeeting> best;
+std::optional<intersection::IntersectingPair> Oracle(const Agents& agents,
+                                                     const intersection::BroadQuery& query,
+                                                     int only = -1) {
+  std::optional<intersection::IntersectingPair> best;
   for (std::uint32_t a = 0; a < agents.size(); ++a) {
     for (std::uint32_t b = a + 1; b < agents.size(); ++b) {
       if (!agents[a] || !agents[b]) continue;
       if (only >= 0 && a != static_cast<std::uint32_t>(only) &&
           b != static_cast<std::uint32_t>(only))
         continue;
-      const PairMeeting meeting{a, b, MeetingTime(query, *agents[a], *agents[b])};
+      const intersection::IntersectingPair meeting{
+          a, b, EarliestIntersectionOf(query, *agents[a], *agents[b])};
       if (!meeting.time.instant().is_never() && (!best || meeting < *best)) best = meeting;
     }
   }
   return best;
 }
 
-std::string Text(const std::optional<PairMeeting>& meeting) {
+std::string Text(const std::optional<intersection::IntersectingPair>& meeting) {
   if (!meeting) return "none";
   return std::to_string(meeting->lower) + " x " + std::to_string(meeting->higher) + " at " +
          std::to_string(meeting->time.base.nanoseconds()) + " ns + " +
          testing::PrintToString(meeting->time.seconds) + " s";
 }
 
-void ExpectSame(const std::optional<PairMeeting>& got, const std::optional<PairMeeting>& expected,
+void ExpectSame(const std::optional<intersection::IntersectingPair>& got,
+                const std::optional<intersection::IntersectingPair>& expected,
                 const std::string& what) {
   ASSERT_EQ(Text(got), Text(expected)) << what;
   if (got) {
@@ -50,11 +54,12 @@ void ExpectSame(const std::optional<PairMeeting>& got, const std::optional<PairM
 /// Partners by `until`, and of the later ones the first up to `horizon`, in the order of indices.
 std::vector<std::string> ExpectedMeetings(const Agents& agents, std::uint32_t agent, Instant from,
                                           Instant until, Instant horizon) {
-  std::vector<std::pair<std::uint32_t, PairTime>> all;
-  std::optional<std::pair<std::uint32_t, PairTime>> next;
+  std::vector<std::pair<std::uint32_t, intersection::IntersectionTime>> all;
+  std::optional<std::pair<std::uint32_t, intersection::IntersectionTime>> next;
   for (std::uint32_t other = 0; other < agents.size(); ++other) {
     if (other == agent || !agents[other]) continue;
-    const PairTime time = EarliestIntersection(*agents[agent], *agents[other], from);
+    const intersection::IntersectionTime time =
+        intersection::EarliestIntersection(*agents[agent], *agents[other], from);
     if (time.instant() <= until) {
       all.emplace_back(other, time);
     } else if (!time.instant().is_never() && time.instant() <= horizon &&
@@ -94,15 +99,18 @@ TEST_P(Methods, FindTheSameEarliestMeetingInEveryScene) {
       const auto method = GetParam().make();
       for (std::uint32_t a = 0; a < agents.size(); ++a) method->Put(a, *agents[a]);
       const std::string what = std::string(scene.name) + ", seed " + std::to_string(seed);
-      for (const BoundKind bound : {BoundKind::kHorn, BoundKind::kHypertrapezoid}) {
+      for (const intersection::BoundKind bound :
+           {intersection::BoundKind::kHorn, intersection::BoundKind::kHypertrapezoid}) {
         const double horizon = random.LogUniform(1e-3, 10);
-        const BroadQuery query{bound, kMethodStart, AddRoundedUp(kMethodStart, horizon)};
+        const intersection::BroadQuery query{bound, kMethodStart,
+                                             numeric::AddRoundedUp(kMethodStart, horizon)};
         ExpectSame(method->Earliest(query), Oracle(agents, query), what);
         const auto one = static_cast<std::uint32_t>(random.Below(agents.size()));
         ExpectSame(method->EarliestOf(one, query), Oracle(agents, query, static_cast<int>(one)),
                    what + ", agent " + std::to_string(one));
       }
-      const BroadQuery forever{BoundKind::kHorn, kMethodStart, Instant::Never()};
+      const intersection::BroadQuery forever{intersection::BoundKind::kHorn, kMethodStart,
+                                             Instant::Never()};
       ExpectSame(method->Earliest(forever), Oracle(agents, forever), what + ", for ever");
       if (HasFatalFailure()) return;
     }
@@ -118,11 +126,11 @@ TEST_P(Methods, TellTheSameMeetingsOfOneAgent) {
       for (std::uint32_t a = 0; a < agents.size(); ++a) method->Put(a, *agents[a]);
       for (int question = 0; question < 4; ++question) {
         const auto agent = static_cast<std::uint32_t>(random.Below(agents.size()));
-        const Instant from = AddRoundedUp(kMethodStart, random.Uniform(-0.5, 1));
-        const Instant until = AddRoundedUp(from, random.LogUniform(1e-3, 10));
+        const Instant from = numeric::AddRoundedUp(kMethodStart, random.Uniform(-0.5, 1));
+        const Instant until = numeric::AddRoundedUp(from, random.LogUniform(1e-3, 10));
         const Instant horizon = random.Chance(0.5)
                                     ? Instant::Never()
-                                    : AddRoundedUp(until, random.LogUniform(0.01, 100));
+                                    : numeric::AddRoundedUp(until, random.LogUniform(0.01, 100));
         ASSERT_EQ(MeetingsOf(*method, agent, from, until, horizon),
                   ExpectedMeetings(agents, agent, from, until, horizon))
             << scene.name << ", seed " << seed << ", agent " << agent;
@@ -132,9 +140,9 @@ TEST_P(Methods, TellTheSameMeetingsOfOneAgent) {
 }
 
 /// A state that keeps the contract of `bound`, some time later.
-SpaceTimeBound Later(const SpaceTimeBound& bound, Instant stamp, Random* random) {
-  SpaceTimeBound next = bound;
-  const double s = SecondsBetween(bound.state.stamp, stamp).lower;
+motion::SpaceTimeBound Later(const motion::SpaceTimeBound& bound, Instant stamp, Random* random) {
+  motion::SpaceTimeBound next = bound;
+  const double s = numeric::SecondsBetween(bound.state.stamp, stamp).lower;
   const double acceleration_max = bound.declaration.acceleration_max;
   next.state.stamp = stamp;
   next.state.p_WA += bound.state.v_WA * s + random->UnitVector() * (0.45 * acceleration_max * s *
@@ -153,7 +161,7 @@ TEST_P(Methods, StayRightThroughLongHistories) {
       for (std::uint32_t a = 0; a < agents.size(); ++a) method->Put(a, *agents[a]);
       Instant now = kMethodStart;
       for (int step = 0; step < 60; ++step) {
-        now = AddRoundedUp(now, random.Uniform(0, 0.05));
+        now = numeric::AddRoundedUp(now, random.Uniform(0, 0.05));
         for (int change = 0; change < 6; ++change) {
           const auto agent = static_cast<std::uint32_t>(random.Below(agents.size()));
           const double kind = random.Uniform(0, 1);
@@ -172,8 +180,9 @@ TEST_P(Methods, StayRightThroughLongHistories) {
             method->Narrow(agent, *agents[agent]);
           }
         }
-        const BroadQuery query{BoundKind::kHorn, now,
-                               AddRoundedUp(now, random.LogUniform(0.01, 5))};
+        const intersection::BroadQuery query{
+            intersection::BoundKind::kHorn, now,
+            numeric::AddRoundedUp(now, random.LogUniform(0.01, 5))};
         const std::string what = std::string(scene.name) + ", seed " + std::to_string(seed) +
                                  ", step " + std::to_string(step);
         if (step % 10 == 0) ExpectSame(method->Earliest(query), Oracle(agents, query), what);
@@ -181,7 +190,7 @@ TEST_P(Methods, StayRightThroughLongHistories) {
         if (!agents[one]) continue;
         ExpectSame(method->EarliestOf(one, query), Oracle(agents, query, static_cast<int>(one)),
                    what);
-        const Instant from = random.Chance(0.3) ? AddRoundedUp(now, -0.2) : now;
+        const Instant from = random.Chance(0.3) ? numeric::AddRoundedUp(now, -0.2) : now;
         ASSERT_EQ(MeetingsOf(*method, one, from, query.until, Instant::Never()),
                   ExpectedMeetings(agents, one, from, query.until, Instant::Never()))
             << what;
@@ -194,4 +203,4 @@ INSTANTIATE_TEST_SUITE_P(All, Methods, testing::ValuesIn(kMethods),
                          [](const auto& info) { return std::string(info.param.name); });
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

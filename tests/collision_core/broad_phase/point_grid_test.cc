@@ -2,7 +2,7 @@
 //         says so where points do not suit it. Every width of vectors gives the same.
 // Method: points of all scales and shapes, many pairs placed to just touch; the truth in exact
 //         rational arithmetic for those that are near the edge.
-#include "collision_core/broad_phase/point_grid.h"
+#include "collision_core/broad_phase/filter/point_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include "tests/support/exact.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
@@ -194,9 +194,9 @@ TEST(PointGrid, ComparesLinesWhereAsked) {
       point.v[axis] = static_cast<float>(random.Uniform(-3, 3));
       square += static_cast<double>(point.v[axis]) * static_cast<double>(point.v[axis]);
     }
-    constexpr double kUp = 1 + 2 * static_cast<double>(kLaneSlack);
+    constexpr double kUp = 1 + 2 * static_cast<double>(kFilterSlack);
     const double own = random.Uniform(0.1, 0.4), way = kHalf * std::sqrt(square);
-    point.own = static_cast<float>(own * kUp + static_cast<double>(kLaneSlack) * way);
+    point.own = static_cast<float>(own * kUp + static_cast<double>(kFilterSlack) * way);
     point.reach = static_cast<float>((own + way) * kUp);
   }
   const auto at = [&](std::uint32_t k, ReachPoint* point) {
@@ -221,9 +221,9 @@ TEST(PointGrid, ComparesLinesWhereAsked) {
       }
       const double u = std::clamp(-away / speed, -kHalf, kHalf);
       for (int axis = 0; axis < 3; ++axis) square += std::pow(d[axis] + w[axis] * u, 2);
-      constexpr double kDown = 1 - 2 * static_cast<double>(kLaneSlack);
+      constexpr double kDown = 1 - 2 * static_cast<double>(kFilterSlack);
       const double own = static_cast<double>(points[k].own) + static_cast<double>(points[l].own);
-      const double slack = static_cast<double>(kLaneSlack) * kHalf * std::sqrt(speed);
+      const double slack = static_cast<double>(kFilterSlack) * kHalf * std::sqrt(speed);
       if (std::sqrt(square) > own * kDown - 2 * slack) continue;
       ++meet;
       ASSERT_TRUE(found.contains({k, l})) << k << ", " << l;
@@ -263,16 +263,16 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
       const auto end = begin + 1 + static_cast<std::uint32_t>(random.Below(kCount - 1 - begin));
       rows.push_back({begin, end, row % 3 - 1, row % 2});
     }
-    const auto hits_of = [&](PointScan scan) {
+    const auto hits_of = [&](PointFilter scan) {
       std::vector<std::uint32_t> askers(kAskersMax * 5 * kCount + kLanesMax), others(askers);
       const PointCounts counts = scan(view, who, rows.data(), 5, {askers.data(), others.data()});
       std::vector<Pair> hits = {{counts.tests, counts.ranges}};
       for (std::uint32_t k = 0; k < counts.hits; ++k) hits.push_back({askers[k], others[k]});
       return hits;
     };
-    const auto plain = hits_of(PlainPointScan());
+    const auto plain = hits_of(PlainPointFilter());
     told += plain.size() - 1, tested += plain[0].first;
-    for (const PointScan scan : {Avx2PointScan(), Avx512PointScan(), WidestPointScan()}) {
+    for (const PointFilter scan : {Avx2PointFilter(), Avx512PointFilter(), WidestPointFilter()}) {
       if (scan != nullptr) {
         ASSERT_EQ(hits_of(scan), plain) << "trial " << trial;
       }
@@ -283,4 +283,4 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::broad_phase

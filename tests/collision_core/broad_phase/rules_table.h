@@ -16,25 +16,25 @@ namespace collision {
 /// Asks the canonical routines for every pair. Every change is made to the method too.
 class RulesTable {
  public:
-  explicit RulesTable(BroadPhase* method) : method_(method) {}
+  explicit RulesTable(broad_phase::BroadPhase* method) : method_(method) {}
 
   std::uint32_t end() const { return static_cast<std::uint32_t>(bounds_.size()); }
   bool Moves(std::uint32_t i) const { return i < end() && bounds_[i].has_value(); }
   bool Holds(std::uint32_t i) const { return Moves(i) || half_spaces_.count(i) != 0; }
-  const SpaceTimeBound& bound(std::uint32_t i) const { return *bounds_[i]; }
+  const motion::SpaceTimeBound& bound(std::uint32_t i) const { return *bounds_[i]; }
   std::size_t rules() const { return rules_.size(); }
 
-  void Put(std::uint32_t i, const SpaceTimeBound& bound) {
+  void Put(std::uint32_t i, const motion::SpaceTimeBound& bound) {
     Reserve(i);
     bounds_[i] = bound;
     half_spaces_.erase(i);
     method_->Put(i, bound);
   }
-  void Narrow(std::uint32_t i, const SpaceTimeBound& bound) {
+  void Narrow(std::uint32_t i, const motion::SpaceTimeBound& bound) {
     bounds_[i] = bound;
     method_->Narrow(i, bound);
   }
-  void PutHalfSpace(std::uint32_t i, const HalfSpace& half_space) {
+  void PutHalfSpace(std::uint32_t i, const broad_phase::HalfSpace& half_space) {
     Reserve(i);
     bounds_[i].reset();
     half_spaces_[i] = half_space;
@@ -47,10 +47,10 @@ class RulesTable {
         rules_, [i](const auto& rule) { return rule.first.first == i || rule.first.second == i; });
     method_->Remove(i);
   }
-  void SetRule(std::uint32_t a, std::uint32_t b, PairRule rule) {
+  void SetRule(std::uint32_t a, std::uint32_t b, intersection::PairRule rule) {
     if (a == b) return;
     rules_[std::minmax(a, b)] = rule;
-    if (rule == PairRule()) {
+    if (rule == intersection::PairRule()) {
       rules_.erase(std::minmax(a, b));
       method_->ClearRule(a, b);
     } else if (rule.excluded) {
@@ -60,35 +60,39 @@ class RulesTable {
     }
   }
 
-  PairTime TimeOf(const BroadQuery& query, std::uint32_t a, std::uint32_t b) const {
-    const PairTime never{query.from, kInfinity};
+  intersection::IntersectionTime TimeOf(const intersection::BroadQuery& query, std::uint32_t a,
+                                        std::uint32_t b) const {
+    const intersection::IntersectionTime never{query.from, numeric::kInfinity};
     const auto found = rules_.find(std::minmax(a, b));
-    const PairRule rule = found == rules_.end() ? PairRule() : found->second;
+    const intersection::PairRule rule =
+        found == rules_.end() ? intersection::PairRule() : found->second;
     if (rule.excluded || a == b || !Holds(a) || !Holds(b)) return never;
-    if (Moves(a) && Moves(b)) return MeetingTime(query, bound(a), bound(b), rule.margin);
+    if (Moves(a) && Moves(b)) return EarliestIntersectionOf(query, bound(a), bound(b), rule.margin);
     if (!Moves(a) && !Moves(b)) return never;
     if (!Moves(a)) std::swap(a, b);
-    return MeetingTime(query, half_spaces_.at(b), bound(a), rule.margin);
+    return EarliestIntersectionOf(query, half_spaces_.at(b), bound(a), rule.margin);
   }
 
-  std::optional<PairMeeting> Earliest(const BroadQuery& query, int only = -1) const {
-    std::optional<PairMeeting> best;
+  std::optional<intersection::IntersectingPair> Earliest(const intersection::BroadQuery& query,
+                                                         int only = -1) const {
+    std::optional<intersection::IntersectingPair> best;
     for (std::uint32_t a = 0; a < end(); ++a) {
       for (std::uint32_t b = a + 1; b < end(); ++b) {
         if (only >= 0 && static_cast<int>(a) != only && static_cast<int>(b) != only) continue;
-        const PairMeeting meeting{a, b, TimeOf(query, a, b)};
+        const intersection::IntersectingPair meeting{a, b, TimeOf(query, a, b)};
         if (!meeting.time.instant().is_never() && (!best || meeting < *best)) best = meeting;
       }
     }
     return best;
   }
 
-  std::vector<Meeting> Meetings(std::uint32_t agent, Instant from, Instant until,
-                                Instant horizon) const {
-    std::vector<Meeting> meetings;
-    std::optional<Meeting> next;
+  std::vector<broad_phase::Meeting> Meetings(std::uint32_t agent, Instant from, Instant until,
+                                             Instant horizon) const {
+    std::vector<broad_phase::Meeting> meetings;
+    std::optional<broad_phase::Meeting> next;
     for (std::uint32_t other = 0; other < end(); ++other) {
-      const Meeting meeting{other, TimeOf({BoundKind::kHorn, from, horizon}, agent, other)};
+      const broad_phase::Meeting meeting{
+          other, TimeOf({intersection::BoundKind::kHorn, from, horizon}, agent, other)};
       const Instant when = meeting.time.instant();
       if (when.is_never()) continue;
       if (when <= until) {
@@ -107,13 +111,13 @@ class RulesTable {
     if (end() <= i) bounds_.resize(i + 1);
   }
 
-  BroadPhase* method_;
+  broad_phase::BroadPhase* method_;
   SceneAgents bounds_;
-  std::map<std::uint32_t, HalfSpace> half_spaces_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, PairRule> rules_;
+  std::map<std::uint32_t, broad_phase::HalfSpace> half_spaces_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, intersection::PairRule> rules_;
 };
 
-inline std::string Text(const std::optional<PairMeeting>& meeting) {
+inline std::string Text(const std::optional<intersection::IntersectingPair>& meeting) {
   if (!meeting) return "none";
   return std::to_string(meeting->lower) + " x " + std::to_string(meeting->higher) + " at " +
          std::to_string(meeting->time.base.nanoseconds()) + " ns + " +
@@ -121,8 +125,8 @@ inline std::string Text(const std::optional<PairMeeting>& meeting) {
 }
 
 /// Near some agent, any way round.
-inline HalfSpace DrawHalfSpace(const RulesTable& table, Random* random) {
-  HalfSpace half_space;
+inline broad_phase::HalfSpace DrawHalfSpace(const RulesTable& table, Random* random) {
+  broad_phase::HalfSpace half_space;
   half_space.normal = random->UnitVector() * random->LogUniform(1e-3, 1e3);
   const auto at = static_cast<std::uint32_t>(random->Below(table.end()));
   if (table.Moves(at)) {
@@ -134,7 +138,7 @@ inline HalfSpace DrawHalfSpace(const RulesTable& table, Random* random) {
   return half_space;
 }
 
-inline PairRule DrawRule(Random* random) {
+inline intersection::PairRule DrawRule(Random* random) {
   if (random->Chance(0.3)) return {};
   if (random->Chance(0.4)) return {.excluded = true};
   if (random->Chance(0.02)) return {.margin = 1e30};

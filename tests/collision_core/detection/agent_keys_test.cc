@@ -9,7 +9,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr int kCalm = Restlessness::kCalm;
@@ -57,4 +57,4 @@ TEST(AgentKeys, AreThoseOfEachClass) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -9,12 +9,13 @@
 #include <map>
 #include <vector>
 
-#include "collision_core/broad_phase/pair_time.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr std::uint64_t kHistories = kSanitized ? 20 : 60;
@@ -26,7 +27,7 @@ struct Leg {
 };
 
 struct Agent {
-  SpaceTimeBound bound;
+  motion::SpaceTimeBound bound;
   std::vector<Leg> legs;
 
   Vector3d PlaceAt(Instant t) const {
@@ -34,7 +35,7 @@ struct Agent {
     for (const Leg& next : legs) {
       if (next.from <= t) leg = &next;
     }
-    return leg->p + SecondsBetween(leg->from, t).middle() * leg->v;
+    return leg->p + numeric::SecondsBetween(leg->from, t).middle() * leg->v;
   }
 };
 
@@ -43,7 +44,7 @@ class History {
   explicit History(std::uint64_t seed) : random_(seed), detector_(Options()) {}
 
   void Step() {
-    now_ = AddRoundedUp(now_, 0.1 * options_.announce_within * random_.Uniform(0.2, 4));
+    now_ = numeric::AddRoundedUp(now_, 0.1 * options_.announce_within * random_.Uniform(0.2, 4));
     while (agents_.size() < wanted_) Admit();
     std::vector<std::uint32_t> gone;
     for (auto& [slot, agent] : agents_) {
@@ -82,8 +83,8 @@ class History {
 
   Vector3d Place() { return random_.Uniform(0, box_) * random_.UnitVector(); }
 
-  AgentDeclaration Declaration() {
-    AgentDeclaration declaration;
+  motion::AgentDeclaration Declaration() {
+    motion::AgentDeclaration declaration;
     declaration.radius = random_.LogUniform(0.2, 3);
     declaration.acceleration_max = random_.Chance(0.3) ? 0 : random_.LogUniform(1e-3, 1e3);
     return declaration;
@@ -91,19 +92,19 @@ class History {
 
   void Admit() {
     const std::uint32_t slot = slots_++;
-    MotionState state;
+    motion::MotionState state;
     state.stamp = now_;
     state.p_WA = Place();
     state.v_WA = random_.Uniform(0, 20) * random_.UnitVector();
-    const AgentDeclaration declaration = Declaration();
+    const motion::AgentDeclaration declaration = Declaration();
     ASSERT_TRUE(detector_.Admit(Id(slot), declaration, state, now_));
     agents_[slot] = {{state, declaration, 0}, {{now_, state.p_WA, state.v_WA}}};
   }
 
   void Speak(std::uint32_t slot, Agent* agent) {
-    MotionState state = agent->bound.state;
+    motion::MotionState state = agent->bound.state;
     const Instant last = state.stamp;
-    state.stamp = AddRoundedUp(now_, random_.Chance(0.5) ? 0 : random_.Uniform(0, 5));
+    state.stamp = numeric::AddRoundedUp(now_, random_.Chance(0.5) ? 0 : random_.Uniform(0, 5));
     if (state.stamp <= last) return;
     state.p_WA = agent->PlaceAt(state.stamp);
     state.discontinuity = last <= now_ && random_.Chance(0.05);
@@ -132,16 +133,18 @@ class History {
   }
 
   void JudgePair(const Entry& a, const Entry& b) {
-    const Instant when = EarliestIntersection(a.second.bound, b.second.bound, now_).instant();
+    const Instant when =
+        intersection::EarliestIntersection(a.second.bound, b.second.bound, now_).instant();
     if (!when.is_never()) {
       // Answers may be early by 1e-9 of the way; those of older states by another one.
-      const Instant rounded = AddRoundedUp(when, 2e-9 + 2e-9 * SecondsBetween(now_, when).upper);
+      const Instant rounded =
+          numeric::AddRoundedUp(when, 2e-9 + 2e-9 * numeric::SecondsBetween(now_, when).upper);
       EXPECT_FALSE(IsClearAt(a.first, rounded) || IsClearAt(b.first, rounded))
           << a.first << "-" << b.first;
     }
     const Instant end = std::max(a.second.bound.state.stamp, b.second.bound.state.stamp);
     const double sum = a.second.bound.declaration.radius + b.second.bound.declaration.radius;
-    for (Instant t = now_; t < end; t = AddRoundedUp(t, 0.02)) {
+    for (Instant t = now_; t < end; t = numeric::AddRoundedUp(t, 0.02)) {
       if ((a.second.PlaceAt(t) - b.second.PlaceAt(t)).norm() > sum - 1e-6 || WasTold(a, b, t))
         continue;
       EXPECT_FALSE(IsClearAt(a.first, t) || IsClearAt(b.first, t)) << a.first << "-" << b.first;
@@ -183,4 +186,4 @@ TEST(StateAhead, OfRandomHistories) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

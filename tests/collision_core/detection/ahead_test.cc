@@ -6,10 +6,10 @@
 
 #include "tests/collision_core/detection/line.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
-const AgentDeclaration kSlow{.radius = 1, .acceleration_max = 0.01};
+const motion::AgentDeclaration kSlow{.radius = 1, .acceleration_max = 0.01};
 
 DetectorOptions Options(std::uint32_t pairs_per_agent_max = 256) {
   DetectorOptions options;
@@ -18,7 +18,7 @@ DetectorOptions Options(std::uint32_t pairs_per_agent_max = 256) {
   return options;
 }
 
-UpdateOutcome Speak(std::uint32_t slot, const MotionState& state, Detector* detector) {
+UpdateOutcome Speak(std::uint32_t slot, const motion::MotionState& state, Detector* detector) {
   const UpdateOutcome outcome = detector->Update(Id(slot), state, state.stamp);
   detector->Hear(Id(slot), state.stamp);
   return outcome;
@@ -50,7 +50,7 @@ void PutInTheWay(Detector* detector) {
   detector->Admit(Id(0), kSlow, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
   detector->Admit(Id(1), kSlow, State(0, {0, 100, 0}, {0, 0, 0}), At(0));
   detector->Advance(At(0));
-  MotionState jumped = State(0.1, {0, 0, 0}, {0, 0, 0});
+  motion::MotionState jumped = State(0.1, {0, 0, 0}, {0, 0, 0});
   jumped.discontinuity = true;
   Speak(1, jumped, detector);
   detector->Advance(At(0.1));
@@ -64,7 +64,7 @@ void ExpectTold(double now, Detector* detector) {
 TEST(StateAhead, ThatPromisesLess) {
   Detector detector(Options());
   PutInTheWay(&detector);
-  MotionState state = State(5, {30, 0, 0}, {10, 0, 0});
+  motion::MotionState state = State(5, {30, 0, 0}, {10, 0, 0});
   state.position_error = 0.5;
   EXPECT_EQ(Speak(0, state, &detector), UpdateOutcome::kWidened);
   for (const double now : {0.4, 1.0, 1.7}) ExpectTold(now, &detector);
@@ -73,7 +73,7 @@ TEST(StateAhead, ThatPromisesLess) {
 TEST(StateAhead, AfterAJump) {
   Detector detector(Options());
   PutInTheWay(&detector);
-  MotionState state = State(5, {30, 0, 0}, {10, 0, 0});
+  motion::MotionState state = State(5, {30, 0, 0}, {10, 0, 0});
   state.discontinuity = true;
   EXPECT_EQ(Speak(0, state, &detector), UpdateOutcome::kJumped);
   for (const double now : {0.4, 1.0, 1.7}) ExpectTold(now, &detector);
@@ -85,7 +85,7 @@ TEST(StateAhead, ToldBeforeTheEarliestOfAllIsAsked) {
   detector.Admit(Id(0), kSlow, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
   detector.Admit(Id(1), kSlow, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
-  MotionState state = State(0.1, {-19, 0, 0}, {10, 0, 0});
+  motion::MotionState state = State(0.1, {-19, 0, 0}, {10, 0, 0});
   state.position_error = 0.01;
   EXPECT_EQ(Speak(0, state, &detector), UpdateOutcome::kWidened);
   detector.Advance(At(0.1));
@@ -101,7 +101,7 @@ TEST(StateAhead, ToldBeforeTheEarliestOfAllIsAsked) {
 void Crowd(Detector* detector) {
   detector->Admit(Id(1), kSlow, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector->Advance(At(0));
-  AgentDeclaration about = kSlow, passing = kSlow;
+  motion::AgentDeclaration about = kSlow, passing = kSlow;
   about.group = 4, about.mask = 1, passing.group = 2;
   detector->Admit(Id(2), about, State(0, {0.1, 0, 0}, {0, 0, 0}), At(0));
   detector->Admit(Id(3), about, State(0, {-0.1, 0, 0}, {0, 0, 0}), At(0));
@@ -142,4 +142,4 @@ TEST(StateAhead, OfOneThatStaysSaturated) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

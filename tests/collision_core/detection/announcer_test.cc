@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -17,10 +17,10 @@ Instant At(double seconds) {
 AgentRecord BallAt(std::uint32_t slot, double x) {
   AgentRecord record;
   record.id.slot = slot;
-  MotionState state;
+  motion::MotionState state;
   state.stamp = At(0);
   state.p_WA = {x, 0, 0};
-  AgentDeclaration declaration;
+  motion::AgentDeclaration declaration;
   declaration.radius = 1;
   record.history.Push({state, declaration, 0}, Link::kJumped, 4);
   return record;
@@ -34,9 +34,9 @@ class AnnouncerTest : public testing::Test {
   }
 
   /// A look at [0, 1] that finds this.
-  static ContactTracker Look(const SegmentVerdict& verdict) {
+  static ContactTracker Look(const narrow_phase::SegmentResult& verdict) {
     ContactTracker tracker(At(0), false);
-    tracker.Apply(verdict, At(1), Nearest{}, ContactNormal{});
+    tracker.Apply(verdict, At(1), Nearest{}, narrow_phase::ContactNormal{});
     return tracker;
   }
 
@@ -48,7 +48,8 @@ class AnnouncerTest : public testing::Test {
   }
 
   /// One look confirms, a later one, which is final, tells of the end.
-  CollisionEvent EndOf(const SegmentVerdict& first, const SegmentVerdict& last) {
+  CollisionEvent EndOf(const narrow_phase::SegmentResult& first,
+                       const narrow_phase::SegmentResult& last) {
     const ContactTracker nothing(At(0), false);
     EXPECT_EQ(Report(nothing, Look(first)).status, EventStatus::kConfirmed);
     const CollisionEvent ended = Report(Look(last), ContactTracker(Instant::Never(), false));
@@ -114,4 +115,4 @@ TEST_F(AnnouncerTest, ABrokenBoundTakesBackWhatWasTold) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

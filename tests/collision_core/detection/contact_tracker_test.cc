@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
-namespace collision {
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -13,12 +15,13 @@ Instant At(double seconds) {
   return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * kSecond));
 }
 
-SegmentVerdict Free() { return {1, 1, 0, true, 0}; }
-SegmentVerdict Undecided() { return {0, 1, 0, true, 1}; }
-SegmentVerdict Touching() { return {0, 0, 1, true, 1}; }
+narrow_phase::SegmentResult Free() { return {1, 1, 0, true, 0}; }
+narrow_phase::SegmentResult Undecided() { return {0, 1, 0, true, 1}; }
+narrow_phase::SegmentResult Touching() { return {0, 0, 1, true, 1}; }
 
-void Apply(ContactTracker* tracker, const SegmentVerdict& verdict) {
-  tracker->Apply(verdict, AddRoundedDown(tracker->at(), 1), Nearest{}, ContactNormal{});
+void Apply(ContactTracker* tracker, const narrow_phase::SegmentResult& verdict) {
+  tracker->Apply(verdict, numeric::AddRoundedDown(tracker->at(), 1), Nearest{},
+                 narrow_phase::ContactNormal{});
 }
 
 TEST(ContactTracker, ContactInsideOneSegment) {
@@ -118,4 +121,4 @@ TEST(ContactTracker, RetractionMovesFreedomBackOnly) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

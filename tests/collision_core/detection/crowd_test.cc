@@ -10,7 +10,7 @@
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 struct Crowd {
@@ -99,7 +99,7 @@ TEST(ACrowd, WhoIsSaturatedIsAskedAtTheCostOfOneLook) {
   EXPECT_LT(after.pair_queries - before.pair_queries, 10 * kAgents);
   EXPECT_TRUE(crowd.detector->ClearanceOf(Id(kAgents - 1))->saturated);
   // Who jumps away from the crowd has nobody in the way, and no room is needed for that.
-  MotionState away = State(1, {1e6, 0, 0}, {0, 0, 0});
+  motion::MotionState away = State(1, {1e6, 0, 0}, {0, 0, 0});
   away.discontinuity = true;
   crowd.detector->Update(Id(kAgents - 2), away, At(1));
   crowd.Step(0);
@@ -121,7 +121,7 @@ TEST(ACrowd, WhoIsSaturatedCountsHoweverOthersComeAndGo) {
   Detector detector(options);
   Random random(9);
   const auto place = [&](std::uint32_t slot, bool inside, double now) {
-    MotionState state = State(now, {inside ? 0 : 1e5 * (slot + 1), 0, 0}, {0, 0, 0});
+    motion::MotionState state = State(now, {inside ? 0 : 1e5 * (slot + 1), 0, 0}, {0, 0, 0});
     state.discontinuity = true;
     return state;
   };
@@ -191,7 +191,7 @@ struct Couples {
 
   static double Max(std::uint32_t couple) { return couple % 3 == 0 ? 0 : 0.02; }
 
-  MotionState At(std::uint32_t couple, bool second, double t) const {
+  motion::MotionState At(std::uint32_t couple, bool second, double t) const {
     Random random(couple);
     const Vector3d p(1000.0 * couple, 0, 0), v = random.UnitVector() * random.Uniform(0, 3);
     if (!second) return State(t, p + t * v, v);
@@ -259,4 +259,4 @@ TEST(ACrowd, WhatRestsIsToldWhenItEnds) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -5,7 +5,7 @@
 
 #include "tests/collision_core/detection/line.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
@@ -80,7 +80,7 @@ TEST(Detector, DeclaredJumpIsNoBreach) {
   line.Add(1, {0, 0, 0}, {0, 0, 0});
   line.Add(2, {1000, 0, 0}, {0, 0, 0});
   line.RunTo(1);
-  MotionState jump = State(line.now, {997.5, 0, 0}, {0, 0, 0});
+  motion::MotionState jump = State(line.now, {997.5, 0, 0}, {0, 0, 0});
   jump.discontinuity = true;
   EXPECT_EQ(line.detector.Update(Id(1), jump, At(line.now)), UpdateOutcome::kJumped);
   line.Step();
@@ -129,7 +129,7 @@ TEST(Detector, WiderBoundLowersThePartnersClearance) {
 
 TEST(Detector, ExpiredAgentsLeaveThePromises) {
   Line line;
-  MotionState state = State(0, {0, 0, 0}, {0, 0, 0});
+  motion::MotionState state = State(0, {0, 0, 0}, {0, 0, 0});
   state.expiry = At(2);
   line.detector.Admit(Id(1), {1, 1}, state, At(0));
   line.detector.Admit(Id(2), {1, 1}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
@@ -196,7 +196,8 @@ TEST(Detector, DismissedPairIsNotForgotten) {
   ASSERT_EQ(line.detector.pairs_tracked(), 0u);
   EXPECT_LT(line.detector.ClearanceOf(Id(1))->clear_until, At(20));
   // A jump of the velocity alone, told as such.
-  MotionState turn = State(line.now, line.agents[1].p + line.agents[1].v * line.now, {-0.9, 0, 0});
+  motion::MotionState turn =
+      State(line.now, line.agents[1].p + line.agents[1].v * line.now, {-0.9, 0, 0});
   turn.discontinuity = true;
   line.detector.Update(Id(2), turn, At(line.now));
   line.agents[1] = {2, turn.p_WA, turn.v_WA, line.now};
@@ -211,7 +212,7 @@ TEST(Detector, JumpDoesNotUndoWhatCameBefore) {
   line.Add(1, {0, 0, 0}, {0, 0, 0});
   line.Add(2, {3.03, 0, 0}, {-1, 0, 0});
   line.RunTo(1);
-  MotionState jump = State(line.now + 1.0 / 16, {500, 0, 0}, {0, 0, 0});
+  motion::MotionState jump = State(line.now + 1.0 / 16, {500, 0, 0}, {0, 0, 0});
   jump.discontinuity = true;
   line.now += 1.0 / 16;
   line.detector.Update(Id(1), State(line.now, {0, 0, 0}, {0, 0, 0}), At(line.now));
@@ -243,7 +244,7 @@ TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
   detector.Update(Id(2), State(1.0625, {1062.5, 0, 0}, fast), At(1.0625));
   step(1.0625);
   // At 1 s it jumped to where the other passed at 1.03 s; told at 1.1 s.
-  MotionState jump = State(1, {1030, 0, 0}, {0, 0, 0});
+  motion::MotionState jump = State(1, {1030, 0, 0}, {0, 0, 0});
   jump.discontinuity = true;
   detector.Update(Id(1), jump, At(1.1));
   detector.Hear(Id(1), At(1.0625));
@@ -264,7 +265,7 @@ TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
     Detector detector{DetectorOptions{}};
     std::vector<CollisionEvent> events;
     const AgentId jumper = first_jumps ? Id(1) : Id(2), runner = first_jumps ? Id(2) : Id(1);
-    const AgentDeclaration ball{1, 0};
+    const motion::AgentDeclaration ball{1, 0};
     const auto step = [&](double now) {
       detector.Advance(At(now));
       events.insert(events.end(), detector.events().begin(), detector.events().end());
@@ -273,7 +274,7 @@ TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
     detector.Admit(Id(1), ball, State(0, {0, first_jumps ? 500.0 : 0.0, 0}, {0, 0, 0}), At(0));
     detector.Admit(Id(2), ball, State(0, {0, first_jumps ? 0.0 : 500.0, 0}, {0, 0, 0}), At(0));
     step(0);
-    MotionState jump = State(1, {-16, 0, 0}, {4, 0, 0});
+    motion::MotionState jump = State(1, {-16, 0, 0}, {4, 0, 0});
     jump.discontinuity = true;
     detector.Update(jumper, jump, At(10));
     step(1);
@@ -306,13 +307,13 @@ TEST(Detector, NothingIsCertainWithinTheSkewAboutAJump) {
     options.skew = 0.01;
     Detector detector{options};
     std::vector<CollisionEvent> events;
-    const AgentDeclaration ball{1, 0};
+    const motion::AgentDeclaration ball{1, 0};
     const Vector3d here(0, 0, 0), away(0, 100, 0);
     detector.Admit(Id(1), ball, State(0, jumps_onto ? away : here, {0, 0, 0}), At(0));
     // The other passes the origin, touching only within 5 ms about 1 s.
     detector.Admit(Id(2), ball, State(0, {-1000, 0, 0}, {1000, 0, 0}), At(0));
     for (double now = 0.0625; now <= 2; now += 0.0625) {
-      MotionState state = State(now, (now >= 1) == jumps_onto ? here : away, {0, 0, 0});
+      motion::MotionState state = State(now, (now >= 1) == jumps_onto ? here : away, {0, 0, 0});
       state.discontinuity = now == 1;
       detector.Update(Id(1), state, At(now));
       detector.Update(Id(2), State(now, {-1000 + 1000 * now, 0, 0}, {1000, 0, 0}), At(now));
@@ -345,4 +346,4 @@ TEST(Detector, LimitsAndStrangers) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

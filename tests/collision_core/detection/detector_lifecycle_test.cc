@@ -4,7 +4,7 @@
 
 #include "tests/collision_core/detection/line.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 // Closing at 2 m/s from 12 m, radii 1: they touch on [5, 7] s exactly.
@@ -110,7 +110,7 @@ TEST(Detector, RemovalWithdraws) {
 // come after they have left is no news.
 TEST(Detector, RemovalAnnouncesNothingNew) {
   Detector detector{DetectorOptions{}};
-  const AgentDeclaration ball{0.3, 0};
+  const motion::AgentDeclaration ball{0.3, 0};
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {2, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {9, 0, 0}, {-2, 0, 0}), At(0));
   detector.Advance(At(0));
@@ -181,7 +181,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   options.history_max = 8;
   Detector detector{options};
   std::vector<CollisionEvent> events;
-  const AgentDeclaration ball{0.5, 0.1};
+  const motion::AgentDeclaration ball{0.5, 0.1};
   const auto speak = [&](double t) {
     detector.Update(Id(1), State(t, {-20 + 2 * t, 0, 0}, {2, 0, 0}), At(t));
     detector.Update(Id(2), State(t, {20 - 2 * t, 0, 0}, {-2, 0, 0}), At(t));
@@ -223,14 +223,14 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
 TEST(Detector, TwoContactsBetweenStatesAreTwoEvents) {
   Detector detector{DetectorOptions{}};
   std::vector<CollisionEvent> events;
-  const AgentDeclaration ball{1, 0};
+  const motion::AgentDeclaration ball{1, 0};
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {12, 0, 0}, {-40, 0, 0}), At(0));
   for (double now = 0.0625; now <= 3; now += 0.0625) {
     // It passes at 0.25..0.35 s, turns round at 0.5 s and passes again at 0.65..0.75 s.
     if (now <= 0.5) detector.Update(Id(2), State(now, {12 - 40 * now, 0, 0}, {-40, 0, 0}), At(now));
     if (now == 0.5) {
-      MotionState turn = State(0.5, {-8, 0, 0}, {40, 0, 0});
+      motion::MotionState turn = State(0.5, {-8, 0, 0}, {40, 0, 0});
       turn.discontinuity = true;
       detector.Update(Id(2), turn, At(now));
     } else if (now > 0.5) {
@@ -280,7 +280,7 @@ TEST(Detector, ContactBeforeLeavingIsConfirmed) {
 // exactly from those after it. Who waits for what is told: each agent until its own state has come.
 TEST(Detector, AContactThatIsOverWaitsForTheStatesAfterIt) {
   Detector detector{DetectorOptions{}};
-  const AgentDeclaration ball{.radius = 1, .acceleration_max = 0.1};
+  const motion::AgentDeclaration ball{.radius = 1, .acceleration_max = 0.1};
   const Vector3d p(4, 0, 0), v(-10, 0, 0);
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, p, v), At(0));
@@ -326,4 +326,4 @@ TEST(Detector, WhenOthersMayBeAnnouncedIsTold) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

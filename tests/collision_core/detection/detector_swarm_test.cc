@@ -8,11 +8,11 @@
 #include <map>
 #include <vector>
 
-#include "collision_core/broad_phase/pair_time.h"
 #include "collision_core/detection/detector.h"
+#include "collision_core/intersection/earliest_intersection.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 using Eigen::Vector3d;
@@ -117,8 +117,8 @@ struct RunLog {
   DetectorCounters counters;
 };
 
-MotionState StateOf(const Crowd& crowd, std::size_t agent, int step) {
-  MotionState state;
+motion::MotionState StateOf(const Crowd& crowd, std::size_t agent, int step) {
+  motion::MotionState state;
   state.stamp = At(step * kStep);
   state.p_WA = crowd.Start(agent, step).p;
   state.v_WA = crowd.Start(agent, step).v;
@@ -132,13 +132,13 @@ RunLog Simulate(const Crowd& crowd, int steps) {
   RunLog run;
   run.promises.resize(crowd.size());
   Detector detector{DetectorOptions{}};
-  std::vector<SpaceTimeBound> newest(crowd.size());
+  std::vector<motion::SpaceTimeBound> newest(crowd.size());
   std::map<std::pair<AgentId, AgentId>, EventStatus> last;
-  const AgentDeclaration declaration{kRadius, kAccelerationMax};
+  const motion::AgentDeclaration declaration{kRadius, kAccelerationMax};
   for (int step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < crowd.size(); ++i) {
       if (step > 0 && !Speaks(i, step)) continue;
-      const MotionState state = StateOf(crowd, i, step);
+      const motion::MotionState state = StateOf(crowd, i, step);
       if (step == 0) {
         detector.Admit(Id(i), declaration, state, state.stamp);
       } else {
@@ -165,7 +165,8 @@ RunLog Simulate(const Crowd& crowd, int steps) {
     EarliestAnswer scratch;
     for (std::size_t a = 0; a < crowd.size(); ++a) {
       for (std::size_t b = a + 1; b < crowd.size(); ++b) {
-        const Instant when = EarliestIntersection(newest[a], newest[b], now).instant();
+        const Instant when =
+            intersection::EarliestIntersection(newest[a], newest[b], now).instant();
         if (!when.is_never() && when < scratch.earliest) scratch = {true, when, Id(a), Id(b)};
       }
     }
@@ -267,7 +268,7 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
   Random random(31);
   Detector detector{DetectorOptions{}};
   constexpr std::size_t kPairs = 24;
-  const AgentDeclaration still{1, 0};
+  const motion::AgentDeclaration still{1, 0};
   std::vector<Knot> start;
   for (std::size_t i = 0; i < kPairs; ++i) {
     const Vector3d middle =
@@ -276,11 +277,11 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
     start.push_back({middle - n * 51, n * 0.5, Vector3d::Zero()});
     start.push_back({middle + n * 51, n * -0.5, Vector3d::Zero()});
   }
-  std::vector<SpaceTimeBound> newest(start.size());
+  std::vector<motion::SpaceTimeBound> newest(start.size());
   for (int step = 0; step < 400; ++step) {
     const double t = step / 7.0;
     for (std::size_t i = 0; i < start.size(); ++i) {
-      MotionState state;
+      motion::MotionState state;
       state.stamp = At(t);
       state.p_WA = start[i].p + start[i].v * Seconds(At(t));
       state.v_WA = start[i].v;
@@ -293,7 +294,8 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
     detector.Advance(At(t));
     EarliestAnswer scratch;
     for (std::size_t i = 0; i < start.size(); i += 2) {
-      const Instant when = EarliestIntersection(newest[i], newest[i + 1], At(t)).instant();
+      const Instant when =
+          intersection::EarliestIntersection(newest[i], newest[i + 1], At(t)).instant();
       if (when < scratch.earliest) scratch = {true, when, Id(i), Id(i + 1)};
     }
     const EarliestAnswer lazy = detector.Earliest();
@@ -315,4 +317,4 @@ TEST(DetectorSwarm, SameCallsSameEvents) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

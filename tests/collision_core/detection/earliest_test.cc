@@ -8,11 +8,11 @@
 #include <cmath>
 #include <vector>
 
-#include "collision_core/broad_phase/pair_time.h"
+#include "collision_core/intersection/earliest_intersection.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 /// How the two of each pair come near each other: both alike, each half of the way.
@@ -46,7 +46,8 @@ class Pairs {
     EarliestAnswer scratch;
     for (std::uint32_t a = 0; a < bounds_.size(); ++a) {
       for (std::uint32_t b = a + 1; b < bounds_.size(); ++b) {
-        const Instant when = EarliestIntersection(bounds_[a], bounds_[b], At(t)).instant();
+        const Instant when =
+            intersection::EarliestIntersection(bounds_[a], bounds_[b], At(t)).instant();
         if (when < scratch.earliest) scratch = {true, when, Id(a), Id(b)};
       }
     }
@@ -65,10 +66,10 @@ class Pairs {
     const Vector3d n = random_.UnitVector();
     const Vector3d across = n.cross(random_.UnitVector()).normalized() * approach.aside;
     for (const double side : {-0.5, 0.5}) {
-      const MotionState state =
+      const motion::MotionState state =
           State(0, middle + side * (n * approach.gap + across), -2 * side * approach.speed * n);
-      const AgentDeclaration declaration{.radius = 1,
-                                         .acceleration_max = approach.acceleration_max};
+      const motion::AgentDeclaration declaration{.radius = 1,
+                                                 .acceleration_max = approach.acceleration_max};
       detector_->Admit(Id(static_cast<std::uint32_t>(bounds_.size())), declaration, state, At(0));
       bounds_.push_back({state, declaration, 0});
     }
@@ -76,7 +77,7 @@ class Pairs {
 
   Random random_;
   std::optional<Detector> detector_;
-  std::vector<SpaceTimeBound> bounds_;
+  std::vector<motion::SpaceTimeBound> bounds_;
 };
 
 void ExpectLazyIsScratch(const Approach& approach, std::uint64_t seed) {
@@ -123,13 +124,13 @@ TEST(Earliest, GrazingIsDecidedAnewAtEachTime) {
 // a nanosecond. The margin of the bounds lasts for thousands of them: nobody is asked anew.
 TEST(Earliest, RoundingOfManyStatesIsNoNews) {
   Detector detector{DetectorOptions{}};
-  const AgentDeclaration slow{.radius = 1, .acceleration_max = 1e-6};
+  const motion::AgentDeclaration slow{.radius = 1, .acceleration_max = 1e-6};
   const Vector3d v(1e-3, 2e-3, 0);
   const Vector3d places[] = {{1e8, 3e7, 0}, {1e8, 3.1e7, 0}};
   for (int step = 0; step < 2000; ++step) {
     const double t = step / 16.0;
     for (const std::uint32_t slot : {0u, 1u}) {
-      const MotionState state = State(t, places[slot] + v * t, v);
+      const motion::MotionState state = State(t, places[slot] + v * t, v);
       if (step == 0) {
         detector.Admit(Id(slot), slow, state, At(0));
       } else {
@@ -153,4 +154,4 @@ TEST(Earliest, TheEndOfTimeIsReached) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

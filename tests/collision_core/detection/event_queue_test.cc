@@ -11,7 +11,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 TEST(EventQueue, HeadIsTheLeastAfterEveryChange) {
@@ -62,4 +62,4 @@ TEST(EventQueue, UpToTellsAllThatAreNotLater) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -6,18 +6,18 @@
 
 #include "tests/collision_core/detection/line.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
-SpaceTimeBound Bound(double t, double acceleration_max = 2, double radius = 1) {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound Bound(double t, double acceleration_max = 2, double radius = 1) {
+  motion::SpaceTimeBound bound;
   bound.state = State(t, {0, 0, 0}, {0, 0, 0});
   bound.declaration.radius = radius;
   bound.declaration.acceleration_max = acceleration_max;
   return bound;
 }
 
-History Of(const SpaceTimeBound& first, const SpaceTimeBound& second, Link link) {
+History Of(const motion::SpaceTimeBound& first, const motion::SpaceTimeBound& second, Link link) {
   History history;
   history.Push(first, Link::kJumped, 8);
   history.Push(second, link, 8);
@@ -25,7 +25,8 @@ History Of(const SpaceTimeBound& first, const SpaceTimeBound& second, Link link)
 }
 
 TEST(History, BothDirectionsHoldBetweenStatesThatFollow) {
-  const BodySegment segment = Of(Bound(0), Bound(1), Link::kFollows).Over(At(0), At(1));
+  const narrow_phase::BodySegment segment =
+      Of(Bound(0), Bound(1), Link::kFollows).Over(At(0), At(1));
   ASSERT_EQ(segment.ball.bounds.size(), 2u);
   EXPECT_EQ(segment.ball.bounds[0].u().At(1).upper, 1);  // ½ 2 1²
   EXPECT_EQ(segment.ball.bounds[1].u().At(0).upper, 1);
@@ -44,7 +45,7 @@ TEST(History, NothingIsSaidWhereABoundWasBroken) {
 }
 
 TEST(History, NothingIsSaidBeyondAnExpiry) {
-  SpaceTimeBound bound = Bound(0);
+  motion::SpaceTimeBound bound = Bound(0);
   bound.state.expiry = At(1);
   History history;
   history.Push(bound, Link::kJumped, 8);
@@ -57,11 +58,11 @@ TEST(History, NothingIsSaidBeyondAnExpiry) {
 TEST(History, BetweenTwoDeclarationsTheWiderCounts) {
   for (const auto& [first, second] : {std::pair(2.0, 4.0), std::pair(4.0, 2.0)}) {
     const History history = Of(Bound(0, first), Bound(1, second), Link::kFollows);
-    const BodySegment segment = history.Over(At(0), At(1));
+    const narrow_phase::BodySegment segment = history.Over(At(0), At(1));
     ASSERT_EQ(segment.ball.bounds.size(), 2u);
-    for (const MovingBall& ball : segment.ball.bounds) EXPECT_EQ(ball.u2.upper, 2);  // ½ 4
+    for (const motion::MovingBall& ball : segment.ball.bounds) EXPECT_EQ(ball.u2.upper, 2);  // ½ 4
   }
-  const BodySegment of_radii =
+  const narrow_phase::BodySegment of_radii =
       Of(Bound(0, 2, 1), Bound(1, 2, 3), Link::kFollows).Over(At(0), At(1));
   EXPECT_EQ(of_radii.ball.radius, 1);
   EXPECT_EQ(of_radii.ball.bounds[0].u().At(0).upper, 2);
@@ -78,14 +79,14 @@ TEST(History, AMotionIsUninterruptedUpToAJumpOrABreach) {
 
 // A clock may be off by 0.1 s: about the jump one ball holds where it was and where it is.
 TEST(History, AboutAJumpOneBallHoldsBothMotions) {
-  SpaceTimeBound first = Bound(0, 0), second = Bound(1, 0);
+  motion::SpaceTimeBound first = Bound(0, 0), second = Bound(1, 0);
   first.skew = second.skew = 0.125;
   second.state.p_WA = {3, 4, 0};
   const History history = Of(first, second, Link::kJumped);
-  const BodySegment segment = history.Over(At(0.875), At(1));
+  const narrow_phase::BodySegment segment = history.Over(At(0.875), At(1));
   ASSERT_EQ(segment.ball.bounds.size(), 1u);
   EXPECT_GE(segment.ball.bounds[0].u().At(0).lower, 5);
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -9,13 +9,14 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/broad_phase/pair_time.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/detection/allocations.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 Instant Exactly(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
@@ -33,8 +34,8 @@ class Lattice {
     }
   }
 
-  MotionState StateOf(std::uint32_t slot, Instant t) const {
-    MotionState state;
+  motion::MotionState StateOf(std::uint32_t slot, Instant t) const {
+    motion::MotionState state;
     state.stamp = t;
     // Off the lattice, so that no two are equally near to a third.
     Random random(slot);
@@ -163,7 +164,7 @@ TEST(Incremental, EqualMeetingsGoByTheIds) {
 // Everything that can happen to an agent, at random; with what is known of each, for the oracle.
 class RandomHistory {
  public:
-  RandomHistory(std::uint64_t seed, double box, BroadPhaseMethod method)
+  RandomHistory(std::uint64_t seed, double box, broad_phase::BroadPhaseMethod method)
       : random_(seed), box_(box) {
     DetectorOptions options;
     options.broad_phase = method;
@@ -212,10 +213,11 @@ class RandomHistory {
     }
     for (auto a = known_.begin(); a != known_.end(); ++a) {
       for (auto b = std::next(a); b != known_.end(); ++b) {
-        const Instant when = EarliestIntersection(a->second, b->second, now).instant();
+        const Instant when =
+            intersection::EarliestIntersection(a->second, b->second, now).instant();
         if (when.is_never()) continue;
         // What an older state certified may be later than the canonical answer by its rounding.
-        const Instant rounded = AddRoundedUp(when, 2e-9);
+        const Instant rounded = numeric::AddRoundedUp(when, 2e-9);
         for (const std::uint32_t slot : {a->first, b->first}) {
           const AgentClearance& told = clearances_.at(slot);
           ASSERT_TRUE(told.clear_until <= rounded || told.in_contact)
@@ -252,8 +254,8 @@ class RandomHistory {
     return {random_.Uniform(0, box_), random_.Uniform(0, box_), random_.Uniform(0, box_)};
   }
 
-  AgentDeclaration Declaration() {
-    AgentDeclaration declaration;
+  motion::AgentDeclaration Declaration() {
+    motion::AgentDeclaration declaration;
     declaration.radius = random_.LogUniform(0.1, 4);
     declaration.acceleration_max = random_.Chance(0.3) ? 0 : random_.LogUniform(0.01, 5);
     if (random_.Chance(0.2)) declaration.speed_max = 20;
@@ -263,21 +265,21 @@ class RandomHistory {
 
   void Admit(Instant now) {
     const std::uint32_t slot = slots_++;
-    MotionState state;
+    motion::MotionState state;
     state.stamp = now;
     state.p_WA = Place();
     state.v_WA = random_.UnitVector() * random_.Uniform(0, 8);
-    const AgentDeclaration declaration = Declaration();
+    const motion::AgentDeclaration declaration = Declaration();
     ASSERT_TRUE(detector_->Admit(Id(slot), declaration, state, now));
     known_[slot] = {state, declaration, 0};
   }
 
   void Speak(std::uint32_t slot, Instant now) {
-    SpaceTimeBound& bound = known_[slot];
-    const double s = SecondsBetween(bound.state.stamp, now).middle();
+    motion::SpaceTimeBound& bound = known_[slot];
+    const double s = numeric::SecondsBetween(bound.state.stamp, now).middle();
     const double pull = 0.9 * bound.declaration.acceleration_max;
     const Vector3d a = random_.UnitVector() * random_.Uniform(0, pull);
-    MotionState state = bound.state;
+    motion::MotionState state = bound.state;
     state.stamp = now;
     state.p_WA += state.v_WA * s + a * (s * s / 2);
     state.v_WA += a * s;
@@ -303,7 +305,7 @@ class RandomHistory {
   Random random_;
   const double box_;
   std::optional<Detector> detector_;
-  std::map<std::uint32_t, SpaceTimeBound> known_;
+  std::map<std::uint32_t, motion::SpaceTimeBound> known_;
   std::map<std::uint32_t, AgentClearance> clearances_;
   std::vector<std::int64_t> log_;
   std::int64_t now_ = 0;
@@ -315,9 +317,9 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
   const int steps = kSanitized ? 60 : 600;
   for (const double box : {60, 150, 400}) {
     std::optional<std::vector<std::int64_t>> log;
-    for (const BroadPhaseMethod method :
-         {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kSpatialIndex,
-          BroadPhaseMethod::kFaceSweep, BroadPhaseMethod::kAuto}) {
+    for (const broad_phase::BroadPhaseMethod method :
+         {broad_phase::BroadPhaseMethod::kAllPairs, broad_phase::BroadPhaseMethod::kSpatialIndex,
+          broad_phase::BroadPhaseMethod::kFaceSweep, broad_phase::BroadPhaseMethod::kAuto}) {
       SCOPED_TRACE(Name(method));
       RandomHistory history(static_cast<std::uint64_t>(box), box, method);
       for (int step = 0; step < steps; ++step) {
@@ -342,15 +344,15 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
 // the place where another one appears now. The contact lies before its newest state.
 TEST(Incremental, WhoJumpsAheadIsMetBeforeItsJump) {
   Detector detector{DetectorOptions{}};
-  const AgentDeclaration ball{.radius = 1};
+  const motion::AgentDeclaration ball{.radius = 1};
   detector.Admit(Id(1), ball, State(0, {-8, 0, 0}, {8, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {0, 5000, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
-  MotionState away = State(3, {9000, 0, 0}, {8, 0, 0});
+  motion::MotionState away = State(3, {9000, 0, 0}, {8, 0, 0});
   away.discontinuity = true;
   detector.Update(Id(1), away, At(3));
   detector.Hear(Id(1), At(3));
-  MotionState here = State(0.25, {0, 0, 0}, {0, 0, 0});
+  motion::MotionState here = State(0.25, {0, 0, 0}, {0, 0, 0});
   here.discontinuity = true;
   detector.Update(Id(2), here, At(0.25));
   detector.Hear(Id(2), At(0.25));
@@ -371,13 +373,13 @@ TEST(Incremental, WhoJumpsAheadIsMetBeforeItsJump) {
 // Likewise with a partner that only speaks ahead: it passes the place before its newest state.
 TEST(Incremental, WhoSpeaksAheadIsMetBeforeItsNewestState) {
   Detector detector{DetectorOptions{}};
-  const AgentDeclaration ball{.radius = 1};
+  const motion::AgentDeclaration ball{.radius = 1};
   detector.Admit(Id(1), ball, State(0, {-8, 0, 0}, {8, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {0, 5000, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
   detector.Update(Id(1), State(3, {16, 0, 0}, {8, 0, 0}), At(3));
   detector.Hear(Id(1), At(3));
-  MotionState here = State(0.25, {0, 0, 0}, {0, 0, 0});
+  motion::MotionState here = State(0.25, {0, 0, 0}, {0, 0, 0});
   here.discontinuity = true;
   detector.Update(Id(2), here, At(0.25));
   detector.Hear(Id(2), At(0.25));
@@ -415,7 +417,7 @@ TEST(Incremental, ATeleportWithSkewTracksOnlyWhoIsNear) {
   }
   detector.Advance(At(0));
   EXPECT_EQ(detector.pairs_tracked(), 0u);
-  MotionState jump = State(1, {10001, 1, 0}, {0, 1, 0});
+  motion::MotionState jump = State(1, {10001, 1, 0}, {0, 1, 0});
   jump.discontinuity = true;
   detector.Update(Id(7), jump, At(1));
   detector.Advance(At(1));
@@ -425,4 +427,4 @@ TEST(Incremental, ATeleportWithSkewTracksOnlyWhoIsNear) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

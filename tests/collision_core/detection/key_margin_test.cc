@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
-SpaceTimeBound Moving() {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound Moving() {
+  motion::SpaceTimeBound bound;
   bound.state.p_WA = {3000, 4000, 0};
   bound.state.v_WA = {0, 60, 80};
   bound.declaration.radius = 10;
@@ -14,8 +14,8 @@ SpaceTimeBound Moving() {
   return bound;
 }
 
-ContractCheck Drift(double position, double velocity) {
-  ContractCheck check;
+motion::ContractCheck Drift(double position, double velocity) {
+  motion::ContractCheck check;
   check.position_drift = position;
   check.velocity_drift = velocity;
   return check;
@@ -24,18 +24,19 @@ ContractCheck Drift(double position, double velocity) {
 // Goal:   the full margin is what the header says, and what kept states may have lost is taken off
 //         it, until there is not enough left. Method: |p| = 5000, |v| = 100; three parts of 0.4.
 TEST(KeyMargin, IsSpentByDrifts) {
-  const SpaceTimeBound bound = Moving();
+  const motion::SpaceTimeBound bound = Moving();
   const KeyMargin full(bound);
   const double position = full.Widen(bound).state.position_error;
   const double velocity = full.Widen(bound).state.velocity_error;
   EXPECT_NEAR(position, 5110 * 0x1p-40 + 4e-9 * 100, 1e-12 * position);
   EXPECT_NEAR(velocity, 100 * 0x1p-40 + 4e-9 * 5, 1e-12 * velocity);
   for (const bool of_position : {true, false}) {
-    const ContractCheck drift = of_position ? Drift(0.4 * position, 0) : Drift(0, 0.4 * velocity);
+    const motion::ContractCheck drift =
+        of_position ? Drift(0.4 * position, 0) : Drift(0, 0.4 * velocity);
     KeyMargin margin = full;
     EXPECT_TRUE(margin.Spend(drift, bound.state));
     EXPECT_TRUE(margin.Spend(drift, bound.state));
-    const MotionState left = margin.Widen(bound).state;
+    const motion::MotionState left = margin.Widen(bound).state;
     EXPECT_NEAR(left.position_error, (of_position ? 0.2 : 1) * position, 1e-9 * position);
     EXPECT_NEAR(left.velocity_error, (of_position ? 1 : 0.2) * velocity, 1e-9 * velocity);
     EXPECT_FALSE(margin.Spend(drift, bound.state)) << of_position;
@@ -45,7 +46,7 @@ TEST(KeyMargin, IsSpentByDrifts) {
 // Goal:   each widened bound lies inside the one before, also where the sum of error and margin is
 //         rounded. Method: errors far above the margin; the sum of error, margin and drift.
 TEST(KeyMargin, WidenedBoundsAreNested) {
-  SpaceTimeBound bound = Moving();
+  motion::SpaceTimeBound bound = Moving();
   bound.state.position_error = 0.3;
   KeyMargin margin(bound);
   double before = margin.Widen(bound).state.position_error;
@@ -60,7 +61,7 @@ TEST(KeyMargin, WidenedBoundsAreNested) {
 
 // Goal:   after a jump the bound holds where the agent may have been since the skew before it.
 TEST(KeyMargin, AJumpMayHaveComeEarlier) {
-  SpaceTimeBound bound = Moving();
+  motion::SpaceTimeBound bound = Moving();
   bound.skew = 0.01;
   const KeyMargin margin(bound);
   const double without = margin.Widen(bound).state.position_error;
@@ -69,4 +70,4 @@ TEST(KeyMargin, AJumpMayHaveComeEarlier) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

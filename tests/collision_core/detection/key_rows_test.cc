@@ -6,19 +6,20 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/broad_phase/pair_time.h"
 #include "collision_core/detection/key_margin.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr std::int64_t kToday = 1'790'000'000'000'000'000;
 constexpr int kPairs = 200000;
 
-SpaceTimeBound Draw(double skew, Random* random) {
-  SpaceTimeBound bound;
-  MotionState& state = bound.state;
+motion::SpaceTimeBound Draw(double skew, Random* random) {
+  motion::SpaceTimeBound bound;
+  motion::MotionState& state = bound.state;
   state.stamp =
       Instant::FromNanoseconds(kToday + static_cast<std::int64_t>(random->Below(3'000'000'000)));
   state.p_WA = random->UnitVector() * random->LogUniform(1, 1e4);
@@ -26,7 +27,7 @@ SpaceTimeBound Draw(double skew, Random* random) {
   if (random->Chance(0.3)) state.position_error = random->LogUniform(1e-3, 1);
   if (random->Chance(0.3)) state.velocity_error = random->LogUniform(1e-3, 1);
   if (random->Chance(0.2)) state.discontinuity = true;
-  AgentDeclaration& declaration = bound.declaration;
+  motion::AgentDeclaration& declaration = bound.declaration;
   declaration.radius = random->LogUniform(0.01, 100);
   declaration.acceleration_max = random->Chance(0.3) ? 0 : random->LogUniform(1e-3, 100);
   if (random->Chance(0.3)) declaration.time_step = random->LogUniform(1e-3, 0.1);
@@ -40,27 +41,29 @@ TEST(KeyRows, CertainlyLaterIsNeverWrong) {
   for (int i = 0; i < kPairs; ++i) {
     const double skew = random.Chance(0.3) ? 0.01 : 0;
     KeyRows rows(skew);
-    const SpaceTimeBound a = Draw(skew, &random), b = Draw(skew, &random);
+    const motion::SpaceTimeBound a = Draw(skew, &random), b = Draw(skew, &random);
     rows.Put(0, a);
     rows.Put(1, b);
     const Instant from = std::max(a.state.stamp, b.state.stamp);
-    const Instant meet = EarliestIntersection(a, b, from).instant();
+    const Instant meet = intersection::EarliestIntersection(a, b, from).instant();
     // A key a little to either side of their meeting, or anywhere.
     Instant key =
         Instant::FromNanoseconds(kToday + static_cast<std::int64_t>(random.Below(60'000'000'000)));
     if (random.Chance(0.5) && !meet.is_never()) {
-      key = AddRoundedDown(meet, (random.Chance(0.5) ? 1 : -1) * random.LogUniform(1e-9, 1));
+      key =
+          numeric::AddRoundedDown(meet, (random.Chance(0.5) ? 1 : -1) * random.LogUniform(1e-9, 1));
     }
     const bool later = rows.CertainlyLater(0, 1, key);
     certain += later;
-    const double before =
-        meet.is_never() ? kInfinity : SecondsBetween(std::max(key, from), meet).lower;
+    const double before = meet.is_never()
+                              ? numeric::kInfinity
+                              : numeric::SecondsBetween(std::max(key, from), meet).lower;
     sparable += before > 1;
     if (key <= from) {
       EXPECT_TRUE(later);
     } else if (later) {
       // What the canonical routine tells is early by up to 1e-9 of the way.
-      const double way = meet.is_never() ? 0 : SecondsBetween(from, meet).upper;
+      const double way = meet.is_never() ? 0 : numeric::SecondsBetween(from, meet).upper;
       ASSERT_GE(before, -2e-9 * way - 2e-9) << i;
     }
     lowered += key > meet;
@@ -71,4 +74,4 @@ TEST(KeyRows, CertainlyLaterIsNeverWrong) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

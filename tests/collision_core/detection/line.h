@@ -15,10 +15,10 @@ inline Instant At(double seconds) {
   return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
 
-inline AgentId Id(std::uint32_t slot) { return {1, slot, 1, 1}; }
+inline detection::AgentId Id(std::uint32_t slot) { return {1, slot, 1, 1}; }
 
-inline MotionState State(double t, const Vector3d& p, const Vector3d& v) {
-  MotionState state;
+inline motion::MotionState State(double t, const Vector3d& p, const Vector3d& v) {
+  motion::MotionState state;
   state.stamp = At(t);
   state.p_WA = p;
   state.v_WA = v;
@@ -29,7 +29,7 @@ inline MotionState State(double t, const Vector3d& p, const Vector3d& v) {
 // times a second.
 class Line {
  public:
-  explicit Line(DetectorOptions options = {}) : detector(options) {}
+  explicit Line(detection::DetectorOptions options = {}) : detector(options) {}
 
   void Add(std::uint32_t slot, const Vector3d& p, const Vector3d& v, double radius = 1) {
     detector.Admit(Id(slot), {radius, 1}, State(now, p, v), At(now));
@@ -53,10 +53,10 @@ class Line {
     events.insert(events.end(), detector.events().begin(), detector.events().end());
   }
 
-  std::vector<CollisionEvent> With(EventStatus status) const {
-    std::vector<CollisionEvent> found;
+  std::vector<detection::CollisionEvent> With(detection::EventStatus status) const {
+    std::vector<detection::CollisionEvent> found;
     std::copy_if(events.begin(), events.end(), std::back_inserter(found),
-                 [&](const CollisionEvent& event) { return event.status == status; });
+                 [&](const detection::CollisionEvent& event) { return event.status == status; });
     return found;
   }
 
@@ -65,9 +65,9 @@ class Line {
     Vector3d p, v;
     double since;
   };
-  Detector detector;
+  detection::Detector detector;
   std::vector<Mover> agents;
-  std::vector<CollisionEvent> events;
+  std::vector<detection::CollisionEvent> events;
   double now = 0;
 };
 

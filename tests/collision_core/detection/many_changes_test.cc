@@ -9,14 +9,14 @@
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 // Drones as dense as 10,000 in 2 km x 2 km x 200 m; beside them some that stand far apart from all.
 class Swarm {
  public:
   Swarm(std::uint32_t drones, std::uint32_t others,
-        BroadPhaseMethod method = BroadPhaseMethod::kAuto)
+        broad_phase::BroadPhaseMethod method = broad_phase::BroadPhaseMethod::kAuto)
       : drones_(drones) {
     const double side = 2000 * std::sqrt(drones / 10000.0);
     Random random(3);
@@ -70,8 +70,8 @@ class Swarm {
 
  private:
   std::uint32_t drones_;
-  std::vector<MotionState> states_;
-  std::vector<AgentDeclaration> declarations_;
+  std::vector<motion::MotionState> states_;
+  std::vector<motion::AgentDeclaration> declarations_;
 };
 
 TEST(ManyChanges, AreToldAsIfTheyCameOneByOne) {
@@ -93,7 +93,7 @@ TEST(ManyChanges, AreToldAsIfTheyCameOneByOne) {
 TEST(ManyChanges, VeryManyAreToldAsIfTheyCameOneByOne) {
   constexpr std::uint32_t kDrones = 4200, kOthers = 300;
   Swarm at_once(kDrones, kOthers), one_by_one(kDrones, kOthers);
-  Swarm all_pairs(kDrones, kOthers, BroadPhaseMethod::kAllPairs);
+  Swarm all_pairs(kDrones, kOthers, broad_phase::BroadPhaseMethod::kAllPairs);
   for (Swarm* swarm : {&at_once, &one_by_one, &all_pairs}) {
     swarm->AdmitAll(false);
     swarm->detector->TakeChangedClearances();
@@ -152,4 +152,4 @@ TEST(ManyChanges, ThoseWhoAreClearForLongCostARenewalALookEach) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -11,7 +11,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 using Pair = std::pair<std::uint32_t, std::uint32_t>;
@@ -58,4 +58,4 @@ TEST(PairTable, SlotsRestBeforeTheyAreUsedAgain) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

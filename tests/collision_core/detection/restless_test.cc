@@ -7,7 +7,7 @@
 
 #include "tests/collision_core/detection/line.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 DetectorOptions AnnouncedFor(double seconds) {
@@ -16,7 +16,7 @@ DetectorOptions AnnouncedFor(double seconds) {
   return options;
 }
 
-void Speak(std::uint32_t slot, const MotionState& state, Detector* detector) {
+void Speak(std::uint32_t slot, const motion::MotionState& state, Detector* detector) {
   EXPECT_EQ(detector->Update(Id(slot), state, state.stamp), UpdateOutcome::kKept);
   detector->Hear(Id(slot), state.stamp);
 }
@@ -53,9 +53,9 @@ TEST(Restless, EachClassThatIsDueIsAskedAbout) {
 // near it: it must not be told that it is clear of what lies before that state.
 TEST(Restless, AStateAheadOfTheCalmKeyHasTheCalmAsked) {
   Detector detector(AnnouncedFor(0.5));
-  const AgentDeclaration calm{.radius = 1, .acceleration_max = 0.5};
+  const motion::AgentDeclaration calm{.radius = 1, .acceleration_max = 0.5};
   detector.Admit(Id(0), calm, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
-  AgentDeclaration other = calm;
+  motion::AgentDeclaration other = calm;
   other.mask = 1;
   detector.Admit(Id(1), other, State(0, {1, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), calm, State(0, {1, 2.2, 0}, {0, 0, 0}), At(0));
@@ -73,8 +73,8 @@ TEST(Restless, AStateAheadOfTheCalmKeyHasTheCalmAsked) {
 // whose state lies ahead learns of somebody new whom it may meet later.
 TEST(Restless, AStateAheadIsAskedThoughAKeyIsLowered) {
   Detector detector(AnnouncedFor(0.5));
-  const AgentDeclaration calm{.radius = 1, .acceleration_max = 0.5};
-  const AgentDeclaration violent{.radius = 1, .acceleration_max = 1000, .group = 2};
+  const motion::AgentDeclaration calm{.radius = 1, .acceleration_max = 0.5};
+  const motion::AgentDeclaration violent{.radius = 1, .acceleration_max = 1000, .group = 2};
   detector.Admit(Id(0), calm, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
   detector.Admit(Id(1), violent, State(0, {-20, 1000, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), calm, State(0, {-20, 1182, 0}, {0, 0, 0}), At(0));
@@ -82,7 +82,7 @@ TEST(Restless, AStateAheadIsAskedThoughAKeyIsLowered) {
   EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(0.61));
   Speak(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
   detector.Remove(Id(2));
-  AgentDeclaration later = calm;
+  motion::AgentDeclaration later = calm;
   later.mask = 1;
   detector.Admit(Id(3), later, State(0.4, {80, 0, 0}, {0, 0, 0}), At(0.4));
   detector.Advance(At(0.4));
@@ -91,4 +91,4 @@ TEST(Restless, AStateAheadIsAskedThoughAKeyIsLowered) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -10,7 +10,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr int kCalm = Restlessness::kCalm;
@@ -111,4 +111,4 @@ TEST(Restlessness, KnowsWhoIsThere) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -14,35 +14,37 @@
 #include "tests/support/sanitized.h"
 #include "tests/support/solids.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr double kEnd = 4;
 
 struct Ship {
-  AgentDeclaration declaration;
-  std::shared_ptr<const Shape> triangles;  // What it is in truth, whatever it is declared to be.
+  motion::AgentDeclaration declaration;
+  std::shared_ptr<const shape::Shape>
+      triangles;  // What it is in truth, whatever it is declared to be.
   TrueMotion motion;
   int states_per_second = 64;
 };
 
 // The same body of triangles, and of convex solids where that can be.
 struct Made {
-  std::shared_ptr<const Shape> triangles, solids;
+  std::shared_ptr<const shape::Shape> triangles, solids;
 };
 
 const Made& LShaped() {
-  static const Made made = {Shape::Build(LShape()),
-                            Shape::Compound(nullptr, {SolidBox({-1, -1, -0.5}, {1, 0, 0.5}),
-                                                      SolidBox({-1, 0, -0.5}, {0, 1, 0.5})})};
+  static const Made made = {
+      shape::Shape::Build(LShape()),
+      shape::Shape::Compound(
+          nullptr, {SolidBox({-1, -1, -0.5}, {1, 0, 0.5}), SolidBox({-1, 0, -0.5}, {0, 1, 0.5})})};
   return made;
 }
 
 Made RandomShape(Random& random) {
-  static const auto rod = Shape::Build(Rod(2, 0.1)), cube = Shape::Build(Cube(0.7)),
-                    sheet = Shape::Build(Sheet(1, 2));
-  static const auto of_box = [](const Shape& box) {
-    return Shape::Compound(nullptr, {SolidBox(box.facts().lower, box.facts().upper)});
+  static const auto rod = shape::Shape::Build(Rod(2, 0.1)), cube = shape::Shape::Build(Cube(0.7)),
+                    sheet = shape::Shape::Build(Sheet(1, 2));
+  static const auto of_box = [](const shape::Shape& box) {
+    return shape::Shape::Compound(nullptr, {SolidBox(box.facts().lower, box.facts().upper)});
   };
   static const Made made[] = {
       LShaped(), {rod, of_box(*rod)}, {cube, of_box(*cube)}, {sheet, sheet}, {}};
@@ -51,7 +53,7 @@ Made RandomShape(Random& random) {
 
 Ship RandomShip(Random& random, bool of_solids) {
   Ship ship;
-  AgentDeclaration& declared = ship.declaration;
+  motion::AgentDeclaration& declared = ship.declaration;
   const Made made = RandomShape(random);
   ship.triangles = made.triangles;
   declared.shape = of_solids ? made.solids : made.triangles;
@@ -65,7 +67,7 @@ Ship RandomShip(Random& random, bool of_solids) {
 }
 
 // As hard as allowed, most often towards where the other one is.
-std::vector<TrueMotion::Piece> Pieces(Random& random, const AgentDeclaration& declared,
+std::vector<TrueMotion::Piece> Pieces(Random& random, const motion::AgentDeclaration& declared,
                                       const Vector& towards) {
   std::vector<TrueMotion::Piece> pieces;
   for (double at = 0; at < kEnd;) {
@@ -82,7 +84,7 @@ struct Encounter {
   Ship ships[2];
 
   TrueBody Body(int i, Real t) const {
-    const AgentDeclaration& declared = ships[i].declaration;
+    const motion::AgentDeclaration& declared = ships[i].declaration;
     return {ships[i].triangles.get(), declared.radius, ships[i].motion.At(t)};
   }
   Real Distance(Real t) const { return SolidDistance(Body(0, t), Body(1, t)); }
@@ -91,7 +93,7 @@ struct Encounter {
   Real SpeedMax() const {
     Real speed = 0;
     for (const Ship& ship : ships) {
-      const AgentDeclaration& declared = ship.declaration;
+      const motion::AgentDeclaration& declared = ship.declaration;
       const TruePose& start = ship.motion.start;
       speed += start.v.norm() + kEnd * declared.acceleration_max +
                (start.w.norm() + kEnd * declared.angular_acceleration_max) * declared.radius;
@@ -101,7 +103,7 @@ struct Encounter {
 
   // Of the first contact: apart up to `free`, together at `touching`; infinity: there is none.
   struct First {
-    double free = kInfinity, touching = kInfinity;
+    double free = numeric::kInfinity, touching = numeric::kInfinity;
   };
   First FirstContact() const {
     const Real speed = SpeedMax();
@@ -167,7 +169,7 @@ void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
   const Encounter met = RandomEncounter(random, of_solids);
   if (met.Distance(0) == 0) return;
   const Encounter::First first = met.FirstContact();
-  outcome->contacts += first.touching < kInfinity;
+  outcome->contacts += first.touching < numeric::kInfinity;
   DetectorOptions options;
   if (random.Chance(0.4)) options.work_units_per_turn = random.Below(4000);
   Detector detector(options);
@@ -178,7 +180,7 @@ void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
       const Ship& ship = met.ships[i];
       const AgentId id = Id(static_cast<std::uint32_t>(i));
       if (tick % (64 / ship.states_per_second) == 0) {
-        const MotionState state = BoundAt(ship.motion, now, ship.declaration).state;
+        const motion::MotionState state = BoundAt(ship.motion, now, ship.declaration).state;
         if (tick == 0) {
           detector.Admit(id, ship.declaration, state, At(0));
         } else {
@@ -196,7 +198,7 @@ void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
       ++outcome->promised;
       outcome->far_ahead +=
           !clearance.clear_until.is_never() && clearance.clear_until > At(now + 0.2);
-      if (first.touching == kInfinity) continue;
+      if (first.touching == numeric::kInfinity) continue;
       EXPECT_LE(clearance.clear_until, At(first.touching)) << now;
     }
   }
@@ -232,7 +234,7 @@ TEST(DetectorShapePromise, NorWithConvexSolids) { CheckEncounters(true); }
 
 // One state a second of a cube that comes along x and does not turn; nobody told that it does not.
 struct Coming {
-  explicit Coming(const AgentDeclaration& still) {
+  explicit Coming(const motion::AgentDeclaration& still) {
     detector.Admit(Id(1), still, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
     detector.Admit(Id(2), declared, State(0, At0(0), {-1, 0, 0}), At(0));
   }
@@ -240,7 +242,7 @@ struct Coming {
   static Vector3d At0(double t) { return {5 - t, 0.3, 0}; }
 
   void Tell(double t) {
-    MotionState state = State(t, At0(t), {-1, 0, 0});
+    motion::MotionState state = State(t, At0(t), {-1, 0, 0});
     if (jumped_to) state = State(t, *jumped_to, {0, 0, 0});
     state.discontinuity = jumped_to && !std::exchange(has_jumped, true);
     detector.Update(Id(1), State(t, {0, 0, 0}, {0, 0, 0}), At(t));
@@ -249,7 +251,7 @@ struct Coming {
     detector.Hear(Id(2), At(t));
   }
 
-  void Redeclare(std::shared_ptr<const Shape> shape) {
+  void Redeclare(std::shared_ptr<const shape::Shape> shape) {
     declared.shape = std::move(shape);
     detector.Redeclare(Id(2), declared, At(0));
   }
@@ -271,7 +273,7 @@ struct Coming {
   }
 
   Detector detector{{}};
-  AgentDeclaration declared{.radius = 1, .acceleration_max = 0.2};
+  motion::AgentDeclaration declared{.radius = 1, .acceleration_max = 0.2};
   std::optional<Vector3d> jumped_to;
   bool has_jumped = false;
   std::vector<CollisionEvent> events;
@@ -279,7 +281,7 @@ struct Coming {
 
 // Into the other one, from where it was in sight: the way there was none through space.
 TEST(DetectorShapePromise, NoDirectionThroughAJump) {
-  const auto cube = Shape::Build(Cube(0.5));
+  const auto cube = shape::Shape::Build(Cube(0.5));
   Coming coming({.radius = 1, .acceleration_max = 0, .angular_acceleration_max = 0, .shape = cube});
   coming.declared.angular_acceleration_max = 0;
   coming.Redeclare(cube);
@@ -292,9 +294,9 @@ TEST(DetectorShapePromise, NoDirectionThroughAJump) {
 // The cube is a ball until it is told otherwise at 2.5 s: of [2, 3] nobody knows its shape, and at 3 s the balls are
 // still just apart. Of how it came near nothing can be told from that segment.
 TEST(DetectorShapePromise, NoDirectionFromBeforeAShapeWasKnown) {
-  const auto cube = Shape::Build(Cube(0.5));
+  const auto cube = shape::Shape::Build(Cube(0.5));
   for (const bool other_is_ball : {true, false}) {
-    AgentDeclaration still{.radius = 1, .acceleration_max = 0};
+    motion::AgentDeclaration still{.radius = 1, .acceleration_max = 0};
     if (!other_is_ball) still.shape = cube;
     Coming coming(still);
     for (const double t : {1, 2}) coming.Tell(t), coming.Advance(t);
@@ -307,4 +309,4 @@ TEST(DetectorShapePromise, NoDirectionFromBeforeAShapeWasKnown) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -15,27 +15,27 @@
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr double kEnd = 4;
 constexpr int kTicksPerSecond = 16;
 constexpr int kScenes = kSanitized ? 16 : 32;
-constexpr ShapeOptions kCoarse{.triangles_per_leaf = 16};
+constexpr sphere_tree::ShapeOptions kCoarse{.triangles_per_leaf = 16};
 
-using ShapePointer = std::shared_ptr<const Shape>;
+using ShapePointer = std::shared_ptr<const shape::Shape>;
 
 struct Ship {
-  AgentDeclaration declaration;
+  motion::AgentDeclaration declaration;
   TrueMotion motion;
   int ticks_per_state = 1;
   std::set<int> jumps;  // ticks, of one state that jumps aside and stays there
   Vector3d aside = Vector3d::Zero();
 };
 
-Ship RandomShip(Random& random, const TriangleMesh& mesh) {
+Ship RandomShip(Random& random, const geometry::TriangleMesh& mesh) {
   Ship ship;
-  ship.declaration.shape = Shape::Build(mesh, kCoarse);
+  ship.declaration.shape = shape::Shape::Build(mesh, kCoarse);
   ship.declaration.radius = ship.declaration.shape->facts().radius;
   ship.declaration.acceleration_max = random.LogUniform(0.01, 1);
   if (random.Chance(0.8)) ship.declaration.angular_acceleration_max = 0.1;
@@ -62,19 +62,19 @@ Told Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double
   options.work_units_per_turn = 60'000;
   Detector detector(options);
   Told told;
-  std::vector<AgentDeclaration> declarations;
+  std::vector<motion::AgentDeclaration> declarations;
   for (const Ship& ship : ships) declarations.push_back(ship.declaration);
   for (int tick = 0; tick <= kTicksPerSecond * kEnd; ++tick) {
     const double now = static_cast<double>(tick) / kTicksPerSecond;
     for (std::uint32_t i = 0; i < ships.size(); ++i) {
       const Ship& ship = ships[i];
-      AgentDeclaration& declaration = declarations[i];
+      motion::AgentDeclaration& declaration = declarations[i];
       if (redeclared.contains(tick)) {
         declaration.shape = next(i, tick);
         detector.Redeclare(Id(i), declaration, At(now));
       }
       if (tick % ship.ticks_per_state == 0) {
-        MotionState state = BoundAt(ship.motion, now, declaration).state;
+        motion::MotionState state = BoundAt(ship.motion, now, declaration).state;
         if (!ship.jumps.empty() && tick >= *ship.jumps.begin()) state.p_WA += ship.aside;
         state.discontinuity = ship.jumps.contains(tick);
         if (tick == 0) {
@@ -133,8 +133,8 @@ TEST(ShapeTwin, TheSameTreeTellsTheSame) {
     const Scene scene = RandomScene(seed);
     const auto same = [&](std::uint32_t i, int) { return scene.ships[i].declaration.shape; };
     const auto twin = [&](std::uint32_t i, int) -> ShapePointer {
-      const Shape& shape = *scene.ships[i].declaration.shape;
-      return Shape::Build(shape.mesh(), kCoarse, &shape);
+      const shape::Shape& shape = *scene.ships[i].declaration.shape;
+      return shape::Shape::Build(shape.mesh(), kCoarse, &shape);
     };
     const Told a = Fly(scene.ships, scene.redeclared, scene.skew, same);
     const Told b = Fly(scene.ships, scene.redeclared, scene.skew, twin);
@@ -161,7 +161,7 @@ TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
     std::vector<ShapePointer> fine;
     for (const Ship& ship : scene.ships) {
       fine.push_back(
-          Shape::Build(ship.declaration.shape->mesh(), {}, ship.declaration.shape.get()));
+          shape::Shape::Build(ship.declaration.shape->mesh(), {}, ship.declaration.shape.get()));
       ASSERT_GT(fine.back()->tree().nodes.size(), ship.declaration.shape->tree().nodes.size());
     }
     const auto better = [&](std::uint32_t i, int) { return ++switched, fine[i]; };
@@ -191,4 +191,4 @@ TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -7,19 +7,20 @@
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/meshes.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 // Enough for twenty triangles face to face, of which many pairs are equally near.
 constexpr std::uint64_t kUnits = 100000;
 
-const std::shared_ptr<const Shape>& Ship() {
-  static const auto ship = Shape::Build(LShape());
+const std::shared_ptr<const shape::Shape>& Ship() {
+  static const auto ship = shape::Shape::Build(LShape());
   return ship;
 }
 
-AgentDeclaration Declared(const std::shared_ptr<const Shape>& shape, double radius, double M = 1) {
-  AgentDeclaration declaration;
+motion::AgentDeclaration Declared(const std::shared_ptr<const shape::Shape>& shape, double radius,
+                                  double M = 1) {
+  motion::AgentDeclaration declaration;
   declaration.radius = radius;
   declaration.acceleration_max = M;
   declaration.angular_acceleration_max = 0.5;
@@ -27,8 +28,8 @@ AgentDeclaration Declared(const std::shared_ptr<const Shape>& shape, double radi
   return declaration;
 }
 
-AgentDeclaration Awaited(double radius) {
-  AgentDeclaration declaration = Declared(nullptr, radius);
+motion::AgentDeclaration Awaited(double radius) {
+  motion::AgentDeclaration declaration = Declared(nullptr, radius);
   declaration.shape_awaited = true;
   return declaration;
 }
@@ -44,7 +45,7 @@ class Scene : public Line {
     return options;
   }
 
-  void Put(std::uint32_t slot, const AgentDeclaration& declaration, const Vector3d& p,
+  void Put(std::uint32_t slot, const motion::AgentDeclaration& declaration, const Vector3d& p,
            const Vector3d& v) {
     detector.Admit(Id(slot), declaration, State(now, p, v), At(now));
     agents.push_back({slot, p, v, now});
@@ -103,7 +104,7 @@ TEST(DetectorShapes, ConfirmedAndEndedWithinTheirBrackets) {
 
 TEST(DetectorShapes, PassWithinTheBallsButNotTheMeshesIsNeverConfirmed) {
   Scene scene;
-  const auto rod = Shape::Build(Rod(2, 0.1));
+  const auto rod = shape::Shape::Build(Rod(2, 0.1));
   scene.Put(1, Declared(rod, 2.1), {0, 0, 0}, {0, 0, 0});
   scene.Put(2, Declared(rod, 2.1), {12, 0.5, 0.2}, {-4, 0, 0});
   scene.Run(10);
@@ -151,7 +152,7 @@ TEST(DetectorShapes, ArrivalCountsAtOnce) {
 
 TEST(DetectorShapes, ChangedShapeIsUnknownUntilTheNextState) {
   Scene scene;
-  const auto rod = Shape::Build(Rod(2, 0.1));
+  const auto rod = shape::Shape::Build(Rod(2, 0.1));
   // Thin, they pass each other at 0.5 m; the ship that the second becomes at 2.75 s reaches across.
   scene.Put(1, Declared(rod, 2.1), {0, 0, 0}, {0, 0, 0});
   scene.Put(2, Declared(rod, 2.1), {8, 0.7, 0}, {-2, 0, 0});
@@ -171,13 +172,13 @@ TEST(DetectorShapes, ChangedShapeIsUnknownUntilTheNextState) {
 
 // Both stand where the ships overlap; nothing but declarations comes after the first states.
 struct Standing : Scene {
-  explicit Standing(const AgentDeclaration& second) {
+  explicit Standing(const motion::AgentDeclaration& second) {
     Put(1, Declared(Ship(), 2), {0, 0, 0}, {0, 0, 0});
     Put(2, second, {1.5, 0, 0.1}, {0, 0, 0});
     Step();
   }
 
-  std::size_t ConfirmedAfter(const AgentDeclaration& second) {
+  std::size_t ConfirmedAfter(const motion::AgentDeclaration& second) {
     detector.Redeclare(Id(2), second, At(now));
     detector.Hear(Id(1), At(now + 0.0625));
     detector.Hear(Id(2), At(now + 0.0625));
@@ -191,7 +192,7 @@ TEST(DetectorShapes, WithoutAStateOnlyAnArrivalCounts) {
   EXPECT_EQ(Standing(Awaited(2)).ConfirmedAfter(Declared(Ship(), 2)), 1u);
   EXPECT_EQ(Standing(Awaited(2)).ConfirmedAfter(Awaited(2)), 0u);
   // Thin and far up it touches nothing; from when on it is a ship instead nobody knows.
-  const auto rod = Shape::Build(Moved(Rod(0.5, 0.01), {0, 0, 1.5}));
+  const auto rod = shape::Shape::Build(Moved(Rod(0.5, 0.01), {0, 0, 1.5}));
   EXPECT_EQ(Standing(Declared(rod, 2)).ConfirmedAfter(Declared(Ship(), 2)), 0u);
 }
 
@@ -208,8 +209,9 @@ TEST(DetectorShapes, BallsBuildNothing) {
 
 TEST(DetectorShapes, AdmittedInsideAnother) {
   Scene scene;
-  scene.Put(1, Declared(Shape::Build(Cube(5)), 9), {0, 0, 0}, {0, 0, 0});
-  scene.Put(2, Declared(Shape::Build(Scaled(LShape(), 0.2)), 0.5), {4.5, 4.5, 4.5}, {0.01, 0, 0});
+  scene.Put(1, Declared(shape::Shape::Build(Cube(5)), 9), {0, 0, 0}, {0, 0, 0});
+  scene.Put(2, Declared(shape::Shape::Build(Scaled(LShape(), 0.2)), 0.5), {4.5, 4.5, 4.5},
+            {0.01, 0, 0});
   scene.Run(1);
   const auto confirmed = scene.With(EventStatus::kConfirmed);
   ASSERT_GE(confirmed.size(), 1u);
@@ -222,7 +224,7 @@ TEST(DetectorShapes, JumpIntoTheOther) {
   scene.Put(1, Declared(Ship(), 2), {0, 0, 0}, {0, 0, 0});
   scene.Put(2, Declared(Ship(), 2), {100, 0, 0}, {0, 0, 0});
   scene.Run(1);
-  MotionState jump = State(scene.now, {1.5, 0, 0.1}, {0, 0, 0});
+  motion::MotionState jump = State(scene.now, {1.5, 0, 0.1}, {0, 0, 0});
   jump.discontinuity = true;
   jump.stamp = At(scene.now + 1.0 / 128);
   EXPECT_EQ(scene.detector.Update(Id(2), jump, At(scene.now)), UpdateOutcome::kJumped);
@@ -241,7 +243,7 @@ TEST(DetectorShapes, TurningFasterThanDeclaredIsABreach) {
   scene.Put(1, Declared(Ship(), 2), {0, 0, 0}, {0, 0, 0});
   scene.Put(2, Declared(Ship(), 2), {3.5, 0, 0}, {0, 0, 0});
   scene.Run(1);
-  MotionState turned = State(scene.now + 1.0 / 64, {3.5, 0, 0}, {0, 0, 0});
+  motion::MotionState turned = State(scene.now + 1.0 / 64, {3.5, 0, 0}, {0, 0, 0});
   turned.w_WB = {0, 0, 1};
   EXPECT_EQ(scene.detector.Update(Id(2), turned, turned.stamp), UpdateOutcome::kBreached);
 }
@@ -282,7 +284,7 @@ TEST(DetectorShapes, WithoutBudgetNothingIsWrong) {
         EXPECT_GE(event.end.latest, At(5)) << units;
       }
       if (event.status == EventStatus::kUndecided) {
-        EXPECT_EQ(event.limited_by, EventLimit::kBudget) << units;
+        EXPECT_EQ(event.limited_by, narrow_phase::EventLimit::kBudget) << units;
       }
       const bool over =
           event.status == EventStatus::kUndecided || event.status == EventStatus::kEnded;
@@ -293,4 +295,4 @@ TEST(DetectorShapes, WithoutBudgetNothingIsWrong) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

@@ -5,11 +5,12 @@
 
 #include <map>
 
+#include "collision_core/numeric/seconds.h"
 #include "collision_core/shape/shape.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/meshes.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 constexpr std::uint32_t kPairs = 24;
@@ -22,8 +23,8 @@ constexpr std::uint64_t kOverrunOfTurn = 1000;
 class Meetings : public Line {
  public:
   explicit Meetings(std::uint64_t per_step) : Line(Options(per_step)) {
-    const auto ship = Shape::Build(LShape());
-    AgentDeclaration declaration{2, 1};
+    const auto ship = shape::Shape::Build(LShape());
+    motion::AgentDeclaration declaration{2, 1};
     declaration.angular_acceleration_max = 0.5;
     declaration.shape = ship;
     for (std::uint32_t i = 0; i < kPairs; ++i) {
@@ -57,7 +58,7 @@ class Meetings : public Line {
     return options;
   }
 
-  void Put(std::uint32_t slot, const AgentDeclaration& declaration, const Vector3d& p,
+  void Put(std::uint32_t slot, const motion::AgentDeclaration& declaration, const Vector3d& p,
            const Vector3d& v) {
     detector.Admit(Id(slot), declaration, State(now, p, v), At(now));
     agents.push_back({slot, p, v, now});
@@ -65,7 +66,7 @@ class Meetings : public Line {
 };
 
 double Width(const TimeBracket& bracket) {
-  return SecondsBetween(bracket.earliest, bracket.latest).upper;
+  return numeric::SecondsBetween(bracket.earliest, bracket.latest).upper;
 }
 
 TEST(StepBudget, IsKept) {
@@ -103,10 +104,10 @@ TEST(StepBudget, StarvesNobodyAndSaysWhatItCost) {
     EXPECT_GE(event.begin.latest, At(3)) << slot;
     EXPECT_LE(Width(event.begin), 0.25) << slot;
     if (Width(event.begin) > 1.01 * Width(narrow.at(slot).begin)) {
-      EXPECT_EQ(event.limited_by, EventLimit::kBudget) << slot;
+      EXPECT_EQ(event.limited_by, narrow_phase::EventLimit::kBudget) << slot;
     }
   }
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

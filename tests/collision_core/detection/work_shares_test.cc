@@ -10,7 +10,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::detection {
 namespace {
 
 using Shares = std::vector<std::uint64_t>;
@@ -54,4 +54,4 @@ TEST(WorkShares, StarveNobodyAndWasteNothing) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::detection

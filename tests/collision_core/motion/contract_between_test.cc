@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "collision_core/motion/contract.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/exact_between.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::motion {
 namespace {
 
 using Eigen::Vector3d;
@@ -24,7 +25,9 @@ struct Pair {
     return CheckContract(before, next).verdict == ContractVerdict::kBreached;
   }
   double BetweenExcess() const { return CheckContract(before, next).between_excess; }
-  double Seconds() const { return SecondsBetween(before.state.stamp, next.stamp).middle(); }
+  double Seconds() const {
+    return numeric::SecondsBetween(before.state.stamp, next.stamp).middle();
+  }
 };
 
 bool AreApart(const Pair& pair, const Exact& share = 1, const Exact& more = 0) {
@@ -183,7 +186,7 @@ double RoomOf(const Pair& pair) {
   const Instant base = pair.before.state.stamp;
   const SpaceTimeBound after{pair.next, pair.before.declaration, pair.before.skew};
   const MovingBall a = ForwardBall(pair.before, base), b = BackwardBall(after, base);
-  double least = kInfinity;
+  double least = numeric::kInfinity;
   for (int i = 0; i <= 1000; ++i) {
     const double s = pair.Seconds() * i / 1000;
     const Vector3d d = (a.centre - b.centre).middle() + s * (a.velocity - b.velocity).middle();
@@ -258,4 +261,4 @@ TEST(ContractBetween, AnyUnitsWillDo) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::motion

@@ -3,9 +3,10 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
 #include "collision_core/motion/contract.h"
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::motion {
 namespace {
 
 using Eigen::Quaterniond;
@@ -107,7 +108,7 @@ TEST(ContractRotation, HonestIntegratorsAreKept) {
     ASSERT_LE(check.rotation_drift, 1e-7);
 
     for (const double later : {0.0, 0.1, 10.0}) {
-      const Instant t = AddRoundedDown(next.stamp, later);
+      const Instant t = numeric::AddRoundedDown(next.stamp, later);
       const Real apart = Angle(Predicted(before.state, Seconds(before.state.stamp, t)),
                                Predicted(next, Seconds(next.stamp, t)));
       const Real room = TurnBound(before, t) - TurnBound({next, before.declaration}, t) +
@@ -282,4 +283,4 @@ TEST(ContractRotation, BeyondWhatCanBeFollowed) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::motion

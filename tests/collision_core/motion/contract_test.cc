@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::motion {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -19,7 +20,7 @@ SpaceTimeBound Resting(double acceleration_max) {
 MotionState After(const SpaceTimeBound& before, std::int64_t ns) {
   MotionState next = before.state;
   next.stamp = Instant::FromNanoseconds(before.state.stamp.nanoseconds() + ns);
-  const double s = SecondsBetween(before.state.stamp, next.stamp).middle();
+  const double s = numeric::SecondsBetween(before.state.stamp, next.stamp).middle();
   next.p_WA += s * next.v_WA;
   return next;
 }
@@ -56,7 +57,7 @@ TEST(Contract, HonestIntegratorsAreKept) {
         << i << ": " << check.position_excess << " " << check.velocity_excess;
 
     for (const double later : {0.0, 1.0, 1000.0}) {
-      const Instant t = AddRoundedDown(next.stamp, later);
+      const Instant t = numeric::AddRoundedDown(next.stamp, later);
       const ExactHorn inner({next, before.declaration}, t), outer(before, t);
       Exact square = 0;
       for (int axis = 0; axis < 3; ++axis) {
@@ -187,4 +188,4 @@ TEST(Contract, Expiry) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::motion

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::motion {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -100,7 +101,7 @@ TEST(Hypertrapezoid, FirstOverlapIsCertifiedAndTight) {
         ASSERT_GT(LargestGap(a, b, fraction), 0);
       }
     }
-    if (first == kInfinity) continue;
+    if (first == numeric::kInfinity) continue;
     ++overlaps;
     late_overlaps += first > 0;
     if (first > 0) {
@@ -121,8 +122,8 @@ TEST(Hypertrapezoid, DirectionThatEndsInsideDoesNotCount) {
   bound.state.direction_until = Instant::FromNanoseconds(2 * kSecond);
   const Instant end = Instant::FromNanoseconds(2 * kSecond);
   EXPECT_EQ(MakeHypertrapezoid(bound, Instant(), end).lower_end[0], 0);
-  EXPECT_EQ(MakeHypertrapezoid(bound, Instant(), AddRoundedUp(end, 1)).lower_end[0], -9);
+  EXPECT_EQ(MakeHypertrapezoid(bound, Instant(), numeric::AddRoundedUp(end, 1)).lower_end[0], -9);
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::motion

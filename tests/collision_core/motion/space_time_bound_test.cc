@@ -5,7 +5,7 @@
 #include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::motion {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -62,7 +62,7 @@ TEST(SpaceTimeBound, FormulaByHand) {
   bound.declaration.acceleration_max = 2;
   bound.declaration.time_step = 0.5;
   bound.skew = 1;
-  const Interval u = ForwardBall(bound, Instant()).u().At(3);
+  const numeric::Interval u = ForwardBall(bound, Instant()).u().At(3);
   EXPECT_EQ(u.lower, 27.25);
   EXPECT_EQ(u.upper, 27.25);
 }
@@ -121,4 +121,4 @@ TEST(SpaceTimeBound, BoxWithDirection) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::motion

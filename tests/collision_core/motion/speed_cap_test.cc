@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/broad_phase/pair_time.h"
+#include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/motion/contract.h"
 #include "collision_core/motion/hypertrapezoid.h"
 #include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::motion {
 namespace {
 
 constexpr int kMotions = kSanitized ? 100 : 1000;
@@ -173,8 +173,10 @@ TEST(SpeedCap, HonestReportsAreKeptAndTakeNothingBack) {
     ASSERT_LE(check.position_drift, 1e-6);
     SpaceTimeBound after = before;
     after.state = honest.state();
-    const PairTime old_time = EarliestIntersection(before, other, after.state.stamp);
-    const PairTime new_time = EarliestIntersection(after, other, after.state.stamp);
+    const intersection::IntersectionTime old_time =
+        intersection::EarliestIntersection(before, other, after.state.stamp);
+    const intersection::IntersectionTime new_time =
+        intersection::EarliestIntersection(after, other, after.state.stamp);
     ASSERT_EQ(old_time.base, new_time.base);
     ASSERT_GE(new_time.seconds, old_time.seconds * (1 - 2e-9) - 1e-6) << i;
     postponed += new_time.seconds > old_time.seconds + 0.1;
@@ -200,7 +202,7 @@ TEST(SpeedCap, Breaches) {
   EXPECT_EQ(verdict(40, 5 + 1e-6,
                     [&] {
                       SpaceTimeBound without = before;
-                      without.declaration.speed_max = kInfinity;
+                      without.declaration.speed_max = numeric::kInfinity;
                       return without;
                     }()),
             ContractVerdict::kKept);
@@ -254,13 +256,13 @@ TEST(SpeedCap, TakingOverEarlyIsDrift) {
 //         at the cap towards a resting agent along (2, 3, 6) / 7: the distance by the speed.
 TEST(SpeedCap, MeetingsByHand) {
   SpaceTimeBound a = Capped({0, 0, 0}, {0, 0, 0}, 2, 2), b = Capped({11, 0, 0}, {0, 0, 0}, 0, 0);
-  const auto seconds = [&] { return EarliestIntersection(a, b, Instant()).seconds; };
+  const auto seconds = [&] { return intersection::EarliestIntersection(a, b, Instant()).seconds; };
   EXPECT_LE(seconds(), 5.5);
   EXPECT_GE(seconds(), 5.5 * (1 - 1e-8));
   a.declaration.speed_max = 1e6;
   const double without = seconds();
   EXPECT_NEAR(without, std::sqrt(10), 1e-8);
-  a.declaration.speed_max = kInfinity;
+  a.declaration.speed_max = numeric::kInfinity;
   EXPECT_EQ(seconds(), without);
 
   a = Capped({0, 0, 0}, {2, 3, 6}, 3, 7);
@@ -274,4 +276,4 @@ TEST(SpeedCap, MeetingsByHand) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::motion

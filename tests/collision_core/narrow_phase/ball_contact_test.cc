@@ -1,4 +1,4 @@
-#include "collision_core/narrow_phase/ball_contact.h"
+#include "collision_core/narrow_phase/contact/ball_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -6,14 +6,14 @@
 
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 
-SpaceTimeBound Bound(std::int64_t ns, const Eigen::Vector3d& p, const Eigen::Vector3d& v,
-                     double radius, double acceleration_max) {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound Bound(std::int64_t ns, const Eigen::Vector3d& p, const Eigen::Vector3d& v,
+                             double radius, double acceleration_max) {
+  motion::SpaceTimeBound bound;
   bound.state.stamp = Instant::FromNanoseconds(ns);
   bound.state.p_WA = p;
   bound.state.v_WA = v;
@@ -23,7 +23,7 @@ SpaceTimeBound Bound(std::int64_t ns, const Eigen::Vector3d& p, const Eigen::Vec
 }
 
 /// Between two known states, seen from the first.
-BallSegment Between(const SpaceTimeBound& from, const SpaceTimeBound& to) {
+BallSegment Between(const motion::SpaceTimeBound& from, const motion::SpaceTimeBound& to) {
   return {from.declaration.radius,
           {ForwardBall(from, from.state.stamp), BackwardBall(to, from.state.stamp)}};
 }
@@ -57,7 +57,7 @@ struct Motion {
 // Goal:   the brackets of the scene's two satellites are as narrow as the project promises.
 // Method: their states at 599 s and 600 s. The spheres meet at 599.734303 s and part at 599.857266
 // s.
-TEST(JudgeSegment, IridiumAndCosmos) {
+TEST(EvaluateBallSegment, IridiumAndCosmos) {
   const auto bound = [](std::int64_t s, Eigen::Vector3d p, Eigen::Vector3d v) {
     return Bound(s * kSecond, p, v, 500, 7.9);
   };
@@ -69,7 +69,7 @@ TEST(JudgeSegment, IridiumAndCosmos) {
                                            {3587.992786106, -6164.283214372, 2209.219051206}),
                                      bound(600, {-1466262.594448, 1584496.775750, 6813475.124589},
                                            {3589.588165870, -6166.008478261, 2201.796662406}));
-  const SegmentVerdict verdict = JudgeSegment(iridium, cosmos, 1);
+  const SegmentResult verdict = EvaluateBallSegment(iridium, cosmos, 1);
   constexpr double kBegin = 0.734303, kEnd = 0.857266, kGivenTo = 0.5e-6;
   EXPECT_LE(verdict.free_until, kBegin + kGivenTo);
   EXPECT_GE(verdict.contact_from, kBegin - kGivenTo);
@@ -83,7 +83,7 @@ TEST(JudgeSegment, IridiumAndCosmos) {
 // Goal:   no claim is false for any motion, and claims are made: contact, freedom before, freedom
 // after. Method: random pieces of full acceleration between exact states; the verdict against the
 // sampled motion.
-TEST(JudgeSegment, ClaimsHoldForRandomMotions) {
+TEST(EvaluateBallSegment, ClaimsHoldForRandomMotions) {
   Random random(71);
   int contacts = 0, frees = 0, partly = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -96,21 +96,22 @@ TEST(JudgeSegment, ClaimsHoldForRandomMotions) {
     const Motion a = motion(), b = motion();
     const auto segment = [&](const Motion& m, double radius) {
       const auto ns = static_cast<std::int64_t>(std::ceil(T * 1e9));
-      SpaceTimeBound from = Bound(0, m.p[0], m.v[0], radius, M);
-      SpaceTimeBound to = Bound(ns, m.At(ns / 1e9), m.v[Motion::kPieces], radius, M);
+      motion::SpaceTimeBound from = Bound(0, m.p[0], m.v[0], radius, M);
+      motion::SpaceTimeBound to = Bound(ns, m.At(ns / 1e9), m.v[Motion::kPieces], radius, M);
       // What this test's own rounding costs, and the last piece runs on for less than a nanosecond.
-      for (SpaceTimeBound* bound : {&from, &to}) {
+      for (motion::SpaceTimeBound* bound : {&from, &to}) {
         bound->state.position_error = 1e-12;
         bound->state.velocity_error = 1e-8;
       }
       return Between(from, to);
     };
     const double radii[2] = {random.Uniform(0, 1), random.Uniform(0, 1)};
-    const SegmentVerdict verdict = JudgeSegment(segment(a, radii[0]), segment(b, radii[1]), T);
+    const SegmentResult verdict =
+        EvaluateBallSegment(segment(a, radii[0]), segment(b, radii[1]), T);
     contacts += verdict.contact_from <= verdict.contact_to;
-    frees += verdict.free_until == kInfinity;
+    frees += verdict.free_until == numeric::kInfinity;
     partly += verdict.free_until > 0 && verdict.contact_from <= verdict.contact_to;
-    ASSERT_EQ(verdict.free_until == kInfinity, verdict.free_from == -kInfinity);
+    ASSERT_EQ(verdict.free_until == numeric::kInfinity, verdict.free_from == -numeric::kInfinity);
     const auto separation = [&](double t) {
       return (b.At(t) - a.At(t)).norm() - radii[0] - radii[1];
     };
@@ -136,14 +137,14 @@ TEST(JudgeSegment, ClaimsHoldForRandomMotions) {
 // Goal:   brackets are as narrow as the bounds allow: about M T²/8 per agent over the closing
 // speed. Method: two that glide through each other uniformly while M would allow more; begin and
 // end at mid-way.
-TEST(JudgeSegment, BracketsAreNarrow) {
+TEST(EvaluateBallSegment, BracketsAreNarrow) {
   const double M = 0.5, speed = 4;
   const auto glide = [&](double x0, double v, double radius) {
     return Between(Bound(0, {x0, 0, 0}, {v, 0, 0}, radius, M),
                    Bound(kSecond, {x0 + v, 0, 0}, {v, 0, 0}, radius, M));
   };
   // Begin at mid-way: the gap of 2 m closes at 4 m/s.
-  const SegmentVerdict begin = JudgeSegment(glide(0, speed, 1), glide(4, 0, 1), 1);
+  const SegmentResult begin = EvaluateBallSegment(glide(0, speed, 1), glide(4, 0, 1), 1);
   const double width = 2 * (M / 8) / speed;
   EXPECT_LE(begin.free_until, 0.5);
   EXPECT_GE(begin.free_until, 0.5 - 1.05 * width);
@@ -151,7 +152,7 @@ TEST(JudgeSegment, BracketsAreNarrow) {
   EXPECT_LE(begin.contact_from, 0.5 + 1.05 * width);
   EXPECT_EQ(begin.contact_to, 1);
   EXPECT_EQ(begin.free_from, 1);
-  const SegmentVerdict end = JudgeSegment(glide(0, -speed, 1), glide(0, 0, 1), 1);
+  const SegmentResult end = EvaluateBallSegment(glide(0, -speed, 1), glide(0, 0, 1), 1);
   EXPECT_EQ(end.free_until, 0);
   EXPECT_EQ(end.contact_from, 0);
   EXPECT_LE(end.contact_to, 0.5);
@@ -163,58 +164,58 @@ TEST(JudgeSegment, BracketsAreNarrow) {
 // Goal:   freedom that one choice of bounds certifies at the start and another at the end covers
 // the whole. Method: at rest at 1 m, u = ½Mτ² each: apart only before 0.7 s forward and after 0.3 s
 // backward.
-TEST(JudgeSegment, ChoicesExtendEachOther) {
+TEST(EvaluateBallSegment, ChoicesExtendEachOther) {
   const auto rest = [](double x) {
     return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 0, 2),
                    Bound(kSecond, {x, 0, 0}, {0, 0, 0}, 0, 2));
   };
-  EXPECT_EQ(JudgeSegment(rest(0), rest(1), 1).free_until, kInfinity);
+  EXPECT_EQ(EvaluateBallSegment(rest(0), rest(1), 1).free_until, numeric::kInfinity);
   BallSegment forward = rest(0), other = rest(1);
   forward.bounds.pop_back();
   other.bounds.pop_back();
-  EXPECT_NEAR(JudgeSegment(forward, other, 1).free_until, std::sqrt(0.5), 1e-9);
+  EXPECT_NEAR(EvaluateBallSegment(forward, other, 1).free_until, std::sqrt(0.5), 1e-9);
 }
 
 // Goal:   contact at both ends with a middle that is not certified is said to be not continuous;
 //         at the exact values of the bounds.
 // Method: 0.8 m deep at rest, M = 8: each u reaches 1 m mid-way, and only 0.16 m are needed to
 // leave.
-TEST(JudgeSegment, ContactThatMayBreakIsNotContinuous) {
+TEST(EvaluateBallSegment, ContactThatMayBreakIsNotContinuous) {
   const auto rest = [](double x) {
     return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 0.5, 8),
                    Bound(kSecond, {x, 0, 0}, {0, 0, 0}, 0.5, 8));
   };
-  const SegmentVerdict verdict = JudgeSegment(rest(0), rest(0.2), 1);
+  const SegmentResult verdict = EvaluateBallSegment(rest(0), rest(0.2), 1);
   EXPECT_EQ(verdict.contact_from, 0);
   EXPECT_EQ(verdict.contact_to, 1);
   EXPECT_FALSE(verdict.contact_continuous);
 }
 
 // Goal:   a segment of no duration and a segment with nothing known are defined.
-TEST(JudgeSegment, InstantAndUnknown) {
+TEST(EvaluateBallSegment, InstantAndUnknown) {
   const auto point = [](double x) {
     return BallSegment{1, {ForwardBall(Bound(0, {x, 0, 0}, {1, 0, 0}, 1, 3), Instant())}};
   };
-  const SegmentVerdict touching = JudgeSegment(point(0), point(1.5), 0);
+  const SegmentResult touching = EvaluateBallSegment(point(0), point(1.5), 0);
   EXPECT_EQ(touching.contact_from, 0);
   EXPECT_EQ(touching.contact_to, 0);
   EXPECT_LT(touching.free_until, 0);
   EXPECT_EQ(touching.free_from, 0);
-  const SegmentVerdict apart = JudgeSegment(point(0), point(2.5), 0);
+  const SegmentResult apart = EvaluateBallSegment(point(0), point(2.5), 0);
   EXPECT_GT(apart.contact_from, apart.contact_to);
-  EXPECT_EQ(apart.free_until, kInfinity);
-  EXPECT_EQ(apart.free_from, -kInfinity);
-  const SegmentVerdict unknown = JudgeSegment({1, {}}, point(5), 1);
+  EXPECT_EQ(apart.free_until, numeric::kInfinity);
+  EXPECT_EQ(apart.free_from, -numeric::kInfinity);
+  const SegmentResult unknown = EvaluateBallSegment({1, {}}, point(5), 1);
   EXPECT_GT(unknown.contact_from, unknown.contact_to);
   EXPECT_EQ(unknown.free_until, 0);
   EXPECT_EQ(unknown.free_from, 1);
 }
 
-// Goal:   what a glance tells is what JudgeSegment() tells, bit for bit, and bodies that rest in each
+// Goal:   what a glance tells is what EvaluateBallSegment() tells, bit for bit, and bodies that rest in each
 //         other are told at a glance.
 // Method: random pairs near each other, from hard touching to far apart, with one bound of each or two,
 //         true to each other or not; scales from 1e-12 to 1e12, offsets of 1e9 sizes.
-TEST(ContactAtAGlance, IsWhatTheFullRoutineTells) {
+TEST(QuickBallContact, IsWhatTheFullRoutineTells) {
   Random random(5);
   int told = 0, deep = 0;
   for (int i = 0; i < 100000; ++i) {
@@ -233,8 +234,8 @@ TEST(ContactAtAGlance, IsWhatTheFullRoutineTells) {
       if (second) p += random.UnitVector() * (radii[0] + radii[1]) * std::abs(1 - depth);
       const Eigen::Vector3d v = random.UnitVector() * (motion / seconds) * random.Uniform(0, 1);
       const double M = random.Chance(0.3) ? 0 : motion / (seconds * seconds) * random.Uniform(0, 1);
-      SpaceTimeBound from = Bound(0, p, v, radii[second], M);
-      SpaceTimeBound to = Bound(ns, p + seconds * v, v, radii[second], M);
+      motion::SpaceTimeBound from = Bound(0, p, v, radii[second], M);
+      motion::SpaceTimeBound to = Bound(ns, p + seconds * v, v, radii[second], M);
       if (random.Chance(0.1)) to.state.p_WA += random.UnitVector() * size * random.Uniform(0, 3);
       if (random.Chance(0.3)) from.state.position_error = motion * random.Uniform(0, 0.5);
       BallSegment segment = Between(from, to);
@@ -244,8 +245,8 @@ TEST(ContactAtAGlance, IsWhatTheFullRoutineTells) {
     };
     const BallSegment a = body(false), b = body(true);
     const double duration = random.Chance(0.02) ? 0 : seconds;
-    const SegmentVerdict full = JudgeSegment(a, b, duration);
-    const std::optional<SegmentVerdict> glance = ContactAtAGlance(a, b, duration);
+    const SegmentResult full = EvaluateBallSegment(a, b, duration);
+    const std::optional<SegmentResult> glance = QuickBallContact(a, b, duration);
     deep += full.free_until == 0 && full.free_from == duration && full.contact_from == 0 &&
             full.contact_to == duration && full.contact_continuous;
     if (!glance) continue;
@@ -265,33 +266,33 @@ TEST(ContactAtAGlance, IsWhatTheFullRoutineTells) {
 // Goal:   the separation at an instant is the best that all bounds together allow.
 // Method: mid-way of 1 s with M = 8: u = 1 each; 10 m apart, radii 1: 8 ± 2. A breach crosses the
 // bounds.
-TEST(JudgeInstant, BestOverTheBounds) {
+TEST(EvaluateBallsAt, BestOverTheBounds) {
   const auto rest = [](double x, double then) {
     return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 1, 8),
                    Bound(kSecond, {then, 0, 0}, {0, 0, 0}, 1, 8));
   };
-  const SeparationAt middle = JudgeInstant(rest(0, 0), rest(10, 10), 0.5);
+  const SeparationAt middle = EvaluateBallsAt(rest(0, 0), rest(10, 10), 0.5);
   EXPECT_NEAR(middle.separation.lower, 6, 1e-12);
   EXPECT_NEAR(middle.separation.upper, 10, 1e-12);
   EXPECT_EQ(middle.p_WB.x(), 10);
   EXPECT_NEAR(middle.error_B, 1, 1e-12);
-  const SeparationAt early = JudgeInstant(rest(0, 0), rest(10, 10), 0.25);
+  const SeparationAt early = EvaluateBallsAt(rest(0, 0), rest(10, 10), 0.25);
   EXPECT_NEAR(early.error_A, 0.25, 1e-12);
   EXPECT_NEAR(early.separation.lower, 7.5, 1e-12);
-  const SeparationAt breach = JudgeInstant(rest(0, 0), rest(10, 20), 0.5);
+  const SeparationAt breach = EvaluateBallsAt(rest(0, 0), rest(10, 20), 0.5);
   EXPECT_GT(breach.separation.lower, breach.separation.upper);
 }
 
 // Goal:   contact is found where squares of speeds would underflow. Method: head on, the radii a
 //         millionth of the way, from 1e-250 m down to the denormals; contact is half-way.
-TEST(JudgeSegment, ContactIsFoundAtSpeedsWhoseSquaresUnderflow) {
+TEST(EvaluateBallSegment, ContactIsFoundAtSpeedsWhoseSquaresUnderflow) {
   for (const double unit : {1e-250, 1e-300, 1e-310}) {
-    SpaceTimeBound a, b;
+    motion::SpaceTimeBound a, b;
     a.declaration.radius = 1e-6 * unit;
     b.state.p_WA = {-unit, 0, 0};
     b.state.v_WA = {unit, 0, 0};
-    const SegmentVerdict verdict = JudgeSegment({a.declaration.radius, {ForwardBall(a, Instant())}},
-                                                {0, {ForwardBall(b, Instant())}}, 2);
+    const SegmentResult verdict = EvaluateBallSegment(
+        {a.declaration.radius, {ForwardBall(a, Instant())}}, {0, {ForwardBall(b, Instant())}}, 2);
     EXPECT_LE(verdict.contact_from, 1) << unit;
     EXPECT_GE(verdict.contact_to, 1) << unit;
     EXPECT_LE(verdict.contact_from - verdict.free_until, 1e-7) << unit;
@@ -299,4 +300,4 @@ TEST(JudgeSegment, ContactIsFoundAtSpeedsWhoseSquaresUnderflow) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

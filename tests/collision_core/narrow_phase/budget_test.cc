@@ -4,40 +4,40 @@
 //         each asked with budgets from 0 up to what it would spend.
 #include <functional>
 
-#include "collision_core/narrow_phase/refinement.h"
-#include "collision_core/narrow_phase/revolved_pair.h"
-#include "collision_core/narrow_phase/shape_contact.h"
-#include "collision_core/narrow_phase/shape_motion.h"
-#include "collision_core/narrow_phase/shift_apart.h"
+#include "collision_core/narrow_phase/advancement/swept_ring.h"
+#include "collision_core/narrow_phase/contact/shape_contact.h"
+#include "collision_core/narrow_phase/contact/shape_motion.h"
+#include "collision_core/narrow_phase/penetration/separating_translation.h"
+#include "collision_core/narrow_phase/separation/refinement.h"
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
 #include "tests/support/dirty_meshes.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 constexpr std::uint64_t kMost = 20'000;
 
 /// Some 160 corners about a sphere with bumps and arms: neither convex nor even.
-TriangleMesh Spiky(std::uint64_t seed) {
+geometry::TriangleMesh Spiky(std::uint64_t seed) {
   Random random(seed);
   return Star(3, random);
 }
 
-std::shared_ptr<const Shape> Solids(std::size_t count, std::uint64_t seed) {
+std::shared_ptr<const shape::Shape> Solids(std::size_t count, std::uint64_t seed) {
   Random random(seed);
-  std::vector<ConvexSolid> solids;
+  std::vector<shape::ConvexSolid> solids;
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3d at = random.UnitVector(), size = Vector3d::Constant(random.Uniform(0.05, 0.4));
     solids.push_back(i % 2 == 0 ? SolidBox(at - size, at + size) : HullBox(at - size, at + size));
   }
-  return Shape::Compound(nullptr, std::move(solids));
+  return shape::Shape::Compound(nullptr, std::move(solids));
 }
 
 /// Many components.
-TriangleMesh Swarm() {
-  TriangleMesh mesh;
+geometry::TriangleMesh Swarm() {
+  geometry::TriangleMesh mesh;
   Random random(3);
   for (int i = 0; i < 24; ++i) {
     mesh = Joined(mesh, Moved(Cube(0.02), random.Uniform(0, 0.6) * random.UnitVector()));
@@ -46,32 +46,33 @@ TriangleMesh Swarm() {
 }
 
 std::vector<std::pair<const char*, Body>> Bodies() {
-  const auto solid = Shape::Compound(nullptr, {SolidBox({-1, -1, -1}, {1, 1, 1})});
-  const auto hull = Shape::Compound(nullptr, {HullBox({-1, -0.5, -0.2}, {1, 0.5, 0.2})});
-  return {{"ball", {nullptr, 0.5}},
-          {"spiky", {Shape::Build(Spiky(1))}},
-          {"blocks", {Shape::Build(Spiky(2), {.triangles_per_leaf = 11})}},
-          {"sheet", {Shape::Build(Sheet(1, 6))}},
-          {"hollow", {Shape::Build(HollowCube(1.5, 1.4))}},
-          {"swarm", {Shape::Build(Swarm())}},
-          {"leaves", {Shape::Build(Spiky(3), {.triangles_per_leaf = 60})}},
-          {"leaf", {Shape::Build(Cube(0.7), {.triangles_per_leaf = 12})}},
-          {"solid", {solid}},
-          {"hull", {hull}},
-          {"solids", {Solids(120, 5)}},
-          {"mixed", {Shape::Compound(Shape::Build(Spiky(4)), Solids(400, 6)->solids())}}};
+  const auto solid = shape::Shape::Compound(nullptr, {SolidBox({-1, -1, -1}, {1, 1, 1})});
+  const auto hull = shape::Shape::Compound(nullptr, {HullBox({-1, -0.5, -0.2}, {1, 0.5, 0.2})});
+  return {
+      {"ball", {nullptr, 0.5}},
+      {"spiky", {shape::Shape::Build(Spiky(1))}},
+      {"blocks", {shape::Shape::Build(Spiky(2), {.triangles_per_leaf = 11})}},
+      {"sheet", {shape::Shape::Build(Sheet(1, 6))}},
+      {"hollow", {shape::Shape::Build(HollowCube(1.5, 1.4))}},
+      {"swarm", {shape::Shape::Build(Swarm())}},
+      {"leaves", {shape::Shape::Build(Spiky(3), {.triangles_per_leaf = 60})}},
+      {"leaf", {shape::Shape::Build(Cube(0.7), {.triangles_per_leaf = 12})}},
+      {"solid", {solid}},
+      {"hull", {hull}},
+      {"solids", {Solids(120, 5)}},
+      {"mixed", {shape::Shape::Compound(shape::Shape::Build(Spiky(4)), Solids(400, 6)->solids())}}};
 }
 
 /// Two bodies over a second.
 struct Pair {
   BodyPair bodies;
-  Surface a{bodies.a}, b{bodies.b};
+  BodyTree a{bodies.a}, b{bodies.b};
   RelativePose pose = PoseAt(bodies.a, bodies.b, BestBounds(bodies.a, bodies.b, 0.4), 0.4);
 
   Pair(const Body& first, const Body& second, Told told)
       : bodies(SegmentsOf(Known(first, 1, told), Known(second, 1, told), Instant())) {}
 
-  SegmentVerdict Balls() const { return JudgeSegment(bodies.a.ball, bodies.b.ball, 1); }
+  SegmentResult Balls() const { return EvaluateBallSegment(bodies.a.ball, bodies.b.ball, 1); }
 };
 
 /// At rest in each other, meeting, passing by, turning fast, with accelerations.
@@ -96,45 +97,46 @@ std::vector<std::pair<Body, Body>> Motions(Body a, Body b) {
 }
 
 /// The last leaf of each.
-Evidence LastLeaves(const Pair& pair) {
-  const auto last = [](const Surface& surface) {
+ContactWitness LastLeaves(const Pair& pair) {
+  const auto last = [](const BodyTree& surface) {
     return surface.shape() ? static_cast<std::uint32_t>(surface.shape()->tree().nodes.size() - 1)
                            : 0;
   };
-  return {Evidence::Kind::kLeaves, last(pair.a), last(pair.b)};
+  return {ContactWitness::Kind::kLeaves, last(pair.a), last(pair.b)};
 }
 
-using Ask = std::function<void(const Pair&, Work*)>;
+using Ask = std::function<void(const Pair&, WorkBudget*)>;
 
 std::vector<std::pair<const char*, Ask>> Questions() {
   std::vector<std::pair<const char*, Ask>> asks;
   for (const Goal goal : {Goal::kDecision, Goal::kContact, Goal::kNearest, Goal::kYesNo}) {
-    asks.emplace_back("LookAt", [goal](const Pair& pair, Work* work) {
-      LookAt(pair.a, pair.b, pair.pose, goal, work);
+    asks.emplace_back("QuerySeparation", [goal](const Pair& pair, WorkBudget* work) {
+      QuerySeparation(pair.a, pair.b, pair.pose, goal, work);
     });
   }
-  asks.emplace_back("LookAt leaves", [](const Pair& pair, Work* work) {
-    LookAt(pair.a, pair.b, pair.pose, Goal::kDecision, work, LastLeaves(pair));
+  asks.emplace_back("QuerySeparation leaves", [](const Pair& pair, WorkBudget* work) {
+    QuerySeparation(pair.a, pair.b, pair.pose, Goal::kDecision, work, LastLeaves(pair));
   });
-  asks.emplace_back("LookAgain", [](const Pair& pair, Work* work) {
-    LookAgain(pair.a, pair.b, pair.pose, LastLeaves(pair), work);
+  asks.emplace_back("RecheckWitness", [](const Pair& pair, WorkBudget* work) {
+    RecheckWitness(pair.a, pair.b, pair.pose, LastLeaves(pair), work);
   });
-  asks.emplace_back("BracketAt", [](const Pair& pair, Work* work) {
-    BracketAt(pair.a, pair.b, pair.pose, 0, 1e-6, work);
+  asks.emplace_back("BracketSeparation", [](const Pair& pair, WorkBudget* work) {
+    BracketSeparation(pair.a, pair.b, pair.pose, 0, 1e-6, work);
   });
-  asks.emplace_back(
-      "DecideAt", [](const Pair& pair, Work* work) { DecideAt(pair.a, pair.b, pair.pose, work); });
-  asks.emplace_back("NestingOf", [](const Pair& pair, Work* work) {
-    NestingOf(pair.a, pair.b, pair.pose, work);
+  asks.emplace_back("DecideAt", [](const Pair& pair, WorkBudget* work) {
+    DecideAt(pair.a, pair.b, pair.pose, work);
   });
-  asks.emplace_back("ShiftApart", [](const Pair& pair, Work* work) {
-    ShiftApart(pair.a, pair.b, pair.pose, {}, work);
+  asks.emplace_back("TestContainment", [](const Pair& pair, WorkBudget* work) {
+    TestContainment(pair.a, pair.b, pair.pose, work);
+  });
+  asks.emplace_back("SeparatingTranslation", [](const Pair& pair, WorkBudget* work) {
+    SeparatingTranslation(pair.a, pair.b, pair.pose, {}, work);
   });
   for (const RefinementOrder order :
        {RefinementOrder::kLevelByLevel, RefinementOrder::kLargestFirst}) {
-    asks.emplace_back("Refinement", [order](const Pair& pair, Work* work) {
+    asks.emplace_back("Refinement", [order](const Pair& pair, WorkBudget* work) {
       Refinement refinement(order);
-      Work start(0);
+      WorkBudget start(0);
       for (const double weight : {1.0, 3.0}) {
         refinement.Add(pair.a, pair.b, pair.pose, weight, Goal::kDecision, BracketWidth{0, 1e-6},
                        &start);
@@ -143,23 +145,23 @@ std::vector<std::pair<const char*, Ask>> Questions() {
     });
   }
   for (const ContactTolerance& tolerance : {ContactTolerance{}, ContactTolerance{0.1, 0}}) {
-    asks.emplace_back("TimeOfContact", [tolerance](const Pair& pair, Work* work) {
+    asks.emplace_back("TimeOfContact", [tolerance](const Pair& pair, WorkBudget* work) {
       TimeOfContact(pair.bodies.a, pair.bodies.b, 1, tolerance, work);
     });
   }
-  asks.emplace_back("JudgeShapes", [](const Pair& pair, Work* work) {
-    JudgeShapes(pair.bodies.a, pair.bodies.b, 1, pair.Balls(), work);
+  asks.emplace_back("EvaluateShapeSegment", [](const Pair& pair, WorkBudget* work) {
+    EvaluateShapeSegment(pair.bodies.a, pair.bodies.b, 1, pair.Balls(), work);
   });
-  asks.emplace_back("FreeAhead", [](const Pair& pair, Work* work) {
+  asks.emplace_back("FreeAhead", [](const Pair& pair, WorkBudget* work) {
     FreeAhead(pair.bodies.a, pair.bodies.b, 0, 1, work);
   });
-  asks.emplace_back("NormalAt", [](const Pair& pair, Work* work) {
+  asks.emplace_back("NormalAt", [](const Pair& pair, WorkBudget* work) {
     NormalAt(pair.bodies.a, pair.bodies.b, 0.4, work);
   });
-  asks.emplace_back("ShapeProximity", [](const Pair& pair, Work* work) {
+  asks.emplace_back("ShapeProximity", [](const Pair& pair, WorkBudget* work) {
     ShapeProximity(pair.bodies.a, pair.bodies.b, 0.4, work);
   });
-  asks.emplace_back("RevolvedFree", [](const Pair& pair, Work* work) {
+  asks.emplace_back("RevolvedFree", [](const Pair& pair, WorkBudget* work) {
     ShapeMotion(pair.bodies.a, pair.bodies.b, work).RevolvedFree(0, 1, false, 1, work->left());
   });
   return asks;
@@ -168,7 +170,7 @@ std::vector<std::pair<const char*, Ask>> Questions() {
 // With 0, 1, 2, 4, … units, half as many again each time, until it asks for no more.
 void ExpectWithinBatch(const char* what, const Pair& pair, const Ask& ask) {
   for (std::uint64_t allowed = 0; allowed <= kMost; allowed = allowed * 3 / 2 + 1) {
-    Work work(allowed);
+    WorkBudget work(allowed);
     ask(pair, &work);
     EXPECT_LT(work.spent(), allowed + kBatchUnits) << what << " with " << allowed;
     if (work.spent() < allowed) return;
@@ -201,16 +203,16 @@ TEST(Budget, WhatItEndsStillHolds) {
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
         const Pair pair(a, b, Told::kAtStart);
         const auto& [of_a, of_b] = pair.bodies;
-        Work plenty(1'000'000);
-        const ContactTime best = TimeOfContact(of_a, of_b, 1, {}, &plenty);
+        WorkBudget plenty(1'000'000);
+        const TimeOfContactResult best = TimeOfContact(of_a, of_b, 1, {}, &plenty);
         if (best.status != ContactStatus::kContact) continue;
         ++contacts;
         constexpr double kFactor = kSanitized ? 5 : 1.4;
         for (double next = 1; next <= kMost; next = kFactor * next + 1) {
           const auto allowed = static_cast<std::uint64_t>(next);
-          Work ahead(allowed), whole(allowed);
+          WorkBudget ahead(allowed), whole(allowed);
           EXPECT_LE(FreeAhead(of_a, of_b, 0, 1, &ahead), best.begin.upper) << allowed;
-          const ContactTime found = TimeOfContact(of_a, of_b, 1, {}, &whole);
+          const TimeOfContactResult found = TimeOfContact(of_a, of_b, 1, {}, &whole);
           EXPECT_NE(found.status, ContactStatus::kFree) << allowed;
           EXPECT_LE(found.begin.lower, best.begin.upper) << allowed;
           EXPECT_GE(found.end.upper, best.end.lower) << allowed;
@@ -222,7 +224,7 @@ TEST(Budget, WhatItEndsStillHolds) {
 }
 
 /// Of what is apart by less than nothing the depth does not count.
-Interval DistanceIn(const Look& look) {
+numeric::Interval DistanceIn(const SeparationBracket& look) {
   return {std::max(0.0, look.lower), std::max(0.0, look.upper)};
 }
 
@@ -234,20 +236,20 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
       SCOPED_TRACE(std::string(bodies[i].first) + ' ' + bodies[j].first);
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
         const Pair pair(a, b, Told::kAtStart);
-        std::vector<Interval> last(6, {0, kInfinity});
+        std::vector<numeric::Interval> last(6, {0, numeric::kInfinity});
         Verdict verdict = Verdict::kUndecided;
         for (std::uint64_t allowed = 0; allowed <= kMost; allowed = allowed * 3 / 2 + 1) {
-          std::vector<Interval> now;
+          std::vector<numeric::Interval> now;
           for (const Goal goal : {Goal::kDecision, Goal::kContact, Goal::kNearest}) {
-            Work work(allowed);
-            now.push_back(DistanceIn(LookAt(pair.a, pair.b, pair.pose, goal, &work)));
+            WorkBudget work(allowed);
+            now.push_back(DistanceIn(QuerySeparation(pair.a, pair.b, pair.pose, goal, &work)));
           }
-          Work narrow(allowed);
-          now.push_back(DistanceIn(BracketAt(pair.a, pair.b, pair.pose, 0, 1e-6, &narrow)));
+          WorkBudget narrow(allowed);
+          now.push_back(DistanceIn(BracketSeparation(pair.a, pair.b, pair.pose, 0, 1e-6, &narrow)));
           for (const RefinementOrder order :
                {RefinementOrder::kLevelByLevel, RefinementOrder::kLargestFirst}) {
             Refinement refinement(order);
-            Work start(0), work(allowed);
+            WorkBudget start(0), work(allowed);
             refinement.Add(pair.a, pair.b, pair.pose, 1, Goal::kDecision, {}, &start);
             refinement.Add(pair.b, pair.b, RelativePose(), 1, Goal::kDecision, {}, &start);
             refinement.Refine(&work);
@@ -259,7 +261,7 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
             EXPECT_LE(now[k].upper, last[k].upper) << k << " with " << allowed;
           }
           last = now;
-          Work decision(allowed);
+          WorkBudget decision(allowed);
           const Verdict decided = DecideAt(pair.a, pair.b, pair.pose, &decision).verdict;
           EXPECT_TRUE(verdict == Verdict::kUndecided || decided == verdict) << allowed;
           verdict = decided;
@@ -270,4 +272,4 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

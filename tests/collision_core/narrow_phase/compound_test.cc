@@ -2,52 +2,54 @@
 //         of elements say, at every budget.
 // Method: compounds by the hundred, of all kinds of solids, with and without a surface, from one solid to many; every
 //         pair of elements asked by itself (what is certain of such a pair is tested against exact numbers elsewhere).
-#include "collision_core/narrow_phase/contact_time.h"
-#include "collision_core/narrow_phase/element.h"
-#include "collision_core/narrow_phase/refinement.h"
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
+#include "collision_core/narrow_phase/separation/element.h"
+#include "collision_core/narrow_phase/separation/refinement.h"
 #include "tests/collision_core/narrow_phase/convex_cases.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Vector3d;
 
-ConvexDescription RandomSolid(Random& random, double size, double spread) {
-  ConvexDescription d = random.Chance(0.2) ? RandomBox(random, size) : RandomPolytope(random, size);
-  if (d.core == ConvexCore::kBox && random.Chance(0.5)) d.core = ConvexCore::kEllipsoid;
-  if (d.core == ConvexCore::kEllipsoid) d.rounding = 0;
+shape::ConvexDescription RandomSolid(Random& random, double size, double spread) {
+  shape::ConvexDescription d =
+      random.Chance(0.2) ? RandomBox(random, size) : RandomPolytope(random, size);
+  if (d.core == geometry::ConvexCore::kBox && random.Chance(0.5))
+    d.core = geometry::ConvexCore::kEllipsoid;
+  if (d.core == geometry::ConvexCore::kEllipsoid) d.rounding = 0;
   d.p_BS = spread * random.UnitVector();
   return d;
 }
 
 // `most`: solids; a surface beside them every other time.
-std::shared_ptr<const Shape> RandomCompound(Random& random, std::size_t most, double size) {
+std::shared_ptr<const shape::Shape> RandomCompound(Random& random, std::size_t most, double size) {
   const std::size_t count = 1 + random.Below(most);
-  std::vector<ConvexSolid> solids;
+  std::vector<shape::ConvexSolid> solids;
   for (std::size_t i = 0; i < count; ++i) {
-    const ConvexDescription d = RandomSolid(random, size * random.Uniform(0.1, 0.5), size);
+    const shape::ConvexDescription d = RandomSolid(random, size * random.Uniform(0.1, 0.5), size);
     EXPECT_EQ(RefusalOf(d), std::nullopt);
-    solids.push_back(ConvexSolid::Build(d));
+    solids.push_back(shape::ConvexSolid::Build(d));
   }
-  std::shared_ptr<const Shape> surface;
+  std::shared_ptr<const shape::Shape> surface;
   if (random.Chance(0.5)) surface = RandomBody(random, size, Vector::Zero()).shape;
-  return Shape::Compound(surface, std::move(solids));
+  return shape::Shape::Compound(surface, std::move(solids));
 }
 
-std::uint32_t ElementsOf(const Shape& shape) {
+std::uint32_t ElementsOf(const shape::Shape& shape) {
   return static_cast<std::uint32_t>(shape.mesh().triangles.size() + shape.solids().size());
 }
 
 // How deep the ball's centre is in the solid, or how far from it.
-Interval SignedDistance(const Vector3d& point, const ConvexSolid& solid) {
-  Work work(100000);
-  SearchHint none;
-  return SeparationOf(BallSet(point, 0), solid.set(), {}, &none, &work).separation;
+numeric::Interval SignedDistance(const Vector3d& point, const shape::ConvexSolid& solid) {
+  WorkBudget work(100000);
+  geometry::GjkHint none;
+  return SeparationOf(geometry::BallSet(point, 0), solid.set(), {}, &none, &work).separation;
 }
 
-void ExpectCovered(const SphereNode& node, const ConvexSolid& solid) {
-  const ConvexSet& set = solid.set();
+void ExpectCovered(const sphere_tree::SphereNode& node, const shape::ConvexSolid& solid) {
+  const geometry::ConvexSet& set = solid.set();
   for (int i = 0; i < 26; ++i) {
     const int k = i < 13 ? i : i + 1;
     const Vector3d n = Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1).normalized();
@@ -56,19 +58,20 @@ void ExpectCovered(const SphereNode& node, const ConvexSolid& solid) {
   }
 }
 
-void ExpectTree(const Shape& shape) {
-  const SphereTree& tree = shape.tree();
+void ExpectTree(const shape::Shape& shape) {
+  const sphere_tree::SphereTree& tree = shape.tree();
   std::vector<int> seen(ElementsOf(shape), 0);
   std::uint32_t expected_child = 1;
-  for (const SphereNode& node : tree.nodes) {
+  for (const sphere_tree::SphereNode& node : tree.nodes) {
     if (node.children > 0) {
       EXPECT_EQ(node.first_child, expected_child);
       expected_child += node.children;
       EXPECT_LE(node.children, 8u);
       EXPECT_GE(node.children, 2u);
     }
-    double distance = kInfinity;
-    for (const SphereNode& child : tree.ChildrenOf(node)) EXPECT_EQ(child.level, node.level + 1);
+    double distance = numeric::kInfinity;
+    for (const sphere_tree::SphereNode& child : tree.ChildrenOf(node))
+      EXPECT_EQ(child.level, node.level + 1);
     for (const std::uint32_t element : tree.TrianglesOf(node)) {
       ++seen[element];
       if (!shape.IsSolid(element)) continue;
@@ -76,23 +79,23 @@ void ExpectTree(const Shape& shape) {
       ExpectCovered(node, shape.SolidAt(element));
     }
     // Everything below is within the ball: the leaves' solids are.
-    std::vector<const SphereNode*> below = {&node};
+    std::vector<const sphere_tree::SphereNode*> below = {&node};
     bool of_surface = true;
     while (!below.empty()) {
-      const SphereNode& next = *below.back();
+      const sphere_tree::SphereNode& next = *below.back();
       below.pop_back();
-      for (const SphereNode& child : tree.ChildrenOf(next)) below.push_back(&child);
+      for (const sphere_tree::SphereNode& child : tree.ChildrenOf(next)) below.push_back(&child);
       for (const std::uint32_t element : tree.TrianglesOf(next)) {
         if (!shape.IsSolid(element)) continue;
         of_surface = false;
         ExpectCovered(node, shape.SolidAt(element));
       }
     }
-    for (const ConvexSolid& solid : shape.solids()) {
+    for (const shape::ConvexSolid& solid : shape.solids()) {
       distance = std::min(distance, SignedDistance(node.centre, solid).lower);
     }
     if (!shape.mesh().triangles.empty()) {
-      const Interval surface = shape.DistanceTo(node.centre);
+      const numeric::Interval surface = shape.DistanceTo(node.centre);
       const bool inside = shape.closed() && shape.WindingNumberAt(node.centre).value_or(0) != 0;
       distance = std::min(distance, inside ? -surface.upper : surface.lower);
     }
@@ -111,14 +114,14 @@ TEST(Compound, TreesCoverWhatTheyHold) {
     const auto shape =
         RandomCompound(random, seed % 3 == 0 ? 100 : 9, random.LogUniform(1e-3, 1e3));
     ExpectTree(*shape);
-    const MeshFacts& facts = shape->facts();
-    for (const ConvexSolid& solid : shape->solids()) {
+    const geometry::MeshFacts& facts = shape->facts();
+    for (const shape::ConvexSolid& solid : shape->solids()) {
       EXPECT_LE(solid.facts().radius, facts.radius);
       EXPECT_TRUE((facts.lower.array() <= solid.facts().lower.array()).all());
       EXPECT_TRUE((facts.upper.array() >= solid.facts().upper.array()).all());
     }
     EXPECT_EQ(shape->component_points().size(), facts.components);
-    EXPECT_GT(shape->bytes(), sizeof(Shape));
+    EXPECT_GT(shape->bytes(), sizeof(shape::Shape));
   }
 }
 
@@ -136,16 +139,16 @@ Posed RandomPosed(Random& random, double size, const Vector& p) {
 }
 
 // All pairs, of which none is left out.
-Interval LeastOfAll(const Surface& a, const Surface& b, const RelativePose& pose) {
-  Interval least{kInfinity, kInfinity};
+numeric::Interval LeastOfAll(const BodyTree& a, const BodyTree& b, const RelativePose& pose) {
+  numeric::Interval least{numeric::kInfinity, numeric::kInfinity};
   const std::uint32_t of_a = a.shape() ? ElementsOf(*a.shape()) : 1;
   const std::uint32_t of_b = b.shape() ? ElementsOf(*b.shape()) : 1;
   for (std::uint32_t i = 0; i < of_a; ++i) {
     for (std::uint32_t j = 0; j < of_b; ++j) {
-      Work work(10000);
-      SearchHint none;
+      WorkBudget work(10000);
+      geometry::GjkHint none;
       const ConvexQuestion question{ConvexGoal::kDistance, 1e-12, 0};
-      const Interval pair =
+      const numeric::Interval pair =
           SeparationOf(PosedA(SetOf(a, i), pose), PosedB(SetOf(b, j), pose), question, &none, &work)
               .separation;
       least = {std::min(least.lower, pair.lower), std::min(least.upper, pair.upper)};
@@ -164,18 +167,18 @@ TEST(Compound, LooksSayWhatAllPairsSay) {
     const Vector way = random.Uniform(0, 2) * (size + other) * RandomUnit(random);
     const Posed body_b = RandomPosed(random, other, way);
     const BodySegment of_a = body_a.Segment(), of_b = body_b.Segment();
-    const Surface a(of_a), b(of_b);
+    const BodyTree a(of_a), b(of_b);
     const RelativePose pose = PoseBetween(of_a, of_b);
-    const Interval least = LeastOfAll(a, b, pose);
+    const numeric::Interval least = LeastOfAll(a, b, pose);
     const double rounding = 1e-13 * (a.reach() + b.reach() + pose.offset.norm());
-    Work plenty(100000000);
+    WorkBudget plenty(100000000);
     const Decision decision = DecideAt(a, b, pose, &plenty);
     // One inside the other, with their surfaces apart: then the distance is not that of any pair.
     const bool inside = least.lower > rounding && decision.verdict == Verdict::kTouching;
-    Interval before{-kInfinity, kInfinity};
+    numeric::Interval before{-numeric::kInfinity, numeric::kInfinity};
     for (std::uint64_t units = 0;; units = 3 * units + 20) {
-      Work work(units);
-      const Look look = LookAt(a, b, pose, Goal::kDecision, &work);
+      WorkBudget work(units);
+      const SeparationBracket look = QuerySeparation(a, b, pose, Goal::kDecision, &work);
       if (look.upper > 0 && !inside) {
         EXPECT_LE(look.lower, least.upper + rounding);
         EXPECT_GE(look.upper, std::max(0.0, least.lower) - rounding);
@@ -190,10 +193,10 @@ TEST(Compound, LooksSayWhatAllPairsSay) {
       EXPECT_NE(decision.verdict, Verdict::kUndecided);
       ++(inside ? nested : apart);
       if (inside) continue;
-      const Look nearest = LookAt(a, b, pose, Goal::kNearest, &plenty);
+      const SeparationBracket nearest = QuerySeparation(a, b, pose, Goal::kNearest, &plenty);
       EXPECT_LE(nearest.lower, least.upper);
       EXPECT_GE(nearest.lower, least.lower - 1e-6 * least.lower - rounding);
-      const Look bracket = BracketAt(a, b, pose, 0, 0.01, &plenty);
+      const SeparationBracket bracket = BracketSeparation(a, b, pose, 0, 0.01, &plenty);
       EXPECT_LE(bracket.upper, 1.0101 * bracket.lower + rounding);
       EXPECT_LE(bracket.lower, least.upper + rounding);
     } else if (least.upper < -rounding) {
@@ -214,8 +217,8 @@ Posed After(const Posed& posed, const Vector3d& v, const Vector3d& w, double sec
   return later;
 }
 
-SpaceTimeBound BoundOf(const Posed& posed, const Vector3d& v, const Vector3d& w) {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound BoundOf(const Posed& posed, const Vector3d& v, const Vector3d& w) {
+  motion::SpaceTimeBound bound;
   bound.state.p_WA = posed.pose.p.cast<double>();
   bound.state.q_WB = posed.pose.q.cast<double>();
   bound.state.v_WA = v;
@@ -245,13 +248,13 @@ TEST(Compound, MeetWhenAllPairsMeet) {
     KnownMotion of_a, of_b;
     of_a.last = BoundOf(a, Vector3d::Zero(), spin_a);
     of_b.last = BoundOf(b, v, spin_b);
-    Work work(20'000'000);
-    const ContactTime found = TimeOfContact(
+    WorkBudget work(20'000'000);
+    const TimeOfContactResult found = TimeOfContact(
         of_a, of_b, Instant(), Instant::FromNanoseconds(1'000'000'000), {kWidth, 0}, &work);
     const auto separation_at = [&](double seconds) {
       const BodySegment at_a = After(a, Vector3d::Zero(), spin_a, seconds).Segment();
       const BodySegment at_b = After(b, v, spin_b, seconds).Segment();
-      return LeastOfAll(Surface(at_a), Surface(at_b), PoseBetween(at_a, at_b));
+      return LeastOfAll(BodyTree(at_a), BodyTree(at_b), PoseBetween(at_a, at_b));
     };
     ASSERT_NE(found.status, ContactStatus::kUndecided);
     ASSERT_EQ(found.limited_by, EventLimit::kNone);
@@ -276,22 +279,22 @@ TEST(Compound, MeetWhenAllPairsMeet) {
 
 // Of one in the other: never told apart, and by the smallest of looks.
 TEST(Compound, InsideASolidIsContact) {
-  const auto big = Shape::Compound(nullptr, {ConvexSolid::Build(RandomBox(
-                                                *[] {
-                                                  static Random random(3);
-                                                  return &random;
-                                                }(),
-                                                10))});
+  const auto big = shape::Shape::Compound(nullptr, {shape::ConvexSolid::Build(RandomBox(
+                                                       *[] {
+                                                         static Random random(3);
+                                                         return &random;
+                                                       }(),
+                                                       10))});
   Posed around{big, big->facts().radius, {}};
   Random random(7);
   for (int i = 0; i < 50; ++i) {
     Posed within = RandomPosed(random, 0.01, Vector::Zero());
     const BodySegment a = around.Segment(), b = within.Segment();
-    Work work(100);
-    EXPECT_EQ(DecideAt(Surface(a), Surface(b), PoseBetween(a, b), &work).verdict,
+    WorkBudget work(100);
+    EXPECT_EQ(DecideAt(BodyTree(a), BodyTree(b), PoseBetween(a, b), &work).verdict,
               Verdict::kTouching);
   }
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -4,13 +4,13 @@
 //         tolerances up to the whole segment; also one brief contact after another, and after a near miss.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 constexpr ContactTolerance kTolerances[] = {{1, 0},    {0.1, 0},  {1e-3, 0},   {1e-5, 0},
                                             {1e-9, 0}, {0, 1e-3}, {1e-3, 1e-6}};
 
-void ExpectAsAsked(Interval bracket, Real truth, const ContactTolerance& tolerance) {
+void ExpectAsAsked(numeric::Interval bracket, Real truth, const ContactTolerance& tolerance) {
   const double width = std::max(tolerance.absolute, tolerance.relative * bracket.upper);
   ExpectWithin(bracket, truth, (1 + 1e-9) * width / static_cast<double>(truth), "bracket");
 }
@@ -20,7 +20,7 @@ void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real
   for (const Told told : {Told::kAtStart, Told::kAtEnd, Told::kAtBoth}) {
     for (const ContactTolerance& tolerance : kTolerances) {
       for (const bool swapped : {false, true}) {
-        const ContactTime found =
+        const TimeOfContactResult found =
             swapped ? Find(b, a, duration, told, tolerance) : Find(a, b, duration, told, tolerance);
         SCOPED_TRACE(testing::Message() << tolerance.absolute << ' ' << tolerance.relative);
         ASSERT_EQ(found.status, ContactStatus::kContact);
@@ -36,14 +36,14 @@ void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real
 
 void ExpectFree(const Body& a, const Body& b, double duration) {
   for (const ContactTolerance& tolerance : kTolerances) {
-    const ContactTime found = Find(a, b, duration, Told::kAtBoth, tolerance);
+    const TimeOfContactResult found = Find(a, b, duration, Told::kAtBoth, tolerance);
     EXPECT_EQ(found.status, ContactStatus::kFree) << tolerance.absolute;
   }
 }
 
 class BriefContactOf : public testing::TestWithParam<Made> {
  protected:
-  std::shared_ptr<const Shape> PlateOf(double half) const {
+  std::shared_ptr<const shape::Shape> PlateOf(double half) const {
     return BoxOf(GetParam(), {-half, -1, -1}, {half, 1, 1});
   }
 };
@@ -84,7 +84,7 @@ TEST_P(BriefContactOf, BallThatGrazesAnEdge) {
     const Real middle = (static_cast<Real>(ball.p.y()) - ball.p.x()) * std::sqrt(0.5L);
     const Real speed = static_cast<Real>(slope) * std::sqrt(2.0L);
     for (const ContactTolerance& tolerance : kTolerances) {
-      const ContactTime found = Find(ball, cube, 2, Told::kAtStart, tolerance);
+      const TimeOfContactResult found = Find(ball, cube, 2, Told::kAtStart, tolerance);
       ASSERT_EQ(found.status, ContactStatus::kContact) << tolerance.absolute;
       // Rounding moves the ends by its share of the depth.
       EXPECT_LE(found.begin.lower, (middle - half) / speed + 1e-11);
@@ -111,22 +111,22 @@ TEST_P(BriefContactOf, BarThatSweepsPastABall) {
 // Two plates and a wall: the first contact is brief, the last one ends with the segment.
 TEST(BriefContact, BeforeAContactThatLasts) {
   const Body ball{nullptr, 0.25, {-500, 0, 0}, {1000, 0, 0}};
-  const TriangleMesh plates =
+  const geometry::TriangleMesh plates =
       Joined(Box({-1e-3, -1, -1}, {1e-3, 1, 1}), Box({99, -1, -1}, {99.001, 1, 1}));
-  const Body scene{Shape::Build(Joined(plates, Box({250, -1, -1}, {900, 1, 1})))};
+  const Body scene{shape::Shape::Build(Joined(plates, Box({250, -1, -1}, {900, 1, 1})))};
   ExpectBrief(ball, scene, 1, 0.5L - 0.251e-3L, 1);
 }
 
 // The first and the last of many, each of them brief: plates in a row, and a bar that passes again and again.
 TEST(BriefContact, OneAfterTheOther) {
-  TriangleMesh plates;
+  geometry::TriangleMesh plates;
   for (int i = 0; i < 40; ++i) {
     const double x = 10 * i;
     plates = Joined(plates, Box({x - 1e-3, -1, -1}, {x + 1e-3, 1, 1}));
   }
   const Body ball{nullptr, 0.25, {-5000, 0, 0}, {10000, 0, 0}};
-  ExpectBrief(ball, {Shape::Build(plates)}, 1, 0.5L - 0.251e-4L, 0.539L + 0.251e-4L);
-  Body bar{Shape::Build(Box({-2, -0.01, -0.01}, {2, 0.01, 0.01}))};
+  ExpectBrief(ball, {shape::Shape::Build(plates)}, 1, 0.5L - 0.251e-4L, 0.539L + 0.251e-4L);
+  Body bar{shape::Shape::Build(Box({-2, -0.01, -0.01}, {2, 0.01, 0.01}))};
   bar.w = {0, 0, 200};
   const Real angle = std::asin(0.03L / 1.9L);
   const int passes = static_cast<int>(std::floor((200 - kPi / 2) / kPi));
@@ -136,10 +136,10 @@ TEST(BriefContact, OneAfterTheOther) {
 
 // Contact of open surfaces is certain where they cross.
 TEST(BriefContact, OfOpenSurfaces) {
-  const Body sheet{Shape::Build(Sheet(1, 3))};
+  const Body sheet{shape::Shape::Build(Sheet(1, 3))};
   const Body ball{nullptr, 0.25, {0.1, 0.2, 5000}, {0, 0, -10000}};
   ExpectBrief(sheet, ball, 1, 0.499975L, 0.500025L);
-  Body across{Shape::Build(Sheet(1, 2)), 0, {0.1, 0.2, 5000}, {0, 0, -10000}};
+  Body across{shape::Shape::Build(Sheet(1, 2)), 0, {0.1, 0.2, 5000}, {0, 0, -10000}};
   across.q = Turn(90, {1, 0, 0});
   ExpectBrief(sheet, across, 1, 0.4999L, 0.5001L);
 }
@@ -148,9 +148,9 @@ TEST(BriefContact, OfOpenSurfaces) {
 TEST(BriefContact, AfterNearMisses) {
   const Body ball{nullptr, 0.25, {-500, 0, 0}, {1000, 0, 0}};
   for (const double off : {1e-3, 1e-6, 1e-9}) {
-    const TriangleMesh plates =
+    const geometry::TriangleMesh plates =
         Joined(Box({-100, 0.25 + off, -1}, {-99, 1, 1}), Box({99, 0.25 + off, -1}, {99.5, 1, 1}));
-    const Body scene{Shape::Build(Joined(plates, Box({10, -1, -1}, {10.002, 1, 1})))};
+    const Body scene{shape::Shape::Build(Joined(plates, Box({10, -1, -1}, {10.002, 1, 1})))};
     ExpectBrief(ball, scene, 1, 0.50975L, 0.510252L);
   }
 }
@@ -158,11 +158,11 @@ TEST(BriefContact, AfterNearMisses) {
 // It grazes one, touching by nothing for a while, which is neither free nor contact; the next one it meets for certain.
 TEST(BriefContact, AfterATouchThatIsUndecided) {
   const Body ball{nullptr, 0.25, {-500, 0, 0}, {1000, 0, 0}};
-  const TriangleMesh plates =
+  const geometry::TriangleMesh plates =
       Joined(Box({-300, 0.25, -1}, {-299, 1, 1}), Box({100, -1, -1}, {100.002, 1, 1}));
-  const Body scene{Shape::Build(plates)};
+  const Body scene{shape::Shape::Build(plates)};
   for (const ContactTolerance& tolerance : kTolerances) {
-    const ContactTime found = Find(ball, scene, 1, Told::kAtStart, tolerance);
+    const TimeOfContactResult found = Find(ball, scene, 1, Told::kAtStart, tolerance);
     ASSERT_EQ(found.status, ContactStatus::kContact) << tolerance.absolute;
     EXPECT_LE(found.begin.lower, 0.2 + 1e-12);
     EXPECT_GE(found.begin.upper, 0.59975 - 1e-12);
@@ -182,14 +182,14 @@ TEST_P(BriefContactOf, AtTheEndsOfTheSegment) {
   const Body plate{PlateOf(1e-3)};
   for (const ContactTolerance& tolerance : kTolerances) {
     const Body leaving{nullptr, 0.25, {0.25, 0, 0}, {100, 0, 0}};
-    const ContactTime found = Find(leaving, plate, 1, Told::kAtBoth, tolerance);
+    const TimeOfContactResult found = Find(leaving, plate, 1, Told::kAtBoth, tolerance);
     ASSERT_EQ(found.status, ContactStatus::kContact);
     EXPECT_EQ(found.begin.upper, 0);
     EXPECT_LE(found.end.lower, 1e-5 * (1 + 1e-9));
     EXPECT_GE(found.end.upper, 1e-5 * (1 - 1e-9));
     EXPECT_EQ(found.limited_by, EventLimit::kNone);
     const Body coming{nullptr, 0.25, {-100.25, 0, 0}, {100, 0, 0}};
-    const ContactTime last = Find(coming, plate, 1, Told::kAtBoth, tolerance);
+    const TimeOfContactResult last = Find(coming, plate, 1, Told::kAtBoth, tolerance);
     ASSERT_EQ(last.status, ContactStatus::kContact);
     EXPECT_LE(last.begin.lower, 1 - 1e-5 * (1 - 1e-9));
     EXPECT_GE(last.begin.upper, 1 - 1e-5 * (1 + 1e-9));
@@ -206,8 +206,8 @@ TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    Body a{Shape::Build(Star(2, random))};
-    Body b{seed % 2 == 0 ? UnitCube() : Shape::Build(Star(2, random))};
+    Body a{shape::Shape::Build(Star(2, random))};
+    Body b{seed % 2 == 0 ? UnitCube() : shape::Shape::Build(Star(2, random))};
     if (seed % 5 == 0) b = {nullptr, 0.3};
     const double speed = random.LogUniform(10, 1e4);
     b.v = speed * random.UnitVector();
@@ -215,12 +215,12 @@ TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
     a.w = random.LogUniform(0.1, 20) * random.UnitVector();
     b.w = random.LogUniform(0.1, 20) * random.UnitVector();
     if (seed % 3 == 0) a.acceleration_max = b.acceleration_max = random.LogUniform(1e-9, 1e-2);
-    const ContactTime best = Find(a, b, 1);
+    const TimeOfContactResult best = Find(a, b, 1);
     contacts += best.status == ContactStatus::kContact;
     frees += best.status == ContactStatus::kFree;
     unknown += best.limited_by == EventLimit::kMotion;
     for (const ContactTolerance& tolerance : kTolerances) {
-      const ContactTime found = Find(a, b, 1, Told::kAtStart, tolerance);
+      const TimeOfContactResult found = Find(a, b, 1, Told::kAtStart, tolerance);
       EXPECT_EQ(found.status, best.status) << tolerance.absolute;
       if (best.status != ContactStatus::kContact) continue;
       EXPECT_LE(found.begin.lower, best.begin.upper);
@@ -242,4 +242,4 @@ TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

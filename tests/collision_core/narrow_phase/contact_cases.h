@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/contact_time.h"
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/solids.h"
@@ -17,14 +17,14 @@ inline constexpr std::uint64_t kPlenty = 20'000'000;
 inline constexpr double kPi = std::numbers::pi;
 
 struct Body {
-  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const shape::Shape> shape;
   double radius = 0;  // of a ball
   Vector3d p = Vector3d::Zero(), v = Vector3d::Zero(), w = Vector3d::Zero();
   Quaterniond q = Quaterniond::Identity();
   double acceleration_max = 0, angular_acceleration_max = 0;
 
-  SpaceTimeBound At(double seconds) const {
-    SpaceTimeBound bound;
+  motion::SpaceTimeBound At(double seconds) const {
+    motion::SpaceTimeBound bound;
     bound.state.stamp = Instant::FromNanoseconds(std::llround(seconds * 1e9));
     bound.state.p_WA = p + seconds * v;
     bound.state.v_WA = v;
@@ -44,16 +44,18 @@ struct Body {
 
 enum class Told { kAtStart, kAtEnd, kAtBoth };
 
-inline KnownMotion Known(const Body& body, double duration, Told told) {
-  KnownMotion known;
+inline narrow_phase::KnownMotion Known(const Body& body, double duration, Told told) {
+  narrow_phase::KnownMotion known;
   if (told != Told::kAtEnd) known.last = body.At(0);
   if (told != Told::kAtStart) known.next = body.At(duration);
   return known;
 }
 
-inline ContactTime Find(const Body& a, const Body& b, double duration, Told told = Told::kAtStart,
-                        ContactTolerance tolerance = {}, std::uint64_t units = kPlenty) {
-  Work work(units);
+inline narrow_phase::TimeOfContactResult Find(const Body& a, const Body& b, double duration,
+                                              Told told = Told::kAtStart,
+                                              narrow_phase::ContactTolerance tolerance = {},
+                                              std::uint64_t units = kPlenty) {
+  WorkBudget work(units);
   return TimeOfContact(Known(a, duration, told), Known(b, duration, told), Instant(),
                        Instant::FromNanoseconds(std::llround(duration * 1e9)), tolerance, &work);
 }
@@ -61,17 +63,19 @@ inline ContactTime Find(const Body& a, const Body& b, double duration, Told told
 // What rounding the states to doubles may have moved the true time by, as a share of it.
 inline constexpr Real kStated = 4e-15L;
 
-inline void ExpectWithin(Interval bracket, Real truth, double relative, const char* which) {
+inline void ExpectWithin(numeric::Interval bracket, Real truth, double relative,
+                         const char* which) {
   EXPECT_LE(bracket.lower, truth * (1 + kStated)) << which;
   EXPECT_GE(bracket.upper, truth * (1 - kStated)) << which;
   EXPECT_LE(bracket.width(), relative * static_cast<double>(truth)) << which;
 }
 
-inline void ExpectContact(const ContactTime& found, Real begin, Real end, double relative = 1e-12) {
-  ASSERT_EQ(found.status, ContactStatus::kContact);
+inline void ExpectContact(const narrow_phase::TimeOfContactResult& found, Real begin, Real end,
+                          double relative = 1e-12) {
+  ASSERT_EQ(found.status, narrow_phase::ContactStatus::kContact);
   ExpectWithin(found.begin, begin, relative, "begin");
   ExpectWithin(found.end, end, relative, "end");
-  EXPECT_EQ(found.limited_by, EventLimit::kNone);
+  EXPECT_EQ(found.limited_by, narrow_phase::EventLimit::kNone);
   EXPECT_EQ(found.within, 0);
   EXPECT_GT(found.work, 0u);
 }
@@ -85,16 +89,17 @@ enum class Made {
   kMixed    ///< One half of triangles, one a box.
 };
 
-inline std::shared_ptr<const Shape> BoxOf(Made made, const Vector3d& lower, const Vector3d& upper) {
+inline std::shared_ptr<const shape::Shape> BoxOf(Made made, const Vector3d& lower,
+                                                 const Vector3d& upper) {
   const Vector3d middle = (lower + upper) / 2;
-  if (made == Made::kTriangles) return Shape::Build(Box(lower, upper));
-  if (made == Made::kSolid) return Shape::Compound(nullptr, {SolidBox(lower, upper)});
-  if (made == Made::kHull) return Shape::Compound(nullptr, {HullBox(lower, upper)});
+  if (made == Made::kTriangles) return shape::Shape::Build(Box(lower, upper));
+  if (made == Made::kSolid) return shape::Shape::Compound(nullptr, {SolidBox(lower, upper)});
+  if (made == Made::kHull) return shape::Shape::Compound(nullptr, {HullBox(lower, upper)});
   if (made == Made::kMixed) {
     const Vector3d top(upper.x(), upper.y(), middle.z()), bottom(lower.x(), lower.y(), middle.z());
-    return Shape::Compound(Shape::Build(Box(lower, top)), {SolidBox(bottom, upper)});
+    return shape::Shape::Compound(shape::Shape::Build(Box(lower, top)), {SolidBox(bottom, upper)});
   }
-  std::vector<ConvexSolid> solids;
+  std::vector<shape::ConvexSolid> solids;
   for (int i = 0; i < 8; ++i) {
     Vector3d low, high;
     for (int k = 0; k < 3; ++k) {
@@ -103,15 +108,15 @@ inline std::shared_ptr<const Shape> BoxOf(Made made, const Vector3d& lower, cons
     }
     solids.push_back(SolidBox(low, high));
   }
-  return Shape::Compound(nullptr, std::move(solids));
+  return shape::Shape::Compound(nullptr, std::move(solids));
 }
 
-inline std::shared_ptr<const Shape> CubeOf(Made made, double half = 0.5) {
+inline std::shared_ptr<const shape::Shape> CubeOf(Made made, double half = 0.5) {
   return BoxOf(made, Vector3d::Constant(-half), Vector3d::Constant(half));
 }
 
 inline const auto& UnitCube() {
-  static const auto cube = Shape::Build(Cube(0.5));
+  static const auto cube = shape::Shape::Build(Cube(0.5));
   return cube;
 }
 

@@ -4,22 +4,22 @@
 //         distance before, in and after both brackets.
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/contact_time.h"
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "tests/collision_core/narrow_phase/promise_scene.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 struct Count {
   int free = 0, contact = 0, undecided = 0, budget = 0, narrow = 0;
 };
 
-void CheckInstants(const Scene& scene, const ContactTime& found, Random& random) {
+void CheckInstants(const Scene& scene, const TimeOfContactResult& found, Random& random) {
   const Real tolerance =
       kOracle * (scene.agents[0].declaration.radius + scene.agents[1].declaration.radius);
   std::vector<Real> instants = {0, scene.duration};
   for (int i = 0; i < 10; ++i) instants.push_back(scene.duration * random.Uniform(0, 1));
-  for (const Interval& bracket : {found.begin, found.end}) {
+  for (const numeric::Interval& bracket : {found.begin, found.end}) {
     for (const double edge : {bracket.lower, bracket.upper}) {
       for (const double off : {-1e-9, 0.0, 1e-9, -1e-3, 1e-3})
         instants.push_back(edge + off * scene.duration);
@@ -39,9 +39,9 @@ void CheckInstants(const Scene& scene, const ContactTime& found, Random& random)
   }
 }
 
-void CheckNearest(const Scene& scene, const ContactTime& found) {
-  if (found.status != ContactStatus::kUndecided || found.within == kInfinity) return;
-  Real least = kInfinity;
+void CheckNearest(const Scene& scene, const TimeOfContactResult& found) {
+  if (found.status != ContactStatus::kUndecided || found.within == numeric::kInfinity) return;
+  Real least = numeric::kInfinity;
   for (int i = 0; i <= 64; ++i) {
     const Real t = found.begin.lower + found.begin.width() * (i / Real(64));
     least = std::min(least, scene.Distance(t));
@@ -52,7 +52,7 @@ void CheckNearest(const Scene& scene, const ContactTime& found) {
   EXPECT_LE(least, found.within + moved + kOracle * size);
 }
 
-void Check(const Scene& scene, const ContactTime& found, Random& random, Count* count) {
+void Check(const Scene& scene, const TimeOfContactResult& found, Random& random, Count* count) {
   EXPECT_LE(0, found.begin.lower);
   EXPECT_LE(found.begin.lower, found.begin.upper);
   EXPECT_LE(found.end.lower, found.end.upper);
@@ -76,8 +76,8 @@ Count Judged(std::uint64_t first, int seeds, double tolerance) {
     const BodySegment a = scene.Segment(0), b = scene.Segment(1);
     const std::uint64_t allowed =
         random.Chance(0.5) ? 1000000 : static_cast<std::uint64_t>(random.LogUniform(1, 100000));
-    Work work(allowed);
-    const ContactTime found = TimeOfContact(a, b, scene.duration, {0, tolerance}, &work);
+    WorkBudget work(allowed);
+    const TimeOfContactResult found = TimeOfContact(a, b, scene.duration, {0, tolerance}, &work);
     EXPECT_EQ(found.work, work.spent());
     if (found.limited_by == EventLimit::kBudget) {
       EXPECT_GE(work.spent(), allowed / 8);
@@ -103,4 +103,4 @@ TEST(ContactPromise, LikewiseWhereMuchIsTolerated) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

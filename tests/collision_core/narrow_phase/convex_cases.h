@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/convex_distance.h"
+#include "collision_core/geometry/convex/gjk.h"
+#include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/numeric/rotation.h"
-#include "collision_core/shape/convex_search.h"
 #include "tests/support/exact_convex.h"
 #include "tests/support/random.h"
 
@@ -16,28 +16,28 @@ inline Eigen::Quaterniond RandomQuaternion(Random& random) {
           random.Uniform(-1, 1)};
 }
 
-inline ConvexDescription RandomBox(Random& random, double size) {
-  ConvexDescription d;
-  d.core = ConvexCore::kBox;
+inline shape::ConvexDescription RandomBox(Random& random, double size) {
+  shape::ConvexDescription d;
+  d.core = geometry::ConvexCore::kBox;
   for (int axis = 0; axis < 3; ++axis) d.half[axis] = size * random.Uniform(0.1, 1);
   d.q_BS = RandomQuaternion(random);
   return d;
 }
 
-inline ConvexDescription RandomHull(Random& random, double size, std::size_t points) {
-  ConvexDescription d;
-  d.core = ConvexCore::kHull;
+inline shape::ConvexDescription RandomHull(Random& random, double size, std::size_t points) {
+  shape::ConvexDescription d;
+  d.core = geometry::ConvexCore::kHull;
   for (std::size_t i = 0; i < points; ++i) d.points.push_back(size * random.UnitVector());
   d.q_BS = RandomQuaternion(random);
   return d;
 }
 
 /// A ball, a capsule, a box, a hull or a triangle, some of them rounded.
-inline ConvexDescription RandomPolytope(Random& random, double size) {
+inline shape::ConvexDescription RandomPolytope(Random& random, double size) {
   const auto kind = random.Below(5);
-  ConvexDescription d = RandomBox(random, size);
-  if (kind == 0) d.core = ConvexCore::kPoint;
-  if (kind == 1) d.core = ConvexCore::kSegment;
+  shape::ConvexDescription d = RandomBox(random, size);
+  if (kind == 0) d.core = geometry::ConvexCore::kPoint;
+  if (kind == 1) d.core = geometry::ConvexCore::kSegment;
   if (kind == 3) d = RandomHull(random, size, 4 + random.Below(6));
   if (kind == 4) d = RandomHull(random, size, 3);
   if (kind < 2 || random.Chance(0.2)) d.rounding = size * random.Uniform(0.01, 0.5);
@@ -45,13 +45,13 @@ inline ConvexDescription RandomPolytope(Random& random, double size) {
   return d;
 }
 
-inline ConvexDescription LatticePolytope(Random& random) {
+inline shape::ConvexDescription LatticePolytope(Random& random) {
   const auto whole = [&random](int most) { return static_cast<double>(random.Below(most + 1)); };
-  ConvexDescription d;
-  d.core = random.Chance(0.5) ? ConvexCore::kBox : ConvexCore::kHull;
-  if (random.Chance(0.2)) d.core = ConvexCore::kSegment;
+  shape::ConvexDescription d;
+  d.core = random.Chance(0.5) ? geometry::ConvexCore::kBox : geometry::ConvexCore::kHull;
+  if (random.Chance(0.2)) d.core = geometry::ConvexCore::kSegment;
   d.half = {whole(2), whole(2), 1 + whole(1)};
-  for (auto i = 3 + random.Below(5); d.core == ConvexCore::kHull && i > 0; --i) {
+  for (auto i = 3 + random.Below(5); d.core == geometry::ConvexCore::kHull && i > 0; --i) {
     d.points.push_back({whole(2) - 1, whole(2) - 1, whole(2) - 1});
   }
   if (random.Chance(0.2)) d.rounding = whole(2);
@@ -62,53 +62,58 @@ inline ConvexDescription LatticePolytope(Random& random) {
 
 class ConvexCase {
  public:
-  ConvexCase(const ConvexDescription& a, const ConvexDescription& b)
-      : description_a_(a), description_b_(b), a_(ConvexSolid::Build(a)), b_(ConvexSolid::Build(b)) {
+  ConvexCase(const shape::ConvexDescription& a, const shape::ConvexDescription& b)
+      : description_a_(a),
+        description_b_(b),
+        a_(shape::ConvexSolid::Build(a)),
+        b_(shape::ConvexSolid::Build(b)) {
     EXPECT_FALSE(RefusalOf(a)) << *RefusalOf(a);
     EXPECT_FALSE(RefusalOf(b)) << *RefusalOf(b);
   }
 
   /// The pose is that of the matrix computed, exactly.
   void Turn(const Eigen::Quaterniond& q, const Eigen::Vector3d& offset) {
-    pose_ = PoseOf(RotationOf(UnitQuaternion(q)).matrix, offset);
+    pose_ = narrow_phase::PoseOf(RotationOf(numeric::UnitQuaternion(q)).matrix, offset);
   }
 
   /// Along the shortest way that they are found apart by, until it is about `gap` long.
   void MoveTo(double gap) {
     for (int i = 0; i < 3; ++i) {
-      const ConvexSeparation found = Ask();
-      pose_ = PoseOf(pose_.matrix, pose_.offset + (gap - found.separation.middle()) * found.normal);
+      const narrow_phase::ConvexSeparation found = Ask();
+      pose_ = narrow_phase::PoseOf(pose_.matrix,
+                                   pose_.offset + (gap - found.separation.middle()) * found.normal);
     }
   }
 
   /// As their bodies have them, and where B is.
-  const ConvexSet& OfA() const { return a_.set(); }
-  const ConvexSet& OfB() const { return b_.set(); }
-  const RelativePose& pose() const { return pose_; }
+  const geometry::ConvexSet& OfA() const { return a_.set(); }
+  const geometry::ConvexSet& OfB() const { return b_.set(); }
+  const narrow_phase::RelativePose& pose() const { return pose_; }
   Exact Rounding() const { return Exact(description_a_.rounding) + Exact(description_b_.rounding); }
 
-  ConvexSet SetA() const { return PosedA(a_.set(), pose_); }
-  ConvexSet SetB() const { return PosedB(b_.set(), pose_); }
+  geometry::ConvexSet SetA() const { return PosedA(a_.set(), pose_); }
+  geometry::ConvexSet SetB() const { return PosedB(b_.set(), pose_); }
   ExactPoints CornersA() const { return ExactCorners(description_a_); }
   ExactPoints CornersB() const {
     return Placed(ExactCorners(description_b_), PlacementOf(pose_.matrix, pose_.offset));
   }
 
-  ConvexSeparation Ask(const ConvexQuestion& question = {}) const {
-    Work work(1000000);
-    SearchHint hint;
+  narrow_phase::ConvexSeparation Ask(const narrow_phase::ConvexQuestion& question = {}) const {
+    WorkBudget work(1000000);
+    geometry::GjkHint hint;
     return SeparationOf(SetA(), SetB(), question, &hint, &work);
   }
 
   double Size() const {
-    const ConvexSet a = SetA(), b = SetB();
-    return ConvexPair(a, b).size() + a.centre.norm() + b.centre.norm() + a.rounding + b.rounding;
+    const geometry::ConvexSet a = SetA(), b = SetB();
+    return geometry::ConvexPair(a, b).size() + a.centre.norm() + b.centre.norm() + a.rounding +
+           b.rounding;
   }
 
   /// What is found is contained; the exact squared distance of the cores is returned (0: they
   /// meet).
   Exact Contained() const {
-    const ConvexSeparation found = Ask();
+    const narrow_phase::ConvexSeparation found = Ask();
     const ExactVector nearest = NearestToZero(Difference(CornersA(), CornersB()));
     const Exact square = Square(nearest), rounding = Rounding();
     EXPECT_LE(found.separation.lower, found.separation.upper);
@@ -117,7 +122,7 @@ class ConvexCase {
     }
     EXPECT_TRUE(IsAtMost(found.separation.lower, square, rounding)) << found.separation.lower;
     if (square > 0) CheckNormal(found, nearest);
-    ConvexQuestion coarse;
+    narrow_phase::ConvexQuestion coarse;
     coarse.share = 0.05;
     if (square > 0) CheckNormal(Ask(coarse), nearest);
     return square;
@@ -126,13 +131,14 @@ class ConvexCase {
   /// Contained, and no wider than `width` of the pair's size.
   void Check(double width) const {
     Contained();
-    const ConvexSeparation found = Ask();
+    const narrow_phase::ConvexSeparation found = Ask();
     EXPECT_LE(found.separation.width(), width * Size()) << found.separation.lower;
     EXPECT_FALSE(found.exhausted);
-    EXPECT_LT(found.point_error, kInfinity);
+    EXPECT_LT(found.point_error, numeric::kInfinity);
     CheckPoints(found);
     // Less is asked: the points are known less well, and that is told.
-    for (const ConvexGoal goal : {ConvexGoal::kYesNo, ConvexGoal::kDistance}) {
+    for (const narrow_phase::ConvexGoal goal :
+         {narrow_phase::ConvexGoal::kYesNo, narrow_phase::ConvexGoal::kDistance}) {
       CheckPoints(Ask({goal, 0, 0}));
     }
     if (testing::Test::HasFailure()) FAIL();
@@ -143,7 +149,7 @@ class ConvexCase {
     Check(width);
     const Exact square = Contained();
     if (square > 0) return;
-    const ConvexSeparation found = Ask();
+    const narrow_phase::ConvexSeparation found = Ask();
     const ExactPoints corners_a = CornersA(), corners_b = CornersB();
     const Exact depth = SquareOfDepth(corners_a, corners_b, Directions());
     // −depth − rounding lies in the interval.
@@ -171,7 +177,7 @@ class ConvexCase {
   }
 
   /// The angle between the normal and the exact way: tan θ by cross and dot products, θ <= tan θ.
-  void CheckNormal(const ConvexSeparation& found, const ExactVector& way) const {
+  void CheckNormal(const narrow_phase::ConvexSeparation& found, const ExactVector& way) const {
     const ExactVector n(found.normal);
     if (found.normal_error >= 1) return;
     const Exact dot = Dot(n, way);
@@ -183,9 +189,9 @@ class ConvexCase {
 
   /// Each point belongs to its solid, to within its error; apart they are no further apart than
   /// said.
-  void CheckPoints(const ConvexSeparation& found) const {
+  void CheckPoints(const narrow_phase::ConvexSeparation& found) const {
     const double error = found.point_error;
-    if (error == kInfinity) return;
+    if (error == numeric::kInfinity) return;
     const auto belongs = [&](const Eigen::Vector3d& x, const ExactPoints& corners,
                              double rounding) {
       const Exact square = Square(NearestToZero(Difference({ExactVector(x)}, corners)));
@@ -200,9 +206,9 @@ class ConvexCase {
     }
   }
 
-  ConvexDescription description_a_, description_b_;
-  ConvexSolid a_, b_;
-  RelativePose pose_;
+  shape::ConvexDescription description_a_, description_b_;
+  shape::ConvexSolid a_, b_;
+  narrow_phase::RelativePose pose_;
 };
 
 }  // namespace collision

@@ -1,10 +1,10 @@
-#include "collision_core/narrow_phase/convex_distance.h"
+#include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/convex_cases.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Matrix3d;
@@ -38,7 +38,7 @@ TEST(ConvexDistance, LatticePolytopes) {
   const Quaterniond turns[] = {
       {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 1}, {2, 1, 0, 0}, {3, 0, 1, 0}};
   for (int i = 0; i < 2000; ++i) {
-    ConvexDescription a = LatticePolytope(random), b = LatticePolytope(random);
+    shape::ConvexDescription a = LatticePolytope(random), b = LatticePolytope(random);
     a.q_BS = turns[random.Below(5)];
     b.q_BS = turns[random.Below(5)];
     ConvexCase c(a, b);
@@ -71,8 +71,8 @@ TEST(ConvexDistance, DepthOfBoxesAndSegments) {
   Random random(304);
   for (int i = 0; i < 150; ++i) {
     const double size = i % 2 ? 1 : random.LogUniform(1e-4, 1e6);
-    ConvexDescription a = RandomBox(random, size), b = RandomBox(random, size);
-    if (i % 4 == 1) b.core = ConvexCore::kSegment;
+    shape::ConvexDescription a = RandomBox(random, size), b = RandomBox(random, size);
+    if (i % 4 == 1) b.core = geometry::ConvexCore::kSegment;
     if (i % 4 == 2) a.rounding = 0.2 * size;
     ConvexCase c(a, b);
     c.Turn(RandomQuaternion(random), random.Uniform(0, 1) * size * random.UnitVector());
@@ -94,9 +94,9 @@ TEST(ConvexDistance, DepthOfHulls) {
 TEST(ConvexDistance, DepthOfLatticeBoxes) {
   Random random(306);
   for (int i = 0; i < 400; ++i) {
-    ConvexDescription a, b;
-    for (ConvexDescription* d : {&a, &b}) {
-      d->core = ConvexCore::kBox;
+    shape::ConvexDescription a, b;
+    for (shape::ConvexDescription* d : {&a, &b}) {
+      d->core = geometry::ConvexCore::kBox;
       for (int axis = 0; axis < 3; ++axis) d->half[axis] = 1 + static_cast<double>(random.Below(3));
     }
     if (i % 2) b.q_BS = Quaterniond(2, 1, 0, 0);
@@ -109,19 +109,19 @@ TEST(ConvexDistance, DepthOfLatticeBoxes) {
 
 // Goal:   identical solids in one place, and one well inside the other, have closed answers.
 TEST(ConvexDistance, ClosedAnswersOfOverlap) {
-  ConvexDescription cube;
-  cube.core = ConvexCore::kBox;
+  shape::ConvexDescription cube;
+  cube.core = geometry::ConvexCore::kBox;
   cube.half = {1, 2, 3};
-  ConvexDescription ball;
+  shape::ConvexDescription ball;
   ball.rounding = 0.25;
-  ConvexDescription capsule = ball;
-  capsule.core = ConvexCore::kSegment;
+  shape::ConvexDescription capsule = ball;
+  capsule.core = geometry::ConvexCore::kSegment;
   capsule.half.z() = 0.5;
-  ConvexDescription round;
-  round.core = ConvexCore::kEllipsoid;
+  shape::ConvexDescription round;
+  round.core = geometry::ConvexCore::kEllipsoid;
   round.half = {1, 1, 1};
   const struct {
-    ConvexDescription a, b;
+    shape::ConvexDescription a, b;
     Vector3d offset;
     double separation;
   } cases[] = {
@@ -140,12 +140,12 @@ TEST(ConvexDistance, ClosedAnswersOfOverlap) {
   };
   for (const auto& expected : cases) {
     for (const double far : {0.0, 1e7}) {
-      ConvexDescription a = expected.a, b = expected.b;
+      shape::ConvexDescription a = expected.a, b = expected.b;
       a.p_BS.x() = far;
       b.p_BS.x() = far;
       ConvexCase c(a, b);
       c.Turn({1, 0, 0, 0}, expected.offset);
-      const Interval found = c.Ask().separation;
+      const numeric::Interval found = c.Ask().separation;
       EXPECT_TRUE(found.lower <= expected.separation && expected.separation <= found.upper)
           << found.lower << " " << found.upper << " " << expected.separation;
       EXPECT_LT(found.width(), 1e-12 + far * 1e-14);
@@ -158,8 +158,8 @@ TEST(ConvexDistance, ClosedAnswersOfOverlap) {
 TEST(ConvexDistance, Needles) {
   Random random(307);
   for (int i = 0; i < 250; ++i) {
-    ConvexDescription a = RandomBox(random, 1), b = RandomBox(random, 1);
-    for (ConvexDescription* d : {&a, &b}) {
+    shape::ConvexDescription a = RandomBox(random, 1), b = RandomBox(random, 1);
+    for (shape::ConvexDescription* d : {&a, &b}) {
       for (int axis = 0; axis < 3; ++axis) {
         if (random.Chance(0.5)) d->half[axis] *= random.LogUniform(1e-6, 1);
       }
@@ -176,7 +176,7 @@ TEST(ConvexDistance, Needles) {
 TEST(ConvexDistance, NearlyParallelBoxes) {
   Random random(309);
   for (int i = 0; i < 150; ++i) {
-    ConvexDescription a = RandomBox(random, 1), b = RandomBox(random, 1);
+    shape::ConvexDescription a = RandomBox(random, 1), b = RandomBox(random, 1);
     a.q_BS = b.q_BS = {1, 0, 0, 0};
     b.q_BS.vec() = random.LogUniform(1e-17, 1e-3) * random.UnitVector();
     ConvexCase c(a, b);
@@ -190,8 +190,8 @@ TEST(ConvexDistance, NearlyParallelBoxes) {
 TEST(ConvexDistance, DirtyHulls) {
   Random random(310);
   for (int i = 0; i < 300; ++i) {
-    ConvexDescription d[2];
-    for (ConvexDescription& hull : d) {
+    shape::ConvexDescription d[2];
+    for (shape::ConvexDescription& hull : d) {
       hull = RandomHull(random, 1, 3 + random.Below(10));
       Vector3d flat(1, 1, 1);
       if (random.Chance(0.5)) flat.z() = random.Chance(0.5) ? 0 : random.LogUniform(1e-17, 1e-3);
@@ -214,16 +214,16 @@ TEST(ConvexDistance, DirtyHulls) {
 TEST(ConvexDistance, TrianglesAgainstSolids) {
   Random random(316);
   for (int i = 0; i < 300; ++i) {
-    const ConvexDescription d = RandomPolytope(random, 1);
-    const ConvexSolid solid = ConvexSolid::Build(d);
+    const shape::ConvexDescription d = RandomPolytope(random, 1);
+    const shape::ConvexSolid solid = shape::ConvexSolid::Build(d);
     std::array<Vector3d, 3> corners;
     for (Vector3d& corner : corners) corner = random.Uniform(0, 3) * random.UnitVector();
     if (i % 5 == 0) corners[2] = corners[0] + random.LogUniform(1e-17, 1) * random.UnitVector();
     if (i % 7 == 0) corners[1] = corners[0];
-    Work work(1000000);
-    SearchHint hint;
-    const Interval found =
-        SeparationOf(TriangleSet(corners), solid.set(), {}, &hint, &work).separation;
+    WorkBudget work(1000000);
+    geometry::GjkHint hint;
+    const numeric::Interval found =
+        SeparationOf(geometry::TriangleSet(corners), solid.set(), {}, &hint, &work).separation;
     const ExactPoints exact = {ExactVector(corners[0]), ExactVector(corners[1]),
                                ExactVector(corners[2])};
     const Exact square = Square(NearestToZero(Difference(exact, ExactCorners(d))));
@@ -241,12 +241,13 @@ TEST(ConvexDistance, TrianglesAgainstSolids) {
 TEST(ConvexDistance, ExactSets) {
   Random random(317);
   for (int i = 0; i < 400; ++i) {
-    ConvexDescription a = RandomBox(random, 1), b = RandomHull(random, 1, 6);
+    shape::ConvexDescription a = RandomBox(random, 1), b = RandomHull(random, 1, 6);
     a.q_BS = b.q_BS = {1, 0, 0, 0};
     for (int step = 0; step < 3; ++step) {
-      const ConvexSolid solid_a = ConvexSolid::Build(a), solid_b = ConvexSolid::Build(b);
-      Work work(1000000);
-      SearchHint hint;
+      const shape::ConvexSolid solid_a = shape::ConvexSolid::Build(a),
+                               solid_b = shape::ConvexSolid::Build(b);
+      WorkBudget work(1000000);
+      geometry::GjkHint hint;
       const ConvexSeparation found = SeparationOf(solid_a.set(), solid_b.set(), {}, &hint, &work);
       const Exact square = Square(NearestToZero(Difference(ExactCorners(a), ExactCorners(b))));
       ASSERT_TRUE(IsAtMost(found.separation.lower, square, 0)) << i;
@@ -263,7 +264,7 @@ TEST(ConvexDistance, ExactSets) {
 TEST(ConvexDistance, FarFromTheOrigin) {
   Random random(308);
   for (int i = 0; i < 300; ++i) {
-    ConvexDescription a = RandomPolytope(random, 1), b = RandomPolytope(random, 1);
+    shape::ConvexDescription a = RandomPolytope(random, 1), b = RandomPolytope(random, 1);
     const Vector3d far = 1e7 * random.UnitVector();
     a.p_BS = far;
     b.p_BS = far + random.Uniform(0, 4) * random.UnitVector();
@@ -275,4 +276,4 @@ TEST(ConvexDistance, FarFromTheOrigin) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

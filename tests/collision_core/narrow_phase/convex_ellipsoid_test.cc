@@ -2,25 +2,25 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 
-#include "collision_core/narrow_phase/convex_distance.h"
+#include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "tests/collision_core/narrow_phase/convex_cases.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-ConvexDescription RandomEllipsoid(Random& random, double flatness) {
-  ConvexDescription d;
-  d.core = ConvexCore::kEllipsoid;
+shape::ConvexDescription RandomEllipsoid(Random& random, double flatness) {
+  shape::ConvexDescription d;
+  d.core = geometry::ConvexCore::kEllipsoid;
   for (int axis = 0; axis < 3; ++axis) d.half[axis] = random.LogUniform(flatness, 1);
   d.q_BS = RandomQuaternion(random);
   return d;
 }
 
 /// The point seen from the ellipsoid's centre, along its axes.
-ExactVector InAxes(const ConvexDescription& d, const Vector3d& point) {
+ExactVector InAxes(const shape::ConvexDescription& d, const Vector3d& point) {
   const ExactPlacement placement = PlacementOf(d.q_BS, d.p_BS);
   const ExactVector seen = ExactVector(point) - placement.offset;
   ExactVector along(0, 0, 0);
@@ -35,7 +35,7 @@ struct SquareBracket {
 /// The squared distance of a point to the surface, and whether it is inside. The foot of the point
 /// p is a_i² p_i / (a_i² + t) for the root t of Σ (a_i p_i / (a_i² + t))² = 1, t > 0 outside and t
 /// > −min a_i² inside; the distance grows with |t|.
-SquareBracket ToSurface(const ConvexDescription& d, const Vector3d& point, bool* inside) {
+SquareBracket ToSurface(const shape::ConvexDescription& d, const Vector3d& point, bool* inside) {
   const ExactVector p = InAxes(d, point);
   const Exact coordinates[3] = {p.x, p.y, p.z};
   const auto sum = [&](const Exact& t, bool distance) {
@@ -58,11 +58,12 @@ SquareBracket ToSurface(const ConvexDescription& d, const Vector3d& point, bool*
   return {sum(low, true), sum(high, true)};
 }
 
-ConvexSeparation Ask(const ConvexDescription& a, const ConvexDescription& b,
+ConvexSeparation Ask(const shape::ConvexDescription& a, const shape::ConvexDescription& b,
                      const ConvexQuestion& question) {
-  const ConvexSolid solid_a = ConvexSolid::Build(a), solid_b = ConvexSolid::Build(b);
-  SearchHint hint;
-  Work work(1000000);
+  const shape::ConvexSolid solid_a = shape::ConvexSolid::Build(a),
+                           solid_b = shape::ConvexSolid::Build(b);
+  geometry::GjkHint hint;
+  WorkBudget work(1000000);
   return SeparationOf(solid_a.set(), solid_b.set(), question, &hint, &work);
 }
 
@@ -73,8 +74,8 @@ TEST(ConvexEllipsoid, BallsOutsideAndInside) {
   Random random(311);
   int inside_count = 0;
   for (int i = 0; i < 120; ++i) {
-    const ConvexDescription a = RandomEllipsoid(random, i % 3 ? 0.2 : 0.01);
-    ConvexDescription b;
+    const shape::ConvexDescription a = RandomEllipsoid(random, i % 3 ? 0.2 : 0.01);
+    shape::ConvexDescription b;
     b.rounding = random.Uniform(0.01, 1);
     b.p_BS = random.Uniform(0, 2) * random.UnitVector();
     ConvexQuestion question;
@@ -103,7 +104,7 @@ using WideVector = std::array<Wide, 3>;
 /// Projections onto an ellipsoid or a box in fifty digits.
 class WideSolid {
  public:
-  explicit WideSolid(const ConvexDescription& d) : d_(d) {
+  explicit WideSolid(const shape::ConvexDescription& d) : d_(d) {
     const ExactPlacement placement = PlacementOf(d.q_BS, d.p_BS);
     for (int i = 0; i < 3; ++i) {
       const ExactVector& row = placement.rows[i];
@@ -116,7 +117,7 @@ class WideSolid {
     for (int i = 0; i < 3; ++i) {
       for (int k = 0; k < 3; ++k) along[i] += rows_[k][i] * (point[k] - Wide(d_.p_BS[k]));
     }
-    along = d_.core == ConvexCore::kBox ? Clamped(along) : Foot(along);
+    along = d_.core == geometry::ConvexCore::kBox ? Clamped(along) : Foot(along);
     WideVector nearest{};
     for (int k = 0; k < 3; ++k) {
       nearest[k] = d_.p_BS[k];
@@ -164,7 +165,7 @@ class WideSolid {
     return p;
   }
 
-  ConvexDescription d_;
+  shape::ConvexDescription d_;
   std::array<WideVector, 3> rows_;
 };
 
@@ -195,8 +196,8 @@ TEST(ConvexEllipsoid, EllipsoidsAndBoxes) {
   Random random(312);
   int compared = 0;
   for (int i = 0; i < 60; ++i) {
-    const ConvexDescription a = RandomEllipsoid(random, i % 2 ? 0.3 : 0.1);
-    ConvexDescription b = i % 3 ? RandomEllipsoid(random, 0.3) : RandomBox(random, 1);
+    const shape::ConvexDescription a = RandomEllipsoid(random, i % 2 ? 0.3 : 0.1);
+    shape::ConvexDescription b = i % 3 ? RandomEllipsoid(random, 0.3) : RandomBox(random, 1);
     b.p_BS = random.Uniform(1.2, 4) * random.UnitVector();
     ConvexQuestion question;
     question.share = 1e-6;
@@ -217,8 +218,8 @@ TEST(ConvexEllipsoid, NarrowWithoutALimit) {
   Random random(313);
   int exhausted = 0;
   for (int i = 0; i < 300; ++i) {
-    const ConvexDescription a = RandomEllipsoid(random, 0.2);
-    ConvexDescription b = i % 2 ? RandomEllipsoid(random, 0.2) : RandomBox(random, 1);
+    const shape::ConvexDescription a = RandomEllipsoid(random, 0.2);
+    shape::ConvexDescription b = i % 2 ? RandomEllipsoid(random, 0.2) : RandomBox(random, 1);
     b.p_BS = random.Uniform(2.2, 6) * random.UnitVector();
     const ConvexSeparation found = Ask(a, b, {});
     exhausted += found.exhausted;
@@ -231,8 +232,8 @@ TEST(ConvexEllipsoid, NarrowWithoutALimit) {
 TEST(ConvexEllipsoid, ConcentricDepth) {
   Random random(314);
   for (int i = 0; i < 50; ++i) {
-    ConvexDescription a = RandomEllipsoid(random, 0.2), b = a;
-    for (ConvexDescription* d : {&a, &b}) d->half.z() = random.Uniform(0.05, 0.15);
+    shape::ConvexDescription a = RandomEllipsoid(random, 0.2), b = a;
+    for (shape::ConvexDescription* d : {&a, &b}) d->half.z() = random.Uniform(0.05, 0.15);
     for (int axis = 0; axis < 2; ++axis) b.half[axis] = random.Uniform(0.2, 1);
     const ConvexSeparation found = Ask(a, b, {});
     const double depth = a.half.z() + b.half.z();
@@ -248,9 +249,9 @@ TEST(ConvexEllipsoid, NearContactIsKnownToTheLastBits) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    ConvexDescription egg = RandomBox(random, 1), other = RandomBox(random, 1);
-    egg.core = ConvexCore::kEllipsoid;
-    if (seed % 4 == 0) other.core = ConvexCore::kEllipsoid;
+    shape::ConvexDescription egg = RandomBox(random, 1), other = RandomBox(random, 1);
+    egg.core = geometry::ConvexCore::kEllipsoid;
+    if (seed % 4 == 0) other.core = geometry::ConvexCore::kEllipsoid;
     if (seed % 4 == 1) other = RandomHull(random, 1, 20);
     ConvexCase scene(egg, other);
     scene.Turn(RandomQuaternion(random), 3 * random.UnitVector());
@@ -265,4 +266,4 @@ TEST(ConvexEllipsoid, NearContactIsKnownToTheLastBits) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -1,37 +1,38 @@
 // What is asked, hinted and allowed changes how wide the answer is, never whether it is right.
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/convex_distance.h"
+#include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "tests/collision_core/narrow_phase/convex_cases.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Vector3d;
 
 struct Solids {
-  ConvexSolid a, b;
+  shape::ConvexSolid a, b;
 };
 
 Solids RandomSolids(Random& random, double apart) {
-  ConvexDescription d[2];
+  shape::ConvexDescription d[2];
   for (int i = 0; i < 2; ++i) {
     d[i] = RandomPolytope(random, 1);
     d[i].p_BS = Vector3d::Zero();
-    if (random.Chance(0.3)) d[i] = RandomBox(random, 1), d[i].core = ConvexCore::kEllipsoid;
+    if (random.Chance(0.3))
+      d[i] = RandomBox(random, 1), d[i].core = geometry::ConvexCore::kEllipsoid;
   }
   d[1].p_BS = random.Uniform(0, apart) * random.UnitVector();
-  return {ConvexSolid::Build(d[0]), ConvexSolid::Build(d[1])};
+  return {shape::ConvexSolid::Build(d[0]), shape::ConvexSolid::Build(d[1])};
 }
 
 ConvexSeparation Best(const Solids& s) {
-  SearchHint hint;
-  Work work(1000000);
+  geometry::GjkHint hint;
+  WorkBudget work(1000000);
   return SeparationOf(s.a.set(), s.b.set(), {}, &hint, &work);
 }
 
 /// Two brackets of one number have something in common.
-void ExpectMeet(const Interval& x, const Interval& y) {
+void ExpectMeet(const numeric::Interval& x, const numeric::Interval& y) {
   EXPECT_LE(x.lower, y.upper);
   EXPECT_LE(y.lower, x.upper);
 }
@@ -44,10 +45,10 @@ TEST(ConvexLimits, AnyBudget) {
   int exhausted = 0;
   for (int i = 0; i < 400; ++i) {
     const Solids s = RandomSolids(random, 3);
-    const Interval best = Best(s).separation;
+    const numeric::Interval best = Best(s).separation;
     for (const std::uint64_t allowed : {0, 1, 2, 3, 5, 8, 20, 60}) {
-      SearchHint hint;
-      Work work(allowed);
+      geometry::GjkHint hint;
+      WorkBudget work(allowed);
       const ConvexSeparation found = SeparationOf(s.a.set(), s.b.set(), {}, &hint, &work);
       ExpectMeet(found.separation, best);
       EXPECT_LE(found.separation.lower, found.separation.upper);
@@ -65,14 +66,14 @@ TEST(ConvexLimits, AnyBudget) {
 TEST(ConvexLimits, AnyHint) {
   Random random(322);
   std::uint64_t cold = 0, warm = 0;
-  SearchHint other;  // Of the last pair.
+  geometry::GjkHint other;  // Of the last pair.
   for (int i = 0; i < 600; ++i) {
     const Solids s = RandomSolids(random, 4);
-    Work first(1000000), second(1000000), third(1000000);
-    SearchHint hint;
+    WorkBudget first(1000000), second(1000000), third(1000000);
+    geometry::GjkHint hint;
     const ConvexSeparation found = SeparationOf(s.a.set(), s.b.set(), {}, &hint, &first);
     const ConvexSeparation again = SeparationOf(s.a.set(), s.b.set(), {}, &hint, &second);
-    SearchHint wrong = other;
+    geometry::GjkHint wrong = other;
     other = hint;
     const ConvexSeparation misled = SeparationOf(s.a.set(), s.b.set(), {}, &wrong, &third);
     ExpectMeet(found.separation, again.separation);
@@ -90,12 +91,13 @@ TEST(ConvexLimits, YesOrNo) {
   int yes = 0, no = 0;
   for (int i = 0; i < 2000; ++i) {
     const Solids s = RandomSolids(random, 3);
-    const Interval best = Best(s).separation;
+    const numeric::Interval best = Best(s).separation;
     ConvexQuestion question;
     question.goal = ConvexGoal::kYesNo;
-    SearchHint hint;
-    Work work(1000000);
-    const Interval found = SeparationOf(s.a.set(), s.b.set(), question, &hint, &work).separation;
+    geometry::GjkHint hint;
+    WorkBudget work(1000000);
+    const numeric::Interval found =
+        SeparationOf(s.a.set(), s.b.set(), question, &hint, &work).separation;
     ExpectMeet(found, best);
     no += best.lower > 1e-9;
     yes += best.upper < -1e-9;
@@ -120,10 +122,10 @@ TEST(ConvexLimits, WidthAskedFor) {
       ConvexQuestion question;
       question.width = i % 2 ? width : 0;
       question.share = i % 2 ? 0 : width;
-      SearchHint hint;
-      Work work(1000000);
+      geometry::GjkHint hint;
+      WorkBudget work(1000000);
       const ConvexSeparation found = SeparationOf(s.a.set(), s.b.set(), question, &hint, &work);
-      const Interval at = found.separation;
+      const numeric::Interval at = found.separation;
       if (!(at.lower > 1e-3)) continue;
       EXPECT_LE(at.width(), std::max(question.width, question.share * at.lower));
       if (width == 1e-1) coarse += work.spent();
@@ -151,12 +153,12 @@ TEST(ConvexLimits, UncertainSets) {
   Random random(326);
   for (int i = 0; i < 300; ++i) {
     const Solids s = RandomSolids(random, 4);
-    const Interval best = Best(s).separation;
-    ConvexSet a = s.a.set(), b = s.b.set();
+    const numeric::Interval best = Best(s).separation;
+    geometry::ConvexSet a = s.a.set(), b = s.b.set();
     a.error += 0.125;
     b.error += 0.25;
-    SearchHint hint;
-    Work work(1000000);
+    geometry::GjkHint hint;
+    WorkBudget work(1000000);
     const ConvexSeparation found = SeparationOf(a, b, {}, &hint, &work);
     EXPECT_LE(found.separation.lower, best.upper - 0.375);
     EXPECT_GE(found.separation.upper, best.lower + 0.375);
@@ -168,4 +170,4 @@ TEST(ConvexLimits, UncertainSets) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

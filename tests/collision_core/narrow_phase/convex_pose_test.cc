@@ -1,34 +1,35 @@
 // Sets in another body's frame, half-spaces, and fronts in motion.
-#include "collision_core/narrow_phase/convex_pose.h"
+#include "collision_core/narrow_phase/pose/convex_pose.h"
 
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/convex_front.h"
+#include "collision_core/narrow_phase/convex_pair/convex_front.h"
 #include "tests/collision_core/narrow_phase/convex_cases.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 /// Of the set, exactly as its numbers say, seen from the frame's origin: corners.
-ExactPoints CornersOf(const ConvexSet& set) {
+ExactPoints CornersOf(const geometry::ConvexSet& set) {
   const ExactPlacement placement = PlacementOf(set.generators, set.centre);
   ExactPoints corners;
   const auto add = [&](double x, double y, double z) {
     corners.push_back(placement(ExactVector(x, y, z)));
   };
-  if (set.core == ConvexCore::kPoint) add(0, 0, 0);
+  if (set.core == geometry::ConvexCore::kPoint) add(0, 0, 0);
   for (const int i : {-1, 1}) {
-    if (set.core == ConvexCore::kSegment) add(i, 0, 0);
+    if (set.core == geometry::ConvexCore::kSegment) add(i, 0, 0);
     for (const int j : {-1, 1}) {
       for (const int k : {-1, 1}) {
-        if (set.core == ConvexCore::kBox) add(i, j, k);
+        if (set.core == geometry::ConvexCore::kBox) add(i, j, k);
       }
     }
   }
-  for (std::uint32_t i = 0; set.core == ConvexCore::kHull && i < set.points->size(); ++i) {
+  for (std::uint32_t i = 0; set.core == geometry::ConvexCore::kHull && i < set.points->size();
+       ++i) {
     corners.push_back(placement(ExactVector((*set.points)[i])));
   }
   return corners;
@@ -53,17 +54,18 @@ TEST(ConvexPose, ErrorsAreCounted) {
   Random random(331);
   for (int i = 0; i < 400; ++i) {
     const double size = random.LogUniform(1e-4, 1e4);
-    ConvexDescription d = RandomPolytope(random, size);
+    shape::ConvexDescription d = RandomPolytope(random, size);
     d.q_BS.coeffs() *= random.LogUniform(1e-3, 1e3);
     d.p_BS = (i % 2 ? 1e7 : size) * random.UnitVector();
-    const ConvexSolid solid = ConvexSolid::Build(d);
+    const shape::ConvexSolid solid = shape::ConvexSolid::Build(d);
     const ExactPoints exact = ExactCorners(d);
     EXPECT_TRUE(AreWithin(CornersOf(solid.set()), exact, solid.set().error));
     EXPECT_TRUE(AreWithin(exact, CornersOf(solid.set()), solid.set().error));
     EXPECT_LE(solid.set().error, 1e-14 * (size + d.p_BS.norm()));
-    const RelativePose pose = PoseOf(RotationOf(UnitQuaternion(RandomQuaternion(random))).matrix,
-                                     random.LogUniform(1e-3, 1e6) * random.UnitVector());
-    const ConvexSet posed = PosedB(solid.set(), pose);
+    const RelativePose pose =
+        PoseOf(RotationOf(numeric::UnitQuaternion(RandomQuaternion(random))).matrix,
+               random.LogUniform(1e-3, 1e6) * random.UnitVector());
+    const geometry::ConvexSet posed = PosedB(solid.set(), pose);
     const ExactPoints there = Placed(exact, PlacementOf(pose.matrix, pose.offset));
     EXPECT_TRUE(AreWithin(CornersOf(posed), there, posed.error));
     EXPECT_LE(posed.error, 2e-14 * (size + d.p_BS.norm() + pose.offset.norm()));
@@ -72,10 +74,10 @@ TEST(ConvexPose, ErrorsAreCounted) {
 
 // Goal:   what a body may be turned by counts with the distance from its reference point.
 TEST(ConvexPose, TurningCounts) {
-  ConvexDescription d;
+  shape::ConvexDescription d;
   d.rounding = 1;
   d.p_BS = {3, 4, 0};
-  const ConvexSolid ball = ConvexSolid::Build(d);
+  const shape::ConvexSolid ball = shape::ConvexSolid::Build(d);
   RelativePose pose;
   pose.chord_A = 0.5;
   pose.chord_B = 0.25;
@@ -89,13 +91,13 @@ TEST(ConvexPose, TurningCounts) {
 //         it.
 // Method: a normal (2, 3, 6), 7 long, so that heights are rational; also half-spaces that are
 //         turned.
-TEST(ConvexPose, HalfSpaces) {
+TEST(ConvexPose, broad_phase::HalfSpaces) {
   Random random(332);
   for (int i = 0; i < 500; ++i) {
     const double size = random.LogUniform(1e-3, 1e3);
-    const ConvexDescription d = RandomPolytope(random, size);
-    const ConvexSolid solid = ConvexSolid::Build(d);
-    const ConvexHalfSpace ground{{2, 3, 6}, size * random.UnitVector()};
+    const shape::ConvexDescription d = RandomPolytope(random, size);
+    const shape::ConvexSolid solid = shape::ConvexSolid::Build(d);
+    const shape::ConvexHalfSpace ground{{2, 3, 6}, size * random.UnitVector()};
     ASSERT_FALSE(RefusalOf(ground));
     const RelativePose still = PoseOf(Eigen::Matrix3d::Identity(), {0, 0, 0});
     const ConvexSeparation found = SeparationOf(solid.set(), PosedB(ground, still));
@@ -116,8 +118,8 @@ TEST(ConvexPose, HalfSpaces) {
 TEST(ConvexPose, EllipsoidOverTheGround) {
   Random random(333);
   for (int i = 0; i < 300; ++i) {
-    ConvexDescription d = RandomBox(random, 1);
-    d.core = ConvexCore::kEllipsoid;
+    shape::ConvexDescription d = RandomBox(random, 1);
+    d.core = geometry::ConvexCore::kEllipsoid;
     d.p_BS = 3 * random.UnitVector();
     const ExactVector n(2, 3, 6);
     Exact square = 0;
@@ -130,9 +132,10 @@ TEST(ConvexPose, EllipsoidOverTheGround) {
       }
     }
     const RelativePose still = PoseOf(Eigen::Matrix3d::Identity(), {0, 0, 0});
-    const Interval found = SeparationOf(ConvexSolid::Build(d).set(),
-                                        PosedA(ConvexHalfSpace{{2, 3, 6}, {0, 0, 0}}, still))
-                               .separation;
+    const numeric::Interval found =
+        SeparationOf(shape::ConvexSolid::Build(d).set(),
+                     PosedA(shape::ConvexHalfSpace{{2, 3, 6}, {0, 0, 0}}, still))
+            .separation;
     // (n·c − √square) / 7 lies in the interval.
     const Exact centre = Dot(n, ExactVector(d.p_BS));
     EXPECT_TRUE(IsAtLeast(0, Exact(0), centre - 7 * Exact(found.lower)));
@@ -147,14 +150,15 @@ TEST(ConvexPose, EllipsoidOverTheGround) {
 TEST(ConvexPose, TurnedHalfSpaces) {
   Random random(334);
   for (int i = 0; i < 300; ++i) {
-    ConvexDescription ball;
+    shape::ConvexDescription ball;
     ball.rounding = 1;
     ball.p_BS = random.LogUniform(1, 1e6) * random.UnitVector();
-    const ConvexHalfSpace ground{{0, 0, random.LogUniform(1e-9, 1e9)}, random.UnitVector()};
-    const RelativePose pose = PoseOf(RotationOf(UnitQuaternion(RandomQuaternion(random))).matrix,
-                                     100 * random.UnitVector());
-    const Interval found =
-        SeparationOf(ConvexSolid::Build(ball).set(), PosedB(ground, pose)).separation;
+    const shape::ConvexHalfSpace ground{{0, 0, random.LogUniform(1e-9, 1e9)}, random.UnitVector()};
+    const RelativePose pose =
+        PoseOf(RotationOf(numeric::UnitQuaternion(RandomQuaternion(random))).matrix,
+               100 * random.UnitVector());
+    const numeric::Interval found =
+        SeparationOf(shape::ConvexSolid::Build(ball).set(), PosedB(ground, pose)).separation;
     const ExactPlacement placement = PlacementOf(pose.matrix, pose.offset);
     const ExactVector n(pose.matrix(0, 2), pose.matrix(1, 2), pose.matrix(2, 2));
     const ExactVector from = ExactVector(ball.p_BS) - placement(ExactVector(ground.point));
@@ -168,15 +172,15 @@ TEST(ConvexPose, TurnedHalfSpaces) {
 
 // Goal:   a half-space that may be turned is uncertain by that times how far away the solid is.
 TEST(ConvexPose, UncertainHalfSpaces) {
-  ConvexDescription ball;
+  shape::ConvexDescription ball;
   ball.rounding = 1;
   ball.p_BS = {100, 0, 3};
-  const ConvexSolid solid = ConvexSolid::Build(ball);
+  const shape::ConvexSolid solid = shape::ConvexSolid::Build(ball);
   for (const bool of_A : {false, true}) {
     RelativePose pose;
     (of_A ? pose.chord_A : pose.chord_B) = 0.01;
-    const ConvexHalfSpace ground{{0, 0, 1}, {0, 0, 0}};
-    const Interval found =
+    const shape::ConvexHalfSpace ground{{0, 0, 1}, {0, 0, 0}};
+    const numeric::Interval found =
         SeparationOf(solid.set(), of_A ? PosedA(ground, pose) : PosedB(ground, pose)).separation;
     EXPECT_LE(found.lower, 2 - 1);
     EXPECT_GE(found.upper, 2 + 1);
@@ -191,9 +195,9 @@ TEST(ConvexFront, ContainsMovingCorners) {
   Random random(335);
   for (int i = 0; i < 500; ++i) {
     const double size = random.LogUniform(1e-3, 1e3);
-    ConvexDescription d = i % 2 ? RandomBox(random, size) : RandomHull(random, size, 8);
+    shape::ConvexDescription d = i % 2 ? RandomBox(random, size) : RandomHull(random, size, 8);
     d.p_BS = random.LogUniform(1e-2, 1e4) * random.UnitVector();
-    const ConvexSolid solid = ConvexSolid::Build(d);
+    const shape::ConvexSolid solid = shape::ConvexSolid::Build(d);
     TangentMotion motion;
     motion.velocity = random.LogUniform(1e-2, 1e4) * random.UnitVector();
     motion.spin = random.LogUniform(1e-3, 10) * random.UnitVector();
@@ -221,11 +225,11 @@ TEST(ConvexFront, ContainsMovingCorners) {
 
 // Goal:   the ball about a core turns with it: it reaches as far in every direction.
 TEST(ConvexFront, RoundedSets) {
-  ConvexDescription d;
-  d.core = ConvexCore::kSegment;
+  shape::ConvexDescription d;
+  d.core = geometry::ConvexCore::kSegment;
   d.half.z() = 2;
   d.rounding = 0.5;
-  const ConvexSolid capsule = ConvexSolid::Build(d);
+  const shape::ConvexSolid capsule = shape::ConvexSolid::Build(d);
   TangentMotion motion;
   motion.spin = {0, 1, 0};  // z turns towards +x: points at z = 2 move at 2 m/s along x.
   const MovingFront front = FrontOf(capsule.set(), motion, {1, 0, 0}, {0, 0, 0}, 1);
@@ -234,4 +238,4 @@ TEST(ConvexFront, RoundedSets) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -4,12 +4,12 @@
 //         budgets from nothing to plenty; against all pairs of triangles in long double.
 #include "tests/support/dirty_meshes.h"
 
-#include "collision_core/narrow_phase/separation_search.h"
+#include "collision_core/narrow_phase/separation/separation_search.h"
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
 #include "tests/support/sanitized.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 constexpr std::uint32_t kMeshes = kSanitized ? 10 * kDirtKinds : 80 * kDirtKinds;
@@ -17,19 +17,19 @@ constexpr std::uint32_t kMeshes = kSanitized ? 10 * kDirtKinds : 80 * kDirtKinds
 // Brute force over more pairs of triangles than this takes too long.
 constexpr std::size_t kPairsMax = 6000;
 
-std::shared_ptr<const Shape> NextShape(std::uint32_t* kind, Random& random) {
+std::shared_ptr<const shape::Shape> NextShape(std::uint32_t* kind, Random& random) {
   for (;;) {
-    const TriangleMesh mesh = DirtyMesh((*kind)++, random);
+    const geometry::TriangleMesh mesh = DirtyMesh((*kind)++, random);
     if (mesh.triangles.empty() || RefusalOf(mesh, 100000)) continue;
-    ShapeOptions options;
-    if (*kind % 2 == 0) options.builder = TreeBuilder::kFitted;
+    sphere_tree::ShapeOptions options;
+    if (*kind % 2 == 0) options.builder = sphere_tree::TreeBuilder::kFitted;
     options.nodes_max = 2000;
-    return Shape::Build(mesh, options);
+    return shape::Shape::Build(mesh, options);
   }
 }
 
 // About where it is, so that pairs are often near: its middle at the reference point of the pose.
-Posed PosedNear(std::shared_ptr<const Shape> shape, Random& random, const Vector& p) {
+Posed PosedNear(std::shared_ptr<const shape::Shape> shape, Random& random, const Vector& p) {
   Posed posed{shape, shape->facts().radius, {}};
   posed.pose.q = RandomTurn(random);
   const Vector3d middle = (shape->facts().lower + shape->facts().upper) / 2;
@@ -37,17 +37,20 @@ Posed PosedNear(std::shared_ptr<const Shape> shape, Random& random, const Vector
   return posed;
 }
 
-double SizeOf(const Shape& shape) { return (shape.facts().upper - shape.facts().lower).norm(); }
+double SizeOf(const shape::Shape& shape) {
+  return (shape.facts().upper - shape.facts().lower).norm();
+}
 
 void ExpectLook(const Posed& a, const Posed& b, std::uint64_t units, bool brute) {
   const BodySegment of_a = a.Segment(), of_b = b.Segment();
-  const Surface surface_a(of_a), surface_b(of_b);
+  const BodyTree surface_a(of_a), surface_b(of_b);
   const RelativePose pose = PoseBetween(of_a, of_b);
-  Work work(units);
-  const Look look = LookAt(surface_a, surface_b, pose, Goal::kDecision, &work);
+  WorkBudget work(units);
+  const SeparationBracket look =
+      QuerySeparation(surface_a, surface_b, pose, Goal::kDecision, &work);
   EXPECT_LE(work.spent(), units + kBatchUnits);
   EXPECT_FALSE(std::isnan(look.lower) || std::isnan(look.upper));
-  Work more(units);
+  WorkBudget more(units);
   const Decision decision = DecideAt(surface_a, surface_b, pose, &more);
   if (!brute) return;
   const TrueBody body_a = a.Body(), body_b = b.Body();
@@ -80,7 +83,7 @@ TrueBody After(const Body& body, double seconds) {
 }
 
 void ExpectMotion(const Body& a, const Body& b, std::uint64_t units, bool brute) {
-  const ContactTime found = Find(a, b, 1, Told::kAtStart, {1e-4, 0}, units);
+  const TimeOfContactResult found = Find(a, b, 1, Told::kAtStart, {1e-4, 0}, units);
   EXPECT_LE(found.begin.lower, found.begin.upper);
   EXPECT_LE(found.end.lower, found.end.upper);
   if (!brute) return;
@@ -100,10 +103,10 @@ TEST(DirtyMeshes, EveryAnswerHolds) {
   Random random(77);
   std::uint32_t kind = 0;
   int compared = 0;
-  std::shared_ptr<const Shape> last = NextShape(&kind, random);
+  std::shared_ptr<const shape::Shape> last = NextShape(&kind, random);
   while (kind < kMeshes && !HasFailure()) {
     SCOPED_TRACE(kind);
-    const std::shared_ptr<const Shape> shape = NextShape(&kind, random);
+    const std::shared_ptr<const shape::Shape> shape = NextShape(&kind, random);
     const double size = SizeOf(*shape), other = SizeOf(*last);
     const Posed a = PosedNear(shape, random, Vector::Zero());
     const Vector off = random.Uniform(0, 1) * (size + other) * RandomUnit(random);
@@ -123,4 +126,4 @@ TEST(DirtyMeshes, EveryAnswerHolds) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

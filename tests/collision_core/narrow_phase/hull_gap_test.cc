@@ -1,32 +1,32 @@
-#include "collision_core/narrow_phase/hull_gap.h"
+#include "collision_core/narrow_phase/separation/hull_gap.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/posed_body.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
 
-BodySegment At(std::shared_ptr<const Shape> shape) {
+BodySegment At(std::shared_ptr<const shape::Shape> shape) {
   BodySegment body;
   body.shape = std::move(shape);
   return body;
 }
 
-double GapAt(const Surface& a, const Surface& b, const RelativePose& pose, double enough) {
-  Work work(kUnlimited);
+double GapAt(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double enough) {
+  WorkBudget work(kUnlimited);
   const double gap = HullGapOf(a, b, pose, enough, &work);
   EXPECT_LE(work.spent(), kHullDirectionsMax * kHullDirectionUnits);
   return gap;
 }
 
 /// An upper bound of the distance, by the trees alone.
-double MostApart(const Surface& a, const Surface& b, const RelativePose& pose) {
-  Work work(kUnlimited);
-  return LookAt(a, b, pose, Goal::kNearest, &work).upper;
+double MostApart(const BodyTree& a, const BodyTree& b, const RelativePose& pose) {
+  WorkBudget work(kUnlimited);
+  return QuerySeparation(a, b, pose, Goal::kNearest, &work).upper;
 }
 
 // Goal:   never more than the distance; and mostly it is seen that bodies are apart.
@@ -41,10 +41,10 @@ TEST(HullGap, NeverMoreThanTheDistance) {
                                   size * random.Uniform(0, 6) * random.UnitVector().cast<Real>());
     if (!of_a.shape && !of_b.shape) continue;
     const BodySegment segment_a = of_a.Segment(), segment_b = of_b.Segment();
-    const Surface a(segment_a), b(segment_b);
+    const BodyTree a(segment_a), b(segment_b);
     const RelativePose pose = PoseBetween(segment_a, segment_b);
     const double most = MostApart(a, b, pose);
-    const double gap = GapAt(a, b, pose, i % 2 == 0 ? 0 : kInfinity);
+    const double gap = GapAt(a, b, pose, i % 2 == 0 ? 0 : numeric::kInfinity);
     EXPECT_LE(gap, std::max(0.0, most) + pose.translation) << i;
     apart += most > 0.2 * size;
     seen += most > 0.2 * size && gap > 0;
@@ -56,8 +56,8 @@ TEST(HullGap, NeverMoreThanTheDistance) {
 // Goal:   cubes face to face: the gap to within single precision, never more of it; where less than
 //         that is left it is not claimed.
 TEST(HullGap, CubesFaceToFace) {
-  const BodySegment cube = At(Shape::Build(Cube(1)));
-  const Surface a(cube), b(cube);
+  const BodySegment cube = At(shape::Shape::Build(Cube(1)));
+  const BodyTree a(cube), b(cube);
   for (const double gap : {1e-9, 1e-6, 1e-3, 0.1, 5.0, 1e6}) {
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
       for (const double sign : {-1.0, 1.0}) {
@@ -75,8 +75,8 @@ TEST(HullGap, CubesFaceToFace) {
 
 // Goal:   along the line that is tried first all is known but rounding.
 TEST(HullGap, NotIdle) {
-  const BodySegment cube = At(Shape::Build(Cube(1)));
-  const Surface a(cube), b(cube);
+  const BodySegment cube = At(shape::Shape::Build(Cube(1)));
+  const BodyTree a(cube), b(cube);
   const RelativePose pose = PoseOf(Eigen::Matrix3d::Identity(), {2.5, 0, 0});
   EXPECT_GE(GapAt(a, b, pose, 0), 0.5 - 1e-3);
   RelativePose turning = pose;
@@ -91,8 +91,8 @@ TEST(HullGap, NotIdle) {
 // Method: rods side by side, B turned by some of the angle that was allowed.
 TEST(HullGap, HoldsForTurnedBodies) {
   Random random(412);
-  const BodySegment rod = At(Shape::Build(Rod(3, 0.1)));
-  const Surface a(rod), b(rod);
+  const BodySegment rod = At(shape::Shape::Build(Rod(3, 0.1)));
+  const BodyTree a(rod), b(rod);
   int positive = 0;
   for (int i = 0; i < 500; ++i) {
     RelativePose pose =
@@ -112,11 +112,11 @@ TEST(HullGap, HoldsForTurnedBodies) {
 // Goal:   bodies within each other, interlocked, at one place, or far beyond single precision: no gap
 //         is claimed that is not there, and no answer is not a number.
 TEST(HullGap, NoGap) {
-  const BodySegment hollow = At(Shape::Build(HollowCube(1, 0.9)));
-  const BodySegment small = At(Shape::Build(Cube(0.2)));
+  const BodySegment hollow = At(shape::Shape::Build(HollowCube(1, 0.9)));
+  const BodySegment small = At(shape::Shape::Build(Cube(0.2)));
   BodySegment ball;
   ball.ball.radius = 0.1;
-  const Surface a(hollow), b(small), c(ball);
+  const BodyTree a(hollow), b(small), c(ball);
   for (const Eigen::Vector3d& offset :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.3, 0, 0), Eigen::Vector3d(0.5, 0.5, 0.5)}) {
     const RelativePose pose = PoseOf(Eigen::Matrix3d::Identity(), offset);
@@ -126,7 +126,7 @@ TEST(HullGap, NoGap) {
     EXPECT_LE(GapAt(c, c, pose, 0), std::max(0.0, offset.norm() - 0.2));
   }
   const RelativePose far = PoseOf(Eigen::Matrix3d::Identity(), {1e200, 0, 0});
-  EXPECT_EQ(GapAt(a, b, far, 0), -kInfinity);
+  EXPECT_EQ(GapAt(a, b, far, 0), -numeric::kInfinity);
 }
 
 // Goal:   what single precision loses of a long way is counted.
@@ -135,7 +135,7 @@ TEST(HullGap, BallsFarApart) {
   Random random(414);
   BodySegment ball;
   ball.ball.radius = 1;
-  const Surface a(ball), b(ball);
+  const BodyTree a(ball), b(ball);
   for (int i = 0; i < 200; ++i) {
     const Eigen::Vector3d offset = random.Uniform(1e3, 1e4) * random.UnitVector();
     const double gap = GapAt(a, b, PoseOf(Eigen::Matrix3d::Identity(), offset), 0);
@@ -146,11 +146,11 @@ TEST(HullGap, BallsFarApart) {
 
 // Goal:   nothing is spent that is not there.
 TEST(HullGap, KeepsToItsBudget) {
-  const BodySegment rod = At(Shape::Build(Rod(3, 0.1)));
-  const Surface a(rod), b(rod);
+  const BodySegment rod = At(shape::Shape::Build(Rod(3, 0.1)));
+  const BodyTree a(rod), b(rod);
   const RelativePose pose = PoseOf(Eigen::Matrix3d::Identity(), {0.05, 0.15, 0});
   for (std::uint64_t allowed = 0; allowed < 10; ++allowed) {
-    Work work(allowed);
+    WorkBudget work(allowed);
     EXPECT_LE(HullGapOf(a, b, pose, 0, &work), 0);
     EXPECT_LE(work.spent(), allowed);
   }
@@ -167,20 +167,20 @@ TEST(HullGap, DecidesAsTheTreesDo) {
                                   random.Uniform(0, 4) * random.UnitVector().cast<Real>());
     if (!of_a.shape && !of_b.shape) continue;
     const BodySegment segment_a = of_a.Segment(), segment_b = of_b.Segment();
-    const Surface a(segment_a), b(segment_b);
+    const BodyTree a(segment_a), b(segment_b);
     const RelativePose pose = PoseBetween(segment_a, segment_b);
-    Work work(kUnlimited);
+    WorkBudget work(kUnlimited);
     const Decision decision = DecideAt(a, b, pose, &work);
     if (decision.verdict != Verdict::kApart) continue;
-    const Look look = LookAt(a, b, pose, Goal::kNearest, &work);
+    const SeparationBracket look = QuerySeparation(a, b, pose, Goal::kNearest, &work);
     EXPECT_GT(look.upper, 0);
     EXPECT_LE(decision.look.lower, look.upper);
     EXPECT_LE(look.lower, decision.look.upper);
-    EXPECT_TRUE(NestingOf(a, b, pose, &work).neither);
+    EXPECT_TRUE(TestContainment(a, b, pose, &work).neither);
     by_hull += GapAt(a, b, pose, pose.translation) > pose.translation;
   }
   EXPECT_GE(by_hull, 100);
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

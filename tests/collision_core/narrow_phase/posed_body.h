@@ -1,7 +1,7 @@
 // Bodies at a pose: convex, hollow, open, spiky, thin, or a ball.
 #pragma once
 
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 
@@ -9,35 +9,35 @@ namespace collision {
 
 /// At rest.
 struct Posed {
-  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const shape::Shape> shape;
   double radius = 0;
   TruePose pose;
 
-  BodySegment Segment() const {
+  narrow_phase::BodySegment Segment() const {
     TrueMotion motion;
     motion.start = pose;
-    AgentDeclaration declaration;
+    motion::AgentDeclaration declaration;
     declaration.shape = shape;
     declaration.radius = radius;
     declaration.angular_acceleration_max = 0;
-    const SpaceTimeBound bound = BoundAt(motion, 0, declaration);
-    BodySegment segment;
+    const motion::SpaceTimeBound bound = BoundAt(motion, 0, declaration);
+    narrow_phase::BodySegment segment;
     segment.shape = shape;
     segment.ball.radius = radius;
     const Instant base = Instant::FromNanoseconds(0);
     segment.ball.bounds.push_back(ForwardBall(bound, base));
-    if (shape) segment.turns.push_back(ForwardTurn(bound, base));
+    if (shape) segment.turns.push_back(ForwardRotation(bound, base));
     return segment;
   }
   TrueBody Body() const { return {shape.get(), radius, pose}; }
 };
 
 inline Posed RandomBody(Random& random, double size, const Vector& p) {
-  const TriangleMesh meshes[] = {Cube(1),         Tetrahedron(1), LShape(),    Sheet(1, 3),
-                                 Star(1, random), Frame(),        Rod(3, 0.01)};
+  const geometry::TriangleMesh meshes[] = {
+      Cube(1), Tetrahedron(1), LShape(), Sheet(1, 3), Star(1, random), Frame(), Rod(3, 0.01)};
   Posed posed;
   const std::uint64_t kind = random.Below(8);
-  if (kind < 7) posed.shape = Shape::Build(Scaled(meshes[kind], size));
+  if (kind < 7) posed.shape = shape::Shape::Build(Scaled(meshes[kind], size));
   posed.radius = posed.shape ? posed.shape->facts().radius : size;
   posed.pose.p = p;
   posed.pose.q = RandomTurn(random);
@@ -45,7 +45,8 @@ inline Posed RandomBody(Random& random, double size, const Vector& p) {
 }
 
 /// The first one seen from the second, in the narrow phase's terms.
-inline RelativePose PoseBetween(const BodySegment& a, const BodySegment& b) {
+inline narrow_phase::RelativePose PoseBetween(const narrow_phase::BodySegment& a,
+                                              const narrow_phase::BodySegment& b) {
   return PoseAt(a, b, {0, 0, true}, 0);
 }
 

@@ -9,30 +9,30 @@ namespace collision {
 // The oracle's own error, in units of the bodies' size.
 inline constexpr Real kOracle = 1e-12L;
 
-inline std::shared_ptr<const Shape> RandomShape(Random& random, double size) {
+inline std::shared_ptr<const shape::Shape> RandomShape(Random& random, double size) {
   switch (random.Below(8)) {
     case 0:
-      return Shape::Build(Scaled(Cube(1), size));
+      return shape::Shape::Build(Scaled(Cube(1), size));
     case 1:
-      return Shape::Build(Scaled(Tetrahedron(1), size));
+      return shape::Shape::Build(Scaled(Tetrahedron(1), size));
     case 2:
-      return Shape::Build(Scaled(LShape(), size));
+      return shape::Shape::Build(Scaled(LShape(), size));
     case 3:
-      return Shape::Build(Scaled(Rod(2, 0.1), size));
+      return shape::Shape::Build(Scaled(Rod(2, 0.1), size));
     case 4:
-      return Shape::Build(Scaled(Sheet(1, 2), size));
+      return shape::Shape::Build(Scaled(Sheet(1, 2), size));
     case 5:
-      return Shape::Build(Scaled(Star(1, random), size));
+      return shape::Shape::Build(Scaled(Star(1, random), size));
     case 6:
-      return Shape::Build(Scaled(Moved(Frame(), {0.5, 0, 0}), size));
+      return shape::Shape::Build(Scaled(Moved(Frame(), {0.5, 0, 0}), size));
     default:
       return nullptr;
   }
 }
 
 struct Agent {
-  std::shared_ptr<const Shape> shape;
-  AgentDeclaration declaration;
+  std::shared_ptr<const shape::Shape> shape;
+  motion::AgentDeclaration declaration;
   TrueMotion motion;
 };
 
@@ -57,21 +57,21 @@ struct Scene {
   }
   Real Distance(Real t) const { return SolidDistance(Body(0, t), Body(1, t)); }
 
-  BodySegment Segment(int i) const {
+  narrow_phase::BodySegment Segment(int i) const {
     const Agent& agent = agents[i];
-    BodySegment segment;
+    narrow_phase::BodySegment segment;
     segment.ball.radius = agent.declaration.radius;
     segment.shape = agent.shape;
     const Instant base = Instant::FromNanoseconds(0);
     if (last[i]) {
-      const SpaceTimeBound bound = BoundAt(agent.motion, 0, agent.declaration);
+      const motion::SpaceTimeBound bound = BoundAt(agent.motion, 0, agent.declaration);
       segment.ball.bounds.push_back(ForwardBall(bound, base));
-      if (agent.shape) segment.turns.push_back(ForwardTurn(bound, base));
+      if (agent.shape) segment.turns.push_back(ForwardRotation(bound, base));
     }
     if (next[i]) {
-      const SpaceTimeBound bound = BoundAt(agent.motion, duration, agent.declaration);
+      const motion::SpaceTimeBound bound = BoundAt(agent.motion, duration, agent.declaration);
       segment.ball.bounds.push_back(BackwardBall(bound, base));
-      if (agent.shape) segment.turns.push_back(BackwardTurn(bound, base));
+      if (agent.shape) segment.turns.push_back(BackwardRotation(bound, base));
     }
     return segment;
   }
@@ -88,8 +88,9 @@ inline Scene RandomScene(Random& random) {
   for (int i = 0; i < 2; ++i) {
     Agent& agent = scene.agents[i];
     agent.shape = RandomShape(random, size * random.LogUniform(0.3, 3));
-    if (i == 1 && !agent.shape && !scene.agents[0].shape) agent.shape = Shape::Build(Cube(size));
-    AgentDeclaration& declaration = agent.declaration;
+    if (i == 1 && !agent.shape && !scene.agents[0].shape)
+      agent.shape = shape::Shape::Build(Cube(size));
+    motion::AgentDeclaration& declaration = agent.declaration;
     declaration.radius =
         agent.shape ? agent.shape->facts().radius : size * random.LogUniform(0.1, 1);
     declaration.shape = agent.shape;

@@ -1,13 +1,13 @@
 // Goal:   many searches share one budget: it is kept, nothing starves, what is left coarse is named, brackets only
 //         become narrower, and with all the work they ask for they are those of looks alone.
 // Method: random pairs of spiky surfaces, one of which can never be decided; both orders, beside looks alone.
-#include "collision_core/narrow_phase/refinement.h"
+#include "collision_core/narrow_phase/separation/refinement.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/posed_body.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 40;
@@ -19,7 +19,7 @@ class RefinementScene {
     Random random(7);
     for (int i = 0; i < 12; ++i) {
       BodySegment segment;
-      segment.shape = Shape::Build(Star(3, random));
+      segment.shape = shape::Shape::Build(Star(3, random));
       segments_.push_back(segment);
     }
     for (const BodySegment& segment : segments_) surfaces_.emplace_back(segment);
@@ -29,17 +29,17 @@ class RefinementScene {
     }
   }
 
-  const Surface& a(std::size_t pair) const { return surfaces_[pair % surfaces_.size()]; }
-  const Surface& b(std::size_t pair) const { return surfaces_[(pair / 2 + 3) % surfaces_.size()]; }
+  const BodyTree& a(std::size_t pair) const { return surfaces_[pair % surfaces_.size()]; }
+  const BodyTree& b(std::size_t pair) const { return surfaces_[(pair / 2 + 3) % surfaces_.size()]; }
 
-  void AddAll(Refinement* refinement, Work* work) const {
+  void AddAll(Refinement* refinement, WorkBudget* work) const {
     for (std::size_t pair = 0; pair < poses_.size(); ++pair) {
       refinement->Add(a(pair), b(pair), poses_[pair], 1, Goal::kDecision, kNarrow, work);
     }
   }
 
   std::vector<BodySegment> segments_;
-  std::vector<Surface> surfaces_;
+  std::vector<BodyTree> surfaces_;
   std::vector<RelativePose> poses_;
 };
 
@@ -49,7 +49,7 @@ class RefinementOrders : public RefinementScene, public testing::Test {};
 TEST_P(RefinementTest, KeepsTheBudgetAndOnlyNarrows) {
   std::uint64_t most = 0;
   Refinement refinement(GetParam());
-  Work start(1);
+  WorkBudget start(1);
   AddAll(&refinement, &start);
   EXPECT_EQ(start.spent(), poses_.size());
   double total = refinement.TotalWidth();
@@ -57,7 +57,7 @@ TEST_P(RefinementTest, KeepsTheBudgetAndOnlyNarrows) {
   for (std::size_t pair = 0; pair < poses_.size(); ++pair) last.push_back(refinement.At(pair));
   for (std::uint64_t turn = 0; !refinement.Coarse().empty(); ++turn) {
     const std::uint64_t allowed = 1 + 37 * (turn % 40);
-    Work work(allowed);
+    WorkBudget work(allowed);
     refinement.Refine(&work);
     EXPECT_LE(work.spent(), allowed + kBatchUnits - 1);
     if (work.spent() > allowed) most = std::max(most, work.spent() - allowed);
@@ -75,7 +75,7 @@ TEST_P(RefinementTest, KeepsTheBudgetAndOnlyNarrows) {
 
 TEST_P(RefinementTest, WithAllTheWorkItIsTheLookAlone) {
   Refinement refinement(GetParam());
-  Work work(kUnlimited);
+  WorkBudget work(kUnlimited);
   AddAll(&refinement, &work);
   refinement.Refine(&work);
   EXPECT_TRUE(refinement.Coarse().empty());
@@ -83,12 +83,12 @@ TEST_P(RefinementTest, WithAllTheWorkItIsTheLookAlone) {
   for (std::size_t pair = 0; pair < poses_.size(); ++pair) {
     SeparationSearch search(a(pair), b(pair), poses_[pair], Goal::kDecision, kNarrow,
                             SearchOrder::kNearest);
-    Work own(kUnlimited);
+    WorkBudget own(kUnlimited);
     search.Start(&own);
     search.Refine(&own);
     alone += own.spent();
     EXPECT_EQ(refinement.At(pair).spent, own.spent());
-    const Look x = refinement.Told(pair), y = search.Told();
+    const SeparationBracket x = refinement.Told(pair), y = search.Told();
     EXPECT_EQ(x.lower, y.lower);
     EXPECT_EQ(x.upper, y.upper);
     EXPECT_EQ(x.point, y.point);
@@ -99,7 +99,7 @@ TEST_P(RefinementTest, WithAllTheWorkItIsTheLookAlone) {
 TEST_P(RefinementTest, SameBudgetSameBits) {
   const auto run = [&] {
     Refinement refinement(GetParam());
-    Work work(3000);
+    WorkBudget work(3000);
     AddAll(&refinement, &work);
     refinement.Refine(&work);
     std::vector<double> all;
@@ -115,10 +115,10 @@ TEST_P(RefinementTest, SameBudgetSameBits) {
 // decided. It is the most important pair, and has the widest bracket.
 TEST_P(RefinementTest, NothingStarves) {
   BodySegment sheet;
-  sheet.shape = Shape::Build(Sheet(50, 60));
-  const Surface flat(sheet);
+  sheet.shape = shape::Shape::Build(Sheet(50, 60));
+  const BodyTree flat(sheet);
   Refinement refinement(GetParam());
-  Work work(kUnlimited);
+  WorkBudget work(kUnlimited);
   refinement.Add(flat, flat, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.5, 0.25, 0)), 8,
                  Goal::kDecision, kNarrow, &work);
   AddAll(&refinement, &work);
@@ -126,13 +126,13 @@ TEST_P(RefinementTest, NothingStarves) {
   for (std::size_t pair = 0; pair < poses_.size(); ++pair) {
     SeparationSearch search(a(pair), b(pair), poses_[pair], Goal::kDecision, kNarrow,
                             SearchOrder::kNearest);
-    Work own(kUnlimited);
+    WorkBudget own(kUnlimited);
     search.Start(&own);
     search.Refine(&own);
     needed += own.spent();
   }
   // In a round it has eight times what any other may have; rounds that double make that sixteen.
-  Work budget(8 * needed);
+  WorkBudget budget(8 * needed);
   refinement.Refine(&budget);
   const std::vector<std::size_t> coarse = refinement.Coarse();
   EXPECT_EQ(coarse, std::vector<std::size_t>{0});
@@ -151,7 +151,7 @@ TEST_F(RefinementOrders, LargestFirstIsTheNarrowerInTotal) {
     double total[2];
     for (const auto order : {RefinementOrder::kLevelByLevel, RefinementOrder::kLargestFirst}) {
       Refinement refinement(order);
-      Work work(allowed);
+      WorkBudget work(allowed);
       AddAll(&refinement, &work);
       refinement.Refine(&work);
       total[static_cast<std::size_t>(order)] = refinement.TotalWidth();
@@ -165,4 +165,4 @@ TEST_F(RefinementOrders, LargestFirstIsTheNarrowerInTotal) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -1,34 +1,34 @@
 // Goal:   the relative pose of two bodies is off by no more than it says, in rounding and in motion, and its bounds are
 //         not much wider than needed.
 // Method: the same pose in long double, near and far from the origin; motions with the greatest accelerations.
-#include "collision_core/narrow_phase/relative_pose.h"
+#include "collision_core/narrow_phase/pose/relative_pose.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 const Instant kBase = Instant::FromNanoseconds(0);
 
-std::shared_ptr<const Shape> UnitCube() {
-  static const std::shared_ptr<const Shape> cube = Shape::Build(Cube(1));
+std::shared_ptr<const shape::Shape> UnitCube() {
+  static const std::shared_ptr<const shape::Shape> cube = shape::Shape::Build(Cube(1));
   return cube;
 }
 
-BodySegment Forward(const SpaceTimeBound& bound) {
+BodySegment Forward(const motion::SpaceTimeBound& bound) {
   BodySegment segment;
   segment.shape = bound.declaration.shape;
   segment.ball.radius = bound.declaration.radius;
   segment.ball.bounds.push_back(ForwardBall(bound, kBase));
-  if (segment.shape) segment.turns.push_back(ForwardTurn(bound, kBase));
+  if (segment.shape) segment.turns.push_back(ForwardRotation(bound, kBase));
   return segment;
 }
 
-SpaceTimeBound RandomBound(Random& random, double from_origin) {
-  SpaceTimeBound bound;
+motion::SpaceTimeBound RandomBound(Random& random, double from_origin) {
+  motion::SpaceTimeBound bound;
   bound.state.stamp = kBase;
   bound.state.p_WA = from_origin * Eigen::Vector3d(1, 0.5, 0.25) + 10 * random.UnitVector();
   bound.state.v_WA = random.LogUniform(1e-3, 100) * random.UnitVector();
@@ -43,7 +43,7 @@ SpaceTimeBound RandomBound(Random& random, double from_origin) {
   return bound;
 }
 
-TruePose PoseOf(const SpaceTimeBound& bound, Real t) {
+TruePose PoseOf(const motion::SpaceTimeBound& bound, Real t) {
   TruePose pose;
   pose.p = bound.state.p_WA.cast<Real>() + t * bound.state.v_WA.cast<Real>();
   const Vector turn = t * bound.state.w_WB.cast<Real>();
@@ -56,8 +56,8 @@ TEST(RelativePose, RoundingIsWithinItsBound) {
   Random random(3);
   for (const double from_origin : {0.0, 1e3, 1e12}) {
     for (int i = 0; i < 200; ++i) {
-      const SpaceTimeBound a = RandomBound(random, from_origin),
-                           b = RandomBound(random, from_origin);
+      const motion::SpaceTimeBound a = RandomBound(random, from_origin),
+                                   b = RandomBound(random, from_origin);
       const BodySegment of_a = Forward(a), of_b = Forward(b);
       const double delta = i % 4 == 0 ? 0 : random.Uniform(0, 2);
       const RelativePose pose = PoseAt(of_a, of_b, {0, 0, true}, delta);
@@ -87,8 +87,8 @@ TEST(RelativePose, RoundingIsWithinItsBound) {
 TEST(RelativePose, RoundingOfTheMatrixAloneIsWithinItsBound) {
   Random random(5);
   for (int i = 0; i < 1000; ++i) {
-    const SpaceTimeBound a = RandomBound(random, 0);
-    SpaceTimeBound b = RandomBound(random, 0);
+    const motion::SpaceTimeBound a = RandomBound(random, 0);
+    motion::SpaceTimeBound b = RandomBound(random, 0);
     b.state.p_WA = a.state.p_WA;
     b.state.v_WA = a.state.v_WA;
     const double delta = random.Uniform(0, 2);
@@ -105,7 +105,7 @@ TEST(RelativePose, RoundingOfTheMatrixAloneIsWithinItsBound) {
 TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
   Random random(4);
   for (int i = 0; i < 300; ++i) {
-    SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
+    motion::SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
     const double alpha = random.LogUniform(1e-3, 8);
     a.declaration.angular_acceleration_max = b.declaration.angular_acceleration_max = alpha;
     const double delta = random.Uniform(0, 1);
@@ -116,7 +116,7 @@ TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
     EXPECT_LE(pose.chord_A, chord * 1.001 + 1e-12);
     EXPECT_EQ(pose.chord_A, pose.chord_B);
   }
-  SpaceTimeBound unknown = RandomBound(random, 0);
+  motion::SpaceTimeBound unknown = RandomBound(random, 0);
   unknown.declaration.angular_acceleration_max = -1;
   const RelativePose pose =
       PoseAt(Forward(unknown), Forward(RandomBound(random, 0)), {0, 0, true}, 0.5);
@@ -127,11 +127,12 @@ TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
 // Then it may be turned any way, and where it is is known all the same.
 TEST(RelativePose, TurnsBeyondAllMeasureAreNotKnown) {
   Random random(6);
-  SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
-  for (const double turn : {0.5 * kTurnMax, 2 * kTurnMax, 1e12 * kTurnMax}) {
+  motion::SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
+  for (const double turn : {0.5 * numeric::kRotationAngleMax, 2 * numeric::kRotationAngleMax,
+                            1e12 * numeric::kRotationAngleMax}) {
     a.state.w_WB = turn * random.UnitVector();
     const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, 1);
-    EXPECT_EQ(pose.chord_A, turn > kTurnMax ? 2 : 0);
+    EXPECT_EQ(pose.chord_A, turn > numeric::kRotationAngleMax ? 2 : 0);
     EXPECT_LT(pose.matrix_error, 1e-9);
     EXPECT_LT(pose.offset_error, 1e-8);
     const Eigen::Vector3d apart = b.state.p_WA + b.state.v_WA - a.state.p_WA - a.state.v_WA;
@@ -141,7 +142,7 @@ TEST(RelativePose, TurnsBeyondAllMeasureAreNotKnown) {
 
 TEST(RelativePose, ABallDoesNotTurn) {
   Random random(5);
-  SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
+  motion::SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
   a.declaration.shape = nullptr;
   a.declaration.angular_acceleration_max = -1;
   const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, 1);
@@ -151,16 +152,16 @@ TEST(RelativePose, ABallDoesNotTurn) {
 
 // Near the next state its bound is the better one; of each body by itself.
 TEST(RelativePose, TheLeastUncertainBoundsAreTaken) {
-  SpaceTimeBound a;
+  motion::SpaceTimeBound a;
   a.state.stamp = kBase;
   a.declaration.shape = UnitCube();
   a.declaration.acceleration_max = 1;
   a.declaration.angular_acceleration_max = 1;
-  SpaceTimeBound next = a;
+  motion::SpaceTimeBound next = a;
   next.state.stamp = Instant::FromNanoseconds(1000000000);
   BodySegment both = Forward(a);
   both.ball.bounds.push_back(BackwardBall(next, kBase));
-  both.turns.push_back(BackwardTurn(next, kBase));
+  both.turns.push_back(BackwardRotation(next, kBase));
   const BodySegment first = Forward(a);
   const BoundChoice early = BestBounds(both, first, 0.25), late = BestBounds(first, both, 0.75);
   EXPECT_EQ(early.of_A, 0u);
@@ -173,4 +174,4 @@ TEST(RelativePose, TheLeastUncertainBoundsAreTaken) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

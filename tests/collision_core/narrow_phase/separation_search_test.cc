@@ -2,13 +2,13 @@
 //         whatever the pauses and whatever the processor's vectors; a decision is right; a bracket is as narrow as asked.
 // Method: random poses of surfaces of all kinds and sizes, near to and far from the reference points, against brute
 //         force over all pairs of triangles in long double.
-#include "collision_core/narrow_phase/separation_search.h"
+#include "collision_core/narrow_phase/separation/separation_search.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/posed_body.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 40;
@@ -17,7 +17,7 @@ constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 40;
 struct Pair {
   Posed a, b;
   BodySegment of_a, of_b;
-  Surface surface_a, surface_b;
+  BodyTree surface_a, surface_b;
   RelativePose pose;
 
   Pair(Posed first, Posed second)
@@ -38,16 +38,17 @@ Pair RandomPair(std::uint64_t seed) {
   const double other = std::clamp(size * random.LogUniform(0.1, 10), 1e-6, 1e6);
   const Posed a = RandomBody(random, size, Vector::Zero());
   Posed b = RandomBody(random, other, (size + other) * random.Uniform(0, 2) * RandomUnit(random));
-  if (!a.shape && !b.shape) b.shape = Shape::Build(Scaled(Frame(), other));
+  if (!a.shape && !b.shape) b.shape = shape::Shape::Build(Scaled(Frame(), other));
   if (b.shape) b.radius = b.shape->facts().radius;
   // Leaves of several blocks.
   if (b.shape && seed % 2 == 0) {
-    b.shape = Shape::Build(b.shape->mesh(), ShapeOptions{.triangles_per_leaf = 11});
+    b.shape =
+        shape::Shape::Build(b.shape->mesh(), sphere_tree::ShapeOptions{.triangles_per_leaf = 11});
   }
   return {a, b};
 }
 
-void ExpectSame(const Look& x, const Look& y) {
+void ExpectSame(const SeparationBracket& x, const SeparationBracket& y) {
   EXPECT_EQ(x.lower, y.lower);
   EXPECT_EQ(x.upper, y.upper);
   EXPECT_EQ(x.crossing_margin, y.crossing_margin);
@@ -87,14 +88,14 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
                                                   asked.goal, asked.narrow, asked.order);
       };
       const auto at_once = search(), in_steps = search();
-      Work unlimited(kUnlimited), first(1);
+      WorkBudget unlimited(kUnlimited), first(1);
       at_once->Start(&unlimited);
       at_once->Refine(&unlimited);
       in_steps->Start(&first);
       std::uint64_t spent = first.spent(), pause = 1;
       double lower = in_steps->lower(), upper = in_steps->upper();
       while (!in_steps->done()) {
-        Work step(pause);
+        WorkBudget step(pause);
         in_steps->Refine(&step);
         EXPECT_LE(step.spent(), pause + kBatchUnits - 1);
         if (step.spent() > pause) most = std::max(most, step.spent() - pause);
@@ -117,18 +118,18 @@ TEST(SeparationSearch, SameBitsForEveryWidthOfVectors) {
     Pair pair = RandomPair(seed);
     if (seed % 3 == 0) pair.pose.chord_A = 1e-3, pair.pose.chord_B = 0.1;
     for (const Asked& asked : Questions(pair.size())) {
-      const auto look_with = [&](const PackScan& scan, std::uint64_t* spent) {
+      const auto look_with = [&](const SpherePairKernel& scan, std::uint64_t* spent) {
         SeparationSearch search(pair.surface_a, pair.surface_b, pair.pose, asked.goal, asked.narrow,
                                 asked.order, scan);
-        Work work(kUnlimited);
+        WorkBudget work(kUnlimited);
         search.Start(&work);
         search.Refine(&work);
         *spent = work.spent();
         return search.Told();
       };
       std::uint64_t plain_units = 0, wide_units = 0;
-      const Look plain = look_with(*PlainPackScan(), &plain_units);
-      for (const PackScan* scan : {Avx2PackScan(), Avx512PackScan()}) {
+      const SeparationBracket plain = look_with(*PlainSpherePairKernel(), &plain_units);
+      for (const SpherePairKernel* scan : {Avx2SpherePairKernel(), Avx512SpherePairKernel()}) {
         if (scan == nullptr) continue;
         ExpectSame(plain, look_with(*scan, &wide_units));
         EXPECT_EQ(plain_units, wide_units);
@@ -146,9 +147,9 @@ TEST(SeparationSearch, BracketsAreAsNarrowAsAsked) {
     const Real floor = 1e-14L * (pair.size() + pair.b.pose.p.norm());
     for (const double width : {0.1, 0.01, 1e-4, 0.0}) {
       for (const double share : {0.0, 1e-6, 0.1}) {
-        Work work(kUnlimited);
-        const Look look =
-            BracketAt(pair.surface_a, pair.surface_b, pair.pose, width * pair.size(), share, &work);
+        WorkBudget work(kUnlimited);
+        const SeparationBracket look = BracketSeparation(pair.surface_a, pair.surface_b, pair.pose,
+                                                         width * pair.size(), share, &work);
         EXPECT_FALSE(look.exhausted);
         if (look.upper <= 0) continue;  // one inside the other, or in contact
         EXPECT_LE(look.lower, truth + floor);
@@ -166,7 +167,7 @@ TEST(SeparationSearch, BracketsAreAsNarrowAsAsked) {
 Posed Away(const Posed& body, const Eigen::Vector3d& by) {
   Posed away = body;
   if (!body.shape) return body;
-  away.shape = Shape::Build(Moved(body.shape->mesh(), by));
+  away.shape = shape::Shape::Build(Moved(body.shape->mesh(), by));
   away.radius = away.shape->facts().radius;
   away.pose.p -= body.pose.q * by.cast<Real>();
   return away;
@@ -183,7 +184,7 @@ TEST(SeparationSearch, DecisionsAreRight) {
     const Pair pair = is_away ? Pair(Away(near.a, by), Away(near.b, -by)) : near;
     const Real truth = SolidDistance(pair.a.Body(), pair.b.Body());
     const Real floor = 1e-13L * (pair.size() + pair.b.pose.p.norm());
-    Work work(kUnlimited);
+    WorkBudget work(kUnlimited);
     const Decision decision = DecideAt(pair.surface_a, pair.surface_b, pair.pose, &work);
     switch (decision.verdict) {
       case Verdict::kApart:
@@ -215,7 +216,7 @@ TEST(SeparationSearch, DecisionsCountUncertaintyIn) {
     Random random(seed);
     Pair pair = RandomPair(seed);
     pair.pose.translation = pair.size() * random.LogUniform(1e-3, 0.3);
-    Work work(kUnlimited);
+    WorkBudget work(kUnlimited);
     const Decision decision = DecideAt(pair.surface_a, pair.surface_b, pair.pose, &work);
     if (decision.verdict == Verdict::kUndecided) continue;
     ++decided;
@@ -234,13 +235,14 @@ TEST(SeparationSearch, FarApartIsSeenAtOnce) {
   for (const double away : {1e3, 1e9, 1e14, 1e16, 1e30, 1e200}) {
     const RelativePose pose =
         PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(away * near.size(), 0, 0));
-    Work work(kUnlimited);
+    WorkBudget work(kUnlimited);
     const Decision decision = DecideAt(near.surface_a, near.surface_b, pose, &work);
     EXPECT_EQ(decision.verdict, Verdict::kApart);
     EXPECT_EQ(work.spent(), 1u);
     EXPECT_LE(decision.look.lower, away * near.size());
     if (away > 1e100) continue;  // squares overflow: less is known, nothing wrong
-    const Look look = BracketAt(near.surface_a, near.surface_b, pose, 0, 1e-6, &work);
+    const SeparationBracket look =
+        BracketSeparation(near.surface_a, near.surface_b, pose, 0, 1e-6, &work);
     EXPECT_LE(look.upper - look.lower, 1.1e-6 * look.lower);
     EXPECT_LE(look.lower, away * near.size());
     EXPECT_GE(look.upper, (away - 1) * near.size());
@@ -251,7 +253,7 @@ TEST(SeparationSearch, WhatIsNotANumberIsUndecided) {
   const Pair pair = RandomPair(4);
   RelativePose pose = pair.pose;
   pose.offset.x() = std::numeric_limits<double>::quiet_NaN();
-  Work work(kUnlimited);
+  WorkBudget work(kUnlimited);
   EXPECT_EQ(DecideAt(pair.surface_a, pair.surface_b, pose, &work).verdict, Verdict::kUndecided);
   EXPECT_LT(work.spent(), 1000u);
 }
@@ -262,7 +264,7 @@ TEST(SeparationSearch, WhatIsNotANumberIsUndecided) {
 TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {
   constexpr std::uint32_t kTriangles = 11;
   const auto row = [](std::uint32_t low, double height) {
-    TriangleMesh mesh;
+    geometry::TriangleMesh mesh;
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
       const double x = 4.0 * i, z = i == low ? height / 2 : height;
       mesh.vertices.insert(mesh.vertices.end(), {{x, 0, z}, {x + 1, 0, z}, {x, 1, z}});
@@ -270,16 +272,18 @@ TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {
     }
     return mesh;
   };
-  const ShapeOptions one_leaf{.triangles_per_leaf = kTriangles};
-  const auto body = [&](const TriangleMesh& mesh) { return BodyOf(Shape::Build(mesh, one_leaf)); };
+  const sphere_tree::ShapeOptions one_leaf{.triangles_per_leaf = kTriangles};
+  const auto body = [&](const geometry::TriangleMesh& mesh) {
+    return BodyOf(shape::Shape::Build(mesh, one_leaf));
+  };
   const BodySegment flat = body(row(kTriangles, 0));
   ASSERT_EQ(flat.shape->tree().nodes.size(), 1u);
   for (std::uint32_t low = 0; low < kTriangles; ++low) {
     const BodySegment above = body(row(low, 2));
     for (const bool swapped : {false, true}) {
-      const Surface a(swapped ? above : flat), b(swapped ? flat : above);
-      Work work(1'000'000);
-      const Look look = BracketAt(
+      const BodyTree a(swapped ? above : flat), b(swapped ? flat : above);
+      WorkBudget work(1'000'000);
+      const SeparationBracket look = BracketSeparation(
           a, b, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0)), 0, 1e-9, &work);
       EXPECT_LE(look.lower, 1) << low << swapped;
       EXPECT_GE(look.lower, 1 - 1e-9) << low << swapped;
@@ -290,4 +294,4 @@ TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

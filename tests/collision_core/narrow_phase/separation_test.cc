@@ -2,18 +2,19 @@
 //         two are apart; what is inside what is told right.
 // Method: random poses of convex, hollow, open and spiky surfaces of sizes from 1e-6 to 1e6 m, against brute force over
 //         all pairs of triangles in long double.
-#include "collision_core/narrow_phase/separation.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/posed_body.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
-Look LookOf(const Posed& a, const Posed& b, Goal goal, Work* work) {
+SeparationBracket LookOf(const Posed& a, const Posed& b, Goal goal, WorkBudget* work) {
   const BodySegment of_a = a.Segment(), of_b = b.Segment();
-  return LookAt(Surface(of_a), Surface(of_b), PoseAt(of_a, of_b, {0, 0, true}, 0), goal, work);
+  return QuerySeparation(BodyTree(of_a), BodyTree(of_b), PoseAt(of_a, of_b, {0, 0, true}, 0), goal,
+                         work);
 }
 
 TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
@@ -30,10 +31,10 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
     const TrueBody body_a = a.Body(), body_b = b.Body();
     const Real surfaces = SurfaceDistance(body_a, body_b);
     const Real tolerance = 1e-16L * (a.radius + b.radius);
-    double lower = -kInfinity, upper = kInfinity;
+    double lower = -numeric::kInfinity, upper = numeric::kInfinity;
     for (std::uint64_t units = 0; units < 3000000; units = 4 * units + 50) {
-      Work work(units);
-      const Look look = LookOf(a, b, Goal::kDecision, &work);
+      WorkBudget work(units);
+      const SeparationBracket look = LookOf(a, b, Goal::kDecision, &work);
       if (look.upper > 0) {
         EXPECT_LE(look.lower, surfaces + tolerance);
       }
@@ -48,8 +49,8 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
       lower = look.lower, upper = look.upper;
       if (!look.exhausted) break;
     }
-    Work unlimited(100000000);
-    const Look nearest = LookOf(a, b, Goal::kNearest, &unlimited);
+    WorkBudget unlimited(100000000);
+    const SeparationBracket nearest = LookOf(a, b, Goal::kNearest, &unlimited);
     // Of one inside the other `upper` speaks of the solids.
     if (nearest.lower <= 0 || SolidDistance(body_a, body_b) == 0) continue;
     ++apart;
@@ -83,8 +84,9 @@ TEST(Separation, TurningIsCountedInAtEveryBudget) {
       distances.push_back(SolidDistance(turned_a.Body(), turned_b.Body()));
     }
     for (const std::uint64_t units : {0, 10, 30, 100, 1000, 1000000}) {
-      Work work(units);
-      const Look look = LookAt(Surface(of_a), Surface(of_b), pose, Goal::kDecision, &work);
+      WorkBudget work(units);
+      const SeparationBracket look =
+          QuerySeparation(BodyTree(of_a), BodyTree(of_b), pose, Goal::kDecision, &work);
       for (const Real distance : distances) {
         if (look.upper > 0 && distance > 0) {
           EXPECT_LE(look.lower, distance + 1e-15L) << units;
@@ -99,8 +101,9 @@ TEST(Separation, SameLookSameBits) {
   Random random(9);
   const Posed a = RandomBody(random, 1, Vector::Zero()),
               b = RandomBody(random, 1, Vector(2.5L, 0.1L, 0));
-  Work once(1000), twice(1000);
-  const Look x = LookOf(a, b, Goal::kNearest, &once), y = LookOf(a, b, Goal::kNearest, &twice);
+  WorkBudget once(1000), twice(1000);
+  const SeparationBracket x = LookOf(a, b, Goal::kNearest, &once),
+                          y = LookOf(a, b, Goal::kNearest, &twice);
   EXPECT_EQ(x.lower, y.lower);
   EXPECT_EQ(x.upper, y.upper);
   EXPECT_EQ(x.point, y.point);
@@ -108,7 +111,7 @@ TEST(Separation, SameLookSameBits) {
 }
 
 TEST(WorkShare, LeavesTheRestForWhatComesAfter) {
-  Work work(1000);
+  WorkBudget work(1000);
   work.Spend(200);
   {
     const WorkShare share(0.5, &work);
@@ -120,36 +123,39 @@ TEST(WorkShare, LeavesTheRestForWhatComesAfter) {
   EXPECT_EQ(work.left(), 300u);
 }
 
-Nesting NestingOf(const TriangleMesh& a, const TriangleMesh& b, const Vector& p, bool swapped) {
+Containment TestContainment(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b,
+                            const Vector& p, bool swapped) {
   Posed of_a, of_b;
-  of_a.shape = Shape::Build(swapped ? b : a);
-  of_b.shape = Shape::Build(swapped ? a : b);
+  of_a.shape = shape::Shape::Build(swapped ? b : a);
+  of_b.shape = shape::Shape::Build(swapped ? a : b);
   of_b.pose.p = swapped ? Vector(-p) : p;
   const BodySegment x = of_a.Segment(), y = of_b.Segment();
-  Work work(1000000);
-  return collision::NestingOf(Surface(x), Surface(y), PoseAt(x, y, {0, 0, true}, 0), &work);
+  WorkBudget work(1000000);
+  return collision::narrow_phase::TestContainment(BodyTree(x), BodyTree(y),
+                                                  PoseAt(x, y, {0, 0, true}, 0), &work);
 }
 
 TEST(Separation, WhatIsInsideWhat) {
-  const TriangleMesh small = Cube(0.1);
+  const geometry::TriangleMesh small = Cube(0.1);
   for (const bool swapped : {false, true}) {
-    EXPECT_TRUE(NestingOf(Cube(1), small, {0.8L, 0.8L, 0.8L}, swapped).certain());
-    EXPECT_TRUE(NestingOf(Cube(1), small, {1.2L, 0, 0}, swapped).neither);
-    EXPECT_TRUE(NestingOf(HollowCube(1, 0.5), small, {0, 0, 0}, swapped).neither);
-    EXPECT_TRUE(NestingOf(HollowCube(1, 0.5), small, {0.75L, 0, 0}, swapped).certain());
-    EXPECT_TRUE(NestingOf(Frame(), small, {0, 0, 0}, swapped).neither)
+    EXPECT_TRUE(TestContainment(Cube(1), small, {0.8L, 0.8L, 0.8L}, swapped).certain());
+    EXPECT_TRUE(TestContainment(Cube(1), small, {1.2L, 0, 0}, swapped).neither);
+    EXPECT_TRUE(TestContainment(HollowCube(1, 0.5), small, {0, 0, 0}, swapped).neither);
+    EXPECT_TRUE(TestContainment(HollowCube(1, 0.5), small, {0.75L, 0, 0}, swapped).certain());
+    EXPECT_TRUE(TestContainment(Frame(), small, {0, 0, 0}, swapped).neither)
         << "through the hole is outside";
-    EXPECT_TRUE(NestingOf(Frame(), small, {1.5L, 0, 0}, swapped).certain());
-    EXPECT_TRUE(NestingOf(Sheet(1, 2), small, {0, 0, 0.5L}, swapped).neither) << "open: no inside";
+    EXPECT_TRUE(TestContainment(Frame(), small, {1.5L, 0, 0}, swapped).certain());
+    EXPECT_TRUE(TestContainment(Sheet(1, 2), small, {0, 0, 0.5L}, swapped).neither)
+        << "open: no inside";
     // The L's box contains it, the L does not.
-    EXPECT_TRUE(NestingOf(LShape(), small, {0.5L, 0.5L, 0}, swapped).neither);
+    EXPECT_TRUE(TestContainment(LShape(), small, {0.5L, 0.5L, 0}, swapped).neither);
     // One of several components is inside, not the first.
-    const TriangleMesh two = Joined(Moved(small, {30, 0, 0}), small);
-    EXPECT_TRUE(NestingOf(Cube(1), two, {0, 0, 0}, swapped).certain());
-    EXPECT_FALSE(NestingOf(Cube(1), two, {0, 0, 0}, swapped).neither);
-    EXPECT_TRUE(NestingOf(Cube(1), two, {0, 5, 0}, swapped).neither);
+    const geometry::TriangleMesh two = Joined(Moved(small, {30, 0, 0}), small);
+    EXPECT_TRUE(TestContainment(Cube(1), two, {0, 0, 0}, swapped).certain());
+    EXPECT_FALSE(TestContainment(Cube(1), two, {0, 0, 0}, swapped).neither);
+    EXPECT_TRUE(TestContainment(Cube(1), two, {0, 5, 0}, swapped).neither);
   }
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

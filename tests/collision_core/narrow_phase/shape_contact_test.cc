@@ -2,14 +2,14 @@
 //         between two states is seen.
 // Method: motions whose contacts are known in closed form, told without uncertainty; then with it, as between two
 //         states of a simulator.
-#include "collision_core/narrow_phase/shape_contact.h"
+#include "collision_core/narrow_phase/contact/shape_contact.h"
 
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Vector3d;
@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 constexpr double kPi = std::numbers::pi;
 
 struct Body {
-  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const shape::Shape> shape;
   Vector3d p, v = Vector3d::Zero(), w = Vector3d::Zero();
   Vector turned = Vector::Zero();  // rotation vector at the start
   double radius = 0;               // of a ball
@@ -30,7 +30,7 @@ struct Body {
     motion.start.v = v.cast<Real>();
     motion.start.w = w.cast<Real>();
     motion.start.q = Exponential(turned);
-    AgentDeclaration declaration;
+    motion::AgentDeclaration declaration;
     declaration.radius = shape ? shape->facts().radius : radius;
     declaration.shape = shape;
     declaration.acceleration_max = acceleration_max;
@@ -41,24 +41,26 @@ struct Body {
     const Instant base = Instant::FromNanoseconds(0);
     for (const bool at_end : {false, true}) {
       if (at_end && !both) continue;
-      const SpaceTimeBound bound = BoundAt(motion, at_end ? duration : 0, declaration);
+      const motion::SpaceTimeBound bound = BoundAt(motion, at_end ? duration : 0, declaration);
       segment.ball.bounds.push_back(at_end ? BackwardBall(bound, base) : ForwardBall(bound, base));
       if (shape)
-        segment.turns.push_back(at_end ? BackwardTurn(bound, base) : ForwardTurn(bound, base));
+        segment.turns.push_back(at_end ? BackwardRotation(bound, base)
+                                       : ForwardRotation(bound, base));
     }
     return segment;
   }
 };
 
-ShapeVerdict Verdict(const Body& a, const Body& b, double duration, std::uint64_t units = 1000000,
-                     bool both = false) {
+ShapeSegmentResult Verdict(const Body& a, const Body& b, double duration,
+                           std::uint64_t units = 1000000, bool both = false) {
   const BodySegment of_a = a.Over(duration, both), of_b = b.Over(duration, both);
-  Work work(units);
-  return JudgeShapes(of_a, of_b, duration, JudgeSegment(of_a.ball, of_b.ball, duration), &work);
+  WorkBudget work(units);
+  return EvaluateShapeSegment(of_a, of_b, duration,
+                              EvaluateBallSegment(of_a.ball, of_b.ball, duration), &work);
 }
 
 // Apart before `begin` and after `end`, together between, each known to within `width`.
-void ExpectContact(const SegmentVerdict& times, double begin, double end, double width) {
+void ExpectContact(const SegmentResult& times, double begin, double end, double width) {
   constexpr double kRounding = 1e-12;
   EXPECT_LE(times.free_until, begin + kRounding);
   EXPECT_GE(times.free_until, begin - width);
@@ -72,8 +74,9 @@ void ExpectContact(const SegmentVerdict& times, double begin, double end, double
 }
 
 TEST(ShapeContact, BoxesHeadOn) {
-  const auto cube = Shape::Build(Cube(1));
-  const ShapeVerdict verdict = Verdict({cube, {0, 0, 0}}, {cube, {5, 0.3, 0.2}, {-2, 0, 0}}, 4);
+  const auto cube = shape::Shape::Build(Cube(1));
+  const ShapeSegmentResult verdict =
+      Verdict({cube, {0, 0, 0}}, {cube, {5, 0.3, 0.2}, {-2, 0, 0}}, 4);
   ExpectContact(verdict.times, 1.5, 3.5, 5e-5);
   ASSERT_TRUE(verdict.normal.known);
   EXPECT_LT(verdict.normal.error, 0.01);
@@ -81,7 +84,7 @@ TEST(ShapeContact, BoxesHeadOn) {
 }
 
 TEST(ShapeContact, EdgeMeetsEdge) {
-  const auto cube = Shape::Build(Cube(1));
+  const auto cube = shape::Shape::Build(Cube(1));
   Body a{cube, {0, 0, 0}}, b{cube, {5, 0.1, 0.2}, {-2, 0, 0}};
   a.turned = {0, kPi / 4, 0};
   b.turned = {0, 0, kPi / 4};
@@ -96,11 +99,11 @@ double BarMeets(double x, double y, double width, double rate) {
 }
 
 TEST(ShapeContact, TurningBarMeetsABallAndACorner) {
-  Body bar{Shape::Build(Rod(5, 0.25)), {0, 0, 0}};
+  Body bar{shape::Shape::Build(Rod(5, 0.25)), {0, 0, 0}};
   bar.w = {0, 0, 0.5};
   Body ball{nullptr, {3, 2, 0}};
   ball.radius = 0.125;
-  const ShapeVerdict of_ball = Verdict(bar, ball, 1.5);
+  const ShapeSegmentResult of_ball = Verdict(bar, ball, 1.5);
   const double begin = BarMeets(3, 2, 0.375, 0.5);
   EXPECT_NEAR(of_ball.times.free_until, begin, 1e-4);
   EXPECT_LE(of_ball.times.free_until, begin + 1e-12);
@@ -110,17 +113,18 @@ TEST(ShapeContact, TurningBarMeetsABallAndACorner) {
   for (const double x : {2.875, 3.125}) {
     for (const double y : {1.875, 2.125}) first = std::min(first, BarMeets(x, y, 0.25, 0.5));
   }
-  const ShapeVerdict of_cube = Verdict(bar, {Shape::Build(Cube(0.125)), {3, 2, 0}}, 1.5);
+  const ShapeSegmentResult of_cube =
+      Verdict(bar, {shape::Shape::Build(Cube(0.125)), {3, 2, 0}}, 1.5);
   EXPECT_NEAR(of_cube.times.free_until, first, 1e-4);
   EXPECT_LE(of_cube.times.free_until, first + 1e-12);
   EXPECT_NEAR(of_cube.times.contact_from, first, 1e-4);
 }
 
 TEST(ShapeContact, ContactMuchShorterThanTheSegment) {
-  const auto cube = Shape::Build(Cube(0.0625));
+  const auto cube = shape::Shape::Build(Cube(0.0625));
   for (const double speed : {10.0, 100.0, 1000.0}) {
     const double middle = 0.4375;  // of the second of the segment
-    const ShapeVerdict verdict =
+    const ShapeSegmentResult verdict =
         Verdict({cube, {0, 0, 0}}, {cube, {speed * middle, 0.03, 0.02}, {-speed, 0, 0}}, 1);
     ExpectContact(verdict.times, middle - 0.125 / speed, middle + 0.125 / speed, 2e-5);
   }
@@ -128,7 +132,7 @@ TEST(ShapeContact, ContactMuchShorterThanTheSegment) {
 
 // Not head-on: the bound of the closing speed is several times the true one.
 TEST(ShapeContact, ShortGrazingContact) {
-  const auto rod = Shape::Build(Rod(5, 0.0625));
+  const auto rod = shape::Shape::Build(Rod(5, 0.0625));
   Body a{rod, {0, 0, 0}, {0, 0, 0}, {0, 0, 2}};
   // Its near end dips into the rod's circle for a little while, where the rod comes along.
   Body ball{nullptr, {4.5, 4.5, 0}, {0, 0, 0}};
@@ -138,17 +142,17 @@ TEST(ShapeContact, ShortGrazingContact) {
   ball.p = {3.5, 3.5, 0};
   const double r = std::hypot(3.5, 3.5);
   const double half = std::asin(0.1875 / r);
-  const ShapeVerdict verdict = Verdict(a, ball, 1);
+  const ShapeSegmentResult verdict = Verdict(a, ball, 1);
   ExpectContact(verdict.times, (kPi / 4 - half) / 2, (kPi / 4 + half) / 2, 1e-4);
 }
 
 TEST(ShapeContact, RodThatNearlyTurnsAroundInOneStepIsNotMissed) {
   const double step = 1.0 / 64, rate = 350 * kPi / 180 / step;
-  Body rod{Shape::Build(Rod(5, 0.03125)), {0, 0, 0}, {0, 0, 0}, {0, 0, rate}};
+  Body rod{shape::Shape::Build(Rod(5, 0.03125)), {0, 0, 0}, {0, 0, 0}, {0, 0, rate}};
   for (const double degrees : {5.0, 100.0, 178.0, 200.0, 340.0}) {
     Body ball{nullptr, {4 * std::cos(degrees * kPi / 180), 4 * std::sin(degrees * kPi / 180), 0}};
     ball.radius = 0.0625;
-    const ShapeVerdict verdict = Verdict(rod, ball, step);
+    const ShapeSegmentResult verdict = Verdict(rod, ball, step);
     const double half = std::asin(0.09375 / 4);
     double angle = degrees * kPi / 180;  // the other end comes first beyond half a turn
     if (angle > kPi) angle -= kPi;
@@ -160,13 +164,13 @@ TEST(ShapeContact, RodThatNearlyTurnsAroundInOneStepIsNotMissed) {
 }
 
 TEST(ShapeContact, BallThroughARingIsFree) {
-  Body ring{Shape::Build(Frame()), {0, 0, 0}};
+  Body ring{shape::Shape::Build(Frame()), {0, 0, 0}};
   Body ball{nullptr, {0, 0, 4}, {0, 0, -8}};
   for (const double radius : {0.5, 0.9, 0.99}) {
     ball.radius = radius;
-    const ShapeVerdict verdict = Verdict(ring, ball, 1);
-    EXPECT_EQ(verdict.times.free_until, kInfinity) << radius;
-    EXPECT_EQ(verdict.times.free_from, -kInfinity) << radius;
+    const ShapeSegmentResult verdict = Verdict(ring, ball, 1);
+    EXPECT_EQ(verdict.times.free_until, numeric::kInfinity) << radius;
+    EXPECT_EQ(verdict.times.free_from, -numeric::kInfinity) << radius;
   }
   ball.radius = 1.0625;
   // It meets the rim, 1 from the axis, where √(1.0625² − 1) of it is below its middle.
@@ -175,12 +179,12 @@ TEST(ShapeContact, BallThroughARingIsFree) {
 }
 
 TEST(ShapeContact, SpikeThroughASheet) {
-  TriangleMesh spike;
+  geometry::TriangleMesh spike;
   spike.vertices = {{0, 0, -1}, {0.3, 0, 1}, {-0.2, 0.3, 1}, {-0.2, -0.3, 1}};
   spike.triangles = {{0, 2, 1}, {0, 3, 2}, {0, 1, 3}, {1, 2, 3}};
-  const Body sheet{Shape::Build(Sheet(2, 3)), {0, 0, 0}};
-  const ShapeVerdict verdict =
-      Verdict(sheet, {Shape::Build(spike), {0.1, 0.2, 3}, {0, 0, -4}}, 1.5);
+  const Body sheet{shape::Shape::Build(Sheet(2, 3)), {0, 0, 0}};
+  const ShapeSegmentResult verdict =
+      Verdict(sheet, {shape::Shape::Build(spike), {0.1, 0.2, 3}, {0, 0, -4}}, 1.5);
   ExpectContact(verdict.times, 0.5, 1, 1e-3);
   ASSERT_TRUE(verdict.looked);
   EXPECT_LE(verdict.nearest.separation.upper, 0);
@@ -190,12 +194,12 @@ TEST(ShapeContact, SpikeThroughASheet) {
 // A state 60 times a second, 1 m/s² each.
 TEST(ShapeContact, DirectionIsKnownBetweenStates) {
   const double step = 1.0 / 64;
-  Body a{Shape::Build(LShape()), {0, 0, 0}},
-      b{Shape::Build(Cube(0.5)), {1.52, -0.5, 0.1}, {-3, 0, 0}};
+  Body a{shape::Shape::Build(LShape()), {0, 0, 0}},
+      b{shape::Shape::Build(Cube(0.5)), {1.52, -0.5, 0.1}, {-3, 0, 0}};
   a.acceleration_max = b.acceleration_max = 1;
   a.angular_acceleration_max = b.angular_acceleration_max = 0.5;
   for (const bool both : {false, true}) {
-    const ShapeVerdict verdict = Verdict(a, b, step, 10000, both);
+    const ShapeSegmentResult verdict = Verdict(a, b, step, 10000, both);
     EXPECT_LE(verdict.times.contact_from, verdict.times.contact_to) << both;
     EXPECT_NEAR(verdict.times.contact_from, 0.02 / 3, 2e-4) << both;
     ASSERT_TRUE(verdict.normal.known) << both;
@@ -206,12 +210,12 @@ TEST(ShapeContact, DirectionIsKnownBetweenStates) {
 
 // In the notch of the L a ball comes near both walls at once, or one of them first.
 TEST(ShapeContact, DirectionsThatMayBothBeTheShortestAreBothCovered) {
-  Body notch{Shape::Build(LShape()), {0, 0, 0}}, ball{nullptr, {0.5, 0.5, 0}, {-1, -1, 0}};
+  Body notch{shape::Shape::Build(LShape()), {0, 0, 0}}, ball{nullptr, {0.5, 0.5, 0}, {-1, -1, 0}};
   ball.radius = 0.25;
   for (const double off : {0.0, 0.0625}) {
     notch.acceleration_max = ball.acceleration_max = off == 0 ? 1 : 0.01;
     ball.p = {0.5 + off, 0.5, 0};
-    const ShapeVerdict verdict = Verdict(notch, ball, 0.5, 1000000);
+    const ShapeSegmentResult verdict = Verdict(notch, ball, 0.5, 1000000);
     ASSERT_TRUE(verdict.normal.known) << off;
     const auto angle_to = [&](const Vector3d& wall) {
       return std::acos(std::clamp(verdict.normal.normal.dot(wall), -1.0, 1.0));
@@ -229,11 +233,11 @@ TEST(ShapeContact, DirectionsThatMayBothBeTheShortestAreBothCovered) {
 
 // Certainly inside although no surface is near: contact from the start.
 TEST(ShapeContact, InsideTheOther) {
-  const Body big{Shape::Build(Cube(4)), {0, 0, 0}};
+  const Body big{shape::Shape::Build(Cube(4)), {0, 0, 0}};
   for (const Vector3d& p : {Vector3d(0, 0, 0), Vector3d(3, 3, 3), Vector3d(-3.4, 2, 1)}) {
-    const Body small{Shape::Build(LShape()), p * 0.8, {0.01, 0, 0}};
+    const Body small{shape::Shape::Build(LShape()), p * 0.8, {0.01, 0, 0}};
     for (const bool swapped : {false, true}) {
-      const ShapeVerdict verdict = swapped ? Verdict(small, big, 1) : Verdict(big, small, 1);
+      const ShapeSegmentResult verdict = swapped ? Verdict(small, big, 1) : Verdict(big, small, 1);
       EXPECT_EQ(verdict.times.contact_from, 0) << p.transpose();
       EXPECT_EQ(verdict.times.contact_to, 1) << p.transpose();
       EXPECT_LE(verdict.times.free_until, 0);
@@ -241,23 +245,24 @@ TEST(ShapeContact, InsideTheOther) {
     }
   }
   // In a hole it is free.
-  const Body hollow{Shape::Build(HollowCube(4, 3)), {0, 0, 0}};
-  EXPECT_EQ(Verdict(hollow, {Shape::Build(LShape()), {0, 0, 0}, {0.5, 0, 0}}, 1).times.free_until,
-            kInfinity);
+  const Body hollow{shape::Shape::Build(HollowCube(4, 3)), {0, 0, 0}};
+  EXPECT_EQ(
+      Verdict(hollow, {shape::Shape::Build(LShape()), {0, 0, 0}, {0.5, 0, 0}}, 1).times.free_until,
+      numeric::kInfinity);
 }
 
 TEST(ShapeContact, SpentBudgetSaysSoAndClaimsNothingWrong) {
   const auto star = [] {
     Random random(5);
-    return Shape::Build(Star(2, random));
+    return shape::Shape::Build(Star(2, random));
   }();
   const Body a{star, {0, 0, 0}, {0, 0, 0}, {0.1, 0.2, 0.3}},
       b{star, {4, 0.1, 0.2}, {-2, 0, 0}, {0, 0.3, 0.1}};
-  const ShapeVerdict best = Verdict(a, b, 3, 100000000);
+  const ShapeSegmentResult best = Verdict(a, b, 3, 100000000);
   ASSERT_LE(best.times.contact_from, best.times.contact_to);
   bool some = false;
   for (std::uint64_t units = 0; units < 300000; units = units * 5 / 4 + 1) {
-    const ShapeVerdict verdict = Verdict(a, b, 3, units);
+    const ShapeSegmentResult verdict = Verdict(a, b, 3, units);
     EXPECT_LE(verdict.times.free_until, best.times.contact_from) << units;
     EXPECT_GE(verdict.times.free_from, best.times.contact_to) << units;
     if (verdict.times.contact_from <= verdict.times.contact_to) {
@@ -273,13 +278,13 @@ TEST(ShapeContact, SpentBudgetSaysSoAndClaimsNothingWrong) {
 }
 
 TEST(ShapeContact, AnInstantCanBeJudged) {
-  const auto cube = Shape::Build(Cube(1));
-  const ShapeVerdict apart = Verdict({cube, {0, 0, 0}}, {cube, {2.01, 1, 0}}, 0);
-  EXPECT_EQ(apart.times.free_until, kInfinity);
-  const ShapeVerdict together = Verdict({cube, {0, 0, 0}}, {cube, {1.9, 1, 0}}, 0);
+  const auto cube = shape::Shape::Build(Cube(1));
+  const ShapeSegmentResult apart = Verdict({cube, {0, 0, 0}}, {cube, {2.01, 1, 0}}, 0);
+  EXPECT_EQ(apart.times.free_until, numeric::kInfinity);
+  const ShapeSegmentResult together = Verdict({cube, {0, 0, 0}}, {cube, {1.9, 1, 0}}, 0);
   EXPECT_LT(together.times.free_until, 0);
   EXPECT_LE(together.times.contact_from, together.times.contact_to);
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -4,10 +4,10 @@
 //         true distance: apart where it says apart, together where it says contact, points where they are said to be.
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/shape_contact.h"
+#include "collision_core/narrow_phase/contact/shape_contact.h"
 #include "tests/collision_core/narrow_phase/promise_scene.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 struct Count {
@@ -28,7 +28,8 @@ std::vector<Vector> WaysOut(const Scene& scene, Real at) {
   return ways;
 }
 
-void CheckNearest(const Scene& scene, const ShapeVerdict& verdict, Real tolerance, Count* count) {
+void CheckNearest(const Scene& scene, const ShapeSegmentResult& verdict, Real tolerance,
+                  Count* count) {
   const Real at = verdict.nearest_at;
   const Proximity& found = verdict.nearest;
   const TrueBody a = scene.Body(0, at), b = scene.Body(1, at);
@@ -60,8 +61,9 @@ void CheckNearest(const Scene& scene, const ShapeVerdict& verdict, Real toleranc
   }
 }
 
-void CheckVerdict(const Scene& scene, const ShapeVerdict& verdict, Random& random, Count* count) {
-  const SegmentVerdict& times = verdict.times;
+void CheckVerdict(const Scene& scene, const ShapeSegmentResult& verdict, Random& random,
+                  Count* count) {
+  const SegmentResult& times = verdict.times;
   const Real tolerance =
       kOracle * (scene.agents[0].declaration.radius + scene.agents[1].declaration.radius);
   std::vector<Real> instants = {0, scene.duration};
@@ -81,7 +83,7 @@ void CheckVerdict(const Scene& scene, const ShapeVerdict& verdict, Random& rando
       EXPECT_LE(scene.Distance(t), tolerance) << "said to touch at " << static_cast<double>(t);
     }
   }
-  if (times.free_until == kInfinity)
+  if (times.free_until == numeric::kInfinity)
     ++count->free;
   else if (times.contact_from <= times.contact_to)
     ++count->confirmed;
@@ -100,11 +102,11 @@ Count Judged(std::uint64_t first, int seeds) {
     Random random(seed);
     const Scene scene = RandomScene(random);
     const BodySegment a = scene.Segment(0), b = scene.Segment(1);
-    const SegmentVerdict balls = JudgeSegment(a.ball, b.ball, scene.duration);
-    if (balls.free_until == kInfinity) continue;
-    Work work(random.Chance(0.5) ? 1000000
-                                 : static_cast<std::uint64_t>(random.LogUniform(1, 100000)));
-    CheckVerdict(scene, JudgeShapes(a, b, scene.duration, balls, &work), random, &count);
+    const SegmentResult balls = EvaluateBallSegment(a.ball, b.ball, scene.duration);
+    if (balls.free_until == numeric::kInfinity) continue;
+    WorkBudget work(random.Chance(0.5) ? 1000000
+                                       : static_cast<std::uint64_t>(random.LogUniform(1, 100000)));
+    CheckVerdict(scene, EvaluateShapeSegment(a, b, scene.duration, balls, &work), random, &count);
   }
   return count;
 }
@@ -120,4 +122,4 @@ TEST(ShapePromise, EveryVerdictHoldsForTheTrueMotion) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -3,24 +3,24 @@
 // Method: balls, capsules, ellipsoids and compounds in motions with closed answers.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
-ConvexDescription Round(ConvexCore core, const Vector3d& half, double rounding) {
-  ConvexDescription description;
+shape::ConvexDescription Round(geometry::ConvexCore core, const Vector3d& half, double rounding) {
+  shape::ConvexDescription description;
   description.core = core;
   description.half = half;
   description.rounding = rounding;
   return description;
 }
 
-Body Of(std::vector<ConvexDescription> descriptions) {
-  std::vector<ConvexSolid> solids;
-  for (const ConvexDescription& d : descriptions) {
+Body Of(std::vector<shape::ConvexDescription> descriptions) {
+  std::vector<shape::ConvexSolid> solids;
+  for (const shape::ConvexDescription& d : descriptions) {
     EXPECT_EQ(RefusalOf(d), std::nullopt);
-    solids.push_back(ConvexSolid::Build(d));
+    solids.push_back(shape::ConvexSolid::Build(d));
   }
-  return {Shape::Compound(nullptr, std::move(solids))};
+  return {shape::Shape::Compound(nullptr, std::move(solids))};
 }
 
 Body Coming(Body body, const Vector3d& from = {5, 0, 0}) {
@@ -29,9 +29,9 @@ Body Coming(Body body, const Vector3d& from = {5, 0, 0}) {
   return body;
 }
 
-const ConvexDescription kBall = Round(ConvexCore::kPoint, {0, 0, 0}, 0.5);
-const ConvexDescription kCapsule = Round(ConvexCore::kSegment, {0, 0, 1}, 0.25);
-const ConvexDescription kEgg = Round(ConvexCore::kEllipsoid, {1, 0.5, 0.25}, 0);
+const shape::ConvexDescription kBall = Round(geometry::ConvexCore::kPoint, {0, 0, 0}, 0.5);
+const shape::ConvexDescription kCapsule = Round(geometry::ConvexCore::kSegment, {0, 0, 1}, 0.25);
+const shape::ConvexDescription kEgg = Round(geometry::ConvexCore::kEllipsoid, {1, 0.5, 0.25}, 0);
 
 TEST(SolidContact, RoundThingsHeadOn) {
   const Body ball = Of({kBall}), capsule = Of({kCapsule}), egg = Of({kEgg});
@@ -57,18 +57,19 @@ TEST(SolidContact, BallsThatPassBesideEachOther) {
 
 // A capsule of half-length 2 and radius 0.1 that turns meets a ball of 0.2 m as the bar does.
 TEST(SolidContact, TurningCapsuleMeetsABall) {
-  ConvexDescription rod = Round(ConvexCore::kSegment, {0, 0, 2}, 0.1);
+  shape::ConvexDescription rod = Round(geometry::ConvexCore::kSegment, {0, 0, 2}, 0.1);
   rod.q_BS = Turn(90, {0, 1, 0});
   const Real begin = std::acos(Real(0.3));
   for (const bool other_too : {false, true}) {
-    Body bar = other_too ? Of({rod, Round(ConvexCore::kPoint, {0, 0, 0}, 0.3)}) : Of({rod});
+    Body bar =
+        other_too ? Of({rod, Round(geometry::ConvexCore::kPoint, {0, 0, 0}, 0.3)}) : Of({rod});
     bar.w = {0, 0, 1};
     ExpectContact(Find(bar, {nullptr, 0.2, {0, 1, 0}}, 2), begin, M_PIl - begin);
-    Body ball = Of({Round(ConvexCore::kPoint, {0, 0, 0}, 0.2)});
+    Body ball = Of({Round(geometry::ConvexCore::kPoint, {0, 0, 0}, 0.2)});
     ball.p = {0, 1, 0};
     ExpectContact(Find(ball, bar, 2, Told::kAtBoth), begin, M_PIl - begin);
     bar.w = {0, 0, 350 * kPi / 180 / 0.25};
-    const ContactTime found = Find(bar, ball, 0.25, Told::kAtBoth);
+    const TimeOfContactResult found = Find(bar, ball, 0.25, Told::kAtBoth);
     ASSERT_EQ(found.status, ContactStatus::kContact);
     ExpectWithin(found.begin, begin / Real(bar.w.z()), 1e-12, "begin");
   }
@@ -76,8 +77,9 @@ TEST(SolidContact, TurningCapsuleMeetsABall) {
 
 // Wheels on a body over a mesh: what meets it first is a wheel, the left one.
 TEST(SolidContact, CompoundOverTriangles) {
-  ConvexDescription wheel = Round(ConvexCore::kPoint, {0, 0, 0}, 0.25);
-  std::vector<ConvexDescription> parts = {Round(ConvexCore::kBox, {1, 0.5, 0.25}, 0.0625)};
+  shape::ConvexDescription wheel = Round(geometry::ConvexCore::kPoint, {0, 0, 0}, 0.25);
+  std::vector<shape::ConvexDescription> parts = {
+      Round(geometry::ConvexCore::kBox, {1, 0.5, 0.25}, 0.0625)};
   for (const double x : {-1, 1}) {
     for (const double y : {-0.5, 0.5}) {
       wheel.p_BS = {x, y, x == 1 && y == 0.5 ? -0.5 : -0.375};
@@ -87,25 +89,25 @@ TEST(SolidContact, CompoundOverTriangles) {
   Body rover = Of(parts);
   rover.p = {0, 0, 2};
   rover.v = {0, 0, -1};
-  const Body sheet{Shape::Build(Sheet(4, 8))};
-  const ContactTime found = Find(sheet, rover, 2);
+  const Body sheet{shape::Shape::Build(Sheet(4, 8))};
+  const TimeOfContactResult found = Find(sheet, rover, 2);
   ASSERT_EQ(found.status, ContactStatus::kContact);
   ExpectWithin(found.begin, 1.25L, 1e-12, "begin");
   const Body ground{BoxOf(Made::kTriangles, {-4, -4, -1}, {4, 4, 0})};
-  const ContactTime landed = Find(ground, rover, 2);
+  const TimeOfContactResult landed = Find(ground, rover, 2);
   ASSERT_EQ(landed.status, ContactStatus::kContact);
   ExpectWithin(landed.begin, 1.25L, 1e-12, "begin");
 }
 
 // All of it within a hollow of triangles, and within solid triangles.
 TEST(SolidContact, SolidsInsideMeshes) {
-  const Body big{Shape::Build(Cube(4))};
+  const Body big{shape::Shape::Build(Cube(4))};
   Body ball = Of({kBall, kCapsule});
   ball.p = {1, 1, 1};
   EXPECT_EQ(Find(big, ball, 1).begin.upper, 0);
   EXPECT_EQ(Find(ball, big, 1).status, ContactStatus::kContact);
-  Body mesh{Shape::Build(Cube(0.125))};
-  const Body around = Of({Round(ConvexCore::kEllipsoid, {2, 2, 3}, 0)});
+  Body mesh{shape::Shape::Build(Cube(0.125))};
+  const Body around = Of({Round(geometry::ConvexCore::kEllipsoid, {2, 2, 3}, 0)});
   EXPECT_EQ(Find(around, mesh, 1).begin.upper, 0);
   EXPECT_EQ(Find(mesh, around, 1).status, ContactStatus::kContact);
   ball.p = {9, 0, 0};
@@ -113,4 +115,4 @@ TEST(SolidContact, SolidsInsideMeshes) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

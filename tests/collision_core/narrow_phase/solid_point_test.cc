@@ -2,15 +2,15 @@
 //         are apart.
 // Method: cubes that overlap by 1e-15 to 1 in exact steps, posed anywhere; random points of random bodies in long
 //         double.
-#include "collision_core/narrow_phase/solid_point.h"
+#include "collision_core/narrow_phase/separation/solid_point.h"
 
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/contact_patch.h"
+#include "collision_core/narrow_phase/contact/contact_candidates.h"
 #include "tests/collision_core/narrow_phase/promise_scene.h"
 #include "tests/support/solids.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Vector3d;
@@ -18,11 +18,11 @@ using Eigen::Vector3d;
 constexpr std::uint64_t kPlenty = 10'000'000;
 
 TEST(SolidPoint, TellsHowDeepToTheLastBits) {
-  const BodySegment cube = BodyOf(Shape::Build(Cube(0.5)));
-  const Surface surface(cube);
+  const BodySegment cube = BodyOf(shape::Shape::Build(Cube(0.5)));
+  const BodyTree surface(cube);
   for (const double depth : {0x1p-1, 0x1p-20, 0x1p-40, 0x1p-46}) {
     const RelativePose pose = PoseOf(Eigen::Matrix3d::Identity(), {1 - depth, 0.25, 0});
-    Work work(kPlenty);
+    WorkBudget work(kPlenty);
     const SolidPoint of_A = PointOfA(surface, {0.5, 0.125, 0}, &work);
     const SolidPoint of_B = PointOfB(surface, {-0.5, -0.125, 0}, &work);
     for (const SolidPoint& point : {of_A, of_B}) {
@@ -47,8 +47,8 @@ TEST(SolidPoint, NeverDeeperThanItIs) {
                                size * random.Uniform(0, 2) * random.UnitVector());
     pose.chord_A = random.Chance(0.5) ? 0 : 0.01;
     pose.chord_B = random.Chance(0.5) ? 0 : 0.01;
-    const Surface of_a(a), of_b(b);
-    Work work(kPlenty);
+    const BodyTree of_a(a), of_b(b);
+    WorkBudget work(kPlenty);
     const Vector3d x = size * random.Uniform(0, 1) * random.UnitVector();
     const bool from_A = random.Chance(0.5);
     const SolidPoint point = from_A ? PointOfA(of_a, x, &work) : PointOfB(of_b, x, &work);
@@ -75,31 +75,31 @@ TEST(SolidPoint, NeverDeeperThanItIs) {
 }
 
 TEST(SolidPoint, OpenSurfacesHaveNoInside) {
-  const BodySegment sheet = BodyOf(Shape::Build(Sheet(1, 2)));
-  const BodySegment cube = BodyOf(Shape::Build(Cube(0.5)));
-  Work work(kPlenty);
-  EXPECT_GE(SignedDistanceTo(Surface(sheet), {0.1, 0.1, 0}, &work), 0);
-  EXPECT_LE(SignedDistanceTo(Surface(cube), {0.1, 0.1, 0}, &work), -0.4 + 1e-15);
-  EXPECT_LE(SignedDistanceTo(Surface(BodyOf(nullptr, 2)), {0.5, 0, 0}, &work), -1.5 + 1e-15);
+  const BodySegment sheet = BodyOf(shape::Shape::Build(Sheet(1, 2)));
+  const BodySegment cube = BodyOf(shape::Shape::Build(Cube(0.5)));
+  WorkBudget work(kPlenty);
+  EXPECT_GE(SignedDistanceTo(BodyTree(sheet), {0.1, 0.1, 0}, &work), 0);
+  EXPECT_LE(SignedDistanceTo(BodyTree(cube), {0.1, 0.1, 0}, &work), -0.4 + 1e-15);
+  EXPECT_LE(SignedDistanceTo(BodyTree(BodyOf(nullptr, 2)), {0.5, 0, 0}, &work), -1.5 + 1e-15);
 }
 
 // The depth that the best of the proposed points shows when B has come nearer by `step`.
 double DepthAfter(const BodySegment& a, const BodySegment& b, const Eigen::Matrix3d& matrix,
                   Vector3d offset, const Vector3d& step) {
-  const Surface of_a(a), of_b(b);
-  Work work(kPlenty);
-  const auto clues = ContactPatch(of_a, of_b, PoseOf(matrix, offset), 1e-9, 0, 0, &work);
+  const BodyTree of_a(a), of_b(b);
+  WorkBudget work(kPlenty);
+  const auto clues = FindContactCandidates(of_a, of_b, PoseOf(matrix, offset), 1e-9, 0, 0, &work);
   const RelativePose after = PoseOf(matrix, offset + step);
-  double upper = kInfinity;
-  for (const ContactClue& clue : clues) {
+  double upper = numeric::kInfinity;
+  for (const ContactCandidate& clue : clues) {
     upper = std::min(upper, UpperBy(clue.point, of_a, of_b, after, &work));
   }
   return -upper;
 }
 
-TEST(ContactPatch, PointsWhereFacesEdgesAndCornersOverlapSoon) {
-  const BodySegment a = BodyOf(Shape::Build(Cube(0.5)));
-  const BodySegment fine = BodyOf(Shape::Build(Subdivided(Cube(0.5), 3)));
+TEST(FindContactCandidates, PointsWhereFacesEdgesAndCornersOverlapSoon) {
+  const BodySegment a = BodyOf(shape::Shape::Build(Cube(0.5)));
+  const BodySegment fine = BodyOf(shape::Shape::Build(Subdivided(Cube(0.5), 3)));
   const Vector3d step(-1e-6, 0, 0);
   const double root = std::sqrt(0.5);
   const auto turned = [](double angle, const Vector3d& axis) {
@@ -124,26 +124,27 @@ TEST(ContactPatch, PointsWhereFacesEdgesAndCornersOverlapSoon) {
                        back * step),
             0.4e-6);
   // Nothing is near.
-  Work work(kPlenty);
-  EXPECT_TRUE(ContactPatch(Surface(a), Surface(a), PoseOf(Eigen::Matrix3d::Identity(), {1.1, 0, 0}),
-                           1e-9, 0, 0, &work)
+  WorkBudget work(kPlenty);
+  EXPECT_TRUE(FindContactCandidates(BodyTree(a), BodyTree(a),
+                                    PoseOf(Eigen::Matrix3d::Identity(), {1.1, 0, 0}), 1e-9, 0, 0,
+                                    &work)
                   .empty());
 }
 
 // Of very many solids no more are looked at than the budget allows; what is told is an upper bound
 // still.
 TEST(SolidPoint, ManySolidsStayWithinTheBudget) {
-  std::vector<ConvexSolid> solids;
+  std::vector<shape::ConvexSolid> solids;
   for (int i = 0; i < 1000; ++i) {
     const Eigen::Vector3d at(0.01 * i, 0, 0), half(0.004, 0.004, 0.004);
     solids.push_back(SolidBox(at - half, at + half));
   }
   BodySegment segment;
-  segment.shape = Shape::Compound(nullptr, std::move(solids));
+  segment.shape = shape::Shape::Compound(nullptr, std::move(solids));
   segment.ball.radius = segment.shape->facts().radius;
-  const Surface surface(segment);
+  const BodyTree surface(segment);
   for (const std::uint64_t allowed : {0, 10, 500}) {
-    Work work(allowed);
+    WorkBudget work(allowed);
     const double distance = SignedDistanceTo(surface, {0, 1, 0}, &work);
     EXPECT_LT(work.spent(), allowed + kBatchUnits);
     EXPECT_GE(distance, 1 - 0.004);
@@ -151,4 +152,4 @@ TEST(SolidPoint, ManySolidsStayWithinTheBudget) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-#include "collision_core/narrow_phase/body_segment.h"
+#include "collision_core/narrow_phase/pose/body_segment.h"
 #include "tests/support/random.h"
 
 namespace collision {
@@ -129,11 +129,11 @@ struct TrueBody {
   Vector centre = Vector::Zero();
   Real radius = 0;
 
-  TrueBody(const Shape* shape, double ball_radius, const TruePose& pose)
+  TrueBody(const shape::Shape* shape, double ball_radius, const TruePose& pose)
       : centre(pose.p), radius(shape ? 0 : ball_radius) {
     if (!shape) return;
     closed = shape->closed();
-    for (const Triangle& t : shape->mesh().triangles) {
+    for (const geometry::Triangle& t : shape->mesh().triangles) {
       const auto& vertices = shape->mesh().vertices;
       triangles.push_back({pose.ToWorld(vertices[t[0]]), pose.ToWorld(vertices[t[1]]),
                            pose.ToWorld(vertices[t[2]])});
@@ -217,10 +217,10 @@ inline Quaternion RandomTurn(Random& random) {
 
 /// An agent that moves so, as told by a state at `stamp` seconds, with what rounding to doubles
 /// costs declared.
-inline SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
-                              const AgentDeclaration& declaration) {
+inline motion::SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
+                                      const motion::AgentDeclaration& declaration) {
   const TruePose pose = motion.At(stamp);
-  SpaceTimeBound bound;
+  motion::SpaceTimeBound bound;
   bound.state.stamp =
       Instant::FromNanoseconds(static_cast<std::int64_t>(std::llround(stamp * 1e9)));
   bound.state.p_WA = pose.p.cast<double>();
@@ -236,8 +236,9 @@ inline SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
 }
 
 /// A body whose motion is not asked for.
-inline BodySegment BodyOf(std::shared_ptr<const Shape> shape, double radius = 0) {
-  BodySegment body;
+inline narrow_phase::BodySegment BodyOf(std::shared_ptr<const shape::Shape> shape,
+                                        double radius = 0) {
+  narrow_phase::BodySegment body;
   body.ball.radius = shape ? shape->facts().radius : radius;
   body.shape = std::move(shape);
   return body;

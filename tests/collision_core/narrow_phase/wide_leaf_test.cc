@@ -2,15 +2,15 @@
 // Method: a plain over a floor that is a fan about its middle: every one of its balls holds the body.
 #include <gtest/gtest.h>
 
-#include "collision_core/narrow_phase/shape_contact.h"
+#include "collision_core/narrow_phase/contact/shape_contact.h"
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
-namespace collision {
+namespace collision::narrow_phase {
 namespace {
 
 // 100 m wide, flat above at z = 0, 8 m high; n cells along an edge.
-TriangleMesh Landscape(std::uint32_t n) {
-  TriangleMesh mesh;
+geometry::TriangleMesh Landscape(std::uint32_t n) {
+  geometry::TriangleMesh mesh;
   const std::uint32_t row = n + 1;
   for (std::uint32_t j = 0; j <= n; ++j) {
     for (std::uint32_t i = 0; i <= n; ++i) {
@@ -46,13 +46,14 @@ TriangleMesh Landscape(std::uint32_t n) {
 }
 
 TEST(WideLeaf, TheFloorBelowCostsLittle) {
-  const Body ground{Shape::Build(Landscape(64), {.builder = TreeBuilder::kHalved})};
+  const Body ground{
+      shape::Shape::Build(Landscape(64), {.builder = sphere_tree::TreeBuilder::kHalved})};
   ASSERT_TRUE(ground.shape->closed());
-  Body cube{Shape::Build(Subdivided(Cube(0.25), 2)), 0, {1.125, 2.0625, 1.25}, {0, 0, -1}};
+  Body cube{shape::Shape::Build(Subdivided(Cube(0.25), 2)), 0, {1.125, 2.0625, 1.25}, {0, 0, -1}};
   for (const bool swapped : {false, true}) {
     const ContactTolerance tolerance{.absolute = 1e-6};
-    const ContactTime found = swapped ? Find(cube, ground, 2, Told::kAtStart, tolerance)
-                                      : Find(ground, cube, 2, Told::kAtStart, tolerance);
+    const TimeOfContactResult found = swapped ? Find(cube, ground, 2, Told::kAtStart, tolerance)
+                                              : Find(ground, cube, 2, Told::kAtStart, tolerance);
     EXPECT_EQ(found.status, ContactStatus::kContact);
     EXPECT_LE(found.begin.lower, 1);
     EXPECT_GE(found.begin.upper, 1);
@@ -62,4 +63,4 @@ TEST(WideLeaf, TheFloorBelowCostsLittle) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::narrow_phase

@@ -5,7 +5,7 @@
 #include "tests/support/exact.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::numeric {
 namespace {
 
 constexpr int kTrials = 50000;
@@ -157,4 +157,4 @@ TEST(Interval, InfinitiesAreConservative) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::numeric

@@ -5,7 +5,7 @@
 #include "tests/support/exact.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::numeric {
 namespace {
 
 // Goal:   FirstZero is never past the zero and within 1e-14 of it, for all magnitudes and signs.
@@ -52,4 +52,4 @@ TEST(Quadratic, ShiftsContainTheExactValues) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::numeric

@@ -6,7 +6,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::numeric {
 namespace {
 
 using Real = boost::multiprecision::cpp_bin_float_100;
@@ -95,7 +95,7 @@ TEST(Rotation, SineAndCosineOfPoints) {
   const Real quarter = atan(Real(1));
   Random random(101);
   for (int i = 0; i < 8000; ++i) {
-    double x = random.LogUniform(1e-3, kTurnMax);
+    double x = random.LogUniform(1e-3, kRotationAngleMax);
     if (i % 4 == 0) x = random.LogUniform(1e-300, 1e-3);
     if (i % 4 == 1) {
       x = static_cast<double>(quarter * random.Below(1'200'000));
@@ -127,7 +127,7 @@ TEST(Rotation, SineAndCosineOfIntervals) {
     }
   }
   for (const Interval far :
-       {Interval(2e6), Interval(-kInfinity, 0), Interval(0, NextUp(kTurnMax))}) {
+       {Interval(2e6), Interval(-kInfinity, 0), Interval(0, NextUp(kRotationAngleMax))}) {
     EXPECT_EQ(SinCosOf(far).sin.lower, -1);
     EXPECT_EQ(SinCosOf(far).cos.upper, 1);
   }
@@ -171,7 +171,7 @@ TEST(Rotation, Turning) {
   const Eigen::Quaterniond q(1, 2, 3, 4);
   EXPECT_TRUE(Holds(Turned(q, {0, 0, 5e-324}, 1e9), Exactly(q)));
   EXPECT_TRUE(Holds(Turned(q, {0, 0, 0}, 1e300), Exactly(q)));
-  EXPECT_EQ(Turned(q, {0, 0, 1}, 2 * kTurnMax).w.lower, -1);
+  EXPECT_EQ(Turned(q, {0, 0, 1}, 2 * kRotationAngleMax).w.lower, -1);
   EXPECT_EQ(Turned(q, {0, 1e300, 0}, 1e300).z.upper, 1);
 }
 
@@ -265,4 +265,4 @@ TEST(Rotation, MatricesWithTheirError) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::numeric

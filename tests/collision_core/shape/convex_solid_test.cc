@@ -2,17 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/shape/convex_polytope.h"
+#include "collision_core/geometry/convex/epa.h"
 #include "tests/support/exact_convex.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::shape {
 namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-ConvexDescription Described(ConvexCore core, const Vector3d& half, double rounding) {
+ConvexDescription Described(geometry::ConvexCore core, const Vector3d& half, double rounding) {
   ConvexDescription d;
   d.core = core;
   d.half = half;
@@ -22,14 +22,15 @@ ConvexDescription Described(ConvexCore core, const Vector3d& half, double roundi
 
 ConvexDescription RandomSolid(Random& random, double size) {
   ConvexDescription d;
-  const ConvexCore cores[] = {ConvexCore::kPoint, ConvexCore::kSegment, ConvexCore::kBox,
-                              ConvexCore::kHull};
+  const geometry::ConvexCore cores[] = {geometry::ConvexCore::kPoint,
+                                        geometry::ConvexCore::kSegment, geometry::ConvexCore::kBox,
+                                        geometry::ConvexCore::kHull};
   d.core = cores[random.Below(4)];
   for (int axis = 0; axis < 3; ++axis) d.half[axis] = size * random.Uniform(0.1, 1);
-  for (auto i = 4 + random.Below(8); d.core == ConvexCore::kHull && i > 0; --i) {
+  for (auto i = 4 + random.Below(8); d.core == geometry::ConvexCore::kHull && i > 0; --i) {
     d.points.push_back(size * random.Uniform(0.5, 1) * random.UnitVector());
   }
-  if (d.core == ConvexCore::kPoint || random.Chance(0.3)) d.rounding = 0.3 * size;
+  if (d.core == geometry::ConvexCore::kPoint || random.Chance(0.3)) d.rounding = 0.3 * size;
   d.q_BS = {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1), 0.1};
   d.p_BS = random.LogUniform(1e-3, 1e3) * size * random.UnitVector();
   return d;
@@ -71,14 +72,14 @@ TEST(ConvexSolid, BallInside) {
   for (int i = 0; i < 100; ++i) {
     const ConvexDescription d = RandomSolid(random, 1);
     const ConvexFacts facts = ConvexSolid::Build(d).facts();
-    if (d.core == ConvexCore::kPoint || d.core == ConvexCore::kSegment) {
+    if (d.core == geometry::ConvexCore::kPoint || d.core == geometry::ConvexCore::kSegment) {
       EXPECT_NEAR(facts.inradius, d.rounding, 1e-12 * (1 + d.p_BS.norm()));
       EXPECT_LE(facts.inradius, d.rounding);
     }
-    if (d.core == ConvexCore::kBox) {
+    if (d.core == geometry::ConvexCore::kBox) {
       EXPECT_NEAR(facts.inradius, d.half.minCoeff() + d.rounding, 1e-12 * (1 + d.p_BS.norm()));
     }
-    if (d.core != ConvexCore::kHull) continue;
+    if (d.core != geometry::ConvexCore::kHull) continue;
     const ExactPoints corners = ExactCorners(d), centre = {ExactVector(facts.inner_point)};
     const Exact square = SquareOfDepth(centre, corners, FaceDirections({centre[0]}, corners));
     EXPECT_TRUE(IsAtMost(facts.inradius, square, -Exact(d.rounding))) << facts.inradius;
@@ -90,7 +91,7 @@ TEST(ConvexSolid, BallInside) {
 // Goal:   of a cube given as a hull the ball inside is nearly the largest one.
 TEST(ConvexSolid, BallInsideOfACube) {
   ConvexDescription d;
-  d.core = ConvexCore::kHull;
+  d.core = geometry::ConvexCore::kHull;
   for (int i = 0; i < 8; ++i) {
     d.points.push_back({i & 1 ? 5.0 : 3.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0});
   }
@@ -108,7 +109,7 @@ TEST(ConvexSolid, DirtyHulls) {
   };
   for (const auto& points : hulls) {
     ConvexDescription d;
-    d.core = ConvexCore::kHull;
+    d.core = geometry::ConvexCore::kHull;
     d.points = points;
     ASSERT_FALSE(RefusalOf(d));
     EXPECT_EQ(ConvexSolid::Build(d).facts().inradius, 0);
@@ -116,7 +117,7 @@ TEST(ConvexSolid, DirtyHulls) {
     EXPECT_NEAR(ConvexSolid::Build(d).facts().inradius, 0.5, 1e-15);
   }
   ConvexDescription point;
-  point.core = ConvexCore::kHull;
+  point.core = geometry::ConvexCore::kHull;
   point.points = {{1, 2, 3}};
   EXPECT_TRUE(RefusalOf(point));  // No size at all.
   point.rounding = 1;
@@ -132,19 +133,19 @@ TEST(ConvexSolid, Refusals) {
     ASSERT_TRUE(refusal) << text;
     EXPECT_NE(refusal->find(text), std::string::npos) << *refusal;
   };
-  const ConvexDescription box = Described(ConvexCore::kBox, {1, 1, 1}, 0);
+  const ConvexDescription box = Described(geometry::ConvexCore::kBox, {1, 1, 1}, 0);
   EXPECT_FALSE(RefusalOf(box));
   for (const double bad : {nan, -1e-9, 1.1e7, static_cast<double>(HUGE_VAL)}) {
-    refused(Described(ConvexCore::kBox, {1, bad, 1}, 0), "convex.half.y");
-    refused(Described(ConvexCore::kBox, {1, 1, 1}, bad), "convex.rounding");
-    refused(Described(ConvexCore::kSegment, {0, 0, bad}, 0), "convex.half.z");
-    EXPECT_FALSE(RefusalOf(Described(ConvexCore::kSegment, {bad, bad, 1}, 0)));
+    refused(Described(geometry::ConvexCore::kBox, {1, bad, 1}, 0), "convex.half.y");
+    refused(Described(geometry::ConvexCore::kBox, {1, 1, 1}, bad), "convex.rounding");
+    refused(Described(geometry::ConvexCore::kSegment, {0, 0, bad}, 0), "convex.half.z");
+    EXPECT_FALSE(RefusalOf(Described(geometry::ConvexCore::kSegment, {bad, bad, 1}, 0)));
   }
-  refused(Described(ConvexCore::kPoint, {0, 0, 0}, 0),
+  refused(Described(geometry::ConvexCore::kPoint, {0, 0, 0}, 0),
           "its size is 0 m; allowed are 1e-06 to 1e+07");
-  refused(Described(ConvexCore::kBox, {1e-7, 1e-7, 1e-7}, 0), "allowed are 1e-06");
-  refused(Described(ConvexCore::kTriangle, {1, 1, 1}, 0), "convex.core");
-  refused(Described(ConvexCore::kHull, {1, 1, 1}, 0), "convex.points: there are 0");
+  refused(Described(geometry::ConvexCore::kBox, {1e-7, 1e-7, 1e-7}, 0), "allowed are 1e-06");
+  refused(Described(geometry::ConvexCore::kTriangle, {1, 1, 1}, 0), "convex.core");
+  refused(Described(geometry::ConvexCore::kHull, {1, 1, 1}, 0), "convex.points: there are 0");
   ConvexDescription d = box;
   d.p_BS = {0, 0, nan};
   refused(d, "convex.p_BS.z");
@@ -156,7 +157,7 @@ TEST(ConvexSolid, Refusals) {
   d.q_BS = Quaterniond(1, 0, nan, 0);
   refused(d, "convex.q_BS");
   d = box;
-  d.core = ConvexCore::kHull;
+  d.core = geometry::ConvexCore::kHull;
   d.points = {{0, 0, 0}, {1, nan, 0}};
   refused(d, "convex.points[1].y");
   d.points.assign(kHullPointsMax + 1, {1, 1, 1});
@@ -168,4 +169,4 @@ TEST(ConvexSolid, Refusals) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::shape

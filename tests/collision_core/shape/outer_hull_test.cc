@@ -2,13 +2,13 @@
 
 #include <gtest/gtest.h>
 
-#include "collision_core/shape/hull_around.h"
+#include "collision_core/shape/hull_builder.h"
 #include "collision_core/shape/shape.h"
-#include "tests/collision_core/shape/meshes.h"
+#include "tests/collision_core/sphere_tree/meshes.h"
 #include "tests/support/exact_convex.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::shape {
 namespace {
 
 using Eigen::Vector3d;
@@ -42,7 +42,7 @@ Vector3f RandomDirection(Random& random) {
 }
 
 double MostAlong(const Vector3d& n, const std::vector<Vector3d>& points) {
-  double most = -kInfinity;
+  double most = -numeric::kInfinity;
   for (const Vector3d& p : points) most = std::max(most, n.dot(p));
   return most;
 }
@@ -124,15 +124,18 @@ TEST(OuterHull, TellsThePoint) {
 
 ConvexDescription RandomSolid(Random& random) {
   ConvexDescription d;
-  d.core = static_cast<ConvexCore>(random.Below(6));
-  if (d.core == ConvexCore::kTriangle) d.core = ConvexCore::kHull;
+  d.core = static_cast<geometry::ConvexCore>(random.Below(6));
+  if (d.core == geometry::ConvexCore::kTriangle) d.core = geometry::ConvexCore::kHull;
   const Vector3d half(random.Uniform(0.1, 1), random.Uniform(0.1, 1), random.Uniform(0.1, 1));
-  d.half = d.core == ConvexCore::kSegment ? Vector3d(0, 0, half.z()) : half;
-  if (d.core == ConvexCore::kPoint || d.core == ConvexCore::kHull) d.half = Vector3d(0, 0, 0);
-  if (d.core == ConvexCore::kHull) d.points = RandomPoints(random, 4 + random.Below(20), 1);
-  const bool is_thin = d.core == ConvexCore::kPoint || d.core == ConvexCore::kSegment;
+  d.half = d.core == geometry::ConvexCore::kSegment ? Vector3d(0, 0, half.z()) : half;
+  if (d.core == geometry::ConvexCore::kPoint || d.core == geometry::ConvexCore::kHull)
+    d.half = Vector3d(0, 0, 0);
+  if (d.core == geometry::ConvexCore::kHull)
+    d.points = RandomPoints(random, 4 + random.Below(20), 1);
+  const bool is_thin =
+      d.core == geometry::ConvexCore::kPoint || d.core == geometry::ConvexCore::kSegment;
   if (is_thin) d.rounding = random.Chance(0.5) ? 0.25 : random.Uniform(0.1, 1);
-  if (d.core == ConvexCore::kBox && random.Chance(0.5)) d.rounding = 0.25;
+  if (d.core == geometry::ConvexCore::kBox && random.Chance(0.5)) d.rounding = 0.25;
   d.q_BS = {random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1), 1};
   d.p_BS = random.Uniform(0, 3) * random.UnitVector();
   return d;
@@ -150,14 +153,15 @@ TEST(HullAround, SolidsAndTriangles) {
       ASSERT_FALSE(RefusalOf(description)) << *RefusalOf(description);
       solids.push_back(ConvexSolid::Build(description));
     }
-    const TriangleMesh mesh = i % 2 == 0 ? TriangleMesh() : Scaled(Frame(), 0.5);
+    const geometry::TriangleMesh mesh =
+        i % 2 == 0 ? geometry::TriangleMesh() : Scaled(Frame(), 0.5);
     const OuterHull hull = HullAround(mesh, solids);
     for (int k = 0; k < 30; ++k) {
       const Vector3f direction = RandomDirection(random);
       const Vector3d n = direction.cast<double>();
-      double most = mesh.triangles.empty() ? -kInfinity : MostAlong(n, mesh.vertices);
+      double most = mesh.triangles.empty() ? -numeric::kInfinity : MostAlong(n, mesh.vertices);
       for (const ConvexSolid& solid : solids) {
-        const ConvexSet& set = solid.set();
+        const geometry::ConvexSet& set = solid.set();
         const Vector3d foremost = set.centre + set.SupportPoint(n);
         most = std::max(most, n.dot(foremost) + set.rounding * n.norm());
       }
@@ -170,7 +174,7 @@ TEST(HullAround, SolidsAndTriangles) {
 
 // Goal:   every shape has one, however it was made; vertices of no triangle count for nothing.
 TEST(HullAround, OfShapes) {
-  TriangleMesh mesh = Frame();
+  geometry::TriangleMesh mesh = Frame();
   const double extent = Shape::Build(mesh)->hull().extent();
   mesh.vertices.emplace_back(100, 100, 100);
   const auto built = Shape::Build(mesh);
@@ -185,4 +189,4 @@ TEST(HullAround, OfShapes) {
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::shape

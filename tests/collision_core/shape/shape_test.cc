@@ -5,20 +5,20 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/collision_core/shape/exact_geometry.h"
-#include "tests/collision_core/shape/meshes.h"
+#include "tests/collision_core/geometry/exact_geometry.h"
+#include "tests/collision_core/sphere_tree/meshes.h"
 
-namespace collision {
+namespace collision::shape {
 namespace {
 
 using Eigen::Vector3d;
 
-TriangleMesh Nested(bool inner_reversed) {
-  const TriangleMesh inner = Scaled(Sphere(2), 0.5);
+geometry::TriangleMesh Nested(bool inner_reversed) {
+  const geometry::TriangleMesh inner = Scaled(Sphere(2), 0.5);
   return Joined(Sphere(2), inner_reversed ? Reversed(inner) : inner);
 }
 
-std::vector<TriangleMesh> ClosedMeshes(Random& random) {
+std::vector<geometry::TriangleMesh> ClosedMeshes(Random& random) {
   return {Box({-1, -2, -3}, {1, 2, 3}),
           Frame(),
           Sphere(2),
@@ -35,13 +35,13 @@ std::vector<TriangleMesh> ClosedMeshes(Random& random) {
 // ball of that radius inside the solid.
 TEST(Shape, SignedDistancesAreUpperBoundsAndTight) {
   Random random(71);
-  for (const TriangleMesh& mesh : ClosedMeshes(random)) {
+  for (const geometry::TriangleMesh& mesh : ClosedMeshes(random)) {
     const auto shape = Shape::Build(mesh);
     ASSERT_TRUE(shape->closed());
     const double scale = shape->facts().radius;
     const auto& nodes = shape->tree().nodes;
     for (std::size_t i = 0; i < nodes.size(); i += 1 + random.Below(nodes.size() / 20 + 1)) {
-      const SphereNode& node = nodes[i];
+      const sphere_tree::SphereNode& node = nodes[i];
       const Exact exact = SquaredDistance(ExactOf(node.centre), mesh);
       const double s = node.signed_distance;
       const bool is_inside = std::abs(SolidAngleWinding(mesh, node.centre)) > 0.5;
@@ -60,21 +60,22 @@ TEST(Shape, SignedDistancesAreUpperBoundsAndTight) {
 }
 
 TEST(Shape, OpenSurfacesHaveNoInside) {
-  TriangleMesh mesh = Sphere(3);
+  geometry::TriangleMesh mesh = Sphere(3);
   mesh.triangles.pop_back();
   const auto shape = Shape::Build(mesh);
   EXPECT_FALSE(shape->closed());
-  for (const SphereNode& node : shape->tree().nodes) EXPECT_GE(node.signed_distance, 0);
+  for (const sphere_tree::SphereNode& node : shape->tree().nodes)
+    EXPECT_GE(node.signed_distance, 0);
 }
 
 TEST(Shape, DistancesOfAnyPointContainTheExactOne) {
   Random random(72);
-  const TriangleMesh mesh = Star(2, random);
+  const geometry::TriangleMesh mesh = Star(2, random);
   const auto shape = Shape::Build(mesh);
   for (int i = 0; i < 300; ++i) {
     const Vector3d p = random.LogUniform(1e-6, 100) * random.UnitVector();
     const Exact exact = SquaredDistance(ExactOf(p), mesh);
-    const Interval d = shape->DistanceTo(p);
+    const numeric::Interval d = shape->DistanceTo(p);
     ASSERT_LE(Squared(d.lower), exact);
     ASSERT_GE(Squared(d.upper), exact);
     ASSERT_LE(d.width(), 1e-14 * (2 + p.norm()));
@@ -83,14 +84,15 @@ TEST(Shape, DistancesOfAnyPointContainTheExactOne) {
   // Squares of these overflow or vanish.
   EXPECT_TRUE(shape->DistanceTo({1e200, 0, 0}).Contains(1e200));
   EXPECT_TRUE(shape->DistanceTo({1.7e308, 1.7e308, 0}).upper > 1e308);
-  const Interval near = shape->DistanceTo({1e-300, 0, 0}), at = shape->DistanceTo({0, 0, 0});
+  const numeric::Interval near = shape->DistanceTo({1e-300, 0, 0}),
+                          at = shape->DistanceTo({0, 0, 0});
   EXPECT_NEAR(near.upper, at.upper, 1e-15);
 }
 
 /// Where the oracle is sure.
 void ExpectWinding(const Shape& shape, const Vector3d& p, int* sure, int* unknown) {
   const auto winding = shape.WindingNumberAt(p);
-  const Interval distance = shape.DistanceTo(p);
+  const numeric::Interval distance = shape.DistanceTo(p);
   if (!winding) {
     // Exact signs: unknown means on the surface, as far as rounding lets one see.
     EXPECT_EQ(distance.lower, 0);
@@ -104,11 +106,11 @@ void ExpectWinding(const Shape& shape, const Vector3d& p, int* sure, int* unknow
 
 TEST(Shape, WindingNumbersAreTheSumOfSolidAngles) {
   Random random(73);
-  for (const TriangleMesh& mesh : ClosedMeshes(random)) {
+  for (const geometry::TriangleMesh& mesh : ClosedMeshes(random)) {
     const auto shape = Shape::Build(mesh);
     int sure = 0, unknown = 0;
     for (int i = 0; i < 400; ++i) {
-      const MeshFacts& facts = shape->facts();
+      const geometry::MeshFacts& facts = shape->facts();
       Vector3d p;
       for (int axis = 0; axis < 3; ++axis)
         p[axis] = random.Uniform(facts.lower[axis], facts.upper[axis]);
@@ -157,7 +159,7 @@ TEST(Shape, NestedSurfaces) {
 
 TEST(Shape, PointsOnTheSurfaceAreNeverCalled) {
   Random random(74);
-  const TriangleMesh mesh = Box({0, 0, 0}, {1, 1, 1});
+  const geometry::TriangleMesh mesh = Box({0, 0, 0}, {1, 1, 1});
   const auto shape = Shape::Build(mesh);
   for (int i = 0; i < 2000; ++i) {
     Vector3d p(random.Uniform(0, 1), random.Uniform(0, 1), random.Uniform(0, 1));
@@ -167,10 +169,10 @@ TEST(Shape, PointsOnTheSurfaceAreNeverCalled) {
     ASSERT_EQ(shape->WindingNumberAt(p), is_on ? std::nullopt : std::optional(1)) << p.transpose();
     // A single unit in the last place decides.
     p.x() = 1;
-    ASSERT_EQ(shape->WindingNumberAt({NextDown(1), 0.5, 0.25}), 1);
-    ASSERT_EQ(shape->WindingNumberAt({NextUp(1), 0.5, 0.25}), 0);
+    ASSERT_EQ(shape->WindingNumberAt({numeric::NextDown(1), 0.5, 0.25}), 1);
+    ASSERT_EQ(shape->WindingNumberAt({numeric::NextUp(1), 0.5, 0.25}), 0);
   }
 }
 
 }  // namespace
-}  // namespace collision
+}  // namespace collision::shape

@@ -1,0 +1,291 @@
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision_core/broad_phase/face_sweep/face_sweep.h"
+#include "collision_core/broad_phase/index/all_pairs.h"
+#include "collision_core/broad_phase/index/spatial_index.h"
+
+namespace collision::broad_phase {
+namespace {
+
+constexpr double kPairUnits = BroadPhaseWork::kPairUnits;
+constexpr double kPlaceUnits[] = {0, 8, 0, BroadPhaseWork::kPlaceUnits};  // per agent, by method
+
+/// Questions until the index is tried again; doubled by each try.
+constexpr std::uint64_t kPatience = 2048;
+constexpr std::uint64_t kPatienceMax = 1 << 20;
+
+/// The bounds of a method, for filling another.
+template <typename M>
+class Readable : public M {
+ public:
+  const HornTable* bounds() const { return &this->table(); }
+};
+
+BroadPhaseWork operator+(const BroadPhaseWork& a, const BroadPhaseWork& b) {
+  return {a.pair_queries + b.pair_queries,
+          a.filter_tests + b.filter_tests,
+          a.visits + b.visits,
+          a.rebuilds + b.rebuilds,
+          a.searches + b.searches,
+          a.neighbours + b.neighbours};
+}
+
+BroadPhaseWork operator-(const BroadPhaseWork& a, const BroadPhaseWork& b) {
+  return {a.pair_queries - b.pair_queries,
+          a.filter_tests - b.filter_tests,
+          a.visits - b.visits,
+          a.rebuilds - b.rebuilds,
+          a.searches - b.searches,
+          a.neighbours - b.neighbours};
+}
+
+std::string Whole(double x) {
+  return std::to_string(static_cast<std::uint64_t>(std::min(x, 1e18)));
+}
+
+}  // namespace
+
+const char* Name(BroadPhaseMethod method) {
+  switch (method) {
+    case BroadPhaseMethod::kAllPairs:
+      return "all pairs";
+    case BroadPhaseMethod::kFaceSweep:
+      return "face sweep";
+    case BroadPhaseMethod::kSpatialIndex:
+      return "spatial index";
+    case BroadPhaseMethod::kAuto:
+      break;
+  }
+  return "chosen by the scene";
+}
+
+AdaptiveBroadPhase::Method AdaptiveBroadPhase::Make(BroadPhaseMethod kind) const {
+  Method method;
+  if (kind == BroadPhaseMethod::kFaceSweep) {
+    method = {kind, std::make_unique<FaceSweep>()};
+  } else if (kind == BroadPhaseMethod::kSpatialIndex) {
+    auto phase = std::make_unique<Readable<SpatialIndex>>();
+    const HornTable* table = phase->bounds();
+    method = {kind, std::move(phase), table};
+  } else {
+    auto phase = std::make_unique<Readable<AllPairs>>();
+    const HornTable* table = phase->bounds();
+    method = {BroadPhaseMethod::kAllPairs, std::move(phase), table};
+  }
+  method.phase->ShareRules(rules_);
+  for (const HalfSpaces::Entry& entry : half_spaces_) {
+    method.phase->PutHalfSpace(entry.agent, entry.half_space);
+  }
+  return method;
+}
+
+AdaptiveBroadPhase::AdaptiveBroadPhase(BroadPhaseMethod asked)
+    : asked_(asked), method_(Make(asked)), patience_(kPatience) {}
+
+AdaptiveBroadPhase::~AdaptiveBroadPhase() = default;
+
+void AdaptiveBroadPhase::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+  if (held_.size() <= agent) held_.resize(agent + 1);
+  agents_ += !held_[agent];
+  held_[agent] = true;
+  const bool was_half_space = half_spaces_.Remove(agent);
+  method_.phase->Put(agent, bound);
+  if (Follows(agent) || (next_.phase && was_half_space)) next_.phase->Put(agent, bound);
+  Choose();
+}
+
+void AdaptiveBroadPhase::Narrow(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+  method_.phase->Narrow(agent, bound);
+  if (Follows(agent)) next_.phase->Narrow(agent, bound);
+  if (next_.phase) Choose();
+}
+
+void AdaptiveBroadPhase::Remove(std::uint32_t agent) {
+  ForgetRules(agent);
+  half_spaces_.Remove(agent);
+  Release(agent);
+  method_.phase->Remove(agent);
+  if (next_.phase) next_.phase->Remove(agent);
+  Choose();
+}
+
+void AdaptiveBroadPhase::Release(std::uint32_t agent) {
+  if (agent >= held_.size() || !held_[agent]) return;
+  held_[agent] = false;
+  --agents_;
+}
+
+bool AdaptiveBroadPhase::PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
+  if (!half_spaces_.Put(agent, half_space)) return false;
+  Release(agent);
+  method_.phase->PutHalfSpace(agent, half_space);
+  if (next_.phase) next_.phase->PutHalfSpace(agent, half_space);
+  Choose();
+  return true;
+}
+
+void AdaptiveBroadPhase::RulesChanged(std::uint32_t agent) {
+  method_.phase->RulesChanged(agent);
+  if (next_.phase) next_.phase->RulesChanged(agent);
+}
+
+std::optional<intersection::IntersectingPair> AdaptiveBroadPhase::Earliest(
+    const intersection::BroadQuery& query) {
+  const auto answer = method_.phase->Earliest(query);
+  Choose();
+  return answer;
+}
+
+std::optional<intersection::IntersectingPair> AdaptiveBroadPhase::EarliestOf(
+    std::uint32_t agent, const intersection::BroadQuery& query) {
+  const BroadPhaseWork before = method_.phase->work();
+  const auto answer = method_.phase->EarliestOf(agent, query);
+  EndQuestion(before);
+  return answer;
+}
+
+void AdaptiveBroadPhase::Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
+                                  const Skip& skip, std::vector<Meeting>* meetings) {
+  const BroadPhaseWork before = method_.phase->work();
+  method_.phase->Meetings(agent, from, until, horizon, skip, meetings);
+  EndQuestion(before);
+}
+
+void AdaptiveBroadPhase::NearPairs(const intersection::BroadQuery& query,
+                                   std::vector<NearPair>* pairs) {
+  method_.phase->NearPairs(query, pairs);
+  Choose();
+}
+
+BroadPhaseWork AdaptiveBroadPhase::work() const {
+  BroadPhaseWork work = before_ + method_.phase->work();
+  if (next_.phase) work = work + next_.phase->work();
+  return work;
+}
+
+double AdaptiveBroadPhase::Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const {
+  const double placed = static_cast<double>(done.rebuilds) * static_cast<double>(agents_);
+  return kPairUnits * static_cast<double>(done.pair_queries) + done.search_units() +
+         kPlaceUnits[static_cast<int>(kind)] * placed;
+}
+
+// The same pairs, found by a test of everybody in each search.
+double AdaptiveBroadPhase::UnitsByAllPairs(const BroadPhaseWork& done) const {
+  const auto everybody = static_cast<double>(agents_ + half_spaces_.size());
+  return kPairUnits * static_cast<double>(done.pair_queries) +
+         static_cast<double>(done.neighbours) +
+         static_cast<double>(done.searches) * (everybody + BroadPhaseWork::kVisitUnits);
+}
+
+double AdaptiveBroadPhase::UnitsOf(const Method& method) const {
+  return Units(method.kind, method.phase->work());
+}
+
+double AdaptiveBroadPhase::units() const {
+  return units_before_ + UnitsOf(method_) + (next_.phase ? UnitsOf(next_) : 0);
+}
+
+void AdaptiveBroadPhase::Start(BroadPhaseMethod kind) {
+  next_ = Make(kind);
+  filled_ = 0;
+}
+
+void AdaptiveBroadPhase::Drop() {
+  before_ = before_ + next_.phase->work();
+  units_before_ += UnitsOf(next_);
+  next_ = Method();
+}
+
+void AdaptiveBroadPhase::Switch() {
+  before_ = before_ + method_.phase->work();
+  units_before_ += UnitsOf(method_);
+  method_ = std::exchange(next_, Method());
+  excess_ = 0;
+  ++changes_;
+  Settle();
+}
+
+// A decision has been made.
+void AdaptiveBroadPhase::Settle() {
+  questions_ = 0;
+  answering_ = {};
+  decided_with_ = agents_;
+}
+
+void AdaptiveBroadPhase::Fill() {
+  const std::uint32_t end = std::min(filled_ + kMoves, method_.table->size());
+  for (; filled_ < end; ++filled_) {
+    if (held_[filled_]) next_.phase->Put(filled_, method_.table->bound(filled_));
+  }
+  if (filled_ >= method_.table->size()) Switch();
+}
+
+void AdaptiveBroadPhase::Choose() {
+  if (asked_ != BroadPhaseMethod::kAuto) return;
+  if (next_.phase) {
+    // Its reason may have gone meanwhile.
+    if (next_.kind == BroadPhaseMethod::kAllPairs && agents_ > kManyAgents) return Drop();
+    return Fill();
+  }
+  if (method_.kind == BroadPhaseMethod::kAllPairs) {
+    ChooseFromAllPairs();
+  } else {
+    ChooseFromIndex();
+  }
+}
+
+void AdaptiveBroadPhase::ChooseFromAllPairs() {
+  if (agents_ <= kFewAgents) return;
+  const bool grown = 2 * agents_ > 3 * decided_with_;
+  if (agents_ > kManyAgents || grown || questions_ >= patience_) {
+    units_before_try_ = grown || questions_ < kPeriodQuestions
+                            ? numeric::kInfinity
+                            : Units(method_.kind, answering_) / static_cast<double>(questions_);
+    Start(BroadPhaseMethod::kSpatialIndex);
+  }
+}
+
+void AdaptiveBroadPhase::ChooseFromIndex() {
+  // With room between them: a scene about as large as the limit does not go to and fro.
+  if (agents_ <= kFewAgents / 2) {
+    units_ = 0;
+    return Start(BroadPhaseMethod::kAllPairs);
+  }
+  if (agents_ > kManyAgents - kManyAgents / 4 || questions_ < kPeriodQuestions) return;
+  const auto questions = static_cast<double>(questions_);
+  units_ = Units(method_.kind, answering_) / questions;
+  units_of_other_ = std::min(UnitsByAllPairs(answering_) / questions, units_before_try_);
+  excess_ = std::max(0.0, excess_ + questions * (units_ - units_of_other_));
+  if (excess_ > kExcessUnits * static_cast<double>(agents_)) {
+    std::swap(units_, units_of_other_);
+    patience_ = std::min(2 * patience_, kPatienceMax);
+    Start(BroadPhaseMethod::kAllPairs);
+  }
+  Settle();
+}
+
+void AdaptiveBroadPhase::EndQuestion(const BroadPhaseWork& before) {
+  ++questions_;
+  answering_ = answering_ + (method_.phase->work() - before);
+  Choose();
+}
+
+std::string AdaptiveBroadPhase::why() const {
+  const std::string agents = std::to_string(agents_) + " agents";
+  if (asked_ != BroadPhaseMethod::kAuto) return agents + "; the configuration asks for it";
+  const bool all_pairs = method_.kind == BroadPhaseMethod::kAllPairs;
+  if (agents_ <= kFewAgents && all_pairs) {
+    return agents + ": up to " + std::to_string(kFewAgents) + " it costs least";
+  }
+  if (agents_ > kManyAgents || units_ == 0) {
+    return agents + ": beyond " + std::to_string(kFewAgents) + " it costs least, as a rule";
+  }
+  return agents + ": " + Whole(units_) + " units of work a question with " +
+         std::to_string(decided_with_) + ", " + (all_pairs ? "the index " : "all pairs ") +
+         Whole(units_of_other_);
+}
+
+}  // namespace collision::broad_phase

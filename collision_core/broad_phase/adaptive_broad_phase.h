@@ -1,0 +1,119 @@
+// Chooses the broad phase that suits the scene, by counted work.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/filter/horn_table.h"
+
+namespace collision::broad_phase {
+
+/// The methods of the broad phase; kAuto: chosen by the scene.
+enum class BroadPhaseMethod { kAuto, kAllPairs, kFaceSweep, kSpatialIndex };
+
+/// "all pairs", "face sweep", "spatial index", "chosen by the scene".
+const char* Name(BroadPhaseMethod method);
+
+/// One method, or the cheaper of all pairs and the spatial index for the scene as it is now. Work
+/// is counted, never timed, so that the same calls choose the same everywhere; and as all methods
+/// give the same answers, only the cost depends on the choice.
+///
+/// Units stand in the ratio of what the pieces cost: a filter's test 1, a place looked at 16, a
+/// pair query 256, an agent placed anew in the index 64 (BroadPhaseWork). Up to kFewAgents all
+/// pairs answer, beyond that the index, and all pairs again at half as many. Up to three quarters
+/// of kManyAgents, every kPeriodQuestions questions, the index's work on questions of one agent is
+/// compared with what all pairs would have done: the same pairs and neighbours, and N tests a
+/// search, which follows from the index's counts, so that nothing is asked twice; or with what all
+/// pairs cost just before the index was tried again, if that is less. The excess adds up; all pairs
+/// are taken where the sum exceeds kExcessUnits an agent. A lower threshold would react to start-up
+/// cost and to the ordinary ageing of a placing. Then the index gets its next try after ever more
+/// questions, with half as many agents more, or with kManyAgents.
+///
+/// A new method is filled kMoves agents a call beside the old one, which answers until it is full:
+/// no call takes longer than the others. The face sweep has to be asked for: it has no incremental
+/// question about one agent.
+class AdaptiveBroadPhase : public BroadPhase {
+ public:
+  static constexpr std::size_t kFewAgents = 128;
+  static constexpr std::size_t kManyAgents = 768;
+  static constexpr std::uint64_t kPeriodQuestions = 256;
+  static constexpr double kExcessUnits = 480;  ///< 7½ placings of all. FITTED.
+  static constexpr std::uint32_t kMoves = 8;
+
+  explicit AdaptiveBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);
+  ~AdaptiveBroadPhase() override;
+
+  void Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Narrow(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Remove(std::uint32_t agent) override;
+  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
+  void RulesChanged(std::uint32_t agent) override;
+  std::optional<intersection::IntersectingPair> Earliest(
+      const intersection::BroadQuery& query) override;
+  std::optional<intersection::IntersectingPair> EarliestOf(
+      std::uint32_t agent, const intersection::BroadQuery& query) override;
+  void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
+                std::vector<Meeting>* meetings) override;
+
+  void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
+
+  /// The work of all methods together.
+  BroadPhaseWork work() const override;
+  /// The same in the units by which it chooses.
+  double units() const;
+
+  /// Which method answers now, and why, in one sentence with the counts.
+  BroadPhaseMethod method() const { return method_.kind; }
+  std::string why() const;
+  std::uint64_t changes() const { return changes_; }
+
+ private:
+  struct Method {
+    BroadPhaseMethod kind = BroadPhaseMethod::kAuto;
+    std::unique_ptr<BroadPhase> phase;
+    const HornTable* table = nullptr;  ///< Its bounds; of the face sweep null.
+  };
+
+  /// All methods share the rules; half-spaces are its own as well as each method's.
+  Method Make(BroadPhaseMethod kind) const;
+  void Release(std::uint32_t agent);
+  double Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const;
+  double UnitsByAllPairs(const BroadPhaseWork& done) const;
+  double UnitsOf(const Method& method) const;
+  bool Follows(std::uint32_t agent) const { return next_.phase && agent < filled_; }
+  void Start(BroadPhaseMethod kind);
+  void Drop();
+  void Switch();
+  void Fill();
+  void Choose();
+  void ChooseFromAllPairs();
+  void ChooseFromIndex();
+  void EndQuestion(const BroadPhaseWork& before);
+  void Settle();
+
+  const BroadPhaseMethod asked_;
+  Method method_;
+  Method next_;               ///< Being filled; its phase null: none.
+  std::uint32_t filled_ = 0;  ///< Agents below this index are in next_ as well.
+  std::size_t agents_ = 0;    ///< Held.
+  std::vector<bool> held_;    ///< By agent.
+  BroadPhaseWork before_{};   ///< Of methods that are gone.
+  double units_before_ = 0;   ///< Likewise.
+
+  std::uint64_t questions_ = 0;   ///< Of one agent, since the last decision.
+  BroadPhaseWork answering_{};    ///< Work on them.
+  std::uint64_t patience_ = 0;    ///< Questions until the index is tried again.
+  std::size_t decided_with_ = 0;  ///< Agents at the last decision.
+  double units_before_try_ =
+      numeric::kInfinity;      ///< Of all pairs, a question, before the index's try.
+  double excess_ = 0;          ///< Of the index over all pairs, since it answers [units].
+  double units_ = 0;           ///< Of the method, a question, at the last decision.
+  double units_of_other_ = 0;  ///< Of the other one then.
+  std::uint64_t changes_ = 0;
+};
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,42 @@
+// The next crossing of neighbouring faces.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace collision::broad_phase {
+
+/// At most one event per place, ordered by tick, then place: a binary heap that knows where each
+/// place's event is. So it never holds more events than places, whatever happened before.
+class CrossingQueue {
+ public:
+  /// Empties it and makes room for `places` places.
+  void Reset(std::uint32_t places);
+
+  bool empty() const { return heap_.empty(); }
+  std::size_t size() const { return heap_.size(); }
+  std::uint32_t tick() const { return static_cast<std::uint32_t>(heap_.front() >> 32); }
+  std::uint32_t place() const { return PlaceOf(heap_.front()); }
+
+  /// The event of `place` is at `tick` from now on.
+  void Set(std::uint32_t place, std::uint32_t tick);
+  /// `place` has no event.
+  void Clear(std::uint32_t place);
+
+ private:
+  using Event = std::uint64_t;  // The tick above, the place below.
+  static constexpr std::uint32_t kAbsent = ~0u;
+
+  static std::uint32_t PlaceOf(Event event) { return static_cast<std::uint32_t>(event); }
+  void Store(std::uint32_t at, Event event) {
+    heap_[at] = event;
+    where_[PlaceOf(event)] = at;
+  }
+  void Rise(std::uint32_t at, Event event);
+  void Sink(std::uint32_t at, Event event);
+
+  std::vector<Event> heap_;
+  std::vector<std::uint32_t> where_;  // By place: its index in the heap, or kAbsent.
+};
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,72 @@
+#include "collision_core/broad_phase/filter/approaching.h"
+
+#include <cmath>
+
+#include "collision_core/numeric/rounding.h"
+
+namespace collision::broad_phase {
+namespace {
+
+constexpr int kTangentsMax = 6;
+
+/// A step that is a smaller part of the way ends it: the answer is as good as the next one.
+constexpr double kWorthAStep = 1e-9;
+
+}  // namespace
+
+// Neither near the lines' closest approach, nor along the first direction between them, where the
+// gap is concave: open at both ends, it is open in between. What rounding takes is less than 2^-48
+// of distances, ways and reaches; it is given to the reach.
+bool Approaching::ComeNear(double last) const {
+  double square = 0, away = 0, speed_square = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    square += d[axis] * d[axis];
+    away += d[axis] * w[axis];
+    speed_square += w[axis] * w[axis];
+  }
+  const double grown = s0 + last * (s1 + last * s2);
+  const double lost = 0x1p-44 * (grown * grown + square + speed_square * last * last);
+  const double reach_square = grown * grown + lost;
+  const double along = square + away * last;
+  if (square > s0 * s0 + lost && along > 0 && along * along > square * reach_square) return false;
+  double at = 0;
+  if (away < 0) at = speed_square * last > -away ? -away / speed_square : last;
+  double closest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double x = d[axis] + w[axis] * at;
+    closest += x * x;
+  }
+  return !(closest > reach_square);
+}
+
+// With d and w between the lines, n = d(x) / |d(x)| and g the gap |d(x)| − S(x), the distance lies
+// above its tangent, so that nothing meets before the positive root y of
+//   g − c y − s2 y²,   c = s1 + 2 s2 x − n·w.
+// Rounding: d(x) and S(x) are off by less than 2^-48 of the terms they are sums of, n·w by 2^-50
+// |w|; the gap is made smaller and c larger by more than that, and the step shorter by 2^-40, which
+// covers the root's own rounding.
+double Approaching::EarlierBound(double limit) const {
+  const double speed = Length(w), span = Length(d);
+  double x = 0;
+  for (int tangent = 0; tangent < kTangentsMax; ++tangent) {
+    const double at[3] = {d[0] + w[0] * x, d[1] + w[1] * x, d[2] + w[2] * x};
+    const double length = Length(at);
+    const double reach = s0 + x * (s1 + x * s2);
+    const double gap = length - reach - 0x1p-46 * (span + speed * x + reach);
+    if (!(gap > 0)) return x;
+    const double along = (at[0] * w[0] + at[1] * w[1] + at[2] * w[2]) / length;
+    const double closing = (s1 + 2 * s2 * x - along) + 0x1p-46 * (s1 + 2 * s2 * x + speed);
+    double step = numeric::kInfinity;
+    if (s2 > 0) {
+      const double root = std::sqrt(closing * closing + 4 * s2 * gap);
+      step = closing >= 0 ? 2 * gap / (closing + root) : (root - closing) / (2 * s2);
+    } else if (closing > 0) {
+      step = gap / closing;
+    }
+    x += step * (1 - 0x1p-40);
+    if (!(x <= limit) || step < kWorthAStep * x) return x;
+  }
+  return x;
+}
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,136 @@
+#include "collision_core/broad_phase/filter/horn_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace collision::broad_phase {
+namespace {
+
+// As in At().
+constexpr double kOutward = 1 + 0x1p-48;
+
+// Beyond these, squares and products leave the range of doubles (and of single precision).
+constexpr double kPositionMax = 0x1p+60;
+constexpr double kRateMax = 0x1p+40;
+
+// Whether radius and acceleration are all that a meeting depends on, and twice the half is the
+// whole.
+bool IsPlain(const motion::SpaceTimeBound& bound) {
+  const motion::MotionState& state = bound.state;
+  const motion::AgentDeclaration& declaration = bound.declaration;
+  return bound.skew == 0 && state.position_error == 0 && state.velocity_error == 0 &&
+         declaration.time_step == 0 && declaration.speed_max == numeric::kInfinity &&
+         state.direction.isZero(0) && state.expiry.is_never() &&
+         2 * (0.5 * declaration.acceleration_max) == declaration.acceleration_max;
+}
+
+}  // namespace
+
+void HornTable::SetFull(HornRow* row, const motion::SpaceTimeBound& bound) {
+  if (row->full == kPlain) {
+    if (free_.empty()) {
+      full_.emplace_back();
+      free_.push_back(static_cast<std::uint32_t>(full_.size()));
+    }
+    row->full = free_.back();
+    free_.pop_back();
+  }
+  motion::SpaceTimeBound& kept = full_[row->full - 1];
+  kept = bound;
+  kept.declaration.shape.reset();
+}
+
+void HornTable::DropFull(HornRow* row) {
+  if (row->full != kPlain) free_.push_back(row->full);
+  row->full = kPlain;
+}
+
+void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+  if (rows_.size() <= agent) rows_.resize(agent + 1);
+  HornRow& row = rows_[agent];
+  count_ += row.group == 0;
+  still_count_ -= row.still;
+  wild_count_ -= row.unfilterable;
+  choosy_count_ -= row.group != 0 && row.mask != ~0u;
+  const motion::MotionState& state = bound.state;
+  const motion::AgentDeclaration& declaration = bound.declaration;
+  for (int axis = 0; axis < 3; ++axis) {
+    row.p[axis] = state.p_WA[axis];
+    row.v[axis] = state.v_WA[axis];
+  }
+  const double half = 0.5 * declaration.acceleration_max;
+  row.u0 = declaration.radius, row.u1 = 0, row.u2 = half;
+  row.stamp = state.stamp;
+  row.group = declaration.group;
+  row.mask = declaration.mask;
+  row.ruled = rules_ != nullptr && rules_->HasAny(agent);
+  const double half_margin = row.ruled ? rules_->HalfMargin(agent) : 0;
+  if (half_margin == 0 && IsPlain(bound)) {
+    DropFull(&row);
+  } else {
+    SetFull(&row, bound);
+    const double skew = bound.skew, step = declaration.time_step;
+    const double given = declaration.radius + half_margin + state.position_error;
+    row.u0 = kOutward * (given + Length(row.v) * skew + state.velocity_error * skew +
+                         half * skew * (skew + step));
+    row.u1 = kOutward * (state.velocity_error + half * (2 * skew + step));
+    row.u2 = kOutward * half;
+  }
+  row.still = NeverMoves(bound);
+  still_count_ += row.still;
+  const auto largest = [](const double* v) {
+    return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
+  };
+  row.unfilterable = !(std::max(largest(row.p), row.u0) < kPositionMax &&
+                       std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
+  wild_count_ += row.unfilterable;
+  // A group of no bits meets nobody, and is not the mark of a free row.
+  if (row.group == 0) row.group = 1, row.mask = 0;
+  choosy_count_ += row.mask != ~0u;
+}
+
+void HornTable::UpdateRules(std::uint32_t agent) {
+  if (contains(agent)) Put(agent, bound(agent));
+}
+
+void HornTable::Remove(std::uint32_t agent) {
+  if (!contains(agent)) return;
+  still_count_ -= rows_[agent].still;
+  wild_count_ -= rows_[agent].unfilterable;
+  choosy_count_ -= rows_[agent].mask != ~0u;
+  DropFull(&rows_[agent]);
+  rows_[agent] = HornRow();
+  --count_;
+}
+
+motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
+  const HornRow& row = rows_[agent];
+  if (row.full != kPlain) return full_[row.full - 1];
+  motion::SpaceTimeBound bound;
+  bound.state.stamp = row.stamp;
+  bound.state.p_WA = {row.p[0], row.p[1], row.p[2]};
+  bound.state.v_WA = {row.v[0], row.v[1], row.v[2]};
+  bound.declaration.radius = row.u0;
+  bound.declaration.acceleration_max = 2 * row.u2;
+  bound.declaration.group = row.group;
+  bound.declaration.mask = row.mask;
+  return bound;
+}
+
+double HornTable::EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
+  if (rows_[a].unfilterable || rows_[b].unfilterable || !Near(from)) return 0;
+  return Between(At(a, from), At(b, from)).EarlierBound(limit);
+}
+
+HornAt BoxReach(HornAt horn, double duration) {
+  constexpr double kCorner = kOutward * std::numbers::sqrt3, kWayRounding = 0x1p-48;
+  double way = 0;
+  for (const double v : horn.v) way += std::abs(v) * duration;
+  horn.s0 = kCorner * (horn.s0 + kWayRounding * way);
+  horn.s1 = kCorner * (horn.s1 + horn.s2 * duration);
+  horn.s2 = 0;
+  return horn;
+}
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,74 @@
+#include "collision_core/broad_phase/filter/placed_balls.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace collision::broad_phase {
+namespace {
+
+// Up, by more than a conversion to single precision takes.
+float Up(double x) { return static_cast<float>(x) * (1 + 0x1p-22f); }
+
+}  // namespace
+
+void PlacedBalls::Reset(std::uint32_t size) {
+  constexpr std::size_t kPage = 1024, kApart = 80;
+  const std::size_t room = (size + kLanesMax + kPage - 1) / kPage * kPage + kApart;
+  if (room > stride_) {
+    stride_ = room;
+    floats_.assign(kArrays * stride_, 0);
+  }
+  agents_.resize(size);
+}
+
+void PlacedBalls::Resize(std::uint32_t size) {
+  PlacedBalls grown;
+  grown.Reset(size);
+  grown.agents_.assign(size, kNobody);
+  const auto kept = static_cast<std::ptrdiff_t>(std::min(this->size(), size));
+  for (std::size_t which = 0; which < kArrays && kept > 0; ++which) {
+    std::copy_n(array(which), kept,
+                grown.floats_.begin() + static_cast<std::ptrdiff_t>(which * grown.stride_));
+  }
+  std::copy_n(agents_.begin(), kept, grown.agents_.begin());
+  *this = std::move(grown);
+}
+
+FilterView PlacedBalls::view() const {
+  return {array(kX),      array(kX + 1), array(kX + 2), array(kVx), array(kVx + 1),
+          array(kVx + 2), array(kS0),    array(kS1),    array(kS2), array(kSpeed)};
+}
+
+FilterQuery TimesOf(const PlacementFrame& placing, TimeWindow stretch) {
+  FilterQuery times{};
+  times.first = static_cast<float>(stretch.first - placing.middle());
+  times.last = static_cast<float>(stretch.last - placing.middle());
+  times.way = std::max(std::abs(times.first), std::abs(times.last));
+  times.time = Up(stretch.last);
+  return times;
+}
+
+FilterQuery QueryOf(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch) {
+  FilterQuery query = TimesOf(placing, stretch);
+  query.vx = horn.v[0], query.vy = horn.v[1], query.vz = horn.v[2], query.speed = horn.speed;
+  query.reach = ReachAt(query.time, horn.s0, horn.s1, horn.s2);
+  return query;
+}
+
+void ScanInto(const PlacedBalls& lanes, const FilterQuery& query,
+              const std::vector<FilterRange>& ranges, std::vector<std::uint32_t>* hits,
+              std::vector<std::uint32_t>* agents) {
+  std::size_t room = kLanesMax;
+  for (const FilterRange& range : ranges) room += range.end - range.begin;
+  if (hits->size() < room) hits->resize(room);
+  static const SphereFilter scan = WidestSphereFilter();
+  const std::uint32_t count = scan(lanes.view(), query, ranges.data(),
+                                   static_cast<std::uint32_t>(ranges.size()), hits->data());
+  for (std::uint32_t hit = 0; hit < count; ++hit) {
+    const std::uint32_t agent = lanes.agent((*hits)[hit]);
+    if (agent != PlacedBalls::kNobody) agents->push_back(agent);
+  }
+}
+
+}  // namespace collision::broad_phase

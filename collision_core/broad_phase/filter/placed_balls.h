@@ -1,0 +1,90 @@
+// Placed horns in the arrays that SphereFilter reads.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/broad_phase/filter/placement_frame.h"
+#include "collision_core/broad_phase/filter/sphere_filter.h"
+
+namespace collision::broad_phase {
+
+/// A reach at a time, up by more than the operations take.
+inline float ReachAt(float time, float s0, float s1, float s2) {
+  return (s0 + time * (s1 + time * s2)) * (1 + 0x1p-21f);
+}
+
+/// Placed horns as arrays of floats, seen from a corner near them.
+class PlacedBalls {
+ public:
+  static constexpr std::uint32_t kNobody = ~0u;
+  /// A position whose square is infinite, and reaches that are as large find everybody.
+  static constexpr float kFarAway = 1e30f;
+
+  /// Empties it and makes room for `size` horns.
+  void Reset(std::uint32_t size);
+  /// Keeps the horns up to the new size.
+  void Resize(std::uint32_t size);
+  std::uint32_t size() const { return static_cast<std::uint32_t>(agents_.size()); }
+  /// kNobody where it was vacated.
+  std::uint32_t agent(std::uint32_t k) const { return agents_[k]; }
+  FilterView view() const;
+
+  /// At k, as seen from `corner`; `lost` is what that costs positions, its own and askers'.
+  void Set(std::uint32_t k, const PlacedHorn& horn, const double* corner, float lost) {
+    float* const at = floats_.data() + k;
+    for (int axis = 0; axis < 3; ++axis) {
+      at[(kX + axis) * stride_] = static_cast<float>(horn.c[axis] - corner[axis]);
+      at[(kVx + axis) * stride_] = horn.v[axis];
+    }
+    at[kS0 * stride_] = horn.s0 + lost, at[kS1 * stride_] = horn.s1, at[kS2 * stride_] = horn.s2;
+    at[kSpeed * stride_] = horn.speed;
+    agents_[k] = horn.agent;
+  }
+  void Vacate(std::uint32_t k) {
+    floats_[k] = kFarAway;
+    agents_[k] = kNobody;
+  }
+
+  /// The position of the k-th as it is stored.
+  const float* x() const { return array(kX); }
+  const float* y() const { return array(kX + 1); }
+  const float* z() const { return array(kX + 2); }
+
+  /// The query of the k-th: the times of `times`, and its own motion and reach.
+  FilterQuery QueryOf(std::uint32_t k, const FilterQuery& times) const {
+    FilterQuery query = times;
+    const float* const at = floats_.data() + k;
+    query.vx = at[kVx * stride_], query.vy = at[(kVx + 1) * stride_];
+    query.vz = at[(kVx + 2) * stride_], query.speed = at[kSpeed * stride_];
+    query.reach = ReachAt(times.time, at[kS0 * stride_], at[kS1 * stride_], at[kS2 * stride_]);
+    return query;
+  }
+
+ private:
+  enum { kX = 0, kVx = 3, kS0 = 6, kS1, kS2, kSpeed, kArrays };
+  const float* array(std::size_t which) const { return floats_.data() + which * stride_; }
+
+  // The arrays, one after the other, not a whole number of pages apart: else all of them would
+  // fight for the same lines of the processor's cache.
+  std::vector<float> floats_;
+  std::size_t stride_ = 0;
+  std::vector<std::uint32_t> agents_;
+};
+
+/// The times of a query; its motion and reach are zero.
+FilterQuery TimesOf(const PlacementFrame& placing, TimeWindow stretch);
+
+/// The query of a placed horn.
+FilterQuery QueryOf(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch);
+
+/// How far the asker comes from its place.
+inline float WayOf(const FilterQuery& query) {
+  return (query.reach + query.way * query.speed) * (1 + 0x1p-21f);
+}
+
+/// Appends the agents that a scan of the ranges finds; `hits` is scratch.
+void ScanInto(const PlacedBalls& lanes, const FilterQuery& query,
+              const std::vector<FilterRange>& ranges, std::vector<std::uint32_t>* hits,
+              std::vector<std::uint32_t>* agents);
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,260 @@
+// Which points of many lie within reach of each other: one pass over a grid.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/filter/point_filter.h"
+#include "collision_core/numeric/rounding.h"
+
+namespace collision::broad_phase {
+
+/// Where something is half-way through a time, how far from there it reaches in all of it, and how
+/// far from its place on the line with velocity v. Reaches with SphereFilter's slack.
+struct ReachPoint {
+  double c[3];
+  float v[3];
+  float reach, own;
+};
+
+/// The box around points, and the farthest reach.
+struct PointExtent {
+  double low[3] = {numeric::kInfinity, numeric::kInfinity, numeric::kInfinity},
+         high[3] = {-numeric::kInfinity, -numeric::kInfinity, -numeric::kInfinity};
+  float reach = 0;
+
+  void Add(const ReachPoint& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], point.c[axis]);
+      high[axis] = std::max(high[axis], point.c[axis]);
+    }
+    reach = std::max(reach, point.reach);
+  }
+  void Widen(double part) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double more = part * (high[axis] - low[axis]);
+      low[axis] -= more, high[axis] += more;
+    }
+    reach *= static_cast<float>(1 + part);
+  }
+
+  bool Holds(const ReachPoint& point) const {
+    bool within = point.reach <= reach;
+    for (int axis = 0; axis < 3; ++axis) {
+      within = within && point.c[axis] >= low[axis] && point.c[axis] <= high[axis];
+    }
+    return within;
+  }
+};
+
+/// A grid for one question about all agents at once, where they are of like reach and evenly
+/// spread. Half-way through the window each agent is a point with a reach: sixteen bytes in the
+/// order of the cells, thirty-two where lines are compared. Nothing is kept for a later question.
+///
+/// A sample of the points determines how wide the grid is, and whether it suits the scene; if a
+/// point lies beyond the sampled extent the grid is made again. Cell by cell, up to eight points
+/// look into the rows beside them together, and each is compared with sixteen others at a time;
+/// where reaches are so long that many places are near each other, the lines are compared in the
+/// same step. Cells that lie side by side along x do so in memory as well, and are scanned as one
+/// range.
+class PointGrid {
+ public:
+  /// `at(k, &point)` gives the k-th point of `count`, or returns false: it has none; about
+  /// `present` have. Some are asked twice; where others lie beyond them by more than a little, all
+  /// are. `half`, of the time: where many places come near each other lines are compared as well;
+  /// 0: not. False: the points do not suit a grid, as they crowd in few of its cells, or its rows
+  /// would be too long.
+  template <typename At>
+  bool Build(std::uint32_t count, std::uint32_t present, double half, At at);
+
+  /// Calls visit(k, l) with the points of each two that may be within the sum of their reaches,
+  /// once; and a little earlier fetch(k, l).
+  template <typename Fetch, typename Visit>
+  void ForEachPair(Fetch fetch, Visit visit);
+  template <typename Visit>
+  void ForEachPair(Visit visit) {
+    ForEachPair([](std::uint32_t, std::uint32_t) {}, visit);
+  }
+
+  /// Counted since the start.
+  std::uint64_t tests() const { return tests_; }
+  std::uint64_t ranges() const { return range_count_; }
+
+ private:
+  /// A cell's own row, and those beside it that come later: so many.
+  static constexpr int kRowsMax = 5;
+  /// Of so many at least it is seen how far they lie and reach; all are thought to by this part
+  /// more.
+  static constexpr std::uint32_t kSample = 4096;
+  static constexpr double kBeyondSample = 1.0 / 32;
+  /// So many points are seen in the own cell at most, on the average, in a grid of use.
+  static constexpr double kCrowdingMax = 16;
+  /// Pairs are visited so many at a time, so that what is fetched for them has come.
+  static constexpr std::uint32_t kBatch = 64;
+
+  struct Entry {
+    float x, y, z, reach;
+  };
+  struct Motion {
+    float vx, vy, vz, own;
+  };
+
+  /// Of every stride-th.
+  template <typename At>
+  static PointExtent Measure(std::uint32_t count, std::uint32_t stride, At at);
+  bool IsDense(std::uint32_t present, const PointExtent& extent) const;
+  /// Whether every stride-th share cells as if all of them were crowded.
+  template <typename At>
+  bool LooksCrowded(std::uint32_t count, std::uint32_t present, std::uint32_t stride,
+                    const PointExtent& extent, At at);
+  /// False: one lies beyond the extent.
+  template <typename At>
+  bool Fill(std::uint32_t count, const PointExtent& extent, At at);
+  bool ChooseCells(std::uint32_t present, const PointExtent& extent);
+  /// From counts of the cells to their begins; false: they are crowded.
+  bool SumCells(std::uint32_t present);
+  void Reserve(std::uint32_t count);
+  float* Array(int k) { return floats_.data() + static_cast<std::size_t>(k) * stride_; }
+  /// Into rows_, and their number: a cell is as wide as two reaches at least, so that what is near
+  /// lies in cells side by side. Room for what they may tell is made as well.
+  std::uint32_t RowsBeside(std::int32_t x, std::int32_t y, std::int32_t z, std::size_t cell);
+  std::int32_t CellOf(double x, int axis) const {
+    // Within the box nobody comes past its last cell, which is reckoned alike.
+    return static_cast<std::int32_t>((x - origin_[axis]) * per_cell_);
+  }
+  std::uint32_t CellAt(const ReachPoint& point) const {
+    const std::int32_t row = CellOf(point.c[2], 2) * cells_[1] + CellOf(point.c[1], 1);
+    return static_cast<std::uint32_t>(row * cells_[0] + CellOf(point.c[0], 0));
+  }
+
+  double origin_[3] = {};
+  double cell_ = 0, per_cell_ = 0;
+  float reach_most_ = 0, lost_ = 0, half_ = 0;
+  std::int32_t cells_[3] = {};
+  std::vector<std::uint32_t>
+      begin_;                    // by cell, the last for points that are not there, and two more
+  std::vector<Entry> entries_;   // by point
+  std::vector<Motion> motions_;  // by point, where lines are compared
+  std::vector<std::uint32_t> cell_of_;  // by point
+  std::vector<std::uint32_t> order_;    // by place: its point
+  std::vector<float> floats_;           // arrays by place: of entries, then of motions
+  std::size_t stride_ = 0;
+  PointRow rows_[kRowsMax] = {};
+  std::vector<std::uint32_t> askers_, others_;  // by hit
+  std::uint64_t tests_ = 0, range_count_ = 0;
+};
+
+template <typename At>
+PointExtent PointGrid::Measure(std::uint32_t count, std::uint32_t stride, At at) {
+  PointExtent extent;
+  ReachPoint point;
+  for (std::uint32_t k = 0; k < count; k += stride) {
+    if (at(k, &point)) extent.Add(point);
+  }
+  return extent;
+}
+
+template <typename At>
+bool PointGrid::LooksCrowded(std::uint32_t count, std::uint32_t present, std::uint32_t stride,
+                             const PointExtent& extent, At at) {
+  ReachPoint point;
+  std::uint64_t seen = 0;  // by each of the others in its cell that came before
+  for (std::uint32_t k = 0; k < count; k += stride) {
+    if (at(k, &point) && extent.Holds(point)) seen += begin_[CellAt(point)]++;
+  }
+  std::fill(begin_.begin(), begin_.end(), 0);
+  return 2.0 * stride * stride * static_cast<double>(seen) > kCrowdingMax * present;
+}
+
+template <typename At>
+bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
+  const std::size_t none = begin_.size() - 3;
+  ReachPoint point;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (!at(k, &point)) {
+      cell_of_[k] = static_cast<std::uint32_t>(none);
+      continue;
+    }
+    if (!extent.Holds(point)) return false;
+    const std::int32_t y = CellOf(point.c[1], 1), z = CellOf(point.c[2], 2);
+    // As seen from the corner of the row.
+    entries_[k] = {static_cast<float>(point.c[0] - origin_[0]),
+                   static_cast<float>(point.c[1] - (origin_[1] + y * cell_)),
+                   static_cast<float>(point.c[2] - (origin_[2] + z * cell_)),
+                   point.reach * (1 + 0x1p-20f) + lost_};
+    if (half_ > 0) {
+      motions_[k] = {point.v[0], point.v[1], point.v[2], point.own * (1 + 0x1p-20f) + lost_};
+    }
+    cell_of_[k] = CellAt(point);
+    ++begin_[cell_of_[k] + 2];
+  }
+  return true;
+}
+
+template <typename At>
+bool PointGrid::Build(std::uint32_t count, std::uint32_t present, double half, At at) {
+  std::uint32_t stride = count / kSample + 1;
+  PointExtent extent = Measure(count, stride, at);
+  if (stride > 1 && extent.reach == 0) stride = 1, extent = Measure(count, 1, at);
+  if (stride > 1) extent.Widen(kBeyondSample);
+  half_ = IsDense(present, extent) ? static_cast<float>(half) * (1 + 0x1p-22f) : 0;
+  Reserve(count);
+  if (!ChooseCells(present, extent)) return false;
+  if (stride > 1 && LooksCrowded(count, present, stride, extent, at)) return false;
+  if (!Fill(count, extent, at)) {
+    extent = Measure(count, 1, at);
+    if (!ChooseCells(present, extent) || !Fill(count, extent, at)) return false;
+  }
+  if (!SumCells(present)) return false;
+  for (std::uint32_t k = 0; k < count; ++k) order_[begin_[cell_of_[k] + 1]++] = k;
+  float *const x = Array(0), *const y = Array(1), *const z = Array(2), *const reach = Array(3);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    const Entry& entry = entries_[order_[place]];
+    x[place] = entry.x, y[place] = entry.y, z[place] = entry.z, reach[place] = entry.reach;
+  }
+  if (half_ == 0) return true;
+  float *const vx = Array(4), *const vy = Array(5), *const vz = Array(6), *const own = Array(7);
+  for (std::uint32_t place = 0; place < count; ++place) {
+    const Motion& motion = motions_[order_[place]];
+    vx[place] = motion.vx, vy[place] = motion.vy, vz[place] = motion.vz, own[place] = motion.own;
+  }
+  return true;
+}
+
+template <typename Fetch, typename Visit>
+void PointGrid::ForEachPair(Fetch fetch, Visit visit) {
+  const PointFilter scan = WidestPointFilter();
+  PointView view{Array(0), Array(1), Array(2), Array(3)};
+  if (half_ > 0) view.vx = Array(4), view.vy = Array(5), view.vz = Array(6), view.own = Array(7);
+  std::uint32_t count = 0;
+  const auto visit_all = [&] {
+    for (std::uint32_t hit = 0; hit < count; ++hit) visit(askers_[hit], others_[hit]);
+    count = 0;
+  };
+  std::size_t cell = 0;
+  for (std::int32_t z = 0; z < cells_[2]; ++z) {
+    for (std::int32_t y = 0; y < cells_[1]; ++y) {
+      for (std::int32_t x = 0; x < cells_[0]; ++x, ++cell) {
+        if (begin_[cell] == begin_[cell + 1]) continue;
+        const std::uint32_t row_count = RowsBeside(x, y, z, cell);
+        PointAskers askers{begin_[cell], 0, static_cast<float>(cell_), reach_most_, half_};
+        for (; askers.first < begin_[cell + 1]; askers.first = askers.last) {
+          askers.last = std::min(askers.first + kAskersMax, begin_[cell + 1]);
+          const PointCounts counts = scan(view, askers, rows_, row_count,
+                                          {askers_.data() + count, others_.data() + count});
+          tests_ += counts.tests, range_count_ += counts.ranges;
+          for (const std::uint32_t end = count + counts.hits; count < end; ++count) {
+            askers_[count] = order_[askers_[count]], others_[count] = order_[others_[count]];
+            fetch(askers_[count], others_[count]);
+          }
+          if (count >= kBatch) visit_all();
+        }
+      }
+    }
+  }
+  visit_all();
+}
+
+}  // namespace collision::broad_phase

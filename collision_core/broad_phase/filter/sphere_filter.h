@@ -1,0 +1,67 @@
+// Which of many moving balls may touch a given one: the filter of every method, in wide vectors.
+#pragma once
+
+#include <cstdint>
+
+namespace collision::broad_phase {
+
+/// Balls in arrays, in single precision: at u seconds each has its centre at p + v u, and for
+/// u <= `time` all of it lies within s0 + time (s1 + time s2) of there; `speed` is |v| or more.
+/// Positions are relative to a corner near them.
+struct FilterView {
+  const float *x, *y, *z;
+  const float *vx, *vy, *vz;
+  const float *s0, *s1, *s2;
+  const float* speed;
+};
+
+/// Balls [begin, end), and where the asker is as seen from their corner.
+struct FilterRange {
+  std::uint32_t begin, end;
+  float x, y, z;
+};
+
+/// The asker, and when: u in [first, last], where |u| <= way; reaches at `time`.
+struct FilterQuery {
+  float vx, vy, vz;
+  float reach;
+  float speed;
+  float first, last;
+  float way;
+  float time;
+};
+
+/// Writes the indices k, range by range and in order, whose centre comes within the sum of the two
+/// reaches of the asker's (or where that is not a number), and returns how many. `hits` has room
+/// for all of the ranges and kLanesMax more. A filter: sixteen, eight or one ball at a time.
+///
+/// Most balls are farther apart at u = 0 than reaches and ways together: they are not examined
+/// further. For the others, with d and w the differences, the least |d + w u| is at u* = −d·w /
+/// w·w, held within [first, last]. What rounding takes, with D = |d|, W = |w| max |u|, R the sum of
+/// the reaches: d, w, w u* and their sum are off by less than 2^-22 (D + W) together; u* by 2^-21
+/// (|u*| + D/|w|), which moves the point by less than 2^-21 (W + D); squares and R lose 2^-21 of
+/// themselves. Where D > 4 (R + W) the two are far apart, whatever rounding does. Else all of this
+/// is less than 2^-17 (R + W): reaches are to be made larger by kFilterSlack of themselves and of the
+/// way that their own centre goes. Below kReachLeast squares lose digits to underflow: reaches, and
+/// speeds too small to matter, are to count as at least that. A square that overflows is infinite,
+/// and less than no other. lane_scan_test compares it with exact fractions.
+using SphereFilter = std::uint32_t (*)(const FilterView& balls, const FilterQuery& query,
+                                       const FilterRange* ranges, std::uint32_t range_count,
+                                       std::uint32_t* hits);
+
+/// By how much reaches are made larger, as a part of themselves and of the way; derived above.
+inline constexpr float kFilterSlack = 0x1p-16f;
+/// The least reach [m] and speed [m/s] that count.
+inline constexpr float kReachLeast = 0x1p-60f;
+/// The most balls that are compared at a time.
+inline constexpr std::uint32_t kLanesMax = 16;
+
+/// The widest version that this processor has. All give the same hits.
+SphereFilter WidestSphereFilter();
+
+/// One version each, for tests; null where the processor or the compiler has none.
+SphereFilter PlainSphereFilter();
+SphereFilter Avx2SphereFilter();
+SphereFilter Avx512SphereFilter();
+
+}  // namespace collision::broad_phase

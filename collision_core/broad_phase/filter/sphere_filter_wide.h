@@ -1,0 +1,107 @@
+// Both scans, in whatever a wide vector is. Only for lane_scan_*.cc, which say so first: WIDE, the
+// attribute of functions for their processor; Lanes, with the operators of its element, and kWidth;
+// Load(), All(), Lesser() and Greater() (of two, the second where they do not compare);
+// NotGreater(), NotLess() and NotAtLeast(), the lanes of a for which it does not hold beside b; and
+// Tell().
+#pragma once
+
+#include "collision_core/broad_phase/filter/point_filter.h"
+#include "collision_core/broad_phase/filter/sphere_filter.h"
+
+namespace collision::broad_phase {
+namespace {
+
+/// The lanes of a range's last vector that are still in it.
+inline unsigned Lowest(std::uint32_t count) {
+  return (1u << (count < kWidth ? count : kWidth)) - 1;
+}
+
+WIDE inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
+  return NotGreater((x * x + y * y) + z * z, reach * reach);
+}
+
+/// Moves the differences x, y, z along vx, vy, vz to where the lines are closest, within
+/// [first, last].
+WIDE inline void ToClosest(Lanes vx, Lanes vy, Lanes vz, Lanes first, Lanes last, Lanes* x,
+                           Lanes* y, Lanes* z) {
+  const Lanes away = (*x * vx + *y * vy) + *z * vz;
+  const Lanes square = (vx * vx + vy * vy) + vz * vz;
+  const Lanes u = Lesser(Greater((All(0) - away) / square, first), last);
+  *x = *x + vx * u;
+  *y = *y + vy * u;
+  *z = *z + vz * u;
+}
+
+WIDE std::uint32_t Scan(const FilterView& balls, const FilterQuery& query,
+                        const FilterRange* ranges, std::uint32_t range_count, std::uint32_t* hits) {
+  const Lanes own_vx = All(query.vx), own_vy = All(query.vy), own_vz = All(query.vz);
+  const Lanes own_speed = All(query.speed), way = All(query.way);
+  const Lanes reach = All(query.reach), time = All(query.time);
+  const Lanes first = All(query.first), last = All(query.last);
+  std::uint32_t count = 0;
+  for (std::uint32_t r = 0; r < range_count; ++r) {
+    const FilterRange& range = ranges[r];
+    const Lanes at_x = All(range.x), at_y = All(range.y), at_z = All(range.z);
+    for (std::uint32_t k = range.begin; k < range.end; k += kWidth) {
+      Lanes x = Load(balls.x + k) - at_x, y = Load(balls.y + k) - at_y,
+            z = Load(balls.z + k) - at_z;
+      const Lanes own =
+          Load(balls.s0 + k) + time * (Load(balls.s1 + k) + time * Load(balls.s2 + k));
+      const Lanes both = reach + own;
+      const Lanes ways = way * (own_speed + Load(balls.speed + k));
+      unsigned mask = Lowest(range.end - k) & Within(x, y, z, both + ways);
+      if (mask == 0) continue;
+      const Lanes vx = Load(balls.vx + k) - own_vx, vy = Load(balls.vy + k) - own_vy,
+                  vz = Load(balls.vz + k) - own_vz;
+      ToClosest(vx, vy, vz, first, last, &x, &y, &z);
+      mask &= Within(x, y, z, both);
+      for (; mask != 0; mask &= mask - 1) {
+        hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
+      }
+    }
+  }
+  return count;
+}
+
+WIDE PointCounts ScanPoints(const PointView& points, const PointAskers& askers,
+                            const PointRow* rows, std::uint32_t row_count, PointHits hits) {
+  const Lanes half = Load(points.reach + askers.first) + All(askers.reach);
+  const Lanes y = Load(points.y + askers.first), z = Load(points.z + askers.first);
+  const Lanes cell = All(askers.cell), zero = All(0);
+  const unsigned who = Lowest(askers.last - askers.first);
+  const unsigned in_y[3] = {who & NotAtLeast(y - half, zero), who, who & NotLess(y + half, cell)};
+  const unsigned in_z[3] = {NotAtLeast(z - half, zero), ~0u, NotLess(z + half, cell)};
+  PointCounts counts;
+  for (const PointRow* row = rows; row != rows + row_count; ++row) {
+    const float row_y = static_cast<float>(row->dy) * askers.cell;
+    const float row_z = static_cast<float>(row->dz) * askers.cell;
+    for (unsigned left = in_y[row->dy + 1] & in_z[row->dz + 1]; left != 0; left &= left - 1) {
+      const std::uint32_t asker = askers.first + static_cast<unsigned>(__builtin_ctz(left));
+      const std::uint32_t begin = row->begin > asker ? row->begin : asker + 1;
+      if (begin >= row->end) continue;
+      counts.tests += row->end - begin;
+      ++counts.ranges;
+      const Lanes at_x = All(points.x[asker]), at_y = All(points.y[asker] - row_y),
+                  at_z = All(points.z[asker] - row_z);
+      const Lanes reach = All(points.reach[asker]);
+      for (std::uint32_t k = begin; k < row->end; k += kWidth) {
+        Lanes dx = Load(points.x + k) - at_x, dy = Load(points.y + k) - at_y,
+              dz = Load(points.z + k) - at_z;
+        const Lanes reaches = reach + Load(points.reach + k);
+        unsigned mask = Lowest(row->end - k) & Within(dx, dy, dz, reaches);
+        if (mask != 0 && points.own != nullptr) {
+          const Lanes vx = Load(points.vx + k) - All(points.vx[asker]),
+                      vy = Load(points.vy + k) - All(points.vy[asker]),
+                      vz = Load(points.vz + k) - All(points.vz[asker]);
+          ToClosest(vx, vy, vz, All(-askers.half), All(askers.half), &dx, &dy, &dz);
+          mask &= Within(dx, dy, dz, All(points.own[asker]) + Load(points.own + k));
+        }
+        Tell(mask, asker, k, hits, &counts.hits);
+      }
+    }
+  }
+  return counts;
+}
+
+}  // namespace
+}  // namespace collision::broad_phase

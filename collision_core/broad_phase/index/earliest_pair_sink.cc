@@ -1,0 +1,107 @@
+#include "collision_core/broad_phase/index/earliest_pair_sink.h"
+
+#include <algorithm>
+
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::broad_phase {
+
+EarliestPairSink::EarliestPairSink(const HornTable& table, const intersection::BroadQuery& query,
+                                   BroadPhaseWork* work)
+    : table_(table), query_(query), work_(work) {
+  Limit(query.until);
+}
+
+// Rounded up; meetings are compared as instants, which are up to a nanosecond early.
+void EarliestPairSink::Limit(Instant until) {
+  constexpr double kNanosecond = 1e-9;
+  limit_ = until.is_never() ? numeric::kInfinity
+           : until <= query_.from
+               ? kNanosecond
+               : numeric::AddUp(numeric::SecondsBetween(query_.from, until).upper, kNanosecond);
+}
+
+bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant from, double limit,
+             BroadPhaseWork* work) {
+  if (!CanMeet(table.row(a), table.row(b))) return false;
+  ++work->filter_tests;
+  const double bound = table.EarlierBound(a, b, from, limit);
+  // Infinite: the two part, or keep apart, for ever; no limit makes them meet.
+  const bool in_time = bound < numeric::kInfinity && Approaching::kEarly * bound <= limit;
+  const bool may = in_time && !table.RuleOf(a, b).excluded;
+  work->pair_queries += may;
+  return may;
+}
+
+bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
+             Instant from, double limit, BroadPhaseWork* work) {
+  const HornRow& row = table.row(agent);
+  const HalfSpace& half_space = entry.half_space;
+  if ((row.group & half_space.mask) == 0 || (half_space.group & row.mask) == 0 || row.still) {
+    return false;
+  }
+  ++work->filter_tests;
+  const intersection::PairRule rule = table.RuleOf(agent, entry.agent);
+  const bool may = !rule.excluded && (row.unfilterable || !HornTable::Near(from) ||
+                                      MayReach(entry, table.At(agent, from), rule.margin, limit));
+  work->pair_queries += may;
+  return may;
+}
+
+intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
+                                                      const HornTable& table, std::uint32_t a,
+                                                      std::uint32_t b) {
+  return EarliestIntersectionOf(query, table.bound(a), table.bound(b), table.RuleOf(a, b).margin);
+}
+
+intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
+                                                      const HalfSpaces::Entry& entry,
+                                                      const HornTable& table, std::uint32_t agent) {
+  return EarliestIntersectionOf(query, entry.half_space, table.bound(agent),
+                                table.RuleOf(agent, entry.agent).margin);
+}
+
+bool EarliestPairSink::Betters(std::uint32_t lower, std::uint32_t higher) const {
+  // Nothing comes before the query's begin, so that of those only the lowest indices count.
+  if (!best_ || when_ > query_.from) return true;
+  return lower != best_->lower ? lower < best_->lower : higher < best_->higher;
+}
+
+void EarliestPairSink::Offer(std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t lower = std::min(a, b), higher = std::max(a, b);
+  if (a == b || !Betters(lower, higher)) return;
+  if (query_.bound == intersection::BoundKind::kHypertrapezoid) {
+    if (table_.RuleOf(lower, higher).excluded) return;
+    ++work_->pair_queries;
+  } else if (!MayMeet(table_, lower, higher, query_.from, limit_, work_)) {
+    return;
+  }
+  Take({lower, higher, EarliestIntersectionOf(Narrowed(lower, higher), table_, lower, higher)});
+}
+
+// What is later than the best, or as late and of higher indices, need not be told exactly. A
+// hypertrapezoid's window is part of what is asked.
+intersection::BroadQuery EarliestPairSink::Narrowed(std::uint32_t lower,
+                                                    std::uint32_t higher) const {
+  intersection::BroadQuery narrowed = query_;
+  if (!best_ || query_.bound == intersection::BoundKind::kHypertrapezoid) return narrowed;
+  const bool wins = lower != best_->lower ? lower < best_->lower : higher < best_->higher;
+  narrowed.until = wins ? when_ : Instant::FromNanoseconds(when_.nanoseconds() - 1);
+  return narrowed;
+}
+
+void EarliestPairSink::OfferHalfSpace(const HalfSpaces::Entry& entry, std::uint32_t agent) {
+  const std::uint32_t lower = std::min(entry.agent, agent), higher = std::max(entry.agent, agent);
+  if (!Betters(lower, higher)) return;
+  if (!MayMeet(table_, entry, agent, query_.from, limit_, work_)) return;
+  Take({lower, higher, EarliestIntersectionOf(query_, entry, table_, agent)});
+}
+
+void EarliestPairSink::Take(const intersection::IntersectingPair& meeting) {
+  if (meeting.time.instant().is_never() || (best_ && !(meeting < *best_))) return;
+  best_ = meeting;
+  when_ = meeting.time.instant();
+  Limit(meeting.time.instant());
+}
+
+}  // namespace collision::broad_phase

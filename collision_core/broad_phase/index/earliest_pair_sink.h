@@ -1,0 +1,61 @@
+// The earliest meeting found so far, and the pairs that can still improve it.
+#pragma once
+
+#include <optional>
+
+#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/filter/horn_table.h"
+#include "collision_core/broad_phase/index/half_space.h"
+#include "collision_core/broad_phase/index/pair_sink.h"
+
+namespace collision::broad_phase {
+
+/// Takes pairs in any order, asks the canonical routine only about those that a filter does not
+/// rule out, and keeps the earliest meeting. The answer does not depend on the order.
+class EarliestPairSink final : public PairSink {
+ public:
+  EarliestPairSink(const HornTable& table, const intersection::BroadQuery& query,
+                   BroadPhaseWork* work);
+
+  /// Later meetings than the best do not count: the limit shrinks.
+  void Offer(std::uint32_t a, std::uint32_t b) override;
+
+  /// Likewise a half-space and an agent.
+  void OfferHalfSpace(const HalfSpaces::Entry& entry, std::uint32_t agent);
+
+  const std::optional<intersection::IntersectingPair>& best() const { return best_; }
+
+ private:
+  bool Betters(std::uint32_t lower, std::uint32_t higher) const;
+  void Take(const intersection::IntersectingPair& meeting);
+  intersection::BroadQuery Narrowed(std::uint32_t lower, std::uint32_t higher) const;
+  void Limit(Instant until);
+
+  const HornTable& table_;
+  intersection::BroadQuery query_;
+  BroadPhaseWork* work_;
+  std::optional<intersection::IntersectingPair> best_;
+  Instant when_ = Instant::Never();  ///< Of best_.
+};
+
+/// Whether the filters leave it open that the two meet within `limit` seconds after `from`.
+bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant from, double limit,
+             BroadPhaseWork* work);
+bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
+             Instant from, double limit, BroadPhaseWork* work);
+
+/// Of two agents of the table, with their margin. They are not excluded.
+intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
+                                                      const HornTable& table, std::uint32_t a,
+                                                      std::uint32_t b);
+/// Of a half-space and an agent of the table, likewise.
+intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
+                                                      const HalfSpaces::Entry& entry,
+                                                      const HornTable& table, std::uint32_t agent);
+
+/// Whether two rows can meet at all: masks, and one of them can move.
+inline bool CanMeet(const HornRow& a, const HornRow& b) {
+  return (a.group & b.mask) != 0 && (b.group & a.mask) != 0 && !(a.still && b.still);
+}
+
+}  // namespace collision::broad_phase

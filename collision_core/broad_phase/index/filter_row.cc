@@ -1,0 +1,66 @@
+#include "collision_core/broad_phase/index/filter_row.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace collision::broad_phase {
+namespace {
+
+// What a position as seen from a corner so far away loses in single precision.
+float LostAt(const double* offset) {
+  return static_cast<float>((std::abs(offset[0]) + std::abs(offset[1]) + std::abs(offset[2])) *
+                            0x1p-22);
+}
+
+}  // namespace
+
+void FilterRow::Grow(std::uint32_t size) {
+  if (lanes_.size() < size) lanes_.Resize(std::max(size, 2 * lanes_.size()));
+  for (; count_ < size; ++count_) lanes_.Vacate(count_);
+}
+
+void FilterRow::Add(const PlacedHorn& horn) { Set(count_, horn); }
+
+void FilterRow::Set(std::uint32_t k, const PlacedHorn& horn) {
+  if (count_ == 0) std::copy_n(horn.c, 3, corner_);
+  if (k >= count_) Grow(k + 1);
+  const double offset[3] = {horn.c[0] - corner_[0], horn.c[1] - corner_[1], horn.c[2] - corner_[2]};
+  lanes_.Set(k, horn, corner_, LostAt(offset));
+}
+
+void FilterRow::Join(const PlacementFrame& placing, TimeWindow stretch, BroadPhaseWork* work,
+                     PairSink* sink) {
+  FilterQuery times = TimesOf(placing, stretch);
+  for (std::uint32_t k = 0; k + 1 < count_; ++k) {
+    if (lanes_.agent(k) == PlacedBalls::kNobody) continue;
+    if (sink->limit() < stretch.last) {
+      stretch.last = std::max(stretch.first, sink->limit());
+      times = TimesOf(placing, stretch);
+    }
+    near_.clear();
+    range_.assign(1, {k + 1, count_, lanes_.x()[k], lanes_.y()[k], lanes_.z()[k]});
+    work->filter_tests += count_ - (k + 1);
+    ++work->visits;
+    ScanInto(lanes_, lanes_.QueryOf(k, times), range_, &hits_, &near_);
+    for (const std::uint32_t other : near_) sink->Offer(lanes_.agent(k), other);
+  }
+}
+
+void FilterRow::FindNear(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch,
+                         BroadPhaseWork* work, std::vector<std::uint32_t>* near) {
+  double offset[3];
+  FilterRange all{0, count_, 0, 0, 0};
+  float* const at[3] = {&all.x, &all.y, &all.z};
+  for (int axis = 0; axis < 3; ++axis) {
+    offset[axis] = horn.c[axis] - corner_[axis];
+    *at[axis] = static_cast<float>(offset[axis]);
+  }
+  FilterQuery query = QueryOf(horn, placing, stretch);
+  query.reach += LostAt(offset);
+  range_.assign(1, all);
+  work->filter_tests += count_;
+  ++work->visits;
+  ScanInto(lanes_, query, range_, &hits_, near);
+}
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,42 @@
+// Placed agents in one row, in no order: each is compared with all.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/filter/placed_balls.h"
+#include "collision_core/broad_phase/index/earliest_pair_sink.h"
+
+namespace collision::broad_phase {
+
+/// A row of lanes. A comparison of one with all costs a filter test each.
+class FilterRow {
+ public:
+  void Clear() { count_ = 0; }
+  std::uint32_t size() const { return count_; }
+  std::uint32_t agent(std::uint32_t k) const { return lanes_.agent(k); }
+
+  void Add(const PlacedHorn& horn);
+  /// Places between are vacant.
+  void Set(std::uint32_t k, const PlacedHorn& horn);
+  void Vacate(std::uint32_t k) { lanes_.Vacate(k); }
+
+  /// Offers all pairs that come within reach of each other during the stretch, and others.
+  void Join(const PlacementFrame& placing, TimeWindow stretch, BroadPhaseWork* work,
+            PairSink* sink);
+
+  /// Appends all agents that come within reach of `horn`.
+  void FindNear(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch,
+                BroadPhaseWork* work, std::vector<std::uint32_t>* near);
+
+ private:
+  void Grow(std::uint32_t size);
+
+  PlacedBalls lanes_;
+  std::uint32_t count_ = 0;
+  double corner_[3] = {};
+  std::vector<FilterRange> range_;  // kept for its memory, like these
+  std::vector<std::uint32_t> hits_, near_;
+};
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,137 @@
+// Agents of like reach in the cells of a grid.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/filter/placed_balls.h"
+
+namespace collision::broad_phase {
+
+/// A grid over placed agents of like reach. A cell is as wide as two reaches, or as four agents
+/// need where they are sparse. Cells that lie side by side along x also lie side by side in memory,
+/// in rows that are scanned as one range. Where the box around all agents has few cells the rows
+/// are those of the box, else short rows of eight cells found by hashing, so that neither far
+/// outliers nor dense clusters cost memory or time. Two agents that share a place in the table by
+/// chance cost one test, never an answer.
+class GridLevel {
+ public:
+  /// Requires at least one agent, all of them finite. The cells suit the placing's window.
+  void Build(const PlacementFrame& placing, const PlacedHorn* placed, std::uint32_t count,
+             const PlacedExtent& extent);
+
+  const PlacedBalls& lanes() const { return lanes_; }
+  std::uint32_t size() const { return lanes_.size(); }
+  /// The place at which the k-th of the agents given to Build() is kept.
+  std::uint32_t place(std::uint32_t k) const { return places_[k]; }
+  /// Empties the place.
+  void Vacate(std::uint32_t place) { lanes_.Vacate(place); }
+  /// No agent of this level comes farther from its place during the stretch.
+  double ReachMax(TimeWindow stretch) const { return placing_->Reach(most_, stretch); }
+  /// Appends ranges in which all agents are that come within `reach` of `c` during the stretch.
+  /// With `after` given, only those that come after that place in an order of the cells (`c` is
+  /// that agent's): of two agents exactly one finds the other. False, and none: that would be more
+  /// cells than there are agents.
+  bool Ranges(const double* c, double reach, TimeWindow stretch, std::uint32_t after,
+              std::vector<FilterRange>* ranges) const;
+
+  /// About how many rows Ranges() has to look at; never more than there are agents.
+  double RowsWithin(double reach, TimeWindow stretch) const;
+
+  /// The rows are those of a box, and ForEachPlace() can be asked.
+  bool in_rows() const { return !hashed_; }
+
+  /// Goes through the places in order, row by row: Ranges(..., place) of each. Calls
+  /// visit(place, stretch, ranges), which returns when the stretch may end from now on.
+  template <typename Visit>
+  void ForEachPlace(TimeWindow stretch, Visit visit) const;
+
+ private:
+  struct Cell {
+    std::int64_t x, y, z;
+  };
+
+  /// The whole number below; far ones are all one, and beyond any cell.
+  static std::int32_t Below(float x) {
+    constexpr float kFarthest = 1 << 30;
+    const float held = std::min(std::max(x, -kFarthest), kFarthest);
+    const auto whole = static_cast<std::int32_t>(held);
+    return whole - (static_cast<float>(whole) > held);
+  }
+
+  void ChooseCell();
+  void ChooseRows();
+  void Count(const PlacedHorn* placed);
+  double Crowding() const;
+  void Scatter(const PlacedHorn* placed);
+  Cell CellOf(double x, double y, double z) const;
+  std::uint32_t RowOf(std::int64_t block, std::int64_t y, std::int64_t z) const;
+
+  const PlacementFrame* placing_ = nullptr;
+  std::uint32_t size_ = 0;
+  PlacedExtent most_;
+  double origin_[3] = {}, extent_[3] = {};
+  double cell_ = 0, cell_min_ = 0, per_cell_ = 0;
+  bool hashed_ = false;
+  std::int64_t cells_[3] = {};                 // of the box around all
+  std::int64_t row_cells_ = 0;                 // of one row of the table
+  std::uint32_t rows_ = 0;                     // of the table; a power of two where hashed
+  std::vector<std::uint32_t> begin_;           // by cell of the table, and one more
+  std::vector<std::uint32_t> places_, order_;  // place by agent given, and the other way round
+  PlacedBalls lanes_;
+};
+
+/// Single precision is enough: what it loses is made up for by a part of a cell.
+template <typename Visit>
+void GridLevel::ForEachPlace(TimeWindow stretch, Visit visit) const {
+  std::vector<FilterRange> ranges;
+  const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
+  const float last_x = static_cast<float>(cells_[0] - 1);
+  const std::int32_t cells_y = static_cast<std::int32_t>(cells_[1]);
+  FilterQuery times;
+  float most;
+  const auto set_stretch = [&] {
+    times = TimesOf(*placing_, stretch);
+    most = static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-9f;
+  };
+  set_stretch();
+  std::uint32_t place = 0;
+  for (std::int32_t z = 0; z < cells_[2]; ++z) {
+    for (std::int32_t y = 0; y < cells_y; ++y) {
+      const std::int64_t row = static_cast<std::int64_t>(z) * cells_y + y;
+      const std::uint32_t end = begin_[static_cast<std::size_t>((row + 1) * row_cells_)];
+      for (; place < end; ++place) {
+        const FilterQuery query = lanes_.QueryOf(place, times);
+        const float half = WayOf(query) + most;
+        const float at[3] = {lanes_.x()[place], lanes_.y()[place], lanes_.z()[place]};
+        // Cells relative to the own one, held within the box; truncated where they are positive.
+        const auto x_from = static_cast<std::int32_t>(std::max((at[0] - half) * per_cell, 0.0f));
+        const auto x_to = static_cast<std::int32_t>(std::min((at[0] + half) * per_cell, last_x));
+        const std::int32_t y_from = std::max(Below((at[1] - half) * per_cell), -y);
+        const std::int32_t y_to = std::min(Below((at[1] + half) * per_cell), cells_y - 1 - y);
+        const std::int32_t z_to = std::min(Below((at[2] + half) * per_cell),
+                                           static_cast<std::int32_t>(cells_[2]) - 1 - z);
+        ranges.clear();
+        for (std::int32_t step_z = 0; step_z <= z_to; ++step_z) {
+          for (std::int32_t step_y = step_z == 0 ? 0 : y_from; step_y <= y_to; ++step_y) {
+            const std::uint32_t* cells =
+                begin_.data() + (row + std::int64_t{step_z} * cells_y + step_y) * row_cells_;
+            const std::uint32_t first = step_z == 0 && step_y == 0 ? place + 1 : cells[x_from];
+            const std::uint32_t last = cells[x_to + 1];
+            if (first >= last) continue;
+            ranges.push_back({first, last, at[0], at[1] - static_cast<float>(step_y) * cell,
+                              at[2] - static_cast<float>(step_z) * cell});
+          }
+        }
+        const double until = visit(place, query, ranges);
+        if (until < stretch.last) {
+          stretch.last = std::max(until, stretch.first);
+          set_stretch();
+        }
+      }
+    }
+  }
+}
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,80 @@
+// Everything on one side of a plane: a floor, a wall, without end.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/filter/horn_table.h"
+#include "collision_core/intersection/intersection_query.h"
+
+namespace collision::broad_phase {
+
+/// All x with normal·x <= offset, in the world frame. It never moves and never expires, and meets
+/// what moves only. The normal need not be of length 1: what is given is what holds, exactly.
+struct HalfSpace {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Out of it.
+  double offset = 0;                                  ///< [m], times the normal's length.
+  std::uint32_t group = 1;                            ///< Bits it is.
+  std::uint32_t mask = ~0u;                           ///< Bits it can meet.
+};
+
+/// Masks, and the agent can move.
+bool CanMeet(const HalfSpace& half_space, const motion::SpaceTimeBound& bound);
+
+/// When the agent may first touch the half-space, or come within `margin` [m] of it, by the query's
+/// end, rounded down; +infinity: not within it. With n the normal and c(t), ρ(t) centre and radius
+/// of the agent's ball, that is the first t at or after max(from, stamp) with
+///
+///   n·c(t) − offset − |n| (ρ(t) + margin) <= 0,
+///
+/// a quadratic in t with one certified first zero, so no tangents are needed. It holds for the
+/// horn's ball and, where a speed cap is declared, for the capped ball (speed_cap.h): the later
+/// counts. A direction changes nothing. Never late; early by what the inputs' rounding forces. If
+/// something overflows, the answer is "at once". Both kinds of bound give the same answer.
+intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
+                                                      const HalfSpace& half_space,
+                                                      const motion::SpaceTimeBound& bound,
+                                                      double margin = 0);
+
+/// Half-spaces by their own indices. They are few, so each is asked about all agents that move: one
+/// test (some 25 ns) an agent and half-space for all agents, one a half-space for one agent.
+class HalfSpaces {
+ public:
+  /// Beyond so many Put() refuses.
+  static constexpr std::size_t kCountMax = 64;
+
+  /// The greatest component of a normal is not smaller, not larger: squares and products with
+  /// lengths stay in range.
+  static constexpr double kNormalMin = 1e-100, kNormalMax = 1e100;
+
+  struct Entry {
+    std::uint32_t agent;
+    HalfSpace half_space;
+    double length;  ///< Of the normal, rounded up.
+  };
+
+  /// Adds or replaces. False, and nothing is changed: a normal out of range or an offset that is
+  /// not finite, or no more room.
+  bool Put(std::uint32_t agent, const HalfSpace& half_space);
+  /// Whether it was there.
+  bool Remove(std::uint32_t agent);
+
+  /// Null: it is none.
+  const Entry* Find(std::uint32_t agent) const;
+  std::size_t size() const { return entries_.size(); }
+  /// In the order of indices.
+  std::vector<Entry>::const_iterator begin() const { return entries_.begin(); }
+  std::vector<Entry>::const_iterator end() const { return entries_.end(); }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+/// A filter in plain doubles: false if the agent certainly stays out of reach for `limit` seconds
+/// after the instant of `horn`, so that EarliestIntersectionOf() is later. The gap is concave, so it looks at
+/// both ends of the time ahead.
+bool MayReach(const HalfSpaces::Entry& entry, const HornAt& horn, double margin, double limit);
+
+}  // namespace collision::broad_phase

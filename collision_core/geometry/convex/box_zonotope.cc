@@ -1,0 +1,139 @@
+// With u = 2^-53 and S the pair's size, of a normal N = g_i × g_j and n as it is computed:
+//
+//   n     is off from N by less than 4u |g_i| |g_j|, a difference of two products per coordinate.
+//   f(n)  = Σ |n·g_k| − |n·d|, the reach of the zonotope beyond 0, is computed to within 10u |n| S,
+//         and f(N) is off from f(n) by |N − n| S. So
+//           f(N) >= f(n) − (10u |n| + 4u |g_i| |g_j|) S,   |N| <= (1 + 4u) |n| + 4u |g_i| |g_j|.
+//
+// The ball about 0 that the zonotope holds has the radius min f(N) / |N| over all pairs, where that
+// is positive: pairs that are no faces have no less. The generators are exact (convex_set.h), the
+// centres' difference d is off by u S, counted with f(n).
+//
+// Edges that are parallel but for rounding, as those of boxes turned alike, have no normal that
+// could be told. One of the two is taken to be exactly parallel to the other: with σ the sine of
+// the angle, rounded up, that moves it by σ |g|, the zonotope's reach by as much, and the normals
+// of its other pairs by σ |g_i| |g_j|. A third edge parallel to both is not provided for: then
+// nothing is certain.
+#include "collision_core/geometry/convex/box_zonotope.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace collision::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kUnit = 0x1p-53;
+
+struct HalfEdges {
+  std::array<Vector3d, 6> edges;
+  std::array<double, 6> squares;
+  int count = 0;
+
+  void Add(const ConvexSet& set) {
+    const int more = set.core == ConvexCore::kBox ? 3 : (set.core == ConvexCore::kSegment ? 1 : 0);
+    for (int i = 0; i < more; ++i) {
+      edges[count] = set.generators.col(i);
+      squares[count] = edges[count].squaredNorm();
+      ++count;
+    }
+  }
+};
+
+/// The squared sine of the angle between edges that are taken as parallel.
+constexpr double kParallel = 1e-28;
+
+class Faces {
+ public:
+  Faces(const ConvexPair& pair, double apart) : pair_(pair), apart_(apart) {
+    half_.Add(pair.a());
+    of_a_ = half_.count;
+    half_.Add(pair.b());
+  }
+
+  FaceSeparation Find() {
+    inside_ = numeric::kInfinity;
+    const bool all = FindParallels() && TryPairs();
+    if (all && inside_ < numeric::kInfinity)
+      found_.inside = inside_ - 1.01 * parallel_ * pair_.size();
+    return found_;
+  }
+
+ private:
+  /// False: some are parallel to more than one other.
+  bool FindParallels() {
+    std::array<int, 6> partners{};
+    for (int i = 0; i < half_.count; ++i) {
+      for (int j = i + 1; j < half_.count; ++j) {
+        const double squares = half_.squares[i] * half_.squares[j];
+        const double square = half_.edges[i].cross(half_.edges[j]).squaredNorm();
+        if (!(squares > 0) || square > kParallel * squares) continue;
+        if (++partners[i] > 1 || ++partners[j] > 1) return false;
+        parallel_ = std::max(parallel_, 1.01 * std::sqrt(square / squares) + 5 * kUnit);
+      }
+    }
+    return true;
+  }
+
+  /// Faces of the cores themselves come first: they tell most pairs apart. False: it ended early.
+  bool TryPairs() {
+    for (const bool within : {true, false}) {
+      for (int i = 0; i < half_.count; ++i) {
+        for (int j = i + 1; j < half_.count; ++j) {
+          if (((i < of_a_) == (j < of_a_)) != within) continue;
+          if (Try(i, j)) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+  bool Try(int i, int j) {
+    const Vector3d &g = half_.edges[i], &h = half_.edges[j];
+    const Vector3d n = g.cross(h);
+    const double square = n.squaredNorm();
+    const double squares = half_.squares[i] * half_.squares[j];
+    if (!(square > kParallel * squares)) return false;
+    double reach = 0;
+    for (int k = 0; k < half_.count; ++k) {
+      if (k != i && k != j) reach += std::abs(n.dot(half_.edges[k]));
+    }
+    const double along = n.dot(pair_.between());
+    const double beyond = reach - std::abs(along);
+    if (IsNoNearer(beyond, square, squares)) return false;
+    const double length = std::sqrt(square), lengths = std::sqrt(squares);
+    const double off = (5 * kUnit + 1.01 * parallel_) * lengths;
+    const double error = (12 * kUnit * length + off) * pair_.size();
+    const double most = (1 + 5 * kUnit) * length + off;
+    inside_ = std::min(inside_, (beyond - error) / most * (1 - 4 * kUnit));
+    if (-beyond > found_.gap * length) {
+      found_.gap = -beyond / length;
+      found_.direction = along < 0 ? Vector3d(n / -length) : Vector3d(n / length);
+    }
+    return found_.gap > apart_;
+  }
+
+  /// Beyond by clearly more than the least so far, all errors counted: most pairs need no root.
+  bool IsNoNearer(double beyond, double square, double squares) const {
+    return beyond > 0 && inside_ > 0 && inside_ < numeric::kInfinity && square > 1e-6 * squares &&
+           beyond * beyond > 1e-20 * squares * pair_.size() * pair_.size() &&
+           beyond * beyond > 1.001 * inside_ * inside_ * square;
+  }
+
+  const ConvexPair& pair_;
+  const double apart_;
+  HalfEdges half_;
+  int of_a_ = 0;
+  double inside_ = 0;
+  double parallel_ = 0;  ///< σ: of edges that are taken as parallel.
+  FaceSeparation found_;
+};
+
+}  // namespace
+
+FaceSeparation SeparationOfFaces(const ConvexPair& pair, double apart) {
+  return Faces(pair, apart).Find();
+}
+
+}  // namespace collision::geometry

@@ -1,0 +1,46 @@
+// Rounding of support points. With u = 2^-53, n a unit vector to within 2^-20, and second order
+// left to the margin of the constant:
+//
+//   kSegment, kBox  A wrong sign of n·g_i, off by 3u |g_i|, costs twice that: 6u span. The sum of
+//                   the generators is off by 2u span: the point is that near to a corner.
+//   kTriangle       A corner that is not the furthest costs twice 3u span. The point is exact.
+//   kEllipsoid      m = Gᵀn is off by 3u span. z = m / |m| has a length of 1 ± 4.5u and, exactly,
+//                   n·Gz >= |m| (1 − 4.5u) − 3u span >= |Gᵀn| − 10.5u span. Gz is off by 3u span,
+//                   and within 4.5u span of a point of the ellipsoid: 7.5u span in all.
+//   kHull           span is twice the points' reach ρ. G is a rotation to within 2^-20: m = Gᵀn is
+//                   off by 3u √3, counted twice, the choice by 16u ρ: 26.4u ρ. Gx is off by
+//                   3u √3 ρ.
+//
+// To tell n·point, exactly, from the greatest n·x the point's own error counts as well: at most
+// 13.5u span in all, of a hull 15.8u; 18u leave room for the product n·point itself (3u |point|).
+#include "collision_core/geometry/convex/convex_set.h"
+
+#include "collision_core/numeric/interval.h"
+
+namespace collision::geometry {
+
+using Eigen::Vector3d;
+
+ConvexSet TriangleSet(const std::array<Vector3d, 3>& corners) {
+  ConvexSet set;
+  set.core = ConvexCore::kTriangle;
+  set.centre = corners[0];
+  set.generators.col(0).setZero();
+  set.generators.col(1) = corners[1] - corners[0];
+  set.generators.col(2) = corners[2] - corners[0];
+  // Each difference is off by 2^-53 of itself, a root of rounded squares by 2.5 times that.
+  const double longest =
+      std::sqrt(std::max(set.generators.col(1).squaredNorm(), set.generators.col(2).squaredNorm()));
+  set.span = (1 + 0x1p-50) * longest + kSupportUnderflow;
+  set.error = 0x1p-52 * set.span;
+  return set;
+}
+
+ConvexSet BallSet(const Vector3d& centre, double radius) {
+  ConvexSet set;
+  set.centre = centre;
+  set.rounding = radius;
+  return set;
+}
+
+}  // namespace collision::geometry

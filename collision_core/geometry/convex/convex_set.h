@@ -1,0 +1,97 @@
+// A convex set in some frame, as a search sees it: how far it reaches along a direction.
+#pragma once
+
+#include <cstdint>
+
+#include "collision_core/geometry/convex/convex_points.h"
+#include "collision_core/numeric/rounding.h"
+
+namespace collision::geometry {
+
+/// What is rounded by the radius.
+enum class ConvexCore : std::uint8_t {
+  kPoint,     ///< Rounded: a ball.
+  kSegment,   ///< Rounded: a capsule.
+  kTriangle,  ///< One of a mesh.
+  kBox,
+  kEllipsoid,
+  kHull  ///< Of points.
+};
+
+/// Every point of the core within `rounding`. With generators g_0, g_1, g_2 (columns) the core is,
+/// exactly and seen from `centre`:
+///   kPoint      0
+///   kSegment    s g_0, |s| <= 1
+///   kTriangle   the hull of g_0, g_1, g_2
+///   kBox        s g_0 + t g_1 + u g_2, each factor in [−1, 1] (columns need not be orthogonal)
+///   kEllipsoid  the same with s² + t² + u² <= 1
+///   kHull       the hull of G x for all points x
+/// The set that is meant is known to be within `error` of it: each point of either is that near to
+/// a point of the other.
+struct ConvexSet {
+  ConvexCore core = ConvexCore::kPoint;
+  Eigen::Matrix3d generators = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double rounding = 0;
+  double error = 0;
+  /// The sum of the generators' lengths (kTriangle: the greatest; kHull: twice the points' reach),
+  /// rounded up: no point of the core is further from the centre.
+  double span = 0;
+  const ConvexPoints* points = nullptr;  ///< Of a hull; must outlive the set.
+
+  /// The core's point furthest along n, as z: PointAt(z) is the point, seen from the centre. It is
+  /// a point of the core whatever the generators, so that it may be used again at another pose.
+  Eigen::Vector3d Support(const Eigen::Vector3d& n) const;
+  Eigen::Vector3d PointAt(const Eigen::Vector3d& z) const;
+  Eigen::Vector3d SupportPoint(const Eigen::Vector3d& n) const { return PointAt(Support(n)); }
+
+  bool IsSmooth() const { return core == ConvexCore::kEllipsoid; }
+  /// A core that is at most a segment.
+  bool IsThin() const { return core == ConvexCore::kPoint || core == ConvexCore::kSegment; }
+};
+
+/// The triangle with these corners: exact, but for the rounding of differences.
+ConvexSet TriangleSet(const std::array<Eigen::Vector3d, 3>& corners);
+
+/// The ball about a point.
+ConvexSet BallSet(const Eigen::Vector3d& centre, double radius);
+
+/// With u = 2^-53 and |n| within 2^-20 of 1, derived in convex_set.cc:
+/// · the greatest n·x of a core is less than n·(computed support point) + kSupportError span;
+/// · a computed support point is within kSupportError span of a point of the core.
+/// Directions in which all products underflow are not told apart: kSupportUnderflow more.
+inline constexpr double kSupportError = 18 * 0x1p-53;
+inline constexpr double kSupportUnderflow = 0x1p-500;
+
+inline Eigen::Vector3d ConvexSet::PointAt(const Eigen::Vector3d& z) const {
+  return z.x() * generators.col(0) + z.y() * generators.col(1) + z.z() * generators.col(2);
+}
+
+inline Eigen::Vector3d ConvexSet::Support(const Eigen::Vector3d& n) const {
+  const auto along = [&](int i) { return n.dot(generators.col(i)); };
+  switch (core) {
+    case ConvexCore::kPoint:
+      break;
+    case ConvexCore::kSegment:
+      return {std::copysign(1, along(0)), 0, 0};
+    case ConvexCore::kTriangle: {
+      const double t0 = along(0), t1 = along(1), t2 = along(2);
+      const bool first = t0 >= t1 && t0 >= t2, second = !first && t1 >= t2;
+      return {first ? 1.0 : 0.0, second ? 1.0 : 0.0, first || second ? 0.0 : 1.0};
+    }
+    case ConvexCore::kBox:
+      return {std::copysign(1, along(0)), std::copysign(1, along(1)), std::copysign(1, along(2))};
+    case ConvexCore::kEllipsoid: {
+      const Eigen::Vector3d m(along(0), along(1), along(2));
+      const double square = m.squaredNorm();
+      if (!(square > 0)) break;
+      const double scale = 1 / std::sqrt(square);
+      return {m.x() * scale, m.y() * scale, m.z() * scale};
+    }
+    case ConvexCore::kHull:
+      return (*points)[points->Furthest({along(0), along(1), along(2)})];
+  }
+  return {0, 0, 0};
+}
+
+}  // namespace collision::geometry

@@ -1,0 +1,63 @@
+#include "collision_core/geometry/convex/direction_polish.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace collision::geometry {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// Of an ellipsoid h(n) = |Gᵀ n| = √(nᵀ A n) with A = G Gᵀ: h'' = (A − s sᵀ) / h, where s = A n / h
+/// is the support point. Nothing of any other core, whose support does not move for small turns.
+Matrix3d CurvatureOf(const ConvexSet& set, const Vector3d& n) {
+  if (set.core != ConvexCore::kEllipsoid) return Matrix3d::Zero();
+  const Matrix3d a = set.generators * set.generators.transpose();
+  const Vector3d an = a * n;
+  const double square = n.dot(an);
+  if (!(square > 0)) return Matrix3d::Zero();
+  return (a - an * an.transpose() / square) / std::sqrt(square);
+}
+
+/// Two units across n; with an edge only the one across it, and nothing.
+Eigen::Matrix<double, 3, 2> TurnsOf(const Vector3d& n, const Vector3d& edge) {
+  Eigen::Matrix<double, 3, 2> turns;
+  turns.setZero();
+  if (edge != Vector3d::Zero()) {
+    turns.col(0) = n.cross(edge).normalized();
+    return turns;
+  }
+  turns.col(0) = n.unitOrthogonal();
+  turns.col(1) = n.cross(turns.col(0));
+  return turns;
+}
+
+}  // namespace
+
+// Along n + δ the support point is y − H δ, with H the sum of both curvatures. It lies along n + δ
+// itself, as λ (n + δ) with λ = n·y, where (H + λ) δ is the part of y across n.
+Vector3d WidestNear(const ConvexPair& pair, const Vector3d& about, const Vector3d& edge) {
+  Vector3d n = about;
+  const double edge_square = edge.squaredNorm();
+  if (edge_square > 0) n -= n.dot(edge) / edge_square * edge;
+  n.normalize();
+  for (int step = 0; step < kPolishSteps; ++step) {
+    const Vector3d y = pair.Against(n).y;
+    const Eigen::Matrix<double, 3, 2> turns = TurnsOf(n, edge);
+    const Matrix3d h = CurvatureOf(pair.a(), n) + CurvatureOf(pair.b(), -n);
+    Eigen::Matrix2d m = turns.transpose() * h * turns + n.dot(y) * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d across = turns.transpose() * y;
+    if (edge_square > 0) m(1, 1) = 1;
+    const double determinant = m.determinant();
+    if (!(determinant > 0)) break;
+    const Eigen::Vector2d by((m(1, 1) * across[0] - m(0, 1) * across[1]) / determinant,
+                             (m(0, 0) * across[1] - m(1, 0) * across[0]) / determinant);
+    const Vector3d next = (n + turns * by).normalized();
+    if (!(next.squaredNorm() > 0.5) || next == n) break;
+    n = next;
+  }
+  return n;
+}
+
+}  // namespace collision::geometry

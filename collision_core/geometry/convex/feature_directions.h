@@ -1,0 +1,25 @@
+// Directions that the features of two convex cores tell exactly.
+#pragma once
+
+#include "collision_core/geometry/convex/gjk.h"
+
+namespace collision::geometry {
+
+/// The normals of faces, of pairs of edges, and of an edge towards the other core; each turned to
+/// the side of `about`. Empty for cores without few edges.
+class FeatureDirections {
+ public:
+  FeatureDirections(const ConvexPair& pair, const Eigen::Vector3d& about);
+
+  const Eigen::Vector3d* begin() const { return directions_.data(); }
+  const Eigen::Vector3d* end() const { return directions_.data() + count_; }
+
+ private:
+  static constexpr int kMost = 3 + 3 + 9 + 6;
+  void Take(const Eigen::Vector3d& direction, const Eigen::Vector3d& about);
+
+  std::array<Eigen::Vector3d, kMost> directions_;
+  int count_ = 0;
+};
+
+}  // namespace collision::geometry

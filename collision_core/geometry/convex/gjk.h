@@ -1,0 +1,139 @@
+// Where two convex cores are nearest (GJK): proposals in plain doubles, to be certified by the
+// caller.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "collision_core/geometry/convex/convex_set.h"
+
+namespace collision::geometry {
+
+/// Two convex cores, seen as their difference B − A: the set of all b − a. Its point nearest to 0
+/// is the shortest way from A to B, 0 inside means that the two meet, and a support point of it is
+/// one of B less one of A. The centres are subtracted first (A is seen from its own centre, B from
+/// A's), so rounding is relative to the size of the pair; their place in the world does not count.
+///
+/// A convex solid is a core (point, segment, box, ellipsoid, hull) and all points within a radius
+/// of it. The searches treat cores; the radii are added at the end.
+class ConvexPair {
+ public:
+  ConvexPair(const ConvexSet& a, const ConvexSet& b) : a_(a), b_(b), between_(b.centre - a.centre) {
+    size_ = (1 + 0x1p-50) * (between_.cwiseAbs().sum() + a.span + b.span);
+  }
+
+  /// Points of the two cores, as ConvexSet::PointAt() takes them: valid at any pose.
+  struct Witness {
+    Eigen::Vector3d a, b;
+  };
+  struct Point {
+    Eigen::Vector3d y;  ///< b − a.
+    Witness witness;
+  };
+
+  Point At(const Witness& witness) const {
+    return {(between_ + b_.PointAt(witness.b)) - a_.PointAt(witness.a), witness};
+  }
+  /// The point of B − A that is furthest against n.
+  void FindAgainst(const Eigen::Vector3d& n, Point* point) const {
+    point->witness.a = a_.Support(n);
+    point->witness.b = b_.Support(-n);
+    point->y = (between_ + b_.PointAt(point->witness.b)) - a_.PointAt(point->witness.a);
+  }
+  Point Against(const Eigen::Vector3d& n) const {
+    Point point;
+    FindAgainst(n, &point);
+    return point;
+  }
+
+  const ConvexSet& a() const { return a_; }
+  const ConvexSet& b() const { return b_; }
+  const Eigen::Vector3d& between() const { return between_; }  ///< From centre to centre.
+  bool IsSmooth() const { return a_.IsSmooth() || b_.IsSmooth(); }
+  /// S = |c_B − c_A|₁ + span_A + span_B: what rounding is relative to.
+  double size() const { return size_; }
+
+  /// For a unit n (within 2^-20): no n·y is less than n·Against(n).y, computed, less this. The
+  /// supports' kSupportError, the rounding of the centres' and the points' differences (3u S), and
+  /// of the product (3u S).
+  double GapError() const { return kGapError * size_ + kSupportUnderflow; }
+  /// Any Point, and any Σ w_i y_i with 1 to 4 weights w_i >= 0 whose sum is 1 to within 4u, is off
+  /// from a point of B − A by less than this: the supports' kSupportError, the differences (3u S),
+  /// the weights (4u S), products and sums (5u S).
+  double PointError() const { return kPointError * size_ + kSupportUnderflow; }
+
+ private:
+  static constexpr double kGapError = kSupportError + 8 * 0x1p-53;
+  static constexpr double kPointError = kSupportError + 14 * 0x1p-53;
+
+  const ConvexSet& a_;
+  const ConvexSet& b_;
+  Eigen::Vector3d between_;
+  double size_;
+};
+
+/// The most steps of the search. A pair with smooth parts may use them up; its bracket then stays
+/// as wide as it is.
+inline constexpr std::uint32_t kGjkStepsMax = 64;
+
+/// Where a search ended. Another search of the same two solids at a similar pose starts there and
+/// takes fewer steps. Only the speed depends on it; a hint that belongs to other solids is ignored.
+struct GjkHint {
+  /// What the witnesses are points of: the kind of core, and of a hull which points.
+  struct Owner {
+    ConvexCore core = ConvexCore::kPoint;
+    const ConvexPoints* points = nullptr;
+    double reach = 0;
+    bool operator==(const Owner&) const = default;
+  };
+  static Owner OwnerOf(const ConvexSet& set) {
+    return {set.core, set.points, set.points ? set.points->reach() : 0};
+  }
+
+  std::array<ConvexPair::Witness, 4> witnesses;
+  int count = 0;
+  Owner a, b;
+};
+
+/// When a search may end: as soon as one of the conditions holds. Distances are of the cores,
+/// without their rounding.
+struct GjkGoal {
+  /// Relative tolerance: stop when the lower and the upper bound of the distance differ by at most
+  /// this fraction of how much they differ from `rounding`.
+  double share = 0;
+  double width = 0;     ///< Absolute tolerance [m]: stop when the bounds differ by at most this.
+  double rounding = 0;  ///< The rounding radii of both sets together [m].
+  double apart = numeric::kInfinity;  ///< Stop when the distance is known to exceed this [m].
+  double near = -numeric::kInfinity;  ///< Stop when the distance is known to be below this [m].
+  std::uint32_t steps = kGjkStepsMax;
+};
+
+/// What a search found: proposals, not proofs.
+struct GjkResult {
+  std::array<ConvexPair::Point, 4> simplex;
+  std::array<double, 4> weights;  ///< Of the nearest point: >= 0, their sum 1 to within 4u.
+  int count = 0;
+  bool encloses = false;      ///< The simplex of four seems to hold 0.
+  Eigen::Vector3d direction;  ///< Along the shortest way from A to B, about; any length.
+  /// Along `direction`, made a unit vector, all of B − A is at least here, computed (see
+  /// GapError()); where the search did not get to know it, −infinity.
+  double gap = -numeric::kInfinity;
+  Eigen::Vector3d nearest;  ///< Where the simplex is nearest to 0.
+  std::uint32_t steps = 0;  ///< Pairs of support points asked for.
+};
+
+/// Searches the point of B − A nearest to 0, until the goal is reached or the steps are used up. It
+/// follows the search down to 2^-44 of the pair's size; 1e-6 of the distance takes some 15 to 40
+/// steps for smooth cores, which would never end by themselves. The result is a proposal:
+/// narrow_phase/convex_distance.h certifies it. Source: Gilbert, Johnson and Keerthi, "A fast
+/// procedure for computing the distance between complex objects in three-dimensional space", IEEE
+/// J. Robotics and Automation 4(2), 1988.
+void RunGjk(const ConvexPair& pair, const GjkHint& start, const GjkGoal& goal, GjkResult* result);
+
+/// Keeps where a search of these two ended, for the next one.
+void KeepGjkHint(const ConvexPair& pair, const GjkResult& result, GjkHint* hint);
+
+/// The same in closed form. Requires two cores that are points or segments.
+void NearestOfSegments(const ConvexPair& pair, GjkResult* result);
+
+}  // namespace collision::geometry

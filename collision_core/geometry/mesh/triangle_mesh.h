@@ -1,0 +1,96 @@
+// Triangles as an agent's surface: what is taken, what is repaired, what is refused.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace collision::geometry {
+
+/// Indices of three vertices, anticlockwise as seen from outside.
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// In the body frame B, whose origin is the agent's reference point [m]. Outward is where a face is
+/// seen anticlockwise.
+struct TriangleMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<Triangle> triangles;
+};
+
+/// Allowed diagonals of the mesh's box [m]. A smaller mesh is a point, a larger one a planet: most
+/// likely its unit is not the one that was stated.
+inline constexpr double kMeshSizeMin = 1e-6;
+inline constexpr double kMeshSizeMax = 1e7;
+
+/// The largest allowed distance of a coordinate from the reference point [m]: a body farther from
+/// the point about which it turns is most likely given in the wrong frame.
+inline constexpr double kMeshReachMax = 1e7;
+
+/// The most corners of one face: cutting a polygon costs the cube of their number at worst.
+inline constexpr std::size_t kPolygonCornersMax = 1024;
+
+/// Faces with any number of corners: `corners` holds them one after the other, `sizes` how many
+/// each has.
+struct PolygonMesh {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::uint32_t> corners;
+  std::vector<std::uint32_t> sizes;
+};
+
+/// What became of the faces.
+struct MeshRepair {
+  std::size_t split = 0;    ///< Faces of more than three corners, cut into triangles.
+  std::size_t dropped = 0;  ///< Degenerate: a corner twice, no area, or fewer than three corners.
+};
+
+/// Cuts polygons into triangles (ear clipping in the polygon's plane, so that non-convex ones keep
+/// their shape) and drops degenerate faces, counted. Vertices stay as they are. A polygon that
+/// crosses itself becomes some triangles with the same boundary. Requires a mesh that passed
+/// RefusalOf().
+TriangleMesh Triangulate(const PolygonMesh& polygons, MeshRepair* repair);
+
+/// Drops degenerate triangles: two equal corners (by index or by position), or certified without
+/// area (all three on a line, exactly). Returns how many.
+std::size_t DropDegenerate(TriangleMesh* mesh);
+
+/// Why a mesh cannot be an agent's shape, as a sentence with the value and the allowed range: no
+/// triangles, a number that is not finite, an index out of range, more than `triangles_max`
+/// triangles, size or place out of range. nullopt: it can. Ask again after a repair: no triangle
+/// may be left.
+std::optional<std::string> RefusalOf(const TriangleMesh& mesh, std::size_t triangles_max);
+/// The same for polygons; also a face with too many corners is refused.
+std::optional<std::string> RefusalOf(const PolygonMesh& mesh, std::size_t triangles_max);
+
+/// Facts of a mesh that passed RefusalOf() and has no degenerate triangle.
+///
+/// A mesh is *closed* if its oriented edge chain sums to zero: vertices at one position are one,
+/// and every edge is passed as often one way as the other. That is exactly when the winding number
+/// is defined off the surface. It asks for no manifold, so meshes that cross themselves, nest or
+/// touch are accepted. The solid is then the triangles and all points of winding number other than
+/// 0: a surface within another of the same orientation makes no hole, one of the opposite
+/// orientation does. A mesh with a single gap has no inside; it is an open surface.
+///
+/// Exactly flat triangles (a vertex on a neighbour's side, filled by a triangle without area) are
+/// dropped as degenerate before. If they closed the chain, the mesh is open without them: that is
+/// safe, and the owner is told.
+struct MeshFacts {
+  /// The oriented edge chain sums to zero, where vertices at the same position count as one.
+  bool closed = false;
+  std::size_t components = 0;    ///< Connected through vertices (by position).
+  double radius = 0;             ///< Of the ball about the origin that contains it, rounded up [m].
+  Eigen::Vector3d lower, upper;  ///< Its box. Vertices without a triangle count nowhere.
+};
+/// Computes the facts; linear in the mesh but for sorting its edges.
+MeshFacts FactsOf(const TriangleMesh& mesh);
+
+/// One vertex of each connected component, the one with the greatest x (of equal ones, the greatest
+/// y, then z); components in the order of their first triangles.
+std::vector<Eigen::Vector3d> ComponentPoints(const TriangleMesh& mesh);
+
+/// For each vertex the first one at the same position.
+std::vector<std::uint32_t> MergedVertices(const TriangleMesh& mesh);
+
+}  // namespace collision::geometry

@@ -1,0 +1,55 @@
+#include "collision_core/geometry/triangle/enclosing_ball.h"
+
+#include <cmath>
+
+#include "collision_core/numeric/rounding.h"
+
+namespace collision::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Steps towards the farthest point; more make the ball smaller by less than a hundredth.
+constexpr int kSteps = 24;
+
+struct Farthest {
+  std::size_t index = 0;
+  double distance2 = 0;
+};
+
+Farthest FarthestFrom(const Vector3d& centre, std::span<const Vector3d> points) {
+  Farthest farthest;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double distance2 = (points[i] - centre).squaredNorm();
+    if (distance2 > farthest.distance2) farthest = {i, distance2};
+  }
+  return farthest;
+}
+
+/// A computed |d|² is off by a relative 5 u at most, u = 2^−53 (two for each rounded difference,
+/// one for each square, two for the sums), the root by 2.5 u + u; 2^−50 = 8 u covers them and its
+/// own rounding. Squares below 1e-308 lose their error, distances below 1e-150 are therefore raised
+/// to it.
+double RadiusOf(double distance2) { return std::sqrt(distance2) * (1 + 0x1p-50) + 1e-150; }
+
+}  // namespace
+
+// Bădoiu and Clarkson, "Smaller core-sets for balls", 2003: step towards the farthest point by
+// 1 / (i + 1). From the middle of the box the first steps may be shorter.
+EnclosingBall SmallBallAround(std::span<const Vector3d> points) {
+  Vector3d lower = points[0], upper = points[0];
+  for (const Vector3d& p : points) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  Vector3d centre = lower + 0.5 * (upper - lower), best_centre = centre;
+  double best = numeric::kInfinity;
+  for (int i = 0; i <= kSteps; ++i) {
+    const Farthest farthest = FarthestFrom(centre, points);
+    if (farthest.distance2 < best) best = farthest.distance2, best_centre = centre;
+    centre += (points[farthest.index] - centre) / (i + 4);
+  }
+  return {best_centre, RadiusOf(best)};
+}
+
+}  // namespace collision::geometry

@@ -1,0 +1,17 @@
+// A small ball around points.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+namespace collision::geometry {
+
+struct EnclosingBall {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius = 0;  ///< Rounded up: every point is certainly inside.
+};
+
+/// Near the smallest: typically within 3 %. Requires a point; coordinates below 1e100.
+EnclosingBall SmallBallAround(std::span<const Eigen::Vector3d> points);
+
+}  // namespace collision::geometry

@@ -1,0 +1,165 @@
+#include "collision_core/intersection/box_overlap.h"
+
+#include <algorithm>
+#include <array>
+
+#include "collision_core/motion/speed_cap.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::intersection {
+namespace {
+
+/// From p_WA along a normal to the face, less the radius: shift + velocity δ + u(δ), from `start`
+/// on.
+struct Reach {
+  double start = 0;
+  numeric::Interval shift, velocity;
+  numeric::Quadratic u;
+};
+
+/// A face over time: the horn's, then the cap's.
+struct Face {
+  Reach horn, cap;
+
+  const Reach& at(double delta) const { return delta < cap.start ? horn : cap; }
+};
+
+/// One agent seen from the base.
+struct Agent {
+  const motion::SpaceTimeBound& bound;
+  Instant base;
+  numeric::Interval since;
+  numeric::Quadratic errors, deviation;
+  double direction_end;
+
+  Agent(const motion::SpaceTimeBound& bound, Instant base)
+      : bound(bound),
+        base(base),
+        since(numeric::SecondsBetween(bound.state.stamp, base)),
+        errors(ForwardErrors(bound, base)),
+        deviation(ForwardDeviation(bound, base)),
+        direction_end(DirectionHoldsFor(bound, base)) {}
+
+  /// The face with the normal `sign` times the axis; `fraction` of the deviation counts there.
+  Face FaceOf(int axis, int sign, numeric::Interval fraction) const {
+    Face face;
+    const numeric::Interval velocity = sign * bound.state.v_WA[axis];
+    face.horn = {0, since * velocity, velocity, errors + fraction * deviation};
+    face.cap.start = numeric::kInfinity;
+    if (!HasSpeedCap(bound.declaration)) return face;
+    const motion::CappedFace cap = CapFace(bound, axis, sign, fraction);
+    if (cap.from.is_never()) return face;
+    face.cap = {numeric::SecondsBetween(base, cap.from).lower, cap.shift, 0, cap.UFrom(base)};
+    return face;
+  }
+};
+
+/// One of the six: the face of one agent has reached that of the other; a convex function of time,
+/// in pieces, that must be >= 0. So it fails on one interval of time at most.
+class Condition {
+ public:
+  /// `along` leads from the agent of `face` to that of `other`, whose normal is the opposite.
+  Condition(numeric::Interval along, numeric::Interval radii, const Face& face, const Face& other) {
+    const double first = std::min(face.cap.start, other.cap.start);
+    const double second = std::max(face.cap.start, other.cap.start);
+    for (const double start : {-numeric::kInfinity, first, second}) {
+      if (start == numeric::kInfinity || (pieces_ > 0 && start == start_[pieces_ - 1])) continue;
+      const Reach &reach = face.at(start), &opposite = other.at(start);
+      // Differences first, so that what both have in common cancels.
+      const numeric::Quadratic lines{radii + ((reach.shift + opposite.shift) - along),
+                                     reach.velocity + opposite.velocity, 0};
+      start_[pieces_] = start;
+      value_[pieces_++] = lines + (reach.u + opposite.u);
+    }
+  }
+
+  /// The first time from `time` on at which it may hold, rounded down.
+  double FirstFrom(double time) const {
+    for (int i = 0; i < pieces_; ++i) {
+      const double end = i + 1 < pieces_ ? start_[i + 1] : numeric::kInfinity;
+      if (end <= time) continue;
+      const numeric::Quadratic seen = value_[i].From(time);
+      if (seen.c0.upper >= 0) return time;
+      const double step =
+          numeric::FirstZero(-seen.c0.upper, seen.c1.upper, std::max(0.0, seen.c2.upper));
+      const double zero =
+          step == numeric::kInfinity ? numeric::kInfinity : numeric::AddDown(time, step);
+      if (zero < end || end == numeric::kInfinity) return zero;
+      time = end;
+    }
+    return time;
+  }
+
+ private:
+  int pieces_ = 0;
+  double start_[3];
+  numeric::Quadratic value_[3];
+};
+
+/// The first time from `start` on at which all six may hold, rounded down; may be +infinity. A
+/// condition that has recovered never fails again, so six rounds find the end of the last failure.
+double FirstOfAll(const std::array<Condition, 6>& conditions, double start) {
+  double time = start;
+  for (int round = 0; round < 6; ++round) {
+    // All from the same time: the order of the six must not matter, it turns with A and B.
+    double next = time;
+    for (const Condition& condition : conditions) {
+      next = std::max(next, condition.FirstFrom(time));
+      if (next == numeric::kInfinity) return numeric::kInfinity;
+    }
+    if (next == time) return time;
+    time = next;
+  }
+  return time;
+}
+
+/// The conditions while the directions of A, of B do or do not hold.
+std::array<Condition, 6> Conditions(const Agent& a, const Agent& b, double margin, bool A_holds,
+                                    bool B_holds) {
+  const motion::DirectionalReach all;
+  const motion::DirectionalReach reach_A = A_holds ? ReachOfDirection(a.bound.state) : all;
+  const motion::DirectionalReach reach_B = B_holds ? ReachOfDirection(b.bound.state) : all;
+  const numeric::Interval radii =
+      (numeric::Interval(a.bound.declaration.radius) + b.bound.declaration.radius) + margin;
+  const auto condition = [&](int axis, int sign) {
+    const numeric::Interval along =
+        numeric::Interval(sign * b.bound.state.p_WA[axis]) - sign * a.bound.state.p_WA[axis];
+    return Condition(along, radii,
+                     a.FaceOf(axis, sign, (sign > 0 ? reach_A.upward : reach_A.downward)[axis]),
+                     b.FaceOf(axis, -sign, (sign > 0 ? reach_B.downward : reach_B.upward)[axis]));
+  };
+  return {condition(0, 1),  condition(1, 1),  condition(2, 1),
+          condition(0, -1), condition(1, -1), condition(2, -1)};
+}
+
+bool BoxMatters(const motion::SpaceTimeBound& bound, Instant base) {
+  if (bound.declaration.acceleration_max > 0 && DirectionHoldsFor(bound, base) > 0) return true;
+  return HasSpeedCap(bound.declaration);
+}
+
+}  // namespace
+
+bool BoxesMatter(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base) {
+  return BoxMatters(a, base) || BoxMatters(b, base);
+}
+
+double LaterOfBoxes(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
+                    double margin, double time, double limit) {
+  const Agent agent_A(a, base), agent_B(b, base);
+  // Piece by piece between the ends of the directions.
+  double start = 0;
+  while (start <= limit) {
+    const bool A_holds = agent_A.direction_end > start, B_holds = agent_B.direction_end > start;
+    const double end = std::min(A_holds ? agent_A.direction_end : numeric::kInfinity,
+                                B_holds ? agent_B.direction_end : numeric::kInfinity);
+    const auto conditions = Conditions(agent_A, agent_B, margin, A_holds, B_holds);
+    // Boxes that overlap at `time` have done so before, or do so just then.
+    if (time >= start && time < end && FirstOfAll(conditions, time) == time) return time;
+    const double overlap = FirstOfAll(conditions, start);
+    if (overlap < end || end == numeric::kInfinity) return std::max(time, overlap);
+    start = end;
+  }
+  return numeric::kInfinity;
+}
+
+}  // namespace collision::intersection

@@ -1,0 +1,21 @@
+// When the boxes of two agents first overlap.
+#pragma once
+
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision::intersection {
+
+/// Whether the boxes say more than the balls from `base` on: only with a direction or a speed cap.
+bool BoxesMatter(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base);
+
+/// The later of `time` and the first overlap of the boxes of the two horns (parabolic faces, made
+/// smaller by direction and speed cap, and with `margin` between them), in seconds after `base`,
+/// rounded down; it may be +infinity. Nothing later than `limit` is searched.
+///
+/// The boxes overlap when six functions of time are all >= 0. Each is convex and quadratic in
+/// pieces (up to the speed cap of either agent, and from there on), so it fails on one interval of
+/// time at most: six rounds find the end of the last failure. Pieces end where a direction ends.
+double LaterOfBoxes(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
+                    double margin, double time, double limit);
+
+}  // namespace collision::intersection

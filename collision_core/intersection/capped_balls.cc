@@ -1,0 +1,61 @@
+#include "collision_core/intersection/capped_balls.h"
+
+#include <algorithm>
+
+#include "collision_core/intersection/moving_ball_pair.h"
+
+namespace collision::intersection {
+namespace {
+
+/// An agent's ball over time: the horn's, and under the cap another from `start` on (which may lie
+/// before the base).
+struct Timeline {
+  BallPart horn, cap;
+  double start = numeric::kInfinity;
+
+  Timeline(const motion::SpaceTimeBound& bound, Instant base)
+      : horn(HornPart(bound, base)), cap(horn) {
+    const std::optional<CappedPart> part = CapPart(bound, base);
+    if (!part) return;
+    start = part->start;
+    cap = part->ball;
+  }
+
+  Timeline WithoutCap() const {
+    Timeline horn_only = *this;
+    horn_only.start = numeric::kInfinity;
+    return horn_only;
+  }
+
+  const BallPart& at(double delta) const { return delta < start ? horn : cap; }
+};
+
+/// The first overlap, piece by piece.
+double FirstOverlap(const Timeline& a, const Timeline& b, double margin, double limit) {
+  const double first = std::max(0.0, std::min(a.start, b.start));
+  const double second = std::max(first, std::max(a.start, b.start));
+  // Before `first` they are the horns, which do not overlap then.
+  if (first > limit) return numeric::kInfinity;
+  const double end = std::min(second, limit);
+  const double time = FirstApproach(ApproachOf(a.at(first), b.at(first), margin), end, first);
+  if (time < numeric::kInfinity || second > limit) return time;
+  return FirstApproach(ApproachOf(a.at(second), b.at(second), margin), limit, second);
+}
+
+}  // namespace
+
+double LaterOfCappedBalls(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
+                          Instant base, double margin, double time, double limit) {
+  const Timeline line_A(a, base), line_B(b, base);
+  const auto wait = [&](const Timeline& first, const Timeline& second) {
+    if (time > std::min(first.start, second.start)) {
+      time = std::max(time, FirstOverlap(first, second, margin, limit));
+    }
+  };
+  wait(line_A, line_B.WithoutCap());
+  wait(line_A.WithoutCap(), line_B);
+  wait(line_A, line_B);
+  return time;
+}
+
+}  // namespace collision::intersection

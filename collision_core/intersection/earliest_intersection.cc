@@ -1,0 +1,59 @@
+#include "collision_core/intersection/earliest_intersection.h"
+
+#include <algorithm>
+
+#include "collision_core/intersection/box_overlap.h"
+#include "collision_core/intersection/capped_balls.h"
+#include "collision_core/intersection/moving_ball_pair.h"
+#include "collision_core/intersection/overlap_estimate.h"
+#include "collision_core/intersection/quick_horn_pair.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::intersection {
+namespace {
+
+/// The first overlap of the two horns' balls: decided in plain doubles, or with intervals from
+/// where they gave up.
+double BallTime(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
+                double margin, double limit) {
+  const numeric::QuickAnswer quick = QuickFirstApproach(QuickHornPair(a, b, base, margin), limit);
+  if (quick.decided) return quick.delta;
+  return FirstApproach(ApproachOf(HornPart(a, base), HornPart(b, base), margin), limit,
+                       quick.delta);
+}
+
+}  // namespace
+
+IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
+                                      const motion::SpaceTimeBound& b, Instant from) {
+  return EarliestIntersection(a, b, from, Instant::Never());
+}
+
+IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
+                                      const motion::SpaceTimeBound& b, Instant from, Instant until,
+                                      double margin) {
+  const Instant base = std::max({from, a.state.stamp, b.state.stamp});
+  const Instant expiry = std::min(a.state.expiry, b.state.expiry);
+  const IntersectionTime never{base, numeric::kInfinity};
+  if (!CanMeet(a.declaration, b.declaration) || expiry <= base || base > until) return never;
+  if (NeverMoves(a) && NeverMoves(b)) return never;
+  // A meeting within the nanosecond of `until` rounds down to it.
+  const Instant end =
+      until.is_never() ? expiry : std::min(expiry, numeric::AddRoundedUp(until, 2e-9));
+  const double limit =
+      end.is_never() ? numeric::kInfinity : numeric::SecondsBetween(base, end).upper;
+  IntersectionTime time{base, BallTime(a, b, base, margin, limit)};
+  // The horns' balls say it all unless a direction or a cap is declared.
+  if (time.seconds < limit && BoxesMatter(a, b, base)) {
+    const auto stands = [&] { return SeemToOverlap(a, b, base, margin, time.seconds); };
+    if (!stands()) {
+      time.seconds = LaterOfCappedBalls(a, b, base, margin, time.seconds, limit);
+      if (time.seconds < limit && !stands()) {
+        time.seconds = LaterOfBoxes(a, b, base, margin, time.seconds, limit);
+      }
+    }
+  }
+  return time.seconds < limit && time.instant() <= until ? time : never;
+}
+
+}  // namespace collision::intersection

@@ -1,0 +1,68 @@
+// Conservative advancement: when two moving bodies may first touch, by their sphere trees.
+//
+// Points are followed along their tangents. What turning bends them away from these, ½ ω² |x| h²,
+// counts as uncertainty, so that one sweep covers a quarter of a radian at most. Pairs of nodes are
+// opened in the order of the times at which their moving balls may touch first, two leaves by their
+// triangles. Each pair is convex, so its own direction may be used: bodies that pass by each other
+// cost little. Of equal times the pair that was opened the farthest comes first; balls within the
+// solids that overlap at the start end a sweep at once.
+//
+// A leaf of a few large triangles (the floor below a landscape) has a ball that holds nearly
+// everything; beside a ball of less than an eighth of its radius its triangles are examined
+// themselves. For a drone above such a closed landscape with a coarse tree that takes 12,000 units
+// in the median instead of 70,000, and 50,000 at most instead of 3,100,000. A triangle may stand in
+// several leaves; that two triangles are examined once only, from the time of the first pair of
+// leaves on, is right because of the order (derived at OfferTriangles).
+//
+// One choice of bounds serves a whole sweep, and all of them hold throughout; a sweep ends half-way
+// between two states, where the other bounds become the narrower ones.
+#pragma once
+
+#include "collision_core/narrow_phase/separation/separation.h"
+
+namespace collision::narrow_phase {
+
+/// Two bodies from an instant on, h seconds later (or, where time runs backward, earlier), seen in
+/// the axes of A's body at that instant and from A's reference point: a point x of B that is at
+/// y = pose.ToA(x) moves with velocity + spin_B × (y − offset), a point x of A with spin_A × x.
+/// Turning with constant ω a point leaves its tangent by at most ½ |ω|² |x| h².
+struct SweptPose {
+  RelativePose pose;
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Of B's reference point [m/s].
+  Eigen::Vector3d spin_A = Eigen::Vector3d::Zero();    ///< [rad/s]
+  Eigen::Vector3d spin_B = Eigen::Vector3d::Zero();
+  double velocity_error = 0;  ///< Of any point's velocity, as computed from these [m/s].
+
+  /// c0 + c1 h + c2 h²; coefficients rounded up.
+  struct Growth {
+    double c0 = 0, c1 = 0, c2 = 0;
+  };
+  Growth translation;           ///< Uncertainty of translation [m].
+  Growth turning_A, turning_B;  ///< Of turning, tangents' deviation included [m per m of |x|].
+};
+
+/// How far a search refines a time before it returns it.
+struct SweepDetail {
+  /// Spheres are opened while they are larger than this share of what is not known of the motion.
+  double fine_enough = 0.25;
+  /// A step shorter than this share of the duration ends the search.
+  double step_worth = 1e-3;
+};
+
+/// A lower bound on the time at which the two may touch.
+struct ImpactBound {
+  double seconds = 0;      ///< +infinity: not within the duration, its end included.
+  bool exhausted = false;  ///< The work allowed is spent: the true time may be later.
+  /// The leaves that may touch first, where the search went down to them.
+  bool resolved = false;
+  std::uint32_t leaf_A = 0;
+  std::uint32_t leaf_B = 0;
+};
+
+/// Best-first over pairs of nodes by the time at which their moving balls may touch first; two
+/// leaves by their triangles. A pair of balls or of triangles is convex, so that for each the
+/// direction between the two may be used: bodies that pass by each other cost little.
+ImpactBound LowerBoundOfImpact(const BodyTree& a, const BodyTree& b, const SweptPose& swept,
+                               double duration, WorkBudget* work, const SweepDetail& detail = {});
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,31 @@
+// How long two convex elements in motion stay apart.
+//
+// Along a fixed direction the front of a convex set that moves along tangents is convex in time, so
+// what is left of a gap is concave: gaps at two instants are a gap between them. The time until it
+// is used up is found by chords, to the last bits, and a direction serves until its own gap is
+// gone: two boxes that meet face on are done in one step.
+#pragma once
+
+#include "collision_core/narrow_phase/advancement/conservative_advancement.h"
+#include "collision_core/narrow_phase/convex_pair/convex_front.h"
+
+namespace collision::narrow_phase {
+
+/// A convex set whose points move along their tangents.
+struct MovingSet {
+  geometry::ConvexSet set;  ///< At the start.
+  TangentMotion motion;
+};
+
+/// Two sets, and what is used up of the gap between them t seconds after the start.
+struct SweptConvexPair {
+  MovingSet a, b;
+  SweptPose::Growth used;  ///< c2 >= 0.
+};
+
+/// The two are apart at `h` and stay apart for so many seconds more, along the direction between
+/// them there; 0 where they are not certainly apart, +infinity: beyond `duration`, it included. No
+/// speed of the fastest point comes in (head of this file).
+double ApartFor(const SweptConvexPair& solids, double h, double duration, WorkBudget* work);
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,269 @@
+#include "collision_core/narrow_phase/contact/ball_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision_core/numeric/first_approach.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+/// Ends of certified contact are found to this part of the segment.
+constexpr double kResolution = 1e-13;
+
+/// Steps at most: golden section shrinks its range by 0.62 a step, bisection by half.
+constexpr int kSearchSteps = 80;
+
+/// Rounds in which the choices of bounds may extend each other's freedom.
+constexpr int kRoundsMax = 16;
+
+/// One choice of a bound of each.
+struct Choice {
+  numeric::IntervalVector d0;  ///< From A's centre to B's, at base.
+  numeric::IntervalVector w;
+  numeric::Quadratic u;  ///< Both uncertainties.
+  numeric::Interval radii;
+
+  numeric::Interval Distance(double delta) const {
+    return numeric::Norm(d0 + numeric::Interval(delta) * w);
+  }
+
+  /// r − u − |Δc|, concave: touching where it is >= 0, for all motions within the bounds.
+  numeric::Interval Depth(double delta) const { return radii - u.At(delta) - Distance(delta); }
+};
+
+std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
+  std::vector<Choice> choices;
+  choices.reserve(a.bounds.size() * b.bounds.size());
+  for (const motion::MovingBall& ball_A : a.bounds) {
+    for (const motion::MovingBall& ball_B : b.bounds) {
+      choices.push_back({ball_B.centre - ball_A.centre, ball_B.velocity - ball_A.velocity,
+                         ball_A.u() + ball_B.u(), numeric::Interval(a.radius) + b.radius});
+    }
+  }
+  return choices;
+}
+
+/// Touching is certified on [from, to]; empty if from > to.
+struct Contact {
+  double from = 1;
+  double to = 0;
+};
+
+/// Moves from a certified time towards one that is not, up to the last certified one.
+double LastCertified(const Choice& choice, double certified, double uncertified,
+                     double resolution) {
+  for (int i = 0; i < kSearchSteps && std::abs(uncertified - certified) > resolution; ++i) {
+    const double middle = certified + 0.5 * (uncertified - certified);
+    (choice.Depth(middle).lower >= 0 ? certified : uncertified) = middle;
+  }
+  return certified;
+}
+
+/// Below this a square loses digits to the denormals.
+constexpr double kSquareMin = 0x1p-400;
+
+/// The power of two that takes the largest component near 1; 2^1000 at most.
+double Enlarging(const Eigen::Vector3d& v) {
+  const double largest = v.cwiseAbs().maxCoeff();
+  return largest > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(largest))) : 1;
+}
+
+/// When the centres are nearest; about.
+double NearestTime(const Choice& choice, double duration) {
+  const Eigen::Vector3d d0 = choice.d0.middle(), w = choice.w.middle();
+  if (w.isZero(0)) return 0;
+  if (w.cwiseAbs().maxCoeff() >= kSquareMin) {
+    return std::clamp(-d0.dot(w) / w.squaredNorm(), 0.0, duration);
+  }
+  const double of_d0 = Enlarging(d0), of_w = Enlarging(w);
+  const Eigen::Vector3d along = of_w * w;
+  const double time = -(of_d0 * d0).dot(along) / along.squaredNorm() * (of_w / of_d0);
+  return std::clamp(time, 0.0, duration);
+}
+
+/// Where the depth is greatest, or any time at which touching is certified.
+double DeepestTime(const Choice& choice, double duration) {
+  constexpr double kGolden = 0.6180339887498949;
+  double low = 0, high = duration;
+  double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
+  double depth_left = choice.Depth(left).lower, depth_right = choice.Depth(right).lower;
+  for (int i = 0; i < kSearchSteps; ++i) {
+    if (depth_left >= 0) return left;
+    if (depth_right >= 0) return right;
+    if (depth_left < depth_right) {
+      low = left, left = right, depth_left = depth_right;
+      right = low + kGolden * (high - low);
+      depth_right = choice.Depth(right).lower;
+    } else {
+      high = right, right = left, depth_right = depth_left;
+      left = high - kGolden * (high - low);
+      depth_left = choice.Depth(left).lower;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+/// By concavity all between two certified times is certified.
+Contact ContactOf(const Choice& choice, double duration) {
+  const bool at_start = choice.Depth(0).lower >= 0, at_end = choice.Depth(duration).lower >= 0;
+  double inside = at_start ? 0 : at_end ? duration : NearestTime(choice, duration);
+  if (choice.Depth(inside).lower < 0) {
+    if (choice.Distance(inside).lower > choice.radii.upper) return {};
+    inside = DeepestTime(choice, duration);
+    if (choice.Depth(inside).lower < 0) return {};
+  }
+  const double resolution = kResolution * duration;
+  return {at_start ? 0 : LastCertified(choice, inside, 0, resolution),
+          at_end ? duration : LastCertified(choice, inside, duration, resolution)};
+}
+
+void JudgeContact(const std::vector<Choice>& choices, double duration, SegmentResult& verdict) {
+  std::vector<Contact> contacts;
+  for (const Choice& choice : choices) {
+    const Contact contact = ContactOf(choice, duration);
+    if (contact.from <= contact.to) contacts.push_back(contact);
+  }
+  if (contacts.empty()) return;
+  std::sort(contacts.begin(), contacts.end(),
+            [](const Contact& a, const Contact& b) { return a.from < b.from; });
+  verdict.contact_from = contacts.front().from;
+  verdict.contact_to = contacts.front().to;
+  for (const Contact& contact : contacts) {
+    if (contact.from > verdict.contact_to) verdict.contact_continuous = false;
+    verdict.contact_to = std::max(verdict.contact_to, contact.to);
+  }
+}
+
+/// From one end of the segment: how far towards the other the two stay apart. The end itself is the
+/// answer if they may touch there at once; ±infinity if they are apart on all of it, both ends
+/// included. A choice that is certified free from where another gave up carries on from there.
+double FreeFrom(const std::vector<Choice>& choices, double duration, bool backward) {
+  double at = backward ? duration : 0;
+  for (int round = 0; round < kRoundsMax; ++round) {
+    double step = 0;
+    for (const Choice& choice : choices) {
+      const numeric::Quadratic reach = numeric::Quadratic{choice.radii, 0, 0} + choice.u;
+      const numeric::Quadratic seen = backward ? reach.BackwardFrom(at) : reach.From(at);
+      const numeric::Approach approach{choice.d0 + numeric::Interval(at) * choice.w,
+                                       backward ? numeric::Interval(-1) * choice.w : choice.w,
+                                       seen.c0, seen.c1, seen.c2};
+      step = std::max(step, FirstApproach(approach, backward ? at : numeric::AddUp(duration, -at)));
+    }
+    if (step == numeric::kInfinity) return backward ? -numeric::kInfinity : numeric::kInfinity;
+    at = backward ? numeric::AddUp(at, -step) : numeric::AddDown(at, step);
+    if (step <= kResolution * duration) break;
+  }
+  // Whoever certifies the far end says so by infinity.
+  return backward ? std::max(at, 0.0) : std::min(at, numeric::NextDown(duration));
+}
+
+/// The greatest that |Δc| can be, and u, at both ends of a segment; in plain doubles.
+struct Ends {
+  double distance[2];
+  double u_least[2], u_greatest[2];
+  double magnitude = 0;  ///< All terms added up, without their signs.
+};
+
+Ends EndsOf(const motion::MovingBall& a, const motion::MovingBall& b, double duration) {
+  Ends ends;
+  double square[2] = {};
+  const auto axis = [&](numeric::Interval a_c, numeric::Interval b_c, numeric::Interval a_v,
+                        numeric::Interval b_v) {
+    const double low = b_c.lower - a_c.upper, high = b_c.upper - a_c.lower;
+    const double w_low = b_v.lower - a_v.upper, w_high = b_v.upper - a_v.lower;
+    const double first = std::max(std::abs(low), std::abs(high));
+    const double last =
+        std::max(std::abs(low + duration * w_low), std::abs(high + duration * w_high));
+    square[0] += first * first, square[1] += last * last;
+    ends.magnitude += first + duration * std::max(std::abs(w_low), std::abs(w_high));
+  };
+  axis(a.centre.x, b.centre.x, a.velocity.x, b.velocity.x);
+  axis(a.centre.y, b.centre.y, a.velocity.y, b.velocity.y);
+  axis(a.centre.z, b.centre.z, a.velocity.z, b.velocity.z);
+  const auto u = [&](double u0, double u1, double u2, double* at) {
+    at[0] = u0, at[1] = u0 + duration * (u1 + duration * u2);
+    ends.magnitude += std::abs(u0) + duration * (std::abs(u1) + duration * std::abs(u2));
+  };
+  u(a.u0.lower + b.u0.lower, a.u1.lower + b.u1.lower, a.u2.lower + b.u2.lower, ends.u_least);
+  u(a.u0.upper + b.u0.upper, a.u1.upper + b.u1.upper, a.u2.upper + b.u2.upper, ends.u_greatest);
+  for (int end = 0; end < 2; ++end) ends.distance[end] = std::sqrt(square[end]);
+  return ends;
+}
+
+}  // namespace
+
+// The margin covers what is lost here and what the intervals of EvaluateBallSegment() are wider than the
+// truth: fewer than 32 operations each, none of them off by more than 2^-51 of the sum of all
+// terms.
+//
+// With it, (1) Depth().lower >= 0 at both ends for one choice, so that ContactOf() gives it all of
+// the segment, and so does the union; (2) |Δc| <= r + u at both ends for every choice, so that the
+// gap of FirstApproach(), an interval around (n·Δc)/|n| − (r + u) <= 0, is not positive, and its
+// step is 0.
+std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSegment& b,
+                                              double duration) {
+  constexpr double kMargin = 0x1p-40;
+  // Products of such neither overflow nor lose their error.
+  constexpr double kLargest = 0x1p+400, kSmallest = 0x1p-400;
+  if (!(duration > 0)) return std::nullopt;
+  const double radii = a.radius + b.radius;
+  bool touches = false;
+  for (const motion::MovingBall& ball_A : a.bounds) {
+    for (const motion::MovingBall& ball_B : b.bounds) {
+      const Ends ends = EndsOf(ball_A, ball_B, duration);
+      const double sum = radii + ends.magnitude;
+      if (!(sum > kSmallest && sum < kLargest)) return std::nullopt;
+      const double margin = kMargin * sum;
+      bool reach = true, touch = true;
+      for (int end = 0; end < 2; ++end) {
+        reach = reach && ends.distance[end] + margin <= radii + ends.u_least[end];
+        touch = touch && ends.distance[end] + margin <= radii - ends.u_greatest[end];
+      }
+      if (!reach) return std::nullopt;
+      touches = touches || touch;
+    }
+  }
+  if (!touches) return std::nullopt;
+  SegmentResult verdict;
+  verdict.free_until = 0;
+  verdict.contact_from = 0;
+  verdict.contact_to = verdict.free_from = duration;
+  return verdict;
+}
+
+SegmentResult EvaluateBallSegment(const BallSegment& a, const BallSegment& b, double duration) {
+  const std::vector<Choice> choices = ChoicesOf(a, b);
+  SegmentResult verdict;
+  JudgeContact(choices, duration, verdict);
+  verdict.free_until = FreeFrom(choices, duration, false);
+  verdict.free_from = FreeFrom(choices, duration, true);
+  return verdict;
+}
+
+SeparationAt EvaluateBallsAt(const BallSegment& a, const BallSegment& b, double delta) {
+  SeparationAt at{
+      {-numeric::kInfinity, numeric::kInfinity}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  at.error_A = at.error_B = numeric::kInfinity;
+  for (const Choice& choice : ChoicesOf(a, b)) {
+    const numeric::Interval distance = choice.Distance(delta) - choice.radii,
+                            u = choice.u.At(delta);
+    at.separation.lower = std::max(at.separation.lower, (distance - u).lower);
+    at.separation.upper = std::min(at.separation.upper, (distance + u).upper);
+  }
+  const auto locate = [delta](const BallSegment& ball, Eigen::Vector3d& p, double& error) {
+    for (const motion::MovingBall& bound : ball.bounds) {
+      const numeric::IntervalVector centre =
+          bound.centre + numeric::Interval(delta) * bound.velocity;
+      const Eigen::Vector3d middle = centre.middle();
+      const double off =
+          (bound.u().At(delta) + numeric::Norm(centre - numeric::IntervalVector(middle))).upper;
+      if (off < error) p = middle, error = off;
+    }
+  };
+  locate(a, at.p_WA, at.error_A);
+  locate(b, at.p_WB, at.error_B);
+  return at;
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,256 @@
+#include "collision_core/narrow_phase/contact/contact_boundary.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace collision::narrow_phase {
+namespace {
+
+// Free steps shorter than this share of the tolerance lead no further.
+constexpr double kStallShare = 0.125;
+
+// Nor do steps of a few units in the last place.
+constexpr double kStallRounding = 0x1p-51;
+
+// Contact is looked for half of the tolerance after the last certain freedom, and so many times
+// farther each time.
+constexpr double kFirstShare = 0.5;
+constexpr double kStepGrowth = 4;
+
+// It is not narrowed further where that would make the bracket narrower by less than this share.
+constexpr double kWorthNarrowing = 0.0625;
+
+// Looks at everything begin at this share of what is left.
+constexpr double kThoroughShare = 1e-6;
+
+// Beyond where freedom was interrupted they begin at this share of the way there: interruptions may
+// follow each other, and are not to be followed one by one. Sooner only what may touch first is
+// asked.
+constexpr double kIslandShare = 0.0625;
+
+// What may show contact is all tried at first, then the best of it only.
+constexpr std::size_t kCluesKept = 4;
+
+// To ask what bodies sweep in all their turns costs as much as the sweeps since it was last asked,
+// and this at least.
+constexpr std::uint64_t kRevolveUnits = 4096;
+
+// A contact that begins deepens, so that it lasts about twice as long at each step.
+constexpr int kLastingSteps = 64;
+
+// What is not known of the motion counts where it is more than rounding, as a share of the size.
+constexpr double kRoundingShare = 1e-12;
+
+// No two orientations differ by a longer chord.
+constexpr double kAnyWay = 2;
+
+}  // namespace
+
+double ContactBoundary::Moved(double at, double seconds) const {
+  return backward_ ? numeric::AddUp(at, -seconds) : numeric::AddDown(at, seconds);
+}
+
+double ContactBoundary::ToleranceAt(double at) const {
+  return std::max(tolerance_.absolute, tolerance_.relative * std::abs(at));
+}
+
+double ContactBoundary::StallAt(double at) const {
+  if (coarse_) return tolerance_.absolute;
+  return std::max(kStallShare * ToleranceAt(at), kStallRounding * std::abs(at));
+}
+
+bool ContactBoundary::Exhausted() {
+  exhausted_ = exhausted_ || work_.exhausted();
+  return work_.exhausted();
+}
+
+// Asked after one sweep, and if that leads no further than a sweep does, after two more, four, …
+double ContactBoundary::RevolvedFrom(double at, double left, double span, Turns* turns) const {
+  if (++turns->sweeps < turns->wait) return 0;
+  const std::uint64_t units = std::max(kRevolveUnits, work_.spent() - turns->spent);
+  const double free = motion_.RevolvedFree(at, left, backward_, duration_, units);
+  const bool farther = free > span;
+  turns->wait = farther ? 1 : 2 * turns->wait;
+  turns->sweeps = 0;
+  turns->spent = work_.spent();
+  return farther ? free : 0;
+}
+
+double ContactBoundary::FreeFrom(double at) {
+  Turns turns;
+  turns.spent = work_.spent();
+  bool asked_inside = false;
+  while (!Exhausted()) {
+    const double left = backward_ ? at : numeric::AddUp(duration_, -at);
+    const double span = motion_.SpanFrom(at, left, backward_, duration_);
+    const double revolved = asked_inside ? RevolvedFrom(at, left, span, &turns) : 0;
+    if (revolved == numeric::kInfinity) return backward_ ? -numeric::kInfinity : numeric::kInfinity;
+    if (revolved > 0) {
+      at = Moved(at, revolved);
+      continue;
+    }
+    const ShapeMotion::Sweep sweep = motion_.SweepFrom(at, span, backward_, detail_);
+    if (!sweep.known) return at;
+    touch_ = sweep.touch;
+    any_way_ = std::max(sweep.pose.chord_A, sweep.pose.chord_B) >= kAnyWay;
+    // The insides need to be asked once: later they are apart continuously.
+    if (!asked_inside && touch_.seconds > 0) {
+      asked_inside = true;
+      nested_ = !motion_.NeitherInside(sweep.pose);
+      if (nested_) return at;
+    }
+    const bool through = touch_.seconds > span;
+    if (through && span >= left) return backward_ ? -numeric::kInfinity : numeric::kInfinity;
+    const double next = Moved(at, std::min(span, touch_.seconds));
+    const double advanced = std::abs(next - at);
+    at = next;
+    if (through) continue;
+    exhausted_ = exhausted_ || touch_.exhausted;
+    if (touch_.exhausted || advanced <= StallAt(at) || (coarse_ && sweep.final)) break;
+  }
+  return at;
+}
+
+// Remembers what an instant tells; does it tell of contact?
+bool ContactBoundary::Note(const ShapeMotion::PoseQuery& instance) {
+  if (!instance.choice.certain) return false;
+  nearest_ = std::min(
+      nearest_, std::max(0.0, numeric::AddUp(instance.look.upper, instance.pose.translation)));
+  return instance.touching();
+}
+
+bool ContactBoundary::TouchesByClues(double at) {
+  std::vector<std::pair<double, std::size_t>> by_depth;
+  for (std::size_t i = 0; i < clues_.size() && !Exhausted(); ++i) {
+    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, clues_[i]);
+    if (Note(instance)) {
+      std::rotate(clues_.begin(), clues_.begin() + static_cast<std::ptrdiff_t>(i),
+                  clues_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      return true;
+    }
+    by_depth.emplace_back(instance.look.upper, i);
+  }
+  if (clues_.size() > kCluesKept && by_depth.size() == clues_.size()) {
+    std::sort(by_depth.begin(), by_depth.end());
+    std::vector<ContactCandidate> best;
+    for (std::size_t i = 0; i < kCluesKept; ++i) best.push_back(clues_[by_depth[i].second]);
+    clues_.swap(best);
+  }
+  return false;
+}
+
+bool ContactBoundary::Touches(double at, bool thoroughly) {
+  apart_ = false;
+  if (TouchesByClues(at)) return true;
+  const ContactWitness leaves{ContactWitness::Kind::kLeaves, touch_.leaf_A, touch_.leaf_B};
+  for (const ContactWitness& evidence : {touch_.resolved ? leaves : ContactWitness{}, evidence_}) {
+    if (evidence.kind == ContactWitness::Kind::kNone || Exhausted()) continue;
+    if (Note(motion_.RecheckWitness(at, evidence))) return true;
+  }
+  if (!thoroughly || Exhausted()) return false;
+  ShapeMotion::PoseQuery instance =
+      motion_.QuerySeparation(at, Goal::kYesNo, touch_.resolved ? leaves : ContactWitness{});
+  if (nested_) motion_.LookInside(&instance);
+  exhausted_ = exhausted_ || instance.look.exhausted;
+  if (Note(instance)) {
+    if (instance.look.evidence.kind != ContactWitness::Kind::kNone)
+      evidence_ = instance.look.evidence;
+    return true;
+  }
+  apart_ = !nested_ && instance.apart();
+  return false;
+}
+
+// Between an instant that is not known to be of contact and one that is.
+double ContactBoundary::Narrow(double apart, double touching, double free, bool thoroughly) {
+  while (!Exhausted()) {
+    const double width = std::abs(touching - apart), bracket = std::abs(touching - free);
+    if (bracket <= ToleranceAt(touching) || width <= kWorthNarrowing * bracket) break;
+    const double middle = apart + 0.5 * (touching - apart);
+    if (middle == apart || middle == touching) break;
+    (Touches(middle, thoroughly) ? touching : apart) = middle;
+  }
+  return touching;
+}
+
+void ContactBoundary::Prepare(double free) {
+  evidence_ = {};
+  clues_.clear();
+  if (Exhausted()) return;
+  clues_ = motion_.PatchAt(free, touch_);
+  uncertain_ = motion_.RecheckWitness(free, {}).uncertainty > kRoundingShare * motion_.size();
+}
+
+double ContactBoundary::FirstStep(double free, double until) const {
+  const double rounding = kStallRounding * std::max(std::abs(free), std::abs(until));
+  return std::max(kFirstShare * ToleranceAt(free), rounding);
+}
+
+double ContactBoundary::Towards(double until, double from, double step) const {
+  return backward_ ? std::max(until, from - step) : std::min(until, from + step);
+}
+
+// By what may touch first only.
+std::optional<double> ContactBoundary::QuickContact(double free, double until) {
+  double before = free;
+  for (double step = FirstStep(free, until); !Exhausted(); step *= kStepGrowth) {
+    const double at = Towards(until, free, step);
+    if (Touches(at, false)) return Narrow(before, at, free, false);
+    if (at == until) break;
+    before = at;
+  }
+  return std::nullopt;
+}
+
+// By looks at everything. Where one tells that the two are apart again, however little they were
+// not before, it goes on from where that freedom ends.
+std::optional<double> ContactBoundary::ThoroughContact(double free, double until) {
+  double from = free, before = free;
+  double thorough = kThoroughShare * std::abs(until - free);
+  double step = std::max(FirstStep(free, until), thorough);
+  for (;;) {
+    if (before == until || Exhausted()) return std::nullopt;
+    const double at = Towards(until, from, step);
+    if (Touches(at, step >= thorough || at == until)) return Narrow(before, at, free, true);
+    before = at;
+    step *= kStepGrowth;
+    if (!apart_) continue;
+    from = before = FreeFrom(at);
+    const bool beyond = backward_ ? from <= until : from >= until;
+    if (beyond) return std::nullopt;
+    Prepare(from);
+    step = FirstStep(from, until);
+    thorough =
+        std::max(kThoroughShare * std::abs(until - from), kIslandShare * std::abs(from - free));
+  }
+}
+
+std::optional<double> ContactBoundary::ContactByClues(double free, double until) {
+  Prepare(free);
+  return clues_.empty() ? std::nullopt : QuickContact(free, until);
+}
+
+double ContactBoundary::LastsFrom(double touching, double until) const {
+  double at = touching;
+  for (int step = 0; step < kLastingSteps && !clues_.empty() && !work_.exhausted(); ++step) {
+    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, clues_.front());
+    const double lasts = instance.touching() ? motion_.ContactStep(instance, backward_) : 0;
+    at = Moved(at, lasts);
+    const bool beyond = backward_ ? at <= until : at >= until;
+    if (beyond) return until;
+    if (!(lasts > 0)) break;
+  }
+  return at;
+}
+
+std::optional<double> ContactBoundary::ContactAfter(double free, double until) {
+  Prepare(free);
+  const bool at_once = free == (backward_ ? duration_ : 0);
+  if (at_once && Touches(free, true)) return free;
+  std::optional<double> touching = QuickContact(free, until);
+  if (touching && std::abs(*touching - free) <= ToleranceAt(*touching)) return touching;
+  const std::optional<double> sooner = ThoroughContact(free, touching.value_or(until));
+  return sooner ? sooner : touching;
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,106 @@
+// The onset or the end of a contact: how long two bodies stay apart, and how soon they certainly
+// touch.
+#pragma once
+
+#include <optional>
+
+#include "collision_core/narrow_phase/contact/shape_motion.h"
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
+
+namespace collision::narrow_phase {
+
+/// Advances through a segment of time from one of its ends towards the other, `backward` from its
+/// end. Everything passed in outlives it.
+class ContactBoundary {
+ public:
+  /// For brackets as narrow as `tolerance` asks for.
+  ContactBoundary(const ShapeMotion& motion, double duration, const ContactTolerance& tolerance,
+                  bool backward, WorkBudget* work)
+      : ContactBoundary(motion, duration, tolerance, backward, false, work) {}
+
+  /// For a service that has many to judge: freedom ends where a step is shorter than
+  /// `shortest_step`, or where another sweep would tell little more of what is not known of the
+  /// motion.
+  static ContactBoundary Coarse(const ShapeMotion& motion, double duration, double shortest_step,
+                                bool backward, WorkBudget* work) {
+    return {motion, duration, {shortest_step, 0}, backward, true, work};
+  }
+
+  /// From `at` on the two are apart up to the instant that is returned; ±infinity: all the way, the
+  /// end of the segment included.
+  double FreeFrom(double at);
+
+  /// An instant of certain contact as soon as possible after `free`, where freedom ends, and not
+  /// beyond `until`.
+  std::optional<double> ContactAfter(double free, double until);
+
+  /// The same by points that may show contact first, where something else showed it at `until`, or
+  /// nothing did.
+  std::optional<double> ContactByClues(double free, double until);
+
+  /// How far from there on, towards `until`, contact is certain without a gap, by the same point.
+  double LastsFrom(double touching, double until) const;
+
+  bool nested() const { return nested_; }  ///< One may be inside the other: nothing was free.
+  const ImpactBound& touch() const { return touch_; }  ///< What ended the last freedom.
+  bool exhausted() const { return exhausted_; }        ///< Something was left out for want of work.
+  double nearest() const { return nearest_; }          ///< They certainly come as near as this [m].
+  bool uncertain() const { return uncertain_; }  ///< By more than rounding, where freedom ended.
+  /// Nothing was known there of how one of them is turned: no work makes that any better.
+  bool any_way() const { return any_way_; }
+
+ private:
+  ContactBoundary(const ShapeMotion& motion, double duration, const ContactTolerance& tolerance,
+                  bool backward, bool coarse, WorkBudget* work)
+      : motion_(motion),
+        duration_(duration),
+        tolerance_(tolerance),
+        backward_(backward),
+        coarse_(coarse),
+        detail_(coarse ? SweepDetail{} : kFineDetail),
+        work_(*work) {}
+
+  // A sweep goes down nearly to what is not known of the motion, and as far as tangents serve.
+  static constexpr SweepDetail kFineDetail{.fine_enough = 0.03125, .step_worth = 1e-6};
+
+  // How often it was asked what bodies sweep in all their turns.
+  struct Turns {
+    int sweeps = 0, wait = 1;
+    std::uint64_t spent = 0;
+  };
+
+  double RevolvedFrom(double at, double left, double span, Turns* turns) const;
+  double Moved(double at, double seconds) const;
+  double ToleranceAt(double at) const;
+  double StallAt(double at) const;
+  bool Exhausted();
+  bool Touches(double at, bool thoroughly);
+  bool TouchesByClues(double at);
+  bool Note(const ShapeMotion::PoseQuery& instance);
+  double Narrow(double apart, double touching, double free, bool thoroughly);
+  void Prepare(double free);
+  double FirstStep(double free, double until) const;
+  double Towards(double until, double from, double step) const;
+  std::optional<double> QuickContact(double free, double until);
+  std::optional<double> ThoroughContact(double free, double until);
+
+  const ShapeMotion& motion_;
+  const double duration_;
+  const ContactTolerance tolerance_;
+  const bool backward_;
+  const bool coarse_;
+  const SweepDetail detail_;
+  WorkBudget& work_;
+
+  bool nested_ = false;     // One may be inside the other.
+  bool exhausted_ = false;  // Something was not looked at for want of work.
+  bool apart_ = false;      // At the last instant that was looked at thoroughly.
+  bool uncertain_ = false;
+  bool any_way_ = false;
+  double nearest_ = numeric::kInfinity;
+  ImpactBound touch_;
+  std::vector<ContactCandidate> clues_;
+  ContactWitness evidence_;
+};
+
+}  // namespace collision::narrow_phase

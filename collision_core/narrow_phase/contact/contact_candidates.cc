@@ -1,0 +1,218 @@
+#include "collision_core/narrow_phase/contact/contact_candidates.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <set>
+
+#include "collision_core/narrow_phase/convex_pair/convex_distance.h"
+#include "collision_core/narrow_phase/separation/element.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+using Eigen::Vector3d;
+
+// Pairs of triangles that are near enough, and of such that are looked at, at most. Where large
+// faces lie on each other many are; any two of them show what is needed.
+constexpr std::size_t kPairsMax = 64;
+constexpr std::size_t kLooksMax = 1024;
+
+// Of each kind, for either body.
+constexpr std::size_t kKept = 2;
+
+// Corners of a face that are so near to the least height are as low, as a share of the size.
+constexpr double kLevel = 0x1p-44;
+
+constexpr int kNext[3] = {1, 2, 0};
+
+// What lies on what, the widest first.
+enum Kind { kFace, kEdge, kCorner, kKinds };
+
+struct Proposal {
+  Vector3d x;  // in A's frame
+  double extent = 0;
+};
+
+Vector3d MeanOf(const std::vector<Vector3d>& points) {
+  Vector3d sum = Vector3d::Zero();
+  for (const Vector3d& p : points) sum += p;
+  return sum / static_cast<double>(points.size());
+}
+
+// What of a polygon lies where n·(x − at) >= −slack.
+std::vector<Vector3d> Clipped(const std::vector<Vector3d>& polygon, const Vector3d& at,
+                              const Vector3d& n, double slack) {
+  std::vector<Vector3d> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vector3d &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const double from = n.dot(p - at) + slack, to = n.dot(q - at) + slack;
+    if (from >= 0) kept.push_back(p);
+    if ((from > 0 && to < 0) || (from < 0 && to > 0))
+      kept.push_back(p + from / (from - to) * (q - p));
+  }
+  return kept;
+}
+
+double AreaOf(const std::vector<Vector3d>& polygon) {
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    sum += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
+  }
+  return sum.norm() / 2;
+}
+
+double LengthOf(const std::vector<Vector3d>& points) {
+  double length = 0;
+  for (const Vector3d& p : points) length = std::max(length, (p - points[0]).norm());
+  return length;
+}
+
+class Patch {
+ public:
+  Patch(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double within,
+        WorkBudget* work)
+      : a_(a),
+        b_(b),
+        pose_(pose),
+        within_(within),
+        level_(kLevel * (a.reach() + b.reach() + pose.offset.norm())),
+        work_(*work) {}
+
+  std::vector<ContactCandidate> Run(std::uint32_t leaf_A, std::uint32_t leaf_B) {
+    if (IsLeafPair(leaf_A, leaf_B)) Leaves(leaf_A, leaf_B);
+    stack_.emplace_back(0, 0);
+    while (!stack_.empty() && pairs_ < kPairsMax && looks_ < kLooksMax && !work_.exhausted()) {
+      const auto [i, j] = stack_.back();
+      stack_.pop_back();
+      Visit(i, j);
+    }
+    return Best();
+  }
+
+ private:
+  bool IsLeafPair(std::uint32_t i, std::uint32_t j) const {
+    return a_.node(i).children == 0 && b_.node(j).children == 0;
+  }
+
+  void Visit(std::uint32_t i, std::uint32_t j) {
+    work_.Spend(1);
+    const sphere_tree::SphereNode &a = a_.node(i), &b = b_.node(j);
+    if ((pose_.ToA(b.centre) - a.centre).norm() - a.radius - b.radius > within_) return;
+    if (a.children == 0 && b.children == 0) {
+      Leaves(i, j);
+    } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
+      for (std::uint32_t k = 0; k < a.children; ++k) stack_.emplace_back(a.first_child + k, j);
+    } else {
+      for (std::uint32_t k = 0; k < b.children; ++k) stack_.emplace_back(i, b.first_child + k);
+    }
+  }
+
+  void Leaves(std::uint32_t i, std::uint32_t j) {
+    for (const std::uint32_t s : a_.shape()->tree().TrianglesOf(a_.node(i))) {
+      for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b_.node(j))) {
+        if (work_.exhausted()) return;
+        AnySolid(a_, s, b_, t) ? Solids(s, t) : Triangles(s, t);
+      }
+    }
+  }
+
+  void Triangles(std::uint32_t s, std::uint32_t t) {
+    const BoxedTriangle of_a(s, CornersOf(*a_.shape(), s));
+    const BoxedTriangle of_b(t, CornersOf(*b_.shape(), t, pose_));
+    work_.Spend(kBoxPairUnits);
+    if (BoxDistance(of_a, of_b) > within_) return;
+    if (!seen_.insert({s, t}).second) return;
+    ++looks_;
+    work_.Spend(kTrianglePairUnits);
+    if (geometry::DistanceOf(of_a.corners, of_b.corners).distance.lower > within_) return;
+    ++pairs_;
+    FaceOn(of_a.corners, of_b.corners, true);
+    FaceOn(of_b.corners, of_a.corners, false);
+  }
+
+  void Solids(std::uint32_t s, std::uint32_t t) {
+    if (!seen_.insert({s, t}).second) return;
+    ++looks_;
+    geometry::GjkHint none;
+    const ConvexSeparation found =
+        SeparationOf(PosedA(SetOf(a_, s), pose_), PosedB(SetOf(b_, t), pose_),
+                     {ConvexGoal::kDistance, 0, within_ / 2}, &none, &work_);
+    if (found.separation.lower > within_) return;
+    ++pairs_;
+    solids_.push_back({{}, {ContactWitness::Kind::kTriangles, s, t}});
+  }
+
+  void Keep(Kind kind, bool of_A, const Vector3d& x, double extent) {
+    std::vector<Proposal>& list = proposals_[kind][of_A ? 0 : 1];
+    for (Proposal& other : list) {
+      if ((other.x - x).norm() > level_) continue;
+      other.extent = std::max(other.extent, extent);
+      return;
+    }
+    list.push_back({x, extent});
+    std::stable_sort(list.begin(), list.end(),
+                     [](const Proposal& p, const Proposal& q) { return p.extent > q.extent; });
+    if (list.size() > kKept) list.pop_back();
+  }
+
+  // What of one triangle stands over the other, where it is the nearest to its plane; of edges that
+  // meet the point or the part where they do, since what stands over the rim counts.
+  void FaceOn(const geometry::TrianglePoints& t, const geometry::TrianglePoints& base, bool of_A) {
+    const Vector3d n = (base[1] - base[0]).cross(base[2] - base[0]).normalized();
+    if (!(n.norm() > 0.5)) return;
+    std::vector<Vector3d> polygon(t.begin(), t.end());
+    for (int i = 0; i < 3 && !polygon.empty(); ++i) {
+      const Vector3d inward = n.cross(base[kNext[i]] - base[i]).normalized();
+      polygon = Clipped(polygon, base[i], inward, level_);
+    }
+    double least = numeric::kInfinity;
+    for (const Vector3d& p : polygon) least = std::min(least, std::abs(n.dot(p - base[0])));
+    if (polygon.empty() || least > within_) return;
+    std::vector<Vector3d> low;
+    for (const Vector3d& p : polygon) {
+      if (std::abs(n.dot(p - base[0])) <= least + level_) low.push_back(p);
+    }
+    const double area = AreaOf(low), length = LengthOf(low);
+    const Kind kind = area > level_ * length ? kFace : length > 4 * level_ ? kEdge : kCorner;
+    Keep(kind, of_A, MeanOf(low), kind == kFace ? area : length);
+  }
+
+  std::vector<ContactCandidate> Best() {
+    std::vector<ContactCandidate> clues = std::move(solids_);
+    for (int kind = 0; kind < kKinds; ++kind) {
+      for (const Proposal& p : proposals_[kind][0]) {
+        if (!work_.exhausted()) clues.push_back({PointOfA(a_, p.x, &work_), {}});
+      }
+      for (const Proposal& p : proposals_[kind][1]) {
+        if (!work_.exhausted()) clues.push_back({PointOfB(b_, pose_.ToB(p.x), &work_), {}});
+      }
+    }
+    return clues;
+  }
+
+  const BodyTree& a_;
+  const BodyTree& b_;
+  const RelativePose& pose_;
+  const double within_;
+  const double level_;
+  WorkBudget& work_;
+  std::size_t pairs_ = 0, looks_ = 0;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> seen_;
+  std::vector<ContactCandidate> solids_;
+  std::vector<Proposal> proposals_[kKinds][2];
+};
+
+}  // namespace
+
+std::vector<ContactCandidate> FindContactCandidates(const BodyTree& a, const BodyTree& b,
+                                                    const RelativePose& pose, double within,
+                                                    std::uint32_t leaf_A, std::uint32_t leaf_B,
+                                                    WorkBudget* work) {
+  if (a.shape() == nullptr || b.shape() == nullptr) return {};
+  const bool any_solids = !a.shape()->solids().empty() || !b.shape()->solids().empty();
+  if (!a.shape()->closed() && !b.shape()->closed() && !any_solids) return {};
+  return Patch(a, b, pose, within, work).Run(leaf_A, leaf_B);
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,53 @@
+// Segments of two bodies from their states, in a frame that moves along with one of them.
+#include "collision_core/narrow_phase/contact/time_of_contact.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+// With R the state of the frame, X another one, s their stamps: seen from the frame the prediction
+// from X is at
+//   p_X + v_X (t − s_X) − p_R − v_R (t − s_R)
+//     = (p_X − p_R) + v_R (s_R − s_X) + (v_X − v_R)(t − s_X).
+void SeeFrom(const motion::SpaceTimeBound& frame, const motion::SpaceTimeBound& bound, Instant base,
+             motion::MovingBall* ball) {
+  const motion::MotionState &r = frame.state, &x = bound.state;
+  const numeric::IntervalVector v_R(r.v_WA);
+  ball->velocity = numeric::IntervalVector(x.v_WA) - v_R;
+  ball->centre = (numeric::IntervalVector(x.p_WA) - numeric::IntervalVector(r.p_WA)) +
+                 numeric::SecondsBetween(x.stamp, r.stamp) * v_R +
+                 numeric::SecondsBetween(x.stamp, base) * ball->velocity;
+}
+
+BodySegment SegmentOf(const KnownMotion& motion, const motion::SpaceTimeBound& frame,
+                      Instant base) {
+  BodySegment segment;
+  for (const auto* known : {&motion.last, &motion.next}) {
+    if (!known->has_value()) continue;
+    const motion::SpaceTimeBound& bound = **known;
+    const bool ahead = known == &motion.last;
+    segment.ball.radius = bound.declaration.radius;
+    segment.shape = bound.declaration.shape;
+    segment.ball.bounds.push_back(ahead ? ForwardBall(bound, base) : BackwardBall(bound, base));
+    SeeFrom(frame, bound, base, &segment.ball.bounds.back());
+    if (!segment.shape) continue;
+    segment.turns.push_back(ahead ? ForwardRotation(bound, base) : BackwardRotation(bound, base));
+  }
+  return segment;
+}
+
+}  // namespace
+
+BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from) {
+  const motion::SpaceTimeBound& frame = a.last ? *a.last : *a.next;
+  return {SegmentOf(a, frame, from), SegmentOf(b, frame, from)};
+}
+
+TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, Instant from,
+                                  Instant to, const ContactTolerance& tolerance, WorkBudget* work) {
+  const BodyPair bodies = SegmentsOf(a, b, from);
+  return TimeOfContact(bodies.a, bodies.b, numeric::SecondsBetween(from, to).upper, tolerance,
+                       work);
+}
+
+}  // namespace collision::narrow_phase

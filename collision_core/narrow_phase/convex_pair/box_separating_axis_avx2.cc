@@ -1,0 +1,22 @@
+// Four lanes at once. Nothing that others share is included: this file is built for processors that
+// not everybody has.
+#include "collision_core/narrow_phase/convex_pair/box_separating_axis.h"
+
+#if defined(__x86_64__) && COLLISION_WIDE_BITS >= 256
+#define WIDE __attribute__((target("avx2")))
+#include "collision_core/narrow_phase/convex_pair/box_separating_axis_wide.h"
+
+namespace collision::narrow_phase {
+
+SeparatingAxisKernel Avx2SeparatingAxisTest() {
+  return __builtin_cpu_supports("avx2") ? &Glance : nullptr;
+}
+
+}  // namespace collision::narrow_phase
+#else
+namespace collision::narrow_phase {
+
+SeparatingAxisKernel Avx2SeparatingAxisTest() { return nullptr; }
+
+}  // namespace collision::narrow_phase
+#endif

@@ -1,0 +1,130 @@
+// The kernel of box_glance.h. Only for box_glance*.cc, which say first: WIDE, the attribute of
+// functions for their processor.
+//
+// Everything is seen through x' = Gᵀx, in which A's edges are the columns of GᵀG (nearly diagonal:
+// squares, and `off` beside them), B's are those of C = GᵀM, and the centres' difference is p =
+// Gᵀd. The gap of the two along a normal n' is |n'·p| less the reach of all edges; it is the same
+// number as that along N = G n' of what is not transformed, times |N|.
+//
+// Rounding, with u = 2^-53, W_i = |g_k| |g_l| of the other two edges, W = |g_0| |g_1| |g_2| and b_j
+// = |m_j|. Sums of three products are off by 3u, d by u:
+//   n' = e_i        (N = g_i)            terms of up to |g_i| S: off by less than 2^-49 |g_i| S.
+//   N = m_j                              likewise.
+//   n' = e_i × C_j  (|N| <= 2 W_i b_j)   two products each, of terms up to W_i b_j S: 64u of that.
+//   n' = C_j × C_m  (|N| <= 6 W b_j b_m) likewise 96u W b_j b_m S.
+// Any n' is right to tell two apart, as it is computed. To tell that they touch the exact normals
+// count: C is off by 3u |g_i| |m_j|, which is in the above, and A's edges are not quite along e_i.
+// With |off| <= 2^-46 of the least square that turns n' by less than 2^-45, weighed by the edges'
+// lengths; less than 2^-43 S of the above factors with everything else. Products of lengths are
+// bounded by spans: |g_i| <= s_A, W_i b_j <= s_A² s_B / 4, W b_j b_m <= s_A³ s_B² / 108.
+#pragma once
+
+#include "collision_core/narrow_phase/convex_pair/box_separating_axis.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // All of it is inlined.
+using Lanes = double __attribute__((vector_size(32)));
+using LaneMask = long long __attribute__((vector_size(32)));
+
+// The fourth lane is not used. Macros would be the alternative: inlined functions are for the
+// processor of their caller.
+#define BOX_INLINE WIDE inline __attribute__((always_inline))
+
+constexpr double kFaceError = 0x1p-49;
+constexpr double kEdgeError = 0x1p-43;
+constexpr double kSquare = 0x1p-46;
+/// More than what underflows, and above rounding of the last few steps.
+constexpr double kTiny = 0x1p-1000;
+constexpr double kMore = 1 + 0x1p-40;
+
+BOX_INLINE void Rows(const double* m, Lanes* rows) {
+  rows[0] = Lanes{m[0], m[3], m[6], 0};
+  rows[1] = Lanes{m[1], m[4], m[7], 0};
+  rows[2] = Lanes{m[2], m[5], m[8], 0};
+}
+
+/// Σ factors[k] rows[k].
+BOX_INLINE Lanes Along(const double* factors, const Lanes* rows) {
+  return (factors[0] * rows[0] + factors[1] * rows[1]) + factors[2] * rows[2];
+}
+
+BOX_INLINE Lanes Size(Lanes x) {
+  constexpr long long kAllButSign = 0x7fffffffffffffff;
+  return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(x) & kAllButSign);
+}
+BOX_INLINE Lanes Next(const Lanes& x) { return __builtin_shufflevector(x, x, 1, 2, 0, 3); }
+BOX_INLINE Lanes Last(const Lanes& x) { return __builtin_shufflevector(x, x, 2, 0, 1, 3); }
+BOX_INLINE double Sum(const Lanes& x) { return (x[0] + x[1]) + x[2]; }
+BOX_INLINE double Most(double x, double y) { return x > y ? x : y; }
+BOX_INLINE double Least(double x, double y) { return x < y ? x : y; }
+BOX_INLINE bool Any(const LaneMask& mask) { return (mask[0] | mask[1] | mask[2]) != 0; }
+BOX_INLINE bool All(const LaneMask& mask) { return (mask[0] & mask[1] & mask[2]) != 0; }
+
+/// Edges of one box, lanes: squared lengths, and the products of each with the next one.
+struct Gram {
+  Lanes square, off;
+};
+BOX_INLINE Gram GramOf(const Lanes* rows) {
+  return {(rows[0] * rows[0] + rows[1] * rows[1]) + rows[2] * rows[2],
+          Size((rows[0] * Next(rows[0]) + rows[1] * Next(rows[1])) + rows[2] * Next(rows[2]))};
+}
+
+/// What edges reach along each of themselves.
+BOX_INLINE Lanes OwnReach(const Gram& gram) { return gram.square + (gram.off + Last(gram.off)); }
+
+WIDE BoxSeparation Glance(const BoxPair& pair) {
+  if (!(pair.size < 1e45)) return BoxSeparation::kUnknown;
+  const double* const g = pair.of_a;
+  Lanes a[3], h[3], m[3], c[3];
+  Rows(g, a);
+  Rows(pair.of_b, h);
+  for (int i = 0; i < 3; ++i) {
+    const double row[3] = {pair.turn[i], pair.turn[3 + i], pair.turn[6 + i]};
+    m[i] = Along(row, h);
+  }
+  for (int i = 0; i < 3; ++i) c[i] = Along(g + 3 * i, m);
+  const Lanes p = Along(pair.d, a), q = Along(pair.d, m);
+  const Gram gram_a = GramOf(a), gram_b = GramOf(m);
+  const Lanes size[3] = {Size(c[0]), Size(c[1]), Size(c[2])};
+  const Lanes reach = {Sum(size[0]), Sum(size[1]), Sum(size[2]), 0};
+
+  const double need = pair.apart + kFaceError * pair.size;
+  const double square = kMore * (need * need);
+  const Lanes beside_a = Size(p) - (OwnReach(gram_a) + reach);
+  const Lanes beside_b = Size(q) - (OwnReach(gram_b) + ((size[0] + size[1]) + size[2]));
+  if (Any((beside_a * Size(beside_a) > square * gram_a.square + kTiny) |
+          (beside_b * Size(beside_b) > square * gram_b.square + kTiny))) {
+    return BoxSeparation::kApart;
+  }
+
+  const Lanes s = gram_a.square;
+  const double off = Most(Most(gram_a.off[0], gram_a.off[1]), gram_a.off[2]);
+  if (!(off <= kSquare * Least(Least(s[0], s[1]), s[2]))) return BoxSeparation::kUnknown;
+  const double margin = kEdgeError * pair.size + pair.inside;
+  bool touching = All(-beside_a > margin * pair.span_a);
+  const double faces = pair.span_a * pair.span_a * pair.span_b;
+  const double error = kEdgeError * pair.size * faces, edge_margin = margin * faces;
+  Lanes across[3];  // Of edges m_j and m_(j+1).
+  for (int i = 0; i < 3; ++i) {
+    const int k = (i + 1) % 3, l = (i + 2) % 3;
+    across[i] = c[k] * Next(c[l]) - c[l] * Next(c[k]);
+    const Lanes turned = Size(across[i]);
+    const Lanes beyond = Size(p[l] * c[k] - p[k] * c[l]) -
+                         ((s[k] * size[l] + s[l] * size[k]) + (turned + Last(turned)));
+    const Lanes certain = beyond - error;
+    const Lanes normal = s[k] * (c[l] * c[l]) + s[l] * (c[k] * c[k]);
+    if (Any(certain * Size(certain) > square * normal + kTiny)) return BoxSeparation::kApart;
+    touching = touching && All(-beyond > edge_margin);
+  }
+  const Lanes volume = (across[0] * Last(c[0]) + across[1] * Last(c[1])) + across[2] * Last(c[2]);
+  const Lanes along = (p[0] * across[0] + p[1] * across[1]) + p[2] * across[2];
+  const Lanes own = (s[0] * Size(across[0]) + s[1] * Size(across[1])) + s[2] * Size(across[2]);
+  const double face_margin = margin * (faces * pair.span_a * pair.span_b) * 0.0625;
+  touching = touching && All((own + Size(volume)) - Size(along) > face_margin);
+  return touching ? BoxSeparation::kTouching : BoxSeparation::kUnknown;
+}
+
+}  // namespace
+}  // namespace collision::narrow_phase

@@ -1,0 +1,30 @@
+// The distance of a ball or a capsule to a ball, a capsule or a box: in closed form.
+#pragma once
+
+#include "collision_core/geometry/convex/convex_set.h"
+#include "collision_core/narrow_phase/pose/relative_pose.h"
+
+namespace collision::narrow_phase {
+
+/// Two cores at a pose, their centres subtracted first.
+struct PosedCores {
+  PosedCores(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+             const RelativePose& pose);
+
+  Eigen::Vector3d d;  ///< From A's centre to B's: off by 2^-53 |d| from what is posed.
+  double size;        ///< S: at least |d| + span_A + (1 + 2^-20) span_B.
+  double error;       ///< The sets meant are within this of what is posed, both together.
+};
+
+/// Whether DistanceOfCores() knows the two.
+inline bool IsCapsulePair(const geometry::ConvexSet& a, const geometry::ConvexSet& b) {
+  return (a.IsThin() && (b.IsThin() || b.core == geometry::ConvexCore::kBox)) ||
+         (b.IsThin() && a.core == geometry::ConvexCore::kBox);
+}
+
+/// The distance of the two cores, as they are posed; below 0, and wide, where they meet.
+/// Requires IsCapsulePair().
+numeric::Interval DistanceOfCores(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+                                  const PosedCores& cores, const RelativePose& pose);
+
+}  // namespace collision::narrow_phase

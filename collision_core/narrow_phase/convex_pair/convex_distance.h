@@ -1,0 +1,72 @@
+// Two convex sets: how far apart or how deep in each other, certified.
+//
+// A search proposes (convex_search.h), two facts certify. Lower: the gap of the shadows along one
+// direction, which holds for any direction; overlapping shadows give the shift that takes the two
+// apart, so one number with a sign serves distance and depth. Upper: two points that certainly
+// belong to the two, or less the ball that the difference holds. Boxes, capsules, hulls and
+// triangles are known to about 64 · 2^-53 of their size; where a direction is mostly rounding,
+// edges and faces give it. A half-space needs no search. A search may begin where the one before
+// ended: then one step confirms it.
+#pragma once
+
+#include <numbers>
+
+#include "collision_core/base/work_budget.h"
+#include "collision_core/geometry/convex/gjk.h"
+#include "collision_core/narrow_phase/pose/convex_pose.h"
+
+namespace collision::narrow_phase {
+
+/// Units of work for a step of a search: a pair of support points; in a growing polytope, more.
+inline constexpr std::uint64_t kGjkStepUnits = 1;
+inline constexpr std::uint64_t kEpaStepUnits = 4;
+inline constexpr std::uint64_t kFacesUnits = 4;  ///< All pairs of edges of two boxes.
+
+/// What is asked about two convex sets.
+enum class ConvexGoal {
+  kYesNo,     ///< Certainly apart, or certainly in contact, and nothing more.
+  kDistance,  ///< The distance; where they overlap, that they do.
+  kDepth      ///< Likewise, and how deep they overlap.
+};
+
+/// A question, and how narrow its answer is to be.
+struct ConvexQuestion {
+  ConvexGoal goal = ConvexGoal::kDepth;
+  double share = 0;  ///< Relative tolerance: width of the bracket over its lower end.
+  double width = 0;  ///< Absolute tolerance [m]. Both 0: as narrow as doubles make it.
+};
+
+/// The certified answer.
+struct ConvexSeparation {
+  /// Contains the distance of the two where they are apart; where they overlap, less the
+  /// translational penetration depth: no shift by less than −upper takes them apart, one by −lower
+  /// (along the normal) does.
+  numeric::Interval separation{-numeric::kInfinity, numeric::kInfinity};
+  /// Points of the two, to within `point_error`: apart no further than separation.upper; in contact
+  /// (upper <= 0) the same point twice, and one common to both is that near.
+  Eigen::Vector3d a{0, 0, 0}, b{0, 0, 0};
+  double point_error = numeric::kInfinity;
+  /// Unit, from A to B: along the shortest way between them, or of the cores if their roundings
+  /// overlap; within `normal_error` [rad]. π: the shortest shift that is known takes B that way.
+  Eigen::Vector3d normal{0, 0, 0};
+  double normal_error = std::numbers::pi;
+  bool exhausted = false;  ///< A limit on steps or on work ended the search.
+};
+
+/// Both in one frame. Rounding is relative to the size S of the pair (convex_search.h) and not to
+/// their place: polytopes are known to about 64 · 2^-53 S and what their `error`s are. What is
+/// smooth may use up its steps (kGjkStepsMax, kEpaStepsMax); then the bracket stays wider.
+/// The limits and the work allowed end the search, at whatever bracket it has by then.
+ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
+                              const ConvexQuestion& question, geometry::GjkHint* hint,
+                              WorkBudget* work);
+
+/// Only `separation` of the same question; faster.
+numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
+                             const ConvexQuestion& question, WorkBudget* work);
+
+/// A convex set and a half-space, exact but for rounding: B is the half-space. To take the two
+/// apart a shift along its normal is the shortest.
+ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace& b);
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,173 @@
+#include "collision_core/narrow_phase/convex_pair/convex_pair_query.h"
+
+#include <algorithm>
+
+#include "collision_core/geometry/convex/box_zonotope.h"
+#include "collision_core/narrow_phase/convex_pair/box_separating_axis.h"
+#include "collision_core/narrow_phase/convex_pair/capsule_distance.h"
+#include "collision_core/narrow_phase/convex_pair/gjk_small.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+/// A bracket narrower than this share of S is as good as the arithmetic.
+constexpr double kTight = 96 * 0x1p-53;
+
+/// What is known of the cores, of the sets: roundings and errors counted in. The sums are off by
+/// less than 8 · 2^-53 of their terms.
+numeric::Interval OfSets(const numeric::Interval& of_cores, double rounding,
+                         const PosedCores& cores) {
+  const double slack = cores.error + 0x1p-50 * (cores.size + rounding);
+  return {(of_cores.lower - rounding) - slack, (of_cores.upper - rounding) + slack};
+}
+
+Verdict VerdictOf(const numeric::Interval& separation, double translation) {
+  if (separation.lower > translation) return Verdict::kApart;
+  return separation.upper <= -translation ? Verdict::kTouching : Verdict::kUndecided;
+}
+
+Verdict GlanceAtBoxes(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+                      const RelativePose& pose) {
+  const PosedCores cores(of_A, of_B, pose);
+  const double rounding = of_A.rounding + of_B.rounding;
+  const double uncertain = (1 + 0x1p-50) * (cores.error + pose.translation);
+  const BoxPair pair{of_A.generators.data(),
+                     of_B.generators.data(),
+                     pose.matrix.data(),
+                     {cores.d.x(), cores.d.y(), cores.d.z()},
+                     of_A.span,
+                     (1 + 0x1p-18) * of_B.span,
+                     cores.size,
+                     (1 + 0x1p-50) * (rounding + uncertain),
+                     std::max(0.0, uncertain - (1 - 0x1p-50) * rounding)};
+  switch (TestSeparatingAxes(pair)) {
+    case BoxSeparation::kApart:
+      return Verdict::kApart;
+    case BoxSeparation::kTouching:
+      return Verdict::kTouching;
+    case BoxSeparation::kUnknown:
+      break;
+  }
+  return Verdict::kUndecided;
+}
+
+/// Neither smooth nor of many points.
+bool IsQuick(const geometry::ConvexSet& set) {
+  return set.IsThin() || set.core == geometry::ConvexCore::kBox ||
+         (set.core == geometry::ConvexCore::kHull && !set.points->blocks().empty());
+}
+
+void SetCore(const geometry::ConvexSet& set, SmallGjkCore* core) {
+  core->edges = set.core == geometry::ConvexCore::kBox
+                    ? 3
+                    : (set.core == geometry::ConvexCore::kSegment ? 1 : 0);
+  if (set.core != geometry::ConvexCore::kHull) return;
+  core->is_hull = true;
+  for (int i = 0; i < 3; ++i) core->reach[i] = set.points->extents()[i];
+  core->points = set.points->blocks().data();
+  core->blocks = static_cast<int>(set.points->blocks().size() / 12);
+}
+
+/// Beyond [m], products of lengths might overflow.
+constexpr double kSizeMax = 1e40;
+
+/// The cores where they are, nothing asked yet. Requires IsQuick().
+SmallGjkPair QuickPairOf(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+                         const PosedCores& cores, const RelativePose& pose) {
+  SmallGjkPair pair;
+  SetCore(of_A, &pair.a);
+  SetCore(of_B, &pair.b);
+  for (int i = 0; i < 9; ++i) pair.a.axes[i] = of_A.generators.data()[i];
+  const double *m = pose.matrix.data(), *g = of_B.generators.data();
+  for (int i = 0; i < 9; ++i) {
+    const int row = i % 3, column = 3 * (i / 3);
+    pair.b.axes[i] = (m[row] * g[column] + m[3 + row] * g[column + 1]) + m[6 + row] * g[column + 2];
+  }
+  for (int i = 0; i < 3; ++i) pair.d[i] = cores.d[i];
+  pair.size = cores.size;
+  pair.apart = pair.inside = numeric::kInfinity;
+  pair.near = -numeric::kInfinity;
+  pair.share = pair.width = 0;
+  pair.rounding = of_A.rounding + of_B.rounding;
+  return pair;
+}
+
+Verdict SearchForVerdict(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+                         const PosedCores& cores, const RelativePose& pose) {
+  SmallGjkPair pair = QuickPairOf(of_A, of_B, cores, pose);
+  const double uncertain = (1 + 0x1p-50) * (cores.error + pose.translation);
+  const double margin = uncertain + 0x1p-46 * (cores.size + pair.rounding);
+  pair.apart = pair.rounding + margin;
+  if (pair.rounding > margin) pair.near = pair.rounding - margin;
+  pair.inside = margin;
+  const SmallGjkResult found = RunSmallGjk(pair);
+  if (found.inside) return Verdict::kTouching;
+  return VerdictOf(OfSets({found.lower, found.upper}, pair.rounding, cores), pose.translation);
+}
+
+numeric::Interval SearchForDistance(const geometry::ConvexSet& of_A,
+                                    const geometry::ConvexSet& of_B, const PosedCores& cores,
+                                    const RelativePose& pose, const ConvexQuestion& question) {
+  if (!(cores.size < kSizeMax)) return {-numeric::kInfinity, numeric::kInfinity};
+  SmallGjkPair pair = QuickPairOf(of_A, of_B, cores, pose);
+  pair.share = question.share / 4;
+  pair.width = question.width / 4;
+  // So large that contact remains when errors and roundings are counted in, see OfSets().
+  const double inside = 2 * cores.error + 0x1p-48 * (cores.size + pair.rounding);
+  if (question.goal == ConvexGoal::kDistance) pair.inside = inside;
+  const SmallGjkResult found = RunSmallGjk(pair);
+  if (found.inside) return {-numeric::kInfinity, -inside};
+  return {found.lower, found.upper};
+}
+
+bool IsGoodEnough(const numeric::Interval& separation, const numeric::Interval& of_cores,
+                  const ConvexQuestion& question, double size) {
+  if (question.goal == ConvexGoal::kDistance && separation.upper <= 0) return true;
+  const double least = std::max({0.0, separation.lower, -separation.upper});
+  const double width = separation.upper - separation.lower;
+  return width <= std::max(question.width, question.share * least) ||
+         of_cores.upper - of_cores.lower <= kTight * size;
+}
+
+}  // namespace
+
+Verdict DecideConvexPair(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+                         const RelativePose& pose, WorkBudget* work) {
+  Verdict verdict = Verdict::kUndecided;
+  work->Spend(kSeparatingAxisUnits);
+  const bool any_box =
+      of_A.core == geometry::ConvexCore::kBox || of_B.core == geometry::ConvexCore::kBox;
+  if (any_box && IsZonotope(of_A) && IsZonotope(of_B)) verdict = GlanceAtBoxes(of_A, of_B, pose);
+  if (verdict == Verdict::kUndecided && IsCapsulePair(of_A, of_B)) {
+    const PosedCores cores(of_A, of_B, pose);
+    const numeric::Interval of_cores = DistanceOfCores(of_A, of_B, cores, pose);
+    verdict = VerdictOf(OfSets(of_cores, of_A.rounding + of_B.rounding, cores), pose.translation);
+  }
+  if (verdict == Verdict::kUndecided && IsQuick(of_A) && IsQuick(of_B)) {
+    work->Spend(kSmallGjkUnits);
+    const PosedCores cores(of_A, of_B, pose);
+    if (cores.size < kSizeMax) verdict = SearchForVerdict(of_A, of_B, cores, pose);
+  }
+  if (verdict != Verdict::kUndecided) return verdict;
+  const ConvexGoal goal = pose.translation > 0 ? ConvexGoal::kDepth : ConvexGoal::kYesNo;
+  const numeric::Interval found =
+      IntervalOf(PosedA(of_A, pose), PosedB(of_B, pose), {.goal = goal}, work);
+  return VerdictOf(found, pose.translation);
+}
+
+numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& of_A,
+                                         const geometry::ConvexSet& of_B, const RelativePose& pose,
+                                         const ConvexQuestion& question, WorkBudget* work) {
+  const bool thin = IsCapsulePair(of_A, of_B);
+  if (thin || (IsQuick(of_A) && IsQuick(of_B))) {
+    work->Spend(thin ? kSeparatingAxisUnits : kSmallGjkUnits);
+    const PosedCores cores(of_A, of_B, pose);
+    const numeric::Interval of_cores = thin ? DistanceOfCores(of_A, of_B, cores, pose)
+                                            : SearchForDistance(of_A, of_B, cores, pose, question);
+    const numeric::Interval separation = OfSets(of_cores, of_A.rounding + of_B.rounding, cores);
+    if (IsGoodEnough(separation, of_cores, question, cores.size)) return separation;
+  }
+  return IntervalOf(PosedA(of_A, pose), PosedB(of_B, pose), question, work);
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,13 @@
+#define WIDE
+#include "collision_core/narrow_phase/convex_pair/gjk_small_wide.h"
+
+namespace collision::narrow_phase {
+
+SmallGjkKernel PlainSmallGjk() { return &Find; }
+
+SmallGjkResult RunSmallGjk(const SmallGjkPair& pair) {
+  static const SmallGjkKernel kernel = Avx2SmallGjk() ? Avx2SmallGjk() : PlainSmallGjk();
+  return kernel(pair);
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,45 @@
+// GJK for small cores as plain numbers: where two polytopes are nearest, or that they overlap, with
+// proof.
+#pragma once
+
+namespace collision::narrow_phase {
+
+/// A core: its half edges, each in both directions, or few points; its centre does not count.
+struct SmallGjkCore {
+  bool is_hull = false;
+  int edges = 0;   ///< Half edges: 0 to 3.
+  double axes[9];  ///< The half edges, or the frame that a hull's points are seen in: columns,
+                   ///< as A sees them.
+  double reach[3] = {1, 1, 1};  ///< About how far it reaches along each of these, of their lengths.
+  const double* points = nullptr;  ///< Of a hull: x, y and z of four, again and again.
+  int blocks = 0;
+};
+
+/// Two cores and when the search may end.
+struct SmallGjkPair {
+  SmallGjkCore a, b;
+  double d[3];    ///< From A's centre to B's; may be off by 2^-53 |d|.
+  double size;    ///< S, as of a ConvexPair.
+  double apart;   ///< Stop when the distance is known to exceed this [m].
+  double near;    ///< Stop when the distance is known to be below this [m].
+  double inside;  ///< Stop when the ball of this radius about 0 belongs to the difference [m]; > 0.
+  double share;   ///< Relative tolerance: bounds that differ by this fraction of their distance
+  double rounding;  ///< from `rounding` [m] are close enough.
+  double width;     ///< Absolute tolerance [m].
+};
+
+/// A certified bracket of the distance.
+struct SmallGjkResult {
+  double lower, upper;  ///< Of the cores, rounding counted in.
+  bool inside = false;  ///< The ball certainly belongs to the difference.
+};
+
+/// Searches with the widest kernel that this processor has.
+SmallGjkResult RunSmallGjk(const SmallGjkPair& pair);
+
+/// The same bits, the second faster; null where the processor has no such vectors.
+using SmallGjkKernel = SmallGjkResult (*)(const SmallGjkPair&);
+SmallGjkKernel PlainSmallGjk();
+SmallGjkKernel Avx2SmallGjk();
+
+}  // namespace collision::narrow_phase

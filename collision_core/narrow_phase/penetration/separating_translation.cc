@@ -1,0 +1,151 @@
+#include "collision_core/narrow_phase/penetration/separating_translation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "collision_core/narrow_phase/convex_pair/convex_distance.h"
+#include "collision_core/narrow_phase/penetration/local_separating_translation.h"
+#include "collision_core/narrow_phase/separation/element.h"
+#include "collision_core/narrow_phase/separation/separation_findings.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Of a tree, for one direction: many corners may reach equally far. Then the hull around it tells,
+/// to a millionth of the size where corners are few, to some hundredths along round sides.
+constexpr std::uint64_t kNodesMax = 64;
+
+/// How far a body reaches along n, in its own frame: best first down its tree, so that little of it
+/// is looked at. What rounding makes of it, relative to the reach, is left to the caller.
+class Reaching {
+ public:
+  Reaching(const BodyTree& surface, const Vector3d& n, WorkBudget* work)
+      : surface_(surface), n_(n), work_(*work) {}
+
+  double Find() {
+    if (surface_.shape() == nullptr) return surface_.reach();
+    Visit(0);
+    if (nodes_ <= kNodesMax) return work_.exhausted() ? numeric::kInfinity : farthest_;
+    const shape::OuterHull& hull = surface_.shape()->hull();
+    const double height = static_cast<double>(hull.Along(n_.cast<float>()).height);
+    // n as a float is off by less than 2 · 2^-24.
+    return n_.dot(hull.origin()) + height + (shape::kHullSupportError + 0x1p-23) * hull.extent();
+  }
+
+ private:
+  double BoundOf(const sphere_tree::SphereNode& node) const {
+    return n_.dot(node.centre) + node.radius;
+  }
+
+  void Visit(std::uint32_t index) {
+    const sphere_tree::SphereNode& node = surface_.node(index);
+    if (nodes_ > kNodesMax || work_.exhausted()) return;
+    ++nodes_;
+    work_.Spend(1);
+    if (BoundOf(node) <= farthest_) return;
+    const sphere_tree::SphereTree& tree = surface_.shape()->tree();
+    for (const std::uint32_t element : tree.TrianglesOf(node)) Take(element);
+    // The child that may reach the farthest first: it makes the others needless.
+    std::uint32_t best = 0;
+    for (std::uint32_t i = 1; i < node.children; ++i) {
+      const sphere_tree::SphereNode* const children = &tree.nodes[node.first_child];
+      if (BoundOf(children[i]) > BoundOf(children[best])) best = i;
+    }
+    if (node.children > 0) Visit(node.first_child + best);
+    for (std::uint32_t i = 0; i < node.children; ++i) {
+      if (i != best) Visit(node.first_child + i);
+    }
+  }
+
+  void Take(std::uint32_t element) {
+    const shape::Shape& shape = *surface_.shape();
+    if (shape.IsSolid(element)) {
+      const geometry::ConvexSet& set = shape.SolidAt(element).set();
+      const double core = n_.dot(set.centre) + n_.dot(set.SupportPoint(n_));
+      farthest_ = std::max(farthest_, core + set.rounding + set.error);
+      return;
+    }
+    for (const Vector3d& corner : CornersOf(shape, element)) {
+      farthest_ = std::max(farthest_, n_.dot(corner));
+    }
+  }
+
+  const BodyTree& surface_;
+  const Vector3d n_;
+  WorkBudget& work_;
+  std::uint64_t nodes_ = 0;
+  double farthest_ = -numeric::kInfinity;
+};
+
+/// Across an element: of a triangle its normal.
+Vector3d NormalOf(const BodyTree& surface, std::uint32_t element) {
+  if (surface.shape() == nullptr || surface.shape()->IsSolid(element)) return Vector3d::Zero();
+  const geometry::TrianglePoints t = CornersOf(*surface.shape(), element);
+  return (t[1] - t[0]).cross(t[2] - t[0]);
+}
+
+}  // namespace
+
+// Along n, of length 1 to within 2^-50: A reaches up to reach_a, B from offset − reach_b on; so
+// moved by the sum less what lies between they do not overlap. Supports are off by less than
+// kSupportError of the spans, spans at most thrice the reach, sums and products by less than as
+// much again.
+double SeparatingTranslationAlong(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                                  const Vector3d& n, WorkBudget* work) {
+  const double reach_a = Reaching(a, n, work).Find();
+  const double reach_b = Reaching(b, -(pose.matrix.transpose() * n), work).Find();
+  const double size = a.reach() + b.reach() + pose.offset.cwiseAbs().sum();
+  const double turning = pose.chord_A * a.turning_reach() + pose.chord_B * b.turning_reach();
+  const double shift = reach_a + reach_b - n.dot(pose.offset);
+  return shift + 0x1p-49 * std::abs(shift) + 0x1p-45 * size + 2 * SlackOf(a, b, pose) +
+         turning * (1 + 0x1p-40);
+}
+
+double SeparatingTranslation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                             const ContactWitness& evidence, WorkBudget* work) {
+  // What shows the contact first: bodies that touch are mostly taken apart across it.
+  std::vector<Vector3d> ways;
+  const auto add = [&](const Vector3d& direction) {
+    const double length = direction.norm();
+    if (length > 0x1p-500 && length < 0x1p+500) ways.push_back(direction / length);
+  };
+  const auto add_axis = [&](const Vector3d& axis) {
+    add(axis.dot(pose.offset) < 0 ? Vector3d(-axis) : axis);
+  };
+  if (evidence.kind == ContactWitness::Kind::kNodes) {
+    add(pose.ToA(b.node(evidence.b).centre) - a.node(evidence.a).centre);
+  }
+  if (evidence.kind == ContactWitness::Kind::kTriangles) {
+    if (AnySolid(a, evidence.a, b, evidence.b)) {
+      geometry::GjkHint none;
+      add(SeparationOf(PosedA(SetOf(a, evidence.a), pose), PosedB(SetOf(b, evidence.b), pose), {},
+                       &none, work)
+              .normal);
+    }
+    add(NormalOf(a, evidence.a));
+    add(pose.matrix * -NormalOf(b, evidence.b));
+  }
+  add(pose.offset);
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    if (a.shape()) add_axis(Vector3d::Unit(axis));
+    if (b.shape()) add_axis(pose.matrix.col(axis));
+  }
+  for (std::size_t i = 0, count = ways.size(); i < count; ++i) ways.push_back(-ways[i]);
+  double least = numeric::kInfinity;
+  for (const Vector3d& way : ways) {
+    // Against the centres' way only a large body is left sooner than along it.
+    if (way.dot(pose.offset) < 0 && -way.dot(pose.offset) >= least) continue;
+    if (!work->exhausted())
+      least = std::min(least, SeparatingTranslationAlong(a, b, pose, way, work));
+  }
+  least = std::max(0.0, least);
+  WorkBudget own(std::min(kPastUnits, work->left()));
+  for (const Vector3d& way : ways)
+    least = LocalSeparatingTranslation(a, b, pose, way, least, evidence, &own);
+  work->Spend(own.spent());
+  return least;
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,71 @@
+#include "collision_core/narrow_phase/pose/convex_pose.h"
+
+#include <cmath>
+
+namespace collision::narrow_phase {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow.
+double LengthUp(const Vector3d& v) {
+  return (1 + 0x1p-50) * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
+}
+
+/// A root of a sum of three products and a division, each rounded.
+constexpr double kUnitError = 8 * 0x1p-53;
+
+/// n / |n|.
+PosedHalfSpace Normalised(const shape::ConvexHalfSpace& half_space) {
+  const double length = half_space.normal.stableNorm();
+  return {half_space.normal / length, half_space.point, 0, kUnitError};
+}
+
+}  // namespace
+
+// A point of the core is c + Σ s_i g_i with |s_i| <= 1 (kHull: c + G x). matrix_error holds for
+// each vector posed (relative_pose.h), so that the exact pose of the point is off by at most
+// offset_error + matrix_error (|c| + Σ |g_i|); of a hull Σ |g_i| |x_i| <= √3 reach < span. The
+// turning moves points by chord_B of their distance from the reference point; the ball about them
+// moves with them.
+geometry::ConvexSet PosedB(const geometry::ConvexSet& of_B, const RelativePose& pose) {
+  geometry::ConvexSet posed = of_B;
+  posed.generators = pose.matrix * of_B.generators;
+  posed.centre = pose.matrix * of_B.centre + pose.offset;
+  // The error itself is moved along, by a matrix of norm at most 1 + 2^-20. All terms are positive,
+  // so that 2^-40 covers the rounding of their sums.
+  const double far = LengthUp(of_B.centre) + of_B.span;
+  const double moved = (1 + 0x1p-20) * of_B.error;
+  posed.error =
+      (1 + 0x1p-40) * (moved + pose.offset_error + (pose.matrix_error + pose.chord_B) * far);
+  posed.span = (1 + 0x1p-50) * (1 + pose.matrix_error) * of_B.span;
+  return posed;
+}
+
+geometry::ConvexSet PosedA(const geometry::ConvexSet& of_A, const RelativePose& pose) {
+  if (pose.chord_A == 0) return of_A;
+  geometry::ConvexSet posed = of_A;
+  const double far = numeric::AddUp(LengthUp(of_A.centre), of_A.span);
+  posed.error = numeric::AddUp(of_A.error, numeric::MultiplyUp(pose.chord_A, far));
+  return posed;
+}
+
+PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_A, const RelativePose& pose) {
+  PosedHalfSpace posed = Normalised(of_A);
+  posed.normal_error = numeric::AddUp(posed.normal_error, pose.chord_A);
+  posed.point_error = numeric::MultiplyUp(pose.chord_A, LengthUp(of_A.point));
+  return posed;
+}
+
+PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_B, const RelativePose& pose) {
+  PosedHalfSpace posed = Normalised(of_B);
+  const double share = numeric::AddUp(pose.matrix_error, pose.chord_B);
+  const double length = LengthUp(of_B.point);
+  posed.normal = pose.matrix * posed.normal;
+  posed.point = pose.matrix * of_B.point + pose.offset;
+  posed.normal_error = numeric::AddUp(posed.normal_error, numeric::MultiplyUp(1 + 0x1p-40, share));
+  posed.point_error = numeric::AddUp(pose.offset_error, numeric::MultiplyUp(share, length));
+  return posed;
+}
+
+}  // namespace collision::narrow_phase

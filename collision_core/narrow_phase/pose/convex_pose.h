@@ -1,0 +1,27 @@
+// Convex sets where a body is, at an instant.
+#pragma once
+
+#include "collision_core/narrow_phase/pose/relative_pose.h"
+#include "collision_core/shape/convex_solid.h"
+
+namespace collision::narrow_phase {
+
+/// A set of B in A's body frame. What rounding and the turning of B may make of it is counted into
+/// its `error`; `translation` of the pose is not.
+geometry::ConvexSet PosedB(const geometry::ConvexSet& of_B, const RelativePose& pose);
+
+/// A set of A in its own frame: its turning is counted in, nothing else.
+geometry::ConvexSet PosedA(const geometry::ConvexSet& of_A, const RelativePose& pose);
+
+/// A half-space of B in A's body frame.
+struct PosedHalfSpace {
+  Eigen::Vector3d normal;  ///< Unit to within 2^-40.
+  Eigen::Vector3d point;
+  double point_error = 0;  ///< Of the point [m].
+  /// The exact normal differs by a vector no longer than this.
+  double normal_error = 0;
+};
+PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_A, const RelativePose& pose);
+PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_B, const RelativePose& pose);
+
+}  // namespace collision::narrow_phase

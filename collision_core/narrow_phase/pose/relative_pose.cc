@@ -1,0 +1,112 @@
+#include "collision_core/narrow_phase/pose/relative_pose.h"
+
+#include <algorithm>
+
+namespace collision::narrow_phase {
+namespace {
+
+// 2^-53: each operation on doubles is off by at most this share of its result.
+constexpr double kUnit = 0x1p-53;
+
+// A product of two matrices of norm at most 1 + 2^-20, entry by entry three products and two sums:
+// each entry is off by less than 3.1 units, the matrix as a whole by less than three times as much.
+constexpr double kProductRounding = 16 * kUnit;
+
+struct Orientation {
+  numeric::Rotation rotation;
+  double chord = 0;
+};
+
+// A rotation that is off by more than this is taken for none that is known (kRotationAngleMax).
+constexpr double kAnyRotation = 0.5;
+
+// A ball looks the same however it is turned. Of a body that may be turned any way one orientation
+// is as good as another, if only it is exact.
+Orientation OrientationOf(const BodySegment& body, std::size_t bound, double delta) {
+  if (!body.shape) return {};
+  const motion::MovingRotation& turn = body.turns[bound];
+  Orientation orientation{RotationOf(turn.OrientationAt(delta)), 2};
+  if (orientation.rotation.error > kAnyRotation) return {numeric::Rotation{}, 2};
+  const double angle = std::max(0.0, turn.off_angle.At(delta).upper);
+  // 2 sin(θ/2) <= θ; the difference matters for large angles only.
+  if (angle <= 0.125) orientation.chord = angle;
+  if (angle > 0.125 && angle < 3.14159) {
+    orientation.chord = std::min(2.0, 2 * SinCosOf(numeric::Interval(angle / 2)).sin.upper);
+  }
+  return orientation;
+}
+
+// For the choice of a bound; all of them hold.
+double TurnedAbout(const motion::MovingRotation& turn, double delta) {
+  const double seconds = turn.since.middle() + delta;
+  const bool followed = turn.w_WB.squaredNorm() * seconds * seconds <=
+                        numeric::kRotationAngleMax * numeric::kRotationAngleMax;
+  return followed ? std::min(2.0, turn.off_angle.At(delta).upper) : 2;
+}
+
+double Uncertainty(const BodySegment& body, std::size_t bound, double delta) {
+  const double turned = body.shape ? TurnedAbout(body.turns[bound], delta) * ReachOf(body) : 0;
+  return body.ball.bounds[bound].u().At(delta).upper + turned;
+}
+
+std::size_t LeastUncertain(const BodySegment& body, double delta) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < body.ball.bounds.size(); ++i) {
+    if (Uncertainty(body, i, delta) < Uncertainty(body, best, delta)) best = i;
+  }
+  return best;
+}
+
+numeric::IntervalVector CentreAt(const motion::MovingBall& ball, double delta) {
+  return ball.centre + numeric::Interval(delta) * ball.velocity;
+}
+
+double Width(const numeric::IntervalVector& v, const Eigen::Vector3d& middle) {
+  return numeric::Norm(v - numeric::IntervalVector(middle)).upper;
+}
+
+}  // namespace
+
+BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta) {
+  if (a.ball.bounds.empty() || b.ball.bounds.empty()) return {};
+  return {LeastUncertain(a, delta), LeastUncertain(b, delta), true};
+}
+
+RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta) {
+  const motion::MovingBall& ball_A = a.ball.bounds[choice.of_A];
+  const motion::MovingBall& ball_B = b.ball.bounds[choice.of_B];
+  const Orientation of_A = OrientationOf(a, choice.of_A, delta);
+  const Orientation of_B = OrientationOf(b, choice.of_B, delta);
+  // Positions are subtracted first: far from the origin nothing is lost but what the states lost.
+  const numeric::IntervalVector d = (ball_B.centre - ball_A.centre) +
+                                    numeric::Interval(delta) * (ball_B.velocity - ball_A.velocity);
+  const Eigen::Vector3d middle = d.middle();
+  const double length = numeric::Norm(numeric::IntervalVector(middle)).upper;
+
+  RelativePose pose;
+  pose.matrix = of_A.rotation.matrix.transpose() * of_B.rotation.matrix;
+  pose.offset = of_A.rotation.matrix.transpose() * middle;
+  const double errors = numeric::AddUp(of_A.rotation.error, of_B.rotation.error);
+  pose.matrix_error = numeric::AddUp(
+      numeric::AddUp(errors, numeric::MultiplyUp(of_A.rotation.error, of_B.rotation.error)),
+      kProductRounding + kPosingRounding);
+  pose.offset_error = numeric::AddUp(
+      Width(d, middle),
+      numeric::MultiplyUp(numeric::AddUp(of_A.rotation.error, kProductRounding + kPosingRounding),
+                          length));
+  pose.translation = std::max(0.0, (ball_A.u().At(delta) + ball_B.u().At(delta)).upper);
+  pose.chord_A = of_A.chord;
+  pose.chord_B = of_B.chord;
+
+  const numeric::IntervalVector centre_A = CentreAt(ball_A, delta);
+  pose.p_WA = centre_A.middle();
+  pose.matrix_WA = of_A.rotation.matrix;
+  const double rounding = numeric::MultiplyUp(
+      kPosingRounding, numeric::AddUp(numeric::Norm(centre_A).upper, a.ball.radius + length));
+  pose.error_A = numeric::AddUp(
+      numeric::AddUp(ball_A.u().At(delta).upper, Width(centre_A, pose.p_WA)),
+      numeric::AddUp(rounding, numeric::MultiplyUp(of_A.rotation.error, ReachOf(a))));
+  return pose;
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,89 @@
+// Whether one body is inside the other, where their surfaces are apart.
+#include <algorithm>
+
+#include "collision_core/narrow_phase/separation/separation_findings.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+enum class Side { kOutside, kInside, kUnknown };
+
+bool OffBox(const Eigen::Vector3d& point, const geometry::MeshFacts& facts) {
+  return (point.array() > facts.upper.array()).any() || (point.array() < facts.lower.array()).any();
+}
+
+// The solid `of` is closed. Without work nothing is known of what is in its box.
+Side SideOf(const Eigen::Vector3d& point, const shape::Shape& of, WorkBudget* work) {
+  if (OffBox(point, of.facts())) return Side::kOutside;
+  if (work->exhausted()) return Side::kUnknown;
+  work->Spend(kWindingUnits);
+  const std::optional<int> winding = of.WindingNumberAt(point);
+  if (!winding) return Side::kUnknown;
+  return *winding == 0 ? Side::kOutside : Side::kInside;
+}
+
+// Whether a body of one component has a point off the other one's box: then none of it is inside.
+// Points as seen by `ToOther`.
+template <typename ToOther>
+bool HasPointOff(const shape::Shape& shape, const shape::Shape& other, ToOther to_other) {
+  if (shape.facts().components != 1 || !shape.solids().empty()) return false;
+  const auto& extremes = shape.packed().extremes();
+  return std::any_of(extremes.begin(), extremes.end(), [&](const Eigen::Vector3d& point) {
+    return OffBox(to_other(point), other.facts());
+  });
+}
+
+// The points of `body` that decide: one of each component; of a ball its centre, which is where the
+// reference point is.
+template <typename ToOther, typename Judge>
+void JudgeEach(const BodyTree& body, const shape::Shape& other, ToOther to_other, Judge judge,
+               WorkBudget* work) {
+  if (body.shape() == nullptr) {
+    const Eigen::Vector3d centre(0, 0, 0);
+    judge(SideOf(to_other(centre), other, work), centre);
+    return;
+  }
+  if (HasPointOff(*body.shape(), other, to_other)) return;
+  for (const Eigen::Vector3d& point : body.shape()->component_points()) {
+    if (!judge(SideOf(to_other(point), other, work), point)) return;
+  }
+}
+
+// Balls about the bodies that are apart.
+bool AreRootsApart(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double slack) {
+  const sphere_tree::SphereNode& root_a = a.node(0);
+  const sphere_tree::SphereNode& root_b = b.node(0);
+  const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
+  return distance > root_a.radius + root_b.radius + slack;
+}
+
+}  // namespace
+
+// The surfaces are apart by more than all that is uncertain: so a point's side is that of the point
+// where it is computed to be.
+Containment TestContainment(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                            WorkBudget* work) {
+  Containment nesting;
+  nesting.neither = true;
+  const double turning = numeric::AddUp(numeric::MultiplyUp(pose.chord_A, a.turning_reach()),
+                                        numeric::MultiplyUp(pose.chord_B, b.turning_reach()));
+  const double slack = numeric::AddUp(turning, SlackOf(a, b, pose));
+  if (AreRootsApart(a, b, pose, numeric::AddUp(slack, pose.translation))) return nesting;
+  const auto judge = [&](Side side, const Eigen::Vector3d& x_A) {
+    if (side != Side::kOutside) nesting.neither = false;
+    if (side == Side::kInside) nesting.point = x_A, nesting.point_error = slack;
+    return nesting.neither;
+  };
+  if (a.shape() && a.shape()->closed()) {
+    JudgeEach(
+        b, *a.shape(), [&](const Eigen::Vector3d& x_B) { return pose.ToA(x_B); },
+        [&](Side side, const Eigen::Vector3d& x_B) { return judge(side, pose.ToA(x_B)); }, work);
+  }
+  if (nesting.neither && b.shape() && b.shape()->closed()) {
+    JudgeEach(
+        a, *b.shape(), [&](const Eigen::Vector3d& x_A) { return pose.ToB(x_A); }, judge, work);
+  }
+  return nesting;
+}
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,139 @@
+#include "collision_core/narrow_phase/separation/separation.h"
+
+#include "collision_core/narrow_phase/convex_pair/convex_pair_query.h"
+#include "collision_core/narrow_phase/separation/hull_gap.h"
+#include "collision_core/narrow_phase/separation/separation_search.h"
+
+namespace collision::narrow_phase {
+namespace {
+
+void LookAgainAtLeaves(const BodyTree& a, const BodyTree& b, const ContactWitness& leaves,
+                       SeparationFindings* findings, WorkBudget* work) {
+  if (!a.shape() || !b.shape()) {
+    const BodyTree& meshed = a.shape() ? a : b;
+    const sphere_tree::SphereNode& leaf = meshed.node(a.shape() ? leaves.a : leaves.b);
+    for (const std::uint32_t t : meshed.shape()->tree().TrianglesOf(leaf)) {
+      if (work->exhausted()) return;
+      findings->MeasureBeside(t, work);
+    }
+    return;
+  }
+  for (const std::uint32_t t : a.shape()->tree().TrianglesOf(a.node(leaves.a))) {
+    for (const std::uint32_t u : b.shape()->tree().TrianglesOf(b.node(leaves.b))) {
+      if (work->exhausted()) return;
+      findings->CrossAgain(t, u, work);
+    }
+  }
+}
+
+// Beyond [m], squares might overflow; a search looks at that.
+constexpr double kSeenAtOnceMax = 1e100;
+
+// Balls about the whole bodies that are apart: so are the bodies, inside and out.
+bool RootsDecide(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                 SeparationBracket* look) {
+  const sphere_tree::SphereNode& root_a = a.node(0);
+  const sphere_tree::SphereNode& root_b = b.node(0);
+  const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
+  if (!(distance < kSeenAtOnceMax)) return false;
+  double slack = SlackOf(a, b, pose);
+  if (pose.chord_A > 0) slack += pose.chord_A * root_a.centre.norm();
+  if (pose.chord_B > 0) slack += pose.chord_B * root_b.centre.norm();
+  look->lower = distance - root_a.radius - root_b.radius - slack;
+  look->upper = distance + root_a.signed_distance + root_b.signed_distance + slack;
+  return look->lower > pose.translation;
+}
+
+/// A body that is one convex solid; else null.
+const geometry::ConvexSet* LoneSolid(const BodyTree& surface) {
+  const shape::Shape* shape = surface.shape();
+  const bool lone = shape && shape->solids().size() == 1 && shape->mesh().triangles.empty();
+  return lone ? &shape->solids()[0].set() : nullptr;
+}
+
+Decision DecideLone(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
+                    const RelativePose& pose, WorkBudget* work) {
+  Decision decision;
+  decision.verdict = DecideConvexPair(a, b, pose, work);
+  if (decision.verdict == Verdict::kApart) decision.look.lower = pose.translation;
+  if (decision.verdict == Verdict::kTouching) decision.look.upper = -pose.translation;
+  return decision;
+}
+
+}  // namespace
+
+SeparationBracket QuerySeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                                  Goal goal, WorkBudget* work, const ContactWitness& hint) {
+  SeparationSearch search(a, b, pose, goal);
+  search.Start(work);
+  if (hint.kind == ContactWitness::Kind::kLeaves) search.Try(hint, work);
+  search.Refine(work);
+  return search.Told();
+}
+
+SeparationBracket BracketSeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                                    double width, double share, WorkBudget* work) {
+  SeparationSearch search(a, b, pose, Goal::kDecision, BracketWidth{width, share});
+  search.Start(work);
+  search.Refine(work);
+  return search.Told();
+}
+
+SeparationBracket RecheckWitness(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                                 const ContactWitness& evidence, WorkBudget* work) {
+  SeparationFindings findings(a, b, pose, Goal::kDecision, {});
+  const bool meshes = a.shape() && b.shape();
+  switch (evidence.kind) {
+    case ContactWitness::Kind::kNone:
+      break;
+    case ContactWitness::Kind::kNodes:
+      work->Spend(1);
+      findings.MeasureNodes(evidence.a, evidence.b);
+      break;
+    case ContactWitness::Kind::kTriangles:
+      if (meshes) {
+        findings.CrossAgain(evidence.a, evidence.b, work);
+      } else {
+        findings.MeasureBeside(evidence.a, work);
+      }
+      break;
+    case ContactWitness::Kind::kLeaves:
+      LookAgainAtLeaves(a, b, evidence, &findings, work);
+  }
+  return findings.Told(-numeric::kInfinity, false, 0);
+}
+
+Decision DecideAt(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
+                  WorkBudget* work) {
+  const geometry::ConvexSet *lone_a = LoneSolid(a), *lone_b = LoneSolid(b);
+  if (lone_a && lone_b) return DecideLone(*lone_a, *lone_b, pose, work);
+  Decision decision;
+  if (RootsDecide(a, b, pose, &decision.look)) {
+    work->Spend(1);
+    decision.verdict = Verdict::kApart;
+    return decision;
+  }
+  // Convex bodies around them that are apart: so are the bodies, inside and out.
+  const double gap = HullGapOf(a, b, pose, pose.translation, work);
+  if (gap > pose.translation) {
+    decision.look.lower = std::max(decision.look.lower, gap);
+    decision.verdict = Verdict::kApart;
+    return decision;
+  }
+  SeparationSearch search(a, b, pose, Goal::kYesNo);
+  search.Start(work);
+  search.Refine(work);
+  decision.look = search.Told();
+  const SeparationBracket& look = decision.look;
+  if (look.upper <= -pose.translation || look.crossing_margin >= pose.translation / 2) {
+    decision.verdict = Verdict::kTouching;
+  } else if (look.lower > pose.translation) {
+    const Containment nesting = TestContainment(a, b, pose, work);
+    if (nesting.neither) decision.verdict = Verdict::kApart;
+    if (nesting.certain()) decision.verdict = Verdict::kTouching;
+    if (decision.verdict == Verdict::kUndecided) decision.look.exhausted |= work->exhausted();
+  }
+  return decision;
+}
+
+}  // namespace collision::narrow_phase

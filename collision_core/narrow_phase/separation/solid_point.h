@@ -1,0 +1,36 @@
+// A point that shows that two bodies overlap, however little.
+#pragma once
+
+#include "collision_core/narrow_phase/separation/separation.h"
+
+namespace collision::narrow_phase {
+
+/// A point fixed to one of the bodies, on its surface or near it, with a bound of its signed
+/// distance to that surface: negative within the solid. Where the other solid holds a ball about it
+/// that is larger, the two overlap. Unlike triangles that cross this shows a shallow contact of
+/// parallel faces, or of edges that coincide: there no edge passes through the inside of a
+/// triangle.
+struct SolidPoint {
+  bool of_A = true;                             ///< Fixed to A; else to B.
+  Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< In that body's frame.
+  double signed_distance = numeric::kInfinity;  ///< To that body's surface, rounded up.
+};
+
+/// Units of the distance of one point to a surface.
+inline constexpr std::uint64_t kPointUnits = 100;
+
+/// A point of a body frame, with what is certain of it.
+SolidPoint PointOfA(const BodyTree& a, const Eigen::Vector3d& x_A, WorkBudget* work);
+SolidPoint PointOfB(const BodyTree& b, const Eigen::Vector3d& x_B, WorkBudget* work);
+
+/// A bound of the distance of the two bodies as in SeparationBracket::upper, by this point alone: where it is
+/// below 0 they overlap by at least that much. The uncertainty of rounding and turning is counted
+/// in, that of translation is not.
+double UpperBy(const SolidPoint& point, const BodyTree& a, const BodyTree& b,
+               const RelativePose& pose, WorkBudget* work);
+
+/// A bound of the signed distance of a point, in the body frame: negative only where it is
+/// certainly within a solid. A ball is solid.
+double SignedDistanceTo(const BodyTree& surface, const Eigen::Vector3d& x, WorkBudget* work);
+
+}  // namespace collision::narrow_phase

@@ -1,0 +1,124 @@
+#include "collision_core/numeric/first_approach_quick.h"
+
+#include <cmath>
+
+#include "collision_core/numeric/rounding.h"
+
+namespace collision::numeric {
+namespace {
+
+/// Steps before the interval arithmetic is asked: a simple root takes about 5.
+constexpr int kStepsMax = 24;
+
+/// ε: the most that one rounding costs, relative.
+constexpr double kEpsilon = 0x1p-53;
+
+/// Of an evaluation, relative to the greatest terms; derived at Seen.
+constexpr double kErrorOfGap = 10 * kEpsilon;
+constexpr double kErrorOfSlope = 10 * kEpsilon;
+
+/// A step's formula has at most six roundings, each of positive numbers.
+constexpr double kLessStep = 1 - 8 * kEpsilon;
+
+/// Distances between these have squares whose rounding is relative: what underflows beside them is
+/// less than 2^-140 of the allowances.
+constexpr double kDistanceMin = 0x1p-465, kDistanceMax = 0x1p+465;
+
+/// Speeds are zero or at least this: beside the allowance on a slope, 2^-450, what underflows there
+/// (2^-1074 over the least distance) is nothing.
+constexpr double kSpeedMin = 0x1p-400;
+
+/// Likewise discriminants.
+constexpr double kDiscriminantMin = 0x1p-900, kDiscriminantMax = 0x1p+1000;
+
+/// The answer may be early by this, relative: less than 1e-9.
+constexpr double kAhead = 1 + 0x1p-31;
+
+/// A step below this part of δ has all but arrived: the next one would be some 2^-24.
+constexpr double kNearlyThere = 0x1p-12;
+
+/// The approach seen from δ, with its errors.
+///
+/// Gap. x_i = d_i + w_i δ is off by ε (|d_i| + 2 |w_i| δ) at most, together by 2ε (D + W δ), where
+/// D and W are the sums of |d_i| and |w_i|. Squares, two sums and the root give |x| with 3ε:
+/// squares ε, sums 2ε, halved by the root, and its own ε. The reach s0 + δ (s1 + δ s2) has four
+/// roundings, the difference one more. Together less than 6ε (D + W δ) + 6ε S, second order
+/// included.
+///
+/// Slope. The tangent holds for any direction, so x is one without error. x·w has three roundings a
+/// term, |x| 3ε and the quotient one: 7ε W. s1 + 2 δ s2 has three roundings, the difference one
+/// more.
+struct Seen {
+  const QuickApproach& a;
+  double scale_w, delta;
+  double x[3];
+  double distance, reach, error;
+
+  Seen(const QuickApproach& a, double scale_d, double scale_w, double delta)
+      : a(a),
+        scale_w(scale_w),
+        delta(delta),
+        x{a.d[0] + a.w[0] * delta, a.d[1] + a.w[1] * delta, a.d[2] + a.w[2] * delta},
+        distance(std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])),
+        reach(a.s0 + delta * (a.s1 + delta * a.s2)),
+        error(kErrorOfGap * (scale_d + scale_w * delta + reach)) {}
+
+  bool in_range() const { return distance >= kDistanceMin && distance <= kDistanceMax; }
+  double gap_lower() const { return (distance - reach) - error; }
+
+  /// Is the true distance certainly within the true reach?
+  bool overlaps() const {
+    const double doubt = 2 * (error + a.doubt0 + a.doubt1 * delta);
+    return reach <= kDistanceMax && distance + doubt <= reach;
+  }
+
+  /// How fast the tangent's gap closes, at most.
+  double closing() const {
+    const double along = (x[0] * a.w[0] + x[1] * a.w[1] + x[2] * a.w[2]) / distance;
+    const double growing = a.s1 + 2 * delta * a.s2;
+    return (growing - along) + kErrorOfSlope * (scale_w + growing);
+  }
+};
+
+/// A lower bound on the least zero of gap − closing x − growth x², which has one; NaN: the
+/// magnitudes are too far apart to say.
+double Step(double gap, double closing, double growth) {
+  const double discriminant = closing * closing + 4 * growth * gap;
+  if (!(discriminant >= kDiscriminantMin && discriminant <= kDiscriminantMax)) return NAN;
+  const double root = std::sqrt(discriminant);
+  if (closing >= 0) return kLessStep * (2 * gap / (closing + root));
+  return kLessStep * ((root - closing) / (2 * growth));
+}
+
+double SumOfMagnitudes(const double (&v)[3]) {
+  return (std::abs(v[0]) + std::abs(v[1])) + std::abs(v[2]);
+}
+
+}  // namespace
+
+QuickAnswer QuickFirstApproach(const QuickApproach& approach, double limit) {
+  const double scale_d = SumOfMagnitudes(approach.d), scale_w = SumOfMagnitudes(approach.w);
+  const auto arrives = [&](double delta) {
+    return Seen(approach, scale_d, scale_w, delta * kAhead).overlaps();
+  };
+  const double speeds = scale_w + approach.s1;
+  if (speeds > 0 && speeds < kSpeedMin) return {false, 0};
+  double delta = 0;
+  for (int count = 0; count < kStepsMax; ++count) {
+    const Seen seen(approach, scale_d, scale_w, delta);
+    if (!seen.in_range()) return {seen.overlaps(), delta};
+    const double gap = seen.gap_lower();
+    if (!(gap > 0)) return {arrives(delta), delta};
+    const double closing = seen.closing();
+    if (closing <= 0 && approach.s2 == 0) return {true, kInfinity};
+    const double step = Step(gap, closing, approach.s2);
+    if (!(step < kInfinity)) return {false, delta};
+    const double next = AddDown(delta, step);
+    if (next > limit) return {true, kInfinity};
+    if (step <= kNearlyThere * next && arrives(next)) return {true, next};
+    delta = next;
+  }
+  return {false, delta};
+}
+
+}  // namespace collision::numeric

@@ -1,0 +1,56 @@
+// One ball around points of a surface that reaches beyond the surface as little as it can.
+#pragma once
+
+#include <span>
+
+#include "collision_core/sphere_tree/fitted/fitted_boxes.h"
+
+namespace collision::sphere_tree {
+
+/// A ball in the search: rounded as it comes.
+struct FittedBall {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();  ///< Of the surface, from the centre.
+  double signed_distance = 0;  ///< Of the centre; negative only where `inside`.
+  double radius = 0;
+  bool inside = false;
+  std::uint32_t triangle = 0;  ///< Where `nearest` is.
+
+  double overshoot() const { return radius + signed_distance; }
+};
+
+/// The distance of the farthest point from a centre, and which it is.
+struct FarPoint {
+  double distance = 0;
+  std::uint32_t index = 0;
+};
+FarPoint FarthestFrom(const Eigen::Vector3d& centre, std::span<const Eigen::Vector3d> points);
+
+/// Makes balls small: for one search at a time, it keeps its buffers.
+class BallPolish {
+ public:
+  explicit BallPolish(const TriangleBoxes& boxes) : boxes_(boxes) {}
+
+  /// Moves the centre while that makes the overshoot of a ball about all points less, asking for
+  /// the nearest surface at most `queries` times. Sets the radius.
+  void Run(std::span<const Eigen::Vector3d> points, int queries, FittedBall* ball);
+
+ private:
+  bool Try(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& centre, double step,
+           FittedBall* ball);
+
+  const TriangleBoxes& boxes_;
+  std::vector<Eigen::Vector3d> near_;  ///< Points of the surface that were nearest once.
+  std::vector<Eigen::Vector3d> far_;   ///< Points that were farthest once.
+  Eigen::Vector3d farthest_ = Eigen::Vector3d::Zero();
+  int queries_ = 0;
+};
+
+/// Balls that touch the triangle's surface point `from` from inside (or lie on it), as starts of a
+/// search: the largest that contains no surface, one half-way to the opposite side, the point
+/// itself.
+void AppendCandidates(const TriangleBoxes& boxes, const Eigen::Vector3d& from,
+                      const Eigen::Vector3d& normal, std::uint32_t triangle, bool closed,
+                      std::vector<FittedBall>* candidates);
+
+}  // namespace collision::sphere_tree

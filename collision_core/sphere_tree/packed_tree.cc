@@ -1,0 +1,217 @@
+#include "collision_core/sphere_tree/packed_tree.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace collision::sphere_tree {
+namespace {
+
+/// The least float that is at least x.
+float FloatUp(double x) {
+  const auto rounded = static_cast<float>(x);
+  if (static_cast<double>(rounded) >= x) return rounded;
+  return std::nextafter(rounded, std::numeric_limits<float>::infinity());
+}
+
+constexpr Eigen::Index kAxes = 3;
+
+BallPack EmptyPack() {
+  BallPack pack;
+  for (std::uint32_t i = 0; i < kPackBalls; ++i) {
+    pack.x[i] = pack.y[i] = pack.z[i] = kElsewhere;
+    pack.radius[i] = -kNowhere;
+    pack.signed_distance[i] = kNowhere;
+    pack.link[i] = BallLink::kLeaf;
+  }
+  return pack;
+}
+
+/// The middle of the balls' box: coordinates seen from there lose the least.
+Eigen::Vector3d MiddleOf(const SphereTree& tree) {
+  Eigen::Vector3d lower = tree.root().centre, upper = lower;
+  for (const SphereNode& node : tree.nodes) {
+    lower = lower.cwiseMin(node.centre), upper = upper.cwiseMax(node.centre);
+  }
+  return 0.5 * lower + 0.5 * upper;
+}
+
+}  // namespace
+
+/// A ball, by its number, and the nodes that it holds: its children, or a part of them where they
+/// are too many for a pack. None: a leaf.
+struct PackedTree::Lane {
+  std::uint32_t node, first, count;
+};
+
+struct PackedTree::Lanes {
+  std::array<Lane, kPackBalls> lane;
+  std::uint32_t count = 0;
+
+  void Add(const Lane& more) { lane[count++] = more; }
+  void Add(const SphereTree& tree, std::uint32_t node) {
+    Add({node, tree.nodes[node].first_child, tree.nodes[node].children});
+  }
+};
+
+PackedTree::PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tree)
+    : origin_(MiddleOf(tree)) {
+  Lanes root;
+  root.Add(tree, 0);
+  std::vector<Lanes> packs = {root};
+  for (std::uint32_t next = 0; next < packs.size(); ++next) {
+    const Lanes lanes = packs[next];
+    packs_.push_back(EmptyPack());
+    nodes_.resize(packs_.size() * kPackBalls);
+    for (std::uint32_t i = 0; i < lanes.count; ++i) {
+      const Lane& lane = lanes.lane[i];
+      const SphereNode& node = tree.nodes[lane.node];
+      nodes_[next * kPackBalls + i] = lane.node;
+      SetBall(node, next * kPackBalls + i);
+      if (lane.count == 0) {
+        packs_[next].link[i] = AddLeaf(mesh, tree, node);
+        continue;
+      }
+      const Lanes inner = LanesOf(tree, lane);
+      packs_[next].link[i] = static_cast<std::uint32_t>(packs.size()) | (inner.count - 1)
+                                                                            << BallLink::kIndexBits;
+      packs.push_back(inner);
+    }
+  }
+  FindExtremes(mesh);
+}
+
+// Of the nodes in a pack the one that overshoots its surface the most makes way for its children,
+// as long as there is room for them: a step opens a whole pack, whether it is full or not. More
+// nodes than a pack holds are shared out among lanes with the parent's own ball.
+PackedTree::Lanes PackedTree::LanesOf(const SphereTree& tree, const Lane& parent) {
+  Lanes lanes;
+  if (parent.count > kPackBalls) {
+    const std::uint32_t wanted = std::min(kPackBalls, (parent.count + kPackBalls - 1) / kPackBalls);
+    for (std::uint32_t first = 0; lanes.count < wanted;) {
+      const std::uint32_t left = wanted - lanes.count;
+      const std::uint32_t count = (parent.count - first + left - 1) / left;
+      lanes.Add({parent.node, parent.first + first, count});
+      first += count;
+    }
+    return lanes;
+  }
+  for (std::uint32_t i = 0; i < parent.count; ++i) lanes.Add(tree, parent.first + i);
+  const auto overshoot = [&](const Lane& lane) {
+    return tree.nodes[lane.node].radius + tree.nodes[lane.node].signed_distance;
+  };
+  for (;;) {
+    Lane* widest = nullptr;
+    for (std::uint32_t i = 0; i < lanes.count; ++i) {
+      Lane& lane = lanes.lane[i];
+      if (lane.count == 0 || lanes.count - 1 + lane.count > kPackBalls) continue;
+      if (widest == nullptr || overshoot(lane) > overshoot(*widest)) widest = &lane;
+    }
+    if (widest == nullptr) return lanes;
+    const Lane opened = *widest;
+    *widest = lanes.lane[--lanes.count];
+    for (std::uint32_t i = 0; i < opened.count; ++i) lanes.Add(tree, opened.first + i);
+  }
+}
+
+// The centre moves by `moved` at most, which includes what the differences here are rounded by:
+// each is off by 2^-53 of itself. A ball about the new centre that is larger by that contains the
+// old one. A signed distance changes by no more than the point moves: of a ball within the solid
+// the smaller one stays, and the surface is farther by no more than that.
+void PackedTree::SetBall(const SphereNode& node, BallRef ball) {
+  BallPack& pack = packs_[ball / kPackBalls];
+  const std::uint32_t i = ball % kPackBalls;
+  const Eigen::Vector3d seen = node.centre - origin_;
+  const Eigen::Vector3f centre = seen.cast<float>();
+  const double rounding = 0x1p-51 * (node.centre.norm() + origin_.norm());
+  const double moved = (seen - centre.cast<double>()).norm() * (1 + 0x1p-50) + rounding;
+  pack.x[i] = centre.x(), pack.y[i] = centre.y(), pack.z[i] = centre.z();
+  // Sums of two doubles: 2^-52 of the larger covers them.
+  const double radius = node.radius + moved, distance = node.signed_distance + moved;
+  pack.radius[i] = FloatUp(radius + 0x1p-52 * radius);
+  pack.signed_distance[i] = FloatUp(distance + 0x1p-52 * (std::abs(node.signed_distance) + moved));
+  const double widest = std::max<double>(pack.radius[i], std::abs(pack.signed_distance[i]));
+  extent_ = std::max(extent_, (seen.norm() + moved + widest) * (1 + 0x1p-50));
+}
+
+std::uint32_t PackedTree::AddLeaf(const geometry::TriangleMesh& mesh, const SphereTree& tree,
+                                  const SphereNode& leaf) {
+  const auto triangles = tree.TrianglesOf(leaf);
+  const auto first = static_cast<std::uint32_t>(blocks_.size());
+  for (std::size_t done = 0; done < triangles.size(); done += kBlockTriangles) {
+    TriangleBlock& block = blocks_.emplace_back();
+    block.reach = 0;
+    block.left = static_cast<std::uint32_t>(triangles.size() - done);
+    for (std::uint32_t i = 0; i < kBlockTriangles; ++i) {
+      SetTriangle(mesh, triangles[i < block.left ? done + i : done], i, &block);
+    }
+  }
+  return first | BallLink::kLeaf;
+}
+
+void PackedTree::SetTriangle(const geometry::TriangleMesh& mesh, std::uint32_t triangle,
+                             std::uint32_t lane, TriangleBlock* block) {
+  Eigen::Vector3d corners[3] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                Eigen::Vector3d::Zero()};
+  const bool is_solid = triangle >= mesh.triangles.size();
+  for (std::size_t k = 0; k < 3 && !is_solid; ++k) {
+    const Eigen::Vector3d& vertex = mesh.vertices[mesh.triangles[triangle][k]];
+    block->reach = std::max(block->reach, FloatUp(vertex.norm() * (1 + 0x1p-50)));
+    corners[k] = vertex - origin_;
+    extent_ = std::max(extent_, corners[k].norm() * (1 + 0x1p-50));
+  }
+  const Eigen::Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  const double length = across.norm();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  if (length > 0 && length < std::numeric_limits<double>::max()) normal = across / length;
+  // As they are stored, so that `above` and `below` speak of them.
+  const Eigen::Vector3f stored = normal.cast<float>();
+  float above = -kNowhere, below = kNowhere;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3f place = k < 3 ? corners[k].cast<float>() : stored;
+    const std::uint32_t at = kBlockTriangles * k + lane;
+    block->x[at] = place.x(), block->y[at] = place.y(), block->z[at] = place.z();
+    if (k == 3) continue;
+    const auto height = static_cast<float>(stored.cast<double>().dot(place.cast<double>()));
+    above = std::max(above, height), below = std::min(below, height);
+  }
+  block->above[lane] = above, block->below[lane] = below;
+  block->triangle[lane] = triangle;
+}
+
+void PackedTree::FindExtremes(const geometry::TriangleMesh& mesh) {
+  for (std::size_t which = 0; which < extremes_.size(); ++which) {
+    Eigen::Vector3d direction = Eigen::Vector3d::Zero();
+    if (which < 6) {
+      direction[static_cast<Eigen::Index>(which / 2)] = which % 2 == 0 ? 1 : -1;
+    } else {
+      const std::size_t signs = which - 6;
+      for (Eigen::Index axis = 0; axis < kAxes; ++axis) {
+        direction[axis] = (signs >> axis & 1) == 0 ? 1 : -1;
+      }
+    }
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const geometry::Triangle& triangle : mesh.triangles) {
+      for (const std::uint32_t vertex : triangle) {
+        const double along = direction.dot(mesh.vertices[vertex] - origin_);
+        if (along > farthest) farthest = along, extremes_[which] = mesh.vertices[vertex];
+      }
+    }
+  }
+}
+
+std::size_t PackedTree::bytes() const {
+  return packs_.capacity() * sizeof(BallPack) + nodes_.capacity() * sizeof(nodes_[0]) +
+         blocks_.capacity() * sizeof(TriangleBlock);
+}
+
+BallPack PackOfBall(double radius) {
+  BallPack pack = EmptyPack();
+  pack.x[0] = pack.y[0] = pack.z[0] = 0;
+  pack.radius[0] = FloatUp(radius);
+  pack.signed_distance[0] = FloatUp(-radius);
+  return pack;
+}
+
+}  // namespace collision::sphere_tree

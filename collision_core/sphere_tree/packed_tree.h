@@ -1,0 +1,90 @@
+// The sphere tree once more, laid out for wide vectors.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/geometry/mesh/triangle_mesh.h"
+#include "collision_core/sphere_tree/packed_layout.h"
+#include "collision_core/sphere_tree/sphere_tree.h"
+
+namespace collision::sphere_tree {
+
+/// What a ball holds: the pack of its children, or the first block of its leaf; and how many.
+struct BallLink {
+  static constexpr std::uint32_t kLeaf = 1u << 31;
+  static constexpr std::uint32_t kIndexBits = 28;
+
+  static constexpr bool IsLeaf(std::uint32_t link) { return (link & kLeaf) != 0; }
+  static constexpr std::uint32_t Index(std::uint32_t link) {
+    return link & ((1u << kIndexBits) - 1);
+  }
+  /// Children of a node.
+  static constexpr std::uint32_t Count(std::uint32_t link) {
+    return ((link >> kIndexBits) & 7) + 1;
+  }
+};
+
+/// A ball of the packed tree: kPackBalls times its pack, plus its place there.
+using BallRef = std::uint32_t;
+
+/// The sphere tree in the order in which traversals read it: packs of up to eight balls, and blocks
+/// of four triangles, in single precision seen from the middle of the tree and rounded outward. 224
+/// bytes for each pack (28 a ball where packs are full), 256 for each four triangles of a leaf, or
+/// for a convex solid: then `triangle[0]` is its element, and its corners are not used.
+///
+/// Packs stand in breadth-first order; the first one holds the root alone. A ball's pack is a cut
+/// through what is below it, as wide as there is room: the node that overshoots the surface most is
+/// replaced by its children, and so on. So packs are fuller than the tree's nodes have children.
+class PackedTree {
+ public:
+  PackedTree() = default;
+  /// Requires a tree of this mesh as sphere_tree.h states it.
+  PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tree);
+
+  const BallPack* packs() const { return packs_.data(); }
+  const TriangleBlock* blocks() const { return blocks_.data(); }
+  std::uint32_t LinkOf(BallRef ball) const {
+    return packs_[ball / kPackBalls].link[ball % kPackBalls];
+  }
+
+  /// The node of the sphere tree that a ball stands for.
+  std::uint32_t NodeOf(BallRef ball) const { return nodes_[ball]; }
+
+  /// In the body frame [m].
+  const Eigen::Vector3d& origin() const { return origin_; }
+  /// No centre, with its radius or its signed distance, and no corner is farther from the origin.
+  double extent() const { return extent_; }
+
+  /// The vertices of the surface that are the farthest in fourteen directions: along the axes, then
+  /// across the corners. Solids are not counted.
+  const std::array<Eigen::Vector3d, 14>& extremes() const { return extremes_; }
+
+  std::size_t bytes() const;
+
+ private:
+  struct Lane;
+  struct Lanes;
+
+  static Lanes LanesOf(const SphereTree& tree, const Lane& parent);
+  std::uint32_t AddLeaf(const geometry::TriangleMesh& mesh, const SphereTree& tree,
+                        const SphereNode& leaf);
+  void SetBall(const SphereNode& node, BallRef ball);
+  void SetTriangle(const geometry::TriangleMesh& mesh, std::uint32_t triangle, std::uint32_t lane,
+                   TriangleBlock* block);
+  void FindExtremes(const geometry::TriangleMesh& mesh);
+
+  std::vector<BallPack> packs_;
+  std::vector<std::uint32_t> nodes_;  ///< Of the sphere tree, lane by lane.
+  std::vector<TriangleBlock> blocks_;
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
+  double extent_ = 0;
+  std::array<Eigen::Vector3d, 14> extremes_ = {};
+};
+
+/// The pack of a plain ball about the reference point [m]: a leaf without triangles.
+BallPack PackOfBall(double radius);
+
+}  // namespace collision::sphere_tree

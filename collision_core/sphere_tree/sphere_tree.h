@@ -1,0 +1,69 @@
+// Nested spheres that cover a surface, from both sides.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace collision::sphere_tree {
+
+/// Bounds by count, the same on every machine, against hostile meshes: thousands of large triangles
+/// that cross each other, needles, or copies upon each other. No cut takes them apart, and every
+/// ball is about as far from all of them. Leaves hold at most kGrowthMax pieces for each triangle
+/// of the mesh, and kGrowthMore more (meshes of ordinary models need 6 to 14). The fitted builder
+/// looks at kWorkPerTriangle boxes and triangles for each triangle at most, the measuring of the
+/// other builders' balls at kWorkPerBall for each ball on average. Levels are worked on one after
+/// the other, so what is left out is left out at the finest level: there a part stays whole, is
+/// halved by place with a ball about it, or has its radius for a distance, all of which are valid.
+inline constexpr std::size_t kGrowthMax = 64;
+inline constexpr std::size_t kGrowthMore = 1024;
+/// The most pieces of triangles in the leaves of one tree.
+constexpr std::size_t PiecesMax(std::size_t triangles) {
+  return kGrowthMax * triangles + kGrowthMore;
+}
+
+/// One ball of the tree. It contains its part of the surface (triangles, clipped); the parts of a
+/// node's children unite to the node's own part. Radius and signed distance bound the surface from
+/// both sides: the ball of radius −signed_distance about the centre belongs to the solid, and the
+/// ball overshoots the surface by radius + signed_distance at most.
+struct SphereNode {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< In the body frame [m].
+  double radius = 0;                                 ///< [m], rounded up.
+  /// Signed distance of the centre to the whole surface [m], rounded up: negative inside a closed
+  /// solid, where the ball of that radius about the centre belongs to the solid. Where the sign is
+  /// uncertain, and for open surfaces, the distance.
+  double signed_distance = 0;
+  std::uint32_t first_child = 0;     ///< Children stand one after the other.
+  std::uint32_t children = 0;        ///< 0: a leaf.
+  std::uint32_t first_triangle = 0;  ///< Of a leaf: into SphereTree::triangle_indices.
+  std::uint32_t triangles = 0;
+  std::uint32_t level = 0;  ///< The root's is 0.
+};
+
+/// A tree of balls that covers a surface. Nodes stand in breadth-first order: the root first, each
+/// level in one run, children after parents.
+struct SphereTree {
+  std::vector<SphereNode> nodes;
+  /// The triangles of each leaf, whole: the leaf's part lies within them.
+  std::vector<std::uint32_t> triangle_indices;
+  std::uint32_t levels = 0;  ///< The deepest level + 1.
+
+  const SphereNode& root() const { return nodes.front(); }
+  std::span<const SphereNode> ChildrenOf(const SphereNode& node) const {
+    return {nodes.data() + node.first_child, node.children};
+  }
+  std::span<const std::uint32_t> TrianglesOf(const SphereNode& node) const {
+    return {triangle_indices.data() + node.first_triangle, node.triangles};
+  }
+
+  /// Level `level` as a cut through the tree: its nodes, and the leaves above it. Together their
+  /// parts are the whole surface.
+  std::vector<std::uint32_t> Cut(std::uint32_t level) const;
+
+  /// Memory in use [bytes].
+  std::size_t bytes() const;
+};
+
+}  // namespace collision::sphere_tree

@@ -1,0 +1,73 @@
+// Questions to a whole surface, answered through its tree.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "collision_core/geometry/mesh/triangle_mesh.h"
+#include "collision_core/numeric/interval.h"
+#include "collision_core/sphere_tree/sphere_tree.h"
+
+namespace collision::sphere_tree {
+
+/// Answers questions about one surface through its tree. The mesh and the tree must outlive it. Not
+/// for use by several threads at once: it keeps its buffers.
+///
+/// Distance. Best first through the tree. A triangle that a bound in plain doubles puts beyond the
+/// best one is skipped, others get an interval. The upper end is the distance to a point of the
+/// triangle that is given by weights, in intervals. The lower end holds for any direction n: the
+/// triangle lies behind the plane across n through its foremost corner. So n need not be exact;
+/// three kinds of n make the bound tight: towards the nearest point, along the triangle's normal,
+/// and across an edge.
+///
+/// Winding number. The triangles are counted, with the signs of their normals' x, that a ray along
+/// ±x passes, whichever way leaves the surface sooner. "Passes" is three exact orientation signs in
+/// the plane across the ray. Where one is zero, the ray is moved by infinitely little along +y, and
+/// by infinitely less along +z: the winding number is constant about a point that is not on the
+/// surface, so every triangle is asked about the same moved ray, which meets no edge. Ahead or
+/// behind is an exact orientation sign in space.
+class SurfaceQuery {
+ public:
+  SurfaceQuery(const geometry::TriangleMesh& mesh, const SphereTree& tree)
+      : mesh_(mesh), tree_(tree) {}
+
+  /// The distance of a point to the surface, certified: best first through the tree.
+  /// `known_upper`: an upper bound of it, if one is known.
+  numeric::Interval DistanceTo(const Eigen::Vector3d& point, double known_upper);
+
+  /// The winding number of a closed surface about a point: exact. nullopt if the point lies on the
+  /// surface, or so near to the rim of a triangle that its distance is not certainly positive, or
+  /// where tiny coordinates (below about 1e-95) underflow.
+  std::optional<int> WindingNumberAt(const Eigen::Vector3d& point);
+
+  /// Nodes and triangles looked at so far, in all questions.
+  std::uint64_t work() const { return work_; }
+
+ private:
+  struct Candidate {
+    double lower;
+    std::uint32_t node;
+    bool operator<(const Candidate& other) const { return lower > other.lower; }
+  };
+
+  void TryLeaf(const SphereNode& leaf, const Eigen::Vector3d& point, numeric::Interval* best);
+
+  /// Places for the triangles that a question measured. A later triangle takes an earlier one's
+  /// place, and a triangle that lost its place is measured again, so the cost of a look-up does not
+  /// depend on how many there are.
+  static constexpr std::size_t kPlaces = 256;
+  static constexpr std::uint32_t kNone = 0xffffffff;
+
+  const geometry::TriangleMesh& mesh_;
+  const SphereTree& tree_;
+  std::vector<Candidate> heap_;
+  std::uint64_t work_ = 0;
+  std::array<std::uint32_t, kPlaces> measured_;
+  std::vector<std::pair<std::uint32_t, int>> passed_;  ///< By the ray: triangles, with their signs.
+  std::vector<std::uint32_t> stack_;
+};
+
+}  // namespace collision::sphere_tree

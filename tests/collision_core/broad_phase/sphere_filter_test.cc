@@ -1,0 +1,198 @@
+// Goal:   the filter of all methods loses nobody who may come near, on any processor, and does not
+//         let through everybody either.
+// Method: random balls of all scales, placed so that many just touch; the truth in exact rational
+//         arithmetic; each width of vectors beside the plain loop.
+#include "collision_core/broad_phase/filter/sphere_filter.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/support/exact.h"
+#include "tests/support/random.h"
+#include "tests/support/sanitized.h"
+
+namespace collision::broad_phase {
+namespace {
+
+constexpr int kScenes = kSanitized ? 40 : 600;
+constexpr int kBalls = 37;  // Fills no vector.
+
+struct Ball {
+  double p[3], v[3];
+  double reach;
+};
+
+struct Balls {
+  std::vector<float> arrays[10];
+  std::vector<Ball> truth;
+  FilterView view() const {
+    return {arrays[0].data(), arrays[1].data(), arrays[2].data(), arrays[3].data(),
+            arrays[4].data(), arrays[5].data(), arrays[6].data(), arrays[7].data(),
+            arrays[8].data(), arrays[9].data()};
+  }
+};
+
+struct Question {
+  FilterQuery query;
+  FilterRange range;
+  Ball asker;
+};
+
+/// The exact square of the least distance of the centres for u in [first, last].
+Exact LeastSquare(const Ball& a, const Ball& b, const Exact& first, const Exact& last) {
+  Exact d[3], w[3], away = 0, square = 0;
+  for (int i = 0; i < 3; ++i) {
+    d[i] = Exact(b.p[i]) - Exact(a.p[i]);
+    w[i] = Exact(b.v[i]) - Exact(a.v[i]);
+    away += d[i] * w[i];
+    square += w[i] * w[i];
+  }
+  Exact u = first;
+  if (square > 0) {
+    u = -away / square;
+    if (u < first) u = first;
+    if (u > last) u = last;
+  }
+  Exact sum = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Exact at = d[i] + w[i] * u;
+    sum += at * at;
+  }
+  return sum;
+}
+
+/// Reaches larger by what the filter's users are asked to add: of themselves and of the way.
+float WithSlack(double reach, double way) {
+  constexpr double kSlack = kFilterSlack;
+  return static_cast<float>((reach + kSlack * (reach + way)) * (1 + 0x1p-22)) + kReachLeast;
+}
+
+class LaneScanTest : public testing::Test {
+ protected:
+  /// Distances, speeds and times of one scale each; every second ball just touches the asker, or
+  /// just does not, at some time.
+  void Draw(int seed) {
+    Random random(seed);
+    const double size = random.LogUniform(1e-6, 1e6), time = random.LogUniform(1e-3, 1e3);
+    const double speed = random.Chance(0.2) ? 0 : size / time * random.LogUniform(1e-3, 1e3);
+    const double first = -time * random.Uniform(0, 1), last = time * random.Uniform(0, 1);
+    const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
+    for (auto& array : balls_.arrays) array.assign(kBalls + kLanesMax, 0);
+    balls_.truth.clear();
+    Ball& asker = question_.asker;
+    for (int i = 0; i < 3; ++i) {
+      asker.p[i] = single(random.Uniform(-size, size));
+      asker.v[i] = single(random.Uniform(-speed, speed));
+    }
+    asker.reach = single(size * random.Uniform(0, 0.5));
+    question_.query.first = static_cast<float>(first);
+    question_.query.last = static_cast<float>(last);
+    question_.query.time = static_cast<float>(last);
+    first_ = static_cast<double>(question_.query.first);
+    last_ = static_cast<double>(question_.query.last);
+    const double reach_time = std::max(std::abs(first_), std::abs(last_));
+    const auto speed_of = [](const Ball& ball) {
+      return std::sqrt(ball.v[0] * ball.v[0] + ball.v[1] * ball.v[1] + ball.v[2] * ball.v[2]);
+    };
+    const auto way = [&](const Ball& ball) { return reach_time * speed_of(ball); };
+    question_.query.vx = static_cast<float>(asker.v[0]);
+    question_.query.vy = static_cast<float>(asker.v[1]);
+    question_.query.vz = static_cast<float>(asker.v[2]);
+    question_.query.reach = WithSlack(asker.reach, way(asker));
+    question_.query.speed = WithSlack(speed_of(asker), 0);
+    question_.query.way = static_cast<float>(reach_time);
+    question_.range = {0, kBalls, static_cast<float>(asker.p[0]), static_cast<float>(asker.p[1]),
+                       static_cast<float>(asker.p[2])};
+    for (int k = 0; k < kBalls; ++k) {
+      Ball ball;
+      for (int i = 0; i < 3; ++i) {
+        ball.p[i] = single(asker.p[i] + random.Uniform(-3 * size, 3 * size));
+        ball.v[i] = single(random.Uniform(-speed, speed));
+      }
+      const double least =
+          std::sqrt(static_cast<double>(LeastSquare(asker, ball, Exact(first_), Exact(last_))));
+      ball.reach =
+          std::max(0.0, k % 2 == 0 ? (least - asker.reach) * (1 + random.Uniform(-4, 4) * 0x1p-52)
+                                   : size * random.Uniform(0, 0.5));
+      for (int i = 0; i < 3; ++i) {
+        balls_.arrays[i][k] = static_cast<float>(ball.p[i]);
+        balls_.arrays[3 + i][k] = static_cast<float>(ball.v[i]);
+      }
+      // Of reach and growth in any proportion.
+      const double share = last_ > 0 ? random.Uniform(0, 1) : 0;
+      balls_.arrays[6][k] = WithSlack(ball.reach * (1 - share), way(ball));
+      balls_.arrays[9][k] = WithSlack(speed_of(ball), 0);
+      if (last_ > 0) balls_.arrays[7][k] = WithSlack(ball.reach * share / last_, 0);
+      balls_.truth.push_back(ball);
+    }
+  }
+
+  std::vector<std::uint32_t> Hits(SphereFilter scan) const {
+    std::vector<std::uint32_t> hits(kBalls + kLanesMax);
+    const FilterRange ranges[] = {
+        {0, 5, question_.range.x, question_.range.y, question_.range.z},
+        {5, kBalls, question_.range.x, question_.range.y, question_.range.z}};
+    hits.resize(scan(balls_.view(), question_.query, ranges, 2, hits.data()));
+    return hits;
+  }
+
+  Balls balls_;
+  Question question_;
+  double first_ = 0, last_ = 0;
+};
+
+TEST_F(LaneScanTest, LosesNobodyAndRulesOutMost) {
+  int near = 0, let_through = 0, far = 0;
+  for (int seed = 0; seed < kScenes; ++seed) {
+    Draw(seed);
+    std::vector<bool> hit(kBalls);
+    for (const std::uint32_t k : Hits(PlainSphereFilter())) hit[k] = true;
+    for (int k = 0; k < kBalls; ++k) {
+      const Exact square =
+          LeastSquare(question_.asker, balls_.truth[k], Exact(first_), Exact(last_));
+      const Exact reach = Exact(question_.asker.reach) + Exact(balls_.truth[k].reach);
+      if (square <= reach * reach) {
+        ++near;
+        ASSERT_TRUE(hit[k]) << "seed " << seed << ", ball " << k;
+      } else if (square > reach * reach * Exact(1.01)) {
+        ++far;
+        let_through += hit[k];
+      }
+    }
+  }
+  EXPECT_GT(near, kBalls * kScenes / 5);
+  EXPECT_GT(far, kBalls * kScenes / 5);
+  EXPECT_LT(let_through, far / 50);  // A long way costs digits.
+}
+
+TEST_F(LaneScanTest, EveryWidthGivesTheSame) {
+  for (int seed = 0; seed < kScenes; ++seed) {
+    Draw(seed);
+    const std::vector<std::uint32_t> plain = Hits(PlainSphereFilter());
+    for (const SphereFilter scan :
+         {Avx2SphereFilter(), Avx512SphereFilter(), WidestSphereFilter()}) {
+      if (scan != nullptr) {
+        ASSERT_EQ(Hits(scan), plain) << "seed " << seed;
+      }
+    }
+  }
+}
+
+TEST_F(LaneScanTest, WhatIsNotANumberIsAHit) {
+  Draw(1);
+  for (const float value : {INFINITY, -INFINITY, NAN}) {
+    balls_.arrays[0].assign(kBalls + kLanesMax, value);
+    balls_.arrays[6].assign(kBalls + kLanesMax, INFINITY);
+    for (const SphereFilter scan :
+         {PlainSphereFilter(), Avx2SphereFilter(), Avx512SphereFilter()}) {
+      if (scan != nullptr) {
+        EXPECT_EQ(Hits(scan).size(), static_cast<std::size_t>(kBalls));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace collision::broad_phase

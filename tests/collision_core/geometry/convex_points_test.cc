@@ -1,0 +1,116 @@
+#include "collision_core/geometry/convex/convex_points.h"
+
+#include <gtest/gtest.h>
+
+#include "collision_core/geometry/convex/convex_set.h"
+#include "collision_core/geometry/convex/gjk.h"
+#include "tests/support/exact_convex.h"
+#include "tests/support/random.h"
+
+namespace collision::geometry {
+namespace {
+
+using Eigen::Vector3d;
+
+std::vector<Vector3d> RandomPoints(Random& random, std::size_t count, int kind) {
+  std::vector<Vector3d> points;
+  const Vector3d stretch(1, random.LogUniform(1e-6, 1), random.Uniform(0, 1));
+  for (std::size_t i = 0; i < count; ++i) {
+    Vector3d p = random.UnitVector();
+    if (kind == 1) p = random.Uniform(0, 1) * p;
+    if (kind == 2) p = stretch.cwiseProduct(p);
+    if (kind == 3) p = Vector3d(static_cast<double>(random.Below(4)), p.y(), 0);
+    if (kind == 4) p = Vector3d(static_cast<double>(random.Below(3)), 0, 0);
+    points.push_back(p);
+  }
+  return points;
+}
+
+// Goal:   no point lies further along than the one found, but for rounding: on spheres, in balls,
+//         on needles, in planes, on lines, among many doubles.
+// Method: all points in turn, exactly.
+TEST(ConvexPoints, FurthestOfAll) {
+  Random random(351);
+  for (int i = 0; i < 150; ++i) {
+    const auto points = RandomPoints(random, 1 + random.Below(i % 3 == 0 ? 40 : 1500), i % 5);
+    const ConvexPoints convex(points);
+    ASSERT_EQ(convex.size(), points.size());
+    for (int k = 0; k < 30; ++k) {
+      const Vector3d n = random.Chance(0.3) ? Vector3d(Vector3d::Unit(k % 3)) : random.UnitVector();
+      const ExactVector exact(n);
+      const Exact found = Dot(exact, ExactVector(convex[convex.Furthest(n)]));
+      Exact most = found;
+      double in_doubles = -numeric::kInfinity;
+      for (const Vector3d& p : points) in_doubles = std::max(in_doubles, n.dot(p));
+      for (const Vector3d& p : points) {
+        if (n.dot(p) > in_doubles - 1e-14) most = std::max(most, Dot(exact, ExactVector(p)));
+      }
+      EXPECT_LE(most - found, Exact(16 * 0x1p-53 * convex.reach()));
+    }
+  }
+}
+
+// Goal:   a support point belongs to its set, and none reaches further, both to within the error
+//         that is stated; and the same of the difference of two sets.
+// Method: exact corners of triangles, segments and boxes whose generators are not square to each
+//         other.
+TEST(ConvexSet, SupportErrorsHold) {
+  Random random(352);
+  for (int i = 0; i < 1500; ++i) {
+    ConvexSet set;
+    const ConvexCore cores[] = {ConvexCore::kSegment, ConvexCore::kTriangle, ConvexCore::kBox};
+    set.core = cores[i % 3];
+    for (int k = 0; k < 3; ++k) {
+      set.generators.col(k) = random.LogUniform(1e-3, 1) * random.UnitVector();
+      if (set.core == ConvexCore::kSegment && k > 0) set.generators.col(k).setZero();
+      set.span += (1 + 1e-15) * set.generators.col(k).norm();
+    }
+    const Vector3d n = random.UnitVector();
+    const Vector3d found = set.SupportPoint(n);
+    const ExactVector g[3] = {ExactVector(Vector3d(set.generators.col(0))),
+                              ExactVector(Vector3d(set.generators.col(1))),
+                              ExactVector(Vector3d(set.generators.col(2)))};
+    ExactPoints corners;
+    if (set.core == ConvexCore::kTriangle) corners = {g[0], g[1], g[2]};
+    if (set.core == ConvexCore::kSegment) corners = {g[0], Exact(-1) * g[0]};
+    for (int k = 0; set.core == ConvexCore::kBox && k < 8; ++k) {
+      corners.push_back(Exact(k & 1 ? 1 : -1) * g[0] + Exact(k & 2 ? 1 : -1) * g[1] +
+                        Exact(k & 4 ? 1 : -1) * g[2]);
+    }
+    const Exact error = Exact(kSupportError * set.span);
+    Exact nearest = Square(corners[0] - ExactVector(found));
+    for (const ExactVector& x : corners) {
+      EXPECT_LE(Dot(ExactVector(n), x - ExactVector(found)), error);
+      nearest = std::min(nearest, Square(x - ExactVector(found)));
+    }
+    EXPECT_LE(nearest, error * error);
+  }
+}
+
+// Goal:   likewise of ellipsoids, flat ones too.
+// Method: a point is inside where |G⁻¹ x| <= 1; nothing reaches further than |Gᵀ n|; in rationals.
+TEST(ConvexSet, EllipsoidSupportErrorsHold) {
+  Random random(353);
+  for (int i = 0; i < 1000; ++i) {
+    ConvexSet set;
+    set.core = ConvexCore::kEllipsoid;
+    for (int k = 0; k < 3; ++k) {
+      set.generators.col(k) = random.LogUniform(i % 2 ? 1e-3 : 0.3, 1) * random.UnitVector();
+      set.span += (1 + 1e-15) * set.generators.col(k).norm();
+    }
+    const Vector3d n = random.UnitVector(), found = set.SupportPoint(n);
+    Exact square = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Exact along = Dot(ExactVector(n), ExactVector(Vector3d(set.generators.col(k))));
+      square += along * along;
+    }
+    const Exact reached = Dot(ExactVector(n), ExactVector(found));
+    const Exact with = reached + Exact(kSupportError * set.span);
+    EXPECT_LE(square, with * with);
+    EXPECT_GE(square, (with - 2 * Exact(kSupportError * set.span)) *
+                          (with - 2 * Exact(kSupportError * set.span)));
+  }
+}
+
+}  // namespace
+}  // namespace collision::geometry

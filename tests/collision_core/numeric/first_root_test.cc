@@ -1,0 +1,33 @@
+// Goal:   the first root is never late, and early by little.
+// Method: the gap at the root, and a little later, in exact arithmetic.
+#include "collision_core/numeric/first_root.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/exact.h"
+#include "tests/support/random.h"
+
+namespace collision::numeric {
+namespace {
+
+TEST(FirstRoot, IsNeverLateAndNearlyTight) {
+  Random random(61);
+  int roots = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const double gap = random.LogUniform(1e-9, 1e9), speed = random.LogUniform(1e-6, 1e6);
+    const double closing = random.Chance(0.3) ? -speed : speed;
+    const double growth = random.Chance(0.2) ? 0 : random.LogUniform(1e-9, 1e9);
+    const double root = FirstRoot(gap, closing, growth);
+    if (root == kInfinity) continue;
+    ++roots;
+    const auto left = [&](double x) {
+      return Exact(gap) - Exact(closing) * Exact(x) - Exact(growth) * Exact(x) * Exact(x);
+    };
+    ASSERT_GE(left(root), 0) << gap << " " << closing << " " << growth;
+    ASSERT_LE(left(root * (1 + 1e-6)), 0) << gap << " " << closing << " " << growth;
+  }
+  EXPECT_GT(roots, 10000);
+}
+
+}  // namespace
+}  // namespace collision::numeric
