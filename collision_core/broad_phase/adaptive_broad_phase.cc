@@ -172,7 +172,7 @@ double AdaptiveBroadPhase::Units(BroadPhaseMethod kind, const BroadPhaseWork& do
          kPlaceUnits[static_cast<int>(kind)] * placed;
 }
 
-// The same pairs, found by a test of everybody in each search.
+// The same pairs, found by a test of every agent in each search.
 double AdaptiveBroadPhase::UnitsByAllPairs(const BroadPhaseWork& done) const {
   const auto everybody = static_cast<double>(agents_ + half_spaces_.size());
   return kPairUnits * static_cast<double>(done.pair_queries) +

@@ -37,10 +37,10 @@ inline void SortByPartner(std::size_t first, std::vector<Meeting>* meetings) {
 /// Work since the start, counted and never timed, so that it is the same on every machine.
 struct BroadPhaseWork {
   std::uint64_t pair_queries = 0;  ///< Pairs given to EarliestIntersectionOf().
-  std::uint64_t filter_tests = 0;  ///< Pairs that a cheaper test looked at.
-  std::uint64_t visits = 0;        ///< Cells, crossings or lists looked at.
+  std::uint64_t filter_tests = 0;  ///< Pairs that a cheaper test examined.
+  std::uint64_t visits = 0;        ///< Cells, crossings or lists visited.
   std::uint64_t rebuilds = 0;      ///< Times the whole structure was rebuilt.
-  std::uint64_t searches = 0;      ///< Of one agent's neighbours, for one stretch of time.
+  std::uint64_t searches = 0;      ///< Searches for one agent's neighbours in one window.
   std::uint64_t neighbours = 0;    ///< Found in them.
 
   /// What a piece of work costs, in filter tests; measured once on one machine. Only the rough

@@ -12,6 +12,7 @@
 
 namespace collision::detection {
 
+/// What the detector keeps about one agent.
 struct AgentRecord {
   static constexpr std::uint64_t kNotAsked = ~std::uint64_t{0};
 

@@ -19,6 +19,7 @@ enum class Link {
 /// unknown.
 class History {
  public:
+  /// One state of the history, as a bound.
   struct Sample {
     motion::SpaceTimeBound bound;
     Link link;

@@ -7,6 +7,7 @@
 
 namespace collision::detection {
 
+/// How many segments of time were judged.
 struct Judged {
   std::uint64_t segments = 0;
   std::uint64_t at_a_glance = 0;  ///< Of these: a glance showed that two balls touch throughout.

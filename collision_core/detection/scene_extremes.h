@@ -10,6 +10,7 @@ namespace collision::detection {
 /// wider than the truth, never narrower. Stamps of one agent never go back.
 class SceneExtremes {
  public:
+  /// Bounds of all newest states together.
   struct Bounds {
     Instant oldest = Instant::Never();  ///< No agent's newest state is older.
     Instant newest = Instant::Always();

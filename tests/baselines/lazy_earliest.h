@@ -15,7 +15,7 @@ struct AgentMeeting {
   Instant when;
 };
 
-/// Whoever finds one agent's first meeting among the newest bounds.
+/// Finds one agent's first meeting among the newest bounds.
 class AgentAsker {
  public:
   virtual ~AgentAsker() = default;

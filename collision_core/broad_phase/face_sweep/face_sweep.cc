@@ -255,7 +255,7 @@ void FaceSweep::Meetings(std::uint32_t agent, Instant from, Instant until, Insta
                                        std::max(until, horizon)};
   const std::uint32_t end = IndexEnd();
   for (std::uint32_t partner = 0; partner < end; ++partner) {
-    work_.filter_tests += Moves(partner);  // who is looked at only to be skipped costs as much
+    work_.filter_tests += Moves(partner);  // a partner that is only skipped costs as much
     if (partner == agent || skip(partner)) continue;
     const Meeting meeting{partner, TimeOf(query, agent, partner)};
     const Instant when = meeting.time.instant();

@@ -85,7 +85,7 @@ void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
   row.unfilterable = !(std::max(largest(row.p), row.u0) < kPositionMax &&
                        std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
   wild_count_ += row.unfilterable;
-  // A group of no bits meets nobody, and is not the mark of a free row.
+  // An agent of no group meets no other; 0 is the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
   choosy_count_ += row.mask != ~0u;
 }

@@ -74,8 +74,8 @@ class HornTable {
     return t.nanoseconds() > -kFarthest && t.nanoseconds() < kFarthest;
   }
 
-  /// Of a row that is not unfilterable, at an instant that is Near(). Before its stamp the line goes on
-  /// backward, and the reach stays.
+  /// The horn from an instant on. Before its stamp the line goes on backward, and the reach stays.
+  /// Requires a row that is not unfilterable, and an instant that is Near().
   HornAt At(std::uint32_t agent, Instant instant) const;
 
   /// A filter: no horn of the two meets earlier than this many seconds after `from`, and none at
@@ -116,7 +116,7 @@ inline HornAt HornTable::At(std::uint32_t agent, Instant instant) const {
   return at;
 }
 
-/// Of two horns from an instant on.
+/// The pair of two horns from an instant on.
 inline Approaching Between(const HornAt& a, const HornAt& b) {
   Approaching pair;
   for (int axis = 0; axis < 3; ++axis) {

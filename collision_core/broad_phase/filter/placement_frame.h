@@ -1,4 +1,4 @@
-// Where filters put an agent, and how far it reaches from there over a while.
+// Where filters put an agent, and how far it reaches from there during a window.
 #pragma once
 
 #include <algorithm>
@@ -103,13 +103,13 @@ class PlacementFrame {
   }
 
   /// Where an agent is half-way to `last` seconds after the begin, and how far from there it
-  /// reaches in between. Whatever the middle.
+  /// reaches in between; it does not depend on the middle.
   ReachPoint HalfWay(const HornTable& table, std::uint32_t agent, double last) const {
     return HalfWay(BoundAt(table, agent), last);
   }
   ReachPoint HalfWay(const HornAt& at, double last) const;
 
-  /// So far from its place a horn comes during the stretch.
+  /// How far from its place a horn comes during the stretch.
   template <typename Horn>
   double Reach(const Horn& horn, TimeWindow stretch) const {
     const double way = std::max(middle_ - stretch.first, stretch.last - middle_);

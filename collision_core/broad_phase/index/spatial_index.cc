@@ -153,7 +153,7 @@ void SpatialIndex::JoinRows(const Level& level, TimeWindow stretch, PairSink* si
   level.grid.ForEachPlace(stretch, visit);
 }
 
-// Many who reach a little way ask a few who reach far, or the other way round.
+// Many agents of short reach ask a few of long reach, or the other way round.
 double SpatialIndex::CostOfAsking(const Level& level, const Level& other, TimeWindow stretch) {
   return level.grid.size() * other.grid.RowsWithin(level.grid.ReachMax(stretch), stretch);
 }

@@ -9,7 +9,7 @@ namespace {
 /// Each window is so many times the one before.
 constexpr double kWindowFactor = 4;
 
-/// Beyond so many that have moved, and that share of all, everybody is placed anew.
+/// Beyond so many that have moved, and that share of all, all agents are placed anew.
 constexpr std::size_t kMovedMin = 64;
 constexpr double kMovedShare = 1.0 / 16;
 
@@ -86,13 +86,15 @@ void WindowedSearch::ForEachHalfSpace(std::uint32_t asked, Each each) const {
   }
 }
 
-// The next question places him, or everybody where too many have moved.
+// The next question places the agent, or all agents where too many have moved.
 void WindowedSearch::Move(std::uint32_t agent) {
   if (has_moved_.size() <= agent) has_moved_.resize(table_.size());
   if (has_moved_[agent]) return;
   has_moved_[agent] = true;
   moved_.push_back(agent);
-  if (moved_.size() > kMovedMin && moved_.size() > kMovedShare * table_.count()) placed_ = false;
+  if (moved_.size() <= kMovedMin) return;
+  const double share = kMovedShare * static_cast<double>(table_.count());
+  if (static_cast<double>(moved_.size()) > share) placed_ = false;
 }
 
 void WindowedSearch::SortOutWild() {
@@ -134,7 +136,7 @@ void WindowedSearch::PlaceMoved() {
   moved_.clear();
 }
 
-// Some who are close to each other are asked first, since a first answer makes the window short.
+// Some agents close to each other are asked first: a first answer makes the window short.
 void WindowedSearch::AskCrowd(PairSink* sink) {
   const std::uint32_t stride = std::min(table_.size() / kSomeMin + 1, kStrideMax);
   const double count = kCrowdOfRoot * std::sqrt(static_cast<double>(table_.count()));
@@ -163,7 +165,7 @@ void WindowedSearch::StartAnew(const PlacementFrame& placing) {
   SortOutWild();
 }
 
-// Places grow old: reaches grow, agents stray. Everybody is placed anew when questions have cost
+// Places grow old: reaches grow, agents stray. All are placed anew when questions have cost
 // more, by as much as placing costs, than they did at first (of all moments that one is the best if
 // the excess grows evenly), or when as many tests as there are agents were plainly wasted.
 void WindowedSearch::Refresh(Instant from) {
@@ -260,7 +262,7 @@ void WindowedSearch::NearPairs(const intersection::BroadQuery& query,
   for (const HalfSpaces::Entry& entry : half_spaces_) ForEachHalfSpace(entry.agent, tell);
 }
 
-// About everybody, in the first window.
+// About all agents, in the first window.
 bool WindowedSearch::AsksAll(std::uint32_t agent, Instant from) const {
   return IsWild(agent) || !HornTable::Near(from);
 }

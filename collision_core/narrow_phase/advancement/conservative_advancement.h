@@ -28,17 +28,17 @@ namespace collision::narrow_phase {
 /// Turning with constant ω a point leaves its tangent by at most ½ |ω|² |x| h².
 struct SweptPose {
   RelativePose pose;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Of B's reference point [m/s].
+  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Velocity of B's reference point [m/s].
   Eigen::Vector3d spin_A = Eigen::Vector3d::Zero();    ///< [rad/s]
   Eigen::Vector3d spin_B = Eigen::Vector3d::Zero();
-  double velocity_error = 0;  ///< Of any point's velocity, as computed from these [m/s].
+  double velocity_error = 0;  ///< Error of any point's velocity as computed from these [m/s].
 
   /// c0 + c1 h + c2 h²; coefficients rounded up.
   struct Growth {
     double c0 = 0, c1 = 0, c2 = 0;
   };
   Growth translation;           ///< Uncertainty of translation [m].
-  Growth turning_A, turning_B;  ///< Of turning, tangents' deviation included [m per m of |x|].
+  Growth turning_A, turning_B;  ///< Uncertainty of turning and of the tangents [m per m of |x|].
 };
 
 /// How far a search refines a time before it returns it.
@@ -49,7 +49,7 @@ struct SweepDetail {
   double step_worth = 1e-3;
 };
 
-/// A lower bound on the time at which the two may touch.
+/// A lower bound on the time at which the two may touch, and where.
 struct ImpactBound {
   double seconds = 0;      ///< +infinity: not within the duration, its end included.
   bool exhausted = false;  ///< The work allowed is spent: the true time may be later.

@@ -9,44 +9,46 @@
 
 namespace collision::narrow_phase {
 
-/// Advances through a segment of time from one of its ends towards the other, `backward` from its
-/// end. Everything passed in outlives it.
+/// Finds one end of a contact: advances through a segment of time from its begin, or `backward`
+/// from its end. First freedom is certified as far as possible (FreeFrom), then the first certain
+/// contact after it is searched (ContactAfter): the two instants are the bracket. Everything passed
+/// in outlives it.
 class ContactBoundary {
  public:
-  /// For brackets as narrow as `tolerance` asks for.
+  /// Searches brackets as narrow as `tolerance` asks for.
   ContactBoundary(const ShapeMotion& motion, double duration, const ContactTolerance& tolerance,
                   bool backward, WorkBudget* work)
       : ContactBoundary(motion, duration, tolerance, backward, false, work) {}
 
-  /// For a service that has many to judge: freedom ends where a step is shorter than
-  /// `shortest_step`, or where another sweep would tell little more of what is not known of the
+  /// For a service that judges many pairs: freedom ends where a step is shorter than
+  /// `shortest_step` [s], or where another sweep would hardly reduce what is not known of the
   /// motion.
   static ContactBoundary Coarse(const ShapeMotion& motion, double duration, double shortest_step,
                                 bool backward, WorkBudget* work) {
     return {motion, duration, {shortest_step, 0}, backward, true, work};
   }
 
-  /// From `at` on the two are apart up to the instant that is returned; ±infinity: all the way, the
-  /// end of the segment included.
+  /// The two are apart from `at` up to the instant that is returned; ±infinity: up to the end of
+  /// the segment, which is included.
   double FreeFrom(double at);
 
   /// An instant of certain contact as soon as possible after `free`, where freedom ends, and not
   /// beyond `until`.
   std::optional<double> ContactAfter(double free, double until);
 
-  /// The same by points that may show contact first, where something else showed it at `until`, or
-  /// nothing did.
+  /// The same by candidate points alone, where another way showed contact at `until`, or none did.
   std::optional<double> ContactByClues(double free, double until);
 
-  /// How far from there on, towards `until`, contact is certain without a gap, by the same point.
+  /// Up to when contact is certain without a gap from `touching` on, towards `until`, by the same
+  /// point.
   double LastsFrom(double touching, double until) const;
 
   bool nested() const { return nested_; }  ///< One may be inside the other: nothing was free.
   const ImpactBound& touch() const { return touch_; }  ///< What ended the last freedom.
-  bool exhausted() const { return exhausted_; }        ///< Something was left out for want of work.
+  bool exhausted() const { return exhausted_; }        ///< The work ended too early.
   double nearest() const { return nearest_; }          ///< They certainly come as near as this [m].
   bool uncertain() const { return uncertain_; }  ///< By more than rounding, where freedom ended.
-  /// Nothing was known there of how one of them is turned: no work makes that any better.
+  /// The orientation of one of them was unknown there: more work does not help.
   bool any_way() const { return any_way_; }
 
  private:
@@ -60,10 +62,10 @@ class ContactBoundary {
         detail_(coarse ? SweepDetail{} : kFineDetail),
         work_(*work) {}
 
-  // A sweep goes down nearly to what is not known of the motion, and as far as tangents serve.
+  // A sweep refines nearly down to the uncertainty of the motion, as far as tangents are valid.
   static constexpr SweepDetail kFineDetail{.fine_enough = 0.03125, .step_worth = 1e-6};
 
-  // How often it was asked what bodies sweep in all their turns.
+  // How often revolved bodies were queried (revolved_pair.h).
   struct Turns {
     int sweeps = 0, wait = 1;
     std::uint64_t spent = 0;
@@ -93,8 +95,8 @@ class ContactBoundary {
   WorkBudget& work_;
 
   bool nested_ = false;     // One may be inside the other.
-  bool exhausted_ = false;  // Something was not looked at for want of work.
-  bool apart_ = false;      // At the last instant that was looked at thoroughly.
+  bool exhausted_ = false;  // The work ended before everything was examined.
+  bool apart_ = false;      // At the last instant that was examined thoroughly.
   bool uncertain_ = false;
   bool any_way_ = false;
   double nearest_ = numeric::kInfinity;

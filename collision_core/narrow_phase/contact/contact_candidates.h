@@ -15,12 +15,11 @@ struct ContactCandidate {
 };
 
 /// Points of either body at which the two are within `within` [m] of each other at this pose: in
-/// the middle of faces that lie on each other, of edges that do, of corners. A proposal in plain
-/// doubles, to be certified by UpperBy(): nothing wrong can come of it. And all pairs of elements
-/// so near of which one is a convex solid.
-///
-/// Of each kind of point a few, the widest first. `leaf_A`, `leaf_B`: where to look first. Of
-/// bodies one of which is a ball there are none, since a ball and an element are judged exactly.
+/// the middle of faces that lie on each other, of edges that do, of corners; and all pairs of
+/// elements that near of which one is a convex solid. Proposals in plain doubles, to be certified
+/// by UpperBy(): a wrong one costs work only. A few of each kind, the widest first. `leaf_A`,
+/// `leaf_B`: where to look first. There are none if one of the bodies is a ball, because a ball and
+/// an element are judged exactly.
 std::vector<ContactCandidate> FindContactCandidates(const BodyTree& a, const BodyTree& b,
                                                     const RelativePose& pose, double within,
                                                     std::uint32_t leaf_A, std::uint32_t leaf_B,

@@ -35,15 +35,16 @@ struct ContactNormal {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< As in Proximity.
   double error = 0;
 
-  /// Well enough; else an earlier instant is asked as well.
+  /// Whether it is known well enough; else an earlier instant is evaluated as well.
   bool tells() const { return known && error < kGoodNormal; }
 };
 
+/// The verdict on a segment, and what an event needs beside it.
 struct ShapeSegmentResult {
   SegmentResult times;
-  ContactNormal normal;    ///< Of the last instant before `times.free_until` that tells it well.
+  ContactNormal normal;    ///< From the last instant before `times.free_until` with a good normal.
   bool exhausted = false;  ///< The work ended before everything was examined.
-  /// Of the instants looked at, the one with the least upper bound of the distance.
+  /// The instant, of those examined, with the least upper bound of the distance.
   bool looked = false;
   double nearest_at = 0;
   Proximity nearest;

@@ -13,6 +13,7 @@ class ShapeMotion {
   /// Everything passed in outlives this.
   ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget* work);
 
+  /// What a query found at one instant: the pose, its uncertainty, and the bracket.
   struct PoseQuery {
     double at = 0;
     BoundChoice choice;
@@ -39,7 +40,7 @@ class ShapeMotion {
   /// Evaluates this candidate only.
   PoseQuery QuerySeparation(double at, const ContactCandidate& clue) const;
 
-  /// Where the two are likely to overlap soon, at an instant at which they nearly touch.
+  /// Candidates for an overlap soon after `at`, an instant at which the two nearly touch.
   std::vector<ContactCandidate> PatchAt(double at, const ImpactBound& touch) const;
 
   /// How soon the two may touch from an instant on, towards later or earlier times, within `span`
@@ -48,32 +49,31 @@ class ShapeMotion {
     bool known = false;
     RelativePose pose;  ///< At its start.
     ImpactBound touch;
-    /// The search went down to what is known of the motion: another one from there leads no
-    /// further.
+    /// The search reached the uncertainty of the motion: another one from there leads no further.
     bool final = false;
   };
   Sweep SweepFrom(double at, double span, bool backward, const SweepDetail& detail = {}) const;
 
-  /// Over so many of the `left` seconds one sweep is worth its while: beyond, tangents leave their
-  /// curves and other bounds may be the narrower ones.
+  /// How many of the `left` seconds one sweep should cover: beyond, tangents leave their curves,
+  /// and other bounds may be narrower.
   double SpanFrom(double at, double left, bool backward, double duration) const;
 
-  /// How long from `at` on they stay apart however far each has turned by then, of the `left`
-  /// seconds; 0 where neither turns much. +infinity: all of it, the end included. So that the work
-  /// does not grow with turns that matter nothing. Says nothing of the inside. Spends `units`
-  /// about.
+  /// How many of the `left` seconds from `at` on the surfaces stay apart however far each body has
+  /// turned by then (revolved_pair.h), so that the work does not grow with turns that do not
+  /// matter. 0 if neither turns much; +infinity: all of them, the end included. Does not consider
+  /// one body inside the other. Spends about `units`.
   double RevolvedFree(double at, double left, bool backward, double duration,
                       std::uint64_t units) const;
 
-  /// Where the surfaces are apart: so are the solids.
+  /// Whether the solids are apart as well. Requires that the surfaces are apart.
   bool NeitherInside(const RelativePose& pose) const;
 
-  /// Where a look found the surfaces apart: one solid inside the other is contact, as deep as they
-  /// are apart, since no shorter way takes it out again.
+  /// Tests whether one solid is inside the other. Requires that a query found the surfaces apart.
+  /// One inside the other is contact, as deep as the surfaces are apart, because no shorter shift
+  /// takes it out again.
   void LookInside(PoseQuery* instance) const;
 
-  /// No shift longer than this is needed to take the two apart at an instant, whatever the motion
-  /// within the bounds [m].
+  /// An upper bound on the penetration depth at an instant, for every motion within the bounds [m].
   double DepthAtMost(const PoseQuery& instance) const;
 
   /// Seconds for which contact lasts from `instance` on, towards later or earlier times; +infinity:
@@ -82,7 +82,7 @@ class ShapeMotion {
 
   double size() const { return surface_a_.reach() + surface_b_.reach(); }
 
-  /// No two points of the bodies move faster relative to each other, as predicted [m/s].
+  /// An upper bound on the relative speed of any two points of the bodies, as predicted [m/s].
   double SpeedAt(const PoseQuery& instance) const;
 
  private:

@@ -50,7 +50,7 @@ namespace collision::narrow_phase {
 /// all the same.
 struct ContactTolerance {
   double absolute = 0;      ///< [s]
-  double relative = 1e-12;  ///< Of the time itself, counted from the start.
+  double relative = 1e-12;  ///< As a part of the time itself, counted from the start.
 };
 
 enum class ContactStatus {
@@ -103,7 +103,7 @@ struct BodyPair {
 /// Makes the segments of two motions from `from` on.
 BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from);
 
-/// As above, over [from, to], in seconds after `from`.
+/// The same over [from, to], in seconds after `from`.
 TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, Instant from,
                                   Instant to, const ContactTolerance& tolerance, WorkBudget* work);
 

@@ -32,7 +32,7 @@ struct RelativePose {
   double chord_A = 0;      ///< 2 sin(min(π, θ) / 2) [m per m], rounded up.
   double chord_B = 0;
 
-  /// To tell of points in the world.
+  /// To express points in the world.
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();
   Eigen::Matrix3d matrix_WA = Eigen::Matrix3d::Identity();
   /// A point of A moves by this and by chord_A |x|, its rounding in the world included.

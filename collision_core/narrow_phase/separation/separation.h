@@ -41,7 +41,9 @@ class BodyTree {
     return shape_ ? shape_->tree().nodes[index] : ball_;
   }
   const shape::Shape* shape() const { return shape_; }  ///< Null: a ball.
-  double reach() const { return reach_; }  ///< Of its points about the reference point [m].
+  double reach() const {
+    return reach_;
+  }  ///< Distance of its farthest point from the reference point [m].
   double turning_reach() const { return shape_ ? reach_ : 0; }
 
  private:
@@ -54,11 +56,11 @@ class BodyTree {
 enum class Goal {
   kDecision,  ///< Certainly apart, with at least half of the distance; certainly in contact; or
               ///< neither can become certain at this pose.
-  kContact,  ///< Likewise, but where contact is certain the look goes on for a while: the wider the
-             ///< margin, the longer contact lasts.
-  kNearest,  ///< Down to the triangles, so that the shortest way between the two is known.
-  kYesNo     ///< Certainly apart, or certainly in contact, and nothing more; or neither can become
-             ///< certain at this pose.
+  kContact,   ///< As kDecision, but where contact is certain the query looks for a wider margin
+              ///< for a while: the wider the margin, the longer contact lasts.
+  kNearest,   ///< Down to the triangles, so that the shortest way between the two is known.
+  kYesNo      ///< Certainly apart, or certainly in contact, and nothing more; or neither can become
+              ///< certain at this pose.
 };
 
 /// Units for which Goal::kContact looks for a wider margin.
@@ -90,7 +92,7 @@ struct SeparationBracket {
   double upper = numeric::kInfinity;  ///< At most; below 0: the bodies overlap by at least −upper.
   /// Crossing triangles: contact is certain while no corner of theirs moves further than this.
   double crossing_margin = -numeric::kInfinity;
-  ContactWitness evidence;  ///< Of contact, where it is certain.
+  ContactWitness evidence;  ///< The witness of contact, where contact is certain.
   std::uint32_t level = 0;
   bool exhausted = false;  ///< The work allowed is spent.
 
@@ -130,7 +132,7 @@ struct Containment {
 
   bool certain() const { return point_error < numeric::kInfinity; }
 };
-/// The containment test. Requires closed shapes, or balls.
+/// The containment test. An open surface has no inside, so nothing is inside of it.
 Containment TestContainment(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
                             WorkBudget* work);
 

@@ -10,7 +10,7 @@
 
 namespace collision::narrow_phase {
 
-/// Ways between surfaces that are kept; with more of them the direction is not told.
+/// The most ways between surfaces that are kept; with more of them no direction is reported.
 inline constexpr std::size_t kWaysMax = 128;
 
 /// What rounding may have made of a distance at this pose, computed in doubles from points of these
@@ -41,7 +41,7 @@ class SeparationFindings {
   SeparationFindings(const BodyTree& a, const BodyTree& b, const RelativePose& pose, Goal goal,
                      std::optional<BracketWidth> narrow);
 
-  /// Pairs that are farther apart than this need not be looked at: the answer is the same without.
+  /// Pairs that are farther apart than this need not be examined: they cannot change the answer.
   double Limit() const;
   /// Contact is certain.
   bool Touching() const {
@@ -55,7 +55,7 @@ class SeparationFindings {
   /// From A to B along the shortest way found: about a unit vector, or zero.
   const Eigen::Vector3d& direction() const { return direction_; }
 
-  /// A lower bound on the distance of what was looked at to the end.
+  /// Takes a lower bound on the distance of what was resolved.
   void Resolve(double lower) { resolved_lower_ = std::min(resolved_lower_, lower); }
   double resolved_lower() const { return resolved_lower_; }
 
@@ -66,14 +66,14 @@ class SeparationFindings {
   /// Two triangles, of which is known that a filter could not tell them apart: returns the lower
   /// bound. `likely_to_cross`: that is looked at first.
   double MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
-  /// Where one of the two is a ball: an element of the other.
+  /// A ball beside an element of the other body. Requires that one of the two is a ball.
   double MeasureBeside(std::uint32_t element, WorkBudget* work);
-  /// Any two elements: triangles are looked at by MeasureTriangles().
+  /// Measures any two elements; two triangles by MeasureTriangles().
   double MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
-  /// Whether two elements are certainly in contact; nothing more.
+  /// Tests whether two elements are certainly in contact, and nothing more.
   void CrossAgain(std::uint32_t a, std::uint32_t b, WorkBudget* work);
 
-  /// The whole answer. `unopened`: a lower bound on what was not looked at.
+  /// The whole answer. `unopened`: a lower bound on the distance of what was not opened.
   SeparationBracket Told(double unopened, bool exhausted, std::uint32_t level);
 
  private:

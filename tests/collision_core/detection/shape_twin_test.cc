@@ -11,9 +11,9 @@
 
 #include "collision_core/detection/detector.h"
 #include "tests/collision_core/detection/line.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/true_motion.h"
 
 namespace collision::detection {
 namespace {

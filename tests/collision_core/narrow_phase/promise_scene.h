@@ -1,8 +1,8 @@
 // Two random bodies that nearly touch at some instant, and what is told of them: for tests of promises.
 #pragma once
 
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision {
 
