@@ -85,10 +85,10 @@ struct EarliestIntersection {
 /// Receives what is published in one world and writes nothing: it creates DDS readers only, so a
 /// subscribe-only permission suffices.
 ///
-/// Callbacks run inside Poll(), on its thread. Every topic but the rejections keeps its last value, so
-/// a late monitor receives the values of now. One thread at a time; a callback must not call Poll()
-/// or destroy the monitor. Samples of different topics may overtake each other: an event can arrive
-/// before the descriptions of its agents (see PendingNames).
+/// Callbacks run inside Poll(), on its thread. Every topic but the rejections keeps its last value,
+/// so a late monitor receives the values of now. One thread at a time; a callback must not call
+/// Poll() or destroy the monitor. Samples of different topics may overtake each other: an event can
+/// arrive before the descriptions of its agents (see PendingNames).
 class Monitor {
  public:
   /// Each may be empty.

@@ -154,6 +154,14 @@ void AdaptiveBroadPhase::Meetings(std::uint32_t agent, Instant from, Instant unt
   EndQuestion(before);
 }
 
+void AdaptiveBroadPhase::MeetingsOf(const motion::SpaceTimeBound& bound, Instant from,
+                                    Instant until, const Skip& skip,
+                                    std::vector<Meeting>* meetings) {
+  const BroadPhaseWork before = method_.phase->work();
+  method_.phase->MeetingsOf(bound, from, until, skip, meetings);
+  EndQuestion(before);
+}
+
 void AdaptiveBroadPhase::NearPairs(const intersection::BroadQuery& query,
                                    std::vector<NearPair>* pairs) {
   method_.phase->NearPairs(query, pairs);

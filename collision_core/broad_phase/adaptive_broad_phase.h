@@ -8,15 +8,10 @@
 #include <vector>
 
 #include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/broad_phase_method.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
 
 namespace collision::broad_phase {
-
-/// The methods of the broad phase; kAuto: chosen by the scene.
-enum class BroadPhaseMethod { kAuto, kAllPairs, kFaceSweep, kSpatialIndex };
-
-/// "all pairs", "face sweep", "spatial index", "chosen by the scene".
-const char* Name(BroadPhaseMethod method);
 
 /// One method, or the cheaper of all pairs and the spatial index for the scene as it is now. Work
 /// is counted, never timed, so that the same calls choose the same everywhere; and as all methods
@@ -59,6 +54,8 @@ class AdaptiveBroadPhase : public BroadPhase {
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
 
+  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                  const Skip& skip, std::vector<Meeting>* meetings) override;
   void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
 
   /// The work of all methods together.

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "collision_core/detection/agent_id.h"
+#include "collision_core/detection/events/agent_id.h"
 #include "idl/messages.pb.h"
 
 namespace collision::server {

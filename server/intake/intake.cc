@@ -173,11 +173,7 @@ void Intake::TakeClocks(Simulator* simulator) {
   const bool first = !simulator->time().clock();
   if (!simulator->time().Take()) return;
   if (first) return agents_.AdmitComplete(simulator);
-  simulator->agents().ForEachSlot([&](std::uint32_t slot) {
-    const Agent* agent = simulator->agents().Find(slot);
-    if (agent == nullptr || !agent->admitted()) return;
-    detector_.Hear(simulator->IdOf(slot, agent->generation()), *simulator->time().clock());
-  });
+  detector_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock());
 }
 
 /// Successors take over at the end of the batch: they may have ended in the same one.

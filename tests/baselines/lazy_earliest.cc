@@ -9,13 +9,13 @@ void LazyEarliest::Ask(std::uint32_t agent, Instant now) {
   // Without one it is asked again when the horizon asked about is over.
   const std::uint32_t partner = meeting ? meeting->partner : agent;
   entries_[agent] = {partner, renewed_[agent], renewed_[partner]};
-  queue_.Set(agent, meeting ? meeting->when : until);
+  queue_.Set(AgentIndex(agent), meeting ? meeting->when : until);
 }
 
 std::optional<LazyEarliest::Found> LazyEarliest::Earliest(Instant now) {
   const Instant until = numeric::AddRoundedDown(now, horizon_);
   while (!queue_.empty() && queue_.top_key() <= until) {
-    const std::uint32_t agent = queue_.top();
+    const std::uint32_t agent = queue_.top().value();
     const Entry& entry = entries_[agent];
     const bool fresh = entry.partner != agent && queue_.top_key() >= now &&
                        entry.renewed == renewed_[agent] &&

@@ -74,7 +74,10 @@ class Detectors {
   }
 
   void Advance(Instant now) {
-    for (const auto& detector : detectors_) detector->Advance(now);
+    for (const auto& detector : detectors_) {
+      detector->Advance(now);
+      detector->Validate();
+    }
     const std::vector<std::string> first = EventsOf(*detectors_.front());
     for (std::size_t i = 1; i < detectors_.size(); ++i) {
       if (EventsOf(*detectors_[i]) == first) continue;
@@ -90,6 +93,7 @@ class Detectors {
       Require(std::equal(first.begin(), first.end(), others.begin(), others.end(), Same),
               "clearances of ", Name(kMethods[i]));
     }
+    for (const auto& detector : detectors_) detector->Validate();
   }
 
   void CompareEarliest() {
@@ -151,8 +155,8 @@ class Session {
         Tell(slot, data);
         return true;
       case 7:
-        detectors_.All("Hear", [&](detection::Detector& d) {
-          d.Hear(IdOf(slot), now_);
+        detectors_.All("SetHeardUntil", [&](detection::Detector& d) {
+          d.SetHeardUntil(OwnerOf(IdOf(slot)), now_);
           return true;
         });
         return true;
@@ -163,8 +167,9 @@ class Session {
   }
 
  private:
+  /// Each agent has an owner of its own, so that what is heard of them differs.
   detection::AgentId IdOf(std::uint32_t slot) const {
-    return {.simulator = 1, .slot = slot, .run = 1, .generation = generations_[slot]};
+    return {.simulator = 1 + slot, .slot = slot, .run = 1, .generation = generations_[slot]};
   }
 
   std::optional<motion::AgentDeclaration> Declaration(FuzzedData* data) {

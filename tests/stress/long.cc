@@ -127,7 +127,7 @@ class LongRun {
         const motion::MotionState state = StateOf(pair, which, now_);
         const detection::UpdateOutcome told = detector_.Update(Id(pair, which), state, state.stamp);
         outcome_->Expect(told == detection::UpdateOutcome::kKept, "an honest state is not kept");
-        detector_.Hear(Id(pair, which), state.stamp);
+        detector_.SetHeardUntil(OwnerOf(Id(pair, which)), state.stamp);
       }
     }
     detector_.Advance(Instant::FromNanoseconds(now_));

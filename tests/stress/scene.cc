@@ -110,7 +110,7 @@ void Scene::StepTo(Instant now) {
           told == detection::UpdateOutcome::kKept || told == detection::UpdateOutcome::kJumped,
           Named("an honest state is not kept", agent, agent, Since(now)));
     }
-    detector_.Hear(IdOf(agent), now);
+    detector_.SetHeardUntil(OwnerOf(IdOf(agent)), now);
   }
   const std::uint64_t before = detector_.counters().work_units;
   detector_.Advance(now);

@@ -26,8 +26,7 @@ Motion Falling(const Eigen::Vector3d& p, const Eigen::Vector3d& v, const Eigen::
 struct Meeting {
   std::uint32_t a = 0, b = 0;
   Seconds begin = 0, end = 0;  ///< `end` may be +infinity.
-  Seconds width =
-      0;  ///< Of its brackets at most, where it differs from the scene's; 0: it does not.
+  Seconds width = 0;           ///< The most of its brackets; 0: as of the scene.
   bool announced = false;
 };
 

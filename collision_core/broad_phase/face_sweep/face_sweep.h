@@ -80,6 +80,8 @@ class FaceSweep : public BroadPhase {
   void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
+  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                  const Skip& skip, std::vector<Meeting>* meetings) override;
   /// visits: crossings. filter_tests: tests of two boxes. rebuilds: windows.
   BroadPhaseWork work() const override { return work_; }
 

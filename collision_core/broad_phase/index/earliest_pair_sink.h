@@ -44,6 +44,10 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant f
 bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
              Instant from, double limit, BroadPhaseWork* work);
 
+/// Likewise of a row that is in no table and has no rules, and an agent of the table.
+bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, Instant from,
+             double limit, BroadPhaseWork* work);
+
 /// The canonical time of two agents of the table, with their margin. Requires that they are not
 /// excluded.
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,

@@ -200,7 +200,7 @@ void SpatialIndex::Join(TimeWindow stretch, PairSink* sink) {
 }
 
 void SpatialIndex::FindNear(const PlacedHorn& horn, TimeWindow stretch) {
-  const bool still = table().row(horn.agent).still;
+  const bool still = horn.agent != PlacedHorn::kNoAgent && table().row(horn.agent).still;
   const bool late = stretch.first > placing_.window();
   const FilterQuery query = QueryOf(horn, placing_, stretch);
   for (std::uint32_t l = 0; l < level_count_; ++l) {

@@ -275,13 +275,18 @@ void WindowedSearch::FindNear(std::uint32_t agent, Instant from, double seconds)
 
 void WindowedSearch::FindNearOnce(std::uint32_t agent, Instant from, double seconds) {
   near_.clear();
-  if (AsksAll(agent, from)) {
-    for (std::uint32_t other = 0; other < table_.size(); ++other) {
-      if (other != agent && table_.contains(other)) near_.push_back(other);
-    }
-    return;
+  if (AsksAll(agent, from)) return FindAll(agent);
+  FindNear(placing_.Place(table_, agent), from, seconds);
+}
+
+// All agents but one, if that is there.
+void WindowedSearch::FindAll(std::uint32_t but) {
+  for (std::uint32_t other = 0; other < table_.size(); ++other) {
+    if (other != but && table_.contains(other)) near_.push_back(other);
   }
-  PlacedHorn horn = placing_.Place(table_, agent);
+}
+
+void WindowedSearch::FindNear(PlacedHorn horn, Instant from, double seconds) {
   const TimeWindow stretch = placing_.After(from, seconds);
   // Placed horns have SphereFilter's slack for the way to the middle and from there on. A question from
   // before the begin looks farther back.
@@ -367,6 +372,45 @@ void WindowedSearch::Meetings(std::uint32_t agent, Instant from, Instant until, 
   }
   SortByPartner(told, meetings);
   NoteCost(before);
+}
+
+void WindowedSearch::MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                                const Skip& skip, std::vector<Meeting>* meetings) {
+  Refresh(from);
+  const BroadPhaseWork before = work_;
+  const std::size_t told = meetings->size();
+  OfferHalfSpaces(bound, from, until, skip, meetings);
+  const HornRow row = HornTable::RowOf(bound);
+  const double limit =
+      EarliestPairSink(table_, {intersection::BoundKind::kHorn, from, until}, &work_).limit();
+  near_.clear();
+  if (row.unfilterable || placing_.blind() || !HornTable::Near(from)) {
+    FindAll(PlacedHorn::kNoAgent);
+  } else {
+    FindNear(placing_.Place(row), from, std::min(limit, kWindowMax));
+  }
+  ++work_.searches;
+  work_.neighbours += near_.size();
+  for (const std::uint32_t other : near_) {
+    if (skip(other) || !MayMeet(row, table_, other, from, limit, &work_)) continue;
+    const intersection::IntersectionTime time = EarliestIntersectionOf(
+        {intersection::BoundKind::kHorn, from, Instant::Never()}, bound, table_.bound(other));
+    AppendIfBy(until, {other, time}, meetings);
+  }
+  SortByPartner(told, meetings);
+  NoteCost(before);
+}
+
+void WindowedSearch::OfferHalfSpaces(const motion::SpaceTimeBound& bound, Instant from,
+                                     Instant until, const Skip& skip,
+                                     std::vector<Meeting>* meetings) {
+  for (const HalfSpaces::Entry& entry : half_spaces_) {
+    if (skip(entry.agent) || !CanMeet(entry.half_space, bound)) continue;
+    ++work_.pair_queries;
+    const intersection::IntersectionTime time = EarliestIntersectionOf(
+        {intersection::BoundKind::kHorn, from, Instant::Never()}, entry.half_space, bound);
+    AppendIfBy(until, {entry.agent, time}, meetings);
+  }
 }
 
 }  // namespace collision::broad_phase

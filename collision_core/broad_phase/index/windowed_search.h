@@ -49,6 +49,8 @@ class WindowedSearch : public BroadPhase {
       std::uint32_t agent, const intersection::BroadQuery& query) override;
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
+  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                  const Skip& skip, std::vector<Meeting>* meetings) override;
   void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
   BroadPhaseWork work() const override { return work_; }
 
@@ -97,6 +99,10 @@ class WindowedSearch : public BroadPhase {
   bool AsksAll(std::uint32_t agent, Instant from) const;
   void FindNear(std::uint32_t agent, Instant from, double seconds);
   void FindNearOnce(std::uint32_t agent, Instant from, double seconds);
+  void FindNear(PlacedHorn horn, Instant from, double seconds);
+  void FindAll(std::uint32_t but);
+  void OfferHalfSpaces(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                       const Skip& skip, std::vector<Meeting>* meetings);
 
   HornTable table_;
   /// The first questions since the last placing, and their cost; the excess of later ones.

@@ -65,7 +65,7 @@ Run Fly(const Flight& flight, std::uint64_t units) {
     const CpuStopwatch watch;
     for (std::uint32_t ship = 0; ship < flight.ships(); ++ship) {
       if (frame > 0) detector.Update(IdOf(ship), StateOf(flight, frame, ship), now);
-      detector.Hear(IdOf(ship), now);
+      detector.SetHeardUntil(OwnerOf(IdOf(ship)), now);
     }
     detector.Advance(now);
     run.frames.push_back(watch.seconds());

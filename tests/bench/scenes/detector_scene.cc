@@ -106,7 +106,7 @@ DetectorCost Cost(const DetectorScene& scene, const Variation& variation) {
     start = CpuNow();
     for (std::size_t i = 0; i < agents.size(); ++i) {
       detector.Update(IdOf(i), agents[i].state, now);
-      detector.Hear(IdOf(i), now);
+      detector.SetHeardUntil(OwnerOf(IdOf(i)), now);
     }
     detector.Advance(now);
     Take(&detector, &hash, &cost);

@@ -9,7 +9,6 @@
 
 #include "idl/limits.h"
 #include "idl/shape_bytes.h"
-#include "server/bus/batch_order.h"
 #include "tests/server/shapes/shapes.h"
 
 namespace collision::server {
@@ -58,8 +57,9 @@ std::vector<StateCase> BadStates() {
   };
 }
 
-// Goal:   every value that is not one, or lies outside its range, is refused with its field and
-// reason. Method: one good state, spoiled in one place at a time; the good one passes.
+// Goal:   every value that is not a number, or lies outside its range, is refused with its field
+//         and reason.
+// Method: one good state, spoiled in one place at a time; the good one passes.
 TEST(Codec, RefusesBadStatesByField) {
   ASSERT_TRUE(std::holds_alternative<motion::MotionState>(Decode(State(3, 5, 1))));
   for (const StateCase& bad : BadStates()) {
@@ -135,8 +135,7 @@ TEST(Codec, TakesTheSpeedCap) {
 }
 
 // Goal:   a quaternion off by less than 1e-3 is normalised, and its error covers what that may
-// hide;
-//         an exact one gains no more than rounding.
+//         hide; an exact one gains no more than rounding.
 TEST(Codec, NormalisesQuaternionsConservatively) {
   v1::AgentState state = State(0, 0, 1);
   state.mutable_orientation()->set_w(0.6 * 1.0009);
@@ -242,85 +241,6 @@ TEST(Codec, ChecksChunks) {
   *chunk.add_states() = State(64, 0, 65);
   EXPECT_EQ(CheckChunk(chunk)->reason, v1::REJECTED_CHUNK_TOO_LARGE);
   EXPECT_EQ(CheckSlot(chunk, State(wire::kSlotMax + 1, 0, 1))->reason, v1::REJECTED_OUT_OF_RANGE);
-}
-
-// Goal:   a batch has one order, whatever the order of arrival of different writers; a writer's own
-// order stays. Method: a shuffled batch against the order that the header states; sorting again
-// changes nothing.
-TEST(BatchOrder, SortsByWhatItStates) {
-  const std::vector<v1::Input> sorted = {
-      Removal(1, "a", 0),           From(1, Description("a", 0)), From(1, Description("a", 1)),
-      From(1, State(0, 0, 1), "a"), From(1, ClockOf("a", 0)),     Liveliness(1, "a", false),
-  };
-  for (const std::vector<int>& order :
-       std::vector<std::vector<int>>{{5, 4, 3, 2, 0, 1}, {0, 1, 2, 3, 4, 5}, {3, 0, 5, 1, 4, 2}}) {
-    std::vector<v1::Input> batch;
-    for (const int i : order) batch.push_back(sorted[i]);
-    SortBatch(&batch);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      EXPECT_EQ(batch[i].SerializeAsString(), sorted[i].SerializeAsString()) << i;
-    }
-  }
-}
-
-// Goal:   an agent's end comes after the last that its simulator told, and before the description
-//         that reuses its slot; its simulator's end comes last.
-TEST(BatchOrder, AnAgentEndsAfterItsLastState) {
-  const std::vector<v1::Input> arrived = {
-      Removal(1, "a", 3),           Liveliness(1, "a", false),    Removal(2, "a", 1),
-      From(1, State(0, 0, 1), "a"), From(1, ClockOf("a", 0)),     Removal(1, "a", 0),
-      From(1, Description("a", 1)), From(1, Description("b", 0)), From(1, Description("b", 3)),
-      Removal(3, "a", 1),
-  };
-  std::vector<int> order = {2, 6, 3, 4, 5, 9, 0, 1};
-  const std::vector<int> of_b = {7, 8};
-  order.insert(SimulatorId("a") < SimulatorId("b") ? order.end() : order.begin(), of_b.begin(),
-               of_b.end());
-  std::vector<v1::Input> batch = arrived;
-  for (int times = 0; times < 2; ++times) {
-    SortBatch(&batch);
-    for (std::size_t i = 0; i < batch.size(); ++i) {
-      EXPECT_EQ(batch[i].SerializeAsString(), arrived[order[i]].SerializeAsString()) << i;
-    }
-  }
-}
-
-v1::Input ReadyOf(const std::string& hash) {
-  v1::Input input;
-  input.mutable_shape_ready()->set_content_hash(hash);
-  return input;
-}
-
-// Goal:   a shape that is ready counts for everything in its batch; shapes come after descriptions;
-//         removals of shapes come after those of agents, but for parts that are written anew.
-TEST(BatchOrder, ShapesThatAreReadyComeFirst) {
-  const std::vector<v1::ShapePart> parts = PartsOf("a", EncodeShape(Cube(1, UnusedFor(2))));
-  const std::vector<v1::Input> removals = RemovalsOf(1, parts);
-  const std::vector<v1::Input> sorted = {
-      ReadyOf("h"),
-      ReadyOf("g"),
-      From(1, Description("a", 0)),
-      removals[1],
-      From(1, parts[1]),
-      From(1, parts[0]),
-      From(1, State(0, 0, 1), "a"),
-      From(1, ClockOf("a", 0)),
-      Removal(1, "a", 3),
-      removals[0],
-      removals[2],
-      Liveliness(1, "a", false),
-  };
-  for (const std::vector<int>& order : std::vector<std::vector<int>>{
-           {11, 8, 3, 4, 5, 9, 7, 6, 2, 10, 0, 1}, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}}) {
-    std::vector<v1::Input> batch;
-    for (const int i : order) batch.push_back(sorted[i]);
-    for (int times = 0; times < 2; ++times) {
-      SortBatch(&batch);
-      for (std::size_t i = 0; i < batch.size(); ++i) {
-        EXPECT_EQ(batch[i].SerializeAsString(), sorted[i].SerializeAsString()) << i;
-      }
-    }
-  }
 }
 
 }  // namespace
