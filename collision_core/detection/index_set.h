@@ -11,7 +11,7 @@ namespace collision::detection {
 
 /// Indices without duplicates, in the order of their insertion unless one is erased: then the last
 /// takes its place. All operations but Clear() (O(size)) and Validate() are O(1). Memory is
-/// O(greatest index ever inserted), so that a set that nobody empties stays bounded.
+/// O(greatest index ever inserted), so that a set that is never emptied stays bounded.
 template <typename IndexType>
 class IndexSet {
  public:

@@ -19,7 +19,7 @@ AgentRegistry::AgentRegistry(const v1::Config& config, World* world, detection::
 
 void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
                              const motion::AgentDeclaration& declaration) {
-  detection::AgentTable& agents = simulator->agents();
+  AgentTable& agents = simulator->agents();
   const std::uint32_t slot = wire.slot();
   if (agents.HasEnded(slot, wire.generation())) return;
   if (agents.Find(slot, wire.generation())) return Revise(simulator, wire, declaration);
@@ -87,7 +87,7 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
 
 void AgentRegistry::KeepWaiting(Simulator* simulator, std::uint32_t slot,
                                 const WaitingState& waiting) {
-  detection::AgentTable& agents = simulator->agents();
+  AgentTable& agents = simulator->agents();
   const WaitingState* before = agents.Waiting(slot);
   const bool first = before == nullptr || before->generation != waiting.generation;
   if (!first && waiting.state.stamp < before->state.stamp) {
@@ -111,7 +111,7 @@ void AgentRegistry::AdmitComplete(Simulator* simulator) {
 }
 
 void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
-  detection::AgentTable& agents = simulator->agents();
+  AgentTable& agents = simulator->agents();
   Agent* agent = agents.Find(slot);
   const WaitingState* waiting = agents.Waiting(slot);
   if (agent == nullptr || agent->admitted() || waiting == nullptr) return;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "collision_core/numeric/seconds.h"
+
 namespace collision::server {
 namespace {
 

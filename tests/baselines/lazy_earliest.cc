@@ -1,5 +1,7 @@
 #include "tests/baselines/lazy_earliest.h"
 
+#include "collision_core/numeric/seconds.h"
+
 namespace collision::baselines {
 
 void LazyEarliest::Ask(std::uint32_t agent, Instant now) {

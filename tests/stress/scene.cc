@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/stress/pair_judge.h"
 #include "tests/support/truth/exact_meeting.h"
 

@@ -1,4 +1,4 @@
-// How much wider than the truth the bounds are from which keys are computed.
+// How much wider than the truth the bounds are that clearance keys are computed from.
 #pragma once
 
 #include "collision_core/motion/contract.h"
@@ -6,11 +6,12 @@
 
 namespace collision::detection {
 
-/// Keys are computed under bounds a little wider than the true ones, so that a key from an older
-/// state is not later than the canonical answer from a newer one that kept the contract up to
-/// rounding. Such a state may lie off by a few units in the last place, and by what the rounding of
-/// its stamp to the nanosecond moves it. What each kept state may have lost is taken off the
-/// margin, so that every widened bound lies inside the one before it, in exact arithmetic.
+/// Clearance keys are computed from bounds a little wider than the true ones, so that a key from an
+/// older state is not later than the canonical answer from a newer one that kept its contract up to
+/// rounding. Such a state may lie off by a few units in the last place, and by how far the agent
+/// moves while its stamp is rounded to the nanosecond. What each kept state may have lost is taken
+/// off the margin, so that every widened bound lies inside the one before it, in exact arithmetic:
+/// the broad phase relies on that. When the margin is used up, the agent is renewed.
 class BoundMargin {
  public:
   BoundMargin() = default;
@@ -20,7 +21,7 @@ class BoundMargin {
   explicit BoundMargin(const motion::SpaceTimeBound& bound);
 
   /// Takes off what a kept state may have lost against the one before it. False: there is not
-  /// enough left, so that whoever relied on it must be asked anew.
+  /// enough left, and every agent that relied on the bound must be asked about anew.
   bool Spend(const motion::ContractCheck& check, const motion::MotionState& before);
 
   /// The bound with the rest of the margin added to its errors; after a jump also with where the

@@ -5,7 +5,7 @@
 
 namespace collision::detection {
 
-/// What a change of a bound means to those who rely on it.
+/// What a change of a bound means for answers that rely on it.
 enum class BoundChange {
   kWithin,  ///< All that may be met now could be met before: standing answers stay valid.
   kWidened  ///< More may be met than before: standing answers must be computed anew.

@@ -58,11 +58,11 @@ std::vector<std::string> SceneProfile::LeftOut() const {
   leave_out(counts_[kUncertain] == 0, "growth by state errors: every state is exact");
   leave_out(counts_[kSkewed] == 0, "clock skew: all clocks are one");
   leave_out(counts_[kExpiring] == 0, "expiry: no agent declares one");
-  leave_out(counts_[kMasked] == 0, "masks: everybody can meet everybody");
+  leave_out(counts_[kMasked] == 0, "masks: every agent can meet every other");
   leave_out(counts_[kShaped] == 0, "sphere trees and rotation: every agent is a ball");
   leave_out(counts_[kShaped] > 0 && counts_[kTurning] == 0,
             "rotation of sphere trees: no agent with a shape turns");
-  leave_out(counts_[kMoving] == 0, "meetings: nobody can move");
+  leave_out(counts_[kMoving] == 0, "meetings: no agent can move");
   return left_out;
 }
 

@@ -118,17 +118,7 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   const Instant now = context_.clock.now;
   const Instant covered = std::min(was_saturated ? now : before.earliest(),
                                    record.renewed_from.value_or(Instant::Never()));
-  const auto question_about = [&](int group) {
-    const bool own_key = !renewed && !was_saturated && group != kEveryGroup;
-    const Instant covered_group = own_key ? before.Of(group) : covered;
-    return ClearanceQuestion{.agent = agent,
-                             .group = group,
-                             .from = std::min(now, covered_group),
-                             .covered = covered_group,
-                             .renewed = renewed,
-                             .was_saturated = was_saturated,
-                             .tracked = &tracked_};
-  };
+  const Promised promised{before, covered, renewed, was_saturated};
   record.renewed_from.reset();
   if (was_saturated) coverage_.EndSaturation(agent);
   coverage_.LeaveSettled(agent);
@@ -138,18 +128,7 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   const bool early =
       many && !renewed && !was_saturated && covered > context_.clock.announce_until();
   const AgentIndex next_before = record.next_partner;
-  groups_.clear();
-  coverage_.tiers().GroupsBeside(agent, &groups_);
-  NextMeeting next =
-      QueryGroup(question_about(groups_.empty() ? kEveryGroup : AccelerationTiers::kComparable));
-  if (!coverage_.IsSaturated(agent)) record.keys.SetAll(next.when);
-  for (const int group : groups_) {
-    if (coverage_.IsSaturated(agent) || TracksAll(agent, group)) continue;
-    const NextMeeting first = QueryGroup(question_about(group));
-    if (coverage_.IsSaturated(agent)) continue;
-    record.keys.SetTier(group, first.when);
-    if (first.when < next.when) next = first;
-  }
+  const NextMeeting next = QueryGroups(agent, promised);
   if (!coverage_.IsSaturated(agent)) {
     if (!next.when.is_never()) record.next_partner = next.partner;
     if (early && next.when > covered) {
@@ -163,6 +142,38 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   if (renewed) lowering_.Lower(agent, from, tracked_);
   if (many) return NotifyIfLowered(agent, covered);
   record.renewed_cause = ClearanceCause::kNone;
+}
+
+ClearanceQuestion ClearanceQueries::QuestionAbout(AgentIndex agent, int group,
+                                                  const Promised& promised) {
+  const bool own_key = !promised.renewed && !promised.was_saturated && group != kEveryGroup;
+  const Instant covered = own_key ? promised.keys.Of(group) : promised.covered;
+  return {.agent = agent,
+          .group = group,
+          .from = std::min(context_.clock.now, covered),
+          .covered = covered,
+          .renewed = promised.renewed,
+          .was_saturated = promised.was_saturated,
+          .tracked = &tracked_};
+}
+
+// Sets the keys of all groups beside the agent, unless it becomes saturated. Returns the earliest
+// meeting of all.
+NextMeeting ClearanceQueries::QueryGroups(AgentIndex agent, const Promised& promised) {
+  AgentCoverage& record = coverage_[agent];
+  groups_.clear();
+  coverage_.tiers().GroupsBeside(agent, &groups_);
+  const int comparable = groups_.empty() ? kEveryGroup : AccelerationTiers::kComparable;
+  NextMeeting next = QueryGroup(QuestionAbout(agent, comparable, promised));
+  if (!coverage_.IsSaturated(agent)) record.keys.SetAll(next.when);
+  for (const int group : groups_) {
+    if (coverage_.IsSaturated(agent) || TracksAll(agent, group)) continue;
+    const NextMeeting first = QueryGroup(QuestionAbout(agent, group, promised));
+    if (coverage_.IsSaturated(agent)) continue;
+    record.keys.SetTier(group, first.when);
+    if (first.when < next.when) next = first;
+  }
+  return next;
 }
 
 // Tracks the partners of one group that may be met soon. Returns the first of the others, unless

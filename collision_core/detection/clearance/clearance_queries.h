@@ -47,10 +47,19 @@ class ClearanceQueries {
   /// How many agents were renewed in this step.
   enum class Renewals { kFew, kMany };
 
+  /// What held of an agent before it is asked about.
+  struct Promised {
+    const ClearanceKeys& keys;
+    Instant covered;              // certified clear of all untracked partners up to here
+    bool renewed, was_saturated;  // as of ClearanceQuestion
+  };
+
   void Query(AgentIndex agent, Renewals renewals);
   bool NeedsTiersOnly(AgentIndex agent, Renewals renewals) const;
   void QueryTiers(AgentIndex agent);
   void QueryAll(AgentIndex agent, Renewals renewals);
+  NextMeeting QueryGroups(AgentIndex agent, const Promised& promised);
+  ClearanceQuestion QuestionAbout(AgentIndex agent, int group, const Promised& promised);
   NextMeeting QueryGroup(const ClearanceQuestion& question);
   NextMeeting QueryBroadPhase(const ClearanceQuestion& question);
   bool IsCrowded(const ClearanceQuestion& question);

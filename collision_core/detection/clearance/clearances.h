@@ -1,4 +1,4 @@
-// Who may be met when: the clearance keys of all agents, and what agents are told.
+// Which agents may meet when: the clearance keys of all agents, and what agents are told.
 #pragma once
 
 #include <string>

@@ -25,7 +25,7 @@ struct AgentCoverage {
   AgentIndex crowded_with;         ///< Saturated: a partner that could not be tracked.
 };
 
-/// The clearance keys of all agents, and who is asked again when.
+/// The clearance keys of all agents, and when each is asked about again.
 ///
 /// Invariants. After a step, for each two agents that can meet, one of these holds: they are
 /// tracked; they are certified clear up to the later of their two keys, which is later than both
@@ -99,7 +99,7 @@ class CoverageTable {
     settled_.UpTo(Reversed(from), agents);
   }
 
-  /// Agents whose earlier lower bounds of a meeting are void (earliest/); whoever reads them clears
+  /// Agents whose earlier lower bounds of a meeting are void (earliest/); the reader clears
   /// the set.
   IndexSet<AgentIndex>* voided() { return &voided_; }
 

@@ -67,7 +67,7 @@ class TrackedPairs {
 
   /// Pairs released since the last call, in the order of their release. The caller lowers keys.
   std::vector<ReleasedPair> TakeReleased();
-  /// Pairs that were added, evaluated or removed; whoever reads them clears the set.
+  /// Pairs that were added, evaluated or removed; the reader clears the set.
   IndexSet<PairSlot>* changed() { return &changed_; }
 
   /// The agent's states before this are not needed for its pairs.

@@ -10,7 +10,7 @@ namespace {
 
 void Contest(const NarrowSettings& settings, const PlainConvex& a, const PlainConvex& b,
              NarrowReport* report) {
-  const geometry::ConvexPair pair{SolidOf(a), SolidOf(b)};
+  const ConvexPair pair{SolidOf(a), SolidOf(b)};
   PairMethods methods = OurConvex(pair);
   Append(ConvexPeers(a, b), &methods);
   for (const GapClass& gap : GapClasses()) {

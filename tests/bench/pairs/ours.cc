@@ -31,7 +31,7 @@ Reply Told(narrow_phase::Verdict verdict) {
 /// The pair that may be nearest is opened first, so that both ends move all the time.
 Reply ByBudget(const narrow_phase::BodySegment& body, const PlainPose& at, std::uint64_t units) {
   const narrow_phase::BodyTree surface(body);
-  const narrow_phase::RelativePose pose = narrow_phase::PoseOf(at);
+  const narrow_phase::RelativePose pose = PoseOf(at);
   WorkBudget work(units);
   narrow_phase::SeparationSearch search(surface, surface, pose, narrow_phase::Goal::kDecision,
                                         kAsNarrowAsCanBe, narrow_phase::SearchOrder::kNearest);
@@ -45,13 +45,13 @@ Reply Bracket(const narrow_phase::BodySegment& body, const PlainPose& at, double
               double share = 0) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  return Told(BracketSeparation(a, b, narrow_phase::PoseOf(at), width, share, &work));
+  return Told(BracketSeparation(a, b, PoseOf(at), width, share, &work));
 }
 
 Reply Decide(const narrow_phase::BodySegment& body, const PlainPose& at) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  return Told(DecideAt(a, b, narrow_phase::PoseOf(at), &work).verdict);
+  return Told(DecideAt(a, b, PoseOf(at), &work).verdict);
 }
 
 std::vector<Reply> Together(const narrow_phase::BodySegment& body,
@@ -61,8 +61,8 @@ std::vector<Reply> Together(const narrow_phase::BodySegment& body,
   narrow_phase::Refinement refinement(order);
   WorkBudget work(units * poses.size());
   for (const PlainPose& at : poses) {
-    refinement.Add(surface, surface, narrow_phase::PoseOf(at), 1, narrow_phase::Goal::kDecision,
-                   kAsNarrowAsCanBe, &work);
+    refinement.Add(surface, surface, PoseOf(at), 1, narrow_phase::Goal::kDecision, kAsNarrowAsCanBe,
+                   &work);
   }
   refinement.Refine(&work);
   std::vector<Reply> replies;
@@ -105,10 +105,9 @@ void AddRefinement(const narrow_phase::BodySegment& body, PairMethods* methods) 
   }
 }
 
-numeric::Interval Patiently(const geometry::ConvexPair& pair, const PlainPose& at,
-                            std::uint64_t units) {
+numeric::Interval Patiently(const ConvexPair& pair, const PlainPose& at, std::uint64_t units) {
   WorkBudget work(units);
-  const narrow_phase::RelativePose pose = narrow_phase::PoseOf(at);
+  const narrow_phase::RelativePose pose = PoseOf(at);
   const numeric::Interval found = IntervalOf(PosedA(pair.a.set(), pose), PosedB(pair.b.set(), pose),
                                              {.goal = narrow_phase::ConvexGoal::kDistance}, &work);
   return {std::max(0.0, found.lower), std::max(0.0, found.upper)};
@@ -132,12 +131,10 @@ PairMethods OurMesh(std::shared_ptr<const shape::Shape> shape, double diameter,
   };
 }
 
-PairMethods OurConvex(const geometry::ConvexPair& pair) {
-  const auto decide = [pair](const PlainPose& at) {
-    return Told(pair.VerdictAt(narrow_phase::PoseOf(at)));
-  };
+PairMethods OurConvex(const ConvexPair& pair) {
+  const auto decide = [pair](const PlainPose& at) { return Told(pair.VerdictAt(PoseOf(at))); };
   const auto measure = [pair](const PlainPose& at) {
-    return Told(pair.DistanceAt(narrow_phase::PoseOf(at), kDistanceShare, 0));
+    return Told(pair.DistanceAt(PoseOf(at), kDistanceShare, 0));
   };
   return {{.name = "ours", .task = Task::kDecision, .who = Who::kOurs, .ask = decide},
           {.name = "ours", .task = Task::kDistance, .who = Who::kOurs, .ask = measure}};
@@ -157,17 +154,17 @@ PairMethods OurMeshCurves(const TwoTrees& trees) {
   return methods;
 }
 
-PairMethods OurConvexCurves(const geometry::ConvexPair& pair) {
+PairMethods OurConvexCurves(const ConvexPair& pair) {
   PairMethods methods;
   for (const double width : kWidths) {
     methods.push_back(Ours("convex routine, by width", SettingText("", width, "m"), kByWidth));
     methods.back().ask = [pair, width](const PlainPose& at) {
-      return Told(pair.DistanceAt(narrow_phase::PoseOf(at), 0, width));
+      return Told(pair.DistanceAt(PoseOf(at), 0, width));
     };
   }
   methods.push_back(Ours("convex routine, by width", "0 m", kByRounding));
   methods.back().ask = [pair](const PlainPose& at) {
-    return Told(pair.DistanceAt(narrow_phase::PoseOf(at), 0, 0));
+    return Told(pair.DistanceAt(PoseOf(at), 0, 0));
   };
   for (const std::uint64_t units : {1, 2, 3, 4, 6, 8, 12, 16, 32, 64}) {
     methods.push_back(Ours("patient search, by budget", Units(units), kByBudget));
@@ -177,9 +174,7 @@ PairMethods OurConvexCurves(const geometry::ConvexPair& pair) {
   }
   methods.push_back(Ours("yes or no at a glance", "", kByRounding));
   methods.back().task = Task::kDecision;
-  methods.back().ask = [pair](const PlainPose& at) {
-    return Told(pair.VerdictAt(narrow_phase::PoseOf(at)));
-  };
+  methods.back().ask = [pair](const PlainPose& at) { return Told(pair.VerdictAt(PoseOf(at))); };
   return methods;
 }
 

@@ -2,6 +2,7 @@
 #include <limits>
 #include <vector>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/baselines/lazy_earliest.h"
 #include "tests/bench/broad_phase/updated.h"
 #include "tests/bench/peers/bullet_box.h"

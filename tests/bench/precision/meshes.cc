@@ -48,7 +48,7 @@ void ConvexesPart(const PrecisionSettings& settings, PrecisionReport* report) {
     for (std::size_t k = i; k < all.size(); ++k) {
       const PlainConvex &a = all[i], &b = all[k];
       const std::string name = a.name + " and " + b.name;
-      const geometry::ConvexPair pair{SolidOf(a), SolidOf(b)};
+      const ConvexPair pair{SolidOf(a), SolidOf(b)};
       PairMethods methods = OurConvexCurves(pair);
       Append(ConvexPeerCurves(a, b), &methods);
       for (const Motion motion : kMotions) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/baselines/ball_bound.h"
 #include "tests/baselines/scenes.h"
 #include "tests/bench/harness/allocation_counter.h"

@@ -11,6 +11,7 @@
 #include <set>
 #include <utility>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/broad_phase/method_scenes.h"
 #include "tests/support/sanitized.h"
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/broad_phase/method_scenes.h"
 
 namespace collision::broad_phase {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/broad_phase/method_scenes.h"
 #include "tests/support/sanitized.h"
 

@@ -12,6 +12,7 @@
 #include <tuple>
 
 #include "collision_core/detection/detector.h"
+#include "collision_core/shape/shape.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"

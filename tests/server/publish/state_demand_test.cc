@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 

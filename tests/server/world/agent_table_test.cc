@@ -24,16 +24,16 @@ detection::AgentClearance ClearanceOf(std::uint32_t slot, std::uint32_t generati
 }
 
 /// With an admitted agent of generation 3 in slot 70, and nothing marked.
-detection::AgentTable Table() {
-  detection::AgentTable table;
+AgentTable Table() {
+  AgentTable table;
   table.Add(70, Described(3));
   table.Admit(70, At(1), 10);
   EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
   return table;
 }
 
-TEST(detection::AgentTable, EachChangeMarksItsChunkAndNoOther) {
-  detection::AgentTable table = Table();
+TEST(AgentTable, EachChangeMarksItsChunkAndNoOther) {
+  AgentTable table = Table();
   table.Acknowledge(70, At(2), 11);
   EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
   EXPECT_EQ(table.Find(70)->stamp(), At(2));
@@ -51,8 +51,8 @@ TEST(detection::AgentTable, EachChangeMarksItsChunkAndNoOther) {
   table.Validate();
 }
 
-TEST(detection::AgentTable, WhatASampleDoesNotSayMarksNothing) {
-  detection::AgentTable table = Table();
+TEST(AgentTable, WhatASampleDoesNotSayMarksNothing) {
+  AgentTable table = Table();
   EXPECT_EQ(table.NoteState(70, 3, 12), StateOrder::kNew);
   table.KeepWaiting(5, {.generation = 1, .sequence = 1, .state = {}});
   table.Add(6, Described(1));
@@ -60,16 +60,16 @@ TEST(detection::AgentTable, WhatASampleDoesNotSayMarksNothing) {
   table.Validate();
 }
 
-TEST(detection::AgentTable, AClearanceOfAnAgentThatIsGoneIsIgnored) {
-  detection::AgentTable table = Table();
+TEST(AgentTable, AClearanceOfAnAgentThatIsGoneIsIgnored) {
+  AgentTable table = Table();
   table.SetClearance(ClearanceOf(70, 2, At(9)));
   table.SetClearance(ClearanceOf(71, 3, At(9)));
   EXPECT_TRUE(table.clearances().all().empty());
   EXPECT_EQ(table.clearances().TakeChanged(), Chunks{});
 }
 
-TEST(detection::AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
-  detection::AgentTable table = Table();
+TEST(AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
+  AgentTable table = Table();
   EXPECT_EQ(table.NoteState(70, 3, 5), StateOrder::kNew);
   EXPECT_EQ(table.NoteState(70, 3, 5), StateOrder::kRepeated);
   EXPECT_EQ(table.NoteState(70, 3, 4), StateOrder::kRepeated);
@@ -83,23 +83,23 @@ TEST(detection::AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
 }
 
 // Goal:   a removal ends the state that waits for the same generation, not the one of the next.
-TEST(detection::AgentTable, RemovalEndsWhatWaitsForTheSameGeneration) {
+TEST(AgentTable, RemovalEndsWhatWaitsForTheSameGeneration) {
   for (const std::uint32_t generation : {3u, 4u}) {
-    detection::AgentTable table = Table();
+    AgentTable table = Table();
     table.KeepWaiting(70, {.generation = generation, .sequence = 1, .state = {}});
     table.Remove(70);
     EXPECT_EQ(table.Waiting(70) != nullptr, generation == 4);
     table.Validate();
   }
-  detection::AgentTable table;
+  AgentTable table;
   table.KeepWaiting(1, {.generation = 8, .sequence = 1, .state = {}});
   table.RemoveWaiting(1);
   EXPECT_EQ(table.Waiting(1), nullptr);
   EXPECT_TRUE(table.HasEnded(1, 8));
 }
 
-TEST(detection::AgentTable, ANewRunMarksEveryUsedSlot) {
-  detection::AgentTable table = Table();
+TEST(AgentTable, ANewRunMarksEveryUsedSlot) {
+  AgentTable table = Table();
   table.KeepWaiting(200, {.generation = 1, .sequence = 1, .state = {}});
   EXPECT_THROW(table.Clear(), CheckFailure);
   table.Remove(70);
@@ -109,8 +109,8 @@ TEST(detection::AgentTable, ANewRunMarksEveryUsedSlot) {
   table.Validate();
 }
 
-TEST(detection::AgentTable, PreconditionsAreChecked) {
-  detection::AgentTable table = Table();
+TEST(AgentTable, PreconditionsAreChecked) {
+  AgentTable table = Table();
   EXPECT_THROW(table.Add(70, Described(4)), CheckFailure);
   EXPECT_THROW(table.Remove(1), CheckFailure);
   EXPECT_THROW(table.Admit(1, At(0), 1), CheckFailure);

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/detection/line.h"
 #include "tests/support/random.h"
 

@@ -43,9 +43,9 @@ TEST(PairTable, SlotsRestBeforeTheyAreUsedAgain) {
 }
 
 TEST(PairTable, KnowsThePairsOfEachAgentAndItsRoom) {
-  constexpr std::uint32_t kAgents = 9, narrow_phase::kPairsMax = 20, kPerAgentMax = 6;
+  constexpr std::uint32_t kAgents = 9, kPairsMax = 20, kPerAgentMax = 6;
   Random random(4);
-  PairTable pairs = TableOf(narrow_phase::kPairsMax, kPerAgentMax, kAgents);
+  PairTable pairs = TableOf(kPairsMax, kPerAgentMax, kAgents);
   std::map<PairSlot, std::pair<AgentIndex, AgentIndex>> model;
   for (int i = 0; i < 4000; ++i) {
     const AgentIndex a = Agent(random.Below(kAgents)), b = Agent(random.Below(kAgents));
@@ -64,11 +64,9 @@ TEST(PairTable, KnowsThePairsOfEachAgentAndItsRoom) {
         of_agent += both.first == Agent(k) || both.second == Agent(k);
       }
       ASSERT_EQ(pairs.Of(Agent(k)).size(), of_agent);
-      ASSERT_EQ(pairs.IsFull(Agent(k)),
-                of_agent == kPerAgentMax || model.size() == narrow_phase::kPairsMax);
-      ASSERT_EQ(
-          pairs.RoomFor(Agent(k)),
-          std::min<std::size_t>(kPerAgentMax - of_agent, narrow_phase::kPairsMax - model.size()));
+      ASSERT_EQ(pairs.IsFull(Agent(k)), of_agent == kPerAgentMax || model.size() == kPairsMax);
+      ASSERT_EQ(pairs.RoomFor(Agent(k)),
+                std::min<std::size_t>(kPerAgentMax - of_agent, kPairsMax - model.size()));
     }
   }
 }
