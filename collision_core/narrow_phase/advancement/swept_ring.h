@@ -8,7 +8,9 @@
 // query may cost as much again as the sweeps since it was made last.
 #pragma once
 
-#include "collision_core/narrow_phase/advancement/conservative_advancement.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/advancement/swept_pose.h"
+#include "collision_core/narrow_phase/pose/body_tree.h"
 
 namespace collision::narrow_phase {
 

@@ -17,19 +17,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "collision_core/motion/space_time_bound.h"
+#include "collision_core/narrow_phase/pose/ball_segment.h"
 
 namespace collision::narrow_phase {
-
-/// What is certain about one ball over [base, base + duration]: every bound in `bounds` holds at
-/// every instant of it (forward from the last known state, backward from the next one). Empty:
-/// nothing is known.
-struct BallSegment {
-  double radius = 0;
-  std::vector<motion::MovingBall> bounds;
-};
 
 /// Seconds after base; every claim holds for all motions within the bounds.
 struct SegmentResult {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
+#include "collision_core/narrow_phase/contact/contact_tolerance.h"
 #include "collision_core/narrow_phase/contact/shape_motion.h"
-#include "collision_core/narrow_phase/contact/time_of_contact.h"
 
 namespace collision::narrow_phase {
 

@@ -1,6 +1,7 @@
 // Candidates for the first contact: where two surfaces that nearly touch will overlap first.
 #pragma once
 
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 #include "collision_core/narrow_phase/separation/solid_point.h"
 
 namespace collision::narrow_phase {

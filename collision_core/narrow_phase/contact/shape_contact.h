@@ -21,8 +21,10 @@
 // be found later. It holds all the same.
 #pragma once
 
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/contact/ball_contact.h"
+#include "collision_core/narrow_phase/pose/body_segment.h"
 #include "collision_core/narrow_phase/pose/proximity.h"
-#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
 

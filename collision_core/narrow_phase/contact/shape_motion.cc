@@ -4,6 +4,8 @@
 
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
+#include "collision_core/narrow_phase/separation/containment.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
 

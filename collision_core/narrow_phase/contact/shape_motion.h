@@ -3,6 +3,8 @@
 
 #include "collision_core/narrow_phase/advancement/conservative_advancement.h"
 #include "collision_core/narrow_phase/contact/contact_candidates.h"
+#include "collision_core/narrow_phase/pose/segment_pose.h"
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 
 namespace collision::narrow_phase {
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/narrow_phase/contact/ball_contact.h"
 #include "collision_core/narrow_phase/contact/ball_proximity.h"
 #include "collision_core/narrow_phase/contact/contact_boundary.h"
+#include "collision_core/narrow_phase/pose/segment_pose.h"
 
 namespace collision::narrow_phase {
 namespace {

@@ -40,18 +40,12 @@
 
 #include <optional>
 
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/contact/contact_tolerance.h"
+#include "collision_core/narrow_phase/pose/body_segment.h"
 #include "collision_core/narrow_phase/pose/proximity.h"
-#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
-
-/// How narrow a time is to be: the wider of the two. Rounding and uncertain motion may leave a
-/// wider bracket; then the answer says so. A contact that is shorter than the tolerance is found
-/// all the same.
-struct ContactTolerance {
-  double absolute = 0;      ///< [s]
-  double relative = 1e-12;  ///< Of the time itself, counted from the start.
-};
 
 enum class ContactStatus {
   kFree,      ///< Apart throughout, both ends included.

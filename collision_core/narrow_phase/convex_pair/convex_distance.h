@@ -14,6 +14,7 @@
 #include "collision_core/base/work_budget.h"
 #include "collision_core/geometry/convex/gjk.h"
 #include "collision_core/narrow_phase/pose/convex_pose.h"
+#include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
 

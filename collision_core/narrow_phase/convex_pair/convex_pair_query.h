@@ -20,7 +20,7 @@
 #pragma once
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/narrow_phase/pose/verdict.h"
 
 namespace collision::narrow_phase {
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/narrow_phase/separation/separation.h"
+
 namespace collision::narrow_phase {
 namespace {
 

@@ -6,7 +6,6 @@
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/narrow_phase/penetration/local_separating_translation.h"
 #include "collision_core/narrow_phase/separation/element.h"
-#include "collision_core/narrow_phase/separation/separation_findings.h"
 
 namespace collision::narrow_phase {
 namespace {

@@ -8,7 +8,9 @@
 // below comes from balls within the solids, points, and for convex solids their difference.
 #pragma once
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 
 namespace collision::narrow_phase {
 

@@ -1,15 +1,12 @@
 // Two bodies at one instant, seen from the body frame of the first.
 //
-// Of the bounds that hold (forward, backward) the least uncertain one is taken at each instant. B
-// is posed in A's body frame, positions subtracted first. Rounding is one allowance for the whole
-// query (offset_error, matrix_error; derived in relative_pose.cc). The turning of either body moves
-// a node's centre c by at most 2 |c| sin(θ/2), node by node. Translation is kept apart, so that the
-// search through time can let it grow.
+// Rounding is one allowance for the whole query (offset_error, matrix_error; derived in
+// segment_pose.cc, where poses are made from motions). The turning of either body moves a node's
+// centre c by at most 2 |c| sin(θ/2), node by node. Translation is kept apart, so that the search
+// through time can let it grow.
 #pragma once
 
-#include <cstddef>
-
-#include "collision_core/narrow_phase/pose/body_segment.h"
+#include <Eigen/Core>
 
 namespace collision::narrow_phase {
 
@@ -44,15 +41,6 @@ struct RelativePose {
   }
 };
 
-/// The bounds of A and of B that leave the least uncertainty at an instant; `certain` is false
-/// where nothing is known of one of them.
-struct BoundChoice {
-  std::size_t of_A = 0;
-  std::size_t of_B = 0;
-  bool certain = false;
-};
-BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta);
-
 /// How far a matrix made of a unit quaternion may be from a rotation.
 inline constexpr double kMatrixRounding = 0x1p-49;
 
@@ -66,15 +54,6 @@ inline RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d&
   // The sum of the coordinates is no less than the length; 2^-50 for its own rounding.
   pose.offset_error = kPosingRounding * (1 + 0x1p-50) * offset.cwiseAbs().sum();
   return pose;
-}
-
-/// At δ after the segments' base.
-RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta);
-
-/// How far any point of the body may be from the reference point [m]; 0 for a ball, which looks
-/// the same however it turns.
-inline double ReachOf(const BodySegment& body) {
-  return body.shape ? body.shape->facts().radius : 0;
 }
 
 }  // namespace collision::narrow_phase

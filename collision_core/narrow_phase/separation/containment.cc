@@ -1,7 +1,8 @@
-// Whether one body is inside the other, where their surfaces are apart.
+#include "collision_core/narrow_phase/separation/containment.h"
+
 #include <algorithm>
 
-#include "collision_core/narrow_phase/separation/separation_findings.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
 
 namespace collision::narrow_phase {
 namespace {

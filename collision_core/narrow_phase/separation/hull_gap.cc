@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "collision_core/narrow_phase/separation/separation_findings.h"
 #include "collision_core/narrow_phase/sphere_pairs/kernel_pose.h"
 
 namespace collision::narrow_phase {

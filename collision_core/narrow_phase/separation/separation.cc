@@ -1,6 +1,7 @@
 #include "collision_core/narrow_phase/separation/separation.h"
 
 #include "collision_core/narrow_phase/convex_pair/convex_pair_query.h"
+#include "collision_core/narrow_phase/separation/containment.h"
 #include "collision_core/narrow_phase/separation/hull_gap.h"
 #include "collision_core/narrow_phase/separation/separation_search.h"
 

@@ -6,20 +6,13 @@
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/narrow_phase/pose/boxed_triangle.h"
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 
 namespace collision::narrow_phase {
 
 /// Ways between surfaces that are kept; with more of them the direction is not told.
 inline constexpr std::size_t kWaysMax = 128;
-
-/// What rounding may have made of a distance at this pose, computed in doubles from points of these
-/// lengths, and of the sums and differences made of it (less than a dozen operations on terms below
-/// the lengths' sum): 2^-49 of the sum covers it. A share of 2^-50 for the operations here.
-inline double SlackOf(const BodyTree& a, const BodyTree& b, const RelativePose& pose) {
-  const double rounding = 0x1p-49 * (a.reach() + b.reach() + pose.offset.cwiseAbs().sum());
-  return (rounding + (pose.offset_error + pose.matrix_error * b.reach())) * (1 + 0x1p-50);
-}
 
 /// A step of the search through time loses at most half of the distance when the bracket is this
 /// narrow.

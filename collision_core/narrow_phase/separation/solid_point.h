@@ -1,7 +1,8 @@
 // A point that shows that two bodies overlap, however little.
 #pragma once
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
 
 namespace collision::narrow_phase {
 

@@ -8,6 +8,7 @@
 #include "collision_core/narrow_phase/contact/shape_contact.h"
 #include "collision_core/narrow_phase/contact/shape_motion.h"
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
+#include "collision_core/narrow_phase/separation/containment.h"
 #include "collision_core/narrow_phase/separation/refinement.h"
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"

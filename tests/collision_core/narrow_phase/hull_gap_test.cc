@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/narrow_phase/separation/containment.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
 #include "tests/support/random.h"
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/narrow_phase/pose/segment_pose.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 

@@ -1,4 +1,4 @@
-#include "collision_core/narrow_phase/pose/relative_pose.h"
+#include "collision_core/narrow_phase/pose/segment_pose.h"
 
 #include <algorithm>
 
