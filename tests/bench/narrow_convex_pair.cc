@@ -55,7 +55,7 @@ numeric::Interval ConvexPair::DistanceAt(const narrow_phase::RelativePose& pose,
   WorkBudget work(kUnlimited);
   const numeric::Interval separation = SeparationOfConvexPair(
       a.set(), b.set(), pose,
-      {.goal = narrow_phase::ConvexGoal::kDistance, .share = share, .width = width}, &work);
+      {.goal = narrow_phase::ConvexGoal::kDistance, .relative_tolerance = share, .absolute_tolerance = width}, &work);
   return {std::max(0.0, separation.lower), std::max(0.0, separation.upper)};
 }
 

@@ -13,7 +13,7 @@ constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
 Reply Decide(const narrow_phase::BodySegment& body, const PlainPose& at) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  switch (DecideAt(a, b, PoseOf(at), &work).verdict) {
+  switch (narrow_phase::DecideAt({a, b, PoseOf(at)}, &work).verdict) {
     case narrow_phase::Verdict::kApart:
       return Plain(0);
     case narrow_phase::Verdict::kTouching:
@@ -29,7 +29,7 @@ Reply Bracket(const narrow_phase::BodySegment& body, const PlainPose& at, double
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
   const narrow_phase::SeparationBracket look =
-      BracketSeparation(a, b, PoseOf(at), width, share, &work);
+      narrow_phase::BracketSeparation({a, b, PoseOf(at)}, {width, share}, &work);
   if (look.upper <= 0 || look.crossing_margin >= 0) return Plain(0);
   return {std::max(0.0, look.lower), look.upper};
 }

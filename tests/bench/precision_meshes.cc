@@ -24,13 +24,15 @@ std::vector<BenchMesh> Meshes(const PrecisionSettings& settings) {
 PairOracle OracleOf(const narrow_phase::BodySegment& body) {
   return {[body](const narrow_phase::RelativePose& pose) {
             WorkBudget work(kUnlimited);
-            return DecideAt(narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, &work)
+            return narrow_phase::DecideAt(
+                       {narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose}, &work)
                 .verdict;
           },
           [body](const narrow_phase::RelativePose& pose, double width) {
             WorkBudget work(kUnlimited);
-            const narrow_phase::SeparationBracket look = BracketSeparation(
-                narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, width, 0, &work);
+            const narrow_phase::SeparationBracket look = narrow_phase::BracketSeparation(
+                {narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose}, {width, 0},
+                &work);
             return numeric::Interval(look.lower, look.upper);
           }};
 }

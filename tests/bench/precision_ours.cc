@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 60;
 constexpr std::uint64_t kBudgets[] = {1, 4, 16, 64, 128, 256, 512, 1024, 4096, 1 << 16};
 constexpr double kWidths[] = {0.3, 0.1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-constexpr narrow_phase::BracketWidth kAsNarrowAsCanBe{0, 0};
+constexpr narrow_phase::BracketTolerance kAsNarrowAsCanBe{0, 0};
 
 const char kByBudget[] = "work units a pair; at last the rounding of the pose";
 const char kByWidth[] = "the width asked for; at last the rounding of the pose";
@@ -33,7 +33,7 @@ Reply ByBudget(const narrow_phase::BodySegment& body, const PlainPose& at, std::
   const narrow_phase::BodyTree surface(body);
   const narrow_phase::RelativePose pose = PoseOf(at);
   WorkBudget work(units);
-  narrow_phase::SeparationSearch search(surface, surface, pose, narrow_phase::Goal::kDecision,
+  narrow_phase::SeparationSearch search({surface, surface, pose}, narrow_phase::Goal::kDecision,
                                         kAsNarrowAsCanBe, narrow_phase::SearchOrder::kNearest);
   search.Start(&work);
   search.Refine(&work);
@@ -43,7 +43,7 @@ Reply ByBudget(const narrow_phase::BodySegment& body, const PlainPose& at, std::
 Reply ByWidth(const narrow_phase::BodySegment& body, const PlainPose& at, double width) {
   const narrow_phase::BodyTree surface(body);
   WorkBudget work(kUnlimited);
-  return Told(BracketSeparation(surface, surface, PoseOf(at), width, 0, &work));
+  return Told(narrow_phase::BracketSeparation({surface, surface, PoseOf(at)}, {width, 0}, &work));
 }
 
 std::vector<Reply> Together(const narrow_phase::BodySegment& body,
@@ -53,8 +53,8 @@ std::vector<Reply> Together(const narrow_phase::BodySegment& body,
   narrow_phase::Refinement refinement(order);
   WorkBudget work(units * poses.size());
   for (const PlainPose& at : poses) {
-    refinement.Add(surface, surface, PoseOf(at), 1, narrow_phase::Goal::kDecision, kAsNarrowAsCanBe,
-                   &work);
+    refinement.Add({surface, surface, PoseOf(at)}, 1, narrow_phase::Goal::kDecision,
+                   kAsNarrowAsCanBe, &work);
   }
   refinement.Refine(&work);
   std::vector<Reply> replies;
@@ -122,7 +122,7 @@ PrecisionMethods OurMeshMethods(const TwoTrees& trees) {
   methods.back().ask = [fitted](const PlainPose& at) {
     const narrow_phase::BodyTree surface(fitted);
     WorkBudget work(kUnlimited);
-    return Told(DecideAt(surface, surface, PoseOf(at), &work).verdict);
+    return Told(narrow_phase::DecideAt({surface, surface, PoseOf(at)}, &work).verdict);
   };
   return methods;
 }

@@ -20,7 +20,6 @@
 
 #include "collision_core/base/work_budget.h"
 #include "collision_core/narrow_phase/advancement/swept_pose.h"
-#include "collision_core/narrow_phase/pose/body_tree.h"
 
 namespace collision::narrow_phase {
 
@@ -45,7 +44,7 @@ struct ImpactBound {
 /// Best-first over pairs of nodes by the time at which their moving balls may touch first; two
 /// leaves by their triangles. A pair of balls or of triangles is convex, so that for each the
 /// direction between the two may be used: bodies that pass by each other cost little.
-ImpactBound LowerBoundOfImpact(const BodyTree& a, const BodyTree& b, const SweptPose& swept,
-                               double duration, WorkBudget* work, const SweepDetail& detail = {});
+ImpactBound LowerBoundOfImpact(const SweptPair& pair, double duration, WorkBudget* work,
+                               const SweepDetail& detail = {});
 
 }  // namespace collision::narrow_phase

@@ -1,6 +1,7 @@
 // Two bodies from an instant on: the pose, the velocities, and how the uncertainty grows.
 #pragma once
 
+#include "collision_core/narrow_phase/pose/body_tree.h"
 #include "collision_core/narrow_phase/pose/relative_pose.h"
 
 namespace collision::narrow_phase {
@@ -22,6 +23,13 @@ struct SweptPose {
   };
   Growth translation;           ///< Uncertainty of translation [m].
   Growth turning_A, turning_B;  ///< Of turning, tangents' deviation included [m per m of |x|].
+};
+
+/// The trees of A and B and how the two move. What it refers to outlives it.
+struct SweptPair {
+  const BodyTree& a;
+  const BodyTree& b;
+  const SweptPose& swept;
 };
 
 }  // namespace collision::narrow_phase

@@ -9,21 +9,20 @@
 
 namespace collision::narrow_phase {
 
-/// Advances through a segment of time from one of its ends towards the other, `backward` from its
-/// end. Everything passed in outlives it.
+/// Advances through a segment of time from one of its ends towards the other: forward it finds the
+/// onset of a contact, backward its end. Everything passed in outlives it.
 class ContactBoundary {
  public:
   /// For brackets as narrow as `tolerance` asks for.
   ContactBoundary(const ShapeMotion& motion, double duration, const ContactTolerance& tolerance,
-                  bool backward, WorkBudget* work)
-      : ContactBoundary(motion, duration, tolerance, backward, false, work) {}
-
-  /// For a service that has many to judge: freedom ends where a step is shorter than
+                  TimeDirection direction, WorkBudget* work)
+      : ContactBoundary(motion, duration, direction, Precision{tolerance, false}, work) {}
+  /// For a service that has many to evaluate: freedom ends where a step is shorter than
   /// `shortest_step`, or where another sweep would tell little more of what is not known of the
   /// motion.
   static ContactBoundary Coarse(const ShapeMotion& motion, double duration, double shortest_step,
-                                bool backward, WorkBudget* work) {
-    return {motion, duration, {shortest_step, 0}, backward, true, work};
+                                TimeDirection direction, WorkBudget* work) {
+    return {motion, duration, direction, Precision{{shortest_step, 0}, true}, work};
   }
 
   /// From `at` on the two are apart up to the instant that is returned; ±infinity: all the way, the
@@ -50,14 +49,21 @@ class ContactBoundary {
   bool any_way() const { return any_way_; }
 
  private:
-  ContactBoundary(const ShapeMotion& motion, double duration, const ContactTolerance& tolerance,
-                  bool backward, bool coarse, WorkBudget* work)
+  struct Precision {
+    ContactTolerance tolerance;
+    bool coarse;
+  };
+  // What is asked for contact at an instant: what may touch first, or the whole bodies.
+  enum class Scope { kLikely, kEverything };
+
+  ContactBoundary(const ShapeMotion& motion, double duration, TimeDirection direction,
+                  const Precision& precision, WorkBudget* work)
       : motion_(motion),
         duration_(duration),
-        tolerance_(tolerance),
-        backward_(backward),
-        coarse_(coarse),
-        detail_(coarse ? SweepDetail{} : kFineDetail),
+        tolerance_(precision.tolerance),
+        direction_(direction),
+        coarse_(precision.coarse),
+        detail_(precision.coarse ? SweepDetail{} : kFineDetail),
         work_(*work) {}
 
   // A sweep goes down nearly to what is not known of the motion, and as far as tangents serve.
@@ -69,15 +75,16 @@ class ContactBoundary {
     std::uint64_t spent = 0;
   };
 
+  bool is_backward() const { return direction_ == TimeDirection::kBackward; }
   double RevolvedFrom(double at, double left, double span, Turns* turns) const;
   double Moved(double at, double seconds) const;
   double ToleranceAt(double at) const;
   double StallAt(double at) const;
   bool Exhausted();
-  bool Touches(double at, bool thoroughly);
+  bool Touches(double at, Scope scope);
   bool TouchesByClues(double at);
   bool Note(const ShapeMotion::PoseQuery& instance);
-  double Narrow(double apart, double touching, double free, bool thoroughly);
+  double Narrow(double apart, double touching, double free, Scope scope);
   void Prepare(double free);
   double FirstStep(double free, double until) const;
   double Towards(double until, double from, double step) const;
@@ -87,7 +94,7 @@ class ContactBoundary {
   const ShapeMotion& motion_;
   const double duration_;
   const ContactTolerance tolerance_;
-  const bool backward_;
+  const TimeDirection direction_;
   const bool coarse_;
   const SweepDetail detail_;
   WorkBudget& work_;

@@ -22,8 +22,7 @@ struct ContactCandidate {
 ///
 /// Of each kind of point a few, the widest first. `leaf_A`, `leaf_B`: where to look first. Of
 /// bodies one of which is a ball there are none, since a ball and an element are judged exactly.
-std::vector<ContactCandidate> FindContactCandidates(const BodyTree& a, const BodyTree& b,
-                                                    const RelativePose& pose, double within,
+std::vector<ContactCandidate> FindContactCandidates(const PosedPair& pair, double within,
                                                     std::uint32_t leaf_A, std::uint32_t leaf_B,
                                                     WorkBudget* work);
 

@@ -33,7 +33,8 @@ constexpr double kFirstStep = 1e-4;
 constexpr double kStepGrowth = 4;
 constexpr int kHalvings = 5;
 
-// ContactWitness of contact that lasts for less than this share of the step before is not the best one.
+// ContactWitness of contact that lasts for less than this share of the step before is not the best
+// one.
 constexpr double kFallenShort = 0.25;
 
 // What is not certified free is searched for contact at its ends, and at the halves, quarters, … of
@@ -54,10 +55,22 @@ constexpr double kForwardShare = 0.4;
 constexpr double kBackwardShare = 0.3;
 constexpr double kDirectionShare = 0.6;
 
-// A bound on the angle whose sine is x (1 + 1e-12 covers the few roundings); π where x is no sine.
+// Covers a dozen roundings of a result, each 2^-53 of it, a thousand times over.
+constexpr double kRounding = 1e-12;
+
+// The rounding of the directions that are compared and turned into the world [rad]: a few dozen
+// units of 2^-53.
+constexpr double kDirectionRounding = 1e-12;
+
+// The rounding of a point's distance from the reference point [m]: 2.5 · 2^-53 of that distance, so
+// enough up to 3 km.
+constexpr double kLengthRounding = 1e-12;
+
+// A bound on the angle whose sine is x: the tangent is no smaller, and where x is near 1, so that
+// 1 − x² loses digits, far larger. π where x is no sine.
 double AngleOfSine(double x) {
   if (!(x < 1)) return std::numbers::pi;
-  return std::min(std::numbers::pi, x / std::sqrt(1 - x * x) * (1 + 1e-12));
+  return std::min(std::numbers::pi, x / std::sqrt(1 - x * x) * (1 + kRounding));
 }
 
 // The shortest way between two convex sets is unique. Where points of the sets are displaced by at
@@ -90,22 +103,22 @@ ContactNormal NormalOf(const PoseQuery& instance) {
         std::max(error, apart + AngleOfSine(DeviationOf(way, instance.pose.translation) / length));
   }
   normal.known = true;
-  normal.normal = instance.pose.matrix_WA * taken;
-  normal.error = std::min(std::numbers::pi, error + instance.pose.matrix_error + 1e-12);
+  normal.normal = instance.pose.R_WA * taken;
+  normal.error =
+      std::min(std::numbers::pi, error + instance.pose.matrix_error + kDirectionRounding);
   return normal;
 }
 
 EventLimit LimitOf(const PoseQuery& instance, double size) {
   if (instance.look.exhausted) return EventLimit::kBudget;
-  // What rounding makes of an exact motion is less.
-  return instance.uncertainty > 1e-12 * size ? EventLimit::kMotion : EventLimit::kGeometry;
+  return instance.uncertainty > kExactMotion * size ? EventLimit::kMotion : EventLimit::kGeometry;
 }
 
 // Moved by so much along the line of their reference points, two bodies within balls of radii that
-// add up to `size` are apart (1 ± 1e-12 cover the roundings).
+// add up to `size` are apart.
 double DepthMax(const RelativePose& pose, double size) {
   const double off = pose.offset_error + pose.translation;
-  return std::max(0.0, size * (1 + 1e-12) + off - pose.offset.norm() * (1 - 1e-12));
+  return std::max(0.0, size * (1 + kRounding) + off - pose.p_AB.norm() * (1 - kRounding));
 }
 
 Proximity ProximityFrom(const PoseQuery& instance, const ShapeMotion& motion, double size) {
@@ -121,13 +134,14 @@ Proximity ProximityFrom(const PoseQuery& instance, const ShapeMotion& motion, do
     proximity.separation.lower = std::min(proximity.separation.upper, -depth);
   }
   proximity.depth_lower = std::max(0.0, -proximity.separation.upper);
-  proximity.p_WC = pose.p_WA + pose.matrix_WA * look.point;
+  proximity.p_WC = pose.p_WA + pose.R_WA * look.point;
   proximity.point_error = numeric::AddUp(
       numeric::AddUp(look.point_error, pose.error_A),
-      numeric::AddUp(pose.translation,
-                     numeric::MultiplyUp(pose.chord_A, numeric::AddUp(look.point.norm(), 1e-12))));
+      numeric::AddUp(
+          pose.translation,
+          numeric::MultiplyUp(pose.chord_A, numeric::AddUp(look.point.norm(), kLengthRounding))));
   // A guess, and told as one.
-  const Eigen::Vector3d between = pose.matrix_WA * pose.offset;
+  const Eigen::Vector3d between = pose.R_WA * pose.p_AB;
   if (between.norm() > 0) proximity.normal = between.normalized();
   proximity.level = look.level;
   proximity.limited_by = LimitOf(instance, size);
@@ -143,13 +157,14 @@ class Judgement {
         work_(*work) {}
 
   /// From `at` on, towards the end or the start: how far the two stay apart. ±infinity: throughout.
-  double FreeFrom(double at, bool backward) {
+  double FreeFrom(double at, TimeDirection direction) {
     ContactBoundary edge =
-        ContactBoundary::Coarse(motion_, duration_, kResolution * duration_, backward, &work_);
+        ContactBoundary::Coarse(motion_, duration_, kResolution * duration_, direction, &work_);
     const double free = edge.FreeFrom(at);
     nested_ = nested_ || edge.nested();
     exhausted_ = exhausted_ || edge.exhausted();
-    if (!backward && std::isfinite(free)) Remember(edge.touch(), at, free);
+    if (direction == TimeDirection::kForward && std::isfinite(free))
+      Remember(edge.touch(), at, free);
     return free;
   }
 
@@ -169,10 +184,10 @@ class Judgement {
   void Sharpen(double f, double g, SegmentResult* times) {
     const bool found = times->contact_from <= times->contact_to;
     if (found ? times->contact_from > f : f > 0) {
-      SharpenEnd(f, found ? times->contact_from : g, false, times);
+      SharpenEnd(f, found ? times->contact_from : g, TimeDirection::kForward, times);
     }
     if (found && times->contact_to < g && g < duration_) {
-      SharpenEnd(g, times->contact_to, true, times);
+      SharpenEnd(g, times->contact_to, TimeDirection::kBackward, times);
     }
   }
 
@@ -200,7 +215,7 @@ class Judgement {
 
   /// Something is said of an instant, however little may be spent.
   void LookOnce(double at) {
-    if (!nearest_) SeparationBracket(at, false);
+    if (!nearest_) QueryAt(at, TimeDirection::kForward);
   }
 
   const std::optional<PoseQuery>& nearest() const { return nearest_; }
@@ -216,19 +231,20 @@ class Judgement {
     double from, to;  // apart in between
   };
 
-  void SharpenEnd(double free, double until, bool backward, SegmentResult* times) {
+  void SharpenEnd(double free, double until, TimeDirection direction, SegmentResult* times) {
     if (std::abs(until - free) <= kLateShare * duration_ || Exhausted()) return;
     const PoseQuery instance = motion_.RecheckWitness(free, {});
     if (!instance.choice.certain) return;
     const double late = kLate * instance.uncertainty / motion_.SpeedAt(instance);
     if (!(std::abs(until - free) > late)) return;
-    ContactBoundary edge(motion_, duration_, {kFineShare * duration_, 0}, backward, &work_);
+    ContactBoundary edge(motion_, duration_, {kFineShare * duration_, 0}, direction, &work_);
     const std::optional<double> touching = edge.ContactByClues(free, until);
     if (!touching) return;
     const double lasts = edge.LastsFrom(*touching, until);
     const bool found = times->contact_from <= times->contact_to;
     if (found && lasts != until) times->contact_continuous = false;
     if (!found) times->contact_to = lasts;
+    const bool backward = direction == TimeDirection::kBackward;
     (backward ? times->contact_to : times->contact_from) = *touching;
   }
 
@@ -269,22 +285,24 @@ class Judgement {
   // Contact is certain at `place`, and on from `from` to there.
   void TakeContact(double from, double place, double g, SegmentResult* times) {
     times->contact_from = from;
-    times->contact_to = Extend(place, false);
+    times->contact_to = Extend(place, TimeDirection::kForward);
     if (times->contact_to < g && g >= duration_) LookAtEnd(times);
   }
 
   // Is contact certain at `place`? Then so it is for some time before and after.
   bool TryContact(double f, double g, double place, SegmentResult* times) {
     if (Exhausted()) return false;
-    const PoseQuery instance = SeparationBracket(place, place != f);
+    const TimeDirection side = place != f ? TimeDirection::kBackward : TimeDirection::kForward;
+    const PoseQuery instance = QueryAt(place, side);
     if (!instance.touching()) return false;
     evidence_ = instance.look.evidence;
-    TakeContact(Extend(place, true), place, g, times);
+    TakeContact(Extend(place, TimeDirection::kBackward), place, g, times);
     return true;
   }
 
   // Both advances end where contact is looked for first.
-  PoseQuery& SeparationBracket(double at, bool backward) {
+  PoseQuery& QueryAt(double at, TimeDirection direction) {
+    const bool backward = direction == TimeDirection::kBackward;
     std::optional<PoseQuery>& last = backward ? last_backward_ : last_forward_;
     if (last && last->at == at) return *last;
     last = motion_.QuerySeparation(at, Goal::kDecision);
@@ -295,19 +313,20 @@ class Judgement {
 
   // How far contact is certain from here on, without a gap. What makes it certain at one instant is
   // looked at again at the next; where that falls short something else is looked for.
-  double Extend(double at, bool backward) {
+  double Extend(double at, TimeDirection direction) {
+    const bool backward = direction == TimeDirection::kBackward;
     ContactWitness evidence = evidence_;
     double longest = 0;
     while (!Exhausted()) {
       PoseQuery instance = motion_.RecheckWitness(at, evidence);
-      double lasts = instance.touching() ? motion_.ContactStep(instance, backward) : 0;
+      double lasts = instance.touching() ? motion_.ContactStep(instance, direction) : 0;
       if (lasts <= kFallenShort * longest || lasts == 0) {
         instance = motion_.QuerySeparation(at, Goal::kContact);
         if (nested_) motion_.LookInside(&instance);
         RememberNearest(instance);
         if (!instance.touching()) break;
         evidence = instance.look.evidence;
-        const double other = motion_.ContactStep(instance, backward);
+        const double other = motion_.ContactStep(instance, direction);
         // Nothing else lasts longer: where contact ends.
         if (other <= lasts && other <= kResolution * duration_) break;
         lasts = std::max(lasts, other);
@@ -337,10 +356,10 @@ class Judgement {
   // Contact at the end belongs to the next segment's, even where it is not certain throughout.
   void LookAtEnd(SegmentResult* times) {
     if (Exhausted()) return;
-    const PoseQuery end = SeparationBracket(duration_, true);
+    const PoseQuery end = QueryAt(duration_, TimeDirection::kBackward);
     if (!end.touching()) return;
     evidence_ = end.look.evidence;
-    const double from = Extend(duration_, true);
+    const double from = Extend(duration_, TimeDirection::kBackward);
     times->contact_continuous = from <= times->contact_to;
     times->contact_to = duration_;
   }
@@ -371,7 +390,7 @@ ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judge
   const double from = std::max(0.0, balls.free_until);
   times.free_until = [&] {
     const WorkShare share(kForwardShare, work);
-    return judgement->FreeFrom(from, false);
+    return judgement->FreeFrom(from, TimeDirection::kForward);
   }();
   if (balls.free_until < 0 && times.free_until == from) times.free_until = balls.free_until;
   if (times.free_until == numeric::kInfinity) {
@@ -381,7 +400,7 @@ ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judge
   const double until = std::min(duration, balls.free_from);
   times.free_from = [&] {
     const WorkShare share(kBackwardShare, work);
-    return judgement->FreeFrom(until, true);
+    return judgement->FreeFrom(until, TimeDirection::kBackward);
   }();
   if (times.free_from == -numeric::kInfinity) {  // the same from the other side
     times.free_until = numeric::kInfinity;
@@ -425,7 +444,7 @@ ShapeSegmentResult EvaluateShapeSegment(const BodySegment& a, const BodySegment&
 
 double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double duration,
                  WorkBudget* work) {
-  return Judgement(a, b, duration, work).FreeFrom(from, false);
+  return Judgement(a, b, duration, work).FreeFrom(from, TimeDirection::kForward);
 }
 
 ContactNormal NormalAt(const BodySegment& a, const BodySegment& b, double delta, WorkBudget* work) {

@@ -16,9 +16,9 @@
 //
 // Budgets. With more work a query, a bracket of some width and a refinement take the same steps,
 // only more of them: their brackets never become wider, and a decision that was made stays.
-// EvaluateShapeSegment() and TimeOfContact() do not promise that: each of their parts has a share of the
-// budget, and where one ends the next begins, so that with a little more one end of a bracket may
-// be found later. It holds all the same.
+// EvaluateShapeSegment() and TimeOfContact() do not promise that: each of their parts has a share
+// of the budget, and where one ends the next begins, so that with a little more one end of a
+// bracket may be found later. It holds all the same.
 #pragma once
 
 #include "collision_core/base/work_budget.h"

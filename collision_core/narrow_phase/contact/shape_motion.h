@@ -4,9 +4,14 @@
 #include "collision_core/narrow_phase/advancement/conservative_advancement.h"
 #include "collision_core/narrow_phase/contact/contact_candidates.h"
 #include "collision_core/narrow_phase/pose/segment_pose.h"
+#include "collision_core/narrow_phase/pose/time_direction.h"
 #include "collision_core/narrow_phase/separation/separation_bracket.h"
 
 namespace collision::narrow_phase {
+
+/// A motion counts as exact if less than this share of the bodies' size is unknown of it: rounding
+/// makes no more of an exact motion, some hundred units of 2^-53.
+inline constexpr double kExactMotion = 1e-12;
 
 /// Two bodies over a segment of time: separation queries at instants of it, and steps of
 /// conservative advancement between them. Seconds count from the base of the segments.
@@ -15,6 +20,9 @@ class ShapeMotion {
   /// Everything passed in outlives this.
   ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget* work);
 
+  /// Where and in which direction a sweep begins; of this class and its source.
+  struct Departure;
+
   struct PoseQuery {
     double at = 0;
     BoundChoice choice;
@@ -22,11 +30,8 @@ class ShapeMotion {
     SeparationBracket look;
 
     /// The surfaces are apart for all motions within the bounds. Says nothing of the inside.
-    bool apart() const { return choice.certain && look.lower > pose.translation; }
-    bool touching() const {
-      return choice.certain &&
-             (look.upper <= -pose.translation || look.crossing_margin >= pose.translation / 2);
-    }
+    bool apart() const { return choice.certain && look.CertainlyApart(pose.translation); }
+    bool touching() const { return choice.certain && look.CertainlyTouching(pose.translation); }
     /// How far one body may be off relative to the other, all in all.
     double uncertainty = 0;
     /// Neither is inside the other, as LookInside() found where the surfaces are apart.
@@ -54,17 +59,18 @@ class ShapeMotion {
     /// further.
     bool final = false;
   };
-  Sweep SweepFrom(double at, double span, bool backward, const SweepDetail& detail = {}) const;
+  Sweep SweepFrom(double at, double span, TimeDirection direction,
+                  const SweepDetail& detail = {}) const;
 
   /// Over so many of the `left` seconds one sweep is worth its while: beyond, tangents leave their
   /// curves and other bounds may be the narrower ones.
-  double SpanFrom(double at, double left, bool backward, double duration) const;
+  double SpanFrom(double at, double left, TimeDirection direction, double duration) const;
 
   /// How long from `at` on they stay apart however far each has turned by then, of the `left`
   /// seconds; 0 where neither turns much. +infinity: all of it, the end included. So that the work
   /// does not grow with turns that matter nothing. Says nothing of the inside. Spends `units`
   /// about.
-  double RevolvedFree(double at, double left, bool backward, double duration,
+  double RevolvedFree(double at, double left, TimeDirection direction, double duration,
                       std::uint64_t units) const;
 
   /// Where the surfaces are apart: so are the solids.
@@ -80,7 +86,7 @@ class ShapeMotion {
 
   /// Seconds for which contact lasts from `instance` on, towards later or earlier times; +infinity:
   /// for ever. Requires touching().
-  double ContactStep(const PoseQuery& instance, bool backward) const;
+  double ContactStep(const PoseQuery& instance, TimeDirection direction) const;
 
   double size() const { return surface_a_.reach() + surface_b_.reach(); }
 
@@ -90,10 +96,10 @@ class ShapeMotion {
  private:
   struct Drift;
   PoseQuery InstanceAt(double at) const;
-  Drift DriftFrom(const PoseQuery& instance, bool backward) const;
-  BoundChoice ChoiceFor(double at, double span, bool backward) const;
-  SweptPose SweptFrom(double at, BoundChoice choice, bool backward, bool bends) const;
-  double ToMiddle(double at, double left, bool backward, double duration) const;
+  Drift DriftFrom(const PoseQuery& instance, TimeDirection direction) const;
+  BoundChoice ChoiceFor(double at, double span, TimeDirection direction) const;
+  SweptPose SweptFrom(const Departure& from, BoundChoice choice) const;
+  double ToMiddle(double at, double left, TimeDirection direction, double duration) const;
   double FastestTurn() const;
 
   const BodySegment& a_;

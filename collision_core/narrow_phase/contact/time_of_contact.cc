@@ -26,9 +26,6 @@ constexpr double kFinest = 1e-12;
 // What the verdict on two balls costs.
 constexpr std::uint64_t kBallPairUnits = 20;
 
-// What is not known of the motion counts where it is more than rounding, as a share of the size.
-constexpr double kRoundingShare = 1e-12;
-
 TimeOfContactResult Free(double duration) {
   TimeOfContactResult free;
   free.status = ContactStatus::kFree;
@@ -70,8 +67,8 @@ class ContactSearch {
 
   // Goes on with what is found. False: they are apart throughout.
   bool Search(const ContactTolerance& tolerance) {
-    ContactBoundary forward(motion_, duration_, tolerance, false, &work_);
-    ContactBoundary backward(motion_, duration_, tolerance, true, &work_);
+    ContactBoundary forward(motion_, duration_, tolerance, TimeDirection::kForward, &work_);
+    ContactBoundary backward(motion_, duration_, tolerance, TimeDirection::kBackward, &work_);
     double &first = found_.begin.lower, &last = found_.end.upper;
     {
       const WorkShare share(kForwardShare, &work_);
@@ -156,7 +153,7 @@ TimeOfContactResult OfBalls(const BodySegment& a, const BodySegment& b, double d
   }
   const BoundChoice choice = BestBounds(a, b, first);
   const bool unknown = !choice.certain || PoseAt(a, b, choice, first).translation >
-                                              kRoundingShare * (a.ball.radius + b.ball.radius);
+                                              kExactMotion * (a.ball.radius + b.ball.radius);
   found.limited_by = unknown ? EventLimit::kMotion : EventLimit::kGeometry;
   return found;
 }

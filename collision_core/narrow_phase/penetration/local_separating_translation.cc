@@ -19,9 +19,9 @@ constexpr double kFirstPlace = 0x1p-16;
 
 class Shifting {
  public:
-  Shifting(const BodyTree& a, const BodyTree& b, const RelativePose& pose, const Eigen::Vector3d& n,
-           const ContactWitness& evidence, WorkBudget* work)
-      : a_(a), b_(b), pose_(pose), n_(n), evidence_(evidence), work_(*work) {}
+  Shifting(const PosedPair& pair, const Eigen::Vector3d& n, const ContactWitness& evidence,
+           WorkBudget* work)
+      : a_(pair.a), b_(pair.b), pose_(pair.pose), n_(n), evidence_(evidence), work_(*work) {}
 
   double Least(double known) {
     const double most = kWorthwhile * known;
@@ -46,8 +46,8 @@ class Shifting {
   // What is posed by the new offset is rounded relative to that; its own sum loses less.
   RelativePose At(double shift) const {
     RelativePose shifted = pose_;
-    shifted.offset += shift * n_;
-    const double size = numeric::AddUp(pose_.offset.cwiseAbs().sum(), shift);
+    shifted.p_AB += shift * n_;
+    const double size = numeric::AddUp(pose_.p_AB.cwiseAbs().sum(), shift);
     shifted.offset_error = numeric::AddUp(
         pose_.offset_error, numeric::MultiplyUp(2 * kPosingRounding * (1 + 0x1p-40), size));
     shifted.translation = 0;
@@ -55,13 +55,13 @@ class Shifting {
   }
 
   bool Shows(double shift) {
-    const SeparationBracket look = RecheckWitness(a_, b_, At(shift), evidence_, &work_);
-    return look.upper <= 0 || look.crossing_margin >= 0;
+    const SeparationBracket look = RecheckWitness({a_, b_, At(shift)}, evidence_, &work_);
+    return look.CertainlyTouching(0);
   }
 
   /// How much less of a shift would do as well; negative: it may not do itself.
   double Spare(double shift) {
-    const Decision decision = DecideAt(a_, b_, At(shift), &work_);
+    const Decision decision = DecideAt({a_, b_, At(shift)}, &work_);
     if (decision.look.evidence.kind != ContactWitness::Kind::kNone)
       evidence_ = decision.look.evidence;
     if (decision.verdict != Verdict::kApart) return -1;
@@ -79,11 +79,10 @@ class Shifting {
 
 }  // namespace
 
-double LocalSeparatingTranslation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  const Eigen::Vector3d& n, double known,
+double LocalSeparatingTranslation(const PosedPair& pair, const Eigen::Vector3d& n, double known,
                                   const ContactWitness& evidence, WorkBudget* work) {
   if (!std::isfinite(known) || work->exhausted()) return known;
-  return Shifting(a, b, pose, n, evidence, work).Least(known);
+  return Shifting(pair, n, evidence, work).Least(known);
 }
 
 }  // namespace collision::narrow_phase

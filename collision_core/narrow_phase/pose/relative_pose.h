@@ -10,35 +10,33 @@
 
 namespace collision::narrow_phase {
 
-/// matrix x + offset, entry by entry three products and three sums, of terms below 1.1 |x| and
+/// R_AB x + p_AB, entry by entry three products and three sums, of terms below 1.1 |x| and
 /// |offset|: less than 8 units of |x| + |offset| on each axis, and √3 times that in length.
 inline constexpr double kPosingRounding = 16 * 0x1p-53;
 
 /// The pose that the chosen bounds predict, and how far the true one may be from it.
 ///
 /// Rounding: for a point x of B, in B's body frame, |x_A − exact| <= offset_error + matrix_error
-/// |x| with x_A = matrix x + offset computed in doubles. Motion: relative to the prediction B's
+/// |x| with x_A = R_AB x + p_AB computed in doubles. Motion: relative to the prediction B's
 /// reference point is off by at most `translation`, and each body is turned about its own, so that
 /// its point x moves by at most chord |x|.
 struct RelativePose {
-  Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();  ///< R_AB
-  Eigen::Vector3d offset = Eigen::Vector3d::Zero();      ///< From A's reference point to B's.
-  double offset_error = 0;
-  double matrix_error = 0;
-  double translation = 0;  ///< u_A + u_B [m].
-  double chord_A = 0;      ///< 2 sin(min(π, θ) / 2) [m per m], rounded up.
+  Eigen::Matrix3d R_AB = Eigen::Matrix3d::Identity();  ///< Turns vectors of B into A's frame.
+  Eigen::Vector3d p_AB = Eigen::Vector3d::Zero();      ///< From A's reference point to B's [m].
+  double offset_error = 0;                             ///< Of p_AB [m].
+  double matrix_error = 0;  ///< Of R_AB, and of posing a point with both [m per m].
+  double translation = 0;   ///< u_A + u_B [m].
+  double chord_A = 0;       ///< 2 sin(min(π, θ) / 2) [m per m], rounded up.
   double chord_B = 0;
 
-  /// To tell of points in the world.
+  /// A's body frame in the world: an answer's points and directions are given there.
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d matrix_WA = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d R_WA = Eigen::Matrix3d::Identity();
   /// A point of A moves by this and by chord_A |x|, its rounding in the world included.
   double error_A = 0;
 
-  Eigen::Vector3d ToA(const Eigen::Vector3d& x_B) const { return matrix * x_B + offset; }
-  Eigen::Vector3d ToB(const Eigen::Vector3d& x_A) const {
-    return matrix.transpose() * (x_A - offset);
-  }
+  Eigen::Vector3d ToA(const Eigen::Vector3d& x_B) const { return R_AB * x_B + p_AB; }
+  Eigen::Vector3d ToB(const Eigen::Vector3d& x_A) const { return R_AB.transpose() * (x_A - p_AB); }
 };
 
 /// How far a matrix made of a unit quaternion may be from a rotation.
@@ -46,13 +44,13 @@ inline constexpr double kMatrixRounding = 0x1p-49;
 
 /// B's body frame seen from A's, as given: nothing but rounding, and A's frame is the world's.
 /// Requires a matrix that is a rotation to within kMatrixRounding, which is counted.
-inline RelativePose PoseOf(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& offset) {
+inline RelativePose PoseOf(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& p_AB) {
   RelativePose pose;
-  pose.matrix = matrix;
-  pose.offset = offset;
+  pose.R_AB = R_AB;
+  pose.p_AB = p_AB;
   pose.matrix_error = kPosingRounding + kMatrixRounding;
   // The sum of the coordinates is no less than the length; 2^-50 for its own rounding.
-  pose.offset_error = kPosingRounding * (1 + 0x1p-50) * offset.cwiseAbs().sum();
+  pose.offset_error = kPosingRounding * (1 + 0x1p-50) * p_AB.cwiseAbs().sum();
   return pose;
 }
 

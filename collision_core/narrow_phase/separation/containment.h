@@ -20,7 +20,6 @@ struct Containment {
   bool certain() const { return point_error < numeric::kInfinity; }
 };
 /// The containment test. Requires closed shapes, or balls.
-Containment TestContainment(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                            WorkBudget* work);
+Containment TestContainment(const PosedPair& pair, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

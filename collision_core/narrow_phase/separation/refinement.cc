@@ -16,14 +16,15 @@ double WidthOf(const SeparationSearch& search) {
 
 }  // namespace
 
-Refinement::Entry::Entry(const BodyTree& a, const BodyTree& b, const RelativePose& given,
-                         double importance, Goal goal, std::optional<BracketWidth> narrow)
-    : pose(given), weight(importance), search(a, b, pose, goal, narrow, SearchOrder::kNearest) {}
+Refinement::Entry::Entry(const PosedPair& pair, double importance, Goal goal,
+                         std::optional<BracketTolerance> narrow)
+    : pose(pair.pose),
+      weight(importance),
+      search({pair.a, pair.b, pose}, goal, narrow, SearchOrder::kNearest) {}
 
-std::size_t Refinement::Add(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                            double weight, Goal goal, std::optional<BracketWidth> narrow,
-                            WorkBudget* work) {
-  Entry& entry = entries_.emplace_back(a, b, pose, weight, goal, narrow);
+std::size_t Refinement::Add(const PosedPair& pair, double weight, Goal goal,
+                            std::optional<BracketTolerance> narrow, WorkBudget* work) {
+  Entry& entry = entries_.emplace_back(pair, weight, goal, narrow);
   WorkBudget start(1);
   entry.search.Start(&start);
   entry.spent = start.spent();

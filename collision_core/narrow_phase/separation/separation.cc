@@ -31,18 +31,18 @@ void LookAgainAtLeaves(const BodyTree& a, const BodyTree& b, const ContactWitnes
 constexpr double kSeenAtOnceMax = 1e100;
 
 // Balls about the whole bodies that are apart: so are the bodies, inside and out.
-bool RootsDecide(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                 SeparationBracket* look) {
+bool RootsDecide(const PosedPair& pair, SeparationBracket* look) {
+  const auto& [a, b, pose] = pair;
   const sphere_tree::SphereNode& root_a = a.node(0);
   const sphere_tree::SphereNode& root_b = b.node(0);
   const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
   if (!(distance < kSeenAtOnceMax)) return false;
-  double slack = SlackOf(a, b, pose);
+  double slack = SlackOf(pair);
   if (pose.chord_A > 0) slack += pose.chord_A * root_a.centre.norm();
   if (pose.chord_B > 0) slack += pose.chord_B * root_b.centre.norm();
   look->lower = distance - root_a.radius - root_b.radius - slack;
   look->upper = distance + root_a.signed_distance + root_b.signed_distance + slack;
-  return look->lower > pose.translation;
+  return look->CertainlyApart(pose.translation);
 }
 
 /// A body that is one convex solid; else null.
@@ -63,26 +63,27 @@ Decision DecideLone(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
 
 }  // namespace
 
-SeparationBracket QuerySeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  Goal goal, WorkBudget* work, const ContactWitness& hint) {
-  SeparationSearch search(a, b, pose, goal);
+SeparationBracket QuerySeparation(const PosedPair& pair, Goal goal, WorkBudget* work,
+                                  const ContactWitness& hint) {
+  SeparationSearch search(pair, goal);
   search.Start(work);
   if (hint.kind == ContactWitness::Kind::kLeaves) search.Try(hint, work);
   search.Refine(work);
   return search.Told();
 }
 
-SeparationBracket BracketSeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                    double width, double share, WorkBudget* work) {
-  SeparationSearch search(a, b, pose, Goal::kDecision, BracketWidth{width, share});
+SeparationBracket BracketSeparation(const PosedPair& pair, const BracketTolerance& tolerance,
+                                    WorkBudget* work) {
+  SeparationSearch search(pair, Goal::kDecision, tolerance);
   search.Start(work);
   search.Refine(work);
   return search.Told();
 }
 
-SeparationBracket RecheckWitness(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                 const ContactWitness& evidence, WorkBudget* work) {
-  SeparationFindings findings(a, b, pose, Goal::kDecision, {});
+SeparationBracket RecheckWitness(const PosedPair& pair, const ContactWitness& evidence,
+                                 WorkBudget* work) {
+  SeparationFindings findings(pair, Goal::kDecision, {});
+  const BodyTree &a = pair.a, &b = pair.b;
   const bool meshes = a.shape() && b.shape();
   switch (evidence.kind) {
     case ContactWitness::Kind::kNone:
@@ -104,32 +105,32 @@ SeparationBracket RecheckWitness(const BodyTree& a, const BodyTree& b, const Rel
   return findings.Told(-numeric::kInfinity, false, 0);
 }
 
-Decision DecideAt(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                  WorkBudget* work) {
+Decision DecideAt(const PosedPair& pair, WorkBudget* work) {
+  const auto& [a, b, pose] = pair;
   const geometry::ConvexSet *lone_a = LoneSolid(a), *lone_b = LoneSolid(b);
   if (lone_a && lone_b) return DecideLone(*lone_a, *lone_b, pose, work);
   Decision decision;
-  if (RootsDecide(a, b, pose, &decision.look)) {
+  if (RootsDecide(pair, &decision.look)) {
     work->Spend(1);
     decision.verdict = Verdict::kApart;
     return decision;
   }
   // Convex bodies around them that are apart: so are the bodies, inside and out.
-  const double gap = HullGapOf(a, b, pose, pose.translation, work);
+  const double gap = HullGapOf(pair, pose.translation, work);
   if (gap > pose.translation) {
     decision.look.lower = std::max(decision.look.lower, gap);
     decision.verdict = Verdict::kApart;
     return decision;
   }
-  SeparationSearch search(a, b, pose, Goal::kYesNo);
+  SeparationSearch search(pair, Goal::kYesNo);
   search.Start(work);
   search.Refine(work);
   decision.look = search.Told();
   const SeparationBracket& look = decision.look;
-  if (look.upper <= -pose.translation || look.crossing_margin >= pose.translation / 2) {
+  if (look.CertainlyTouching(pose.translation)) {
     decision.verdict = Verdict::kTouching;
-  } else if (look.lower > pose.translation) {
-    const Containment nesting = TestContainment(a, b, pose, work);
+  } else if (look.CertainlyApart(pose.translation)) {
+    const Containment nesting = TestContainment(pair, work);
     if (nesting.neither) decision.verdict = Verdict::kApart;
     if (nesting.certain()) decision.verdict = Verdict::kTouching;
     if (decision.verdict == Verdict::kUndecided) decision.look.exhausted |= work->exhausted();

@@ -8,8 +8,8 @@
 // wherever the corners lie within the uncertainty: the only way for open surfaces, and for solids
 // the way that finds shallow contacts.
 //
-// Free needs one point of each component outside the other solid as well (TestContainment). It is asked
-// once for each advance: from there on the surfaces stay apart, so nothing gets in.
+// Free needs one point of each component outside the other solid as well (TestContainment). It is
+// asked once for each advance: from there on the surfaces stay apart, so nothing gets in.
 //
 // Yes or no (DecideAt) first asks the two roots: 20 ns for bodies whose balls are apart. Then the
 // convex bodies around both (hull_gap.h): for bodies a tenth of their diameter apart they decide
@@ -31,18 +31,17 @@ namespace collision::narrow_phase {
 /// next, ties by node number, so that the query may end at any moment with a bracket that only
 /// became narrower. `hint`: leaves that are likely to be the nearest; what is farther away need not
 /// be examined so closely.
-SeparationBracket QuerySeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  Goal goal, WorkBudget* work, const ContactWitness& hint = {});
+SeparationBracket QuerySeparation(const PosedPair& pair, Goal goal, WorkBudget* work,
+                                  const ContactWitness& hint = {});
 
-/// Queries until the bracket of the distance is at most `width` [m] wide, or at most the fraction
-/// `share` of its lower end, or nothing makes it narrower. It ends at once where contact is
-/// certain.
-SeparationBracket BracketSeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                    double width, double share, WorkBudget* work);
+/// Queries until the bracket of the distance is as narrow as `tolerance` asks for, or nothing makes
+/// it narrower. It ends at once where contact is certain.
+SeparationBracket BracketSeparation(const PosedPair& pair, const BracketTolerance& tolerance,
+                                    WorkBudget* work);
 
 /// Re-tests this witness only: contact is reported in full, `lower` stays −infinity.
-SeparationBracket RecheckWitness(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                 const ContactWitness& evidence, WorkBudget* work);
+SeparationBracket RecheckWitness(const PosedPair& pair, const ContactWitness& evidence,
+                                 WorkBudget* work);
 
 /// A verdict, and the bracket that was found on the way.
 struct Decision {
@@ -52,6 +51,6 @@ struct Decision {
 
 /// Goal::kYesNo, and where the surfaces are apart, whether one is inside the other. The uncertainty
 /// of translation is counted in.
-Decision DecideAt(const BodyTree& a, const BodyTree& b, const RelativePose& pose, WorkBudget* work);
+Decision DecideAt(const PosedPair& pair, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

@@ -20,6 +20,12 @@ enum class Goal {
              ///< certain at this pose.
 };
 
+/// How narrow a bracket of the distance has to be: the wider of the two.
+struct BracketTolerance {
+  double absolute = 0;  ///< Width of the bracket [m].
+  double relative = 0;  ///< Width over the lower end.
+};
+
 /// Units for which Goal::kContact looks for a wider margin.
 inline constexpr std::uint64_t kMarginUnits = 1000;
 
@@ -50,14 +56,25 @@ struct SeparationBracket {
   /// Crossing triangles: contact is certain while no corner of theirs moves further than this.
   double crossing_margin = -numeric::kInfinity;
   ContactWitness evidence;  ///< Of contact, where it is certain.
-  std::uint32_t level = 0;
-  bool exhausted = false;  ///< The work allowed is spent.
+  std::uint32_t level = 0;  ///< The deepest level of the sphere trees that was opened.
+  bool exhausted = false;   ///< The work allowed is spent.
 
   /// A point common to both where contact is certain, else half-way between them where they are
   /// nearest; A's body frame. Within `point_error`, uncertainty of translation aside.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   double point_error = numeric::kInfinity;
   std::vector<NearestWay> ways;  ///< With Goal::kNearest: one of them is the shortest way.
+
+  /// The surfaces are apart wherever B is displaced by at most `translation` [m]. Says nothing of
+  /// one body inside the other.
+  bool CertainlyApart(double translation) const { return lower > translation; }
+  /// Balls within the solids overlap wherever B is displaced by at most `translation`.
+  bool CertainlyOverlapping(double translation) const { return upper <= -translation; }
+  /// Two triangles cross likewise: seen from half-way between the bodies, each moves by half.
+  bool CertainlyCrossing(double translation) const { return crossing_margin >= translation / 2; }
+  bool CertainlyTouching(double translation) const {
+    return CertainlyOverlapping(translation) || CertainlyCrossing(translation);
+  }
 };
 
 }  // namespace collision::narrow_phase

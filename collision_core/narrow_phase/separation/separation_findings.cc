@@ -30,10 +30,14 @@ double GapAlong(const Eigen::Vector3d& n, const geometry::ConvexSet& a,
 
 }  // namespace
 
-SeparationFindings::SeparationFindings(const BodyTree& a, const BodyTree& b,
-                                       const RelativePose& pose, Goal goal,
-                                       std::optional<BracketWidth> narrow)
-    : a_(a), b_(b), pose_(pose), goal_(goal), narrow_(narrow), slack_(SlackOf(a, b, pose)) {}
+SeparationFindings::SeparationFindings(const PosedPair& pair, Goal goal,
+                                       std::optional<BracketTolerance> narrow)
+    : a_(pair.a),
+      b_(pair.b),
+      pose_(pair.pose),
+      goal_(goal),
+      narrow_(narrow),
+      slack_(SlackOf(pair)) {}
 
 double SeparationFindings::MeasureNodes(std::uint32_t index_a, std::uint32_t index_b) {
   const sphere_tree::SphereNode& a = a_.node(index_a);
@@ -84,8 +88,7 @@ double SeparationFindings::TurnOfA(const geometry::TrianglePoints& t) const {
 // reference point.
 double SeparationFindings::TurnOfB(const geometry::TrianglePoints& t) const {
   if (pose_.chord_B == 0) return 0;
-  const geometry::TrianglePoints own = {t[0] - pose_.offset, t[1] - pose_.offset,
-                                        t[2] - pose_.offset};
+  const geometry::TrianglePoints own = {t[0] - pose_.p_AB, t[1] - pose_.p_AB, t[2] - pose_.p_AB};
   return pose_.chord_B * Greatest(own);
 }
 
@@ -129,7 +132,7 @@ double SeparationFindings::MeasureElements(std::uint32_t a, std::uint32_t b, boo
 // How narrow the bracket of two elements need be for what is asked of the whole.
 ConvexQuestion SeparationFindings::SolidsQuestion() const {
   if (goal_ == Goal::kNearest) return {ConvexGoal::kDepth, 0, 0};
-  if (narrow_) return {ConvexGoal::kDepth, narrow_->share / 4, narrow_->width / 4};
+  if (narrow_) return {ConvexGoal::kDepth, narrow_->relative / 4, narrow_->absolute / 4};
   if (goal_ == Goal::kYesNo && pose_.translation == 0) return {ConvexGoal::kYesNo, 0, 0};
   return {ConvexGoal::kDepth, kEnoughOfSolids, kEnoughOfSolids * pose_.translation};
 }
@@ -160,7 +163,7 @@ double SeparationFindings::MeasureBeside(std::uint32_t element, WorkBudget* work
   if (AnySolid(a_, element, b_, element)) return MeasureSolids(element, element, work);
   if (a_.shape()) {
     const geometry::TrianglePoints corners = CornersOf(*a_.shape(), element);
-    geometry::TriangleDistance found = geometry::DistanceOf(pose_.offset, corners);
+    geometry::TriangleDistance found = geometry::DistanceOf(pose_.p_AB, corners);
     std::swap(found.a, found.b);
     return Count(element, found, b_.reach(), false, slack_ + TurnOfA(corners), work);
   }

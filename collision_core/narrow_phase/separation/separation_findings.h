@@ -22,24 +22,16 @@ inline constexpr double kEnoughOfUpper = 0.5;
 /// wide as it is then.
 inline constexpr std::uint64_t kSolidPairUnits = 192;
 
-/// A bracket that is narrow enough.
-struct BracketWidth {
-  double width, share;
-};
-
 /// The look as it grows: balls and triangles are measured in doubles, and what matters is kept.
 class SeparationFindings {
  public:
   /// Everything passed in outlives this.
-  SeparationFindings(const BodyTree& a, const BodyTree& b, const RelativePose& pose, Goal goal,
-                     std::optional<BracketWidth> narrow);
+  SeparationFindings(const PosedPair& pair, Goal goal, std::optional<BracketTolerance> narrow);
 
   /// Pairs that are farther apart than this need not be looked at: the answer is the same without.
   double Limit() const;
   /// Contact is certain.
-  bool Touching() const {
-    return look_.upper <= -pose_.translation || look_.crossing_margin >= pose_.translation / 2;
-  }
+  bool Touching() const { return look_.CertainlyTouching(pose_.translation); }
   /// Nothing makes the answer any better.
   bool Settled() const;
 
@@ -91,7 +83,7 @@ class SeparationFindings {
   const BodyTree& b_;
   const RelativePose& pose_;
   const Goal goal_;
-  const std::optional<BracketWidth> narrow_;
+  const std::optional<BracketTolerance> narrow_;
   const double slack_;
   double resolved_lower_ = numeric::kInfinity;
   std::optional<NearestWay> way_;
@@ -107,7 +99,7 @@ inline double SeparationFindings::Limit() const {
   if (goal_ == Goal::kNearest) return std::max(0.0, upper + 2 * moved);
   const double resolved = resolved_lower_ > 0 ? resolved_lower_ : numeric::kInfinity;
   if (narrow_) {
-    return std::min({upper - narrow_->width, upper / (1 + narrow_->share), resolved});
+    return std::min({upper - narrow_->absolute, upper / (1 + narrow_->relative), resolved});
   }
   if (goal_ == Goal::kYesNo) return resolved_lower_ > moved ? moved : 0;
   if (Touching()) return 0;

@@ -1,4 +1,4 @@
-// Two posed bodies as the kernels of pack_scan.h see them.
+// Two posed bodies as the kernels of sphere_pair_kernel.h see them.
 #pragma once
 
 #include <cmath>

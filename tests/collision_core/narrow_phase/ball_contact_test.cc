@@ -211,9 +211,11 @@ TEST(EvaluateBallSegment, InstantAndUnknown) {
   EXPECT_EQ(unknown.free_from, 1);
 }
 
-// Goal:   what a glance tells is what EvaluateBallSegment() tells, bit for bit, and bodies that rest in each
+// Goal:   what a glance tells is what EvaluateBallSegment() tells, bit for bit, and bodies that
+// rest in each
 //         other are told at a glance.
-// Method: random pairs near each other, from hard touching to far apart, with one bound of each or two,
+// Method: random pairs near each other, from hard touching to far apart, with one bound of each or
+// two,
 //         true to each other or not; scales from 1e-12 to 1e12, offsets of 1e9 sizes.
 TEST(QuickBallContact, IsWhatTheFullRoutineTells) {
   Random random(5);

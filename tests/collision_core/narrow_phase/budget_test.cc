@@ -1,6 +1,8 @@
-// Goal:   whatever takes a budget overruns it by one batch at most, and the bracket of a look only becomes narrower
+// Goal:   whatever takes a budget overruns it by one batch at most, and the bracket of a look only
+// becomes narrower
 //         with the budget.
-// Method: meshes, solids, compounds, open and nested bodies, leaves of very many triangles, at rest and in motion,
+// Method: meshes, solids, compounds, open and nested bodies, leaves of very many triangles, at rest
+// and in motion,
 //         each asked with budgets from 0 up to what it would spend.
 #include <functional>
 
@@ -112,26 +114,26 @@ std::vector<std::pair<const char*, Ask>> Questions() {
   std::vector<std::pair<const char*, Ask>> asks;
   for (const Goal goal : {Goal::kDecision, Goal::kContact, Goal::kNearest, Goal::kYesNo}) {
     asks.emplace_back("QuerySeparation", [goal](const Pair& pair, WorkBudget* work) {
-      QuerySeparation(pair.a, pair.b, pair.pose, goal, work);
+      QuerySeparation({pair.a, pair.b, pair.pose}, goal, work);
     });
   }
   asks.emplace_back("QuerySeparation leaves", [](const Pair& pair, WorkBudget* work) {
-    QuerySeparation(pair.a, pair.b, pair.pose, Goal::kDecision, work, LastLeaves(pair));
+    QuerySeparation({pair.a, pair.b, pair.pose}, Goal::kDecision, work, LastLeaves(pair));
   });
   asks.emplace_back("RecheckWitness", [](const Pair& pair, WorkBudget* work) {
-    RecheckWitness(pair.a, pair.b, pair.pose, LastLeaves(pair), work);
+    RecheckWitness({pair.a, pair.b, pair.pose}, LastLeaves(pair), work);
   });
   asks.emplace_back("BracketSeparation", [](const Pair& pair, WorkBudget* work) {
-    BracketSeparation(pair.a, pair.b, pair.pose, 0, 1e-6, work);
+    BracketSeparation({pair.a, pair.b, pair.pose}, {0, 1e-6}, work);
   });
   asks.emplace_back("DecideAt", [](const Pair& pair, WorkBudget* work) {
-    DecideAt(pair.a, pair.b, pair.pose, work);
+    DecideAt({pair.a, pair.b, pair.pose}, work);
   });
   asks.emplace_back("TestContainment", [](const Pair& pair, WorkBudget* work) {
-    TestContainment(pair.a, pair.b, pair.pose, work);
+    TestContainment({pair.a, pair.b, pair.pose}, work);
   });
   asks.emplace_back("SeparatingTranslation", [](const Pair& pair, WorkBudget* work) {
-    SeparatingTranslation(pair.a, pair.b, pair.pose, {}, work);
+    SeparatingTranslation({pair.a, pair.b, pair.pose}, {}, work);
   });
   for (const RefinementOrder order :
        {RefinementOrder::kLevelByLevel, RefinementOrder::kLargestFirst}) {
@@ -139,8 +141,8 @@ std::vector<std::pair<const char*, Ask>> Questions() {
       Refinement refinement(order);
       WorkBudget start(0);
       for (const double weight : {1.0, 3.0}) {
-        refinement.Add(pair.a, pair.b, pair.pose, weight, Goal::kDecision, BracketWidth{0, 1e-6},
-                       &start);
+        refinement.Add({pair.a, pair.b, pair.pose}, weight, Goal::kDecision,
+                       BracketTolerance{0, 1e-6}, &start);
       }
       refinement.Refine(work);
     });
@@ -163,7 +165,8 @@ std::vector<std::pair<const char*, Ask>> Questions() {
     ShapeProximity(pair.bodies.a, pair.bodies.b, 0.4, work);
   });
   asks.emplace_back("RevolvedFree", [](const Pair& pair, WorkBudget* work) {
-    ShapeMotion(pair.bodies.a, pair.bodies.b, work).RevolvedFree(0, 1, false, 1, work->left());
+    ShapeMotion(pair.bodies.a, pair.bodies.b, work)
+        .RevolvedFree(0, 1, TimeDirection::kForward, 1, work->left());
   });
   return asks;
 }
@@ -243,16 +246,17 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
           std::vector<numeric::Interval> now;
           for (const Goal goal : {Goal::kDecision, Goal::kContact, Goal::kNearest}) {
             WorkBudget work(allowed);
-            now.push_back(DistanceIn(QuerySeparation(pair.a, pair.b, pair.pose, goal, &work)));
+            now.push_back(DistanceIn(QuerySeparation({pair.a, pair.b, pair.pose}, goal, &work)));
           }
           WorkBudget narrow(allowed);
-          now.push_back(DistanceIn(BracketSeparation(pair.a, pair.b, pair.pose, 0, 1e-6, &narrow)));
+          now.push_back(
+              DistanceIn(BracketSeparation({pair.a, pair.b, pair.pose}, {0, 1e-6}, &narrow)));
           for (const RefinementOrder order :
                {RefinementOrder::kLevelByLevel, RefinementOrder::kLargestFirst}) {
             Refinement refinement(order);
             WorkBudget start(0), work(allowed);
-            refinement.Add(pair.a, pair.b, pair.pose, 1, Goal::kDecision, {}, &start);
-            refinement.Add(pair.b, pair.b, RelativePose(), 1, Goal::kDecision, {}, &start);
+            refinement.Add({pair.a, pair.b, pair.pose}, 1, Goal::kDecision, {}, &start);
+            refinement.Add({pair.b, pair.b, RelativePose()}, 1, Goal::kDecision, {}, &start);
             refinement.Refine(&work);
             const RefinedPair found = refinement.At(0);
             now.push_back({std::max(0.0, found.lower), std::max(0.0, found.upper)});
@@ -263,7 +267,7 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
           }
           last = now;
           WorkBudget decision(allowed);
-          const Verdict decided = DecideAt(pair.a, pair.b, pair.pose, &decision).verdict;
+          const Verdict decided = DecideAt({pair.a, pair.b, pair.pose}, &decision).verdict;
           EXPECT_TRUE(verdict == Verdict::kUndecided || decided == verdict) << allowed;
           verdict = decided;
         }

@@ -1,7 +1,10 @@
-// Goal:   contact that is over sooner than the tolerance asked for is found all the same, both brackets as narrow as
+// Goal:   contact that is over sooner than the tolerance asked for is found all the same, both
+// brackets as narrow as
 //         asked for; what passes by is free.
-// Method: fast balls, cubes and bars with closed answers, in contact for a millisecond down to nanoseconds, at
-//         tolerances up to the whole segment; also one brief contact after another, and after a near miss.
+// Method: fast balls, cubes and bars with closed answers, in contact for a millisecond down to
+// nanoseconds, at
+//         tolerances up to the whole segment; also one brief contact after another, and after a
+//         near miss.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {
@@ -91,7 +94,8 @@ TEST_P(BriefContactOf, BallThatGrazesAnEdge) {
       EXPECT_GE(found.begin.upper, (middle - half) / speed - 1e-11);
       EXPECT_LE(found.end.lower, (middle + half) / speed + 1e-11);
       EXPECT_GE(found.end.upper, (middle + half) / speed - 1e-11);
-      // The gap closes at 4 / s times the chord: 1e-14 m of it, what is rounded, take half a nanosecond.
+      // The gap closes at 4 / s times the chord: 1e-14 m of it, what is rounded, take half a
+      // nanosecond.
       if (tolerance.absolute == 1e-9 && chord < 1e-5) continue;
       EXPECT_EQ(found.limited_by, EventLimit::kNone) << tolerance.absolute;
     }
@@ -117,7 +121,8 @@ TEST(BriefContact, BeforeAContactThatLasts) {
   ExpectBrief(ball, scene, 1, 0.5L - 0.251e-3L, 1);
 }
 
-// The first and the last of many, each of them brief: plates in a row, and a bar that passes again and again.
+// The first and the last of many, each of them brief: plates in a row, and a bar that passes again
+// and again.
 TEST(BriefContact, OneAfterTheOther) {
   geometry::TriangleMesh plates;
   for (int i = 0; i < 40; ++i) {
@@ -155,7 +160,8 @@ TEST(BriefContact, AfterNearMisses) {
   }
 }
 
-// It grazes one, touching by nothing for a while, which is neither free nor contact; the next one it meets for certain.
+// It grazes one, touching by nothing for a while, which is neither free nor contact; the next one
+// it meets for certain.
 TEST(BriefContact, AfterATouchThatIsUndecided) {
   const Body ball{nullptr, 0.25, {-500, 0, 0}, {1000, 0, 0}};
   const geometry::TriangleMesh plates =
@@ -198,8 +204,9 @@ TEST_P(BriefContactOf, AtTheEndsOfTheSegment) {
   }
 }
 
-// Stars that tumble past each other, with and without something unknown of their motion: what is found at the finest
-// tolerance is found at all of them, at less than its cost but where the motion limits it.
+// Stars that tumble past each other, with and without something unknown of their motion: what is
+// found at the finest tolerance is found at all of them, at less than its cost but where the motion
+// limits it.
 TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
   int contacts = 0, frees = 0, unknown = 0;
   std::uint64_t finest = 0, coarsest = 0;

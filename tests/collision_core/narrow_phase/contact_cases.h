@@ -1,4 +1,5 @@
-// Bodies that move with constant velocities, told by states at either end: for tests of when they touch.
+// Bodies that move with constant velocities, told by states at either end: for tests of when they
+// touch.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,5 +1,6 @@
-// Goal:   a bracket is as narrow as the motion allows, costs no more than asked for, and says what limited it.
-// Method: closed cases with accelerations, budgets of every size, turns by the thousand, contacts that only graze.
+// Goal:   a bracket is as narrow as the motion allows, costs no more than asked for, and says what
+// limited it. Method: closed cases with accelerations, budgets of every size, turns by the
+// thousand, contacts that only graze.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {
@@ -108,8 +109,8 @@ TEST(ContactLimits, WorkDoesNotGrowWithTurnsThatMatterNothing) {
   EXPECT_LE(found.begin.width(), 1e-12);
 }
 
-// Turned by more than kRotationAngleMax a body may be turned any way, as if no bound were declared: that is what limits the
-// answer, whatever the budget.
+// Turned by more than kRotationAngleMax a body may be turned any way, as if no bound were declared:
+// that is what limits the answer, whatever the budget.
 TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
   Random random(3);
   const auto star = shape::Shape::Build(Subdivided(Star(3, random), 3));
@@ -184,8 +185,8 @@ Real TrueDistance(const Body& a, const Body& b, double t) {
   return SolidDistance(at(a), at(b));
 }
 
-// A cube on a long arm and a ball beside it, as fast as it: only that circles bend inward brings them
-// together.
+// A cube on a long arm and a ball beside it, as fast as it: only that circles bend inward brings
+// them together.
 TEST(ContactLimits, TheBendOfACircleCounts) {
   Body cube{shape::Shape::Build(Moved(Cube(0.125), {4, 0, 0}))};
   cube.w = {0, 0, 1};

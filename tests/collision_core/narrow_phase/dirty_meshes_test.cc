@@ -1,6 +1,9 @@
-// Goal:   whatever a mesh looks like, it gets a tree, and every question about it an answer that holds, within the work
-//         allowed: brackets contain the true distance, what is said to be free is, what is said to touch does.
-// Method: dirty meshes by the thousand, built either way, in pairs and beside balls, at rest and in motion, with
+// Goal:   whatever a mesh looks like, it gets a tree, and every question about it an answer that
+// holds, within the work
+//         allowed: brackets contain the true distance, what is said to be free is, what is said to
+//         touch does.
+// Method: dirty meshes by the thousand, built either way, in pairs and beside balls, at rest and in
+// motion, with
 //         budgets from nothing to plenty; against all pairs of triangles in long double.
 #include "tests/support/dirty_meshes.h"
 
@@ -47,11 +50,11 @@ void ExpectLook(const Posed& a, const Posed& b, std::uint64_t units, bool brute)
   const RelativePose pose = PoseBetween(of_a, of_b);
   WorkBudget work(units);
   const SeparationBracket look =
-      QuerySeparation(surface_a, surface_b, pose, Goal::kDecision, &work);
+      QuerySeparation({surface_a, surface_b, pose}, Goal::kDecision, &work);
   EXPECT_LE(work.spent(), units + kBatchUnits);
   EXPECT_FALSE(std::isnan(look.lower) || std::isnan(look.upper));
   WorkBudget more(units);
-  const Decision decision = DecideAt(surface_a, surface_b, pose, &more);
+  const Decision decision = DecideAt({surface_a, surface_b, pose}, &more);
   if (!brute) return;
   const TrueBody body_a = a.Body(), body_b = b.Body();
   const Real surfaces = SurfaceDistance(body_a, body_b), solids = SolidDistance(body_a, body_b);

@@ -1,5 +1,6 @@
-// Goal:   shifted by what is told, or by more, a body meets nothing of the other; a little before it does.
-// Method: closed cases of ground with a far summit; random bodies against their distance at the shifted pose.
+// Goal:   shifted by what is told, or by more, a body meets nothing of the other; a little before
+// it does. Method: closed cases of ground with a far summit; random bodies against their distance
+// at the shifted pose.
 #include "collision_core/narrow_phase/penetration/local_separating_translation.h"
 
 #include <gtest/gtest.h>
@@ -19,25 +20,25 @@ struct Pair {
   double Past(const Vector3d& n, double known, const ContactWitness& evidence = {},
               std::uint64_t units = kPlenty) const {
     WorkBudget work(units);
-    return LocalSeparatingTranslation(surface_a, surface_b, pose, n, known, evidence, &work);
+    return LocalSeparatingTranslation({surface_a, surface_b, pose}, n, known, evidence, &work);
   }
   double Along(const Vector3d& n) const {
     WorkBudget work(kPlenty);
-    return SeparatingTranslationAlong(surface_a, surface_b, pose, n, &work);
+    return SeparatingTranslationAlong({surface_a, surface_b, pose}, n, &work);
   }
   double Apart() const {
     WorkBudget work(kPlenty);
-    return SeparatingTranslation(surface_a, surface_b, pose, Touching().evidence, &work);
+    return SeparatingTranslation({surface_a, surface_b, pose}, Touching().evidence, &work);
   }
   SeparationBracket Touching() const {
     WorkBudget work(kPlenty);
-    return QuerySeparation(surface_a, surface_b, pose, Goal::kContact, &work);
+    return QuerySeparation({surface_a, surface_b, pose}, Goal::kContact, &work);
   }
   Verdict ShiftedBy(const Vector3d& shift) const {
     RelativePose shifted = pose;
-    shifted.offset += shift;
+    shifted.p_AB += shift;
     WorkBudget work(kPlenty);
-    return DecideAt(surface_a, surface_b, shifted, &work).verdict;
+    return DecideAt({surface_a, surface_b, shifted}, &work).verdict;
   }
 };
 

@@ -1,6 +1,9 @@
-// Goal:   a search may stop and go on at any moment, overruns a budget by one step at most, and gives the same bits
-//         whatever the pauses and whatever the processor's vectors; a decision is right; a bracket is as narrow as asked.
-// Method: random poses of surfaces of all kinds and sizes, near to and far from the reference points, against brute
+// Goal:   a search may stop and go on at any moment, overruns a budget by one step at most, and
+// gives the same bits
+//         whatever the pauses and whatever the processor's vectors; a decision is right; a bracket
+//         is as narrow as asked.
+// Method: random poses of surfaces of all kinds and sizes, near to and far from the reference
+// points, against brute
 //         force over all pairs of triangles in long double.
 #include "collision_core/narrow_phase/separation/separation_search.h"
 
@@ -63,7 +66,7 @@ void ExpectSame(const SeparationBracket& x, const SeparationBracket& y) {
 
 struct Asked {
   Goal goal;
-  std::optional<BracketWidth> narrow;
+  std::optional<BracketTolerance> narrow;
   SearchOrder order = SearchOrder::kAsGoal;
 };
 
@@ -72,9 +75,9 @@ std::vector<Asked> Questions(double size) {
           {Goal::kContact, {}},
           {Goal::kNearest, {}},
           {Goal::kYesNo, {}},
-          {Goal::kDecision, BracketWidth{0, 1e-6}},
-          {Goal::kDecision, BracketWidth{0.01 * size, 0}},
-          {Goal::kDecision, BracketWidth{0, 1e-6}, SearchOrder::kNearest}};
+          {Goal::kDecision, BracketTolerance{0, 1e-6}},
+          {Goal::kDecision, BracketTolerance{0.01 * size, 0}},
+          {Goal::kDecision, BracketTolerance{0, 1e-6}, SearchOrder::kNearest}};
 }
 
 TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
@@ -119,8 +122,8 @@ TEST(SeparationSearch, SameBitsForEveryWidthOfVectors) {
     if (seed % 3 == 0) pair.pose.chord_A = 1e-3, pair.pose.chord_B = 0.1;
     for (const Asked& asked : Questions(pair.size())) {
       const auto look_with = [&](const SpherePairKernel& scan, std::uint64_t* spent) {
-        SeparationSearch search(pair.surface_a, pair.surface_b, pair.pose, asked.goal, asked.narrow,
-                                asked.order, scan);
+        SeparationSearch search({pair.surface_a, pair.surface_b, pair.pose}, asked.goal,
+                                asked.narrow, asked.order, scan);
         WorkBudget work(kUnlimited);
         search.Start(&work);
         search.Refine(&work);
@@ -148,8 +151,8 @@ TEST(SeparationSearch, BracketsAreAsNarrowAsAsked) {
     for (const double width : {0.1, 0.01, 1e-4, 0.0}) {
       for (const double share : {0.0, 1e-6, 0.1}) {
         WorkBudget work(kUnlimited);
-        const SeparationBracket look = BracketSeparation(pair.surface_a, pair.surface_b, pair.pose,
-                                                         width * pair.size(), share, &work);
+        const SeparationBracket look = BracketSeparation(
+            {pair.surface_a, pair.surface_b, pair.pose}, {width * pair.size(), share}, &work);
         EXPECT_FALSE(look.exhausted);
         if (look.upper <= 0) continue;  // one inside the other, or in contact
         EXPECT_LE(look.lower, truth + floor);
@@ -185,7 +188,7 @@ TEST(SeparationSearch, DecisionsAreRight) {
     const Real truth = SolidDistance(pair.a.Body(), pair.b.Body());
     const Real floor = 1e-13L * (pair.size() + pair.b.pose.p.norm());
     WorkBudget work(kUnlimited);
-    const Decision decision = DecideAt(pair.surface_a, pair.surface_b, pair.pose, &work);
+    const Decision decision = DecideAt({pair.surface_a, pair.surface_b, pair.pose}, &work);
     switch (decision.verdict) {
       case Verdict::kApart:
         ++apart;
@@ -217,7 +220,7 @@ TEST(SeparationSearch, DecisionsCountUncertaintyIn) {
     Pair pair = RandomPair(seed);
     pair.pose.translation = pair.size() * random.LogUniform(1e-3, 0.3);
     WorkBudget work(kUnlimited);
-    const Decision decision = DecideAt(pair.surface_a, pair.surface_b, pair.pose, &work);
+    const Decision decision = DecideAt({pair.surface_a, pair.surface_b, pair.pose}, &work);
     if (decision.verdict == Verdict::kUndecided) continue;
     ++decided;
     for (int i = 0; i < 10; ++i) {
@@ -236,13 +239,13 @@ TEST(SeparationSearch, FarApartIsSeenAtOnce) {
     const RelativePose pose =
         PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(away * near.size(), 0, 0));
     WorkBudget work(kUnlimited);
-    const Decision decision = DecideAt(near.surface_a, near.surface_b, pose, &work);
+    const Decision decision = DecideAt({near.surface_a, near.surface_b, pose}, &work);
     EXPECT_EQ(decision.verdict, Verdict::kApart);
     EXPECT_EQ(work.spent(), 1u);
     EXPECT_LE(decision.look.lower, away * near.size());
     if (away > 1e100) continue;  // squares overflow: less is known, nothing wrong
     const SeparationBracket look =
-        BracketSeparation(near.surface_a, near.surface_b, pose, 0, 1e-6, &work);
+        BracketSeparation({near.surface_a, near.surface_b, pose}, {0, 1e-6}, &work);
     EXPECT_LE(look.upper - look.lower, 1.1e-6 * look.lower);
     EXPECT_LE(look.lower, away * near.size());
     EXPECT_GE(look.upper, (away - 1) * near.size());
@@ -252,9 +255,9 @@ TEST(SeparationSearch, FarApartIsSeenAtOnce) {
 TEST(SeparationSearch, WhatIsNotANumberIsUndecided) {
   const Pair pair = RandomPair(4);
   RelativePose pose = pair.pose;
-  pose.offset.x() = std::numeric_limits<double>::quiet_NaN();
+  pose.p_AB.x() = std::numeric_limits<double>::quiet_NaN();
   WorkBudget work(kUnlimited);
-  EXPECT_EQ(DecideAt(pair.surface_a, pair.surface_b, pose, &work).verdict, Verdict::kUndecided);
+  EXPECT_EQ(DecideAt({pair.surface_a, pair.surface_b, pose}, &work).verdict, Verdict::kUndecided);
   EXPECT_LT(work.spent(), 1000u);
 }
 
@@ -284,7 +287,7 @@ TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {
       const BodyTree a(swapped ? above : flat), b(swapped ? flat : above);
       WorkBudget work(1'000'000);
       const SeparationBracket look = BracketSeparation(
-          a, b, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0)), 0, 1e-9, &work);
+          {a, b, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0))}, {0, 1e-9}, &work);
       EXPECT_LE(look.lower, 1) << low << swapped;
       EXPECT_GE(look.lower, 1 - 1e-9) << low << swapped;
       EXPECT_GE(look.upper, 1) << low << swapped;

@@ -1,6 +1,8 @@
-// Goal:   the bracket contains the true distance at every budget, only narrows with more of it, and closes where the
+// Goal:   the bracket contains the true distance at every budget, only narrows with more of it, and
+// closes where the
 //         two are apart; what is inside what is told right.
-// Method: random poses of convex, hollow, open and spiky surfaces of sizes from 1e-6 to 1e6 m, against brute force over
+// Method: random poses of convex, hollow, open and spiky surfaces of sizes from 1e-6 to 1e6 m,
+// against brute force over
 //         all pairs of triangles in long double.
 #include "collision_core/narrow_phase/separation/separation.h"
 
@@ -14,8 +16,8 @@ namespace {
 
 SeparationBracket LookOf(const Posed& a, const Posed& b, Goal goal, WorkBudget* work) {
   const BodySegment of_a = a.Segment(), of_b = b.Segment();
-  return QuerySeparation(BodyTree(of_a), BodyTree(of_b), PoseAt(of_a, of_b, {0, 0, true}, 0), goal,
-                         work);
+  return QuerySeparation({BodyTree(of_a), BodyTree(of_b), PoseAt(of_a, of_b, {0, 0, true}, 0)},
+                         goal, work);
 }
 
 TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
@@ -87,7 +89,7 @@ TEST(Separation, TurningIsCountedInAtEveryBudget) {
     for (const std::uint64_t units : {0, 10, 30, 100, 1000, 1000000}) {
       WorkBudget work(units);
       const SeparationBracket look =
-          QuerySeparation(BodyTree(of_a), BodyTree(of_b), pose, Goal::kDecision, &work);
+          QuerySeparation({BodyTree(of_a), BodyTree(of_b), pose}, Goal::kDecision, &work);
       for (const Real distance : distances) {
         if (look.upper > 0 && distance > 0) {
           EXPECT_LE(look.lower, distance + 1e-15L) << units;
@@ -132,8 +134,8 @@ Containment TestContainment(const geometry::TriangleMesh& a, const geometry::Tri
   of_b.pose.p = swapped ? Vector(-p) : p;
   const BodySegment x = of_a.Segment(), y = of_b.Segment();
   WorkBudget work(1000000);
-  return collision::narrow_phase::TestContainment(BodyTree(x), BodyTree(y),
-                                                  PoseAt(x, y, {0, 0, true}, 0), &work);
+  return collision::narrow_phase::TestContainment(
+      {BodyTree(x), BodyTree(y), PoseAt(x, y, {0, 0, true}, 0)}, &work);
 }
 
 TEST(Separation, WhatIsInsideWhat) {

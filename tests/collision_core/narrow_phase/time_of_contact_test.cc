@@ -1,5 +1,6 @@
-// Goal:   where a contact has a closed answer, the bracket contains it and is as narrow as asked for: 1e-12 of it.
-// Method: cubes, bars and balls whose motion is known exactly, about every axis, at every size, swapped, far from the
+// Goal:   where a contact has a closed answer, the bracket contains it and is as narrow as asked
+// for: 1e-12 of it. Method: cubes, bars and balls whose motion is known exactly, about every axis,
+// at every size, swapped, far from the
 //         origin, told by states at either end; the answers in long double.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
@@ -239,7 +240,8 @@ TEST_P(ClosedContact, EdgeSweepsThroughInOneStep) {
   Body bar{BoxOf(GetParam().first, {-2, -0.1, -0.1}, {2, 0.1, 0.1})};
   bar.w = {0, 0, 6};
   const Body cube{CubeOf(GetParam().second, 0.125), 0, {0.125, 1, 0}};
-  // Its upper side meets the corner (0, 0.875): sin θ = (x sin θ ...) with the corner on the y axis.
+  // Its upper side meets the corner (0, 0.875): sin θ = (x sin θ ...) with the corner on the y
+  // axis.
   const TimeOfContactResult found = Find(bar, cube, 0.5, Told::kAtBoth);
   ASSERT_EQ(found.status, ContactStatus::kContact);
   // The corner (0.25, 0.875) is met first: cos θ y − sin θ x = 0.1.
