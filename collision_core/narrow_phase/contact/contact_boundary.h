@@ -13,39 +13,41 @@ namespace collision::narrow_phase {
 /// onset of a contact, backward its end. Everything passed in outlives it.
 class ContactBoundary {
  public:
-  /// For brackets as narrow as `tolerance` asks for.
+  /// For time brackets as narrow as `tolerance` asks for.
   ContactBoundary(const ShapeMotion& motion, double duration, const ContactTolerance& tolerance,
                   TimeDirection direction, WorkBudget* work)
       : ContactBoundary(motion, duration, direction, Precision{tolerance, false}, work) {}
-  /// For a service that has many to evaluate: freedom ends where a step is shorter than
-  /// `shortest_step`, or where another sweep would tell little more of what is not known of the
-  /// motion.
+  /// For a service that has many pairs to evaluate: FreeFrom() ends where a step is shorter than
+  /// `shortest_step` [s], or where the uncertainty of the motion leaves little for another sweep.
   static ContactBoundary Coarse(const ShapeMotion& motion, double duration, double shortest_step,
                                 TimeDirection direction, WorkBudget* work) {
     return {motion, duration, direction, Precision{{shortest_step, 0}, true}, work};
   }
 
-  /// From `at` on the two are apart up to the instant that is returned; ±infinity: all the way, the
-  /// end of the segment included.
+  /// Returns the instant up to which the two are certainly apart, beginning at `at`; ±infinity: all
+  /// the way, the end of the segment included.
   double FreeFrom(double at);
 
-  /// An instant of certain contact as soon as possible after `free`, where freedom ends, and not
-  /// beyond `until`.
+  /// Returns an instant of certain contact as soon as possible after `free`, the result of
+  /// FreeFrom(), and not beyond `until`; none if no contact is certain.
   std::optional<double> ContactAfter(double free, double until);
 
-  /// The same by points that may show contact first, where something else showed it at `until`, or
-  /// nothing did.
+  /// As ContactAfter(), but by contact candidates only: for a contact that is already certain at
+  /// `until` by other means, or not certain at all.
   std::optional<double> ContactByClues(double free, double until);
 
-  /// How far from there on, towards `until`, contact is certain without a gap, by the same point.
+  /// Returns how far, from `touching` towards `until`, contact is certain without a gap by the
+  /// candidate that showed it.
   double LastsFrom(double touching, double until) const;
 
-  bool nested() const { return nested_; }  ///< One may be inside the other: nothing was free.
-  const ImpactBound& touch() const { return touch_; }  ///< What ended the last freedom.
-  bool exhausted() const { return exhausted_; }        ///< Something was left out for want of work.
-  double nearest() const { return nearest_; }          ///< They certainly come as near as this [m].
-  bool uncertain() const { return uncertain_; }  ///< By more than rounding, where freedom ended.
-  /// Nothing was known there of how one of them is turned: no work makes that any better.
+  bool nested() const { return nested_; }  ///< One body may be inside the other: never apart.
+  const ImpactBound& touch() const { return touch_; }  ///< What ended the last FreeFrom().
+  bool exhausted() const { return exhausted_; }        ///< The budget ended something early.
+  double nearest() const { return nearest_; }  ///< The bodies certainly come as near as this [m].
+  bool uncertain() const {
+    return uncertain_;
+  }  ///< The pose, by more than rounding, at the end of FreeFrom().
+  /// The orientation of one body was unknown there; more work does not help.
   bool any_way() const { return any_way_; }
 
  private:
@@ -53,7 +55,7 @@ class ContactBoundary {
     ContactTolerance tolerance;
     bool coarse;
   };
-  // What is asked for contact at an instant: what may touch first, or the whole bodies.
+  // What is tested for contact at an instant: the parts that may touch first, or the whole bodies.
   enum class Scope { kLikely, kEverything };
 
   ContactBoundary(const ShapeMotion& motion, double duration, TimeDirection direction,
@@ -66,10 +68,10 @@ class ContactBoundary {
         detail_(precision.coarse ? SweepDetail{} : kFineDetail),
         work_(*work) {}
 
-  // A sweep goes down nearly to what is not known of the motion, and as far as tangents serve.
+  // A sweep refines nearly down to the uncertainty of the motion, as far as tangents serve.
   static constexpr SweepDetail kFineDetail{.fine_enough = 0.03125, .step_worth = 1e-6};
 
-  // How often it was asked what bodies sweep in all their turns.
+  // How often SweptRingBound() was asked, and what it cost.
   struct Turns {
     int sweeps = 0, wait = 1;
     std::uint64_t spent = 0;
@@ -99,9 +101,9 @@ class ContactBoundary {
   const SweepDetail detail_;
   WorkBudget& work_;
 
-  bool nested_ = false;     // One may be inside the other.
-  bool exhausted_ = false;  // Something was not looked at for want of work.
-  bool apart_ = false;      // At the last instant that was looked at thoroughly.
+  bool nested_ = false;     // One body may be inside the other.
+  bool exhausted_ = false;  // The budget ended something early.
+  bool apart_ = false;      // At the last instant at which the whole bodies were tested.
   bool uncertain_ = false;
   bool any_way_ = false;
   double nearest_ = numeric::kInfinity;

@@ -10,18 +10,19 @@ namespace collision::narrow_phase {
 /// involved, two elements.
 struct ContactCandidate {
   SolidPoint point;
-  ContactWitness pair;  ///< Kind::kTriangles; else it is the point.
+  ContactWitness pair;  ///< Kind::kTriangles: two elements; kNone: the point counts.
 
   bool is_pair() const { return pair.kind != ContactWitness::Kind::kNone; }
 };
 
-/// Points of either body at which the two are within `within` [m] of each other at this pose: in
-/// the middle of faces that lie on each other, of edges that do, of corners. A proposal in plain
-/// doubles, to be certified by UpperBy(): nothing wrong can come of it. And all pairs of elements
-/// so near of which one is a convex solid.
+/// Proposes points of either body at which the two are within `within` [m] of each other at this
+/// pose: in the middle of faces that lie on each other, of edges that coincide, and at corners; and
+/// all pairs of elements that are so near and of which one is a convex solid. The proposals are made
+/// in plain doubles; UpperBy() certifies them, so that a bad one does no harm.
 ///
-/// Of each kind of point a few, the widest first. `leaf_A`, `leaf_B`: where to look first. Of
-/// bodies one of which is a ball there are none, since a ball and an element are judged exactly.
+/// Returns a few points of each kind, the widest first. The search begins at the leaves `leaf_A` and
+/// `leaf_B`. If one of the bodies is a ball there are no candidates, because a ball and an element
+/// are measured exactly.
 std::vector<ContactCandidate> FindContactCandidates(const PosedPair& pair, double within,
                                                     std::uint32_t leaf_A, std::uint32_t leaf_B,
                                                     WorkBudget* work);

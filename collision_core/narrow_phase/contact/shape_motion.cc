@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
 #include "collision_core/narrow_phase/separation/containment.h"
@@ -86,7 +87,9 @@ constexpr double kPatchBeyond = 2;
 }  // namespace
 
 ShapeMotion::ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget* work)
-    : a_(a), b_(b), surface_a_(a), surface_b_(b), work_(*work) {}
+    : a_(a), b_(b), surface_a_(a), surface_b_(b), work_(*work) {
+  CORE_CHECK(!a.awaited && !b.awaited, "the shapes of both bodies are known");
+}
 
 ShapeMotion::PoseQuery ShapeMotion::InstanceAt(double at) const {
   PoseQuery instance;
@@ -280,6 +283,7 @@ ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance,
 // cross while no corner moves further than the margin: seen from half-way between the two bodies
 // each corner moves by half of what translation does, and by the turning of its own body.
 double ShapeMotion::ContactStep(const PoseQuery& instance, TimeDirection direction) const {
+  CORE_CHECK(instance.touching(), "contact is certain at the instant", instance.at);
   const Drift d = DriftFrom(instance, direction);
   double step = 0;
   if (instance.look.CertainlyOverlapping(instance.pose.translation)) {

@@ -17,7 +17,7 @@ inline constexpr double kExactMotion = 1e-12;
 /// conservative advancement between them. Seconds count from the base of the segments.
 class ShapeMotion {
  public:
-  /// Everything passed in outlives this.
+  /// Everything passed in outlives this. Requires that neither body is awaited.
   ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget* work);
 
   /// Where and in which direction a sweep begins; of this class and its source.
@@ -32,7 +32,7 @@ class ShapeMotion {
     /// The surfaces are apart for all motions within the bounds. Says nothing of the inside.
     bool apart() const { return choice.certain && look.CertainlyApart(pose.translation); }
     bool touching() const { return choice.certain && look.CertainlyTouching(pose.translation); }
-    /// How far one body may be off relative to the other, all in all.
+    /// By how much a point of one body may be displaced relative to the other, all in all [m].
     double uncertainty = 0;
     /// Neither is inside the other, as LookInside() found where the surfaces are apart.
     bool neither_inside = false;
@@ -46,51 +46,49 @@ class ShapeMotion {
   /// Evaluates this candidate only.
   PoseQuery QuerySeparation(double at, const ContactCandidate& clue) const;
 
-  /// Where the two are likely to overlap soon, at an instant at which they nearly touch.
+  /// Candidates for the first overlap, at an instant at which the two nearly touch.
   std::vector<ContactCandidate> PatchAt(double at, const ImpactBound& touch) const;
 
   /// How soon the two may touch from an instant on, towards later or earlier times, within `span`
-  /// seconds; `known` is false where nothing is known of one of them.
+  /// seconds; `known` is false if nothing is known of one of them.
   struct Sweep {
     bool known = false;
     RelativePose pose;  ///< At its start.
     ImpactBound touch;
-    /// The search went down to what is known of the motion: another one from there leads no
+    /// The search went down to the uncertainty of the motion: another one from there leads no
     /// further.
     bool final = false;
   };
   Sweep SweepFrom(double at, double span, TimeDirection direction,
                   const SweepDetail& detail = {}) const;
 
-  /// Over so many of the `left` seconds one sweep is worth its while: beyond, tangents leave their
-  /// curves and other bounds may be the narrower ones.
+  /// For how many of the `left` seconds one sweep is worthwhile: later, tangents leave their curves
+  /// and other bounds may be narrower.
   double SpanFrom(double at, double left, TimeDirection direction, double duration) const;
 
-  /// How long from `at` on they stay apart however far each has turned by then, of the `left`
-  /// seconds; 0 where neither turns much. +infinity: all of it, the end included. So that the work
-  /// does not grow with turns that matter nothing. Says nothing of the inside. Spends `units`
-  /// about.
+  /// How many of the `left` seconds from `at` on the two stay apart however far each has turned by
+  /// then; 0 if neither turns much. +infinity: all of them, the end included. With it the work does
+  /// not grow with turns that do not matter. Does not test containment. Spends about `units`.
   double RevolvedFree(double at, double left, TimeDirection direction, double duration,
                       std::uint64_t units) const;
 
-  /// Where the surfaces are apart: so are the solids.
+  /// Whether certainly neither body is inside the other. Requires surfaces that are apart.
   bool NeitherInside(const RelativePose& pose) const;
 
-  /// Where a look found the surfaces apart: one solid inside the other is contact, as deep as they
-  /// are apart, since no shorter way takes it out again.
+  /// Tests containment if the query found the surfaces apart: one solid inside the other is contact,
+  /// as deep as the surfaces are apart, because no shorter way takes it out again.
   void LookInside(PoseQuery* instance) const;
 
-  /// No shift longer than this is needed to take the two apart at an instant, whatever the motion
-  /// within the bounds [m].
+  /// An upper bound of the penetration depth at an instant, for all motions within the bounds [m].
   double DepthAtMost(const PoseQuery& instance) const;
 
-  /// Seconds for which contact lasts from `instance` on, towards later or earlier times; +infinity:
-  /// for ever. Requires touching().
+  /// For how many seconds contact certainly lasts from `instance` on, towards later or earlier
+  /// times; +infinity: for ever. Requires touching().
   double ContactStep(const PoseQuery& instance, TimeDirection direction) const;
 
   double size() const { return surface_a_.reach() + surface_b_.reach(); }
 
-  /// No two points of the bodies move faster relative to each other, as predicted [m/s].
+  /// An upper bound of the relative speed of any two points of the bodies, as predicted [m/s].
   double SpeedAt(const PoseQuery& instance) const;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/contact/ball_contact.h"
 #include "collision_core/narrow_phase/contact/ball_proximity.h"
 #include "collision_core/narrow_phase/contact/contact_boundary.h"
@@ -162,6 +163,7 @@ TimeOfContactResult OfBalls(const BodySegment& a, const BodySegment& b, double d
 
 TimeOfContactResult TimeOfContact(const BodySegment& a, const BodySegment& b, double duration,
                                   const ContactTolerance& tolerance, WorkBudget* work) {
+  CORE_CHECK(!a.awaited && !b.awaited, "the shapes of both bodies are known");
   const std::uint64_t before = work->spent();
   work->Spend(kBallPairUnits);
   const SegmentResult balls = EvaluateBallSegment(a.ball, b.ball, duration);

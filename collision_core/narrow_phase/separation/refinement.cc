@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/base/check.h"
+
 namespace collision::narrow_phase {
 namespace {
 
@@ -24,6 +26,7 @@ Refinement::Entry::Entry(const PosedPair& pair, double importance, Goal goal,
 
 std::size_t Refinement::Add(const PosedPair& pair, double weight, Goal goal,
                             std::optional<BracketTolerance> narrow, WorkBudget* work) {
+  CORE_CHECK(weight > 0, "the weight of a pair is positive", weight);
   Entry& entry = entries_.emplace_back(pair, weight, goal, narrow);
   WorkBudget start(1);
   entry.search.Start(&start);

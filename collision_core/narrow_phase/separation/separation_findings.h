@@ -11,54 +11,56 @@
 
 namespace collision::narrow_phase {
 
-/// Ways between surfaces that are kept; with more of them the direction is not told.
+/// The most shortest-way candidates that are kept; if there are more, no direction is reported.
 inline constexpr std::size_t kWaysMax = 128;
 
 /// A step of the search through time loses at most half of the distance when the bracket is this
 /// narrow.
 inline constexpr double kEnoughOfUpper = 0.5;
 
-/// For two elements of which one is a convex solid: where they do not suffice, the bracket stays as
-/// wide as it is then.
+/// Units for a pair of elements of which one is a convex solid. If they do not suffice, the bracket
+/// of the pair stays as wide as it is then.
 inline constexpr std::uint64_t kSolidPairUnits = 192;
 
-/// The look as it grows: balls and triangles are measured in doubles, and what matters is kept.
+/// The bracket of a search while it narrows: pairs of balls and of elements are measured in doubles,
+/// and what may matter for the answer is kept.
 class SeparationFindings {
  public:
   /// Everything passed in outlives this.
   SeparationFindings(const PosedPair& pair, Goal goal, std::optional<BracketTolerance> narrow);
 
-  /// Pairs that are farther apart than this need not be looked at: the answer is the same without.
+  /// Pairs farther apart than this need not be measured: the answer is the same without them [m].
   double Limit() const;
   /// Contact is certain.
   bool Touching() const { return look_.CertainlyTouching(pose_.translation); }
-  /// Nothing makes the answer any better.
+  /// No further pair can improve the answer.
   bool Settled() const;
 
   const SeparationBracket& look() const { return look_; }
   double slack() const { return slack_; }
-  /// From A to B along the shortest way found: about a unit vector, or zero.
+  /// From A to B along the shortest way found so far: a unit vector but for rounding; zero if there is
+  /// none.
   const Eigen::Vector3d& direction() const { return direction_; }
 
-  /// A lower bound on the distance of what was looked at to the end.
+  /// Adds a lower bound on the distance of a pair that is measured and will not be opened again.
   void Resolve(double lower) { resolved_lower_ = std::min(resolved_lower_, lower); }
   double resolved_lower() const { return resolved_lower_; }
 
-  /// Two balls, by their numbers in the sphere trees: returns the lower bound.
+  /// Measures two balls, given by their numbers in the sphere trees; returns the lower bound.
   double MeasureNodes(std::uint32_t a, std::uint32_t b);
-  /// An upper bound for some pair of balls.
+  /// Adds an upper bound of the distance, found for some pair of balls.
   void LowerUpper(double upper) { look_.upper = std::min(look_.upper, upper); }
-  /// Two triangles, of which is known that a filter could not tell them apart: returns the lower
-  /// bound. `likely_to_cross`: that is looked at first.
+  /// Measures two triangles that the filter could not separate; returns the lower bound.
+  /// `likely_to_cross`: the test for a crossing comes first.
   double MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
-  /// Where one of the two is a ball: an element of the other.
+  /// If one of the bodies is a ball: measures it beside an element of the other body.
   double MeasureBeside(std::uint32_t element, WorkBudget* work);
-  /// Any two elements: triangles are looked at by MeasureTriangles().
+  /// Measures any two elements; two triangles by MeasureTriangles().
   double MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
-  /// Whether two elements are certainly in contact; nothing more.
+  /// Tests only whether two elements are certainly in contact.
   void CrossAgain(std::uint32_t a, std::uint32_t b, WorkBudget* work);
 
-  /// The whole answer. `unopened`: a lower bound on what was not looked at.
+  /// The whole answer. `unopened`: a lower bound on the distance of all pairs that were not opened.
   SeparationBracket Told(double unopened, bool exhausted, std::uint32_t level);
 
  private:
@@ -91,9 +93,9 @@ class SeparationFindings {
   SeparationBracket look_;
 };
 
-// What is resolved bounds the distance from below: once that is positive, what is farther away can
-// make the bracket no better. Where it is not, other pairs may still be certain to cross, unless
-// they are apart for certain themselves.
+// The resolved pairs bound the distance from below: once that bound is positive, pairs farther away
+// cannot improve the bracket. While it is not positive, other pairs may still be found to cross,
+// unless they are certainly apart themselves.
 inline double SeparationFindings::Limit() const {
   const double upper = look_.upper, moved = pose_.translation;
   if (goal_ == Goal::kNearest) return std::max(0.0, upper + 2 * moved);
