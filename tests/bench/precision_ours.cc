@@ -37,7 +37,7 @@ Reply ByBudget(const narrow_phase::BodySegment& body, const PlainPose& at, std::
                                         kAsNarrowAsCanBe, narrow_phase::SearchOrder::kNearest);
   search.Start(&work);
   search.Refine(&work);
-  return Told(search.Told());
+  return Told(search.Result());
 }
 
 Reply ByWidth(const narrow_phase::BodySegment& body, const PlainPose& at, double width) {
@@ -58,7 +58,7 @@ std::vector<Reply> Together(const narrow_phase::BodySegment& body,
   }
   refinement.Refine(&work);
   std::vector<Reply> replies;
-  for (std::size_t i = 0; i < poses.size(); ++i) replies.push_back(Told(refinement.Told(i)));
+  for (std::size_t i = 0; i < poses.size(); ++i) replies.push_back(Told(refinement.Result(i)));
   return replies;
 }
 

@@ -29,7 +29,7 @@ constexpr double kThoroughShare = 1e-6;
 constexpr double kIslandShare = 0.0625;
 
 // What may show contact is all tried at first, then the best of it only.
-constexpr std::size_t kCluesKept = 4;
+constexpr std::size_t kCandidatesKept = 4;
 
 // To ask what bodies sweep in all their turns costs as much as the sweeps since it was last asked,
 // and this at least.
@@ -113,46 +113,47 @@ double ContactBoundary::FreeFrom(double at) {
 bool ContactBoundary::Note(const ShapeMotion::PoseQuery& instance) {
   if (!instance.choice.certain) return false;
   nearest_ = std::min(
-      nearest_, std::max(0.0, numeric::AddUp(instance.look.upper, instance.pose.translation)));
+      nearest_, std::max(0.0, numeric::AddUp(instance.bracket.upper, instance.pose.translation)));
   return instance.touching();
 }
 
-bool ContactBoundary::TouchesByClues(double at) {
+bool ContactBoundary::TouchesByCandidates(double at) {
   std::vector<std::pair<double, std::size_t>> by_depth;
-  for (std::size_t i = 0; i < clues_.size() && !Exhausted(); ++i) {
-    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, clues_[i]);
+  for (std::size_t i = 0; i < candidates_.size() && !Exhausted(); ++i) {
+    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, candidates_[i]);
     if (Note(instance)) {
-      std::rotate(clues_.begin(), clues_.begin() + static_cast<std::ptrdiff_t>(i),
-                  clues_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      std::rotate(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(i),
+                  candidates_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       return true;
     }
-    by_depth.emplace_back(instance.look.upper, i);
+    by_depth.emplace_back(instance.bracket.upper, i);
   }
-  if (clues_.size() > kCluesKept && by_depth.size() == clues_.size()) {
+  if (candidates_.size() > kCandidatesKept && by_depth.size() == candidates_.size()) {
     std::sort(by_depth.begin(), by_depth.end());
     std::vector<ContactCandidate> best;
-    for (std::size_t i = 0; i < kCluesKept; ++i) best.push_back(clues_[by_depth[i].second]);
-    clues_.swap(best);
+    for (std::size_t i = 0; i < kCandidatesKept; ++i)
+      best.push_back(candidates_[by_depth[i].second]);
+    candidates_.swap(best);
   }
   return false;
 }
 
 bool ContactBoundary::Touches(double at, Scope scope) {
   apart_ = false;
-  if (TouchesByClues(at)) return true;
+  if (TouchesByCandidates(at)) return true;
   const ContactWitness leaves{ContactWitness::Kind::kLeaves, touch_.leaf_A, touch_.leaf_B};
-  for (const ContactWitness& evidence : {touch_.resolved ? leaves : ContactWitness{}, evidence_}) {
-    if (evidence.kind == ContactWitness::Kind::kNone || Exhausted()) continue;
-    if (Note(motion_.RecheckWitness(at, evidence))) return true;
+  for (const ContactWitness& witness : {touch_.resolved ? leaves : ContactWitness{}, witness_}) {
+    if (witness.kind == ContactWitness::Kind::kNone || Exhausted()) continue;
+    if (Note(motion_.RecheckWitness(at, witness))) return true;
   }
   if (scope == Scope::kLikely || Exhausted()) return false;
   ShapeMotion::PoseQuery instance =
       motion_.QuerySeparation(at, Goal::kYesNo, touch_.resolved ? leaves : ContactWitness{});
-  if (nested_) motion_.LookInside(&instance);
-  exhausted_ = exhausted_ || instance.look.exhausted;
+  if (nested_) motion_.CheckContainment(&instance);
+  exhausted_ = exhausted_ || instance.bracket.exhausted;
   if (Note(instance)) {
-    if (instance.look.evidence.kind != ContactWitness::Kind::kNone)
-      evidence_ = instance.look.evidence;
+    if (instance.bracket.witness.kind != ContactWitness::Kind::kNone)
+      witness_ = instance.bracket.witness;
     return true;
   }
   apart_ = !nested_ && instance.apart();
@@ -172,10 +173,10 @@ double ContactBoundary::Narrow(double apart, double touching, double free, Scope
 }
 
 void ContactBoundary::Prepare(double free) {
-  evidence_ = {};
-  clues_.clear();
+  witness_ = {};
+  candidates_.clear();
   if (Exhausted()) return;
-  clues_ = motion_.PatchAt(free, touch_);
+  candidates_ = motion_.CandidatesAt(free, touch_);
   uncertain_ = motion_.RecheckWitness(free, {}).uncertainty > kExactMotion * motion_.size();
 }
 
@@ -226,15 +227,15 @@ std::optional<double> ContactBoundary::ThoroughContact(double free, double until
   }
 }
 
-std::optional<double> ContactBoundary::ContactByClues(double free, double until) {
+std::optional<double> ContactBoundary::ContactByCandidates(double free, double until) {
   Prepare(free);
-  return clues_.empty() ? std::nullopt : QuickContact(free, until);
+  return candidates_.empty() ? std::nullopt : QuickContact(free, until);
 }
 
 double ContactBoundary::LastsFrom(double touching, double until) const {
   double at = touching;
-  for (int step = 0; step < kLastingSteps && !clues_.empty() && !work_.exhausted(); ++step) {
-    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, clues_.front());
+  for (int step = 0; step < kLastingSteps && !candidates_.empty() && !work_.exhausted(); ++step) {
+    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, candidates_.front());
     const double lasts = instance.touching() ? motion_.ContactStep(instance, direction_) : 0;
     at = Moved(at, lasts);
     const bool beyond = is_backward() ? at <= until : at >= until;

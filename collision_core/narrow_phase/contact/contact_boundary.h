@@ -34,7 +34,7 @@ class ContactBoundary {
 
   /// As ContactAfter(), but by contact candidates only: for a contact that is already certain at
   /// `until` by other means, or not certain at all.
-  std::optional<double> ContactByClues(double free, double until);
+  std::optional<double> ContactByCandidates(double free, double until);
 
   /// Returns how far, from `touching` towards `until`, contact is certain without a gap by the
   /// candidate that showed it.
@@ -84,7 +84,7 @@ class ContactBoundary {
   double StallAt(double at) const;
   bool Exhausted();
   bool Touches(double at, Scope scope);
-  bool TouchesByClues(double at);
+  bool TouchesByCandidates(double at);
   bool Note(const ShapeMotion::PoseQuery& instance);
   double Narrow(double apart, double touching, double free, Scope scope);
   void Prepare(double free);
@@ -108,8 +108,8 @@ class ContactBoundary {
   bool any_way_ = false;
   double nearest_ = numeric::kInfinity;
   ImpactBound touch_;
-  std::vector<ContactCandidate> clues_;
-  ContactWitness evidence_;
+  std::vector<ContactCandidate> candidates_;
+  ContactWitness witness_;
 };
 
 }  // namespace collision::narrow_phase

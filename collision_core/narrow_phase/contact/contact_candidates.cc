@@ -173,16 +173,16 @@ class Patch {
   }
 
   std::vector<ContactCandidate> Best() {
-    std::vector<ContactCandidate> clues = std::move(solids_);
+    std::vector<ContactCandidate> candidates = std::move(solids_);
     for (int kind = 0; kind < kKinds; ++kind) {
       for (const Proposal& p : proposals_[kind][0]) {
-        if (!work_.exhausted()) clues.push_back({PointOfA(a_, p.x, &work_), {}});
+        if (!work_.exhausted()) candidates.push_back({PointOfA(a_, p.x, &work_), {}});
       }
       for (const Proposal& p : proposals_[kind][1]) {
-        if (!work_.exhausted()) clues.push_back({PointOfB(b_, pose_.ToB(p.x), &work_), {}});
+        if (!work_.exhausted()) candidates.push_back({PointOfB(b_, pose_.ToB(p.x), &work_), {}});
       }
     }
-    return clues;
+    return candidates;
   }
 
   const BodyTree& a_;

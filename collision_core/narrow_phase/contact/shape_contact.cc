@@ -87,7 +87,7 @@ double DeviationOf(const NearestWay& way, double translation) {
 // One of the ways is the shortest: how far may it point away from the one taken?
 ContactNormal NormalOf(const PoseQuery& instance) {
   ContactNormal normal;
-  const std::vector<NearestWay>& ways = instance.look.ways;
+  const std::vector<NearestWay>& ways = instance.bracket.ways;
   if (ways.empty()) return normal;
   const auto shortest = std::min_element(
       ways.begin(), ways.end(), [](const auto& x, const auto& y) { return x.upper < y.upper; });
@@ -110,7 +110,7 @@ ContactNormal NormalOf(const PoseQuery& instance) {
 }
 
 EventLimit LimitOf(const PoseQuery& instance, double size) {
-  if (instance.look.exhausted) return EventLimit::kBudget;
+  if (instance.bracket.exhausted) return EventLimit::kBudget;
   return instance.uncertainty > kExactMotion * size ? EventLimit::kMotion : EventLimit::kGeometry;
 }
 
@@ -125,25 +125,25 @@ Proximity ProximityFrom(const PoseQuery& instance, const ShapeMotion& motion, do
   Proximity proximity;
   if (!instance.choice.certain) return proximity;
   const RelativePose& pose = instance.pose;
-  const SeparationBracket& look = instance.look;
-  proximity.separation = {numeric::AddDown(look.lower, -pose.translation),
-                          numeric::AddUp(look.upper, pose.translation)};
+  const SeparationBracket& bracket = instance.bracket;
+  proximity.separation = {numeric::AddDown(bracket.lower, -pose.translation),
+                          numeric::AddUp(bracket.upper, pose.translation)};
   if (instance.touching()) proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
   if (!instance.apart() || !instance.neither_inside) {
     const double depth = std::min(DepthMax(pose, size), motion.DepthAtMost(instance));
     proximity.separation.lower = std::min(proximity.separation.upper, -depth);
   }
   proximity.depth_lower = std::max(0.0, -proximity.separation.upper);
-  proximity.p_WC = pose.p_WA + pose.R_WA * look.point;
+  proximity.p_WC = pose.p_WA + pose.R_WA * bracket.point;
   proximity.point_error = numeric::AddUp(
-      numeric::AddUp(look.point_error, pose.error_A),
-      numeric::AddUp(
-          pose.translation,
-          numeric::MultiplyUp(pose.chord_A, numeric::AddUp(look.point.norm(), kLengthRounding))));
+      numeric::AddUp(bracket.point_error, pose.error_A),
+      numeric::AddUp(pose.translation,
+                     numeric::MultiplyUp(pose.chord_A,
+                                         numeric::AddUp(bracket.point.norm(), kLengthRounding))));
   // A guess, and told as one.
   const Eigen::Vector3d between = pose.R_WA * pose.p_AB;
   if (between.norm() > 0) proximity.normal = between.normalized();
-  proximity.level = look.level;
+  proximity.level = bracket.level;
   proximity.limited_by = LimitOf(instance, size);
   return proximity;
 }
@@ -214,14 +214,14 @@ class Judgement {
   }
 
   /// Something is said of an instant, however little may be spent.
-  void LookOnce(double at) {
+  void QueryOnce(double at) {
     if (!nearest_) QueryAt(at, TimeDirection::kForward);
   }
 
   const std::optional<PoseQuery>& nearest() const { return nearest_; }
   /// Requires nearest().
   Proximity NearestProximity() {
-    motion_.LookInside(&*nearest_);
+    motion_.CheckContainment(&*nearest_);
     return ProximityFrom(*nearest_, motion_, size_);
   }
   bool exhausted() const { return exhausted_; }
@@ -238,7 +238,7 @@ class Judgement {
     const double late = kLate * instance.uncertainty / motion_.SpeedAt(instance);
     if (!(std::abs(until - free) > late)) return;
     ContactBoundary edge(motion_, duration_, {kFineShare * duration_, 0}, direction, &work_);
-    const std::optional<double> touching = edge.ContactByClues(free, until);
+    const std::optional<double> touching = edge.ContactByCandidates(free, until);
     if (!touching) return;
     const double lasts = edge.LastsFrom(*touching, until);
     const bool found = times->contact_from <= times->contact_to;
@@ -257,10 +257,10 @@ class Judgement {
   // where contact goes on from before; else at growing distances from it, then nearer by halves.
   bool FollowLeaves(double f, double g, SegmentResult* times) {
     if (leaves_.kind == ContactWitness::Kind::kNone || Exhausted()) return false;
-    evidence_ = {};
+    witness_ = {};
     const auto touches = [&](double place) {
       const PoseQuery instance = motion_.RecheckWitness(place, leaves_);
-      if (instance.touching()) evidence_ = instance.look.evidence;
+      if (instance.touching()) witness_ = instance.bracket.witness;
       return instance.touching();
     };
     double before = f, at = f;
@@ -286,7 +286,7 @@ class Judgement {
   void TakeContact(double from, double place, double g, SegmentResult* times) {
     times->contact_from = from;
     times->contact_to = Extend(place, TimeDirection::kForward);
-    if (times->contact_to < g && g >= duration_) LookAtEnd(times);
+    if (times->contact_to < g && g >= duration_) QueryEnd(times);
   }
 
   // Is contact certain at `place`? Then so it is for some time before and after.
@@ -295,7 +295,7 @@ class Judgement {
     const TimeDirection side = place != f ? TimeDirection::kBackward : TimeDirection::kForward;
     const PoseQuery instance = QueryAt(place, side);
     if (!instance.touching()) return false;
-    evidence_ = instance.look.evidence;
+    witness_ = instance.bracket.witness;
     TakeContact(Extend(place, TimeDirection::kBackward), place, g, times);
     return true;
   }
@@ -306,7 +306,7 @@ class Judgement {
     std::optional<PoseQuery>& last = backward ? last_backward_ : last_forward_;
     if (last && last->at == at) return *last;
     last = motion_.QuerySeparation(at, Goal::kDecision);
-    if (nested_) motion_.LookInside(&*last);
+    if (nested_) motion_.CheckContainment(&*last);
     RememberNearest(*last);
     return *last;
   }
@@ -315,17 +315,17 @@ class Judgement {
   // looked at again at the next; where that falls short something else is looked for.
   double Extend(double at, TimeDirection direction) {
     const bool backward = direction == TimeDirection::kBackward;
-    ContactWitness evidence = evidence_;
+    ContactWitness witness = witness_;
     double longest = 0;
     while (!Exhausted()) {
-      PoseQuery instance = motion_.RecheckWitness(at, evidence);
+      PoseQuery instance = motion_.RecheckWitness(at, witness);
       double lasts = instance.touching() ? motion_.ContactStep(instance, direction) : 0;
       if (lasts <= kFallenShort * longest || lasts == 0) {
         instance = motion_.QuerySeparation(at, Goal::kContact);
-        if (nested_) motion_.LookInside(&instance);
+        if (nested_) motion_.CheckContainment(&instance);
         RememberNearest(instance);
         if (!instance.touching()) break;
-        evidence = instance.look.evidence;
+        witness = instance.bracket.witness;
         const double other = motion_.ContactStep(instance, direction);
         // Nothing else lasts longer: where contact ends.
         if (other <= lasts && other <= kResolution * duration_) break;
@@ -343,7 +343,8 @@ class Judgement {
   }
 
   void RememberNearest(const PoseQuery& instance) {
-    if (instance.choice.certain && (!nearest_ || instance.look.upper < nearest_->look.upper)) {
+    if (instance.choice.certain &&
+        (!nearest_ || instance.bracket.upper < nearest_->bracket.upper)) {
       nearest_ = instance;
     }
   }
@@ -354,11 +355,11 @@ class Judgement {
   }
 
   // Contact at the end belongs to the next segment's, even where it is not certain throughout.
-  void LookAtEnd(SegmentResult* times) {
+  void QueryEnd(SegmentResult* times) {
     if (Exhausted()) return;
     const PoseQuery end = QueryAt(duration_, TimeDirection::kBackward);
     if (!end.touching()) return;
-    evidence_ = end.look.evidence;
+    witness_ = end.bracket.witness;
     const double from = Extend(duration_, TimeDirection::kBackward);
     times->contact_continuous = from <= times->contact_to;
     times->contact_to = duration_;
@@ -373,8 +374,8 @@ class Judgement {
   std::optional<PoseQuery> last_forward_, last_backward_;
   std::optional<PoseQuery> nearest_;  // least upper bound of the distance
   std::optional<Approach> approach_;
-  ContactWitness leaves_;    // that may touch first
-  ContactWitness evidence_;  // of contact, where it was last certain
+  ContactWitness leaves_;   // that may touch first
+  ContactWitness witness_;  // of contact, where it was last certain
 };
 
 // When, and the direction before; what is told of an instant is left.
@@ -418,7 +419,7 @@ ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judge
   }
   judgement->FindContact(std::max(0.0, times.free_until), times.free_from, &times);
   judgement->Sharpen(std::max(0.0, times.free_until), times.free_from, &times);
-  judgement->LookOnce(std::max(0.0, times.free_until));
+  judgement->QueryOnce(std::max(0.0, times.free_until));
   return verdict;
 }
 
@@ -455,7 +456,7 @@ Proximity ShapeProximity(const BodySegment& a, const BodySegment& b, double delt
                          WorkBudget* work) {
   const ShapeMotion motion(a, b, work);
   PoseQuery instance = motion.QuerySeparation(delta, Goal::kContact);
-  motion.LookInside(&instance);
+  motion.CheckContainment(&instance);
   return ProximityFrom(instance, motion, a.ball.radius + b.ball.radius);
 }
 

@@ -91,7 +91,7 @@ ShapeMotion::ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget*
   CORE_CHECK(!a.awaited && !b.awaited, "the shapes of both bodies are known");
 }
 
-ShapeMotion::PoseQuery ShapeMotion::InstanceAt(double at) const {
+ShapeMotion::PoseQuery ShapeMotion::PoseQueryAt(double at) const {
   PoseQuery instance;
   instance.at = at;
   instance.choice = BestBounds(a_, b_, at);
@@ -107,32 +107,33 @@ ShapeMotion::PoseQuery ShapeMotion::InstanceAt(double at) const {
 
 ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at, Goal goal,
                                                     const ContactWitness& hint) const {
-  PoseQuery instance = InstanceAt(at);
+  PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look = collision::narrow_phase::QuerySeparation({surface_a_, surface_b_, instance.pose},
-                                                           goal, &work_, hint);
+  instance.bracket = collision::narrow_phase::QuerySeparation(
+      {surface_a_, surface_b_, instance.pose}, goal, &work_, hint);
   return instance;
 }
 
-ShapeMotion::PoseQuery ShapeMotion::RecheckWitness(double at,
-                                                   const ContactWitness& evidence) const {
-  PoseQuery instance = InstanceAt(at);
+ShapeMotion::PoseQuery ShapeMotion::RecheckWitness(double at, const ContactWitness& witness) const {
+  PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look = collision::narrow_phase::RecheckWitness({surface_a_, surface_b_, instance.pose},
-                                                          evidence, &work_);
+  instance.bracket = collision::narrow_phase::RecheckWitness(
+      {surface_a_, surface_b_, instance.pose}, witness, &work_);
   return instance;
 }
 
-ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at, const ContactCandidate& clue) const {
-  if (clue.is_pair()) return RecheckWitness(at, clue.pair);
-  PoseQuery instance = InstanceAt(at);
+ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at,
+                                                    const ContactCandidate& candidate) const {
+  if (candidate.is_pair()) return RecheckWitness(at, candidate.pair);
+  PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look.upper = UpperBy(clue.point, {surface_a_, surface_b_, instance.pose}, &work_);
+  instance.bracket.upper =
+      UpperBy(candidate.point, {surface_a_, surface_b_, instance.pose}, &work_);
   return instance;
 }
 
-std::vector<ContactCandidate> ShapeMotion::PatchAt(double at, const ImpactBound& touch) const {
-  const PoseQuery instance = InstanceAt(at);
+std::vector<ContactCandidate> ShapeMotion::CandidatesAt(double at, const ImpactBound& touch) const {
+  const PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return {};
   const double size = surface_a_.reach() + surface_b_.reach();
   const double within = kPatchReach * size + kPatchBeyond * instance.uncertainty;
@@ -142,7 +143,7 @@ std::vector<ContactCandidate> ShapeMotion::PatchAt(double at, const ImpactBound&
 
 double ShapeMotion::DepthAtMost(const PoseQuery& instance) const {
   const double shift = SeparatingTranslation({surface_a_, surface_b_, instance.pose},
-                                             instance.look.evidence, &work_);
+                                             instance.bracket.witness, &work_);
   return numeric::AddUp(shift, instance.pose.translation);
 }
 
@@ -246,15 +247,15 @@ double ShapeMotion::RevolvedFree(double at, double left, TimeDirection direction
   return std::min(free, span);
 }
 
-void ShapeMotion::LookInside(PoseQuery* instance) const {
-  SeparationBracket& look = instance->look;
+void ShapeMotion::CheckContainment(PoseQuery* instance) const {
+  SeparationBracket& bracket = instance->bracket;
   if (!instance->apart()) return;
   const Containment nesting = TestContainment({surface_a_, surface_b_, instance->pose}, &work_);
   instance->neither_inside = nesting.neither;
-  if (!nesting.certain() || look.upper <= -look.lower) return;
-  look.upper = -look.lower;
-  look.point = nesting.point;
-  look.point_error = nesting.point_error;
+  if (!nesting.certain() || bracket.upper <= -bracket.lower) return;
+  bracket.upper = -bracket.lower;
+  bracket.point = nesting.point;
+  bracket.point_error = nesting.point_error;
 }
 
 bool ShapeMotion::NeitherInside(const RelativePose& pose) const {
@@ -286,16 +287,16 @@ double ShapeMotion::ContactStep(const PoseQuery& instance, TimeDirection directi
   CORE_CHECK(instance.touching(), "contact is certain at the instant", instance.at);
   const Drift d = DriftFrom(instance, direction);
   double step = 0;
-  if (instance.look.CertainlyOverlapping(instance.pose.translation)) {
-    const numeric::Interval gap = numeric::Interval(-instance.look.upper) - d.translation.c0;
+  if (instance.bracket.CertainlyOverlapping(instance.pose.translation)) {
+    const numeric::Interval gap = numeric::Interval(-instance.bracket.upper) - d.translation.c0;
     const numeric::Interval closing = d.along + d.spin_sum + d.translation.c1 + d.turned1_sum;
     const numeric::Interval growth = d.translation.c2 + d.turned2_sum;
     step = numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper));
   }
-  if (instance.look.CertainlyCrossing(instance.pose.translation)) {
+  if (instance.bracket.CertainlyCrossing(instance.pose.translation)) {
     const numeric::Interval half = 0.5;
     const numeric::Interval gap =
-        numeric::Interval(instance.look.crossing_margin) - half * d.translation.c0;
+        numeric::Interval(instance.bracket.crossing_margin) - half * d.translation.c0;
     const numeric::Interval closing =
         half * (d.along + d.translation.c1) + d.spin_most + d.turned1_most;
     const numeric::Interval growth = half * d.translation.c2 + d.turned2_most;

@@ -27,27 +27,27 @@ class ShapeMotion {
     double at = 0;
     BoundChoice choice;
     RelativePose pose;
-    SeparationBracket look;
+    SeparationBracket bracket;
 
     /// The surfaces are apart for all motions within the bounds. Says nothing of the inside.
-    bool apart() const { return choice.certain && look.CertainlyApart(pose.translation); }
-    bool touching() const { return choice.certain && look.CertainlyTouching(pose.translation); }
+    bool apart() const { return choice.certain && bracket.CertainlyApart(pose.translation); }
+    bool touching() const { return choice.certain && bracket.CertainlyTouching(pose.translation); }
     /// By how much a point of one body may be displaced relative to the other, all in all [m].
     double uncertainty = 0;
-    /// Neither is inside the other, as LookInside() found where the surfaces are apart.
+    /// Neither is inside the other, as CheckContainment() found where the surfaces are apart.
     bool neither_inside = false;
   };
 
   PoseQuery QuerySeparation(double at, Goal goal, const ContactWitness& hint = {}) const;
 
   /// Re-tests this witness of contact only.
-  PoseQuery RecheckWitness(double at, const ContactWitness& evidence) const;
+  PoseQuery RecheckWitness(double at, const ContactWitness& witness) const;
 
   /// Evaluates this candidate only.
-  PoseQuery QuerySeparation(double at, const ContactCandidate& clue) const;
+  PoseQuery QuerySeparation(double at, const ContactCandidate& candidate) const;
 
   /// Candidates for the first overlap, at an instant at which the two nearly touch.
-  std::vector<ContactCandidate> PatchAt(double at, const ImpactBound& touch) const;
+  std::vector<ContactCandidate> CandidatesAt(double at, const ImpactBound& touch) const;
 
   /// How soon the two may touch from an instant on, towards later or earlier times, within `span`
   /// seconds; `known` is false if nothing is known of one of them.
@@ -77,7 +77,7 @@ class ShapeMotion {
 
   /// Tests containment if the query found the surfaces apart: one solid inside the other is contact,
   /// as deep as the surfaces are apart, because no shorter way takes it out again.
-  void LookInside(PoseQuery* instance) const;
+  void CheckContainment(PoseQuery* instance) const;
 
   /// An upper bound of the penetration depth at an instant, for all motions within the bounds [m].
   double DepthAtMost(const PoseQuery& instance) const;
@@ -93,7 +93,7 @@ class ShapeMotion {
 
  private:
   struct Drift;
-  PoseQuery InstanceAt(double at) const;
+  PoseQuery PoseQueryAt(double at) const;
   Drift DriftFrom(const PoseQuery& instance, TimeDirection direction) const;
   BoundChoice ChoiceFor(double at, double span, TimeDirection direction) const;
   SweptPose SweptFrom(const Departure& from, BoundChoice choice) const;

@@ -48,7 +48,7 @@ class ContactSearch {
     found_.begin.lower = std::max(0.0, balls.free_until);
     found_.end.upper = std::min(duration_, balls.free_from);
     for (ContactTolerance finer = tolerance_; Search(finer);) {
-      if (IsAnswered() || exhausted_ || IsFinest(finer)) return Told();
+      if (IsAnswered() || exhausted_ || IsFinest(finer)) return Result();
       finer = {kFiner * finer.absolute, kFiner * finer.relative};
     }
     return Free(duration_);
@@ -104,7 +104,7 @@ class ContactSearch {
     end.lower = backward->ContactAfter(end.upper, end.lower).value_or(end.lower);
   }
 
-  TimeOfContactResult Told() {
+  TimeOfContactResult Result() {
     if (!IsContact()) {
       found_.begin.upper = found_.end.upper;
       found_.end.lower = found_.begin.lower;

@@ -19,9 +19,9 @@ constexpr double kFirstPlace = 0x1p-16;
 
 class Shifting {
  public:
-  Shifting(const PosedPair& pair, const Eigen::Vector3d& n, const ContactWitness& evidence,
+  Shifting(const PosedPair& pair, const Eigen::Vector3d& n, const ContactWitness& witness,
            WorkBudget* work)
-      : a_(pair.a), b_(pair.b), pose_(pair.pose), n_(n), evidence_(evidence), work_(*work) {}
+      : a_(pair.a), b_(pair.b), pose_(pair.pose), n_(n), witness_(witness), work_(*work) {}
 
   double Least(double known) {
     const double most = kWorthwhile * known;
@@ -55,34 +55,34 @@ class Shifting {
   }
 
   bool Shows(double shift) {
-    const SeparationBracket look = RecheckWitness({a_, b_, At(shift)}, evidence_, &work_);
-    return look.CertainlyTouching(0);
+    const SeparationBracket bracket = RecheckWitness({a_, b_, At(shift)}, witness_, &work_);
+    return bracket.CertainlyTouching(0);
   }
 
   /// How much less of a shift would do as well; negative: it may not do itself.
   double Spare(double shift) {
     const Decision decision = DecideAt({a_, b_, At(shift)}, &work_);
-    if (decision.look.evidence.kind != ContactWitness::Kind::kNone)
-      evidence_ = decision.look.evidence;
+    if (decision.bracket.witness.kind != ContactWitness::Kind::kNone)
+      witness_ = decision.bracket.witness;
     if (decision.verdict != Verdict::kApart) return -1;
     // Surfaces so far apart do not meet on the way, and what is outside remains outside.
-    return std::max(0.0, decision.look.lower);
+    return std::max(0.0, decision.bracket.lower);
   }
 
   const BodyTree& a_;
   const BodyTree& b_;
   const RelativePose& pose_;
   const Eigen::Vector3d n_;
-  ContactWitness evidence_;
+  ContactWitness witness_;
   WorkBudget& work_;
 };
 
 }  // namespace
 
 double LocalSeparatingTranslation(const PosedPair& pair, const Eigen::Vector3d& n, double known,
-                                  const ContactWitness& evidence, WorkBudget* work) {
+                                  const ContactWitness& witness, WorkBudget* work) {
   if (!std::isfinite(known) || work->exhausted()) return known;
-  return Shifting(pair, n, evidence, work).Least(known);
+  return Shifting(pair, n, witness, work).Least(known);
 }
 
 }  // namespace collision::narrow_phase

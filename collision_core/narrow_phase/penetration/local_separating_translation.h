@@ -24,9 +24,9 @@ inline constexpr std::uint64_t kPastUnits = 3000;
 /// `known`: a shift, along any direction, that takes the two apart. If B is not apart after three
 /// quarters of it along n, or the work was spent before, the result is `known`; else a shift found
 /// in steps of four, then by halves: at three quarters of it the two are not known to be apart, or
-/// it is a 2^-16th of `known`. `evidence` of contact, if there is any, saves work. Requires |n|
+/// it is a 2^-16th of `known`. `witness` of contact, if there is any, saves work. Requires |n|
 /// within 2^-50 of 1.
 double LocalSeparatingTranslation(const PosedPair& pair, const Eigen::Vector3d& n, double known,
-                                  const ContactWitness& evidence, WorkBudget* work);
+                                  const ContactWitness& witness, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

@@ -102,7 +102,7 @@ double SeparatingTranslationAlong(const PosedPair& pair, const Vector3d& n, Work
          turning * (1 + 0x1p-40);
 }
 
-double SeparatingTranslation(const PosedPair& pair, const ContactWitness& evidence,
+double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witness,
                              WorkBudget* work) {
   const auto& [a, b, pose] = pair;
   // What shows the contact first: bodies that touch are mostly taken apart across it.
@@ -114,18 +114,18 @@ double SeparatingTranslation(const PosedPair& pair, const ContactWitness& eviden
   const auto add_axis = [&](const Vector3d& axis) {
     add(axis.dot(pose.p_AB) < 0 ? Vector3d(-axis) : axis);
   };
-  if (evidence.kind == ContactWitness::Kind::kNodes) {
-    add(pose.ToA(b.node(evidence.b).centre) - a.node(evidence.a).centre);
+  if (witness.kind == ContactWitness::Kind::kNodes) {
+    add(pose.ToA(b.node(witness.b).centre) - a.node(witness.a).centre);
   }
-  if (evidence.kind == ContactWitness::Kind::kTriangles) {
-    if (AnySolid(a, evidence.a, b, evidence.b)) {
+  if (witness.kind == ContactWitness::Kind::kTriangles) {
+    if (AnySolid(a, witness.a, b, witness.b)) {
       geometry::GjkHint none;
-      add(SeparationOf(PosedA(SetOf(a, evidence.a), pose), PosedB(SetOf(b, evidence.b), pose), {},
+      add(SeparationOf(PosedA(SetOf(a, witness.a), pose), PosedB(SetOf(b, witness.b), pose), {},
                        &none, work)
               .normal);
     }
-    add(NormalOf(a, evidence.a));
-    add(pose.R_AB * -NormalOf(b, evidence.b));
+    add(NormalOf(a, witness.a));
+    add(pose.R_AB * -NormalOf(b, witness.b));
   }
   add(pose.p_AB);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -142,7 +142,7 @@ double SeparatingTranslation(const PosedPair& pair, const ContactWitness& eviden
   least = std::max(0.0, least);
   WorkBudget own(std::min(kPastUnits, work->left()));
   for (const Vector3d& way : ways)
-    least = LocalSeparatingTranslation(pair, way, least, evidence, &own);
+    least = LocalSeparatingTranslation(pair, way, least, witness, &own);
   work->Spend(own.spent());
   return least;
 }

@@ -25,7 +25,7 @@ double SeparatingTranslationAlong(const PosedPair& pair, const Eigen::Vector3d& 
 /// The least of some: across what shows the contact, away from each other's reference points, and
 /// along the axes of both bodies; each by SeparatingTranslationAlong() and, with kPastUnits for
 /// all, by LocalSeparatingTranslation(). The translational penetration depth is no more.
-double SeparatingTranslation(const PosedPair& pair, const ContactWitness& evidence,
+double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witness,
                              WorkBudget* work);
 
 }  // namespace collision::narrow_phase

@@ -59,7 +59,7 @@ class Refinement {
   /// Σ weight · width over all pairs [m].
   double TotalWidth() const;
   /// The whole answer of a pair, once.
-  SeparationBracket Told(std::size_t pair) { return entries_[pair].search.Told(); }
+  SeparationBracket Result(std::size_t pair) { return entries_[pair].search.Result(); }
 
  private:
   struct Entry {

@@ -40,13 +40,13 @@ SeparationBracket BracketSeparation(const PosedPair& pair, const BracketToleranc
                                     WorkBudget* work);
 
 /// Re-tests this witness only: contact is reported in full, `lower` stays −infinity.
-SeparationBracket RecheckWitness(const PosedPair& pair, const ContactWitness& evidence,
+SeparationBracket RecheckWitness(const PosedPair& pair, const ContactWitness& witness,
                                  WorkBudget* work);
 
 /// A verdict, and the bracket that was found on the way.
 struct Decision {
   Verdict verdict = Verdict::kUndecided;
-  SeparationBracket look;  ///< The bracket of the surfaces, as far as it was needed.
+  SeparationBracket bracket;  ///< The bracket of the surfaces, as far as it was needed.
 };
 
 /// Goal::kYesNo, and where the surfaces are apart, whether one is inside the other. The uncertainty

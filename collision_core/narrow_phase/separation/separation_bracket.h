@@ -55,7 +55,7 @@ struct SeparationBracket {
   double upper = numeric::kInfinity;  ///< At most; below 0: the bodies overlap by at least −upper.
   /// Crossing triangles: contact is certain while no corner of theirs moves further than this.
   double crossing_margin = -numeric::kInfinity;
-  ContactWitness evidence;  ///< Of contact, where it is certain.
+  ContactWitness witness;   ///< Of contact, where it is certain.
   std::uint32_t level = 0;  ///< The deepest level of the sphere trees that was opened.
   bool exhausted = false;   ///< The work allowed is spent.
 

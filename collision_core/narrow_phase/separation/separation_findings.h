@@ -32,11 +32,11 @@ class SeparationFindings {
   /// Pairs farther apart than this need not be measured: the answer is the same without them [m].
   double Limit() const;
   /// Contact is certain.
-  bool Touching() const { return look_.CertainlyTouching(pose_.translation); }
+  bool Touching() const { return bracket_.CertainlyTouching(pose_.translation); }
   /// No further pair can improve the answer.
   bool Settled() const;
 
-  const SeparationBracket& look() const { return look_; }
+  const SeparationBracket& bracket() const { return bracket_; }
   double slack() const { return slack_; }
   /// From A to B along the shortest way found so far: a unit vector but for rounding; zero if there is
   /// none.
@@ -49,7 +49,7 @@ class SeparationFindings {
   /// Measures two balls, given by their numbers in the sphere trees; returns the lower bound.
   double MeasureNodes(std::uint32_t a, std::uint32_t b);
   /// Adds an upper bound of the distance, found for some pair of balls.
-  void LowerUpper(double upper) { look_.upper = std::min(look_.upper, upper); }
+  void LowerUpper(double upper) { bracket_.upper = std::min(bracket_.upper, upper); }
   /// Measures two triangles that the filter could not separate; returns the lower bound.
   /// `likely_to_cross`: the test for a crossing comes first.
   double MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
@@ -58,10 +58,10 @@ class SeparationFindings {
   /// Measures any two elements; two triangles by MeasureTriangles().
   double MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
   /// Tests only whether two elements are certainly in contact.
-  void CrossAgain(std::uint32_t a, std::uint32_t b, WorkBudget* work);
+  void RecheckElements(std::uint32_t a, std::uint32_t b, WorkBudget* work);
 
   /// The whole answer. `unopened`: a lower bound on the distance of all pairs that were not opened.
-  SeparationBracket Told(double unopened, bool exhausted, std::uint32_t level);
+  SeparationBracket Result(double unopened, bool exhausted, std::uint32_t level);
 
  private:
   ConvexQuestion SolidsQuestion() const;
@@ -90,14 +90,14 @@ class SeparationFindings {
   double resolved_lower_ = numeric::kInfinity;
   std::optional<NearestWay> way_;
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();
-  SeparationBracket look_;
+  SeparationBracket bracket_;
 };
 
 // The resolved pairs bound the distance from below: once that bound is positive, pairs farther away
 // cannot improve the bracket. While it is not positive, other pairs may still be found to cross,
 // unless they are certainly apart themselves.
 inline double SeparationFindings::Limit() const {
-  const double upper = look_.upper, moved = pose_.translation;
+  const double upper = bracket_.upper, moved = pose_.translation;
   if (goal_ == Goal::kNearest) return std::max(0.0, upper + 2 * moved);
   const double resolved = resolved_lower_ > 0 ? resolved_lower_ : numeric::kInfinity;
   if (narrow_) {
@@ -109,7 +109,7 @@ inline double SeparationFindings::Limit() const {
 }
 
 inline bool SeparationFindings::Settled() const {
-  if (goal_ == Goal::kNearest) return look_.upper <= 0 || look_.ways.size() > kWaysMax;
+  if (goal_ == Goal::kNearest) return bracket_.upper <= 0 || bracket_.ways.size() > kWaysMax;
   return goal_ != Goal::kContact && Touching();
 }
 

@@ -272,10 +272,10 @@ double SeparationSearch::lower() const {
   return std::max(root_lower_, std::min({findings_.resolved_lower(), least, beyond}));
 }
 
-SeparationBracket SeparationSearch::Told() {
+SeparationBracket SeparationSearch::Result() {
   const std::uint32_t level = std::max(a_.node(body_a_.NodeOf(deepest_a_)).level,
                                        b_.node(body_b_.NodeOf(deepest_b_)).level);
-  return findings_.Told(lower(), !done_, level);
+  return findings_.Result(lower(), !done_, level);
 }
 
 }  // namespace collision::narrow_phase

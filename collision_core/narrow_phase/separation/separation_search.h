@@ -54,10 +54,10 @@ class SeparationSearch {
 
   /// The bracket as it is.
   double lower() const;
-  double upper() const { return findings_.look().upper; }
+  double upper() const { return findings_.bracket().upper; }
 
   /// The answer. The search ends with this call.
-  SeparationBracket Told();
+  SeparationBracket Result();
 
  private:
   struct Opening;

@@ -72,7 +72,7 @@ struct Pair {
   BodyTree a{bodies.a}, b{bodies.b};
   RelativePose pose = PoseAt(bodies.a, bodies.b, BestBounds(bodies.a, bodies.b, 0.4), 0.4);
 
-  Pair(const Body& first, const Body& second, Told told)
+  Pair(const Body& first, const Body& second, Result told)
       : bodies(SegmentsOf(Known(first, 1, told), Known(second, 1, told), Instant())) {}
 
   SegmentResult Balls() const { return EvaluateBallSegment(bodies.a.ball, bodies.b.ball, 1); }
@@ -188,7 +188,7 @@ TEST(Budget, IsOverrunByABatchAtMost) {
       SCOPED_TRACE(std::string(bodies[i].first) + ' ' + bodies[j].first);
       int number = 0;
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
-        const Pair pair(a, b, number++ % 2 == 0 ? Told::kAtStart : Told::kAtBoth);
+        const Pair pair(a, b, number++ % 2 == 0 ? Result::kAtStart : Result::kAtBoth);
         for (const auto& [what, ask] : Questions()) {
           ExpectWithinBatch(what, pair, ask);
         }
@@ -205,7 +205,7 @@ TEST(Budget, WhatItEndsStillHolds) {
     for (std::size_t j = std::max<std::size_t>(i, 1); j < bodies.size(); ++j) {
       SCOPED_TRACE(std::string(bodies[i].first) + ' ' + bodies[j].first);
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
-        const Pair pair(a, b, Told::kAtStart);
+        const Pair pair(a, b, Result::kAtStart);
         const auto& [of_a, of_b] = pair.bodies;
         WorkBudget plenty(1'000'000);
         const TimeOfContactResult best = TimeOfContact(of_a, of_b, 1, {}, &plenty);
@@ -228,8 +228,8 @@ TEST(Budget, WhatItEndsStillHolds) {
 }
 
 /// Of what is apart by less than nothing the depth does not count.
-numeric::Interval DistanceIn(const SeparationBracket& look) {
-  return {std::max(0.0, look.lower), std::max(0.0, look.upper)};
+numeric::Interval DistanceIn(const SeparationBracket& bracket) {
+  return {std::max(0.0, bracket.lower), std::max(0.0, bracket.upper)};
 }
 
 // The same search, further along.
@@ -239,7 +239,7 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
     for (std::size_t j = std::max<std::size_t>(i, 1); j < bodies.size(); ++j) {
       SCOPED_TRACE(std::string(bodies[i].first) + ' ' + bodies[j].first);
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
-        const Pair pair(a, b, Told::kAtStart);
+        const Pair pair(a, b, Result::kAtStart);
         std::vector<numeric::Interval> last(6, {0, numeric::kInfinity});
         Verdict verdict = Verdict::kUndecided;
         for (std::uint64_t allowed = 0; allowed <= kMost; allowed = allowed * 3 / 2 + 1) {

@@ -181,16 +181,16 @@ TEST(Compound, LooksSayWhatAllPairsSay) {
     numeric::Interval before{-numeric::kInfinity, numeric::kInfinity};
     for (std::uint64_t units = 0;; units = 3 * units + 20) {
       WorkBudget work(units);
-      const SeparationBracket look = QuerySeparation({a, b, pose}, Goal::kDecision, &work);
-      if (look.upper > 0 && !inside) {
-        EXPECT_LE(look.lower, least.upper + rounding);
-        EXPECT_GE(look.upper, std::max(0.0, least.lower) - rounding);
+      const SeparationBracket bracket = QuerySeparation({a, b, pose}, Goal::kDecision, &work);
+      if (bracket.upper > 0 && !inside) {
+        EXPECT_LE(bracket.lower, least.upper + rounding);
+        EXPECT_GE(bracket.upper, std::max(0.0, least.lower) - rounding);
       }
-      EXPECT_GE(look.lower, before.lower);
-      EXPECT_LE(look.upper, before.upper);
+      EXPECT_GE(bracket.lower, before.lower);
+      EXPECT_LE(bracket.upper, before.upper);
       EXPECT_LE(work.spent(), units + kBatchUnits);
-      before = {look.lower, look.upper};
-      if (!look.exhausted) break;
+      before = {bracket.lower, bracket.upper};
+      if (!bracket.exhausted) break;
     }
     if (least.lower > rounding) {
       EXPECT_NE(decision.verdict, Verdict::kUndecided);

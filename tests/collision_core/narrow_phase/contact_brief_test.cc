@@ -20,7 +20,7 @@ void ExpectAsAsked(numeric::Interval bracket, Real truth, const ContactTolerance
 
 // Both ends contain the truth and are as narrow as asked for, at every tolerance.
 void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real end) {
-  for (const Told told : {Told::kAtStart, Told::kAtEnd, Told::kAtBoth}) {
+  for (const Result told : {Result::kAtStart, Result::kAtEnd, Result::kAtBoth}) {
     for (const ContactTolerance& tolerance : kTolerances) {
       for (const bool swapped : {false, true}) {
         const TimeOfContactResult found =
@@ -39,7 +39,7 @@ void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real
 
 void ExpectFree(const Body& a, const Body& b, double duration) {
   for (const ContactTolerance& tolerance : kTolerances) {
-    const TimeOfContactResult found = Find(a, b, duration, Told::kAtBoth, tolerance);
+    const TimeOfContactResult found = Find(a, b, duration, Result::kAtBoth, tolerance);
     EXPECT_EQ(found.status, ContactStatus::kFree) << tolerance.absolute;
   }
 }
@@ -87,7 +87,7 @@ TEST_P(BriefContactOf, BallThatGrazesAnEdge) {
     const Real middle = (static_cast<Real>(ball.p.y()) - ball.p.x()) * std::sqrt(0.5L);
     const Real speed = static_cast<Real>(slope) * std::sqrt(2.0L);
     for (const ContactTolerance& tolerance : kTolerances) {
-      const TimeOfContactResult found = Find(ball, cube, 2, Told::kAtStart, tolerance);
+      const TimeOfContactResult found = Find(ball, cube, 2, Result::kAtStart, tolerance);
       ASSERT_EQ(found.status, ContactStatus::kContact) << tolerance.absolute;
       // Rounding moves the ends by its share of the depth.
       EXPECT_LE(found.begin.lower, (middle - half) / speed + 1e-11);
@@ -168,7 +168,7 @@ TEST(BriefContact, AfterATouchThatIsUndecided) {
       Joined(Box({-300, 0.25, -1}, {-299, 1, 1}), Box({100, -1, -1}, {100.002, 1, 1}));
   const Body scene{shape::Shape::Build(plates)};
   for (const ContactTolerance& tolerance : kTolerances) {
-    const TimeOfContactResult found = Find(ball, scene, 1, Told::kAtStart, tolerance);
+    const TimeOfContactResult found = Find(ball, scene, 1, Result::kAtStart, tolerance);
     ASSERT_EQ(found.status, ContactStatus::kContact) << tolerance.absolute;
     EXPECT_LE(found.begin.lower, 0.2 + 1e-12);
     EXPECT_GE(found.begin.upper, 0.59975 - 1e-12);
@@ -188,14 +188,14 @@ TEST_P(BriefContactOf, AtTheEndsOfTheSegment) {
   const Body plate{PlateOf(1e-3)};
   for (const ContactTolerance& tolerance : kTolerances) {
     const Body leaving{nullptr, 0.25, {0.25, 0, 0}, {100, 0, 0}};
-    const TimeOfContactResult found = Find(leaving, plate, 1, Told::kAtBoth, tolerance);
+    const TimeOfContactResult found = Find(leaving, plate, 1, Result::kAtBoth, tolerance);
     ASSERT_EQ(found.status, ContactStatus::kContact);
     EXPECT_EQ(found.begin.upper, 0);
     EXPECT_LE(found.end.lower, 1e-5 * (1 + 1e-9));
     EXPECT_GE(found.end.upper, 1e-5 * (1 - 1e-9));
     EXPECT_EQ(found.limited_by, EventLimit::kNone);
     const Body coming{nullptr, 0.25, {-100.25, 0, 0}, {100, 0, 0}};
-    const TimeOfContactResult last = Find(coming, plate, 1, Told::kAtBoth, tolerance);
+    const TimeOfContactResult last = Find(coming, plate, 1, Result::kAtBoth, tolerance);
     ASSERT_EQ(last.status, ContactStatus::kContact);
     EXPECT_LE(last.begin.lower, 1 - 1e-5 * (1 - 1e-9));
     EXPECT_GE(last.begin.upper, 1 - 1e-5 * (1 + 1e-9));
@@ -227,7 +227,7 @@ TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
     frees += best.status == ContactStatus::kFree;
     unknown += best.limited_by == EventLimit::kMotion;
     for (const ContactTolerance& tolerance : kTolerances) {
-      const TimeOfContactResult found = Find(a, b, 1, Told::kAtStart, tolerance);
+      const TimeOfContactResult found = Find(a, b, 1, Result::kAtStart, tolerance);
       EXPECT_EQ(found.status, best.status) << tolerance.absolute;
       if (best.status != ContactStatus::kContact) continue;
       EXPECT_LE(found.begin.lower, best.begin.upper);

@@ -108,7 +108,7 @@ TEST_P(ContainmentTest, ManyPartsStayWithinTheBudget) {
     WorkBudget work(units);
     const Decision decision = DecideAt({BodyTree(cube), BodyTree(cloud), pose}, &work);
     EXPECT_EQ(decision.verdict, Verdict::kUndecided);
-    EXPECT_TRUE(decision.look.exhausted);
+    EXPECT_TRUE(decision.bracket.exhausted);
     EXPECT_LE(work.spent(), units + kBatch);
   }
   WorkBudget enough(1000000);

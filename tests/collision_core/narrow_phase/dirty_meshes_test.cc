@@ -49,20 +49,20 @@ void ExpectLook(const Posed& a, const Posed& b, std::uint64_t units, bool brute)
   const BodyTree surface_a(of_a), surface_b(of_b);
   const RelativePose pose = PoseBetween(of_a, of_b);
   WorkBudget work(units);
-  const SeparationBracket look =
+  const SeparationBracket bracket =
       QuerySeparation({surface_a, surface_b, pose}, Goal::kDecision, &work);
   EXPECT_LE(work.spent(), units + kBatchUnits);
-  EXPECT_FALSE(std::isnan(look.lower) || std::isnan(look.upper));
+  EXPECT_FALSE(std::isnan(bracket.lower) || std::isnan(bracket.upper));
   WorkBudget more(units);
   const Decision decision = DecideAt({surface_a, surface_b, pose}, &more);
   if (!brute) return;
   const TrueBody body_a = a.Body(), body_b = b.Body();
   const Real surfaces = SurfaceDistance(body_a, body_b), solids = SolidDistance(body_a, body_b);
   const Real tolerance = 1e-15L * (surface_a.reach() + surface_b.reach());
-  if (look.upper > 0) {
-    EXPECT_LE(look.lower, surfaces + tolerance);
+  if (bracket.upper > 0) {
+    EXPECT_LE(bracket.lower, surfaces + tolerance);
   }
-  EXPECT_GE(std::max(0.0, look.upper), solids - tolerance);
+  EXPECT_GE(std::max(0.0, bracket.upper), solids - tolerance);
   if (decision.verdict == Verdict::kApart) {
     EXPECT_GT(solids, 0);
   }
@@ -86,7 +86,7 @@ TrueBody After(const Body& body, double seconds) {
 }
 
 void ExpectMotion(const Body& a, const Body& b, std::uint64_t units, bool brute) {
-  const TimeOfContactResult found = Find(a, b, 1, Told::kAtStart, {1e-4, 0}, units);
+  const TimeOfContactResult found = Find(a, b, 1, Result::kAtStart, {1e-4, 0}, units);
   EXPECT_LE(found.begin.lower, found.begin.upper);
   EXPECT_LE(found.end.lower, found.end.upper);
   if (!brute) return;

@@ -175,10 +175,10 @@ TEST(HullGap, DecidesAsTheTreesDo) {
     WorkBudget work(kUnlimited);
     const Decision decision = DecideAt({a, b, pose}, &work);
     if (decision.verdict != Verdict::kApart) continue;
-    const SeparationBracket look = QuerySeparation({a, b, pose}, Goal::kNearest, &work);
-    EXPECT_GT(look.upper, 0);
-    EXPECT_LE(decision.look.lower, look.upper);
-    EXPECT_LE(look.lower, decision.look.upper);
+    const SeparationBracket bracket = QuerySeparation({a, b, pose}, Goal::kNearest, &work);
+    EXPECT_GT(bracket.upper, 0);
+    EXPECT_LE(decision.bracket.lower, bracket.upper);
+    EXPECT_LE(bracket.lower, decision.bracket.upper);
     EXPECT_TRUE(TestContainment({a, b, pose}, &work).neither);
     by_hull += GapAt(a, b, pose, pose.translation) > pose.translation;
   }

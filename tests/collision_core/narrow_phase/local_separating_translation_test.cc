@@ -17,10 +17,10 @@ struct Pair {
   BodyTree surface_a{a}, surface_b{b};
   RelativePose pose = PoseBetween(a, b);
 
-  double Past(const Vector3d& n, double known, const ContactWitness& evidence = {},
+  double Past(const Vector3d& n, double known, const ContactWitness& witness = {},
               std::uint64_t units = kPlenty) const {
     WorkBudget work(units);
-    return LocalSeparatingTranslation({surface_a, surface_b, pose}, n, known, evidence, &work);
+    return LocalSeparatingTranslation({surface_a, surface_b, pose}, n, known, witness, &work);
   }
   double Along(const Vector3d& n) const {
     WorkBudget work(kPlenty);
@@ -28,7 +28,7 @@ struct Pair {
   }
   double Apart() const {
     WorkBudget work(kPlenty);
-    return SeparatingTranslation({surface_a, surface_b, pose}, Touching().evidence, &work);
+    return SeparatingTranslation({surface_a, surface_b, pose}, Touching().witness, &work);
   }
   SeparationBracket Touching() const {
     WorkBudget work(kPlenty);
@@ -125,7 +125,7 @@ TEST(LocalSeparatingTranslation, WhatIsToldTakesTheTwoApart) {
     const Posed b = RandomBody(random, other, random.Uniform(0, 1) * size * RandomUnit(random));
     const Pair pair{a.Segment(), b.Segment()};
     const Vector3d n = random.UnitVector();
-    const double along = pair.Along(n), past = pair.Past(n, along, pair.Touching().evidence);
+    const double along = pair.Along(n), past = pair.Past(n, along, pair.Touching().witness);
     EXPECT_LE(past, along);
     if (past == along) continue;
     ++told;

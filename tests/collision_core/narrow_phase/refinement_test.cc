@@ -90,7 +90,7 @@ TEST_P(RefinementTest, WithAllTheWorkItIsTheLookAlone) {
     search.Refine(&own);
     alone += own.spent();
     EXPECT_EQ(refinement.At(pair).spent, own.spent());
-    const SeparationBracket x = refinement.Told(pair), y = search.Told();
+    const SeparationBracket x = refinement.Result(pair), y = search.Result();
     EXPECT_EQ(x.lower, y.lower);
     EXPECT_EQ(x.upper, y.upper);
     EXPECT_EQ(x.point, y.point);

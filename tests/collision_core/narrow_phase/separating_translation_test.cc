@@ -79,10 +79,10 @@ double DepthOf(const Body& a, const Body& b) {
   const BodyTree surface_a(of_a), surface_b(of_b);
   const RelativePose pose = PoseBetween(of_a, of_b);
   WorkBudget work(1'000'000);
-  const SeparationBracket look =
+  const SeparationBracket bracket =
       QuerySeparation({surface_a, surface_b, pose}, Goal::kContact, &work);
-  EXPECT_LE(look.upper, 0);
-  return SeparatingTranslation({surface_a, surface_b, pose}, look.evidence, &work);
+  EXPECT_LE(bracket.upper, 0);
+  return SeparatingTranslation({surface_a, surface_b, pose}, bracket.witness, &work);
 }
 
 TEST(SeparatingTranslation, BodiesThatRestOnFacesAreToldExactly) {

@@ -57,8 +57,8 @@ void ExpectSame(const SeparationBracket& x, const SeparationBracket& y) {
   EXPECT_EQ(x.crossing_margin, y.crossing_margin);
   EXPECT_EQ(x.point, y.point);
   EXPECT_EQ(x.point_error, y.point_error);
-  EXPECT_EQ(x.evidence.a, y.evidence.a);
-  EXPECT_EQ(x.evidence.b, y.evidence.b);
+  EXPECT_EQ(x.witness.a, y.witness.a);
+  EXPECT_EQ(x.witness.b, y.witness.b);
   EXPECT_EQ(x.ways.size(), y.ways.size());
   EXPECT_EQ(x.level, y.level);
   EXPECT_EQ(x.exhausted, y.exhausted);
@@ -109,7 +109,7 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
         pause = pause % 50 + 1;
       }
       EXPECT_EQ(spent, unlimited.spent());
-      ExpectSame(in_steps->Told(), at_once->Told());
+      ExpectSame(in_steps->Result(), at_once->Result());
     }
   }
   EXPECT_GT(most, 8u);
@@ -128,7 +128,7 @@ TEST(SeparationSearch, SameBitsForEveryWidthOfVectors) {
         search.Start(&work);
         search.Refine(&work);
         *spent = work.spent();
-        return search.Told();
+        return search.Result();
       };
       std::uint64_t plain_units = 0, wide_units = 0;
       const SeparationBracket plain = look_with(*PlainSpherePairKernel(), &plain_units);
@@ -151,14 +151,14 @@ TEST(SeparationSearch, BracketsAreAsNarrowAsAsked) {
     for (const double width : {0.1, 0.01, 1e-4, 0.0}) {
       for (const double share : {0.0, 1e-6, 0.1}) {
         WorkBudget work(kUnlimited);
-        const SeparationBracket look = BracketSeparation(
+        const SeparationBracket bracket = BracketSeparation(
             {pair.surface_a, pair.surface_b, pair.pose}, {width * pair.size(), share}, &work);
-        EXPECT_FALSE(look.exhausted);
-        if (look.upper <= 0) continue;  // one inside the other, or in contact
-        EXPECT_LE(look.lower, truth + floor);
-        EXPECT_GE(look.upper, SolidDistance(pair.a.Body(), pair.b.Body()) - floor);
-        EXPECT_LE(look.upper - look.lower,
-                  std::max<Real>(std::max(width * pair.size(), share * look.lower), 10 * floor));
+        EXPECT_FALSE(bracket.exhausted);
+        if (bracket.upper <= 0) continue;  // one inside the other, or in contact
+        EXPECT_LE(bracket.lower, truth + floor);
+        EXPECT_GE(bracket.upper, SolidDistance(pair.a.Body(), pair.b.Body()) - floor);
+        EXPECT_LE(bracket.upper - bracket.lower,
+                  std::max<Real>(std::max(width * pair.size(), share * bracket.lower), 10 * floor));
         ++apart;
       }
     }
@@ -193,8 +193,8 @@ TEST(SeparationSearch, DecisionsAreRight) {
       case Verdict::kApart:
         ++apart;
         EXPECT_GT(truth, 0);
-        EXPECT_LE(decision.look.lower, truth + floor);
-        EXPECT_GT(decision.look.lower, 0);
+        EXPECT_LE(decision.bracket.lower, truth + floor);
+        EXPECT_GT(decision.bracket.lower, 0);
         break;
       case Verdict::kTouching:
         ++touching;
@@ -242,13 +242,13 @@ TEST(SeparationSearch, FarApartIsSeenAtOnce) {
     const Decision decision = DecideAt({near.surface_a, near.surface_b, pose}, &work);
     EXPECT_EQ(decision.verdict, Verdict::kApart);
     EXPECT_EQ(work.spent(), 1u);
-    EXPECT_LE(decision.look.lower, away * near.size());
+    EXPECT_LE(decision.bracket.lower, away * near.size());
     if (away > 1e100) continue;  // squares overflow: less is known, nothing wrong
-    const SeparationBracket look =
+    const SeparationBracket bracket =
         BracketSeparation({near.surface_a, near.surface_b, pose}, {0, 1e-6}, &work);
-    EXPECT_LE(look.upper - look.lower, 1.1e-6 * look.lower);
-    EXPECT_LE(look.lower, away * near.size());
-    EXPECT_GE(look.upper, (away - 1) * near.size());
+    EXPECT_LE(bracket.upper - bracket.lower, 1.1e-6 * bracket.lower);
+    EXPECT_LE(bracket.lower, away * near.size());
+    EXPECT_GE(bracket.upper, (away - 1) * near.size());
   }
 }
 
@@ -286,12 +286,12 @@ TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {
     for (const bool swapped : {false, true}) {
       const BodyTree a(swapped ? above : flat), b(swapped ? flat : above);
       WorkBudget work(1'000'000);
-      const SeparationBracket look = BracketSeparation(
+      const SeparationBracket bracket = BracketSeparation(
           {a, b, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0))}, {0, 1e-9}, &work);
-      EXPECT_LE(look.lower, 1) << low << swapped;
-      EXPECT_GE(look.lower, 1 - 1e-9) << low << swapped;
-      EXPECT_GE(look.upper, 1) << low << swapped;
-      EXPECT_LE(look.upper, 1 + 1e-9) << low << swapped;
+      EXPECT_LE(bracket.lower, 1) << low << swapped;
+      EXPECT_GE(bracket.lower, 1 - 1e-9) << low << swapped;
+      EXPECT_GE(bracket.upper, 1) << low << swapped;
+      EXPECT_LE(bracket.upper, 1 + 1e-9) << low << swapped;
     }
   }
 }

@@ -37,20 +37,20 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
     double lower = -numeric::kInfinity, upper = numeric::kInfinity;
     for (std::uint64_t units = 0; units < 3000000; units = 4 * units + 50) {
       WorkBudget work(units);
-      const SeparationBracket look = LookOf(a, b, Goal::kDecision, &work);
-      if (look.upper > 0) {
-        EXPECT_LE(look.lower, surfaces + tolerance);
+      const SeparationBracket bracket = LookOf(a, b, Goal::kDecision, &work);
+      if (bracket.upper > 0) {
+        EXPECT_LE(bracket.lower, surfaces + tolerance);
       }
-      EXPECT_GE(std::max(0.0, look.upper), SolidDistance(body_a, body_b) - tolerance);
-      EXPECT_GE(look.lower, lower);
-      EXPECT_LE(look.upper, upper);
-      if (look.upper <= 0) {
+      EXPECT_GE(std::max(0.0, bracket.upper), SolidDistance(body_a, body_b) - tolerance);
+      EXPECT_GE(bracket.lower, lower);
+      EXPECT_LE(bracket.upper, upper);
+      if (bracket.upper <= 0) {
         ++deep;
-        const Vector by = (-look.upper * 0.999L) * RandomUnit(random);
+        const Vector by = (-bracket.upper * 0.999L) * RandomUnit(random);
         EXPECT_EQ(SolidDistance(body_a, body_b.Moved(by)), 0);
       }
-      lower = look.lower, upper = look.upper;
-      if (!look.exhausted) break;
+      lower = bracket.lower, upper = bracket.upper;
+      if (!bracket.exhausted) break;
     }
     WorkBudget unlimited(100000000);
     const SeparationBracket nearest = LookOf(a, b, Goal::kNearest, &unlimited);
@@ -88,13 +88,13 @@ TEST(Separation, TurningIsCountedInAtEveryBudget) {
     }
     for (const std::uint64_t units : {0, 10, 30, 100, 1000, 1000000}) {
       WorkBudget work(units);
-      const SeparationBracket look =
+      const SeparationBracket bracket =
           QuerySeparation({BodyTree(of_a), BodyTree(of_b), pose}, Goal::kDecision, &work);
       for (const Real distance : distances) {
-        if (look.upper > 0 && distance > 0) {
-          EXPECT_LE(look.lower, distance + 1e-15L) << units;
+        if (bracket.upper > 0 && distance > 0) {
+          EXPECT_LE(bracket.lower, distance + 1e-15L) << units;
         }
-        EXPECT_GE(std::max(0.0, look.upper), distance - 1e-15L) << units;
+        EXPECT_GE(std::max(0.0, bracket.upper), distance - 1e-15L) << units;
       }
     }
   }

@@ -90,11 +90,12 @@ double DepthAfter(const BodySegment& a, const BodySegment& b, const Eigen::Matri
                   Vector3d offset, const Vector3d& step) {
   const BodyTree of_a(a), of_b(b);
   WorkBudget work(kPlenty);
-  const auto clues = FindContactCandidates({of_a, of_b, PoseOf(matrix, offset)}, 1e-9, 0, 0, &work);
+  const auto candidates =
+      FindContactCandidates({of_a, of_b, PoseOf(matrix, offset)}, 1e-9, 0, 0, &work);
   const RelativePose after = PoseOf(matrix, offset + step);
   double upper = numeric::kInfinity;
-  for (const ContactCandidate& clue : clues) {
-    upper = std::min(upper, UpperBy(clue.point, {of_a, of_b, after}, &work));
+  for (const ContactCandidate& candidate : candidates) {
+    upper = std::min(upper, UpperBy(candidate.point, {of_a, of_b, after}, &work));
   }
   return -upper;
 }
