@@ -33,7 +33,7 @@ constexpr double kFirstStep = 1e-4;
 constexpr double kStepGrowth = 4;
 constexpr int kHalvings = 5;
 
-// ContactWitness of contact that lasts for less than this share of the step before is not the best
+// A witness of contact that lasts for less than this share of the step before is not the best
 // one.
 constexpr double kFallenShort = 0.25;
 
@@ -148,9 +148,9 @@ Proximity ProximityFrom(const PoseQuery& instance, const ShapeMotion& motion, do
   return proximity;
 }
 
-class Judgement {
+class SegmentEvaluation {
  public:
-  Judgement(const BodySegment& a, const BodySegment& b, double duration, WorkBudget* work)
+  SegmentEvaluation(const BodySegment& a, const BodySegment& b, double duration, WorkBudget* work)
       : motion_(a, b, work),
         duration_(duration),
         size_(a.ball.radius + b.ball.radius),
@@ -379,8 +379,8 @@ class Judgement {
 };
 
 // When, and the direction before; what is told of an instant is left.
-ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judgement* judgement,
-                              WorkBudget* work) {
+ShapeSegmentResult EvaluateTimes(double duration, const SegmentResult& balls,
+                                 SegmentEvaluation* evaluation, WorkBudget* work) {
   ShapeSegmentResult verdict;
   SegmentResult& times = verdict.times;
   if (balls.free_until == numeric::kInfinity || balls.free_from == -numeric::kInfinity) {
@@ -391,7 +391,7 @@ ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judge
   const double from = std::max(0.0, balls.free_until);
   times.free_until = [&] {
     const WorkShare share(kForwardShare, work);
-    return judgement->FreeFrom(from, TimeDirection::kForward);
+    return evaluation->FreeFrom(from, TimeDirection::kForward);
   }();
   if (balls.free_until < 0 && times.free_until == from) times.free_until = balls.free_until;
   if (times.free_until == numeric::kInfinity) {
@@ -401,7 +401,7 @@ ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judge
   const double until = std::min(duration, balls.free_from);
   times.free_from = [&] {
     const WorkShare share(kBackwardShare, work);
-    return judgement->FreeFrom(until, TimeDirection::kBackward);
+    return evaluation->FreeFrom(until, TimeDirection::kBackward);
   }();
   if (times.free_from == -numeric::kInfinity) {  // the same from the other side
     times.free_until = numeric::kInfinity;
@@ -415,11 +415,11 @@ ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judge
   times.free_until = std::min(times.free_until, numeric::NextDown(duration));
   {
     const WorkShare share(kDirectionShare, work);
-    verdict.normal = judgement->Normal();
+    verdict.normal = evaluation->Normal();
   }
-  judgement->FindContact(std::max(0.0, times.free_until), times.free_from, &times);
-  judgement->Sharpen(std::max(0.0, times.free_until), times.free_from, &times);
-  judgement->QueryOnce(std::max(0.0, times.free_until));
+  evaluation->FindContact(std::max(0.0, times.free_until), times.free_from, &times);
+  evaluation->Sharpen(std::max(0.0, times.free_until), times.free_from, &times);
+  evaluation->QueryOnce(std::max(0.0, times.free_until));
   return verdict;
 }
 
@@ -427,25 +427,25 @@ ShapeSegmentResult JudgeTimes(double duration, const SegmentResult& balls, Judge
 
 ShapeSegmentResult EvaluateShapeSegment(const BodySegment& a, const BodySegment& b, double duration,
                                         const SegmentResult& balls, WorkBudget* work) {
-  Judgement judgement(a, b, duration, work);
+  SegmentEvaluation evaluation(a, b, duration, work);
   ShapeSegmentResult verdict = [&] {
     const WorkShare share(kTimesShare, work);
-    return JudgeTimes(duration, balls, &judgement, work);
+    return EvaluateTimes(duration, balls, &evaluation, work);
   }();
-  verdict.exhausted = judgement.exhausted();
-  if (judgement.nearest()) {
+  verdict.exhausted = evaluation.exhausted();
+  if (evaluation.nearest()) {
     verdict.looked = true;
-    verdict.nearest_at = judgement.nearest()->at;
-    verdict.nearest = judgement.NearestProximity();
+    verdict.nearest_at = evaluation.nearest()->at;
+    verdict.nearest = evaluation.NearestProximity();
     const bool contact = verdict.times.contact_from <= verdict.times.contact_to;
-    if (!contact && judgement.exhausted()) verdict.nearest.limited_by = EventLimit::kBudget;
+    if (!contact && evaluation.exhausted()) verdict.nearest.limited_by = EventLimit::kBudget;
   }
   return verdict;
 }
 
 double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double duration,
                  WorkBudget* work) {
-  return Judgement(a, b, duration, work).FreeFrom(from, TimeDirection::kForward);
+  return SegmentEvaluation(a, b, duration, work).FreeFrom(from, TimeDirection::kForward);
 }
 
 ContactNormal NormalAt(const BodySegment& a, const BodySegment& b, double delta, WorkBudget* work) {
