@@ -11,7 +11,7 @@
 // there the shortest way between the two is known. Where they may touch at once it is that of the
 // last state before, unless a jump lies between or the shape was another one. All ways that may be
 // the shortest are kept, and the error covers them all and what the uncertainty can turn them by
-// (derived at DeviationOf). Bodies that overlap have no shortest way; without an approach that was
+// (derived in contact_proximity.cc). Bodies that overlap have no shortest way; without an approach that was
 // seen, the normal is a guess along the centres and its error says so (π).
 //
 // Budgets. With more work a query, a bracket of some width and a refinement take the same steps,
@@ -23,23 +23,11 @@
 
 #include "collision_core/base/work_budget.h"
 #include "collision_core/narrow_phase/contact/ball_contact.h"
+#include "collision_core/narrow_phase/contact/contact_normal.h"
 #include "collision_core/narrow_phase/pose/body_segment.h"
 #include "collision_core/narrow_phase/pose/proximity.h"
 
 namespace collision::narrow_phase {
-
-/// A normal with a smaller error is good enough for a response to the contact [rad].
-inline constexpr double kGoodNormal = 0.3;
-
-/// The direction of the shortest way between two surfaces, shortly before they may touch.
-struct ContactNormal {
-  bool known = false;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< As in Proximity.
-  double error = 0;
-
-  /// Well enough; else an earlier instant is asked as well.
-  bool tells() const { return known && error < kGoodNormal; }
-};
 
 struct ShapeSegmentResult {
   SegmentResult times;

@@ -91,7 +91,7 @@ TEST(ConvexPose, TurningCounts) {
 //         it.
 // Method: a normal (2, 3, 6), 7 long, so that heights are rational; also half-spaces that are
 //         turned.
-TEST(ConvexPose, broad_phase::HalfSpaces) {
+TEST(ConvexPose, HalfSpaces) {
   Random random(332);
   for (int i = 0; i < 500; ++i) {
     const double size = random.LogUniform(1e-3, 1e3);
