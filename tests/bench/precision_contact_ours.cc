@@ -93,7 +93,7 @@ std::optional<double> Step(const ContactCase& of, const narrow_phase::BodySegmen
         balls ? BallsTouch(of, at)
               : narrow_phase::DecideAt(
                     {narrow_phase::BodyTree(a), narrow_phase::BodyTree(b), PoseAt(of, at)}, &work)
-                        .verdict == Verdict::kTouching;
+                        .verdict == narrow_phase::Verdict::kTouching;
     if (touch) return at;
   }
   return std::nullopt;

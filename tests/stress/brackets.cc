@@ -121,7 +121,8 @@ void JudgeBracket(const narrow_phase::BodySegment& first, const narrow_phase::Bo
                   const narrow_phase::RelativePose& pose, Outcome* outcome) {
   const narrow_phase::BodyTree a(first), b(second);
   WorkBudget work(kUnits), again(kUnits);
-  const Look look = narrow_phase::BracketSeparation({a, b, pose}, {0, 0}, &work);
+  const narrow_phase::SeparationBracket look =
+      narrow_phase::BracketSeparation({a, b, pose}, {0, 0}, &work);
   const narrow_phase::Decision decision = narrow_phase::DecideAt({a, b, pose}, &again);
   const Exact square = SquareOfSurfaces(*first.shape, *second.shape, pose);
   outcome->Add("poses", 1);

@@ -87,8 +87,9 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
     const Pair pair = RandomPair(seed);
     for (const Asked& asked : Questions(pair.size())) {
       const auto search = [&] {
-        return std::make_unique<SeparationSearch>(pair.surface_a, pair.surface_b, pair.pose,
-                                                  asked.goal, asked.narrow, asked.order);
+        return std::make_unique<SeparationSearch>(
+            PosedPair{pair.surface_a, pair.surface_b, pair.pose}, asked.goal, asked.narrow,
+            asked.order);
       };
       const auto at_once = search(), in_steps = search();
       WorkBudget unlimited(kUnlimited), first(1);
