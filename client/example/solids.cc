@@ -1,8 +1,8 @@
 // A simulator of one body that is more than a ball: a box on four wheels, exact, in four lines.
 #include <cstdio>
 
-#include "client/shape.h"
-#include "client/world.h"
+#include "client/api/shape.h"
+#include "client/api/world.h"
 
 using namespace collision::client;
 using namespace std::chrono_literals;

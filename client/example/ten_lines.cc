@@ -1,7 +1,7 @@
-// A simulator in ten lines: one ball that flies along x, in step with everybody else in its world.
+// A simulator in ten lines: one ball that flies along x, in step with all simulators of its world.
 #include <cstdio>
 
-#include "client/world.h"
+#include "client/api/world.h"
 
 using namespace collision::client;
 using namespace std::chrono_literals;

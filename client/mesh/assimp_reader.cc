@@ -6,14 +6,14 @@
 #include <exception>
 #include <stdexcept>
 
+#include "client/library/validation.h"
 #include "client/mesh/reader.h"
-#include "client/validation.h"
 
 namespace collision::client {
 namespace {
 
 constexpr int kNodeDepthMax = 512;
-/// A corner of each triangle has its own in some formats, and some are of no face.
+/// Some formats have a vertex for each corner of each triangle, and vertices without a face.
 constexpr std::size_t kVerticesMax = 4 * kShapeTrianglesMax;
 
 const char* Ending(MeshFormat format) {
@@ -39,7 +39,7 @@ Eigen::Matrix4d MatrixOf(const aiMatrix4x4& m) {
   return matrix;
 }
 
-/// All meshes of the scene, each as often as its nodes name it.
+/// Collects all meshes of the scene, each as often as the nodes name it.
 class Collector {
  public:
   explicit Collector(const aiScene& scene) : scene_(scene) {}
@@ -68,12 +68,12 @@ class Collector {
       const Eigen::Vector4d p = matrix * Eigen::Vector4d(v.x, v.y, v.z, 1);
       polygons_.vertices.push_back({p.x(), p.y(), p.z()});
     }
-    // A mirrored part is seen from the other side.
+    // A mirrored part has its outside on the other side.
     const bool mirrored = matrix.topLeftCorner<3, 3>().determinant() < 0;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) Face(mesh.mFaces[i], mesh, first, mirrored);
   }
 
-  /// Points and lines are no faces.
+  /// Skips points and lines.
   void Face(const aiFace& face, const aiMesh& mesh, std::size_t first, bool mirrored) {
     if (face.mNumIndices < 3) return;
     if (polygons_.sizes.size() == kShapeTrianglesMax) {
@@ -94,7 +94,7 @@ class Collector {
   FilePolygons polygons_;
 };
 
-/// Whether the library found what the file holds: it leaves out in silence what it does not like.
+/// Throws unless assimp found all that the file contains: it silently leaves out malformed parts.
 void RequireAll(const aiScene& scene, const MeshScan& scan) {
   std::uint64_t faces = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
@@ -114,13 +114,14 @@ bool ReaderSupported() { return true; }
 FilePolygons ReadPolygons(const std::string& path, MeshFormat format, const std::string& text,
                           const MeshScan& scan) {
   Assimp::Importer importer;
-  // No post-processing: it merges, drops and cuts without a word. glTF may have files beside it.
+  // No post-processing, which silently merges, drops and cuts. A glTF file may refer to other
+  // files.
   const aiScene* const scene =
       format == MeshFormat::kGltf
           ? importer.ReadFile(path, 0)
           : importer.ReadFileFromMemory(text.data(), text.size(), 0, Ending(format));
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    // Such as that there is no memory.
+    // For example std::bad_alloc.
     if (const std::exception_ptr cause = importer.GetException()) std::rethrow_exception(cause);
     throw std::runtime_error(importer.GetErrorString());
   }

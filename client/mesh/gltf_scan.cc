@@ -16,7 +16,7 @@ namespace {
 using google::protobuf::Struct;
 using google::protobuf::Value;
 
-constexpr std::uint64_t kNodeDepthMax = 256;    ///< The library descends once per level.
+constexpr std::uint64_t kNodeDepthMax = 256;    ///< Assimp recurses once per level.
 constexpr double kCountMax = 9007199254740992;  ///< 2^53: JSON's numbers are doubles.
 constexpr std::string_view kBase64 = ";base64,";
 
@@ -27,7 +27,7 @@ const Value* Find(const Struct& object, const std::string& name) {
   return field == object.fields().end() ? nullptr : &field->second;
 }
 
-/// A list of objects or of anything, by its place in the document for messages.
+/// A list in the document, with its place for messages.
 std::vector<const Value*> List(const Struct& object, const std::string& name) {
   std::vector<const Value*> list;
   const Value* const value = Find(object, name);
@@ -104,7 +104,7 @@ class GltfScan {
     if (version.rfind("2.", 0) != 0) Fail("glTF version \"" + version + "\", allowed: 2.x");
   }
 
-  /// What changes only how it looks may be required; compressed geometry is not read.
+  /// Refuses required extensions, except those that change only the looks.
   void RequireKnownExtensions() const {
     for (const Value* extension : List(document_, "extensionsRequired")) {
       const std::string& name = extension->string_value();
@@ -202,7 +202,7 @@ class GltfScan {
     }
   }
 
-  /// Each node has one parent at most, so that the scene is a tree.
+  /// Requires that each node has at most one parent, so that the scene is a tree.
   void Nodes() const {
     const auto nodes = List(document_, "nodes");
     std::vector<std::size_t> parents(nodes.size(), nodes.size());
@@ -239,7 +239,7 @@ class GltfScan {
     }
   }
 
-  /// The meshes that the scene's nodes name: the library reads no others.
+  /// The meshes that the scene's nodes name: assimp reads no others.
   std::set<std::uint64_t> MeshesShown() const {
     const auto nodes = List(document_, "nodes");
     const Value& scene = *List(document_, "scenes")[Count(document_, "scene", 0)];

@@ -6,7 +6,7 @@
 namespace collision::client {
 namespace {
 
-/// Vertices, texture coordinates and normals, as a corner v/t/n names them.
+/// Vertices, texture coordinates and normals, in the order of a corner v/t/n.
 constexpr std::string_view kLists[] = {"v", "vt", "vn"};
 
 class ObjScan {
@@ -124,7 +124,7 @@ class ObjScan {
     return *index;
   }
 
-  /// Indices may come before what they name.
+  /// Checked at the end, since an index may come before what it names.
   void RequireListed(int list) const {
     if (greatest_[list] <= counts_[list]) return;
     Fail(greatest_line_[list], "a face names " + std::string(kLists[list]) + " " +

@@ -54,7 +54,7 @@ struct Header {
   std::size_t body = 0;  ///< Where it begins.
 };
 
-/// Where the line of "end_header" is over.
+/// Where the line of "end_header" ends.
 std::size_t HeaderEnd(std::string_view text) {
   for (std::size_t at = 0; at < text.size();) {
     std::size_t end = text.find('\n', at);
@@ -112,7 +112,7 @@ Header ReadHeader(std::string_view text) {
     } else if (word == "property") {
       if (header.elements.empty()) words.Fail("a property of no element");
       header.elements.back().properties.push_back(ReadProperty(&words));
-      continue;  // Its name is read, and anything behind it is not ours.
+      continue;  // Its name is read; the rest of the line has no meaning here.
     }
     words.SkipLine();
   }
@@ -120,14 +120,14 @@ Header ReadHeader(std::string_view text) {
   return header;
 }
 
-/// Reads the body's values one after the other.
+/// Reads the values of the body in order.
 class Body {
  public:
   virtual ~Body() = default;
   virtual double Value(const Type& type) = 0;
-  /// Skips so many elements of so many bytes each at once, if it can.
+  /// Skips that many elements of that many bytes each at once, if it can.
   virtual bool Skip(std::uint64_t, std::size_t) { return false; }
-  /// What is told of where the reading is.
+  /// The current place, for messages.
   virtual std::string Where() const = 0;
 };
 
@@ -185,7 +185,7 @@ class BinaryBody : public Body {
   std::size_t at_ = 0;
 };
 
-/// Counts the corners of one face and looks at their indices.
+/// Counts the corners of one face and checks their indices.
 void ScanFace(const Element& element, std::uint64_t vertices, Body* body, MeshScan* scan) {
   std::uint64_t corners = 0;
   for (const Property& property : element.properties) {

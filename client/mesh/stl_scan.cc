@@ -32,7 +32,7 @@ void Require(Words* words, std::string_view expected) {
 
 void ScanFacet(Words* words) {
   Require(words, "normal");
-  for (int i = 0; i < 3; ++i) words->Next();  // Not used: the corners' order says where it faces.
+  for (int i = 0; i < 3; ++i) words->Next();  // Unused: the order of the corners gives the outside.
   Require(words, "outer");
   Require(words, "loop");
   for (int corner = 0; corner < 3; ++corner) {
@@ -43,7 +43,7 @@ void ScanFacet(Words* words) {
   Require(words, "endfacet");
 }
 
-/// One solid after the other; whether the last one ends.
+/// Reads one solid after the other; requires that the last one ends.
 MeshScan ScanText(std::string_view text) {
   MeshScan scan;
   Words words(text);

@@ -48,8 +48,8 @@ class Words {
   std::size_t line_ = 1;
 };
 
-/// The whole word as a number, also "inf" and "nan"; nullopt: it is none. One that is too large for a
-/// double is infinite, one that is too small 0.
+/// The whole word as a number, also "inf" and "nan"; nullopt if it is not a number. A number beyond
+/// the range of a double is infinite, one below it 0.
 template <typename Number>
 std::optional<Number> NumberOf(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);

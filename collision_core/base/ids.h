@@ -74,7 +74,9 @@ class IndexedVector {
 
 }  // namespace collision
 
+/// @cond INTERNAL
 template <typename Tag>
 struct std::hash<collision::Index<Tag>> {
   std::size_t operator()(collision::Index<Tag> index) const { return index.value(); }
 };
+/// @endcond

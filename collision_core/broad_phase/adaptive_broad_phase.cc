@@ -154,6 +154,14 @@ void AdaptiveBroadPhase::Meetings(std::uint32_t agent, Instant from, Instant unt
   EndQuestion(before);
 }
 
+void AdaptiveBroadPhase::MeetingsOf(const motion::SpaceTimeBound& bound, Instant from,
+                                    Instant until, const Skip& skip,
+                                    std::vector<Meeting>* meetings) {
+  const BroadPhaseWork before = method_.phase->work();
+  method_.phase->MeetingsOf(bound, from, until, skip, meetings);
+  EndQuestion(before);
+}
+
 void AdaptiveBroadPhase::NearPairs(const intersection::BroadQuery& query,
                                    std::vector<NearPair>* pairs) {
   method_.phase->NearPairs(query, pairs);
@@ -172,7 +180,7 @@ double AdaptiveBroadPhase::Units(BroadPhaseMethod kind, const BroadPhaseWork& do
          kPlaceUnits[static_cast<int>(kind)] * placed;
 }
 
-// The same pairs, found by a test of everybody in each search.
+// The same pairs, found by a test of every agent in each search.
 double AdaptiveBroadPhase::UnitsByAllPairs(const BroadPhaseWork& done) const {
   const auto everybody = static_cast<double>(agents_ + half_spaces_.size());
   return kPairUnits * static_cast<double>(done.pair_queries) +

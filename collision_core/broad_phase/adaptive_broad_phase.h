@@ -8,15 +8,10 @@
 #include <vector>
 
 #include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/broad_phase_method.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
 
 namespace collision::broad_phase {
-
-/// The methods of the broad phase; kAuto: chosen by the scene.
-enum class BroadPhaseMethod { kAuto, kAllPairs, kFaceSweep, kSpatialIndex };
-
-/// "all pairs", "face sweep", "spatial index", "chosen by the scene".
-const char* Name(BroadPhaseMethod method);
 
 /// One method, or the cheaper of all pairs and the spatial index for the scene as it is now. Work
 /// is counted, never timed, so that the same calls choose the same everywhere; and as all methods
@@ -59,6 +54,8 @@ class AdaptiveBroadPhase : public BroadPhase {
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
 
+  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                  const Skip& skip, std::vector<Meeting>* meetings) override;
   void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
 
   /// The work of all methods together.
@@ -101,18 +98,18 @@ class AdaptiveBroadPhase : public BroadPhase {
   std::uint32_t filled_ = 0;  ///< Agents below this index are in next_ as well.
   std::size_t agents_ = 0;    ///< Held.
   std::vector<bool> held_;    ///< By agent.
-  BroadPhaseWork before_{};   ///< Of methods that are gone.
+  BroadPhaseWork before_{};   ///< The work of methods that are gone.
   double units_before_ = 0;   ///< Likewise.
 
-  std::uint64_t questions_ = 0;   ///< Of one agent, since the last decision.
+  std::uint64_t questions_ = 0;   ///< Questions of one agent since the last decision.
   BroadPhaseWork answering_{};    ///< Work on them.
   std::uint64_t patience_ = 0;    ///< Questions until the index is tried again.
   std::size_t decided_with_ = 0;  ///< Agents at the last decision.
   double units_before_try_ =
-      numeric::kInfinity;      ///< Of all pairs, a question, before the index's try.
-  double excess_ = 0;          ///< Of the index over all pairs, since it answers [units].
-  double units_ = 0;           ///< Of the method, a question, at the last decision.
-  double units_of_other_ = 0;  ///< Of the other one then.
+      numeric::kInfinity;      ///< Cost of a question by all pairs before the index's try.
+  double excess_ = 0;          ///< Excess of the index over all pairs since it answers [units].
+  double units_ = 0;           ///< Cost of a question at the last decision.
+  double units_of_other_ = 0;  ///< The same of the other method.
   std::uint64_t changes_ = 0;
 };
 

@@ -34,13 +34,19 @@ inline void SortByPartner(std::size_t first, std::vector<Meeting>* meetings) {
             [](const Meeting& a, const Meeting& b) { return a.partner < b.partner; });
 }
 
+/// Appends the meeting if it comes by `until`.
+inline void AppendIfBy(Instant until, const Meeting& meeting, std::vector<Meeting>* meetings) {
+  const Instant when = meeting.time.instant();
+  if (when <= until && !when.is_never()) meetings->push_back(meeting);
+}
+
 /// Work since the start, counted and never timed, so that it is the same on every machine.
 struct BroadPhaseWork {
   std::uint64_t pair_queries = 0;  ///< Pairs given to EarliestIntersectionOf().
-  std::uint64_t filter_tests = 0;  ///< Pairs that a cheaper test looked at.
-  std::uint64_t visits = 0;        ///< Cells, crossings or lists looked at.
+  std::uint64_t filter_tests = 0;  ///< Pairs that a cheaper test examined.
+  std::uint64_t visits = 0;        ///< Cells, crossings or lists visited.
   std::uint64_t rebuilds = 0;      ///< Times the whole structure was rebuilt.
-  std::uint64_t searches = 0;      ///< Of one agent's neighbours, for one stretch of time.
+  std::uint64_t searches = 0;      ///< Searches for one agent's neighbours in one window.
   std::uint64_t neighbours = 0;    ///< Found in them.
 
   /// What a piece of work costs, in filter tests; measured once on one machine. Only the rough
@@ -110,6 +116,12 @@ class BroadPhase {
   /// partners, without those for which `skip` holds.
   virtual void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
                         const Skip& skip, std::vector<Meeting>* meetings) = 0;
+
+  /// Appends each agent or half-space that may first meet `bound` in [from, until], in the order of
+  /// indices. `bound` is of no agent that is held, so that no rule applies to it. Partners for which
+  /// `skip` holds are left out.
+  virtual void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                          const Skip& skip, std::vector<Meeting>* meetings) = 0;
 
   /// Appends every pair that may first meet within the query's window, and others that are near,
   /// each once; pairs that cannot meet at all are left out. Much cheaper than Meetings() of every

@@ -21,10 +21,12 @@ bool Detector::Redeclare(const AgentId& id, const motion::AgentDeclaration& decl
   return implementation_->Redeclare(id, declaration, effective_from);
 }
 bool Detector::Remove(const AgentId& id) { return implementation_->Remove(id); }
-void Detector::Hear(const AgentId& id, Instant until) { implementation_->Hear(id, until); }
+void Detector::SetHeardUntil(const OwnerId& owner, Instant until) {
+  implementation_->SetHeardUntil(owner, until);
+}
 void Detector::Advance(Instant now) { implementation_->Advance(now); }
 const std::vector<CollisionEvent>& Detector::events() const {
-  return implementation_->announcer_.events();
+  return implementation_->pairs().events();
 }
 std::vector<AgentClearance> Detector::TakeChangedClearances() {
   return implementation_->TakeChangedClearances();
@@ -32,12 +34,13 @@ std::vector<AgentClearance> Detector::TakeChangedClearances() {
 std::optional<AgentClearance> Detector::ClearanceOf(const AgentId& id) const {
   return implementation_->ClearanceOf(id);
 }
-EarliestAnswer Detector::Earliest() { return implementation_->Earliest(); }
-Instant Detector::now() const { return implementation_->now_; }
-std::size_t Detector::agents() const { return implementation_->agents(); }
-std::size_t Detector::pairs_tracked() const { return implementation_->pairs_.size(); }
+EarliestAnswer Detector::Earliest() const { return implementation_->Earliest(); }
+Instant Detector::now() const { return implementation_->clock().now; }
+std::size_t Detector::agents() const { return implementation_->agents().size(); }
+std::size_t Detector::pairs_tracked() const { return implementation_->pairs().table().size(); }
 std::size_t Detector::queued() const { return implementation_->queued(); }
-const DetectorCounters& Detector::counters() const { return implementation_->counters_; }
+const DetectorCounters& Detector::counters() const { return implementation_->counters(); }
 Detector::Profile Detector::profile() const { return implementation_->DescribeScene(); }
+void Detector::Validate() const { implementation_->Validate(); }
 
 }  // namespace collision::detection

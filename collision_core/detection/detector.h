@@ -6,106 +6,53 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/broad_phase/adaptive_broad_phase.h"
-#include "collision_core/detection/collision_event.h"
+#include "collision_core/detection/clearance/agent_clearance.h"
+#include "collision_core/detection/detector_counters.h"
+#include "collision_core/detection/detector_options.h"
+#include "collision_core/detection/earliest/earliest_answer.h"
+#include "collision_core/detection/events/collision_event.h"
 #include "collision_core/motion/contract.h"
 #include "collision_core/motion/motion_state.h"
 
 namespace collision::detection {
 
-/// Every bound of the detector, with what happens at it.
-struct DetectorOptions {
-  double temporal_resolution = 1.0 / 60;  ///< Δt [s]: nearer than this a pair could overlap.
-  double announce_within = 2.0;  ///< A meeting this near [s] is announced; >= temporal_resolution.
-  double skew = 0;               ///< κ [s] between any sender's clock and ours.
-  std::uint32_t agents_max = 1000;          ///< Admit() refuses beyond.
-  std::uint32_t pairs_max = 65536;          ///< Tracked at once; beyond, both agents are saturated.
-  std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
-  std::uint32_t history_max =
-      64;  ///< States kept for judging; beyond, the oldest go and brackets widen.
-  /// WorkBudget that the narrow phase may spend on two shapes in one turn (narrow_phase/work.h); beyond,
-  /// brackets stay wider and say that the budget limited them.
-  std::uint64_t work_units_per_turn = 40000;
-  /// Likewise in one step on all pairs with shapes, shared out among those whose turn it is
-  /// (detection/work_shares.h): pairs that were announced and wait for a verdict count more, and what
-  /// one leaves goes to the next. Who leaves or expires is judged a last time beside it. 0: no limit
-  /// but each turn's.
-  std::uint64_t work_units_per_step = 0;
-  /// The method that finds who may meet; changes what it costs, never what is told.
-  broad_phase::BroadPhaseMethod broad_phase = broad_phase::BroadPhaseMethod::kAuto;
-};
-
-/// Why a clearance was lowered.
-enum class ClearanceCause { kNone, kAdmission, kTeleport, kBreach, kWidening, kSkew };
-
-/// What one agent may rely on.
-struct AgentClearance {
-  AgentId agent{};
-  Instant clear_until = Instant::Never();  ///< No new contact begins before.
-  bool not_clear = false;                  ///< It has come: something may touch.
-  bool in_contact = false;                 ///< A contact is confirmed and has not ended.
-  bool saturated = false;                  ///< More partners than are tracked for one agent.
-  /// Until then it meets nobody but those with whom a meeting is announced; >= clear_until.
-  Instant unannounced_until = Instant::Never();
-  /// A contact, or a doubt, is over since then, and a state newer than that tells more of it;
-  /// Always(): none.
-  Instant unsettled_until = Instant::Always();
-  Instant effective_from =
-      Instant::Always();  ///< Promises count the latest admission, jump or widening from here.
-  ClearanceCause cause = ClearanceCause::kNone;  ///< Of the last lowering.
-  AgentId cause_agent{};
-  Instant void_from = Instant::Never();  ///< With kBreach: earlier promises are void from here.
-};
-
 /// What became of a state.
 enum class UpdateOutcome {
   kKept,      ///< Inside what was promised: standing answers stay valid.
-  kJumped,    ///< A declared discontinuity: asked anew.
-  kWidened,   ///< Promises less than before: asked anew.
-  kBreached,  ///< Broke its bound: the new truth, asked anew, partners told.
+  kJumped,    ///< A declared discontinuity: asked about anew.
+  kWidened,   ///< Promises less than before: asked about anew.
+  kBreached,  ///< Broke its bound: the new truth, asked about anew, partners told.
   kOlder,     ///< Not newer than the newest known: dropped.
   kUnknown    ///< No such agent: dropped.
 };
 
-/// The earliest possible intersection over all agents that are not in contact.
-struct EarliestAnswer {
-  bool found = false;
-  Instant earliest = Instant::Never();
-  AgentId lower;
-  AgentId higher;
-};
-
-/// Counted work and occurrences since the start.
-struct DetectorCounters {
-  std::uint64_t updates_kept = 0, jumps = 0, widenings = 0, breaches = 0;
-  std::uint64_t queries = 0;       ///< Agents asked for their earliest meetings.
-  std::uint64_t pair_queries = 0;  ///< Pairs given to the canonical routine.
-  std::uint64_t filter_tests = 0;  ///< Pairs that the broad phase ruled out, or not, more cheaply.
-  std::uint64_t broad_units = 0;   ///< All of the broad phase, in the units by which it chooses.
-  std::uint64_t method_changes = 0;   ///< Times the broad phase took another method.
-  std::uint64_t segments = 0;         ///< Segments judged by the narrow phase.
-  std::uint64_t glances = 0;          ///< Of these: a glance was enough.
-  std::uint64_t work_units = 0;       ///< Spent by the narrow phase.
-  std::uint64_t turns_cut_short = 0;  ///< Pairs' turns that spent all they were allowed.
-  std::uint64_t saturations = 0;
-  std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.
-};
-
-/// Holds every agent's space-time bound, keeps the earliest possible intersections current, judges
-/// pairs that could overlap, and tells what follows as values. Single-threaded; knows no clock:
-/// time is an argument. Same calls, same bits. The paper's loop (Hubbard 1995, section 4) kept per
-/// pair: README.md.
+/// Holds every agent's space-time bound, keeps the earliest possible intersections current,
+/// evaluates pairs that could overlap, and returns what follows as values: events, and for each
+/// agent the time until which it is certified clear. SI units, world frame, one time scale in
+/// nanoseconds.
 ///
-/// Between two calls of Advance() any number of Admit, Update, Redeclare, Remove and Hear may come,
-/// in a deterministic order; their effects show after the next Advance().
+/// Between two calls of Advance() any number of Admit, Update, Redeclare, Remove and SetHeardUntil
+/// may come, in a deterministic order; their effects show after the next Advance(). Same calls,
+/// same bits, on every machine and with every broad-phase method. Values are trusted here: the
+/// server refuses bad input at the edge. A broken precondition or invariant throws CheckFailure
+/// (base/check.h).
+///
+/// Single-threaded; knows no clock: time is an argument. A step costs what has changed and what is
+/// due, never a walk over all agents or pairs. An update that keeps its contract is O(1) and
+/// allocates nothing. Memory: some 1 kB an agent and its states (0.3 kB each), 0.6 kB a tracked
+/// pair.
+///
+/// Source: the loop of Hubbard, "Collision detection for interactive graphics applications", IEEE
+/// TVCG 1(3), 1995, section 4, kept per agent instead of for the whole scene (README.md).
 class Detector {
  public:
   explicit Detector(const DetectorOptions& options);
   ~Detector();
 
   /// False if `agents_max` is reached or the id is present. An agent that comes after Remove() has
-  /// another id (a new generation): the former one is judged a last time beside it. `effective_from`: the greatest time
-  /// granted to anybody it can meet (simulated clock), else the state's stamp.
+  /// another id (a new generation): the former one is evaluated a last time beside it.
+  /// `effective_from`: the greatest time granted to any agent it can meet (simulated clock), else
+  /// the state's stamp.
   bool Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
              const motion::MotionState& state, Instant effective_from);
 
@@ -117,12 +64,14 @@ class Detector {
   bool Redeclare(const AgentId& id, const motion::AgentDeclaration& declaration,
                  Instant effective_from);
 
-  /// Open events of the agent are withdrawn (ended, where confirmed). False: unknown agent.
+  /// The owner gives the agent up; its open events are withdrawn (ended, where confirmed) once what
+  /// was heard of it has passed. False: unknown agent.
   bool Remove(const AgentId& id);
 
-  /// The owner has told everything it knows of this agent up to `until`; contacts are judged up to
-  /// there.
-  void Hear(const AgentId& id, Instant until);
+  /// The owner, one run of a simulator, has told everything about its agents up to `until`:
+  /// contacts are evaluated up to there. Holds for all agents of the owner, also for those admitted
+  /// later; has no effect while it has none. Never goes back. O(log owners).
+  void SetHeardUntil(const OwnerId& owner, Instant until);
 
   /// Brings everything to `now` (never backward): afterwards every pair that may meet before
   /// now + announce_within is tracked, and events() holds what is new.
@@ -137,23 +86,30 @@ class Detector {
   /// The clearance of one agent as of the last Advance(); nullopt: unknown.
   std::optional<AgentClearance> ClearanceOf(const AgentId& id) const;
 
-  /// Asks again whatever could be earlier than the best answer, so that it is the canonical one.
-  EarliestAnswer Earliest();
+  /// The canonical earliest intersection as of the last Advance(). No later event or clearance
+  /// depends on whether it is asked for; what it learns is kept in a cache of its own, so that two
+  /// threads may not ask at the same time either.
+  EarliestAnswer Earliest() const;
 
   Instant now() const;
   std::size_t agents() const;
   std::size_t pairs_tracked() const;
-  /// Events that wait for their time: agents to be asked again, pairs to be judged, expiries.
+  /// Events that wait for their time: agents to be asked about again, pairs to be evaluated,
+  /// expiries.
   std::size_t queued() const;
   const DetectorCounters& counters() const;
 
-  /// The broad-phase method in use, why, and what this scene does not need.
+  /// The broad-phase method in use, why, and what this scene does without.
   struct Profile {
     std::string broad_phase;
     std::string why;
     std::vector<std::string> left_out;
   };
   Profile profile() const;
+
+  /// Walks all structures and throws CheckFailure where an invariant does not hold. O(everything);
+  /// called at the end of each Advance() in debug builds.
+  void Validate() const;
 
  private:
   class Implementation;

@@ -32,13 +32,13 @@ struct Agent {
   numeric::Quadratic errors, deviation;
   double direction_end;
 
-  Agent(const motion::SpaceTimeBound& bound, Instant base)
-      : bound(bound),
-        base(base),
-        since(numeric::SecondsBetween(bound.state.stamp, base)),
-        errors(ForwardErrors(bound, base)),
-        deviation(ForwardDeviation(bound, base)),
-        direction_end(DirectionHoldsFor(bound, base)) {}
+  Agent(const motion::SpaceTimeBound& given, Instant seen_from)
+      : bound(given),
+        base(seen_from),
+        since(numeric::SecondsBetween(given.state.stamp, seen_from)),
+        errors(ForwardErrors(given, seen_from)),
+        deviation(ForwardDeviation(given, seen_from)),
+        direction_end(DirectionHoldsFor(given, seen_from)) {}
 
   /// The face with the normal `sign` times the axis; `fraction` of the deviation counts there.
   Face FaceOf(int axis, int sign, numeric::Interval fraction) const {

@@ -40,10 +40,10 @@ inline std::optional<CappedPart> CapPart(const motion::SpaceTimeBound& bound, In
                      numeric::IntervalVector(0, 0, 0), bound.declaration.radius, ball.UFrom(base)}};
 }
 
-/// From A to B, with radii that are together larger by `margin`.
-/// Positions first: a scene far from the origin loses only what its inputs lost.
-/// Every operation gives the same bits (or the negated ones) when A and B change places: negation
-/// is exact, and a + b is b + a.
+/// The relative motion from A to B, with the sum of the radii larger by `margin`. Positions are
+/// subtracted first: a scene far from the origin loses only what its inputs lost. Every operation
+/// gives the same bits (or the negated ones) when A and B change places: negation is exact, and a +
+/// b is b + a.
 inline numeric::Approach ApproachOf(const BallPart& a, const BallPart& b, double margin) {
   const numeric::Quadratic u = a.u + b.u;
   return {(b.p_WA - a.p_WA) + (b.shift - a.shift), b.velocity - a.velocity,

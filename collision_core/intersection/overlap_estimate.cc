@@ -27,8 +27,8 @@ struct Glance {
   double capped_radius;
   double up[3], down[3];  // The box's faces.
 
-  Glance(const motion::SpaceTimeBound& bound, Instant base, double time)
-      : bound(bound), tau(Seconds(bound.state.stamp, base) + time) {
+  Glance(const motion::SpaceTimeBound& given, Instant base, double time)
+      : bound(given), tau(Seconds(bound.state.stamp, base) + time) {
     const motion::MotionState& state = bound.state;
     const bool capped = bound.declaration.speed_max < numeric::kInfinity;
     double speed = 0;

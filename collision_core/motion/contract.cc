@@ -173,9 +173,9 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, num
 //   Φ(exp(ω(t) dt) R, exp(ω dt) S) <= Φ(exp(ω(t) dt), exp(ω dt)) + Φ(R, S)
 //                                   = |ω(t) − ω| dt + Φ(R, S):
 // Φ grows at most at the rate |ω(t) − ω| <= α τ, so Φ <= ½ α τ². An integrator of step h turns by
-// exp(ω_k h) with ω_k = ω_{k−1} + a_k h, |a_k| <= α: step k adds at most α k h · h, and after n steps
-// Φ <= ½ α h² n (n + 1) = ½ α τ (τ + h). An error of the orientation at the start stays what it is;
-// stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
+// exp(ω_k h) with ω_k = ω_{k−1} + a_k h, |a_k| <= α: step k adds at most α k h · h, and after n
+// steps Φ <= ½ α h² n (n + 1) = ½ α τ (τ + h). An error of the orientation at the start stays what
+// it is; stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
 
 /// Whether the declaration says anything of the orientation that matters.
 bool BoundsRotation(const AgentDeclaration& declaration) {

@@ -19,9 +19,9 @@ struct ContractCheck {
   ContractVerdict verdict = ContractVerdict::kKept;
   /// How far the position lies outside, at least [m]; 0 unless breached.
   double position_excess = 0;
-  double velocity_excess = 0;          ///< Likewise for the velocity [m/s].
-  double rotation_excess = 0;          ///< Likewise for the orientation, as an angle [rad].
-  double angular_velocity_excess = 0;  ///< Likewise for the angular velocity [rad/s].
+  double velocity_excess = 0;          ///< The same for the velocity [m/s].
+  double rotation_excess = 0;          ///< The same for the orientation, an angle [rad].
+  double angular_velocity_excess = 0;  ///< The same for the angular velocity [rad/s].
   /// How far apart the old state's forward ball and the new one's backward ball are at some instant
   /// between the two, at least [m]; 0 unless breached.
   double between_excess = 0;
@@ -30,7 +30,7 @@ struct ContractCheck {
   /// certified inside.
   double position_drift = 0;
   double velocity_drift = 0;
-  /// Likewise for the bound on the orientation: [rad] and [rad/s].
+  /// The same for the bound on the orientation: [rad] and [rad/s].
   double rotation_drift = 0;
   double angular_velocity_drift = 0;
 };

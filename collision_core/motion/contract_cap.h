@@ -5,7 +5,7 @@
 
 namespace collision::motion {
 
-/// How `next` stands against the cap of the bound before it; before any allowance for rounding.
+/// How `next` stands to the speed cap of the bound before it, without any allowance for rounding.
 struct CapCheck {
   double position_excess = 0;  ///< No motion under the cap leads this far, at least by this [m].
   double velocity_excess = 0;  ///< The speed exceeds the cap, at least by this [m/s].
@@ -13,7 +13,8 @@ struct CapCheck {
   double position_drift = 0;
 };
 
-/// Requires a cap and next.stamp >= before.state.stamp. O(1), allocates nothing.
+/// Checks speed, position and nesting as derived in speed_cap.h. Requires a cap and next.stamp >=
+/// before.state.stamp. O(1), allocates nothing.
 CapCheck CheckCap(const SpaceTimeBound& before, const MotionState& next);
 
 }  // namespace collision::motion

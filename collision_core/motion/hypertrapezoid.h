@@ -12,7 +12,7 @@ namespace collision::motion {
 /// W, metres. Source: Hubbard 1995 (space_time_bound.h), section 3.
 struct Hypertrapezoid {
   Instant start;
-  double duration = 0;                  ///< Of the window [s], rounded down.
+  double duration = 0;                  ///< Length of the window [s], rounded down.
   double lower_start[3], lower_end[3];  ///< The three lower faces at the window's two ends [m].
   double upper_start[3], upper_end[3];
 };

@@ -54,10 +54,10 @@ struct Seen {
   double x[3];
   double distance, reach, error;
 
-  Seen(const QuickApproach& a, double scale_d, double scale_w, double delta)
-      : a(a),
-        scale_w(scale_w),
-        delta(delta),
+  Seen(const QuickApproach& approach, double scale_d, double velocity_scale, double offset)
+      : a(approach),
+        scale_w(velocity_scale),
+        delta(offset),
         x{a.d[0] + a.w[0] * delta, a.d[1] + a.w[1] * delta, a.d[2] + a.w[2] * delta},
         distance(std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])),
         reach(a.s0 + delta * (a.s1 + delta * a.s2)),

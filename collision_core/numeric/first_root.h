@@ -10,8 +10,8 @@ namespace collision::numeric {
 /// A root computed in a dozen roundings of 2^-53 each, none of them after a cancellation.
 inline constexpr double kRootShare = 1 - 0x1p-40;
 
-/// A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0; growth >= 0. What
-/// overflows tells nothing: 0.
+/// A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0; growth >= 0. 0 if
+/// something overflows.
 inline double FirstRoot(double gap, double closing, double growth) {
   if (!(gap > 0)) return 0;
   const double root = std::sqrt(closing * closing + 4 * growth * gap);

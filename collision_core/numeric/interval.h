@@ -20,9 +20,9 @@ struct Interval {
   double upper = 0;
 
   constexpr Interval() = default;
-  constexpr Interval(double exact)
-      : lower(exact), upper(exact) {}  // NOLINT: a double is an interval
-  constexpr Interval(double lower, double upper) : lower(lower), upper(upper) {}
+  /// Implicit: a double is an interval.
+  constexpr Interval(double exact) : lower(exact), upper(exact) {}
+  constexpr Interval(double low, double high) : lower(low), upper(high) {}
 
   bool Contains(double x) const { return lower <= x && x <= upper; }
   double width() const { return upper - lower; }
@@ -51,7 +51,7 @@ struct IntervalVector {
   Interval x, y, z;
 
   IntervalVector() = default;
-  IntervalVector(Interval x, Interval y, Interval z) : x(x), y(y), z(z) {}
+  IntervalVector(Interval v_x, Interval v_y, Interval v_z) : x(v_x), y(v_y), z(v_z) {}
   explicit IntervalVector(const Eigen::Vector3d& v) : x(v.x()), y(v.y()), z(v.z()) {}
 
   Eigen::Vector3d middle() const { return {x.middle(), y.middle(), z.middle()}; }

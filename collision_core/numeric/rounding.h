@@ -100,7 +100,7 @@ inline double RootResidue(double a, double root) {
   return (a - square) - ProductError(root, root, square);
 }
 
-/// Of a number below zero: zero.
+/// The root rounded down; zero for a number below zero.
 inline double SqrtDown(double a) {
   if (!(a > 0)) return 0;
   const double root = std::sqrt(a);

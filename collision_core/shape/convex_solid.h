@@ -40,10 +40,10 @@ std::optional<std::string> RefusalOf(const ConvexDescription& description);
 
 /// Certified facts of a solid; body frame, lengths in metres.
 struct ConvexFacts {
-  double radius = 0;                     ///< Of a ball about the origin that contains it.
-  Eigen::Vector3d ball_centre{0, 0, 0};  ///< Of a small ball that contains it.
+  double radius = 0;                     ///< Radius of a ball about the origin that contains it.
+  Eigen::Vector3d ball_centre{0, 0, 0};  ///< Centre of a small ball that contains it.
   double ball_radius = 0;
-  Eigen::Vector3d lower{0, 0, 0}, upper{0, 0, 0};  ///< Of a box around it.
+  Eigen::Vector3d lower{0, 0, 0}, upper{0, 0, 0};  ///< A box that contains it.
   /// The ball of that radius about this point belongs to the solid: its signed distance there is
   /// −inradius or less. 0: nothing is certain to be inside, or nothing is.
   Eigen::Vector3d inner_point{0, 0, 0};

@@ -38,6 +38,7 @@ class OuterHull {
   /// coordinates below 1e15 m, whose squares single precision holds.
   OuterHull(std::span<const Eigen::Vector3d> points, double rounding);
 
+  /// How far the hull reaches along a direction, and where.
   struct Support {
     float height;           ///< n·x is no more for any x of the shape, but for kHullSupportError.
     Eigen::Vector3f point;  ///< About where.

@@ -92,7 +92,7 @@ class Shape {
   Shape() = default;
 
   geometry::TriangleMesh mesh_;
-  std::shared_ptr<const Shape> surface_;  ///< Of a compound.
+  std::shared_ptr<const Shape> surface_;  ///< The surface of a compound.
   std::vector<ConvexSolid> solids_;
   geometry::MeshFacts facts_;
   sphere_tree::SphereTree tree_;

@@ -77,7 +77,7 @@ class PackedTree {
   void FindExtremes(const geometry::TriangleMesh& mesh);
 
   std::vector<BallPack> packs_;
-  std::vector<std::uint32_t> nodes_;  ///< Of the sphere tree, lane by lane.
+  std::vector<std::uint32_t> nodes_;  ///< The nodes of the sphere tree, lane by lane.
   std::vector<TriangleBlock> blocks_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double extent_ = 0;

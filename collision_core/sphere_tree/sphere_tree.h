@@ -37,7 +37,7 @@ struct SphereNode {
   double signed_distance = 0;
   std::uint32_t first_child = 0;     ///< Children stand one after the other.
   std::uint32_t children = 0;        ///< 0: a leaf.
-  std::uint32_t first_triangle = 0;  ///< Of a leaf: into SphereTree::triangle_indices.
+  std::uint32_t first_triangle = 0;  ///< For a leaf: where it begins in triangle_indices.
   std::uint32_t triangles = 0;
   std::uint32_t level = 0;  ///< The root's is 0.
 };

@@ -43,7 +43,7 @@ class SurfaceQuery {
   /// where tiny coordinates (below about 1e-95) underflow.
   std::optional<int> WindingNumberAt(const Eigen::Vector3d& point);
 
-  /// Nodes and triangles looked at so far, in all questions.
+  /// Nodes and triangles examined so far, in all questions.
   std::uint64_t work() const { return work_; }
 
  private:

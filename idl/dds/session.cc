@@ -11,14 +11,12 @@
 #include "idl/dds/wire_values.h"
 #include "idl/dds/writer_watch.h"
 #include "idl/identity.h"
+#include "idl/limits.h"
 
 namespace collision {
 namespace {
 
 using dds::Check;
-
-constexpr std::uint32_t kDomainMax = 230;  // the ports of higher ones lie beyond 65535
-constexpr std::size_t kNameMax = 64;
 
 /// Names are parts of partitions, in which '.' separates and '*' and '?' are wildcards.
 void CheckName(const char* what, const std::string& name) {
@@ -26,7 +24,8 @@ void CheckName(const char* what, const std::string& name) {
     return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '_' ||
            c == '-';
   };
-  if (!name.empty() && name.size() <= kNameMax && std::all_of(name.begin(), name.end(), allowed))
+  if (!name.empty() && name.size() <= wire::kNameMax &&
+      std::all_of(name.begin(), name.end(), allowed))
     return;
   throw std::runtime_error(std::string(what) + " \"" + name +
                            "\": allowed are 1 to 64 of A-Z a-z 0-9 _ -");
@@ -35,7 +34,7 @@ void CheckName(const char* what, const std::string& name) {
 const DdsSessionOptions& Checked(const DdsSessionOptions& options) {
   CheckName("world", options.world);
   if (options.role == DdsRole::kSimulator) CheckName("simulator", options.simulator);
-  if (options.domain > kDomainMax) {
+  if (options.domain > wire::kDomainMax) {
     throw std::runtime_error("DDS domain " + std::to_string(options.domain) +
                              ": allowed are 0 to 230");
   }

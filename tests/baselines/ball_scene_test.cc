@@ -1,5 +1,5 @@
-// Goal:   what the baselines and the libraries are given is right: the pair test in plain double, the
-//         swept boxes, and the scenes.
+// Goal:   what the baselines and the libraries are given is right: the pair test in plain double,
+//         the swept boxes, and the scenes.
 // Method: the canonical routine and positions sampled along the horns are the oracles; scenes are
 //         drawn small, and asked by the plainest method.
 #include "tests/baselines/ball_scene.h"

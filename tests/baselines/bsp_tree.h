@@ -11,8 +11,8 @@ namespace collision::baselines {
 
 /// A closed solid, cut by the planes of its own faces until every cell is inside or outside. In
 /// plain doubles, not certified: what is nearer to a plane than `tolerance()` counts as on it.
-/// Source: Thibault and Naylor, "Set operations on polyhedra using binary space partitioning trees",
-/// SIGGRAPH 1987, named by Hubbard for the exact comparison of two objects.
+/// Source: Thibault and Naylor, "Set operations on polyhedra using binary space partitioning
+/// trees", SIGGRAPH 1987, named by Hubbard for the exact comparison of two objects.
 class BspTree {
  public:
   /// Requires closed, outward triangles that do not cross each other. Of a few candidates for each

@@ -5,11 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-
 #include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/support/meshes.h"
-#include "tests/support/random.h"
+#include "tests/support/random_rotation.h"
 
 namespace collision::baselines {
 namespace {
@@ -19,11 +17,6 @@ const Eigen::Matrix3d kUpright = Eigen::Matrix3d::Identity();
 bool Meet(const geometry::TriangleMesh& a, const geometry::TriangleMesh& b,
           const Eigen::Vector3d& offset) {
   return BspTree::Intersect(BspTree(a), BspTree(b), kUpright, offset);
-}
-
-Eigen::Matrix3d RandomRotation(Random& random) {
-  const Eigen::Vector3d axis = random.UnitVector();
-  return Eigen::AngleAxisd(random.Uniform(0, 3), axis).toRotationMatrix();
 }
 
 narrow_phase::BodySegment BodyOf(const geometry::TriangleMesh& mesh) {

@@ -8,8 +8,8 @@
 
 namespace collision::baselines {
 
-/// A cubic region about the origin, in cells not smaller than `cell`: whoever is nearer than that is
-/// in the same cell or in one beside it.
+/// A cubic region about the origin, in cells not smaller than `cell`: two agents that are nearer to each
+/// other than that are in the same cell or in neighbouring ones.
 class Cells {
  public:
   Cells(double half, double cell)

@@ -1,4 +1,4 @@
-// Who finds the first collision of the moving cubes, frame by frame.
+// The loops that find the first collision of the moving cubes, frame by frame.
 #pragma once
 
 #include <algorithm>

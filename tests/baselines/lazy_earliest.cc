@@ -9,19 +9,19 @@ void LazyEarliest::Ask(std::uint32_t agent, Instant now) {
   // Without one it is asked again when the horizon asked about is over.
   const std::uint32_t partner = meeting ? meeting->partner : agent;
   entries_[agent] = {partner, renewed_[agent], renewed_[partner]};
-  queue_.Set(agent, meeting ? meeting->when : until);
+  queue_.Set(AgentIndex(agent), meeting ? meeting->when : until);
 }
 
 std::optional<LazyEarliest::Found> LazyEarliest::Earliest(Instant now) {
   const Instant until = numeric::AddRoundedDown(now, horizon_);
   while (!queue_.empty() && queue_.top_key() <= until) {
-    const std::uint32_t agent = queue_.top();
+    const std::uint32_t agent = queue_.top().value();
     const Entry& entry = entries_[agent];
     const bool fresh = entry.partner != agent && queue_.top_key() >= now &&
                        entry.renewed == renewed_[agent] &&
                        entry.partner_renewed == renewed_[entry.partner];
     if (fresh) return Found{agent, entry.partner, queue_.top_key()};
-    // Asked just now, and nothing: its key is `until`, so is everybody's behind it, or later.
+    // Asked just now, and nothing: its key is `until`, so are all keys behind it, or later.
     if (entry.partner == agent && queue_.top_key() == until) return std::nullopt;
     Ask(agent, now);
   }

@@ -15,7 +15,7 @@ struct AgentMeeting {
   Instant when;
 };
 
-/// Whoever finds one agent's first meeting among the newest bounds.
+/// Finds one agent's first meeting among the newest bounds.
 class AgentAsker {
  public:
   virtual ~AgentAsker() = default;
@@ -55,7 +55,7 @@ class LazyEarliest {
   };
 
   double horizon_;
-  detection::EventQueue queue_;
+  detection::EventQueue<AgentIndex> queue_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> renewed_;  ///< By agent: how often.
   AgentAsker* asker_;

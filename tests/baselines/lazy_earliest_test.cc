@@ -1,5 +1,5 @@
 // Goal:   asking again only at the head of the queue gives, after every update, what asking
-//         everybody from scratch gives.
+//         all agents from scratch gives.
 // Method: balls fly under accelerations within their M and tell their states in random order; after
 //         each, the queue's answer is compared with AllPairs::Earliest() from scratch.
 #include "tests/baselines/lazy_earliest.h"
@@ -73,7 +73,7 @@ TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
     asked += lazy.asked() - scene.size();
   }
   EXPECT_GT(found_count, 1000);
-  // Not idle: far from everybody is asked again.
+  // Not idle: far from all others is asked again.
   EXPECT_LT(asked, updates);
   EXPECT_GT(asked, 0u);
 }

@@ -23,7 +23,7 @@ void LocalLoop::Start(const MovingCubes& cubes) {
   frame_of_bound_.assign(cubes.count(), -1);
   for (std::uint32_t cube = 0; cube < cubes.count(); ++cube) {
     Renew(cubes, cube);
-    queue_.Set(cube, now);
+    queue_.Set(AgentIndex(cube), now);
   }
 }
 
@@ -69,7 +69,7 @@ void LocalLoop::Ask(const MovingCubes& cubes, std::uint32_t cube) {
       partners_[meeting.partner].push_back(cube);
     }
     if (next > soon || meetings_.empty()) {
-      queue_.Set(cube, keys_[cube] = next);
+      queue_.Set(AgentIndex(cube), keys_[cube] = next);
       return;
     }
   }
@@ -88,7 +88,7 @@ std::optional<CubePair> LocalLoop::TestClosePairs(const MovingCubes& cubes) {
         intersection::EarliestIntersection(BoundOf(cubes, a), BoundOf(cubes, b), now);
     if (time.instant() <= apart) return false;
     std::erase(partners_[a], b), std::erase(partners_[b], a);
-    if (time.instant() < keys_[a]) queue_.Set(a, keys_[a] = time.instant());
+    if (time.instant() < keys_[a]) queue_.Set(AgentIndex(a), keys_[a] = time.instant());
     return true;
   });
   return first;
@@ -98,7 +98,7 @@ std::optional<CubePair> LocalLoop::Look(const MovingCubes& cubes) {
   if (keys_.empty()) Start(cubes);
   // What may meet before the next frame is looked at from now on.
   const Instant now = InstantOf(cubes);
-  while (queue_.top_key() <= now) Ask(cubes, queue_.top());
+  while (!queue_.empty() && queue_.top_key() <= now) Ask(cubes, queue_.top().value());
   return TestClosePairs(cubes);
 }
 

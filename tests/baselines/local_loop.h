@@ -30,7 +30,7 @@ class LocalLoop : public CollisionLoop {
   bool IsClose(std::uint32_t a, std::uint32_t b) const;
 
   std::unique_ptr<broad_phase::BroadPhase> phase_;
-  detection::EventQueue queue_;
+  detection::EventQueue<AgentIndex> queue_;
   std::vector<Instant> keys_;                         ///< By cube, as in the queue.
   std::vector<std::int64_t> frame_of_bound_;          ///< By cube.
   std::vector<CubePair> close_;                       ///< Pairs that could overlap.

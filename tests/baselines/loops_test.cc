@@ -1,4 +1,4 @@
-// Goal:   whoever looks, the first collision of the moving cubes is the same; and the paper's loop
+// Goal:   for every loop the first collision of the moving cubes is the same; and the paper's loop
 //         made local asks less than the global one.
 // Method: the naive loop tests every pair in every frame; the others must name its frame and pair,
 //         over several seeds, sizes and densities.
@@ -63,8 +63,8 @@ std::vector<MovingCubes::Options> Configurations() {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Loops, testing::ValuesIn(Configurations()));
 
-// Cubes that overlapped, or nearly did, part and come back: under strong forces, in every frame, not
-// only the first.
+// Cubes that overlapped, or nearly did, part and come back: under strong forces, in every frame,
+// not only the first.
 TEST(Loops, AgreeInEveryFrameAfterTheFirstCollisionToo) {
   int frames_with_overlap = 0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
@@ -99,7 +99,7 @@ TEST(Loops, SeeCollisionsAtAll) {
   EXPECT_GT(found, 15);
 }
 
-// The global loop rebuilds everybody whenever the first two come near; the local one those two.
+// The global loop rebuilds all whenever the first two come near; the local one those two.
 TEST(Loops, LocalRebuildsLessThanGlobal) {
   std::uint64_t global = 0, local = 0, naive = 0, window = 0;
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {

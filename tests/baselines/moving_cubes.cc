@@ -14,7 +14,7 @@ Eigen::Vector3d InCube(Random& random, double half) {
   return {x, y, z};
 }
 
-/// The force on a cube in a frame is the same whoever looks on.
+/// The force on a cube in a frame is the same for every method.
 Random ForceOf(std::uint64_t seed, std::uint32_t cube, std::int64_t frame) {
   return Random(seed + 0xd1342543de82ef95 * cube + 0xaf251af3b0f025b5 * (frame + 1));
 }

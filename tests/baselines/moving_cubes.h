@@ -13,9 +13,9 @@ namespace collision::baselines {
 using CubePair = std::pair<std::uint32_t, std::uint32_t>;
 
 /// Equal cubes, their faces along the axes always, seen once a frame. In each frame a new random
-/// force acts on each; no acceleration exceeds M. Whoever detects collisions sees no more than the
-/// states at the present frame. Source: Hubbard, "Collision detection for interactive graphics
-/// applications", IEEE TVCG 1(3), 1995, section 6.
+/// force acts on each; no acceleration exceeds M. A method that detects collisions sees no more
+/// than the states at the present frame. Source: Hubbard, "Collision detection for interactive
+/// graphics applications", IEEE TVCG 1(3), 1995, section 6.
 class MovingCubes {
  public:
   struct Options {

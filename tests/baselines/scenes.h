@@ -16,7 +16,7 @@ struct UniformOptions {
   double side = 1;              ///< Of a cube [m].
   double speed_max = 2;         ///< Along each axis [m/s].
   double acceleration_max = 1;  ///< [m/s²]
-  /// Nobody meets before this [s]: each agent that would is drawn again. 0: they are only apart.
+  /// No two meet before this [s]: each agent that would is drawn again. 0: they are only apart.
   double clear_until = 0;
   std::uint64_t seed = 1;
 };
@@ -39,7 +39,8 @@ BallScene FirstHitScene(std::uint32_t count, FirstHit hit);
 std::vector<std::string> SceneNames();
 
 /// clustered, mixed-sizes (1 : 1e6), mixed-acceleration, lattice, falling-pile, convoy, one-cell,
-/// one-fast. `count` agents, less a few that would overlap at the start. Throws std::invalid_argument for another name.
+/// one-fast. `count` agents, less a few that would overlap at the start. Throws
+/// std::invalid_argument for another name.
 BallScene MakeScene(const std::string& name, std::uint32_t count, std::uint64_t seed);
 
 }  // namespace collision::baselines

@@ -117,7 +117,7 @@ BallScene OneFast(std::uint32_t count, Random& random) {
   return scene;
 }
 
-/// Nobody overlaps at the start: of two that would, the smaller is left out, of equal ones the
+/// No two overlap at the start: of two that would, the smaller is left out, of equal ones the
 /// later.
 BallScene Apart(const BallScene& scene) {
   std::vector<std::uint32_t> order(scene.size());

@@ -14,8 +14,8 @@ constexpr std::uint32_t kFewCubes = 12;
 
 constexpr std::int64_t kFramesMin = 2, kFramesMax = 240;
 
-/// To put a cube into a list costs about as much as so many tests of a pair. Twice the window can be
-/// several times the pairs.
+/// To put a cube into a list costs about as much as so many tests of a pair. Twice the window can
+/// be several times the pairs.
 constexpr double kTestsPerCube = 8, kGrowth = 8;
 
 }  // namespace

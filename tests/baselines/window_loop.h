@@ -10,12 +10,13 @@
 
 namespace collision::baselines {
 
-/// Builds the bounds of all at t_build and lists the pairs that may come near within a window; until
-/// its end each frame tests those, and looks at nothing else. A window is the longer, the fewer the
-/// pairs: so that to make a list and to test it cost about the same.
+/// Builds the bounds of all at t_build and lists the pairs that may come near within a window;
+/// until its end each frame tests those, and looks at nothing else. A window is the longer, the
+/// fewer the pairs: so that to make a list and to test it cost about the same.
 ///
-/// All cubes are alike: the pass needs of each horn only where it is half-way through the window and
-/// how far it reaches from there. Crowds, which suit no grid, are left to the broad phase given.
+/// All cubes are alike: the pass needs of each horn only where it is half-way through the window
+/// and how far it reaches from there. Crowds, which suit no grid, are left to the broad phase
+/// given.
 class WindowLoop : public CollisionLoop {
  public:
   explicit WindowLoop(std::unique_ptr<broad_phase::BroadPhase> phase) : phase_(std::move(phase)) {}

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/transport.h"
-#include "client/world.h"
+#include "client/api/world.h"
+#include "client/library/network/transport.h"
 #include "idl/identity.h"
 
 namespace collision::client {
@@ -16,7 +16,7 @@ namespace collision::client {
 inline constexpr char kSimulator[] = "tester";
 inline constexpr std::uint32_t kRun = 7;
 
-/// What the test and the transport share; it outlives the World that owns the transport.
+/// Shared by the test and the transport; outlives the World that owns the transport.
 struct FakeNetwork {
   std::vector<v1::Input> written;               ///< Everything the World wrote, in order.
   std::deque<v1::Output> arriving;              ///< What the next Receive() hands over.
@@ -82,7 +82,7 @@ inline World ConnectTo(const std::shared_ptr<FakeNetwork>& network, WorldOptions
   return World::Connect(options, std::make_unique<FakeTransport>(network));
 }
 
-/// An event between this simulator's agent in slot 0 and somebody else's.
+/// An event between this simulator's agent in slot 0 and another simulator's agent.
 inline v1::CollisionEvent OwnEvent(std::uint32_t contact, std::uint32_t revision,
                                    std::uint64_t sequence) {
   v1::CollisionEvent event;

@@ -47,7 +47,7 @@ void CheckTimes(const v1::CollisionEvent& event, const Shown& text) {
   Require(begin.earliest_ns() <= end.latest_ns(), "ends before it begins: ", text);
   const bool begun = begin.latest_ns() != kNever;
   switch (event.status()) {
-    // The end of an ended one is open where its agent expired: nobody knows.
+    // The end of an ended one is unknown where its agent expired.
     case v1::EVENT_CONFIRMED:
     case v1::EVENT_ENDED:
       Require(begun && begin.latest_ns() <= end.earliest_ns(), "begins after it ends: ", text);

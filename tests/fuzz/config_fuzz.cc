@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "server/config.h"
+#include "server/config/config.h"
 #include "tests/fuzz/targets.h"
 
 namespace collision::fuzz {

@@ -2,11 +2,11 @@
 
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "collision_core/numeric/seconds.h"
-#include "server/codec.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "server/codec/codec.h"
 #include "tests/fuzz/fuzzed_messages.h"
 #include "tests/fuzz/fuzzed_shapes.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision::fuzz {
 namespace {

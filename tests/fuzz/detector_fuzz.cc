@@ -5,13 +5,14 @@
 
 #include "collision_core/detection/detector.h"
 #include "collision_core/numeric/seconds.h"
-#include "server/codec.h"
-#include "server/encode.h"
+#include "idl/limits.h"
+#include "server/codec/codec.h"
+#include "server/codec/encode.h"
 #include "tests/fuzz/answers.h"
-#include "tests/fuzz/ballistic_truth.h"
 #include "tests/fuzz/fuzzed_messages.h"
 #include "tests/fuzz/fuzzed_shapes.h"
 #include "tests/fuzz/targets.h"
+#include "tests/support/truth/exact_balls.h"
 
 namespace collision::fuzz {
 namespace {
@@ -73,7 +74,10 @@ class Detectors {
   }
 
   void Advance(Instant now) {
-    for (const auto& detector : detectors_) detector->Advance(now);
+    for (const auto& detector : detectors_) {
+      detector->Advance(now);
+      detector->Validate();
+    }
     const std::vector<std::string> first = EventsOf(*detectors_.front());
     for (std::size_t i = 1; i < detectors_.size(); ++i) {
       if (EventsOf(*detectors_[i]) == first) continue;
@@ -89,6 +93,7 @@ class Detectors {
       Require(std::equal(first.begin(), first.end(), others.begin(), others.end(), Same),
               "clearances of ", Name(kMethods[i]));
     }
+    for (const auto& detector : detectors_) detector->Validate();
   }
 
   void CompareEarliest() {
@@ -150,8 +155,8 @@ class Session {
         Tell(slot, data);
         return true;
       case 7:
-        detectors_.All("Hear", [&](detection::Detector& d) {
-          d.Hear(IdOf(slot), now_);
+        detectors_.All("SetHeardUntil", [&](detection::Detector& d) {
+          d.SetHeardUntil(OwnerOf(IdOf(slot)), now_);
           return true;
         });
         return true;
@@ -162,8 +167,9 @@ class Session {
   }
 
  private:
+  /// Each agent has an owner of its own, so that what is heard of them differs.
   detection::AgentId IdOf(std::uint32_t slot) const {
-    return {.simulator = 1, .slot = slot, .run = 1, .generation = generations_[slot]};
+    return {.simulator = 1 + slot, .slot = slot, .run = 1, .generation = generations_[slot]};
   }
 
   std::optional<motion::AgentDeclaration> Declaration(FuzzedData* data) {
@@ -236,7 +242,7 @@ class Session {
     const std::uint8_t kind = data->Byte();
     const double seconds = kind < 240 ? kind / 64.0 : data->UpTo(1e9);
     now_ = std::min(numeric::AddRoundedDown(now_, seconds),
-                    Instant::FromNanoseconds(server::kInstantMax - 20'000'000'000));
+                    Instant::FromNanoseconds(wire::kInstantMax - 20'000'000'000));
     detectors_.Advance(now_);
     for (const detection::CollisionEvent& event : detectors_.first().events()) {
       CheckEvent(server::Encode(event));
@@ -248,8 +254,8 @@ class Session {
     CheckPromises();
   }
 
-  /// Nobody who flies on as told touches anybody before both have been said to be clear no longer,
-  /// unless their meeting was announced.
+  /// Two agents that keep their last velocities do not touch before the clearance of both has ended,
+  /// unless their contact was announced.
   void CheckPromises() const {
     for (auto a = told_.begin(); a != told_.end(); ++a) {
       for (auto b = std::next(a); b != told_.end(); ++b)
@@ -275,11 +281,12 @@ class Session {
         {now_, a.ball.state.stamp, b.ball.state.stamp, of_a->effective_from, of_b->effective_from});
     const Instant until =
         std::min({std::max(of_a->clear_until, of_b->clear_until), a.ball.state.expiry,
-                  b.ball.state.expiry, Instant::FromNanoseconds(server::kInstantMax)});
-    if (from >= until || !CertainlyApart(a.ball, b.ball, from)) return;
+                  b.ball.state.expiry, Instant::FromNanoseconds(wire::kInstantMax)});
+    if (from >= until || !GapOf(a.ball, b.ball, from).ApartAt(0.0)) return;
     const Instant last = Instant::FromNanoseconds(until.nanoseconds() - 1);
     const Instant nearest = NearestWithin(a.ball, b.ball, from, last);
-    Require(!CertainlyOverlap(a.ball, b.ball, nearest), slot_a, " and ", slot_b, " touch at ",
+    const ExactGap gap = GapOf(a.ball, b.ball, nearest);
+    Require(ValueAt(gap.Excess(), 0.0).Sign() >= 0, slot_a, " and ", slot_b, " touch at ",
             nearest.nanoseconds(), " or before; clear until ", until.nanoseconds(), ", now ",
             now_.nanoseconds());
   }

@@ -5,9 +5,10 @@
 #include <stdexcept>
 
 #include "idl/dds/conversion.h"
-#include "server/codec.h"
+#include "idl/limits.h"
+#include "server/codec/codec.h"
 #include "tests/server/messages.h"
-#include "tests/server/shapes.h"
+#include "tests/server/shapes/shapes.h"
 
 namespace collision::fuzz {
 namespace {
@@ -68,7 +69,7 @@ v1::Input FuzzedStates(const std::string& simulator, std::int64_t now_ns, Fuzzed
   const std::uint8_t kind = data->Byte();
   if (kind >= 240) chunk.set_run(Small(data));
   if (kind >= 250) chunk.set_chunk(static_cast<std::uint32_t>(data->Bits(4)));
-  const int states = kind % 4 + (kind == 239 ? server::kStatesPerChunkMax : 0);
+  const int states = kind % 4 + (kind == 239 ? wire::kStatesPerChunkMax : 0);
   for (int i = 0; i < states; ++i) *chunk.add_states() = FuzzedState(now_ns, data);
   return From(SenderOf(simulator, data), chunk);
 }
@@ -134,11 +135,11 @@ v1::AgentDescription FuzzedDeclaration(const std::string& simulator, FuzzedData*
   v1::AgentDescription wire =
       server::Description(simulator, static_cast<std::uint32_t>(data->Below(kSlots)));
   const std::uint64_t spoilt = data->Bits(2);
-  if (spoilt & 1) wire.set_radius_m(data->Wild(server::kRadiusMax));
-  if (spoilt & 2) wire.set_acceleration_max_m_s2(data->Wild(server::kAccelerationMax));
-  if (spoilt & 4) wire.set_angular_acceleration_max_rad_s2(data->Wild(server::kAccelerationMax));
-  if (spoilt & 8) wire.set_speed_max_m_s(data->Wild(server::kSpeedMax));
-  if (spoilt & 16) wire.set_time_step_s(data->Wild(server::kTimeStepMax));
+  if (spoilt & 1) wire.set_radius_m(data->Wild(wire::kRadiusMax));
+  if (spoilt & 2) wire.set_acceleration_max_m_s2(data->Wild(wire::kAccelerationMax));
+  if (spoilt & 4) wire.set_angular_acceleration_max_rad_s2(data->Wild(wire::kAccelerationMax));
+  if (spoilt & 8) wire.set_speed_max_m_s(data->Wild(wire::kSpeedMax));
+  if (spoilt & 16) wire.set_time_step_s(data->Wild(wire::kTimeStepMax));
   if (spoilt & 32) wire.set_group(static_cast<std::uint32_t>(data->Bits(1)));
   if (spoilt & 64) wire.set_mask(static_cast<std::uint32_t>(data->Bits(1)));
   if (spoilt & 128) wire.set_shape_hash(Sha256(ShapeBytes(data)));
@@ -156,18 +157,18 @@ v1::AgentState FuzzedState(std::int64_t now_ns, FuzzedData* data) {
   v1::AgentState wire = server::State(static_cast<std::uint32_t>(data->Below(kSlots)),
                                       TimeNear(now_ns, data), data->Bits(2));
   const std::uint64_t spoilt = data->Bits(2);
-  wire.mutable_position_m()->set_x(data->Within(server::kCoordinateMax));
-  if (spoilt & 1) Spoil(wire.mutable_position_m(), server::kCoordinateMax, data);
-  if (spoilt & 2) Spoil(wire.mutable_velocity_m_s(), server::kSpeedMax, data);
+  wire.mutable_position_m()->set_x(data->Within(wire::kCoordinateMax));
+  if (spoilt & 1) Spoil(wire.mutable_position_m(), wire::kCoordinateMax, data);
+  if (spoilt & 2) Spoil(wire.mutable_velocity_m_s(), wire::kSpeedMax, data);
   if (spoilt & 4) {
     wire.mutable_orientation()->set_w(data->Wild(2));
     wire.mutable_orientation()->set_x(data->Wild(2));
     wire.mutable_orientation()->set_y(data->Wild(2));
   }
-  if (spoilt & 8) Spoil(wire.mutable_angular_velocity_rad_s(), server::kAngularSpeedMax, data);
-  if (spoilt & 16) wire.set_position_error_m(data->Wild(server::kRadiusMax));
-  if (spoilt & 32) wire.set_velocity_error_m_s(data->Wild(server::kSpeedMax));
-  if (spoilt & 64) wire.set_rotation_error_rad(data->Wild(server::kRotationErrorMax));
+  if (spoilt & 8) Spoil(wire.mutable_angular_velocity_rad_s(), wire::kAngularSpeedMax, data);
+  if (spoilt & 16) wire.set_position_error_m(data->Wild(wire::kRadiusMax));
+  if (spoilt & 32) wire.set_velocity_error_m_s(data->Wild(wire::kSpeedMax));
+  if (spoilt & 64) wire.set_rotation_error_rad(data->Wild(wire::kRotationErrorMax));
   if (spoilt & 128) Spoil(wire.mutable_thrust_direction(), 2, data);
   if (spoilt & 256) wire.mutable_thrust_direction()->set_z(data->Flag() ? 1 : -1);
   if (spoilt & 512) wire.set_direction_until_ns(TimeNear(now_ns, data));

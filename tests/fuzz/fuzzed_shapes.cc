@@ -1,7 +1,7 @@
 #include "tests/fuzz/fuzzed_shapes.h"
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
-#include "tests/server/shapes.h"
+#include "tests/server/shapes/shapes.h"
 
 namespace collision::fuzz {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "client/shape.h"
+#include "client/api/shape.h"
 #include "collision_core/shape/shape.h"
 #include "tests/fuzz/fuzzed_data.h"
 
@@ -13,7 +13,8 @@ namespace collision::fuzz {
 /// may be missing, and any number may be out of range.
 client::Geometry FuzzedGeometry(FuzzedData* data);
 
-/// A body of size 1 or so, or null: a ball. Always the same few, so that they cost nothing to build.
+/// A body of size 1 or so, or null: a ball. Always the same few, so that they cost nothing to
+/// build.
 std::shared_ptr<const shape::Shape> FuzzedBody(FuzzedData* data);
 
 }  // namespace collision::fuzz

@@ -1,9 +1,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "client/mesh_file.h"
+#include "client/api/mesh_file.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
-#include "server/shape_builder.h"
+#include "server/shapes/shape_builder.h"
 #include "tests/fuzz/scratch_file.h"
 #include "tests/fuzz/targets.h"
 

@@ -3,10 +3,10 @@
 
 #include <stdexcept>
 
-#include "server/config.h"
-#include "server/daemon.h"
-#include "server/recording.h"
-#include "server/replay.h"
+#include "server/config/config.h"
+#include "server/recording/recording.h"
+#include "server/recording/replay.h"
+#include "server/service/daemon.h"
 #include "tests/fuzz/answers.h"
 #include "tests/fuzz/scratch_file.h"
 #include "tests/fuzz/targets.h"

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "client/shape.h"
+#include "client/api/shape.h"
 #include "collision_core/narrow_phase/separation/separation.h"
 #include "collision_core/sphere_tree/tree_check.h"
 #include "idl/shape_bytes.h"
 #include "idl/tree_message.h"
-#include "server/shape_builder.h"
+#include "server/shapes/shape_builder.h"
 #include "tests/fuzz/fuzzed_shapes.h"
 #include "tests/fuzz/targets.h"
 

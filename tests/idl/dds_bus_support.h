@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "idl/dds/session.h"
-#include "server/dds_bus.h"
+#include "server/bus/dds_bus.h"
 
 namespace collision::server {
 

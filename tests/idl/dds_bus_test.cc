@@ -2,7 +2,7 @@
 //         a known sender, to those of its world only.
 // Method: real DDS on loopback, several participants in one process, each test in a domain and
 //         world of its own; waiting loops with a deadline.
-#include "server/dds_bus.h"
+#include "server/bus/dds_bus.h"
 
 #include <gtest/gtest.h>
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "server/replay.h"
-#include "server/threaded_shape_builder.h"
+#include "server/recording/replay.h"
+#include "server/shapes/threaded_shape_builder.h"
 
 namespace collision::server {
 namespace {

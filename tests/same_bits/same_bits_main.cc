@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "server/logging.h"
-#include "tests/bench/json.h"
+#include "server/process/logging.h"
+#include "tests/bench/harness/json.h"
 #include "tests/same_bits/run_scene.h"
 
 namespace collision::server {

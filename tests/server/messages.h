@@ -108,7 +108,7 @@ inline v1::Input Liveliness(std::uint64_t sender, const std::string& simulator, 
   return input;
 }
 
-/// A clock that vouches for everything up to these sequences.
+/// A clock behind all states and descriptions up to these sequences.
 inline v1::SimulatorClock ClockAfter(const std::string& simulator, std::int64_t clock_ns,
                                      std::uint64_t states, std::uint64_t descriptions) {
   v1::SimulatorClock clock = ClockOf(simulator, clock_ns);

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "server/bus.h"
-#include "server/clock.h"
-#include "server/config.h"
-#include "server/daemon.h"
+#include "server/bus/bus.h"
+#include "server/bus/clock.h"
+#include "server/config/config.h"
+#include "server/service/daemon.h"
 
 namespace collision::server {
 

@@ -6,6 +6,8 @@
 #include <map>
 #include <tuple>
 
+#include "tests/support/truth/ball_contacts.h"
+
 namespace collision::server {
 namespace {
 
@@ -48,22 +50,22 @@ bool Holds(const v1::TimeBracket& bracket, std::int64_t t_ns, std::int64_t toler
   return bracket.earliest_ns() <= t_ns + tolerance_ns && t_ns - tolerance_ns <= bracket.latest_ns();
 }
 
-std::string Show(const Body& a, const Body& b, const broad_phase::Meeting& meeting) {
+std::string Show(const Body& a, const Body& b, const BallContact& contact) {
   return "slots " + std::to_string(a.id.slot) + " and " + std::to_string(b.id.slot) +
-         " touch in [" + std::to_string(meeting.begin_ns) + ", " + std::to_string(meeting.end_ns) +
-         "] ns, " + std::to_string(meeting.depth) + " m deep";
+         " touch in [" + std::to_string(contact.begin_ns) + ", " + std::to_string(contact.end_ns) +
+         "] ns, " + std::to_string(contact.depth) + " m deep";
 }
 
-/// The story that covers the meeting: its begin bracket, or all that is not certified free, holds
+/// The story that covers the contact: its begin bracket, or all that is not certified free, holds
 /// the begin.
-const Story* Find(const std::map<std::uint32_t, Story>& stories,
-                  const broad_phase::Meeting& meeting, std::int64_t tolerance_ns) {
-  for (const auto& [contact, story] : stories) {
+const Story* Find(const std::map<std::uint32_t, Story>& stories, const BallContact& contact,
+                  std::int64_t tolerance_ns) {
+  for (const auto& [number, story] : stories) {
     const v1::CollisionEvent& event = story.last;
     if (event.status() == v1::EVENT_DISMISSED) continue;
-    if (Confirmed(event) ? Holds(event.begin(), meeting.begin_ns, tolerance_ns)
-                         : event.begin().earliest_ns() <= meeting.begin_ns + tolerance_ns &&
-                               meeting.begin_ns - tolerance_ns <= event.end().latest_ns()) {
+    if (Confirmed(event) ? Holds(event.begin(), contact.begin_ns, tolerance_ns)
+                         : event.begin().earliest_ns() <= contact.begin_ns + tolerance_ns &&
+                               contact.begin_ns - tolerance_ns <= event.end().latest_ns()) {
       return &story;
     }
   }
@@ -99,22 +101,22 @@ std::int64_t LastSurprise(const Body& body, std::int64_t before_ns) {
   return last;
 }
 
-void CheckPromises(const Body& a, const Body& b, const broad_phase::Meeting& meeting,
-                   const Story* story, const Promises& promises, CheckerResult* result) {
+void CheckPromises(const Body& a, const Body& b, const BallContact& contact, const Story* story,
+                   const Promises& promises, CheckerResult* result) {
   const std::int64_t announced =
       story == nullptr ? std::numeric_limits<std::int64_t>::max() : story->first_now_ns;
   const std::int64_t known_from =
-      std::max(LastSurprise(a, meeting.begin_ns), LastSurprise(b, meeting.begin_ns));
+      std::max(LastSurprise(a, contact.begin_ns), LastSurprise(b, contact.begin_ns));
   for (const detection::AgentId& id : {a.id, b.id}) {
     const auto told = promises.find(id);
     if (told == promises.end()) continue;
     for (const Promise& promise : told->second) {
-      const bool binds = promise.now_ns > known_from && promise.now_ns < meeting.begin_ns &&
+      const bool binds = promise.now_ns > known_from && promise.now_ns < contact.begin_ns &&
                          promise.now_ns < announced;
       if (!binds) continue;
       ++result->promises;
-      if (promise.clear_until_ns <= meeting.begin_ns) continue;
-      result->violations.push_back(Show(a, b, meeting) + ": at " + std::to_string(promise.now_ns) +
+      if (promise.clear_until_ns <= contact.begin_ns) continue;
+      result->violations.push_back(Show(a, b, contact) + ": at " + std::to_string(promise.now_ns) +
                                    " slot " + std::to_string(id.slot) + " was clear until " +
                                    std::to_string(promise.clear_until_ns));
       return;
@@ -122,22 +124,22 @@ void CheckPromises(const Body& a, const Body& b, const broad_phase::Meeting& mee
   }
 }
 
-void CheckMeeting(const Body& a, const Body& b, const broad_phase::Meeting& meeting,
+void CheckContact(const Body& a, const Body& b, const BallContact& contact,
                   const std::map<std::uint32_t, Story>& stories, const Promises& promises,
                   const CheckerOptions& options, CheckerResult* result) {
   const auto violate = [&](const std::string& what) {
-    result->violations.push_back(Show(a, b, meeting) + ": " + what);
+    result->violations.push_back(Show(a, b, contact) + ": " + what);
   };
   ++result->contacts;
-  const Story* story = Find(stories, meeting, options.time_tolerance_ns);
-  if (meeting.begins_in_motion) CheckPromises(a, b, meeting, story, promises, result);
+  const Story* story = Find(stories, contact, options.time_tolerance_ns);
+  if (contact.begins_in_motion) CheckPromises(a, b, contact, story, promises, result);
   if (story == nullptr) {
     // What began by a jump or an admission begins for the service when it saw it.
-    if (meeting.begins_in_motion) violate("no event holds its begin");
+    if (contact.begins_in_motion) violate("no event holds its begin");
     return;
   }
-  if (meeting.begins_in_motion &&
-      story->first_now_ns > meeting.begin_ns + options.time_tolerance_ns) {
+  if (contact.begins_in_motion &&
+      story->first_now_ns > contact.begin_ns + options.time_tolerance_ns) {
     violate("announced only at " + std::to_string(story->first_now_ns));
   }
   if (!Confirmed(story->last)) return;
@@ -146,21 +148,21 @@ void CheckMeeting(const Body& a, const Body& b, const broad_phase::Meeting& meet
   result->begin_width_greatest =
       std::max(result->begin_width_greatest,
                static_cast<double>(begin.latest_ns() - begin.earliest_ns()) * 1e-9);
-  if (meeting.ends_in_motion && story->last.status() == v1::EVENT_ENDED &&
-      !Holds(story->last.end(), meeting.end_ns, options.time_tolerance_ns)) {
+  if (contact.ends_in_motion && story->last.status() == v1::EVENT_ENDED &&
+      !Holds(story->last.end(), contact.end_ns, options.time_tolerance_ns)) {
     violate("its end is not in [" + std::to_string(story->last.end().earliest_ns()) + ", " +
             std::to_string(story->last.end().latest_ns()) + "]");
   }
 }
 
-/// A confirmed event without a meeting that touches its certified part is false.
-void CheckConfirmed(const Body& a, const Body& b, const std::vector<broad_phase::Meeting>& meetings,
+/// A confirmed event without a contact that touches its certified part is false.
+void CheckConfirmed(const Body& a, const Body& b, const std::vector<BallContact>& contacts_true,
                     const std::map<std::uint32_t, Story>& stories, CheckerResult* result) {
-  for (const auto& [contact, story] : stories) {
+  for (const auto& [number, story] : stories) {
     if (!Confirmed(story.last)) continue;
     const std::int64_t certified = story.last.begin().latest_ns();
     const bool is_true =
-        std::any_of(meetings.begin(), meetings.end(), [&](const broad_phase::Meeting& m) {
+        std::any_of(contacts_true.begin(), contacts_true.end(), [&](const BallContact& m) {
           return m.begin_ns - 100 <= certified && certified <= m.end_ns + 100;
         });
     if (is_true) continue;
@@ -190,15 +192,15 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
       const Body &a = bodies[i], &b = bodies[j];
       const std::int64_t from = std::max(a.agent->from_ns, b.agent->from_ns);
       const std::int64_t to = std::min({a.agent->until_ns, b.agent->until_ns, end_ns});
-      const std::vector<broad_phase::Meeting> meetings =
-          Meetings(a.agent->motion, b.agent->motion, a.agent->radius + b.agent->radius, from, to);
+      const std::vector<BallContact> contacts_true = BallContacts(
+          a.agent->motion, b.agent->motion, a.agent->radius + b.agent->radius, from, to);
       const auto found = stories.find({a.id, b.id});
       const auto& told = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
-      for (const broad_phase::Meeting& meeting : meetings) {
-        if (meeting.depth < options.grazing) continue;
-        CheckMeeting(a, b, meeting, told, promises, options, &result);
+      for (const BallContact& contact : contacts_true) {
+        if (contact.depth < options.grazing) continue;
+        CheckContact(a, b, contact, told, promises, options, &result);
       }
-      CheckConfirmed(a, b, meetings, told, &result);
+      CheckConfirmed(a, b, contacts_true, told, &result);
     }
   }
   return result;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "server/replay.h"
+#include "server/recording/replay.h"
 #include "tests/simulation/contact_checker.h"
 #include "tests/simulation/scenario.h"
 

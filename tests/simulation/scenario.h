@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "server/config.h"
-#include "server/daemon.h"
-#include "server/recording.h"
+#include "server/config/config.h"
+#include "server/recording/recording.h"
+#include "server/service/daemon.h"
 #include "tests/simulation/simulated_network.h"
 #include "tests/simulation/simulated_simulator.h"
 
@@ -17,8 +17,8 @@ inline constexpr std::int64_t kSecond = 1'000'000'000;
 /// The default configuration with a simulated clock that waits for `simulators`.
 v1::Config ConfigFor(std::size_t simulators);
 
-/// Balls that wander. Every third comes late or leaves early; every other knows its position to 30 cm
-/// only, so that what grazes stays undecided.
+/// Balls that wander. Every third comes late or leaves early; every other knows its position to 30
+/// cm only, so that what grazes stays undecided.
 std::vector<SimulatedAgent> Crowd(int count, std::int64_t end_ns, Random* random);
 
 /// Everything of one run. Simulators are added, then Run() goes on until nothing can happen any
@@ -29,8 +29,8 @@ class Scenario {
 
   SimulatedSimulator& Add(const SimulatorOptions& options, std::vector<SimulatedAgent> agents);
 
-  /// A new daemon with an empty memory, in place of the one before. Without a `shape_builder` it has
-  /// its own.
+  /// A new daemon with an empty memory, in place of the one before. Without a `shape_builder` it
+  /// has its own.
   void StartService(BatchSink* recorder = nullptr,
                     std::unique_ptr<ShapeBuilder> shape_builder = nullptr);
 

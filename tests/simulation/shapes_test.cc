@@ -1,16 +1,17 @@
-// Goal:   of agents with shapes no contact comes unannounced and no promise outlasts one, on a network that loses,
-//         repeats and delays, and across a restart of the service; and the log is the same in every run and build.
-// Method: meshes that move exactly and do not turn; the truth by brute force over all triangles, in steps that no
-//         motion outruns.
+// Goal:   of agents with shapes no contact comes unannounced and no promise outlasts one, on a
+//         network that loses, repeats and delays, and across a restart of the service; and the log
+//         is the same in every run and build.
+// Method: meshes that move exactly and do not turn; the truth by brute force over all triangles, in
+//         steps that no motion outruns.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <string>
 
 #include "idl/shape_bytes.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/simulation/scenario.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision::server {
 namespace {
@@ -83,7 +84,8 @@ std::vector<Player> PlayersOf(const Scenario& scenario) {
   return players;
 }
 
-/// The first instant at which the two touch, late by a tenth of a millisecond at most; kEnd: they do not.
+/// The first instant at which the two touch, late by a tenth of a millisecond at most; kEnd: they
+/// do not.
 std::int64_t FirstTouch(const Player& a, const Player& b) {
   constexpr Real kSpeed = 16;  // of both; wanderers brake above 4 m/s
   for (std::int64_t t = 0; t < kEnd;) {
@@ -98,7 +100,8 @@ bool IsOf(const v1::AgentId& wire, const detection::AgentId& id) {
   return wire.simulator_id() == id.simulator && wire.slot() == id.slot;
 }
 
-// When an event first spoke of the pair, and whether the last word of any of them holds the instant.
+// When an event first spoke of the pair, and whether the last word of any of them holds the
+// instant.
 struct Told {
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   bool holds = false;

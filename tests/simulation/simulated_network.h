@@ -10,8 +10,8 @@
 #include <tuple>
 #include <vector>
 
-#include "server/bus.h"
-#include "server/clock.h"
+#include "server/bus/bus.h"
+#include "server/bus/clock.h"
 #include "tests/support/random.h"
 
 namespace collision::server {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/detection/agent_id.h"
+#include "collision_core/detection/events/agent_id.h"
 #include "tests/simulation/motion.h"
 #include "tests/simulation/simulated_network.h"
 

@@ -119,7 +119,8 @@ TEST(Image, NamesOnlyConfigurationThatIsThere) {
   }
 }
 
-// Containers do not share a loopback interface, so its profile would find nobody and not say so.
+// Containers do not share a loopback interface, so its profile would find no other process, without
+// an error.
 TEST(Image, HasAProfileForSeveralHosts) {
   const auto profile =
       All(ReadFile(kDockerfile), "CYCLONEDDS_URI=file:///usr/share/collisiond/(\\S+)");
@@ -130,10 +131,10 @@ TEST(Image, HasAProfileForSeveralHosts) {
 
 TEST(Compose, StartsProgramsOfTheImage) {
   std::string rules;
-  for (const char* room : {"server", "client/tools", "client/simulators"}) {
+  for (const char* room : {"server", "client/programs/tools", "client/programs/simulators"}) {
     rules += ReadFile(std::string(room) + "/CMakeLists.txt");
   }
-  const auto programs = All(rules, "(?:simulator_program|add_executable)\\(([a-z-]+) ");
+  const auto programs = All(rules, "(?:client_program|add_executable)\\(([a-z-]+) ");
   const auto started = All(ReadFile(kCompose), "entrypoint: \\[([a-z-]+)");
   ASSERT_GE(started.size(), 4u);
   for (const std::string& program : started) EXPECT_TRUE(Contains(programs, program)) << program;
@@ -158,7 +159,7 @@ TEST(Compose, GivesNoServiceMorePrivilegeThanAnother) {
   }
 }
 
-// Everybody looks for the service where it is.
+// All containers look for the service where it is.
 TEST(Compose, EverybodyIsInTheSameWorldAndDomain) {
   const auto blocks = ComposeBlocks();
   for (const char* service : {"collisiond", "spaceship", "drones", "pilot", "monitor"}) {

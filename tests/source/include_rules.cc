@@ -16,7 +16,10 @@ struct Layer {
 };
 
 const std::vector<Layer>& Layers() {
-  static const std::string core = "collision_core/";
+  static const std::string core = "collision_core/", api = "client/api/",
+                           library = "client/library/", checker = "client/checker/",
+                           programs = "client/programs/";
+  static const std::string validation = library + "validation.h";
   static const std::vector<Layer> layers = {
       {core + "base/", {core + "base/"}},
       {core + "numeric/", {core + "base/", core + "numeric/"}},
@@ -33,18 +36,60 @@ const std::vector<Layer>& Layers() {
       // A tree at rest is made of the core's own data; daemon and tools write the same.
       {"idl/tree_message", {"idl/", core + "shape/"}},
       {"idl/", {"idl/"}},
-      {"server/", {core, "idl/", "server/"}},
-      {"client/world.h", {"client/types.h"}},
-      {"client/monitor.h", {"client/types.h"}},
-      {"client/types.h", {}},
+      // The rooms of the server, each behind those that it stands on; main sees only the program.
+      {"server/process/", {"server/process/"}},
+      {"server/config/", {"idl/", "server/config/"}},
+      {"server/bus/", {"idl/", "server/bus/"}},
+      {"server/recording/",
+       {"idl/", "server/process/", "server/config/", "server/bus/", "server/recording/"}},
+      {"server/codec/", {core, "idl/", "server/codec/"}},
+      {"server/shapes/", {core, "idl/", "server/process/", "server/codec/", "server/shapes/"}},
+      {"server/world/",
+       {core, "idl/", "server/process/", "server/bus/", "server/codec/", "server/world/"}},
+      {"server/intake/",
+       {core, "idl/", "server/process/", "server/codec/", "server/shapes/", "server/world/",
+        "server/intake/"}},
+      {"server/publish/",
+       {core, "idl/", "server/process/", "server/bus/", "server/codec/", "server/shapes/",
+        "server/world/", "server/intake/", "server/publish/"}},
+      {"server/service/", {core, "idl/", "server/"}},
+      {"server/main.cc", {"server/service/"}},
+      // What users of the client library include: nothing of the network.
+      {api, {api}},
       // So that client and service judge motions, meshes and solids alike.
-      {"client/contract.cc", {"idl/", "client/", core + "motion/contract_between.h"}},
-      {"client/shape.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},
-      {"client/solid_check.cc", {"idl/", "client/", core + "shape/convex_solid.h"}},
-      {"client/mesh_file.cc", {"idl/", "client/", core + "shape/triangle_mesh.h"}},
-      // It shows what the service would build, so it builds it.
-      {"client/tools/sphere_tree", {"idl/", "client/", core + "shape/"}},
-      {"client/", {"idl/", "client/"}},
+      {library + "world/contract.cc",
+       {api, library + "vector.h", library + "world/contract.h",
+        core + "motion/contract_between.h"}},
+      {library + "shape/core_mesh.h", {api, core + "shape/triangle_mesh.h"}},
+      {library + "shape/shape.cc", {"idl/shape_bytes.h", api, validation, library + "shape/"}},
+      {library + "shape/solid_check.cc",
+       {api, validation, library + "shape/", core + "shape/convex_solid.h"}},
+      {"client/mesh/mesh_file.cc",
+       {api, validation, "client/mesh/", core + "shape/triangle_mesh.h"}},
+      {"client/mesh/", {api, validation, "client/mesh/"}},
+      {library + "shape/", {"idl/shape_bytes.h", api, library + "shape/"}},
+      {library + "network/", {"idl/", api, validation, library + "network/"}},
+      {library + "world/",
+       {"idl/", api, validation, library + "deadline.h", library + "network/", library + "world/"}},
+      {library, {"idl/limits.h", api, validation}},
+      {"client/example/", {api}},
+      // The checker shares nothing with what it checks but the messages.
+      {checker + "shape/", {checker + "shape/"}},
+      {checker + "motion/", {checker + "shape/", checker + "motion/"}},
+      {checker, {"idl/", checker}},
+      // Shows what the service would build, so it builds it.
+      {programs + "tools/sphere_tree/",
+       {"idl/", api, library + "shape/core_mesh.h", programs + "shared/", programs + "tools/",
+        core + "shape/"}},
+      {programs + "tools/",
+       {"idl/", api, library, checker, programs + "shared/", programs + "tools/"}},
+      {programs + "shared/", {"idl/", api, library, programs + "shared/"}},
+      {programs + "simulators/motion/",
+       {api, library, programs + "shared/", programs + "simulators/motion/"}},
+      {programs + "simulators/",
+       {"idl/", api, library, programs + "shared/", programs + "simulators/"}},
+      {programs + "scene_runner/",
+       {"idl/", api, library, checker, programs + "shared/", programs + "scene_runner/"}},
       {"tests/", {core, "idl/", "server/", "client/", "tests/"}},
   };
   return layers;
@@ -93,15 +138,14 @@ bool IsWide(const std::string& path) {
          StartsWith(path, "collision_core/narrow_phase/pack_scan_wide");
 }
 
-bool IsPublicClientHeader(const std::string& path) {
-  return path == "client/world.h" || path == "client/monitor.h" || path == "client/types.h";
-}
+bool IsPublicClientHeader(const std::string& path) { return StartsWith(path, "client/api/"); }
 
 std::string Complaint(const std::string& path, const Include& include) {
   if (IsDds(include.name)) {
     return StartsWithAny(path, {"idl/dds/", "tests/idl/"}) ? "" : "only idl/dds knows DDS";
   }
-  // Built for processors that not everybody has: what others share must not be compiled there.
+  // Built for processors that not every machine has: code that others share must not be compiled
+  // there.
   if (IsWide(path)) {
     const bool own = include.name == "immintrin.h" || IsWideInterface(include.name);
     return own ? "" : "wide vectors know nothing but their processor";

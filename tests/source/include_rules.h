@@ -1,4 +1,4 @@
-// Who may include what: the layers of the code, as rules over #include lines.
+// The layers of the code, as rules over #include lines.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace collision::source {
 struct Include {
   int line = 0;
   std::string name;
-  bool quoted = false;  ///< With "quotes": ours. With <brackets>: somebody else's.
+  bool quoted = false;  ///< With "quotes": ours. With <brackets>: a library's.
 };
 
 /// The #include lines of a C++ file's text, in order.

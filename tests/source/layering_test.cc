@@ -3,6 +3,8 @@
 // break them.
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "tests/source/include_rules.h"
 #include "tests/source/source_tree.h"
 
@@ -34,20 +36,37 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"collision_core/detection/a.cc", "<dds/dds.h>"},
       {"collision_core/motion/a.cc", "\"../detection/detector.h\""},
       {"idl/dds/a.h", "\"collision_core/base/instant.h\""},
-      {"server/daemon.cc", "<dds/dds.h>"},
-      {"server/daemon.cc", "\"collision.h\""},
-      {"server/daemon.cc", "\"client/world.h\""},
-      {"client/world.h", "<google/protobuf/message.h>"},
-      {"client/world.h", "\"idl/messages.pb.h\""},
-      {"client/world.cc", "  \"server/clock.h\""},
-      {"client/world.cc", "<dds/dds.h>"},
-      {"client/tools/motion_checker.cc", "\"collision_core/base/instant.h\""},
-      {"client/tools/motion_checker.cc", "\"server/event_log.h\""},
-      {"client/tools/sphere_tree_report.h", "\"collision_core/base/instant.h\""},
-      {"client/tools/collisionctl_text.cc", "\"collision_core/shape/shape.h\""},
+      {"server/service/daemon.cc", "<dds/dds.h>"},
+      {"server/service/daemon.cc", "\"collision.h\""},
+      {"server/service/daemon.cc", "\"client/api/world.h\""},
+      {"server/process/logging.cc", "\"server/config/config.h\""},
+      {"server/config/config.cc", "\"server/recording/recording.h\""},
+      {"server/codec/codec.cc", "\"server/shapes/shape_store.h\""},
+      {"server/shapes/shape_store.cc", "\"server/world/world.h\""},
+      {"server/world/world.cc", "\"server/intake/intake.h\""},
+      {"server/intake/intake.cc", "\"server/publish/publisher.h\""},
+      {"server/publish/publisher.cc", "\"server/service/daemon.h\""},
+      {"server/main.cc", "\"server/bus/dds_bus.h\""},
+      {"server/daemon.cc", "\"server/bus/bus.h\""},
+      {"client/api/world.h", "<google/protobuf/message.h>"},
+      {"client/api/world.h", "\"idl/messages.pb.h\""},
+      {"client/api/world.h", "\"client/library/network/transport.h\""},
+      {"client/example/ten_lines.cc", "\"client/library/deadline.h\""},
+      {"client/library/world/world.cc", "  \"server/clock.h\""},
+      {"client/library/world/world.cc", "<dds/dds.h>"},
+      {"client/library/world/world.cc", "\"client/programs/shared/pace.h\""},
+      {"client/library/network/conversion.cc", "\"client/library/world/contract.h\""},
+      {"client/library/shape/shape.cc", "\"collision_core/base/instant.h\""},
+      {"client/checker/check.h", "\"client/api/types.h\""},
+      {"client/checker/shape/mesh.h", "\"client/checker/motion/motion.h\""},
+      {"client/programs/simulators/terrain/terrain.h", "\"client/checker/check.h\""},
+      {"client/programs/tools/motion_checker_main.cc", "\"collision_core/base/instant.h\""},
+      {"client/programs/tools/motion_checker_main.cc", "\"server/event_log.h\""},
+      {"client/programs/tools/sphere_tree/report.h", "\"collision_core/base/instant.h\""},
+      {"client/programs/tools/collisionctl/text_pages.cc", "\"collision_core/shape/shape.h\""},
       {"idl/tree_message.cc", "\"collision_core/base/instant.h\""},
       {"idl/shape_bytes.cc", "\"collision_core/shape/shape.h\""},
-      {"elsewhere/a.h", "\"client/types.h\""},
+      {"elsewhere/a.h", "\"client/api/types.h\""},
   };
   for (const Planted& planted : bad) {
     const auto violations = ViolationsOf(planted);
@@ -65,11 +84,14 @@ TEST(Layering, GoodIncludesAreLeftAlone) {
       {"collision_core/numeric/a.h", "<Eigen/Core>"},
       {"collision_core/numeric/a.h", "<cmath>"},
       {"idl/dds/a.cc", "<dds/dds.h>"},
-      {"server/codec.cc", "\"collision_core/base/instant.h\""},
-      {"client/world.cc", "\"idl/messages.pb.h\""},
-      {"client/tools/sphere_tree_report.h", "\"collision_core/shape/shape.h\""},
+      {"server/codec/codec.cc", "\"collision_core/base/instant.h\""},
+      {"server/service/daemon.cc", "\"server/intake/intake.h\""},
+      {"server/intake/intake.cc", "\"server/world/world.h\""},
+      {"client/library/world/world.cc", "\"idl/messages.pb.h\""},
+      {"client/library/world/world.cc", "\"client/library/network/transport.h\""},
+      {"client/programs/tools/sphere_tree/report.h", "\"collision_core/shape/shape.h\""},
       {"idl/tree_message.h", "\"collision_core/sphere_tree/sphere_tree.h\""},
-      {"client/world.h", "\"client/types.h\""},
+      {"client/api/world.h", "\"client/api/types.h\""},
   };
   for (const Planted& planted : good) EXPECT_EQ(ViolationsOf(planted), std::vector<std::string>{});
 }
@@ -91,6 +113,46 @@ TEST(Layering, NothingIncludesWhatItMustNotKnow) {
     for (const std::string& violation : Violations(file.path, file.text))
       ADD_FAILURE() << violation;
   }
+}
+
+/// Every header that `path` includes, directly or through another header of the project.
+std::map<std::string, std::string> IncludedBy(const std::string& path) {
+  std::map<std::string, std::string> includers;
+  std::vector<std::string> unread = {path};
+  while (!unread.empty()) {
+    const std::string header = unread.back();
+    unread.pop_back();
+    for (const Include& include : Includes(ReadFile(header))) {
+      const bool is_new = includers.try_emplace(include.name, header).second;
+      if (is_new && include.quoted) unread.push_back(include.name);
+    }
+  }
+  return includers;
+}
+
+// A program that links the client library compiles without protobuf and without DDS.
+TEST(Layering, PublicClientHeadersLeadToNothingButTheStandardLibrary) {
+  int headers = 0;
+  for (const SourceFile& file : SourceFiles({".h"})) {
+    if (file.path.rfind("client/api/", 0) != 0) continue;
+    ++headers;
+    for (const auto& [name, includer] : IncludedBy(file.path)) {
+      const bool is_standard = name.find_first_of("/.") == std::string::npos;
+      EXPECT_TRUE(is_standard || name.rfind("client/api/", 0) == 0)
+          << file.path << " leads to " << name << " through " << includer;
+    }
+  }
+  EXPECT_GE(headers, 8);
+}
+
+// A folder is read at a glance.
+TEST(Layering, FoldersOfTheClientHaveAtMostTwentyFiles) {
+  std::map<std::string, int> files;
+  for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
+    if (file.path.rfind("client/", 0) == 0) ++files[file.path.substr(0, file.path.rfind('/'))];
+  }
+  ASSERT_GT(files.size(), 10u);
+  for (const auto& [folder, count] : files) EXPECT_LE(count, 20) << folder;
 }
 
 TEST(Layering, MainOnlyParsesLoadsAndRuns) {

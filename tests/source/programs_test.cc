@@ -1,7 +1,7 @@
 // Goal:   every test is built: each *_test.cc belongs to a program.
-// Method: CMake writes down which *_test.cc its programs are built from, and which it leaves out for
-//         want of what condition; both together must be the files that there are. The comparison is
-//         first tried on a list that lacks a file.
+// Method: CMake writes down which *_test.cc its programs are built from, and which it leaves out
+//         for want of what condition; both together must be the files that there are. The
+//         comparison is first tried on a list that lacks a file.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 // Method: its simulator is compiled as client/example; the two texts must agree line by line.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <regex>
 
 #include "tests/source/source_tree.h"
@@ -35,6 +36,21 @@ TEST(Readme, FilesItNamesExist) {
     EXPECT_NO_THROW(ReadFile((*it)[1])) << (*it)[1];
   }
   EXPECT_GT(links, 0);
+}
+
+TEST(Readme, PagesOfTheClientLinkToFilesThatExist) {
+  const std::regex link(R"(\]\(([A-Za-z0-9_./-]+)\))");
+  int links = 0;
+  for (const SourceFile& page : SourceFiles({".md"})) {
+    if (page.path.rfind("client/", 0) != 0) continue;
+    const std::filesystem::path folder = std::filesystem::path(page.path).parent_path();
+    for (std::sregex_iterator it(page.text.begin(), page.text.end(), link), end; it != end; ++it) {
+      const std::string path = (folder / (*it)[1].str()).lexically_normal().generic_string();
+      EXPECT_NO_THROW(ReadFile(path)) << page.path << ": " << path;
+      ++links;
+    }
+  }
+  EXPECT_GT(links, 5);
 }
 
 }  // namespace

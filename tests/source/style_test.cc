@@ -2,7 +2,10 @@
 // Method: read every file of the project; each finding is first tried on a text that has it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
+#include <sstream>
+#include <string>
 
 #include "tests/source/source_tree.h"
 
@@ -10,6 +13,7 @@ namespace collision::source {
 namespace {
 
 constexpr int kLinesMax = 450;
+constexpr int kColumnsMax = 100;
 
 // Built from pieces, so that this file does not find itself.
 const std::string kLeftovers = std::string("\\b(TO") + "DO|FIX" + "ME|X" + "XX)\\b";
@@ -32,6 +36,13 @@ void ExpectNowhere(const std::string& pattern, const std::vector<SourceFile>& fi
   }
 }
 
+/// Characters of a line of UTF-8: all bytes but those that go on with a character.
+int CountColumns(const std::string& line) {
+  return static_cast<int>(std::count_if(line.begin(), line.end(), [](char byte) {
+    return (static_cast<unsigned char>(byte) & 0xC0) != 0x80;
+  }));
+}
+
 TEST(Style, TheFindingsFind) {
   EXPECT_TRUE(Finds(kLeftovers, std::string("// TO") + "DO: later"));
   EXPECT_FALSE(Finds(kLeftovers, "a TODOS list"));
@@ -39,11 +50,23 @@ TEST(Style, TheFindingsFind) {
   EXPECT_FALSE(Finds(kMachinePaths, std::string("the frame") + "work/ of home/"));
   EXPECT_TRUE(Finds(kWeakTests, std::string("std::this_thread::sleep_") + "for(1s)"));
   EXPECT_EQ(CountLines("a\nb\n"), 2);
+  EXPECT_EQ(CountColumns("½ τ² ≥ x"), 8);
 }
 
 TEST(Style, FilesAreOfReadableLength) {
   for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
     EXPECT_LT(CountLines(file.text), kLinesMax) << file.path;
+  }
+}
+
+// clang-format breaks code at this column, but leaves comments as they are.
+TEST(Style, LinesAreAtMostOneHundredColumnsWide) {
+  for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
+    std::istringstream lines(file.text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+      EXPECT_LE(CountColumns(line), kColumnsMax) << file.path << ":" << number;
+    }
   }
 }
 

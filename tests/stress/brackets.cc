@@ -1,31 +1,31 @@
-// How far apart two bodies are, at the extremes of size and form: brackets against exact arithmetic.
+// How far apart two bodies are, at the extremes of size and form: brackets against exact
+// arithmetic.
 #include <cmath>
 
 #include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/stress/shape_judge.h"
-#include "tests/support/exact_convex.h"
-#include "tests/support/exact_triangle.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_surfaces.h"
 
 namespace collision::stress {
 namespace {
 
 using Eigen::Vector3d;
 
-/// K of a bracket: so many units in the last place of L, which is how far the two are from each other
-/// and how large; plus what directions lose (UnitsOf()). With ε = 2^-53 a unit is 2ε L.
+/// K of a bracket: so many units in the last place of L, which is how far the two are from each
+/// other and how large; plus what directions lose (UnitsOf()). With ε = 2^-53 a unit is 2ε L.
 ///
 /// What the core takes off both ends for the pose's rounding (SlackOf): 2 · 16ε (R_a + R_b + |o|₁),
 /// at most √3 · 32ε L, which is 28 units. A bracket of two triangles is left as it is where it is
 /// narrower than 64ε (S_a + S_b) (triangle_distance.cc), with all coordinates seen from one of the
-/// corners: S_a + S_b <= 2 R_a + L < 3 L, so that is 96 units. 20ε and 11.1√3 ε of S_a + S_b on top,
-/// that is what both its ends are taken out by, have room in it.
+/// corners: S_a + S_b <= 2 R_a + L < 3 L, so that is 96 units. 20ε and 11.1√3 ε of S_a + S_b on
+/// top, that is what both its ends are taken out by, have room in it.
 constexpr double kBracketUnits = 28 + 96;
 
-/// Else it is told along a direction n = e × f of two edges. Their components are off by ε each, the
-/// products' by two, their difference's by one more: less than 4√2 ε |e| |f| in all, so that n is
-/// turned by 6ε / sin(e, f) at most. What lies across it, 2 R_a + 2 R_b <= 2 L long, sticks out by
-/// as much: 12ε L / sin, or 6 units.
+/// Else it is told along a direction n = e × f of two edges. Their components are off by ε each,
+/// the products' by two, their difference's by one more: less than 4√2 ε |e| |f| in all, so that n
+/// is turned by 6ε / sin(e, f) at most. What lies across it, 2 R_a + 2 R_b <= 2 L long, sticks out
+/// by as much: 12ε L / sin, or 6 units.
 constexpr double kUnitsTurned = 6;
 /// Edges are parallel below this sine: then corners are as near as they are, or a face.
 constexpr double kParallel = 0x1p-40;
@@ -39,32 +39,6 @@ std::shared_ptr<const shape::Shape> FormOf(int kind, double size) {
   triangle.vertices = {{-size, -size, 0}, {size, -size / 2, 0}, {0, size, size / 4}};
   triangle.triangles = {{0, 1, 2}};
   return shape::Shape::Build(triangle);
-}
-
-std::vector<ExactTriangle> TrianglesOf(const shape::Shape& shape, const ExactPlacement& placement) {
-  std::vector<ExactTriangle> triangles;
-  for (const geometry::Triangle& t : shape.mesh().triangles) {
-    ExactTriangle corners;
-    for (int i = 0; i < 3; ++i) {
-      corners[i] = placement(ExactVector(shape.mesh().vertices[t[i]]));
-    }
-    triangles.push_back(corners);
-  }
-  return triangles;
-}
-
-Exact SquareOfSurfaces(const shape::Shape& a, const shape::Shape& b,
-                       const narrow_phase::RelativePose& pose) {
-  const auto of_a = TrianglesOf(a, {}), of_b = TrianglesOf(b, PlacementOf(pose.R_AB, pose.p_AB));
-  Exact least = -1;
-  for (const ExactTriangle& s : of_a) {
-    for (const ExactTriangle& t : of_b) {
-      const Exact square = SquareOfTriangles(s, t);
-      if (least < 0 || square < least) least = square;
-      if (least == 0) return least;
-    }
-  }
-  return least;
 }
 
 /// Whether a solid holds a point of the other one: then they touch, whatever their surfaces do.
@@ -124,7 +98,8 @@ void JudgeBracket(const narrow_phase::BodySegment& first, const narrow_phase::Bo
   const narrow_phase::SeparationBracket look =
       narrow_phase::BracketSeparation({a, b, pose}, {0, 0}, &work);
   const narrow_phase::Decision decision = narrow_phase::DecideAt({a, b, pose}, &again);
-  const Exact square = SquareOfSurfaces(*first.shape, *second.shape, pose);
+  const Exact square = SquareOfSurfaces(first.shape->mesh(), second.shape->mesh(),
+                                        PlacementOf(pose.R_AB, pose.p_AB));
   outcome->Add("poses", 1);
   outcome->Expect(!std::isnan(look.lower) && !std::isnan(look.upper), "not a number");
   outcome->Expect(work.spent() <= kUnits + kBatchUnits && again.spent() <= kUnits + kBatchUnits,

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "tests/stress/pair_judge.h"
-#include "tests/support/exact_between.h"
-#include "tests/support/exact_triangle.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_between.h"
+#include "tests/support/truth/exact_triangle.h"
 
 namespace collision::stress {
 namespace {
@@ -85,8 +85,8 @@ void JudgeState(const motion::SpaceTimeBound& before, const motion::MotionState&
                   "a drift that rounding does not explain");
 }
 
-// A state after a step of 1 ns to a century, with all of M, a little less, or a little more, all the
-// way or turned round once.
+// A state after a step of 1 ns to a century, with all of M, a little less, or a little more, all
+// the way or turned round once.
 void Contract(const Setting& setting, Outcome* outcome) {
   Random random(601);
   for (int i = 0; i < setting.Many(4000, 100'000); ++i) {

@@ -26,7 +26,7 @@ detection::DetectorOptions OptionsFor(std::uint32_t agents) {
 
 double RadiusOf(std::uint32_t agent) { return agent % 3 == 0 ? 0 : 1; }
 
-// Where everybody is is known exactly when they are admitted, all at once: so is what they touch.
+// All are admitted at once at exactly known places: so their contacts are known exactly.
 void JudgePairs(const Scene& scene, Outcome* outcome) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, const detection::CollisionEvent*> newest;
   for (const detection::CollisionEvent& event : scene.events()) {
@@ -48,7 +48,7 @@ void JudgePairs(const Scene& scene, Outcome* outcome) {
   }
 }
 
-// Everybody at the same point: in contact, or told as saturated, and never silent.
+// All at the same point: in contact, or told as saturated, and never silent.
 void OnePoint(const Setting& setting, Outcome* outcome) {
   const auto agents = static_cast<std::uint32_t>(setting.Many(400, 6000));
   const int steps = setting.Many(32, 128);

@@ -1,10 +1,12 @@
-// What lies beyond the limits is refused at the edge, with the field's name; what lies within passes.
+// What lies beyond the limits is refused at the edge, with the field's name; what lies within
+// passes.
 #include <cmath>
 #include <limits>
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/shape/convex_solid.h"
-#include "server/codec.h"
+#include "idl/limits.h"
+#include "server/codec/codec.h"
 #include "tests/server/messages.h"
 #include "tests/stress/case.h"
 #include "tests/support/meshes.h"
@@ -27,24 +29,24 @@ struct NumberField {
 };
 
 const NumberField kFields[] = {
-    {"radius_m", 0, server::kRadiusMax, true, [](auto* d, auto*, double x) { d->set_radius_m(x); }},
-    {"acceleration_max_m_s2", 0, server::kAccelerationMax, true,
+    {"radius_m", 0, wire::kRadiusMax, true, [](auto* d, auto*, double x) { d->set_radius_m(x); }},
+    {"acceleration_max_m_s2", 0, wire::kAccelerationMax, true,
      [](auto* d, auto*, double x) { d->set_acceleration_max_m_s2(x); }},
-    {"speed_max_m_s", 0, server::kSpeedMax, true,
+    {"speed_max_m_s", 0, wire::kSpeedMax, true,
      [](auto* d, auto*, double x) { d->set_speed_max_m_s(x); }},
-    {"time_step_s", 0, server::kTimeStepMax, true,
+    {"time_step_s", 0, wire::kTimeStepMax, true,
      [](auto* d, auto*, double x) { d->set_time_step_s(x); }},
-    {"position_m", -server::kCoordinateMax, server::kCoordinateMax, false,
+    {"position_m", -wire::kCoordinateMax, wire::kCoordinateMax, false,
      [](auto*, auto* s, double x) { s->mutable_position_m()->set_y(x); }},
-    {"velocity_m_s", -server::kSpeedMax, server::kSpeedMax, false,
+    {"velocity_m_s", -wire::kSpeedMax, wire::kSpeedMax, false,
      [](auto*, auto* s, double x) { s->mutable_velocity_m_s()->set_z(x); }},
-    {"angular_velocity_rad_s", -server::kAngularSpeedMax, server::kAngularSpeedMax, false,
+    {"angular_velocity_rad_s", -wire::kAngularSpeedMax, wire::kAngularSpeedMax, false,
      [](auto*, auto* s, double x) { s->mutable_angular_velocity_rad_s()->set_x(x); }},
-    {"position_error_m", 0, server::kRadiusMax, false,
+    {"position_error_m", 0, wire::kRadiusMax, false,
      [](auto*, auto* s, double x) { s->set_position_error_m(x); }},
-    {"velocity_error_m_s", 0, server::kSpeedMax, false,
+    {"velocity_error_m_s", 0, wire::kSpeedMax, false,
      [](auto*, auto* s, double x) { s->set_velocity_error_m_s(x); }},
-    {"rotation_error_rad", 0, server::kRotationErrorMax, false,
+    {"rotation_error_rad", 0, wire::kRotationErrorMax, false,
      [](auto*, auto* s, double x) { s->set_rotation_error_rad(x); }}};
 
 std::optional<server::Refusal> RefusalOf(const v1::AgentDescription& description,
@@ -83,7 +85,7 @@ void Numbers(Outcome* outcome) {
 }
 
 void Stamps(Outcome* outcome) {
-  for (const std::int64_t stamp : {-server::kInstantMax, server::kInstantMax}) {
+  for (const std::int64_t stamp : {-wire::kInstantMax, wire::kInstantMax}) {
     outcome->Expect(!RefusalOf(Description("alpha", 0), State(0, stamp, 1)),
                     "a stamp of 146 years is refused");
     const std::int64_t beyond = stamp + (stamp < 0 ? -1 : 1);
@@ -136,7 +138,7 @@ void HairOffUnit(const Setting& setting, Outcome* outcome) {
     const Eigen::Vector3d turned = axis;
     Eigen::Quaternion<long double> meant(std::cos(half), 0, 0, 0);
     meant.vec() = std::sin(half) * turned.cast<long double>().normalized();
-    const double off = random.LogUniform(1e-17, server::kUnitTolerance * 0.999);
+    const double off = random.LogUniform(1e-17, wire::kUnitTolerance * 0.999);
     Eigen::Vector4d noise;
     for (int k = 0; k < 4; ++k) noise[k] = random.Uniform(-1, 1);
     noise *= off / noise.norm();

@@ -3,7 +3,7 @@
 #include <map>
 
 #include "collision_core/detection/detector.h"
-#include "tests/bench/allocation_counter.h"
+#include "tests/bench/harness/allocation_counter.h"
 #include "tests/stress/case.h"
 
 namespace collision::stress {
@@ -15,16 +15,16 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr int kPairs = 6;
 constexpr double kStepSeconds = 0.25;
 
-/// Two of a pair swing along x, towards each other and away, with constant acceleration that changes
-/// its sign each half of a period: positions are parabolas, exact in doubles, for ever the same. At
-/// its nearest each pair overlaps, and then parts.
+/// Two of a pair swing along x, towards each other and away, with constant acceleration that
+/// changes its sign each half of a period: positions are parabolas, exact in doubles, for ever the
+/// same. At its nearest each pair overlaps, and then parts.
 struct Swing {
   double half_period;  ///< [s] A power of two.
   double M;            ///< [m/s²] Of each.
   double middle;       ///< Of the distance [m].
 
-  /// How far each is from its place, and how fast, after so many nanoseconds. The period counts from
-  /// the middle on outward: |x| = M/2 s (T − s).
+  /// How far each is from its place, and how fast, after so many nanoseconds. The period counts
+  /// from the middle on outward: |x| = M/2 s (T − s).
   void At(std::int64_t ns, double* x, double* v) const {
     const auto half = static_cast<std::int64_t>(half_period * kSecond);
     const std::int64_t phase = ns % (2 * half);
@@ -43,8 +43,9 @@ struct Swing {
     *end = from + T / 2 + root;
   }
 
-  /// What brackets may be wide, of states h apart: each of the two is known to M h²/8 half-way between
-  /// them, and they close at 2 M root; 1/64 for how this changes meanwhile, and the nanosecond.
+  /// What brackets may be wide, of states h apart: each of the two is known to M h²/8 half-way
+  /// between them, and they close at 2 M root; 1/64 for how this changes meanwhile, and the
+  /// nanosecond.
   double Width(double h) const {
     const double root = std::sqrt(half_period * half_period / 4 - (middle - 2) / M);
     return (1 + 0x1p-6) * h * h / (4 * root) + 3e-9;
@@ -126,7 +127,7 @@ class LongRun {
         const motion::MotionState state = StateOf(pair, which, now_);
         const detection::UpdateOutcome told = detector_.Update(Id(pair, which), state, state.stamp);
         outcome_->Expect(told == detection::UpdateOutcome::kKept, "an honest state is not kept");
-        detector_.Hear(Id(pair, which), state.stamp);
+        detector_.SetHeardUntil(OwnerOf(Id(pair, which)), state.stamp);
       }
     }
     detector_.Advance(Instant::FromNanoseconds(now_));
@@ -188,7 +189,8 @@ class LongRun {
   bool touching_[kPairs] = {};
 };
 
-/// Slots of pairs rest until a thousand others have been freed: until then memory takes its place [s].
+/// Slots of pairs rest until a thousand others have been freed: until then memory takes its place
+/// [s].
 constexpr std::int64_t kWarmUp = 4000;
 
 void Swings(const Setting& setting, Outcome* outcome) {

@@ -4,7 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/support/exact_meeting.h"
+#include "tests/support/truth/exact_balls.h"
+#include "tests/support/truth/exact_meeting.h"
 
 namespace collision::stress {
 namespace {
@@ -19,7 +20,8 @@ std::string Named(const char* what, const motion::SpaceTimeBound& a,
          " m/s2";
 }
 
-/// Near the denormals a unit in the last place is no share of anything: radius and M grow by so many.
+/// Near the denormals a unit in the last place is no share of anything: radius and M grow by so
+/// many.
 motion::SpaceTimeBound LargerBy(motion::SpaceTimeBound bound, double units) {
   bound.declaration.radius += units * 0x1p-1074;
   if (bound.declaration.acceleration_max > 0) {
@@ -40,10 +42,10 @@ double UnitsEarly(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound&
 }
 
 /// |Δp + Δv δ|² and (r ± u)² of two states with the same stamp, in seconds after it.
-struct ExactGap {
-  DyadicPolynomial distance, reach, size;
+struct BoundGap : ExactGap {
+  DyadicPolynomial size;  ///< What rounding is a share of: |Δp| + |Δv| δ + r + u.
 
-  ExactGap(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, int sign_of_u) {
+  BoundGap(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, int sign_of_u) {
     const Dyadic half_M = Dyadic(0.5) * (Dyadic(a.declaration.acceleration_max) +
                                          Dyadic(b.declaration.acceleration_max));
     const Dyadic radii = Dyadic(a.declaration.radius) + Dyadic(b.declaration.radius);
@@ -53,31 +55,14 @@ struct ExactGap {
       const Dyadic p = Dyadic(b.state.p_WA[i]) - Dyadic(a.state.p_WA[i]);
       const Dyadic v = Dyadic(b.state.v_WA[i]) - Dyadic(a.state.v_WA[i]);
       const DyadicPolynomial d = {p, v};
-      distance = distance + d * d;
+      square = square + d * d;
       size = size + DyadicPolynomial{p.Magnitude(), v.Magnitude()};
     }
   }
 
-  /// The reach of bodies that are larger by this share of all that counts.
-  DyadicPolynomial Reach(double share) const { return reach + Dyadic(share) * size; }
-
-  /// |Δ|² − reach².
-  DyadicPolynomial With(double share) const {
-    const DyadicPolynomial larger = Reach(share);
-    return distance + Dyadic(-1.0) * (larger * larger);
-  }
-
-  bool ApartOn(const Dyadic& from, const Dyadic& to) const {
-    ProofCounts counts;
-    return IsPositive(With(0), from, to, &counts);
-  }
-
-  bool ApartAt(const Dyadic& x) const { return ValueAt(With(0), x).Sign() > 0; }
-
-  /// Requires sign_of_u < 0: touching for every motion within the bounds.
-  bool TouchesAt(double delta) const {
-    const Dyadic x(delta);
-    return ValueAt(reach, x).Sign() >= 0 && ValueAt(With(0), x).Sign() <= 0;
+  /// Do bodies whose reach is larger by this share of all that counts touch at x?
+  bool LargerTouchAt(double share, const Dyadic& x) const {
+    return !ExactGap{square, reach + Dyadic(share) * size}.ApartAt(x);
   }
 
   /// Bodies that are smaller by a share of all that counts up to `end` (pair_judge.h). Requires
@@ -93,9 +78,7 @@ struct ExactGap {
     if (left[2].Sign() < 0) {
       to = std::min(to, Dyadic::Root(Dyadic::Quotient(left[0], -left[2], false), false));
     }
-    if (to <= from) return true;
-    ProofCounts counts;
-    return IsPositive(distance + Dyadic(-1.0) * (left * left), from, to, &counts);
+    return to <= from || ExactGap{square, left}.ApartOn(from, to);
   }
 };
 
@@ -104,11 +87,10 @@ struct ExactGap {
 /// after it.
 void JudgeWidth(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
                 const narrow_phase::SegmentResult& verdict, double duration, Outcome* outcome) {
-  const ExactGap larger(LargerBy(a, kContactUnits), b, 1), smaller(a, b, -1);
+  const BoundGap larger(LargerBy(a, kContactUnits), b, 1), smaller(a, b, -1);
   const double share = kContactUnits * 0x1p-52;
   const auto expect_near = [&](double at, double further) {
-    outcome->Expect(ValueAt(larger.With(share), Dyadic(further)).Sign() <= 0 ||
-                        ValueAt(larger.With(share), Dyadic(at)).Sign() <= 0,
+    outcome->Expect(larger.LargerTouchAt(share, further) || larger.LargerTouchAt(share, at),
                     Named("not free, though it is,", a, b, at));
   };
   const double until = std::max(0.0, verdict.free_until), from = std::max(0.0, verdict.free_from);
@@ -176,7 +158,7 @@ void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound&
                           {b.declaration.radius, {ForwardBall(b, base)}}, duration);
   outcome->Add("segments", 1);
   if (!outcome->Expect(IsOrdered(verdict, duration), Named("not ordered", a, b, duration))) return;
-  const ExactGap outer(a, b, 1), inner(a, b, -1);
+  const BoundGap outer(a, b, 1), inner(a, b, -1);
   const Dyadic end(duration);
   const bool throughout = verdict.free_until == numeric::kInfinity;
   if (throughout || verdict.free_until > 0) {

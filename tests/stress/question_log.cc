@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collision_core/detection/judge.h"
+#include "collision_core/detection/pairs/segment_evaluation.h"
 #include "collision_core/intersection/earliest_intersection.h"
 
 // The linker takes __wrap_X for X wherever one source of the core calls another (CMakeLists.txt
@@ -11,7 +11,7 @@
 // notices.
 #define COLLISION_ASK "_ZN9collision20EarliestIntersectionERKNS_14SpaceTimeBoundES2_NS_7InstantE"
 #define COLLISION_JUDGE \
-  "_ZN9collision5JudgeERKNS_7HistoryES2_NS_7InstantEPNS_4WorkEPNS_14ContactTrackerE"
+  "_ZN9collision16EvaluateSegmentsERKNS_7HistoryES2_NS_7InstantEPNS_4WorkEPNS_14ContactTrackerE"
 
 namespace collision::stress {
 namespace {
@@ -26,18 +26,18 @@ intersection::IntersectionTime RealAsk(const Bound& a, const Bound& b,
                                        Instant from) asm("__real_" COLLISION_ASK);
 intersection::IntersectionTime RealMeet(const Bound& a, const Bound& b, Instant from, Instant until,
                                         double margin) asm("__real_" COLLISION_ASK "S3_d");
-detection::Judged RealJudge(const detection::History& a, const detection::History& b, Instant until,
-                            WorkBudget* work,
-                            detection::ContactTracker* tracker) asm("__real_" COLLISION_JUDGE);
+detection::SegmentCount RealJudge(
+    const detection::History& a, const detection::History& b, Instant until, WorkBudget* work,
+    detection::ContactTracker* tracker) asm("__real_" COLLISION_JUDGE);
 
 intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b,
                                           Instant from) asm("__wrap_" COLLISION_ASK);
 intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Instant from,
                                            Instant until,
                                            double margin) asm("__wrap_" COLLISION_ASK "S3_d");
-detection::Judged WrappedJudge(const detection::History& a, const detection::History& b,
-                               Instant until, WorkBudget* work,
-                               detection::ContactTracker* tracker) asm("__wrap_" COLLISION_JUDGE);
+detection::SegmentCount WrappedJudge(
+    const detection::History& a, const detection::History& b, Instant until, WorkBudget* work,
+    detection::ContactTracker* tracker) asm("__wrap_" COLLISION_JUDGE);
 
 intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instant from) {
   const intersection::IntersectionTime time = RealAsk(a, b, from);
@@ -58,9 +58,9 @@ intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Insta
   return RealMeet(a, b, from, until, margin);
 }
 
-detection::Judged WrappedJudge(const detection::History& a, const detection::History& b,
-                               Instant until, WorkBudget* work,
-                               detection::ContactTracker* tracker) {
+detection::SegmentCount WrappedJudge(const detection::History& a, const detection::History& b,
+                                     Instant until, WorkBudget* work,
+                                     detection::ContactTracker* tracker) {
   if (log != nullptr) {
     log->Note(Question::kJudged, a.newest().declaration.radius, b.newest().declaration.radius,
               {.from = until.nanoseconds()});

@@ -13,7 +13,7 @@
 namespace collision::stress {
 
 enum class Question {
-  kJudged,  ///< Judge(): what is known of a tracked pair, over an interval of time.
+  kJudged,  ///< EvaluateSegments(): what is known of a tracked pair, over an interval of time.
   kAsked,   ///< EarliestIntersection() from a time on: a tracked pair's, asked again.
   kMet      ///< The same up to some time: by the broad phase, of one agent and its partners.
 };

@@ -64,9 +64,9 @@ detection::DetectorOptions Limited() {
   return options;
 }
 
-/// Two far from everything else, which meet after `begin` seconds: nobody may starve them. Returns
-/// the first of them; the second comes next. Between two states each surface is known to T²/8 of the
-/// greatest acceleration of its points, ahead and behind; they close at 2 m/s.
+/// Two far from everything else, which meet after `begin` seconds: no other pair may starve them.
+/// Returns the first of them; the second comes next. Between two states each surface is known to
+/// T²/8 of the greatest acceleration of its points, ahead and behind; they close at 2 m/s.
 std::uint32_t AddPair(Scene* scene, const motion::AgentDeclaration& declaration,
                       const Vector3d& far, double begin) {
   const Vector3d x(1, 0, 0);
@@ -281,8 +281,8 @@ void ChatteringJumps(const Setting& setting, Outcome* outcome) {
   RunSteadily(&scene, cubes, setting.Many(640, 6400), outcome);
 }
 
-/// Contacts that have no end and no answer: a stack, a ball of triangles that rolls, and a cube that
-/// chatters. All of them want what a turn may spend, over and over.
+/// Contacts that have no end and no answer: a stack, a ball of triangles that rolls, and a cube
+/// that chatters. All of them want what a turn may spend, over and over.
 void AddGreedy(Scene* scene) {
   scene->Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
   for (std::uint32_t k = 0; k < 6; ++k) {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/stress/pair_judge.h"
-#include "tests/support/exact_meeting.h"
+#include "tests/support/truth/exact_meeting.h"
 
 namespace collision::stress {
 namespace {
@@ -110,7 +110,7 @@ void Scene::StepTo(Instant now) {
           told == detection::UpdateOutcome::kKept || told == detection::UpdateOutcome::kJumped,
           Named("an honest state is not kept", agent, agent, Since(now)));
     }
-    detector_.Hear(IdOf(agent), now);
+    detector_.SetHeardUntil(OwnerOf(IdOf(agent)), now);
   }
   const std::uint64_t before = detector_.counters().work_units;
   detector_.Advance(now);
@@ -189,8 +189,8 @@ void Scene::CheckDistance(const detection::CollisionEvent& event) {
       Named("a wide distance", event.lower.slot, event.higher.slot, Since(event.evaluated_at)));
 }
 
-// Never late: who is told to be clear begins no new contact before. Two that are told to touch
-// begin none until that has ended.
+// Never late: an agent that is told to be clear begins no new contact before. Two that are told to
+// touch begin none until that has ended.
 void Scene::CheckClearances() {
   for (const Meeting& meeting : meetings_) {
     if (meeting.begin <= elapsed() || IsToldToTouch(meeting.a, meeting.b)) continue;
@@ -204,8 +204,8 @@ void Scene::CheckClearances() {
   }
 }
 
-// Pairs are asked anew with every state that comes nearer than Δt; where nobody accelerates the first
-// answer stays.
+// Pairs are asked anew with every state that comes nearer than Δt; where no agent accelerates the
+// first answer stays.
 void Scene::CheckIdle() {
   const double asked_again =
       anybody_accelerates_ ? options_.temporal_resolution : options_.announce_within;

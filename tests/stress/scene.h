@@ -26,12 +26,12 @@ Motion Falling(const Eigen::Vector3d& p, const Eigen::Vector3d& v, const Eigen::
 struct Meeting {
   std::uint32_t a = 0, b = 0;
   Seconds begin = 0, end = 0;  ///< `end` may be +infinity.
-  Seconds width = 0;  ///< Of its brackets at most, where that is not everybody's; 0: it is.
+  Seconds width = 0;           ///< The most of its brackets; 0: as of the scene.
   bool announced = false;
 };
 
-/// K of the distance of two balls in an event: its bracket is as wide as the motion within the bounds
-/// since the last states leaves open, and K units in the last place of places and sizes.
+/// K of the distance of two balls in an event: its bracket is as wide as the motion within the
+/// bounds since the last states leaves open, and K units in the last place of places and sizes.
 ///
 /// Each of its ends is rounded outward by a unit of some of these at most, for each operation: the
 /// time since the state, its product with the velocity, the sum with the place, the difference of
@@ -48,24 +48,24 @@ class Scene {
   /// At rest at the start of the scene or later; told every `every` steps.
   std::uint32_t Add(const motion::AgentDeclaration& declaration, Motion motion, int every = 1);
 
-  /// All that is true of who touches whom: pairs that are not named never do.
+  /// All true contacts: pairs that are not named never touch.
   void Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end, Seconds width = 0);
 
   /// One step to `now`: everybody whose turn it is tells a state, then the detector advances.
   void StepTo(Instant now);
   void Run(std::int64_t step_ns, int steps);
 
-  /// From here on no clearance may be idle: who could touch no other ball within the temporal
-  /// resolution (where nobody accelerates, within announce_within) is clear for as long; nearer than
-  /// that until it could, as the newest states go, if lengths were off by kPairUnits; but for a
-  /// nanosecond. By exact arithmetic.
+  /// From here on no clearance may be idle: a ball that could touch no other within the temporal
+  /// resolution (where no ball accelerates, within announce_within) is clear for as long; nearer
+  /// than that until it could, as the newest states go, if lengths were off by kPairUnits; but for
+  /// a nanosecond. By exact arithmetic.
   void ForbidIdle() { idle_forbidden_ = true; }
 
-  /// Whether every contact was told, with brackets that contain the truth; nobody else touches. Begin
-  /// and end brackets are at most `width` wide where contact is confirmed; `confirmed` says that all
-  /// must be. What is not certified free is longer than the contact by 2 `width` at most, whether it
-  /// is confirmed or in doubt. `end_width`, if it is not 0: of end brackets, where contact cannot be
-  /// certain throughout.
+  /// Whether every contact was told, with brackets that contain the truth; no other pair touches.
+  /// Begin and end brackets are at most `width` wide where contact is confirmed; `confirmed` says
+  /// that all must be. What is not certified free is longer than the contact by 2 `width` at most,
+  /// whether it is confirmed or in doubt. `end_width`, if it is not 0: of end brackets, where
+  /// contact cannot be certain throughout.
   void Judge(Seconds width, bool confirmed, Seconds end_width = 0);
 
   const std::vector<detection::CollisionEvent>& events() const { return events_; }

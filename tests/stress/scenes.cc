@@ -134,7 +134,7 @@ void LightSpeed(const Setting&, Outcome* outcome) {
   SayScene(scene, outcome);
 }
 
-// M from 0 to 1e18: who may be anywhere soon is announced, and nobody is told clear.
+// M from 0 to 1e18: a ball that may be anywhere soon is announced, and none is told clear.
 void AccelerationBounds(const Setting&, Outcome* outcome) {
   for (int decade = -1; decade <= 18; ++decade) {
     const double M = decade < 0 ? 0 : std::pow(10.0, decade);
@@ -144,8 +144,8 @@ void AccelerationBounds(const Setting&, Outcome* outcome) {
     const auto b = scene.Add(Declared(1, M), Straight({0, 0, 0}, {0, 0, 0}));
     scene.Touch(a, b, 1 + kHalfStep, 1 + kHalfStep + Seconds(4) / 64);
     scene.Run(kStep, 160);
-    // As narrow as M T²/8 each over 64 m/s, both sides; within a step at most, since at each state the
-    // place is known.
+    // As narrow as M T²/8 each over 64 m/s, both sides; within a step at most, since at each state
+    // the place is known.
     const double uncertain = M * kStepSeconds * kStepSeconds / 2 / 64;
     const double width = std::min(uncertain, kStepSeconds);
     // Beyond half a step contact is not certain between two states, and may be over at once.

@@ -204,20 +204,20 @@ long double TouchOfBar(const Body& ball, long double from, long double step) {
   return touching;
 }
 
-// Where the turn is beyond measure the bar may be turned any way: what flies past is not free while it
-// is within the bar's reach, and no longer.
+// Where the turn is beyond measure the bar may be turned any way: what flies past is not free while
+// it is within the bar's reach, and no longer.
 void JudgeUnknownTurn(Body bar, Outcome* outcome) {
-  constexpr double kDuration = 1, narrow_phase::kNearest = 0.5, kAside = 1.5, kSpeed = 8;
+  constexpr double kDuration = 1, kNearest = 0.5, kAside = 1.5, kSpeed = 8;
   bar.w = {0, 0, 4 * numeric::kRotationAngleMax};
-  const Body ball{nullptr, 0.25, {-kSpeed * narrow_phase::kNearest, kAside, 0}, {kSpeed, 0, 0}};
+  const Body ball{nullptr, 0.25, {-kSpeed * kNearest, kAside, 0}, {kSpeed, 0, 0}};
   const double reach = kBar.norm() + ball.radius;
   const long double half = std::sqrt(reach * reach - kAside * static_cast<long double>(kAside)) / 8;
   const narrow_phase::TimeOfContactResult found = FindContact(bar, ball, kDuration, kPlenty);
   JudgeForm(found, kDuration, kPlenty, "turned beyond measure", outcome);
   outcome->Expect(found.status == narrow_phase::ContactStatus::kUndecided,
                   "turned beyond measure, and decided");
-  JudgeStay(found, narrow_phase::kNearest - half, narrow_phase::kNearest + half,
-            0x1p-52 * 6.25 / kSpeed, "turned beyond measure", outcome);
+  JudgeStay(found, kNearest - half, kNearest + half, 0x1p-52 * 6.25 / kSpeed,
+            "turned beyond measure", outcome);
 }
 
 // What stays beyond the reach of the bar is free; what comes down on it touches it within half a
@@ -231,8 +231,8 @@ void Spinning(const Setting&, Outcome* outcome) {
     JudgeForm(free, 0.9, kPlenty, "beyond its reach", outcome);
     outcome->Expect(free.status == narrow_phase::ContactStatus::kFree,
                     "what is beyond its reach is not free");
-    // The ball is as low as the bar's face at 0.3125 s, and has passed the other one at 0.6875 s; the
-    // bar is below it once in half a turn.
+    // The ball is as low as the bar's face at 0.3125 s, and has passed the other one at 0.6875 s;
+    // the bar is below it once in half a turn.
     const Body falling{nullptr, 0.25, {0.75, 0.5, 1}, {0, 0, -2}};
     const long double begin = TouchOfBar(falling, 0.3125L, 1e-9L);
     const long double end = TouchOfBar(falling, 0.6875L, -1e-9L);

@@ -10,10 +10,10 @@
 #include <set>
 #include <sstream>
 
-#include "tests/bench/json.h"
-#include "tests/bench/measure.h"
+#include "tests/bench/harness/json.h"
+#include "tests/bench/harness/measure.h"
 #include "tests/stress/case.h"
-#include "tests/support/exact_dyadic.h"
+#include "tests/support/truth/exact_dyadic.h"
 
 namespace collision::stress {
 namespace {

@@ -1,5 +1,5 @@
-// A violent agent among calm ones: what the calm ones are asked about each other, and when, does not
-// depend on it.
+// A violent agent among calm ones: what the calm ones are asked about each other, and when, does
+// not depend on it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -34,7 +34,7 @@ struct Wild {
 };
 
 constexpr Wild kWild[] = {
-    // It may reach everybody within announce_within: tracked with all of them all the time.
+    // It may reach all others within announce_within, so that it is tracked with all of them.
     {"within reach of all", 24, 2, 1, 0},
     {"within reach of all, jumping", 24, 2, 1, 7},
     // It may reach most of them next, over and over, but not yet.
@@ -149,10 +149,10 @@ void JudgeSame(const Told& alone, const Told& among, const std::string& where, O
                   where + "calm pairs are asked again more often, at other times, or otherwise");
 }
 
-// By hand the face sweep: it has no filter, so that it gives the canonical routine whoever may be
-// met by whom it is asked about. What the other methods spare of that depends on where everybody is,
-// also on the violent one: with and without it they may ask a pair less often, but never at a time
-// at which the sweep asks none.
+// The reference is the face sweep: it has no filter, so that it asks the canonical routine about
+// every possible partner of an agent. How many of these questions the other methods spare depends
+// on where all agents are, also on the violent one: with and without it they may ask about a pair
+// less often, but never at a time at which the sweep asks nothing.
 void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told& alone,
               const Told& among, const Told& swept, Outcome* outcome) {
   const std::string where = std::string(Name(method)) + ", " + wild.name + ": ";

@@ -1,4 +1,4 @@
-// Surfaces as nobody should make them, by the thousand.
+// Faulty surfaces, by the thousand.
 #pragma once
 
 #include <cstdint>
@@ -174,8 +174,8 @@ inline geometry::TriangleMesh Shrinking(Random& random) {
 }  // namespace dirt
 
 /// As meshes come: soup, slivers, fans, copies, flat ones, thin ones, uneven ones, ones that cross
-/// themselves, nest, touch, fall apart; closed and open; near to the origin and far away. Without degenerate
-/// triangles; not one that RefusalOf() refuses, if some triangle is left.
+/// themselves, nest, touch, fall apart; closed and open; near to the origin and far away. Without
+/// degenerate triangles; not one that RefusalOf() refuses, if some triangle is left.
 inline geometry::TriangleMesh DirtyMesh(std::uint32_t kind, Random& random) {
   const auto make = [&]() -> geometry::TriangleMesh {
     switch (kind % kDirtKinds) {

@@ -6,14 +6,15 @@
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/sphere_tree/sphere_tree.h"
-#include "tests/support/exact_dyadic.h"
+#include "tests/support/truth/exact_dyadic.h"
 
 namespace collision {
 
 /// Shows of each triangle that it is covered: it is halved, exactly, until all corners of each
-/// sub-triangle lie in every ball on the way from the root to *one* leaf that lists the triangle. An
-/// intersection of balls is convex, so the sub-triangle lies in it. It follows that every cut covers
-/// the surface, that parts of children unite to their parent's, and that leaves list what they hold.
+/// sub-triangle lie in every ball on the way from the root to *one* leaf that lists the triangle.
+/// An intersection of balls is convex, so the sub-triangle lies in it. It follows that every cut
+/// covers the surface, that parts of children unite to their parent's, and that leaves list what
+/// they hold.
 ///
 /// Halved is the longest edge, as it is stored, at its exact middle. No sampling, no allowance:
 /// where doubles do not decide by far, exact numbers do. Link with gmp.

@@ -9,12 +9,12 @@
 #include <vector>
 
 #include "collision_core/sphere_tree/sphere_tree.h"
-#include "tests/support/exact_triangle.h"
+#include "tests/support/truth/exact_triangle.h"
 
 namespace collision {
 
-/// Triangles in boxes, halved by the order of their middles; answers in doubles where they decide by
-/// far, else in exact rational numbers.
+/// Triangles in boxes, halved by the order of their middles; answers in doubles where they decide
+/// by far, else in exact rational numbers.
 class DistanceProof {
  public:
   explicit DistanceProof(const geometry::TriangleMesh& mesh)
@@ -157,8 +157,8 @@ class DistanceProof {
 inline std::size_t UnprovenDistances(const geometry::TriangleMesh& mesh,
                                      const sphere_tree::SphereTree& tree) {
   const DistanceProof proof(mesh);
-  // In a ball that no triangle comes into, the winding number is the same everywhere: if the ray from
-  // the centre meets an edge, one from beside it may not.
+  // In a ball that no triangle comes into, the winding number is the same everywhere: if the ray
+  // from the centre meets an edge, one from beside it may not.
   const Eigen::Vector3d beside[] = {{0, 0, 0},           {0.31, 0.17, 0.05},  {-0.23, 0.29, 0.11},
                                     {0.13, -0.37, 0.07}, {-0.19, -0.11, 0.2}, {0.41, 0.03, -0.3}};
   const auto is_inside = [&](const sphere_tree::SphereNode& node) {

@@ -31,7 +31,7 @@ struct FaceLines {
 /// Lines that bound the horn (and the hypertrapezoid) from outside wherever it counts in [start,
 /// end], each moved outward by kFacePadding. nullopt: not finite.
 ///
-/// Before its stamp an agent meets nobody, so a stamp inside the window asks for faces from there
+/// Before its stamp an agent meets no other, so a stamp inside the window asks for faces from there
 /// on only. If it lies in the first half, each is the chord from the stamp to the end, prolonged
 /// back to the start (and there not inside the face at the stamp, so that no box is turned inside
 /// out); else, as a prolonged chord would run away, the farther of its two ends, constant: a convex

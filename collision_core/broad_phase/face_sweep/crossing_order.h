@@ -16,7 +16,7 @@ struct FaceCrossing {
   AlphaTFace falling;
 };
 
-/// Keeps the faces of one axis in their order while time runs through the window, and tells each
+/// Keeps the faces of one axis in their order while time runs through the window, and reports each
 /// change of places in the order of time. Time is cut into 2^30 ticks; as ticks and coordinates are
 /// whole numbers, no answer here is rounded:
 ///   - after all crossings up to a tick, the faces are in order at that tick. Coincident faces need
@@ -35,7 +35,7 @@ class CrossingOrder {
   /// Sorts `faces` by start, of equal ones by end, then by name, and begins at tick 0.
   void Start(const std::vector<AlphaTFace>& faces);
 
-  /// From below, in the present order.
+  /// The faces in their present order, from below.
   const std::vector<AlphaTFace>& faces() const { return faces_; }
 
   /// Is there another crossing up to `limit` <= kTicks? Then it is at tick().

@@ -255,7 +255,7 @@ void FaceSweep::Meetings(std::uint32_t agent, Instant from, Instant until, Insta
                                        std::max(until, horizon)};
   const std::uint32_t end = IndexEnd();
   for (std::uint32_t partner = 0; partner < end; ++partner) {
-    work_.filter_tests += Moves(partner);  // who is looked at only to be skipped costs as much
+    work_.filter_tests += Moves(partner);  // a partner that is only skipped costs as much
     if (partner == agent || skip(partner)) continue;
     const Meeting meeting{partner, TimeOf(query, agent, partner)};
     const Instant when = meeting.time.instant();
@@ -268,6 +268,26 @@ void FaceSweep::Meetings(std::uint32_t agent, Instant from, Instant until, Insta
   }
   if (next) meetings->push_back(*next);
   SortByPartner(told, meetings);
+}
+
+void FaceSweep::MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                           const Skip& skip, std::vector<Meeting>* meetings) {
+  const intersection::BroadQuery query{intersection::BoundKind::kHorn, from, Instant::Never()};
+  const std::uint32_t end = IndexEnd();
+  for (std::uint32_t partner = 0; partner < end; ++partner) {
+    work_.filter_tests += Moves(partner);
+    if (skip(partner)) continue;
+    intersection::IntersectionTime time{from, numeric::kInfinity};
+    const HalfSpaces::Entry* entry = Moves(partner) ? nullptr : half_spaces_.Find(partner);
+    if (Moves(partner) && MayMeet(query.bound, bound, *bounds_[partner])) {
+      ++work_.pair_queries;
+      time = EarliestIntersectionOf(query, bound, *bounds_[partner]);
+    } else if (entry != nullptr && CanMeet(entry->half_space, bound)) {
+      ++work_.pair_queries;
+      time = EarliestIntersectionOf(query, entry->half_space, bound);
+    }
+    AppendIfBy(until, {partner, time}, meetings);
+  }
 }
 
 }  // namespace collision::broad_phase

@@ -53,7 +53,7 @@ namespace collision::broad_phase {
 /// Hubbard's face sweep. Faces of hypertrapezoids are grouped by normal axis; along its normal each
 /// is a segment in the α–t plane, and two boxes begin to overlap where an upper face of one passes
 /// a lower face of the other on one axis while their cross-sections overlap on the others. Bentley
-/// and Ottmann's sweep tells all crossings of each axis in the order of time; at each such crossing
+/// and Ottmann's sweep finds all crossings of each axis in the order of time; at each such crossing
 /// EarliestIntersectionOf() is asked, until the next crossing is later than the best answer. Boxes that
 /// overlap at the window's start are found there.
 ///
@@ -80,6 +80,8 @@ class FaceSweep : public BroadPhase {
   void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
+  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                  const Skip& skip, std::vector<Meeting>* meetings) override;
   /// visits: crossings. filter_tests: tests of two boxes. rebuilds: windows.
   BroadPhaseWork work() const override { return work_; }
 

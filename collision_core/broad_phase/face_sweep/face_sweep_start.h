@@ -11,8 +11,8 @@
 namespace collision::broad_phase {
 
 /// Finds the boxes that overlap at a window's start, by the order of their faces alone: a lower
-/// face before an upper one counts as overlap. So a pair is told here, or some axis's order has its
-/// faces the other way round, and CrossingOrder will tell when they change places.
+/// face before an upper one counts as overlap. So a pair is found here, or some axis's order has
+/// its faces the other way round, and CrossingOrder reports when they change places.
 ///
 /// It sweeps along the axis on which fewest pairs overlap, counted, in strips across the next best
 /// one. A strip is as many faces wide as a box spans on average, so that a box lies in two strips

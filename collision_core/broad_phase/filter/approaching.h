@@ -14,20 +14,19 @@ struct Approaching {
   double d[3], w[3];
   double s0, s1, s2;
 
-  /// What these bounds and the canonical answer may be early by, together.
+  /// By how much these bounds and the canonical answer together may be early.
   static constexpr double kEarly = 1 - 4e-9;
 
-  /// A filter that is right even where the canonical answer is early: false, if that is certainly
-  /// later than `last`.
+  /// False if the canonical answer is certainly later than `last`, also where that answer is early.
   bool MayMeetBy(double last) const {
     return ComeNear(last / kEarly) && kEarly * EarlierBound(last) <= last;
   }
 
-  /// False: they do not come within reach of each other by `last`.
+  /// False if the two do not come within reach of each other by `last`.
   bool ComeNear(double last) const;
 
-  /// Nothing meets earlier than this many seconds, and nothing at all within `limit` if the answer
-  /// is larger. Off by a relative 1e-9 or so.
+  /// A lower bound on the time of the meeting [s]; above `limit`: they do not meet within it. Off
+  /// by a relative 1e-9 or so.
   double EarlierBound(double limit) const;
 };
 

@@ -46,13 +46,9 @@ void HornTable::DropFull(HornRow* row) {
   row->full = kPlain;
 }
 
-void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
-  if (rows_.size() <= agent) rows_.resize(agent + 1);
-  HornRow& row = rows_[agent];
-  count_ += row.group == 0;
-  still_count_ -= row.still;
-  wild_count_ -= row.unfilterable;
-  choosy_count_ -= row.group != 0 && row.mask != ~0u;
+// All but what depends on the table: `ruled` and `full`.
+void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* filled) {
+  HornRow& row = *filled;
   const motion::MotionState& state = bound.state;
   const motion::AgentDeclaration& declaration = bound.declaration;
   for (int axis = 0; axis < 3; ++axis) {
@@ -64,12 +60,7 @@ void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
   row.stamp = state.stamp;
   row.group = declaration.group;
   row.mask = declaration.mask;
-  row.ruled = rules_ != nullptr && rules_->HasAny(agent);
-  const double half_margin = row.ruled ? rules_->HalfMargin(agent) : 0;
-  if (half_margin == 0 && IsPlain(bound)) {
-    DropFull(&row);
-  } else {
-    SetFull(&row, bound);
+  if (half_margin != 0 || !IsPlain(bound)) {
     const double skew = bound.skew, step = declaration.time_step;
     const double given = declaration.radius + half_margin + state.position_error;
     row.u0 = kOutward * (given + Length(row.v) * skew + state.velocity_error * skew +
@@ -78,15 +69,38 @@ void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
     row.u2 = kOutward * half;
   }
   row.still = NeverMoves(bound);
-  still_count_ += row.still;
   const auto largest = [](const double* v) {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   };
   row.unfilterable = !(std::max(largest(row.p), row.u0) < kPositionMax &&
                        std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
-  wild_count_ += row.unfilterable;
-  // A group of no bits meets nobody, and is not the mark of a free row.
+  // An agent of no group meets no other; 0 is the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
+}
+
+HornRow HornTable::RowOf(const motion::SpaceTimeBound& bound) {
+  HornRow row;
+  Fill(bound, 0, &row);
+  return row;
+}
+
+void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+  if (rows_.size() <= agent) rows_.resize(agent + 1);
+  HornRow& row = rows_[agent];
+  count_ += row.group == 0;
+  still_count_ -= row.still;
+  wild_count_ -= row.unfilterable;
+  choosy_count_ -= row.group != 0 && row.mask != ~0u;
+  row.ruled = rules_ != nullptr && rules_->HasAny(agent);
+  const double half_margin = row.ruled ? rules_->HalfMargin(agent) : 0;
+  if (half_margin == 0 && IsPlain(bound)) {
+    DropFull(&row);
+  } else {
+    SetFull(&row, bound);
+  }
+  Fill(bound, half_margin, &row);
+  still_count_ += row.still;
+  wild_count_ += row.unfilterable;
   choosy_count_ += row.mask != ~0u;
 }
 
@@ -118,8 +132,8 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   return bound;
 }
 
-double HornTable::EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
-  if (rows_[a].unfilterable || rows_[b].unfilterable || !Near(from)) return 0;
+double HornTable::EarlierBound(const HornRow& a, const HornRow& b, Instant from, double limit) {
+  if (a.unfilterable || b.unfilterable || !Near(from)) return 0;
   return Between(At(a, from), At(b, from)).EarlierBound(limit);
 }
 

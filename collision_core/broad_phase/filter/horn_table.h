@@ -65,6 +65,8 @@ class HornTable {
     __builtin_prefetch(&rows_[agent]);
     __builtin_prefetch(&rows_[agent].u1);
   }
+  /// The row of a bound that is in no table and has no rules.
+  static HornRow RowOf(const motion::SpaceTimeBound& bound);
   /// The bound as it was put, without orientation and shape, on which no meeting depends.
   motion::SpaceTimeBound bound(std::uint32_t agent) const;
 
@@ -74,17 +76,22 @@ class HornTable {
     return t.nanoseconds() > -kFarthest && t.nanoseconds() < kFarthest;
   }
 
-  /// Of a row that is not unfilterable, at an instant that is Near(). Before its stamp the line goes on
-  /// backward, and the reach stays.
-  HornAt At(std::uint32_t agent, Instant instant) const;
+  /// The horn from an instant on. Before its stamp the line goes on backward, and the reach stays.
+  /// Requires a row that is not unfilterable, and an instant that is Near().
+  HornAt At(std::uint32_t agent, Instant instant) const { return At(rows_[agent], instant); }
+  static HornAt At(const HornRow& row, Instant instant);
 
   /// A filter: no horn of the two meets earlier than this many seconds after `from`, and none at
   /// all within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 for unfilterable ones.
-  double EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const;
+  double EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
+    return EarlierBound(rows_[a], rows_[b], from, limit);
+  }
+  static double EarlierBound(const HornRow& a, const HornRow& b, Instant from, double limit);
 
  private:
   static constexpr std::uint32_t kPlain = 0;  // nothing beside the row
 
+  static void Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* row);
   void SetFull(HornRow* row, const motion::SpaceTimeBound& bound);
   void DropFull(HornRow* row);
 
@@ -98,9 +105,8 @@ class HornTable {
 // Each value is a sum or product of fewer than sixteen terms of one sign, so that rounding takes
 // less than 16 · 2^-53 of it; positions, which are sums of lines, are off by less than that part of
 // their terms.
-inline HornAt HornTable::At(std::uint32_t agent, Instant instant) const {
+inline HornAt HornTable::At(const HornRow& row, Instant instant) {
   constexpr double kOutward = 1 + 0x1p-48, kLineRounding = 0x1p-48;
-  const HornRow& row = rows_[agent];
   const double line = static_cast<double>(instant.nanoseconds() - row.stamp.nanoseconds()) * 1e-9;
   const double tau = std::max(line, 0.0);
   HornAt at;
@@ -116,7 +122,7 @@ inline HornAt HornTable::At(std::uint32_t agent, Instant instant) const {
   return at;
 }
 
-/// Of two horns from an instant on.
+/// The pair of two horns from an instant on.
 inline Approaching Between(const HornAt& a, const HornAt& b) {
   Approaching pair;
   for (int axis = 0; axis < 3; ++axis) {

@@ -17,7 +17,7 @@ inline float ReachAt(float time, float s0, float s1, float s2) {
 class PlacedBalls {
  public:
   static constexpr std::uint32_t kNobody = ~0u;
-  /// A position whose square is infinite, and reaches that are as large find everybody.
+  /// A position whose square is infinite, and reaches that are as large find every agent.
   static constexpr float kFarAway = 1e30f;
 
   /// Empties it and makes room for `size` horns.

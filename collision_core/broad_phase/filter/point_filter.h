@@ -18,12 +18,13 @@ struct PointView {
   const float* own = nullptr;
 };
 
-/// Up to kAskersMax points [first, last) of one cell, and when they look beyond their row of cells.
+/// Up to kAskersMax points [first, last) of one cell that look for others, and what they need to
+/// know to look beyond their row of cells.
 struct PointAskers {
   std::uint32_t first, last;
   float cell;      ///< How wide a row is.
   float reach;     ///< The farthest of all points.
-  float half = 0;  ///< Of the time [s].
+  float half = 0;  ///< Half of the window [s].
 };
 
 inline constexpr std::uint32_t kAskersMax = 8;
@@ -39,14 +40,16 @@ struct PointHits {
   std::uint32_t *asker, *other;
 };
 
+/// How many hits a scan found, and what it cost.
 struct PointCounts {
   std::uint32_t hits = 0, tests = 0, ranges = 0;
 };
 
-/// For each row, and for each asker who reaches it, tells the points after himself that come within
-/// both reaches, and where there are velocities within both `own` (or where that is not a number),
-/// in order. Rounding is SphereFilter's: the caller makes reaches larger by kFilterSlack of themselves
-/// and of their way, and by what positions lost. The same hits and counts on every processor.
+/// For each row, and for each asker that reaches it, writes the points after the asker that come
+/// within both reaches, and where there are velocities within both `own` (or where that is not a
+/// number), in order. Rounding is SphereFilter's: the caller makes reaches larger by kFilterSlack of
+/// themselves and of their way, and by what positions lost. The same hits and counts on every
+/// processor.
 using PointFilter = PointCounts (*)(const PointView& points, const PointAskers& askers,
                                     const PointRow* rows, std::uint32_t row_count, PointHits hits);
 

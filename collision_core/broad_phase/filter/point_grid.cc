@@ -28,7 +28,7 @@ constexpr std::uint32_t kFewPoints = 32;
 bool PointGrid::ChooseCells(std::uint32_t present, const PointExtent& extent) {
   double widest = 0, volume = 1;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!(extent.low[axis] <= extent.high[axis])) return false;  // nobody is there
+    if (!(extent.low[axis] <= extent.high[axis])) return false;  // no point is there
     origin_[axis] = extent.low[axis];
     widest = std::max(widest, extent.high[axis] - extent.low[axis]);
   }

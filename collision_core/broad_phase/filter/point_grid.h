@@ -11,8 +11,8 @@
 
 namespace collision::broad_phase {
 
-/// Where something is half-way through a time, how far from there it reaches in all of it, and how
-/// far from its place on the line with velocity v. Reaches with SphereFilter's slack.
+/// Where a body is half-way through a time, how far from there it reaches in all of it, and how far
+/// from its place on the line with velocity v. Reaches include SphereFilter's slack.
 struct ReachPoint {
   double c[3];
   float v[3];
@@ -85,11 +85,11 @@ class PointGrid {
  private:
   /// A cell's own row, and those beside it that come later: so many.
   static constexpr int kRowsMax = 5;
-  /// Of so many at least it is seen how far they lie and reach; all are thought to by this part
-  /// more.
+  /// At least so many points are sampled for how far they lie and reach; all are assumed to lie and
+  /// reach this part farther.
   static constexpr std::uint32_t kSample = 4096;
   static constexpr double kBeyondSample = 1.0 / 32;
-  /// So many points are seen in the own cell at most, on the average, in a grid of use.
+  /// The most points that a point may find in its own cell, on the average, for a grid to be used.
   static constexpr double kCrowdingMax = 16;
   /// Pairs are visited so many at a time, so that what is fetched for them has come.
   static constexpr std::uint32_t kBatch = 64;
@@ -101,7 +101,7 @@ class PointGrid {
     float vx, vy, vz, own;
   };
 
-  /// Of every stride-th.
+  /// The extent of every stride-th point.
   template <typename At>
   static PointExtent Measure(std::uint32_t count, std::uint32_t stride, At at);
   bool IsDense(std::uint32_t present, const PointExtent& extent) const;
@@ -113,7 +113,7 @@ class PointGrid {
   template <typename At>
   bool Fill(std::uint32_t count, const PointExtent& extent, At at);
   bool ChooseCells(std::uint32_t present, const PointExtent& extent);
-  /// From counts of the cells to their begins; false: they are crowded.
+  /// Turns counts of the cells into their begins; false: they are crowded.
   bool SumCells(std::uint32_t present);
   void Reserve(std::uint32_t count);
   float* Array(int k) { return floats_.data() + static_cast<std::size_t>(k) * stride_; }
@@ -121,7 +121,7 @@ class PointGrid {
   /// lies in cells side by side. Room for what they may tell is made as well.
   std::uint32_t RowsBeside(std::int32_t x, std::int32_t y, std::int32_t z, std::size_t cell);
   std::int32_t CellOf(double x, int axis) const {
-    // Within the box nobody comes past its last cell, which is reckoned alike.
+    // Within the box no point lies past its last cell, which is computed alike.
     return static_cast<std::int32_t>((x - origin_[axis]) * per_cell_);
   }
   std::uint32_t CellAt(const ReachPoint& point) const {
@@ -179,7 +179,7 @@ bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
     }
     if (!extent.Holds(point)) return false;
     const std::int32_t y = CellOf(point.c[1], 1), z = CellOf(point.c[2], 2);
-    // As seen from the corner of the row.
+    // Seen from the corner of the row.
     entries_[k] = {static_cast<float>(point.c[0] - origin_[0]),
                    static_cast<float>(point.c[1] - (origin_[1] + y * cell_)),
                    static_cast<float>(point.c[2] - (origin_[2] + z * cell_)),

@@ -1,5 +1,5 @@
 // Sixteen balls at once. Nothing that others share is included: this file is built for processors
-// that not everybody has.
+// that not every processor has.
 #include "collision_core/broad_phase/filter/point_filter.h"
 #include "collision_core/broad_phase/filter/sphere_filter.h"
 

@@ -1,4 +1,4 @@
-// The plainest method: look at every pair.
+// The plainest method: compare every pair.
 #pragma once
 
 #include "collision_core/broad_phase/index/filter_row.h"

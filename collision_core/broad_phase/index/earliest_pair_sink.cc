@@ -33,6 +33,16 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant f
   return may;
 }
 
+bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, Instant from,
+             double limit, BroadPhaseWork* work) {
+  if (!CanMeet(row, table.row(agent))) return false;
+  ++work->filter_tests;
+  const double bound = HornTable::EarlierBound(row, table.row(agent), from, limit);
+  const bool may = bound < numeric::kInfinity && Approaching::kEarly * bound <= limit;
+  work->pair_queries += may;
+  return may;
+}
+
 bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
              Instant from, double limit, BroadPhaseWork* work) {
   const HornRow& row = table.row(agent);

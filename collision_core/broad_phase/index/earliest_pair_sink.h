@@ -17,10 +17,10 @@ class EarliestPairSink final : public PairSink {
   EarliestPairSink(const HornTable& table, const intersection::BroadQuery& query,
                    BroadPhaseWork* work);
 
-  /// Later meetings than the best do not count: the limit shrinks.
+  /// Offers a pair. Meetings later than the best do not count: the limit shrinks.
   void Offer(std::uint32_t a, std::uint32_t b) override;
 
-  /// Likewise a half-space and an agent.
+  /// Offers a half-space and an agent.
   void OfferHalfSpace(const HalfSpaces::Entry& entry, std::uint32_t agent);
 
   const std::optional<intersection::IntersectingPair>& best() const { return best_; }
@@ -35,7 +35,7 @@ class EarliestPairSink final : public PairSink {
   intersection::BroadQuery query_;
   BroadPhaseWork* work_;
   std::optional<intersection::IntersectingPair> best_;
-  Instant when_ = Instant::Never();  ///< Of best_.
+  Instant when_ = Instant::Never();  ///< The instant of best_.
 };
 
 /// Whether the filters leave it open that the two meet within `limit` seconds after `from`.
@@ -44,11 +44,16 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant f
 bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
              Instant from, double limit, BroadPhaseWork* work);
 
-/// Of two agents of the table, with their margin. They are not excluded.
+/// Likewise of a row that is in no table and has no rules, and an agent of the table.
+bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, Instant from,
+             double limit, BroadPhaseWork* work);
+
+/// The canonical time of two agents of the table, with their margin. Requires that they are not
+/// excluded.
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HornTable& table, std::uint32_t a,
                                                       std::uint32_t b);
-/// Of a half-space and an agent of the table, likewise.
+/// The same for a half-space and an agent of the table.
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HalfSpaces::Entry& entry,
                                                       const HornTable& table, std::uint32_t agent);

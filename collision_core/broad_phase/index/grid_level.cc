@@ -193,7 +193,7 @@ double GridLevel::RowsWithin(double reach, TimeWindow stretch) const {
 
 bool GridLevel::Ranges(const double* c, double reach, TimeWindow stretch, std::uint32_t after,
                        std::vector<FilterRange>* ranges) const {
-  // A little more, so that rounding below loses nobody.
+  // A little more, so that rounding below loses no agent.
   const double half = (reach + ReachMax(stretch)) * (1 + 0x1p-20);
   const Cell low = CellOf(c[0] - half, c[1] - half, c[2] - half);
   const Cell high = CellOf(c[0] + half, c[1] + half, c[2] + half);

@@ -153,7 +153,7 @@ void SpatialIndex::JoinRows(const Level& level, TimeWindow stretch, PairSink* si
   level.grid.ForEachPlace(stretch, visit);
 }
 
-// Many who reach a little way ask a few who reach far, or the other way round.
+// Many agents of short reach ask a few of long reach, or the other way round.
 double SpatialIndex::CostOfAsking(const Level& level, const Level& other, TimeWindow stretch) {
   return level.grid.size() * other.grid.RowsWithin(level.grid.ReachMax(stretch), stretch);
 }
@@ -200,7 +200,7 @@ void SpatialIndex::Join(TimeWindow stretch, PairSink* sink) {
 }
 
 void SpatialIndex::FindNear(const PlacedHorn& horn, TimeWindow stretch) {
-  const bool still = table().row(horn.agent).still;
+  const bool still = horn.agent != PlacedHorn::kNoAgent && table().row(horn.agent).still;
   const bool late = stretch.first > placing_.window();
   const FilterQuery query = QueryOf(horn, placing_, stretch);
   for (std::uint32_t l = 0; l < level_count_; ++l) {

@@ -37,11 +37,11 @@ class SpatialIndex : public WindowedSearch {
  private:
   struct Level {
     bool still = false;
-    std::uint32_t first = 0;  ///< Of sorted_.
+    std::uint32_t first = 0;  ///< Its first horn in sorted_.
     GridLevel grid;
   };
   struct Place {
-    std::uint32_t level = kLoose;  ///< Of grids, or kLoose.
+    std::uint32_t level = kLoose;  ///< Index of its level, or kLoose.
     std::uint32_t place = 0;
   };
   static constexpr std::uint32_t kLoose = ~0u;
@@ -64,7 +64,7 @@ class SpatialIndex : public WindowedSearch {
   PointGrid points_;        ///< Instead of levels, for one question about all.
   double points_last_ = 0;  ///< Up to when it holds, after the begin [s]; 0: not in use.
 
-  std::vector<float> reaches_;  ///< Of horns_, like the keys of their levels.
+  std::vector<float> reaches_;  ///< The reaches of horns_; keys_: those of their levels.
   std::vector<std::uint8_t> keys_;
   std::vector<FilterRange> ranges_;
   std::vector<std::uint32_t> hits_;

@@ -9,7 +9,7 @@ namespace {
 /// Each window is so many times the one before.
 constexpr double kWindowFactor = 4;
 
-/// Beyond so many that have moved, and that share of all, everybody is placed anew.
+/// Beyond so many that have moved, and that share of all, all agents are placed anew.
 constexpr std::size_t kMovedMin = 64;
 constexpr double kMovedShare = 1.0 / 16;
 
@@ -86,13 +86,15 @@ void WindowedSearch::ForEachHalfSpace(std::uint32_t asked, Each each) const {
   }
 }
 
-// The next question places him, or everybody where too many have moved.
+// The next question places the agent, or all agents where too many have moved.
 void WindowedSearch::Move(std::uint32_t agent) {
   if (has_moved_.size() <= agent) has_moved_.resize(table_.size());
   if (has_moved_[agent]) return;
   has_moved_[agent] = true;
   moved_.push_back(agent);
-  if (moved_.size() > kMovedMin && moved_.size() > kMovedShare * table_.count()) placed_ = false;
+  if (moved_.size() <= kMovedMin) return;
+  const double share = kMovedShare * static_cast<double>(table_.count());
+  if (static_cast<double>(moved_.size()) > share) placed_ = false;
 }
 
 void WindowedSearch::SortOutWild() {
@@ -134,7 +136,7 @@ void WindowedSearch::PlaceMoved() {
   moved_.clear();
 }
 
-// Some who are close to each other are asked first, since a first answer makes the window short.
+// Some agents close to each other are asked first: a first answer makes the window short.
 void WindowedSearch::AskCrowd(PairSink* sink) {
   const std::uint32_t stride = std::min(table_.size() / kSomeMin + 1, kStrideMax);
   const double count = kCrowdOfRoot * std::sqrt(static_cast<double>(table_.count()));
@@ -163,7 +165,7 @@ void WindowedSearch::StartAnew(const PlacementFrame& placing) {
   SortOutWild();
 }
 
-// Places grow old: reaches grow, agents stray. Everybody is placed anew when questions have cost
+// Places grow old: reaches grow, agents stray. All are placed anew when questions have cost
 // more, by as much as placing costs, than they did at first (of all moments that one is the best if
 // the excess grows evenly), or when as many tests as there are agents were plainly wasted.
 void WindowedSearch::Refresh(Instant from) {
@@ -260,7 +262,7 @@ void WindowedSearch::NearPairs(const intersection::BroadQuery& query,
   for (const HalfSpaces::Entry& entry : half_spaces_) ForEachHalfSpace(entry.agent, tell);
 }
 
-// About everybody, in the first window.
+// About all agents, in the first window.
 bool WindowedSearch::AsksAll(std::uint32_t agent, Instant from) const {
   return IsWild(agent) || !HornTable::Near(from);
 }
@@ -273,13 +275,18 @@ void WindowedSearch::FindNear(std::uint32_t agent, Instant from, double seconds)
 
 void WindowedSearch::FindNearOnce(std::uint32_t agent, Instant from, double seconds) {
   near_.clear();
-  if (AsksAll(agent, from)) {
-    for (std::uint32_t other = 0; other < table_.size(); ++other) {
-      if (other != agent && table_.contains(other)) near_.push_back(other);
-    }
-    return;
+  if (AsksAll(agent, from)) return FindAll(agent);
+  FindNear(placing_.Place(table_, agent), from, seconds);
+}
+
+// All agents but one, if that is there.
+void WindowedSearch::FindAll(std::uint32_t but) {
+  for (std::uint32_t other = 0; other < table_.size(); ++other) {
+    if (other != but && table_.contains(other)) near_.push_back(other);
   }
-  PlacedHorn horn = placing_.Place(table_, agent);
+}
+
+void WindowedSearch::FindNear(PlacedHorn horn, Instant from, double seconds) {
   const TimeWindow stretch = placing_.After(from, seconds);
   // Placed horns have SphereFilter's slack for the way to the middle and from there on. A question from
   // before the begin looks farther back.
@@ -365,6 +372,45 @@ void WindowedSearch::Meetings(std::uint32_t agent, Instant from, Instant until, 
   }
   SortByPartner(told, meetings);
   NoteCost(before);
+}
+
+void WindowedSearch::MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                                const Skip& skip, std::vector<Meeting>* meetings) {
+  Refresh(from);
+  const BroadPhaseWork before = work_;
+  const std::size_t told = meetings->size();
+  OfferHalfSpaces(bound, from, until, skip, meetings);
+  const HornRow row = HornTable::RowOf(bound);
+  const double limit =
+      EarliestPairSink(table_, {intersection::BoundKind::kHorn, from, until}, &work_).limit();
+  near_.clear();
+  if (row.unfilterable || placing_.blind() || !HornTable::Near(from)) {
+    FindAll(PlacedHorn::kNoAgent);
+  } else {
+    FindNear(placing_.Place(row), from, std::min(limit, kWindowMax));
+  }
+  ++work_.searches;
+  work_.neighbours += near_.size();
+  for (const std::uint32_t other : near_) {
+    if (skip(other) || !MayMeet(row, table_, other, from, limit, &work_)) continue;
+    const intersection::IntersectionTime time = EarliestIntersectionOf(
+        {intersection::BoundKind::kHorn, from, Instant::Never()}, bound, table_.bound(other));
+    AppendIfBy(until, {other, time}, meetings);
+  }
+  SortByPartner(told, meetings);
+  NoteCost(before);
+}
+
+void WindowedSearch::OfferHalfSpaces(const motion::SpaceTimeBound& bound, Instant from,
+                                     Instant until, const Skip& skip,
+                                     std::vector<Meeting>* meetings) {
+  for (const HalfSpaces::Entry& entry : half_spaces_) {
+    if (skip(entry.agent) || !CanMeet(entry.half_space, bound)) continue;
+    ++work_.pair_queries;
+    const intersection::IntersectionTime time = EarliestIntersectionOf(
+        {intersection::BoundKind::kHorn, from, Instant::Never()}, entry.half_space, bound);
+    AppendIfBy(until, {entry.agent, time}, meetings);
+  }
 }
 
 }  // namespace collision::broad_phase

@@ -49,6 +49,8 @@ class WindowedSearch : public BroadPhase {
       std::uint32_t agent, const intersection::BroadQuery& query) override;
   void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
                 std::vector<Meeting>* meetings) override;
+  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                  const Skip& skip, std::vector<Meeting>* meetings) override;
   void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
   BroadPhaseWork work() const override { return work_; }
 
@@ -77,7 +79,7 @@ class WindowedSearch : public BroadPhase {
   }
 
   PlacementFrame placing_;
-  std::vector<PlacedHorn> horns_;  ///< Of all agents but unfilterable ones, as of PlaceEverybody().
+  std::vector<PlacedHorn> horns_;  ///< All agents but unfilterable ones, as of PlaceEverybody().
   BroadPhaseWork work_;
   std::uint64_t wasted_ = 0;  ///< Tests that a fresh placing would have saved, since the last.
   std::vector<std::uint32_t> near_;
@@ -97,9 +99,13 @@ class WindowedSearch : public BroadPhase {
   bool AsksAll(std::uint32_t agent, Instant from) const;
   void FindNear(std::uint32_t agent, Instant from, double seconds);
   void FindNearOnce(std::uint32_t agent, Instant from, double seconds);
+  void FindNear(PlacedHorn horn, Instant from, double seconds);
+  void FindAll(std::uint32_t but);
+  void OfferHalfSpaces(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                       const Skip& skip, std::vector<Meeting>* meetings);
 
   HornTable table_;
-  /// The first questions since the last placing, and what they cost; what later ones cost more.
+  /// The first questions since the last placing, and their cost; the excess of later ones.
   std::uint32_t fresh_ = 0;
   double fresh_units_ = 0, excess_units_ = 0;
   float fastest_ = 0;  ///< No horn that is placed has a greater speed.
@@ -108,7 +114,7 @@ class WindowedSearch : public BroadPhase {
   std::vector<std::uint32_t> moved_;
   std::vector<bool> has_moved_;  ///< By agent: in moved_.
   std::vector<std::uint32_t> wild_;
-  std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that told of it.
+  std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that found it.
   std::uint64_t question_ = 0;
 };
 

@@ -15,12 +15,13 @@ inline bool IsZonotope(const ConvexSet& set) {
   return set.IsThin() || set.core == ConvexCore::kBox;
 }
 
+/// The separation of two boxes along the faces of their difference, from both sides.
 struct FaceSeparation {
   /// Along the unit vector `direction` from A to B the shadows are this far apart, computed: to
   /// within GapError() of the pair.
   double gap = -numeric::kInfinity;
   Eigen::Vector3d direction{0, 0, 0};
-  /// As Overlap::inside: the ball of this radius about 0 certainly belongs to the difference.
+  /// Like Overlap::inside: the ball of this radius about 0 certainly belongs to the difference.
   double inside = -numeric::kInfinity;
 };
 

@@ -15,7 +15,7 @@ enum class ConvexCore : std::uint8_t {
   kTriangle,  ///< One of a mesh.
   kBox,
   kEllipsoid,
-  kHull  ///< Of points.
+  kHull  ///< The convex hull of points.
 };
 
 /// Every point of the core within `rounding`. With generators g_0, g_1, g_2 (columns) the core is,
@@ -37,7 +37,7 @@ struct ConvexSet {
   /// The sum of the generators' lengths (kTriangle: the greatest; kHull: twice the points' reach),
   /// rounded up: no point of the core is further from the centre.
   double span = 0;
-  const ConvexPoints* points = nullptr;  ///< Of a hull; must outlive the set.
+  const ConvexPoints* points = nullptr;  ///< The points of a hull; must outlive the set.
 
   /// The core's point furthest along n, as z: PointAt(z) is the point, seen from the centre. It is
   /// a point of the core whatever the generators, so that it may be used again at another pose.
@@ -59,7 +59,7 @@ ConvexSet BallSet(const Eigen::Vector3d& centre, double radius);
 /// With u = 2^-53 and |n| within 2^-20 of 1, derived in convex_set.cc:
 /// · the greatest n·x of a core is less than n·(computed support point) + kSupportError span;
 /// · a computed support point is within kSupportError span of a point of the core.
-/// Directions in which all products underflow are not told apart: kSupportUnderflow more.
+/// Where all products underflow, kSupportUnderflow is added.
 inline constexpr double kSupportError = 18 * 0x1p-53;
 inline constexpr double kSupportUnderflow = 0x1p-500;
 

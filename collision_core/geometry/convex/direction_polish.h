@@ -10,7 +10,7 @@ namespace collision::geometry {
 /// length; a proposal, like all directions.
 ///
 /// Where the two cores nearly touch, the corners of a search's simplex crowd together, and the
-/// direction they tell is off by as much as they are apart (1e-4 for a gap of 1e-8 of the size).
+/// direction they give is off by as much as they are apart (1e-4 for a gap of 1e-8 of the size).
 /// From there on Newton's method is taken, across each edge that the search ended at, with the
 /// second derivative of the ellipsoid's support function in closed form. Two steps reach the last
 /// bits: 1e-13 m for solids of 1 m, however near.

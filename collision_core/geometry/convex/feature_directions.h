@@ -1,4 +1,4 @@
-// Directions that the features of two convex cores tell exactly.
+// Directions that the features of two convex cores determine exactly.
 #pragma once
 
 #include "collision_core/geometry/convex/gjk.h"

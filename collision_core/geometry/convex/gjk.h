@@ -26,6 +26,7 @@ class ConvexPair {
   struct Witness {
     Eigen::Vector3d a, b;
   };
+  /// A point of the difference, and the points of the cores that it is made of.
   struct Point {
     Eigen::Vector3d y;  ///< b − a.
     Witness witness;
@@ -111,7 +112,7 @@ struct GjkGoal {
 /// What a search found: proposals, not proofs.
 struct GjkResult {
   std::array<ConvexPair::Point, 4> simplex;
-  std::array<double, 4> weights;  ///< Of the nearest point: >= 0, their sum 1 to within 4u.
+  std::array<double, 4> weights;  ///< Of the nearest point; >= 0, sum 1 to within 4u.
   int count = 0;
   bool encloses = false;      ///< The simplex of four seems to hold 0.
   Eigen::Vector3d direction;  ///< Along the shortest way from A to B, about; any length.

@@ -63,7 +63,7 @@ class Components {
   }
 
   std::uint32_t Of(std::uint32_t vertex) {
-    // Each step also halves the path for those who come later.
+    // Each step also halves the path for later look-ups.
     while (of_[vertex] != of_[of_[vertex]]) vertex = of_[vertex] = of_[of_[vertex]];
     return of_[vertex];
   }

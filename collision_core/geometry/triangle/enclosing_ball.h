@@ -6,6 +6,7 @@
 
 namespace collision::geometry {
 
+/// A ball that contains points.
 struct EnclosingBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double radius = 0;  ///< Rounded up: every point is certainly inside.

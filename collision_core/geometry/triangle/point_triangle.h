@@ -9,6 +9,7 @@ namespace collision::geometry {
 
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
+/// The distance of a point to a triangle.
 struct PointTriangleDistance {
   numeric::Interval distance;  ///< Contains the exact distance.
   Eigen::Vector3d nearest;     ///< About the nearest point of the triangle.
@@ -20,8 +21,8 @@ struct PointTriangleDistance {
 PointTriangleDistance DistanceToTriangle(const Eigen::Vector3d& point,
                                          const TriangleCorners& corners);
 
-/// Whether the triangle is certainly farther than `distance`: fast, and right where it says yes;
-/// says no where it is not sure.
+/// Whether the triangle is certainly farther than `distance`: a fast test in plain doubles that
+/// returns false where rounding might decide.
 bool IsCertainlyFarther(const Eigen::Vector3d& point, const TriangleCorners& corners,
                         double distance);
 

@@ -33,11 +33,11 @@ TriangleDistance DistanceOf(const TrianglePoints& a, const TrianglePoints& b);
 /// The distance of a point to a triangle, with the nearest point of the triangle in `b`.
 TriangleDistance DistanceOf(const Eigen::Vector3d& point, const TrianglePoints& triangle);
 
-/// Where an edge of one passes through the inside of the other.
+/// An edge of one triangle that passes through the inside of the other, and a point of it.
 struct Crossing {
   Eigen::Vector3d point;  ///< A point common to both lies within `error` of it.
   double error = 0;
-  /// Of the triangle that is passed through: its normal, unit, about; and whether that is `b`.
+  /// The approximate unit normal of the triangle that is passed through, and whether that is `b`.
   Eigen::Vector3d normal;
   bool through_b = true;
 };

@@ -31,7 +31,7 @@ struct SweepDetail {
   double step_worth = 1e-3;
 };
 
-/// A lower bound on the time at which the two may touch.
+/// A lower bound on the time at which the two may touch, and where.
 struct ImpactBound {
   double seconds = 0;      ///< +infinity: not within the duration, its end included.
   bool exhausted = false;  ///< The work allowed is spent: the true time may be later.

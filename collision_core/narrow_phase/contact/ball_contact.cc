@@ -154,7 +154,7 @@ double FreeFrom(const std::vector<Choice>& choices, double duration, bool backwa
     at = backward ? numeric::AddUp(at, -step) : numeric::AddDown(at, step);
     if (step <= kResolution * duration) break;
   }
-  // Whoever certifies the far end says so by infinity.
+  // A part that certifies the far end says so by infinity.
   return backward ? std::max(at, 0.0) : std::min(at, numeric::NextDown(duration));
 }
 

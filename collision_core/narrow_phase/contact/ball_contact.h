@@ -54,7 +54,7 @@ std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSe
 struct SeparationAt {
   numeric::Interval separation;
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< Most likely centre of A [m].
-  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< Likewise of B.
+  Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< Most likely centre of B [m].
   double error_A = 0, error_B = 0;                 ///< Within these of the true centres.
 };
 /// Evaluates two balls at `delta` seconds after their base.

@@ -1,4 +1,4 @@
-// Two balls at one instant, as an event tells it.
+// Two balls at one instant: distance, point and normal as an event reports them.
 #pragma once
 
 #include "collision_core/narrow_phase/contact/ball_contact.h"
@@ -6,8 +6,8 @@
 
 namespace collision::narrow_phase {
 
-/// At δ after the segments' base. The normal lies along the centres, the point half-way between the
-/// surfaces.
+/// Two balls at δ seconds after the base of the segments. The normal lies along the centres, the
+/// point half-way between the surfaces.
 Proximity BallProximity(const BallSegment& a, const BallSegment& b, double delta);
 
 }  // namespace collision::narrow_phase

@@ -31,9 +31,9 @@ namespace collision::narrow_phase {
 
 struct ShapeSegmentResult {
   SegmentResult times;
-  ContactNormal normal;    ///< Of the last instant before `times.free_until` that tells it well.
+  ContactNormal normal;    ///< From the last instant before `times.free_until` with a good normal.
   bool exhausted = false;  ///< The work ended before everything was examined.
-  /// Of the instants looked at, the one with the least upper bound of the distance.
+  /// The instant, of those examined, with the least upper bound of the distance.
   bool looked = false;
   double nearest_at = 0;
   Proximity nearest;

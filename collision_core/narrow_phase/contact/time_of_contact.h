@@ -98,7 +98,7 @@ struct BodyPair {
 /// Makes the segments of two motions from `from` on.
 BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from);
 
-/// As above, over [from, to], in seconds after `from`.
+/// The same over [from, to], in seconds after `from`.
 TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, Instant from,
                                   Instant to, const ContactTolerance& tolerance, WorkBudget* work);
 

@@ -12,20 +12,21 @@ struct BoxPair {
   const double* turn;  ///< R, a rotation to within 2^-20.
   double d[3];         ///< From A's centre to B's; may be off by 2^-53 |d|.
   double span_a;       ///< At least the sum of the edges' lengths.
-  double span_b;
-  double size;    ///< At least |d| + span_a + span_b (1 + 2^-19); S below.
-  double apart;   ///< Cores further apart than this do not touch.
+  double span_b;       ///< The same of B.
+  double size;         ///< At least |d| + span_a + span_b (1 + 2^-19); S below.
+  double apart;        ///< Cores further apart than this do not touch.
   double inside;  ///< A difference that holds the ball of this radius about 0 is contact; >= 0.
 };
 
+/// The result of the test.
 enum class BoxSeparation { kUnknown, kApart, kTouching };
 
-/// The axes of all faces, and of all pairs of edges; edges may be zero, as those of a segment are.
-/// kTouching needs two boxes, edges square to each other in A, and that no edges are parallel;
+/// Tests the axes of all faces and of all pairs of edges; edges may be zero, as those of a segment
+/// are. kTouching requires two boxes, edges square to each other in A, and no parallel edges;
 /// kUnknown where rounding might decide.
 BoxSeparation TestSeparatingAxes(const BoxPair& pair);
 
-/// The same bits, the second faster; null where the processor has no such vectors.
+/// The versions, for tests. All give the same bits; null where the processor has no such vectors.
 using SeparatingAxisKernel = BoxSeparation (*)(const BoxPair&);
 SeparatingAxisKernel PlainSeparatingAxisTest();
 SeparatingAxisKernel Avx2SeparatingAxisTest();

@@ -1,5 +1,5 @@
 // Four lanes at once. Nothing that others share is included: this file is built for processors that
-// not everybody has.
+// not every processor has.
 #include "collision_core/narrow_phase/convex_pair/box_separating_axis.h"
 
 #if defined(__x86_64__) && COLLISION_WIDE_BITS >= 256

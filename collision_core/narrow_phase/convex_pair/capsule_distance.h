@@ -16,7 +16,7 @@ struct PosedCores {
   double error;       ///< The sets meant are within this of what is posed, both together.
 };
 
-/// Whether DistanceOfCores() knows the two.
+/// Whether DistanceOfCores() has a closed form for the two.
 inline bool IsCapsulePair(const geometry::ConvexSet& a, const geometry::ConvexSet& b) {
   return (a.IsThin() && (b.IsThin() || b.core == geometry::ConvexCore::kBox)) ||
          (b.IsThin() && a.core == geometry::ConvexCore::kBox);

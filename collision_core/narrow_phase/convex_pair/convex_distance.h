@@ -26,8 +26,8 @@ inline constexpr std::uint64_t kFacesUnits = 4;  ///< All pairs of edges of two 
 /// What is asked about two convex sets.
 enum class ConvexGoal {
   kYesNo,     ///< Certainly apart, or certainly in contact, and nothing more.
-  kDistance,  ///< The distance; where they overlap, that they do.
-  kDepth      ///< Likewise, and how deep they overlap.
+  kDistance,  ///< The distance; if they overlap, only that they do.
+  kDepth      ///< The distance, or how deep they overlap.
 };
 
 /// A question, and how narrow its answer is to be.

@@ -7,7 +7,7 @@ namespace collision::narrow_phase {
 
 /// A body's points x move along their tangents, with velocity + spin × (x − about).
 struct TangentMotion {
-  Eigen::Vector3d velocity{0, 0, 0};  ///< Of `about` [m/s].
+  Eigen::Vector3d velocity{0, 0, 0};  ///< Velocity of `about` [m/s].
   Eigen::Vector3d spin{0, 0, 0};      ///< [rad/s]
   Eigen::Vector3d about{0, 0, 0};     ///< The body's reference point [m].
 };

@@ -25,7 +25,7 @@
 
 namespace collision::narrow_phase {
 
-/// Units of work for what is told at once, and for a quick search: some three to eight steps.
+/// Units of work of a closed form, and of a quick search: some three to eight steps.
 inline constexpr std::uint64_t kSeparatingAxisUnits = 1;
 inline constexpr std::uint64_t kSmallGjkUnits = 8;
 

@@ -11,7 +11,7 @@ struct SmallGjkCore {
   double axes[9];  ///< The half edges, or the frame that a hull's points are seen in: columns,
                    ///< as A sees them.
   double reach[3] = {1, 1, 1};  ///< About how far it reaches along each of these, of their lengths.
-  const double* points = nullptr;  ///< Of a hull: x, y and z of four, again and again.
+  const double* points = nullptr;  ///< The points of a hull: x, y and z of four at a time.
   int blocks = 0;
 };
 
@@ -30,14 +30,14 @@ struct SmallGjkPair {
 
 /// A certified bracket of the distance.
 struct SmallGjkResult {
-  double lower, upper;  ///< Of the cores, rounding counted in.
+  double lower, upper;  ///< Bounds of the distance of the cores, with rounding.
   bool inside = false;  ///< The ball certainly belongs to the difference.
 };
 
 /// Searches with the widest kernel that this processor has.
 SmallGjkResult RunSmallGjk(const SmallGjkPair& pair);
 
-/// The same bits, the second faster; null where the processor has no such vectors.
+/// The versions, for tests. All give the same bits; null where the processor has no such vectors.
 using SmallGjkKernel = SmallGjkResult (*)(const SmallGjkPair&);
 SmallGjkKernel PlainSmallGjk();
 SmallGjkKernel Avx2SmallGjk();

@@ -31,7 +31,7 @@ struct Point {
   double x, y, z;
 
   Point() = default;
-  QUICK_INLINE Point(double x, double y, double z) : x(x), y(y), z(z) {}
+  QUICK_INLINE Point(double p_x, double p_y, double p_z) : x(p_x), y(p_y), z(p_z) {}
   QUICK_INLINE Point(const Point& p) : x(p.x), y(p.y), z(p.z) {}
   QUICK_INLINE Point& operator=(const Point& p) {
     x = p.x, y = p.y, z = p.z;

@@ -14,16 +14,17 @@ inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, std::uint32
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-/// Likewise of B, in A's body frame.
+/// The corners of a triangle of B, in A's body frame.
 inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, std::uint32_t triangle,
                                           const RelativePose& pose) {
   const geometry::TrianglePoints own = CornersOf(shape, triangle);
   return {pose.ToA(own[0]), pose.ToA(own[1]), pose.ToA(own[2])};
 }
 
+/// The corners of a posed triangle, and the box around them.
 struct BoxedTriangle {
-  BoxedTriangle(std::uint32_t index, const geometry::TrianglePoints& points)
-      : index(index),
+  BoxedTriangle(std::uint32_t triangle, const geometry::TrianglePoints& points)
+      : index(triangle),
         corners(points),
         lower(points[0].cwiseMin(points[1]).cwiseMin(points[2])),
         upper(points[0].cwiseMax(points[1]).cwiseMax(points[2])) {}

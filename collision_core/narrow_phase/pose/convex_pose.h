@@ -17,7 +17,7 @@ geometry::ConvexSet PosedA(const geometry::ConvexSet& of_A, const RelativePose& 
 struct PosedHalfSpace {
   Eigen::Vector3d normal;  ///< Unit to within 2^-40.
   Eigen::Vector3d point;
-  double point_error = 0;  ///< Of the point [m].
+  double point_error = 0;  ///< The point is within this of the exact one [m].
   /// The exact normal differs by a vector no longer than this.
   double normal_error = 0;
 };

@@ -15,8 +15,8 @@ inline geometry::ConvexSet SetOf(const BodyTree& surface, std::uint32_t element)
   return geometry::TriangleSet(CornersOf(*shape, element));
 }
 
-/// Whether a convex solid is among them, or both are balls: what only knows triangles has nothing
-/// to say then.
+/// Whether one of the two elements is a convex solid, or both bodies are balls: then the routines
+/// for triangles do not apply.
 inline bool AnySolid(const BodyTree& a, std::uint32_t of_a, const BodyTree& b, std::uint32_t of_b) {
   if (!a.shape() && !b.shape()) return true;
   return (a.shape() && a.shape()->IsSolid(of_a)) || (b.shape() && b.shape()->IsSolid(of_b));

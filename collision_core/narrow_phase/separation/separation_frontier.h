@@ -9,9 +9,9 @@ namespace collision::narrow_phase {
 
 /// Two balls that are still to be opened.
 struct BallPair {
-  float lower;  ///< Of the distance of what they hold.
+  float lower;  ///< A lower bound on the distance of what they hold.
   sphere_tree::BallRef a, b;
-  std::uint32_t next;  ///< Of two leaves: so many pairs of blocks are done.
+  std::uint32_t next;  ///< For two leaves: how many pairs of blocks are done.
 };
 
 /// Pairs in the order in which they are opened: those that may be the nearest first, or the newest

@@ -205,7 +205,7 @@ Eigen::Vector3f SeparationSearch::DirectionBetween(const BallPair& pair,
                                (m[6] * c_b[0] + m[7] * c_b[1]) + m[8] * c_b[2]);
   const Eigen::Vector3f way = (turned + Eigen::Vector3f(pose_.offset)) - c_a;
   const float square = (way[0] * way[0] + way[1] * way[1]) + way[2] * way[2];
-  return square > kNearest * kNearest ? way * (1 / std::sqrt(square)) : other;
+  return square > kDistinctMin * kDistinctMin ? way * (1 / std::sqrt(square)) : other;
 }
 
 void SeparationSearch::OpenBlocks(const BallPair& pair, const sphere_tree::TriangleBlock& a,

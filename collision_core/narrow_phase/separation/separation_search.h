@@ -70,7 +70,8 @@ class SeparationSearch {
                   const sphere_tree::TriangleBlock& b, float limit, WorkBudget* work);
   void OpenSolids(const BallPair& pair, std::uint32_t of_a, std::uint32_t of_b, WorkBudget* work);
   void OpenBlock(const BallPair& pair, const sphere_tree::TriangleBlock& block, WorkBudget* work);
-  /// Where only the limit counts, what is known of pairs is an order and no bound.
+  /// The lower bound of a pair; −kNowhere where only the limit counts, because the key is then an
+  /// order and no bound.
   float BoundOf(const BallPair& pair) const {
     return only_within_ ? -sphere_tree::kNowhere : pair.lower;
   }
@@ -87,7 +88,7 @@ class SeparationSearch {
   std::uint64_t margin_units_ = 0;  ///< Spent since contact was certain.
   double root_lower_ = -numeric::kInfinity;
   bool done_ = false;
-  LeastBeyond beyond_;  ///< What was not looked at more closely is farther apart than this.
+  LeastBeyond beyond_;  ///< What was not opened is farther apart than this.
   sphere_tree::BallRef deepest_a_ = 0, deepest_b_ = 0;
   Frontier frontier_;
 };

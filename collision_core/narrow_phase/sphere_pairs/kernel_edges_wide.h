@@ -47,7 +47,7 @@ struct WideEdges {
 };
 
 WIDE inline Lanes LongestOf(Lanes p, Lanes q, Lanes r) {
-  return Root(Greater(Greater(p, q), r) + All(kNearest * kNearest));
+  return Root(Greater(Greater(p, q), r) + All(kDistinctMin * kDistinctMin));
 }
 
 WIDE inline WideEdges EdgesOfA(const EdgeBlock& block, std::uint32_t row) {

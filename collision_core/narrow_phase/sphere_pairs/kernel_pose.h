@@ -16,18 +16,18 @@ struct PackedBody {
   PackedBody(const PackedBody&) = delete;
   PackedBody& operator=(const PackedBody&) = delete;
 
-  std::uint32_t LinkOf(sphere_tree::BallRef ball) const {
-    return packs[ball / sphere_tree::kPackBalls].link[ball % sphere_tree::kPackBalls];
+  std::uint32_t LinkOf(sphere_tree::BallRef which) const {
+    return packs[which / sphere_tree::kPackBalls].link[which % sphere_tree::kPackBalls];
   }
-  float RadiusOf(sphere_tree::BallRef ball) const {
-    return packs[ball / sphere_tree::kPackBalls].radius[ball % sphere_tree::kPackBalls];
+  float RadiusOf(sphere_tree::BallRef which) const {
+    return packs[which / sphere_tree::kPackBalls].radius[which % sphere_tree::kPackBalls];
   }
-  Eigen::Vector3f CentreOf(sphere_tree::BallRef ball) const {
-    const sphere_tree::BallPack& pack = packs[ball / sphere_tree::kPackBalls];
-    const std::uint32_t i = ball % sphere_tree::kPackBalls;
+  Eigen::Vector3f CentreOf(sphere_tree::BallRef which) const {
+    const sphere_tree::BallPack& pack = packs[which / sphere_tree::kPackBalls];
+    const std::uint32_t i = which % sphere_tree::kPackBalls;
     return {pack.x[i], pack.y[i], pack.z[i]};
   }
-  std::uint32_t NodeOf(sphere_tree::BallRef ball) const { return tree ? tree->NodeOf(ball) : 0; }
+  std::uint32_t NodeOf(sphere_tree::BallRef which) const { return tree ? tree->NodeOf(which) : 0; }
 
   const sphere_tree::PackedTree* tree;  ///< Null: a ball.
   const sphere_tree::BallPack* packs;

@@ -12,8 +12,8 @@ namespace collision::narrow_phase {
 struct KernelPose {
   float matrix[9];  ///< Row by row.
   float offset[3];
-  float slack;           ///< Of balls: taken from lower bounds, added to upper ones.
-  float triangle_slack;  ///< Of triangles, turning not included.
+  float slack;           ///< For balls: taken from lower bounds, added to upper ones.
+  float triangle_slack;  ///< For triangles, turning not included.
   float turn_a, turn_b;  ///< What turning moves a point by, per distance from the reference point.
   float from_a[3], from_b[3];  ///< The origins, seen from the reference points.
   float direction[3];  ///< About a unit vector from A to B, or zero: to project triangles on.
@@ -31,7 +31,7 @@ struct BallScanTask {
   std::uint32_t lane;
   std::uint32_t rows;  ///< Balls in pack `a`; 1 where only one of the two is opened.
   float parent;        ///< A lower bound for all of them.
-  float limit;         ///< Pairs with a greater lower bound are not told one by one.
+  float limit;         ///< Pairs with a greater lower bound are not reported.
   float upper;         ///< Only a lesser upper bound is news.
   /// Only which pairs are within the limit matters: `beyond` is the limit then, and what is told of
   /// a pair is no bound, but mostly the less the nearer it is, and not above 0.
@@ -43,7 +43,7 @@ struct BlockScanTask {
   const sphere_tree::TriangleBlock* a;
   const sphere_tree::TriangleBlock* b;
   float slack;   ///< Turning included.
-  float parent;  ///< As above.
+  float parent;  ///< A lower bound for all of them.
   float limit;
   bool only_within = false;  ///< Likewise; lower bounds leave out what edges tell.
 };
@@ -83,16 +83,16 @@ struct BallHits {
 ///
 /// Where only the limit counts, L = slack + limit. Balls: a square is off by 5 u of itself, that of
 /// the sum of radii and L by no more than the sum, rounded twice, and u: all in all by less than a
-/// root, a difference and L taken away. Below kNearest nothing is told apart, so that squares keep
+/// root, a difference and L taken away. Below kNearest nothing is decided, so that squares keep
 /// their digits.
 ///
 /// Triangles across edges, seen from A's origin, E and F the longest edges of the two: edges are
 /// off by u of themselves, their moments and normals by (2.9 + 2) u of the lengths' product, dot
 /// products by 3 u; D by 8.9 u S E F, as |p| + |q| <= S; the third corners by 8.9 u E F (E + F) <=
 /// 17.8 u S E F; sums by 5 u S E F: 31.7 u S E F. The corners themselves are off by 10.4 u S at
-/// most, and E F L by 9 u of itself, where L < 3 S or nothing is told: in all 69.1 u S. So 3/2 of
-/// the slack of triangles is enough: kEdgeSlack. Products that underflow lose less than 2^-146 (1 +
-/// S) where S < 2^51: kProductLoss.
+/// most, and E F L by 9 u of itself, where L < 3 S or nothing is decided: in all 69.1 u S. So 3/2
+/// of the slack of triangles is enough: kEdgeSlack. Products that underflow lose less than 2^-146
+/// (1 + S) where S < 2^51: kProductLoss.
 struct SpherePairKernel {
   /// `uppers` (or null): room for 8 · rows + kLanesOver upper bounds.
   void (*balls)(const KernelPose& pose, const BallScanTask& task, float* beyond, BallHits* hits,
@@ -108,7 +108,7 @@ inline constexpr double kBallSlack = 0x1p-24 * 24;
 inline constexpr double kTriangleSlack = 0x1p-24 * 48;
 inline constexpr float kShortSquare = 0x1p-100f;  ///< [m⁴]
 inline constexpr float kEdgeSlack = 1.5f;
-inline constexpr float kNearest = 0x1p-60f;      ///< [m]
+inline constexpr float kDistinctMin = 0x1p-60f;  ///< [m]
 inline constexpr float kProductLoss = 0x1p-90f;  ///< [m³]
 
 /// The widest that this processor has.

@@ -1,5 +1,5 @@
 // Sixteen pairs at once. Nothing that others share is included: this file is built for processors
-// that not everybody has.
+// that not every processor has.
 #include "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h"
 
 #if defined(__x86_64__) && COLLISION_WIDE_BITS >= 512

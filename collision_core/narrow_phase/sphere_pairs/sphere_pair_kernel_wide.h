@@ -108,7 +108,7 @@ WIDE inline bool ScanRowsWithin(const KernelPose& pose, const RowArrays& rows, s
                                 const BallScanTask& task, const WideBalls& others, float* beyond,
                                 BallHits* hits) {
   const Lanes reach = All(pose.slack + task.limit), news = All(task.upper - pose.slack);
-  const Lanes none = All(0), nearest = All(kNearest);
+  const Lanes none = All(0), nearest = All(kDistinctMin);
   std::uint64_t within = 0;
   unsigned is_news = 0;
   for (std::uint32_t done = 0; done < task.rows; done += kWidth / 8) {

@@ -10,11 +10,12 @@ namespace collision::sphere_tree {
 /// A ball in the search: rounded as it comes.
 struct FittedBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();  ///< Of the surface, from the centre.
-  double signed_distance = 0;  ///< Of the centre; negative only where `inside`.
+  Eigen::Vector3d nearest =
+      Eigen::Vector3d::Zero();  ///< The point of the surface nearest to the centre.
+  double signed_distance = 0;   ///< That of the centre; negative only where `inside`.
   double radius = 0;
   bool inside = false;
-  std::uint32_t triangle = 0;  ///< Where `nearest` is.
+  std::uint32_t triangle = 0;  ///< The triangle of `nearest`.
 
   double overshoot() const { return radius + signed_distance; }
 };

@@ -1,4 +1,4 @@
-// Boxes around the triangles of a mesh, for whoever builds a sphere tree.
+// Boxes around the triangles of a mesh, for the builders of sphere trees.
 #pragma once
 
 #include <Eigen/Core>
@@ -75,7 +75,7 @@ class TriangleBoxes {
   const Eigen::Vector3d& upper() const { return nodes_[0].upper; }
   double diagonal() const { return (upper() - lower()).norm(); }
 
-  /// Boxes and triangles looked at so far, in all questions.
+  /// Boxes and triangles examined so far, in all questions.
   std::uint64_t work() const { return work_; }
 
  private:

@@ -71,7 +71,7 @@ class CoverSearch {
   const std::uint32_t whole_;
   BallPolish polish_;
 
-  /// Of every piece: its candidates found so far stand in `known_` from `first` on.
+  /// For every piece, where its candidates found so far stand in `known_`.
   struct Known {
     std::uint32_t first = 0, count = 0;
   };

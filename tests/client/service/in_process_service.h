@@ -1,4 +1,4 @@
-// A daemon and simulators in one thread, with a network that is late as the test wants.
+// A daemon and simulators in one thread, with a network delay that the test chooses.
 #pragma once
 
 #include <deque>
@@ -8,17 +8,17 @@
 #include <utility>
 #include <vector>
 
-#include "client/transport.h"
-#include "client/world.h"
+#include "client/api/world.h"
+#include "client/library/network/transport.h"
 #include "idl/identity.h"
 #include "tests/server/scripted_bus.h"
 
 namespace collision::client {
 
-/// Takes what simulators write to the daemon, and what it says to whom it concerns; keeps a copy.
+/// Carries what simulators write to the daemon, and its outputs to their receivers; keeps a copy.
 class InProcessService {
  public:
-  /// `late`: so many steps of the daemon pass before what it says arrives.
+  /// `late`: steps of the daemon until its outputs arrive.
   InProcessService(const v1::Config& config, std::size_t late) : daemon_(config), late_(late) {}
 
   void Send(std::uint64_t sender, const v1::Input& message) {
@@ -38,7 +38,7 @@ class InProcessService {
     steps_.pop_front();
   }
 
-  /// A world over this service, of a simulator that speaks as `sender`.
+  /// A world over this service, for a simulator with this sender id.
   World Connect(std::uint64_t sender, WorldOptions options);
 
   const std::vector<v1::Output>& said() const { return said_; }
@@ -54,7 +54,7 @@ class InProcessService {
   std::vector<v1::Output> said_;
 };
 
-/// Whoever waits lets the daemon step.
+/// Waiting lets the daemon step.
 class InProcessService::Line : public Transport {
  public:
   Line(InProcessService* service, std::uint64_t sender, std::uint64_t simulator)

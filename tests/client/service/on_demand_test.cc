@@ -1,15 +1,16 @@
-// Goal:   on demand the promises are those of a stream: nothing late, every contact announced and bracketed
-//         as narrowly, whoever joins or jumps meanwhile; for a fraction of the states.
-// Method: the client library against a daemon in the same thread; a crowd under random forces, flown
-//         once as a stream and once on demand, in lock-step and on the wall clock with answers that
-//         come late; the independent checker judges both with the exact motion.
+// Goal:   on demand the promises are those of a stream: nothing late, every contact announced and
+//         bracketed as narrowly, while agents join and jump; for a fraction of the states.
+// Method: the client library against a daemon in the same thread; a crowd under random forces,
+// flown
+//         once as a stream and once on demand, in lock-step and on the wall clock with late
+//         answers; the independent checker judges both with the exact motion.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "client/simulators/checker/check.h"
+#include "client/checker/check.h"
 #include "tests/client/service/in_process_service.h"
 #include "tests/support/random.h"
 
@@ -38,7 +39,7 @@ struct Outcome {
   double median() const { return begin_widths.at(begin_widths.size() / 2); }
 };
 
-/// Flies about under a new random force every quarter of a second.
+/// Flies under a new random force every quarter of a second.
 class Walker {
  public:
   Walker(std::string name, std::uint64_t seed) : name_(std::move(name)), random_(seed) {
@@ -76,7 +77,7 @@ class Walker {
         {.name = name_, .radius_m = kRadius, .acceleration_max_m_s2 = kAccelerationMax}, state_));
   }
 
-  void Tell() { agent_->SetState(state_); }
+  void SetState() { agent_->SetState(state_); }
   bool joined() const { return agent_.has_value(); }
   const checker::AgentMotion& motion() const { return motion_; }
 
@@ -151,7 +152,7 @@ class Flight {
         if (!walkers_[i].joined()) continue;
         walkers_[i].Step(t0_ns);
         if (step % 97 == 50 && i % 8 == 3) walkers_[i].Jump();
-        walkers_[i].Tell();
+        walkers_[i].SetState();
       }
       Advance(t0_ns + kStep);
     }
@@ -163,7 +164,7 @@ class Flight {
     walkers_[i].Join(&worlds_[i % 2], i % 2 == 0 ? "a" : "b", now_ns);
   }
 
-  /// Both worlds come to `t_ns`. In lock-step whoever waits lets the daemon step, and each in turn.
+  /// Advances both worlds to `t_ns`. In lock-step a world that waits lets the daemon step.
   void Advance(std::int64_t t_ns) {
     if (plan_.wall) {
       for (World& world : worlds_) world.Publish(t_ns);
@@ -248,14 +249,14 @@ TEST(OnDemandService, InLockStepIsAsGoodAsAStream) {
   ExpectAsGood(on_demand, stream);
   EXPECT_LE(on_demand.median(), stream.median() * 1.01);
   EXPECT_LE(on_demand.begin_widths.back(), stream.begin_widths.back() * 1.01);
-  // The state after the end is asked for as well.
+  // The state after the end is requested as well.
   ASSERT_EQ(on_demand.end_widths.size(), stream.end_widths.size());
   EXPECT_LE(on_demand.end_widths.back(), stream.end_widths.back() * 1.01);
-  // Bounds that have grown announce more; who is announced already must not hide that others will be.
+  // Bounds that have grown announce more events; those announced already must not hide others.
   EXPECT_LE(static_cast<double>(on_demand.events), static_cast<double>(stream.events) * 1.4);
 }
 
-// Answers are under way for three steps of the daemon, 47 ms, as the lead allows.
+// Answers take three steps of the daemon, 47 ms, as the lead allows.
 TEST(OnDemandService, OnTheWallClockIsAsGoodAsAStream) {
   const Outcome on_demand = Flight({.on_demand = true, .wall = true, .late = 3}).Fly();
   const Outcome stream = Flight({.on_demand = false, .wall = true, .late = 3}).Fly();

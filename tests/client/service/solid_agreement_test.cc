@@ -1,5 +1,5 @@
-// Goal:   the client refuses solids exactly where the service does, and of what both take they know
-//         the same radius and the same solids.
+// Goal:   the client refuses solids exactly where the service does; for those that both accept they
+//         have the same radius and the same solids.
 // Method: random solids with fields spoilt at random, encoded here field by field; both judgements.
 #include <gtest/gtest.h>
 
@@ -7,11 +7,12 @@
 #include <limits>
 #include <stdexcept>
 
-#include "client/shape.h"
-#include "client/validation.h"
+#include "client/api/shape.h"
+#include "client/library/validation.h"
+#include "idl/limits.h"
 #include "idl/shape_bytes.h"
-#include "server/shape_builder.h"
-#include "server/shape_decoding.h"
+#include "server/shapes/shape_builder.h"
+#include "server/shapes/shape_decoding.h"
 #include "tests/support/random.h"
 
 namespace collision::client {
@@ -41,7 +42,7 @@ Solid RandomSolid(Random* random) {
   }
 }
 
-/// One number of it, whichever.
+/// Any one of its numbers.
 double* ANumberOf(Solid* solid, Random* random) {
   switch (random->Below(5)) {
     case 0:
@@ -68,7 +69,7 @@ SolidContent ContentOf(const Solid& solid) {
 }
 
 TEST(SolidAgreement, ClientAndServiceRefuseTheSame) {
-  EXPECT_EQ(kShapeHullPointsMax, server::kSolidPointsMax);
+  EXPECT_EQ(kShapeHullPointsMax, wire::kShapeHullPointsMax);
   Random random(11);
   int refused = 0, taken = 0;
   for (int run = 0; run < 4000; ++run) {

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "collision_core/numeric/seconds.h"
-#include "tests/support/exact.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact.h"
 
 namespace collision {
 namespace {

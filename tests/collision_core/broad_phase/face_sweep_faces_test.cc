@@ -4,7 +4,7 @@
 #include "collision_core/broad_phase/face_sweep/face_sweep_window.h"
 #include "collision_core/motion/hypertrapezoid.h"
 #include "tests/collision_core/broad_phase/face_sweep_scenes.h"
-#include "tests/support/exact_bound.h"
+#include "tests/support/truth/exact_bound.h"
 
 namespace collision::broad_phase {
 namespace {

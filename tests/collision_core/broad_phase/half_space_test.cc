@@ -9,9 +9,9 @@
 
 #include "collision_core/motion/speed_cap.h"
 #include "collision_core/numeric/seconds.h"
-#include "tests/support/exact.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/exact.h"
 
 namespace collision::broad_phase {
 namespace {

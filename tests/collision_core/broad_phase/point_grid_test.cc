@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/exact.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact.h"
 
 namespace collision::broad_phase {
 namespace {

@@ -9,9 +9,9 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/support/exact.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/exact.h"
 
 namespace collision::broad_phase {
 namespace {

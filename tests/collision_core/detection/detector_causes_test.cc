@@ -1,4 +1,5 @@
-// Goal:   whatever changes the rules (a breach, a jump, a mask, an expiry, a limit) is told with its cause, and no
+// Goal:   whatever changes the rules (a breach, a jump, a mask, an expiry, a limit) is told with
+// its cause, and no
 //         meeting is lost by it.
 // Method: few agents on lines, whose meetings are exact; states every 1/16 s, one clock.
 #include <gtest/gtest.h>
@@ -30,8 +31,8 @@ TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
   EXPECT_EQ(line.detector.counters().breaches, 1u);
 }
 
-// Back at the same place after a second, so fast that no motion of 1 m/s² leads there, though both the
-// place and the speed could be reached. What was promised of it holds, but its owner is told.
+// Back at the same place after a second, so fast that no motion of 1 m/s² leads there, though both
+// the place and the speed could be reached. What was promised of it holds, but its owner is told.
 TEST(Detector, StatesThatNoMotionJoinsAreABreach) {
   Line line;
   line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
@@ -247,8 +248,8 @@ TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
   motion::MotionState jump = State(1, {1030, 0, 0}, {0, 0, 0});
   jump.discontinuity = true;
   detector.Update(Id(1), jump, At(1.1));
-  detector.Hear(Id(1), At(1.0625));
-  detector.Hear(Id(2), At(1.0625));
+  detector.SetHeardUntil(OwnerOf(Id(1)), At(1.0625));
+  detector.SetHeardUntil(OwnerOf(Id(2)), At(1.0625));
   step(1.125);
   const auto confirmed = std::find_if(events.begin(), events.end(), [](const auto& event) {
     return event.status == EventStatus::kConfirmed;
@@ -258,8 +259,8 @@ TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
   EXPECT_GE(confirmed->begin.latest, At(1.028));
 }
 
-// One was granted time up to 10 s and used it; then the other's jump made them meet at 4.5 s. Nothing asked in
-// between may lose that, in whichever order they were admitted.
+// One was granted time up to 10 s and used it; then the other's jump made them meet at 4.5 s.
+// Nothing asked in between may lose that, in whichever order they were admitted.
 TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
   for (const bool first_jumps : {true, false}) {
     Detector detector{DetectorOptions{}};
@@ -279,15 +280,15 @@ TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
     detector.Update(jumper, jump, At(10));
     step(1);
     detector.Update(runner, State(10, {0, 0, 0}, {0, 0, 0}), At(10));
-    detector.Hear(runner, At(10));
-    detector.Hear(jumper, At(2));
+    detector.SetHeardUntil(OwnerOf(runner), At(10));
+    detector.SetHeardUntil(OwnerOf(jumper), At(2));
     const EarliestAnswer earliest = step(2);
     ASSERT_TRUE(earliest.found);
     EXPECT_LE(earliest.earliest, At(4.5));
     for (double now = 2; now <= 8; now += 0.5) {
       if (now > 2)
         detector.Update(jumper, State(now, {-16 + 4 * (now - 1), 0, 0}, {4, 0, 0}), At(10));
-      detector.Hear(jumper, At(now));
+      detector.SetHeardUntil(OwnerOf(jumper), At(now));
       step(now);
     }
     const auto confirmed = std::find_if(events.begin(), events.end(), [](const auto& event) {
@@ -299,8 +300,8 @@ TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
   }
 }
 
-// With clocks that differ by 10 ms a jump may have come 10 ms before or after its stamp: what depends on which is
-// neither confirmed nor denied.
+// With clocks that differ by 10 ms a jump may have come 10 ms before or after its stamp: what
+// depends on which is neither confirmed nor denied.
 TEST(Detector, NothingIsCertainWithinTheSkewAboutAJump) {
   for (const bool jumps_onto : {true, false}) {
     DetectorOptions options;
@@ -317,8 +318,8 @@ TEST(Detector, NothingIsCertainWithinTheSkewAboutAJump) {
       state.discontinuity = now == 1;
       detector.Update(Id(1), state, At(now));
       detector.Update(Id(2), State(now, {-1000 + 1000 * now, 0, 0}, {1000, 0, 0}), At(now));
-      detector.Hear(Id(1), At(now));
-      detector.Hear(Id(2), At(now));
+      detector.SetHeardUntil(OwnerOf(Id(1)), At(now));
+      detector.SetHeardUntil(OwnerOf(Id(2)), At(now));
       detector.Advance(At(now));
       events.insert(events.end(), detector.events().begin(), detector.events().end());
     }

@@ -54,7 +54,8 @@ TEST(Detector, AContactEndsThoughNobodySpeaksAnyMore) {
   ASSERT_FALSE(line.With(EventStatus::kConfirmed).empty());
   ASSERT_TRUE(line.With(EventStatus::kEnded).empty());
   for (; line.now < 5.75; line.now += 0.25) {
-    for (const std::uint32_t slot : {1u, 2u}) line.detector.Hear(Id(slot), At(line.now));
+    for (const std::uint32_t slot : {1u, 2u})
+      line.detector.SetHeardUntil(OwnerOf(Id(slot)), At(line.now));
     line.Step();
   }
   ASSERT_EQ(line.With(EventStatus::kEnded).size(), 1u);
@@ -106,8 +107,8 @@ TEST(Detector, RemovalWithdraws) {
   EXPECT_EQ(line.detector.ClearanceOf(Id(1))->clear_until, Instant::Never());
 }
 
-// They touched from 2.1 to 2.4 s and leave together at 3 s, known at 0 and 3 s only: the contact ends, and what could
-// come after they have left is no news.
+// They touched from 2.1 to 2.4 s and leave together at 3 s, known at 0 and 3 s only: the contact
+// ends, and what could come after they have left is no news.
 TEST(Detector, RemovalAnnouncesNothingNew) {
   Detector detector{DetectorOptions{}};
   const motion::AgentDeclaration ball{0.3, 0};
@@ -117,7 +118,7 @@ TEST(Detector, RemovalAnnouncesNothingNew) {
   for (const std::uint32_t slot : {1u, 2u}) {
     detector.Update(Id(slot),
                     State(3, {slot == 1 ? 6.0 : 3.0, 0, 0}, {slot == 1 ? 2.0 : -2.0, 0, 0}), At(3));
-    detector.Hear(Id(slot), At(3));
+    detector.SetHeardUntil(OwnerOf(Id(slot)), At(3));
     detector.Remove(Id(slot));
   }
   detector.Advance(At(3));
@@ -163,8 +164,8 @@ TEST(Detector, ConfirmsBetweenStatesUpToWhatWasHeard) {
     detector.Admit(Id(2), {1, 0.01}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
     for (double now = 0; now <= 6; now += 1.0 / 16) {
       if (heard) {
-        detector.Hear(Id(1), At(now));
-        detector.Hear(Id(2), At(now));
+        detector.SetHeardUntil(OwnerOf(Id(1)), At(now));
+        detector.SetHeardUntil(OwnerOf(Id(2)), At(now));
       }
       detector.Advance(At(now));
       for (const CollisionEvent& event : detector.events()) {
@@ -187,8 +188,8 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
     detector.Update(Id(2), State(t, {20 - 2 * t, 0, 0}, {-2, 0, 0}), At(t));
   };
   const auto step = [&](double now) {
-    detector.Hear(Id(1), At(now));
-    detector.Hear(Id(2), At(now));
+    detector.SetHeardUntil(OwnerOf(Id(1)), At(now));
+    detector.SetHeardUntil(OwnerOf(Id(2)), At(now));
     detector.Advance(At(now));
     events.insert(events.end(), detector.events().begin(), detector.events().end());
   };
@@ -219,7 +220,8 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   EXPECT_LE(ended->end.latest, At(10.5));
 }
 
-// Two contacts before the next state: the event tells of the first until that is settled, then the second has its own.
+// Two contacts before the next state: the event tells of the first until that is settled, then the
+// second has its own.
 TEST(Detector, TwoContactsBetweenStatesAreTwoEvents) {
   Detector detector{DetectorOptions{}};
   std::vector<CollisionEvent> events;
@@ -236,8 +238,8 @@ TEST(Detector, TwoContactsBetweenStatesAreTwoEvents) {
     } else if (now > 0.5) {
       detector.Update(Id(2), State(now, {-8 + 40 * (now - 0.5), 0, 0}, {40, 0, 0}), At(now));
     }
-    detector.Hear(Id(1), At(now));
-    detector.Hear(Id(2), At(now));
+    detector.SetHeardUntil(OwnerOf(Id(1)), At(now));
+    detector.SetHeardUntil(OwnerOf(Id(2)), At(now));
     detector.Advance(At(now));
     events.insert(events.end(), detector.events().begin(), detector.events().end());
   }
@@ -276,8 +278,9 @@ TEST(Detector, ContactBeforeLeavingIsConfirmed) {
   ASSERT_EQ(line.With(EventStatus::kEnded).size(), 1u);
 }
 
-// Two that pass each other between two states a second apart: that they touched is known from the states before, how
-// exactly from those after it. Who waits for what is told: each agent until its own state has come.
+// Two that pass each other between two states a second apart: that they touched is known from the
+// states before, how exactly from those after it. Who waits for what is told: each agent until its
+// own state has come.
 TEST(Detector, AContactThatIsOverWaitsForTheStatesAfterIt) {
   Detector detector{DetectorOptions{}};
   const motion::AgentDeclaration ball{.radius = 1, .acceleration_max = 0.1};
@@ -285,8 +288,8 @@ TEST(Detector, AContactThatIsOverWaitsForTheStatesAfterIt) {
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, p, v), At(0));
   const auto hear = [&](double now) {
-    detector.Hear(Id(1), At(now));
-    detector.Hear(Id(2), At(now));
+    detector.SetHeardUntil(OwnerOf(Id(1)), At(now));
+    detector.SetHeardUntil(OwnerOf(Id(2)), At(now));
     detector.Advance(At(now));
   };
   hear(0.125);

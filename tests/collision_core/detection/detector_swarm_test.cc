@@ -147,7 +147,7 @@ RunLog Simulate(const Crowd& crowd, int steps) {
       newest[i] = {state, declaration, 0};
     }
     const Instant now = At(step * kStep);
-    for (std::size_t i = 0; i < crowd.size(); ++i) detector.Hear(Id(i), now);
+    for (std::size_t i = 0; i < crowd.size(); ++i) detector.SetHeardUntil(OwnerOf(Id(i)), now);
     detector.Advance(now);
     for (const CollisionEvent& event : detector.events()) {
       run.events.push_back(event);

@@ -16,24 +16,25 @@ namespace {
 
 TEST(EventQueue, HeadIsTheLeastAfterEveryChange) {
   Random random(7);
-  EventQueue queue;
+  EventQueue<AgentIndex> queue;
   std::map<std::uint32_t, Instant> keys;
   for (int i = 0; i < 20000; ++i) {
     const auto agent = static_cast<std::uint32_t>(random.Below(60));
     if (random.Below(3) == 0) {
-      queue.Remove(agent);
+      queue.Remove(AgentIndex(agent));
       keys.erase(agent);
     } else {
       const Instant key = Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(100)));
-      queue.Set(agent, key);
+      queue.Set(AgentIndex(agent), key);
       keys[agent] = key;
     }
+    queue.Validate();
     ASSERT_EQ(queue.size(), keys.size());
     if (keys.empty()) continue;
     std::set<std::pair<Instant, std::uint32_t>> ordered;
     for (const auto& [a, k] : keys) ordered.insert({k, a});
     ASSERT_EQ(queue.top_key(), ordered.begin()->first);
-    ASSERT_EQ(queue.top(), ordered.begin()->second);
+    ASSERT_EQ(queue.top().value(), ordered.begin()->second);
   }
 }
 
@@ -42,23 +43,35 @@ TEST(EventQueue, HeadIsTheLeastAfterEveryChange) {
 TEST(EventQueue, UpToTellsAllThatAreNotLater) {
   Random random(4);
   for (std::uint32_t size = 0; size <= 70; ++size) {
-    EventQueue queue;
+    EventQueue<AgentIndex> queue;
     std::vector<std::pair<Instant, std::uint32_t>> sorted;
     for (std::uint32_t index = 0; index < size; ++index) {
       const Instant key = Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(20)));
-      queue.Set(index, key);
+      queue.Set(AgentIndex(index), key);
       sorted.emplace_back(key, index);
     }
     for (std::int64_t last = -1; last <= 20; ++last) {
-      std::vector<std::uint32_t> told, wanted;
+      std::vector<AgentIndex> told, wanted;
       queue.UpTo(Instant::FromNanoseconds(last), &told);
       for (const auto& [key, index] : sorted) {
-        if (key.nanoseconds() <= last) wanted.push_back(index);
+        if (key.nanoseconds() <= last) wanted.push_back(AgentIndex(index));
       }
       std::sort(told.begin(), told.end());
-      ASSERT_EQ(told, wanted) << size << " up to " << last;
+      ASSERT_TRUE(told == wanted) << size << " up to " << last;
     }
   }
+}
+
+// Goal:   what an empty queue, or one without the index, is asked for is refused, not undefined.
+TEST(EventQueue, RefusesToNameAHeadThatItDoesNotHave) {
+  EventQueue<AgentIndex> queue;
+  EXPECT_THROW(queue.top(), CheckFailure);
+  EXPECT_THROW(queue.top_key(), CheckFailure);
+  EXPECT_THROW(queue.KeyOf(AgentIndex(3u)), CheckFailure);
+  EXPECT_THROW(queue.Set(AgentIndex::None(), Instant()), CheckFailure);
+  queue.Remove(AgentIndex(3u));
+  queue.Set(AgentIndex(3u), Instant::FromNanoseconds(7));
+  EXPECT_EQ(queue.KeyOf(AgentIndex(3u)), Instant::FromNanoseconds(7));
 }
 
 }  // namespace

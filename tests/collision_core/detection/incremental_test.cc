@@ -51,7 +51,7 @@ class Lattice {
     const std::size_t before = Allocations();
     for (auto slot = static_cast<std::uint32_t>(step_ % 60); slot < side_ * side_; slot += 60) {
       EXPECT_EQ(detector->Update(Id(slot), StateOf(slot, now), now), UpdateOutcome::kKept);
-      detector->Hear(Id(slot), now);
+      detector->SetHeardUntil(OwnerOf(Id(slot)), now);
     }
     const std::size_t allocated = Allocations() - before;
     detector->Advance(now);
@@ -146,8 +146,8 @@ TEST(Incremental, TheEarliestKnowsWhoIsSaturated) {
   EXPECT_EQ(earliest.higher, Id(3));
 }
 
-// Of equal meetings the one of the lowest ids is the earliest, though neither of its two has the other
-// as the partner that its key names.
+// Of equal meetings the one of the lowest ids is the earliest, though neither of its two has the
+// other as the partner that its key names.
 TEST(Incremental, EqualMeetingsGoByTheIds) {
   Detector detector{DetectorOptions{}};
   const std::pair<std::uint32_t, double> places[] = {{8, 0}, {9, 300}, {1, 100}, {2, 200}};
@@ -183,7 +183,7 @@ class RandomHistory {
         known_.erase(slot);
       }
     }
-    for (const auto& [slot, bound] : known_) detector_->Hear(Id(slot), now);
+    for (const auto& [slot, bound] : known_) detector_->SetHeardUntil(OwnerOf(Id(slot)), now);
     detector_->Advance(now);
     for (const AgentClearance& told : detector_->TakeChangedClearances()) {
       clearances_[told.agent.slot] = told;
@@ -351,14 +351,14 @@ TEST(Incremental, WhoJumpsAheadIsMetBeforeItsJump) {
   motion::MotionState away = State(3, {9000, 0, 0}, {8, 0, 0});
   away.discontinuity = true;
   detector.Update(Id(1), away, At(3));
-  detector.Hear(Id(1), At(3));
+  detector.SetHeardUntil(OwnerOf(Id(1)), At(3));
   motion::MotionState here = State(0.25, {0, 0, 0}, {0, 0, 0});
   here.discontinuity = true;
   detector.Update(Id(2), here, At(0.25));
-  detector.Hear(Id(2), At(0.25));
+  detector.SetHeardUntil(OwnerOf(Id(2)), At(0.25));
   detector.Advance(At(0.25));
   EXPECT_LE(detector.ClearanceOf(Id(2))->clear_until, At(0.75));
-  detector.Hear(Id(2), At(3));
+  detector.SetHeardUntil(OwnerOf(Id(2)), At(3));
   std::vector<CollisionEvent> events = detector.events();
   for (const double now : {1.0, 2.0, 3.0}) {
     detector.Advance(At(now));
@@ -378,19 +378,20 @@ TEST(Incremental, WhoSpeaksAheadIsMetBeforeItsNewestState) {
   detector.Admit(Id(2), ball, State(0, {0, 5000, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
   detector.Update(Id(1), State(3, {16, 0, 0}, {8, 0, 0}), At(3));
-  detector.Hear(Id(1), At(3));
+  detector.SetHeardUntil(OwnerOf(Id(1)), At(3));
   motion::MotionState here = State(0.25, {0, 0, 0}, {0, 0, 0});
   here.discontinuity = true;
   detector.Update(Id(2), here, At(0.25));
-  detector.Hear(Id(2), At(0.25));
+  detector.SetHeardUntil(OwnerOf(Id(2)), At(0.25));
   detector.Advance(At(0.25));
   EXPECT_LE(detector.ClearanceOf(Id(2))->clear_until, At(0.75));
   // One that passes elsewhere is nobody's concern.
   EXPECT_EQ(detector.pairs_tracked(), 1u);
 }
 
-// An owner that was granted much time tells where its agent will be long after it has passed another one, which is
-// asked first. What lies before that state is more than announce_within away, and is not forgotten.
+// An owner that was granted much time tells where its agent will be long after it has passed
+// another one, which is asked first. What lies before that state is more than announce_within away,
+// and is not forgotten.
 TEST(Incremental, WhoSpeaksFarAheadIsMetBeforeItsNewestState) {
   Detector detector{DetectorOptions{}};
   detector.Admit(Id(1), {.radius = 1, .acceleration_max = 1}, State(0, {0, 0, 0}, {0, 0, 0}),

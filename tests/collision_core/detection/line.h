@@ -15,7 +15,8 @@ inline Instant At(double seconds) {
   return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
 
-inline detection::AgentId Id(std::uint32_t slot) { return {1, slot, 1, 1}; }
+// Each agent has a simulator of its own, so that what is heard of one says nothing of another.
+inline detection::AgentId Id(std::uint32_t slot) { return {1 + std::uint64_t{slot}, slot, 1, 1}; }
 
 inline motion::MotionState State(double t, const Vector3d& p, const Vector3d& v) {
   motion::MotionState state;
@@ -42,7 +43,7 @@ class Line {
       for (const Mover& agent : agents) {
         const double dt = now - agent.since;
         detector.Update(Id(agent.slot), State(now, agent.p + agent.v * dt, agent.v), At(now));
-        detector.Hear(Id(agent.slot), At(now));
+        detector.SetHeardUntil(OwnerOf(Id(agent.slot)), At(now));
       }
       Step();
     }

@@ -1,6 +1,8 @@
-// Goal:   what the detector promises of two shapes holds for every motion within their bounds, however far it looks
+// Goal:   what the detector promises of two shapes holds for every motion within their bounds,
+// however far it looks
 //         ahead; directions of contact are those of the true approach, or not told.
-// Method: two bodies that move and turn as hard as they may, towards each other and away; the true first contact in
+// Method: two bodies that move and turn as hard as they may, towards each other and away; the true
+// first contact in
 //         long double, by steps that no motion can outrun. Every clearance and every event is held against it.
 #include <gtest/gtest.h>
 
@@ -9,10 +11,10 @@
 
 #include "collision_core/detection/detector.h"
 #include "tests/collision_core/detection/line.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/solids.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision::detection {
 namespace {
@@ -150,7 +152,8 @@ void CheckEvents(const std::vector<CollisionEvent>& events, const Encounter& met
     if (!told || event.contact != 1 || event.began_before) continue;
     ++outcome->confirmed;
     EXPECT_GE(event.begin.latest, At(first.free));
-    // The separating direction of a contact that was just approached: along it the two are apart, about.
+    // The separating direction of a contact that was just approached: along it the two are apart,
+    // about.
     if (event.normal_error > 0.3 || event.begin.earliest < At(first.free - 0.02)) continue;
     ++outcome->directions;
     const Real t = first.free - 1e-3;
@@ -187,7 +190,7 @@ void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
           EXPECT_EQ(detector.Update(id, state, At(now)), UpdateOutcome::kKept);
         }
       }
-      detector.Hear(id, At(now));
+      detector.SetHeardUntil(OwnerOf(id), At(now));
     }
     detector.Advance(At(now));
     events.insert(events.end(), detector.events().begin(), detector.events().end());
@@ -247,8 +250,8 @@ struct Coming {
     state.discontinuity = jumped_to && !std::exchange(has_jumped, true);
     detector.Update(Id(1), State(t, {0, 0, 0}, {0, 0, 0}), At(t));
     detector.Update(Id(2), state, At(t));
-    detector.Hear(Id(1), At(t));
-    detector.Hear(Id(2), At(t));
+    detector.SetHeardUntil(OwnerOf(Id(1)), At(t));
+    detector.SetHeardUntil(OwnerOf(Id(2)), At(t));
   }
 
   void Redeclare(std::shared_ptr<const shape::Shape> shape) {
@@ -261,7 +264,8 @@ struct Coming {
     events.insert(events.end(), detector.events().begin(), detector.events().end());
   }
 
-  // Contact cannot be approached by a direction: none is known of how the cube turns, or of its shape.
+  // Contact cannot be approached by a direction: none is known of how the cube turns, or of its
+  // shape.
   void ExpectNoDirection() const {
     int told = 0;
     for (const CollisionEvent& event : events) {
@@ -291,8 +295,8 @@ TEST(DetectorShapePromise, NoDirectionThroughAJump) {
   coming.ExpectNoDirection();
 }
 
-// The cube is a ball until it is told otherwise at 2.5 s: of [2, 3] nobody knows its shape, and at 3 s the balls are
-// still just apart. Of how it came near nothing can be told from that segment.
+// The cube is a ball until it is told otherwise at 2.5 s: of [2, 3] nobody knows its shape, and at
+// 3 s the balls are still just apart. Of how it came near nothing can be told from that segment.
 TEST(DetectorShapePromise, NoDirectionFromBeforeAShapeWasKnown) {
   const auto cube = shape::Shape::Build(Cube(0.5));
   for (const bool other_is_ball : {true, false}) {

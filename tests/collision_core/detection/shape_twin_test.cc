@@ -1,6 +1,8 @@
-// Goal:   a shape's twin, the same body by another tree, takes its place unnoticed: it is no widening, what
+// Goal:   a shape's twin, the same body by another tree, takes its place unnoticed: it is no
+// widening, what
 //         was known of the past stays known, no verdict becomes less certain.
-// Method: two detectors that hear the same of two ships; one of them is told the twin now and then, the other
+// Method: two detectors that hear the same of two ships; one of them is told the twin now and then,
+// the other
 //         the same shape again. With a twin of the same tree all they tell is the same, bit for bit; with one of
 //         a better tree verdicts are those of who had it from the start.
 #include <gtest/gtest.h>
@@ -11,9 +13,9 @@
 
 #include "collision_core/detection/detector.h"
 #include "tests/collision_core/detection/line.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/true_motion.h"
 
 namespace collision::detection {
 namespace {
@@ -83,7 +85,7 @@ Told Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double
           detector.Update(Id(i), state, At(now));
         }
       }
-      detector.Hear(Id(i), At(now));
+      detector.SetHeardUntil(OwnerOf(Id(i)), At(now));
     }
     detector.Advance(At(now));
     told.events.insert(told.events.end(), detector.events().begin(), detector.events().end());
@@ -151,7 +153,8 @@ TEST(ShapeTwin, TheSameTreeTellsTheSame) {
   EXPECT_TRUE(seen.contains(EventStatus::kConfirmed) && seen.contains(EventStatus::kEnded));
 }
 
-// Goal:   with a better tree verdicts are at least as certain as with the coarse one, and no clearance is lowered
+// Goal:   with a better tree verdicts are at least as certain as with the coarse one, and no
+// clearance is lowered
 //         because of it.
 TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
   int confirmed = 0, switched = 0;

@@ -1,4 +1,5 @@
-// Goal:   events of agents with shapes: contacts confirmed with brackets that contain the truth, near passes
+// Goal:   events of agents with shapes: contacts confirmed with brackets that contain the truth,
+// near passes
 //         dismissed, shapes that arrive late or change, jumps, containment; the same calls give the same events.
 // Method: few agents on lines whose contacts are exact; states 64 times a second, one clock.
 #include <gtest/gtest.h>
@@ -57,7 +58,7 @@ class Scene : public Line {
       for (const Mover& agent : agents) {
         const double dt = now - agent.since;
         detector.Update(Id(agent.slot), State(now, agent.p + agent.v * dt, agent.v), At(now));
-        detector.Hear(Id(agent.slot), At(now));
+        detector.SetHeardUntil(OwnerOf(Id(agent.slot)), At(now));
       }
       Step();
       for (const Mover& agent : agents) {
@@ -76,7 +77,8 @@ void ExpectBracket(const TimeBracket& bracket, double truth, double width) {
   EXPECT_LE(bracket.latest, At(truth + width));
 }
 
-// The arm of the L (y < 0) meets the other's: 1 and 1 from the middles, as reference points lie there.
+// The arm of the L (y < 0) meets the other's: 1 and 1 from the middles, as reference points lie
+// there.
 TEST(DetectorShapes, ConfirmedAndEndedWithinTheirBrackets) {
   Scene scene;
   scene.Put(1, Declared(Ship(), 2), {0, 0, 0}, {0, 0, 0});
@@ -138,7 +140,7 @@ TEST(DetectorShapes, ArrivalCountsAtOnce) {
     scene.Put(2, Awaited(2), {8, 0, 0.1}, {-2, 0, 0});
     scene.Run(arrival);
     ASSERT_TRUE(scene.detector.Redeclare(Id(2), Declared(Ship(), 2), At(scene.now)));
-    scene.detector.Hear(Id(2), At(scene.now));
+    scene.detector.SetHeardUntil(OwnerOf(Id(2)), At(scene.now));
     scene.Run(8);
     const auto ended = scene.With(EventStatus::kEnded);
     ASSERT_EQ(ended.size(), 1u) << arrival;
@@ -180,8 +182,8 @@ struct Standing : Scene {
 
   std::size_t ConfirmedAfter(const motion::AgentDeclaration& second) {
     detector.Redeclare(Id(2), second, At(now));
-    detector.Hear(Id(1), At(now + 0.0625));
-    detector.Hear(Id(2), At(now + 0.0625));
+    detector.SetHeardUntil(OwnerOf(Id(1)), At(now + 0.0625));
+    detector.SetHeardUntil(OwnerOf(Id(2)), At(now + 0.0625));
     now += 0.0625;
     Step();
     return With(EventStatus::kConfirmed).size();
@@ -228,7 +230,7 @@ TEST(DetectorShapes, JumpIntoTheOther) {
   jump.discontinuity = true;
   jump.stamp = At(scene.now + 1.0 / 128);
   EXPECT_EQ(scene.detector.Update(Id(2), jump, At(scene.now)), UpdateOutcome::kJumped);
-  scene.detector.Hear(Id(2), jump.stamp);
+  scene.detector.SetHeardUntil(OwnerOf(Id(2)), jump.stamp);
   scene.agents[1] = {2, jump.p_WA, {0, 0, 0}, scene.now};
   scene.Run(2);
   const auto confirmed = scene.With(EventStatus::kConfirmed);

@@ -4,8 +4,8 @@
 
 #include "collision_core/geometry/convex/convex_set.h"
 #include "collision_core/geometry/convex/gjk.h"
-#include "tests/support/exact_convex.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_convex.h"
 
 namespace collision::geometry {
 namespace {

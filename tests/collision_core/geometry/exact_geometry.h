@@ -1,66 +1,31 @@
-// Points and triangles in exact rational arithmetic.
+// Points, triangles and meshes in exact rational arithmetic, by the names of the shape's tests.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
-#include "tests/support/exact.h"
+#include "tests/support/truth/exact_triangle.h"
 
 namespace collision {
 
-using ExactPoint = std::array<Exact, 3>;
+using ExactPoint = ExactVector;
 
-inline ExactPoint ExactOf(const Eigen::Vector3d& p) {
-  return {Exact(p.x()), Exact(p.y()), Exact(p.z())};
-}
-
-inline ExactPoint operator-(const ExactPoint& a, const ExactPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-inline ExactPoint Along(const ExactPoint& a, const Exact& s, const ExactPoint& u) {
-  return {a[0] + s * u[0], a[1] + s * u[1], a[2] + s * u[2]};
-}
-
-inline Exact DotOf(const ExactPoint& a, const ExactPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-inline ExactPoint CrossOf(const ExactPoint& a, const ExactPoint& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-using ExactTriangle = std::array<ExactPoint, 3>;
+inline ExactPoint ExactOf(const Eigen::Vector3d& p) { return ExactPoint(p); }
 
 inline ExactTriangle ExactOf(const geometry::TriangleMesh& mesh, const geometry::Triangle& t) {
   return {ExactOf(mesh.vertices[t[0]]), ExactOf(mesh.vertices[t[1]]), ExactOf(mesh.vertices[t[2]])};
 }
 
-inline Exact SquaredDistance(const ExactPoint& p, const ExactPoint& a, const ExactPoint& b) {
-  const ExactPoint u = b - a, w = p - a;
-  const Exact length2 = DotOf(u, u);
-  Exact s = length2 == 0 ? Exact(0) : Exact(DotOf(w, u) / length2);
-  if (s < 0) s = 0;
-  if (s > 1) s = 1;
-  const ExactPoint d = p - Along(a, s, u);
-  return DotOf(d, d);
+inline ExactPoint Along(const ExactPoint& a, const Exact& s, const ExactPoint& u) {
+  return a + s * u;
 }
 
-/// To the plane if the foot lies in the triangle, else to the nearest side.
+inline Exact DotOf(const ExactPoint& a, const ExactPoint& b) { return Dot(a, b); }
+
+inline ExactPoint CrossOf(const ExactPoint& a, const ExactPoint& b) { return Cross(a, b); }
+
 inline Exact SquaredDistance(const ExactPoint& p, const ExactTriangle& t) {
-  const ExactPoint n = CrossOf(t[1] - t[0], t[2] - t[0]);
-  const Exact n2 = DotOf(n, n);
-  const auto is_within = [&](int i) {
-    return DotOf(CrossOf(t[(i + 1) % 3] - t[i], p - t[i]), n) >= 0;
-  };
-  if (n2 != 0 && is_within(0) && is_within(1) && is_within(2)) {
-    const Exact height = DotOf(p - t[0], n);
-    return height * height / n2;
-  }
-  return std::min({SquaredDistance(p, t[0], t[1]), SquaredDistance(p, t[1], t[2]),
-                   SquaredDistance(p, t[2], t[0])});
+  return SquareToTriangle(p, t);
 }
 
 inline Exact SquaredDistance(const ExactPoint& p, const geometry::TriangleMesh& mesh) {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/sphere_tree/meshes.h"
-#include "tests/support/exact.h"
+#include "tests/support/truth/exact.h"
 
 namespace collision::geometry {
 namespace {

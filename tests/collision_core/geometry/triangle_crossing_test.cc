@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 
 #include "collision_core/geometry/triangle/triangle_pair.h"
-#include "tests/support/exact_triangle.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_triangle.h"
 
 namespace collision::geometry {
 namespace {

@@ -14,9 +14,9 @@
 
 #include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/numeric/seconds.h"
-#include "tests/support/exact_meeting.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/exact_meeting.h"
 
 namespace collision::intersection {
 namespace {

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "collision_core/numeric/seconds.h"
-#include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/exact_bound.h"
 
 namespace collision::intersection {
 namespace {

@@ -8,10 +8,10 @@
 #include "collision_core/intersection/pair_rules.h"
 #include "collision_core/motion/hypertrapezoid.h"
 #include "collision_core/numeric/seconds.h"
-#include "tests/support/exact.h"
-#include "tests/support/exact_meeting.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/exact.h"
+#include "tests/support/truth/exact_meeting.h"
 
 namespace collision::intersection {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_bound.h"
 
 namespace collision::intersection {
 namespace {

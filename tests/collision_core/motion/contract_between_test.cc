@@ -7,8 +7,8 @@
 
 #include "collision_core/motion/contract.h"
 #include "collision_core/numeric/seconds.h"
-#include "tests/support/exact_between.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_between.h"
 
 namespace collision::motion {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/collision_core/narrow_phase/true_motion.h"
+#include "tests/support/truth/true_motion.h"
 
 namespace collision::motion {
 namespace {

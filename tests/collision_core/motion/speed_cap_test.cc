@@ -5,9 +5,9 @@
 #include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/motion/contract.h"
 #include "collision_core/motion/hypertrapezoid.h"
-#include "tests/support/exact_bound.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/exact_bound.h"
 
 namespace collision::motion {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision::narrow_phase {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/solids.h"
+#include "tests/support/truth/true_motion.h"
 
 namespace collision {
 

@@ -6,8 +6,8 @@
 #include "collision_core/geometry/convex/gjk.h"
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/numeric/rotation.h"
-#include "tests/support/exact_convex.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_convex.h"
 
 namespace collision {
 

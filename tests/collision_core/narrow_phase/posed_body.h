@@ -3,8 +3,8 @@
 
 #include "collision_core/narrow_phase/pose/segment_pose.h"
 #include "collision_core/narrow_phase/separation/separation.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision {
 

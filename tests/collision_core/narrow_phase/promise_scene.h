@@ -2,8 +2,8 @@
 // promises.
 #pragma once
 
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision {
 

@@ -10,6 +10,7 @@
 #include "collision_core/narrow_phase/pose/segment_pose.h"
 #include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/true_motion.h"
 
 namespace collision::narrow_phase {
 namespace {

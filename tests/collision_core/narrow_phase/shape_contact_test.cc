@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/true_motion.h"
 
 namespace collision::narrow_phase {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "collision_core/narrow_phase/separation/separation_findings.h"
 #include "collision_core/narrow_phase/sphere_pairs/kernel_pose.h"
-#include "tests/support/exact_triangle.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/exact_triangle.h"
 
 namespace collision::narrow_phase {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "tests/support/exact_polynomial.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_polynomial.h"
 
 namespace collision::numeric {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/exact.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact.h"
 
 namespace collision::numeric {
 namespace {

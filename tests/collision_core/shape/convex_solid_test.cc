@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "collision_core/geometry/convex/epa.h"
-#include "tests/support/exact_convex.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_convex.h"
 
 namespace collision::shape {
 namespace {

@@ -5,8 +5,8 @@
 #include "collision_core/shape/hull_builder.h"
 #include "collision_core/shape/shape.h"
 #include "tests/collision_core/sphere_tree/meshes.h"
-#include "tests/support/exact_convex.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/exact_convex.h"
 
 namespace collision::shape {
 namespace {

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "collision_core/sphere_tree/octree/octree_builder.h"
-#include "tests/support/exact_triangle.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/exact_triangle.h"
 
 namespace collision::sphere_tree {
 namespace {

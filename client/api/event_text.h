@@ -1,0 +1,39 @@
+// Collision events for people to read.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "client/api/types.h"
+
+namespace collision::client {
+
+/// Gives the name of an agent for a text, or a substitute if the name is not known.
+using AgentNamer = std::function<std::string(const AgentId&)>;
+
+enum class Rounding { kDown, kUp };
+
+/// An instant in seconds since `origin_ns` with 0 to 9 decimals, "599.734"; kNever reads "never".
+std::string SecondsText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                        Rounding rounding = Rounding::kDown);
+
+/// The same for a lock-step world. Without an origin an instant beyond 1e17 ns belongs to a wall
+/// clock and reads as its time of day in UTC: "22:24:55.022".
+std::string TimeText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals,
+                     Rounding rounding = Rounding::kDown);
+
+/// TimeText() with its unit: "599.734 s", "22:24:55.022 UTC", "never".
+std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals);
+
+/// The text, padded with spaces to a number of characters (not bytes: names may be UTF-8).
+std::string Padded(std::string text, std::size_t columns);
+
+/// The event in one line without a newline, with columns at the same places in every line:
+///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
+///   open  gap ≤ -0.12 m
+/// Times are seconds since `origin_ns` (0 in lock-step), or times of day as in TimeText(); brackets
+/// and gap are rounded outward. client/README.md explains each part ("How to read an event").
+std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t origin_ns);
+
+}  // namespace collision::client

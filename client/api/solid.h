@@ -1,0 +1,61 @@
+// Convex solids: parts of a shape that are exact where triangles could only approximate.
+#pragma once
+
+#include <vector>
+
+#include "client/api/types.h"
+
+namespace collision::client {
+
+/// All points within `rounding_m` of a core of some kind, placed in the agent's body frame. A plain
+/// value: the functions below make it, Shape::Make() checks it.
+///
+///     Solid::Box({0.5, 0.3, 0.1}).Rounded(0.02)
+///     Solid::Capsule(0.1, 0.4).At({0.5, 0.3, 0}, {0.5, 0.5, 0.5, 0.5})
+///
+/// Allowed: lengths from 0 to 10,000 km, a diameter from a micrometre to 10,000 km, no point
+/// further than 10,000 km from the reference point, 1 to 65,536 points per hull.
+struct Solid {
+  enum class Kind { kBall, kCapsule, kBox, kEllipsoid, kHull };
+
+  Kind kind = Kind::kBall;
+  /// Box: half extents. Ellipsoid: half axes. Capsule: z is half its axis without the caps.
+  Vector3 half_extents_m{};
+  double rounding_m = 0;               ///< Ball and capsule: the radius.
+  std::vector<Vector3> points_m = {};  ///< Hull: in any order; inner points are allowed.
+  Vector3 position_m{};                ///< Of the solid's frame, in the body frame.
+  /// Rotates the solid's axes to the body's: q / |q|, of any length but 0.
+  Quaternion orientation{1, 0, 0, 0};
+
+  /// About the origin of its frame.
+  static Solid Ball(double radius_m);
+
+  /// All points within `radius_m` of the segment from −`half_length_m` to `half_length_m` on the z
+  /// axis: 2 (half_length_m + radius_m) long.
+  static Solid Capsule(double radius_m, double half_length_m);
+
+  /// From −`half_extents_m` to `half_extents_m` along its axes.
+  static Solid Box(const Vector3& half_extents_m);
+
+  /// Half axes along x, y, z.
+  static Solid Ellipsoid(const Vector3& half_axes_m);
+
+  /// The smallest convex set around the points; it may be flat or straight.
+  static Solid Hull(std::vector<Vector3> points_m);
+
+  /// Below z = 0 of its frame, as far as `reach_m` from its origin along each axis: a half-space
+  /// for everything that stays within that reach. It is a hull of eight corners, so distances are
+  /// known to some 64 · 2^-53 of its size: 20 nm for a reach of 1,000 km.
+  static Solid HalfSpace(double reach_m);
+
+  /// The same solid at this position and orientation in the body frame; replaces the former ones.
+  Solid At(const Vector3& position, const Quaternion& turned = {1, 0, 0, 0}) const;
+
+  /// The same solid grown by `more_m` in every direction, which rounds its edges. Calls add up.
+  Solid Rounded(double more_m) const;
+};
+
+/// "ball", "capsule", ...
+const char* Name(Solid::Kind kind);
+
+}  // namespace collision::client

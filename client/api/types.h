@@ -1,0 +1,155 @@
+// The values that simulators and monitors exchange with the library: plain structs, SI units, the
+// unit in each name.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace collision::client {
+
+/// Instants are nanoseconds: since the run's start in lock-step, since 1970 (UTC) with a wall
+/// clock. This one stands for "never".
+inline constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+
+using Vector3 = std::array<double, 3>;     ///< x, y, z in the world frame W.
+using Quaternion = std::array<double, 4>;  ///< w, x, y, z: rotates body axes to world axes.
+
+class Shape;
+
+/// Names one agent in all runs of all simulators of a world.
+struct AgentId {
+  std::uint64_t simulator = 0;   ///< Hash of the simulator's name.
+  std::uint32_t run = 0;         ///< Of the simulator; a restart has a higher one.
+  std::uint32_t slot = 0;        ///< Place in the simulator's table; reused after a removal ...
+  std::uint32_t generation = 0;  ///< ... with the next generation.
+  friend auto operator<=>(const AgentId&, const AgentId&) = default;
+};
+
+/// What an agent declares about itself: valid for every state until it is described anew.
+///
+/// The service derives everything from these bounds. A bound that the motion exceeds makes the
+/// service's answers wrong until it notices the breach; a bound that is too wide only makes them
+/// less sharp.
+struct AgentDescription {
+  std::string name = {};             ///< 1 to 64 bytes, for people.
+  double radius_m = 0;               ///< Ball about the reference point that contains the agent.
+  double acceleration_max_m_s2 = 0;  ///< Never exceeded between two states without a discontinuity.
+  double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
+  double speed_max_m_s = 0;  ///< Of the reference point, never exceeded; 0: not declared.
+  double time_step_s = 0;    ///< Step h of an Euler integrator; 0: the motion is continuous.
+  std::uint32_t group = 1;   ///< Bits of the groups that this agent belongs to.
+  std::uint32_t mask = ~0u;  ///< Bits of the groups that it can collide with.
+  /// Its shape (client/api/shape.h), inside the ball of `radius_m`; null: the ball itself.
+  std::shared_ptr<const Shape> shape = nullptr;
+};
+
+/// Where an agent is and how it moves at one instant, as its owner knows it.
+struct State {
+  std::int64_t stamp_ns = 0;
+  Vector3 position_m{};                ///< Of the reference point.
+  Vector3 velocity_m_s{};              ///< Of the reference point.
+  Quaternion orientation{1, 0, 0, 0};  ///< Unit within 0.001.
+  Vector3 angular_velocity_rad_s{};    ///< In W.
+  double position_error_m = 0;         ///< The true position is at most this far away.
+  double velocity_error_m_s = 0;       ///< Likewise the true velocity.
+  double rotation_error_rad = 0;       ///< Likewise the true orientation, as an angle.
+  Vector3 thrust_direction{};          ///< Unit d with acceleration·d >= 0; zero: not declared.
+  std::int64_t direction_until_ns = kNever;  ///< The declared direction holds until then.
+  std::int64_t expiry_ns = kNever;           ///< Promises exclude the agent from then on.
+  bool discontinuity = false;                ///< The motion jumped here: a teleport or a bounce.
+};
+
+struct TimeBracket {
+  std::int64_t earliest_ns = kNever;
+  std::int64_t latest_ns = kNever;  ///< kNever: open.
+};
+
+/// The life of an event. A possible one becomes confirmed (contact certain), dismissed (certainly
+/// no contact), undecided (over, and neither could be certified) or withdrawn (an agent left); a
+/// confirmed one becomes ended.
+enum class EventStatus { kPossible, kConfirmed, kDismissed, kUndecided, kWithdrawn, kEnded };
+
+/// "possible", "confirmed", ...
+const char* Name(EventStatus status);
+
+/// A contact, or a pair that could not be decided: not one of the many possible events that come to
+/// nothing.
+inline bool IsDecided(EventStatus status) {
+  return status == EventStatus::kConfirmed || status == EventStatus::kEnded ||
+         status == EventStatus::kUndecided;
+}
+
+/// What kept the brackets from being narrower: the work allowed, the uncertainty of the motion, or
+/// the resolution of the shapes' sphere trees.
+enum class EventLimit { kNone, kBudget, kMotion, kGeometry };
+
+/// "none", "budget", ...
+const char* Name(EventLimit limit);
+
+/// One revision of one contact of a pair. (lower, higher, contact) names the contact; a higher
+/// revision replaces a lower one. Every bracket contains the truth.
+struct Event {
+  AgentId lower;
+  AgentId higher;
+  std::uint32_t contact = 0;  ///< Ordinal among the contacts of this pair, from 1.
+  std::uint32_t revision = 0;
+  std::int64_t now_ns = 0;  ///< The service's time when it published this revision.
+  EventStatus status = EventStatus::kPossible;
+  TimeBracket begin;
+  TimeBracket end;
+  bool continuous = true;                 ///< Contact is certified without a gap from begin to end.
+  bool began_before = false;              ///< Perhaps before either agent was known, or jumped.
+  std::int64_t evaluated_at_ns = kNever;  ///< What follows holds in this nanosecond; kNever: unset.
+  double separation_lower_m = 0;          ///< Distance of the surfaces, negative inside: at least.
+  double separation_upper_m = 0;          ///< At most.
+  double depth_lower_m = 0;               ///< Penetration depth: at least.
+  Vector3 point_m{};                      ///< A common point, within its error.
+  double point_error_m = 0;
+  Vector3 normal{};  ///< Unit, from lower to higher.
+  double normal_error_rad = 0;
+  std::uint32_t level = 0;       ///< Depth of the sphere trees that decided it; 0: balls.
+  std::uint64_t work_units = 0;  ///< Spent on this contact so far.
+  EventLimit limited_by = EventLimit::kNone;
+};
+
+/// A sample that the service refused, and why.
+struct Rejection {
+  std::uint64_t simulator = 0;  ///< Its sender.
+  std::string reason;           ///< As in the IDL: REJECTED_...
+  std::string topic;
+  std::uint32_t slot = 0;
+  std::string field;
+  std::string detail;
+  std::uint64_t count = 0;  ///< Of all rejections of this simulator so far.
+};
+
+/// How long one agent is clear: before `clear_until_ns` it begins no contact that the service has
+/// not announced as possible.
+struct Clearance {
+  std::int64_t clear_until_ns =
+      std::numeric_limits<std::int64_t>::min();  ///< INT64_MIN: no promise yet.
+  bool not_clear = false;                        ///< `clear_until_ns` has come: it may touch.
+  bool saturated = false;  ///< It has more partners at hand than the service tracks.
+  /// From when on promises count its latest admission, jump or widened declaration.
+  std::int64_t effective_from_ns = std::numeric_limits<std::int64_t>::min();
+  std::string cause;  ///< Why it was lowered, as in the IDL (CAUSE_...); empty: it was not.
+  AgentId cause_agent;
+  std::int64_t void_from_ns = kNever;  ///< A broken declaration voids the promise from then on.
+  /// When the service next needs a state of the agent: not later than its own time: at every step;
+  /// kNever: it needs none. A World sends those states by itself (WorldOptions::on_demand).
+  std::int64_t state_wanted_ns = std::numeric_limits<std::int64_t>::min();
+};
+
+/// What a World has sent since it was created.
+struct Traffic {
+  std::uint64_t states_set = 0;    ///< By the simulator: what a stream would send.
+  std::uint64_t states_sent = 0;   ///< Those of them that were sent.
+  std::uint64_t samples_sent = 0;  ///< Samples of topic agent_states.
+  std::uint64_t bytes_sent = 0;    ///< Of these samples, without the network's headers.
+};
+
+}  // namespace collision::client

@@ -1,0 +1,157 @@
+// A simulator's connection to the shared world.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/api/types.h"
+
+namespace collision::client {
+
+struct WorldOptions {
+  std::string world = "default";  ///< 1 to 64 of [A-Za-z0-9_-].
+  std::string simulator =
+      {};  ///< Unique in the world, 1-64 of [A-Za-z0-9_-]; names your agents' owner.
+  std::uint32_t domain = 0;  ///< DDS domain, 0-230.
+  bool lock_step = true;     ///< False: stamps are wall-clock time, and no simulator waits.
+  /// Each start of a simulator needs a higher run than the last. 0: tenths of a second since 2020
+  /// (UTC), modulo 2^32, which grow until 2033.
+  std::uint32_t run = 0;
+  /// True: of the states that are set, send those that the service needs (Clearance::
+  /// state_wanted_ns), and those that the last one sent no longer stands in for: the agent jumped,
+  /// was described anew, declares something else, or left what it promised. The simulator sets
+  /// every state all the same. False: send each state that is set, as a stream.
+  bool on_demand = true;
+  /// Without lock-step: send a state this long before the service wants it. The default covers the
+  /// way there and back on a busy local network (10 ms each for 99 of 100 samples) and a step of
+  /// the service in between. In lock-step the world's time waits for both. At most 1 h.
+  std::chrono::nanoseconds lead{50'000'000};
+  /// States per sample, 1 to 64: 1 for rare updates, 8 on lossy links, 64 at full speed. 0: 1 on
+  /// demand, else 64.
+  std::uint32_t chunk_size = 0;
+};
+
+enum class Advance { kReached, kTimeout };
+
+class Agent;
+class Transport;
+
+/// The connection of one simulator. Movable, not copyable.
+///
+/// Threads: the members of a World and of its agents may be called from one thread at a time.
+/// Callbacks run on that thread, inside Poll() and AdvanceTo() only, so none runs after the
+/// destructor.
+///
+/// A staged state is sent with the first clock that is not below its stamp, if the service needs it
+/// by then (WorldOptions::on_demand). In lock-step the loop is: compute the states at t, stage them
+/// with Agent::SetState(), AdvanceTo(t).
+///
+/// An Agent's destructor removes the agent. A World that is destroyed first leaves its agents with
+/// the service, where their bounds grow until the service's policy removes them.
+class World {
+ public:
+  /// Throws std::runtime_error if an option is out of range or DDS is not available.
+  static World Connect(const WorldOptions& options);
+
+  /// The same over another network than DDS, for tests.
+  static World Connect(const WorldOptions& options, std::unique_ptr<Transport> transport);
+
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  /// Waits until a service of this world is alive. False: not within `timeout`.
+  bool WaitForService(std::chrono::nanoseconds timeout);
+
+  /// Announces an agent (with the next Publish(), AdvanceTo() or Poll()) and stages its first
+  /// state. Throws std::invalid_argument with field, value and range for what the service would
+  /// refuse: not finite, out of range, name too long. Throws std::length_error if the simulator has
+  /// 65536 agents already.
+  Agent AddAgent(const AgentDescription& description, const State& state);
+
+  /// Writes the staged states with stamps up to `clock_ns`, then the clock, which promises that
+  /// everything up to `clock_ns` has been sent. With an unchanged clock it writes what is new at
+  /// this instant, if anything. Throws std::invalid_argument if the clock goes backward or, in
+  /// lock-step, beyond what is granted; the first clock of a run may be any.
+  void Publish(std::int64_t clock_ns);
+
+  /// Lock-step: takes in what has arrived, then moves the clock to `clock_ns` as the service grants
+  /// it, with one clock sample per grant on the way. Events are delivered meanwhile; a state that a
+  /// callback sets is sent next, at the same clock if its stamp has come. The first clock of a run
+  /// is 0, or what is granted. Without lock-step this publishes and never waits.
+  /// kTimeout: the grant did not arrive within `timeout` of wall time. The clock stands at
+  /// clock_ns(), what is staged for later stays staged, and a further call continues.
+  Advance AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout);
+
+  /// The last clock published; INT64_MIN before the first.
+  std::int64_t clock_ns() const;
+
+  /// Never decreases; INT64_MIN before the first grant.
+  std::int64_t granted_until_ns() const;
+
+  /// Whether the service has a simulated clock, as lock-step needs it; nullopt until it has said.
+  std::optional<bool> simulated_clock() const;
+
+  /// Takes in what has arrived, waits at most `timeout` for an arrival, and runs the callbacks.
+  void Poll(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
+
+  /// Calls back for events about this simulator's agents, each revision once. Without a callback
+  /// they are kept until TakeEvents(): at most 65536, then the oldest are dropped and counted by
+  /// events_lost(). A callback may call everything but WaitForService(), AdvanceTo() and Poll(),
+  /// which throw std::logic_error.
+  void OnEvent(std::function<void(const Event&)> callback);
+  std::vector<Event> TakeEvents();
+  std::uint64_t events_lost() const;
+
+  /// What has been set and sent so far.
+  const Traffic& traffic() const;
+
+  /// What the service refused since the last call; at most 1024, then the oldest are dropped.
+  std::vector<Rejection> TakeRejections();
+
+ private:
+  friend class Agent;
+  class Implementation;
+  explicit World(std::shared_ptr<Implementation> implementation);
+  std::shared_ptr<Implementation> implementation_;
+};
+
+/// A handle to one agent of this simulator. Movable, not copyable; the destructor removes the agent
+/// from the world. A handle that outlives its World does nothing, and the agent stays with the
+/// service.
+class Agent {
+ public:
+  Agent(Agent&&) noexcept;
+  Agent& operator=(Agent&&) noexcept;
+  ~Agent();
+
+  const AgentId& id() const;
+
+  /// Stages a state in place of the one staged before; it stays a discontinuity if that one was.
+  /// Publish() or AdvanceTo() sends it when the clock reaches its stamp or, on demand, when it is
+  /// needed after that. Throws std::invalid_argument as AddAgent() does, and for a stamp before
+  /// that of the last state sent.
+  void SetState(const State& state);
+
+  /// Announces a changed description. A wider bound counts once the service has acknowledged it,
+  /// from clearance().effective_from_ns on. Throws std::invalid_argument as AddAgent() does.
+  void SetDescription(const AgentDescription& description);
+
+  /// The newest clearance received; without a promise before the first.
+  Clearance clearance() const;
+
+ private:
+  friend class World;
+  Agent(std::weak_ptr<World::Implementation> world, const AgentId& id);
+  std::shared_ptr<World::Implementation> Lock() const;
+  void Remove() noexcept;
+  std::weak_ptr<World::Implementation> world_;
+  AgentId id_;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,47 @@
+// The rules by which the checker judges a run.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/checker/evidence.h"
+
+namespace collision::checker {
+
+/// One sentence per violation, with the pair or agent, the times and the broken rule; empty: the
+/// run satisfies the checker.
+using Violations = std::vector<std::string>;
+
+/// Every true contact has an event that brackets its begin, and the pair was announced by then; an
+/// ended event brackets its end; no confirmed event lacks a true contact. Excused are contacts that
+/// begin after evidence.judged_until_ns(), contacts withdrawn as an agent leaves, and contacts that
+/// an appearance or jump causes inside time already granted.
+Violations CheckEvents(const Evidence& evidence);
+
+/// What an event says about the bodies at one instant holds there: the separation bracket contains
+/// the true distance, the depth does not exceed the true one, the point is as near to both as its
+/// error says, the normal is a unit vector. (geometry_check.cc)
+Violations CheckGeometry(const Evidence& evidence);
+
+/// No true contact of an agent begins before a clear_until published earlier, unless the pair was
+/// announced by then, or one of the two appeared or jumped since. And no promise is declared void,
+/// since these simulators break no bound.
+Violations CheckClearances(const Evidence& evidence);
+
+/// No pair that is apart touches before a published earliest intersection, with the same excuse.
+Violations CheckEarliest(const Evidence& evidence);
+
+/// What the scene demands in addition.
+Violations CheckExpectation(const Evidence& evidence, const v1::SceneExpectation& expectation);
+
+/// All of the five rules above.
+Violations Check(const Evidence& evidence, const v1::SceneExpectation& expectation);
+
+/// True contacts that were required but had no event by the time they began.
+std::uint64_t ContactsUnannounced(const Evidence& evidence);
+
+/// (clear_until - now) / (true time to contact), at most 1, for every clearance with a true contact
+/// of its agent ahead that no later change has caused.
+std::vector<double> ClearanceTightness(const Evidence& evidence);
+
+}  // namespace collision::checker

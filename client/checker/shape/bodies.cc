@@ -1,0 +1,201 @@
+#include "client/checker/shape/bodies.h"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+namespace collision::checker {
+namespace {
+
+// A body is the union of these: all points within `rounding_m` of a core, which is a surface of
+// triangles, with what it encloses if it is closed, or (null) the reference point.
+struct Part {
+  const Mesh* core = nullptr;
+  double rounding_m = 0;
+
+  Vector centre() const { return core != nullptr ? core->nodes()[0].centre : Vector{}; }
+  double reach() const {  // About the centre.
+    return rounding_m + (core != nullptr ? Length(core->nodes()[0].half) : 0);
+  }
+};
+
+// The parts of a body, without an allocation if there is only one: it is requested often.
+class Parts {
+ public:
+  explicit Parts(const Body& body) : one_{{body.mesh, 0}} {
+    if (body.IsBall()) one_[0].rounding_m = body.radius_m;
+    if (body.solids == nullptr || body.solids->empty()) return;
+    if (body.mesh != nullptr) many_.push_back(one_[0]);
+    for (const Solid& solid : *body.solids) many_.push_back({&solid.core, solid.rounding_m});
+  }
+
+  std::span<const Part> all() const {
+    return many_.empty() ? std::span<const Part>(one_) : std::span<const Part>(many_);
+  }
+
+ private:
+  std::array<Part, 1> one_;
+  std::vector<Part> many_;
+};
+
+// The distance of the cores if it is less than `limit`, else `limit`. Negative where they touch,
+// cross or contain each other: minus the distance that they may be moved and still do. `outside`:
+// neither lies inside the other.
+double CoreGap(const Part& a, const Part& b, const Pose& pose, double limit, bool outside,
+               bool depth, Hint* hint) {
+  if (a.core == nullptr && b.core == nullptr) return Length(pose.p_AB);
+  if (a.core == nullptr || b.core == nullptr) {
+    const Mesh& mesh = a.core == nullptr ? *b.core : *a.core;
+    const Vector point = a.core == nullptr ? pose.Back({}) : pose.p_AB;
+    const double distance = SurfaceDistance(mesh, point);
+    return mesh.Contains(point) ? -distance : distance;
+  }
+  const double distance = SurfaceDistance(*a.core, *b.core, pose, limit, hint);
+  if (distance <= kTouching) return depth ? -BestCrossing(*a.core, *b.core, pose) : 0;
+  const bool inside = !outside && Contained(*a.core, *b.core, pose);
+  return inside ? -distance : distance;
+}
+
+Standing StandingOf(const Part& a, const Part& b, const Pose& pose, double apart_least,
+                    bool outside, Hint* hint) {
+  const double reach = a.rounding_m + b.rounding_m;
+  const double limit = std::max(apart_least, 2 * kTouching) + reach;
+  const double gap = CoreGap(a, b, pose, limit, outside, true, hint);
+  if (gap <= reach + kTouching) return {true, std::max(0.0, reach - gap)};
+  return {false, gap - reach};
+}
+
+// A lower bound of the distance; negative where it says nothing.
+double ApartAtLeast(const Part& a, const Part& b, const Pose& pose) {
+  return Length(pose(b.centre()) - a.centre()) - a.reach() - b.reach();
+}
+
+struct Extent {
+  double lower = INFINITY;
+  double upper = -INFINITY;
+
+  void Include(double x, double radius = 0) {
+    lower = std::min(lower, x - radius);
+    upper = std::max(upper, x + radius);
+  }
+};
+
+Extent ExtentOf(const Body& body, const Vector& direction) {
+  Extent extent;
+  const Parts parts(body);
+  for (const Part& part : parts.all()) {
+    if (part.core == nullptr) extent.Include(0, part.rounding_m);
+    if (part.core == nullptr) continue;
+    for (const Triangle& t : part.core->triangles()) {
+      for (const Vector& v : t) extent.Include(Dot(direction, v), part.rounding_m);
+    }
+  }
+  return extent;
+}
+
+// The triangles of the last call are a hint only with one part each.
+Hint* HintFor(std::size_t parts_of_a, std::size_t parts_of_b, Hint* last, Hint* fresh) {
+  *fresh = {};
+  return parts_of_a == 1 && parts_of_b == 1 ? last : fresh;
+}
+
+}  // namespace
+
+double Body::reach() const {
+  if (IsBall()) return radius_m;
+  double reach = mesh != nullptr ? mesh->radius_m() : 0;
+  if (solids == nullptr) return reach;
+  for (const Solid& solid : *solids) reach = std::max(reach, solid.radius_m());
+  return reach;
+}
+
+// A contact of bodies lasts as long as the firmest contact of two parts; none begins before the
+// nearest two parts could touch.
+Standing StandingOf(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint,
+                    bool outside) {
+  const Parts of_a(body_a), of_b(body_b);
+  Standing all{false, INFINITY};
+  Hint fresh;
+  for (const Part& a : of_a.all()) {
+    for (const Part& b : of_b.all()) {
+      const double least = of_a.all().size() * of_b.all().size() > 1 ? ApartAtLeast(a, b, pose) : 0;
+      if (least > (all.contact ? kTouching : all.margin)) continue;
+      Hint* near = HintFor(of_a.all().size(), of_b.all().size(), hint, &fresh);
+      const Standing one = StandingOf(a, b, pose, all.contact ? 0 : all.margin, outside, near);
+      if (one.contact == all.contact) {
+        all.margin =
+            one.contact ? std::max(all.margin, one.margin) : std::min(all.margin, one.margin);
+      } else if (one.contact) {
+        all = one;
+      }
+    }
+  }
+  return all;
+}
+
+bool InContact(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint) {
+  const Parts of_a(body_a), of_b(body_b);
+  Hint fresh;
+  for (const Part& a : of_a.all()) {
+    for (const Part& b : of_b.all()) {
+      if (ApartAtLeast(a, b, pose) > 2 * kTouching) continue;
+      const double reach = a.rounding_m + b.rounding_m;
+      Hint* near = HintFor(of_a.all().size(), of_b.all().size(), hint, &fresh);
+      if (CoreGap(a, b, pose, reach + 2 * kTouching, false, false, near) <= reach + kTouching)
+        return true;
+    }
+  }
+  return false;
+}
+
+bool InContactThrough(const Body& a, const Body& b, const Pose& pose, double depth, Hint* hint) {
+  constexpr double kCosine = 0.86;  // of 30 degrees, rounded down
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        const Vector direction{double(x), double(y), double(z)};
+        const double length = Length(direction);
+        Pose moved = pose;
+        if (length > 0) moved.p_AB = pose.p_AB + depth / (kCosine * length) * direction;
+        if (!InContact(a, b, moved, hint)) return false;
+      }
+    }
+  }
+  return true;
+}
+
+double DistanceOf(const Body& a, const Body& b, const Pose& pose) {
+  Hint hint;
+  const Standing standing = StandingOf(a, b, pose, &hint);
+  return standing.contact ? 0 : standing.margin;
+}
+
+double DistanceTo(const Body& body, const Vector& point) {
+  double least = INFINITY;
+  const Parts parts(body);
+  for (const Part& part : parts.all()) {
+    double distance = part.core != nullptr ? SurfaceDistance(*part.core, point) : Length(point);
+    if (part.core != nullptr && part.core->Contains(point)) distance = 0;
+    least = std::min(least, std::max(0.0, distance - part.rounding_m));
+  }
+  return least;
+}
+
+double DepthAtMost(const Body& a, const Body& b, const Pose& pose, const Vector& along) {
+  std::vector<Vector> directions = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, pose.p_AB, along};
+  for (const Vector& axis : {Vector{1, 0, 0}, Vector{0, 1, 0}, Vector{0, 0, 1}})
+    directions.push_back(pose(axis) - pose.p_AB);
+  double least = INFINITY;
+  for (const Vector& direction : directions) {
+    const double length = Length(direction);
+    if (!(length > 0) || !std::isfinite(length)) continue;
+    const Vector n = 1 / length * direction;
+    const Extent of_a = ExtentOf(a, n);
+    const Extent of_b = ExtentOf(b, pose.Back(n + pose.p_AB));
+    const double shift = Dot(n, pose.p_AB);
+    least = std::min({least, of_a.upper - of_b.lower - shift, of_b.upper + shift - of_a.lower});
+  }
+  return least;
+}
+
+}  // namespace collision::checker

@@ -1,0 +1,193 @@
+#include "client/library/network/conversion.h"
+
+#include "client/api/shape.h"
+
+namespace collision::client {
+namespace {
+
+void Set(const Vector3& from, v1::Vector3* to) {
+  to->set_x(from[0]);
+  to->set_y(from[1]);
+  to->set_z(from[2]);
+}
+
+Vector3 FromMessage(const v1::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+TimeBracket FromMessage(const v1::TimeBracket& bracket) {
+  return {bracket.earliest_ns(), bracket.latest_ns()};
+}
+
+SimulatorStatus FromMessage(const v1::SimulatorStatus& message) {
+  SimulatorStatus status;
+  status.simulator = message.simulator_id();
+  status.name = message.name();
+  status.run = message.run();
+  status.alive = message.alive();
+  status.clock_ns = message.clock_ns();
+  status.granted_until_ns = message.granted_until_ns();
+  status.agents = message.agents();
+  status.states = message.states();
+  status.rejected = message.rejected();
+  return status;
+}
+
+}  // namespace
+
+v1::AgentDescription ToMessage(const AgentDescription& description) {
+  v1::AgentDescription message;
+  message.set_agent_name(description.name);
+  message.set_radius_m(description.radius_m);
+  message.set_acceleration_max_m_s2(description.acceleration_max_m_s2);
+  message.set_angular_acceleration_max_rad_s2(description.angular_acceleration_max_rad_s2);
+  message.set_speed_max_m_s(description.speed_max_m_s);
+  message.set_time_step_s(description.time_step_s);
+  message.set_group(description.group);
+  message.set_mask(description.mask);
+  if (description.shape) message.set_shape_hash(description.shape->hash());
+  return message;
+}
+
+v1::AgentState ToMessage(const State& state) {
+  v1::AgentState message;
+  message.set_stamp_ns(state.stamp_ns);
+  Set(state.position_m, message.mutable_position_m());
+  Set(state.velocity_m_s, message.mutable_velocity_m_s());
+  v1::Quaternion* orientation = message.mutable_orientation();
+  orientation->set_w(state.orientation[0]);
+  orientation->set_x(state.orientation[1]);
+  orientation->set_y(state.orientation[2]);
+  orientation->set_z(state.orientation[3]);
+  Set(state.angular_velocity_rad_s, message.mutable_angular_velocity_rad_s());
+  message.set_position_error_m(state.position_error_m);
+  message.set_velocity_error_m_s(state.velocity_error_m_s);
+  message.set_rotation_error_rad(state.rotation_error_rad);
+  Set(state.thrust_direction, message.mutable_thrust_direction());
+  message.set_direction_until_ns(state.direction_until_ns);
+  message.set_expiry_ns(state.expiry_ns);
+  message.set_discontinuity(state.discontinuity);
+  return message;
+}
+
+AgentId FromMessage(const v1::AgentId& id) {
+  return {id.simulator_id(), id.run(), id.slot(), id.generation()};
+}
+
+State FromMessage(const v1::AgentState& message) {
+  State state;
+  state.stamp_ns = message.stamp_ns();
+  state.position_m = FromMessage(message.position_m());
+  state.velocity_m_s = FromMessage(message.velocity_m_s());
+  const v1::Quaternion& orientation = message.orientation();
+  state.orientation = {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
+  state.angular_velocity_rad_s = FromMessage(message.angular_velocity_rad_s());
+  state.position_error_m = message.position_error_m();
+  state.velocity_error_m_s = message.velocity_error_m_s();
+  state.rotation_error_rad = message.rotation_error_rad();
+  state.thrust_direction = FromMessage(message.thrust_direction());
+  state.direction_until_ns = message.direction_until_ns();
+  state.expiry_ns = message.expiry_ns();
+  state.discontinuity = message.discontinuity();
+  return state;
+}
+
+DescribedAgent FromMessage(const v1::AgentDescription& message) {
+  DescribedAgent agent;
+  agent.id = {message.simulator_id(), message.run(), message.slot(), message.generation()};
+  agent.simulator = message.simulator_name();
+  agent.revision = message.revision();
+  agent.description.name = message.agent_name();
+  agent.description.radius_m = message.radius_m();
+  agent.description.acceleration_max_m_s2 = message.acceleration_max_m_s2();
+  agent.description.angular_acceleration_max_rad_s2 = message.angular_acceleration_max_rad_s2();
+  agent.description.speed_max_m_s = message.speed_max_m_s();
+  agent.description.time_step_s = message.time_step_s();
+  agent.description.group = message.group();
+  agent.description.mask = message.mask();
+  agent.shape_hash = message.shape_hash();
+  return agent;
+}
+
+SimulatorClock FromMessage(const v1::SimulatorClock& message) {
+  return {message.simulator_id(), message.simulator_name(), message.run(),
+          message.clock_ns(),     message.agents(),         message.lock_step()};
+}
+
+Event FromMessage(const v1::CollisionEvent& message) {
+  Event event;
+  event.lower = FromMessage(message.lower());
+  event.higher = FromMessage(message.higher());
+  event.contact = message.contact();
+  event.revision = message.revision();
+  event.now_ns = message.now_ns();
+  event.status = static_cast<EventStatus>(message.status());
+  event.begin = FromMessage(message.begin());
+  event.end = FromMessage(message.end());
+  event.continuous = message.continuous();
+  event.began_before = message.began_before();
+  if (message.has_separation_m()) event.evaluated_at_ns = message.evaluated_at_ns();
+  event.separation_lower_m = message.separation_m().lower();
+  event.separation_upper_m = message.separation_m().upper();
+  event.depth_lower_m = message.depth_lower_m();
+  event.point_m = FromMessage(message.point_m());
+  event.point_error_m = message.point_error_m();
+  event.normal = FromMessage(message.normal());
+  event.normal_error_rad = message.normal_error_rad();
+  event.level = message.level();
+  event.work_units = message.work_units();
+  event.limited_by = static_cast<EventLimit>(message.limited_by());
+  return event;
+}
+
+Clearance FromMessage(const v1::AgentClearance& message) {
+  Clearance clearance;
+  clearance.clear_until_ns = message.clear_until_ns();
+  clearance.not_clear = message.not_clear();
+  clearance.saturated = message.saturated();
+  clearance.effective_from_ns = message.effective_from_ns();
+  if (message.cause() != v1::CAUSE_NONE) clearance.cause = v1::ClearanceCause_Name(message.cause());
+  clearance.cause_agent = FromMessage(message.cause_agent());
+  clearance.void_from_ns = message.void_from_ns();
+  clearance.state_wanted_ns = message.state_wanted_ns();
+  return clearance;
+}
+
+Rejection FromMessage(const v1::Rejection& message) {
+  Rejection rejection;
+  rejection.simulator = message.simulator_id();
+  rejection.reason = v1::RejectionReason_Name(message.reason());
+  rejection.topic = v1::Topic_Name(message.topic());
+  rejection.slot = message.slot();
+  rejection.field = message.field();
+  rejection.detail = message.detail();
+  rejection.count = message.count();
+  return rejection;
+}
+
+EarliestIntersection FromMessage(const v1::EarliestIntersection& message) {
+  return {message.now_ns(), message.found(), message.earliest_ns(), FromMessage(message.lower()),
+          FromMessage(message.higher())};
+}
+
+ServiceStatus FromMessage(const v1::ServiceStatus& message) {
+  ServiceStatus status;
+  status.service = message.service_id();
+  status.term = message.stamp().term();
+  status.version = message.version();
+  status.world = message.world();
+  status.simulated_clock = message.simulated_clock();
+  status.now_ns = message.now_ns();
+  status.agents = message.agents();
+  status.pairs_tracked = message.pairs_tracked();
+  for (const v1::SimulatorStatus& simulator : message.simulators()) {
+    status.simulators.push_back(FromMessage(simulator));
+  }
+  for (const v1::Counter& counter : message.counters()) {
+    status.counters[counter.name()] = counter.value();
+  }
+  status.broad_phase = message.broad_phase();
+  status.broad_phase_why = message.broad_phase_why();
+  status.left_out.assign(message.left_out().begin(), message.left_out().end());
+  return status;
+}
+
+}  // namespace collision::client

@@ -1,0 +1,89 @@
+#include "client/library/network/dds_transport.h"
+
+#include <map>
+#include <utility>
+
+#include "idl/dds/session.h"
+
+namespace collision::client {
+namespace {
+
+/// Messages taken by one call; the rest follows with the next, so that a flood cannot keep the
+/// caller waiting.
+constexpr std::size_t kArrivalsMax = 65536;
+
+DdsSessionOptions Options(DdsRole role, const std::string& world, std::uint32_t domain) {
+  DdsSessionOptions options;
+  options.role = role;
+  options.world = world;
+  options.domain = domain;
+  return options;
+}
+
+class DdsTransport : public Transport {
+ public:
+  explicit DdsTransport(const DdsSessionOptions& options) : session_(options) {}
+
+  void Receive(std::chrono::nanoseconds timeout, Arrivals* arrivals) override {
+    session_.Receive(timeout, kArrivalsMax, &arrivals->inputs, &arrivals->outputs);
+  }
+
+  bool service_alive() const override { return session_.service_present(); }
+
+  void Write(const v1::Input& message) override {
+    switch (message.message_case()) {
+      case v1::Input::kAgentDescription:
+        return session_.Write(message.agent_description());
+      case v1::Input::kShapePart:
+        return WritePart(message.shape_part());
+      case v1::Input::kAgentStates:
+        return session_.Write(message.agent_states());
+      case v1::Input::kSimulatorClock:
+        return session_.Write(message.simulator_clock());
+      case v1::Input::kAgentRemoval:
+        return session_.RemoveAgent(message.agent_removal().simulator_id(),
+                                    message.agent_removal().slot());
+      case v1::Input::kShapeRemoval:
+        return RemoveShape(message.shape_removal());
+      default:
+        return;
+    }
+  }
+
+  void Flush() override { session_.Flush(); }
+
+ private:
+  void WritePart(const v1::ShapePart& part) {
+    parts_[part.content_hash()] = part.parts();
+    session_.Write(part);
+  }
+
+  /// Each part is an instance of its own; the message does not say how many parts there are.
+  void RemoveShape(const v1::ShapeRemoval& removal) {
+    const auto parts = parts_.find(removal.content_hash());
+    if (parts == parts_.end()) return;
+    session_.RemoveShape(removal.simulator_id(), removal.content_hash(), parts->second);
+    parts_.erase(parts);
+  }
+
+  DdsSession session_;
+  std::map<std::string, std::uint32_t> parts_;  ///< Of each shape written, by its hash.
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> ConnectSimulator(const std::string& world, const std::string& simulator,
+                                            std::uint32_t domain) {
+  DdsSessionOptions options = Options(DdsRole::kSimulator, world, domain);
+  options.simulator = simulator;
+  return std::make_unique<DdsTransport>(options);
+}
+
+std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options) {
+  DdsSessionOptions session = Options(DdsRole::kMonitor, options.world, options.domain);
+  session.reads_service = options.service;
+  session.reads_simulators = options.simulators;
+  return std::make_unique<DdsTransport>(session);
+}
+
+}  // namespace collision::client

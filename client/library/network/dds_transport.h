@@ -1,0 +1,21 @@
+// The client library's network: DDS.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "client/api/monitor.h"
+#include "client/library/network/transport.h"
+
+namespace collision::client {
+
+/// Writes in partition "<world>.<simulator>", reads the service in "<world>".
+/// Throws std::runtime_error if DDS is not available.
+std::unique_ptr<Transport> ConnectSimulator(const std::string& world, const std::string& simulator,
+                                            std::uint32_t domain);
+
+/// Creates readers only, of the topics that the options select. Throws as above.
+std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options);
+
+}  // namespace collision::client

@@ -1,0 +1,52 @@
+// What a monitor receives, as the messages of idl/messages.proto.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+
+#include "client/api/monitor.h"
+#include "client/library/network/transport.h"
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// Stands behind Monitor. Programs of this project that print or keep messages (collisionctl, the
+/// scene runner) use it directly; rules of use as for Monitor.
+class MessageMonitor {
+ public:
+  /// Each may be empty.
+  struct Callbacks {
+    std::function<void(const v1::CollisionEvent&)> event = {};
+    std::function<void(const v1::EarliestIntersection&)> earliest = {};
+    std::function<void(const v1::ServiceStatus&)> status = {};
+    std::function<void(const v1::AgentDescription&)> description = {};
+    std::function<void(const v1::AgentRemoval&)> removal = {};
+    std::function<void(const v1::ShapePart&)> shape_part = {};
+    std::function<void(const v1::ShapeRemoval&)> shape_removal = {};
+    std::function<void(const v1::AgentStates&)> states = {};
+    std::function<void(const v1::SimulatorClock&)> clock = {};
+    std::function<void(const v1::Clearance&)> clearance = {};
+    std::function<void(const v1::Rejection&)> rejection = {};
+  };
+
+  /// Throws std::runtime_error if an option is out of range or DDS is not available.
+  MessageMonitor(const MonitorOptions& options, Callbacks callbacks);
+  MessageMonitor(std::unique_ptr<Receiver> receiver, Callbacks callbacks);
+
+  /// Waits at most `timeout` for an arrival, then calls back for everything that has arrived.
+  /// Returns the number of samples.
+  std::size_t Poll(std::chrono::nanoseconds timeout);
+
+  bool service_alive() const { return receiver_->service_alive(); }
+
+ private:
+  void HandOn(const v1::Input& input) const;
+  void HandOn(const v1::Output& output) const;
+
+  std::unique_ptr<Receiver> receiver_;
+  Callbacks callbacks_;
+};
+
+}  // namespace collision::client

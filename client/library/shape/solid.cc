@@ -1,0 +1,64 @@
+#include "client/api/solid.h"
+
+#include <utility>
+
+namespace collision::client {
+
+Solid Solid::Ball(double radius_m) { return {.kind = Kind::kBall, .rounding_m = radius_m}; }
+
+Solid Solid::Capsule(double radius_m, double half_length_m) {
+  return {.kind = Kind::kCapsule, .half_extents_m = {0, 0, half_length_m}, .rounding_m = radius_m};
+}
+
+Solid Solid::Box(const Vector3& half_extents_m) {
+  return {.kind = Kind::kBox, .half_extents_m = half_extents_m};
+}
+
+Solid Solid::Ellipsoid(const Vector3& half_axes_m) {
+  return {.kind = Kind::kEllipsoid, .half_extents_m = half_axes_m};
+}
+
+Solid Solid::Hull(std::vector<Vector3> points_m) {
+  return {.kind = Kind::kHull, .points_m = std::move(points_m)};
+}
+
+Solid Solid::HalfSpace(double reach_m) {
+  std::vector<Vector3> corners;
+  for (const double x : {-reach_m, reach_m}) {
+    for (const double y : {-reach_m, reach_m}) {
+      for (const double z : {-reach_m, 0.0}) corners.push_back({x, y, z});
+    }
+  }
+  return Hull(std::move(corners));
+}
+
+Solid Solid::At(const Vector3& position, const Quaternion& turned) const {
+  Solid placed = *this;
+  placed.position_m = position;
+  placed.orientation = turned;
+  return placed;
+}
+
+Solid Solid::Rounded(double more_m) const {
+  Solid grown = *this;
+  grown.rounding_m += more_m;
+  return grown;
+}
+
+const char* Name(Solid::Kind kind) {
+  switch (kind) {
+    case Solid::Kind::kBall:
+      return "ball";
+    case Solid::Kind::kCapsule:
+      return "capsule";
+    case Solid::Kind::kBox:
+      return "box";
+    case Solid::Kind::kEllipsoid:
+      return "ellipsoid";
+    case Solid::Kind::kHull:
+      break;
+  }
+  return "hull";
+}
+
+}  // namespace collision::client

@@ -1,0 +1,146 @@
+#include "client/library/validation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <span>
+#include <stdexcept>
+
+#include "client/api/shape.h"
+
+namespace collision::client {
+namespace {
+
+std::string Text(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+[[noreturn]] void Refuse(const std::string& field, const std::string& value,
+                         const std::string& range) {
+  throw std::invalid_argument(field + ": " + value + ", allowed: " + range);
+}
+
+/// Written so that what is not a number fails, too.
+bool IsWithin(double value, double least, double greatest) {
+  return value >= least && value <= greatest;
+}
+
+// Every state that is set comes through here: texts are made for what is refused only.
+void CheckNumber(const char* field, double value, double least, double greatest) {
+  if (IsWithin(value, least, greatest)) return;
+  Refuse(field, Text(value), Text(least) + " to " + Text(greatest));
+}
+
+void CheckVector(const char* field, const Vector3& vector, double greatest) {
+  constexpr const char* kAxes[] = {".x", ".y", ".z"};
+  for (int i = 0; i < 3; ++i) {
+    if (IsWithin(vector[i], -greatest, greatest)) continue;
+    CheckNumber((std::string(field) + kAxes[i]).c_str(), vector[i], -greatest, greatest);
+  }
+}
+
+/// Components are checked first, so that squares neither overflow nor vanish.
+void CheckUnit(const char* field, std::span<const double> values, const char* range) {
+  double squares = 0;
+  for (const double value : values) {
+    CheckNumber(field, value, -2, 2);
+    squares += value * value;
+  }
+  const double length = std::sqrt(squares);
+  if (std::abs(length - 1) > kUnitTolerance) Refuse(field, "length " + Text(length), range);
+}
+
+void CheckInstant(const char* field, std::int64_t instant_ns) {
+  if (instant_ns >= -kInstantMax && instant_ns <= kInstantMax) return;
+  Refuse(field, std::to_string(instant_ns),
+         std::to_string(-kInstantMax) + " to " + std::to_string(kInstantMax));
+}
+
+void CheckLater(const char* field, std::int64_t instant_ns) {
+  if (instant_ns != kNever) CheckInstant(field, instant_ns);
+}
+
+/// The ball of an agent must hold its shape. The numbers are close to each other: all digits show.
+void CheckHolds(double radius, const Shape& shape) {
+  if (shape.radius_m() <= radius * (1 + kShapeRadiusTolerance)) return;
+  char text[96];
+  std::snprintf(text, sizeof text, ">= %.17g, the radius of its shape (shape->radius_m())",
+                shape.radius_m());
+  char value[32];
+  std::snprintf(value, sizeof value, "%.17g", radius);
+  Refuse("radius_m", value, text);
+}
+
+bool IsIdentifier(const std::string& name) {
+  const auto allowed = [](unsigned char c) {
+    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
+           c == '-';
+  };
+  return !name.empty() && name.size() <= kNameMax && std::all_of(name.begin(), name.end(), allowed);
+}
+
+void RequireIdentifier(const char* field, const std::string& name) {
+  if (IsIdentifier(name)) return;
+  throw std::runtime_error(std::string(field) + ": \"" + name +
+                           "\", allowed: 1 to 64 of A-Z a-z 0-9 _ -");
+}
+
+}  // namespace
+
+void Validate(const AgentDescription& description) {
+  const std::string& name = description.name;
+  const auto control = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  if (name.empty() || name.size() > kNameMax) {
+    Refuse("name", "\"" + name + "\"", "1 to 64 bytes");
+  }
+  if (std::any_of(name.begin(), name.end(), control)) {
+    Refuse("name", "a control character", "printable characters");
+  }
+  CheckNumber("radius_m", description.radius_m, 0, kRadiusMax);
+  CheckNumber("acceleration_max_m_s2", description.acceleration_max_m_s2, 0, kAccelerationMax);
+  CheckNumber("angular_acceleration_max_rad_s2", description.angular_acceleration_max_rad_s2,
+              -kAccelerationMax, kAccelerationMax);
+  CheckNumber("speed_max_m_s", description.speed_max_m_s, 0, kSpeedMax);
+  CheckNumber("time_step_s", description.time_step_s, 0, kTimeStepMax);
+  if (description.shape) CheckHolds(description.radius_m, *description.shape);
+}
+
+void Validate(const State& state) {
+  CheckInstant("stamp_ns", state.stamp_ns);
+  CheckVector("position_m", state.position_m, kCoordinateMax);
+  CheckVector("velocity_m_s", state.velocity_m_s, kSpeedMax);
+  CheckUnit("orientation", state.orientation, "length 1 within 0.001");
+  CheckVector("angular_velocity_rad_s", state.angular_velocity_rad_s, kAngularSpeedMax);
+  CheckNumber("position_error_m", state.position_error_m, 0, kRadiusMax);
+  CheckNumber("velocity_error_m_s", state.velocity_error_m_s, 0, kSpeedMax);
+  CheckNumber("rotation_error_rad", state.rotation_error_rad, 0, kRotationErrorMax);
+  if (state.thrust_direction != Vector3{}) {
+    CheckUnit("thrust_direction", state.thrust_direction, "zero, or length 1 within 0.001");
+  }
+  CheckLater("direction_until_ns", state.direction_until_ns);
+  CheckLater("expiry_ns", state.expiry_ns);
+}
+
+void ValidateClock(std::int64_t clock_ns) { CheckInstant("clock_ns", clock_ns); }
+
+void Validate(const WorldOptions& options) {
+  ValidateWorld(options.world, options.domain);
+  RequireIdentifier("simulator", options.simulator);
+  if (options.chunk_size > kChunkSizeMax) {
+    throw std::runtime_error("chunk_size: " + std::to_string(options.chunk_size) +
+                             ", allowed: 1 to 64, or 0");
+  }
+  if (options.lead >= std::chrono::nanoseconds(0) && options.lead <= kLeadMax) return;
+  throw std::runtime_error("lead: " + std::to_string(options.lead.count()) +
+                           " ns, allowed: 0 to 1 h");
+}
+
+void ValidateWorld(const std::string& world, std::uint32_t domain) {
+  RequireIdentifier("world", world);
+  if (domain <= kDomainMax) return;
+  throw std::runtime_error("domain: " + std::to_string(domain) + ", allowed: 0 to 230");
+}
+
+}  // namespace collision::client

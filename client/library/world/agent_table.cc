@@ -1,0 +1,197 @@
+#include "client/library/world/agent_table.h"
+
+#include <algorithm>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "client/library/network/conversion.h"
+#include "client/library/validation.h"
+
+namespace collision::client {
+namespace {
+
+/// Bytes on the wire, as idl/README.md has them.
+constexpr std::uint64_t kSampleBytes = 20, kStateBytes = 200;
+
+}  // namespace
+
+AgentTable::AgentTable(std::string simulator_name, std::uint64_t simulator_id, std::uint32_t run,
+                       const PublishPolicy& policy)
+    : simulator_name_(std::move(simulator_name)),
+      simulator_id_(simulator_id),
+      run_(run),
+      policy_(policy) {}
+
+AgentId AgentTable::Add(const AgentDescription& description, const State& state) {
+  const std::uint32_t index = FreeSlot();
+  Slot& slot = slots_[index];
+  const std::uint32_t generation = slot.description.generation() + 1;
+  slot = Slot();
+  slot.occupied = true;
+  ++agent_count_;
+  const AgentId id{simulator_id_, run_, index, generation};
+  Describe(id, description);
+  Stage(id, state);
+  return id;
+}
+
+const v1::AgentDescription& AgentTable::description(const AgentId& id) const {
+  return slots_.at(id.slot).description;
+}
+
+void AgentTable::Describe(const AgentId& id, const AgentDescription& description) {
+  slots_.at(id.slot).bounds = BoundsOf(description);
+  v1::AgentDescription& current = slots_.at(id.slot).description;
+  const std::uint32_t revision = current.revision() + 1;
+  current = ToMessage(description);
+  current.set_simulator_id(simulator_id_);
+  current.set_slot(id.slot);
+  current.set_run(run_);
+  current.set_generation(id.generation);
+  current.set_revision(revision);
+  current.set_sequence(++descriptions_sequence_);
+  current.set_simulator_name(simulator_name_);
+  census_changed_ = true;
+}
+
+void AgentTable::Stage(const AgentId& id, const State& state) {
+  Slot& slot = slots_.at(id.slot);
+  const bool was_staged = slot.states.staged().has_value();
+  slot.states.Stage(state, slot.bounds, policy_);
+  if (!was_staged) staged_slots_.push_back(id.slot);
+  ++traffic_.states_set;
+}
+
+v1::AgentRemoval AgentTable::Remove(const AgentId& id) {
+  Slot& slot = slots_.at(id.slot);
+  if (slot.states.sent()) thinned_chunks_.push_back(id.slot / policy_.chunk_size);
+  slot.occupied = false;
+  slot.states = OutgoingStates();
+  std::erase(staged_slots_, id.slot);
+  free_slots_.push_back(id.slot);
+  std::push_heap(free_slots_.begin(), free_slots_.end(), std::greater<>());
+  --agent_count_;
+  census_changed_ = true;
+  v1::AgentRemoval removal;
+  removal.set_simulator_id(simulator_id_);
+  removal.set_slot(id.slot);
+  return removal;
+}
+
+bool AgentTable::IsDue(const Slot& slot, std::int64_t clock_ns) const {
+  return slot.states.IsDue(clock_ns, slot.description.revision(), policy_);
+}
+
+bool AgentTable::HasNews(std::int64_t clock_ns) const {
+  const auto due = [&](std::uint32_t slot) { return IsDue(slots_[slot], clock_ns); };
+  return census_changed_ || std::any_of(staged_slots_.begin(), staged_slots_.end(), due);
+}
+
+std::vector<v1::AgentDescription> AgentTable::Descriptions() const {
+  std::vector<v1::AgentDescription> descriptions;
+  for (const Slot& slot : slots_) {
+    if (slot.occupied) descriptions.push_back(slot.description);
+  }
+  return descriptions;
+}
+
+std::vector<v1::AgentStates> AgentTable::SentStates() const {
+  std::vector<v1::AgentStates> chunks;
+  for (std::uint32_t chunk = 0; chunk * policy_.chunk_size < slots_.size(); ++chunk) {
+    v1::AgentStates states = Chunk(chunk);
+    if (states.states_size() > 0) chunks.push_back(std::move(states));
+  }
+  return chunks;
+}
+
+std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
+  std::vector<std::uint32_t> chunks = std::exchange(thinned_chunks_, {});
+  std::size_t waiting = 0;
+  for (const std::uint32_t index : staged_slots_) {
+    Slot& slot = slots_[index];
+    if (IsDue(slot, clock_ns)) {
+      slot.states.MarkSent(++states_sequence_, slot.description.revision());
+      ++traffic_.states_sent;
+      chunks.push_back(index / policy_.chunk_size);
+    } else {
+      staged_slots_[waiting++] = index;
+    }
+  }
+  staged_slots_.resize(waiting);
+  std::sort(chunks.begin(), chunks.end());
+  chunks.erase(std::unique(chunks.begin(), chunks.end()), chunks.end());
+  traffic_.samples_sent += chunks.size();
+  std::vector<v1::AgentStates> result;
+  result.reserve(chunks.size());
+  for (const std::uint32_t chunk : chunks) {
+    result.push_back(Chunk(chunk));
+    traffic_.bytes_sent +=
+        kSampleBytes + kStateBytes * static_cast<std::uint64_t>(result.back().states_size());
+  }
+  return result;
+}
+
+v1::SimulatorClock AgentTable::Clock(std::int64_t clock_ns, bool lock_step) {
+  census_changed_ = false;
+  v1::SimulatorClock clock;
+  clock.set_simulator_id(simulator_id_);
+  clock.set_run(run_);
+  clock.set_simulator_name(simulator_name_);
+  clock.set_clock_ns(clock_ns);
+  clock.set_states_sequence(states_sequence_);
+  clock.set_descriptions_sequence(descriptions_sequence_);
+  clock.set_agents(agent_count_);
+  clock.set_lock_step(lock_step);
+  return clock;
+}
+
+void AgentTable::SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns) {
+  if (clearance.slot() >= slots_.size()) return;
+  Slot& slot = slots_[clearance.slot()];
+  if (!slot.occupied || slot.description.generation() != clearance.generation()) return;
+  slot.states.SetClearance(FromMessage(clearance), clearance.acknowledged_sequence(), now_ns);
+}
+
+Clearance AgentTable::clearance(const AgentId& id) const {
+  return slots_.at(id.slot).states.clearance();
+}
+
+std::uint32_t AgentTable::FreeSlot() {
+  if (free_slots_.empty()) {
+    if (slots_.size() == kAgentsMax)
+      throw std::length_error("agents: 65536 are there, no more allowed");
+    slots_.emplace_back();
+    return static_cast<std::uint32_t>(slots_.size() - 1);
+  }
+  std::pop_heap(free_slots_.begin(), free_slots_.end(), std::greater<>());
+  const std::uint32_t slot = free_slots_.back();
+  free_slots_.pop_back();
+  return slot;
+}
+
+v1::AgentState AgentTable::Message(std::uint32_t slot) const {
+  const OutgoingStates& states = slots_[slot].states;
+  v1::AgentState message = ToMessage(*states.sent());
+  message.set_slot(slot);
+  message.set_generation(slots_[slot].description.generation());
+  message.set_sequence(states.sent_sequence());
+  return message;
+}
+
+v1::AgentStates AgentTable::Chunk(std::uint32_t chunk) const {
+  v1::AgentStates states;
+  states.set_simulator_id(simulator_id_);
+  states.set_chunk(chunk);
+  states.set_run(run_);
+  const std::size_t first = std::size_t{chunk} * policy_.chunk_size;
+  const std::size_t last = std::min(first + policy_.chunk_size, slots_.size());
+  for (std::size_t slot = first; slot < last; ++slot) {
+    if (slots_[slot].states.sent()) {
+      *states.add_states() = Message(static_cast<std::uint32_t>(slot));
+    }
+  }
+  return states;
+}
+
+}  // namespace collision::client

@@ -1,0 +1,84 @@
+// The agents of one simulator: their slots, and the messages that tell the service about them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/api/types.h"
+#include "client/library/world/contract.h"
+#include "client/library/world/publish_policy.h"
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// Book-keeping only: the caller writes the messages that it returns, in that order.
+///
+/// A slot is reused, the lowest free one first, with a new generation: ever-new keys would let the
+/// network's histories grow without bound.
+class AgentTable {
+ public:
+  AgentTable(std::string simulator_name, std::uint64_t simulator_id, std::uint32_t run,
+             const PublishPolicy& policy);
+
+  /// Gives a new agent its slot and stages its first state. Throws std::length_error if the table
+  /// is full.
+  AgentId Add(const AgentDescription& description, const State& state);
+
+  /// The current description of an agent in the table, to be written after Add() and Describe().
+  const v1::AgentDescription& description(const AgentId& id) const;
+  void Describe(const AgentId& id, const AgentDescription& description);
+
+  /// Stages a state until the clock reaches its stamp; see OutgoingStates.
+  void Stage(const AgentId& id, const State& state);
+
+  v1::AgentRemoval Remove(const AgentId& id);
+
+  /// Whether TakeDue() or a clock sample would say anything new at this clock.
+  bool HasNews(std::int64_t clock_ns) const;
+
+  /// Everything that has been said and still holds, to repeat it.
+  std::vector<v1::AgentDescription> Descriptions() const;
+  std::vector<v1::AgentStates> SentStates() const;
+
+  /// Sends the staged states that are due: the chunks that changed, each with the last sent states
+  /// of all its agents.
+  std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);
+
+  /// The clock sample that follows everything sent so far.
+  v1::SimulatorClock Clock(std::int64_t clock_ns, bool lock_step);
+
+  /// A clearance as of the service's time `now_ns`; those of former agents are ignored.
+  void SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns);
+  Clearance clearance(const AgentId& id) const;
+
+  const Traffic& traffic() const { return traffic_; }
+
+ private:
+  struct Slot {
+    bool occupied = false;
+    v1::AgentDescription description;  ///< Keeps the generation, also while the slot is free.
+    MotionBounds bounds;               ///< As described.
+    OutgoingStates states;
+  };
+
+  std::uint32_t FreeSlot();
+  bool IsDue(const Slot& slot, std::int64_t clock_ns) const;
+  v1::AgentState Message(std::uint32_t slot) const;
+  v1::AgentStates Chunk(std::uint32_t chunk) const;
+
+  std::string simulator_name_;
+  std::uint64_t simulator_id_;
+  std::uint32_t run_;
+  PublishPolicy policy_;
+  std::vector<Slot> slots_;
+  std::vector<std::uint32_t> free_slots_;      ///< A heap, the lowest on top.
+  std::vector<std::uint32_t> staged_slots_;    ///< Of agents with a staged state.
+  std::vector<std::uint32_t> thinned_chunks_;  ///< They lost an agent since they were sent.
+  std::uint32_t agent_count_ = 0;
+  std::uint64_t states_sequence_ = 0;
+  std::uint64_t descriptions_sequence_ = 0;
+  Traffic traffic_;
+  bool census_changed_ = false;  ///< Descriptions or agents differ from the last clock sample.
+};
+
+}  // namespace collision::client

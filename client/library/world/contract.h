@@ -1,0 +1,33 @@
+// Whether a state need not be sent: the client's side of the contract that the service checks.
+#pragma once
+
+#include "client/api/types.h"
+
+namespace collision::client {
+
+/// What an agent's description declares about its motion.
+struct MotionBounds {
+  double acceleration_max_m_s2 = 0;
+  double angular_acceleration_max_rad_s2 = -1;  ///< < 0: not declared.
+  double speed_max_m_s = 0;                     ///< 0: not declared.
+  double time_step_s = 0;
+  bool turns = false;  ///< It has a shape, so its orientation counts.
+};
+
+MotionBounds BoundsOf(const AgentDescription& description);
+
+/// Whether `sent`, the last state sent, stands in for `next`: `next` lies within everything that
+/// `sent` promises, so a service that knows `sent` alone is not misled. With s the seconds between
+/// the two, M the greatest acceleration and h the time step:
+///   |p' − p − v s| <= ½ M s (s + h) + errors  and  |v' − v| <= M s + errors,
+/// the balls of the two states intersect at every instant between them, as the service checks it;
+/// likewise orientation and angular velocity of an agent that has a shape; no acceleration against
+/// a declared direction, no speed above a declared cap. And `next` declares nothing new: no error
+/// is greater, direction and expiry are the same, and it is no jump.
+///
+/// The service allows for an honest sender's rounding; this allows half as much, so an agent that
+/// only drifts stays silent, and whatever passes here is no breach at the service
+/// (collision_core/motion/contract.h).
+bool StandsIn(const MotionBounds& bounds, const State& sent, const State& next);
+
+}  // namespace collision::client

@@ -1,0 +1,79 @@
+#include "client/library/world/publish_policy.h"
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace collision::client {
+namespace {
+
+/// An hour [ns]: an agent with a longer period counts as one whose next state comes in an hour.
+constexpr std::uint64_t kPeriodMax = 3'600'000'000'000;
+
+/// The difference of two stamps, which fits only in an unsigned number.
+std::uint64_t Between(std::int64_t earlier_ns, std::int64_t later_ns) {
+  return static_cast<std::uint64_t>(later_ns) - static_cast<std::uint64_t>(earlier_ns);
+}
+
+}  // namespace
+
+void OutgoingStates::Stage(const State& state, const MotionBounds& bounds,
+                           const PublishPolicy& policy) {
+  if (sent_ && state.stamp_ns < sent_->stamp_ns) {
+    throw std::invalid_argument("stamp_ns: " + std::to_string(state.stamp_ns) +
+                                ", allowed: >= " + std::to_string(sent_->stamp_ns) +
+                                ", the stamp of the agent's last state");
+  }
+  const std::optional<State>& before = staged_ ? staged_ : sent_;
+  if (before && state.stamp_ns > before->stamp_ns) {
+    period_ns_ =
+        static_cast<std::int64_t>(std::min(kPeriodMax, Between(before->stamp_ns, state.stamp_ns)));
+  }
+  const bool jumps = state.discontinuity || (staged_ && staged_->discontinuity);
+  staged_ = state;
+  staged_->discontinuity = jumps;
+  stands_in_ = policy.on_demand && sent_ && StandsIn(bounds, *sent_, *staged_);
+}
+
+bool OutgoingStates::IsDue(std::int64_t clock_ns, std::uint32_t revision,
+                           const PublishPolicy& policy) const {
+  const std::int64_t stamp_ns = staged_->stamp_ns;
+  if (stamp_ns > clock_ns) return false;
+  const bool unacknowledged = must_sequence_ > acknowledged_;
+  if (MustBeSent(revision) || unacknowledged || wanted_always_) return true;
+  // This is the last chance to send it in time: the next state comes a period later, if at all.
+  const std::int64_t next_ns = std::max(clock_ns, stamp_ns + period_ns_);
+  std::int64_t wanted_ns = clearance_.state_wanted_ns;
+  // The state that was wanted is on its way, and the answer to it tells when the next one is
+  // wanted. A simulator that runs ahead of the answer halves its distance to the end of the
+  // clearance, as the service would ask it to: the clearance is no earlier than it was.
+  if (acknowledged_ < sent_sequence_) {
+    wanted_ns = std::midpoint(sent_->stamp_ns, clearance_.clear_until_ns);
+  }
+  return wanted_ns - policy.lead_ns < next_ns;
+}
+
+bool OutgoingStates::MustBeSent(std::uint32_t revision) const {
+  return !stands_in_ || sent_revision_ != revision;
+}
+
+void OutgoingStates::MarkSent(std::uint64_t sequence, std::uint32_t revision) {
+  if (MustBeSent(revision)) must_sequence_ = sequence;
+  sent_ = std::exchange(staged_, std::nullopt);
+  sent_sequence_ = sequence;
+  sent_revision_ = revision;
+  if (sent_->discontinuity) jump_sequence_ = sequence;
+  sent_->discontinuity = jump_sequence_ != 0;
+}
+
+void OutgoingStates::SetClearance(const Clearance& clearance, std::uint64_t acknowledged,
+                                  std::int64_t now_ns) {
+  clearance_ = clearance;
+  wanted_always_ = clearance.state_wanted_ns <= now_ns;
+  acknowledged_ = acknowledged;
+  if (acknowledged >= jump_sequence_) jump_sequence_ = 0;
+}
+
+}  // namespace collision::client

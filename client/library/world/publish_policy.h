@@ -1,0 +1,69 @@
+// Which of an agent's states are sent, and when.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "client/api/types.h"
+#include "client/library/world/contract.h"
+
+namespace collision::client {
+
+/// How a simulator publishes the states that its agents are set to.
+struct PublishPolicy {
+  bool on_demand = false;         ///< Send only the states that the service needs; false: all.
+  std::int64_t lead_ns = 0;       ///< Send a state this long before the service wants it.
+  std::uint32_t chunk_size = 64;  ///< Slots per sample of agent_states.
+};
+
+/// The states of one agent on their way to the service: one staged, one sent.
+///
+/// A staged state is *due* when the clock has reached its stamp and one of these holds:
+///  - it *must* be sent: no earlier state stands in for it (contract.h), or the agent was described
+///    anew since; and it stays due until the service has acknowledged it, since a refused jump
+///    would mislead every other agent;
+///  - the service wants a state at every step, or has not said yet when it wants one;
+///  - the service wants one (Clearance::state_wanted_ns, less the lead) before the next state could
+///    be sent, one period of the agent later.
+/// Otherwise it stays staged until a newer state replaces it, or until the service wants it after
+/// all. Book-keeping only: neither clock nor network.
+class OutgoingStates {
+ public:
+  /// A jump that was staged stays recorded when a later state replaces it. Throws
+  /// std::invalid_argument if the stamp lies before that of the state sent last.
+  void Stage(const State& state, const MotionBounds& bounds, const PublishPolicy& policy);
+
+  const std::optional<State>& staged() const { return staged_; }
+  const std::optional<State>& sent() const { return sent_; }
+  std::uint64_t sent_sequence() const { return sent_sequence_; }
+
+  /// Requires a staged state. `revision` is that of the agent's description.
+  bool IsDue(std::int64_t clock_ns, std::uint32_t revision, const PublishPolicy& policy) const;
+
+  /// The staged state is sent now, as number `sequence` of its simulator.
+  void MarkSent(std::uint64_t sequence, std::uint32_t revision);
+
+  /// What the service said at its time `now_ns`; `acknowledged`: the newest sequence it has taken.
+  void SetClearance(const Clearance& clearance, std::uint64_t acknowledged, std::int64_t now_ns);
+
+  const Clearance& clearance() const { return clearance_; }
+
+ private:
+  bool MustBeSent(std::uint32_t revision) const;
+
+  std::optional<State> staged_;
+  std::optional<State> sent_;
+  bool stands_in_ = false;  ///< `sent_` stands in for `staged_`.
+  std::uint64_t sent_sequence_ = 0;
+  std::uint32_t sent_revision_ = 0;  ///< Of the description, when `sent_` was sent.
+  std::uint64_t must_sequence_ = 0;  ///< Of the last state that had to be sent, wanted or not.
+  std::int64_t period_ns_ = 0;       ///< Between the last two stamps that were set.
+  /// Sequence of the last jump until the service has acknowledged it; 0: none. The network keeps
+  /// the newest sample only, so every state until then says that the motion jumped.
+  std::uint64_t jump_sequence_ = 0;
+  Clearance clearance_;
+  bool wanted_always_ = true;  ///< At every step; so until the service says otherwise.
+  std::uint64_t acknowledged_ = 0;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,46 @@
+#include "client/library/world/revision_filter.h"
+
+#include <algorithm>
+
+namespace collision::client {
+namespace {
+
+bool SameAgent(const v1::AgentId& a, const v1::AgentId& b) {
+  return a.simulator_id() == b.simulator_id() && a.run() == b.run() && a.slot() == b.slot() &&
+         a.generation() == b.generation();
+}
+
+bool SameContact(const v1::CollisionEvent& a, const v1::CollisionEvent& b) {
+  return a.contact() == b.contact() && SameAgent(a.lower(), b.lower()) &&
+         SameAgent(a.higher(), b.higher());
+}
+
+/// Whether one incarnation of a service said both, `earlier` first.
+bool SameIncarnation(const v1::ServiceStamp& earlier, const v1::ServiceStamp& later) {
+  return earlier.service_id() == later.service_id() && earlier.term() == later.term() &&
+         earlier.sequence() <= later.sequence();
+}
+
+}  // namespace
+
+bool RevisionFilter::IsCurrent(const v1::ServiceStamp& stamp) {
+  term_ = std::max(term_, stamp.term());
+  return stamp.term() == term_;
+}
+
+bool RevisionFilter::IsNew(const v1::CollisionEvent& event) {
+  const auto [entry, first] = seen_.try_emplace(event.pair_slot(), event);
+  if (first) return true;
+  const v1::CollisionEvent& known = entry->second;
+  if (SameContact(known, event)) {
+    const bool outdated =
+        SameIncarnation(known.stamp(), event.stamp())
+            ? event.revision() <= known.revision()
+            : event.revision() == known.revision() && event.status() == known.status();
+    if (outdated) return false;
+  }
+  entry->second = event;
+  return true;
+}
+
+}  // namespace collision::client

@@ -1,0 +1,44 @@
+#include "client/library/world/shape_publisher.h"
+
+namespace collision::client {
+
+void ShapePublisher::Add(const std::shared_ptr<const Shape>& shape, const Writer& write) {
+  if (!shape) return;
+  Entry& entry = entries_[shape->hash()];
+  if (entry.agents++ > 0) return;
+  entry.shape = shape;
+  WriteParts(*shape, write);
+}
+
+void ShapePublisher::Remove(const std::string& hash, const Writer& write) {
+  const auto entry = entries_.find(hash);
+  if (entry == entries_.end() || --entry->second.agents > 0) return;
+  entries_.erase(entry);
+  v1::Input message;
+  message.mutable_shape_removal()->set_simulator_id(simulator_id_);
+  message.mutable_shape_removal()->set_content_hash(hash);
+  write(message);
+}
+
+void ShapePublisher::WriteAll(const Writer& write) const {
+  for (const auto& [hash, entry] : entries_) WriteParts(*entry.shape, write);
+}
+
+void ShapePublisher::WriteParts(const Shape& shape, const Writer& write) const {
+  const std::string& bytes = shape.bytes();
+  v1::Input message;
+  v1::ShapePart* part = message.mutable_shape_part();
+  part->set_simulator_id(simulator_id_);
+  part->set_content_hash(shape.hash());
+  part->set_parts(
+      static_cast<std::uint32_t>((bytes.size() + kShapePartBytes - 1) / kShapePartBytes));
+  part->set_run(run_);
+  part->set_total_bytes(bytes.size());
+  for (std::uint32_t i = 0; i < part->parts(); ++i) {
+    part->set_part(i);
+    part->set_bytes(bytes.substr(i * kShapePartBytes, kShapePartBytes));
+    write(message);
+  }
+}
+
+}  // namespace collision::client

@@ -1,0 +1,119 @@
+#include "client/api/world.h"
+
+#include <exception>
+#include <utility>
+
+#include "client/library/network/dds_transport.h"
+#include "client/library/validation.h"
+#include "client/library/world/world_implementation.h"
+
+namespace collision::client {
+
+World World::Connect(const WorldOptions& options) {
+  Validate(options);
+  return World(std::make_shared<Implementation>(
+      options, ConnectSimulator(options.world, options.simulator, options.domain)));
+}
+
+World World::Connect(const WorldOptions& options, std::unique_ptr<Transport> transport) {
+  Validate(options);
+  return World(std::make_shared<Implementation>(options, std::move(transport)));
+}
+
+World::World(std::shared_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+
+World::World(World&&) noexcept = default;
+
+World& World::operator=(World&& other) noexcept {
+  World replaced(std::exchange(implementation_, std::move(other.implementation_)));
+  return *this;
+}
+
+World::~World() {
+  if (implementation_) implementation_->Close();
+}
+
+bool World::WaitForService(std::chrono::nanoseconds timeout) {
+  return implementation_->WaitForService(timeout);
+}
+
+Agent World::AddAgent(const AgentDescription& description, const State& state) {
+  return Agent(implementation_, implementation_->AddAgent(description, state));
+}
+
+void World::Publish(std::int64_t clock_ns) { implementation_->Publish(clock_ns); }
+
+Advance World::AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout) {
+  const auto alive = implementation_;  // A callback may end this World.
+  return alive->AdvanceTo(clock_ns, timeout);
+}
+
+std::int64_t World::clock_ns() const { return implementation_->clock_ns(); }
+
+std::int64_t World::granted_until_ns() const { return implementation_->granted_until_ns(); }
+
+std::optional<bool> World::simulated_clock() const { return implementation_->simulated_clock(); }
+
+void World::Poll(std::chrono::nanoseconds timeout) {
+  const auto alive = implementation_;  // A callback may end this World.
+  alive->Poll(timeout);
+}
+
+void World::OnEvent(std::function<void(const Event&)> callback) {
+  implementation_->OnEvent(std::move(callback));
+}
+
+std::vector<Event> World::TakeEvents() { return implementation_->TakeEvents(); }
+
+std::uint64_t World::events_lost() const { return implementation_->events_lost(); }
+
+const Traffic& World::traffic() const { return implementation_->traffic(); }
+
+std::vector<Rejection> World::TakeRejections() { return implementation_->TakeRejections(); }
+
+Agent::Agent(std::weak_ptr<World::Implementation> world, const AgentId& id)
+    : world_(std::move(world)), id_(id) {}
+
+Agent::Agent(Agent&& other) noexcept : world_(std::exchange(other.world_, {})), id_(other.id_) {}
+
+Agent& Agent::operator=(Agent&& other) noexcept {
+  if (this == &other) return *this;
+  Remove();
+  world_ = std::exchange(other.world_, {});
+  id_ = other.id_;
+  return *this;
+}
+
+Agent::~Agent() { Remove(); }
+
+const AgentId& Agent::id() const { return id_; }
+
+void Agent::SetState(const State& state) {
+  if (const auto world = Lock()) world->SetState(id_, state);
+}
+
+void Agent::SetDescription(const AgentDescription& description) {
+  if (const auto world = Lock()) world->SetDescription(id_, description);
+}
+
+Clearance Agent::clearance() const {
+  const auto world = Lock();
+  return world ? world->clearance(id_) : Clearance();
+}
+
+std::shared_ptr<World::Implementation> Agent::Lock() const {
+  auto world = world_.lock();
+  return world && !world->closed() ? world : nullptr;
+}
+
+void Agent::Remove() noexcept {
+  try {
+    if (const auto world = Lock()) world->RemoveAgent(id_);
+  } catch (const std::exception&) {
+    // A destructor cannot report it. Without a network the agent stays with the service, as if this
+    // process had been killed.
+  }
+}
+
+}  // namespace collision::client

@@ -1,0 +1,77 @@
+// scene-runner: runs a scene of separate processes and judges it.
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "client/programs/scene_runner/runner.h"
+#include "client/programs/shared/command_line.h"
+#include "client/programs/shared/stop_signal.h"
+
+namespace collision::client {
+namespace {
+
+constexpr double kSecondsMax = 3600;
+
+/// Checked before a run that may be long. Leaves no new file behind.
+bool IsWritable(const std::string& path) {
+  const bool was_there = std::filesystem::exists(path);
+  const bool writable = std::ofstream(path, std::ios::app).is_open();
+  std::error_code ignored;
+  if (writable && !was_there) std::filesystem::remove(path, ignored);
+  return writable;
+}
+
+}  // namespace
+}  // namespace collision::client
+
+int main(int argc, char** argv) {
+  using namespace collision::client;
+  RunnerOptions options;
+  bool list = false;
+  CLI::App app(
+      "Runs a scene: collisiond, simulators and a monitor on loopback, judged by the checker.",
+      "scene-runner");
+  app.add_option("scene", options.scene, "Name of the scene")->capture_default_str();
+  app.add_flag("--list", list, "List the scenes");
+  app.add_option("--seconds", options.seconds, "Simulated length; default: as the scene says")
+      ->check(Finite(kSecondsMax, false));
+  app.add_flag("--real-time", options.real_time, "With the wall clock instead of lock-step");
+  app.add_flag("--stream", options.stream,
+               "Simulators send every state, not only those that the service needs: to compare");
+  app.add_option("--config", options.config,
+                 "Fields that override the scene's service configuration, as protobuf text: "
+                 "'time_budget_us: 100'");
+  app.add_flag("--every-event", options.every_event,
+               "Print every possible, dismissed and withdrawn event");
+  app.add_option("--json", options.json, "Write the report (v1::RunReport) to this file");
+  app.add_option("--logs", options.logs, "Keep configuration, logs and motion logs in this folder");
+  app.add_option("--scenes", options.folders.scenes, "Folder of the scenes")->capture_default_str();
+  app.add_option("--data", options.folders.data, "Folder of the real data sets")
+      ->capture_default_str();
+  app.add_option("--bin", options.folders.bin, "Folder of the programs")->capture_default_str();
+  app.add_option("--domain", options.domain, "DDS domain; default: depends on the process id")
+      ->check(CLI::Range(0, 230));
+  if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
+  if (!options.json.empty() && !IsWritable(options.json)) {
+    std::fprintf(stderr, "scene-runner: --json: %s cannot be written\n", options.json.c_str());
+    return kExitUsage;
+  }
+  CatchStopSignals();
+  try {
+    if (list) {
+      std::printf("%s", ListScenes(options.folders).c_str());
+      return kSatisfied;
+    }
+    return Runner(options).Run();
+  } catch (const NoSuchScene& error) {
+    std::fprintf(stderr, "scene-runner: %s\n", error.what());
+    return kExitUsage;
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "scene-runner: %s\n", error.what());
+    return kExitUsage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "scene-runner: %s\n", error.what());
+    return kNotSatisfied;
+  }
+}

@@ -1,0 +1,31 @@
+// The options that give a simulator's agents a mesh, convex solids, or both.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "client/api/mesh_file.h"
+
+namespace collision::client {
+
+struct MeshOptions {
+  std::string file;  ///< Empty: no triangles.
+  MeshFileOptions frame;
+  std::string solids;  ///< A file (idl/solids.proto); empty: none. Neither: the agents are balls.
+};
+
+/// Adds --mesh FILE, --mesh-unit METRES and --mesh-up x|y|z (both required with --mesh),
+/// --mesh-centre and --solids FILE.
+void AddMeshOptions(CLI::App* app, MeshOptions* options);
+
+/// Adds unit, up-axis and centre alone, under these names.
+void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::string& up,
+                         const std::string& centre, MeshFileOptions* options);
+
+/// The mesh of --mesh and the solids of --solids as one shape; null without either. Prints what was
+/// read, unless `quiet`. Throws BadInput with the file's name where LoadShape(), ReadSolids() or
+/// Shape::Make() throws.
+std::shared_ptr<const Shape> LoadAgentShape(const MeshOptions& options, bool quiet = false);
+
+}  // namespace collision::client

@@ -1,0 +1,180 @@
+#include "client/programs/shared/pace.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+#include "client/api/event_text.h"
+#include "client/programs/shared/stop_signal.h"
+#include "client/programs/shared/wait_notice.h"
+#include "idl/scene.pb.h"
+
+namespace collision::client {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::nanoseconds;
+using std::chrono::steady_clock;
+
+constexpr std::chrono::seconds kServiceTimeout{20};
+constexpr std::chrono::seconds kGrantTimeout{30};
+constexpr milliseconds kStopCheck{50};  // period of looking for a stop signal
+
+World Connect(const SimulatorOptions& options) {
+  WorldOptions world;
+  world.world = options.world;
+  world.simulator = options.simulator;
+  world.domain = options.domain;
+  world.lock_step = !options.real_time;
+  world.on_demand = !options.stream;
+  return World::Connect(world);
+}
+
+std::string GrantedText(std::int64_t granted_ns) {
+  if (granted_ns == std::numeric_limits<std::int64_t>::min()) return "";
+  return " beyond " + InstantText(granted_ns, 0, 3);
+}
+
+}  // namespace
+
+Pace::Pace(const SimulatorOptions& options)
+    : options_(options), world_(Connect(options)), refusals_(options.simulator) {
+  WaitNotice notice(steady_clock::now());
+  const auto deadline = steady_clock::now() + kServiceTimeout;
+  while (!world_.WaitForService(kStopCheck)) {
+    if (StopRequested()) break;
+    notice.Tick(steady_clock::now(), options.simulator + ": waiting for the service of world " +
+                                         options.world + " on domain " +
+                                         std::to_string(options.domain) + " ...");
+    if (steady_clock::now() > deadline) {
+      throw std::runtime_error("no service in world \"" + options.world + "\", domain " +
+                               std::to_string(options.domain));
+    }
+  }
+  start_ = steady_clock::now();
+  if (!options_.real_time) return;
+  const std::int64_t now_ns =
+      std::chrono::duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
+          .count();
+  start_ns_ = options_.start_ns >= 0 ? options_.start_ns : now_ns;
+  start_ += nanoseconds(start_ns_ - now_ns);
+}
+
+std::int64_t Pace::end_ns() const { return start_ns_ + std::llround(options_.seconds * 1e9); }
+
+bool Pace::WaitForWall(steady_clock::time_point until) {
+  while (!StopRequested()) {
+    const auto left = until - steady_clock::now();
+    if (left <= nanoseconds(0)) return true;
+    world_.Poll(std::min<nanoseconds>(left, kStopCheck));
+    TakeRefusals();
+  }
+  return false;
+}
+
+bool Pace::AdvanceTo(std::int64_t clock_ns) {
+  const std::int64_t elapsed_ns = clock_ns - start_ns_;
+  if (options_.real_time) {
+    if (!WaitForWall(start_ + nanoseconds(elapsed_ns))) return false;
+    world_.Publish(clock_ns);
+    world_.Poll();
+    TakeRefusals();
+    return true;
+  }
+  if (options_.speed > 0) {
+    const auto due = nanoseconds(std::llround(static_cast<double>(elapsed_ns) / options_.speed));
+    if (!WaitForWall(start_ + due)) return false;
+  }
+  auto deadline = steady_clock::now() + kGrantTimeout;
+  WaitNotice notice(steady_clock::now());
+  std::int64_t granted_ns = world_.granted_until_ns();
+  while (!StopRequested()) {
+    const bool reached = world_.AdvanceTo(clock_ns, kStopCheck) == Advance::kReached;
+    TakeRefusals();
+    if (reached) return true;
+    if (world_.granted_until_ns() != granted_ns) {
+      granted_ns = world_.granted_until_ns();
+      deadline = steady_clock::now() + kGrantTimeout;
+      notice = WaitNotice(steady_clock::now());
+    }
+    const std::string beyond = GrantedText(granted_ns);
+    notice.Tick(steady_clock::now(), options_.simulator + ": waiting for the service of world " +
+                                         options_.world + " to grant time" + beyond +
+                                         " (another simulator may be behind) ...");
+    if (steady_clock::now() <= deadline) continue;
+    RequireAgentsTaken();
+    throw std::runtime_error("the service granted no time" + beyond + " for 30 s");
+  }
+  return false;
+}
+
+void Pace::TakeRefusals() {
+  refusals_.Add(world_.TakeRejections(), steady_clock::now());
+  if (world_.granted_until_ns() > granted_ns_) refusals_.Granted();
+  granted_ns_ = world_.granted_until_ns();
+  RequireClock();
+}
+
+void Pace::RequireClock() const {
+  const auto simulated = world_.simulated_clock();
+  if (!simulated || *simulated != options_.real_time) return;
+  throw RefusedError("the service of world " + options_.world +
+                     (*simulated ? " has a simulated clock: not with --real-time"
+                                 : " has a wall clock: only with --real-time"));
+}
+
+void Pace::RequireAgentsTaken() const {
+  const auto reason = refusals_.fatal(steady_clock::now());
+  if (reason) throw RefusedError("the service refused this simulator's agents: " + *reason);
+}
+
+void Pace::ReportTraffic(bool quiet) const {
+  const Traffic& traffic = world_.traffic();
+  const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  if (!quiet) {
+    std::printf("states: %llu set, %llu sent in %llu samples\n", count(traffic.states_set),
+                count(traffic.states_sent), count(traffic.samples_sent));
+  }
+  if (options_.traffic.empty()) return;
+  v1::SimulatorTraffic report;
+  report.set_simulator(options_.simulator);
+  report.set_states_set(traffic.states_set);
+  report.set_states_sent(traffic.states_sent);
+  report.set_samples_sent(traffic.samples_sent);
+  report.set_bytes_sent(traffic.bytes_sent);
+  std::ofstream file(options_.traffic);
+  file << report.Utf8DebugString();
+  file.close();
+  if (!file) throw std::runtime_error(options_.traffic + ": could not be written");
+}
+
+void Pace::CheckRefusals() {
+  world_.Poll();
+  TakeRefusals();
+  const std::string summary = refusals_.Summary();
+  if (summary.empty()) return;
+  std::fprintf(stderr, "%s: %s\n", options_.simulator.c_str(), summary.c_str());
+  RequireAgentsTaken();
+}
+
+void Pace::Fly(double rate_hz, std::size_t state_every,
+               const std::function<bool(std::int64_t, std::int64_t, bool)>& step) {
+  std::int64_t t0_ns = start_ns();
+  for (std::size_t i = 1; AdvanceTo(t0_ns) && t0_ns < end_ns(); ++i) {
+    const std::int64_t elapsed_ns = std::llround(static_cast<double>(i) * 1e9 / rate_hz);
+    const std::int64_t t1_ns = std::min(end_ns(), start_ns() + elapsed_ns);
+    if (!step(t0_ns, t1_ns, i % state_every == 0 || t1_ns == end_ns())) return;
+    t0_ns = t1_ns;
+  }
+}
+
+void Pace::Linger() {
+  while (options_.linger && !StopRequested()) {
+    world_.Poll(kStopCheck);
+    TakeRefusals();
+  }
+}
+
+}  // namespace collision::client

@@ -1,0 +1,80 @@
+// The clock of a simulator: it moves as the service grants time, or with the wall clock.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "client/api/world.h"
+#include "client/programs/shared/refusals.h"
+
+namespace collision::client {
+
+/// The options of the connection, which all simulators share.
+struct SimulatorOptions {
+  std::string world = "default";
+  std::string simulator;
+  std::uint32_t domain = 0;
+  bool real_time = false;      ///< Wall-clock stamps; otherwise lock-step.
+  std::int64_t start_ns = -1;  ///< Wall clock: the run's start since 1970; -1: now.
+  double speed = 0;     ///< Lock-step: at most this many simulated seconds a second; 0: no limit.
+  double seconds = 0;   ///< Length of the run.
+  bool linger = false;  ///< At the end wait for SIGTERM, so that the service can decide everything.
+  bool stream = false;  ///< Send every state, not only those that the service needs.
+  std::string motion_log;
+  std::string traffic;  ///< File for the numbers of states set and sent; empty: none.
+};
+
+class Pace {
+ public:
+  /// Connects and waits for the service, at most 20 s; prints a notice while it waits. Throws
+  /// std::runtime_error.
+  explicit Pace(const SimulatorOptions& options);
+
+  World& world() { return world_; }
+
+  /// The run's start: 0 in lock-step.
+  std::int64_t start_ns() const { return start_ns_; }
+
+  /// The run's end.
+  std::int64_t end_ns() const;
+
+  /// Publishes the states with stamps up to `clock_ns` and moves the clock there; delivers events
+  /// and prints refusals meanwhile. False: the program was asked to stop. Throws std::runtime_error
+  /// if the service grants no time for 30 s; RefusedError if it refused the agents, or if its clock
+  /// is of the other kind.
+  bool AdvanceTo(std::int64_t clock_ns);
+
+  /// The loop of a simulator that steps `rate_hz` times a second. `step(t0, t1, with_states)`
+  /// computes the motion from t0 to t1 and, if `with_states` (at every `state_every`-th step and at
+  /// the end), sets the states at t1. Returns at the end of the run, when `step` returns false, or
+  /// when the program is asked to stop.
+  void Fly(double rate_hz, std::size_t state_every,
+           const std::function<bool(std::int64_t, std::int64_t, bool)>& step);
+
+  /// With SimulatorOptions::linger keeps receiving until the program is asked to stop.
+  void Linger();
+
+  /// At the end: prints how many states were set and sent, unless `quiet`, and writes the file.
+  void ReportTraffic(bool quiet = false) const;
+
+  /// At the end: prints how many samples were refused. Throws RefusedError if the agents were.
+  void CheckRefusals();
+
+ private:
+  bool WaitForWall(std::chrono::steady_clock::time_point until);
+  void TakeRefusals();
+  void RequireClock() const;
+  void RequireAgentsTaken() const;
+
+  SimulatorOptions options_;
+  World world_;
+  Refusals refusals_;
+  std::int64_t granted_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t start_ns_ = 0;
+  std::chrono::steady_clock::time_point start_;  // the same moment
+};
+
+}  // namespace collision::client

@@ -1,0 +1,20 @@
+// Convex solids from a text file (idl/solids.proto).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/api/solid.h"
+#include "idl/solids.pb.h"
+
+namespace collision::client {
+
+/// The solid of a message; for one without a core a ball without a radius, which no shape accepts.
+Solid SolidOf(const v1::ConvexSolid& message);
+
+/// All solids of a file of protobuf text. Throws BadInput with the file's name, line and cause: the
+/// file cannot be read or parsed, has no solids, or one without a core. Shape::Make() checks
+/// values.
+std::vector<Solid> ReadSolids(const std::string& path);
+
+}  // namespace collision::client

@@ -1,0 +1,90 @@
+// The state of a world as a monitor has received it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "client/library/network/message_monitor.h"
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// One agent, as far as it is known.
+struct AgentView {
+  v1::AgentDescription description;
+  std::optional<v1::AgentState> state;
+  std::optional<v1::AgentClearance> clearance;
+};
+
+/// One shape of one simulator, as far as its parts have arrived.
+struct ShapeView {
+  std::string hash;
+  std::string simulator;
+  std::uint32_t run = 0;
+  std::size_t agents = 0;  ///< Agents of this simulator that have it.
+  std::uint64_t bytes = 0;
+  std::uint32_t parts = 0;
+  std::set<std::uint32_t> parts_seen;
+  std::optional<std::uint32_t> triangles;  ///< From its first part.
+  std::optional<std::uint32_t> solids;     ///< Convex solids, likewise.
+};
+
+/// Takes messages in any order and keeps the newest of each kind. The callbacks refer to the view,
+/// which must outlive the monitor that holds them and must not move.
+class WorldView {
+ public:
+  /// Maximum number of names; beyond it those of the lowest simulator and run are dropped.
+  static constexpr std::size_t kNamesMax = 1'000'000;
+
+  WorldView() = default;
+  WorldView(const WorldView&) = delete;
+  WorldView& operator=(const WorldView&) = delete;
+
+  MessageMonitor::Callbacks Callbacks();
+
+  const std::optional<v1::ServiceStatus>& status() const { return status_; }
+  const std::optional<v1::EarliestIntersection>& earliest() const { return earliest_; }
+
+  /// All described agents, by simulator and slot.
+  std::vector<AgentView> Agents() const;
+
+  /// All shapes, by simulator and hash.
+  std::vector<ShapeView> Shapes() const;
+
+  /// Whether it knows as many agents as the service says it has.
+  bool knows_all_agents() const;
+
+  /// The agent's name as it was first described, also after it or its simulator has left;
+  /// "simulator:slot" if it was never described.
+  std::string Name(const AgentId& id) const;
+  bool IsNamed(const AgentId& id) const;
+
+  /// The events since the last call, in the order in which the service published them.
+  std::vector<v1::CollisionEvent> TakeEvents();
+
+ private:
+  using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot.
+
+  void Handle(const v1::AgentDescription& description);
+  void Handle(const v1::AgentRemoval& removal);
+  void Handle(const v1::ShapePart& part);
+  void Handle(const v1::AgentStates& states);
+  void Handle(const v1::Clearance& clearance);
+  std::string SimulatorName(std::uint64_t id) const;
+
+  std::optional<v1::ServiceStatus> status_;
+  std::optional<v1::EarliestIntersection> earliest_;
+  std::map<Key, v1::AgentDescription> descriptions_;
+  std::map<AgentId, std::string> names_;                            ///< Also of agents that left.
+  std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;  ///< With their run.
+  std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
+  std::map<std::pair<std::uint64_t, std::string>, ShapeView> shapes_;  ///< By simulator and hash.
+  std::vector<v1::CollisionEvent> events_;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,135 @@
+#include "client/programs/simulators/player/player.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <stdexcept>
+
+#include "client/library/validation.h"
+
+namespace collision::client {
+namespace {
+
+State StateAt(const PositionAndVelocity& at, std::int64_t stamp_ns, const PlayerOptions& options) {
+  State state;
+  state.stamp_ns = stamp_ns;
+  state.position_m = at.position_m;
+  state.velocity_m_s = at.velocity_m_s;
+  state.position_error_m = options.position_error_m;
+  return state;
+}
+
+AgentDescription Description(const PlayedAgent& agent, const PlayerOptions& options) {
+  AgentDescription description;
+  description.name = agent.name;
+  description.radius_m = options.radius_m;
+  description.acceleration_max_m_s2 = options.acceleration_max_m_s2 >= 0
+                                          ? options.acceleration_max_m_s2
+                                          : agent.trajectory.AccelerationMax();
+  description.shape = options.shape;
+  if (options.shape) description.angular_acceleration_max_rad_s2 = 0;
+  return description;
+}
+
+// One agent between its first row and its last.
+class Part {
+ public:
+  Part(const PlayedAgent& agent, const PlayerOptions& options) : agent_(agent), options_(options) {}
+
+  // Sets the agent's next state; the first one adds it to the world.
+  void Stage(std::int64_t stamp_ns, World* world, MotionLog* log) {
+    const State state = StateAt(agent_.trajectory.At(stamp_ns), stamp_ns, options_);
+    if (handle_) {
+      handle_->SetState(state);
+      return;
+    }
+    handle_.emplace(world->AddAgent(Description(agent_, options_), state));
+    log->Agent(agent_.name, options_.radius_m, options_.shape);
+  }
+
+  // The clock has reached `clock_ns`: logs the motion played, and removes the agent after its last
+  // row.
+  void Passed(std::int64_t clock_ns, MotionLog* log) {
+    const auto& pieces = agent_.trajectory.pieces();
+    for (; logged_ < pieces.size() && pieces[logged_].t1_ns <= clock_ns; ++logged_) {
+      log->Piece(agent_.name, pieces[logged_]);
+    }
+    if (agent_.trajectory.end_ns() < clock_ns) handle_.reset();
+  }
+
+  // The run is over: the current piece ends here.
+  void Finish(std::int64_t clock_ns, MotionLog* log) {
+    const auto& pieces = agent_.trajectory.pieces();
+    if (logged_ == pieces.size() || pieces[logged_].t0_ns >= clock_ns) return;
+    MotionPiece piece = pieces[logged_];
+    piece.t1_ns = clock_ns;
+    log->Piece(agent_.name, piece);
+  }
+
+ private:
+  const PlayedAgent& agent_;
+  const PlayerOptions& options_;
+  std::optional<Agent> handle_;
+  std::size_t logged_ = 0;
+};
+
+}  // namespace
+
+void RequirePlayable(const PlayedAgent& agent, const PlayerOptions& options,
+                     const std::string& file) {
+  std::size_t line = 0;
+  try {
+    for (const CsvRow& row : agent.trajectory.rows()) {
+      line = row.line;
+      Validate(StateAt({row.position_m, row.velocity_m_s}, row.time_ns, options));
+    }
+    line = agent.trajectory.rows().front().line;
+    Validate(Description(agent, options));
+  } catch (const std::invalid_argument& error) {
+    throw CsvError(file + ":" + std::to_string(line) + ": agent " + agent.name + ": " +
+                   error.what());
+  }
+}
+
+std::vector<std::int64_t> StateInstants(const Trajectory& trajectory, double rate_hz,
+                                        std::int64_t start_ns) {
+  std::vector<std::int64_t> instants;
+  if (rate_hz <= 0) {
+    for (const CsvRow& row : trajectory.rows()) instants.push_back(row.time_ns);
+    return instants;
+  }
+  const double period_ns = 1e9 / rate_hz;
+  instants.push_back(trajectory.begin_ns());
+  auto k = static_cast<std::int64_t>(
+      std::floor(static_cast<double>(trajectory.begin_ns() - start_ns) / period_ns));
+  for (;; ++k) {
+    const std::int64_t stamp = start_ns + std::llround(static_cast<double>(k) * period_ns);
+    if (stamp >= trajectory.end_ns()) break;
+    if (stamp > instants.back()) instants.push_back(stamp);
+  }
+  if (trajectory.end_ns() > instants.back()) instants.push_back(trajectory.end_ns());
+  return instants;
+}
+
+void Play(const std::vector<PlayedAgent>& agents, const PlayerOptions& options, Pace* pace,
+          MotionLog* log) {
+  std::vector<Part> parts;
+  std::map<std::int64_t, std::vector<std::size_t>> due;  // agents with a state at an instant
+  for (const PlayedAgent& agent : agents) {
+    for (const std::int64_t stamp :
+         StateInstants(agent.trajectory, options.rate_hz, pace->start_ns())) {
+      if (pace->start_ns() <= stamp && stamp <= pace->end_ns()) due[stamp].push_back(parts.size());
+    }
+    parts.emplace_back(agent, options);
+  }
+  due[pace->end_ns()];
+  for (const auto& [stamp, indices] : due) {
+    for (const std::size_t i : indices) parts[i].Stage(stamp, &pace->world(), log);
+    if (!pace->AdvanceTo(stamp)) break;
+    for (Part& part : parts) part.Passed(stamp, log);
+  }
+  for (Part& part : parts) part.Finish(pace->world().clock_ns(), log);
+  pace->Linger();
+}
+
+}  // namespace collision::client

@@ -1,0 +1,84 @@
+#include "client/programs/simulators/player/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace collision::client {
+namespace {
+
+// The second derivative is computed from differences of doubles with a handful of roundings;
+// rounding it up by this much more than covers them.
+constexpr double kRelativeMargin = 1e-9;
+
+// Half an ulp in each coordinate of a state looks like an acceleration of ulp / h² over a piece of
+// length h. Three axes, two states and the evaluation between them stay below 16 roundings.
+constexpr double kRoundings = 16;
+
+double Seconds(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns - from_ns) * 1e-9;
+}
+
+double Norm(const Vector3& v) { return std::hypot(v[0], v[1], v[2]); }
+
+void DifferenceVelocities(std::vector<CsvRow>* rows) {
+  const std::size_t n = rows->size();
+  for (std::size_t i = 0; i < n && n > 1; ++i) {
+    const CsvRow& before = (*rows)[i == 0 ? 0 : i - 1];
+    const CsvRow& after = (*rows)[std::min(i + 1, n - 1)];
+    const double duration = Seconds(before.time_ns, after.time_ns);
+    for (int axis = 0; axis < 3; ++axis) {
+      (*rows)[i].velocity_m_s[axis] = (after.position_m[axis] - before.position_m[axis]) / duration;
+    }
+  }
+}
+
+MotionPiece Hermite(const CsvRow& from, const CsvRow& to) {
+  MotionPiece piece{from.time_ns, to.time_ns, {}};
+  const double h = Seconds(from.time_ns, to.time_ns);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double slope = (to.position_m[axis] - from.position_m[axis]) / h;
+    const double v0 = from.velocity_m_s[axis], v1 = to.velocity_m_s[axis];
+    piece.coefficients[axis] = {from.position_m[axis], v0, (3 * slope - 2 * v0 - v1) / h,
+                                (v0 + v1 - 2 * slope) / (h * h)};
+  }
+  return piece;
+}
+
+}  // namespace
+
+Trajectory::Trajectory(std::vector<CsvRow> rows, bool velocities, std::int64_t offset_ns)
+    : rows_(std::move(rows)) {
+  for (CsvRow& row : rows_) row.time_ns += offset_ns;
+  if (!velocities) DifferenceVelocities(&rows_);
+  for (std::size_t i = 1; i < rows_.size(); ++i) pieces_.push_back(Hermite(rows_[i - 1], rows_[i]));
+}
+
+PositionAndVelocity Trajectory::At(std::int64_t stamp_ns) const {
+  const auto row = std::lower_bound(rows_.begin(), rows_.end(), stamp_ns,
+                                    [](const CsvRow& r, std::int64_t t) { return r.time_ns < t; });
+  if (row->time_ns == stamp_ns) return {row->position_m, row->velocity_m_s};
+  return Evaluate(pieces_[row - rows_.begin() - 1], stamp_ns);
+}
+
+double Trajectory::AccelerationMax() const {
+  constexpr double kUlp = std::numeric_limits<double>::epsilon();
+  double greatest = 0;
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    const auto& c = pieces_[i].coefficients;
+    const double h = Seconds(pieces_[i].t0_ns, pieces_[i].t1_ns);
+    Vector3 first{}, last{};
+    for (int axis = 0; axis < 3; ++axis) {
+      first[axis] = 2 * c[axis][2];
+      last[axis] = 2 * c[axis][2] + 6 * c[axis][3] * h;
+    }
+    const double length = std::max(Norm(rows_[i].position_m), Norm(rows_[i + 1].position_m));
+    const double speed = std::max(Norm(rows_[i].velocity_m_s), Norm(rows_[i + 1].velocity_m_s));
+    const double rounding = kRoundings * kUlp * (length / (h * h) + speed / h);
+    greatest =
+        std::max(greatest, std::max(Norm(first), Norm(last)) * (1 + kRelativeMargin) + rounding);
+  }
+  return greatest;
+}
+
+}  // namespace collision::client

@@ -1,0 +1,41 @@
+// The motion that a table of positions defines.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "client/programs/simulators/motion/motion_log.h"
+#include "client/programs/simulators/player/csv_rows.h"
+
+namespace collision::client {
+
+/// The cubic Hermite curve through rows of positions and velocities: positions and velocities are
+/// continuous, the acceleration is linear on each piece and largest at one of its ends.
+class Trajectory {
+ public:
+  /// At least one row, times strictly increasing. Without `velocities` they are central
+  /// differences, one-sided at the ends (and zero for a single row). `offset_ns` is added to every
+  /// time.
+  Trajectory(std::vector<CsvRow> rows, bool velocities, std::int64_t offset_ns);
+
+  std::int64_t begin_ns() const { return rows_.front().time_ns; }
+  std::int64_t end_ns() const { return rows_.back().time_ns; }
+
+  /// The rows with their velocities and times as played.
+  const std::vector<CsvRow>& rows() const { return rows_; }
+
+  /// One less than rows; piece i leads from row i to row i + 1.
+  const std::vector<MotionPiece>& pieces() const { return pieces_; }
+
+  /// On the curve; `stamp_ns` in [begin_ns, end_ns]. At a row exactly that row.
+  PositionAndVelocity At(std::int64_t stamp_ns) const;
+
+  /// A bound that the curve and the states taken from it keep [m/s²].
+  double AccelerationMax() const;
+
+ private:
+  std::vector<CsvRow> rows_;
+  std::vector<MotionPiece> pieces_;
+};
+
+}  // namespace collision::client

@@ -1,0 +1,171 @@
+// trajectory-player: a simulator that plays a table of positions.
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+
+#include "client/library/validation.h"
+#include "client/programs/shared/command_line.h"
+#include "client/programs/shared/mesh_option.h"
+#include "client/programs/shared/stop_signal.h"
+#include "client/programs/simulators/player/csv_rows.h"
+#include "client/programs/simulators/player/player.h"
+
+namespace collision::client {
+namespace {
+
+constexpr std::size_t kAgentsPrinted = 10;
+
+struct Options {
+  SimulatorOptions simulator;
+  PlayerOptions player;
+  MeshOptions mesh;
+  std::string file;
+  std::vector<std::string> agents;  // ID or ID=NAME; none: all
+  bool quiet = false;
+};
+
+// The selected agents as name -> rows. Throws CsvError if one is not in the file.
+std::vector<PlayedAgent> Choose(const Options& options, const CsvRows& file,
+                                std::int64_t start_ns) {
+  std::vector<std::string> chosen = options.agents;
+  if (chosen.empty()) {
+    for (const auto& [id, rows] : file.rows) chosen.push_back(id);
+  }
+  std::vector<PlayedAgent> agents;
+  for (const std::string& choice : chosen) {
+    const std::size_t equals = choice.find('=');
+    const std::string id = choice.substr(0, equals);
+    const auto rows = file.rows.find(id);
+    if (rows == file.rows.end())
+      throw CsvError(options.file + ": no agent \"" + id + "\" in the file");
+    agents.push_back({equals == std::string::npos ? id : choice.substr(equals + 1),
+                      Trajectory(rows->second, file.velocities, start_ns)});
+  }
+  return agents;
+}
+
+void Print(const Options& options, const std::vector<PlayedAgent>& agents) {
+  if (options.quiet) return;
+  const bool derived = options.player.acceleration_max_m_s2 < 0;
+  double greatest = 0;
+  for (std::size_t i = 0; i < agents.size(); ++i) {
+    const Trajectory& trajectory = agents[i].trajectory;
+    const double bound =
+        derived ? trajectory.AccelerationMax() : options.player.acceleration_max_m_s2;
+    greatest = std::max(greatest, bound);
+    if (i >= kAgentsPrinted) continue;
+    std::printf("agent %s: %zu rows, acceleration at most %.6g m/s2%s\n", agents[i].name.c_str(),
+                trajectory.rows().size(), bound, derived ? " (derived)" : "");
+  }
+  if (agents.size() > kAgentsPrinted) {
+    std::printf("... %zu agents in all, acceleration at most %.6g m/s2\n", agents.size(), greatest);
+  }
+  std::fflush(stdout);
+}
+
+double FileSeconds(const CsvRows& file) {
+  std::int64_t last = 0;
+  for (const auto& [id, rows] : file.rows) last = std::max(last, rows.back().time_ns);
+  return static_cast<double>(last) * 1e-9;
+}
+
+// Checks everything before the program connects.
+void CheckAgents(const Options& options, const CsvRows& file) {
+  std::size_t rows = 0, before = 0;
+  for (const PlayedAgent& agent : Choose(options, file, 0)) {
+    RequirePlayable(agent, options.player, options.file);
+    for (const CsvRow& row : agent.trajectory.rows()) before += row.time_ns < 0;
+    rows += agent.trajectory.rows().size();
+  }
+  if (before == 0) return;
+  const std::string what = options.file + ": " + std::to_string(before) + " of " +
+                           std::to_string(rows) + " rows are before the run's start, time 0";
+  if (before == rows) throw CsvError(what);
+  std::fprintf(stderr, "trajectory-player: %s; they are not sent\n", what.c_str());
+}
+
+// Gives each agent the shape, inside the ball that was asked for or the smallest one.
+void TakeMesh(Options* options) {
+  options->player.shape = LoadAgentShape(options->mesh, options->quiet);
+  const bool radius_given = options->player.radius_m >= 0;
+  if (options->player.shape && !radius_given) {
+    options->player.radius_m = options->player.shape->radius_m();
+  }
+}
+
+int Run(Options options) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(options.file, ignored)) {
+    std::fprintf(stderr, "trajectory-player: %s: is a directory\n", options.file.c_str());
+    return kExitNoInput;
+  }
+  std::ifstream stream(options.file);
+  if (!stream) {
+    std::fprintf(stderr, "trajectory-player: %s: cannot be read\n", options.file.c_str());
+    return kExitNoInput;
+  }
+  const CsvRows file = ReadCsv(stream, options.file);
+  TakeMesh(&options);
+  CheckAgents(options, file);
+  if (options.simulator.seconds <= 0) options.simulator.seconds = FileSeconds(file);
+  MotionLog log(options.simulator.motion_log);
+  Pace pace(options.simulator);
+  const std::vector<PlayedAgent> agents = Choose(options, file, pace.start_ns());
+  Print(options, agents);
+  Play(agents, options.player, &pace, &log);
+  log.Close();
+  pace.ReportTraffic(options.quiet);
+  pace.CheckRefusals();
+  return kExitOk;
+}
+
+}  // namespace
+}  // namespace collision::client
+
+int main(int argc, char** argv) {
+  using namespace collision::client;
+  Options options;
+  CLI::App app("Plays agents' positions from a CSV file into a world of the collision service.",
+               "trajectory-player");
+  app.add_option("file", options.file, "CSV: time_s, agent_id, x_m, y_m [, z_m] [, vx_m_s, ...]")
+      ->required();
+  app.add_option("--agents", options.agents,
+                 "Agents to play, ID or ID=NAME, separated by commas; default: all")
+      ->delimiter(',');
+  options.player.radius_m = -1;
+  auto* radius = app.add_option("--radius", options.player.radius_m,
+                                "Bounding radius of every agent [m]; default: that of --mesh")
+                     ->check(Finite(kRadiusMax, true));
+  app.add_option("--acceleration-max", options.player.acceleration_max_m_s2,
+                 "Of every agent [m/s2]; default: derived from the data, per agent")
+      ->check(Finite(kAccelerationMax, true));
+  app.add_option("--position-error", options.player.position_error_m, "Of every state [m]")
+      ->check(Finite(kRadiusMax, true));
+  app.add_option("--rate", options.player.rate_hz,
+                 "States per second on the curve; default: at the rows")
+      ->check(Finite(1e9, false));
+  app.add_option("--seconds", options.simulator.seconds,
+                 "Length of the run; default: to the last row")
+      ->check(Finite(kRunSecondsMax, false));
+  app.add_flag("--quiet", options.quiet, "Print nothing");
+  AddMeshOptions(&app, &options.mesh);
+  AddSimulatorOptions(&app, &options.simulator);
+  if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
+  if (radius->empty() && options.mesh.file.empty()) {
+    std::fprintf(stderr, "trajectory-player: --radius is required without --mesh\n");
+    return kExitUsage;
+  }
+  CatchStopSignals();
+  return RunProgram("trajectory-player", [&options]() -> int {
+    try {
+      return Run(options);
+    } catch (const CsvError& error) {
+      throw BadInput(error.what());
+    } catch (const std::invalid_argument& error) {  // A state between two rows is out of range.
+      throw BadInput(options.file + ": " + error.what());
+    }
+  });
+}

@@ -1,0 +1,51 @@
+// terrain: a simulator of ground that never moves, with a mesh of any size.
+
+#include <cstdio>
+
+#include "client/library/validation.h"
+#include "client/programs/shared/command_line.h"
+#include "client/programs/shared/stop_signal.h"
+#include "client/programs/simulators/terrain/terrain.h"
+
+int main(int argc, char** argv) {
+  using namespace collision::client;
+  SimulatorOptions simulator;
+  TerrainOptions terrain;
+  CLI::App app("Puts hills into a world of the collision service: one agent that never moves.",
+               "terrain");
+  app.add_option("--triangles", terrain.triangles, "Greatest number of triangles")
+      ->check(CLI::Range(kTerrainTrianglesMin, kShapeTrianglesMax))
+      ->capture_default_str();
+  app.add_option("--size", terrain.size_m, "Side of its square, from the origin along +x, +y [m]")
+      ->check(Finite(kTerrainSizeMax, false))
+      ->capture_default_str();
+  app.add_option("--relief", terrain.relief_m,
+                 "Greatest height of a summit above the lowest valley [m]")
+      ->check(Finite(kTerrainSizeMax, false))
+      ->capture_default_str();
+  app.add_option("--base", terrain.base_m, "z of the lowest possible valley [m]")
+      ->check(CLI::Range(-kTerrainSizeMax, kTerrainSizeMax))
+      ->capture_default_str();
+  app.add_option("--seed", terrain.seed, "Seed of the hills")->capture_default_str();
+  app.add_option("--await-tree", terrain.await_tree_s,
+                 "Longest time to wait for the service to build the sphere tree [s], 0 to 25")
+      ->check(Finite(kAwaitTreeMax, true))
+      ->capture_default_str();
+  app.add_flag("--coarse", terrain.coarse_is_enough,
+               "Wait for the coarse tree only, which is built first");
+  app.add_option("--seconds", simulator.seconds, "Length of the run")
+      ->required()
+      ->check(Finite(kRunSecondsMax, false));
+  AddSimulatorOptions(&app, &simulator);
+  if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
+  CatchStopSignals();
+  return RunProgram("terrain", [&] {
+    MotionLog log(simulator.motion_log);
+    Pace pace(simulator);
+    ServeTerrain(terrain, simulator, &pace, &log);
+    log.Close();
+    pace.ReportTraffic();
+    pace.CheckRefusals();
+    return static_cast<int>(kExitOk);
+  });
+}

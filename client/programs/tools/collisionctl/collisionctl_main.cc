@@ -1,0 +1,206 @@
+// collisionctl: shows a running world from outside.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <csignal>
+#include <iostream>
+#include <stdexcept>
+
+#include "client/api/event_text.h"
+#include "client/api/pending_names.h"
+#include "client/library/deadline.h"
+#include "client/library/network/conversion.h"
+#include "client/library/validation.h"
+#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/text_pages.h"
+#include "client/programs/tools/sphere_tree/command.h"
+
+namespace collision::client {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr int kUsage = 2;
+constexpr int kUnavailable = 69;          // EX_UNAVAILABLE of sysexits.h.
+constexpr int kOutputFailed = 74;         // EX_IOERR of sysexits.h.
+constexpr milliseconds kQuiet{150};       // Nothing new for this long: the picture is complete.
+constexpr milliseconds kFollowWait{250};  // Longest time to notice Ctrl-C.
+constexpr int kPollsMax = 8;  // Then the picture counts as complete in a world that is never quiet.
+
+volatile std::sig_atomic_t stopped = 0;
+
+struct Options {
+  MonitorOptions monitor{.simulators = true};
+  double timeout_s = 3;
+  bool json = false;
+  bool follow = false;
+};
+
+/// Gathers the values that late readers receive, until `enough` and quiet, or until the deadline.
+template <typename Enough>
+void Gather(MessageMonitor* monitor, const Deadline& deadline, Enough enough) {
+  for (int polls = 0; polls < kPollsMax && stopped == 0 && deadline.Remaining().count() > 0;) {
+    const auto wait = std::min<std::chrono::nanoseconds>(kQuiet, deadline.Remaining());
+    const bool quiet = monitor->Poll(wait) == 0;
+    if (!enough()) continue;
+    if (quiet) return;
+    ++polls;
+  }
+}
+
+bool WaitForService(MessageMonitor* monitor, const WorldView& view, const Deadline& deadline) {
+  while (!view.status() && stopped == 0) {
+    if (deadline.Remaining().count() == 0) return false;
+    monitor->Poll(std::min<std::chrono::nanoseconds>(kFollowWait, deadline.Remaining()));
+  }
+  return view.status().has_value();
+}
+
+void PrintLine(const Event& event, const WorldView& view) {
+  std::cout << EventLine(
+                   event, [&view](const AgentId& id) { return view.Name(id); }, 0)
+            << '\n';
+}
+
+/// Prints every event that has arrived.
+void PrintEvents(WorldView* view, bool json) {
+  for (const v1::CollisionEvent& message : view->TakeEvents()) {
+    if (json) {
+      std::cout << Json(message) << '\n';
+    } else {
+      PrintLine(FromMessage(message), *view);
+    }
+  }
+  std::cout.flush();
+}
+
+/// Likewise, but a line waits for the names of its agents; JSON has none.
+void PrintNewEvents(WorldView* view, PendingNames* pending, bool json) {
+  if (json) return PrintEvents(view, json);
+  const auto now = std::chrono::steady_clock::now();
+  for (const v1::CollisionEvent& message : view->TakeEvents()) {
+    pending->Add(FromMessage(message), now);
+  }
+  const auto named = [view](const AgentId& id) { return view->IsNamed(id); };
+  for (const Event& event : pending->Take(named, now)) PrintLine(event, *view);
+  std::cout.flush();
+}
+
+void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
+  PendingNames pending;
+  bool alive = true;
+  while (stopped == 0 && std::cout) {
+    PrintNewEvents(view, &pending, json);
+    monitor->Poll(kFollowWait);
+    if (monitor->service_alive() == alive) continue;
+    alive = !alive;
+    std::cerr << (alive ? "the service is back\n" : "the service is gone; waiting for it\n");
+  }
+}
+
+void Print(const std::string& command, const Options& options, WorldView* view) {
+  if (command == "events") return PrintEvents(view, options.json);
+  if (command == "status") {
+    std::cout << (options.json ? Json(*view->status()) + "\n" : StatusPage(*view));
+  } else if (command == "agents") {
+    std::cout << (options.json ? AgentsJson(*view) + "\n" : AgentsPage(*view));
+  } else if (command == "shapes") {
+    std::cout << (options.json ? ShapesJson(*view) + "\n" : ShapesPage(*view));
+  } else if (options.json) {
+    std::cout << (view->earliest() ? Json(*view->earliest()) : "{}") << '\n';
+  } else {
+    std::cout << EarliestPage(*view);
+  }
+}
+
+int Run(const std::string& command, const Options& options) {
+  WorldView view;
+  MessageMonitor monitor(options.monitor, view.Callbacks());
+  const std::chrono::duration<double> timeout(options.timeout_s);
+  const Deadline deadline(std::chrono::duration_cast<std::chrono::nanoseconds>(timeout));
+  if (!WaitForService(&monitor, view, deadline)) {
+    if (stopped != 0) return 0;
+    std::cerr << "collisionctl: no service in world \"" << options.monitor.world << "\" on domain "
+              << options.monitor.domain << " within " << options.timeout_s << " s\n";
+    return kUnavailable;
+  }
+  Gather(&monitor, deadline, [&view] { return view.knows_all_agents(); });
+  if (options.follow) {
+    Follow(&monitor, &view, options.json);
+  } else {
+    Print(command, options, &view);
+  }
+  std::cout.flush();
+  if (std::cout) return 0;
+  std::cerr << "collisionctl: the output cannot be written\n";
+  return kOutputFailed;
+}
+
+constexpr const char* kExamples = R"(
+Examples:
+  collisionctl status                   health of the service, simulators, refusals
+  collisionctl earliest                 the pair that can touch first, and not before when
+  collisionctl agents                   every agent, and how long it is clear
+  collisionctl shapes                   every shape: owner, triangles and solids, parts received
+  collisionctl events                   the current revision of every event
+  collisionctl events --follow          one line per revision as it comes, until Ctrl-C
+  collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
+  collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
+
+It changes nothing in the world. The network is that of Cyclone DDS, set by CYCLONEDDS_URI.
+Exit codes: 0 done, 2 usage, 69 no service within the timeout or no DDS, 74 the output
+cannot be written.)";
+
+int Main(int argc, char** argv) {
+  CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
+  Options options;
+  app.add_option("--world", options.monitor.world, "World to look at")->capture_default_str();
+  app.add_option("--domain", options.monitor.domain, "DDS domain, 0 to 230")->capture_default_str();
+  app.add_option("--timeout", options.timeout_s, "Seconds to wait for a service, 0 to 1e6")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  app.add_flag("--json", options.json, "JSON for programs: one document, or one line per event");
+  app.require_subcommand(1);
+  app.fallthrough();
+  app.footer(kExamples);
+  app.add_subcommand("status", "Service, clock, simulators, broad phase and why, refusals");
+  app.add_subcommand("agents", "Table of all agents");
+  app.add_subcommand("shapes", "Table of all shapes that agents have");
+  app.add_subcommand("earliest", "The earliest intersection that is possible now");
+  app.add_subcommand("events", "The current events")
+      ->add_flag("--follow", options.follow, "Print every further revision as it arrives");
+  SphereTreeOptions tree;
+  const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  if (sphere_tree->parsed()) {
+    if (options.json) tree.report = "json";
+    return RunSphereTree(tree);
+  }
+  if (!std::isfinite(options.timeout_s)) {  // CLI::Range lets NaN pass.
+    std::cerr << "collisionctl: --timeout: " << options.timeout_s << ", allowed: 0 to 1e6\n";
+    return kUsage;
+  }
+  try {
+    ValidateWorld(options.monitor.world, options.monitor.domain);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "collisionctl: " << error.what() << '\n';
+    return kUsage;
+  }
+  const auto stop = [](int) { stopped = 1; };
+  std::signal(SIGINT, stop);
+  std::signal(SIGTERM, stop);
+  try {
+    return Run(app.get_subcommands().front()->get_name(), options);
+  } catch (const std::runtime_error& error) {
+    std::cerr << "collisionctl: " << error.what() << '\n';
+    return kUnavailable;
+  }
+}
+
+}  // namespace
+}  // namespace collision::client
+
+int main(int argc, char** argv) { return collision::client::Main(argc, argv); }

@@ -1,0 +1,51 @@
+#include "client/programs/tools/collisionctl/json_pages.h"
+
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <utility>
+
+#include "client/api/shape.h"
+
+namespace collision::client {
+
+std::string Json(const google::protobuf::Message& message) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.preserve_proto_field_names = true;
+  options.always_print_primitive_fields = true;
+  std::string text;
+  const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
+  return status.ok() ? text : "{}";
+}
+
+std::string AgentsJson(const WorldView& view) {
+  std::string json = "{\"agents\":[";
+  const char* separator = "";
+  for (const AgentView& agent : view.Agents()) {
+    json += std::exchange(separator, ",") + ("{\"description\":" + Json(agent.description));
+    if (agent.state) json += ",\"state\":" + Json(*agent.state);
+    if (agent.clearance) json += ",\"clearance\":" + Json(*agent.clearance);
+    json += "}";
+  }
+  return json + "]}";
+}
+
+std::string ShapesJson(const WorldView& view) {
+  std::string json = "{\"shapes\":[";
+  const char* separator = "";
+  for (const ShapeView& shape : view.Shapes()) {
+    google::protobuf::Value name;  // Adds quotes and escapes.
+    name.set_string_value(shape.simulator);
+    json += std::exchange(separator, ",");
+    json += "{\"hash\":\"" + HexText(shape.hash) + "\",\"simulator\":" + Json(name) +
+            ",\"agents\":" + std::to_string(shape.agents) +
+            ",\"triangles\":" + (shape.triangles ? std::to_string(*shape.triangles) : "null") +
+            ",\"solids\":" + (shape.solids ? std::to_string(*shape.solids) : "null") +
+            ",\"bytes\":" + std::to_string(shape.bytes) +
+            ",\"parts\":" + std::to_string(shape.parts) +
+            ",\"parts_seen\":" + std::to_string(shape.parts_seen.size()) + "}";
+  }
+  return json + "]}";
+}
+
+}  // namespace collision::client

@@ -1,0 +1,22 @@
+// The pages of collisionctl for programs: protobuf JSON with the field names of idl/messages.proto
+// and, as that mapping has it, 64-bit integers as strings. One line each, without a newline.
+#pragma once
+
+#include <string>
+
+#include "client/programs/shared/world_view.h"
+
+namespace collision::client {
+
+/// Any message of idl/messages.proto, with every field printed.
+std::string Json(const google::protobuf::Message& message);
+
+/// {"agents": [{"description": AgentDescription, "state": AgentState, "clearance": AgentClearance},
+/// ...]}, without the parts that are not known.
+std::string AgentsJson(const WorldView& view);
+
+/// {"shapes": [{"hash": hexadecimal, "simulator": name, "agents": n, "triangles": n or null,
+/// "bytes": n, "parts": n, "parts_seen": n}, ...]}
+std::string ShapesJson(const WorldView& view);
+
+}  // namespace collision::client

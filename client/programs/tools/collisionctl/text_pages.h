@@ -1,0 +1,28 @@
+// The pages of collisionctl, for people. Every page ends with a newline.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/programs/shared/world_view.h"
+
+namespace collision::client {
+
+/// Service, clock, simulators, broad phase and why, what is left out, refusals. Requires a status.
+std::string StatusPage(const WorldView& view);
+
+/// A table of all agents: identity, declaration, newest state, how long they are clear.
+std::string AgentsPage(const WorldView& view);
+
+/// A table of all shapes that simulators have published: owner, number of agents, size, and how
+/// much of it has arrived.
+std::string ShapesPage(const WorldView& view);
+
+/// The pair that can touch first, and before when it certainly does not.
+std::string EarliestPage(const WorldView& view);
+
+/// Rows in aligned columns, the first row being the heading. All rows have the same number of
+/// cells.
+std::string Table(const std::vector<std::vector<std::string>>& rows);
+
+}  // namespace collision::client

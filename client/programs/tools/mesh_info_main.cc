@@ -1,0 +1,67 @@
+// mesh-info: tells whether a mesh file is fit to be an agent's shape.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+
+#include "client/api/mesh_file.h"
+#include "client/programs/shared/mesh_option.h"
+
+namespace collision::client {
+namespace {
+
+constexpr int kUsage = 2;
+constexpr int kBadData = 65;  // EX_DATAERR of sysexits.h.
+
+constexpr const char* kFooter = R"(
+Examples:
+  mesh-info ship.obj --unit-m 1 --up z          metres, z upwards
+  mesh-info part.stl --unit-m 0.001 --up z      millimetres
+  mesh-info drone.glb --unit-m 1 --up y         glTF is metres and y upwards by definition
+
+An open surface has no inside: only crossing triangles are a contact.
+Exit codes: 0 fit, 2 usage, 65 the mesh is refused (the reason is printed).)";
+
+void Print(const Shape& shape) {
+  Vector3 lower = shape.triangles().vertices_m.front(), upper = lower;
+  for (const Vector3& p : shape.triangles().vertices_m) {
+    for (int i = 0; i < 3; ++i) {
+      lower[i] = std::min(lower[i], p[i]);
+      upper[i] = std::max(upper[i], p[i]);
+    }
+  }
+  for (int i = 0; i < 3; ++i) std::printf("%c %.6g to %.6g m\n", "xyz"[i], lower[i], upper[i]);
+  std::printf("%zu vertices, travels as %zu bytes\nhash %s\n", shape.triangles().vertices_m.size(),
+              shape.bytes().size(), HexText(shape.hash()).c_str());
+}
+
+int Main(int argc, char** argv) {
+  CLI::App app("Reads a mesh file as the simulators do, and prints the resulting shape.",
+               "mesh-info");
+  std::string file;
+  MeshFileOptions options;
+  app.add_option("file", file, "OBJ, STL, PLY, glTF or GLB")->required();
+  AddMeshFrameOptions(&app, "--unit-m", "--up", "--centre", &options);
+  app.get_option("--unit-m")->required();
+  app.get_option("--up")->required();
+  app.footer(kFooter);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  try {
+    MeshFileReport report;
+    const auto shape = LoadShape(file, options, &report);
+    std::printf("%s\n", report.Text(file).c_str());
+    Print(*shape);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "mesh-info: %s\n", error.what());
+    return kBadData;
+  }
+}
+
+}  // namespace
+}  // namespace collision::client
+
+int main(int argc, char** argv) { return collision::client::Main(argc, argv); }

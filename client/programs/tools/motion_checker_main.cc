@@ -1,0 +1,100 @@
+// motion-checker: compares the events of a run with the true contacts of the simulators' motion
+// logs.
+
+#include <google/protobuf/util/json_util.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "client/checker/check.h"
+
+namespace collision::checker {
+namespace {
+
+constexpr int kUsage = 2;
+constexpr int kBadData = 65;
+constexpr int kNoInput = 66;
+
+std::ifstream Open(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) {
+    std::fprintf(stderr, "motion-checker: %s: cannot be read\n", path.c_str());
+    std::exit(kNoInput);
+  }
+  return file;
+}
+
+int Run(const std::string& report_path, const std::vector<std::string>& logs,
+        const RunFacts& facts) {
+  std::vector<AgentMotion> motions;
+  for (const std::string& path : logs) {
+    std::ifstream file = Open(path);
+    auto more = ReadMotionLog(file, std::filesystem::path(path).stem().string());
+    std::move(more.begin(), more.end(), std::back_inserter(motions));
+  }
+  Observations observations;
+  if (!report_path.empty()) {
+    std::ifstream file = Open(report_path);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    v1::RunReport report;
+    const auto status = google::protobuf::util::JsonStringToMessage(text, &report);
+    if (!status.ok()) throw std::runtime_error(report_path + ": " + status.ToString());
+    observations.events = {report.events().begin(), report.events().end()};
+    observations.names = {report.names().begin(), report.names().end()};
+  }
+  const Evidence evidence(std::move(motions), observations, facts);
+  const std::size_t certain = evidence.contacts_certain();
+  std::printf("%zu agents, %zu true contacts", evidence.motions().size(), certain);
+  const std::size_t grazes = evidence.contacts().size() - certain;
+  if (grazes > 0) std::printf(", %zu grazes", grazes);
+  std::printf("\n");
+  if (report_path.empty()) {
+    for (const TrueContact& contact : evidence.contacts()) {
+      std::printf("%s  %s to %s%s\n", evidence.PairName(contact.a, contact.b).c_str(),
+                  evidence.Time(contact.begin_ns).c_str(), evidence.Time(contact.end_ns).c_str(),
+                  contact.certain ? "" : "  (a graze)");
+    }
+    return 0;
+  }
+  Violations violations = CheckEvents(evidence);
+  const Violations of_geometry = CheckGeometry(evidence);
+  violations.insert(violations.end(), of_geometry.begin(), of_geometry.end());
+  for (const std::string& violation : violations) std::printf("violation: %s\n", violation.c_str());
+  std::printf("%zu events checked: %s\n", evidence.histories().size(),
+              violations.empty() ? "satisfied" : "NOT satisfied");
+  return violations.empty() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace collision::checker
+
+int main(int argc, char** argv) {
+  using namespace collision::checker;
+  std::string report;
+  std::vector<std::string> logs;
+  double leaving = 0;
+  RunFacts facts;
+  CLI::App app("Computes all true contacts of motion logs and compares a run's events with them.",
+               "motion-checker");
+  app.add_option("logs", logs, "Motion logs, each named after its simulator")->required();
+  app.add_option("--report", report,
+                 "Report of scene-runner --json; without it the true contacts are listed");
+  app.add_option("--leaving", leaving,
+                 "Contacts that begin this many seconds before an agent leaves may be withdrawn")
+      ->check(CLI::NonNegativeNumber);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kUsage;
+  }
+  facts.leaving_ns = std::llround(leaving * 1e9);
+  try {
+    return Run(report, logs, facts);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "motion-checker: %s\n", error.what());
+    return kBadData;
+  }
+}

@@ -1,0 +1,44 @@
+// What the detector knows of one agent from its owner.
+#pragma once
+
+#include <algorithm>
+
+#include "collision_core/detection/agents/bound_margin.h"
+#include "collision_core/detection/agents/history.h"
+#include "collision_core/detection/agents/scene_profile.h"
+#include "collision_core/detection/events/agent_id.h"
+
+namespace collision::detection {
+
+/// A run of a simulator that has agents in the table.
+struct Owner {
+  Instant heard_until = Instant::Always();  ///< It has told everything about its agents up to here.
+  std::uint32_t agents = 0;
+};
+
+/// One agent. `history` is never empty once the agent is in the table.
+struct AgentRecord {
+  AgentId id;
+  motion::AgentDeclaration
+      declaration;  ///< In force from the next state on; each bound has its own.
+  History history;
+  BoundMargin margin;                         ///< What is left of it since the last renewal.
+  Instant admitted_from = Instant::Always();  ///< Nothing is known, or promised, before.
+  Instant told_until = Instant::Always();     ///< The newest stamp; once removed, heard_until().
+  const Owner* owner = nullptr;               ///< Null once removed.
+  std::uint64_t removal = 0;  ///< 1-based removal number, while the last state lies ahead; 0: none.
+  bool expired = false;       ///< Promises exclude the agent: its last state has run out.
+  bool shape_redeclared = false;  ///< The shape was declared anew since the newest state.
+  SceneProfile::Features features = 0;
+
+  const motion::SpaceTimeBound& bound() const { return history.newest(); }
+  Instant stamp() const { return bound().state.stamp; }
+  /// The owner has told everything about the agent up to here.
+  Instant heard_until() const {
+    return owner == nullptr ? told_until : std::max(told_until, owner->heard_until);
+  }
+  /// The newest bound, wider by the margin: clearance keys are computed from it.
+  motion::SpaceTimeBound wide_bound() const { return margin.Widen(bound()); }
+};
+
+}  // namespace collision::detection

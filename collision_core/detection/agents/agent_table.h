@@ -1,0 +1,117 @@
+// All agents: their names, states, owners and expiries.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "collision_core/base/ids.h"
+#include "collision_core/detection/agents/agent_record.h"
+#include "collision_core/detection/agents/scene_extremes.h"
+#include "collision_core/detection/event_queue.h"
+#include "collision_core/detection/index_set.h"
+
+namespace collision::detection {
+
+/// Limits of the table; the fields of DetectorOptions of the same names.
+struct AgentLimits {
+  std::uint32_t agents_max = 1000;
+  std::uint32_t history_max = 64;
+  double skew = 0;  ///< [s]
+};
+
+/// Holds each agent under a stable index. An agent's life: Admit(), any number of Store(), Remove()
+/// by its owner, and Release() once what it told has passed; or SetExpired() and Store() again. All
+/// is O(1) amortized but for the expiries' O(log agents). Single-threaded.
+///
+/// A removed agent has no name any more but stays in the table up to what its owner has told, so
+/// that its pairs are evaluated a last time.
+class AgentTable {
+ public:
+  explicit AgentTable(const AgentLimits& limits) : limits_(limits) {}
+
+  /// The index of a new agent without any state yet: Store() must follow. None() if `agents_max` is
+  /// reached or the id is present.
+  AgentIndex Admit(const AgentId& id, const motion::AgentDeclaration& declaration, Instant stamp);
+
+  /// None() if there is no agent of this name.
+  AgentIndex Find(const AgentId& id) const;
+  bool Contains(AgentIndex agent) const {
+    return agent.value() < agents_.size() && agents_[agent.value()] != nullptr;
+  }
+  /// Requires Contains(agent).
+  AgentRecord& operator[](AgentIndex agent) { return *Checked(agent); }
+  const AgentRecord& operator[](AgentIndex agent) const { return *Checked(agent); }
+  /// Agents that have a name.
+  std::size_t size() const { return index_.size(); }
+  /// One more than the greatest index ever used.
+  std::size_t index_end() const { return agents_.size(); }
+
+  /// Appends a state to the agent's history. RecordBound() must follow before the step.
+  void Store(AgentIndex agent, const motion::SpaceTimeBound& bound, Link link);
+  /// The newest bound has changed: takes its expiry, and what it means for the scene as a whole.
+  void RecordBound(AgentIndex agent);
+  /// The agent has news in this step.
+  void MarkChanged(AgentIndex agent) { changed_.Insert(agent); }
+  const IndexSet<AgentIndex>& changed() const { return changed_; }
+
+  /// The run of the simulator has told everything about its agents up to `until`. O(1) whatever
+  /// their number. An owner is known while it has agents that are not removed: an earlier call has
+  /// no effect. Never goes back.
+  void SetHeardUntil(const OwnerId& owner, Instant until);
+
+  /// The owner gives the agent up; it expires at heard_until() at the latest.
+  void Remove(AgentIndex agent);
+  /// Takes the agents that expire by `now` out of the queue: first the removed ones in the order of
+  /// their removal, then the others in the order of their ids.
+  std::vector<AgentIndex> TakeExpired(Instant now);
+  void SetExpired(AgentIndex agent) { (*this)[agent].expired = true; }
+  /// Frees the index of a removed agent; it is reused by later admissions.
+  void Release(AgentIndex agent);
+  std::size_t expiries() const { return expiries_.size(); }
+
+  /// Looks at some of the agents (scene_extremes.h). Once a step.
+  void UpdateExtremes();
+  /// No narrower than the truth.
+  const SceneExtremes::Bounds& extremes() const { return extremes_.bounds(); }
+  const SceneProfile& profile() const { return profile_; }
+  double skew() const { return limits_.skew; }
+
+  /// The step is over: forgets each changed agent's past before what `needed_from(agent)` says.
+  template <typename NeededFrom>
+  void EndStep(const NeededFrom& needed_from) {
+    for (const AgentIndex agent : changed_) {
+      if (Contains(agent)) (*this)[agent].history.Trim(needed_from(agent));
+    }
+    changed_.Clear();
+  }
+
+  /// Walks the whole table: names, owners' counts, expiries, free indices.
+  void Validate() const;
+
+ private:
+  struct IdHash {
+    std::size_t operator()(const AgentId& id) const;
+  };
+
+  AgentRecord* Checked(AgentIndex agent) const {
+    CORE_CHECK(Contains(agent), "an agent that is held has this index", agent.value());
+    return agents_[agent.value()].get();
+  }
+  void LeaveOwner(AgentRecord* record);
+
+  const AgentLimits limits_;
+  std::unordered_map<AgentId, AgentIndex, IdHash> index_;  // never walked over but to validate
+  std::vector<std::unique_ptr<AgentRecord>> agents_;       // by index; null: free
+  std::vector<AgentIndex> free_;
+  std::map<OwnerId, Owner> owners_;
+  std::uint64_t removals_ = 0;
+  EventQueue<AgentIndex> expiries_;
+  IndexSet<AgentIndex> changed_;  // since the last step
+  SceneExtremes extremes_;
+  SceneProfile profile_;
+};
+
+}  // namespace collision::detection

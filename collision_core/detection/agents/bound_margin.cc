@@ -1,0 +1,45 @@
+#include "collision_core/detection/agents/bound_margin.h"
+
+#include "collision_core/numeric/rounding.h"
+
+namespace collision::detection {
+
+BoundMargin::BoundMargin(const motion::SpaceTimeBound& bound) {
+  constexpr double kShare = 0x1p-40;
+  constexpr double kStampRounding = 4e-9;
+  const double speed = bound.state.v_WA.norm();
+  const double magnitude = bound.state.p_WA.norm() + speed + bound.declaration.radius;
+  position_ = kShare * magnitude + kStampRounding * speed;
+  velocity_ = kShare * speed + kStampRounding * bound.declaration.acceleration_max;
+}
+
+// Widen() rounds the sum of error and margin down: that of the state before may be too small by a
+// unit in its last place, 2^-52 of it, and the next one is never too large. So drift and that unit
+// taken off keep the next widened bound inside the one before; twice the unit covers the rounding
+// of the product below. Zero and a margin add up exactly.
+bool BoundMargin::Spend(const motion::ContractCheck& check, const motion::MotionState& before) {
+  constexpr double kSumRounding = 0x1p-51;
+  const auto spend = [](double drift, double error, double* left) {
+    const double lost = numeric::AddUp(drift, kSumRounding * (error > 0 ? error + *left : 0));
+    *left = numeric::AddDown(*left, -lost);
+    return *left >= 0;
+  };
+  const bool position = spend(check.position_drift, before.position_error, &position_);
+  const bool velocity = spend(check.velocity_drift, before.velocity_error, &velocity_);
+  return position && velocity;
+}
+
+motion::SpaceTimeBound BoundMargin::Widen(const motion::SpaceTimeBound& bound) const {
+  motion::SpaceTimeBound wide = bound;
+  wide.state.position_error = numeric::AddDown(bound.state.position_error, position_);
+  wide.state.velocity_error = numeric::AddDown(bound.state.velocity_error, velocity_);
+  if (bound.state.discontinuity && bound.skew > 0) {
+    // The jump may have come earlier by the skew: where it has been since then belongs to the
+    // bound.
+    const double speed = bound.state.v_WA.norm() + bound.declaration.acceleration_max * bound.skew;
+    wide.state.position_error += 2 * speed * bound.skew;
+  }
+  return wide;
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,23 @@
+// What a new declaration changes before the next state comes.
+#pragma once
+
+#include "collision_core/detection/agents/agent_record.h"
+
+namespace collision::detection {
+
+/// What a change of a bound means to those who rely on it.
+enum class BoundChange {
+  kWithin,  ///< All that may be met now could be met before: standing answers stay valid.
+  kWidened  ///< More may be met than before: standing answers must be computed anew.
+};
+
+/// Makes `declaration` the agent's. What is wider than before is in force at once; what is narrower
+/// waits for the next state. A shape that had been awaited is in force from the state on with which
+/// it was awaited; a shape that changes is somewhere within the ball until the next state. Another
+/// tree of the same body takes the former tree's place in the whole history.
+BoundChange Redeclare(const motion::AgentDeclaration& declaration, AgentRecord* record);
+
+/// Whether an agent that could be met under `before` may not be met under `next`.
+bool IsNarrower(const motion::AgentDeclaration& before, const motion::AgentDeclaration& next);
+
+}  // namespace collision::detection

@@ -1,0 +1,175 @@
+#include "collision_core/detection/agents/history.h"
+
+#include <algorithm>
+
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+namespace {
+
+// The declaration under which an agent moved between two states: whatever either allowed.
+motion::AgentDeclaration Widest(const motion::AgentDeclaration& a,
+                                const motion::AgentDeclaration& b) {
+  motion::AgentDeclaration widest = b;
+  widest.radius = std::max(a.radius, b.radius);
+  widest.acceleration_max = std::max(a.acceleration_max, b.acceleration_max);
+  widest.time_step = std::max(a.time_step, b.time_step);
+  widest.angular_acceleration_max =
+      motion::WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max);
+  return widest;
+}
+
+bool HasShape(const motion::AgentDeclaration& declaration) {
+  return declaration.shape != nullptr || declaration.shape_awaited;
+}
+
+}  // namespace
+
+void History::Push(const motion::SpaceTimeBound& bound, Link link, std::size_t capacity) {
+  if (samples_.size() >= capacity) Thin();
+  // Where nothing can be spared, the oldest goes, and what it covered becomes unknown.
+  if (samples_.size() >= capacity) samples_.erase(samples_.begin());
+  samples_.push_back({bound, link});
+}
+
+void History::ReplaceTree(const std::shared_ptr<const shape::Shape>& shape) {
+  for (Sample& sample : samples_) {
+    std::shared_ptr<const shape::Shape>& known = sample.bound.declaration.shape;
+    if (known && known->IsSameBodyAs(*shape)) known = shape;
+  }
+}
+
+// Only the older half: what is being judged lies in the newer one.
+void History::Thin() {
+  const auto spared = [this](std::size_t i) {
+    return samples_[i].link == Link::kFollows && samples_[i + 1].link == Link::kFollows &&
+           samples_[i].bound.declaration == samples_[i - 1].bound.declaration &&
+           samples_[i].bound.declaration == samples_[i + 1].bound.declaration;
+  };
+  std::vector<Sample> kept;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const bool old = i % 2 == 1 && i < (samples_.size() + 1) / 2 && i + 1 < samples_.size();
+    if (old && spared(i)) continue;
+    kept.push_back(samples_[i]);
+  }
+  samples_.swap(kept);
+}
+
+void History::Trim(Instant since) {
+  std::size_t drop = 0;
+  while (drop + 2 < samples_.size() && samples_[drop + 1].bound.state.stamp <= since) ++drop;
+  samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(drop));
+}
+
+std::size_t History::InForce(Instant t) const {
+  std::size_t k = samples_.size();
+  while (k > 0 && samples_[k - 1].bound.state.stamp > t) --k;
+  return k == 0 ? samples_.size() : k - 1;
+}
+
+double History::LastInterval() const {
+  if (samples_.size() < 2) return 0;
+  return numeric::SecondsBetween(samples_[samples_.size() - 2].bound.state.stamp,
+                                 newest().state.stamp)
+      .upper;
+}
+
+Instant History::NextCutAfter(Instant t) const {
+  Instant next = Instant::Never();
+  const auto cut = [&](Instant at) {
+    if (at > t) next = std::min(next, at);
+  };
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    const motion::SpaceTimeBound& bound = samples_[i].bound;
+    cut(bound.state.stamp);
+    cut(bound.state.expiry);
+    if (i > 0 && samples_[i].link == Link::kJumped && bound.skew > 0) {
+      cut(numeric::AddRoundedDown(bound.state.stamp, -bound.skew));
+      cut(numeric::AddRoundedUp(bound.state.stamp, bound.skew));
+    }
+  }
+  return next;
+}
+
+Instant History::LastStampBefore(Instant t) const {
+  for (std::size_t i = samples_.size(); i-- > 0;) {
+    const Instant stamp = samples_[i].bound.state.stamp;
+    if (stamp < t) return stamp;
+    if (stamp == t && samples_[i].link != Link::kFollows) break;
+  }
+  return Instant::Never();
+}
+
+const motion::SpaceTimeBound* History::Uninterrupted(Instant t) const {
+  const std::size_t k = InForce(t);
+  if (k == samples_.size()) return nullptr;
+  for (std::size_t later = k + 1; later < samples_.size(); ++later) {
+    if (samples_[later].link != Link::kFollows) return nullptr;
+  }
+  return &samples_[k].bound;
+}
+
+bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
+  const motion::SpaceTimeBound& bound = samples_[i].bound;
+  return samples_[i].link == Link::kJumped && bound.skew > 0 &&
+         numeric::AddRoundedDown(bound.state.stamp, -bound.skew) <= from &&
+         to <= numeric::AddRoundedUp(bound.state.stamp, bound.skew);
+}
+
+// By our clock the jump may have come anywhere within the skew: the agent moves as before it, or as
+// after it, so that one ball must contain both. With c, u of before and c', u' of after, all of
+// both lies within
+//   u + u' + |c' − c| <= u + u' + |Δc| + |Δv| δ   about c(δ).
+narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant to) const {
+  narrow_phase::BodySegment segment;
+  for (std::size_t other = i + 1; other < samples_.size(); ++other) {
+    if (JumpsNear(other, from, to)) return segment;  // more than two motions: nothing is said
+  }
+  const motion::SpaceTimeBound& before = samples_[i - 1].bound;
+  const motion::SpaceTimeBound& after = samples_[i].bound;
+  segment.awaited = HasShape(before.declaration) || HasShape(after.declaration);
+  if (from < before.state.stamp || after.declaration != before.declaration) return segment;
+  motion::MovingBall ball = ForwardBall(before, from);
+  const motion::MovingBall jumped =
+      from >= after.state.stamp ? ForwardBall(after, from) : BackwardBall(after, from);
+  ball.u0 = ball.u0 + jumped.u0 + numeric::Norm(jumped.centre - ball.centre);
+  ball.u1 = ball.u1 + jumped.u1 + numeric::Norm(jumped.velocity - ball.velocity);
+  ball.u2 = ball.u2 + jumped.u2;
+  segment.ball.radius = before.declaration.radius;
+  segment.ball.bounds.push_back(ball);
+  return segment;
+}
+
+narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
+  narrow_phase::BodySegment segment;
+  const std::size_t k = InForce(from);
+  if (k == samples_.size()) return segment;
+  for (std::size_t i = 1; i < samples_.size(); ++i) {
+    if (JumpsNear(i, from, to)) return OverJump(i, from, to);
+  }
+  const bool has_next = k + 1 < samples_.size();
+  motion::SpaceTimeBound last = samples_[k].bound;
+  motion::SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
+  narrow_phase::BallSegment& ball = segment.ball;
+  ball.radius = std::min(last.declaration.radius, next.declaration.radius);
+  const numeric::Interval spread =
+      numeric::Interval(std::max(last.declaration.radius, next.declaration.radius)) - ball.radius;
+  if (last.declaration.shape == next.declaration.shape) segment.shape = last.declaration.shape;
+  segment.awaited = !segment.shape && (HasShape(last.declaration) || HasShape(next.declaration));
+  last.declaration = next.declaration = Widest(last.declaration, next.declaration);
+
+  const bool broken = has_next && samples_[k + 1].link == Link::kBroken;
+  const bool at_last = to == last.state.stamp;
+  if (to <= last.state.expiry && (!broken || at_last)) {
+    ball.bounds.push_back(ForwardBall(last, from));
+    if (segment.shape) segment.turns.push_back(ForwardRotation(last, from));
+  }
+  if (has_next && samples_[k + 1].link == Link::kFollows) {
+    ball.bounds.push_back(BackwardBall(next, from));
+    if (segment.shape) segment.turns.push_back(BackwardRotation(next, from));
+  }
+  for (motion::MovingBall& bound : ball.bounds) bound.u0 = bound.u0 + spread;
+  return segment;
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,96 @@
+// The states of one agent that are still needed, and what they say about the time between them.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "collision_core/base/check.h"
+#include "collision_core/narrow_phase/pose/body_segment.h"
+
+namespace collision::detection {
+
+/// How a state follows from the one before it.
+enum class Link {
+  kFollows,  ///< By a motion under the declared bound: between the two both horns hold.
+  kJumped,   ///< A declared discontinuity at its stamp: before it only the earlier horn holds.
+  kBroken    ///< The bound was broken somewhere between the two: nothing is known there.
+};
+
+/// At most `capacity` samples, oldest first. Beyond, every second old sample that its neighbours
+/// imply is dropped; if there is none, the oldest goes, and what it covered becomes unknown.
+class History {
+ public:
+  /// One state of the history, as a bound.
+  struct Sample {
+    motion::SpaceTimeBound bound;
+    Link link;
+  };
+
+  void Clear() { samples_.clear(); }
+  void Push(const motion::SpaceTimeBound& bound, Link link, std::size_t capacity);
+
+  /// Replaces the tree of every sample with the same body as this shape: a better tree of the same
+  /// geometry says nothing new of the past, and the former one is of no use.
+  void ReplaceTree(const std::shared_ptr<const shape::Shape>& shape);
+
+  /// Forgets what is not needed from `since` on: later calls of Uninterrupted() and Over() may not
+  /// go before it. The newest two samples stay.
+  void Trim(Instant since);
+
+  bool empty() const { return samples_.empty(); }
+
+  /// The newest state. Requires !empty().
+  const motion::SpaceTimeBound& newest() const { return Newest().bound; }
+  motion::SpaceTimeBound& newest() { return const_cast<motion::SpaceTimeBound&>(Newest().bound); }
+
+  /// The seconds between the newest two samples; 0 if there is only one.
+  double LastInterval() const;
+
+  /// The first instant later than `t` at which other bounds begin to hold: a stamp, an expiry, the
+  /// edge of the skew about a jump. Never() if there is none.
+  Instant NextCutAfter(Instant t) const;
+
+  /// The last stamp earlier than `t` from which the motion went on to `t`; Never() if there is
+  /// none, or if a jump or a breach ends at `t`.
+  Instant LastStampBefore(Instant t) const;
+
+  /// The sample in force at `t`, if every later one follows from it; else nullptr.
+  const motion::SpaceTimeBound* Uninterrupted(Instant t) const;
+
+  /// Calls `use` with the last bound of each motion since `from`: a jump or a breach begins a new
+  /// one. Radius and acceleration are the greatest so far.
+  template <typename Use>
+  void ForEachMotion(Instant from, const Use& use) const {
+    const std::size_t in_force = InForce(from);
+    double radius = 0, acceleration_max = 0;
+    for (std::size_t i = in_force < samples_.size() ? in_force : 0; i < samples_.size(); ++i) {
+      const motion::AgentDeclaration& declaration = samples_[i].bound.declaration;
+      radius = std::max(radius, declaration.radius);
+      acceleration_max = std::max(acceleration_max, declaration.acceleration_max);
+      if (i + 1 < samples_.size() && samples_[i + 1].link == Link::kFollows) continue;
+      motion::SpaceTimeBound motion = samples_[i].bound;
+      motion.declaration.radius = radius;
+      motion.declaration.acceleration_max = acceleration_max;
+      use(motion);
+    }
+  }
+
+  /// What is certain on [from, to], where no cut lies strictly between. With samples of unequal
+  /// radius the smaller counts, and the difference is added to the uncertainty; with samples of
+  /// unequal shape, and about a jump, the shape counts as awaited.
+  narrow_phase::BodySegment Over(Instant from, Instant to) const;
+
+ private:
+  const Sample& Newest() const {
+    CORE_CHECK(!samples_.empty(), "only a history with a state has a newest one");
+    return samples_.back();
+  }
+  void Thin();
+  bool JumpsNear(std::size_t i, Instant from, Instant to) const;
+  narrow_phase::BodySegment OverJump(std::size_t i, Instant from, Instant to) const;
+  std::size_t InForce(Instant t) const;  // index of the last sample with stamp <= t; size() if none
+
+  std::vector<Sample> samples_;
+};
+
+}  // namespace collision::detection

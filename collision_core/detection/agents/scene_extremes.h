@@ -1,0 +1,63 @@
+// The oldest and the newest state of a scene, and how fast anything in it can be.
+#pragma once
+
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision::detection {
+
+/// Kept without a walk over all agents: each new state is included at once, and a round that looks
+/// at a few agents a step forgets what is no longer so. Until a round is over the bounds may be
+/// wider than the truth, never narrower. Stamps of one agent never go back.
+class SceneExtremes {
+ public:
+  /// Bounds of all newest states together.
+  struct Bounds {
+    Instant oldest = Instant::Never();  ///< No agent's newest state is older.
+    Instant newest = Instant::Always();
+    double speed_max = 0;  ///< |v| and its error.
+    double position_error_max = 0;
+    double acceleration_max = 0;
+    double time_step_max = 0;
+
+    void Include(const motion::SpaceTimeBound& bound);
+  };
+
+  /// So many agents are looked at in a step, and so many more for each that has changed.
+  static constexpr std::size_t kLooks = 64;
+  static constexpr std::size_t kLooksPerChange = 4;
+
+  const Bounds& bounds() const { return bounds_; }
+
+  void Include(const motion::SpaceTimeBound& bound) {
+    bounds_.Include(bound);
+    next_.Include(bound);
+  }
+
+  /// Looks at the next agents of `size`, round and round; `bound_of(i)` gives a bound or nullptr.
+  /// At the end of each round what it saw replaces bounds().
+  template <typename BoundOf>
+  void Look(std::size_t changed, std::size_t size, const BoundOf& bound_of) {
+    std::size_t looks = kLooks + kLooksPerChange * changed;
+    if (looks >= size) {
+      looks = size;
+      Restart();
+    }
+    for (; looks > 0; --looks) {
+      if (const motion::SpaceTimeBound* bound = bound_of(at_)) next_.Include(*bound);
+      if (++at_ < size) continue;
+      bounds_ = next_;
+      Restart();
+    }
+  }
+
+ private:
+  void Restart() {
+    next_ = Bounds();
+    at_ = 0;
+  }
+
+  Bounds bounds_, next_;
+  std::size_t at_ = 0;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,69 @@
+#include "collision_core/detection/agents/scene_profile.h"
+
+namespace collision::detection {
+namespace {
+
+enum Feature {
+  kAccelerating,
+  kCapped,
+  kDirected,
+  kStepping,
+  kUncertain,
+  kSkewed,
+  kExpiring,
+  kMasked,
+  kShaped,
+  kTurning,
+  kMoving
+};
+
+}  // namespace
+
+SceneProfile::Features SceneProfile::Of(const motion::SpaceTimeBound& bound) {
+  const motion::MotionState& state = bound.state;
+  const motion::AgentDeclaration& declaration = bound.declaration;
+  const bool shaped = declaration.shape || declaration.shape_awaited;
+  const bool turning = declaration.angular_acceleration_max != 0 || !state.w_WB.isZero();
+  unsigned features = 0;
+  const auto set = [&](Feature feature, bool needed) { features |= needed ? 1u << feature : 0; };
+  set(kAccelerating, declaration.acceleration_max > 0);
+  set(kCapped, declaration.speed_max < numeric::kInfinity);
+  set(kDirected, !state.direction.isZero());
+  set(kStepping, declaration.time_step > 0);
+  set(kUncertain, state.position_error > 0 || state.velocity_error > 0);
+  set(kSkewed, bound.skew > 0);
+  set(kExpiring, !state.expiry.is_never());
+  set(kMasked, declaration.group != 1 || declaration.mask != ~0u);
+  set(kShaped, shaped);
+  set(kTurning, shaped && turning);
+  set(kMoving, !NeverMoves(bound));
+  return static_cast<Features>(features);
+}
+
+void SceneProfile::Count(Features features, int change) {
+  for (int feature = 0; feature < kFeatures; ++feature) {
+    if ((features >> feature & 1) != 0) counts_[feature] += change;
+  }
+}
+
+std::vector<std::string> SceneProfile::LeftOut() const {
+  std::vector<std::string> left_out;
+  const auto leave_out = [&](bool unused, const char* what) {
+    if (unused) left_out.emplace_back(what);
+  };
+  leave_out(counts_[kAccelerating] == 0, "parabolic growth: no agent declares an acceleration");
+  leave_out(counts_[kCapped] == 0, "speed caps: no agent declares one");
+  leave_out(counts_[kDirected] == 0, "directional boxes: no agent declares a thrust direction");
+  leave_out(counts_[kStepping] == 0, "integrator step in the bound: no agent declares a time step");
+  leave_out(counts_[kUncertain] == 0, "growth by state errors: every state is exact");
+  leave_out(counts_[kSkewed] == 0, "clock skew: all clocks are one");
+  leave_out(counts_[kExpiring] == 0, "expiry: no agent declares one");
+  leave_out(counts_[kMasked] == 0, "masks: everybody can meet everybody");
+  leave_out(counts_[kShaped] == 0, "sphere trees and rotation: every agent is a ball");
+  leave_out(counts_[kShaped] > 0 && counts_[kTurning] == 0,
+            "rotation of sphere trees: no agent with a shape turns");
+  leave_out(counts_[kMoving] == 0, "meetings: nobody can move");
+  return left_out;
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,98 @@
+// Which partners accelerate so much harder than an agent that they are asked about by themselves.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/base/check.h"
+#include "collision_core/base/ids.h"
+
+namespace collision::detection {
+
+/// Agents by tiers of their declared acceleration bounds, each tier 8 times the one before.
+///
+/// A partner whose bound is much larger than an agent's comes within reach of it over and over.
+/// Were there one question about all partners, one such partner would have the agent asked about
+/// all others as often. So beside an agent the partners form groups: each tier at least two above
+/// the agent's (always at 64 times its bound, never at 8 times) is a group of its own, all others
+/// are the group kComparable. Beside an agent that declares no acceleration every tier above 0 is a
+/// group of its own; not so where more than kUnacceleratedMax agents declare none, since each would
+/// be asked about all the others that hardly move, to the end of time.
+///
+/// But for that limit, the group of a partner beside an agent depends on the two alone: agents of
+/// comparable bounds are asked about each other at the same times, and get the same bits, whether
+/// or not a faster one is in the scene. All operations are O(1) or O(kTiers).
+class AccelerationTiers {
+ public:
+  static constexpr int kTiers = 44;
+  /// The group of all partners that have none of their own beside an agent.
+  static constexpr int kComparable = 0;
+  /// A tier that no agent is ever in.
+  static constexpr int kAbsent = kTiers;
+  static constexpr std::uint32_t kUnacceleratedMax = 256;
+
+  /// The agent's declared bound [m/s²] from now on, >= 0.
+  void Set(AgentIndex agent, double acceleration_max) { Put(agent, TierFor(acceleration_max)); }
+  void Remove(AgentIndex agent) { Put(agent, kAbsent); }
+
+  /// 0: the agent declares no acceleration; kAbsent: it is not there. Requires an agent that was
+  /// set at some time.
+  int TierOf(AgentIndex agent) const { return tiers_.at(agent); }
+
+  /// Whether any tier may be a group of its own beside the agent.
+  bool HasGroupsBeside(AgentIndex agent) const {
+    return tiers_[agent] > 0 || counts_[0] <= kUnacceleratedMax;
+  }
+  /// The partner's tier if that is a group of its own beside the agent; otherwise kComparable.
+  int GroupOf(AgentIndex partner, AgentIndex beside) const {
+    const int tier = tiers_[partner];
+    return IsOwnGroup(tier, beside) ? tier : kComparable;
+  }
+
+  /// Agents in a tier.
+  std::uint32_t Count(int tier) const { return counts_[static_cast<std::size_t>(tier)]; }
+
+  /// Appends the tiers that are not empty and are groups of their own beside the agent, ascending.
+  void GroupsBeside(AgentIndex agent, std::vector<int>* tiers) const {
+    for (int tier = 1; tier < kTiers; ++tier) {
+      if (Count(tier) > 0 && IsOwnGroup(tier, agent)) tiers->push_back(tier);
+    }
+  }
+
+  /// Walks all agents: each tier's count is right.
+  void Validate() const {
+    std::array<std::uint32_t, kTiers + 1> counts{};
+    for (const std::uint8_t tier : tiers_) {
+      CORE_CHECK(tier <= kAbsent, "a tier is one of the tiers", tier);
+      if (tier != kAbsent) ++counts[tier];
+    }
+    CORE_CHECK(counts == counts_, "the agents of each tier are counted");
+  }
+
+ private:
+  bool IsOwnGroup(int tier, AgentIndex beside) const {
+    const int least = tiers_[beside] + (tiers_[beside] > 0 ? 2 : 1);
+    return tier != kAbsent && tier >= least && HasGroupsBeside(beside);
+  }
+
+  static int TierFor(double acceleration_max) {
+    constexpr int kLeast = -64, kGreatest = 63, kExponents = 3;
+    if (!(acceleration_max > 0)) return 0;
+    return 1 + (std::clamp(std::ilogb(acceleration_max), kLeast, kGreatest) - kLeast) / kExponents;
+  }
+
+  void Put(AgentIndex agent, int tier) {
+    if (!tiers_.contains(agent)) tiers_.resize(agent.value() + 1, kAbsent);
+    if (tiers_[agent] != kAbsent) --counts_[tiers_[agent]];
+    if (tier != kAbsent) ++counts_[static_cast<std::size_t>(tier)];
+    tiers_[agent] = static_cast<std::uint8_t>(tier);
+  }
+
+  std::array<std::uint32_t, kTiers + 1> counts_{};
+  IndexedVector<AgentIndex, std::uint8_t> tiers_;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,65 @@
+#include "collision_core/detection/clearance/clearance_filter.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace collision::detection {
+namespace {
+
+/// More than thirty roundings take of their terms.
+constexpr double kRoundings = 0x1p-40;
+/// Several times the nanosecond that a stamp may be off, with room for their sum [s].
+constexpr double kStampRounding = 1e-8;
+/// In place of a relative speed of 0, so that a quotient stays finite or is clamped.
+constexpr double kSquareLeast = 1e-300;
+
+/// NaN, with which nothing is certain, if they are centuries apart.
+double Seconds(Instant from, Instant to) {
+  std::int64_t ns;
+  if (__builtin_sub_overflow(to.nanoseconds(), from.nanoseconds(), &ns)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  return 1e-9 * static_cast<double>(ns);
+}
+
+}  // namespace
+
+void ClearanceFilter::Set(AgentIndex agent, const motion::SpaceTimeBound& bound) {
+  if (!rows_.contains(agent)) rows_.resize(agent.value() + 1);
+  Row& row = rows_[agent];
+  const motion::MotionState& state = bound.state;
+  const motion::AgentDeclaration& declaration = bound.declaration;
+  row.p = state.p_WA;
+  row.v = state.v_WA;
+  row.speed = state.v_WA.norm();
+  row.magnitude = state.p_WA.norm() + row.speed;
+  row.reach = declaration.radius + state.position_error + row.speed * skew_;
+  row.velocity_error = state.velocity_error;
+  row.acceleration_max = declaration.acceleration_max;
+  row.time_step = declaration.time_step;
+  row.stamp = state.stamp;
+}
+
+bool ClearanceFilter::CertainlyLater(AgentIndex agent, AgentIndex partner, Instant until) const {
+  const Row &a = rows_.at(agent), &b = rows_.at(partner);
+  const Instant from = std::max(a.stamp, b.stamp);
+  if (until <= from) return true;
+  if (until.is_never()) return false;
+  double reach = 0, magnitude = 0;
+  for (const Row* row : {&a, &b}) {
+    const double tau = Seconds(row->stamp, until) + skew_;
+    reach += row->reach + row->velocity_error * tau +
+             row->acceleration_max * tau * (tau + row->time_step) / 2;
+    magnitude += row->magnitude + row->speed * tau;
+  }
+  const Eigen::Vector3d w = b.v - a.v;
+  const Eigen::Vector3d d =
+      (b.p + b.v * Seconds(b.stamp, from)) - (a.p + a.v * Seconds(a.stamp, from));
+  const double duration = Seconds(from, until);
+  const double nearest =
+      std::clamp(-d.dot(w) / std::max(w.squaredNorm(), kSquareLeast), 0.0, duration);
+  const double margin = kRoundings * (magnitude + reach) + kStampRounding * (w.norm() + 1);
+  return (d + w * nearest).norm() > reach + margin;
+}
+
+}  // namespace collision::detection

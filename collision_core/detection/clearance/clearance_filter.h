@@ -1,0 +1,42 @@
+// A cheap test in front of the canonical routine: can a renewed agent concern another one?
+#pragma once
+
+#include "collision_core/base/ids.h"
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision::detection {
+
+/// Holds a short form of each agent's newest wide bound, side by side in memory.
+///
+/// The difference of the two centres moves on a segment; the agents stay apart while the segment's
+/// distance from the origin exceeds what both can reach until the end. Some thirty operations lose
+/// far less than 2^-40 of their terms; a stamp is exact to the nanosecond.
+class ClearanceFilter {
+ public:
+  /// `skew` [s], as of all bounds.
+  explicit ClearanceFilter(double skew) : skew_(skew) {}
+
+  /// The bound that keys are computed from: wide, and after a jump with the motion before it.
+  void Set(AgentIndex agent, const motion::SpaceTimeBound& bound);
+
+  /// True only if no motions within the two bounds bring them together before `until`. Usually true
+  /// if they stay well apart until then. Requires Set() of both.
+  bool CertainlyLater(AgentIndex agent, AgentIndex partner, Instant until) const;
+
+ private:
+  struct Row {
+    Eigen::Vector3d p, v;
+    double speed;      ///< |v|.
+    double magnitude;  ///< |p| + |v|: rounding takes a part of it.
+    double reach;      ///< Radius and all errors that do not grow; with the skew.
+    double velocity_error;
+    double acceleration_max;
+    double time_step;
+    Instant stamp;
+  };
+
+  double skew_;
+  IndexedVector<AgentIndex, Row> rows_;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,78 @@
+// Up to when an agent is certified clear of its partners.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "collision_core/base/check.h"
+#include "collision_core/base/instant.h"
+#include "collision_core/detection/clearance/acceleration_tiers.h"
+
+namespace collision::detection {
+
+/// The clearance keys of one agent. A *clearance key* is the time until which the agent is
+/// certified clear of all partners that are not tracked: one for each group of partners beside it
+/// (AccelerationTiers::GroupOf). The key of the comparable partners holds for each tier that has no
+/// earlier one. Of a saturated agent keys promise nothing. O(tiers that have an earlier key).
+class ClearanceKeys {
+ public:
+  /// The earliest of all.
+  Instant earliest() const { return earliest_; }
+  /// The key of the comparable partners; no group has a later one.
+  Instant comparable() const { return comparable_; }
+  Instant Of(int group) const {
+    for (const TierKey& one : earlier_) {
+      if (one.tier == group) return std::min(one.key, comparable_);
+    }
+    return comparable_;
+  }
+
+  /// One key for all groups.
+  void SetAll(Instant key) {
+    earlier_.clear();
+    comparable_ = earliest_ = key;
+  }
+  /// The key of a tier that is a group of its own; a later one than comparable() counts as that.
+  void SetTier(int tier, Instant key) {
+    CORE_CHECK(tier != AccelerationTiers::kComparable, "a tier is a group of its own", tier);
+    std::erase_if(earlier_, [=](const TierKey& one) { return one.tier == tier; });
+    if (key < comparable_) earlier_.push_back({key, tier});
+    UpdateEarliest();
+  }
+  /// The group's key is not later than `key` from now on.
+  void Lower(int group, Instant key) {
+    if (group != AccelerationTiers::kComparable) return SetTier(group, std::min(Of(group), key));
+    comparable_ = std::min(comparable_, key);
+    UpdateEarliest();
+  }
+
+  /// Appends the tiers whose own keys are not later than `until`.
+  void TiersUpTo(Instant until, std::vector<int>* tiers) const {
+    for (const TierKey& one : earlier_) {
+      if (one.key <= until) tiers->push_back(one.tier);
+    }
+  }
+
+  void Validate() const {
+    Instant earliest = comparable_;
+    for (const TierKey& one : earlier_) earliest = std::min(earliest, one.key);
+    CORE_CHECK(earliest == earliest_, "the earliest key is known", earliest.nanoseconds());
+  }
+
+ private:
+  struct TierKey {
+    Instant key;
+    int tier;
+  };
+
+  void UpdateEarliest() {
+    earliest_ = comparable_;
+    for (const TierKey& one : earlier_) earliest_ = std::min(earliest_, one.key);
+  }
+
+  Instant comparable_ = Instant::Always();
+  Instant earliest_ = Instant::Always();
+  std::vector<TierKey> earlier_;  // earlier than comparable_ when they were set
+};
+
+}  // namespace collision::detection

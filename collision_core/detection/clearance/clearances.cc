@@ -1,0 +1,77 @@
+#include "collision_core/detection/clearance/clearances.h"
+
+namespace collision::detection {
+
+Clearances::Clearances(const DetectorOptions& options, const DetectorContext& context,
+                       TrackedPairs* pairs)
+    : context_(context),
+      pairs_(pairs),
+      broad_phase_(options.broad_phase),
+      former_(std::make_unique<broad_phase::AdaptiveBroadPhase>(), options.agents_max),
+      filter_(options.skew),
+      coverage_(context),
+      told_(context, *pairs, coverage_),
+      queries_(context, {.coverage = &coverage_,
+                         .told = &told_,
+                         .pairs = pairs,
+                         .broad_phase = &broad_phase_,
+                         .filter = filter_,
+                         .former = &former_}) {}
+
+void Clearances::AddAgent(AgentIndex agent) {
+  coverage_.AddAgent(agent);
+  told_.AddAgent(agent);
+}
+
+void Clearances::Renew(AgentIndex agent, const Renewal& renewal) {
+  const motion::SpaceTimeBound wide = context_.agents[agent].wide_bound();
+  broad_phase_.Put(agent.value(), wide);
+  filter_.Set(agent, wide);
+  coverage_.Renew(agent, renewal.from, renewal.cause);
+  told_.SetEffectiveFrom(agent, renewal.effective_from);
+  told_.RecordRenewal(agent);
+}
+
+void Clearances::NotifyPartners(AgentIndex agent) {
+  for (const PairSlot slot : pairs_->table().Of(agent)) {
+    told_.NotifyPartner(pairs_->table()[slot].PartnerOf(agent), agent);
+  }
+}
+
+void Clearances::Tighten(AgentIndex agent) {
+  const motion::SpaceTimeBound wide = context_.agents[agent].wide_bound();
+  broad_phase_.Narrow(agent.value(), wide);
+  filter_.Set(agent, wide);
+}
+
+void Clearances::Remove(AgentIndex agent) {
+  broad_phase_.Remove(agent.value());
+  coverage_.Remove(agent);
+  context_.clearances_dirty->Insert(agent);
+}
+
+void Clearances::QueryDueAgents() {
+  queries_.QueryDueAgents();
+  UpdateCounters();
+}
+
+void Clearances::Cover(const std::vector<ReleasedPair>& pairs) {
+  for (const ReleasedPair& pair : pairs) {
+    coverage_.LowerKey(pair.lower, pair.higher, pair.clear_until);
+    coverage_.LowerKey(pair.higher, pair.lower, pair.clear_until);
+    coverage_.voided()->Insert(pair.lower);
+    coverage_.voided()->Insert(pair.higher);
+  }
+}
+
+void Clearances::UpdateCounters() {
+  const broad_phase::BroadPhaseWork work = broad_phase_.work();
+  DetectorCounters& counters = *context_.counters;
+  counters.pair_queries += work.pair_queries - pair_queries_seen_;
+  counters.filter_tests = work.filter_tests + queries_.looks();
+  counters.broad_units = static_cast<std::uint64_t>(broad_phase_.units());
+  counters.method_changes = broad_phase_.changes();
+  pair_queries_seen_ = work.pair_queries;
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,86 @@
+// Who may be met when: the clearance keys of all agents, and what agents are told.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
+#include "collision_core/detection/clearance/clearance_queries.h"
+#include "collision_core/detection/detector_options.h"
+
+namespace collision::detection {
+
+/// Why and from when what was promised of an agent holds no longer.
+struct Renewal {
+  Instant from;
+  ClearanceCause cause = ClearanceCause::kNone;
+  Instant effective_from;  ///< The agent's new promises count from here.
+};
+
+/// The component that keeps never-late true for pairs that are not tracked: it owns the broad
+/// phase, the clearance keys and the questions, and derives the clearances that agents are told.
+class Clearances {
+ public:
+  /// `pairs` outlives the object.
+  Clearances(const DetectorOptions& options, const DetectorContext& context, TrackedPairs* pairs);
+
+  /// The agent of this index is new. Renew() must follow.
+  void AddAgent(AgentIndex agent);
+  /// An agent that had expired is back. Renew() must follow.
+  void Readmit(AgentIndex agent) { coverage_[agent].keys.SetAll(Instant::Never()); }
+  /// The newest bound may reach beyond the former one: the agent is asked about anew.
+  void Renew(AgentIndex agent, const Renewal& renewal);
+  /// Tells the partners of the agent's tracked pairs that its renewal may lower their clearance.
+  void NotifyPartners(AgentIndex agent);
+  /// The newest bound, widened by the margin, lies inside the former one: all keys stay valid.
+  void Tighten(AgentIndex agent);
+  /// The agent has told a state that keeps its contract, perhaps ahead of its key.
+  void StateAdvanced(AgentIndex agent) { coverage_.StateAdvanced(agent); }
+  /// Up to `until` the agent moved within `bound`, which its newest bound does not contain.
+  void RecordFormerMotion(AgentIndex agent, const motion::SpaceTimeBound& bound, Instant until) {
+    former_.Record(agent, bound, until);
+  }
+  /// The agent broke its bound some time after its last honest state.
+  void RecordBreach(AgentIndex agent, Instant last_honest) {
+    told_.RecordBreach(agent, last_honest);
+  }
+  /// The agent has expired: promises exclude it until Readmit().
+  void Remove(AgentIndex agent);
+  /// The agent has left.
+  void Forget(AgentIndex agent) { coverage_.Forget(agent); }
+
+  /// Asks about all agents that were renewed or are due. Once a step.
+  void QueryDueAgents();
+  /// The keys of the two agents of each pair cover it from now on.
+  void Cover(const std::vector<ReleasedPair>& pairs);
+  /// No question will be about a time before `since`.
+  void ForgetBefore(Instant since) { former_.Forget(since); }
+
+  std::vector<AgentClearance> TakeChanged() { return told_.TakeChanged(); }
+  AgentClearance Of(AgentIndex agent) const { return told_.Of(agent); }
+
+  /// What earliest/ reads.
+  const CoverageTable& coverage() const { return coverage_; }
+  IndexSet<AgentIndex>* voided() { return coverage_.voided(); }
+  broad_phase::AdaptiveBroadPhase* broad_phase() { return &broad_phase_; }
+  PreJumpMotions* former() { return &former_; }
+  const broad_phase::AdaptiveBroadPhase& broad_phase() const { return broad_phase_; }
+  /// Brings the counters of the broad phase's work up to date.
+  void UpdateCounters();
+
+  void Validate() const { coverage_.Validate(); }
+
+ private:
+  const DetectorContext context_;
+  TrackedPairs* pairs_;
+  broad_phase::AdaptiveBroadPhase
+      broad_phase_;  // the wide bounds of all agents that have not expired
+  std::uint64_t pair_queries_seen_ = 0;
+  PreJumpMotions former_;
+  ClearanceFilter filter_;
+  CoverageTable coverage_;
+  ToldClearances told_;
+  ClearanceQueries queries_;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,47 @@
+// The partners of an agent that must be tracked now.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/detection/clearance/clearance_question.h"
+#include "collision_core/detection/pairs/pair_table.h"
+#include "collision_core/detection/step_clock.h"
+
+namespace collision::detection {
+
+/// Finds the partners that an agent may meet by announce_until, as far as there is room for them.
+/// If more partners qualify than fit, those with the lowest indices count, and partners that are
+/// full do not: the agent is saturated. The result does not depend on the order in which the broad
+/// phase offers partners, and what is not needed for it is not asked.
+class DueMeetingSearch {
+ public:
+  /// All outlive the search.
+  DueMeetingSearch(broad_phase::BroadPhase* broad_phase, const AccelerationTiers& tiers,
+                   const PairTable& pairs, const StepClock& clock)
+      : broad_phase_(broad_phase), tiers_(tiers), pairs_(pairs), clock_(clock) {}
+
+  /// Replaces *found by the meetings by announce_until, and the earliest of the others up to
+  /// `horizon`, in the order of partners. Returns the first partner for which there is no room:
+  /// None() if the agent is not saturated.
+  AgentIndex Find(const ClearanceQuestion& question, Instant horizon,
+                  std::vector<broad_phase::Meeting>* found);
+
+ private:
+  /// What the partners offered so far decide.
+  struct Room {
+    std::size_t pairs = 0;                       // that the agent can still have
+    AgentIndex first_full = AgentIndex::None();  // the least index without room of its own
+    std::vector<AgentIndex>* first;              // a heap of the least others, one more than fit
+  };
+
+  void Take(const std::vector<broad_phase::Meeting>& found, std::size_t begin, Room* room) const;
+
+  broad_phase::BroadPhase* broad_phase_;
+  const AccelerationTiers& tiers_;
+  const PairTable& pairs_;
+  const StepClock& clock_;
+  std::vector<AgentIndex> first_;  // scratch of one question, kept for its memory
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,102 @@
+#include "collision_core/detection/clearance/key_lowering.h"
+
+#include <algorithm>
+
+#include "collision_core/intersection/earliest_intersection.h"
+
+namespace collision::detection {
+namespace {
+
+/// With so few keys all are looked at one by one.
+constexpr std::size_t kFewKeys = 32;
+
+/// WorkBudget in units of a filter's test, about as it takes time: to look at one key, at a place, at a
+/// partner that the broad phase offers, and a pair query.
+constexpr std::uint64_t kKeyUnits = 16;
+constexpr std::uint64_t kVisitUnits = 16;
+constexpr std::uint64_t kOfferUnits = 32;
+constexpr std::uint64_t kQueryUnits = 256;
+
+/// A question one horizon farther costs about so many times more.
+constexpr std::uint64_t kFartherCosts = 2;
+
+}  // namespace
+
+void KeyLowering::Lower(AgentIndex agent, Instant from, const PartnerMarks& tracked) {
+  if (coverage_->settled() == 0) return;
+  const Renewed renewed{agent, from, tracked};
+  const Instant until = context_.clock.announce_until();
+  const bool few = coverage_->settled() <= kFewKeys;
+  const Instant split = few ? Instant::Always() : std::max(until, horizons_.At(split_));
+  const Instant last = coverage_->LatestKey();
+  far_.clear();
+  if (last > split) coverage_->AppendSettledFrom(split, &far_);
+  const std::uint64_t asked = few ? 0 : LowerNear(renewed, std::min(last, split));
+  const std::uint64_t looks = kKeyUnits * far_.size();
+  const std::uint64_t spared = kKeyUnits * LowerFar(renewed, horizons_.At(split_ + 1), &far_);
+  if (few) return;
+  if (spared > kFartherCosts * asked) {
+    split_ = std::min(split_ + 1, QueryHorizons::kLast + 1);
+  } else if (asked > looks) {
+    split_ = std::max(split_ - 1, 1);
+  }
+}
+
+// Returns how many keys of `far` are not later than `next`.
+std::uint64_t KeyLowering::LowerFar(const Renewed& renewed, Instant next,
+                                    std::vector<AgentIndex>* far) {
+  std::uint64_t sooner = 0;
+  looks_ += far->size();
+  std::erase_if(*far, [&](AgentIndex partner) {
+    const Instant key = coverage_->KeyOf(partner, renewed.agent);
+    sooner += key <= next;
+    return renewed.tracked.Contains(partner) || filter_.CertainlyLater(renewed.agent, partner, key);
+  });
+  if (far->empty()) return sooner;
+  std::sort(far->begin(), far->end());
+  const motion::SpaceTimeBound bound = context_.agents[renewed.agent].wide_bound();
+  for (const AgentIndex partner : *far) {
+    ++context_.counters->pair_queries;
+    const motion::SpaceTimeBound of_partner = context_.agents[partner].wide_bound();
+    LowerOne(partner, renewed.agent,
+             intersection::EarliestIntersection(bound, of_partner, renewed.from).instant());
+  }
+  return sooner;
+}
+
+// Lowers all keys that are not later than `horizon`, and perhaps others. Returns what it cost.
+std::uint64_t KeyLowering::LowerNear(const Renewed& renewed, Instant horizon) {
+  std::uint64_t offers = 0;
+  const auto skip = [&](std::uint32_t index) {
+    const AgentIndex partner(index);
+    ++offers;
+    return renewed.tracked.Contains(partner) || !coverage_->IsSettled(partner) ||
+           filter_.CertainlyLater(renewed.agent, partner, coverage_->KeyOf(partner, renewed.agent));
+  };
+  const broad_phase::BroadPhaseWork before = broad_phase_->work();
+  found_.clear();
+  broad_phase_->Meetings(renewed.agent.value(), renewed.from, horizon, horizon, skip, &found_);
+  const broad_phase::BroadPhaseWork after = broad_phase_->work();
+  looks_ += offers;
+  SortByPartner(0, &found_);
+  for (const broad_phase::Meeting& meeting : found_) {
+    LowerOne(AgentIndex(meeting.partner), renewed.agent, meeting.time.instant());
+  }
+  return after.filter_tests - before.filter_tests + kVisitUnits * (after.visits - before.visits) +
+         kQueryUnits * (after.pair_queries - before.pair_queries) + kOfferUnits * offers;
+}
+
+void KeyLowering::LowerOne(AgentIndex partner, AgentIndex agent, Instant when) {
+  if (when >= coverage_->KeyOf(partner, agent)) return;
+  AgentCoverage& record = (*coverage_)[partner];
+  const bool sooner = when < record.keys.earliest();
+  if (when <= context_.clock.announce_until()) {
+    coverage_->Saturate(partner, agent);  // there was no room to track the two
+  } else {
+    if (sooner) record.next_partner = agent;
+    coverage_->LowerKey(partner, agent, when);
+  }
+  if (sooner) told_->NotifyPartner(partner, agent);
+}
+
+}  // namespace collision::detection

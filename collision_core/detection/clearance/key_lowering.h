@@ -1,0 +1,68 @@
+// Clearance keys that rely on more than a renewed agent still promises.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/detection/clearance/clearance_filter.h"
+#include "collision_core/detection/clearance/coverage_table.h"
+#include "collision_core/detection/clearance/partner_marks.h"
+#include "collision_core/detection/clearance/query_horizons.h"
+#include "collision_core/detection/clearance/told_clearances.h"
+
+namespace collision::detection {
+
+/// After a renewal, every partner whose key is later than its meeting with the renewed agent gets
+/// the earlier one. Only keys of earlier steps need it (CoverageTable::IsSettled): an agent that is
+/// asked about in the same step is asked about the new bound.
+///
+/// Keys up to a horizon are found with the broad phase, by where their agents are; each later key
+/// is looked at by itself (ClearanceFilter, some 20 ns). So agents that are clear for long do not
+/// make a renewal look as far ahead, where it would meet every agent. By counted work the horizon
+/// goes to where both together cost least: farther where that spares more looks than it costs,
+/// nearer where the question costs more than all looks.
+class KeyLowering {
+ public:
+  /// All outlive the object. `broad_phase` holds the wide bounds of all agents.
+  KeyLowering(const DetectorContext& context, CoverageTable* coverage, ToldClearances* told,
+              broad_phase::BroadPhase* broad_phase, const ClearanceFilter& filter)
+      : context_(context),
+        coverage_(coverage),
+        told_(told),
+        broad_phase_(broad_phase),
+        filter_(filter),
+        horizons_(context.clock) {}
+
+  /// Lowers the keys of all partners of `agent` but those in `tracked`, for meetings from `from`
+  /// on.
+  void Lower(AgentIndex agent, Instant from, const PartnerMarks& tracked);
+
+  /// Partners looked at beside the broad phase's own tests, since the start.
+  std::uint64_t looks() const { return looks_; }
+
+ private:
+  struct Renewed {
+    AgentIndex agent;
+    Instant from;
+    const PartnerMarks& tracked;
+  };
+
+  std::uint64_t LowerNear(const Renewed& renewed, Instant horizon);
+  std::uint64_t LowerFar(const Renewed& renewed, Instant next, std::vector<AgentIndex>* far);
+  void LowerOne(AgentIndex partner, AgentIndex agent, Instant when);
+
+  const DetectorContext context_;
+  CoverageTable* coverage_;
+  ToldClearances* told_;
+  broad_phase::BroadPhase* broad_phase_;
+  const ClearanceFilter& filter_;
+  const QueryHorizons horizons_;
+  int split_ = 4;  // keys beyond this horizon are lowered one by one
+  std::uint64_t looks_ = 0;
+  // Scratch of one renewal, kept for its memory.
+  std::vector<broad_phase::Meeting> found_;
+  std::vector<AgentIndex> far_;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,67 @@
+#include "collision_core/detection/clearance/next_meeting_search.h"
+
+#include <algorithm>
+
+namespace collision::detection {
+namespace {
+
+/// Up to so many partners are all asked; of more, one in kSampleShare is asked first.
+constexpr std::size_t kAllAsked = 64;
+constexpr std::size_t kSampleShare = 32;
+
+/// A search without an answer goes on one horizon farther, then two at a time.
+constexpr int kStrideMax = 2;
+
+}  // namespace
+
+NextMeeting NextMeetingSearch::EarliestOf(const std::vector<broad_phase::Meeting>& meetings,
+                                          const PartnerMarks& tracked) {
+  NextMeeting next;
+  for (const broad_phase::Meeting& meeting : meetings) {
+    const AgentIndex partner(meeting.partner);
+    if (tracked.Contains(partner) || meeting.time.instant() >= next.when) continue;
+    next = {meeting.time.instant(), partner};
+  }
+  return next;
+}
+
+NextMeeting NextMeetingSearch::Find(const ClearanceQuestion& question, Instant known) {
+  NextMeeting next;
+  int stride = 0;
+  for (int step = Begin(question); next.when.is_never() && !known.is_never(); step += stride) {
+    stride = std::min(stride + 1, kStrideMax);
+    const Instant until = horizons_.At(step);
+    if (until <= known) continue;
+    FindUpTo(question, known, until);
+    next = EarliestOf(found_, *question.tracked);
+    known = until;
+  }
+  Record(question, next.when);
+  return next;
+}
+
+void NextMeetingSearch::FindUpTo(const ClearanceQuestion& question, Instant known,
+                                 Instant horizon) {
+  const std::uint32_t agent = question.agent.value();
+  std::size_t offered = 0, left_out = 0;
+  const auto sample = [&](std::uint32_t partner) {
+    if (question.LeavesOut(AgentIndex(partner), tiers_)) return true;
+    if (++offered <= kAllAsked || offered % kSampleShare == 0) return false;
+    ++left_out;
+    return true;
+  };
+  found_.clear();
+  broad_phase_->Meetings(agent, question.from, known, horizon, sample, &found_);
+  looks_ += offered - left_out;
+  if (left_out == 0) return;
+  if (!found_.empty()) horizon = found_.front().time.instant();
+  const auto all = [&](std::uint32_t partner) {
+    if (question.LeavesOut(AgentIndex(partner), tiers_)) return true;
+    ++looks_;
+    return false;
+  };
+  found_.clear();
+  broad_phase_->Meetings(agent, question.from, known, horizon, all, &found_);
+}
+
+}  // namespace collision::detection

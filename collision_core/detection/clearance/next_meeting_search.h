@@ -1,0 +1,53 @@
+// The next meeting of an agent, however far ahead.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/detection/clearance/clearance_question.h"
+#include "collision_core/detection/clearance/query_horizons.h"
+
+namespace collision::detection {
+
+/// Finds the next meeting with the broad phase, horizon by horizon. Far ahead a whole swarm may
+/// come near at about the same time: there one partner in 32 is asked first, and the earliest of
+/// these answers spares nearly all of the others.
+class NextMeetingSearch {
+ public:
+  /// All outlive the search. `broad_phase` holds the wide bounds of all agents.
+  NextMeetingSearch(broad_phase::BroadPhase* broad_phase, const AccelerationTiers& tiers,
+                    const StepClock& clock)
+      : broad_phase_(broad_phase), tiers_(tiers), horizons_(clock) {}
+
+  const QueryHorizons& horizons() const { return horizons_; }
+  /// The horizon with which this question begins.
+  int Begin(const ClearanceQuestion& question) const {
+    return horizons_.Begin(tiers_.TierOf(question.agent), question.group);
+  }
+  /// The answer to a question was found by other means.
+  void Record(const ClearanceQuestion& question, Instant when) {
+    horizons_.Record(tiers_.TierOf(question.agent), question.group, when);
+  }
+
+  /// The first meeting, none of which comes by `known`, of the partners that are not left out.
+  NextMeeting Find(const ClearanceQuestion& question, Instant known);
+
+  /// The earliest of `meetings` whose partner is not tracked.
+  static NextMeeting EarliestOf(const std::vector<broad_phase::Meeting>& meetings,
+                                const PartnerMarks& tracked);
+
+  /// Partners looked at beside the broad phase's own tests, since the start.
+  std::uint64_t looks() const { return looks_; }
+
+ private:
+  void FindUpTo(const ClearanceQuestion& question, Instant known, Instant horizon);
+
+  broad_phase::BroadPhase* broad_phase_;
+  const AccelerationTiers& tiers_;
+  QueryHorizons horizons_;
+  std::uint64_t looks_ = 0;
+  std::vector<broad_phase::Meeting> found_;  // scratch of one question, kept for its memory
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,42 @@
+#include "collision_core/detection/clearance/pre_jump_motions.h"
+
+#include <algorithm>
+
+namespace collision::detection {
+
+void PreJumpMotions::Record(AgentIndex agent, motion::SpaceTimeBound bound, Instant until) {
+  if (motions_max_ == 0) return;
+  if (motions_.size() == motions_max_) DropFirst();
+  auto place = static_cast<std::uint32_t>(agents_.size());
+  if (free_.empty()) {
+    agents_.push_back(agent);
+  } else {
+    place = free_.back();
+    free_.pop_back();
+    agents_[place] = agent;
+  }
+  bound.state.expiry = std::min(bound.state.expiry, until);
+  method_->Put(place, bound);
+  motions_.push_back({place, until});
+}
+
+void PreJumpMotions::DropFirst() {
+  method_->Remove(motions_.front().place);
+  free_.push_back(motions_.front().place);
+  motions_.pop_front();
+}
+
+void PreJumpMotions::Forget(Instant since) {
+  while (!motions_.empty() && motions_.front().until <= since) DropFirst();
+}
+
+void PreJumpMotions::Find(const motion::SpaceTimeBound& around, Instant from, Instant until,
+                          std::vector<AgentIndex>* agents) {
+  if (motions_.empty()) return;
+  found_.clear();
+  const auto none = [](std::uint32_t) { return false; };
+  method_->MeetingsOf(around, from, until, none, &found_);
+  for (const broad_phase::Meeting& meeting : found_) agents->push_back(agents_[meeting.partner]);
+}
+
+}  // namespace collision::detection

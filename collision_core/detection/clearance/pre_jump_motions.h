@@ -1,0 +1,52 @@
+// Where agents were on their way to before they jumped.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <vector>
+
+#include "collision_core/base/ids.h"
+#include "collision_core/broad_phase/broad_phase.h"
+
+namespace collision::detection {
+
+/// An agent whose newest state lies after a jump may have met others before it, on the motion that
+/// it had until then. Holds these motions by time. Empty, and free of cost, in a scene without
+/// jumps.
+class PreJumpMotions {
+ public:
+  /// At most `motions_max` are kept; beyond, the oldest is dropped. `method` is empty.
+  PreJumpMotions(std::unique_ptr<broad_phase::BroadPhase> method, std::size_t motions_max)
+      : method_(std::move(method)), motions_max_(motions_max) {}
+
+  /// The agent moved within `bound` up to `until`.
+  void Record(AgentIndex agent, motion::SpaceTimeBound bound, Instant until);
+
+  /// No question will be about a time before `since`.
+  void Forget(Instant since);
+
+  /// Appends the agents whose former motion may meet `around` in [from, until]; one agent perhaps
+  /// several times.
+  void Find(const motion::SpaceTimeBound& around, Instant from, Instant until,
+            std::vector<AgentIndex>* agents);
+
+  std::size_t size() const { return motions_.size(); }
+
+ private:
+  struct Motion {
+    std::uint32_t place;  // in method_
+    Instant until;
+  };
+
+  void DropFirst();
+
+  std::unique_ptr<broad_phase::BroadPhase> method_;
+  std::size_t motions_max_;
+  std::deque<Motion> motions_;      // in the order of their coming
+  std::vector<AgentIndex> agents_;  // by place
+  std::vector<std::uint32_t> free_;
+  std::vector<broad_phase::Meeting> found_;  // scratch of one question, kept for its memory
+};
+
+}  // namespace collision::detection

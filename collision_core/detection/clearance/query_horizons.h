@@ -1,0 +1,59 @@
+// How far ahead the broad phase is asked.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "collision_core/detection/clearance/acceleration_tiers.h"
+#include "collision_core/detection/step_clock.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+
+/// A question about the next meeting looks up to a horizon, and if there is no meeting up to a
+/// later one: horizon k lies announce_within · kFactor^k ahead of now, and beyond kLast all time is
+/// looked at. As a horn widens with the square of the time, the number of agents that may be met
+/// grows with its sixth power, so that one look too far costs more than a few that are too short.
+/// The answer is the same bits whatever the horizons.
+///
+/// Questions begin with the horizon within which half of the last answers lay: one for each tier
+/// that asks and group that is asked about, so that agents of comparable accelerations are asked at
+/// the same cost whether or not a faster one is in the scene.
+class QueryHorizons {
+ public:
+  static constexpr double kFactor = 1.25;
+  static constexpr int kLast = 24;
+
+  explicit QueryHorizons(const StepClock& clock) : clock_(clock) {
+    for (auto& of_tier : begins_) of_tier.fill(1);
+  }
+
+  /// Horizon `step` >= 0; Never() beyond kLast.
+  Instant At(int step) const {
+    if (step > kLast) return Instant::Never();
+    double ahead = clock_.announce_within;
+    for (int k = 0; k < step; ++k) ahead *= kFactor;
+    return numeric::AddRoundedUp(clock_.now, ahead);
+  }
+
+  /// With which horizon an agent of `tier` is asked about `group` (kEveryGroup: -1) at first.
+  int Begin(int tier, int group) const { return begins_.at(Row(tier)).at(Row(group)); }
+
+  /// The answer's time: the next question begins a step nearer to it.
+  void Record(int tier, int group, Instant when) {
+    int& begin = begins_.at(Row(tier)).at(Row(group));
+    if (when > At(begin)) {
+      begin = std::min(begin + 1, kLast);
+    } else if (begin > 1 && when <= At(begin - 1)) {
+      --begin;
+    }
+  }
+
+ private:
+  static std::size_t Row(int tier) { return static_cast<std::size_t>(std::max(tier, 0)); }
+
+  const StepClock& clock_;
+  std::array<std::array<int, AccelerationTiers::kTiers>, AccelerationTiers::kTiers> begins_{};
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,124 @@
+#include "collision_core/detection/clearance/told_clearances.h"
+
+#include <algorithm>
+
+namespace collision::detection {
+namespace {
+
+bool Same(const AgentClearance& a, const AgentClearance& b) {
+  return a.clear_until == b.clear_until && a.not_clear == b.not_clear &&
+         a.in_contact == b.in_contact && a.saturated == b.saturated &&
+         a.unannounced_until == b.unannounced_until && a.unsettled_until == b.unsettled_until &&
+         a.effective_from == b.effective_from;
+}
+
+}  // namespace
+
+void ToldClearances::AddAgent(AgentIndex agent) {
+  if (!told_.contains(agent)) told_.resize(agent.value() + 1);
+  told_[agent] = Told();
+}
+
+void ToldClearances::SetEffectiveFrom(AgentIndex agent, Instant effective_from) {
+  Told& told = told_.at(agent);
+  told.effective_from = std::max(told.effective_from, effective_from);
+}
+
+// `cause`, `cause_agent` and `void_from` count.
+void ToldClearances::RecordCause(const AgentClearance& cause, Told* told) const {
+  if (cause.void_from > told->void_from) return;
+  told->cause = cause.cause;
+  told->cause_agent = cause.cause_agent;
+  told->void_from = cause.void_from;
+}
+
+void ToldClearances::RecordBreach(AgentIndex agent, Instant from) {
+  RecordCause({.cause = ClearanceCause::kBreach,
+               .cause_agent = context_.agents[agent].id,
+               .void_from = from},
+              &told_.at(agent));
+}
+
+void ToldClearances::RecordRenewal(AgentIndex agent) {
+  const ClearanceCause cause = coverage_[agent].renewed_cause;
+  if (cause == ClearanceCause::kBreach) return;
+  RecordCause({.cause = cause, .cause_agent = context_.agents[agent].id}, &told_.at(agent));
+}
+
+void ToldClearances::NotifyPartner(AgentIndex agent, AgentIndex cause) {
+  const ClearanceCause why = coverage_[cause].renewed_cause;
+  const bool breach = why == ClearanceCause::kBreach;
+  RecordCause({.cause = why,
+               .cause_agent = context_.agents[cause].id,
+               .void_from = breach ? told_.at(cause).void_from : Instant::Never()},
+              &told_.at(agent));
+  context_.clearances_dirty->Insert(agent);
+}
+
+AgentClearance ToldClearances::Of(AgentIndex agent) const {
+  const AgentRecord& record = context_.agents[agent];
+  const Instant now = context_.clock.now;
+  AgentClearance clearance;
+  clearance.agent = record.id;
+  clearance.effective_from = told_.at(agent).effective_from;
+  clearance.saturated = coverage_.IsSaturated(agent);
+  clearance.clear_until = clearance.unannounced_until = coverage_[agent].keys.earliest();
+  for (const PairSlot slot : pairs_.Of(agent)) {
+    const PairRecord& pair = pairs_[slot];
+    clearance.unsettled_until = std::max(clearance.unsettled_until, pair.unsettled_until);
+    if (!pair.published.announced) {
+      clearance.unannounced_until = std::min(clearance.unannounced_until, pair.clear_until);
+    }
+    if (pair.in_contact) {
+      clearance.in_contact = true;
+    } else {
+      clearance.clear_until = std::min(clearance.clear_until, pair.clear_until);
+    }
+  }
+  if (record.expired) clearance.clear_until = record.bound().state.expiry;
+  if (clearance.saturated) clearance.clear_until = std::min(clearance.clear_until, now);
+  clearance.not_clear = clearance.clear_until <= now;
+  return clearance;
+}
+
+std::optional<AgentClearance> ToldClearances::TakeChange(AgentIndex agent) {
+  Told& told = told_.at(agent);
+  AgentClearance clearance = Of(agent);
+  const bool lowered = told.last && clearance.clear_until < told.last->clear_until;
+  const bool changed = !told.last || !Same(clearance, *told.last) || !told.void_from.is_never();
+  if (changed) {
+    if (!told.last || lowered || told.cause_agent == clearance.agent) {
+      clearance.cause = told.cause;
+      clearance.cause_agent = told.cause_agent;
+      clearance.void_from = told.void_from;
+    }
+    told.last = clearance;
+  }
+  told.cause = ClearanceCause::kNone;
+  told.cause_agent = AgentId{};
+  told.void_from = Instant::Never();
+  return changed ? std::optional(clearance) : std::nullopt;
+}
+
+// Only agents whose key, pairs or contacts have changed can have another clearance, and the
+// saturated ones, whose clearance is always now.
+std::vector<AgentClearance> ToldClearances::TakeChanged() {
+  for (const AgentIndex agent : coverage_.saturated()) context_.clearances_dirty->Insert(agent);
+  std::vector<AgentIndex> agents;
+  for (const AgentIndex agent : *context_.clearances_dirty) {
+    if (context_.agents.Contains(agent) && context_.agents[agent].removal == 0) {
+      agents.push_back(agent);
+    }
+  }
+  context_.clearances_dirty->Clear();
+  std::sort(agents.begin(), agents.end(), [this](AgentIndex a, AgentIndex b) {
+    return context_.agents[a].id < context_.agents[b].id;
+  });
+  std::vector<AgentClearance> changed;
+  for (const AgentIndex agent : agents) {
+    if (const auto change = TakeChange(agent)) changed.push_back(*change);
+  }
+  return changed;
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,59 @@
+// What agents are told: clearances, when they change, and why.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "collision_core/base/ids.h"
+#include "collision_core/detection/clearance/agent_clearance.h"
+#include "collision_core/detection/clearance/coverage_table.h"
+#include "collision_core/detection/pairs/tracked_pairs.h"
+
+namespace collision::detection {
+
+/// Derives each agent's clearance from its keys and its tracked pairs, and remembers what was told
+/// last. Of several causes of a lowering in one step the breach counts that voids promises from the
+/// earliest time on, whatever comes after it: it is the only trace of the culprit.
+class ToldClearances {
+ public:
+  /// All outlive the object.
+  ToldClearances(const DetectorContext& context, const TrackedPairs& pairs,
+                 const CoverageTable& coverage)
+      : context_(context), pairs_(pairs.table()), coverage_(coverage) {}
+
+  /// The agent of this index is new: nothing has been told.
+  void AddAgent(AgentIndex agent);
+
+  /// The agent's own promises count from `effective_from`, the latest of several.
+  void SetEffectiveFrom(AgentIndex agent, Instant effective_from);
+  /// The agent broke its bound: promises are void from `from` on.
+  void RecordBreach(AgentIndex agent, Instant from);
+  /// The agent's own renewal, unless it was a breach.
+  void RecordRenewal(AgentIndex agent);
+  /// The agent's clearance may be lowered because of the renewal of `cause`.
+  void NotifyPartner(AgentIndex agent, AgentIndex cause);
+
+  /// Clearances that differ from those told last, or whose promises are void, in the order of ids.
+  std::vector<AgentClearance> TakeChanged();
+  /// As of the last step. Requires an agent of the table.
+  AgentClearance Of(AgentIndex agent) const;
+
+ private:
+  struct Told {
+    std::optional<AgentClearance> last;
+    ClearanceCause cause = ClearanceCause::kNone;  // since then
+    AgentId cause_agent;
+    Instant void_from = Instant::Never();
+    Instant effective_from = Instant::Always();
+  };
+
+  void RecordCause(const AgentClearance& cause, Told* told) const;
+  std::optional<AgentClearance> TakeChange(AgentIndex agent);
+
+  const DetectorContext context_;
+  const PairTable& pairs_;
+  const CoverageTable& coverage_;
+  IndexedVector<AgentIndex, Told> told_;
+};
+
+}  // namespace collision::detection

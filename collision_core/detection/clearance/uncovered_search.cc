@@ -1,0 +1,148 @@
+#include "collision_core/detection/clearance/uncovered_search.h"
+
+#include <algorithm>
+
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+namespace {
+
+/// Room for the rounding of some twenty operations on paths and reaches: 2^-53 each would do with
+/// 1 + 2^-48, and a wider ball costs nothing but tests.
+constexpr double kPathSlack = 1.000001;
+/// Room for the rounding of places, as a part of their distance from the origin.
+constexpr double kPlaceSlack = 1e-12;
+/// A finite error [m] for a reach that overflows: no canonical routine sees an infinite one.
+constexpr double kReachMax = 1e300;
+/// So small that it adds nothing [m/s²], and not 0: the ball stands for what moves, and two bounds
+/// that never move are not compared.
+constexpr double kNotAtRest = 1e-30;
+
+/// |v| t + M t (t + h) is more than the path that either direction of the horn allows, with room
+/// for the rounding of all this.
+double Path(double speed, double acceleration_max, double time_step, double t) {
+  return kPathSlack * (speed + acceleration_max * (t + time_step)) * t;
+}
+
+/// Of one agent, from where its newest state says.
+double PathOf(const motion::SpaceTimeBound& bound, double t) {
+  return Path(bound.state.v_WA.norm() + bound.state.velocity_error,
+              bound.declaration.acceleration_max, bound.declaration.time_step, t);
+}
+
+/// [s], with twice the skew: of either clock.
+double Span(Instant a, Instant b, double skew) {
+  return b <= a ? 0 : numeric::SecondsBetween(a, b).upper + 2 * skew;
+}
+
+/// Whether the agent may get from its newest bound, within t seconds of it, into the ball of
+/// `around`, `reach` wide beside its radius.
+bool GetsInto(const motion::SpaceTimeBound& around, double reach,
+              const motion::SpaceTimeBound& bound, double t) {
+  const double sum = reach + around.declaration.radius + bound.declaration.radius +
+                     2 * bound.state.position_error + PathOf(bound, t);
+  const double magnitude = around.state.p_WA.norm() + bound.state.p_WA.norm();
+  return !((around.state.p_WA - bound.state.p_WA).norm() >
+           kPathSlack * sum + kPlaceSlack * magnitude);
+}
+
+}  // namespace
+
+Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covered) {
+  return std::max({covered, a.admitted_from, b.admitted_from});
+}
+
+const std::vector<UncoveredPartner>& UncoveredSearch::Find(const ClearanceQuestion& question) {
+  uncovered_.clear();
+  const AgentRecord& record = context_.agents[question.agent];
+  const Instant covered = question.covered;
+  // Otherwise the agent is covered beyond its own newest state, and so is every other: an agent
+  // whose state lies beyond its key is renewed or asked about first of all, but for the saturated
+  // ones.
+  const bool none_saturated = coverage_.saturated().empty();
+  if (!question.renewed && record.stamp() <= covered && none_saturated) return uncovered_;
+  FindCandidates(question, question.renewed ? std::max(covered, record.admitted_from) : covered);
+  for (const AgentIndex partner : candidates_) Check(question, partner);
+  return uncovered_;
+}
+
+void UncoveredSearch::FindCandidates(const ClearanceQuestion& question, Instant from) {
+  candidates_.clear();
+  if (context_.agents.extremes().newest <= from) return;
+  const History& history = context_.agents[question.agent].history;
+  history.ForEachMotion(
+      from, [&](const motion::SpaceTimeBound& motion) { FindAround(question, motion, from); });
+  std::sort(candidates_.begin(), candidates_.end());
+  candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
+}
+
+// Whichever agent may have met this motion between `from` and the newest states.
+void UncoveredSearch::FindAround(const ClearanceQuestion& question,
+                                 const motion::SpaceTimeBound& motion, Instant from) {
+  const AgentTable& agents = context_.agents;
+  const SceneExtremes::Bounds& scene = agents.extremes();
+  const double others_time = Span(from, scene.newest, agents.skew());
+  const double others = 2 * scene.position_error_max + Path(scene.speed_max, scene.acceleration_max,
+                                                            scene.time_step_max, others_time);
+  const double own = OwnReach(motion, from);
+  motion::SpaceTimeBound around;
+  around.state.stamp = from;
+  around.state.p_WA = motion.state.p_WA;
+  around.state.position_error = std::min(own + others, kReachMax);
+  around.declaration.radius = motion.declaration.radius;
+  around.declaration.acceleration_max = kNotAtRest;
+  around.declaration.group = agents[question.agent].bound().declaration.group;
+  around.declaration.mask = agents[question.agent].bound().declaration.mask;
+  const auto skip = [&](std::uint32_t index) {
+    const AgentIndex partner(index);
+    return partner == question.agent || question.LeavesOut(partner, coverage_.tiers());
+  };
+  found_.clear();
+  broad_phase_->MeetingsOf(around, from, scene.newest, skip, &found_);
+  for (const broad_phase::Meeting& meeting : found_) {
+    const AgentRecord& partner = agents[AgentIndex(meeting.partner)];
+    const double time = Span(partner.stamp(), scene.newest, agents.skew());
+    if (GetsInto(around, own, partner.wide_bound(), std::max(others_time, time))) {
+      candidates_.push_back(AgentIndex(meeting.partner));
+    }
+  }
+  former_->Find(around, from, scene.newest, &candidates_);
+}
+
+// How far from its place the agent may have been in this motion since `from`.
+double UncoveredSearch::OwnReach(const motion::SpaceTimeBound& motion, Instant from) const {
+  const double skew = context_.agents.skew();
+  const Instant stamp = motion.state.stamp, newest = context_.agents.extremes().newest;
+  const double time = std::max({Span(from, stamp, skew), Span(stamp, newest, skew), 2 * skew});
+  return motion.state.position_error + PathOf(motion, time);
+}
+
+void UncoveredSearch::Check(const ClearanceQuestion& question, AgentIndex partner) {
+  const AgentTable& agents = context_.agents;
+  if (partner == question.agent || !agents.Contains(partner)) return;
+  const AgentRecord &record = agents[question.agent], &other = agents[partner];
+  if (other.expired || question.LeavesOut(partner, coverage_.tiers()) ||
+      !CanMeet(record.bound().declaration, other.bound().declaration)) {
+    return;
+  }
+  Instant free_until =
+      question.renewed ? UncoveredFrom(record, other, question.covered) : question.covered;
+  if (!question.renewed && !coverage_.IsSaturated(partner)) {
+    free_until = std::max(free_until, coverage_.KeyOf(partner, question.agent));
+  }
+  const Instant known_from = std::max(record.stamp(), other.stamp());
+  if (free_until >= known_from || FreeOver(record, other, free_until, known_from)) return;
+  uncovered_.push_back({partner, free_until});
+}
+
+bool UncoveredSearch::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,
+                               Instant to) const {
+  const motion::SpaceTimeBound* bound_a = a.history.Uninterrupted(from);
+  const motion::SpaceTimeBound* bound_b = b.history.Uninterrupted(from);
+  if (bound_a == nullptr || bound_b == nullptr) return false;
+  ++context_.counters->pair_queries;
+  return intersection::EarliestIntersection(*bound_a, *bound_b, from).instant() >= to;
+}
+
+}  // namespace collision::detection

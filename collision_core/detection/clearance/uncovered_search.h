@@ -1,0 +1,60 @@
+// Meetings that lie before the newest states of two agents.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/detection/clearance/clearance_question.h"
+#include "collision_core/detection/clearance/coverage_table.h"
+#include "collision_core/detection/clearance/pre_jump_motions.h"
+
+namespace collision::detection {
+
+/// A partner that the agent may have met before both newest states: free of it up to here.
+struct UncoveredPartner {
+  AgentIndex partner;
+  Instant free_until;
+};
+
+/// The broad phase answers from the newest states on. Where those lie ahead of the time up to which
+/// a pair is covered (an owner was granted more time than others, or news came out of order), what
+/// lies between must be certified free as well, or the pair must be tracked and evaluated.
+///
+/// Each of the agent's motions since that time (a jump or a breach begins a new one) is replaced by
+/// a ball at rest that holds all of it, and is wider by as far as any agent of the scene may move
+/// in that time. So an agent that met it overlaps that ball with its newest bound, or with the
+/// motion it had before a jump. Of those found by their newest bounds only one that may itself have
+/// moved as far is a candidate: one very fast agent does not have all others asked about each
+/// other.
+class UncoveredSearch {
+ public:
+  /// All outlive the search.
+  UncoveredSearch(const DetectorContext& context, const CoverageTable& coverage,
+                  broad_phase::BroadPhase* broad_phase, PreJumpMotions* former)
+      : context_(context), coverage_(coverage), broad_phase_(broad_phase), former_(former) {}
+
+  /// The partners to be tracked, in the order of their indices; valid until the next call.
+  const std::vector<UncoveredPartner>& Find(const ClearanceQuestion& question);
+
+ private:
+  void FindCandidates(const ClearanceQuestion& question, Instant from);
+  void FindAround(const ClearanceQuestion& question, const motion::SpaceTimeBound& motion,
+                  Instant from);
+  void Check(const ClearanceQuestion& question, AgentIndex partner);
+  double OwnReach(const motion::SpaceTimeBound& motion, Instant from) const;
+  bool FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from, Instant to) const;
+
+  const DetectorContext context_;
+  const CoverageTable& coverage_;
+  broad_phase::BroadPhase* broad_phase_;
+  PreJumpMotions* former_;
+  // Scratch of one question, kept for its memory.
+  std::vector<broad_phase::Meeting> found_;
+  std::vector<AgentIndex> candidates_;
+  std::vector<UncoveredPartner> uncovered_;
+};
+
+/// The time from which the two are not certified free of each other: nothing is promised of an
+/// agent before it was admitted.
+Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covered);
+
+}  // namespace collision::detection

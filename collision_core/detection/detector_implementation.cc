@@ -1,0 +1,236 @@
+#include "collision_core/detection/detector_implementation.h"
+
+#include <algorithm>
+
+#include "collision_core/detection/agents/declaration_change.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+namespace {
+
+/// News may be so late, in units of announce_within, and still find what was known of the time it
+/// tells about. Of what came later than that, less is certain.
+constexpr double kLateness = 2;
+
+}  // namespace
+
+Detector::Implementation::Implementation(const DetectorOptions& options)
+    : clock_{.announce_within = options.announce_within},
+      agents_({.agents_max = options.agents_max,
+               .history_max = options.history_max,
+               .skew = options.skew}),
+      pairs_(options, {clock_, agents_, &counters_, &clearances_dirty_}),
+      clearances_(options, {clock_, agents_, &counters_, &clearances_dirty_}, &pairs_),
+      earliest_({clock_, agents_, &counters_, &clearances_dirty_}, &pairs_, &clearances_) {}
+
+bool Detector::Implementation::Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+                                     const motion::MotionState& state, Instant effective_from) {
+  const AgentIndex agent = agents_.Admit(id, declaration, state.stamp);
+  if (agent.is_none()) return false;
+  pairs_.AddAgent(agent);
+  clearances_.AddAgent(agent);
+  agents_.Store(agent, {state, declaration, agents_.skew()}, Link::kJumped);
+  Renew(agent, {state.stamp, ClearanceCause::kAdmission, effective_from});
+  return true;
+}
+
+UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::MotionState& state,
+                                               Instant effective_from) {
+  const AgentIndex agent = agents_.Find(id);
+  if (agent.is_none()) return UpdateOutcome::kUnknown;
+  const AgentRecord& record = agents_[agent];
+  if (state.stamp < record.stamp()) return UpdateOutcome::kOlder;
+  const NextState next{agent, {state, record.declaration, agents_.skew()}, effective_from};
+  if (record.expired) return Return(next);
+  if (state.discontinuity) return Jump(next);
+  const motion::ContractCheck check = CheckContract(record.bound(), state);
+  switch (check.verdict) {
+    case motion::ContractVerdict::kKept:
+      return Keep(next, check);
+    case motion::ContractVerdict::kWidened:
+      ++counters_.widenings;
+      agents_.Store(agent, next.bound, Link::kFollows);
+      Renew(agent, {next.stamp(), ClearanceCause::kWidening, effective_from});
+      return UpdateOutcome::kWidened;
+    case motion::ContractVerdict::kBreached:
+      break;
+  }
+  return Breach(next);
+}
+
+// The agent had expired: it starts anew.
+UpdateOutcome Detector::Implementation::Return(const NextState& next) {
+  AgentRecord& record = agents_[next.agent];
+  record.expired = false;
+  record.admitted_from = next.stamp();
+  record.history.Clear();
+  clearances_.Readmit(next.agent);
+  agents_.Store(next.agent, next.bound, Link::kJumped);
+  Renew(next.agent, {next.stamp(), ClearanceCause::kAdmission, next.effective_from});
+  return UpdateOutcome::kJumped;
+}
+
+UpdateOutcome Detector::Implementation::Jump(const NextState& next) {
+  ++counters_.jumps;
+  const AgentRecord& record = agents_[next.agent];
+  const double skew = agents_.skew();
+  clearances_.RecordFormerMotion(next.agent, record.bound(),
+                                 numeric::AddRoundedUp(next.stamp(), skew));
+  agents_.Store(next.agent, next.bound, Link::kJumped);
+  // By our clock the jump may have come earlier by the skew.
+  const Instant from = numeric::AddRoundedDown(next.stamp(), -skew);
+  Renew(next.agent, {from, ClearanceCause::kTeleport, next.effective_from});
+  return UpdateOutcome::kJumped;
+}
+
+UpdateOutcome Detector::Implementation::Keep(const NextState& next,
+                                             const motion::ContractCheck& check) {
+  ++counters_.updates_kept;
+  AgentRecord& record = agents_[next.agent];
+  const bool covered = record.margin.Spend(check, record.bound().state);
+  if (IsNarrower(record.bound().declaration, next.bound.declaration)) {
+    clearances_.RecordFormerMotion(next.agent, record.bound(), next.stamp());
+  }
+  agents_.Store(next.agent, next.bound, Link::kFollows);
+  if (!covered) {
+    Renew(next.agent, {next.stamp(), ClearanceCause::kWidening, next.effective_from});
+    return UpdateOutcome::kKept;
+  }
+  Tighten(next.agent);
+  clearances_.StateAdvanced(next.agent);
+  return UpdateOutcome::kKept;
+}
+
+UpdateOutcome Detector::Implementation::Breach(const NextState& next) {
+  ++counters_.breaches;
+  const Instant last_honest = agents_[next.agent].stamp();
+  agents_.Store(next.agent, next.bound, Link::kBroken);
+  clearances_.RecordBreach(next.agent, last_honest);
+  Renew(next.agent, {next.stamp(), ClearanceCause::kBreach, next.effective_from});
+  pairs_.MarkBroken(next.agent, last_honest);
+  return UpdateOutcome::kBreached;
+}
+
+bool Detector::Implementation::Redeclare(const AgentId& id,
+                                         const motion::AgentDeclaration& declaration,
+                                         Instant effective_from) {
+  const AgentIndex agent = agents_.Find(id);
+  if (agent.is_none()) return false;
+  AgentRecord& record = agents_[agent];
+  const BoundChange change = collision::detection::Redeclare(declaration, &record);
+  agents_.MarkChanged(agent);
+  if (record.expired) return true;
+  if (change == BoundChange::kWidened) {
+    ++counters_.widenings;
+    Renew(agent, {record.stamp(), ClearanceCause::kWidening, effective_from});
+  } else {
+    Tighten(agent);
+  }
+  return true;
+}
+
+// It is there until its owner last spoke of it; partners are evaluated up to then.
+bool Detector::Implementation::Remove(const AgentId& id) {
+  const AgentIndex agent = agents_.Find(id);
+  if (agent.is_none()) return false;
+  agents_.Remove(agent);
+  return true;
+}
+
+void Detector::Implementation::Renew(AgentIndex agent, const Renewal& renewal) {
+  AgentRecord& record = agents_[agent];
+  record.margin = BoundMargin(record.bound());
+  agents_.MarkChanged(agent);
+  agents_.RecordBound(agent);
+  clearances_.Renew(agent, renewal);
+  pairs_.RetractFree(agent, renewal.from);
+  clearances_.NotifyPartners(agent);
+}
+
+void Detector::Implementation::Tighten(AgentIndex agent) {
+  agents_.RecordBound(agent);
+  clearances_.Tighten(agent);
+}
+
+// Agents that leave or expire may have met others since the last step, so that they are asked about
+// first and evaluated after that.
+void Detector::Implementation::Advance(Instant now) {
+  clock_.now = std::max(clock_.now, now);
+  ++clock_.step;
+  pairs_.StartStep();
+  clearances_.QueryDueAgents();
+  ExpireAgents();
+  pairs_.EvaluateDuePairs();
+  clearances_.Cover(pairs_.TakeReleased());
+  ForgetPast();
+#ifndef NDEBUG
+  Validate();
+#endif
+}
+
+void Detector::Implementation::ExpireAgents() {
+  for (const AgentIndex agent : agents_.TakeExpired(clock_.now)) {
+    if (agents_[agent].removal != 0) {
+      Leave(agent);
+    } else if (!agents_[agent].expired) {
+      Expire(agent, Departure::kUnwatched);
+    }
+  }
+}
+
+// Promises exclude the agent from here on. What is known of its pairs is evaluated a last time.
+void Detector::Implementation::Expire(AgentIndex agent, Departure departure) {
+  pairs_.EvaluateLastTime(agent, departure);
+  agents_.SetExpired(agent);
+  clearances_.Remove(agent);
+}
+
+void Detector::Implementation::Leave(AgentIndex agent) {
+  if (!agents_[agent].expired) Expire(agent, Departure::kRemoved);
+  clearances_.Forget(agent);
+  pairs_.ForgetAgent(agent);
+  agents_.Release(agent);
+}
+
+// Keeps what is still needed: for pairs that are not settled up to the newest state, and for news
+// that may come late, from the agent whose newest state is the oldest.
+void Detector::Implementation::ForgetPast() {
+  agents_.UpdateExtremes();
+  const Instant late = numeric::AddRoundedDown(clock_.now, -kLateness * clock_.announce_within);
+  const Instant since = std::max(late, std::min(clock_.now, agents_.extremes().oldest));
+  clearances_.ForgetBefore(numeric::AddRoundedDown(since, -agents_.skew()));
+  agents_.EndStep([&](AgentIndex agent) { return pairs_.NeededFrom(agent, since); });
+}
+
+std::optional<AgentClearance> Detector::Implementation::ClearanceOf(const AgentId& id) const {
+  const AgentIndex agent = agents_.Find(id);
+  if (agent.is_none()) return std::nullopt;
+  return clearances_.Of(agent);
+}
+
+EarliestAnswer Detector::Implementation::Earliest() {
+  const EarliestAnswer answer = earliest_.Find();
+  clearances_.UpdateCounters();
+  return answer;
+}
+
+Detector::Profile Detector::Implementation::DescribeScene() const {
+  const broad_phase::AdaptiveBroadPhase& broad_phase = clearances_.broad_phase();
+  return {.broad_phase = Name(broad_phase.method()),
+          .why = broad_phase.why(),
+          .left_out = agents_.profile().LeftOut()};
+}
+
+std::size_t Detector::Implementation::queued() const {
+  return clearances_.coverage().due().size() + pairs_.queued() + agents_.expiries();
+}
+
+void Detector::Implementation::Validate() const {
+  agents_.Validate();
+  pairs_.Validate();
+  clearances_.Validate();
+  earliest_.Validate();
+  clearances_dirty_.Validate();
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,31 @@
+// The bounds within which a detector works.
+#pragma once
+
+#include <cstdint>
+
+#include "collision_core/broad_phase/broad_phase_method.h"
+
+namespace collision::detection {
+
+/// Every limit of the detector, with what happens at it. SI units.
+struct DetectorOptions {
+  double temporal_resolution = 1.0 / 60;  ///< Δt [s]: nearer than this a pair could overlap.
+  double announce_within = 2.0;  ///< A meeting this near [s] is announced; >= temporal_resolution.
+  double skew = 0;               ///< κ [s] between any sender's clock and ours.
+  std::uint32_t agents_max = 1000;          ///< Admit() refuses beyond.
+  std::uint32_t pairs_max = 65536;          ///< Tracked at once; beyond, both agents are saturated.
+  std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
+  /// States of one agent that are kept; beyond, the oldest are dropped and brackets widen. >= 1.
+  std::uint32_t history_max = 64;
+  /// WorkBudget that the narrow phase may spend on a pair of shapes in one evaluation
+  /// (narrow_phase/work.h); beyond, brackets stay wider and say that the budget limited them.
+  std::uint64_t work_units_per_turn = 40000;
+  /// Likewise in one step on all pairs of shapes, shared out among those that are evaluated
+  /// (pairs/work_shares.h). WorkBudget that one pair leaves goes to the next. The last evaluation of a
+  /// pair of which an agent leaves or expires does not count. 0: no limit but each evaluation's.
+  std::uint64_t work_units_per_step = 0;
+  /// How candidate pairs are found; changes the cost, never an answer.
+  broad_phase::BroadPhaseMethod broad_phase = broad_phase::BroadPhaseMethod::kAuto;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,93 @@
+// The search for the earliest possible intersection over all agents.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/detection/clearance/clearances.h"
+#include "collision_core/detection/clearance/next_meeting_search.h"
+#include "collision_core/detection/clearance/uncovered_search.h"
+#include "collision_core/detection/earliest/earliest_answer.h"
+#include "collision_core/detection/pairs/tracked_pairs.h"
+
+namespace collision::detection {
+
+/// Answers Detector::Earliest(). The answer is canonical: the earliest of what the canonical
+/// routine says of every pair, asked from now on, though only few pairs are asked.
+///
+/// For each agent and each tracked pair the search remembers a *lower bound* of what it can add to
+/// the answer. Two queues order them; agents and pairs are asked in the order of their bounds until
+/// no bound is early enough to better the best answer. A bound that is early enough is first
+/// computed anew from now on, which usually is enough for many steps.
+///
+/// An agent's bound is its earliest clearance key, or the agent's next meeting as found by a
+/// question of the search's own. Both hold for each untracked partner as long as neither bound
+/// widens. Where a partner is renewed later, the bound of that partner, which is void from then on
+/// (CoverageTable::voided), covers the pair. Bounds are computed from wide bounds (BoundMargin), so
+/// that they hold for newer states that keep their contracts.
+///
+/// Between two steps an agent may have been renewed, or have told a state beyond its key: what lies
+/// before its newest state is then looked at as at the next step, and its bound stays unknown.
+///
+/// What is remembered is a cache of its own: keys, pairs, events and clearances do not depend on
+/// whether the search is ever asked. A perfect lattice, in which all pairs tie, costs as much as it
+/// has agents, at each question.
+class EarliestSearch {
+ public:
+  /// All outlive the search.
+  EarliestSearch(const DetectorContext& context, TrackedPairs* pairs, Clearances* clearances);
+
+  /// As of the last step.
+  EarliestAnswer Find();
+
+  void Validate() const;
+
+ private:
+  struct AgentBound {
+    std::uint64_t computed_step = 0;
+    AgentIndex next_partner;  // may be met at the bound, as far as is known
+  };
+  struct PairBound {
+    std::uint64_t canonical_step = 0;
+    Instant canonical = Instant::Never();  // the earliest intersection as of that step
+  };
+  /// An agent or pair that was taken out of its queue, to be put back.
+  template <typename IndexType>
+  struct Taken {
+    IndexType index;
+    Instant bound;
+  };
+  struct Run;  // one call of Find()
+
+  void TakeChanges();
+  void OfferSaturated(Run* run) const;
+  void OfferPairs(Run* run);
+  void OfferPair(PairSlot slot, Run* run);
+  Instant LowerBoundOf(const PairRecord& pair) const;
+  void OfferAgents(Run* run);
+  bool IsUncovered(AgentIndex agent) const;
+  void OfferUncovered(AgentIndex agent, Run* run);
+  void ComputeBound(AgentIndex agent);
+  void OfferPartners(AgentIndex agent, Instant bound, Run* run);
+  void OfferMeetings(AgentIndex agent, Instant until, Instant horizon, Run* run);
+  bool IsUntrackedPartner(AgentIndex agent, AgentIndex partner) const;
+  Instant Canonical(AgentIndex a, AgentIndex b) const;
+
+  const DetectorContext context_;
+  const PairTable& pairs_;
+  const CoverageTable& coverage_;
+  IndexSet<PairSlot>* pairs_changed_;
+  IndexSet<AgentIndex>* agents_voided_;
+  broad_phase::BroadPhase* broad_phase_;
+  NextMeetingSearch next_;
+  UncoveredSearch uncovered_;
+  EventQueue<AgentIndex> agent_bounds_;  // Always(): not known
+  EventQueue<PairSlot> pair_bounds_;     // likewise; of pairs that are not in contact
+  IndexedVector<AgentIndex, AgentBound> agents_;
+  IndexedVector<PairSlot, PairBound> pair_answers_;
+  // Scratch of one question, kept for its memory.
+  PartnerMarks tracked_;
+  std::vector<broad_phase::Meeting> found_;
+};
+
+}  // namespace collision::detection

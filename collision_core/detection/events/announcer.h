@@ -1,0 +1,97 @@
+// When news of a pair is worth an event, and what the event says.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/base/ids.h"
+#include "collision_core/detection/detector_counters.h"
+#include "collision_core/detection/detector_options.h"
+#include "collision_core/detection/events/contact_episode.h"
+#include "collision_core/detection/events/contact_numbers.h"
+
+namespace collision::detection {
+
+/// The two agents of a pair in the order of their ids, and the pair's place in the pair table.
+struct PairName {
+  AgentId lower, higher;
+  AgentIndex lower_index, higher_index;
+  PairSlot slot;
+};
+
+/// What has been published of a pair.
+struct PublishedEvent {
+  CollisionEvent event{};  ///< The last revision.
+  bool announced = false;  ///< `event` is open.
+  bool doubted =
+      false;  ///< The event covers a doubt that lies before its contact and apart from it.
+  bool broken = false;     ///< A bound was broken since it was opened: what it said may be void.
+  std::uint64_t work = 0;  ///< Segments and instants evaluated since the contact got its number.
+};
+
+/// How near the two agents of one pair are at an instant; what it costs is its own concern.
+class ProximitySource {
+ public:
+  virtual ~ProximitySource() = default;
+  virtual narrow_phase::Proximity At(Instant at) = 0;
+};
+
+/// Whether more will be known of a pair.
+enum class Finality {
+  kOngoing,  ///< States may still come.
+  kLast      ///< One of the two leaves or expires: what was is told, nothing new is announced.
+};
+
+/// Why a pair is no longer watched.
+enum class Departure {
+  kRemoved,   ///< An agent was removed: a contact has ended by now.
+  kUnwatched  ///< An agent expired, or a mask excludes the pair: the end of a contact is unknown.
+};
+
+/// Whether a pair has to be tracked further.
+enum class PairInterest { kNear, kFarApart };
+
+/// Turns what is known of a pair into revisions of events: possible before confirmed, confirmed
+/// before ended, each status once, and further revisions only where a bracket moved by enough to
+/// matter. It computes no geometry. O(episodes) per call.
+class Announcer {
+ public:
+  /// `counters` outlives the announcer.
+  Announcer(const DetectorOptions& options, DetectorCounters* counters)
+      : options_(options), counters_(counters) {}
+
+  /// The events of this step begin.
+  void Start(Instant now);
+  /// In the order in which they came about; valid until the next Start().
+  const std::vector<CollisionEvent>& events() const { return events_; }
+
+  /// Asks `proximity` only about the instant at which a contact is confirmed.
+  PairInterest Report(const PairName& pair, const PairOutlook& outlook, Finality finality,
+                      ProximitySource* proximity, PublishedEvent* published);
+
+  /// The pair is not watched any longer: its event is withdrawn; ended where the contact was
+  /// confirmed; undecided where `open`, the pair's open episode (null: free), does not exclude one.
+  void Close(const PairName& pair, const ContactEpisode* open, Departure departure,
+             PublishedEvent* published);
+
+  /// Forgets the contact numbers of an agent that has left.
+  void Forget(AgentIndex agent) { numbers_.Forget(agent); }
+
+  void Validate() const { numbers_.Validate(); }
+
+ private:
+  struct Subject;  // one call of Report() or Close()
+
+  void Finish(const Subject& subject, const ContactEpisode& episode);
+  void Possible(const Subject& subject, const PairOutlook& outlook);
+  void Confirm(const Subject& subject, const ContactEpisode& episode);
+  void Open(const Subject& subject, Instant free_until, bool began_before);
+  void Emit(const Subject& subject, EventStatus status);
+
+  const DetectorOptions options_;
+  DetectorCounters* counters_;
+  ContactNumbers numbers_;
+  Instant now_;
+  std::vector<CollisionEvent> events_;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,26 @@
+// How long a contact of two balls certainly goes on.
+#pragma once
+
+#include "collision_core/detection/pairs/contact_tracker.h"
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision::detection {
+
+/// A pair in contact, as it was last evaluated.
+struct RestingPair {
+  const motion::SpaceTimeBound& a;
+  const motion::SpaceTimeBound& b;
+  const ContactTracker& settled;
+  const ContactTracker& preview;  ///< Run ahead of `settled`, up to what was heard.
+};
+
+/// Up to when, at most now + `longest` seconds, no evaluation can say anything new of a contact of
+/// two balls while neither agent has news. Always() where that is not certain.
+///
+/// With an uncertainty u >= 0 no freedom can be certified where the centres' distance |Δc| is at
+/// most the sum r of the radii, and |Δc| is convex in time. So contact holds from the last
+/// evaluated instant up to now if |Δc| < r at both ends, and from now on for as long as the
+/// relative speed takes to use up r − |Δc|.
+Instant ContactRestsUntil(const RestingPair& pair, Instant now, double longest);
+
+}  // namespace collision::detection

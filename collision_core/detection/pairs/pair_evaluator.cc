@@ -1,0 +1,111 @@
+#include "collision_core/detection/pairs/pair_evaluator.h"
+
+#include <algorithm>
+
+#include "collision_core/detection/pairs/segment_evaluation.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+namespace {
+
+// How far ahead shapes are evaluated, in units of announce_within: a little beyond what the
+// announcer takes for "far apart again".
+constexpr double kLookAhead = 1.3;
+
+// Of the work that is left in an evaluation: for what is settled, then for what is heard; the rest
+// is for what is promised.
+constexpr double kSettledShare = 0.5;
+constexpr double kHeardShare = 0.8;
+
+// Has half of the freedom that was found at `looked` passed? Then it is time to look again.
+bool WearsOut(Instant looked, Instant now, Instant free_until) {
+  if (looked == Instant::Always() || free_until <= now) return true;
+  return free_until.nanoseconds() - now.nanoseconds() <= now.nanoseconds() - looked.nanoseconds();
+}
+
+Instant ExpiryOf(const PairOfAgents& agents) {
+  return std::min(agents.lower.bound().state.expiry, agents.higher.bound().state.expiry);
+}
+
+}  // namespace
+
+double PairEvaluator::PatienceOf(const AgentRecord& agent) const {
+  return std::max(clock_.announce_within, 2 * agent.history.LastInterval());
+}
+
+Instant PairEvaluator::SettledUntil(const AgentRecord& agent) const {
+  return std::max(agent.stamp(), std::min(agent.heard_until(),
+                                          numeric::AddRoundedDown(clock_.now, -PatienceOf(agent))));
+}
+
+void PairEvaluator::EvaluateUntil(const PairOfAgents& agents, Instant until, WorkBudget* work,
+                                  ContactTracker* tracker) const {
+  const SegmentCount count =
+      EvaluateSegments(agents.lower.history, agents.higher.history, until, work, tracker);
+  counters_->segments += count.segments;
+  counters_->glances += count.at_a_glance;
+}
+
+ContactTracker PairEvaluator::Evaluate(const PairOfAgents& agents, Finality finality,
+                                       WorkBudget* work) const {
+  const AgentRecord &a = agents.lower, &b = agents.higher;
+  const bool last = finality == Finality::kLast;
+  const Instant there = ExpiryOf(agents);
+  const Instant heard = std::min({a.heard_until(), b.heard_until(), clock_.now, there});
+  {
+    const WorkShare share(last ? 1 : kSettledShare, work);
+    const Instant settled = last ? heard : std::min({SettledUntil(a), SettledUntil(b), there});
+    EvaluateUntil(agents, settled, work, &agents.pair.tracker);
+  }
+  ContactTracker preview = agents.pair.tracker;
+  preview.TakeFinished();
+  {
+    const WorkShare share(kHeardShare, work);
+    EvaluateUntil(agents, heard, work, &preview);
+  }
+  if (preview.free() && !last) ExtendPromise(agents, work, &preview);
+  return preview;
+}
+
+void PairEvaluator::ExtendPromise(const PairOfAgents& agents, WorkBudget* work,
+                                  ContactTracker* preview) const {
+  const AgentRecord &a = agents.lower, &b = agents.higher;
+  PairRecord& pair = agents.pair;
+  const Instant there = ExpiryOf(agents);
+  ContactTracker outlook = *preview;
+  EvaluateUntil(agents, std::min(std::max(a.stamp(), b.stamp()), there), work, &outlook);
+  if (!outlook.free() || outlook.finished().size() != preview->finished().size()) return;
+  const Instant from = std::min(clock_.now, outlook.at());
+  const Instant earliest = intersection::EarliestIntersection(a.bound(), b.bound(), from).instant();
+  ++counters_->pair_queries;
+  if (from == clock_.now) {
+    pair.canonical = earliest;
+    pair.canonical_step = clock_.step;
+  }
+  outlook.ExtendFree(earliest);
+  if (HaveShapes(a.history, b.history) && WearsOut(pair.looked_ahead, clock_.now, outlook.at())) {
+    pair.looked_ahead = clock_.now;
+    // Balls that overlap need not touch: look as far ahead as decides what is announced.
+    const Instant ahead = numeric::AddRoundedDown(clock_.now, kLookAhead * clock_.announce_within);
+    outlook.ExtendFree(
+        ShapesFreeAhead(a.history, b.history, outlook.at(), std::min(ahead, there), work));
+  }
+  *preview = outlook;
+  const bool free_throughout = pair.tracker.free() && preview->finished().empty();
+  if (free_throughout) pair.tracker.ExtendFree(preview->at());
+}
+
+void RecordContactAhead(const ContactTracker& preview, Instant now, PairRecord* pair) {
+  if (pair->ahead_until <= now) pair->ahead_from = pair->ahead_until = Instant::Never();
+  for (const std::vector<ContactEpisode>* episodes :
+       {&pair->tracker.finished(), &preview.finished()}) {
+    for (const ContactEpisode& episode : *episodes) {
+      if (episode.end.latest <= now || pair->ahead_from <= episode.begin.earliest) continue;
+      pair->ahead_from = episode.begin.earliest;
+      pair->ahead_until = episode.end.latest;
+    }
+  }
+}
+
+}  // namespace collision::detection

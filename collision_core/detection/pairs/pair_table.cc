@@ -1,0 +1,86 @@
+#include "collision_core/detection/pairs/pair_table.h"
+
+#include <algorithm>
+
+namespace collision::detection {
+
+void PairTable::AddAgent(AgentIndex agent) {
+  if (!of_agent_.contains(agent)) {
+    of_agent_.resize(agent.value() + 1);
+    full_.resize(agent.value() + 1);
+  }
+  CORE_CHECK(of_agent_[agent].empty(), "a new agent has no pairs", agent.value());
+  UpdateFull(agent);
+}
+
+PairSlot PairTable::Add(const PairRecord& pair) {
+  if (size_ == pairs_max_) return PairSlot::None();
+  CORE_CHECK(pair.lower != pair.higher, "a pair has two agents", pair.lower.value());
+  CORE_CHECK(RoomFor(pair.lower) > 0 && RoomFor(pair.higher) > 0, "both agents have room",
+             pair.lower.value(), pair.higher.value());
+  PairSlot slot;
+  if (free_.size() <= kSlotsResting && pairs_.size() < pairs_max_) {
+    slot = pairs_.end_index();
+    pairs_.push_back(pair);
+  } else {
+    slot = free_.front();
+    free_.pop_front();
+    pairs_[slot] = pair;
+  }
+  ++size_;
+  for (const AgentIndex agent : {pair.lower, pair.higher}) {
+    of_agent_[agent].push_back(slot);
+    UpdateFull(agent);
+  }
+  return slot;
+}
+
+void PairTable::Remove(PairSlot slot) {
+  const PairRecord& pair = (*this)[slot];
+  for (const AgentIndex agent : {pair.lower, pair.higher}) {
+    std::erase(of_agent_[agent], slot);
+    UpdateFull(agent);
+  }
+  pairs_[slot].reset();
+  free_.push_back(slot);
+  --size_;
+}
+
+std::size_t PairTable::RoomFor(AgentIndex agent) const {
+  const std::size_t taken = Of(agent).size();
+  if (taken >= pairs_per_agent_max_) return 0;
+  return std::min(pairs_per_agent_max_ - taken, room());
+}
+
+void PairTable::UpdateFull(AgentIndex agent) {
+  full_[agent] = of_agent_[agent].size() >= pairs_per_agent_max_;
+}
+
+void PairTable::Validate() const {
+  std::size_t held = 0, listed = 0;
+  for (PairSlot slot; pairs_.contains(slot); slot = PairSlot(slot.value() + 1)) {
+    if (!Contains(slot)) continue;
+    ++held;
+    const PairRecord& pair = (*this)[slot];
+    for (const AgentIndex agent : {pair.lower, pair.higher}) {
+      const auto count = std::count(Of(agent).begin(), Of(agent).end(), slot);
+      CORE_CHECK(count == 1, "a pair stands once with each of its agents", slot.value(), count);
+    }
+  }
+  CORE_CHECK(held == size_, "tracked pairs are counted", held, size_);
+  CORE_CHECK(size_ <= pairs_max_, "there are no more pairs than allowed", size_, pairs_max_);
+  CORE_CHECK(held + free_.size() == pairs_.size(), "each slot is tracked or free", held);
+  for (const PairSlot slot : free_) {
+    CORE_CHECK(!Contains(slot), "a free slot has no pair", slot.value());
+  }
+  for (AgentIndex agent; of_agent_.contains(agent); agent = AgentIndex(agent.value() + 1)) {
+    listed += Of(agent).size();
+    CORE_CHECK(Of(agent).size() <= pairs_per_agent_max_, "an agent has no more pairs than allowed",
+               agent.value());
+    CORE_CHECK(full_[agent] == (Of(agent).size() >= pairs_per_agent_max_),
+               "an agent that has no room is marked", agent.value());
+  }
+  CORE_CHECK(listed == 2 * held, "an agent's pairs are tracked", listed, held);
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,101 @@
+// The pairs that may meet soon, or touch.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "collision_core/base/ids.h"
+#include "collision_core/detection/events/announcer.h"
+#include "collision_core/detection/pairs/contact_tracker.h"
+
+namespace collision::detection {
+
+/// More work than any evaluation may spend.
+inline constexpr std::uint64_t kAllWanted = ~std::uint64_t{0};
+
+/// One tracked pair. `lower` and `higher` are in the order of the agents' ids.
+struct PairRecord {
+  AgentIndex lower;
+  AgentIndex higher;
+  ContactTracker tracker;  ///< Evaluated as far as both owners' states reach: settled.
+  Instant clear_until;     ///< No contact begins before; the past while undecided.
+  /// The canonical earliest intersection from `now` on, as of step `canonical_step`.
+  Instant canonical = Instant::Never();
+  std::uint64_t canonical_step = 0;
+  std::uint64_t evaluated_step = 0;  ///< The step in which it was last evaluated.
+  /// When the shapes were last asked how long they stay apart.
+  Instant looked_ahead = Instant::Always();
+  /// From then on no state is waited for that could tell more of a contact that has ended.
+  Instant settles = Instant::Never();
+  /// The end of the last contact, or doubt, that was heard of and is not settled; Always(): none.
+  Instant unsettled_until = Instant::Always();
+  bool in_contact = false;
+  Instant rests_until = Instant::Always();  ///< In contact: without news it goes on until then.
+  /// A contact, or a doubt, that is heard of but lies after `now`: [from, until].
+  Instant ahead_from = Instant::Never();
+  Instant ahead_until = Instant::Never();
+  std::uint64_t spent = kAllWanted;  ///< In the last evaluation, if that was enough.
+  PublishedEvent published{};
+
+  AgentIndex PartnerOf(AgentIndex agent) const { return agent == lower ? higher : lower; }
+};
+
+/// Holds tracked pairs by slot, and each agent's slots. Slots are reused in the order in which they
+/// were freed, and only after others have been freed since, so that a slot's last sample on the
+/// wire stays readable for a while. Add() and Remove() are O(pairs of the two agents).
+class PairTable {
+ public:
+  /// Freed slots that rest before one of them is reused.
+  static constexpr std::size_t kSlotsResting = 1024;
+
+  PairTable(std::uint32_t pairs_max, std::uint32_t pairs_per_agent_max)
+      : pairs_max_(pairs_max), pairs_per_agent_max_(pairs_per_agent_max) {}
+
+  /// The agent of this index has no pairs yet.
+  void AddAgent(AgentIndex agent);
+
+  /// None(): `pairs_max` are in use. Requires RoomFor() of both agents, if there is a slot at all.
+  PairSlot Add(const PairRecord& pair);
+  /// Requires Contains(slot).
+  void Remove(PairSlot slot);
+
+  bool Contains(PairSlot slot) const {
+    return slot.value() < pairs_.size() && pairs_[slot].has_value();
+  }
+  /// Requires Contains(slot).
+  PairRecord& operator[](PairSlot slot) {
+    CORE_CHECK(Contains(slot), "a pair that is tracked has this slot", slot.value());
+    return *pairs_[slot];
+  }
+  const PairRecord& operator[](PairSlot slot) const {
+    CORE_CHECK(Contains(slot), "a pair that is tracked has this slot", slot.value());
+    return *pairs_[slot];
+  }
+  std::size_t size() const { return size_; }
+
+  /// The agent's tracked pairs. Requires AddAgent(agent).
+  const std::vector<PairSlot>& Of(AgentIndex agent) const { return of_agent_.at(agent); }
+
+  /// Pairs that can still be added: in all, and with this agent.
+  std::size_t room() const { return pairs_max_ - size_; }
+  std::size_t RoomFor(AgentIndex agent) const;
+  bool IsFull(AgentIndex agent) const { return full_[agent] != 0 || room() == 0; }
+
+  /// Walks the whole table: each pair stands with both its agents, each other slot is free.
+  void Validate() const;
+
+ private:
+  void UpdateFull(AgentIndex agent);
+
+  const std::uint32_t pairs_max_;
+  const std::uint32_t pairs_per_agent_max_;
+  IndexedVector<PairSlot, std::optional<PairRecord>> pairs_;
+  std::size_t size_ = 0;
+  std::deque<PairSlot> free_;
+  IndexedVector<AgentIndex, std::vector<PairSlot>> of_agent_;
+  IndexedVector<AgentIndex, std::uint8_t> full_;  // as many pairs as the agent may have
+};
+
+}  // namespace collision::detection

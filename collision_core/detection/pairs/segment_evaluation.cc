@@ -1,0 +1,141 @@
+#include "collision_core/detection/pairs/segment_evaluation.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "collision_core/narrow_phase/contact/ball_proximity.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+namespace {
+
+// The instant at which two balls are certified nearest, of both ends and of the one at which the
+// centres' lines are nearest.
+Nearest NearestOf(const narrow_phase::BallSegment& a, const narrow_phase::BallSegment& b,
+                  Instant from, double duration) {
+  Nearest nearest;
+  if (a.bounds.empty() || b.bounds.empty()) return nearest;
+  const Eigen::Vector3d d = (b.bounds[0].centre - a.bounds[0].centre).middle();
+  const Eigen::Vector3d w = (b.bounds[0].velocity - a.bounds[0].velocity).middle();
+  const double speed_squared = w.squaredNorm();
+  const double bottom = speed_squared > 0 ? -d.dot(w) / speed_squared : 0;
+  for (const double delta : {0.0, std::clamp(bottom, 0.0, duration), duration}) {
+    const narrow_phase::Proximity found = BallProximity(a, b, delta);
+    if (nearest.at.is_never() || found.separation.upper < nearest.found.separation.upper) {
+      nearest = {numeric::AddRoundedDown(from, delta), found};
+    }
+  }
+  return nearest;
+}
+
+// Only the ball of an awaited shape is known: it can exclude a contact, but neither confirms one
+// nor bounds the separation from above.
+Nearest AwaitedNearest(Nearest nearest) {
+  nearest.found.separation.upper = numeric::kInfinity;
+  nearest.found.depth_lower = 0;
+  nearest.found.point_error = numeric::kInfinity;
+  nearest.found.normal_error = std::numbers::pi;
+  nearest.found.limited_by = narrow_phase::EventLimit::kGeometry;
+  return nearest;
+}
+
+// Where two shapes may touch as soon as the segment begins, the normal is that of the last state
+// before, whose pose is known best. None where a jump lies between, or where a shape was not known.
+narrow_phase::ContactNormal NormalBefore(const History& a, const History& b, Instant from,
+                                         WorkBudget* work) {
+  const Instant of_a = a.LastStampBefore(from), of_b = b.LastStampBefore(from);
+  if (of_a.is_never() || of_b.is_never()) return {};
+  const Instant before = std::max(of_a, of_b);
+  const Instant to = std::min({from, a.NextCutAfter(before), b.NextCutAfter(before)});
+  const narrow_phase::BodySegment body_a = a.Over(before, to), body_b = b.Over(before, to);
+  if (body_a.awaited || body_b.awaited || (body_a.is_ball() && body_b.is_ball())) return {};
+  return NormalAt(body_a, body_b, 0, work);
+}
+
+// True if the segment was decided at a glance.
+bool EvaluateOne(const History& history_a, const History& history_b, Instant from, Instant to,
+                 WorkBudget* work, ContactTracker* tracker) {
+  const narrow_phase::BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
+  const double duration = numeric::SecondsBetween(from, to).upper;
+  const bool balls = a.is_ball() && b.is_ball();
+  work->Spend(1);
+  if (balls) {
+    if (const auto contact = QuickBallContact(a.ball, b.ball, duration)) {
+      tracker->Apply(*contact, to, {}, {});
+      return true;
+    }
+  }
+  narrow_phase::SegmentResult times = EvaluateBallSegment(a.ball, b.ball, duration);
+  Nearest nearest;
+  narrow_phase::ContactNormal normal;
+  if (times.free_until < duration) {
+    if (a.awaited || b.awaited) {
+      times.contact_from = 1, times.contact_to = 0;
+      nearest = AwaitedNearest(NearestOf(a.ball, b.ball, from, duration));
+    } else if (balls) {
+      // For a contact, report its begin, not the closest approach.
+      const bool goes_on = tracker->in_contact() && times.free_until <= 0;
+      const bool contact = goes_on || times.contact_from <= times.contact_to;
+      if (!contact) nearest = NearestOf(a.ball, b.ball, from, duration);
+    } else {
+      const narrow_phase::ShapeSegmentResult verdict =
+          EvaluateShapeSegment(a, b, duration, times, work);
+      times = verdict.times;
+      normal = verdict.normal;
+      if (tracker->free() && times.free_until < duration && !normal.tells()) {
+        const narrow_phase::ContactNormal before = NormalBefore(history_a, history_b, from, work);
+        if (before.known && (!normal.known || before.error < normal.error)) normal = before;
+      }
+      if (verdict.looked) {
+        nearest = {std::min(numeric::AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest,
+                   verdict.exhausted};
+      }
+    }
+  }
+  tracker->Apply(times, to, nearest, normal);
+  return false;
+}
+
+}  // namespace
+
+SegmentCount EvaluateSegments(const History& a, const History& b, Instant until, WorkBudget* work,
+                              ContactTracker* tracker) {
+  SegmentCount count;
+  while (tracker->at() < until) {
+    const Instant from = tracker->at();
+    const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
+    count.at_a_glance += EvaluateOne(a, b, from, to, work, tracker);
+    ++count.segments;
+  }
+  return count;
+}
+
+bool HaveShapes(const History& a, const History& b) {
+  return a.newest().declaration.shape || b.newest().declaration.shape;
+}
+
+Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
+                        WorkBudget* work) {
+  until = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
+  if (until <= from) return from;
+  const narrow_phase::BodySegment of_a = a.Over(from, until);
+  const narrow_phase::BodySegment of_b = b.Over(from, until);
+  if (of_a.awaited || of_b.awaited || (of_a.is_ball() && of_b.is_ball())) return from;
+  const double duration = numeric::SecondsBetween(from, until).upper;
+  const double free = FreeAhead(of_a, of_b, 0, duration, work);
+  return std::min(until, numeric::AddRoundedDown(from, free));
+}
+
+narrow_phase::Proximity ProximityAt(const History& a, const History& b, Instant at,
+                                    WorkBudget* work) {
+  work->Spend(1);
+  const narrow_phase::BodySegment of_a = a.Over(at, at);
+  const narrow_phase::BodySegment of_b = b.Over(at, at);
+  if (of_a.is_ball() && of_b.is_ball()) return BallProximity(of_a.ball, of_b.ball, 0);
+  if (of_a.awaited || of_b.awaited) {
+    return AwaitedNearest({at, BallProximity(of_a.ball, of_b.ball, 0)}).found;
+  }
+  return ShapeProximity(of_a, of_b, 0, work);
+}
+
+}  // namespace collision::detection

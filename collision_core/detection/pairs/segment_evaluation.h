@@ -1,0 +1,35 @@
+// The narrow phase of a pair over a whole interval of time.
+#pragma once
+
+#include "collision_core/base/work_budget.h"
+#include "collision_core/detection/agents/history.h"
+#include "collision_core/detection/pairs/contact_tracker.h"
+
+namespace collision::detection {
+
+/// What an evaluation took.
+struct SegmentCount {
+  std::uint64_t segments = 0;
+  std::uint64_t at_a_glance = 0;  ///< Of these: decided by QuickBallContact() of two balls.
+};
+
+/// Evaluates everything from tracker->at() to `until`, segment by segment between the cuts of the
+/// two histories, with all bounds that hold there. Shapes are evaluated as closely as the work
+/// allows; balls cost one unit a segment. Where a shape is awaited, its ball excludes a contact but
+/// confirms none.
+SegmentCount EvaluateSegments(const History& a, const History& b, Instant until, WorkBudget* work,
+                              ContactTracker* tracker);
+
+/// Whether either newest state has a shape.
+bool HaveShapes(const History& a, const History& b);
+
+/// Up to when, at most `until`, the shapes are certified apart for all motions within the newest
+/// bounds; `from` if they may touch at once. Requires `from` at or after both newest states.
+Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
+                        WorkBudget* work);
+
+/// Separation, depth, contact point and normal of the two at one instant.
+narrow_phase::Proximity ProximityAt(const History& a, const History& b, Instant at,
+                                    WorkBudget* work);
+
+}  // namespace collision::detection

@@ -1,0 +1,43 @@
+// One step's work budget, handed to the pairs that are evaluated.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/detection/pairs/work_shares.h"
+
+namespace collision::detection {
+
+/// Shares out `work_units_per_step` before the first evaluation of a step; what one pair leaves of
+/// its share goes to the next. A pair that claims nothing (two balls, which cost next to nothing)
+/// has no share and no limit but that of one evaluation. The order of evaluations does not change,
+/// so that the order of events does not either. An evaluation finishes what it has begun: that is
+/// the one way to spend more than allowed.
+class StepBudget {
+ public:
+  /// Units for one evaluation, and for a whole step (0: no limit).
+  StepBudget(std::uint64_t per_evaluation, std::uint64_t per_step)
+      : per_evaluation_(per_evaluation), per_step_(per_step) {}
+
+  bool is_limited() const { return per_step_ > 0; }
+
+  /// A step begins: one claim for each pair, in the order of their evaluations. Requires
+  /// is_limited().
+  void Start(const std::vector<WorkClaim>& claims);
+  /// What the next pair may spend, and what it spent. Calls alternate, one pair after the other;
+  /// Requires as many claims.
+  std::uint64_t Allowed();
+  void Spent(std::uint64_t units);
+
+ private:
+  bool claims_nothing() const { return claims_[next_].wanted == 0; }
+
+  const std::uint64_t per_evaluation_, per_step_;
+  WorkShares shares_;
+  std::vector<WorkClaim> claims_;
+  std::vector<std::uint64_t> given_;  // by claim
+  std::size_t next_ = 0;
+  std::uint64_t left_ = 0;  // of the shares of all pairs so far
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,280 @@
+#include "collision_core/detection/pairs/tracked_pairs.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "collision_core/detection/pairs/contact_rest.h"
+#include "collision_core/detection/pairs/segment_evaluation.h"
+#include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+namespace {
+
+// How much a pair counts beside one that is not announced, when a step's work is shared out: a
+// possible event waits for a verdict, and a contact for its end.
+constexpr std::uint32_t kDoubtWeight = 4;
+constexpr std::uint32_t kContactWeight = 2;
+
+// A pair claims twice what its last evaluation took and this part of all it may spend, for what may
+// have changed since; all of it where the last one took more than a quarter.
+constexpr std::uint64_t kClaimMore = 16;
+constexpr std::uint64_t kClaimAll = 4;
+
+// When a contact is confirmed this part of an evaluation's work is allowed for its proximity,
+// beside what the evaluation took.
+constexpr std::uint64_t kProximityShare = 8;
+
+// A contact that cannot end is evaluated again after at most this share of announce_within, each
+// pair after another part of the share's second half.
+constexpr double kRestShare = 0.125;
+constexpr std::uint32_t kRestTimes = 16;
+
+/// Evaluates proximity with a budget of its own, and counts what it takes.
+class CountedProximity final : public ProximitySource {
+ public:
+  CountedProximity(const PairOfAgents& agents, std::uint64_t allowed, DetectorCounters* counters)
+      : agents_(agents), allowed_(allowed), counters_(counters) {}
+
+  narrow_phase::Proximity At(Instant at) override {
+    WorkBudget work(allowed_);
+    const narrow_phase::Proximity found =
+        ProximityAt(agents_.lower.history, agents_.higher.history, at, &work);
+    agents_.pair.published.work += work.spent();
+    counters_->work_units += work.spent();
+    return found;
+  }
+
+ private:
+  const PairOfAgents& agents_;
+  const std::uint64_t allowed_;
+  DetectorCounters* counters_;
+};
+
+}  // namespace
+
+TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext& context)
+    : options_(options),
+      context_(context),
+      table_(options.pairs_max, options.pairs_per_agent_max),
+      evaluator_(context.clock, context.counters),
+      budget_(options.work_units_per_turn, options.work_units_per_step),
+      announcer_(options, context.counters) {}
+
+void TrackedPairs::ForgetAgent(AgentIndex agent) {
+  CORE_CHECK(table_.Of(agent).empty(), "an agent that leaves has no pairs", agent.value());
+  announcer_.Forget(agent);
+}
+
+bool TrackedPairs::Track(AgentIndex a, AgentIndex b, Instant free_until, Past past) {
+  const AgentTable& agents = context_.agents;
+  const auto [lower, higher] = agents[a].id < agents[b].id ? std::pair(a, b) : std::pair(b, a);
+  if (table_.RoomFor(a) == 0 || table_.RoomFor(b) == 0) return false;
+  const PairSlot slot = table_.Add({.lower = lower,
+                                    .higher = higher,
+                                    .tracker = ContactTracker(free_until, past),
+                                    .clear_until = free_until});
+  MarkChanged(slot);
+  SetDue(slot);
+  return true;
+}
+
+void TrackedPairs::RetractFree(AgentIndex agent, Instant from) {
+  for (const PairSlot slot : table_.Of(agent)) table_[slot].tracker.RetractFree(from, Past::kKnown);
+}
+
+// What lies between the last honest state and the breach is unknown.
+void TrackedPairs::MarkBroken(AgentIndex agent, Instant last_honest) {
+  RetractFree(agent, last_honest);
+  for (const PairSlot slot : table_.Of(agent)) table_[slot].published.broken = true;
+}
+
+void TrackedPairs::EvaluateDuePairs() {
+  std::vector<PairSlot> slots;
+  for (const AgentIndex agent : context_.agents.changed()) {
+    if (!context_.agents.Contains(agent)) continue;
+    const std::vector<PairSlot>& pairs = table_.Of(agent);
+    slots.insert(slots.end(), pairs.begin(), pairs.end());
+  }
+  while (!due_.empty() && due_.top_key() <= context_.clock.now) {
+    slots.push_back(due_.top());
+    due_.Remove(slots.back());
+  }
+  std::sort(slots.begin(), slots.end());
+  slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
+  if (budget_.is_limited()) return EvaluateShared(slots);
+  for (const PairSlot slot : slots) {
+    Evaluate(slot, options_.work_units_per_turn, Finality::kOngoing);
+  }
+}
+
+void TrackedPairs::EvaluateShared(const std::vector<PairSlot>& slots) {
+  std::vector<WorkClaim> claims;
+  for (const PairSlot slot : slots) claims.push_back(ClaimOf(slot));
+  budget_.Start(claims);
+  for (const PairSlot slot : slots) {
+    const std::uint64_t before = context_.counters->work_units;
+    Evaluate(slot, budget_.Allowed(), Finality::kOngoing);
+    budget_.Spent(context_.counters->work_units - before);
+  }
+}
+
+WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
+  const PairRecord& pair = table_[slot];
+  WorkClaim claim;
+  if (!HaveShapes(context_.agents[pair.lower].history, context_.agents[pair.higher].history)) {
+    return claim;
+  }
+  claim.wanted = options_.work_units_per_turn;
+  if (pair.spent < claim.wanted / kClaimAll) {
+    claim.wanted = 2 * pair.spent + claim.wanted / kClaimMore;
+  }
+  if (pair.published.announced) claim.weight = pair.in_contact ? kContactWeight : kDoubtWeight;
+  return claim;
+}
+
+void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality) {
+  PairRecord& pair = table_[slot];
+  const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
+  if (!CanMeet(a.bound().declaration, b.bound().declaration)) {
+    return Drop(slot, Departure::kUnwatched);
+  }
+  // One budget for all horizons, what is settled first.
+  WorkBudget work(allowed);
+  const ContactTracker preview = evaluator_.Evaluate({a, b, pair}, finality, &work);
+  pair.published.work += work.spent();
+  pair.spent = work.exhausted() ? kAllWanted : work.spent();
+  context_.counters->work_units += work.spent();
+  context_.counters->turns_cut_short += work.exhausted();
+  RecordContactAhead(preview, context_.clock.now, &pair);
+  pair.in_contact = preview.in_contact();
+  pair.clear_until = preview.free_until();
+  const std::vector<ContactEpisode>& heard = preview.finished();
+  pair.settles = heard.empty() ? Instant::Never()
+                               : numeric::AddRoundedUp(
+                                     heard.front().end.latest,
+                                     std::max(evaluator_.PatienceOf(a), evaluator_.PatienceOf(b)));
+  pair.unsettled_until = heard.empty() ? Instant::Always() : heard.back().end.latest;
+  pair.evaluated_step = context_.clock.step;
+  MarkChanged(slot);
+  const PairInterest interest = Report(slot, preview, allowed, finality);
+  if (interest == PairInterest::kFarApart && Release(slot)) return;
+  if (pair.in_contact) pair.rests_until = RestsUntil(slot, preview);
+  SetDue(slot);
+}
+
+PairInterest TrackedPairs::Report(PairSlot slot, const ContactTracker& preview,
+                                  std::uint64_t allowed, Finality finality) {
+  PairRecord& pair = table_[slot];
+  const PairOfAgents agents{context_.agents[pair.lower], context_.agents[pair.higher], pair};
+  CountedProximity proximity(agents, allowed / kProximityShare, context_.counters);
+  std::vector<ContactEpisode> settled;
+  const PairOutlook outlook = OutlookOf(&pair.tracker, preview, &settled);
+  return announcer_.Report(NameOf(slot), outlook, finality, &proximity, &pair.published);
+}
+
+void TrackedPairs::SetDue(PairSlot slot) {
+  const PairRecord& pair = table_[slot];
+  const bool announced = pair.published.announced;
+  const double ahead = announced ? options_.temporal_resolution : options_.announce_within;
+  // Rounded as now + ahead is: clear_until <= now + ahead exactly if due <= now.
+  const Instant due = std::min(numeric::AddRoundedUp(pair.clear_until, -ahead), pair.settles);
+  due_.Set(slot, pair.in_contact ? pair.rests_until : due);
+}
+
+Instant TrackedPairs::RestsUntil(PairSlot slot, const ContactTracker& preview) const {
+  if (table_.size() <= kPairsEvaluatedEachStep) return Instant::Always();
+  const PairRecord& pair = table_[slot];
+  const double part = static_cast<double>(slot.value() % kRestTimes) / kRestTimes;
+  const double longest = kRestShare * options_.announce_within * (1 + part) / 2;
+  return ContactRestsUntil({context_.agents[pair.lower].bound(),
+                            context_.agents[pair.higher].bound(), pair.tracker, preview},
+                           context_.clock.now, longest);
+}
+
+PairName TrackedPairs::NameOf(PairSlot slot) const {
+  const PairRecord& pair = table_[slot];
+  return {context_.agents[pair.lower].id, context_.agents[pair.higher].id, pair.lower, pair.higher,
+          slot};
+}
+
+// Both keys cover the pair from now on. False: they cannot, since a state lies beyond what is
+// certain of the two, or since the two graze each other and may meet soon under the wider bounds
+// that keys come from.
+bool TrackedPairs::Release(PairSlot slot) {
+  const PairRecord& pair = table_[slot];
+  const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
+  Instant key = pair.clear_until;
+  if (!HaveShapes(a.history, b.history)) {
+    ++context_.counters->pair_queries;
+    const intersection::IntersectionTime wide =
+        intersection::EarliestIntersection(a.wide_bound(), b.wide_bound(), context_.clock.now);
+    key = std::min(key, wide.instant());
+  }
+  if (key <= context_.clock.announce_until() || key < std::max(a.stamp(), b.stamp())) return false;
+  released_.push_back({pair.lower, pair.higher, key});
+  Remove(slot);
+  return true;
+}
+
+void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
+  const std::vector<PairSlot> slots = table_.Of(agent);
+  for (const PairSlot slot : slots) {
+    Evaluate(slot, options_.work_units_per_turn, Finality::kLast);
+    if (table_.Contains(slot)) Drop(slot, departure);
+  }
+}
+
+// The two are not watched any longer, whatever they do.
+void TrackedPairs::Drop(PairSlot slot, Departure departure) {
+  PairRecord& pair = table_[slot];
+  const ContactEpisode* open = pair.tracker.free() ? nullptr : &pair.tracker.episode();
+  announcer_.Close(NameOf(slot), open, departure, &pair.published);
+  Remove(slot);
+}
+
+void TrackedPairs::Remove(PairSlot slot) {
+  MarkChanged(slot);
+  due_.Remove(slot);
+  table_.Remove(slot);
+}
+
+void TrackedPairs::MarkChanged(PairSlot slot) {
+  changed_.Insert(slot);
+  context_.clearances_dirty->Insert(table_[slot].lower);
+  context_.clearances_dirty->Insert(table_[slot].higher);
+}
+
+std::vector<ReleasedPair> TrackedPairs::TakeReleased() { return std::exchange(released_, {}); }
+
+Instant TrackedPairs::NeededFrom(AgentIndex agent, Instant otherwise) const {
+  Instant needed = otherwise;
+  for (const PairSlot slot : table_.Of(agent)) {
+    needed = std::min(needed, table_[slot].tracker.at());
+  }
+  return needed;
+}
+
+void TrackedPairs::Validate() const {
+  table_.Validate();
+  due_.Validate();
+  changed_.Validate();
+  announcer_.Validate();
+  CORE_CHECK(due_.size() == table_.size(), "each tracked pair is queued", due_.size(),
+             table_.size());
+  for (std::size_t agent = 0; agent < context_.agents.index_end(); ++agent) {
+    if (!context_.agents.Contains(AgentIndex(agent))) continue;
+    for (const PairSlot slot : table_.Of(AgentIndex(agent))) {
+      const PairRecord& pair = table_[slot];
+      const AgentIndex partner = pair.PartnerOf(AgentIndex(agent));
+      CORE_CHECK(due_.Contains(slot), "a tracked pair is queued", slot.value());
+      CORE_CHECK(context_.agents.Contains(partner), "a tracked pair has two agents", slot.value());
+      CORE_CHECK(!context_.agents[partner].expired, "no agent of a tracked pair has expired",
+                 slot.value());
+      CORE_CHECK(context_.agents[pair.lower].id < context_.agents[pair.higher].id,
+                 "a pair's agents are in the order of their ids", slot.value());
+    }
+  }
+}
+
+}  // namespace collision::detection

@@ -1,0 +1,107 @@
+// The pairs that may meet soon: when each is evaluated, and what follows.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/detection/agents/agent_table.h"
+#include "collision_core/detection/detector_options.h"
+#include "collision_core/detection/events/announcer.h"
+#include "collision_core/detection/pairs/pair_evaluator.h"
+#include "collision_core/detection/pairs/pair_table.h"
+#include "collision_core/detection/pairs/step_budget.h"
+
+namespace collision::detection {
+
+/// A pair that is tracked no longer: the two agents must be covered by their clearance keys, which
+/// are certified not later than `clear_until`.
+struct ReleasedPair {
+  AgentIndex lower, higher;
+  Instant clear_until;
+};
+
+/// What the detector's components share. All outlive them.
+struct DetectorContext {
+  const StepClock& clock;
+  const AgentTable& agents;
+  DetectorCounters* counters;
+  IndexSet<AgentIndex>* clearances_dirty;  ///< Agents whose clearance may have changed.
+};
+
+/// Tracks pairs, evaluates each when one of its agents has news or when it is due, and reports what
+/// is known to the announcer. Pairs are evaluated in the order of their slots, which is the order
+/// of events. A step costs O(pairs evaluated), plus a logarithm for each in the queue.
+///
+/// A pair is due at every step while contact is possible within Δt, while it is to be announced, in
+/// a contact that may end, and when what was heard of an ended contact is settled. Beyond
+/// kPairsEvaluatedEachStep tracked pairs a contact of two balls rests (contact_rest.h) until it may
+/// end, or at most an eighth of announce_within, each pair another part of it.
+class TrackedPairs {
+ public:
+  static constexpr std::size_t kPairsEvaluatedEachStep = 512;
+
+  TrackedPairs(const DetectorOptions& options, const DetectorContext& context);
+
+  /// The agent of this index is new.
+  void AddAgent(AgentIndex agent) { table_.AddAgent(agent); }
+  /// Forgets an agent that has left. Requires that it has no pairs.
+  void ForgetAgent(AgentIndex agent);
+
+  const PairTable& table() const { return table_; }
+
+  /// Tracks two agents that are certified free up to `free_until`. False, and nothing changes:
+  /// there is no room. Requires that they are not tracked.
+  [[nodiscard]] bool Track(AgentIndex a, AgentIndex b, Instant free_until, Past past);
+
+  /// Nothing that was certified of the agent's pairs beyond `from` holds any longer.
+  void RetractFree(AgentIndex agent, Instant from);
+  /// A bound of the agent was broken: what was published of its pairs may be void.
+  void MarkBroken(AgentIndex agent, Instant last_honest);
+
+  /// Starts a step's events, before anything else of that step.
+  void StartStep() { announcer_.Start(context_.clock.now); }
+  /// Evaluates the pairs of all agents with news, and those that are due.
+  void EvaluateDuePairs();
+  /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer.
+  void EvaluateLastTime(AgentIndex agent, Departure departure);
+
+  /// Pairs released since the last call, in the order of their release. The caller lowers keys.
+  std::vector<ReleasedPair> TakeReleased();
+  /// Pairs that were added, evaluated or removed; whoever reads them clears the set.
+  IndexSet<PairSlot>* changed() { return &changed_; }
+
+  /// The agent's states before this are not needed for its pairs.
+  Instant NeededFrom(AgentIndex agent, Instant otherwise) const;
+
+  const std::vector<CollisionEvent>& events() const { return announcer_.events(); }
+  std::size_t queued() const { return due_.size(); }
+
+  /// Walks the table, the queue and what they say of each other.
+  void Validate() const;
+
+ private:
+  void EvaluateShared(const std::vector<PairSlot>& slots);
+  WorkClaim ClaimOf(PairSlot slot) const;
+  void Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality);
+  PairInterest Report(PairSlot slot, const ContactTracker& preview, std::uint64_t allowed,
+                      Finality finality);
+  void SetDue(PairSlot slot);
+  Instant RestsUntil(PairSlot slot, const ContactTracker& preview) const;
+  PairName NameOf(PairSlot slot) const;
+  bool Release(PairSlot slot);
+  void Drop(PairSlot slot, Departure departure);
+  void Remove(PairSlot slot);
+  void MarkChanged(PairSlot slot);
+
+  const DetectorOptions options_;
+  const DetectorContext context_;
+  PairTable table_;
+  PairEvaluator evaluator_;
+  StepBudget budget_;
+  Announcer announcer_;
+  EventQueue<PairSlot> due_;  // by the time from which a pair is evaluated at every step
+  std::vector<ReleasedPair> released_;
+  IndexSet<PairSlot> changed_;
+};
+
+}  // namespace collision::detection

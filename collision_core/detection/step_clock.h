@@ -1,0 +1,20 @@
+// The step that the detector is in.
+#pragma once
+
+#include <cstdint>
+
+#include "collision_core/numeric/seconds.h"
+
+namespace collision::detection {
+
+/// One object for all components of a detector; Advance() alone changes it.
+struct StepClock {
+  Instant now = Instant::Always();  ///< The time of the last step; Always() before the first.
+  std::uint64_t step = 0;           ///< Steps so far.
+  double announce_within = 0;       ///< DetectorOptions::announce_within [s].
+
+  /// A pair that may meet by then is tracked; Never() if there is no such instant.
+  Instant announce_until() const { return numeric::AddRoundedDown(now, announce_within); }
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,63 @@
+// The limits of everything that crosses the network, once for service and clients.
+//
+// Bounds on lengths repeat those of collision.idl, which an IDL compiler cannot export to here; a
+// test compares the two. Bounds on numbers keep every intermediate result of the core finite (the
+// polynomial of a pair reaches the fourth power of a distance) and far from magnitudes at which
+// doubles are coarse. Each one is generous against anything that exists.
+//
+// A client refuses a value beyond its limit before it is sent (client/validation.h); the service
+// refuses it again and tells the sender (server/codec/codec.h).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace collision::wire {
+
+// Numbers. All are finite; magnitudes lie in [0, limit], components in [-limit, limit].
+
+inline constexpr double kCoordinateMax = 1e15;    ///< [m] A tenth of a light year.
+inline constexpr double kSpeedMax = 1e9;          ///< [m/s] Three times the speed of light.
+inline constexpr double kAccelerationMax = 1e18;  ///< [m/s²], [rad/s²] Beyond any impact.
+inline constexpr double kRadiusMax = 1e12;        ///< [m] Beyond any star; also position errors.
+inline constexpr double kAngularSpeedMax = 1e9;   ///< [rad/s]
+inline constexpr double kTimeStepMax = 3600;      ///< [s] The step of a sender's integrator.
+
+/// [rad] π rounded up: an orientation that may be off by this is unknown.
+inline constexpr double kRotationErrorMax = 3.1415926535897936;
+
+/// [ns] 146 years on either side of the epoch, so that the difference of two instants fits int64.
+inline constexpr std::int64_t kInstantMax = std::int64_t{1} << 62;
+
+/// How far the length of a unit vector or quaternion may be from 1.
+inline constexpr double kUnitTolerance = 1e-3;
+
+/// Relative. A shape may stand out of the ball of its agent by this much: the farthest vertex and
+/// the radius that its owner computed from the same numbers differ by rounding.
+inline constexpr double kShapeRadiusTolerance = 1e-9;
+
+// Counts.
+
+inline constexpr std::uint32_t kSlotMax = 65535;  ///< Slots are reused, so 65536 are enough.
+inline constexpr int kStatesPerChunkMax = 64;     ///< Slots in a chunk of states or clearances.
+inline constexpr std::uint32_t kDomainMax = 230;  ///< Higher DDS domains have ports beyond 65535.
+inline constexpr std::size_t kShapeTrianglesMax = 5'000'000;  ///< Of one shape, in any service.
+inline constexpr std::size_t kShapeSolidsMax = 65536;         ///< Convex solids of one shape.
+
+/// Points of all hulls of one shape together: they take memory beside the bytes that bring them.
+inline constexpr std::size_t kShapeHullPointsMax = std::size_t{1} << 20;
+
+// Lengths of texts [bytes] and of lists, as in collision.idl.
+
+inline constexpr std::size_t kNameMax = 64;             ///< Of worlds, simulators and agents.
+inline constexpr std::size_t kRefusedFieldMax = 64;     ///< Rejection::field.
+inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
+inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.
+inline constexpr int kStatusSimulatorsMax = 64;         ///< ServiceStatus::simulators.
+inline constexpr int kStatusCountersMax = 96;           ///< ServiceStatus::counters.
+inline constexpr int kStatusLeftOutMax = 32;            ///< ServiceStatus::left_out.
+inline constexpr std::size_t kStatusLeftOutTextMax = 160;
+inline constexpr std::size_t kStatusBroadPhaseMax = 64;
+inline constexpr std::size_t kStatusBroadPhaseWhyMax = 256;
+
+}  // namespace collision::wire

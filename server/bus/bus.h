@@ -1,0 +1,41 @@
+// The world outside the daemon, as an interface that carries messages.
+#pragma once
+
+#include <chrono>
+#include <vector>
+
+#include "idl/messages.pb.h"
+
+namespace collision::server {
+
+/// Where inputs come from and outputs go. One thread uses a bus, except for Wake().
+/// Implementations: DdsBus (the network), ReplaySource (a recording), and in tests a simulated
+/// network that loses, delays, duplicates and reorders from one seed.
+class Bus {
+ public:
+  virtual ~Bus() = default;
+
+  /// Waits until a message has arrived, `timeout` is over or Wake() was called; then appends the
+  /// messages that have arrived, at most `limit`; the rest stays for the next call. False: no more
+  /// messages will come.
+  virtual bool Receive(std::chrono::nanoseconds timeout, std::size_t limit,
+                       std::vector<v1::Input>* inputs) = 0;
+
+  virtual void Publish(const v1::Output& output) = 0;
+
+  /// Sends everything published so far. Called at the end of each step.
+  virtual void Flush() = 0;
+
+  /// Ends a Receive() that waits. Any thread.
+  virtual void Wake() = 0;
+
+  /// Whether its batches come from a recording and hold everything that the recorded daemon added
+  /// to them, so that the daemon adds nothing.
+  virtual bool recorded() const { return false; }
+
+  /// What the network did not deliver or accept, for the status: Counters of collision.idl, each
+  /// name once.
+  virtual std::vector<v1::Counter> network_counters() const { return {}; }
+};
+
+}  // namespace collision::server

@@ -1,0 +1,236 @@
+#include "server/codec/codec.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "idl/identity.h"
+#include "idl/limits.h"
+#include "idl/shape_bytes.h"
+#include "server/codec/field_check.h"
+
+namespace collision::server {
+namespace {
+
+Eigen::Vector3d ToVector(const v1::Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::optional<Refusal> CheckName(std::uint64_t id, const std::string& name, Refusal where) {
+  FieldCheck check(std::move(where));
+  check.Text("simulator_name", name, wire::kNameMax);
+  if (id != SimulatorId(name)) {
+    check.Refuse(v1::REJECTED_ID_MISMATCH, "simulator_id",
+                 std::to_string(id) + "; the name \"" + name.substr(0, wire::kNameMax) + "\" has " +
+                     std::to_string(SimulatorId(name)));
+  }
+  return check.refusal();
+}
+
+/// INT64_MAX is never; everything else must leave room for differences.
+void CheckLater(const char* field, std::int64_t ns, FieldCheck* check) {
+  if (ns != Instant::Never().nanoseconds())
+    check->Integer(field, ns, -wire::kInstantMax, wire::kInstantMax);
+}
+
+/// Turns how far the length of a quaternion is off 1 into a rotation error [rad]: DecodeState().
+constexpr double kRotationPerLengthError = 2.00001;
+
+void TakeOrientation(const v1::Quaternion& wire, FieldCheck* check, motion::MotionState* state) {
+  for (const double component : {wire.w(), wire.x(), wire.y(), wire.z()}) {
+    check->Number("orientation", component, -2, 2);
+  }
+  const double length = std::sqrt(wire.w() * wire.w() + wire.x() * wire.x() + wire.y() * wire.y() +
+                                  wire.z() * wire.z());
+  if (length < wire::kUnitTolerance) {
+    check->Refuse(v1::REJECTED_ZERO_QUATERNION, "orientation",
+                  "length " + Show(length) + "; allowed: 1 within " + Show(wire::kUnitTolerance));
+  }
+  const double off = std::abs(length - 1);
+  if (!(off <= wire::kUnitTolerance)) {
+    check->Refuse(v1::REJECTED_NOT_UNIT, "orientation",
+                  "length " + Show(length) + "; allowed: 1 within " + Show(wire::kUnitTolerance));
+  }
+  if (!check->passed()) return;
+  state->q_WB = Eigen::Quaterniond(wire.w() / length, wire.x() / length, wire.y() / length,
+                                   wire.z() / length);
+  state->rotation_error =
+      std::min(wire::kRotationErrorMax, state->rotation_error + kRotationPerLengthError * off);
+}
+
+/// Zero is "not declared". Normalising changes its length, not where it points.
+void TakeDirection(const v1::AgentState& wire, FieldCheck* check, motion::MotionState* state) {
+  check->Vector("thrust_direction", wire.thrust_direction(), 2);
+  if (!check->passed()) return;
+  const Eigen::Vector3d direction = ToVector(wire.thrust_direction());
+  const double length = std::sqrt(direction.dot(direction));
+  if (direction.isZero(0)) return;
+  if (std::abs(length - 1) > wire::kUnitTolerance) {
+    check->Refuse(
+        v1::REJECTED_NOT_UNIT, "thrust_direction",
+        "length " + Show(length) + "; allowed: 0, or 1 within " + Show(wire::kUnitTolerance));
+  }
+  CheckLater("direction_until_ns", wire.direction_until_ns(), check);
+  state->direction = direction / length;
+  state->direction_until = Instant::FromNanoseconds(wire.direction_until_ns());
+}
+
+void CheckStamp(std::int64_t stamp_ns, const StampRules& rules, FieldCheck* check) {
+  check->Integer("stamp_ns", stamp_ns, -wire::kInstantMax, rules.latest.nanoseconds(),
+                 v1::REJECTED_FUTURE_STAMP);
+}
+
+}  // namespace
+
+std::optional<Refusal> CheckIdentity(const v1::AgentDescription& description) {
+  return CheckName(description.simulator_id(), description.simulator_name(), At(description));
+}
+
+std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock) {
+  return CheckName(clock.simulator_id(), clock.simulator_name(), At(clock));
+}
+
+Decoded<motion::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
+  FieldCheck check(At(wire));
+  check.Integer("slot", wire.slot(), 0, wire::kSlotMax);
+  check.Text("agent_name", wire.agent_name(), wire::kNameMax);
+  check.Number("radius_m", wire.radius_m(), 0, wire::kRadiusMax);
+  check.Number("acceleration_max_m_s2", wire.acceleration_max_m_s2(), 0, wire::kAccelerationMax);
+  check.Number("angular_acceleration_max_rad_s2", wire.angular_acceleration_max_rad_s2(),
+               -wire::kAccelerationMax, wire::kAccelerationMax);
+  check.Number("speed_max_m_s", wire.speed_max_m_s(), 0, wire::kSpeedMax);
+  check.Number("time_step_s", wire.time_step_s(), 0, wire::kTimeStepMax);
+  const std::string hash = ShapeHashOf(wire);
+  if (!hash.empty() && hash.size() != kShapeHashBytes) {
+    check.Refuse(
+        v1::REJECTED_BAD_SHAPE, "shape_hash",
+        std::to_string(hash.size()) + " bytes; allowed: 0 or " + std::to_string(kShapeHashBytes));
+  }
+  if (!check.passed()) return *check.refusal();
+  const double alpha = wire.angular_acceleration_max_rad_s2();
+  const double cap = wire.speed_max_m_s();
+  return motion::AgentDeclaration{.radius = wire.radius_m(),
+                                  .acceleration_max = wire.acceleration_max_m_s2(),
+                                  .time_step = wire.time_step_s(),
+                                  .speed_max = cap > 0 ? cap : numeric::kInfinity,
+                                  .group = wire.group(),
+                                  .mask = wire.mask(),
+                                  .angular_acceleration_max = alpha < 0 ? -1 : alpha,
+                                  .shape = nullptr,
+                                  .shape_awaited = !hash.empty()};
+}
+
+std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk) {
+  FieldCheck check(At(chunk));
+  check.Integer("states", chunk.states_size(), 0, wire::kStatesPerChunkMax,
+                v1::REJECTED_CHUNK_TOO_LARGE);
+  check.Integer("chunk", chunk.chunk(), 0, wire::kSlotMax);
+  return check.refusal();
+}
+
+std::optional<Refusal> CheckSlot(const v1::AgentStates& chunk, const v1::AgentState& state) {
+  FieldCheck check(At(chunk, state));
+  check.Integer("slot", state.slot(), 0, wire::kSlotMax);
+  return check.refusal();
+}
+
+Decoded<motion::MotionState> DecodeState(const v1::AgentStates& chunk, const v1::AgentState& wire,
+                                         const StampRules& rules) {
+  FieldCheck check(At(chunk, wire));
+  check.Vector("position_m", wire.position_m(), wire::kCoordinateMax);
+  check.Vector("velocity_m_s", wire.velocity_m_s(), wire::kSpeedMax);
+  check.Vector("angular_velocity_rad_s", wire.angular_velocity_rad_s(), wire::kAngularSpeedMax);
+  check.Number("position_error_m", wire.position_error_m(), 0, wire::kRadiusMax);
+  check.Number("velocity_error_m_s", wire.velocity_error_m_s(), 0, wire::kSpeedMax);
+  check.Number("rotation_error_rad", wire.rotation_error_rad(), 0, wire::kRotationErrorMax);
+  CheckLater("expiry_ns", wire.expiry_ns(), &check);
+  check.Integer("stamp_ns", wire.stamp_ns(), -wire::kInstantMax, wire::kInstantMax);
+  CheckStamp(wire.stamp_ns(), rules, &check);
+  if (wire.discontinuity()) {
+    check.Integer("stamp_ns", wire.stamp_ns(), rules.discontinuity_from.nanoseconds(),
+                  wire::kInstantMax, v1::REJECTED_STALE);
+  }
+
+  motion::MotionState state{.stamp = Instant::FromNanoseconds(wire.stamp_ns()),
+                            .p_WA = ToVector(wire.position_m()),
+                            .v_WA = ToVector(wire.velocity_m_s()),
+                            .w_WB = ToVector(wire.angular_velocity_rad_s()),
+                            .position_error = wire.position_error_m(),
+                            .velocity_error = wire.velocity_error_m_s(),
+                            .rotation_error = wire.rotation_error_rad(),
+                            .expiry = Instant::FromNanoseconds(wire.expiry_ns()),
+                            .discontinuity = wire.discontinuity()};
+  TakeOrientation(wire.orientation(), &check, &state);
+  TakeDirection(wire, &check, &state);
+  if (!check.passed()) return *check.refusal();
+  return state;
+}
+
+std::optional<Refusal> CheckStamp(const detection::AgentId& agent, Instant stamp,
+                                  const StampRules& rules) {
+  FieldCheck check({.topic = v1::TOPIC_AGENT_STATES,
+                    .simulator_id = agent.simulator,
+                    .run = agent.run,
+                    .slot = agent.slot,
+                    .generation = agent.generation});
+  CheckStamp(stamp.nanoseconds(), rules, &check);
+  return check.refusal();
+}
+
+Decoded<Instant> DecodeClock(const v1::SimulatorClock& wire, const ClockRules& rules) {
+  FieldCheck check(At(wire));
+  if (wire.lock_step() != rules.lock_step) {
+    check.Refuse(v1::REJECTED_OUT_OF_RANGE, "lock_step",
+                 rules.lock_step
+                     ? "false (wall clock); this world runs on simulated time: start the "
+                       "simulator in lock-step, or the service with clock kind WALL"
+                     : "true (simulated time); this world runs on the wall clock: start the "
+                       "simulator without lock-step, or the service with clock kind SIMULATED");
+  }
+  check.Integer("clock_ns", wire.clock_ns(), -wire::kInstantMax, wire::kInstantMax);
+  check.Integer("clock_ns", wire.clock_ns(), rules.earliest.nanoseconds(),
+                Instant::Never().nanoseconds(), v1::REJECTED_CLOCK_BACKWARD);
+  check.Integer("clock_ns", wire.clock_ns(), rules.earliest.nanoseconds(),
+                rules.latest.nanoseconds(), v1::REJECTED_CLOCK_BEYOND_GRANT);
+  if (!check.passed()) return *check.refusal();
+  return Instant::FromNanoseconds(wire.clock_ns());
+}
+
+std::string ShapeHashOf(const v1::AgentDescription& description) {
+  const std::string& hash = description.shape_hash();
+  const bool none = std::all_of(hash.begin(), hash.end(), [](char byte) { return byte == 0; });
+  return none ? std::string() : hash;
+}
+
+std::optional<Refusal> CheckShapePart(const v1::ShapePart& part) {
+  FieldCheck check(At(part));
+  const auto refuse = [&check](const char* field, const std::string& detail) {
+    check.Refuse(v1::REJECTED_BAD_SHAPE, field, detail);
+  };
+  if (part.content_hash().size() != kShapeHashBytes) {
+    refuse("content_hash",
+           std::to_string(part.content_hash().size()) +
+               " bytes that are not all zero; allowed: " + std::to_string(kShapeHashBytes));
+  }
+  const std::uint64_t total = part.total_bytes();
+  if (total < kShapeHeaderBytes) {
+    refuse("total_bytes",
+           std::to_string(total) + "; a shape has at least " + std::to_string(kShapeHeaderBytes));
+  }
+  const std::uint64_t parts = ShapeParts(total);
+  const std::string of_all = std::to_string(parts) + " parts of " + std::to_string(kShapePartBytes);
+  if (part.parts() != parts) {
+    refuse("parts", std::to_string(part.parts()) + "; " + std::to_string(total) + " bytes make " +
+                        of_all + ", the last one shorter");
+  }
+  if (part.part() >= part.parts()) {
+    refuse("part", std::to_string(part.part()) + "; allowed: 0 to " +
+                       std::to_string(std::int64_t{part.parts()} - 1));
+  }
+  const bool last = part.part() + std::uint64_t{1} == parts;
+  const std::uint64_t bytes = last ? total - part.part() * kShapePartBytes : kShapePartBytes;
+  if (part.bytes().size() != bytes) {
+    refuse("bytes", std::to_string(part.bytes().size()) + "; part " + std::to_string(part.part()) +
+                        " of " + of_all + " has " + std::to_string(bytes));
+  }
+  return check.refusal();
+}
+
+}  // namespace collision::server

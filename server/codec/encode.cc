@@ -1,0 +1,94 @@
+#include "server/codec/encode.h"
+
+namespace collision::server {
+namespace {
+
+// The enumerations of core and wire agree value by value.
+static_assert(static_cast<int>(detection::EventStatus::kEnded) == v1::EVENT_ENDED);
+static_assert(static_cast<int>(detection::EventStatus::kUndecided) == v1::EVENT_UNDECIDED);
+static_assert(static_cast<int>(narrow_phase::EventLimit::kGeometry) == v1::LIMIT_GEOMETRY);
+static_assert(static_cast<int>(detection::ClearanceCause::kSkew) == v1::CAUSE_SKEW);
+static_assert(static_cast<int>(detection::ClearanceCause::kBreach) == v1::CAUSE_BREACH);
+
+v1::Vector3 Encode(const Eigen::Vector3d& v) {
+  v1::Vector3 wire;
+  wire.set_x(v.x());
+  wire.set_y(v.y());
+  wire.set_z(v.z());
+  return wire;
+}
+
+v1::TimeBracket Encode(const detection::TimeBracket& bracket) {
+  v1::TimeBracket wire;
+  wire.set_earliest_ns(bracket.earliest.nanoseconds());
+  wire.set_latest_ns(bracket.latest.nanoseconds());
+  return wire;
+}
+
+}  // namespace
+
+v1::AgentId Encode(const detection::AgentId& id) {
+  v1::AgentId wire;
+  wire.set_simulator_id(id.simulator);
+  wire.set_run(id.run);
+  wire.set_slot(id.slot);
+  wire.set_generation(id.generation);
+  return wire;
+}
+
+v1::CollisionEvent Encode(const detection::CollisionEvent& event) {
+  v1::CollisionEvent wire;
+  wire.set_pair_slot(event.pair_slot);
+  wire.set_now_ns(event.now.nanoseconds());
+  *wire.mutable_lower() = Encode(event.lower);
+  *wire.mutable_higher() = Encode(event.higher);
+  wire.set_contact(event.contact);
+  wire.set_revision(event.revision);
+  wire.set_status(static_cast<v1::EventStatus>(event.status));
+  *wire.mutable_begin() = Encode(event.begin);
+  *wire.mutable_end() = Encode(event.end);
+  wire.set_continuous(event.continuous);
+  wire.set_began_before(event.began_before);
+  wire.set_evaluated_at_ns(event.evaluated_at.nanoseconds());
+  wire.mutable_separation_m()->set_lower(event.separation_lower);
+  wire.mutable_separation_m()->set_upper(event.separation_upper);
+  wire.set_depth_lower_m(event.depth_lower);
+  *wire.mutable_point_m() = Encode(event.p_WC);
+  wire.set_point_error_m(event.point_error);
+  *wire.mutable_normal() = Encode(event.normal);
+  wire.set_normal_error_rad(event.normal_error);
+  wire.set_level(event.level);
+  wire.set_work_units(event.work);
+  wire.set_limited_by(static_cast<v1::EventLimit>(event.limited_by));
+  return wire;
+}
+
+v1::EarliestIntersection Encode(const detection::EarliestAnswer& answer) {
+  v1::EarliestIntersection wire;
+  wire.set_found(answer.found);
+  wire.set_earliest_ns(answer.earliest.nanoseconds());
+  *wire.mutable_lower() = Encode(answer.lower);
+  *wire.mutable_higher() = Encode(answer.higher);
+  return wire;
+}
+
+v1::AgentClearance Encode(const detection::AgentClearance& clearance,
+                          std::uint64_t acknowledged_sequence, std::uint32_t acknowledged_revision,
+                          Instant state_wanted) {
+  v1::AgentClearance wire;
+  wire.set_slot(clearance.agent.slot);
+  wire.set_generation(clearance.agent.generation);
+  wire.set_clear_until_ns(clearance.clear_until.nanoseconds());
+  wire.set_not_clear(clearance.not_clear);
+  wire.set_saturated(clearance.saturated);
+  wire.set_acknowledged_sequence(acknowledged_sequence);
+  wire.set_acknowledged_revision(acknowledged_revision);
+  wire.set_effective_from_ns(clearance.effective_from.nanoseconds());
+  wire.set_cause(static_cast<v1::ClearanceCause>(clearance.cause));
+  *wire.mutable_cause_agent() = Encode(clearance.cause_agent);
+  wire.set_void_from_ns(clearance.void_from.nanoseconds());
+  wire.set_state_wanted_ns(state_wanted.nanoseconds());
+  return wire;
+}
+
+}  // namespace collision::server

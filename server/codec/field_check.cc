@@ -1,0 +1,56 @@
+#include "server/codec/field_check.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace collision::server {
+
+std::string Show(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.9g", value);
+  return text;
+}
+
+void FieldCheck::Number(const char* field, double value, double least, double greatest) {
+  if (!std::isfinite(value)) {
+    Refuse(v1::REJECTED_NOT_FINITE, field, Show(value) + "; a finite number is needed");
+  } else if (value < least || value > greatest) {
+    Refuse(v1::REJECTED_OUT_OF_RANGE, field,
+           Show(value) + "; allowed: " + Show(least) + " to " + Show(greatest));
+  }
+}
+
+void FieldCheck::Integer(const char* field, std::int64_t value, std::int64_t least,
+                         std::int64_t greatest, v1::RejectionReason reason) {
+  if (value >= least && value <= greatest) return;
+  Refuse(reason, field,
+         std::to_string(value) + "; allowed: " + std::to_string(least) + " to " +
+             std::to_string(greatest));
+}
+
+void FieldCheck::Vector(const char* field, const v1::Vector3& value, double greatest) {
+  // Written so that what is not a number fails; names are built for what is refused only.
+  const auto within = [greatest](double x) { return x >= -greatest && x <= greatest; };
+  if (within(value.x()) && within(value.y()) && within(value.z())) return;
+  const std::string name = field;
+  Number((name + ".x").c_str(), value.x(), -greatest, greatest);
+  Number((name + ".y").c_str(), value.y(), -greatest, greatest);
+  Number((name + ".z").c_str(), value.z(), -greatest, greatest);
+}
+
+void FieldCheck::Text(const char* field, const std::string& value, std::size_t characters_max) {
+  if (value.size() <= characters_max) return;
+  Refuse(v1::REJECTED_OUT_OF_RANGE, field,
+         std::to_string(value.size()) + " characters; allowed: 0 to " +
+             std::to_string(characters_max));
+}
+
+void FieldCheck::Refuse(v1::RejectionReason reason, const char* field, std::string detail) {
+  if (refusal_) return;
+  refusal_ = where_;
+  refusal_->reason = reason;
+  refusal_->field = field;
+  refusal_->detail = std::move(detail);
+}
+
+}  // namespace collision::server

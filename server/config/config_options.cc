@@ -1,0 +1,231 @@
+#include "server/config/config_options.h"
+
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "idl/limits.h"
+
+namespace collision::server {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+
+constexpr ConfigOption kOptions[] = {
+    {"world", "none", "", "", "1 to 64 of A-Z a-z 0-9 _ -", "\"default\"",
+     "Which world this service serves. Worlds do not see each other."},
+    {"domain", "none", "0", "230", "", "0",
+     "DDS domain. Simulators and monitors must use the same."},
+    {"service_id", "none", "1", "18446744073709551615", "", "1",
+     "Stands in everything this instance publishes; no two services of a world share it."},
+    {"term", "none", "1", "4294967295", "", "1",
+     "Grows when another instance takes over; clients drop samples of a lower term."},
+    {"clock.kind", "none", "", "", "SIMULATED or WALL", "SIMULATED",
+     "SIMULATED: now is the least clock of the live simulators. WALL: now is the time since 1970, "
+     "advanced by the monotonic clock."},
+    {"clock.skew_max_s", "s", "0", "60", "", "0",
+     "Bound on the difference between any sender's clock and ours. Bounds are widened by it, and a "
+     "stamp further in the future is refused. With WALL it must be greater than 0.",
+     "0.002"},
+    {"clock.simulators_awaited", "simulators", "1", "1024", "", "1",
+     "With SIMULATED, time stands still until so many simulators have published a clock."},
+    {"clock.grant_ahead_max_s", "s", "0.000001", "86400", "", "10",
+     "With SIMULATED, no simulator is allowed to run further ahead than this, however empty the "
+     "scene."},
+    {"clock.on_silent_simulator", "none", "", "", "WAIT or RELEASE", "WAIT",
+     "With SIMULATED, when the process of a simulator has died: WAIT stops the world's time until "
+     "it is back, RELEASE goes on without it after release_after_s. Its agents stay either way, "
+     "and their bounds grow."},
+    {"clock.release_after_s", "s", "0.1", "86400", "", "5",
+     "How long RELEASE waits. With WAIT it must keep its default."},
+    {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
+     "The least severe lines that are logged."},
+    {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
+     "\"\"", "Where the log goes, appended. Empty: standard error."},
+    {"temporal_resolution_s", "s", "0.000001", "10", "", "0.016666666666666666",
+     "A pair whose earliest possible intersection is nearer than this goes to the narrow phase, at "
+     "most once per this time. Contacts shorter than it are found all the same."},
+    {"announce_within_s", "s", "0.000001", "86400", "", "2",
+     "A possible intersection this near gets an event. At least temporal_resolution_s."},
+    {"agents_max", "agents", "1", "1000000", "", "1000",
+     "Agents in the world; another one is refused."},
+    {"simulators_max", "simulators", "1", "1024", "", "64",
+     "Simulators in the world; what another one writes is refused. At least "
+     "clock.simulators_awaited."},
+    {"pairs_max", "pairs", "1", "16777216", "", "65536",
+     "Pairs tracked at once; beyond it agents are published as saturated, with a clearance of "
+     "now."},
+    {"pairs_per_agent_max", "pairs", "1", "1000000", "", "256", "Likewise, of one agent."},
+    {"history_max", "states", "2", "4096", "", "64",
+     "States kept per agent for evaluating contacts; beyond, the oldest are dropped and brackets "
+     "widen."},
+    {"inputs_per_batch_max", "messages", "1", "1048576", "", "65536",
+     "Messages taken from the network in one step; the rest waits for the next."},
+    {"undescribed_after_s", "s", "0.1", "3600", "", "5",
+     "How long states without a description, and agents whose shape has not arrived, wait until "
+     "their sender is told."},
+    {"status_period_s", "s", "0.05", "10", "", "0.5",
+     "Time between two samples of the service's status, by the monotonic clock."},
+    {"rejections_per_second_max", "messages", "1", "100000", "", "100",
+     "Rejections published per second; further ones are only counted in the status."},
+    {"time_budget_us", "us", "0", "1000000", "", "2000",
+     "What the narrow phase may spend on two agents of which one has a shape, in one turn; beyond, "
+     "brackets stay wider and say so. 0: their sphere trees are not refined at all. It is counted "
+     "in work units, so that a replay stops where the recorded run did, on any machine."},
+    {"step_budget_us", "us", "0", "1000000", "", "0",
+     "Likewise in one step on all pairs together, shared so that no pair starves: pairs that are "
+     "announced and undecided get more. 0: no limit but time_budget_us for each pair."},
+    {"work_units_per_us", "work units", "1", "1000000", "", "20",
+     "Turns time_budget_us and step_budget_us into work units. collisiond --calibrate measures it "
+     "on this machine."},
+    {"shape_triangles_max", "triangles", "1", "5000000", "", "2000000",
+     "Triangles of one shape; a shape of more is refused."},
+    {"shapes_max", "shapes", "1", "65536", "", "1024",
+     "Different shapes in the world, including those that are still arriving; another one is "
+     "refused."},
+    {"shape_bytes_max", "bytes", "1048576", "1099511627776", "", "268435456",
+     "Of all shapes together: parts that have arrived, and meshes. A part that does not fit is "
+     "refused. Trees come on top (tree_bytes in the status)."},
+    {"broad_phase", "none", "", "", "AUTO, ALL_PAIRS, FACE_SWEEP or SPATIAL_INDEX", "AUTO",
+     "How candidate pairs are found. All methods give the same answers and differ in cost. AUTO "
+     "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and in between the one that does "
+     "less work."},
+    {"tree_builder", "none", "", "", "OCTREE or FITTED", "FITTED",
+     "Which builder makes the sphere trees of shapes. FITTED: balls that fit the surface far more "
+     "tightly, so that brackets of the same cost are narrower. OCTREE: the reference. collisionctl "
+     "sphere-tree shows the difference. A surface of more than 4096 triangles has a coarse tree "
+     "until this one is built."},
+    {"tree_cache_dir", "none", "", "",
+     "a path of at most 4096 printable ASCII characters, or empty", "\"\"",
+     "Folder that keeps trees once they are built; it is made if it is missing. A file that is "
+     "damaged or of another version is replaced. Empty: the folder that systemd names "
+     "(CacheDirectory=), else none."},
+    {"tree_cache_mb", "MB", "1", "1048576", "", "1024",
+     "Of all files in tree_cache_dir together, in millions of bytes; the files used least lately "
+     "are removed first. A shape of a million triangles takes about 100."},
+};
+
+class Silent final : public google::protobuf::io::ErrorCollector {
+  void AddError(int, google::protobuf::io::ColumnNumber, const std::string&) override {}
+};
+
+/// The message that holds an option's field, and the field.
+template <typename Holder>
+struct Place {
+  Holder* message;
+  const FieldDescriptor* field;
+};
+
+std::string_view LeafOf(std::string_view path) { return path.substr(path.rfind('.') + 1); }
+
+const FieldDescriptor* FieldOf(const Message& message, std::string_view name) {
+  return message.GetDescriptor()->FindFieldByName(std::string(name));
+}
+
+Place<const Message> Find(const v1::Config& config, const ConfigOption& option) {
+  const bool nested = option.path.find('.') != std::string_view::npos;
+  const Message& holder = nested ? static_cast<const Message&>(config.clock()) : config;
+  return {&holder, FieldOf(holder, LeafOf(option.path))};
+}
+
+Place<Message> Find(v1::Config* config, const ConfigOption& option) {
+  const bool nested = option.path.find('.') != std::string_view::npos;
+  Message* holder = nested ? static_cast<Message*>(config->mutable_clock()) : config;
+  return {holder, FieldOf(*holder, LeafOf(option.path))};
+}
+
+bool IsWorldName(std::string_view text) {
+  constexpr std::string_view kAllowed =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
+  return !text.empty() && text.size() <= wire::kNameMax &&
+         text.find_first_not_of(kAllowed) == text.npos;
+}
+
+bool IsLogLevel(std::string_view text) {
+  constexpr std::string_view kLevels[] = {"trace", "debug",    "info", "warn",
+                                          "error", "critical", "off"};
+  return std::ranges::find(kLevels, text) != std::end(kLevels);
+}
+
+bool IsAllowedText(std::string_view path, const std::string& text) {
+  if (path == "world") return IsWorldName(text);
+  if (path == "log_level") return IsLogLevel(text);
+  const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
+  return text.size() <= 4096 && std::ranges::all_of(text, printable);
+}
+
+/// Of numbers; what is not a number is in no range. Text to double is exact for every limit in the
+/// table but 2^64 - 1, which no value can exceed.
+bool IsInRange(const std::string& value, const ConfigOption& option) {
+  const double number = std::strtod(value.c_str(), nullptr);
+  return number >= std::strtod(option.least.data(), nullptr) &&
+         number <= std::strtod(option.most.data(), nullptr);
+}
+
+/// Protobuf takes any number for an enum; 0 is "not set".
+bool IsChoice(const FieldDescriptor& field, int value) {
+  return value != 0 && field.enum_type()->FindValueByNumber(value) != nullptr;
+}
+
+bool IsAllowed(const v1::Config& config, const ConfigOption& option) {
+  const auto [message, field] = Find(config, option);
+  switch (field->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_STRING:
+      return IsAllowedText(option.path, message->GetReflection()->GetString(*message, field));
+    case FieldDescriptor::CPPTYPE_ENUM:
+      return IsChoice(*field, message->GetReflection()->GetEnumValue(*message, field));
+    default:
+      return IsInRange(ValueText(config, option), option);
+  }
+}
+
+}  // namespace
+
+std::span<const ConfigOption> ConfigOptions() { return kOptions; }
+
+const ConfigOption* FindConfigOption(std::string_view name) {
+  const auto* found = std::ranges::find_if(
+      kOptions, [&](const ConfigOption& option) { return LeafOf(option.path) == name; });
+  return found == std::end(kOptions) ? nullptr : found;
+}
+
+std::string AllowedRange(const ConfigOption& option) {
+  if (option.least.empty()) return std::string(option.allowed);
+  return std::string(option.least) + " to " + std::string(option.most);
+}
+
+std::string_view DefaultOf(const ConfigOption& option, const v1::Config& config) {
+  const bool wall = config.clock().kind() == v1::Clock::WALL;
+  return wall && !option.wall_value.empty() ? option.wall_value : option.value;
+}
+
+bool IsSet(const v1::Config& config, const ConfigOption& option) {
+  const auto [message, field] = Find(config, option);
+  return message->GetReflection()->HasField(*message, field);
+}
+
+std::string ValueText(const v1::Config& config, const ConfigOption& option) {
+  const auto [message, field] = Find(config, option);
+  std::string text;
+  google::protobuf::TextFormat::PrintFieldValueToString(*message, field, -1, &text);
+  return text;
+}
+
+bool SetValue(v1::Config* config, const ConfigOption& option, std::string_view text) {
+  const auto [message, field] = Find(config, option);
+  Silent silent;  // Without it the parser writes to standard error.
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&silent);
+  return parser.ParseFieldValueFromString(std::string(text), field, message);
+}
+
+std::string CheckValue(const v1::Config& config, const ConfigOption& option) {
+  if (IsAllowed(config, option)) return {};
+  const std::string unit = option.unit == "none" ? "" : " [" + std::string(option.unit) + "]";
+  return ValueText(config, option) + " is not allowed; allowed: " + AllowedRange(option) + unit;
+}
+
+}  // namespace collision::server

@@ -1,0 +1,63 @@
+#include <google/protobuf/text_format.h>
+
+#include <sstream>
+
+#include "server/config/config.h"
+#include "server/config/config_options.h"
+
+namespace collision::server {
+namespace {
+
+constexpr std::size_t kColumns = 100;
+
+constexpr std::string_view kHead =
+    "The configuration of collisiond: protobuf text, read with --config FILE. Every field may be "
+    "left out; its "
+    "default then holds. --check-config checks a file, --print-config prints one like this.";
+
+/// As a comment, broken between words.
+void PrintComment(std::string_view text, const std::string& indent, std::ostream& out) {
+  std::istringstream words{std::string(text)};
+  std::string line = indent + "#";
+  for (std::string word; words >> word; line += " " + word) {
+    if (line.size() + 1 + word.size() > kColumns) {
+      out << line << '\n';
+      line = indent + "#";
+    }
+  }
+  out << line << '\n';
+}
+
+std::string Facts(const ConfigOption& option) {
+  std::string facts = "Unit: " + std::string(option.unit) + ". Range: " + AllowedRange(option) +
+                      ". Default: " + std::string(option.value);
+  if (!option.wall_value.empty()) facts += "; with WALL " + std::string(option.wall_value);
+  return facts + ".";
+}
+
+void PrintOption(const v1::Config& config, const ConfigOption& option, const std::string& indent,
+                 std::ostream& out) {
+  PrintComment(option.meaning, indent, out);
+  PrintComment(Facts(option), indent, out);
+  const std::string_view name = option.path.substr(option.path.rfind('.') + 1);
+  out << indent << name << ": " << ValueText(config, option) << '\n';
+}
+
+}  // namespace
+
+std::string PrintConfig(const v1::Config& complete) {
+  std::ostringstream out;
+  PrintComment(kHead, "", out);
+  bool in_clock = false;
+  for (const ConfigOption& option : ConfigOptions()) {
+    const bool of_clock = option.path.starts_with("clock.");
+    if (in_clock && !of_clock) out << "}\n";
+    out << '\n';
+    if (!in_clock && of_clock) out << "clock {\n";
+    in_clock = of_clock;
+    PrintOption(complete, option, of_clock ? "  " : "", out);
+  }
+  return out.str();
+}
+
+}  // namespace collision::server

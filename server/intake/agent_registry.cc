@@ -1,0 +1,178 @@
+#include "server/intake/agent_registry.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <utility>
+
+#include "server/process/logging.h"
+
+namespace collision::server {
+
+AgentRegistry::AgentRegistry(const v1::Config& config, World* world, detection::Detector* detector,
+                             Rejections* rejections, AgentShapes* shapes)
+    : agents_max_(config.agents_max()),
+      world_(*world),
+      detector_(*detector),
+      rejections_(*rejections),
+      shapes_(*shapes),
+      undescribed_(ToNanoseconds(config.undescribed_after_s())) {}
+
+void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
+                             const motion::AgentDeclaration& declaration) {
+  detection::AgentTable& agents = simulator->agents();
+  const std::uint32_t slot = wire.slot();
+  if (agents.HasEnded(slot, wire.generation())) return;
+  if (agents.Find(slot, wire.generation())) return Revise(simulator, wire, declaration);
+  if (Agent* former = agents.Find(slot)) RemoveAgent(simulator, slot, former);
+  Agent* agent = agents.Add(slot, {wire.generation(), wire.revision(), declaration});
+  shapes_.Refer(simulator, slot, ShapeHashOf(wire), agent);
+  AdmitIfComplete(simulator, slot);
+}
+
+void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wire,
+                           const motion::AgentDeclaration& declaration) {
+  Agent* agent = simulator->agents().Find(wire.slot());
+  if (wire.revision() <= agent->revision()) return;
+  simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
+  shapes_.Refer(simulator, wire.slot(), ShapeHashOf(wire), agent);
+  if (agent->admitted()) {
+    detector_.Redeclare(simulator->IdOf(wire.slot(), agent->generation()), agent->declaration,
+                        world_.EffectiveFrom(agent->stamp()));
+  }
+}
+
+void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk,
+                              const v1::AgentState& wire) {
+  ++counters_.states_received;
+  if (const auto refusal = CheckSlot(chunk, wire)) return rejections_.Add(*refusal);
+  const StateOrder order =
+      simulator->agents().NoteState(wire.slot(), wire.generation(), wire.sequence());
+  if (order == StateOrder::kEnded) ++counters_.states_older;
+  if (order == StateOrder::kRepeated) ++counters_.states_repeated;
+  if (order != StateOrder::kNew) return;
+  const Agent* agent = simulator->agents().Find(wire.slot(), wire.generation());
+  const bool admitted = agent != nullptr && agent->admitted();
+  const Decoded<motion::MotionState> decoded =
+      DecodeState(chunk, wire, world_.RulesForState(*simulator, admitted));
+  if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
+  const motion::MotionState& state = std::get<motion::MotionState>(decoded);
+  if (admitted) {
+    Update(simulator, wire.slot(), wire.sequence(), state);
+  } else {
+    KeepWaiting(simulator, wire.slot(), {wire.generation(), wire.sequence(), state});
+  }
+}
+
+void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
+                           const motion::MotionState& state) {
+  const Agent& agent = *simulator->agents().Find(slot);
+  const detection::AgentId id = simulator->IdOf(slot, agent.generation());
+  const detection::UpdateOutcome outcome =
+      state.stamp < agent.stamp() ? detection::UpdateOutcome::kOlder
+                                  : detector_.Update(id, state, world_.EffectiveFrom(state.stamp));
+  if (outcome == detection::UpdateOutcome::kOlder) {
+    ++counters_.states_older;
+    return;
+  }
+  CountAccepted(simulator);
+  simulator->agents().Acknowledge(slot, state.stamp, sequence);
+  if (outcome == detection::UpdateOutcome::kBreached) {
+    Log(spdlog::level::warn, "declared bound violated",
+        fmt::format("simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns cannot "
+                    "follow from the one before; detection goes on from the new state",
+                    simulator->id(), simulator->name(), slot, id.generation,
+                    state.stamp.nanoseconds()));
+  }
+}
+
+void AgentRegistry::KeepWaiting(Simulator* simulator, std::uint32_t slot,
+                                const WaitingState& waiting) {
+  detection::AgentTable& agents = simulator->agents();
+  const WaitingState* before = agents.Waiting(slot);
+  const bool first = before == nullptr || before->generation != waiting.generation;
+  if (!first && waiting.state.stamp < before->state.stamp) {
+    ++counters_.states_older;
+    return;
+  }
+  if (first && agents.Find(slot, waiting.generation) == nullptr) {
+    const detection::AgentId id = simulator->IdOf(slot, waiting.generation);
+    if (undescribed_.full()) {
+      return rejections_.Add(
+          NotDescribed(id, fmt::format("not kept: {} wait already", kOverdueMax)));
+    }
+    undescribed_.Add(world_.monotonic_ns(), id);
+  }
+  agents.KeepWaiting(slot, waiting);
+  AdmitIfComplete(simulator, slot);
+}
+
+void AgentRegistry::AdmitComplete(Simulator* simulator) {
+  simulator->agents().ForEachSlot([&](std::uint32_t slot) { AdmitIfComplete(simulator, slot); });
+}
+
+void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
+  detection::AgentTable& agents = simulator->agents();
+  Agent* agent = agents.Find(slot);
+  const WaitingState* waiting = agents.Waiting(slot);
+  if (agent == nullptr || agent->admitted() || waiting == nullptr) return;
+  if (waiting->generation != agent->generation()) return;
+  if (simulator->time().is_other_kind()) return;
+  if (world_.simulated() && !simulator->time().clock()) return;
+  if (detector_.agents() >= agents_max_) {
+    const detection::AgentId id = simulator->IdOf(slot, agent->generation());
+    if (!std::exchange(agent->told_no_room, true)) rejections_.Add(NoRoom(id, agents_max_));
+    return;
+  }
+  Admit(simulator, slot, agents.TakeWaiting(slot));
+}
+
+void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting) {
+  const detection::AgentId id = simulator->IdOf(slot, waiting.generation);
+  const Instant stamp = waiting.state.stamp;
+  const StampRules rules = world_.RulesForState(*simulator, false);
+  if (const auto refusal = CheckStamp(id, stamp, rules)) return rejections_.Add(*refusal);
+  const motion::AgentDeclaration& declaration = simulator->agents().Find(slot)->declaration;
+  if (!detector_.Admit(id, declaration, waiting.state, world_.EffectiveFrom(stamp))) return;
+  ++counters_.admitted;
+  CountAccepted(simulator);
+  simulator->agents().Admit(slot, stamp, waiting.sequence);
+  if (simulator->time().clock()) detector_.SetHeardUntil(OwnerOf(id), *simulator->time().clock());
+}
+
+void AgentRegistry::CountAccepted(Simulator* simulator) {
+  ++counters_.states_accepted;
+  simulator->CountState();
+}
+
+void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot) {
+  if (Agent* agent = simulator->agents().Find(slot)) return RemoveAgent(simulator, slot, agent);
+  simulator->agents().RemoveWaiting(slot);
+}
+
+void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent) {
+  if (agent->admitted()) {
+    detector_.Remove(simulator->IdOf(slot, agent->generation()));
+    ++counters_.removed;
+  }
+  shapes_.Refer(simulator, slot, {}, agent);
+  simulator->agents().Remove(slot);
+}
+
+void AgentRegistry::RemoveAll(Simulator* simulator) {
+  simulator->agents().ForEachSlot([&](std::uint32_t slot) {
+    if (Agent* agent = simulator->agents().Find(slot)) RemoveAgent(simulator, slot, agent);
+  });
+}
+
+void AgentRegistry::ReportUndescribed() {
+  while (const auto id = undescribed_.TakeDue(world_.monotonic_ns())) {
+    Simulator* simulator = world_.Find(id->simulator);
+    if (simulator == nullptr || simulator->run() != id->run) continue;
+    const WaitingState* waiting = simulator->agents().Waiting(id->slot);
+    if (waiting == nullptr || waiting->generation != id->generation) continue;
+    if (simulator->agents().Find(id->slot, id->generation)) continue;
+    rejections_.Add(NotDescribed(*id, "kept; nothing has described its agent yet"));
+  }
+}
+
+}  // namespace collision::server

@@ -1,0 +1,84 @@
+// The life of agents: description, first state, admission, updates, removal.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "collision_core/detection/detector.h"
+#include "server/intake/agent_shapes.h"
+#include "server/intake/overdue_queue.h"
+#include "server/world/rejections.h"
+#include "server/world/world.h"
+
+namespace collision::server {
+
+/// What became of states and agents, since the start.
+struct AgentCounters {
+  std::uint64_t states_received = 0;
+  std::uint64_t states_accepted = 0;
+  /// Not newer than the newest of their agent, or of an ended generation.
+  std::uint64_t states_older = 0;
+  std::uint64_t states_repeated = 0;  ///< A chunk repeats what has not changed.
+  std::uint64_t admitted = 0;         ///< Agents.
+  std::uint64_t removed = 0;          ///< Agents.
+};
+
+/// Keeps the agents of the world's simulators and those of the detector the same.
+///
+/// An agent enters the detector when its description and a state are there and, with a simulated
+/// clock, the first clock of its simulator is in force. A state without a description is kept, the
+/// newest per slot, and its sender is told after `undescribed_after_s`. With no room for another
+/// agent, its owner is told once, and the agent is admitted with its next state when there is room.
+/// A new generation ends the agent of its slot; late states of ended ones count as older. A change
+/// that may lower promises counts from World::EffectiveFrom(). One thread.
+class AgentRegistry {
+ public:
+  /// Everything passed in outlives this.
+  AgentRegistry(const v1::Config& config, World* world, detection::Detector* detector,
+                Rejections* rejections, AgentShapes* shapes);
+
+  /// Takes a description from the owner of its simulator.
+  void Describe(Simulator* simulator, const v1::AgentDescription& wire,
+                const motion::AgentDeclaration& declaration);
+
+  /// Takes one state of a chunk from the owner of its simulator.
+  void TakeState(Simulator* simulator, const v1::AgentStates& chunk, const v1::AgentState& wire);
+
+  /// Admits the agents of a simulator that have waited for its first clock.
+  void AdmitComplete(Simulator* simulator);
+
+  /// Removes the agent in `slot`, or ends the generation of the state that waits there.
+  void Remove(Simulator* simulator, std::uint32_t slot);
+
+  /// Removes all agents of a simulator; states that wait for a description stay.
+  void RemoveAll(Simulator* simulator);
+
+  /// Tells the senders of states that have not been described in time.
+  void ReportUndescribed();
+
+  /// When ReportUndescribed() may next have something to tell.
+  std::optional<std::int64_t> NextDue() const { return undescribed_.next_ns(); }
+
+  const AgentCounters& counters() const { return counters_; }
+
+ private:
+  void Revise(Simulator* simulator, const v1::AgentDescription& wire,
+              const motion::AgentDeclaration& declaration);
+  void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
+              const motion::MotionState& state);
+  void KeepWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
+  void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
+  void Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
+  void RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent);
+  void CountAccepted(Simulator* simulator);
+
+  const std::uint32_t agents_max_;
+  World& world_;
+  detection::Detector& detector_;
+  Rejections& rejections_;
+  AgentShapes& shapes_;
+  OverdueQueue<detection::AgentId> undescribed_;
+  AgentCounters counters_;
+};
+
+}  // namespace collision::server

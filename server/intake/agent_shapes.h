@@ -1,0 +1,63 @@
+// Which agent has which shape.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "collision_core/detection/detector.h"
+#include "server/intake/overdue_queue.h"
+#include "server/shapes/shape_store.h"
+#include "server/world/rejections.h"
+#include "server/world/world.h"
+
+namespace collision::server {
+
+/// Connects agents with the shapes of the ShapeStore: an agent refers to a shape by its hash, and
+/// has it as soon as it is visible and fits into the agent's ball. Until then, and if the shape is
+/// refused, the agent is its ball, and its owner is told: at once what is wrong, after
+/// `undescribed_after_s` what is missing.
+///
+/// A shape that becomes visible only narrows what is known, so it lowers no promise. One thread.
+class AgentShapes {
+ public:
+  /// Everything passed in outlives this.
+  AgentShapes(const v1::Config& config, World* world, detection::Detector* detector,
+              Rejections* rejections, ShapeStore* store);
+
+  /// The agent refers to this shape from now on, and to no other; empty: to none.
+  void Refer(Simulator* simulator, std::uint32_t slot, const std::string& hash, Agent* agent);
+
+  /// Makes a shape visible, or gives it its wanted tree in place of the coarse one: agents that
+  /// refer to it have it from now on. If it is refused, the simulators that wrote it are told.
+  void TakeReady(const v1::ShapeReady& message);
+
+  /// Tells the owners of agents whose shapes have not arrived in time.
+  void ReportMissing();
+
+  /// Frees what simulators that have left had written.
+  void ReleaseLeft();
+
+  /// When ReportMissing() may next have something to tell.
+  std::optional<std::int64_t> NextDue() const { return awaited_.next_ns(); }
+
+ private:
+  struct Awaited {
+    detection::AgentId agent;
+    std::string hash;
+  };
+
+  /// Gives the agent its shape if that is visible and fits.
+  void Give(const Simulator& simulator, std::uint32_t slot, Agent* agent);
+  void Await(const detection::AgentId& id, const std::string& hash);
+  void ReportMissing(const Awaited& awaited);
+  void TellRefusal(const std::string& hash, const ReadyShape& ready);
+
+  World& world_;
+  detection::Detector& detector_;
+  Rejections& rejections_;
+  ShapeStore& store_;
+  OverdueQueue<Awaited> awaited_;
+};
+
+}  // namespace collision::server

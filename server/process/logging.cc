@@ -1,0 +1,95 @@
+#include "server/process/logging.h"
+
+#include <spdlog/sinks/basic_file_sink.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <mutex>
+
+namespace collision::server {
+namespace {
+
+/// Matters are constants of the program, some dozens. Any beyond these share one limit, so that a
+/// matter that is built from input by mistake cannot fill memory.
+constexpr std::size_t kMattersMax = 256;
+constexpr std::string_view kOther = "other matters";
+
+/// The process has one log, as it has one default logger.
+struct ProcessLog {
+  std::mutex mutex;
+  MatterLimiter limiter{[](spdlog::level::level_enum level, const std::string& line) {
+    spdlog::default_logger_raw()->log(level, line);
+  }};
+};
+
+ProcessLog& TheLog() {
+  static ProcessLog log;
+  return log;
+}
+
+}  // namespace
+
+void StartLogging(const std::string& level, const std::string& file) {
+  auto logger = file.empty() ? std::make_shared<spdlog::logger>(
+                                   "", std::make_shared<spdlog::sinks::stderr_color_sink_mt>())
+                             : std::make_shared<spdlog::logger>(
+                                   "", std::make_shared<spdlog::sinks::basic_file_sink_mt>(file));
+  logger->set_level(spdlog::level::from_str(level));
+  logger->flush_on(spdlog::level::trace);
+  logger->set_pattern("%Y-%m-%dT%H:%M:%S.%f%z %^%l%$ %v");
+  spdlog::set_default_logger(std::move(logger));
+}
+
+void Log(spdlog::level::level_enum level, std::string_view matter, std::string_view text) {
+  if (!spdlog::default_logger_raw()->should_log(level)) return;
+  ProcessLog& log = TheLog();
+  const std::lock_guard lock(log.mutex);
+  log.limiter.Write(std::chrono::steady_clock::now(), level, matter, text);
+}
+
+void EndLogging() {
+  ProcessLog& log = TheLog();
+  const std::lock_guard lock(log.mutex);
+  log.limiter.WriteAllCounts();
+}
+
+void MatterLimiter::Write(Time now, spdlog::level::level_enum level, std::string_view matter,
+                          std::string_view text) {
+  WriteOverdueCounts(now, matter);
+  Matter& known = Find(now, matter);
+  if (now - known.written < kMatterPeriod) {
+    ++known.held_back;
+    known.level = level;
+    return;
+  }
+  std::string line = std::string(matter) + ": " + std::string(text);
+  if (known.held_back > 0) line += " (after " + std::to_string(known.held_back) + " held back)";
+  known = {.written = now};
+  sink_(level, line);
+}
+
+MatterLimiter::Matter& MatterLimiter::Find(Time now, std::string_view matter) {
+  const bool full = matters_.size() >= kMattersMax && !matters_.contains(matter);
+  const std::string name(full ? kOther : matter);
+  return matters_.try_emplace(name, Matter{.written = now - kMatterPeriod}).first->second;
+}
+
+void MatterLimiter::WriteOverdueCounts(Time now, std::string_view besides) {
+  for (auto& [name, matter] : matters_) {
+    if (name == besides || matter.held_back == 0 || now - matter.written < kMatterPeriod) continue;
+    WriteCount(name, &matter);
+    matter.written = now;
+  }
+}
+
+void MatterLimiter::WriteAllCounts() {
+  for (auto& [name, matter] : matters_) WriteCount(name, &matter);
+}
+
+void MatterLimiter::WriteCount(const std::string& name, Matter* matter) {
+  if (matter->held_back == 0) return;
+  sink_(matter->level, name + ": " + std::to_string(matter->held_back) + " held back");
+  matter->held_back = 0;
+}
+
+}  // namespace collision::server

@@ -1,0 +1,59 @@
+// The daemon's log: lines for people.
+#pragma once
+
+#include <spdlog/common.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace collision::server {
+
+/// Sends spdlog's default logger to standard error, or to `file` (appending) if it is not empty.
+/// `level`: trace, debug, info, warn, error, critical or off. Throws spdlog::spdlog_ex if the file
+/// cannot be opened.
+void StartLogging(const std::string& level, const std::string& file);
+
+/// Writes "matter: text", at most once per kMatterPeriod and matter; lines in between are held back
+/// and counted, and the next line says how many. A matter is a short constant phrase ("input
+/// refused"), never built from input: no input can fill a disk. Any thread.
+void Log(spdlog::level::level_enum level, std::string_view matter, std::string_view text);
+
+/// Writes the counts of lines that are still held back; call it before the program ends. Any
+/// thread.
+void EndLogging();
+
+/// Short enough to see a matter at once, long enough that no input can fill a disk.
+inline constexpr std::chrono::seconds kMatterPeriod{1};
+
+/// The rate limit behind Log(), for one thread and with its time as an argument.
+class MatterLimiter {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  using Sink = std::function<void(spdlog::level::level_enum, const std::string& line)>;
+
+  explicit MatterLimiter(Sink sink) : sink_(std::move(sink)) {}
+
+  void Write(Time now, spdlog::level::level_enum level, std::string_view matter,
+             std::string_view text);
+
+  /// Writes every count of lines held back, whatever the time.
+  void WriteAllCounts();
+
+ private:
+  struct Matter {
+    Time written;
+    std::uint64_t held_back = 0;
+    spdlog::level::level_enum level = spdlog::level::info;
+  };
+  Matter& Find(Time now, std::string_view matter);
+  void WriteOverdueCounts(Time now, std::string_view besides);
+  void WriteCount(const std::string& name, Matter* matter);
+
+  Sink sink_;
+  std::map<std::string, Matter, std::less<>> matters_;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,174 @@
+#include "server/publish/status.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "idl/limits.h"
+#include "server/process/version.h"
+
+namespace collision::server {
+namespace {
+
+std::string LowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
+}
+
+void Count(const std::string& name, std::uint64_t value, v1::ServiceStatus* status) {
+  v1::Counter& counter = *status->add_counters();
+  counter.set_name(name);
+  counter.set_value(value);
+}
+
+void AddSimulators(const World& world, v1::ServiceStatus* status) {
+  std::uint64_t unlisted = 0;
+  for (const auto& [id, simulator] : world.simulators()) {
+    if (simulator.has_left()) continue;
+    if (status->simulators_size() == wire::kStatusSimulatorsMax) {
+      ++unlisted;
+      continue;
+    }
+    v1::SimulatorStatus& wire = *status->add_simulators();
+    wire.set_simulator_id(id);
+    wire.set_run(simulator.run());
+    wire.set_name(simulator.name());
+    wire.set_alive(simulator.alive());
+    wire.set_clock_ns(simulator.time().clock().value_or(Instant()).nanoseconds());
+    wire.set_granted_until_ns(simulator.time().granted().value_or(Instant()).nanoseconds());
+    wire.set_agents(static_cast<std::uint32_t>(simulator.agents().size()));
+    wire.set_states(simulator.states());
+    wire.set_rejected(simulator.refusals());
+  }
+  Count("simulators_unlisted", unlisted, status);
+}
+
+void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
+  const IntakeCounters& intake = sources.intake.counters();
+  const AgentCounters& agents = sources.intake.agent_counters();
+  Count("batches", sources.steps.batches, status);
+  Count("inputs", sources.steps.inputs, status);
+  Count("agents_admitted", agents.admitted, status);
+  Count("agents_removed", agents.removed, status);
+  Count("descriptions_received", intake.descriptions_received, status);
+  Count("clocks_received", intake.clocks_received, status);
+  Count("states_received", agents.states_received, status);
+  Count("states_accepted", agents.states_accepted, status);
+  Count("states_older", agents.states_older, status);
+  Count("states_repeated", agents.states_repeated, status);
+  for (int reason = 0; reason < v1::RejectionReason_ARRAYSIZE; ++reason) {
+    const auto value = static_cast<v1::RejectionReason>(reason);
+    Count(LowerCase(v1::RejectionReason_Name(value)), sources.rejections.count(value), status);
+  }
+  Count("rejections_untold", sources.rejections.untold(), status);
+}
+
+void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
+  Count("shapes", shapes.visible, status);
+  Count("shapes_gathering", shapes.gathering, status);
+  Count("shapes_refused", shapes.refused, status);
+  Count("shape_parts_received", shapes.parts_received, status);
+  Count("shape_bytes", shapes.bytes, status);
+  Count("tree_nodes", shapes.tree_nodes, status);
+  Count("tree_bytes", shapes.tree_bytes, status);
+  Count("trees_coarse", shapes.coarse, status);
+  Count("tree_build_us", shapes.builder.microseconds, status);
+  Count("trees_building", shapes.builder.building, status);
+  const TreeCacheCounters& cache = shapes.builder.cache;
+  Count("tree_cache_hits", cache.hits, status);
+  Count("tree_cache_misses", cache.misses, status);
+  Count("tree_cache_discarded", cache.discarded, status);
+  Count("tree_cache_stored", cache.stored, status);
+  Count("tree_cache_failed", cache.failed, status);
+  Count("tree_cache_removed", cache.removed, status);
+  Count("tree_cache_bytes", cache.bytes, status);
+}
+
+void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
+  const detection::DetectorCounters& detector = sources.detector.counters();
+  for (int kind = 0; kind < v1::EventStatus_ARRAYSIZE; ++kind) {
+    std::string name = LowerCase(v1::EventStatus_Name(static_cast<v1::EventStatus>(kind)));
+    name.replace(0, std::string("event").size(), "events");
+    Count(name, detector.events[kind], status);
+  }
+  Count("updates_kept", detector.updates_kept, status);
+  Count("discontinuities", detector.jumps, status);
+  Count("widenings", detector.widenings, status);
+  Count("breaches", detector.breaches, status);
+  Count("queued", sources.detector.queued(), status);
+  Count("queries", detector.queries, status);
+  Count("queries_per_second", sources.queries_per_second, status);
+  Count("pair_queries", detector.pair_queries, status);
+  Count("filter_tests", detector.filter_tests, status);
+  Count("method_changes", detector.method_changes, status);
+  Count("segments", detector.segments, status);
+  Count("work_units", detector.work_units, status);
+  Count("turns_cut_short", detector.turns_cut_short, status);
+  Count("saturations", detector.saturations, status);
+}
+
+void AddExtension(const std::string& key, std::string value, v1::ServiceStatus* status) {
+  v1::KeyValue& extension = *status->add_extensions();
+  extension.set_key(key);
+  extension.set_value(std::move(value));
+}
+
+}  // namespace
+
+v1::ServiceStatus MakeStatus(const StatusSources& sources) {
+  v1::ServiceStatus status;
+  status.set_version(kVersion);
+  status.set_world(sources.config.world().substr(0, wire::kNameMax));
+  status.set_simulated_clock(sources.world.simulated());
+  status.set_now_ns(sources.world.now().nanoseconds());
+  status.set_agents(static_cast<std::uint32_t>(sources.detector.agents()));
+  status.set_pairs_tracked(static_cast<std::uint32_t>(sources.detector.pairs_tracked()));
+  AddSimulators(sources.world, &status);
+  AddIntake(sources, &status);
+  AddShapes(sources.shapes.counters(), &status);
+  AddDetection(sources, &status);
+  for (const v1::Counter& counter : sources.network) *status.add_counters() = counter;
+  const detection::Detector::Profile profile = sources.detector.profile();
+  status.set_broad_phase(profile.broad_phase.substr(0, wire::kStatusBroadPhaseMax));
+  status.set_broad_phase_why(profile.why.substr(0, wire::kStatusBroadPhaseWhyMax));
+  for (const std::string& text : profile.left_out) {
+    if (status.left_out_size() < wire::kStatusLeftOutMax)
+      status.add_left_out(text.substr(0, wire::kStatusLeftOutTextMax));
+  }
+  AddExtension("event_log_count", std::to_string(sources.event_log.count()), &status);
+  AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
+  AddExtension("tree_builder",
+               LowerCase(v1::Config::TreeBuilder_Name(sources.config.tree_builder())), &status);
+  if (const auto names = sources.world.WaitedFor(); !names.empty()) {
+    const std::string text = fmt::format("{}", fmt::join(names, ", "));
+    AddExtension("waiting_for", text.substr(0, wire::kExtensionValueMax), &status);
+  }
+  return status;
+}
+
+std::uint64_t Rate::Take(std::uint64_t count, std::int64_t monotonic_ns) {
+  const double seconds = 1e-9 * static_cast<double>(monotonic_ns - at_ns_);
+  const double more = static_cast<double>(count - count_);
+  const bool known = taken_ && seconds > 0;
+  taken_ = true;
+  count_ = count;
+  at_ns_ = monotonic_ns;
+  return known ? static_cast<std::uint64_t>(std::llround(more / seconds)) : 0;
+}
+
+bool StatusSchedule::Take(const World& world) {
+  std::vector<std::uint64_t> presence;
+  for (const auto& [id, simulator] : world.simulators()) {
+    presence.insert(presence.end(), {id, simulator.run(), simulator.alive(), simulator.released()});
+  }
+  if (world.monotonic_ns() < next_ns_ && presence == presence_) return false;
+  presence_ = std::move(presence);
+  next_ns_ = world.monotonic_ns() + period_ns_;
+  return true;
+}
+
+}  // namespace collision::server

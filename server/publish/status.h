@@ -1,0 +1,68 @@
+// What the service publishes about itself.
+#pragma once
+
+#include "collision_core/detection/detector.h"
+#include "idl/config.pb.h"
+#include "server/intake/intake.h"
+#include "server/publish/event_log.h"
+#include "server/shapes/shape_store.h"
+#include "server/world/rejections.h"
+#include "server/world/world.h"
+
+namespace collision::server {
+
+/// Steps of the daemon, and their inputs.
+struct StepCounters {
+  std::uint64_t batches = 0;
+  std::uint64_t inputs = 0;
+};
+
+/// Everything that a status is made of; all of it outlives the call.
+struct StatusSources {
+  const v1::Config& config;
+  const World& world;
+  const detection::Detector& detector;
+  const Intake& intake;
+  const ShapeStore& shapes;
+  const Rejections& rejections;
+  const EventLog& event_log;
+  StepCounters steps;
+  std::uint64_t queries_per_second = 0;  ///< Of the detector, since the last status.
+  std::vector<v1::Counter> network;      ///< Bus::network_counters().
+};
+
+/// Without service id and stamp. Texts are cut to the bounds of collision.idl.
+v1::ServiceStatus MakeStatus(const StatusSources& sources);
+
+/// The rate at which a counter grows.
+class Rate {
+ public:
+  /// Per second since the last call, rounded to the nearest; 0 at the first, and if no time has
+  /// passed.
+  std::uint64_t Take(std::uint64_t count, std::int64_t monotonic_ns);
+
+ private:
+  bool taken_ = false;
+  std::uint64_t count_ = 0;
+  std::int64_t at_ns_ = 0;
+};
+
+/// Says when the next status is due: after every period, and at once when a simulator has come,
+/// gone, been released or begun a new run.
+class StatusSchedule {
+ public:
+  explicit StatusSchedule(std::int64_t period_ns) : period_ns_(period_ns) {}
+
+  /// True if a status is to be published at this step; it then counts as published.
+  bool Take(const World& world);
+
+  /// The monotonic time at which the next one is due.
+  std::int64_t next_ns() const { return next_ns_; }
+
+ private:
+  const std::int64_t period_ns_;
+  std::int64_t next_ns_ = 0;
+  std::vector<std::uint64_t> presence_;
+};
+
+}  // namespace collision::server

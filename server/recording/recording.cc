@@ -1,0 +1,147 @@
+#include "server/recording/recording.h"
+
+#include <fcntl.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
+#include <google/protobuf/stubs/logging.h>
+#include <google/protobuf/util/delimited_message_util.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <stdexcept>
+#include <system_error>
+
+#include "server/config/config.h"
+#include "server/process/version.h"
+
+namespace collision::server {
+namespace {
+
+constexpr std::uint32_t kFormat = 1;
+
+/// A state is some 250 bytes, so that all states of 100,000 agents are below this; a length beyond
+/// it is something else read as one.
+constexpr std::uint64_t kEntryBytesMax = 64 << 20;
+
+/// A varint of a length that may be: at most 7 bits each.
+constexpr int kLengthBytesMax = 5;
+
+std::string CauseOf(int error_number) { return std::generic_category().message(error_number); }
+
+/// Returns 0 or the errno.
+int WriteAll(int file, const std::string& bytes) {
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t written = write(file, bytes.data() + done, bytes.size() - done);
+    if (written < 0 && errno != EINTR) return errno;
+    if (written > 0) done += static_cast<std::size_t>(written);
+  }
+  return 0;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& config) : path_(path) {
+  file_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file_ < 0) throw std::runtime_error(path + ": cannot be written: " + CauseOf(errno));
+  v1::RecordingEntry entry;
+  entry.mutable_header()->set_format(kFormat);
+  entry.mutable_header()->set_version(kVersion);
+  *entry.mutable_header()->mutable_config() = config;
+  if (Write(entry)) return;
+  close(file_);
+  throw std::runtime_error(error_);
+}
+
+RecordingWriter::~RecordingWriter() { close(file_); }
+
+bool RecordingWriter::Record(const v1::RecordedBatch& batch) {
+  v1::RecordingEntry entry;
+  *entry.mutable_batch() = batch;
+  return Write(entry);
+}
+
+bool RecordingWriter::Write(const v1::RecordingEntry& entry) {
+  if (!error_.empty()) return false;
+  const std::string where = path_ + ": byte " + std::to_string(offset_) + ": ";
+  if (entry.ByteSizeLong() > kEntryBytesMax) {
+    error_ = where + "a batch of more than " + std::to_string(kEntryBytesMax) + " bytes";
+    return false;
+  }
+  std::string bytes;
+  {
+    google::protobuf::io::StringOutputStream stream(&bytes);
+    google::protobuf::util::SerializeDelimitedToZeroCopyStream(entry, &stream);
+  }
+  const std::lock_guard lock(writing_);
+  if (const int error_number = WriteAll(file_, bytes)) {
+    error_ = where + "cannot be written: " + CauseOf(error_number);
+    return false;
+  }
+  offset_ += bytes.size();
+  return true;
+}
+
+RecordingReader::RecordingReader(const std::string& path)
+    : path_(path), file_(path, std::ios::binary) {
+  if (!file_) throw std::runtime_error(path + ": cannot be read: " + CauseOf(errno));
+  v1::RecordingEntry entry;
+  if (!ReadEntry(&entry)) {
+    throw std::runtime_error(error_.empty() ? path + ": byte 0: empty: no recording" : error_);
+  }
+  if (!entry.has_header()) throw std::runtime_error(path + ": byte 0: no recording: no header");
+  if (const std::uint32_t format = entry.header().format(); format != kFormat) {
+    throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
+                             "; this program reads format " + std::to_string(kFormat));
+  }
+  if (!entry.header().has_config()) {
+    throw std::runtime_error(path + ": byte 0: its configuration: missing");
+  }
+  // What an older version did not know yet has its default; but it built its trees as it could.
+  config_ = std::move(*entry.mutable_header()->mutable_config());
+  if (!config_.has_tree_builder()) config_.set_tree_builder(v1::Config::OCTREE);
+  config_ = CompleteConfig(std::move(config_));
+}
+
+std::optional<v1::RecordedBatch> RecordingReader::Next() {
+  v1::RecordingEntry entry;
+  const std::uint64_t begin = offset_;
+  if (!error_.empty() || !ReadEntry(&entry)) return {};
+  if (!entry.has_batch()) {
+    offset_ = begin;
+    Fail("damaged: no batch");
+    return {};
+  }
+  return std::move(*entry.mutable_batch());
+}
+
+bool RecordingReader::ReadEntry(v1::RecordingEntry* entry) {
+  std::uint64_t length = 0;
+  if (file_.peek() == std::ifstream::traits_type::eof() && !file_.bad()) return false;
+  if (!ReadLength(&length)) return false;
+  std::string bytes(length, '\0');
+  if (!file_.read(bytes.data(), static_cast<std::streamsize>(length))) return Fail("cut off");
+  const google::protobuf::LogSilencer silent;  // the error below says it
+  if (!entry->ParseFromString(bytes)) return Fail("damaged: no recording entry");
+  offset_ = static_cast<std::uint64_t>(file_.tellg());
+  return true;
+}
+
+bool RecordingReader::ReadLength(std::uint64_t* length) {
+  for (int i = 0; i < kLengthBytesMax; ++i) {
+    const int byte = file_.get();
+    if (byte == std::ifstream::traits_type::eof()) return Fail("cut off");
+    *length |= static_cast<std::uint64_t>(byte & 0x7f) << (7 * i);
+    if ((byte & 0x80) == 0) {
+      return *length <= kEntryBytesMax ||
+             Fail("damaged: an entry of " + std::to_string(*length) + " bytes");
+    }
+  }
+  return Fail("damaged: no length of an entry");
+}
+
+bool RecordingReader::Fail(const std::string& what) {
+  error_ = path_ + ": byte " + std::to_string(offset_) + ": " + what;
+  return false;
+}
+
+}  // namespace collision::server

@@ -1,0 +1,87 @@
+// What --record writes and --replay reads (idl/recording.proto).
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "idl/recording.pb.h"
+
+namespace collision::server {
+
+/// Keeps what each step of the daemon saw.
+class BatchSink {
+ public:
+  virtual ~BatchSink() = default;
+
+  /// Keeps a batch before it is applied. False: it could not be kept, and the daemon ends without
+  /// applying it, so that nothing is published which the recording does not explain.
+  [[nodiscard]] virtual bool Record(const v1::RecordedBatch& batch) = 0;
+};
+
+/// Writes a recording to a file: a header with the complete configuration, then one entry per
+/// batch, each a delimited protobuf message of at most 64 MiB (idl/recording.proto).
+///
+/// Each batch is with the operating system when Record() returns: a crash of the daemon loses
+/// nothing, a crash of the machine at most its page cache. The file needs no closing entry; it is
+/// whole after every batch. One thread, except for HoldWrites().
+class RecordingWriter final : public BatchSink {
+ public:
+  /// Replaces the file and writes the header; `config` is complete. Throws std::runtime_error if it
+  /// cannot.
+  RecordingWriter(const std::string& path, const v1::Config& config);
+  ~RecordingWriter() override;
+  RecordingWriter(const RecordingWriter&) = delete;
+  RecordingWriter& operator=(const RecordingWriter&) = delete;
+
+  [[nodiscard]] bool Record(const v1::RecordedBatch& batch) override;
+
+  /// One line on why Record() failed: file, offset, cause. Empty while all is well.
+  const std::string& error() const { return error_; }
+
+  /// Waits for a write in progress; while the lock is held none begins. For a thread that is about
+  /// to end the process: the file then ends with a whole batch. Any thread.
+  [[nodiscard]] std::unique_lock<std::mutex> HoldWrites() { return std::unique_lock(writing_); }
+
+ private:
+  bool Write(const v1::RecordingEntry& entry);
+
+  std::mutex writing_;
+  std::string path_;
+  int file_ = -1;
+  std::uint64_t offset_ = 0;
+  std::string error_;
+};
+
+/// Reads a recording, entry by entry. Used by one thread.
+class RecordingReader {
+ public:
+  /// Reads the header. Throws std::runtime_error, with file and byte offset, if the file is no
+  /// recording.
+  explicit RecordingReader(const std::string& path);
+
+  /// As recorded: complete, with every default.
+  const v1::Config& config() const { return config_; }
+
+  /// The next batch; nothing at the end and at the first entry that is cut off or damaged: see
+  /// error().
+  std::optional<v1::RecordedBatch> Next();
+
+  /// One line with file, byte offset and cause. Empty while all is well.
+  const std::string& error() const { return error_; }
+
+ private:
+  bool ReadEntry(v1::RecordingEntry* entry);
+  bool ReadLength(std::uint64_t* length);
+  bool Fail(const std::string& what);
+
+  std::string path_;
+  std::ifstream file_;
+  std::uint64_t offset_ = 0;  // where the current entry begins
+  v1::Config config_;
+  std::string error_;
+};
+
+}  // namespace collision::server

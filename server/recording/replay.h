@@ -1,0 +1,44 @@
+// A recording in place of the network and the clock.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "server/bus/bus.h"
+#include "server/bus/clock.h"
+#include "server/recording/recording.h"
+
+namespace collision::server {
+
+/// Hands out one recorded batch for each Receive(), and the times of that batch for each Read()
+/// until the next one: a daemon on it repeats every step of the recorded one, bit for bit, with the
+/// configuration that the reader holds. It never waits, and sends nothing.
+class ReplaySource final : public Bus, public Clock {
+ public:
+  using OutputFunction = std::function<void(const v1::Output&)>;
+
+  /// `reader` outlives this. `output` gets what the daemon publishes; it may be empty.
+  explicit ReplaySource(RecordingReader& reader, OutputFunction output = {});
+
+  /// Ignores `timeout` and `limit`: the boundaries of the recorded batches are inputs too. False
+  /// at the end of what can be read; the reader knows whether that is the end of the recording.
+  bool Receive(std::chrono::nanoseconds timeout, std::size_t limit,
+               std::vector<v1::Input>* inputs) override;
+
+  void Publish(const v1::Output& output) override;
+  void Flush() override {}
+  void Wake() override {}
+  bool recorded() const override { return true; }
+
+  /// The times of the last batch handed out; before that, those of the first.
+  ClockReading Read() override { return now_; }
+
+ private:
+  RecordingReader& reader_;
+  OutputFunction output_;
+  std::optional<v1::RecordedBatch> next_;
+  ClockReading now_;
+};
+
+}  // namespace collision::server

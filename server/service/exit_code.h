@@ -1,0 +1,16 @@
+// How the program ends.
+#pragma once
+
+namespace collision::server {
+
+/// As sysexits.h has them, where it has one.
+enum ExitCode {
+  kExitOk = 0,              ///< Ended as asked.
+  kExitUsage = 2,           ///< The command line is wrong.
+  kExitUnavailable = 69,    ///< DDS is not available.
+  kExitSoftware = 70,       ///< A fault of this program: a check has failed.
+  kExitRecording = 74,      ///< A recording cannot be written, or not be read to its end.
+  kExitConfiguration = 78,  ///< The configuration is wrong.
+};
+
+}  // namespace collision::server

@@ -1,0 +1,110 @@
+#include "server/service/options.h"
+
+#include <google/protobuf/stubs/strutil.h>
+
+#include <CLI/CLI.hpp>
+#include <sstream>
+
+#include "server/config/config.h"
+#include "server/config/config_options.h"
+#include "server/process/version.h"
+
+namespace collision::server {
+namespace {
+
+constexpr char kDescription[] =
+    "collisiond - tells simulators that know nothing of each other, ahead of time, what could hit "
+    "what";
+
+constexpr char kFooter[] = R"(
+Examples:
+  collisiond                                    serve world "default" on DDS domain 0
+  collisiond --config collisiond.textproto      serve as configured
+  collisiond --config F --check-config          check F; every error with its line
+  collisiond --print-config > F                 write all defaults, explained
+  collisiond --calibrate                        how fast the narrow phase is on this machine
+  collisiond --domain 7 --log-level debug       override two settings
+  collisiond --record run.rec                   serve, and keep every input
+  collisiond --replay run.rec > events.jsonl    repeat that run without a network
+
+Exit codes:
+   0  ended as asked (SIGTERM, SIGINT), or the command is done
+   2  wrong command line
+  69  DDS is not available
+  70  a check has failed: a bug in collisiond, which the log describes
+  74  a recording cannot be written, or not be read to its end
+  78  bad configuration)";
+
+/// Takes the range from the table of the configuration.
+CLI::Validator AllowedBy(const char* field) {
+  const ConfigOption* option = FindConfigOption(field);
+  const auto check = [option](const std::string& text) -> std::string {
+    const bool is_number = !option->least.empty();
+    v1::Config config;
+    if (SetValue(&config, *option,
+                 is_number ? text : '"' + google::protobuf::CEscape(text) + '"')) {
+      return CheckValue(config, *option);
+    }
+    return text + " is no value; allowed: " + AllowedRange(*option);
+  };
+  return CLI::Validator(check, AllowedRange(*option));
+}
+
+CLI::Validator NotEmpty() {
+  const auto check = [](const std::string& text) {
+    return std::string(text.empty() ? "is empty" : "");
+  };
+  return CLI::Validator(check, "");
+}
+
+void Define(CLI::App* app, Options* options) {
+  auto* config = app->add_option("--config", options->config_file,
+                                 "Configuration, protobuf text (default: every default)");
+  auto* check = app->add_flag("--check-config", options->check_config,
+                              "Check the configuration, tell every error, and end");
+  auto* print = app->add_flag("--print-config", options->print_config,
+                              "Print the configuration in effect, explained, and end");
+  auto* calibrate = app->add_flag(
+      "--calibrate", options->calibrate,
+      "Measure work_units_per_us on this machine, print the line for the configuration, and end");
+  app->set_version_flag("--version", std::string("collisiond ") + kVersion,
+                        "Print the version and end");
+  auto* domain =
+      app->add_option("--domain", options->domain, "DDS domain, instead of the configured one")
+          ->check(AllowedBy("domain"));
+  app->add_option("--log-level", options->log_level, "Log level, instead of the configured one")
+      ->check(AllowedBy("log_level"));
+  auto* record = app->add_option("--record", options->record_file,
+                                 "Write every input to FILE, which is replaced");
+  auto* replay =
+      app->add_option("--replay", options->replay_file,
+                      "Repeat a recorded run without DDS, with its own configuration; prints each "
+                      "event as a line of JSON");
+  for (auto* file : {config, record, replay}) file->type_name("FILE")->check(NotEmpty());
+  check->needs(config)->excludes(print);
+  for (auto* other : {config, check, print, domain, record}) replay->excludes(other);
+  for (auto* other : {check, print}) record->excludes(other);
+  for (auto* other : {config, check, print, domain, record, replay}) calibrate->excludes(other);
+}
+
+}  // namespace
+
+OptionsResult ParseOptions(int argc, const char* const* argv) {
+  OptionsResult result;
+  Options options;
+  CLI::App app(kDescription, "collisiond");
+  app.footer(kFooter);
+  Define(&app, &options);
+  try {
+    app.parse(argc, argv);
+    result.options = options;
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream output, errors;
+    result.exit_code = app.exit(error, output, errors) == 0 ? kExitOk : kExitUsage;
+    result.output = output.str();
+    result.error = errors.str();
+  }
+  return result;
+}
+
+}  // namespace collision::server

@@ -1,0 +1,33 @@
+// The command line of collisiond.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "server/service/exit_code.h"
+
+namespace collision::server {
+
+struct Options {
+  std::string config_file;  ///< Empty: the defaults.
+  bool check_config = false;
+  bool print_config = false;
+  bool calibrate = false;
+  std::optional<std::uint32_t> domain;   ///< Over the configuration's.
+  std::optional<std::string> log_level;  ///< Likewise.
+  std::string record_file;               ///< Empty: nothing is recorded.
+  std::string replay_file;               ///< Empty: the daemon serves.
+};
+
+struct OptionsResult {
+  std::optional<Options> options;  ///< nullopt: the program ends with `exit_code`.
+  int exit_code = kExitOk;
+  std::string output;  ///< For standard output: help, version.
+  std::string error;   ///< For standard error.
+};
+
+/// Parses the command line; what is wrong, or asked for in the form of --help, is in the result.
+OptionsResult ParseOptions(int argc, const char* const* argv);
+
+}  // namespace collision::server

@@ -1,0 +1,145 @@
+#include "server/service/program.h"
+
+#include <google/protobuf/util/json_util.h>
+#include <spdlog/common.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "server/bus/dds_bus.h"
+#include "server/config/config.h"
+#include "server/config/config_options.h"
+#include "server/process/logging.h"
+#include "server/process/stop_signals.h"
+#include "server/recording/recording.h"
+#include "server/recording/replay.h"
+#include "server/service/calibrate.h"
+#include "server/service/daemon.h"
+#include "server/service/serve.h"
+#include "server/shapes/tree_cache.h"
+
+namespace collision::server {
+namespace {
+
+/// systemd names the folder that it has made for CacheDirectory=; of several, none is ours alone.
+void TakeFolderOfSystemd(v1::Config* config) {
+  const char* folder = std::getenv("CACHE_DIRECTORY");
+  if (folder == nullptr || !config->tree_cache_dir().empty()) return;
+  config->set_tree_cache_dir(folder);
+  const ConfigOption& option = *FindConfigOption("tree_cache_dir");
+  if (std::string(folder).find(':') != std::string::npos || !CheckValue(*config, option).empty()) {
+    config->set_tree_cache_dir("");
+  }
+}
+
+/// Null: none is wanted. Throws std::runtime_error if there can be none.
+std::shared_ptr<TreeCache> MakeTreeCache(const v1::Config& config) {
+  if (config.tree_cache_dir().empty()) return nullptr;
+  return std::make_shared<TreeCache>(config.tree_cache_dir(),
+                                     config.tree_cache_mb() * std::uint64_t{1'000'000},
+                                     BuildOptionsOf(config).tree);
+}
+
+int Serve(const v1::Config& config, const std::string& record_file) {
+  PrepareSignals();
+  std::shared_ptr<TreeCache> cache;
+  try {
+    cache = MakeTreeCache(config);
+  } catch (const std::runtime_error& error) {
+    return Fail(kExitConfiguration, std::string("tree_cache_dir: ") + error.what());
+  }
+  std::unique_ptr<RecordingWriter> recorder;
+  try {
+    if (!record_file.empty()) recorder = std::make_unique<RecordingWriter>(record_file, config);
+  } catch (const std::runtime_error& error) {
+    return Fail(kExitRecording, error.what());
+  }
+  std::unique_ptr<DdsBus> bus;
+  try {
+    bus = std::make_unique<DdsBus>(config.world(), config.domain());
+  } catch (const std::runtime_error& error) {
+    return Fail(kExitUnavailable, error.what());
+  }
+  return Serve(config, *bus, recorder.get(), std::move(cache));
+}
+
+void PrintEvent(const v1::Output& output) {
+  if (!output.has_collision_event()) return;
+  google::protobuf::util::JsonPrintOptions options;
+  options.preserve_proto_field_names = true;
+  options.always_print_primitive_fields = true;
+  std::string line;
+  if (google::protobuf::util::MessageToJsonString(output.collision_event(), &line, options).ok()) {
+    std::cout << line << '\n';
+  }
+}
+
+/// What is complete is replayed, also of a recording that ends too early.
+int Replay(RecordingReader& reader) {
+  ReplaySource source(reader, PrintEvent);
+  Daemon daemon(reader.config(), source, source, nullptr);
+  while (daemon.Step()) {
+  }
+  std::cout.flush();
+  LogFingerprint(daemon.event_log());
+  if (!reader.error().empty()) return Fail(kExitRecording, reader.error());
+  return std::cout ? kExitOk : Fail(kExitRecording, "standard output cannot be written");
+}
+
+int Replay(const std::string& file, const std::string& log_level) {
+  StartLogging(log_level, "");  // not where the recorded run logged
+  std::unique_ptr<RecordingReader> reader;
+  try {
+    reader = std::make_unique<RecordingReader>(file);
+  } catch (const std::runtime_error& error) {
+    return Fail(kExitRecording, error.what());
+  }
+  for (const ConfigError& error : CheckConfig(reader->config())) {
+    return Fail(kExitRecording,
+                file + ": byte 0: its configuration: " + error.field + ": " + error.what);
+  }
+  return Replay(*reader);
+}
+
+int Calibrate() {
+  const double rate = std::max(MeasureWorkUnitsPerUs(), 1.0);
+  std::cout << "work_units_per_us: " << std::llround(rate) << '\n';
+  return kExitOk;
+}
+
+int Run(const Options& options) {
+  if (options.calibrate) return Calibrate();
+  if (!options.replay_file.empty()) {
+    return Replay(options.replay_file, options.log_level.value_or("info"));
+  }
+  ConfigResult loaded =
+      options.config_file.empty() ? ParseConfig("", "") : LoadConfig(options.config_file);
+  for (const std::string& error : loaded.errors) std::cerr << error << '\n';
+  if (!loaded.ok()) return kExitConfiguration;
+  if (options.domain) loaded.config.set_domain(*options.domain);
+  if (options.log_level) loaded.config.set_log_level(*options.log_level);
+  if (options.print_config) std::cout << PrintConfig(loaded.config);
+  if (options.check_config) std::cout << options.config_file << ": ok\n";
+  if (options.print_config || options.check_config) return kExitOk;
+  try {
+    StartLogging(loaded.config.log_level(), loaded.config.log_file());
+  } catch (const std::exception& error) {
+    return Fail(kExitConfiguration, std::string("log_file: ") + error.what());
+  }
+  TakeFolderOfSystemd(&loaded.config);
+  return Serve(loaded.config, options.record_file);
+}
+
+}  // namespace
+
+int RunProgram(const Options& options) {
+  return EndOnFailedCheck([&options] { return Run(options); });
+}
+
+}  // namespace collision::server

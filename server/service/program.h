@@ -1,0 +1,12 @@
+// What the program collisiond does with its command line.
+#pragma once
+
+#include "server/service/options.h"
+
+namespace collision::server {
+
+/// Does what the command line asks for, to its end. Returns the exit code, kExitSoftware after a
+/// failed check. To be called once, from main, before any thread is made.
+int RunProgram(const Options& options);
+
+}  // namespace collision::server

@@ -1,0 +1,92 @@
+#include "server/service/serve.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "server/bus/system_clock.h"
+#include "server/config/config.h"
+#include "server/process/logging.h"
+#include "server/process/service_notify.h"
+#include "server/process/stop_signals.h"
+#include "server/process/version.h"
+#include "server/service/daemon.h"
+#include "server/shapes/threaded_shape_builder.h"
+
+namespace collision::server {
+namespace {
+
+/// A step takes milliseconds; an operator who stops the service expects its end within a second.
+constexpr std::chrono::milliseconds kStepPatience{700};
+
+/// Leaves the step that runs: nothing is lost that the recording does not hold.
+[[noreturn]] void EndInTheStep(RecordingWriter* recorder) {
+  std::unique_lock<std::mutex> no_write;
+  if (recorder != nullptr) no_write = recorder->HoldWrites();
+  spdlog::warn("ended in the middle of a step that was not over {} ms after the signal",
+               kStepPatience.count());
+  spdlog::default_logger_raw()->flush();
+  std::_Exit(kExitOk);
+}
+
+int ServeUntilStopped(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
+                      std::shared_ptr<TreeStore> trees) {
+  SystemClock clock;
+  BuildOptions build = BuildOptionsOf(config);
+  build.cache = std::move(trees);
+  Daemon daemon(config, bus, clock, recorder,
+                std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }));
+  const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
+                                  [recorder] { EndInTheStep(recorder); });
+  ServiceNotifier service_manager;
+  spdlog::info("collisiond {} serves world \"{}\" on domain {}", kVersion, config.world(),
+               config.domain());
+  spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and turn",
+               config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerTurn(config));
+  service_manager.Ready();
+  while (daemon.Step()) service_manager.Alive(std::chrono::steady_clock::now());
+  service_manager.Stopping();
+  LogFingerprint(daemon.event_log());
+  if (recorder && !recorder->error().empty()) return Fail(kExitRecording, recorder->error());
+  return signals.stopped() ? kExitOk : Fail(kExitUnavailable, "DDS has ended");
+}
+
+}  // namespace
+
+int Fail(ExitCode code, const std::string& line) {
+  std::cerr << "collisiond: " << line << std::endl;
+  return code;
+}
+
+void LogFingerprint(const EventLog& log) {
+  EndLogging();
+  const auto level = spdlog::get_level();
+  spdlog::set_level(spdlog::level::info);
+  spdlog::info("event log: {} events, hash {:016x}", log.count(), log.hash());
+  spdlog::set_level(level);
+}
+
+int EndOnFailedCheck(const std::function<int()>& run) {
+  try {
+    return run();
+  } catch (const std::logic_error& failure) {
+    EndLogging();
+    spdlog::critical("a check has failed, which is a bug in collisiond: {}", failure.what());
+    spdlog::default_logger_raw()->flush();
+    return Fail(kExitSoftware, std::string("a check has failed: ") + failure.what());
+  }
+}
+
+int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
+          std::shared_ptr<TreeStore> trees) {
+  return EndOnFailedCheck(
+      [&] { return ServeUntilStopped(config, bus, recorder, std::move(trees)); });
+}
+
+}  // namespace collision::server

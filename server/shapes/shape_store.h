@@ -1,0 +1,140 @@
+// The shapes of the world: what has arrived of each, and which simulators and agents need it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "idl/config.pb.h"
+#include "server/codec/refusal.h"
+#include "server/shapes/shape_builder.h"
+#include "server/shapes/shape_gathering.h"
+
+namespace collision::server {
+
+/// An agent that refers to a shape: simulator, slot.
+using ShapeUser = std::pair<std::uint64_t, std::uint32_t>;
+
+/// A shape that has become visible or was refused, and the simulators and agents concerned.
+struct ReadyShape {
+  BuiltShape built;
+  bool refined = false;               ///< It was visible before, with its coarse tree.
+  std::vector<std::uint64_t> owners;  ///< Simulators that wrote it.
+  std::vector<ShapeUser> users;
+};
+
+/// How much of a shape has arrived.
+struct ShapeProgress {
+  bool whole = false;  ///< All of it has arrived, and its hash is right.
+  std::uint64_t arrived = 0;
+  std::uint64_t parts = 0;  ///< 0: none has arrived, so the number is unknown.
+};
+
+struct ShapeCounters {
+  std::uint64_t parts_received = 0;
+  std::uint64_t refused = 0;  ///< Shapes, not parts.
+  std::uint64_t visible = 0;
+  std::uint64_t coarse = 0;     ///< Of the visible ones: the wanted tree is not ready.
+  std::uint64_t gathering = 0;  ///< Not whole yet.
+  std::uint64_t bytes = 0;      ///< As shape_bytes_max counts them.
+  std::uint64_t tree_nodes = 0;
+  std::uint64_t tree_bytes = 0;  ///< Of trees, in both layouts, and of solids; beside `bytes`.
+  ShapeBuilderCounters builder;
+};
+
+/// A shape is known by the SHA-256 of its bytes.
+///
+/// **Gathering.** Parts are kept for each simulator on its own, so that no simulator can spoil what
+/// another one writes. When the last part is there and the hash is right, the shape belongs to all
+/// simulators that wrote any part of it, and its tree is built beside the daemon's steps. A shape
+/// that is refused is reported once; a part that comes for the second time begins another attempt.
+///
+/// **Visible.** MakeVisible() hands a built shape out, from the step on in which the daemon records
+/// it as an input (shape_builder.h): agents that refer to it have it from then on.
+///
+/// **Lifetime.** A shape is kept while a simulator that wrote it has not disposed of every part,
+/// begun a new run or left, or while an agent refers to it. Then mesh and tree are freed, and a
+/// build that runs is forgotten.
+///
+/// **Memory.** `shape_bytes_max` bounds the bytes of parts and meshes: some 25 MB each for a
+/// million triangles. Trees come on top, some hundred MB for a million triangles: a tree has at
+/// most 2^20 balls, beyond that its leaves have more triangles. One thread.
+class ShapeStore {
+ public:
+  /// `builder` outlives this.
+  ShapeStore(const v1::Config& config, ShapeBuilder* builder);
+
+  /// A part from the simulator that owns its id.
+  std::optional<Refusal> Take(const v1::ShapePart& part);
+
+  /// A part was disposed of. With its last part a simulator gives a shape up.
+  void Dispose(std::uint64_t simulator, const std::string& hash, std::uint32_t part);
+
+  /// The simulator gives up all shapes that it wrote.
+  void Release(std::uint64_t simulator);
+
+  /// Simulators that may own shapes or parts.
+  const std::set<std::uint64_t>& holders() const { return holders_; }
+
+  void AddUser(const std::string& hash, ShapeUser user) { users_[hash].insert(user); }
+  void RemoveUser(const std::string& hash, ShapeUser user);
+
+  /// Makes a shape visible whose tree is ready, or replaces its coarse tree by the wanted one; in a
+  /// replay it waits until the tree is built. nullopt: the shape is not needed any more, or is
+  /// there already.
+  std::optional<ReadyShape> MakeVisible(const ReadyTree& tree);
+
+  /// Null: not visible.
+  std::shared_ptr<const shape::Shape> Find(const std::string& hash) const;
+
+  /// How much has arrived of a shape that this simulator writes.
+  ShapeProgress ProgressOf(std::uint64_t simulator, const std::string& hash) const;
+
+  /// Bytes of parts that wait elsewhere, for a successor; they count as well.
+  void SetHeldBytes(std::uint64_t bytes) { held_bytes_ = bytes; }
+  bool HasRoomFor(std::uint64_t bytes) const;
+
+  ShapeCounters counters() const;
+
+ private:
+  struct Known {
+    std::uint64_t bytes = 0;                    ///< As it travels; its mesh takes as much.
+    std::map<std::uint64_t, PartSet> owners;    ///< With the parts that they have not disposed of.
+    std::shared_ptr<const shape::Shape> shape;  ///< Null: being built.
+    bool coarse = false;                        ///< A better tree of it is being built.
+  };
+  using Key = std::pair<std::string, std::uint64_t>;  ///< Hash, simulator.
+  using Gatherings = std::map<Key, ShapeGathering>;
+
+  std::optional<Refusal> TakeKnown(const v1::ShapePart& part, Known* known);
+  std::optional<Refusal> TakeUnknown(const v1::ShapePart& part);
+  std::optional<Refusal> Begin(const v1::ShapePart& part);
+  std::optional<Refusal> Add(const v1::ShapePart& part, ShapeGathering* gathering);
+  std::optional<Refusal> Complete(const v1::ShapePart& part, ShapeGathering* gathering);
+  void Refuse(ShapeGathering* gathering);
+  void Forget(Gatherings::iterator gathering);
+  void FreeIfUnwanted(const std::string& hash);
+  void SetShape(std::shared_ptr<const shape::Shape> shape, bool coarse, Known* known);
+
+  const std::uint64_t triangles_max_;
+  const std::uint64_t shapes_max_;
+  const std::uint64_t bytes_max_;
+  ShapeBuilder& builder_;
+  std::map<std::string, Known> shapes_;  ///< By hash; verified.
+  Gatherings gatherings_;
+  std::map<std::string, std::set<ShapeUser>> users_;  ///< By hash, known or not.
+  std::set<std::uint64_t> holders_;
+  std::uint64_t bytes_ = 0;
+  std::uint64_t held_bytes_ = 0;
+  ShapeCounters counters_;
+};
+
+/// The first eight digits of a hash, which logs and refusals show.
+std::string ShortHash(const std::string& hash);
+
+}  // namespace collision::server

@@ -1,0 +1,49 @@
+// A folder of files that are written whole, read whole, and removed when it is full.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace collision::server {
+
+/// Files named *.tree in one folder. Other files are left alone, except those that this class wrote
+/// aside and could not rename because its process died. It follows no symbolic link and waits at no
+/// pipe. One thread at a time.
+class TreeFolder {
+ public:
+  /// Makes the folder and those above it if they are missing. Throws std::runtime_error, with the
+  /// path and the cause, if that fails or the folder cannot be read.
+  TreeFolder(std::string path, std::uint64_t bytes_max);
+
+  /// The bytes of a file, which counts as used; nullopt: there is none, and *fault is empty, or it
+  /// cannot be read, and *fault says why.
+  std::optional<std::string> Read(const std::string& name, std::string* fault) const;
+
+  /// Makes room for a file and puts it in place, at once as a whole. False, with the cause in
+  /// *fault: it is not in place; a file of this name from before is, unless it had to make room.
+  bool Write(const std::string& name, const std::string& bytes, std::string* fault);
+
+  /// Of all files, when they were last counted.
+  std::uint64_t bytes() const { return bytes_; }
+
+  /// Files removed to make room.
+  std::uint64_t removed() const { return removed_; }
+
+  const std::string& path() const { return path_; }
+
+ private:
+  void RemoveLeftovers() const;
+
+  /// Removes the files used least lately until there is room for `bytes` more; of files used at the
+  /// same time, the first by name.
+  void MakeRoom(std::uint64_t bytes);
+
+  const std::string path_;
+  const std::uint64_t bytes_max_;
+  std::uint64_t bytes_ = 0;
+  std::uint64_t removed_ = 0;
+  std::uint64_t written_ = 0;  ///< Makes the names of files written aside unique.
+};
+
+}  // namespace collision::server

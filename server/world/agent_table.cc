@@ -1,0 +1,136 @@
+#include "server/world/agent_table.h"
+
+#include "collision_core/base/check.h"
+
+namespace collision::server {
+
+const Agent* AgentTable::Find(std::uint32_t slot) const {
+  const auto found = slots_.find(slot);
+  return found == slots_.end() || !found->second.agent ? nullptr : &*found->second.agent;
+}
+
+Agent* AgentTable::Find(std::uint32_t slot) {
+  return const_cast<Agent*>(std::as_const(*this).Find(slot));
+}
+
+const Agent* AgentTable::Find(std::uint32_t slot, std::uint32_t generation) const {
+  const Agent* agent = Find(slot);
+  return agent != nullptr && agent->generation_ == generation ? agent : nullptr;
+}
+
+Agent* AgentTable::Find(std::uint32_t slot, std::uint32_t generation) {
+  return const_cast<Agent*>(std::as_const(*this).Find(slot, generation));
+}
+
+const WaitingState* AgentTable::Waiting(std::uint32_t slot) const {
+  const auto found = slots_.find(slot);
+  return found == slots_.end() || !found->second.waiting ? nullptr : &*found->second.waiting;
+}
+
+bool AgentTable::HasEnded(std::uint32_t slot, std::uint32_t generation) const {
+  const auto found = slots_.find(slot);
+  return found != slots_.end() && generation < found->second.ended;
+}
+
+StateOrder AgentTable::NoteState(std::uint32_t slot_index, std::uint32_t generation,
+                                 std::uint64_t sequence) {
+  Slot& slot = slots_[slot_index];
+  if (generation < slot.ended) return StateOrder::kEnded;
+  const std::pair<std::uint32_t, std::uint64_t> order(generation, sequence);
+  if (slot.handled && order <= *slot.handled) return StateOrder::kRepeated;
+  slot.handled = order;
+  return StateOrder::kNew;
+}
+
+Agent* AgentTable::Add(std::uint32_t slot_index, const Agent& agent) {
+  Slot& slot = slots_[slot_index];
+  CORE_CHECK(!slot.agent, "an agent is added to a free slot", slot_index);
+  CORE_CHECK(agent.generation_ >= slot.ended, "a generation that has ended stays so", slot_index,
+             agent.generation_, slot.ended);
+  slot.ended = agent.generation_;
+  slot.agent = agent;
+  ++agents_;
+  return &*slot.agent;
+}
+
+void AgentTable::Revise(std::uint32_t slot, std::uint32_t revision,
+                        const motion::AgentDeclaration& declaration) {
+  Agent& agent = AgentIn(slot);
+  agent.revision_ = revision;
+  agent.declaration = declaration;
+  clearances_.MarkChanged(slot);
+}
+
+void AgentTable::KeepWaiting(std::uint32_t slot, const WaitingState& waiting) {
+  slots_[slot].waiting = waiting;
+}
+
+WaitingState AgentTable::TakeWaiting(std::uint32_t slot) {
+  const auto found = slots_.find(slot);
+  CORE_CHECK(found != slots_.end() && found->second.waiting, "a state waits in the slot", slot);
+  return *std::exchange(found->second.waiting, std::nullopt);
+}
+
+void AgentTable::Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence) {
+  AgentIn(slot).admitted_ = true;
+  Acknowledge(slot, stamp, sequence);
+}
+
+void AgentTable::Acknowledge(std::uint32_t slot, Instant stamp, std::uint64_t sequence) {
+  Agent& agent = AgentIn(slot);
+  agent.stamp_ = stamp;
+  agent.acknowledged_sequence_ = sequence;
+  clearances_.MarkChanged(slot);
+}
+
+void AgentTable::SetClearance(const detection::AgentClearance& clearance) {
+  if (Find(clearance.agent.slot, clearance.agent.generation) == nullptr) return;
+  clearances_.Set(clearance.agent.slot, clearance);
+}
+
+void AgentTable::Remove(std::uint32_t slot_index) {
+  Slot& slot = slots_[slot_index];
+  CORE_CHECK(slot.agent.has_value(), "an agent is in the slot", slot_index);
+  slot.ended = std::uint64_t{slot.agent->generation_} + 1;
+  if (slot.waiting && slot.waiting->generation < slot.ended) slot.waiting.reset();
+  slot.agent.reset();
+  --agents_;
+  clearances_.Forget(slot_index);
+}
+
+void AgentTable::RemoveWaiting(std::uint32_t slot_index) {
+  const auto found = slots_.find(slot_index);
+  if (found == slots_.end() || !found->second.waiting) return;
+  found->second.ended = std::uint64_t{found->second.waiting->generation} + 1;
+  found->second.waiting.reset();
+}
+
+void AgentTable::Clear() {
+  CORE_CHECK(agents_ == 0, "all agents are removed before a new run", agents_);
+  for (const auto& [slot, content] : slots_) clearances_.MarkChanged(slot);
+  slots_.clear();
+}
+
+Agent& AgentTable::AgentIn(std::uint32_t slot) {
+  Agent* agent = Find(slot);
+  CORE_CHECK(agent != nullptr, "an agent is in the slot", slot);
+  return *agent;
+}
+
+void AgentTable::Validate() const {
+  std::size_t agents = 0;
+  for (const auto& [index, slot] : slots_) {
+    if (slot.agent) {
+      ++agents;
+      CORE_CHECK(slot.agent->generation_ >= slot.ended, "the agent has not ended", index);
+    }
+  }
+  CORE_CHECK(agents == agents_, "described agents are counted", agents, agents_);
+  for (const auto& [index, clearance] : clearances_.all()) {
+    const Agent* agent = Find(index, clearance.agent.generation);
+    CORE_CHECK(agent != nullptr && agent->admitted_, "a clearance belongs to an admitted agent",
+               index);
+  }
+}
+
+}  // namespace collision::server

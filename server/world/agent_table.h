@@ -1,0 +1,149 @@
+// The agents of one simulator, by slot, through all generations of a run.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "collision_core/detection/detector.h"
+#include "server/world/clearances.h"
+
+namespace collision::server {
+
+/// A described agent. It is admitted to the detector once a state and, with a simulated clock, the
+/// first clock of its simulator are there.
+///
+/// The intake may write the public members. The others stand in clearance samples, so only the
+/// AgentTable changes them, and marks the sample.
+class Agent {
+ public:
+  Agent(std::uint32_t generation, std::uint32_t revision, const motion::AgentDeclaration& told)
+      : declaration(told), generation_(generation), revision_(revision) {}
+
+  motion::AgentDeclaration declaration;  ///< As told; with its shape once that is visible.
+  std::string shape_hash = {};           ///< Of the shape that it refers to; empty: the ball.
+  bool told_no_room = false;             ///< Its owner knows that the world is full.
+
+  std::uint32_t generation() const { return generation_; }
+  std::uint32_t revision() const { return revision_; }
+  bool admitted() const { return admitted_; }
+  Instant stamp() const { return stamp_; }  ///< Of the newest state in force; else Always().
+  std::uint64_t acknowledged_sequence() const { return acknowledged_sequence_; }  ///< Likewise.
+
+ private:
+  friend class AgentTable;
+
+  std::uint32_t generation_;
+  std::uint32_t revision_;
+  bool admitted_ = false;
+  Instant stamp_ = Instant::Always();
+  std::uint64_t acknowledged_sequence_ = 0;
+};
+
+/// The newest state of an agent that cannot be admitted yet.
+struct WaitingState {
+  std::uint32_t generation = 0;
+  std::uint64_t sequence = 0;
+  motion::MotionState state;
+};
+
+/// What a state that arrives is, beside those before it.
+enum class StateOrder {
+  kNew,       ///< Newer than all of its slot.
+  kRepeated,  ///< Seen before: a chunk repeats what has not changed.
+  kEnded,     ///< Of a generation that has been removed or replaced.
+};
+
+/// The slots of one simulator in one run, and the Clearances of the agents in them.
+///
+/// A slot is reused with a higher generation; states and descriptions of ended generations may
+/// still arrive and are recognised. Everything that a clearance sample says of an agent changes
+/// here and marks its chunk. Lookups cost O(log slots). One thread.
+class AgentTable {
+ public:
+  /// The described agent in `slot`; null: there is none.
+  Agent* Find(std::uint32_t slot);
+  const Agent* Find(std::uint32_t slot) const;
+
+  /// The agent in `slot` if it has exactly this generation; else null.
+  Agent* Find(std::uint32_t slot, std::uint32_t generation);
+  const Agent* Find(std::uint32_t slot, std::uint32_t generation) const;
+
+  /// The state that waits in `slot` for its agent to be complete; null: there is none.
+  const WaitingState* Waiting(std::uint32_t slot) const;
+
+  /// Whether `generation` of `slot` has been removed or replaced.
+  bool HasEnded(std::uint32_t slot, std::uint32_t generation) const;
+
+  /// Notes that a state has arrived, accepted or not.
+  StateOrder NoteState(std::uint32_t slot, std::uint32_t generation, std::uint64_t sequence);
+
+  /// Puts an agent into `slot`; generations below its own have ended. Requires that the slot has no
+  /// agent and that the generation has not ended.
+  Agent* Add(std::uint32_t slot, const Agent& agent);
+
+  /// A newer revision of the description of the agent in `slot` is in force. Requires an agent.
+  void Revise(std::uint32_t slot, std::uint32_t revision,
+              const motion::AgentDeclaration& declaration);
+
+  /// Replaces the state that waits in `slot`.
+  void KeepWaiting(std::uint32_t slot, const WaitingState& waiting);
+
+  /// Hands out the state that waits in `slot`, which then waits no more. Requires one.
+  [[nodiscard]] WaitingState TakeWaiting(std::uint32_t slot);
+
+  /// The agent in `slot` is in the detector from now on, with this state. Requires an agent.
+  void Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence);
+
+  /// This state of the agent in `slot` is in force. Requires an agent.
+  void Acknowledge(std::uint32_t slot, Instant stamp, std::uint64_t sequence);
+
+  /// The detector gives an admitted agent a new clearance. One for an agent that is not there under
+  /// this generation is ignored.
+  void SetClearance(const detection::AgentClearance& clearance);
+
+  /// Removes the agent in `slot`, its clearance, and a state of the same generation that waits.
+  /// Requires an agent.
+  void Remove(std::uint32_t slot);
+
+  /// A slot without an agent is given up: the state that waits in it, and its generation, have
+  /// ended. Without one it does nothing.
+  void RemoveWaiting(std::uint32_t slot);
+
+  /// Empties all slots for a new run, and marks their chunks. Requires size() == 0.
+  void Clear();
+
+  /// Calls `visit(slot)` for each slot that was ever used in this run, in ascending order. `visit`
+  /// may change agents, but no slot becomes used meanwhile.
+  template <typename Visitor>
+  void ForEachSlot(const Visitor& visit) const {
+    for (const auto& [slot, content] : slots_) visit(slot);
+  }
+
+  std::size_t size() const { return agents_; }  ///< Described agents.
+  Clearances& clearances() { return clearances_; }
+  const Clearances& clearances() const { return clearances_; }
+
+  /// Walks everything and checks what must hold, with CORE_CHECK. For tests and debug builds.
+  void Validate() const;
+
+ private:
+  struct Slot {
+    std::optional<Agent> agent;
+    std::optional<WaitingState> waiting;
+    std::uint64_t ended = 0;  ///< Generations below have been removed or replaced.
+    /// Generation and sequence of the newest state looked at, accepted or not.
+    std::optional<std::pair<std::uint32_t, std::uint64_t>> handled;
+  };
+
+  Agent& AgentIn(std::uint32_t slot);
+
+  std::map<std::uint32_t, Slot> slots_;
+  std::size_t agents_ = 0;
+  Clearances clearances_;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,24 @@
+#include "server/world/clearances.h"
+
+#include <utility>
+
+namespace collision::server {
+
+void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& clearance) {
+  clearances_.insert_or_assign(slot, clearance);
+  MarkChanged(slot);
+}
+
+void Clearances::Forget(std::uint32_t slot) {
+  clearances_.erase(slot);
+  MarkChanged(slot);
+}
+
+const detection::AgentClearance* Clearances::Find(std::uint32_t slot) const {
+  const auto found = clearances_.find(slot);
+  return found == clearances_.end() ? nullptr : &found->second;
+}
+
+std::set<std::uint32_t> Clearances::TakeChanged() { return std::exchange(changed_, {}); }
+
+}  // namespace collision::server

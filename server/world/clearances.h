@@ -1,0 +1,54 @@
+// The clearances of the agents of one simulator, and which of them must be published again.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+
+#include "collision_core/detection/detector.h"
+#include "idl/limits.h"
+
+namespace collision::server {
+
+/// Slots per clearance sample. Chunk c holds the slots [64 c, 64 c + 63]; chunk 0 always exists,
+/// since it carries the grant.
+inline constexpr std::uint32_t kSlotsPerChunk = wire::kStatesPerChunkMax;
+
+/// The clearances of one simulator as the detector last gave them, and the chunks whose samples are
+/// out of date.
+///
+/// A sample is a function of the clearances here, of the agents' acknowledged states and revisions
+/// (AgentTable) and of the grant (SimulatorTime). Each change of one of them marks its chunk, and
+/// the publisher takes the marks: it publishes a chunk whole, so that a lost sample costs nothing
+/// but age. One thread.
+class Clearances {
+ public:
+  /// The sample that holds `slot` is out of date.
+  void MarkChanged(std::uint32_t slot) { changed_.insert(slot / kSlotsPerChunk); }
+
+  /// The grant, which stands in chunk 0, is out of date.
+  void MarkGrantChanged() { changed_.insert(0); }
+
+  /// Replaces the clearance of the agent in `slot`, and marks its chunk.
+  void Set(std::uint32_t slot, const detection::AgentClearance& clearance);
+
+  /// The agent in `slot` is gone, with its clearance; marks its chunk.
+  void Forget(std::uint32_t slot);
+
+  /// Null: the detector has not given one since the agent was admitted.
+  const detection::AgentClearance* Find(std::uint32_t slot) const;
+
+  /// By slot.
+  const std::map<std::uint32_t, detection::AgentClearance>& all() const { return clearances_; }
+
+  const std::set<std::uint32_t>& changed() const { return changed_; }
+
+  /// The chunks marked since the last call, in ascending order; none is marked afterwards.
+  [[nodiscard]] std::set<std::uint32_t> TakeChanged();
+
+ private:
+  std::map<std::uint32_t, detection::AgentClearance> clearances_;
+  std::set<std::uint32_t> changed_;
+};
+
+}  // namespace collision::server

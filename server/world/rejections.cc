@@ -1,0 +1,43 @@
+#include "server/world/rejections.h"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <utility>
+
+#include "server/process/logging.h"
+
+namespace collision::server {
+
+void Rejections::Add(const Refusal& refusal) {
+  ++counts_[static_cast<std::size_t>(refusal.reason)];
+  Simulator* simulator = world_.Find(refusal.simulator_id);
+  const std::uint64_t count = simulator != nullptr ? simulator->CountRefusal() : ++of_unknown_;
+  const std::string& reason = v1::RejectionReason_Name(refusal.reason);
+  Log(spdlog::level::warn, "input refused",
+      fmt::format("{} simulator {:016x} run {} slot {} generation {}: {}: {}", reason,
+                  refusal.simulator_id, refusal.run, refusal.slot, refusal.generation,
+                  refusal.field, refusal.detail));
+  const std::int64_t second = world_.monotonic_ns() / 1'000'000'000;
+  if (second != second_) told_in_second_ = 0;
+  second_ = second;
+  if (told_in_second_ == per_second_max_) {
+    ++untold_;
+    return;
+  }
+  ++told_in_second_;
+  v1::Rejection& wire = pending_.emplace_back();
+  wire.set_simulator_id(refusal.simulator_id);
+  wire.set_now_ns(world_.now().nanoseconds());
+  wire.set_run(refusal.run);
+  wire.set_reason(refusal.reason);
+  wire.set_topic(refusal.topic);
+  wire.set_slot(refusal.slot);
+  wire.set_generation(refusal.generation);
+  wire.set_field(refusal.field);
+  wire.set_detail(refusal.detail);
+  wire.set_count(count);
+}
+
+std::vector<v1::Rejection> Rejections::Take() { return std::exchange(pending_, {}); }
+
+}  // namespace collision::server

@@ -1,0 +1,83 @@
+// What the service knows about one simulator.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "server/world/agent_table.h"
+#include "server/world/simulator_time.h"
+
+namespace collision::server {
+
+/// One simulator: who speaks for it, whether its process lives, its time, and its agents.
+///
+/// The World owns all simulators and decides who speaks for them; `time()` and `agents()` guard
+/// their own invariants. A higher run starts all of it anew, except the counters, the name, and the
+/// marks of clearance samples that are to be published. One thread.
+class Simulator {
+ public:
+  /// `sender`: the network's identity of the process that speaks for it.
+  Simulator(std::uint64_t id, std::uint64_t sender, std::uint32_t run)
+      : id_(id), sender_(sender), run_(run) {}
+
+  std::uint64_t id() const { return id_; }
+  std::uint64_t sender() const { return sender_; }
+  std::uint32_t run() const { return run_; }
+  const std::string& name() const { return name_; }  ///< Empty: nothing has proved it yet.
+
+  /// A description or a clock, whose id is the hash of this name, has come from the sender.
+  void SetName(const std::string& name) { name_ = name; }
+
+  /// Starts a run of `sender`. Requires that the agents have been removed.
+  void StartRun(std::uint64_t sender, std::uint32_t run);
+
+  bool alive() const { return alive_; }
+  std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
+  void SetAlive(bool alive, std::int64_t monotonic_ns);
+
+  /// Silent for too long: the world's time does not wait for it any more, until it is alive again.
+  bool released() const { return released_; }
+  void Release() { released_ = true; }
+
+  /// It runs on what it had written while it waited for the id, and has not been heard since.
+  bool succeeded_unheard() const { return succeeded_unheard_; }
+  void SetSucceededUnheard(bool unheard) { succeeded_unheard_ = unheard; }
+
+  /// Gone for good: its process has ended, and it removed all its agents or never described any.
+  bool has_left() const { return !alive_ && agents_.size() == 0; }
+
+  /// Whether the world's time waits for it.
+  bool holds_time() const { return time_.clock().has_value() && !released_ && !has_left(); }
+
+  detection::AgentId IdOf(std::uint32_t slot, std::uint32_t generation) const {
+    return {.simulator = id_, .slot = slot, .run = run_, .generation = generation};
+  }
+
+  SimulatorTime& time() { return time_; }
+  const SimulatorTime& time() const { return time_; }
+  AgentTable& agents() { return agents_; }
+  const AgentTable& agents() const { return agents_; }
+
+  void CountState() { ++states_; }
+  std::uint64_t states() const { return states_; }  ///< Accepted, in all runs.
+
+  /// Returns the number of refusals so far, in all runs.
+  std::uint64_t CountRefusal() { return ++refusals_; }
+  std::uint64_t refusals() const { return refusals_; }
+
+ private:
+  const std::uint64_t id_;
+  std::uint64_t sender_;
+  std::uint32_t run_;
+  std::string name_;
+  bool alive_ = true;
+  bool released_ = false;
+  std::int64_t silent_since_ns_ = 0;
+  bool succeeded_unheard_ = false;
+  SimulatorTime time_;
+  AgentTable agents_;
+  std::uint64_t states_ = 0;
+  std::uint64_t refusals_ = 0;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,42 @@
+#include "server/world/simulator_time.h"
+
+#include <algorithm>
+
+namespace collision::server {
+
+void SimulatorTime::NoteStates(std::uint64_t sequence) {
+  states_seen_ = std::max(states_seen_, sequence);
+}
+
+void SimulatorTime::NoteDescriptions(std::uint64_t sequence) {
+  descriptions_seen_ = std::max(descriptions_seen_, sequence);
+}
+
+void SimulatorTime::Offer(const PendingClock& offered) {
+  newest_ = std::max(newest_, offered.clock);
+  lock_step_ = offered.lock_step;
+  other_kind_ = false;
+  if (pending_.size() == kPendingClocksMax) pending_.pop_back();
+  pending_.push_back(offered);
+}
+
+bool SimulatorTime::Take() {
+  bool taken = false;
+  while (!pending_.empty() && pending_.front().states_sequence <= states_seen_ &&
+         pending_.front().descriptions_sequence <= descriptions_seen_) {
+    clock_ = pending_.front().clock;
+    pending_.pop_front();
+    taken = true;
+  }
+  if (taken && !first_clock_) first_clock_ = clock_;
+  return taken;
+}
+
+bool SimulatorTime::Grant(Instant until) {
+  const Instant grant = std::max(granted_.value_or(Instant::Always()), until);
+  if (granted_ == grant) return false;
+  granted_ = grant;
+  return true;
+}
+
+}  // namespace collision::server

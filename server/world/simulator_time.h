@@ -1,0 +1,69 @@
+// The clocks of one simulator: which have arrived, which is in force, and how far it may go.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "collision_core/base/instant.h"
+
+namespace collision::server {
+
+/// A clock, and what its simulator had written before it.
+struct PendingClock {
+  Instant clock;
+  std::uint64_t states_sequence = 0;        ///< Highest sequence of its states by then.
+  std::uint64_t descriptions_sequence = 0;  ///< Likewise of its descriptions.
+  bool lock_step = false;                   ///< The simulator waits for grants.
+};
+
+/// A simulator's clocks arrive in order, so only a few overtake their states. Beyond this many the
+/// newest replaces the last, which makes time coarser and nothing else.
+inline constexpr std::size_t kPendingClocksMax = 16;
+
+/// The time of one simulator in one run.
+///
+/// A clock comes into force when the states and descriptions that were written before it have
+/// arrived. The highest sequence seen decides: a keep-last-1 sample may have been overwritten by a
+/// newer one, and refused samples count as arrived, so that no clock waits for ever. One thread.
+class SimulatorTime {
+ public:
+  void NoteStates(std::uint64_t sequence);
+  void NoteDescriptions(std::uint64_t sequence);
+
+  /// Takes a clock that has arrived; Take() brings it into force.
+  void Offer(const PendingClock& offered);
+
+  /// The simulator has published a clock of the other kind (simulated or wall) and none of this
+  /// world's: its stamps mean nothing here until it offers one.
+  void NoteOtherKind() { other_kind_ = true; }
+
+  /// Brings the newest clock into force before which everything has arrived. False: there is none.
+  bool Take();
+
+  /// Extends the grant to `until`; a grant is never shortened. True if it has changed.
+  bool Grant(Instant until);
+
+  Instant newest() const { return newest_; }  ///< The newest clock that has arrived; else Always().
+  const std::optional<Instant>& clock() const { return clock_; }  ///< The newest in force.
+  /// The one that this service first brought into force.
+  const std::optional<Instant>& first_clock() const { return first_clock_; }
+  const std::optional<Instant>& granted() const { return granted_; }  ///< By this service.
+  bool lock_step() const { return lock_step_; }                       ///< As its newest clock says.
+  bool is_other_kind() const { return other_kind_; }
+  std::size_t pending() const { return pending_.size(); }
+
+ private:
+  std::uint64_t states_seen_ = 0;
+  std::uint64_t descriptions_seen_ = 0;
+  Instant newest_ = Instant::Always();
+  std::deque<PendingClock> pending_;
+  std::optional<Instant> first_clock_;
+  std::optional<Instant> clock_;
+  std::optional<Instant> granted_;
+  bool lock_step_ = true;
+  bool other_kind_ = false;
+};
+
+}  // namespace collision::server

@@ -1,0 +1,38 @@
+// ./run bench service: what the service adds to what the network takes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/bench/harness/options.h"
+#include "tests/bench/harness/report.h"
+
+namespace collision::bench {
+
+struct ServiceSettings : CommonOptions {
+  std::uint32_t domain = 77;
+};
+
+/// One measurement: its line of the table, and its fields in the file.
+struct ServiceRow {
+  std::string line;
+  std::vector<Field> fields = {};  ///< Empty: not in the file.
+
+  std::string Line() const { return line; }
+  std::string Json() const { return fields.empty() ? "" : Object(fields); }
+};
+
+struct ServiceReport : RowReport<ServiceRow> {
+  ServiceReport();
+};
+
+/// Update to event, and updates per second, of the service and of a program of the same bus code
+/// that answers at once without a thought.
+void LatencyPart(const ServiceSettings& settings, ServiceReport* report);
+
+/// How many states a simulator sends on demand, of those that a stream would send.
+void MessagesPart(const ServiceSettings& settings, ServiceReport* report);
+
+}  // namespace collision::bench

@@ -1,0 +1,23 @@
+#include "tests/bench/service/parts.h"
+
+namespace collision::bench {
+namespace {
+
+std::vector<std::string> FigureNames() {
+  std::vector<std::string> names = {"messages_saved_ratio"};
+  for (const char* agents : {"_100", "_1000", "_10000"}) {
+    for (const char* name :
+         {"service_event_p50_s", "service_event_p99_s", "network_event_p50_s",
+          "network_event_p99_s", "service_event_p50_ratio", "service_updates_per_s",
+          "network_updates_per_s", "service_updates_ratio"}) {
+      names.push_back(std::string(name) + agents);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+ServiceReport::ServiceReport() : RowReport(FigureNames(), "", "") {}
+
+}  // namespace collision::bench

@@ -1,0 +1,136 @@
+// Goal:   what the service would refuse never leaves the simulator, and the message says which
+//         field, which value and what is allowed; what the service takes passes.
+// Method: every field at its limits, beyond them, and not a number.
+#include "client/library/validation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+
+#include "idl/limits.h"
+#include "tests/client/fake_transport.h"
+
+namespace collision::client {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <typename Value>
+std::string Complaint(const Value& value) {
+  try {
+    Validate(value);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// Refuses NaN, infinities and values just outside [least, greatest], naming the field; accepts the
+/// limits.
+template <typename Value>
+void CheckLimits(const Value& good, const std::string& field, double least, double greatest,
+                 const std::function<void(Value*, double)>& set) {
+  for (const double number : {least, greatest}) {
+    Value value = good;
+    set(&value, number);
+    EXPECT_EQ(Complaint(value), "") << field;
+  }
+  for (const double number : {kNaN, kInfinity, -kInfinity, std::nextafter(least, -kInfinity),
+                              std::nextafter(greatest, kInfinity)}) {
+    Value value = good;
+    set(&value, number);
+    EXPECT_EQ(Complaint(value).rfind(field + ": ", 0), 0u) << field << " " << Complaint(value);
+  }
+}
+
+TEST(Validation, DescriptionLimits) {
+  using D = AgentDescription;
+  const D good{.name = "ball"};
+  CheckLimits<D>(good, "radius_m", 0, kRadiusMax, [](D* d, double x) { d->radius_m = x; });
+  CheckLimits<D>(good, "acceleration_max_m_s2", 0, kAccelerationMax,
+                 [](D* d, double x) { d->acceleration_max_m_s2 = x; });
+  CheckLimits<D>(good, "angular_acceleration_max_rad_s2", -kAccelerationMax, kAccelerationMax,
+                 [](D* d, double x) { d->angular_acceleration_max_rad_s2 = x; });
+  CheckLimits<D>(good, "speed_max_m_s", 0, kSpeedMax, [](D* d, double x) { d->speed_max_m_s = x; });
+  CheckLimits<D>(good, "time_step_s", 0, kTimeStepMax, [](D* d, double x) { d->time_step_s = x; });
+}
+
+TEST(Validation, StateLimits) {
+  for (int i = 0; i < 3; ++i) {
+    const std::string axis(1, "xyz"[i]);
+    CheckLimits<State>({}, "position_m." + axis, -kCoordinateMax, kCoordinateMax,
+                       [i](State* s, double x) { s->position_m[i] = x; });
+    CheckLimits<State>({}, "velocity_m_s." + axis, -kSpeedMax, kSpeedMax,
+                       [i](State* s, double x) { s->velocity_m_s[i] = x; });
+    CheckLimits<State>({}, "angular_velocity_rad_s." + axis, -kAngularSpeedMax, kAngularSpeedMax,
+                       [i](State* s, double x) { s->angular_velocity_rad_s[i] = x; });
+  }
+  CheckLimits<State>({}, "position_error_m", 0, kRadiusMax,
+                     [](State* s, double x) { s->position_error_m = x; });
+  CheckLimits<State>({}, "velocity_error_m_s", 0, kSpeedMax,
+                     [](State* s, double x) { s->velocity_error_m_s = x; });
+  CheckLimits<State>({}, "rotation_error_rad", 0, kRotationErrorMax,
+                     [](State* s, double x) { s->rotation_error_rad = x; });
+}
+
+TEST(Validation, QuaternionsAndDirectionsAreUnit) {
+  EXPECT_EQ(Complaint(State{.orientation = {0.6, 0, 0.8, 0}}), "");
+  EXPECT_EQ(Complaint(State{.orientation = {1.0009, 0, 0, 0}}), "");
+  EXPECT_EQ(Complaint(State{.orientation = {0, 0, 0, 0}}),
+            "orientation: length 0, allowed: length 1 within 0.001");
+  EXPECT_NE(Complaint(State{.orientation = {1.0011, 0, 0, 0}}), "");
+  EXPECT_NE(Complaint(State{.orientation = {0.9989, 0, 0, 0}}), "");
+  EXPECT_NE(Complaint(State{.orientation = {1, kNaN, 0, 0}}), "");
+  EXPECT_EQ(Complaint(State{.thrust_direction = {0, -0.6, 0.8}}), "");
+  EXPECT_NE(Complaint(State{.thrust_direction = {0, 0, 1e-9}}), "");
+  EXPECT_NE(Complaint(State{.thrust_direction = {0, kNaN, 0}}), "");
+}
+
+TEST(Validation, InstantsAreBounded) {
+  EXPECT_EQ(Complaint(State{.stamp_ns = kInstantMax, .direction_until_ns = -kInstantMax}), "");
+  EXPECT_NE(Complaint(State{.stamp_ns = kNever}), "");
+  EXPECT_NE(Complaint(State{.expiry_ns = kNever - 1}), "");
+  EXPECT_NE(Complaint(State{.direction_until_ns = -kInstantMax - 1}), "");
+}
+
+TEST(Validation, NamesHaveALength) {
+  EXPECT_EQ(Complaint(AgentDescription{.name = std::string(64, 'x')}), "");
+  EXPECT_NE(Complaint(AgentDescription{.name = std::string(65, 'x')}), "");
+  EXPECT_NE(Complaint(AgentDescription{}), "");
+  EXPECT_NE(Complaint(AgentDescription{.name = "two\nlines"}), "");
+}
+
+TEST(Validation, TheMessageNamesFieldValueAndRange) {
+  EXPECT_EQ(Complaint(AgentDescription{.name = "ball", .radius_m = -0.5}),
+            "radius_m: -0.5, allowed: 0 to 1e+12");
+}
+
+// The other limits are the same constants as the service's; these two count in another way.
+TEST(Validation, LimitsAreThoseOfTheWire) {
+  EXPECT_EQ(kAgentsMax, wire::kSlotMax + 1);
+  EXPECT_EQ(kChunkSizeMax, static_cast<std::uint32_t>(wire::kStatesPerChunkMax));
+}
+
+TEST(Validation, ARefusedValueChangesNothing) {
+  const auto network = std::make_shared<FakeNetwork>();
+  World world = ConnectTo(network);
+  EXPECT_THROW(world.AddAgent({.name = "ball", .radius_m = kNaN}, {}), std::invalid_argument);
+  EXPECT_THROW(world.AddAgent({.name = "ball"}, {.expiry_ns = kNever - 1}), std::invalid_argument);
+  EXPECT_TRUE(network->written.empty());
+  Agent ball = world.AddAgent({.name = "ball"}, {.stamp_ns = 5});
+  EXPECT_EQ(ball.id().slot, 0u);
+  world.Publish(5);
+  network->written.clear();
+  EXPECT_THROW(ball.SetState({.stamp_ns = 4}), std::invalid_argument);
+  EXPECT_THROW(ball.SetState({.stamp_ns = 6, .position_m = {kInfinity, 0, 0}}),
+               std::invalid_argument);
+  EXPECT_THROW(ball.SetDescription({.name = "ball", .time_step_s = -1}), std::invalid_argument);
+  world.Publish(5);
+  EXPECT_TRUE(network->written.empty());
+}
+
+}  // namespace
+}  // namespace collision::client

@@ -1,0 +1,236 @@
+// Goal:   every revision of an event of ours comes once, on the caller's thread and inside its
+//         call, and none after the end; without a callback they wait, up to a bound.
+// Method: events on a network under the test's control, with repeats, strangers and late ones.
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <stdexcept>
+
+#include "client/library/world/world_implementation.h"
+#include "tests/client/fake_transport.h"
+
+namespace collision::client {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::nanoseconds;
+
+class EventsTest : public testing::Test {
+ protected:
+  void Arrive(const v1::CollisionEvent& event) {
+    *network_->arriving.emplace_back().mutable_collision_event() = event;
+  }
+
+  std::shared_ptr<FakeNetwork> network_ = std::make_shared<FakeNetwork>();
+  World world_ = ConnectTo(network_);
+};
+
+TEST_F(EventsTest, EachRevisionArrivesOnceAndOnlyForOwnAgents) {
+  Arrive(OwnEvent(1, 1, 10));
+  Arrive(OwnEvent(1, 1, 10));
+  Arrive(OwnEvent(1, 2, 11));
+  Arrive(OwnEvent(1, 1, 12));
+  v1::CollisionEvent stranger = OwnEvent(1, 1, 13);
+  stranger.set_pair_slot(1);
+  stranger.mutable_lower()->set_simulator_id(5);
+  Arrive(stranger);
+  v1::CollisionEvent former = OwnEvent(1, 1, 14);
+  former.set_pair_slot(2);
+  former.mutable_lower()->set_run(kRun - 1);
+  Arrive(former);
+  world_.Poll();
+  const std::vector<Event> events = world_.TakeEvents();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].revision, 1u);
+  EXPECT_EQ(events[1].revision, 2u);
+  EXPECT_TRUE(world_.TakeEvents().empty());
+}
+
+TEST_F(EventsTest, AllFieldsArrive) {
+  v1::CollisionEvent event = OwnEvent(3, 4, 10);
+  event.set_now_ns(1);
+  event.set_status(v1::EVENT_UNDECIDED);
+  event.mutable_begin()->set_earliest_ns(2);
+  event.mutable_begin()->set_latest_ns(3);
+  event.mutable_end()->set_earliest_ns(4);
+  event.mutable_end()->set_latest_ns(kNever);
+  event.set_began_before(true);
+  event.set_evaluated_at_ns(5);
+  event.mutable_separation_m()->set_lower(6);
+  event.mutable_separation_m()->set_upper(7);
+  event.set_depth_lower_m(8);
+  event.mutable_point_m()->set_y(9);
+  event.set_point_error_m(10);
+  event.mutable_normal()->set_z(1);
+  event.set_normal_error_rad(11);
+  event.set_level(12);
+  event.set_work_units(13);
+  event.set_limited_by(v1::LIMIT_GEOMETRY);
+  Arrive(event);
+  world_.Poll();
+  const Event received = world_.TakeEvents().at(0);
+  EXPECT_EQ(received.lower, (AgentId{SimulatorId(kSimulator), kRun, 0, 1}));
+  EXPECT_EQ(received.higher.simulator, 1u);
+  EXPECT_EQ(received.contact, 3u);
+  EXPECT_EQ(received.revision, 4u);
+  EXPECT_EQ(received.now_ns, 1);
+  EXPECT_EQ(received.status, EventStatus::kUndecided);
+  EXPECT_EQ(received.begin.earliest_ns, 2);
+  EXPECT_EQ(received.begin.latest_ns, 3);
+  EXPECT_EQ(received.end.earliest_ns, 4);
+  EXPECT_EQ(received.end.latest_ns, kNever);
+  EXPECT_FALSE(received.continuous);
+  EXPECT_TRUE(received.began_before);
+  EXPECT_EQ(received.evaluated_at_ns, 5);
+  EXPECT_EQ(received.separation_lower_m, 6);
+  EXPECT_EQ(received.separation_upper_m, 7);
+  EXPECT_EQ(received.depth_lower_m, 8);
+  EXPECT_EQ(received.point_m, (Vector3{0, 9, 0}));
+  EXPECT_EQ(received.point_error_m, 10);
+  EXPECT_EQ(received.normal, (Vector3{0, 0, 1}));
+  EXPECT_EQ(received.normal_error_rad, 11);
+  EXPECT_EQ(received.level, 12u);
+  EXPECT_EQ(received.work_units, 13u);
+  EXPECT_EQ(received.limited_by, EventLimit::kGeometry);
+  EXPECT_STREQ(Name(received.limited_by), "geometry");
+}
+
+// A restarted service counts from 1 again, in sequences and in revisions.
+TEST_F(EventsTest, EventsOfARestartedServiceArrive) {
+  Arrive(OwnEvent(1, 5, 100));
+  Arrive(OwnEvent(1, 1, 3));
+  Arrive(OwnEvent(1, 2, 4));
+  world_.Poll();
+  const std::vector<Event> events = world_.TakeEvents();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[2].revision, 2u);
+}
+
+// A standby that takes over publishes the complete current set: known events are not new.
+TEST_F(EventsTest, RepetitionsOfANewTermAndSamplesOfAnOldOneAreDropped) {
+  Arrive(OwnEvent(1, 5, 100));
+  v1::CollisionEvent repeated = OwnEvent(1, 5, 1);
+  repeated.mutable_stamp()->set_term(2);
+  Arrive(repeated);
+  Arrive(OwnEvent(1, 6, 101));
+  v1::CollisionEvent next = OwnEvent(1, 6, 2);
+  next.mutable_stamp()->set_term(2);
+  next.set_now_ns(77);
+  Arrive(next);
+  world_.Poll();
+  const std::vector<Event> events = world_.TakeEvents();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[1].now_ns, 77);
+}
+
+TEST_F(EventsTest, ACallbackRunsInsideTheCallAndGetsTheKeptEvents) {
+  Arrive(OwnEvent(1, 1, 1));
+  world_.Poll();
+  std::vector<std::uint32_t> revisions;
+  world_.OnEvent([&](const Event& event) { revisions.push_back(event.revision); });
+  EXPECT_TRUE(revisions.empty());
+  Arrive(OwnEvent(1, 2, 2));
+  world_.AdvanceTo(0, nanoseconds(0));
+  EXPECT_EQ(revisions, (std::vector<std::uint32_t>{1, 2}));
+  EXPECT_TRUE(world_.TakeEvents().empty());
+}
+
+TEST_F(EventsTest, WaitingForAServiceRunsNoCallback) {
+  int called = 0;
+  world_.OnEvent([&](const Event&) { ++called; });
+  network_->on_wait = [](FakeNetwork* network) { network->alive = true; };
+  Arrive(OwnEvent(1, 1, 1));
+  EXPECT_TRUE(world_.WaitForService(hours(1)));
+  EXPECT_EQ(called, 0);
+  world_.Poll();
+  EXPECT_EQ(called, 1);
+}
+
+// An owner that bounces its agent: the jump goes out at the same clock, before time moves on.
+TEST_F(EventsTest, AStateSetByACallbackIsSentAtTheSameClock) {
+  Agent ball = world_.AddAgent({.name = "ball"}, {});
+  world_.Publish(0);
+  ball.SetState({.stamp_ns = 50});
+  world_.OnEvent(
+      [&](const Event&) { ball.SetState({.stamp_ns = world_.clock_ns(), .discontinuity = true}); });
+  network_->on_wait = [this](FakeNetwork* network) {
+    if (network->waits.size() < 3) return Arrive(OwnEvent(1, 1, 1));
+    network->Grant(50);
+  };
+  network_->written.clear();
+  EXPECT_EQ(world_.AdvanceTo(50, hours(1)), Advance::kReached);
+  ASSERT_EQ(network_->written.size(), 3u);
+  EXPECT_TRUE(network_->written[0].agent_states().states(0).discontinuity());
+  EXPECT_EQ(network_->written[0].agent_states().states(0).stamp_ns(), 0);
+  EXPECT_EQ(network_->written[1].simulator_clock().clock_ns(), 0);
+  EXPECT_EQ(network_->written[1].simulator_clock().states_sequence(), 2u);
+  EXPECT_EQ(network_->written[2].simulator_clock().clock_ns(), 50);
+}
+
+TEST_F(EventsTest, ACallbackMayNotWait) {
+  int refused = 0;
+  world_.OnEvent([&](const Event&) {
+    EXPECT_THROW(world_.Poll(), std::logic_error);
+    EXPECT_THROW(world_.AdvanceTo(1, nanoseconds(0)), std::logic_error);
+    EXPECT_THROW(world_.WaitForService(nanoseconds(0)), std::logic_error);
+    ++refused;
+  });
+  Arrive(OwnEvent(1, 1, 1));
+  world_.Poll();
+  EXPECT_EQ(refused, 1);
+  world_.Poll();
+}
+
+TEST_F(EventsTest, ACallbackThatThrowsLosesNoOtherEvent) {
+  int called = 0;
+  world_.OnEvent([&](const Event&) {
+    if (++called == 1) throw std::runtime_error("no");
+  });
+  Arrive(OwnEvent(1, 1, 1));
+  Arrive(OwnEvent(1, 2, 2));
+  EXPECT_THROW(world_.Poll(), std::runtime_error);
+  world_.Poll();
+  EXPECT_EQ(called, 2);
+}
+
+TEST_F(EventsTest, ACallbackMayReplaceItself) {
+  int first = 0, second = 0;
+  world_.OnEvent([&](const Event&) {
+    ++first;
+    world_.OnEvent([&](const Event&) { ++second; });
+  });
+  Arrive(OwnEvent(1, 1, 1));
+  Arrive(OwnEvent(1, 2, 2));
+  world_.Poll();
+  EXPECT_EQ(first, 1);
+  EXPECT_EQ(second, 1);
+}
+
+TEST_F(EventsTest, NoCallbackRunsAfterTheWorldHasEnded) {
+  std::optional<World> world = std::move(world_);
+  Agent ball = world->AddAgent({.name = "ball"}, {});
+  int called = 0;
+  world->OnEvent([&](const Event&) {
+    ++called;
+    world.reset();
+    EXPECT_NO_THROW(ball.SetState({.position_error_m = -1}));
+  });
+  Arrive(OwnEvent(1, 1, 1));
+  Arrive(OwnEvent(1, 2, 2));
+  network_->written.clear();
+  EXPECT_EQ(world->AdvanceTo(5, hours(1)), Advance::kTimeout);
+  EXPECT_EQ(called, 1);
+  EXPECT_TRUE(network_->written.empty());
+}
+
+TEST_F(EventsTest, WithoutACallbackTheNewestAreKeptUpToABound) {
+  for (std::uint32_t i = 1; i <= kEventsMax + 3; ++i) Arrive(OwnEvent(1, i, i));
+  world_.Poll();
+  EXPECT_EQ(world_.events_lost(), 3u);
+  const std::vector<Event> events = world_.TakeEvents();
+  ASSERT_EQ(events.size(), kEventsMax);
+  EXPECT_EQ(events.front().revision, 4u);
+}
+
+}  // namespace
+}  // namespace collision::client

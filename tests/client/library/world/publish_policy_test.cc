@@ -1,0 +1,95 @@
+// Goal:   a staged state is due exactly when the service needs it.
+// Method: one agent that drifts at 1 m/s within its bounds; clock and clearances by hand.
+#include "client/library/world/publish_policy.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+namespace collision::client {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::uint32_t kRevision = 1;
+constexpr PublishPolicy kOnDemand = {.on_demand = true};
+
+State DriftingAt(std::int64_t stamp_ns) {
+  return {.stamp_ns = stamp_ns,
+          .position_m = {1e-9 * static_cast<double>(stamp_ns), 0, 0},
+          .velocity_m_s = {1, 0, 0}};
+}
+
+class OutgoingStatesTest : public testing::Test {
+ protected:
+  void Stage(const State& state) { states_.Stage(state, {.acceleration_max_m_s2 = 1}, kOnDemand); }
+
+  /// Sends the staged state as number `sequence`.
+  void Send(std::uint64_t sequence) { states_.MarkSent(sequence, kRevision); }
+
+  /// The service wants a state at `wanted_ns`, and has taken the states up to `acknowledged`.
+  void Answer(std::int64_t wanted_ns, std::uint64_t acknowledged) {
+    Clearance clearance;
+    clearance.clear_until_ns = 10 * kSecond;
+    clearance.state_wanted_ns = wanted_ns;
+    states_.SetClearance(clearance, acknowledged, 0);
+  }
+
+  bool IsDue(std::int64_t clock_ns) const { return states_.IsDue(clock_ns, kRevision, kOnDemand); }
+
+  OutgoingStates states_;
+};
+
+TEST_F(OutgoingStatesTest, TheFirstStateIsDueAtItsStamp) {
+  Stage(DriftingAt(kSecond));
+  EXPECT_FALSE(IsDue(kSecond - 1));
+  EXPECT_TRUE(IsDue(kSecond));
+}
+
+// With a period of a second the next state comes at 2 s, in time for 5 s; with one of three seconds
+// it comes at 7 s, too late.
+TEST_F(OutgoingStatesTest, AStateIsDueIfTheNextOneComesAfterTheWantedTime) {
+  Stage(DriftingAt(0));
+  Send(1);
+  Answer(5 * kSecond, 1);
+  Stage(DriftingAt(kSecond));
+  EXPECT_FALSE(IsDue(kSecond));
+  Stage(DriftingAt(4 * kSecond));
+  EXPECT_TRUE(IsDue(4 * kSecond));
+}
+
+TEST_F(OutgoingStatesTest, AStateOutsideThePromiseIsDueAtOnce) {
+  Stage(DriftingAt(0));
+  Send(1);
+  Answer(kNever, 1);
+  State state = DriftingAt(kSecond);
+  EXPECT_FALSE((Stage(state), IsDue(kSecond)));
+  state.position_m[0] += 0.6;  // ½ M s² is 0.5 m.
+  EXPECT_TRUE((Stage(state), IsDue(kSecond)));
+}
+
+TEST_F(OutgoingStatesTest, AJumpStaysMarkedUntilItIsAcknowledged) {
+  Stage(DriftingAt(0));
+  Send(1);
+  Answer(kNever, 1);
+  State jump = DriftingAt(kSecond);
+  jump.discontinuity = true;
+  Stage(jump);
+  Send(2);
+  EXPECT_TRUE(states_.sent()->discontinuity);
+  Stage(DriftingAt(2 * kSecond));
+  Send(3);
+  EXPECT_TRUE(states_.sent()->discontinuity);
+  Answer(kNever, 2);
+  Stage(DriftingAt(3 * kSecond));
+  Send(4);
+  EXPECT_FALSE(states_.sent()->discontinuity);
+}
+
+TEST_F(OutgoingStatesTest, AStampBeforeTheLastOneSentIsRefused) {
+  Stage(DriftingAt(kSecond));
+  Send(1);
+  EXPECT_THROW(Stage(DriftingAt(kSecond - 1)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace collision::client

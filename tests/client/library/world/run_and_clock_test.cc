@@ -1,0 +1,40 @@
+// Goal:   a World chooses a run of its own, and knows which kind of clock the service has.
+// Method: a network under the test's control; the run is compared with the clock before and after.
+#include <gtest/gtest.h>
+
+#include "tests/client/fake_transport.h"
+
+namespace collision::client {
+namespace {
+
+/// Since 2020 began.
+std::int64_t Tenths() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::milliseconds>(now).count() / 100 - 15'778'368'000;
+}
+
+// Two starts of a simulator in one second are two runs.
+TEST(RunAndClock, ARunByTheClockCountsTenthsOfASecond) {
+  const auto network = std::make_shared<FakeNetwork>();
+  const auto before = static_cast<std::uint32_t>(Tenths());
+  World world = World::Connect({.simulator = kSimulator}, std::make_unique<FakeTransport>(network));
+  const auto after = static_cast<std::uint32_t>(Tenths());
+  const Agent ball = world.AddAgent({.name = "ball"}, {});
+  world.Publish(0);
+  EXPECT_GE(network->written[0].agent_description().run(), before);
+  EXPECT_LE(network->written[0].agent_description().run(), after);
+}
+
+TEST(RunAndClock, TheServiceSaysTheKindOfItsClock) {
+  const auto network = std::make_shared<FakeNetwork>();
+  World world = ConnectTo(network);
+  EXPECT_FALSE(world.simulated_clock());
+  for (const bool simulated : {true, false}) {
+    network->arriving.emplace_back().mutable_service_status()->set_simulated_clock(simulated);
+    world.Poll();
+    EXPECT_EQ(world.simulated_clock(), simulated);
+  }
+}
+
+}  // namespace
+}  // namespace collision::client

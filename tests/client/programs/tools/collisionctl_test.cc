@@ -1,0 +1,293 @@
+// Goal:   the pages show what has arrived, in any order, and nothing of agents that left.
+// Method: a monitor on a network under the test's control feeds the view; pages and JSON are
+//         compared.
+#include <gtest/gtest.h>
+
+#include "client/api/types.h"
+#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/text_pages.h"
+#include "tests/client/fake_transport.h"
+
+namespace collision::client {
+namespace {
+
+/// Hands over inputs and outputs once.
+class FakeReceiver : public Receiver {
+ public:
+  explicit FakeReceiver(Arrivals* next) : next_(next) {}
+  void Receive(std::chrono::nanoseconds, Arrivals* arrivals) override {
+    *arrivals = std::exchange(*next_, {});
+  }
+  bool service_alive() const override { return true; }
+
+ private:
+  Arrivals* next_;
+};
+
+class CollisionctlTest : public testing::Test {
+ protected:
+  void Poll(std::size_t expected) {
+    EXPECT_EQ(monitor_.Poll(std::chrono::nanoseconds(0)), expected);
+  }
+
+  v1::ServiceStatus* Status() {
+    v1::ServiceStatus* status = next_.outputs.emplace_back().mutable_service_status();
+    status->set_service_id(1);
+    status->mutable_stamp()->set_term(2);
+    status->set_version("0.1.0");
+    status->set_world("lab");
+    status->set_simulated_clock(true);
+    status->set_now_ns(12'345'678'901);
+    status->set_agents(1);
+    return status;
+  }
+
+  v1::AgentDescription* Describe(const std::string& name, std::uint32_t run, std::uint32_t slot) {
+    auto* description = next_.inputs.emplace_back().mutable_agent_description();
+    description->set_simulator_id(5);
+    description->set_simulator_name("sim");
+    description->set_agent_name(name);
+    description->set_run(run);
+    description->set_slot(slot);
+    description->set_generation(1);
+    description->set_radius_m(0.5);
+    description->set_acceleration_max_m_s2(7.9);
+    return description;
+  }
+
+  void Place(std::uint32_t run, std::uint32_t generation) {
+    v1::AgentStates* states = next_.inputs.emplace_back().mutable_agent_states();
+    states->set_simulator_id(5);
+    states->set_run(run);
+    v1::AgentState* state = states->add_states();
+    state->set_generation(generation);
+    state->set_stamp_ns(2'000'000'000);
+    state->mutable_position_m()->set_x(1.5);
+  }
+
+  void Clear(std::uint32_t run) {
+    v1::Clearance* clearance = next_.outputs.emplace_back().mutable_clearance();
+    clearance->set_simulator_id(5);
+    clearance->set_run(run);
+    v1::AgentClearance* agent = clearance->add_agents();
+    agent->set_generation(1);
+    agent->set_clear_until_ns(kNever);
+  }
+
+  Arrivals next_;
+  WorldView view_;
+  MessageMonitor monitor_{std::make_unique<FakeReceiver>(&next_), view_.Callbacks()};
+};
+
+TEST_F(CollisionctlTest, StatusPage) {
+  v1::ServiceStatus* status = Status();
+  status->set_pairs_tracked(3);
+  status->set_broad_phase("all pairs");
+  status->set_broad_phase_why("1 agent");
+  status->add_left_out("rotation: every agent is a ball");
+  status->add_left_out("a second line");
+  v1::Counter* counter = status->add_counters();
+  counter->set_name("rejected_not_finite");
+  counter->set_value(2);
+  const auto count = [status](const char* name, std::uint64_t value) {
+    v1::Counter* counter = status->add_counters();
+    counter->set_name(name);
+    counter->set_value(value);
+  };
+  count("queries_per_second", 56);
+  count("queries", 789);
+  count("queued", 12);
+  count("updates_kept", 199);
+  count("discontinuities", 0);
+  count("breaches", 1);
+  v1::SimulatorStatus* simulator = status->add_simulators();
+  simulator->set_name("sim");
+  simulator->set_run(7);
+  simulator->set_alive(true);
+  simulator->set_clock_ns(12'000'000'000);
+  simulator->set_granted_until_ns(std::numeric_limits<std::int64_t>::min());
+  simulator->set_agents(1);
+  v1::EarliestIntersection* earliest = next_.outputs.emplace_back().mutable_earliest_intersection();
+  earliest->set_found(true);
+  earliest->set_earliest_ns(13'000'000'999);
+  earliest->mutable_lower()->set_simulator_id(5);
+  earliest->mutable_lower()->set_run(7);
+  earliest->mutable_lower()->set_generation(1);
+  earliest->mutable_higher()->set_simulator_id(6);
+  earliest->mutable_higher()->set_slot(4);
+  Describe("ball", 7, 0);
+  EXPECT_FALSE(view_.knows_all_agents());
+  Poll(3);
+  EXPECT_TRUE(view_.knows_all_agents());
+  EXPECT_EQ(
+      StatusPage(view_),
+      "service      collisiond 0.1.0, id 1, term 2\n"
+      "world        lab\n"
+      "clock        simulated\n"
+      "now          12.345 s\n"
+      "agents       1, 3 pairs tracked\n"
+      "earliest     not before 13.000000 s  ball × 0000000000000006:4\n"
+      "broad phase  all pairs: 1 agent\n"
+      "questions    56 a second, 789 so far; 12 events in the queue\n"
+      "updates      199 of 200 cost nothing (99.5 %)\n"
+      "left out     rotation: every agent is a ball\n"
+      "             a second line\n"
+      "rejections   not_finite 2\n"
+      "counters     queries_per_second 56, queries 789, queued 12, updates_kept 199, breaches "
+      "1\n"
+      "\n"
+      "SIMULATOR  RUN  ALIVE  CLOCK     GRANTED  AGENTS  STATES  REJECTED\n"
+      "sim        7    yes    12.000 s  -        1       0       0\n");
+}
+
+TEST_F(CollisionctlTest, AgentsPageIsTheSameInAnyOrderOfArrival) {
+  Clear(7);
+  Place(7, 1);
+  Describe("ball", 7, 0);
+  Poll(3);
+  EXPECT_EQ(AgentsPage(view_),
+            "ID       NAME  SHAPE  RADIUS [m]  M [m/s²]  STATE AT  POSITION [m]       CLEAR UNTIL\n"
+            "sim:0.1  ball  ball   0.5         7.9       2.000 s   1.500 0.000 0.000  never\n");
+}
+
+TEST_F(CollisionctlTest, ShapesPageShowsTheArrivedPartsOfEach) {
+  const std::string hash = "\x01\xab\xcd\xef" + std::string(28, '\7');
+  for (const std::uint32_t slot : {0, 1}) Describe("ship", 7, slot)->set_shape_hash(hash);
+  Describe("ball", 7, 2);
+  const auto part = [&](std::uint32_t number, std::uint32_t run) {
+    v1::ShapePart* message = next_.inputs.emplace_back().mutable_shape_part();
+    message->set_simulator_id(5);
+    message->set_content_hash(hash);
+    message->set_run(run);
+    message->set_part(number);
+    message->set_parts(3);
+    message->set_total_bytes(100'000);
+    message->set_bytes(
+        number > 0 ? "" : std::string("CSHAPE\0\2\x10\0\0\0\x39\x30\0\0\3\0\0\0\0\0\0\0", 24));
+  };
+  part(2, 7);
+  part(2, 7);
+  Poll(5);
+  EXPECT_NE(AgentsPage(view_).find("ship  01abcdef  0.5"), std::string::npos) << AgentsPage(view_);
+  constexpr const char* kHeading =
+      "SHAPE     SIMULATOR         AGENTS  TRIANGLES  SOLIDS  BYTES   PARTS\n";
+  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       -       "
+                                                      "   -       100000  1 of 3\n"));
+  part(0, 7);
+  Poll(1);
+  EXPECT_EQ(ShapesPage(view_), kHeading + std::string("01abcdef  0000000000000005  2       12345   "
+                                                      "   3       100000  2 of 3\n"));
+  std::string digits = "01abcdef";
+  for (int i = 0; i < 28; ++i) digits += "07";
+  EXPECT_EQ(ShapesJson(view_),
+            "{\"shapes\":[{\"hash\":\"" + digits +
+                "\",\"simulator\":\"0000000000000005\",\"agents\":2,\"triangles\":12345,"
+                "\"solids\":3,\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
+  v1::ShapeRemoval* removal = next_.inputs.emplace_back().mutable_shape_removal();
+  removal->set_simulator_id(5);
+  removal->set_content_hash(hash);
+  Poll(1);
+  EXPECT_TRUE(view_.Shapes().empty());
+  part(0, 7);
+  const std::string no_solids("CSHAPE\0\1\x10\0\0\0\x39\x30\0\0", 16);
+  next_.inputs.back().mutable_shape_part()->set_bytes(no_solids);
+  Poll(1);
+  EXPECT_EQ(view_.Shapes().front().triangles, 12345u);
+  EXPECT_EQ(view_.Shapes().front().solids, 0u);
+}
+
+// A simulator that restarts leaves its shapes behind, unless it publishes them again.
+TEST_F(CollisionctlTest, ShapesOfAFormerRunAreNotShown) {
+  for (const auto& [hash, run] : {std::pair("old", 6), {"published again", 7}}) {
+    v1::ShapePart* message = next_.inputs.emplace_back().mutable_shape_part();
+    message->set_simulator_id(5);
+    message->set_content_hash(hash);
+    message->set_run(run);
+  }
+  Describe("ball", 7, 0);
+  Poll(3);
+  ASSERT_EQ(view_.Shapes().size(), 1u);
+  EXPECT_EQ(view_.Shapes()[0].hash, "published again");
+}
+
+TEST_F(CollisionctlTest, DataOfAFormerAgentOrRunIsNotShown) {
+  Describe("former", 6, 0);
+  Describe("former-too", 6, 1);
+  Place(6, 1);
+  Clear(6);
+  Poll(4);
+  EXPECT_EQ(view_.Agents().size(), 2u);
+  Describe("ball", 7, 0);
+  Poll(1);
+  ASSERT_EQ(view_.Agents().size(), 1u);
+  EXPECT_EQ(view_.Agents()[0].description.agent_name(), "ball");
+  EXPECT_FALSE(view_.Agents()[0].state);
+  EXPECT_FALSE(view_.Agents()[0].clearance);
+  Place(7, 2);
+  Poll(1);
+  EXPECT_FALSE(view_.Agents()[0].state);
+}
+
+TEST_F(CollisionctlTest, RemovedAgentsGoAndTheirNamesStay) {
+  Describe("ball", 7, 0);
+  next_.inputs.emplace_back().mutable_agent_removal()->set_simulator_id(5);
+  Poll(2);
+  EXPECT_TRUE(view_.Agents().empty());
+  AgentId id{.simulator = 5, .run = 7, .generation = 1};
+  EXPECT_EQ(view_.Name(id), "ball");
+  EXPECT_TRUE(view_.IsNamed(id));
+  id.generation = 2;
+  EXPECT_FALSE(view_.IsNamed(id));
+  EXPECT_EQ(view_.Name(id), "0000000000000005:0");
+}
+
+// A restart, or a program that pretends to be one, does not take the names from earlier events.
+TEST_F(CollisionctlTest, NamesStayWhenAnotherRunComes) {
+  Describe("ball", 7, 0);
+  Describe("impostor", 8, 0);
+  Describe("renamed", 7, 0);
+  Poll(3);
+  AgentId id{.simulator = 5, .run = 7, .generation = 1};
+  EXPECT_EQ(view_.Name(id), "ball");
+}
+
+TEST_F(CollisionctlTest, AWallClockReadsAsTheTimeOfDay) {
+  Status()->set_now_ns(1'795'229'895'022'000'000);
+  Poll(1);
+  EXPECT_NE(StatusPage(view_).find("now          02:58:15.022 UTC\n"), std::string::npos);
+}
+
+TEST_F(CollisionctlTest, EarliestPage) {
+  EXPECT_EQ(EarliestPage(view_), "not published yet\n");
+  next_.outputs.emplace_back().mutable_earliest_intersection()->set_now_ns(1'000'000'000);
+  Poll(1);
+  EXPECT_EQ(EarliestPage(view_),
+            "never: no two agents can touch that are not in contact already\nas of 1.000 s\n");
+}
+
+// DDS delivers samples by key: the view restores the order of publication.
+TEST_F(CollisionctlTest, EventsAreInTheOrderOfPublication) {
+  for (const std::uint64_t sequence : {3, 1, 2}) {
+    *next_.outputs.emplace_back().mutable_collision_event() = OwnEvent(1, 1, sequence);
+  }
+  Poll(3);
+  const auto events = view_.TakeEvents();
+  ASSERT_EQ(events.size(), 3u);
+  EXPECT_EQ(events[0].stamp().sequence(), 1u);
+  EXPECT_EQ(events[2].stamp().sequence(), 3u);
+  EXPECT_TRUE(view_.TakeEvents().empty());
+}
+
+TEST_F(CollisionctlTest, JsonHasTheNamesOfTheProto) {
+  Describe("ball", 7, 0);
+  Clear(7);
+  Poll(2);
+  const std::string json = AgentsJson(view_);
+  EXPECT_EQ(json.rfind("{\"agents\":[{\"description\":{\"simulator_id\":\"5\",", 0), 0u) << json;
+  EXPECT_NE(json.find("\"acceleration_max_m_s2\":7.9"), std::string::npos) << json;
+  EXPECT_EQ(json.find("\"state\":"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"clearance\":{\"slot\":0,"), std::string::npos) << json;
+}
+
+}  // namespace
+}  // namespace collision::client

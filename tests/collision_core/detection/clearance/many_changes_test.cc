@@ -1,0 +1,156 @@
+// Goal:   many changes at once cost each a question that looks no farther than it must, whatever
+//         else is in the scene; and what is told does not depend on how many came at once.
+// Method: counted work in a swarm, and in one beside agents that are clear for long; the same
+//         changes one by one.
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "tests/collision_core/detection/line.h"
+#include "tests/support/random.h"
+
+namespace collision::detection {
+namespace {
+
+// Drones as dense as 10,000 in 2 km x 2 km x 200 m; beside them some that stand far apart from all.
+class Swarm {
+ public:
+  Swarm(std::uint32_t drones, std::uint32_t others,
+        broad_phase::BroadPhaseMethod method = broad_phase::BroadPhaseMethod::kAuto)
+      : drones_(drones) {
+    const double side = 2000 * std::sqrt(drones / 10000.0);
+    Random random(3);
+    for (std::uint32_t slot = 0; slot < drones + others; ++slot) {
+      const bool drone = slot < drones;
+      Vector3d p{random.Uniform(0, side), random.Uniform(0, side), random.Uniform(0, 200)};
+      if (!drone) p = Vector3d(10000 + 5 * p.x(), 5 * p.y(), 10 * p.z());
+      states_.push_back(
+          State(0, p, drone ? random.UnitVector() * random.Uniform(0, 10) : Vector3d(0, 0, 0)));
+      declarations_.push_back({.radius = 0.5, .acceleration_max = drone ? 5 : 1e-3});
+    }
+    DetectorOptions options;
+    options.agents_max = drones + others;
+    options.broad_phase = method;
+    detector.emplace(options);
+  }
+
+  void AdmitAll(bool one_by_one) {
+    for (std::uint32_t slot = 0; slot < states_.size(); ++slot) {
+      detector->Admit(Id(slot), declarations_[slot], states_[slot], At(0));
+      if (one_by_one) detector->Advance(At(0));
+    }
+    detector->Advance(At(0));
+  }
+
+  /// Every so manieth drone may accelerate harder from now on.
+  std::uint32_t Widen(std::uint32_t every, bool one_by_one) {
+    std::uint32_t widened = 0;
+    for (std::uint32_t slot = 0; slot < drones_; slot += every, ++widened) {
+      declarations_[slot].acceleration_max *= 1.01;
+      detector->Redeclare(Id(slot), declarations_[slot], At(0));
+      if (one_by_one) detector->Advance(At(0));
+    }
+    detector->Advance(At(0));
+    return widened;
+  }
+
+  std::vector<Instant> Told() const {
+    std::vector<Instant> told;
+    for (std::uint32_t slot = 0; slot < states_.size(); ++slot) {
+      const AgentClearance clearance = *detector->ClearanceOf(Id(slot));
+      told.push_back(clearance.clear_until);
+    }
+    return told;
+  }
+
+  std::uint64_t tests() const { return detector->counters().filter_tests; }
+  std::uint64_t queries() const { return detector->counters().pair_queries; }
+
+  std::optional<Detector> detector;
+
+ private:
+  std::uint32_t drones_;
+  std::vector<motion::MotionState> states_;
+  std::vector<motion::AgentDeclaration> declarations_;
+};
+
+TEST(ManyChanges, AreToldAsIfTheyCameOneByOne) {
+  Swarm at_once(500, 300), one_by_one(500, 300);
+  at_once.AdmitAll(false);
+  one_by_one.AdmitAll(true);
+  ASSERT_EQ(at_once.Told(), one_by_one.Told());
+  for (const std::uint32_t every : {1, 2, 7}) {
+    const std::vector<Instant> before = at_once.Told();
+    at_once.Widen(every, false);
+    one_by_one.Widen(every, true);
+    ASSERT_NE(at_once.Told(), before);
+    ASSERT_EQ(at_once.Told(), one_by_one.Told()) << every;
+  }
+  EXPECT_EQ(at_once.detector->Earliest().earliest, one_by_one.detector->Earliest().earliest);
+}
+
+// So many that those with far keys are asked anew, instead of looked at by each.
+TEST(ManyChanges, VeryManyAreToldAsIfTheyCameOneByOne) {
+  constexpr std::uint32_t kDrones = 4200, kOthers = 300;
+  Swarm at_once(kDrones, kOthers), one_by_one(kDrones, kOthers);
+  Swarm all_pairs(kDrones, kOthers, broad_phase::BroadPhaseMethod::kAllPairs);
+  for (Swarm* swarm : {&at_once, &one_by_one, &all_pairs}) {
+    swarm->AdmitAll(false);
+    swarm->detector->TakeChangedClearances();
+  }
+  const std::uint64_t asked = at_once.detector->counters().queries;
+  at_once.Widen(1, false);
+  // A question each, also of those who stand aside, instead of a look at them by each drone.
+  EXPECT_EQ(at_once.detector->counters().queries - asked, kDrones + kOthers);
+  one_by_one.Widen(1, true);
+  all_pairs.Widen(1, false);
+  ASSERT_EQ(at_once.Told(), one_by_one.Told());
+  ASSERT_EQ(at_once.Told(), all_pairs.Told());
+  EXPECT_EQ(at_once.detector->Earliest().earliest, one_by_one.detector->Earliest().earliest);
+  // Whose clearance was lowered is told why, and by whom.
+  std::uint32_t others = 0;
+  for (const AgentClearance& told : at_once.detector->TakeChangedClearances()) {
+    EXPECT_EQ(told.cause, ClearanceCause::kWidening) << told.agent.slot;
+    EXPECT_LT(told.cause_agent.slot, kDrones);
+    others += told.agent.slot >= kDrones;
+  }
+  EXPECT_EQ(others, kOthers);
+  // The next change finds nothing left of this one.
+  at_once.Widen(kDrones, false);
+  for (const AgentClearance& told : at_once.detector->TakeChangedClearances()) {
+    EXPECT_EQ(told.cause_agent.slot, 0u);
+  }
+}
+
+// An agent's next meeting is 0.4 s beyond announce_within in the mean, so that some ten partners
+// are near enough to count. A look twice as far would be at 64 times as many.
+TEST(ManyChanges, AnAdmissionLooksNoFartherThanItMust) {
+  constexpr std::uint32_t kDrones = 4000;
+  Swarm swarm(kDrones, 0);
+  swarm.AdmitAll(false);
+  EXPECT_LT(swarm.queries(), 4 * kDrones);
+  EXPECT_LT(swarm.tests(), 400 * kDrones);
+  std::uint64_t tests = swarm.tests(), queries = swarm.queries();
+  swarm.Widen(1, false);
+  EXPECT_LT(swarm.queries() - queries, 4 * kDrones);
+  EXPECT_LT(swarm.tests() - tests, 400 * kDrones);
+}
+
+// Those who are clear for a minute do not make each renewal look a minute ahead, where it meets
+// all.
+TEST(ManyChanges, ThoseWhoAreClearForLongCostARenewalALookEach) {
+  constexpr std::uint32_t kDrones = 3000, kOthers = 200;
+  Swarm swarm(kDrones, kOthers);
+  swarm.AdmitAll(false);
+  swarm.Widen(1, false);
+  for (const std::uint32_t every : {2, 20}) {
+    const std::uint64_t tests = swarm.tests(), queries = swarm.queries();
+    const std::uint32_t widened = swarm.Widen(every, false);
+    // Filters here have the drones in few cells; a look at each of them would come on top.
+    EXPECT_LT(swarm.tests() - tests, 2 * (kDrones + kOthers) * widened) << every;
+    EXPECT_LT(swarm.queries() - queries, 6 * widened) << every;
+  }
+}
+
+}  // namespace
+}  // namespace collision::detection

@@ -1,0 +1,60 @@
+// Goal:   an agent that jumped is found where it was on its way to, up to the jump, and not beyond;
+//         what is kept is bounded and forgotten in time.
+// Method: one agent on a line, asked about at places that it passes before and after its jump.
+#include "collision_core/detection/clearance/pre_jump_motions.h"
+
+#include <gtest/gtest.h>
+
+#include "collision_core/broad_phase/index/all_pairs.h"
+#include "tests/collision_core/detection/line.h"
+
+namespace collision::detection {
+namespace {
+
+motion::SpaceTimeBound Around(double x) {
+  motion::SpaceTimeBound bound;
+  bound.state = State(0, {x, 0, 0}, {0, 0, 0});
+  bound.declaration.radius = 1;
+  bound.declaration.acceleration_max = 1e-30;
+  return bound;
+}
+
+motion::SpaceTimeBound Runner(double y = 0) {
+  motion::SpaceTimeBound bound;
+  bound.state = State(0, {0, y, 0}, {10, 0, 0});
+  bound.declaration.radius = 1;
+  return bound;
+}
+
+std::vector<AgentIndex> FoundAt(double x, double from, double until, PreJumpMotions* motions) {
+  std::vector<AgentIndex> agents;
+  motions->Find(Around(x), At(from), At(until), &agents);
+  return agents;
+}
+
+TEST(PreJumpMotions, HoldUpToTheJump) {
+  PreJumpMotions motions(std::make_unique<broad_phase::AllPairs>(), 4);
+  EXPECT_TRUE(FoundAt(5, 0, 9, &motions).empty());
+  const AgentIndex agent(7u);
+  motions.Record(agent, Runner(), At(2));
+  EXPECT_EQ(FoundAt(10, 0, 9, &motions), std::vector{agent}) << "passed at 1 s";
+  EXPECT_TRUE(FoundAt(10, 0, 0.5, &motions).empty()) << "not there yet";
+  EXPECT_TRUE(FoundAt(40, 0, 9, &motions).empty()) << "it would be there at 4 s";
+  motions.Forget(At(1.9));
+  EXPECT_EQ(motions.size(), 1u);
+  motions.Forget(At(2));
+  EXPECT_TRUE(FoundAt(10, 0, 9, &motions).empty());
+}
+
+TEST(PreJumpMotions, TheOldestGoesWhereThereIsNoRoom) {
+  PreJumpMotions motions(std::make_unique<broad_phase::AllPairs>(), 2);
+  for (std::uint32_t k = 0; k < 3; ++k) motions.Record(AgentIndex(k), Runner(), At(2));
+  EXPECT_EQ(motions.size(), 2u);
+  EXPECT_EQ(FoundAt(10, 0, 9, &motions).size(), 2u);
+  PreJumpMotions none(std::make_unique<broad_phase::AllPairs>(), 0);
+  none.Record(AgentIndex(1u), Runner(), At(2));
+  EXPECT_EQ(none.size(), 0u);
+}
+
+}  // namespace
+}  // namespace collision::detection

@@ -1,0 +1,37 @@
+// Goal:   a step's budget goes to the pairs that claim work, and what one leaves goes to the next.
+// Method: claims by hand, whose shares are known.
+#include <gtest/gtest.h>
+
+#include "collision_core/base/check.h"
+#include "collision_core/detection/pairs/step_budget.h"
+
+namespace collision::detection {
+namespace {
+
+TEST(StepBudgetShares, WhatOnePairLeavesGoesToTheNext) {
+  StepBudget budget(100, 90);
+  ASSERT_TRUE(budget.is_limited());
+  budget.Start({{.wanted = 45}, {.wanted = 0}, {.wanted = 45}});
+  EXPECT_EQ(budget.Allowed(), 45u);
+  budget.Spent(5);
+  EXPECT_EQ(budget.Allowed(), 100u) << "it claims nothing: two balls";
+  budget.Spent(1);
+  EXPECT_EQ(budget.Allowed(), 85u);
+  budget.Spent(200);
+  EXPECT_THROW(budget.Allowed(), CheckFailure) << "there was no more claim";
+}
+
+TEST(StepBudgetShares, NoPairMaySpendMoreThanOneEvaluation) {
+  StepBudget budget(30, 1000);
+  budget.Start({{.wanted = 500}, {.wanted = 10}});
+  EXPECT_EQ(budget.Allowed(), 30u);
+}
+
+TEST(StepBudgetShares, AnUnlimitedBudgetIsNotShared) {
+  StepBudget budget(30, 0);
+  EXPECT_FALSE(budget.is_limited());
+  EXPECT_THROW(budget.Start({}), CheckFailure);
+}
+
+}  // namespace
+}  // namespace collision::detection

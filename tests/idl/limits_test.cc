@@ -1,0 +1,47 @@
+// Goal:   limits.h and collision.idl agree: what the code calls the longest text or list is the
+//         bound that the wire has.
+// Method: each constant against the bound of a field that it limits, read from the IDL file.
+#include "idl/limits.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/idl/idl_file.h"
+
+namespace collision {
+namespace {
+
+/// The bound of a string or sequence; 0 if there is no such field.
+std::size_t BoundOf(const std::string& type, const std::string& name) {
+  const auto found = Idl().structs.find(type);
+  if (found == Idl().structs.end()) return 0;
+  const auto field = std::find_if(found->second.begin(), found->second.end(),
+                                  [&name](const IdlField& one) { return one.name == name; });
+  return field == found->second.end() ? 0 : field->bound;
+}
+
+TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
+  EXPECT_EQ(BoundOf("AgentDescription", "simulator_name"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("AgentDescription", "agent_name"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("SimulatorClock", "simulator_name"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("SimulatorStatus", "name"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("ServiceStatus", "world"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("Rejection", "field"), wire::kRefusedFieldMax);
+  EXPECT_EQ(BoundOf("Rejection", "detail"), wire::kRefusalDetailMax);
+  EXPECT_EQ(BoundOf("KeyValue", "value"), wire::kExtensionValueMax);
+  EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase"), wire::kStatusBroadPhaseMax);
+  EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase_why"), wire::kStatusBroadPhaseWhyMax);
+}
+
+TEST(Limits, CountsAreTheBoundsOfTheIdl) {
+  const auto count = [](int limit) { return static_cast<std::size_t>(limit); };
+  EXPECT_EQ(BoundOf("AgentStates", "states"), count(wire::kStatesPerChunkMax));
+  EXPECT_EQ(BoundOf("Clearance", "agents"), count(wire::kStatesPerChunkMax));
+  EXPECT_EQ(BoundOf("ServiceStatus", "simulators"), count(wire::kStatusSimulatorsMax));
+  EXPECT_EQ(BoundOf("ServiceStatus", "counters"), count(wire::kStatusCountersMax));
+  EXPECT_EQ(BoundOf("ServiceStatus", "left_out"), count(wire::kStatusLeftOutMax));
+}
+
+}  // namespace
+}  // namespace collision

@@ -1,0 +1,84 @@
+#include "server/process/logging.h"
+
+#include <gtest/gtest.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+namespace collision::server {
+namespace {
+
+using Lines = std::vector<std::string>;
+constexpr auto kInfo = spdlog::level::info;
+
+MatterLimiter::Time At(double seconds) {
+  return MatterLimiter::Time(std::chrono::nanoseconds(static_cast<std::int64_t>(seconds * 1e9)));
+}
+
+struct Recorded {
+  Lines lines;
+  MatterLimiter limiter{
+      [this](spdlog::level::level_enum, const std::string& line) { lines.push_back(line); }};
+};
+
+// Goal:   one line per matter and period; nothing is held back silently, and matters do not disturb
+// each other.
+TEST(MatterLimiter, TellsHowManyLinesItHeldBack) {
+  Recorded log;
+  for (int i = 0; i < 10; ++i) log.limiter.Write(At(0.1 * i), kInfo, "refused", std::to_string(i));
+  log.limiter.Write(At(0.95), kInfo, "late", "x");
+  EXPECT_EQ(log.lines, (Lines{"refused: 0", "late: x"}));
+  log.limiter.Write(At(1), kInfo, "refused", "10");
+  EXPECT_EQ(log.lines.back(), "refused: 10 (after 9 held back)");
+  log.limiter.Write(At(2), kInfo, "refused", "11");
+  EXPECT_EQ(log.lines.back(), "refused: 11");
+}
+
+// Goal:   the count of a matter that has ended is told too: with the next line of any other, or at
+// the end.
+TEST(MatterLimiter, TellsTheLastCount) {
+  Recorded log;
+  for (int i = 0; i < 3; ++i) log.limiter.Write(At(0), kInfo, "refused", "a");
+  log.limiter.Write(At(5), kInfo, "late", "b");
+  EXPECT_EQ(log.lines, (Lines{"refused: a", "refused: 2 held back", "late: b"}));
+  log.limiter.Write(At(5.5), kInfo, "refused", "c");
+  EXPECT_EQ(log.lines.size(), 3u) << "a told count is a line of the matter";
+  log.limiter.WriteAllCounts();
+  log.limiter.WriteAllCounts();
+  EXPECT_EQ(log.lines.back(), "refused: 1 held back");
+  EXPECT_EQ(log.lines.size(), 4u);
+}
+
+// Goal:   matters built from input by mistake cannot flood the log or grow memory without bound.
+// Method: 1,000 matters at once: 256 are known, the rest share one limit.
+TEST(MatterLimiter, BoundsTheNumberOfMatters) {
+  Recorded log;
+  for (int i = 0; i < 1000; ++i) log.limiter.Write(At(0), kInfo, std::to_string(i), "x");
+  EXPECT_EQ(log.lines.size(), 257u);
+  log.limiter.WriteAllCounts();
+  EXPECT_EQ(log.lines.back(), "other matters: 743 held back");
+}
+
+// Goal:   the process's log goes to the file, from the level on, and keeps what was there.
+TEST(Logging, WritesToTheFileFromTheLevelOn) {
+  const std::string path = testing::TempDir() + "logging_test.log";
+  std::ofstream(path) << "before\n";
+  StartLogging("warn", path);
+  Log(spdlog::level::info, "chatter", "unheard");
+  for (int i = 0; i < 3; ++i) Log(spdlog::level::warn, "refused", "NaN");
+  EndLogging();
+  StartLogging("info", "");
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  EXPECT_TRUE(text.str().starts_with("before\n"));
+  EXPECT_NE(text.str().find(" warning refused: NaN\n"), std::string::npos) << text.str();
+  EXPECT_NE(text.str().find("held back"), std::string::npos);
+  EXPECT_EQ(text.str().find("unheard"), std::string::npos);
+  std::remove(path.c_str());
+  EXPECT_THROW(StartLogging("info", "/dev/null/log"), spdlog::spdlog_ex);
+}
+
+}  // namespace
+}  // namespace collision::server

@@ -1,0 +1,125 @@
+// Goal:   the table and its clearances agree at every moment, and everything that a clearance
+//         sample says marks the sample when it changes.
+#include "server/world/agent_table.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "collision_core/base/check.h"
+
+namespace collision::server {
+namespace {
+
+using Chunks = std::set<std::uint32_t>;
+
+Instant At(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
+
+Agent Described(std::uint32_t generation) { return {generation, 1, motion::AgentDeclaration{}}; }
+
+detection::AgentClearance ClearanceOf(std::uint32_t slot, std::uint32_t generation,
+                                      Instant clear_until) {
+  return {.agent = {.simulator = 1, .slot = slot, .run = 1, .generation = generation},
+          .clear_until = clear_until};
+}
+
+/// With an admitted agent of generation 3 in slot 70, and nothing marked.
+detection::AgentTable Table() {
+  detection::AgentTable table;
+  table.Add(70, Described(3));
+  table.Admit(70, At(1), 10);
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
+  return table;
+}
+
+TEST(detection::AgentTable, EachChangeMarksItsChunkAndNoOther) {
+  detection::AgentTable table = Table();
+  table.Acknowledge(70, At(2), 11);
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
+  EXPECT_EQ(table.Find(70)->stamp(), At(2));
+  EXPECT_EQ(table.Find(70)->acknowledged_sequence(), 11u);
+  table.Revise(70, 2, {});
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
+  EXPECT_EQ(table.Find(70)->revision(), 2u);
+  table.SetClearance(ClearanceOf(70, 3, At(9)));
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
+  EXPECT_EQ(table.clearances().Find(70)->clear_until, At(9));
+  table.Remove(70);
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
+  EXPECT_EQ(table.clearances().Find(70), nullptr);
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{});
+  table.Validate();
+}
+
+TEST(detection::AgentTable, WhatASampleDoesNotSayMarksNothing) {
+  detection::AgentTable table = Table();
+  EXPECT_EQ(table.NoteState(70, 3, 12), StateOrder::kNew);
+  table.KeepWaiting(5, {.generation = 1, .sequence = 1, .state = {}});
+  table.Add(6, Described(1));
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{});
+  table.Validate();
+}
+
+TEST(detection::AgentTable, AClearanceOfAnAgentThatIsGoneIsIgnored) {
+  detection::AgentTable table = Table();
+  table.SetClearance(ClearanceOf(70, 2, At(9)));
+  table.SetClearance(ClearanceOf(71, 3, At(9)));
+  EXPECT_TRUE(table.clearances().all().empty());
+  EXPECT_EQ(table.clearances().TakeChanged(), Chunks{});
+}
+
+TEST(detection::AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
+  detection::AgentTable table = Table();
+  EXPECT_EQ(table.NoteState(70, 3, 5), StateOrder::kNew);
+  EXPECT_EQ(table.NoteState(70, 3, 5), StateOrder::kRepeated);
+  EXPECT_EQ(table.NoteState(70, 3, 4), StateOrder::kRepeated);
+  EXPECT_EQ(table.NoteState(70, 2, 6), StateOrder::kEnded);
+  EXPECT_EQ(table.NoteState(70, 4, 1), StateOrder::kNew);
+  table.Remove(70);
+  EXPECT_EQ(table.NoteState(70, 3, 9), StateOrder::kEnded);
+  EXPECT_TRUE(table.HasEnded(70, 3));
+  EXPECT_FALSE(table.HasEnded(70, 4));
+  EXPECT_FALSE(table.HasEnded(71, 0));
+}
+
+// Goal:   a removal ends the state that waits for the same generation, not the one of the next.
+TEST(detection::AgentTable, RemovalEndsWhatWaitsForTheSameGeneration) {
+  for (const std::uint32_t generation : {3u, 4u}) {
+    detection::AgentTable table = Table();
+    table.KeepWaiting(70, {.generation = generation, .sequence = 1, .state = {}});
+    table.Remove(70);
+    EXPECT_EQ(table.Waiting(70) != nullptr, generation == 4);
+    table.Validate();
+  }
+  detection::AgentTable table;
+  table.KeepWaiting(1, {.generation = 8, .sequence = 1, .state = {}});
+  table.RemoveWaiting(1);
+  EXPECT_EQ(table.Waiting(1), nullptr);
+  EXPECT_TRUE(table.HasEnded(1, 8));
+}
+
+TEST(detection::AgentTable, ANewRunMarksEveryUsedSlot) {
+  detection::AgentTable table = Table();
+  table.KeepWaiting(200, {.generation = 1, .sequence = 1, .state = {}});
+  EXPECT_THROW(table.Clear(), CheckFailure);
+  table.Remove(70);
+  table.Clear();
+  EXPECT_EQ(table.clearances().TakeChanged(), (Chunks{1, 3}));
+  EXPECT_EQ(table.NoteState(70, 1, 1), StateOrder::kNew);
+  table.Validate();
+}
+
+TEST(detection::AgentTable, PreconditionsAreChecked) {
+  detection::AgentTable table = Table();
+  EXPECT_THROW(table.Add(70, Described(4)), CheckFailure);
+  EXPECT_THROW(table.Remove(1), CheckFailure);
+  EXPECT_THROW(table.Admit(1, At(0), 1), CheckFailure);
+  EXPECT_THROW(table.Acknowledge(1, At(0), 1), CheckFailure);
+  EXPECT_THROW(table.Revise(1, 1, {}), CheckFailure);
+  EXPECT_THROW(static_cast<void>(table.TakeWaiting(70)), CheckFailure);
+  table.Remove(70);
+  EXPECT_THROW(table.Add(70, Described(3)), CheckFailure);
+}
+
+}  // namespace
+}  // namespace collision::server

@@ -1,0 +1,65 @@
+#include "server/world/simulator_time.h"
+
+#include <gtest/gtest.h>
+
+namespace collision::server {
+namespace {
+
+Instant At(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
+
+// Goal:   a clock comes into force once everything written before it has arrived, in order, and
+//         clocks that wait are few.
+TEST(SimulatorTime, AClockWaitsForWhatWasWrittenBeforeIt) {
+  SimulatorTime time;
+  time.Offer({.clock = At(1), .states_sequence = 2});
+  time.Offer({.clock = At(2), .states_sequence = 2, .descriptions_sequence = 1});
+  time.Offer({.clock = At(3), .states_sequence = 5});
+  EXPECT_FALSE(time.Take());
+  time.NoteStates(3);
+  EXPECT_TRUE(time.Take());
+  EXPECT_EQ(time.clock(), At(1));
+  time.NoteDescriptions(1);
+  EXPECT_TRUE(time.Take());
+  EXPECT_EQ(time.clock(), At(2));
+  for (int i = 4; i < 100; ++i) time.Offer({.clock = At(i), .states_sequence = 5});
+  EXPECT_EQ(time.pending(), kPendingClocksMax);
+  time.NoteStates(5);
+  EXPECT_TRUE(time.Take());
+  EXPECT_EQ(time.clock(), At(99));
+  EXPECT_EQ(time.first_clock(), At(1));
+}
+
+// Goal:   sequences may arrive in any order: an older one takes nothing back.
+TEST(SimulatorTime, TheHighestSequenceCounts) {
+  SimulatorTime time;
+  time.NoteStates(7);
+  time.NoteStates(2);
+  time.NoteDescriptions(4);
+  time.NoteDescriptions(3);
+  time.Offer({.clock = At(1), .states_sequence = 7, .descriptions_sequence = 4});
+  EXPECT_TRUE(time.Take());
+}
+
+TEST(SimulatorTime, AGrantIsNeverShortened) {
+  SimulatorTime time;
+  EXPECT_FALSE(time.granted());
+  EXPECT_TRUE(time.Grant(At(5)));
+  EXPECT_FALSE(time.Grant(At(4)));
+  EXPECT_FALSE(time.Grant(At(5)));
+  EXPECT_EQ(time.granted(), At(5));
+  EXPECT_TRUE(time.Grant(At(6)));
+}
+
+TEST(SimulatorTime, AClockOfTheWorldsKindMendsOneOfTheOther) {
+  SimulatorTime time;
+  time.NoteOtherKind();
+  EXPECT_TRUE(time.is_other_kind());
+  EXPECT_EQ(time.newest(), Instant::Always());
+  time.Offer({.clock = At(3), .lock_step = true});
+  EXPECT_FALSE(time.is_other_kind());
+  EXPECT_TRUE(time.lock_step());
+  EXPECT_EQ(time.newest(), At(3));
+}
+
+}  // namespace
+}  // namespace collision::server

@@ -1,0 +1,238 @@
+#include "server/world/world.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "server/config/config.h"
+
+namespace collision::server {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+v1::Config Simulated(std::uint32_t awaited, v1::Clock::OnSilent on_silent = v1::Clock::WAIT) {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_simulators_awaited(awaited);
+  config.mutable_clock()->set_on_silent_simulator(on_silent);
+  config.mutable_clock()->set_release_after_s(5);
+  config.set_simulators_max(3);
+  return CompleteConfig(config);
+}
+
+Instant At(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
+
+Simulator& Join(World* world, std::uint64_t id, std::uint64_t sender, std::int64_t clock_ns) {
+  const std::string name = "simulator " + std::to_string(id);
+  Simulator& simulator = *world->ClaimFor(id, sender, 1, &name).simulator;
+  simulator.time().Offer({.clock = At(clock_ns)});
+  EXPECT_TRUE(simulator.time().Take());
+  return simulator;
+}
+
+// Goal:   an id belongs to the first sender that named itself, until it is gone and a higher run
+//         comes.
+TEST(World, AnIdHasOneOwner) {
+  World world(Simulated(1));
+  const std::string name = "a";
+  EXPECT_TRUE(world.ClaimFor(1, 10, 5, &name).accepted);
+  EXPECT_TRUE(world.ClaimFor(1, 10, 5, nullptr).accepted);
+
+  const Claim other = world.ClaimFor(1, 11, 6, &name);
+  EXPECT_FALSE(other.accepted);
+  EXPECT_TRUE(other.may_wait);
+  EXPECT_EQ(other.reason, v1::REJECTED_ID_OWNED);
+  EXPECT_FALSE(world.ClaimFor(1, 11, 5, &name).may_wait);
+
+  world.Find(1)->SetAlive(false, 0);
+  EXPECT_EQ(world.ClaimFor(1, 11, 5, &name).reason, v1::REJECTED_ID_OWNED);
+  const Claim successor = world.ClaimFor(1, 11, 6, &name);
+  EXPECT_TRUE(successor.accepted);
+  EXPECT_TRUE(successor.new_run);
+}
+
+TEST(World, ALowerRunIsOldAndAHigherOneStartsAnew) {
+  World world(Simulated(1));
+  const std::string name = "a";
+  world.ClaimFor(1, 10, 5, &name);
+  EXPECT_EQ(world.ClaimFor(1, 10, 4, &name).reason, v1::REJECTED_OLD_RUN);
+  const Claim higher = world.ClaimFor(1, 10, 6, nullptr);
+  EXPECT_TRUE(higher.accepted);
+  EXPECT_TRUE(higher.new_run);
+  higher.simulator->agents().KeepWaiting(70, {});
+  higher.simulator->StartRun(10, 6);
+  EXPECT_EQ(higher.simulator->agents().Waiting(70), nullptr);
+  EXPECT_EQ(higher.simulator->run(), 6u);
+  EXPECT_EQ(higher.simulator->name(), "a");
+  EXPECT_TRUE(higher.simulator->agents().clearances().changed().contains(1));
+}
+
+// Goal:   a sender of states alone has proved nothing: a named message takes the id from it.
+TEST(World, OnlyANameProvesOwnership) {
+  World world(Simulated(1));
+  const std::string name = "a";
+  EXPECT_TRUE(world.ClaimFor(1, 66, 9, nullptr).accepted);
+  EXPECT_FALSE(world.ClaimFor(1, 10, 1, nullptr).accepted);
+  const Claim named = world.ClaimFor(1, 10, 1, &name);
+  EXPECT_TRUE(named.accepted);
+  EXPECT_TRUE(named.new_run);
+}
+
+TEST(World, HoldsNoMoreSimulatorsThanAllowedAndForgetsThoseThatLeft) {
+  World world(Simulated(1));
+  const std::string name = "a";
+  for (const std::uint64_t id : {1, 2, 3}) EXPECT_TRUE(world.ClaimFor(id, id, 1, &name).accepted);
+  const Claim refused = world.ClaimFor(4, 4, 1, &name);
+  EXPECT_EQ(refused.simulator, nullptr);
+  EXPECT_EQ(refused.reason, v1::REJECTED_TOO_MANY_SIMULATORS);
+  world.Find(2)->SetAlive(false, 0);
+  EXPECT_TRUE(world.ClaimFor(4, 4, 1, &name).accepted);
+  EXPECT_EQ(world.Find(2), nullptr);
+}
+
+// Goal:   now is the least clock once all that are awaited have spoken, and never goes back.
+TEST(World, SimulatedTimeIsTheLeastClock) {
+  World world(Simulated(2));
+  Simulator& a = Join(&world, 1, 10, 5);
+  world.UpdateSimulatedTime();
+  EXPECT_FALSE(world.started());
+  Join(&world, 2, 20, 3);
+  world.UpdateSimulatedTime();
+  EXPECT_TRUE(world.started());
+  EXPECT_EQ(world.now(), At(3));
+  Join(&world, 3, 30, 1);
+  world.UpdateSimulatedTime();
+  EXPECT_EQ(world.now(), At(3));
+  EXPECT_EQ(a.time().clock(), At(5));
+}
+
+// Goal:   a silent simulator holds the world unless it left properly, or is released after its
+// time.
+TEST(World, ASilentSimulatorHoldsTimeUntilReleased) {
+  for (const auto policy : {v1::Clock::WAIT, v1::Clock::RELEASE}) {
+    World world(Simulated(2, policy));
+    Join(&world, 1, 10, 7);
+    Simulator& silent = Join(&world, 2, 20, 3);
+    silent.agents().Add(0, {1, 1, {}});
+    world.SetReading({.monotonic_ns = kSecond});
+    silent.SetAlive(false, kSecond);
+    world.SetReading({.monotonic_ns = 6 * kSecond - 1});
+    EXPECT_TRUE(world.ReleaseSilent().empty());
+    EXPECT_EQ(world.WaitedFor(), std::vector<std::string>{"simulator 2"});
+    world.SetReading({.monotonic_ns = 6 * kSecond});
+    EXPECT_EQ(world.ReleaseSilent().size(), policy == v1::Clock::RELEASE ? 1u : 0u);
+    EXPECT_EQ(world.WaitedFor().size(), policy == v1::Clock::RELEASE ? 0u : 1u);
+    EXPECT_EQ(world.ReleaseSilent().size(), 0u);
+    world.UpdateSimulatedTime();
+    EXPECT_EQ(world.now(), At(policy == v1::Clock::RELEASE ? 7 : 3));
+    silent.agents().Remove(0);
+    EXPECT_TRUE(world.WaitedFor().empty());
+    world.UpdateSimulatedTime();
+    EXPECT_EQ(world.now(), At(7));
+  }
+}
+
+// Goal:   grants follow the least clearance, give at least Δt, at most grant_ahead_max, and are
+// never withdrawn.
+TEST(World, GrantsWhatIsClear) {
+  World world(Simulated(1));
+  Simulator& a = Join(&world, 1, 10, 0);
+  a.agents().Add(0, {1, 1, {}});
+  a.agents().Admit(0, At(0), 1);
+  const auto clear_until = [&world, &a](Instant instant) {
+    world.SetClearance({.agent = a.IdOf(0, 1), .clear_until = instant});
+    EXPECT_EQ(a.agents().clearances().TakeChanged(), std::set<std::uint32_t>{0});
+  };
+  clear_until(At(4 * kSecond));
+  world.UpdateSimulatedTime();
+  world.UpdateGrants();
+  EXPECT_EQ(a.time().granted(), At(4 * kSecond));
+  EXPECT_TRUE(a.agents().clearances().changed().contains(0));
+  EXPECT_EQ(world.EffectiveFrom(At(1)), At(4 * kSecond));
+
+  clear_until(At(0));
+  world.UpdateGrants();
+  EXPECT_EQ(a.time().granted(), At(4 * kSecond));
+  EXPECT_TRUE(a.agents().clearances().changed().empty()) << "a grant that stays is not told again";
+
+  a.time().Offer({.clock = At(4 * kSecond)});
+  EXPECT_TRUE(a.time().Take());
+  world.UpdateSimulatedTime();
+  world.UpdateGrants();
+  EXPECT_EQ(a.time().granted(), At(4'016'666'666));
+
+  a.agents().clearances().MarkGrantChanged();
+  clear_until(Instant::Never());
+  world.UpdateGrants();
+  EXPECT_EQ(a.time().granted(), At(14 * kSecond));
+  world.Validate();
+}
+
+// Goal:   stamps and clocks are allowed up to what is granted; before a grant, as far as any
+//         service may have granted; without lock-step, as far as grants ever reach.
+TEST(World, AllowsWhatIsGranted) {
+  World world(Simulated(1));
+  const std::string name = "a";
+  Simulator& a = *world.ClaimFor(1, 10, 1, &name).simulator;
+  EXPECT_EQ(world.RulesForClock(a).latest, Instant::Never());
+  Join(&world, 1, 10, 0);
+  EXPECT_EQ(world.RulesForState(a, true).latest, At(10 * kSecond));
+  a.time().Grant(At(2 * kSecond));
+  world.UpdateSimulatedTime();
+  a.time().Offer({.clock = At(0), .lock_step = true});
+  EXPECT_EQ(world.RulesForState(a, true).latest, At(2 * kSecond));
+  EXPECT_EQ(world.RulesForClock(a).earliest, At(0));
+  EXPECT_EQ(world.RulesForState(a, true).discontinuity_from, At(0));
+  a.time().Offer({.clock = At(0), .lock_step = false});
+  EXPECT_EQ(world.RulesForClock(a).latest, At(10 * kSecond));
+
+  Simulator& inherited = Join(&world, 2, 20, 7 * kSecond);
+  inherited.time().Offer({.clock = At(7 * kSecond), .lock_step = true});
+  inherited.time().Grant(At(1 * kSecond));
+  EXPECT_EQ(world.RulesForClock(inherited).latest, At(17 * kSecond));
+}
+
+// Goal:   without lock-step a simulator may run ahead by grant_ahead_max and no further, however
+//         often it moves its clock: ahead of now or, before there is one, of its first clock.
+TEST(World, NoSimulatorRunsFurtherAheadThanAllowed) {
+  World world(Simulated(2));
+  Simulator& a = Join(&world, 1, 10, 3 * kSecond);
+  const auto advance_to = [&world, &a](std::int64_t clock_ns) {
+    a.time().Offer({.clock = At(clock_ns)});
+    EXPECT_TRUE(a.time().Take());
+    world.UpdateSimulatedTime();
+    world.UpdateGrants();
+  };
+  advance_to(12 * kSecond);
+  EXPECT_EQ(world.RulesForClock(a).latest, At(13 * kSecond));
+
+  Simulator& b = Join(&world, 2, 20, 4 * kSecond);
+  advance_to(13 * kSecond);
+  ASSERT_EQ(world.now(), At(4 * kSecond));
+  EXPECT_EQ(world.RulesForClock(a).latest, At(14 * kSecond));
+  advance_to(14 * kSecond);
+  EXPECT_EQ(world.RulesForClock(a).latest, At(14 * kSecond));
+  EXPECT_EQ(world.RulesForState(a, true).latest, At(14 * kSecond));
+
+  b.time().Offer({.clock = At(6 * kSecond)});
+  EXPECT_TRUE(b.time().Take());
+  world.UpdateSimulatedTime();
+  EXPECT_EQ(world.RulesForClock(a).latest, At(16 * kSecond));
+}
+
+TEST(World, WallTimeFollowsTheMonotonicClock) {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_skew_max_s(0.002);
+  World world(CompleteConfig(config));
+  world.SetReading({.wall_ns = 1000 * kSecond, .monotonic_ns = 1 * kSecond});
+  EXPECT_EQ(world.now(), At(1000 * kSecond));
+  world.SetReading({.wall_ns = 5000 * kSecond, .monotonic_ns = 3 * kSecond});
+  EXPECT_EQ(world.now(), At(1002 * kSecond));
+  EXPECT_EQ(world.RulesForState(Simulator(1, 1, 1), true).latest, At(1002 * kSecond + 2'000'000));
+  EXPECT_EQ(world.EffectiveFrom(At(1)), world.now());
+}
+
+}  // namespace
+}  // namespace collision::server
