@@ -1,6 +1,6 @@
 // Goal:   what is not a mesh is refused with a sentence that helps; what can be repaired is,
-// counted. Method: one mistake at a time in a good mesh; polygons whose area and boundary are
-// known.
+//         counted.
+// Method: one mistake at a time in a good mesh; polygons whose area and boundary are known.
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,8 @@
 // Goal:   a tree over solids and triangles covers them, says nothing too deep, and a look through
-// it says what all pairs
-//         of elements say, at every budget.
+//         it says what all pairs of elements say, at every budget.
 // Method: compounds by the hundred, of all kinds of solids, with and without a surface, from one
-// solid to many; every
-//         pair of elements asked by itself (what is certain of such a pair is tested against exact
-//         numbers elsewhere).
+//         solid to many; every pair of elements asked by itself (what is certain of such a pair is
+//         tested against exact numbers elsewhere).
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "collision_core/narrow_phase/separation/element.h"
 #include "collision_core/narrow_phase/separation/refinement.h"

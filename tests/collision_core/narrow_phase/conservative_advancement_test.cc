@@ -1,10 +1,8 @@
 // Goal:   a sweep never says a time later than the first touch of any motion within the bounds, and
-// says it exactly
-//         where nothing is uncertain and nothing turns.
+//         says it exactly where nothing is uncertain and nothing turns.
 // Method: two bodies that move and turn with constant velocities, disturbed by as much as the sweep
-// was told, in long
-//         double; the distance of the surfaces just before the time that was said, and at many
-//         times before it.
+//         was told, in long double; the distance of the surfaces just before the time that was
+//         said, and at many times before it.
 #include "collision_core/narrow_phase/advancement/conservative_advancement.h"
 
 #include <gtest/gtest.h>

@@ -1,10 +1,8 @@
 // Goal:   contact that is over sooner than the tolerance asked for is found all the same, both
-// brackets as narrow as
-//         asked for; what passes by is free.
+//         brackets as narrow as asked for; what passes by is free.
 // Method: fast balls, cubes and bars with closed answers, in contact for a millisecond down to
-// nanoseconds, at
-//         tolerances up to the whole segment; also one brief contact after another, and after a
-//         near miss.
+//         nanoseconds, at tolerances up to the whole segment; also one brief contact after another,
+//         and after a near miss.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {

@@ -1,6 +1,7 @@
 // Goal:   a bracket is as narrow as the motion allows, costs no more than asked for, and says what
-// limited it. Method: closed cases with accelerations, budgets of every size, turns by the
-// thousand, contacts that only graze.
+//         limited it.
+// Method: closed cases with accelerations, budgets of every size, turns by the thousand, contacts
+//         that only graze.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {

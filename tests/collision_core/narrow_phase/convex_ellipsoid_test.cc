@@ -244,7 +244,7 @@ TEST(ConvexEllipsoid, ConcentricDepth) {
 }
 
 // Goal:   however near the two are, the bracket is narrow: the corners of a simplex alone would not
-// tell.
+//         tell.
 TEST(ConvexEllipsoid, NearContactIsKnownToTheLastBits) {
   int beside[3] = {0, 0, 0};
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

@@ -256,8 +256,7 @@ TEST(ConvexPairQuery, CoresAsTheyAreWritten) {
 }
 
 // Goal:   likewise of the closed forms and the quick search: what they tell of sets that are
-// exactly
-//         what they say, at a pose that is exact.
+//         exactly what they say, at a pose that is exact.
 TEST(ConvexPairQuery, SetsAsTheyAreWritten) {
   Random random(410);
   for (int i = 0; i < 600; ++i) {

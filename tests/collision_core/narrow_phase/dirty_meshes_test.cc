@@ -1,10 +1,9 @@
 // Goal:   whatever a mesh looks like, it gets a tree, and every question about it an answer that
-// holds, within the work
-//         allowed: brackets contain the true distance, what is said to be free is, what is said to
-//         touch does.
+//         holds, within the work allowed: brackets contain the true distance, what is said to be
+//         free is, what is said to touch does.
 // Method: dirty meshes by the thousand, built either way, in pairs and beside balls, at rest and in
-// motion, with
-//         budgets from nothing to plenty; against all pairs of triangles in long double.
+//         motion, with budgets from nothing to plenty; against all pairs of triangles in long
+//         double.
 #include "tests/support/dirty_meshes.h"
 
 #include "collision_core/narrow_phase/separation/separation_search.h"

@@ -88,8 +88,7 @@ TEST(HullGap, NotIdle) {
 }
 
 // Goal:   what either body may be turned by is counted: however it really is turned, the distance
-// is
-//         no less than was told.
+//         is no less than was told.
 // Method: rods side by side, B turned by some of the angle that was allowed.
 TEST(HullGap, HoldsForTurnedBodies) {
   Random random(412);
@@ -112,8 +111,7 @@ TEST(HullGap, HoldsForTurnedBodies) {
 }
 
 // Goal:   bodies within each other, interlocked, at one place, or far beyond single precision: no
-// gap
-//         is claimed that is not there, and no answer is not a number.
+//         gap is claimed that is not there, and no answer is not a number.
 TEST(HullGap, NoGap) {
   const BodySegment hollow = At(shape::Shape::Build(HollowCube(1, 0.9)));
   const BodySegment small = At(shape::Shape::Build(Cube(0.2)));

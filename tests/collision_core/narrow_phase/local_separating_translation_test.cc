@@ -1,6 +1,7 @@
 // Goal:   shifted by what is told, or by more, a body meets nothing of the other; a little before
-// it does. Method: closed cases of ground with a far summit; random bodies against their distance
-// at the shifted pose.
+//         it does.
+// Method: closed cases of ground with a far summit; random bodies against their distance at the
+//         shifted pose.
 #include "collision_core/narrow_phase/penetration/local_separating_translation.h"
 
 #include <gtest/gtest.h>

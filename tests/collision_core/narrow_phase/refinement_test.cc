@@ -1,8 +1,8 @@
 // Goal:   many searches share one budget: it is kept, nothing starves, what is left coarse is
-// named, brackets only
-//         become narrower, and with all the work they ask for they are those of looks alone.
+//         named, brackets only become narrower, and with all the work they ask for they are those
+//         of looks alone.
 // Method: random pairs of spiky surfaces, one of which can never be decided; both orders, beside
-// looks alone.
+//         looks alone.
 #include "collision_core/narrow_phase/separation/refinement.h"
 
 #include <gtest/gtest.h>
@@ -145,8 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Orders, RefinementTest,
                                          RefinementOrder::kLargestFirst));
 
 // Goal:   what the two orders are good for. Largest first has the least total width at every budget
-// but the smallest;
-//         level by level leaves no pair far behind.
+//         but the smallest; level by level leaves no pair far behind.
 // Method: the same pairs and budgets for both.
 TEST_F(RefinementOrders, LargestFirstIsTheNarrowerInTotal) {
   int narrower = 0, budgets = 0;

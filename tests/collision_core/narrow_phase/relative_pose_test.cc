@@ -1,14 +1,12 @@
 // Goal:   the relative pose of two bodies is off by no more than it says, in rounding and in
-// motion, and its bounds are
-//         not much wider than needed.
+//         motion, and its bounds are not much wider than needed.
 // Method: the same pose in long double, near and far from the origin; motions with the greatest
-// accelerations.
+//         accelerations.
 #include "collision_core/narrow_phase/pose/relative_pose.h"
 
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/pose/segment_pose.h"
-#include "tests/collision_core/narrow_phase/true_motion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/truth/true_motion.h"
 

@@ -1,6 +1,7 @@
 // Goal:   shifted by what is told, two bodies do not overlap; by noticeably less along the same way
-// they would. Method: random bodies in each other, against all vertices in long double; cubes that
-// rest in each other.
+//         they would.
+// Method: random bodies in each other, against all vertices in long double; cubes that rest in each
+//         other.
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
 
 #include <gtest/gtest.h>

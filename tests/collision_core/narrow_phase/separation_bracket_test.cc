@@ -1,5 +1,5 @@
-// Goal:   a bracket is evidence of contact or of a gap for all displacements up to the given one, and
-//         for none beyond.
+// Goal:   a bracket is evidence of contact or of a gap for all displacements up to the given one,
+//         and for none beyond.
 // Method: margins that are powers of two, displaced by exactly as much and by one bit more.
 #include "collision_core/narrow_phase/separation/separation_bracket.h"
 

@@ -1,10 +1,8 @@
 // Goal:   a search may stop and go on at any moment, overruns a budget by one step at most, and
-// gives the same bits
-//         whatever the pauses and whatever the processor's vectors; a decision is right; a bracket
-//         is as narrow as asked.
+//         gives the same bits whatever the pauses and whatever the processor's vectors; a decision
+//         is right; a bracket is as narrow as asked.
 // Method: random poses of surfaces of all kinds and sizes, near to and far from the reference
-// points, against brute
-//         force over all pairs of triangles in long double.
+//         points, against brute force over all pairs of triangles in long double.
 #include "collision_core/narrow_phase/separation/separation_search.h"
 
 #include <gtest/gtest.h>

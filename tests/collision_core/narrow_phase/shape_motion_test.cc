@@ -1,6 +1,6 @@
 // Goal:   advances through time by sweeps go as far as they can and no further: along turns, to and
-// from the middle
-//         between two states, over segments of no duration, and for solids inside of one another.
+//         from the middle between two states, over segments of no duration, and for solids inside
+//         of one another.
 // Method: contacts whose times are known exactly.
 #include "collision_core/narrow_phase/contact/shape_motion.h"
 

@@ -1,6 +1,5 @@
 // Goal:   solids that are round, alone and several together, meet when closed formulas say so; what
-// they are never
-//         touches late, whatever is around it.
+//         they are never touches late, whatever is around it.
 // Method: balls, capsules, ellipsoids and compounds in motions with closed answers.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 

@@ -1,9 +1,7 @@
 // Goal:   a point within both bodies bounds how far they overlap, however little that is, and no
-// point does where they
-//         are apart.
+//         point does where they are apart.
 // Method: cubes that overlap by 1e-15 to 1 in exact steps, posed anywhere; random points of random
-// bodies in long
-//         double.
+//         bodies in long double.
 #include "collision_core/narrow_phase/separation/solid_point.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Goal:   the kernels' bounds hold, are nearly tight, and are the same bits on every processor.
 // Method: random packs and blocks of all scales at random poses, far from the reference points as
-// well; exact rational
-//         arithmetic for the truth, each width of vectors beside the plain one.
+//         well; exact rational arithmetic for the truth, each width of vectors beside the plain
+//         one.
 #include "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,7 @@
 // Goal:   what bodies sweep in all their turns is never left too late, and tells at once of bodies
-// that turn about
-//         without meeting.
+//         that turn about without meeting.
 // Method: bodies that turn and move with constant velocities, in long double, at many instants up
-// to the time that was
-//         said; closed cases about one axis.
+//         to the time that was said; closed cases about one axis.
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
 
 #include <gtest/gtest.h>

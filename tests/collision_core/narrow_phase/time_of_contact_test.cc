@@ -1,7 +1,7 @@
 // Goal:   where a contact has a closed answer, the bracket contains it and is as narrow as asked
-// for: 1e-12 of it. Method: cubes, bars and balls whose motion is known exactly, about every axis,
-// at every size, swapped, far from the
-//         origin, told by states at either end; the answers in long double.
+//         for: 1e-12 of it.
+// Method: cubes, bars and balls whose motion is known exactly, about every axis, at every size,
+//         swapped, far from the origin, told by states at either end; the answers in long double.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {

@@ -1,6 +1,6 @@
 // Goal:   a body above a closed landscape does not pay for the large triangles below it.
 // Method: a plain over a floor that is a fan about its middle: every one of its balls holds the
-// body.
+//         body.
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/contact/shape_contact.h"
