@@ -66,8 +66,8 @@ std::vector<narrow_phase::RelativePose> Poses() {
   std::vector<narrow_phase::RelativePose> poses;
   for (int i = 0; i < 24; ++i) {
     narrow_phase::RelativePose& pose = poses.emplace_back();
-    pose.matrix = i % 2 == 0 ? Eigen::Matrix3d(about_z * about_x) : about_z;
-    pose.offset = Eigen::Vector3d(1.2 + 0.1 * i, 0.3, -0.2);
+    pose.R_AB = i % 2 == 0 ? Eigen::Matrix3d(about_z * about_x) : about_z;
+    pose.p_AB = Eigen::Vector3d(1.2 + 0.1 * i, 0.3, -0.2);
   }
   return poses;
 }
@@ -77,7 +77,7 @@ std::uint64_t LookOnce(const narrow_phase::BodyTree& a, const narrow_phase::Body
   std::uint64_t spent = 0;
   for (const narrow_phase::RelativePose& pose : poses) {
     WorkBudget work(kBudget);
-    QuerySeparation(a, b, pose, narrow_phase::Goal::kDecision, &work);
+    narrow_phase::QuerySeparation({a, b, pose}, narrow_phase::Goal::kDecision, &work);
     spent += work.spent();
   }
   return spent;

@@ -65,8 +65,9 @@ TEST(BspTree, SaysWhatIsCertain) {
         const Eigen::Vector3d offset = random.Uniform(0, 4) * random.UnitVector();
         WorkBudget work(100'000'000);
         const narrow_phase::Verdict verdict =
-            DecideAt(narrow_phase::BodyTree(body_a), narrow_phase::BodyTree(body_b),
-                     narrow_phase::PoseOf(rotation, offset), &work)
+            narrow_phase::DecideAt({narrow_phase::BodyTree(body_a), narrow_phase::BodyTree(body_b),
+                                    narrow_phase::PoseOf(rotation, offset)},
+                                   &work)
                 .verdict;
         if (verdict == narrow_phase::Verdict::kUndecided) continue;
         const bool touches = verdict == narrow_phase::Verdict::kTouching;

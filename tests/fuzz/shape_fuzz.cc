@@ -42,8 +42,8 @@ void LookWith(const std::shared_ptr<const shape::Shape>& shape, FuzzedData* data
   WorkBudget work(kUnits);
   const narrow_phase::RelativePose pose = narrow_phase::PoseOf(turn.toRotationMatrix(), offset);
   const narrow_phase::SeparationBracket look =
-      QuerySeparation(narrow_phase::BodyTree(a), narrow_phase::BodyTree(b), pose,
-                      narrow_phase::Goal::kNearest, &work);
+      narrow_phase::QuerySeparation({narrow_phase::BodyTree(a), narrow_phase::BodyTree(b), pose},
+                                    narrow_phase::Goal::kNearest, &work);
   Require(!std::isnan(look.lower) && !std::isnan(look.upper), "no number: ", look.lower, " ",
           look.upper);
   Require(work.spent() <= kUnits + kBatchUnits, "spent ", work.spent());

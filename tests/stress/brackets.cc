@@ -74,7 +74,7 @@ double UnitsOf(const shape::Shape& a, const shape::Shape& b,
                const narrow_phase::RelativePose& pose) {
   std::vector<Vector3d> of_a, of_b;
   double least =
-      std::min(EdgesOf(a, Eigen::Matrix3d::Identity(), &of_a), EdgesOf(b, pose.matrix, &of_b));
+      std::min(EdgesOf(a, Eigen::Matrix3d::Identity(), &of_a), EdgesOf(b, pose.R_AB, &of_b));
   for (const Vector3d& e : of_a) {
     for (const Vector3d& f : of_b) {
       const double sine = SineOf(e, f);
@@ -95,10 +95,11 @@ void JudgeBracket(const narrow_phase::BodySegment& first, const narrow_phase::Bo
                   const narrow_phase::RelativePose& pose, Outcome* outcome) {
   const narrow_phase::BodyTree a(first), b(second);
   WorkBudget work(kUnits), again(kUnits);
-  const Look look = BracketSeparation(a, b, pose, 0, 0, &work);
-  const narrow_phase::Decision decision = DecideAt(a, b, pose, &again);
+  const narrow_phase::SeparationBracket look =
+      narrow_phase::BracketSeparation({a, b, pose}, {0, 0}, &work);
+  const narrow_phase::Decision decision = narrow_phase::DecideAt({a, b, pose}, &again);
   const Exact square = SquareOfSurfaces(first.shape->mesh(), second.shape->mesh(),
-                                        PlacementOf(pose.matrix, pose.offset));
+                                        PlacementOf(pose.R_AB, pose.p_AB));
   outcome->Add("poses", 1);
   outcome->Expect(!std::isnan(look.lower) && !std::isnan(look.upper), "not a number");
   outcome->Expect(work.spent() <= kUnits + kBatchUnits && again.spent() <= kUnits + kBatchUnits,
@@ -113,7 +114,7 @@ void JudgeBracket(const narrow_phase::BodySegment& first, const narrow_phase::Bo
   }
   outcome->Expect(decision.verdict != narrow_phase::Verdict::kTouching, "apart is told as contact");
   outcome->Expect(IsAtLeast(look.upper, square, 0), "the distance's upper end is below the truth");
-  const double unit = 0x1p-52 * (pose.offset.norm() + a.reach() + b.reach());
+  const double unit = 0x1p-52 * (pose.p_AB.norm() + a.reach() + b.reach());
   const double width = (look.upper - std::max(0.0, look.lower)) / unit;
   const double allowed = UnitsOf(*first.shape, *second.shape, pose);
   outcome->Greatest("width_units", width);

@@ -9,7 +9,7 @@ namespace collision::geometry {
 /// g_k, |s_k| <= 1, over the up to six half edges g_k of both: a zonotope, each of whose faces has
 /// the normal g_i × g_j of two of them, fifteen at most. The least of the gaps along them is the
 /// depth, from both sides, without a search. Edges that are parallel but for rounding have no
-/// normal that can be trusted: then nothing is claimed, and the polytope (convex_polytope.h)
+/// normal that can be trusted: then nothing is claimed, and the polytope (epa.h)
 /// answers.
 inline bool IsZonotope(const ConvexSet& set) {
   return set.IsThin() || set.core == ConvexCore::kBox;

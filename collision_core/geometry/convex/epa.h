@@ -5,15 +5,14 @@
 
 namespace collision::geometry {
 
-/// The most faces of the polytope, and the most support points: a smooth difference would need ever
-/// more. When they are used up, the bracket stays as wide as it is.
-inline constexpr int kEpaFacesMax = 256;
+/// The most support points: a smooth difference would need ever more. When they, or the polytope's
+/// faces (kEpaFacesMax), are used up, the bracket stays as wide as it is.
 inline constexpr std::uint32_t kEpaStepsMax = 128;
 
 /// When the growth may end: as soon as one of the conditions holds.
 struct EpaGoal {
-  double share = 0;  ///< Relative tolerance between the certain and the possible depth.
-  double width = 0;  ///< Absolute tolerance [m].
+  double relative_tolerance = 0;  ///< Relative tolerance between the certain and the possible depth.
+  double absolute_tolerance = 0;  ///< Absolute tolerance [m].
   double inside = numeric::kInfinity;  ///< Stop when they are known to overlap by this [m].
   std::uint32_t steps = kEpaStepsMax;
 };

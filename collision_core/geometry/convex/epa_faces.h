@@ -1,9 +1,12 @@
 // The faces of a polytope that grows point by point.
 #pragma once
 
-#include "collision_core/geometry/convex/epa.h"
+#include "collision_core/geometry/convex/gjk.h"
 
 namespace collision::geometry {
+
+/// The most faces of the polytope.
+inline constexpr int kEpaFacesMax = 256;
 
 /// Triangles, each with its neighbours, that form a closed oriented surface at all times.
 class PolytopeFaces {

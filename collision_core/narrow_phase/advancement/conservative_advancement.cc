@@ -8,6 +8,7 @@
 #include "collision_core/geometry/triangle/triangle_directions.h"
 #include "collision_core/narrow_phase/advancement/swept_convex_pair.h"
 #include "collision_core/narrow_phase/pose/boxed_triangle.h"
+#include "collision_core/narrow_phase/pose/node_pair.h"
 #include "collision_core/narrow_phase/separation/element.h"
 #include "collision_core/numeric/first_root.h"
 
@@ -52,15 +53,15 @@ double BallsTouch(const Eigen::Vector3d& d, const Eigen::Vector3d& w, const Reac
 
 class Search {
  public:
-  Search(const BodyTree& a, const BodyTree& b, const SweptPose& swept, double duration,
-         WorkBudget* work, const SweepDetail& detail)
-      : a_(a),
-        b_(b),
-        swept_(swept),
+  Search(const SweptPair& pair, double duration, WorkBudget* work, const SweepDetail& detail)
+      : a_(pair.a),
+        b_(pair.b),
+        swept_(pair.swept),
         duration_(duration),
         detail_(detail),
         until_(duration),
         work_(*work) {
+    const auto& [a, b, swept] = pair;
     const RelativePose& pose = swept.pose;
     // All positions h seconds on are sums of a few of these, and of h times those; compare
     // RoundingOf() in separation.cc. What is lost grows with h, so that soon after the start the
@@ -68,7 +69,7 @@ class Search {
     // is seen from B's reference point only after both were posed, each with its rounding. What is
     // not known of the motion needs no share: where it is more than the bodies are apart, they may
     // touch anyway.
-    const double offset = pose.offset.cwiseAbs().sum();
+    const double offset = pose.p_AB.cwiseAbs().sum();
     const double extent = a.reach() + b.reach() + offset;
     const double pace = swept.velocity.cwiseAbs().sum() +
                         a.turning_reach() * swept.spin_A.cwiseAbs().sum() +
@@ -84,7 +85,7 @@ class Search {
 
   ImpactBound Run() {
     ImpactBound found;
-    Offer(0, 0, 0);
+    Offer({0, 0}, 0);
     while (!heap_.empty()) {
       const Candidate front = heap_.front();
       found.seconds = front.time;
@@ -148,13 +149,10 @@ class Search {
       Candidate resolved = pair;
       resolved.kind = Kind::kResolved;
       Push(resolved);
-    } else if (a.children == 0 && b.children == 0) {
-      OfferTriangles(pair, a, b);
-    } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
-      for (std::uint32_t i = 0; i < a.children; ++i) Offer(a.first_child + i, pair.b, pair.time);
-    } else {
-      for (std::uint32_t i = 0; i < b.children; ++i) Offer(pair.a, b.first_child + i, pair.time);
+      return;
     }
+    const auto offer = [&](NodePair children) { Offer(children, pair.time); };
+    if (!OpenLarger(a_, b_, {pair.a, pair.b}, offer)) OfferTriangles(pair, a, b);
   }
 
   // Triangles are taken whole: each may stand in several leaves, with a part of it in each, and two
@@ -172,7 +170,7 @@ class Search {
                                   : BoxedTriangle(t, CornersOf(*b_.shape(), t, swept_.pose)));
       }
     } else {
-      boxes_of_b_.push_back(BoxOfBall(0, swept_.pose.offset, b_.reach()));
+      boxes_of_b_.push_back(BoxOfBall(0, swept_.pose.p_AB, b_.reach()));
     }
     // Where the work ends before all were offered the pair stays to be opened.
     const auto offer = [&](const BoxedTriangle& of_a) {
@@ -226,14 +224,14 @@ class Search {
 
   Eigen::Vector3d VelocityOfA(const Eigen::Vector3d& x) const { return swept_.spin_A.cross(x); }
   Eigen::Vector3d VelocityOfB(const Eigen::Vector3d& y) const {
-    return swept_.velocity + swept_.spin_B.cross(y - swept_.pose.offset);
+    return swept_.velocity + swept_.spin_B.cross(y - swept_.pose.p_AB);
   }
 
   // `parent`: before, not even the parents touch.
-  void Offer(std::uint32_t index_a, std::uint32_t index_b, double parent) {
+  void Offer(NodePair nodes, double parent) {
     work_.Spend(1);
-    const sphere_tree::SphereNode& a = a_.node(index_a);
-    const sphere_tree::SphereNode& b = b_.node(index_b);
+    const sphere_tree::SphereNode& a = a_.node(nodes.a);
+    const sphere_tree::SphereNode& b = b_.node(nodes.b);
     const Eigen::Vector3d c_b = swept_.pose.ToA(b.centre);
     const Reach reach = ReachOf(a.radius + b.radius, a.centre.norm(), b.centre.norm());
     const double time = BallsTouch(c_b - a.centre, VelocityOfB(c_b) - VelocityOfA(a.centre), reach,
@@ -243,7 +241,7 @@ class Search {
         !(time > 0) && (c_b - a.centre).norm() + a.signed_distance + b.signed_distance < 0;
     const Kind kind = within ? Kind::kResolved : Kind::kNodes;
     const double later = within || time > until_ ? time : std::max(time, WideLeafTouch(a, b, c_b));
-    Push({std::max(parent, later), kind, 0, index_a, index_b, 0, 0, a.radius + b.radius});
+    Push({std::max(parent, later), kind, 0, nodes.a, nodes.b, 0, 0, a.radius + b.radius});
   }
 
   // The ball about a leaf of large triangles holds much else: beside a small ball they are asked
@@ -268,7 +266,7 @@ class Search {
 
   double FarOfB(const geometry::TrianglePoints& corners) const {
     double far = 0;
-    for (const auto& y : corners) far = std::max(far, (y - swept_.pose.offset).norm());
+    for (const auto& y : corners) far = std::max(far, (y - swept_.pose.p_AB).norm());
     return far;
   }
 
@@ -371,7 +369,7 @@ class Search {
     RelativePose pose = swept_.pose;
     pose.chord_B = 0;
     const Eigen::Vector3d spin = b_.shape() ? swept_.spin_B : Eigen::Vector3d::Zero();
-    return {PosedB(SetOf(b_, element), pose), {swept_.velocity, spin, pose.offset}};
+    return {PosedB(SetOf(b_, element), pose), {swept_.velocity, spin, pose.p_AB}};
   }
 
   static double FarOf(const BodyTree& surface, std::uint32_t element) {
@@ -398,7 +396,7 @@ class Search {
     const auto a = OfA(corners);
     const auto ball = OfB(std::array{x});
     const Eigen::Vector3d way = ball.At(h)[0] - geometry::DistanceOf(ball.At(h)[0], a.At(h)).b;
-    const double far_b = (x - swept_.pose.offset).norm();
+    const double far_b = (x - swept_.pose.p_AB).norm();
     return Further(way, a, ball, ReachOf(radius, FarOfA(corners), far_b), h);
   }
 
@@ -409,7 +407,7 @@ class Search {
       return BallFurther(Eigen::Vector3d(0, 0, 0), a_.reach(), corners, h);
     }
     const geometry::TrianglePoints corners_a = CornersOf(*a_.shape(), of_a);
-    if (!b_.shape()) return BallFurther(corners_a, swept_.pose.offset, b_.reach(), h);
+    if (!b_.shape()) return BallFurther(corners_a, swept_.pose.p_AB, b_.reach(), h);
     const auto a = OfA(corners_a);
     const geometry::TrianglePoints corners_b = CornersOf(*b_.shape(), of_b, swept_.pose);
     const auto b = OfB(corners_b);
@@ -444,9 +442,9 @@ class Search {
 
 }  // namespace
 
-ImpactBound LowerBoundOfImpact(const BodyTree& a, const BodyTree& b, const SweptPose& swept,
-                               double duration, WorkBudget* work, const SweepDetail& detail) {
-  return Search(a, b, swept, duration, work, detail).Run();
+ImpactBound LowerBoundOfImpact(const SweptPair& pair, double duration, WorkBudget* work,
+                               const SweepDetail& detail) {
+  return Search(pair, duration, work, detail).Run();
 }
 
 }  // namespace collision::narrow_phase

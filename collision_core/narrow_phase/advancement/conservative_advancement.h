@@ -18,28 +18,10 @@
 // between two states, where the other bounds become the narrower ones.
 #pragma once
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/advancement/swept_pose.h"
 
 namespace collision::narrow_phase {
-
-/// Two bodies from an instant on, h seconds later (or, where time runs backward, earlier), seen in
-/// the axes of A's body at that instant and from A's reference point: a point x of B that is at
-/// y = pose.ToA(x) moves with velocity + spin_B × (y − offset), a point x of A with spin_A × x.
-/// Turning with constant ω a point leaves its tangent by at most ½ |ω|² |x| h².
-struct SweptPose {
-  RelativePose pose;
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< Velocity of B's reference point [m/s].
-  Eigen::Vector3d spin_A = Eigen::Vector3d::Zero();    ///< [rad/s]
-  Eigen::Vector3d spin_B = Eigen::Vector3d::Zero();
-  double velocity_error = 0;  ///< Error of any point's velocity as computed from these [m/s].
-
-  /// c0 + c1 h + c2 h²; coefficients rounded up.
-  struct Growth {
-    double c0 = 0, c1 = 0, c2 = 0;
-  };
-  Growth translation;           ///< Uncertainty of translation [m].
-  Growth turning_A, turning_B;  ///< Uncertainty of turning and of the tangents [m per m of |x|].
-};
 
 /// How far a search refines a time before it returns it.
 struct SweepDetail {
@@ -62,7 +44,7 @@ struct ImpactBound {
 /// Best-first over pairs of nodes by the time at which their moving balls may touch first; two
 /// leaves by their triangles. A pair of balls or of triangles is convex, so that for each the
 /// direction between the two may be used: bodies that pass by each other cost little.
-ImpactBound LowerBoundOfImpact(const BodyTree& a, const BodyTree& b, const SweptPose& swept,
-                               double duration, WorkBudget* work, const SweepDetail& detail = {});
+ImpactBound LowerBoundOfImpact(const SweptPair& pair, double duration, WorkBudget* work,
+                               const SweepDetail& detail = {});
 
 }  // namespace collision::narrow_phase

@@ -6,7 +6,8 @@
 // gone: two boxes that meet face on are done in one step.
 #pragma once
 
-#include "collision_core/narrow_phase/advancement/conservative_advancement.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/advancement/swept_pose.h"
 #include "collision_core/narrow_phase/convex_pair/convex_front.h"
 
 namespace collision::narrow_phase {

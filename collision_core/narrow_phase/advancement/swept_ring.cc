@@ -16,6 +16,7 @@
 #include <algorithm>
 
 #include "collision_core/narrow_phase/pose/boxed_triangle.h"
+#include "collision_core/narrow_phase/pose/node_pair.h"
 #include "collision_core/numeric/first_root.h"
 
 namespace collision::narrow_phase {
@@ -169,26 +170,26 @@ class Axis {
 
 class Search {
  public:
-  Search(const BodyTree& a, const BodyTree& b, const SweptPose& swept, double duration,
-         WorkBudget* work)
-      : a_(a),
-        b_(b),
-        swept_(swept),
-        axis_a_(swept.spin_A),
-        axis_b_(swept.spin_B),
+  Search(const SweptPair& pair, double duration, WorkBudget* work)
+      : a_(pair.a),
+        b_(pair.b),
+        swept_(pair.swept),
+        axis_a_(pair.swept.spin_A),
+        axis_b_(pair.swept.spin_B),
         duration_(duration),
         work_(*work) {
+    const auto& [a, b, swept] = pair;
     const RelativePose& pose = swept.pose;
     const double reach = a.reach() + b.reach();
     speed_ = swept.velocity.norm() * kGrow + swept.velocity_error;
-    // As for tangents (swept_pair.cc); and the axes are off by what turned them.
+    // As for tangents (conservative_advancement.cc); and the axes are off by what turned them.
     slack_ = numeric::AddUp(
-        numeric::MultiplyUp(0x1p-46, reach + pose.offset.cwiseAbs().sum() + duration * speed_),
+        numeric::MultiplyUp(0x1p-46, reach + pose.p_AB.cwiseAbs().sum() + duration * speed_),
         numeric::AddUp(pose.offset_error, numeric::MultiplyUp(3 * pose.matrix_error, reach)));
   }
 
   double Run() {
-    OfferNodes(0, 0, 0);
+    OfferNodes({0, 0}, 0);
     while (!heap_.empty()) {
       const Candidate front = heap_.front();
       if (front.resolved || work_.exhausted()) return front.time;
@@ -212,25 +213,16 @@ class Search {
   };
 
   void Open(const Candidate& pair) {
-    const sphere_tree::SphereNode &a = a_.node(pair.a), &b = b_.node(pair.b);
-    if (a.children == 0 && b.children == 0) {
-      OfferParts(pair);
-    } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
-      for (std::uint32_t i = 0; i < a.children; ++i) {
-        OfferNodes(a.first_child + i, pair.b, pair.time);
-      }
-    } else {
-      for (std::uint32_t i = 0; i < b.children; ++i) {
-        OfferNodes(pair.a, b.first_child + i, pair.time);
-      }
-    }
+    const auto offer = [&](NodePair children) { OfferNodes(children, pair.time); };
+    if (!OpenLarger(a_, b_, {pair.a, pair.b}, offer)) OfferParts(pair);
   }
 
-  void OfferNodes(std::uint32_t a, std::uint32_t b, double parent) {
+  void OfferNodes(NodePair nodes, double parent) {
     work_.Spend(1);
-    const Part of_a = Part::Ball(a_.node(a).centre, a_.node(a).radius);
-    const Part of_b = Part::Ball(SeenFromB(b_.node(b).centre), b_.node(b).radius);
-    Push({std::max(parent, LowerBoundOfImpact(of_a, of_b)), a, b, false});
+    const sphere_tree::SphereNode &a = a_.node(nodes.a), &b = b_.node(nodes.b);
+    const Part of_a = Part::Ball(a.centre, a.radius);
+    const Part of_b = Part::Ball(SeenFromB(b.centre), b.radius);
+    Push({std::max(parent, LowerBoundOfImpact(of_a, of_b)), nodes.a, nodes.b, false});
   }
 
   // Two leaves are resolved by the earliest of their triangles; where the work ends before all were
@@ -248,9 +240,7 @@ class Search {
     Push({std::max(pair.time, earliest), pair.a, pair.b, true});
   }
 
-  Vector3d SeenFromB(const Vector3d& x_B) const {
-    return swept_.pose.ToA(x_B) - swept_.pose.offset;
-  }
+  Vector3d SeenFromB(const Vector3d& x_B) const { return swept_.pose.ToA(x_B) - swept_.pose.p_AB; }
 
   std::vector<Part> PartsOf(const BodyTree& surface, std::uint32_t node, bool is_b) const {
     if (surface.shape() == nullptr) return {Part::Ball(Vector3d::Zero(), surface.reach())};
@@ -301,7 +291,7 @@ class Search {
     const double c2 = std::max(0.0, u.c2 + ta.c2 * far_a + tb.c2 * far_b);
     double h = 0;
     for (int step = 0; step < kSteps; ++step) {
-      const Vector3d offset = swept_.pose.offset + h * swept_.velocity;
+      const Vector3d offset = swept_.pose.p_AB + h * swept_.velocity;
       const double gap = Distance(a, b, ring_a, ring_b, offset) - (c0 + h * (c1 + h * c2));
       const double further = numeric::FirstRoot(gap, speed_ + c1 + 2 * h * c2, c2);
       h += further;
@@ -323,9 +313,8 @@ class Search {
 
 }  // namespace
 
-double SweptRingBound(const BodyTree& a, const BodyTree& b, const SweptPose& swept, double duration,
-                      WorkBudget* work) {
-  return Search(a, b, swept, duration, work).Run();
+double SweptRingBound(const SweptPair& pair, double duration, WorkBudget* work) {
+  return Search(pair, duration, work).Run();
 }
 
 }  // namespace collision::narrow_phase

@@ -8,15 +8,15 @@
 // query may cost as much again as the sweeps since it was made last.
 #pragma once
 
-#include "collision_core/narrow_phase/advancement/conservative_advancement.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/advancement/swept_pose.h"
 
 namespace collision::narrow_phase {
 
-/// A lower bound on the time at which the two may touch, as of LowerBoundOfImpact(), but with each body that
-/// turns replaced by everything that it sweeps in a full turn about its axis: the times do not
-/// depend on how often it turns. `swept.turning_A` and `turning_B` are without the tangents'
+/// A lower bound on the time at which the two may touch, as of LowerBoundOfImpact(), but with each
+/// body that turns replaced by everything that it sweeps in a full turn about its axis: the times
+/// do not depend on how often it turns. `swept.turning_A` and `turning_B` are without the tangents'
 /// deviation. +infinity: not within the duration, its end included.
-double SweptRingBound(const BodyTree& a, const BodyTree& b, const SweptPose& swept, double duration,
-                      WorkBudget* work);
+double SweptRingBound(const SweptPair& pair, double duration, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

@@ -193,9 +193,9 @@ Ends EndsOf(const motion::MovingBall& a, const motion::MovingBall& b, double dur
 
 }  // namespace
 
-// The margin covers what is lost here and what the intervals of EvaluateBallSegment() are wider than the
-// truth: fewer than 32 operations each, none of them off by more than 2^-51 of the sum of all
-// terms.
+// The margin covers what is lost here and what the intervals of EvaluateBallSegment() are wider
+// than the truth: fewer than 32 operations each, none of them off by more than 2^-51 of the sum of
+// all terms.
 //
 // With it, (1) Depth().lower >= 0 at both ends for one choice, so that ContactOf() gives it all of
 // the segment, and so does the union; (2) |Δc| <= r + u at both ends for every choice, so that the

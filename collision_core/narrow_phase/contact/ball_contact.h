@@ -17,19 +17,10 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
-#include "collision_core/motion/space_time_bound.h"
+#include "collision_core/narrow_phase/pose/ball_segment.h"
 
 namespace collision::narrow_phase {
-
-/// What is certain about one ball over [base, base + duration]: every bound in `bounds` holds at
-/// every instant of it (forward from the last known state, backward from the next one). Empty:
-/// nothing is known.
-struct BallSegment {
-  double radius = 0;
-  std::vector<motion::MovingBall> bounds;
-};
 
 /// Seconds after base; every claim holds for all motions within the bounds.
 struct SegmentResult {
@@ -51,8 +42,8 @@ struct SegmentResult {
 /// its end hold at the exact end too. Works with duration 0 (an instant).
 SegmentResult EvaluateBallSegment(const BallSegment& a, const BallSegment& b, double duration);
 
-/// The verdict of EvaluateBallSegment(), bit for bit, where a few operations in plain doubles show that
-/// the two balls touch throughout; else nullopt. Balls that overlap deeply for long are judged
+/// The verdict of EvaluateBallSegment(), bit for bit, where a few operations in plain doubles show
+/// that the two balls touch throughout; else nullopt. Balls that overlap deeply for long are judged
 /// again and again: touching is certain at both ends and no choice of bounds starts free, which is
 /// seen here with a margin derived beside the code, at a tenth of the cost.
 std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSegment& b,

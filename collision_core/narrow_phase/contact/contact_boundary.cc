@@ -29,7 +29,7 @@ constexpr double kThoroughShare = 1e-6;
 constexpr double kIslandShare = 0.0625;
 
 // What may show contact is all tried at first, then the best of it only.
-constexpr std::size_t kCluesKept = 4;
+constexpr std::size_t kCandidatesKept = 4;
 
 // To ask what bodies sweep in all their turns costs as much as the sweeps since it was last asked,
 // and this at least.
@@ -38,16 +38,13 @@ constexpr std::uint64_t kRevolveUnits = 4096;
 // A contact that begins deepens, so that it lasts about twice as long at each step.
 constexpr int kLastingSteps = 64;
 
-// What is not known of the motion counts where it is more than rounding, as a share of the size.
-constexpr double kRoundingShare = 1e-12;
-
 // No two orientations differ by a longer chord.
 constexpr double kAnyWay = 2;
 
 }  // namespace
 
 double ContactBoundary::Moved(double at, double seconds) const {
-  return backward_ ? numeric::AddUp(at, -seconds) : numeric::AddDown(at, seconds);
+  return is_backward() ? numeric::AddUp(at, -seconds) : numeric::AddDown(at, seconds);
 }
 
 double ContactBoundary::ToleranceAt(double at) const {
@@ -68,7 +65,7 @@ bool ContactBoundary::Exhausted() {
 double ContactBoundary::RevolvedFrom(double at, double left, double span, Turns* turns) const {
   if (++turns->sweeps < turns->wait) return 0;
   const std::uint64_t units = std::max(kRevolveUnits, work_.spent() - turns->spent);
-  const double free = motion_.RevolvedFree(at, left, backward_, duration_, units);
+  const double free = motion_.RevolvedFree(at, left, direction_, duration_, units);
   const bool farther = free > span;
   turns->wait = farther ? 1 : 2 * turns->wait;
   turns->sweeps = 0;
@@ -81,15 +78,16 @@ double ContactBoundary::FreeFrom(double at) {
   turns.spent = work_.spent();
   bool asked_inside = false;
   while (!Exhausted()) {
-    const double left = backward_ ? at : numeric::AddUp(duration_, -at);
-    const double span = motion_.SpanFrom(at, left, backward_, duration_);
+    const double left = is_backward() ? at : numeric::AddUp(duration_, -at);
+    const double span = motion_.SpanFrom(at, left, direction_, duration_);
     const double revolved = asked_inside ? RevolvedFrom(at, left, span, &turns) : 0;
-    if (revolved == numeric::kInfinity) return backward_ ? -numeric::kInfinity : numeric::kInfinity;
+    if (revolved == numeric::kInfinity)
+      return is_backward() ? -numeric::kInfinity : numeric::kInfinity;
     if (revolved > 0) {
       at = Moved(at, revolved);
       continue;
     }
-    const ShapeMotion::Sweep sweep = motion_.SweepFrom(at, span, backward_, detail_);
+    const ShapeMotion::Sweep sweep = motion_.SweepFrom(at, span, direction_, detail_);
     if (!sweep.known) return at;
     touch_ = sweep.touch;
     any_way_ = std::max(sweep.pose.chord_A, sweep.pose.chord_B) >= kAnyWay;
@@ -100,7 +98,7 @@ double ContactBoundary::FreeFrom(double at) {
       if (nested_) return at;
     }
     const bool through = touch_.seconds > span;
-    if (through && span >= left) return backward_ ? -numeric::kInfinity : numeric::kInfinity;
+    if (through && span >= left) return is_backward() ? -numeric::kInfinity : numeric::kInfinity;
     const double next = Moved(at, std::min(span, touch_.seconds));
     const double advanced = std::abs(next - at);
     at = next;
@@ -115,46 +113,47 @@ double ContactBoundary::FreeFrom(double at) {
 bool ContactBoundary::Note(const ShapeMotion::PoseQuery& instance) {
   if (!instance.choice.certain) return false;
   nearest_ = std::min(
-      nearest_, std::max(0.0, numeric::AddUp(instance.look.upper, instance.pose.translation)));
+      nearest_, std::max(0.0, numeric::AddUp(instance.bracket.upper, instance.pose.translation)));
   return instance.touching();
 }
 
-bool ContactBoundary::TouchesByClues(double at) {
+bool ContactBoundary::TouchesByCandidates(double at) {
   std::vector<std::pair<double, std::size_t>> by_depth;
-  for (std::size_t i = 0; i < clues_.size() && !Exhausted(); ++i) {
-    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, clues_[i]);
+  for (std::size_t i = 0; i < candidates_.size() && !Exhausted(); ++i) {
+    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, candidates_[i]);
     if (Note(instance)) {
-      std::rotate(clues_.begin(), clues_.begin() + static_cast<std::ptrdiff_t>(i),
-                  clues_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      std::rotate(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(i),
+                  candidates_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       return true;
     }
-    by_depth.emplace_back(instance.look.upper, i);
+    by_depth.emplace_back(instance.bracket.upper, i);
   }
-  if (clues_.size() > kCluesKept && by_depth.size() == clues_.size()) {
+  if (candidates_.size() > kCandidatesKept && by_depth.size() == candidates_.size()) {
     std::sort(by_depth.begin(), by_depth.end());
     std::vector<ContactCandidate> best;
-    for (std::size_t i = 0; i < kCluesKept; ++i) best.push_back(clues_[by_depth[i].second]);
-    clues_.swap(best);
+    for (std::size_t i = 0; i < kCandidatesKept; ++i)
+      best.push_back(candidates_[by_depth[i].second]);
+    candidates_.swap(best);
   }
   return false;
 }
 
-bool ContactBoundary::Touches(double at, bool thoroughly) {
+bool ContactBoundary::Touches(double at, Scope scope) {
   apart_ = false;
-  if (TouchesByClues(at)) return true;
+  if (TouchesByCandidates(at)) return true;
   const ContactWitness leaves{ContactWitness::Kind::kLeaves, touch_.leaf_A, touch_.leaf_B};
-  for (const ContactWitness& evidence : {touch_.resolved ? leaves : ContactWitness{}, evidence_}) {
-    if (evidence.kind == ContactWitness::Kind::kNone || Exhausted()) continue;
-    if (Note(motion_.RecheckWitness(at, evidence))) return true;
+  for (const ContactWitness& witness : {touch_.resolved ? leaves : ContactWitness{}, witness_}) {
+    if (witness.kind == ContactWitness::Kind::kNone || Exhausted()) continue;
+    if (Note(motion_.RecheckWitness(at, witness))) return true;
   }
-  if (!thoroughly || Exhausted()) return false;
+  if (scope == Scope::kLikely || Exhausted()) return false;
   ShapeMotion::PoseQuery instance =
       motion_.QuerySeparation(at, Goal::kYesNo, touch_.resolved ? leaves : ContactWitness{});
-  if (nested_) motion_.LookInside(&instance);
-  exhausted_ = exhausted_ || instance.look.exhausted;
+  if (nested_) motion_.CheckContainment(&instance);
+  exhausted_ = exhausted_ || instance.bracket.exhausted;
   if (Note(instance)) {
-    if (instance.look.evidence.kind != ContactWitness::Kind::kNone)
-      evidence_ = instance.look.evidence;
+    if (instance.bracket.witness.kind != ContactWitness::Kind::kNone)
+      witness_ = instance.bracket.witness;
     return true;
   }
   apart_ = !nested_ && instance.apart();
@@ -162,23 +161,23 @@ bool ContactBoundary::Touches(double at, bool thoroughly) {
 }
 
 // Between an instant that is not known to be of contact and one that is.
-double ContactBoundary::Narrow(double apart, double touching, double free, bool thoroughly) {
+double ContactBoundary::Narrow(double apart, double touching, double free, Scope scope) {
   while (!Exhausted()) {
     const double width = std::abs(touching - apart), bracket = std::abs(touching - free);
     if (bracket <= ToleranceAt(touching) || width <= kWorthNarrowing * bracket) break;
     const double middle = apart + 0.5 * (touching - apart);
     if (middle == apart || middle == touching) break;
-    (Touches(middle, thoroughly) ? touching : apart) = middle;
+    (Touches(middle, scope) ? touching : apart) = middle;
   }
   return touching;
 }
 
 void ContactBoundary::Prepare(double free) {
-  evidence_ = {};
-  clues_.clear();
+  witness_ = {};
+  candidates_.clear();
   if (Exhausted()) return;
-  clues_ = motion_.PatchAt(free, touch_);
-  uncertain_ = motion_.RecheckWitness(free, {}).uncertainty > kRoundingShare * motion_.size();
+  candidates_ = motion_.CandidatesAt(free, touch_);
+  uncertain_ = motion_.RecheckWitness(free, {}).uncertainty > kExactMotion * motion_.size();
 }
 
 double ContactBoundary::FirstStep(double free, double until) const {
@@ -187,7 +186,7 @@ double ContactBoundary::FirstStep(double free, double until) const {
 }
 
 double ContactBoundary::Towards(double until, double from, double step) const {
-  return backward_ ? std::max(until, from - step) : std::min(until, from + step);
+  return is_backward() ? std::max(until, from - step) : std::min(until, from + step);
 }
 
 // By what may touch first only.
@@ -195,7 +194,7 @@ std::optional<double> ContactBoundary::QuickContact(double free, double until) {
   double before = free;
   for (double step = FirstStep(free, until); !Exhausted(); step *= kStepGrowth) {
     const double at = Towards(until, free, step);
-    if (Touches(at, false)) return Narrow(before, at, free, false);
+    if (Touches(at, Scope::kLikely)) return Narrow(before, at, free, Scope::kLikely);
     if (at == until) break;
     before = at;
   }
@@ -211,12 +210,15 @@ std::optional<double> ContactBoundary::ThoroughContact(double free, double until
   for (;;) {
     if (before == until || Exhausted()) return std::nullopt;
     const double at = Towards(until, from, step);
-    if (Touches(at, step >= thorough || at == until)) return Narrow(before, at, free, true);
+    const bool all = step >= thorough || at == until;
+    if (Touches(at, all ? Scope::kEverything : Scope::kLikely)) {
+      return Narrow(before, at, free, Scope::kEverything);
+    }
     before = at;
     step *= kStepGrowth;
     if (!apart_) continue;
     from = before = FreeFrom(at);
-    const bool beyond = backward_ ? from <= until : from >= until;
+    const bool beyond = is_backward() ? from <= until : from >= until;
     if (beyond) return std::nullopt;
     Prepare(from);
     step = FirstStep(from, until);
@@ -225,18 +227,18 @@ std::optional<double> ContactBoundary::ThoroughContact(double free, double until
   }
 }
 
-std::optional<double> ContactBoundary::ContactByClues(double free, double until) {
+std::optional<double> ContactBoundary::ContactByCandidates(double free, double until) {
   Prepare(free);
-  return clues_.empty() ? std::nullopt : QuickContact(free, until);
+  return candidates_.empty() ? std::nullopt : QuickContact(free, until);
 }
 
 double ContactBoundary::LastsFrom(double touching, double until) const {
   double at = touching;
-  for (int step = 0; step < kLastingSteps && !clues_.empty() && !work_.exhausted(); ++step) {
-    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, clues_.front());
-    const double lasts = instance.touching() ? motion_.ContactStep(instance, backward_) : 0;
+  for (int step = 0; step < kLastingSteps && !candidates_.empty() && !work_.exhausted(); ++step) {
+    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, candidates_.front());
+    const double lasts = instance.touching() ? motion_.ContactStep(instance, direction_) : 0;
     at = Moved(at, lasts);
-    const bool beyond = backward_ ? at <= until : at >= until;
+    const bool beyond = is_backward() ? at <= until : at >= until;
     if (beyond) return until;
     if (!(lasts > 0)) break;
   }
@@ -245,8 +247,8 @@ double ContactBoundary::LastsFrom(double touching, double until) const {
 
 std::optional<double> ContactBoundary::ContactAfter(double free, double until) {
   Prepare(free);
-  const bool at_once = free == (backward_ ? duration_ : 0);
-  if (at_once && Touches(free, true)) return free;
+  const bool at_once = free == (is_backward() ? duration_ : 0);
+  if (at_once && Touches(free, Scope::kEverything)) return free;
   std::optional<double> touching = QuickContact(free, until);
   if (touching && std::abs(*touching - free) <= ToleranceAt(*touching)) return touching;
   const std::optional<double> sooner = ThoroughContact(free, touching.value_or(until));

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
+#include "collision_core/narrow_phase/pose/node_pair.h"
 #include "collision_core/narrow_phase/separation/element.h"
 
 namespace collision::narrow_phase {
@@ -69,22 +70,21 @@ double LengthOf(const std::vector<Vector3d>& points) {
 
 class Patch {
  public:
-  Patch(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double within,
-        WorkBudget* work)
-      : a_(a),
-        b_(b),
-        pose_(pose),
+  Patch(const PosedPair& pair, double within, WorkBudget* work)
+      : a_(pair.a),
+        b_(pair.b),
+        pose_(pair.pose),
         within_(within),
-        level_(kLevel * (a.reach() + b.reach() + pose.offset.norm())),
+        level_(kLevel * (a_.reach() + b_.reach() + pose_.p_AB.norm())),
         work_(*work) {}
 
   std::vector<ContactCandidate> Run(std::uint32_t leaf_A, std::uint32_t leaf_B) {
     if (IsLeafPair(leaf_A, leaf_B)) Leaves(leaf_A, leaf_B);
-    stack_.emplace_back(0, 0);
+    stack_.push_back({0, 0});
     while (!stack_.empty() && pairs_ < kPairsMax && looks_ < kLooksMax && !work_.exhausted()) {
-      const auto [i, j] = stack_.back();
+      const NodePair nodes = stack_.back();
       stack_.pop_back();
-      Visit(i, j);
+      Visit(nodes);
     }
     return Best();
   }
@@ -94,17 +94,12 @@ class Patch {
     return a_.node(i).children == 0 && b_.node(j).children == 0;
   }
 
-  void Visit(std::uint32_t i, std::uint32_t j) {
+  void Visit(NodePair nodes) {
     work_.Spend(1);
-    const sphere_tree::SphereNode &a = a_.node(i), &b = b_.node(j);
+    const sphere_tree::SphereNode &a = a_.node(nodes.a), &b = b_.node(nodes.b);
     if ((pose_.ToA(b.centre) - a.centre).norm() - a.radius - b.radius > within_) return;
-    if (a.children == 0 && b.children == 0) {
-      Leaves(i, j);
-    } else if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
-      for (std::uint32_t k = 0; k < a.children; ++k) stack_.emplace_back(a.first_child + k, j);
-    } else {
-      for (std::uint32_t k = 0; k < b.children; ++k) stack_.emplace_back(i, b.first_child + k);
-    }
+    const auto keep = [&](NodePair children) { stack_.push_back(children); };
+    if (!OpenLarger(a_, b_, nodes, keep)) Leaves(nodes.a, nodes.b);
   }
 
   void Leaves(std::uint32_t i, std::uint32_t j) {
@@ -178,16 +173,16 @@ class Patch {
   }
 
   std::vector<ContactCandidate> Best() {
-    std::vector<ContactCandidate> clues = std::move(solids_);
+    std::vector<ContactCandidate> candidates = std::move(solids_);
     for (int kind = 0; kind < kKinds; ++kind) {
       for (const Proposal& p : proposals_[kind][0]) {
-        if (!work_.exhausted()) clues.push_back({PointOfA(a_, p.x, &work_), {}});
+        if (!work_.exhausted()) candidates.push_back({PointOfA(a_, p.x, &work_), {}});
       }
       for (const Proposal& p : proposals_[kind][1]) {
-        if (!work_.exhausted()) clues.push_back({PointOfB(b_, pose_.ToB(p.x), &work_), {}});
+        if (!work_.exhausted()) candidates.push_back({PointOfB(b_, pose_.ToB(p.x), &work_), {}});
       }
     }
-    return clues;
+    return candidates;
   }
 
   const BodyTree& a_;
@@ -197,7 +192,7 @@ class Patch {
   const double level_;
   WorkBudget& work_;
   std::size_t pairs_ = 0, looks_ = 0;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> stack_;
+  std::vector<NodePair> stack_;
   std::set<std::pair<std::uint32_t, std::uint32_t>> seen_;
   std::vector<ContactCandidate> solids_;
   std::vector<Proposal> proposals_[kKinds][2];
@@ -205,14 +200,14 @@ class Patch {
 
 }  // namespace
 
-std::vector<ContactCandidate> FindContactCandidates(const BodyTree& a, const BodyTree& b,
-                                                    const RelativePose& pose, double within,
+std::vector<ContactCandidate> FindContactCandidates(const PosedPair& pair, double within,
                                                     std::uint32_t leaf_A, std::uint32_t leaf_B,
                                                     WorkBudget* work) {
+  const BodyTree &a = pair.a, &b = pair.b;
   if (a.shape() == nullptr || b.shape() == nullptr) return {};
   const bool any_solids = !a.shape()->solids().empty() || !b.shape()->solids().empty();
   if (!a.shape()->closed() && !b.shape()->closed() && !any_solids) return {};
-  return Patch(a, b, pose, within, work).Run(leaf_A, leaf_B);
+  return Patch(pair, within, work).Run(leaf_A, leaf_B);
 }
 
 }  // namespace collision::narrow_phase

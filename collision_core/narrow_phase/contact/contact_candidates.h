@@ -1,6 +1,7 @@
 // Candidates for the first contact: where two surfaces that nearly touch will overlap first.
 #pragma once
 
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 #include "collision_core/narrow_phase/separation/solid_point.h"
 
 namespace collision::narrow_phase {
@@ -9,19 +10,20 @@ namespace collision::narrow_phase {
 /// involved, two elements.
 struct ContactCandidate {
   SolidPoint point;
-  ContactWitness pair;  ///< Kind::kTriangles; else it is the point.
+  ContactWitness pair;  ///< Kind::kTriangles: two elements; kNone: the point counts.
 
   bool is_pair() const { return pair.kind != ContactWitness::Kind::kNone; }
 };
 
-/// Points of either body at which the two are within `within` [m] of each other at this pose: in
-/// the middle of faces that lie on each other, of edges that do, of corners; and all pairs of
-/// elements that near of which one is a convex solid. Proposals in plain doubles, to be certified
-/// by UpperBy(): a wrong one costs work only. A few of each kind, the widest first. `leaf_A`,
-/// `leaf_B`: where to look first. There are none if one of the bodies is a ball, because a ball and
-/// an element are judged exactly.
-std::vector<ContactCandidate> FindContactCandidates(const BodyTree& a, const BodyTree& b,
-                                                    const RelativePose& pose, double within,
+/// Proposes points of either body at which the two are within `within` [m] of each other at this
+/// pose: in the middle of faces that lie on each other, of edges that coincide, and at corners; and
+/// all pairs of elements that are so near and of which one is a convex solid. The proposals are made
+/// in plain doubles; UpperBy() certifies them, so that a bad one does no harm.
+///
+/// Returns a few points of each kind, the widest first. The search begins at the leaves `leaf_A` and
+/// `leaf_B`. If one of the bodies is a ball there are no candidates, because a ball and an element
+/// are measured exactly.
+std::vector<ContactCandidate> FindContactCandidates(const PosedPair& pair, double within,
                                                     std::uint32_t leaf_A, std::uint32_t leaf_B,
                                                     WorkBudget* work);
 

@@ -11,35 +11,24 @@
 // there the shortest way between the two is known. Where they may touch at once it is that of the
 // last state before, unless a jump lies between or the shape was another one. All ways that may be
 // the shortest are kept, and the error covers them all and what the uncertainty can turn them by
-// (derived at DeviationOf). Bodies that overlap have no shortest way; without an approach that was
+// (derived in contact_proximity.cc). Bodies that overlap have no shortest way; without an approach that was
 // seen, the normal is a guess along the centres and its error says so (π).
 //
 // Budgets. With more work a query, a bracket of some width and a refinement take the same steps,
 // only more of them: their brackets never become wider, and a decision that was made stays.
-// EvaluateShapeSegment() and TimeOfContact() do not promise that: each of their parts has a share of the
-// budget, and where one ends the next begins, so that with a little more one end of a bracket may
-// be found later. It holds all the same.
+// EvaluateShapeSegment() and TimeOfContact() do not promise that: each of their parts has a share
+// of the budget, and where one ends the next begins, so that with a little more one end of a
+// bracket may be found later. It holds all the same.
 #pragma once
 
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/contact/ball_contact.h"
+#include "collision_core/narrow_phase/contact/contact_normal.h"
+#include "collision_core/narrow_phase/pose/body_segment.h"
 #include "collision_core/narrow_phase/pose/proximity.h"
-#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
 
-/// A normal with a smaller error is good enough for a response to the contact [rad].
-inline constexpr double kGoodNormal = 0.3;
-
-/// The direction of the shortest way between two surfaces, shortly before they may touch.
-struct ContactNormal {
-  bool known = false;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< As in Proximity.
-  double error = 0;
-
-  /// Whether it is known well enough; else an earlier instant is evaluated as well.
-  bool tells() const { return known && error < kGoodNormal; }
-};
-
-/// The verdict on a segment, and what an event needs beside it.
 struct ShapeSegmentResult {
   SegmentResult times;
   ContactNormal normal;    ///< From the last instant before `times.free_until` with a good normal.

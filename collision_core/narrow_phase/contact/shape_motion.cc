@@ -2,8 +2,11 @@
 
 #include <algorithm>
 
+#include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
+#include "collision_core/narrow_phase/separation/containment.h"
+#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
 
@@ -18,6 +21,15 @@ struct ShapeMotion::Drift {
   numeric::Interval turned1_sum, turned2_sum, turned1_most, turned2_most;
 };
 
+/// Where a sweep begins, and by what a point's path is replaced: by its tangent, which turning
+/// bends it away from, or by everything that it sweeps in full turns.
+struct ShapeMotion::Departure {
+  enum class Path { kTangent, kFullTurns };
+  double at;
+  TimeDirection direction;
+  Path path;
+};
+
 namespace {
 
 /// |ω| R, and the growth of θ R; the chord 2 sin(θ/2) grows no faster than θ, but shrinks slower.
@@ -25,23 +37,20 @@ struct Turning {
   numeric::Interval spin, turned1, turned2;
 };
 
-Turning TurningOf(const BodySegment& body, std::size_t bound, double at, bool backward) {
+Turning TurningOf(const BodySegment& body, std::size_t bound, double at, TimeDirection direction) {
   if (!body.shape) return {0, 0, 0};
   const motion::MovingRotation& turn = body.turns[bound];
-  const numeric::Quadratic angle =
-      backward ? turn.off_angle.BackwardFrom(at) : turn.off_angle.From(at);
+  const numeric::Quadratic angle = From(turn.off_angle, at, direction);
   const numeric::Interval reach = ReachOf(body);
   return {reach * numeric::Norm(numeric::IntervalVector(turn.w_WB)),
           reach * numeric::Max(0, angle.c1), reach * angle.c2};
 }
 
 // The tangent's deviation ½ |ω|² h² belongs to what turning may move a point by.
-SweptPose::Growth GrowthOf(const BodySegment& body, std::size_t bound, double at, bool backward,
-                           bool bends, double chord) {
-  if (!body.shape) return {};
-  const motion::MovingRotation& turn = body.turns[bound];
-  const numeric::Quadratic angle =
-      backward ? turn.off_angle.BackwardFrom(at) : turn.off_angle.From(at);
+SweptPose::Growth GrowthOf(const motion::MovingRotation& turn, const ShapeMotion::Departure& from,
+                           double chord) {
+  const numeric::Quadratic angle = From(turn.off_angle, from.at, from.direction);
+  const bool bends = from.path == ShapeMotion::Departure::Path::kTangent;
   const numeric::Interval bend =
       bends ? numeric::Interval(0.5) *
                   numeric::Square(numeric::Norm(numeric::IntervalVector(turn.w_WB)))
@@ -78,9 +87,11 @@ constexpr double kPatchBeyond = 2;
 }  // namespace
 
 ShapeMotion::ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget* work)
-    : a_(a), b_(b), surface_a_(a), surface_b_(b), work_(*work) {}
+    : a_(a), b_(b), surface_a_(a), surface_b_(b), work_(*work) {
+  CORE_CHECK(!a.awaited && !b.awaited, "the shapes of both bodies are known");
+}
 
-ShapeMotion::PoseQuery ShapeMotion::InstanceAt(double at) const {
+ShapeMotion::PoseQuery ShapeMotion::PoseQueryAt(double at) const {
   PoseQuery instance;
   instance.at = at;
   instance.choice = BestBounds(a_, b_, at);
@@ -96,87 +107,88 @@ ShapeMotion::PoseQuery ShapeMotion::InstanceAt(double at) const {
 
 ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at, Goal goal,
                                                     const ContactWitness& hint) const {
-  PoseQuery instance = InstanceAt(at);
+  PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look = collision::narrow_phase::QuerySeparation(surface_a_, surface_b_, instance.pose,
-                                                           goal, &work_, hint);
+  instance.bracket = collision::narrow_phase::QuerySeparation(
+      {surface_a_, surface_b_, instance.pose}, goal, &work_, hint);
   return instance;
 }
 
-ShapeMotion::PoseQuery ShapeMotion::RecheckWitness(double at,
-                                                   const ContactWitness& evidence) const {
-  PoseQuery instance = InstanceAt(at);
+ShapeMotion::PoseQuery ShapeMotion::RecheckWitness(double at, const ContactWitness& witness) const {
+  PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look = collision::narrow_phase::RecheckWitness(surface_a_, surface_b_, instance.pose,
-                                                          evidence, &work_);
+  instance.bracket = collision::narrow_phase::RecheckWitness(
+      {surface_a_, surface_b_, instance.pose}, witness, &work_);
   return instance;
 }
 
-ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at, const ContactCandidate& clue) const {
-  if (clue.is_pair()) return RecheckWitness(at, clue.pair);
-  PoseQuery instance = InstanceAt(at);
+ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at,
+                                                    const ContactCandidate& candidate) const {
+  if (candidate.is_pair()) return RecheckWitness(at, candidate.pair);
+  PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return instance;
-  instance.look.upper = UpperBy(clue.point, surface_a_, surface_b_, instance.pose, &work_);
+  instance.bracket.upper =
+      UpperBy(candidate.point, {surface_a_, surface_b_, instance.pose}, &work_);
   return instance;
 }
 
-std::vector<ContactCandidate> ShapeMotion::PatchAt(double at, const ImpactBound& touch) const {
-  const PoseQuery instance = InstanceAt(at);
+std::vector<ContactCandidate> ShapeMotion::CandidatesAt(double at, const ImpactBound& touch) const {
+  const PoseQuery instance = PoseQueryAt(at);
   if (!instance.choice.certain) return {};
   const double size = surface_a_.reach() + surface_b_.reach();
   const double within = kPatchReach * size + kPatchBeyond * instance.uncertainty;
-  return FindContactCandidates(surface_a_, surface_b_, instance.pose, within, touch.leaf_A,
+  return FindContactCandidates({surface_a_, surface_b_, instance.pose}, within, touch.leaf_A,
                                touch.leaf_B, &work_);
 }
 
 double ShapeMotion::DepthAtMost(const PoseQuery& instance) const {
-  const double shift =
-      SeparatingTranslation(surface_a_, surface_b_, instance.pose, instance.look.evidence, &work_);
+  const double shift = SeparatingTranslation({surface_a_, surface_b_, instance.pose},
+                                             instance.bracket.witness, &work_);
   return numeric::AddUp(shift, instance.pose.translation);
 }
 
 // The bounds that are the least uncertain half-way are taken for all of the span.
-BoundChoice ShapeMotion::ChoiceFor(double at, double span, bool backward) const {
+BoundChoice ShapeMotion::ChoiceFor(double at, double span, TimeDirection direction) const {
+  const bool backward = direction == TimeDirection::kBackward;
   const double middle = backward ? at - 0.5 * span : at + 0.5 * span;
   return BestBounds(a_, b_, std::max(0.0, middle));
 }
 
-SweptPose ShapeMotion::SweptFrom(double at, BoundChoice choice, bool backward, bool bends) const {
+SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) const {
   work_.Spend(kPoseUnits);
   SweptPose swept;
-  swept.pose = PoseAt(a_, b_, choice, at);
+  swept.pose = PoseAt(a_, b_, choice, from.at);
   const motion::MovingBall& ball_A = a_.ball.bounds[choice.of_A];
   const motion::MovingBall& ball_B = b_.ball.bounds[choice.of_B];
   const numeric::IntervalVector velocity = ball_B.velocity - ball_A.velocity;
-  const double sign = backward ? -1 : 1;
+  const double sign = from.direction == TimeDirection::kBackward ? -1 : 1;
   const auto seen = [&](const Eigen::Vector3d& v) {
-    return Eigen::Vector3d(sign * swept.pose.matrix_WA.transpose() * v);
+    return Eigen::Vector3d(sign * swept.pose.R_WA.transpose() * v);
   };
   swept.velocity = seen(velocity.middle());
   if (a_.shape) swept.spin_A = seen(a_.turns[choice.of_A].w_WB);
   if (b_.shape) swept.spin_B = seen(b_.turns[choice.of_B].w_WB);
   // Each of the three is turned by a matrix that is off by matrix_error at most, and rounded.
   const numeric::Interval fastest = numeric::Norm(velocity) +
-                                    TurningOf(a_, choice.of_A, at, backward).spin +
-                                    TurningOf(b_, choice.of_B, at, backward).spin;
+                                    TurningOf(a_, choice.of_A, from.at, from.direction).spin +
+                                    TurningOf(b_, choice.of_B, from.at, from.direction).spin;
   swept.velocity_error = numeric::MultiplyUp(2 * swept.pose.matrix_error + 0x1p-47, fastest.upper);
-  const numeric::Quadratic both = ball_A.u() + ball_B.u();
-  const numeric::Quadratic u = backward ? both.BackwardFrom(at) : both.From(at);
+  const numeric::Quadratic u = From(ball_A.u() + ball_B.u(), from.at, from.direction);
   swept.translation = {u.c0.upper, u.c1.upper, std::max(0.0, u.c2.upper)};
-  swept.turning_A = GrowthOf(a_, choice.of_A, at, backward, bends, swept.pose.chord_A);
-  swept.turning_B = GrowthOf(b_, choice.of_B, at, backward, bends, swept.pose.chord_B);
+  if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_A], from, swept.pose.chord_A);
+  if (b_.shape) swept.turning_B = GrowthOf(b_.turns[choice.of_B], from, swept.pose.chord_B);
   return swept;
 }
 
-ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, bool backward,
+ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, TimeDirection direction,
                                           const SweepDetail& detail) const {
   Sweep sweep;
-  const BoundChoice choice = ChoiceFor(at, span, backward);
+  const BoundChoice choice = ChoiceFor(at, span, direction);
   if (!choice.certain) return sweep;
   sweep.known = true;
-  const SweptPose swept = SweptFrom(at, choice, backward, true);
+  const SweptPose swept = SweptFrom({at, direction, Departure::Path::kTangent}, choice);
   sweep.pose = swept.pose;
-  sweep.touch = LowerBoundOfImpact(surface_a_, surface_b_, swept, span, &work_, detail);
+  sweep.touch = LowerBoundOfImpact({surface_a_, surface_b_, swept}, span, &work_, detail);
   if (sweep.touch.resolved) {
     const double h = sweep.touch.seconds;
     const double bend = BendOf(a_, choice.of_A) + BendOf(b_, choice.of_B);
@@ -188,14 +200,16 @@ ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, bool backward,
   return sweep;
 }
 
-double ShapeMotion::SpanFrom(double at, double left, bool backward, double duration) const {
-  const double span = ToMiddle(at, left, backward, duration), rate = FastestTurn();
+double ShapeMotion::SpanFrom(double at, double left, TimeDirection direction,
+                             double duration) const {
+  const double span = ToMiddle(at, left, direction, duration), rate = FastestTurn();
   return rate * span > kTurnOfSweep ? kTurnOfSweep / rate : span;
 }
 
-double ShapeMotion::ToMiddle(double at, double left, bool backward, double duration) const {
+double ShapeMotion::ToMiddle(double at, double left, TimeDirection direction,
+                             double duration) const {
   const double half = 0.5 * duration;
-  const double to_middle = backward ? at - half : half - at;
+  const double to_middle = direction == TimeDirection::kBackward ? at - half : half - at;
   const bool two = a_.ball.bounds.size() > 1 || b_.ball.bounds.size() > 1;
   return two && to_middle > kNearMiddle * duration ? std::min(left, to_middle) : left;
 }
@@ -208,16 +222,16 @@ double ShapeMotion::FastestTurn() const {
   return rate;
 }
 
-double ShapeMotion::RevolvedFree(double at, double left, bool backward, double duration,
+double ShapeMotion::RevolvedFree(double at, double left, TimeDirection direction, double duration,
                                  std::uint64_t units) const {
-  const double span = ToMiddle(at, left, backward, duration);
+  const double span = ToMiddle(at, left, direction, duration);
   if (!(FastestTurn() * span > kTurnToRevolve)) return 0;
-  const BoundChoice choice = ChoiceFor(at, span, backward);
+  const BoundChoice choice = ChoiceFor(at, span, direction);
   if (!choice.certain) return 0;
   const auto wanted = static_cast<double>(units), most = static_cast<double>(work_.left());
   const WorkShare share(wanted < most ? wanted / most : 1, &work_);
-  SweptPose swept = SweptFrom(at, choice, backward, false);
-  double free = SweptRingBound(surface_a_, surface_b_, swept, span, &work_);
+  SweptPose swept = SweptFrom({at, direction, Departure::Path::kFullTurns}, choice);
+  double free = SweptRingBound({surface_a_, surface_b_, swept}, span, &work_);
   // A body that turns much more slowly than the other may be better taken for one that does not,
   // for a while: what its turning moves a point by counts as unknown.
   const double of_A = swept.spin_A.norm(), of_B = swept.spin_B.norm();
@@ -226,39 +240,39 @@ double ShapeMotion::RevolvedFree(double at, double left, bool backward, double d
     (of_A < of_B ? swept.spin_A : swept.spin_B).setZero();
     (of_A < of_B ? swept.turning_A : swept.turning_B).c1 += slow * (1 + 0x1p-40);
     const double some = std::min(span, kTurnOfSweep / slow);
-    free =
-        std::max(free, std::min(some, SweptRingBound(surface_a_, surface_b_, swept, some, &work_)));
+    free = std::max(free,
+                    std::min(some, SweptRingBound({surface_a_, surface_b_, swept}, some, &work_)));
   }
   if (free > span && span >= left) return numeric::kInfinity;
   return std::min(free, span);
 }
 
-void ShapeMotion::LookInside(PoseQuery* instance) const {
-  SeparationBracket& look = instance->look;
-  if (!instance->choice.certain || !(look.lower > instance->pose.translation)) return;
-  const Containment nesting = TestContainment(surface_a_, surface_b_, instance->pose, &work_);
+void ShapeMotion::CheckContainment(PoseQuery* instance) const {
+  SeparationBracket& bracket = instance->bracket;
+  if (!instance->apart()) return;
+  const Containment nesting = TestContainment({surface_a_, surface_b_, instance->pose}, &work_);
   instance->neither_inside = nesting.neither;
-  if (!nesting.certain() || look.upper <= -look.lower) return;
-  look.upper = -look.lower;
-  look.point = nesting.point;
-  look.point_error = nesting.point_error;
+  if (!nesting.certain() || bracket.upper <= -bracket.lower) return;
+  bracket.upper = -bracket.lower;
+  bracket.point = nesting.point;
+  bracket.point_error = nesting.point_error;
 }
 
 bool ShapeMotion::NeitherInside(const RelativePose& pose) const {
-  return TestContainment(surface_a_, surface_b_, pose, &work_).neither;
+  return TestContainment({surface_a_, surface_b_, pose}, &work_).neither;
 }
 
-ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance, bool backward) const {
+ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance,
+                                          TimeDirection direction) const {
   const motion::MovingBall& ball_A = a_.ball.bounds[instance.choice.of_A];
   const motion::MovingBall& ball_B = b_.ball.bounds[instance.choice.of_B];
-  const numeric::Quadratic u = ball_A.u() + ball_B.u();
-  const Turning of_A = TurningOf(a_, instance.choice.of_A, instance.at, backward);
-  const Turning of_B = TurningOf(b_, instance.choice.of_B, instance.at, backward);
+  const Turning of_A = TurningOf(a_, instance.choice.of_A, instance.at, direction);
+  const Turning of_B = TurningOf(b_, instance.choice.of_B, instance.at, direction);
   Drift drift;
   drift.along = numeric::Norm(ball_B.velocity - ball_A.velocity);
   drift.spin_sum = of_A.spin + of_B.spin;
   drift.spin_most = numeric::Max(of_A.spin, of_B.spin);
-  drift.translation = backward ? u.BackwardFrom(instance.at) : u.From(instance.at);
+  drift.translation = From(ball_A.u() + ball_B.u(), instance.at, direction);
   drift.turned1_sum = of_A.turned1 + of_B.turned1;
   drift.turned2_sum = of_A.turned2 + of_B.turned2;
   drift.turned1_most = numeric::Max(of_A.turned1, of_B.turned1);
@@ -269,19 +283,20 @@ ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance, bool backwa
 // Balls within the solids that overlap by −upper do so until that is used up. Crossing triangles
 // cross while no corner moves further than the margin: seen from half-way between the two bodies
 // each corner moves by half of what translation does, and by the turning of its own body.
-double ShapeMotion::ContactStep(const PoseQuery& instance, bool backward) const {
-  const Drift d = DriftFrom(instance, backward);
+double ShapeMotion::ContactStep(const PoseQuery& instance, TimeDirection direction) const {
+  CORE_CHECK(instance.touching(), "contact is certain at the instant", instance.at);
+  const Drift d = DriftFrom(instance, direction);
   double step = 0;
-  if (instance.look.upper <= -instance.pose.translation) {
-    const numeric::Interval gap = numeric::Interval(-instance.look.upper) - d.translation.c0;
+  if (instance.bracket.CertainlyOverlapping(instance.pose.translation)) {
+    const numeric::Interval gap = numeric::Interval(-instance.bracket.upper) - d.translation.c0;
     const numeric::Interval closing = d.along + d.spin_sum + d.translation.c1 + d.turned1_sum;
     const numeric::Interval growth = d.translation.c2 + d.turned2_sum;
     step = numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper));
   }
-  if (instance.look.crossing_margin >= instance.pose.translation / 2) {
+  if (instance.bracket.CertainlyCrossing(instance.pose.translation)) {
     const numeric::Interval half = 0.5;
     const numeric::Interval gap =
-        numeric::Interval(instance.look.crossing_margin) - half * d.translation.c0;
+        numeric::Interval(instance.bracket.crossing_margin) - half * d.translation.c0;
     const numeric::Interval closing =
         half * (d.along + d.translation.c1) + d.spin_most + d.turned1_most;
     const numeric::Interval growth = half * d.translation.c2 + d.turned2_most;
@@ -292,7 +307,7 @@ double ShapeMotion::ContactStep(const PoseQuery& instance, bool backward) const 
 }
 
 double ShapeMotion::SpeedAt(const PoseQuery& instance) const {
-  const Drift drift = DriftFrom(instance, false);
+  const Drift drift = DriftFrom(instance, TimeDirection::kForward);
   return (drift.along + drift.spin_sum).upper;
 }
 

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
+#include "collision_core/narrow_phase/contact/ball_contact.h"
 #include "collision_core/narrow_phase/contact/ball_proximity.h"
 #include "collision_core/narrow_phase/contact/contact_boundary.h"
+#include "collision_core/narrow_phase/pose/segment_pose.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -23,9 +26,6 @@ constexpr double kFinest = 1e-12;
 
 // What the verdict on two balls costs.
 constexpr std::uint64_t kBallPairUnits = 20;
-
-// What is not known of the motion counts where it is more than rounding, as a share of the size.
-constexpr double kRoundingShare = 1e-12;
 
 TimeOfContactResult Free(double duration) {
   TimeOfContactResult free;
@@ -48,7 +48,7 @@ class ContactSearch {
     found_.begin.lower = std::max(0.0, balls.free_until);
     found_.end.upper = std::min(duration_, balls.free_from);
     for (ContactTolerance finer = tolerance_; Search(finer);) {
-      if (IsAnswered() || exhausted_ || IsFinest(finer)) return Told();
+      if (IsAnswered() || exhausted_ || IsFinest(finer)) return Result();
       finer = {kFiner * finer.absolute, kFiner * finer.relative};
     }
     return Free(duration_);
@@ -68,8 +68,8 @@ class ContactSearch {
 
   // Goes on with what is found. False: they are apart throughout.
   bool Search(const ContactTolerance& tolerance) {
-    ContactBoundary forward(motion_, duration_, tolerance, false, &work_);
-    ContactBoundary backward(motion_, duration_, tolerance, true, &work_);
+    ContactBoundary forward(motion_, duration_, tolerance, TimeDirection::kForward, &work_);
+    ContactBoundary backward(motion_, duration_, tolerance, TimeDirection::kBackward, &work_);
     double &first = found_.begin.lower, &last = found_.end.upper;
     {
       const WorkShare share(kForwardShare, &work_);
@@ -104,7 +104,7 @@ class ContactSearch {
     end.lower = backward->ContactAfter(end.upper, end.lower).value_or(end.lower);
   }
 
-  TimeOfContactResult Told() {
+  TimeOfContactResult Result() {
     if (!IsContact()) {
       found_.begin.upper = found_.end.upper;
       found_.end.lower = found_.begin.lower;
@@ -154,7 +154,7 @@ TimeOfContactResult OfBalls(const BodySegment& a, const BodySegment& b, double d
   }
   const BoundChoice choice = BestBounds(a, b, first);
   const bool unknown = !choice.certain || PoseAt(a, b, choice, first).translation >
-                                              kRoundingShare * (a.ball.radius + b.ball.radius);
+                                              kExactMotion * (a.ball.radius + b.ball.radius);
   found.limited_by = unknown ? EventLimit::kMotion : EventLimit::kGeometry;
   return found;
 }
@@ -163,6 +163,7 @@ TimeOfContactResult OfBalls(const BodySegment& a, const BodySegment& b, double d
 
 TimeOfContactResult TimeOfContact(const BodySegment& a, const BodySegment& b, double duration,
                                   const ContactTolerance& tolerance, WorkBudget* work) {
+  CORE_CHECK(!a.awaited && !b.awaited, "the shapes of both bodies are known");
   const std::uint64_t before = work->spent();
   work->Spend(kBallPairUnits);
   const SegmentResult balls = EvaluateBallSegment(a.ball, b.ball, duration);

@@ -1,16 +1,17 @@
 // When two moving bodies begin to touch, and when they cease to: the time of contact.
 //
-// Free. Sweeps (swept_pair.h) one after the other: a tangent leaves its circle by the square of the
-// step, so each sweep squares what is left of the gap, and four of them lead from a quarter of a
-// radian down to rounding. What rounding takes from a gap grows with the time since the start of a
-// sweep, so the last one loses next to nothing. Nearest points a short way apart give no direction;
-// there the normals and edges of the two triangles do: any direction is right, the best is taken.
+// Free. Sweeps (conservative_advancement.h) one after the other: a tangent leaves its circle by the
+// square of the step, so each sweep squares what is left of the gap, and four of them lead from a
+// quarter of a radian down to rounding. What rounding takes from a gap grows with the time since
+// the start of a sweep, so the last one loses next to nothing. Nearest points a short way apart
+// give no direction; there the normals and edges of the two triangles do: any direction is right,
+// the best is taken.
 //
 // Touching. Half of the tolerance after freedom ends contact is searched, then four times as far,
 // and so on, and narrowed by halves. Faces that meet in parallel and edges that coincide cross
-// nowhere for certain. So contact_patch.h proposes points in the middle of what lies on each other,
-// and solid_point.h certifies them by distance and winding number: a contact of 1e-14 m is found
-// that way. Open surfaces are certain by crossing triangles only. If none of it shows contact
+// nowhere for certain. So contact_candidates.h proposes points in the middle of what lies on each
+// other, and solid_point.h certifies them by distance and winding number: a contact of 1e-14 m is
+// found that way. Open surfaces are certain by crossing triangles only. If none of it shows contact
 // within the tolerance, queries of everything go on from there.
 //
 // Brief contacts. A ball at 10 km/s is through a plate in 50 µs. If 0.1 s is asked for, freedom may
@@ -21,9 +22,9 @@
 // up to about twice as much.
 //
 // Turning fast. Beyond a turn the bodies are replaced by what they sweep in all their turns
-// (revolved_pair.h). More than kRotationAngleMax (10⁶ rad) after a state orientations are not followed: the
-// body may be turned any way, as without a declared bound, and the answer says that its motion is
-// not known.
+// (swept_ring.h). More than kRotationAngleMax (10⁶ rad) after a state orientations are not
+// followed: the body may be turned any way, as without a declared bound, and the answer says that
+// its motion is not known.
 //
 // How narrow. With nothing uncertain, 1e-12 of the time, for cubes on faces, edges and corners as
 // for tumbling stars, and for solids and their mixtures with triangles. With accelerations: free
@@ -40,18 +41,12 @@
 
 #include <optional>
 
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/contact/contact_tolerance.h"
+#include "collision_core/narrow_phase/pose/body_segment.h"
 #include "collision_core/narrow_phase/pose/proximity.h"
-#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
-
-/// How narrow a time is to be: the wider of the two. Rounding and uncertain motion may leave a
-/// wider bracket; then the answer says so. A contact that is shorter than the tolerance is found
-/// all the same.
-struct ContactTolerance {
-  double absolute = 0;      ///< [s]
-  double relative = 1e-12;  ///< As a part of the time itself, counted from the start.
-};
 
 enum class ContactStatus {
   kFree,      ///< Apart throughout, both ends included.
@@ -70,9 +65,9 @@ struct TimeOfContactResult {
   numeric::Interval end;
   double within = 0;  ///< Undecided: at some instant they are certainly no farther apart [m].
   /// What kept a bracket from being as narrow as asked; kNone: nothing did. kBudget: the work
-  /// allowed. kMotion: what is not known of it, or turns beyond kRotationAngleMax, whatever the work
-  /// allowed. kGeometry: they touch by less than rounding can tell, or graze, or are open surfaces
-  /// that do not certainly cross.
+  /// allowed. kMotion: what is not known of it, or turns beyond kRotationAngleMax, whatever the
+  /// work allowed. kGeometry: they touch by less than rounding can tell, or graze, or are open
+  /// surfaces that do not certainly cross.
   EventLimit limited_by = EventLimit::kNone;
   std::uint64_t work = 0;  ///< Units spent.
 };

@@ -1,5 +1,5 @@
-// The kernel of box_glance.h. Only for box_glance*.cc, which say first: WIDE, the attribute of
-// functions for their processor.
+// The kernel of box_separating_axis.h. Only for box_separating_axis*.cc, which say first: WIDE, the
+// attribute of functions for their processor.
 //
 // Everything is seen through x' = Gᵀx, in which A's edges are the columns of GᵀG (nearly diagonal:
 // squares, and `off` beside them), B's are those of C = GᵀM, and the centres' difference is p =

@@ -73,7 +73,7 @@ Vector3d WayFromBox(const Vector3d& d, const Edges<3>& box, const Vector3d& axis
 // As PosedA() and PosedB() (convex_pose.cc).
 PosedCores::PosedCores(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
                        const RelativePose& pose)
-    : d((pose.matrix * of_B.centre + pose.offset) - of_A.centre),
+    : d((pose.R_AB * of_B.centre + pose.p_AB) - of_A.centre),
       size((1 + 0x1p-18) * (d.cwiseAbs().sum() + of_A.span + of_B.span)) {
   const double far_B = LengthUp(of_B.centre) + of_B.span;
   const double turned_A = pose.chord_A > 0 ? pose.chord_A * (LengthUp(of_A.centre) + of_A.span) : 0;
@@ -86,16 +86,16 @@ numeric::Interval DistanceOfCores(const geometry::ConvexSet& of_A, const geometr
                                   const PosedCores& cores, const RelativePose& pose) {
   if (of_A.core == geometry::ConvexCore::kBox) {
     const Edges<3> box(of_A);
-    const Edges<1> axis(of_B, pose.matrix);
+    const Edges<1> axis(of_B, pose.R_AB);
     return Certified(WayFromBox(cores.d, box, axis.of[0]), box, axis, cores);
   }
   const Edges<1> axis(of_A);
   if (of_B.core == geometry::ConvexCore::kBox) {
-    const Edges<3> box(of_B, pose.matrix);
+    const Edges<3> box(of_B, pose.R_AB);
     const Vector3d way = -WayFromBox(-cores.d, box, axis.of[0]);
     return Certified(way, axis, box, cores);
   }
-  const Edges<1> other(of_B, pose.matrix);
+  const Edges<1> other(of_B, pose.R_AB);
   const auto [s, t] = geometry::FractionsOf(cores.d, axis.of[0], other.of[0]);
   return Certified(Vector3d((cores.d + t * other.of[0]) - s * axis.of[0]), axis, other, cores);
 }

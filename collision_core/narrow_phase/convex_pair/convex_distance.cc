@@ -99,7 +99,7 @@ class Bracket {
   }
 
   geometry::GjkGoal GoalOfSearch() const {
-    geometry::GjkGoal goal{question_.share / 4, question_.width / 4, rounding_};
+    geometry::GjkGoal goal{question_.relative_tolerance / 4, question_.absolute_tolerance / 4, rounding_};
     goal.steps = StepsOf(kGjkStepUnits, geometry::kGjkStepsMax);
     if (question_.goal != ConvexGoal::kYesNo) return goal;
     const double margin = 2 * (pair_.GapError() + pair_.PointError() + error_);
@@ -141,8 +141,8 @@ class Bracket {
       return true;
     }
     const double least = std::max({0.0, separation_lower(), -separation_upper()});
-    const double share = question_.share * least;
-    return upper_ - lower_ <= std::max({question_.width, share, kTight * pair_.size()});
+    const double share = question_.relative_tolerance * least;
+    return upper_ - lower_ <= std::max({question_.absolute_tolerance, share, kTight * pair_.size()});
   }
 
   /// The way between nearest points a short way apart is uncertain; features tell it exactly.
@@ -237,7 +237,7 @@ class Bracket {
   }
 
   void Grow() {
-    geometry::EpaGoal goal{question_.share, question_.width};
+    geometry::EpaGoal goal{question_.relative_tolerance, question_.absolute_tolerance};
     if (question_.goal != ConvexGoal::kDepth) goal.inside = std::max(0.0, 2 * error_ - rounding_);
     goal.steps = StepsOf(kEpaStepUnits, geometry::kEpaStepsMax);
     const geometry::Overlap overlap = RunEpa(pair_, search_, goal);

@@ -1,6 +1,6 @@
 // Two convex sets: how far apart or how deep in each other, certified.
 //
-// A search proposes (convex_search.h), two facts certify. Lower: the gap of the shadows along one
+// A search proposes (gjk.h), two facts certify. Lower: the gap of the shadows along one
 // direction, which holds for any direction; overlapping shadows give the shift that takes the two
 // apart, so one number with a sign serves distance and depth. Upper: two points that certainly
 // belong to the two, or less the ball that the difference holds. Boxes, capsules, hulls and
@@ -14,6 +14,7 @@
 #include "collision_core/base/work_budget.h"
 #include "collision_core/geometry/convex/gjk.h"
 #include "collision_core/narrow_phase/pose/convex_pose.h"
+#include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
 
@@ -32,8 +33,8 @@ enum class ConvexGoal {
 /// A question, and how narrow its answer is to be.
 struct ConvexQuestion {
   ConvexGoal goal = ConvexGoal::kDepth;
-  double share = 0;  ///< Relative tolerance: width of the bracket over its lower end.
-  double width = 0;  ///< Absolute tolerance [m]. Both 0: as narrow as doubles make it.
+  double relative_tolerance = 0;  ///< Relative tolerance: width of the bracket over its lower end.
+  double absolute_tolerance = 0;  ///< Absolute tolerance [m]. Both 0: as narrow as doubles make it.
 };
 
 /// The certified answer.
@@ -53,7 +54,7 @@ struct ConvexSeparation {
   bool exhausted = false;  ///< A limit on steps or on work ended the search.
 };
 
-/// Both in one frame. Rounding is relative to the size S of the pair (convex_search.h) and not to
+/// Both in one frame. Rounding is relative to the size S of the pair (gjk.h) and not to
 /// their place: polytopes are known to about 64 · 2^-53 S and what their `error`s are. What is
 /// smooth may use up its steps (kGjkStepsMax, kEpaStepsMax); then the bracket stays wider.
 /// The limits and the work allowed end the search, at whatever bracket it has by then.

@@ -33,7 +33,7 @@ Verdict GlanceAtBoxes(const geometry::ConvexSet& of_A, const geometry::ConvexSet
   const double uncertain = (1 + 0x1p-50) * (cores.error + pose.translation);
   const BoxPair pair{of_A.generators.data(),
                      of_B.generators.data(),
-                     pose.matrix.data(),
+                     pose.R_AB.data(),
                      {cores.d.x(), cores.d.y(), cores.d.z()},
                      of_A.span,
                      (1 + 0x1p-18) * of_B.span,
@@ -78,7 +78,7 @@ SmallGjkPair QuickPairOf(const geometry::ConvexSet& of_A, const geometry::Convex
   SetCore(of_A, &pair.a);
   SetCore(of_B, &pair.b);
   for (int i = 0; i < 9; ++i) pair.a.axes[i] = of_A.generators.data()[i];
-  const double *m = pose.matrix.data(), *g = of_B.generators.data();
+  const double *m = pose.R_AB.data(), *g = of_B.generators.data();
   for (int i = 0; i < 9; ++i) {
     const int row = i % 3, column = 3 * (i / 3);
     pair.b.axes[i] = (m[row] * g[column] + m[3 + row] * g[column + 1]) + m[6 + row] * g[column + 2];
@@ -87,7 +87,7 @@ SmallGjkPair QuickPairOf(const geometry::ConvexSet& of_A, const geometry::Convex
   pair.size = cores.size;
   pair.apart = pair.inside = numeric::kInfinity;
   pair.near = -numeric::kInfinity;
-  pair.share = pair.width = 0;
+  pair.relative_tolerance = pair.absolute_tolerance = 0;
   pair.rounding = of_A.rounding + of_B.rounding;
   return pair;
 }
@@ -110,8 +110,8 @@ numeric::Interval SearchForDistance(const geometry::ConvexSet& of_A,
                                     const RelativePose& pose, const ConvexQuestion& question) {
   if (!(cores.size < kSizeMax)) return {-numeric::kInfinity, numeric::kInfinity};
   SmallGjkPair pair = QuickPairOf(of_A, of_B, cores, pose);
-  pair.share = question.share / 4;
-  pair.width = question.width / 4;
+  pair.relative_tolerance = question.relative_tolerance / 4;
+  pair.absolute_tolerance = question.absolute_tolerance / 4;
   // So large that contact remains when errors and roundings are counted in, see OfSets().
   const double inside = 2 * cores.error + 0x1p-48 * (cores.size + pair.rounding);
   if (question.goal == ConvexGoal::kDistance) pair.inside = inside;
@@ -125,7 +125,7 @@ bool IsGoodEnough(const numeric::Interval& separation, const numeric::Interval& 
   if (question.goal == ConvexGoal::kDistance && separation.upper <= 0) return true;
   const double least = std::max({0.0, separation.lower, -separation.upper});
   const double width = separation.upper - separation.lower;
-  return width <= std::max(question.width, question.share * least) ||
+  return width <= std::max(question.absolute_tolerance, question.relative_tolerance * least) ||
          of_cores.upper - of_cores.lower <= kTight * size;
 }
 

@@ -4,11 +4,12 @@
 // Each way below proves its answer and, where it cannot, the patient search (convex_distance.h) is
 // asked.
 //
-// - A ball or capsule beside a ball, capsule or box (thin_distance.h): the nearest points of two
+// - A ball or capsule beside a ball, capsule or box (capsule_distance.h): the nearest points of two
 //   segments, or of a segment and a box, then the length between them and the gap along it.
-// - Two boxes, or a box and a capsule (box_glance.h): the separating axis test, all fifteen axes in
+// - Two boxes, or a box and a capsule (box_separating_axis.h): the separating axis test, all
+// fifteen axes in
 //   four lanes at once, seen through A's edges, so that neither box need be exactly square.
-// - Hulls of up to 64 points (quick_search.h): GJK in plain numbers, all points of a hull at once.
+// - Hulls of up to 64 points (gjk_small.h): GJK in plain numbers, all points of a hull at once.
 //   It begins along (A + B)⁻¹ d, the normal where d leaves two ellipsoids about as large as the
 //   two: that alone decides most that are a tenth of their diameter apart. A tetrahedron that holds
 //   a small ball about 0 is contact.
@@ -20,7 +21,7 @@
 #pragma once
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/narrow_phase/pose/verdict.h"
 
 namespace collision::narrow_phase {
 

@@ -1,5 +1,5 @@
-// The kernel of quick_search.h, after Gilbert, Johnson and Keerthi as in shape/convex_search.h.
-// Only for quick_search*.cc, which say first: WIDE, the attribute of functions for their processor.
+// The kernel of gjk_small.h, after Gilbert, Johnson and Keerthi as in geometry/convex/gjk.h.
+// Only for gjk_small*.cc, which say first: WIDE, the attribute of functions for their processor.
 //
 // Rounding, with u = 2^-53: support points are those of convex_set.h, with no more operations, so
 // that the errors of ConvexPair hold: a gap is known to within 26u S, a weighted sum of points to
@@ -185,8 +185,8 @@ class Search {
   }
 
   QUICK_INLINE bool IsCloseEnough(double length, double gap) const {
-    const double share = gap > 0 ? pair_.share * std::abs(gap - pair_.rounding) : 0;
-    return length - gap <= Most(Most(pair_.width, share), kTouching * pair_.size);
+    const double share = gap > 0 ? pair_.relative_tolerance * std::abs(gap - pair_.rounding) : 0;
+    return length - gap <= Most(Most(pair_.absolute_tolerance, share), kTouching * pair_.size);
   }
 
   QUICK_INLINE bool IsKnown(const Point& found) const {
@@ -271,6 +271,10 @@ class Search {
     }
   }
 
+  /// Factor on a square of a length: covers the roundings of both squares that are compared, which
+  /// are below 2^-49 of them, with plenty to spare.
+  static constexpr double kSquareMargin = 1.0001;
+
   /// 0 and four corners: the volumes with each face all have one sign. A triple product of vectors
   /// up to S is off by less than 16u S³, and the exact corners by kPointError S: the ball belongs
   /// to their hull if 0 is further than both together from each face. Its normal is off by less
@@ -285,7 +289,8 @@ class Search {
       const Point &a = corner_[f[0]], &b = corner_[f[1]], &c = corner_[f[2]];
       const Point normal = Cross(b - a, c - a);
       const double height = Dot(normal, a), least = std::abs(height) - error;
-      const bool far = least > 0 && least * least > radius * radius * Dot(normal, normal) * 1.0001;
+      const double reach = radius * radius * Dot(normal, normal) * kSquareMargin;
+      const bool far = least > 0 && least * least > reach;
       positive &= far && height > 0;
       negative &= far && height < 0;
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/narrow_phase/separation/separation.h"
+
 namespace collision::narrow_phase {
 namespace {
 
@@ -17,9 +19,9 @@ constexpr double kFirstPlace = 0x1p-16;
 
 class Shifting {
  public:
-  Shifting(const BodyTree& a, const BodyTree& b, const RelativePose& pose, const Eigen::Vector3d& n,
-           const ContactWitness& evidence, WorkBudget* work)
-      : a_(a), b_(b), pose_(pose), n_(n), evidence_(evidence), work_(*work) {}
+  Shifting(const PosedPair& pair, const Eigen::Vector3d& n, const ContactWitness& witness,
+           WorkBudget* work)
+      : a_(pair.a), b_(pair.b), pose_(pair.pose), n_(n), witness_(witness), work_(*work) {}
 
   double Least(double known) {
     const double most = kWorthwhile * known;
@@ -44,8 +46,8 @@ class Shifting {
   // What is posed by the new offset is rounded relative to that; its own sum loses less.
   RelativePose At(double shift) const {
     RelativePose shifted = pose_;
-    shifted.offset += shift * n_;
-    const double size = numeric::AddUp(pose_.offset.cwiseAbs().sum(), shift);
+    shifted.p_AB += shift * n_;
+    const double size = numeric::AddUp(pose_.p_AB.cwiseAbs().sum(), shift);
     shifted.offset_error = numeric::AddUp(
         pose_.offset_error, numeric::MultiplyUp(2 * kPosingRounding * (1 + 0x1p-40), size));
     shifted.translation = 0;
@@ -53,35 +55,34 @@ class Shifting {
   }
 
   bool Shows(double shift) {
-    const SeparationBracket look = RecheckWitness(a_, b_, At(shift), evidence_, &work_);
-    return look.upper <= 0 || look.crossing_margin >= 0;
+    const SeparationBracket bracket = RecheckWitness({a_, b_, At(shift)}, witness_, &work_);
+    return bracket.CertainlyTouching(0);
   }
 
   /// How much less of a shift would do as well; negative: it may not do itself.
   double Spare(double shift) {
-    const Decision decision = DecideAt(a_, b_, At(shift), &work_);
-    if (decision.look.evidence.kind != ContactWitness::Kind::kNone)
-      evidence_ = decision.look.evidence;
+    const Decision decision = DecideAt({a_, b_, At(shift)}, &work_);
+    if (decision.bracket.witness.kind != ContactWitness::Kind::kNone)
+      witness_ = decision.bracket.witness;
     if (decision.verdict != Verdict::kApart) return -1;
     // Surfaces so far apart do not meet on the way, and what is outside remains outside.
-    return std::max(0.0, decision.look.lower);
+    return std::max(0.0, decision.bracket.lower);
   }
 
   const BodyTree& a_;
   const BodyTree& b_;
   const RelativePose& pose_;
   const Eigen::Vector3d n_;
-  ContactWitness evidence_;
+  ContactWitness witness_;
   WorkBudget& work_;
 };
 
 }  // namespace
 
-double LocalSeparatingTranslation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  const Eigen::Vector3d& n, double known,
-                                  const ContactWitness& evidence, WorkBudget* work) {
+double LocalSeparatingTranslation(const PosedPair& pair, const Eigen::Vector3d& n, double known,
+                                  const ContactWitness& witness, WorkBudget* work) {
   if (!std::isfinite(known) || work->exhausted()) return known;
-  return Shifting(a, b, pose, n, evidence, work).Least(known);
+  return Shifting(pair, n, witness, work).Least(known);
 }
 
 }  // namespace collision::narrow_phase

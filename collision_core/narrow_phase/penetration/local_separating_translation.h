@@ -7,7 +7,9 @@
 // reaches.
 #pragma once
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 
 namespace collision::narrow_phase {
 
@@ -15,17 +17,16 @@ namespace collision::narrow_phase {
 inline constexpr std::uint64_t kPastUnits = 3000;
 
 /// Shifted by this along n [m], in A's body frame, B is certainly apart from A. Only what is near
-/// the shifted body counts, where SeparatingTranslationAlong() counts all of A: the hills below, and no summit far
-/// away. Rounded up; the uncertainty of rounding and turning is included, that of translation is
-/// not.
+/// the shifted body counts, where SeparatingTranslationAlong() counts all of A: the hills below,
+/// and no summit far away. Rounded up; the uncertainty of rounding and turning is included, that of
+/// translation is not.
 ///
 /// `known`: a shift, along any direction, that takes the two apart. If B is not apart after three
 /// quarters of it along n, or the work was spent before, the result is `known`; else a shift found
 /// in steps of four, then by halves: at three quarters of it the two are not known to be apart, or
-/// it is a 2^-16th of `known`. `evidence` of contact, if there is any, saves work. Requires |n|
+/// it is a 2^-16th of `known`. `witness` of contact, if there is any, saves work. Requires |n|
 /// within 2^-50 of 1.
-double LocalSeparatingTranslation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  const Eigen::Vector3d& n, double known,
-                                  const ContactWitness& evidence, WorkBudget* work);
+double LocalSeparatingTranslation(const PosedPair& pair, const Eigen::Vector3d& n, double known,
+                                  const ContactWitness& witness, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

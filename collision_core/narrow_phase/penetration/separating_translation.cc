@@ -6,7 +6,6 @@
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/narrow_phase/penetration/local_separating_translation.h"
 #include "collision_core/narrow_phase/separation/element.h"
-#include "collision_core/narrow_phase/separation/separation_findings.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -92,19 +91,20 @@ Vector3d NormalOf(const BodyTree& surface, std::uint32_t element) {
 // moved by the sum less what lies between they do not overlap. Supports are off by less than
 // kSupportError of the spans, spans at most thrice the reach, sums and products by less than as
 // much again.
-double SeparatingTranslationAlong(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  const Vector3d& n, WorkBudget* work) {
+double SeparatingTranslationAlong(const PosedPair& pair, const Vector3d& n, WorkBudget* work) {
+  const auto& [a, b, pose] = pair;
   const double reach_a = Reaching(a, n, work).Find();
-  const double reach_b = Reaching(b, -(pose.matrix.transpose() * n), work).Find();
-  const double size = a.reach() + b.reach() + pose.offset.cwiseAbs().sum();
+  const double reach_b = Reaching(b, -(pose.R_AB.transpose() * n), work).Find();
+  const double size = a.reach() + b.reach() + pose.p_AB.cwiseAbs().sum();
   const double turning = pose.chord_A * a.turning_reach() + pose.chord_B * b.turning_reach();
-  const double shift = reach_a + reach_b - n.dot(pose.offset);
-  return shift + 0x1p-49 * std::abs(shift) + 0x1p-45 * size + 2 * SlackOf(a, b, pose) +
+  const double shift = reach_a + reach_b - n.dot(pose.p_AB);
+  return shift + 0x1p-49 * std::abs(shift) + 0x1p-45 * size + 2 * SlackOf(pair) +
          turning * (1 + 0x1p-40);
 }
 
-double SeparatingTranslation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                             const ContactWitness& evidence, WorkBudget* work) {
+double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witness,
+                             WorkBudget* work) {
+  const auto& [a, b, pose] = pair;
   // What shows the contact first: bodies that touch are mostly taken apart across it.
   std::vector<Vector3d> ways;
   const auto add = [&](const Vector3d& direction) {
@@ -112,38 +112,37 @@ double SeparatingTranslation(const BodyTree& a, const BodyTree& b, const Relativ
     if (length > 0x1p-500 && length < 0x1p+500) ways.push_back(direction / length);
   };
   const auto add_axis = [&](const Vector3d& axis) {
-    add(axis.dot(pose.offset) < 0 ? Vector3d(-axis) : axis);
+    add(axis.dot(pose.p_AB) < 0 ? Vector3d(-axis) : axis);
   };
-  if (evidence.kind == ContactWitness::Kind::kNodes) {
-    add(pose.ToA(b.node(evidence.b).centre) - a.node(evidence.a).centre);
+  if (witness.kind == ContactWitness::Kind::kNodes) {
+    add(pose.ToA(b.node(witness.b).centre) - a.node(witness.a).centre);
   }
-  if (evidence.kind == ContactWitness::Kind::kTriangles) {
-    if (AnySolid(a, evidence.a, b, evidence.b)) {
+  if (witness.kind == ContactWitness::Kind::kTriangles) {
+    if (AnySolid(a, witness.a, b, witness.b)) {
       geometry::GjkHint none;
-      add(SeparationOf(PosedA(SetOf(a, evidence.a), pose), PosedB(SetOf(b, evidence.b), pose), {},
+      add(SeparationOf(PosedA(SetOf(a, witness.a), pose), PosedB(SetOf(b, witness.b), pose), {},
                        &none, work)
               .normal);
     }
-    add(NormalOf(a, evidence.a));
-    add(pose.matrix * -NormalOf(b, evidence.b));
+    add(NormalOf(a, witness.a));
+    add(pose.R_AB * -NormalOf(b, witness.b));
   }
-  add(pose.offset);
+  add(pose.p_AB);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     if (a.shape()) add_axis(Vector3d::Unit(axis));
-    if (b.shape()) add_axis(pose.matrix.col(axis));
+    if (b.shape()) add_axis(pose.R_AB.col(axis));
   }
   for (std::size_t i = 0, count = ways.size(); i < count; ++i) ways.push_back(-ways[i]);
   double least = numeric::kInfinity;
   for (const Vector3d& way : ways) {
     // Against the centres' way only a large body is left sooner than along it.
-    if (way.dot(pose.offset) < 0 && -way.dot(pose.offset) >= least) continue;
-    if (!work->exhausted())
-      least = std::min(least, SeparatingTranslationAlong(a, b, pose, way, work));
+    if (way.dot(pose.p_AB) < 0 && -way.dot(pose.p_AB) >= least) continue;
+    if (!work->exhausted()) least = std::min(least, SeparatingTranslationAlong(pair, way, work));
   }
   least = std::max(0.0, least);
   WorkBudget own(std::min(kPastUnits, work->left()));
   for (const Vector3d& way : ways)
-    least = LocalSeparatingTranslation(a, b, pose, way, least, evidence, &own);
+    least = LocalSeparatingTranslation(pair, way, least, witness, &own);
   work->Spend(own.spent());
   return least;
 }

@@ -4,11 +4,14 @@
 // shift. Tried are the way between the reference points, the axes of both bodies, and the normals
 // of what shows the contact, so that bodies that rest on a face are measured exactly. On a wide
 // terrain that reach is its highest summit, however far away (11 m for a drone that grazes a
-// slope); so each way is tried once more with what is near only (shift_past.h). The depth from
-// below comes from balls within the solids, points, and for convex solids their difference.
+// slope); so each way is tried once more with what is near only (local_separating_translation.h).
+// The depth from below comes from balls within the solids, points, and for convex solids their
+// difference.
 #pragma once
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 
 namespace collision::narrow_phase {
 
@@ -16,13 +19,13 @@ namespace collision::narrow_phase {
 /// along n and that of B against it, less what they are apart. Rounded up; the uncertainty of
 /// rounding and turning is counted in, that of translation is not. +infinity where the work was
 /// spent before. Requires |n| within 2^-50 of 1.
-double SeparatingTranslationAlong(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  const Eigen::Vector3d& n, WorkBudget* work);
+double SeparatingTranslationAlong(const PosedPair& pair, const Eigen::Vector3d& n,
+                                  WorkBudget* work);
 
 /// The least of some: across what shows the contact, away from each other's reference points, and
-/// along the axes of both bodies; each by SeparatingTranslationAlong() and, with kPastUnits for all, by
-/// LocalSeparatingTranslation(). The translational penetration depth is no more.
-double SeparatingTranslation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                             const ContactWitness& evidence, WorkBudget* work);
+/// along the axes of both bodies; each by SeparatingTranslationAlong() and, with kPastUnits for
+/// all, by LocalSeparatingTranslation(). The translational penetration depth is no more.
+double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witness,
+                             WorkBudget* work);
 
 }  // namespace collision::narrow_phase

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision_core/motion/moving_rotation.h"
-#include "collision_core/narrow_phase/contact/ball_contact.h"
+#include "collision_core/narrow_phase/pose/ball_segment.h"
 #include "collision_core/shape/shape.h"
 
 namespace collision::narrow_phase {

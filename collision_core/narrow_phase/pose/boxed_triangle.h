@@ -3,6 +3,7 @@
 
 #include "collision_core/geometry/triangle/triangle_pair.h"
 #include "collision_core/narrow_phase/pose/relative_pose.h"
+#include "collision_core/shape/shape.h"
 
 namespace collision::narrow_phase {
 

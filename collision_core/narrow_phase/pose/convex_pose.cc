@@ -30,8 +30,8 @@ PosedHalfSpace Normalised(const shape::ConvexHalfSpace& half_space) {
 // moves with them.
 geometry::ConvexSet PosedB(const geometry::ConvexSet& of_B, const RelativePose& pose) {
   geometry::ConvexSet posed = of_B;
-  posed.generators = pose.matrix * of_B.generators;
-  posed.centre = pose.matrix * of_B.centre + pose.offset;
+  posed.generators = pose.R_AB * of_B.generators;
+  posed.centre = pose.R_AB * of_B.centre + pose.p_AB;
   // The error itself is moved along, by a matrix of norm at most 1 + 2^-20. All terms are positive,
   // so that 2^-40 covers the rounding of their sums.
   const double far = LengthUp(of_B.centre) + of_B.span;
@@ -61,8 +61,8 @@ PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_B, const RelativePose& po
   PosedHalfSpace posed = Normalised(of_B);
   const double share = numeric::AddUp(pose.matrix_error, pose.chord_B);
   const double length = LengthUp(of_B.point);
-  posed.normal = pose.matrix * posed.normal;
-  posed.point = pose.matrix * of_B.point + pose.offset;
+  posed.normal = pose.R_AB * posed.normal;
+  posed.point = pose.R_AB * of_B.point + pose.p_AB;
   posed.normal_error = numeric::AddUp(posed.normal_error, numeric::MultiplyUp(1 + 0x1p-40, share));
   posed.point_error = numeric::AddUp(pose.offset_error, numeric::MultiplyUp(share, length));
   return posed;

@@ -1,7 +1,8 @@
-// Whether one body is inside the other, where their surfaces are apart.
+#include "collision_core/narrow_phase/separation/containment.h"
+
 #include <algorithm>
 
-#include "collision_core/narrow_phase/separation/separation_findings.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -50,7 +51,8 @@ void JudgeEach(const BodyTree& body, const shape::Shape& other, ToOther to_other
 }
 
 // Balls about the bodies that are apart.
-bool AreRootsApart(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double slack) {
+bool AreRootsApart(const PosedPair& pair, double slack) {
+  const auto& [a, b, pose] = pair;
   const sphere_tree::SphereNode& root_a = a.node(0);
   const sphere_tree::SphereNode& root_b = b.node(0);
   const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
@@ -61,14 +63,14 @@ bool AreRootsApart(const BodyTree& a, const BodyTree& b, const RelativePose& pos
 
 // The surfaces are apart by more than all that is uncertain: so a point's side is that of the point
 // where it is computed to be.
-Containment TestContainment(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                            WorkBudget* work) {
+Containment TestContainment(const PosedPair& pair, WorkBudget* work) {
+  const auto& [a, b, pose] = pair;
   Containment nesting;
   nesting.neither = true;
   const double turning = numeric::AddUp(numeric::MultiplyUp(pose.chord_A, a.turning_reach()),
                                         numeric::MultiplyUp(pose.chord_B, b.turning_reach()));
-  const double slack = numeric::AddUp(turning, SlackOf(a, b, pose));
-  if (AreRootsApart(a, b, pose, numeric::AddUp(slack, pose.translation))) return nesting;
+  const double slack = numeric::AddUp(turning, SlackOf(pair));
+  if (AreRootsApart(pair, numeric::AddUp(slack, pose.translation))) return nesting;
   const auto judge = [&](Side side, const Eigen::Vector3d& x_A) {
     if (side != Side::kOutside) nesting.neither = false;
     if (side == Side::kInside) nesting.point = x_A, nesting.point_error = slack;

@@ -1,9 +1,9 @@
 // An element of a body, triangle or convex solid, as a convex set.
 #pragma once
 
+#include "collision_core/narrow_phase/pose/body_tree.h"
 #include "collision_core/narrow_phase/pose/boxed_triangle.h"
 #include "collision_core/narrow_phase/pose/convex_pose.h"
-#include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
 

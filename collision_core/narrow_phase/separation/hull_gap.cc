@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "collision_core/narrow_phase/separation/separation_findings.h"
 #include "collision_core/narrow_phase/sphere_pairs/kernel_pose.h"
 
 namespace collision::narrow_phase {
@@ -68,8 +67,8 @@ struct HullSide {
 
 class HullPair {
  public:
-  HullPair(const BodyTree& a, const BodyTree& b, const RelativePose& pose)
-      : a_(a), b_(b), matrix_(pose.matrix) {
+  explicit HullPair(const PosedPair& pair) : a_(pair.a), b_(pair.b), matrix_(pair.pose.R_AB) {
+    const auto& [a, b, pose] = pair;
     // The origins are posed in doubles, as centres of balls are. An origin may be √3 times as far
     // from the reference point as the body reaches: twice the slack has room for that.
     const Vector3d offset = pose.ToA(b_.origin) - a_.origin;
@@ -77,8 +76,7 @@ class HullPair {
     const double distance = offset.cwiseAbs().sum();
     known_ = distance < kFarApart && extents_ < kFarApart && distance > kAtOnePlace;
     const double turning = pose.chord_A * a.turning_reach() + pose.chord_B * b.turning_reach();
-    slack_ =
-        (2 * SlackOf(a, b, pose) + turning + kGapSlack * (extents_ + distance)) * (1 + 0x1p-50);
+    slack_ = (2 * SlackOf(pair) + turning + kGapSlack * (extents_ + distance)) * (1 + 0x1p-50);
     between_ = offset.cast<float>();
   }
 
@@ -145,9 +143,8 @@ class HullPair {
 
 }  // namespace
 
-double HullGapOf(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double enough,
-                 WorkBudget* work) {
-  const HullPair pair(a, b, pose);
+double HullGapOf(const PosedPair& posed, double enough, WorkBudget* work) {
+  const HullPair pair(posed);
   if (!pair.known()) return -numeric::kInfinity;
   Vector3f n = pair.FirstDirection();
   const float scale = 1 / std::sqrt(n.squaredNorm());

@@ -1,7 +1,8 @@
 // A lower bound on the distance of two posed bodies, by the convex bodies around them.
 #pragma once
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
 
 namespace collision::narrow_phase {
 
@@ -20,7 +21,6 @@ inline constexpr std::uint64_t kHullDirectionUnits = 1;
 /// deep in each other are abandoned, the later the sooner. What is inside of a body is inside of
 /// its convex body, so no containment test is needed. Source: Chung and Wang, "Quick collision
 /// detection of polytopes in virtual environments", VRST 1996.
-double HullGapOf(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double enough,
-                 WorkBudget* work);
+double HullGapOf(const PosedPair& pair, double enough, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

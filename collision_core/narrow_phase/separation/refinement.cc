@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/base/check.h"
+
 namespace collision::narrow_phase {
 namespace {
 
@@ -16,14 +18,16 @@ double WidthOf(const SeparationSearch& search) {
 
 }  // namespace
 
-Refinement::Entry::Entry(const BodyTree& a, const BodyTree& b, const RelativePose& given,
-                         double importance, Goal goal, std::optional<BracketWidth> narrow)
-    : pose(given), weight(importance), search(a, b, pose, goal, narrow, SearchOrder::kNearest) {}
+Refinement::Entry::Entry(const PosedPair& pair, double importance, Goal goal,
+                         std::optional<BracketTolerance> narrow)
+    : pose(pair.pose),
+      weight(importance),
+      search({pair.a, pair.b, pose}, goal, narrow, SearchOrder::kNearest) {}
 
-std::size_t Refinement::Add(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                            double weight, Goal goal, std::optional<BracketWidth> narrow,
-                            WorkBudget* work) {
-  Entry& entry = entries_.emplace_back(a, b, pose, weight, goal, narrow);
+std::size_t Refinement::Add(const PosedPair& pair, double weight, Goal goal,
+                            std::optional<BracketTolerance> narrow, WorkBudget* work) {
+  CORE_CHECK(weight > 0, "the weight of a pair is positive", weight);
+  Entry& entry = entries_.emplace_back(pair, weight, goal, narrow);
   WorkBudget start(1);
   entry.search.Start(&start);
   entry.spent = start.spent();

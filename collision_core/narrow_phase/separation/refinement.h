@@ -46,8 +46,8 @@ class Refinement {
 
   /// The surfaces outlive this. Costs one unit and gives a first bracket, whatever the budget.
   /// Requires weight > 0. Returns the pair's number: 0, 1, 2...
-  std::size_t Add(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double weight,
-                  Goal goal, std::optional<BracketWidth> narrow, WorkBudget* work);
+  std::size_t Add(const PosedPair& pair, double weight, Goal goal,
+                  std::optional<BracketTolerance> narrow, WorkBudget* work);
 
   /// Until all pairs are done, or the budget is spent.
   void Refine(WorkBudget* work);
@@ -59,12 +59,12 @@ class Refinement {
   /// Σ weight · width over all pairs [m].
   double TotalWidth() const;
   /// The whole answer of a pair, once.
-  SeparationBracket Told(std::size_t pair) { return entries_[pair].search.Told(); }
+  SeparationBracket Result(std::size_t pair) { return entries_[pair].search.Result(); }
 
  private:
   struct Entry {
-    Entry(const BodyTree& a, const BodyTree& b, const RelativePose& given, double importance,
-          Goal goal, std::optional<BracketWidth> narrow);
+    Entry(const PosedPair& pair, double importance, Goal goal,
+          std::optional<BracketTolerance> narrow);
 
     RelativePose pose;
     double weight;

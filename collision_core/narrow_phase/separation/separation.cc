@@ -1,14 +1,15 @@
 #include "collision_core/narrow_phase/separation/separation.h"
 
 #include "collision_core/narrow_phase/convex_pair/convex_pair_query.h"
+#include "collision_core/narrow_phase/separation/containment.h"
 #include "collision_core/narrow_phase/separation/hull_gap.h"
 #include "collision_core/narrow_phase/separation/separation_search.h"
 
 namespace collision::narrow_phase {
 namespace {
 
-void LookAgainAtLeaves(const BodyTree& a, const BodyTree& b, const ContactWitness& leaves,
-                       SeparationFindings* findings, WorkBudget* work) {
+void RecheckLeaves(const BodyTree& a, const BodyTree& b, const ContactWitness& leaves,
+                   SeparationFindings* findings, WorkBudget* work) {
   if (!a.shape() || !b.shape()) {
     const BodyTree& meshed = a.shape() ? a : b;
     const sphere_tree::SphereNode& leaf = meshed.node(a.shape() ? leaves.a : leaves.b);
@@ -21,7 +22,7 @@ void LookAgainAtLeaves(const BodyTree& a, const BodyTree& b, const ContactWitnes
   for (const std::uint32_t t : a.shape()->tree().TrianglesOf(a.node(leaves.a))) {
     for (const std::uint32_t u : b.shape()->tree().TrianglesOf(b.node(leaves.b))) {
       if (work->exhausted()) return;
-      findings->CrossAgain(t, u, work);
+      findings->RecheckElements(t, u, work);
     }
   }
 }
@@ -30,18 +31,18 @@ void LookAgainAtLeaves(const BodyTree& a, const BodyTree& b, const ContactWitnes
 constexpr double kSeenAtOnceMax = 1e100;
 
 // Balls about the whole bodies that are apart: so are the bodies, inside and out.
-bool RootsDecide(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                 SeparationBracket* look) {
+bool RootsDecide(const PosedPair& pair, SeparationBracket* bracket) {
+  const auto& [a, b, pose] = pair;
   const sphere_tree::SphereNode& root_a = a.node(0);
   const sphere_tree::SphereNode& root_b = b.node(0);
   const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
   if (!(distance < kSeenAtOnceMax)) return false;
-  double slack = SlackOf(a, b, pose);
+  double slack = SlackOf(pair);
   if (pose.chord_A > 0) slack += pose.chord_A * root_a.centre.norm();
   if (pose.chord_B > 0) slack += pose.chord_B * root_b.centre.norm();
-  look->lower = distance - root_a.radius - root_b.radius - slack;
-  look->upper = distance + root_a.signed_distance + root_b.signed_distance + slack;
-  return look->lower > pose.translation;
+  bracket->lower = distance - root_a.radius - root_b.radius - slack;
+  bracket->upper = distance + root_a.signed_distance + root_b.signed_distance + slack;
+  return bracket->CertainlyApart(pose.translation);
 }
 
 /// A body that is one convex solid; else null.
@@ -55,83 +56,84 @@ Decision DecideLone(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                     const RelativePose& pose, WorkBudget* work) {
   Decision decision;
   decision.verdict = DecideConvexPair(a, b, pose, work);
-  if (decision.verdict == Verdict::kApart) decision.look.lower = pose.translation;
-  if (decision.verdict == Verdict::kTouching) decision.look.upper = -pose.translation;
+  if (decision.verdict == Verdict::kApart) decision.bracket.lower = pose.translation;
+  if (decision.verdict == Verdict::kTouching) decision.bracket.upper = -pose.translation;
   return decision;
 }
 
 }  // namespace
 
-SeparationBracket QuerySeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                  Goal goal, WorkBudget* work, const ContactWitness& hint) {
-  SeparationSearch search(a, b, pose, goal);
+SeparationBracket QuerySeparation(const PosedPair& pair, Goal goal, WorkBudget* work,
+                                  const ContactWitness& hint) {
+  SeparationSearch search(pair, goal);
   search.Start(work);
   if (hint.kind == ContactWitness::Kind::kLeaves) search.Try(hint, work);
   search.Refine(work);
-  return search.Told();
+  return search.Result();
 }
 
-SeparationBracket BracketSeparation(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                    double width, double share, WorkBudget* work) {
-  SeparationSearch search(a, b, pose, Goal::kDecision, BracketWidth{width, share});
+SeparationBracket BracketSeparation(const PosedPair& pair, const BracketTolerance& tolerance,
+                                    WorkBudget* work) {
+  SeparationSearch search(pair, Goal::kDecision, tolerance);
   search.Start(work);
   search.Refine(work);
-  return search.Told();
+  return search.Result();
 }
 
-SeparationBracket RecheckWitness(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                 const ContactWitness& evidence, WorkBudget* work) {
-  SeparationFindings findings(a, b, pose, Goal::kDecision, {});
+SeparationBracket RecheckWitness(const PosedPair& pair, const ContactWitness& witness,
+                                 WorkBudget* work) {
+  SeparationFindings findings(pair, Goal::kDecision, {});
+  const BodyTree &a = pair.a, &b = pair.b;
   const bool meshes = a.shape() && b.shape();
-  switch (evidence.kind) {
+  switch (witness.kind) {
     case ContactWitness::Kind::kNone:
       break;
     case ContactWitness::Kind::kNodes:
       work->Spend(1);
-      findings.MeasureNodes(evidence.a, evidence.b);
+      findings.MeasureNodes(witness.a, witness.b);
       break;
     case ContactWitness::Kind::kTriangles:
       if (meshes) {
-        findings.CrossAgain(evidence.a, evidence.b, work);
+        findings.RecheckElements(witness.a, witness.b, work);
       } else {
-        findings.MeasureBeside(evidence.a, work);
+        findings.MeasureBeside(witness.a, work);
       }
       break;
     case ContactWitness::Kind::kLeaves:
-      LookAgainAtLeaves(a, b, evidence, &findings, work);
+      RecheckLeaves(a, b, witness, &findings, work);
   }
-  return findings.Told(-numeric::kInfinity, false, 0);
+  return findings.Result(-numeric::kInfinity, false, 0);
 }
 
-Decision DecideAt(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                  WorkBudget* work) {
+Decision DecideAt(const PosedPair& pair, WorkBudget* work) {
+  const auto& [a, b, pose] = pair;
   const geometry::ConvexSet *lone_a = LoneSolid(a), *lone_b = LoneSolid(b);
   if (lone_a && lone_b) return DecideLone(*lone_a, *lone_b, pose, work);
   Decision decision;
-  if (RootsDecide(a, b, pose, &decision.look)) {
+  if (RootsDecide(pair, &decision.bracket)) {
     work->Spend(1);
     decision.verdict = Verdict::kApart;
     return decision;
   }
   // Convex bodies around them that are apart: so are the bodies, inside and out.
-  const double gap = HullGapOf(a, b, pose, pose.translation, work);
+  const double gap = HullGapOf(pair, pose.translation, work);
   if (gap > pose.translation) {
-    decision.look.lower = std::max(decision.look.lower, gap);
+    decision.bracket.lower = std::max(decision.bracket.lower, gap);
     decision.verdict = Verdict::kApart;
     return decision;
   }
-  SeparationSearch search(a, b, pose, Goal::kYesNo);
+  SeparationSearch search(pair, Goal::kYesNo);
   search.Start(work);
   search.Refine(work);
-  decision.look = search.Told();
-  const SeparationBracket& look = decision.look;
-  if (look.upper <= -pose.translation || look.crossing_margin >= pose.translation / 2) {
+  decision.bracket = search.Result();
+  const SeparationBracket& bracket = decision.bracket;
+  if (bracket.CertainlyTouching(pose.translation)) {
     decision.verdict = Verdict::kTouching;
-  } else if (look.lower > pose.translation) {
-    const Containment nesting = TestContainment(a, b, pose, work);
+  } else if (bracket.CertainlyApart(pose.translation)) {
+    const Containment nesting = TestContainment(pair, work);
     if (nesting.neither) decision.verdict = Verdict::kApart;
     if (nesting.certain()) decision.verdict = Verdict::kTouching;
-    if (decision.verdict == Verdict::kUndecided) decision.look.exhausted |= work->exhausted();
+    if (decision.verdict == Verdict::kUndecided) decision.bracket.exhausted |= work->exhausted();
   }
   return decision;
 }

@@ -30,10 +30,14 @@ double GapAlong(const Eigen::Vector3d& n, const geometry::ConvexSet& a,
 
 }  // namespace
 
-SeparationFindings::SeparationFindings(const BodyTree& a, const BodyTree& b,
-                                       const RelativePose& pose, Goal goal,
-                                       std::optional<BracketWidth> narrow)
-    : a_(a), b_(b), pose_(pose), goal_(goal), narrow_(narrow), slack_(SlackOf(a, b, pose)) {}
+SeparationFindings::SeparationFindings(const PosedPair& pair, Goal goal,
+                                       std::optional<BracketTolerance> narrow)
+    : a_(pair.a),
+      b_(pair.b),
+      pose_(pair.pose),
+      goal_(goal),
+      narrow_(narrow),
+      slack_(SlackOf(pair)) {}
 
 double SeparationFindings::MeasureNodes(std::uint32_t index_a, std::uint32_t index_b) {
   const sphere_tree::SphereNode& a = a_.node(index_a);
@@ -45,10 +49,11 @@ double SeparationFindings::MeasureNodes(std::uint32_t index_a, std::uint32_t ind
   if (pose_.chord_A > 0) slack += pose_.chord_A * a.centre.norm();
   if (pose_.chord_B > 0) slack += pose_.chord_B * b.centre.norm();
   const double upper = distance + a.signed_distance + b.signed_distance + slack;
-  const bool is_news = upper < look_.upper || look_.evidence.kind == ContactWitness::Kind::kNone;
+  const bool is_news =
+      upper < bracket_.upper || bracket_.witness.kind == ContactWitness::Kind::kNone;
   if (upper <= -pose_.translation && is_news) {
     CommonPoint(a, b, c_b, distance, slack);
-    look_.evidence = {ContactWitness::Kind::kNodes, index_a, index_b};
+    bracket_.witness = {ContactWitness::Kind::kNodes, index_a, index_b};
   }
   LowerUpper(upper);
   return distance - a.radius - b.radius - slack;
@@ -71,9 +76,9 @@ void SeparationFindings::CommonPoint(const sphere_tree::SphereNode& a,
 }
 
 void SeparationFindings::KeepPoint(const Eigen::Vector3d& point, double error) {
-  if (!(error < look_.point_error)) return;
-  look_.point = point;
-  look_.point_error = error;
+  if (!(error < bracket_.point_error)) return;
+  bracket_.point = point;
+  bracket_.point_error = error;
 }
 
 double SeparationFindings::TurnOfA(const geometry::TrianglePoints& t) const {
@@ -84,8 +89,7 @@ double SeparationFindings::TurnOfA(const geometry::TrianglePoints& t) const {
 // reference point.
 double SeparationFindings::TurnOfB(const geometry::TrianglePoints& t) const {
   if (pose_.chord_B == 0) return 0;
-  const geometry::TrianglePoints own = {t[0] - pose_.offset, t[1] - pose_.offset,
-                                        t[2] - pose_.offset};
+  const geometry::TrianglePoints own = {t[0] - pose_.p_AB, t[1] - pose_.p_AB, t[2] - pose_.p_AB};
   return pose_.chord_B * Greatest(own);
 }
 
@@ -129,7 +133,7 @@ double SeparationFindings::MeasureElements(std::uint32_t a, std::uint32_t b, boo
 // How narrow the bracket of two elements need be for what is asked of the whole.
 ConvexQuestion SeparationFindings::SolidsQuestion() const {
   if (goal_ == Goal::kNearest) return {ConvexGoal::kDepth, 0, 0};
-  if (narrow_) return {ConvexGoal::kDepth, narrow_->share / 4, narrow_->width / 4};
+  if (narrow_) return {ConvexGoal::kDepth, narrow_->relative / 4, narrow_->absolute / 4};
   if (goal_ == Goal::kYesNo && pose_.translation == 0) return {ConvexGoal::kYesNo, 0, 0};
   return {ConvexGoal::kDepth, kEnoughOfSolids, kEnoughOfSolids * pose_.translation};
 }
@@ -148,9 +152,9 @@ double SeparationFindings::MeasureSolids(std::uint32_t a, std::uint32_t b, WorkB
   const ConvexSeparation found = SeparationOf(of_a, of_b, SolidsQuestion(), &none, &own);
   work->Spend(own.spent());
   const double upper = found.separation.upper;
-  if (upper <= -pose_.translation && upper < look_.upper) {
+  if (upper <= -pose_.translation && upper < bracket_.upper) {
     KeepPoint(found.a, found.point_error);
-    look_.evidence = {ContactWitness::Kind::kTriangles, a, b};
+    bracket_.witness = {ContactWitness::Kind::kTriangles, a, b};
   }
   KeepWay({found.a, found.b, found.separation.lower, upper});
   return found.separation.lower;
@@ -160,7 +164,7 @@ double SeparationFindings::MeasureBeside(std::uint32_t element, WorkBudget* work
   if (AnySolid(a_, element, b_, element)) return MeasureSolids(element, element, work);
   if (a_.shape()) {
     const geometry::TrianglePoints corners = CornersOf(*a_.shape(), element);
-    geometry::TriangleDistance found = geometry::DistanceOf(pose_.offset, corners);
+    geometry::TriangleDistance found = geometry::DistanceOf(pose_.p_AB, corners);
     std::swap(found.a, found.b);
     return Count(element, found, b_.reach(), false, slack_ + TurnOfA(corners), work);
   }
@@ -183,15 +187,15 @@ double SeparationFindings::Count(std::uint32_t triangle, const geometry::Triangl
   }
   const double lower = found.distance.lower - radius - slack;
   const double upper = found.distance.upper - radius + slack;
-  if (upper <= -pose_.translation && upper < look_.upper) {
+  if (upper <= -pose_.translation && upper < bracket_.upper) {
     KeepPoint(ball_is_a ? found.b : found.a, slack);  // of the surface, within the ball
-    look_.evidence = {ContactWitness::Kind::kTriangles, triangle, triangle};
+    bracket_.witness = {ContactWitness::Kind::kTriangles, triangle, triangle};
   }
   KeepWay({a, b, lower, upper});
   return lower;
 }
 
-void SeparationFindings::CrossAgain(std::uint32_t a, std::uint32_t b, WorkBudget* work) {
+void SeparationFindings::RecheckElements(std::uint32_t a, std::uint32_t b, WorkBudget* work) {
   if (AnySolid(a_, a, b_, b)) {
     MeasureSolids(a, b, work);
     return;
@@ -204,21 +208,21 @@ void SeparationFindings::Cross(std::uint32_t index_a, const geometry::TrianglePo
                                std::uint32_t index_b, const geometry::TrianglePoints& b) {
   const double turning = slack_ + std::max(TurnOfA(a), TurnOfB(b));
   const double margin = geometry::CrossingMargin(a, b) - turning;
-  if (!(margin > look_.crossing_margin)) return;
+  if (!(margin > bracket_.crossing_margin)) return;
   if (margin >= pose_.translation / 2) {
     const std::optional<geometry::Crossing> crossing =
         geometry::CertainCrossing(a, b, turning + pose_.translation / 2);
     if (!crossing) return;  // the margin was a matter of rounding
     KeepPoint(crossing->point, crossing->error);
-    look_.upper = std::min(look_.upper, -pose_.translation);
-    look_.evidence = {ContactWitness::Kind::kTriangles, index_a, index_b};
+    bracket_.upper = std::min(bracket_.upper, -pose_.translation);
+    bracket_.witness = {ContactWitness::Kind::kTriangles, index_a, index_b};
   }
-  look_.crossing_margin = margin;
+  bracket_.crossing_margin = margin;
 }
 
 void SeparationFindings::KeepWay(const NearestWay& way) {
   LowerUpper(way.upper);
-  if (way.lower > look_.upper + 2 * pose_.translation) return;
+  if (way.lower > bracket_.upper + 2 * pose_.translation) return;
   if (!way_ || way.upper < way_->upper) {
     way_ = way;
     const double length = (way.b - way.a).norm();
@@ -226,41 +230,42 @@ void SeparationFindings::KeepWay(const NearestWay& way) {
   }
   if (goal_ != Goal::kNearest) return;
   // A triangle may stand in several leaves.
-  const bool known = std::any_of(look_.ways.begin(), look_.ways.end(), [&](const auto& other) {
-    return other.a == way.a && other.b == way.b && other.upper == way.upper;
-  });
+  const bool known =
+      std::any_of(bracket_.ways.begin(), bracket_.ways.end(), [&](const auto& other) {
+        return other.a == way.a && other.b == way.b && other.upper == way.upper;
+      });
   if (known) return;
-  look_.ways.push_back(way);
-  if (look_.ways.size() > kWaysMax) DropLonger();
+  bracket_.ways.push_back(way);
+  if (bracket_.ways.size() > kWaysMax) DropLonger();
 }
 
 void SeparationFindings::DropLonger() {
-  const double reach = look_.upper + 2 * pose_.translation;
-  std::erase_if(look_.ways, [reach](const NearestWay& way) { return way.lower > reach; });
+  const double reach = bracket_.upper + 2 * pose_.translation;
+  std::erase_if(bracket_.ways, [reach](const NearestWay& way) { return way.lower > reach; });
 }
 
 // Half-way along the shortest way, where contact is not certain.
 void SeparationFindings::PointBetween() {
-  if (!way_ || look_.point_error < numeric::kInfinity) return;
-  if (way_->lower > look_.upper + 2 * pose_.translation) return;
-  look_.point = (way_->a + way_->b) / 2;
-  look_.point_error = std::max(0.0, way_->upper);
+  if (!way_ || bracket_.point_error < numeric::kInfinity) return;
+  if (way_->lower > bracket_.upper + 2 * pose_.translation) return;
+  bracket_.point = (way_->a + way_->b) / 2;
+  bracket_.point_error = std::max(0.0, way_->upper);
 }
 
-SeparationBracket SeparationFindings::Told(double unopened, bool exhausted, std::uint32_t level) {
-  look_.lower = unopened;
-  if (look_.upper < look_.lower) {
+SeparationBracket SeparationFindings::Result(double unopened, bool exhausted, std::uint32_t level) {
+  bracket_.lower = unopened;
+  if (bracket_.upper < bracket_.lower) {
     // Nearer to each other than their surfaces are: one is inside the other, and as deep at least
     // as the surfaces are apart, since no shorter way takes it out again.
-    if (look_.lower > 0) look_.upper = std::min(look_.upper, -look_.lower);
-    if (look_.lower <= 0) look_.lower = look_.upper;
+    if (bracket_.lower > 0) bracket_.upper = std::min(bracket_.upper, -bracket_.lower);
+    if (bracket_.lower <= 0) bracket_.lower = bracket_.upper;
   }
-  look_.exhausted = exhausted;
-  look_.level = level;
+  bracket_.exhausted = exhausted;
+  bracket_.level = level;
   PointBetween();
   DropLonger();
-  if (exhausted || look_.ways.size() > kWaysMax) look_.ways.clear();
-  return std::move(look_);
+  if (exhausted || bracket_.ways.size() > kWaysMax) bracket_.ways.clear();
+  return std::move(bracket_);
 }
 
 }  // namespace collision::narrow_phase

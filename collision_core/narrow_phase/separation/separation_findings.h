@@ -6,75 +6,62 @@
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/narrow_phase/pose/boxed_triangle.h"
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
+#include "collision_core/narrow_phase/separation/separation_bracket.h"
 
 namespace collision::narrow_phase {
 
-/// The most ways between surfaces that are kept; with more of them no direction is reported.
+/// The most shortest-way candidates that are kept; if there are more, no direction is reported.
 inline constexpr std::size_t kWaysMax = 128;
-
-/// What rounding may have made of a distance at this pose, computed in doubles from points of these
-/// lengths, and of the sums and differences made of it (less than a dozen operations on terms below
-/// the lengths' sum): 2^-49 of the sum covers it. A share of 2^-50 for the operations here.
-inline double SlackOf(const BodyTree& a, const BodyTree& b, const RelativePose& pose) {
-  const double rounding = 0x1p-49 * (a.reach() + b.reach() + pose.offset.cwiseAbs().sum());
-  return (rounding + (pose.offset_error + pose.matrix_error * b.reach())) * (1 + 0x1p-50);
-}
 
 /// A step of the search through time loses at most half of the distance when the bracket is this
 /// narrow.
 inline constexpr double kEnoughOfUpper = 0.5;
 
-/// For two elements of which one is a convex solid: where they do not suffice, the bracket stays as
-/// wide as it is then.
+/// Units for a pair of elements of which one is a convex solid. If they do not suffice, the bracket
+/// of the pair stays as wide as it is then.
 inline constexpr std::uint64_t kSolidPairUnits = 192;
 
-/// A bracket that is narrow enough.
-struct BracketWidth {
-  double width, share;
-};
-
-/// The look as it grows: balls and triangles are measured in doubles, and what matters is kept.
+/// The bracket of a search while it narrows: pairs of balls and of elements are measured in doubles,
+/// and what may matter for the answer is kept.
 class SeparationFindings {
  public:
   /// Everything passed in outlives this.
-  SeparationFindings(const BodyTree& a, const BodyTree& b, const RelativePose& pose, Goal goal,
-                     std::optional<BracketWidth> narrow);
+  SeparationFindings(const PosedPair& pair, Goal goal, std::optional<BracketTolerance> narrow);
 
-  /// Pairs that are farther apart than this need not be examined: they cannot change the answer.
+  /// Pairs farther apart than this need not be measured: the answer is the same without them [m].
   double Limit() const;
   /// Contact is certain.
-  bool Touching() const {
-    return look_.upper <= -pose_.translation || look_.crossing_margin >= pose_.translation / 2;
-  }
-  /// Nothing makes the answer any better.
+  bool Touching() const { return bracket_.CertainlyTouching(pose_.translation); }
+  /// No further pair can improve the answer.
   bool Settled() const;
 
-  const SeparationBracket& look() const { return look_; }
+  const SeparationBracket& bracket() const { return bracket_; }
   double slack() const { return slack_; }
-  /// From A to B along the shortest way found: about a unit vector, or zero.
+  /// From A to B along the shortest way found so far: a unit vector but for rounding; zero if there is
+  /// none.
   const Eigen::Vector3d& direction() const { return direction_; }
 
-  /// Takes a lower bound on the distance of what was resolved.
+  /// Adds a lower bound on the distance of a pair that is measured and will not be opened again.
   void Resolve(double lower) { resolved_lower_ = std::min(resolved_lower_, lower); }
   double resolved_lower() const { return resolved_lower_; }
 
-  /// Two balls, by their numbers in the sphere trees: returns the lower bound.
+  /// Measures two balls, given by their numbers in the sphere trees; returns the lower bound.
   double MeasureNodes(std::uint32_t a, std::uint32_t b);
-  /// An upper bound for some pair of balls.
-  void LowerUpper(double upper) { look_.upper = std::min(look_.upper, upper); }
-  /// Two triangles, of which is known that a filter could not tell them apart: returns the lower
-  /// bound. `likely_to_cross`: that is looked at first.
+  /// Adds an upper bound of the distance, found for some pair of balls.
+  void LowerUpper(double upper) { bracket_.upper = std::min(bracket_.upper, upper); }
+  /// Measures two triangles that the filter could not separate; returns the lower bound.
+  /// `likely_to_cross`: the test for a crossing comes first.
   double MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
-  /// A ball beside an element of the other body. Requires that one of the two is a ball.
+  /// If one of the bodies is a ball: measures it beside an element of the other body.
   double MeasureBeside(std::uint32_t element, WorkBudget* work);
   /// Measures any two elements; two triangles by MeasureTriangles().
   double MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
-  /// Tests whether two elements are certainly in contact, and nothing more.
-  void CrossAgain(std::uint32_t a, std::uint32_t b, WorkBudget* work);
+  /// Tests only whether two elements are certainly in contact.
+  void RecheckElements(std::uint32_t a, std::uint32_t b, WorkBudget* work);
 
-  /// The whole answer. `unopened`: a lower bound on the distance of what was not opened.
-  SeparationBracket Told(double unopened, bool exhausted, std::uint32_t level);
+  /// The whole answer. `unopened`: a lower bound on the distance of all pairs that were not opened.
+  SeparationBracket Result(double unopened, bool exhausted, std::uint32_t level);
 
  private:
   ConvexQuestion SolidsQuestion() const;
@@ -98,23 +85,23 @@ class SeparationFindings {
   const BodyTree& b_;
   const RelativePose& pose_;
   const Goal goal_;
-  const std::optional<BracketWidth> narrow_;
+  const std::optional<BracketTolerance> narrow_;
   const double slack_;
   double resolved_lower_ = numeric::kInfinity;
   std::optional<NearestWay> way_;
   Eigen::Vector3d direction_ = Eigen::Vector3d::Zero();
-  SeparationBracket look_;
+  SeparationBracket bracket_;
 };
 
-// What is resolved bounds the distance from below: once that is positive, what is farther away can
-// make the bracket no better. Where it is not, other pairs may still be certain to cross, unless
-// they are apart for certain themselves.
+// The resolved pairs bound the distance from below: once that bound is positive, pairs farther away
+// cannot improve the bracket. While it is not positive, other pairs may still be found to cross,
+// unless they are certainly apart themselves.
 inline double SeparationFindings::Limit() const {
-  const double upper = look_.upper, moved = pose_.translation;
+  const double upper = bracket_.upper, moved = pose_.translation;
   if (goal_ == Goal::kNearest) return std::max(0.0, upper + 2 * moved);
   const double resolved = resolved_lower_ > 0 ? resolved_lower_ : numeric::kInfinity;
   if (narrow_) {
-    return std::min({upper - narrow_->width, upper / (1 + narrow_->share), resolved});
+    return std::min({upper - narrow_->absolute, upper / (1 + narrow_->relative), resolved});
   }
   if (goal_ == Goal::kYesNo) return resolved_lower_ > moved ? moved : 0;
   if (Touching()) return 0;
@@ -122,7 +109,7 @@ inline double SeparationFindings::Limit() const {
 }
 
 inline bool SeparationFindings::Settled() const {
-  if (goal_ == Goal::kNearest) return look_.upper <= 0 || look_.ways.size() > kWaysMax;
+  if (goal_ == Goal::kNearest) return bracket_.upper <= 0 || bracket_.ways.size() > kWaysMax;
   return goal_ != Goal::kContact && Touching();
 }
 

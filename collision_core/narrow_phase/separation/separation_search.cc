@@ -36,17 +36,17 @@ std::uint32_t ElementAt(const sphere_tree::TriangleBlock* leaf, std::uint32_t i)
 
 }  // namespace
 
-SeparationSearch::SeparationSearch(const BodyTree& a, const BodyTree& b, const RelativePose& pose,
-                                   Goal goal, std::optional<BracketWidth> narrow, SearchOrder order,
+SeparationSearch::SeparationSearch(const PosedPair& pair, Goal goal,
+                                   std::optional<BracketTolerance> narrow, SearchOrder order,
                                    const SpherePairKernel& scan)
-    : a_(a),
-      b_(b),
+    : a_(pair.a),
+      b_(pair.b),
       scan_(scan),
-      body_a_(a),
-      body_b_(b),
-      findings_(a, b, pose, goal, narrow),
-      pose_(KernelPoseOf(body_a_, body_b_, pose, findings_.slack())),
-      moved_(pose.translation),
+      body_a_(a_),
+      body_b_(b_),
+      findings_(pair, goal, narrow),
+      pose_(KernelPoseOf(body_a_, body_b_, pair.pose, findings_.slack())),
+      moved_(pair.pose.translation),
       looks_for_margin_(goal == Goal::kContact),
       only_within_(goal == Goal::kYesNo),
       frontier_(order == SearchOrder::kAsGoal && (goal == Goal::kYesNo || narrow)) {
@@ -272,10 +272,10 @@ double SeparationSearch::lower() const {
   return std::max(root_lower_, std::min({findings_.resolved_lower(), least, beyond}));
 }
 
-SeparationBracket SeparationSearch::Told() {
+SeparationBracket SeparationSearch::Result() {
   const std::uint32_t level = std::max(a_.node(body_a_.NodeOf(deepest_a_)).level,
                                        b_.node(body_b_.NodeOf(deepest_b_)).level);
-  return findings_.Told(lower(), !done_, level);
+  return findings_.Result(lower(), !done_, level);
 }
 
 }  // namespace collision::narrow_phase

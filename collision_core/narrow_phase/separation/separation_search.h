@@ -11,9 +11,9 @@
 // before leave a pair that matters. Triangles across edges are told apart by the edges' moments,
 // without a normal, root or quotient for each of the nine pairs. What is left, seldom more than one
 // pair in ten, is measured in doubles. So single precision decides where that is certain
-// (kBallSlack, kTriangleSlack: a millionth of the scene's size, derived in pack_scan.h), and the
-// last digits come from triangle_pair.h. AVX-512, AVX2 and plain loops give the same bits: same
-// operations, same order, nothing fused.
+// (kBallSlack, kTriangleSlack: a millionth of the scene's size, derived in sphere_pair_kernel.h),
+// and the last digits come from triangle_pair.h. AVX-512, AVX2 and plain loops give the same bits:
+// same operations, same order, nothing fused.
 #pragma once
 
 #include "collision_core/narrow_phase/separation/separation_findings.h"
@@ -40,8 +40,7 @@ enum class SearchOrder : std::uint8_t {
 class SeparationSearch {
  public:
   /// Everything passed in outlives this.
-  SeparationSearch(const BodyTree& a, const BodyTree& b, const RelativePose& pose, Goal goal,
-                   std::optional<BracketWidth> narrow = {},
+  SeparationSearch(const PosedPair& pair, Goal goal, std::optional<BracketTolerance> narrow = {},
                    SearchOrder order = SearchOrder::kAsGoal,
                    const SpherePairKernel& scan = WidestSpherePairKernel());
 
@@ -55,10 +54,10 @@ class SeparationSearch {
 
   /// The bracket as it is.
   double lower() const;
-  double upper() const { return findings_.look().upper; }
+  double upper() const { return findings_.bracket().upper; }
 
   /// The answer. The search ends with this call.
-  SeparationBracket Told();
+  SeparationBracket Result();
 
  private:
   struct Opening;

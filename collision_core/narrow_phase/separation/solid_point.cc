@@ -66,8 +66,8 @@ SolidPoint PointOfB(const BodyTree& b, const Eigen::Vector3d& x_B, WorkBudget* w
   return {false, x_B, SignedDistanceTo(b, x_B, work)};
 }
 
-double UpperBy(const SolidPoint& point, const BodyTree& a, const BodyTree& b,
-               const RelativePose& pose, WorkBudget* work) {
+double UpperBy(const SolidPoint& point, const PosedPair& pair, WorkBudget* work) {
+  const auto& [a, b, pose] = pair;
   double off = 0, length_A = 0, length_B = 0, other = 0;
   if (point.of_A) {
     const Eigen::Vector3d y_B = SeenFromB(point.x, pose, &off);

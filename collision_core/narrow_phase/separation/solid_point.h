@@ -1,7 +1,8 @@
 // A point that shows that two bodies overlap, however little.
 #pragma once
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/pose/posed_pair.h"
 
 namespace collision::narrow_phase {
 
@@ -23,11 +24,10 @@ inline constexpr std::uint64_t kPointUnits = 100;
 SolidPoint PointOfA(const BodyTree& a, const Eigen::Vector3d& x_A, WorkBudget* work);
 SolidPoint PointOfB(const BodyTree& b, const Eigen::Vector3d& x_B, WorkBudget* work);
 
-/// A bound of the distance of the two bodies as in SeparationBracket::upper, by this point alone: where it is
-/// below 0 they overlap by at least that much. The uncertainty of rounding and turning is counted
-/// in, that of translation is not.
-double UpperBy(const SolidPoint& point, const BodyTree& a, const BodyTree& b,
-               const RelativePose& pose, WorkBudget* work);
+/// A bound of the distance of the two bodies as in SeparationBracket::upper, by this point alone:
+/// where it is below 0 they overlap by at least that much. The uncertainty of rounding and turning
+/// is counted in, that of translation is not.
+double UpperBy(const SolidPoint& point, const PosedPair& pair, WorkBudget* work);
 
 /// A bound of the signed distance of a point, in the body frame: negative only where it is
 /// certainly within a solid. A ball is solid.

@@ -1,4 +1,5 @@
-// Whether triangles are apart across their edges, in wide vectors. Only for pack_scan_wide.h.
+// Whether triangles are apart across their edges, in wide vectors. Only for
+// sphere_pair_kernel_wide.h.
 #pragma once
 
 #include "collision_core/narrow_phase/sphere_pairs/kernel_points_wide.h"

@@ -1,4 +1,4 @@
-// Points in wide vectors. Only for pack_scan_wide*.h: see pack_scan_wide.h.
+// Points in wide vectors. Only for sphere_pair_kernel_wide.h: see sphere_pair_kernel_wide.h.
 #pragma once
 
 #include "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h"

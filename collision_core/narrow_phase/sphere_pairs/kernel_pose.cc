@@ -29,7 +29,7 @@ KernelPose KernelPoseOf(const PackedBody& a, const PackedBody& b, const Relative
   const Eigen::Vector3d offset = pose.ToA(b.origin) - a.origin;
   for (Eigen::Index row = 0; row < 3; ++row) {
     for (Eigen::Index column = 0; column < 3; ++column) {
-      scan.matrix[3 * row + column] = static_cast<float>(pose.matrix(row, column));
+      scan.matrix[3 * row + column] = static_cast<float>(pose.R_AB(row, column));
     }
   }
   Store(offset, scan.offset);

@@ -1,10 +1,11 @@
-// Two posed bodies as the kernels of pack_scan.h see them.
+// Two posed bodies as the kernels of sphere_pair_kernel.h see them.
 #pragma once
 
 #include <cmath>
 #include <limits>
 
-#include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/narrow_phase/pose/body_tree.h"
+#include "collision_core/narrow_phase/pose/relative_pose.h"
 #include "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h"
 
 namespace collision::narrow_phase {

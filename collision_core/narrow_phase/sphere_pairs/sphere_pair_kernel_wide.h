@@ -1,10 +1,11 @@
-// The kernels of pack_scan.h, in whatever a wide vector is. Only for pack_scan*.cc, which say so
-// first: WIDE, the attribute of functions for their processor; Lanes, with the four operators, and
-// kWidth, a multiple of eight; All(); OfEight() and OfFour(), so many values again and again;
-// RowsOfEight(), values of one row and of another, and RowsOfFour(), from a row on, each in eight
-// or four lanes; Load() and Store(); Lesser() and Greater() (of two, the second where they do not
-// compare); Root(); Least() of all lanes; NotGreater(), the lanes of a for which it does not hold
-// beside b; and Beyond(), a where it is greater, else kNowhere.
+// The kernels of sphere_pair_kernel.h, in whatever a wide vector is. Only for
+// sphere_pair_kernel*.cc, which say so first: WIDE, the attribute of functions for their processor;
+// Lanes, with the four operators, and kWidth, a multiple of eight; All(); OfEight() and OfFour(),
+// so many values again and again; RowsOfEight(), values of one row and of another, and
+// RowsOfFour(), from a row on, each in eight or four lanes; Load() and Store(); Lesser() and
+// Greater() (of two, the second where they do not compare); Root(); Least() of all lanes;
+// NotGreater(), the lanes of a for which it does not hold beside b; and Beyond(), a where it is
+// greater, else kNowhere.
 #pragma once
 
 #include "collision_core/narrow_phase/sphere_pairs/kernel_edges_wide.h"

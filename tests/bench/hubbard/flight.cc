@@ -34,8 +34,9 @@ narrow_phase::Verdict VerdictOf(const ShipKind& a, const ShipKind& b, const Ship
   narrow_phase::BodySegment body_a, body_b;
   body_a.shape = a.shape, body_b.shape = b.shape;
   WorkBudget work(kUnlimited);
-  return DecideAt(narrow_phase::BodyTree(body_a), narrow_phase::BodyTree(body_b),
-                  narrow_phase::PoseOf(pose.rotation, pose.offset), &work)
+  return narrow_phase::DecideAt({narrow_phase::BodyTree(body_a), narrow_phase::BodyTree(body_b),
+                                 narrow_phase::PoseOf(pose.rotation, pose.offset)},
+                                &work)
       .verdict;
 }
 

@@ -164,8 +164,8 @@ ShipComparison BySphereTrees(const ShipKind& spaceship, const ShipKind& drone) {
     const narrow_phase::BodyTree a(pair.lower == 0 ? of_spaceship : of_drone), b(of_drone);
     const ShipPose pose = PoseBetween(flight.at(frame, pair.lower), flight.at(frame, pair.higher));
     WorkBudget work(kUnlimited);
-    return DecideAt(a, b, narrow_phase::PoseOf(pose.rotation, pose.offset), &work).verdict !=
-           narrow_phase::Verdict::kApart;
+    return narrow_phase::DecideAt({a, b, narrow_phase::PoseOf(pose.rotation, pose.offset)}, &work)
+               .verdict != narrow_phase::Verdict::kApart;
   };
 }
 

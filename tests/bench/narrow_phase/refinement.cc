@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 11;
 constexpr std::size_t kPosesEach = 10;
-constexpr narrow_phase::BracketWidth kNarrow = {0, 1e-6};
+constexpr narrow_phase::BracketTolerance kNarrow = {0, 1e-6};
 /// Units for each pair.
 constexpr std::uint64_t kBudgets[] = {4, 16, 64, 256, 1024, 4096};
 
@@ -48,7 +48,7 @@ Shared Refine(const Scene& scene, narrow_phase::RefinementOrder order, std::uint
   narrow_phase::Refinement refinement(order);
   WorkBudget work(units * scene.poses.size());
   for (const narrow_phase::RelativePose& pose : scene.poses) {
-    refinement.Add(scene.surface, scene.surface, pose, 1, narrow_phase::Goal::kDecision, kNarrow,
+    refinement.Add({scene.surface, scene.surface, pose}, 1, narrow_phase::Goal::kDecision, kNarrow,
                    &work);
   }
   const double start = CpuNow();

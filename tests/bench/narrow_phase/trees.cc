@@ -138,7 +138,7 @@ void BudgetPart(const NarrowSettings& settings, NarrowReport* report) {
         for (std::uint64_t budget = 1; budget <= 100'000; budget = budget * 3 / 2 + 1) {
           WorkBudget work(budget);
           const narrow_phase::SeparationBracket look =
-              BracketSeparation(surface, surface, PoseOf(pose), 0, 0, &work);
+              narrow_phase::BracketSeparation({surface, surface, PoseOf(pose)}, {0, 0}, &work);
           hash.Add(look.lower), hash.Add(look.upper), ++looks;
           if (work.spent() > budget) overrun = std::max(overrun, work.spent() - budget);
         }

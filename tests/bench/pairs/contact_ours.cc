@@ -121,10 +121,11 @@ std::optional<double> Step(const ContactCase& of, const narrow_phase::BodySegmen
   for (int frame = 0; frame <= frames; ++frame) {
     const double at = frame / rate;
     WorkBudget work(kUnlimited);
-    const bool touch = balls ? BallsTouch(of, at)
-                             : DecideAt(narrow_phase::BodyTree(a), narrow_phase::BodyTree(b),
-                                        PoseAt(of, at), &work)
-                                       .verdict == Verdict::kTouching;
+    const bool touch =
+        balls ? BallsTouch(of, at)
+              : narrow_phase::DecideAt(
+                    {narrow_phase::BodyTree(a), narrow_phase::BodyTree(b), PoseAt(of, at)}, &work)
+                        .verdict == narrow_phase::Verdict::kTouching;
     if (touch) return at;
   }
   return std::nullopt;

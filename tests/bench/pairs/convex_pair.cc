@@ -51,9 +51,12 @@ narrow_phase::Verdict ConvexPair::VerdictAt(const narrow_phase::RelativePose& po
 numeric::Interval ConvexPair::DistanceAt(const narrow_phase::RelativePose& pose, double share,
                                          double width) const {
   WorkBudget work(kUnlimited);
-  const numeric::Interval separation = SeparationOfConvexPair(
-      a.set(), b.set(), pose,
-      {.goal = narrow_phase::ConvexGoal::kDistance, .share = share, .width = width}, &work);
+  const numeric::Interval separation =
+      SeparationOfConvexPair(a.set(), b.set(), pose,
+                             {.goal = narrow_phase::ConvexGoal::kDistance,
+                              .relative_tolerance = share,
+                              .absolute_tolerance = width},
+                             &work);
   return {std::max(0.0, separation.lower), std::max(0.0, separation.upper)};
 }
 

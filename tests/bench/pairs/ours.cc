@@ -10,13 +10,13 @@ namespace {
 
 constexpr std::uint64_t kBudgets[] = {1, 4, 16, 64, 128, 256, 512, 1024, 4096, 1 << 16};
 constexpr double kWidths[] = {0.3, 0.1, 3e-2, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-constexpr narrow_phase::BracketWidth kAsNarrowAsCanBe{0, 0};
+constexpr narrow_phase::BracketTolerance kAsNarrowAsCanBe{0, 0};
 
 const char kByBudget[] = "work units a pair; at last the rounding of the pose";
 const char kByWidth[] = "the width asked for; at last the rounding of the pose";
 const char kByRounding[] = "the rounding of the pose";
 
-Reply Told(const Look& look) {
+Reply Told(const narrow_phase::SeparationBracket& look) {
   if (look.upper <= 0 || look.crossing_margin >= 0) return Plain(0);
   return {std::max(0.0, look.lower), look.upper};
 }
@@ -33,11 +33,11 @@ Reply ByBudget(const narrow_phase::BodySegment& body, const PlainPose& at, std::
   const narrow_phase::BodyTree surface(body);
   const narrow_phase::RelativePose pose = PoseOf(at);
   WorkBudget work(units);
-  narrow_phase::SeparationSearch search(surface, surface, pose, narrow_phase::Goal::kDecision,
+  narrow_phase::SeparationSearch search({surface, surface, pose}, narrow_phase::Goal::kDecision,
                                         kAsNarrowAsCanBe, narrow_phase::SearchOrder::kNearest);
   search.Start(&work);
   search.Refine(&work);
-  return Told(search.Told());
+  return Told(search.Result());
 }
 
 /// Until the bracket is narrower than `width` [m] or than `share` of its lower end.
@@ -45,13 +45,14 @@ Reply Bracket(const narrow_phase::BodySegment& body, const PlainPose& at, double
               double share = 0) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  return Told(BracketSeparation(a, b, PoseOf(at), width, share, &work));
+  return Told(
+      narrow_phase::BracketSeparation({a, b, PoseOf(at)}, {width, share}, &work));
 }
 
 Reply Decide(const narrow_phase::BodySegment& body, const PlainPose& at) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  return Told(DecideAt(a, b, PoseOf(at), &work).verdict);
+  return Told(narrow_phase::DecideAt({a, b, PoseOf(at)}, &work).verdict);
 }
 
 std::vector<Reply> Together(const narrow_phase::BodySegment& body,
@@ -61,12 +62,12 @@ std::vector<Reply> Together(const narrow_phase::BodySegment& body,
   narrow_phase::Refinement refinement(order);
   WorkBudget work(units * poses.size());
   for (const PlainPose& at : poses) {
-    refinement.Add(surface, surface, PoseOf(at), 1, narrow_phase::Goal::kDecision, kAsNarrowAsCanBe,
-                   &work);
+    refinement.Add({surface, surface, PoseOf(at)}, 1, narrow_phase::Goal::kDecision,
+                   kAsNarrowAsCanBe, &work);
   }
   refinement.Refine(&work);
   std::vector<Reply> replies;
-  for (std::size_t i = 0; i < poses.size(); ++i) replies.push_back(Told(refinement.Told(i)));
+  for (std::size_t i = 0; i < poses.size(); ++i) replies.push_back(Told(refinement.Result(i)));
   return replies;
 }
 

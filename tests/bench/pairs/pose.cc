@@ -28,13 +28,15 @@ PairOracle OracleOf(std::shared_ptr<const shape::Shape> shape) {
   const narrow_phase::BodySegment body = BodyOf(std::move(shape));
   return {[body](const narrow_phase::RelativePose& pose) {
             WorkBudget work(kUnlimited);
-            return DecideAt(narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, &work)
+            return narrow_phase::DecideAt(
+                       {narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose}, &work)
                 .verdict;
           },
           [body](const narrow_phase::RelativePose& pose, double width) {
             WorkBudget work(kUnlimited);
-            const Look look = BracketSeparation(
-                narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose, width, 0, &work);
+            const narrow_phase::SeparationBracket look = narrow_phase::BracketSeparation(
+                {narrow_phase::BodyTree(body), narrow_phase::BodyTree(body), pose}, {width, 0},
+                &work);
             return numeric::Interval(look.lower, look.upper);
           }};
 }

@@ -1,5 +1,6 @@
-// Goal:   the interval contains the exact distance and is narrow, also for slivers, and a triangle is
-// called farther only if it is. Method: exact rational squared distances.
+// Goal:   the interval contains the exact distance and is narrow, also for slivers, and a triangle
+//         is called farther only if it is.
+// Method: exact rational squared distances.
 #include "collision_core/geometry/triangle/point_triangle.h"
 
 #include <gtest/gtest.h>

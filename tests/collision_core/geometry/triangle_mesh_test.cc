@@ -1,4 +1,5 @@
-// Goal:   what is not a mesh is refused with a sentence that helps; what can be repaired is, counted.
+// Goal:   what is not a mesh is refused with a sentence that helps; what can be repaired is,
+//         counted.
 // Method: one mistake at a time in a good mesh; polygons whose area and boundary are known.
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 
@@ -209,7 +210,8 @@ TEST(Triangulate, DegenerateFacesAreDroppedAndCounted) {
   EXPECT_EQ(triangles.vertices, mesh.vertices);
 }
 
-// A polygon that crosses itself has no right triangles, but its boundary stays: closed stays closed.
+// A polygon that crosses itself has no right triangles, but its boundary stays: closed stays
+// closed.
 TEST(Triangulate, BoundaryIsKeptWhateverThePolygon) {
   Random random(82);
   for (int i = 0; i < 200; ++i) {

@@ -56,7 +56,7 @@ struct Motion {
 
 // Goal:   the brackets of the scene's two satellites are as narrow as the project promises.
 // Method: their states at 599 s and 600 s. The spheres meet at 599.734303 s and part at 599.857266
-// s.
+//         s.
 TEST(EvaluateBallSegment, IridiumAndCosmos) {
   const auto bound = [](std::int64_t s, Eigen::Vector3d p, Eigen::Vector3d v) {
     return Bound(s * kSecond, p, v, 500, 7.9);
@@ -81,8 +81,9 @@ TEST(EvaluateBallSegment, IridiumAndCosmos) {
 }
 
 // Goal:   no claim is false for any motion, and claims are made: contact, freedom before, freedom
-// after. Method: random pieces of full acceleration between exact states; the verdict against the
-// sampled motion.
+//         after.
+// Method: random pieces of full acceleration between exact states; the verdict against the sampled
+//         motion.
 TEST(EvaluateBallSegment, ClaimsHoldForRandomMotions) {
   Random random(71);
   int contacts = 0, frees = 0, partly = 0;
@@ -135,8 +136,9 @@ TEST(EvaluateBallSegment, ClaimsHoldForRandomMotions) {
 }
 
 // Goal:   brackets are as narrow as the bounds allow: about M T²/8 per agent over the closing
-// speed. Method: two that glide through each other uniformly while M would allow more; begin and
-// end at mid-way.
+//         speed.
+// Method: two that glide through each other uniformly while M would allow more; begin and end at
+//         mid-way.
 TEST(EvaluateBallSegment, BracketsAreNarrow) {
   const double M = 0.5, speed = 4;
   const auto glide = [&](double x0, double v, double radius) {
@@ -162,8 +164,8 @@ TEST(EvaluateBallSegment, BracketsAreNarrow) {
 }
 
 // Goal:   freedom that one choice of bounds certifies at the start and another at the end covers
-// the whole. Method: at rest at 1 m, u = ½Mτ² each: apart only before 0.7 s forward and after 0.3 s
-// backward.
+//         the whole.
+// Method: at rest at 1 m, u = ½Mτ² each: apart only before 0.7 s forward and after 0.3 s backward.
 TEST(EvaluateBallSegment, ChoicesExtendEachOther) {
   const auto rest = [](double x) {
     return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 0, 2),
@@ -176,10 +178,10 @@ TEST(EvaluateBallSegment, ChoicesExtendEachOther) {
   EXPECT_NEAR(EvaluateBallSegment(forward, other, 1).free_until, std::sqrt(0.5), 1e-9);
 }
 
-// Goal:   contact at both ends with a middle that is not certified is said to be not continuous;
-//         at the exact values of the bounds.
+// Goal:   contact at both ends with a middle that is not certified is said to be not continuous; at
+//         the exact values of the bounds.
 // Method: 0.8 m deep at rest, M = 8: each u reaches 1 m mid-way, and only 0.16 m are needed to
-// leave.
+//         leave.
 TEST(EvaluateBallSegment, ContactThatMayBreakIsNotContinuous) {
   const auto rest = [](double x) {
     return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 0.5, 8),
@@ -211,10 +213,10 @@ TEST(EvaluateBallSegment, InstantAndUnknown) {
   EXPECT_EQ(unknown.free_from, 1);
 }
 
-// Goal:   what a glance tells is what EvaluateBallSegment() tells, bit for bit, and bodies that rest in each
-//         other are told at a glance.
-// Method: random pairs near each other, from hard touching to far apart, with one bound of each or two,
-//         true to each other or not; scales from 1e-12 to 1e12, offsets of 1e9 sizes.
+// Goal:   what a glance tells is what EvaluateBallSegment() tells, bit for bit, and bodies that
+//         rest in each other are told at a glance.
+// Method: random pairs near each other, from hard touching to far apart, with one bound of each or
+//         two, true to each other or not; scales from 1e-12 to 1e12, offsets of 1e9 sizes.
 TEST(QuickBallContact, IsWhatTheFullRoutineTells) {
   Random random(5);
   int told = 0, deep = 0;
@@ -265,7 +267,7 @@ TEST(QuickBallContact, IsWhatTheFullRoutineTells) {
 
 // Goal:   the separation at an instant is the best that all bounds together allow.
 // Method: mid-way of 1 s with M = 8: u = 1 each; 10 m apart, radii 1: 8 ± 2. A breach crosses the
-// bounds.
+//         bounds.
 TEST(EvaluateBallsAt, BestOverTheBounds) {
   const auto rest = [](double x, double then) {
     return Between(Bound(0, {x, 0, 0}, {0, 0, 0}, 1, 8),
@@ -283,8 +285,9 @@ TEST(EvaluateBallsAt, BestOverTheBounds) {
   EXPECT_GT(breach.separation.lower, breach.separation.upper);
 }
 
-// Goal:   contact is found where squares of speeds would underflow. Method: head on, the radii a
-//         millionth of the way, from 1e-250 m down to the denormals; contact is half-way.
+// Goal:   contact is found where squares of speeds would underflow.
+// Method: head on, the radii a millionth of the way, from 1e-250 m down to the denormals; contact
+//         is half-way.
 TEST(EvaluateBallSegment, ContactIsFoundAtSpeedsWhoseSquaresUnderflow) {
   for (const double unit : {1e-250, 1e-300, 1e-310}) {
     motion::SpaceTimeBound a, b;

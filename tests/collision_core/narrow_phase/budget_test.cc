@@ -1,13 +1,14 @@
-// Goal:   whatever takes a budget overruns it by one batch at most, and the bracket of a look only becomes narrower
-//         with the budget.
-// Method: meshes, solids, compounds, open and nested bodies, leaves of very many triangles, at rest and in motion,
-//         each asked with budgets from 0 up to what it would spend.
+// Goal:   whatever takes a budget overruns it by one batch at most, and the bracket of a look only
+//         becomes narrower with the budget.
+// Method: meshes, solids, compounds, open and nested bodies, leaves of very many triangles, at rest
+//         and in motion, each asked with budgets from 0 up to what it would spend.
 #include <functional>
 
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
 #include "collision_core/narrow_phase/contact/shape_contact.h"
 #include "collision_core/narrow_phase/contact/shape_motion.h"
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
+#include "collision_core/narrow_phase/separation/containment.h"
 #include "collision_core/narrow_phase/separation/refinement.h"
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
@@ -69,7 +70,7 @@ struct Pair {
   BodyTree a{bodies.a}, b{bodies.b};
   RelativePose pose = PoseAt(bodies.a, bodies.b, BestBounds(bodies.a, bodies.b, 0.4), 0.4);
 
-  Pair(const Body& first, const Body& second, Told told)
+  Pair(const Body& first, const Body& second, Result told)
       : bodies(SegmentsOf(Known(first, 1, told), Known(second, 1, told), Instant())) {}
 
   SegmentResult Balls() const { return EvaluateBallSegment(bodies.a.ball, bodies.b.ball, 1); }
@@ -111,26 +112,26 @@ std::vector<std::pair<const char*, Ask>> Questions() {
   std::vector<std::pair<const char*, Ask>> asks;
   for (const Goal goal : {Goal::kDecision, Goal::kContact, Goal::kNearest, Goal::kYesNo}) {
     asks.emplace_back("QuerySeparation", [goal](const Pair& pair, WorkBudget* work) {
-      QuerySeparation(pair.a, pair.b, pair.pose, goal, work);
+      QuerySeparation({pair.a, pair.b, pair.pose}, goal, work);
     });
   }
   asks.emplace_back("QuerySeparation leaves", [](const Pair& pair, WorkBudget* work) {
-    QuerySeparation(pair.a, pair.b, pair.pose, Goal::kDecision, work, LastLeaves(pair));
+    QuerySeparation({pair.a, pair.b, pair.pose}, Goal::kDecision, work, LastLeaves(pair));
   });
   asks.emplace_back("RecheckWitness", [](const Pair& pair, WorkBudget* work) {
-    RecheckWitness(pair.a, pair.b, pair.pose, LastLeaves(pair), work);
+    RecheckWitness({pair.a, pair.b, pair.pose}, LastLeaves(pair), work);
   });
   asks.emplace_back("BracketSeparation", [](const Pair& pair, WorkBudget* work) {
-    BracketSeparation(pair.a, pair.b, pair.pose, 0, 1e-6, work);
+    BracketSeparation({pair.a, pair.b, pair.pose}, {0, 1e-6}, work);
   });
   asks.emplace_back("DecideAt", [](const Pair& pair, WorkBudget* work) {
-    DecideAt(pair.a, pair.b, pair.pose, work);
+    DecideAt({pair.a, pair.b, pair.pose}, work);
   });
   asks.emplace_back("TestContainment", [](const Pair& pair, WorkBudget* work) {
-    TestContainment(pair.a, pair.b, pair.pose, work);
+    TestContainment({pair.a, pair.b, pair.pose}, work);
   });
   asks.emplace_back("SeparatingTranslation", [](const Pair& pair, WorkBudget* work) {
-    SeparatingTranslation(pair.a, pair.b, pair.pose, {}, work);
+    SeparatingTranslation({pair.a, pair.b, pair.pose}, {}, work);
   });
   for (const RefinementOrder order :
        {RefinementOrder::kLevelByLevel, RefinementOrder::kLargestFirst}) {
@@ -138,8 +139,8 @@ std::vector<std::pair<const char*, Ask>> Questions() {
       Refinement refinement(order);
       WorkBudget start(0);
       for (const double weight : {1.0, 3.0}) {
-        refinement.Add(pair.a, pair.b, pair.pose, weight, Goal::kDecision, BracketWidth{0, 1e-6},
-                       &start);
+        refinement.Add({pair.a, pair.b, pair.pose}, weight, Goal::kDecision,
+                       BracketTolerance{0, 1e-6}, &start);
       }
       refinement.Refine(work);
     });
@@ -162,7 +163,8 @@ std::vector<std::pair<const char*, Ask>> Questions() {
     ShapeProximity(pair.bodies.a, pair.bodies.b, 0.4, work);
   });
   asks.emplace_back("RevolvedFree", [](const Pair& pair, WorkBudget* work) {
-    ShapeMotion(pair.bodies.a, pair.bodies.b, work).RevolvedFree(0, 1, false, 1, work->left());
+    ShapeMotion(pair.bodies.a, pair.bodies.b, work)
+        .RevolvedFree(0, 1, TimeDirection::kForward, 1, work->left());
   });
   return asks;
 }
@@ -184,7 +186,7 @@ TEST(Budget, IsOverrunByABatchAtMost) {
       SCOPED_TRACE(std::string(bodies[i].first) + ' ' + bodies[j].first);
       int number = 0;
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
-        const Pair pair(a, b, number++ % 2 == 0 ? Told::kAtStart : Told::kAtBoth);
+        const Pair pair(a, b, number++ % 2 == 0 ? Result::kAtStart : Result::kAtBoth);
         for (const auto& [what, ask] : Questions()) {
           ExpectWithinBatch(what, pair, ask);
         }
@@ -201,7 +203,7 @@ TEST(Budget, WhatItEndsStillHolds) {
     for (std::size_t j = std::max<std::size_t>(i, 1); j < bodies.size(); ++j) {
       SCOPED_TRACE(std::string(bodies[i].first) + ' ' + bodies[j].first);
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
-        const Pair pair(a, b, Told::kAtStart);
+        const Pair pair(a, b, Result::kAtStart);
         const auto& [of_a, of_b] = pair.bodies;
         WorkBudget plenty(1'000'000);
         const TimeOfContactResult best = TimeOfContact(of_a, of_b, 1, {}, &plenty);
@@ -224,8 +226,8 @@ TEST(Budget, WhatItEndsStillHolds) {
 }
 
 /// Of what is apart by less than nothing the depth does not count.
-numeric::Interval DistanceIn(const SeparationBracket& look) {
-  return {std::max(0.0, look.lower), std::max(0.0, look.upper)};
+numeric::Interval DistanceIn(const SeparationBracket& bracket) {
+  return {std::max(0.0, bracket.lower), std::max(0.0, bracket.upper)};
 }
 
 // The same search, further along.
@@ -235,23 +237,24 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
     for (std::size_t j = std::max<std::size_t>(i, 1); j < bodies.size(); ++j) {
       SCOPED_TRACE(std::string(bodies[i].first) + ' ' + bodies[j].first);
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
-        const Pair pair(a, b, Told::kAtStart);
+        const Pair pair(a, b, Result::kAtStart);
         std::vector<numeric::Interval> last(6, {0, numeric::kInfinity});
         Verdict verdict = Verdict::kUndecided;
         for (std::uint64_t allowed = 0; allowed <= kMost; allowed = allowed * 3 / 2 + 1) {
           std::vector<numeric::Interval> now;
           for (const Goal goal : {Goal::kDecision, Goal::kContact, Goal::kNearest}) {
             WorkBudget work(allowed);
-            now.push_back(DistanceIn(QuerySeparation(pair.a, pair.b, pair.pose, goal, &work)));
+            now.push_back(DistanceIn(QuerySeparation({pair.a, pair.b, pair.pose}, goal, &work)));
           }
           WorkBudget narrow(allowed);
-          now.push_back(DistanceIn(BracketSeparation(pair.a, pair.b, pair.pose, 0, 1e-6, &narrow)));
+          now.push_back(
+              DistanceIn(BracketSeparation({pair.a, pair.b, pair.pose}, {0, 1e-6}, &narrow)));
           for (const RefinementOrder order :
                {RefinementOrder::kLevelByLevel, RefinementOrder::kLargestFirst}) {
             Refinement refinement(order);
             WorkBudget start(0), work(allowed);
-            refinement.Add(pair.a, pair.b, pair.pose, 1, Goal::kDecision, {}, &start);
-            refinement.Add(pair.b, pair.b, RelativePose(), 1, Goal::kDecision, {}, &start);
+            refinement.Add({pair.a, pair.b, pair.pose}, 1, Goal::kDecision, {}, &start);
+            refinement.Add({pair.b, pair.b, RelativePose()}, 1, Goal::kDecision, {}, &start);
             refinement.Refine(&work);
             const RefinedPair found = refinement.At(0);
             now.push_back({std::max(0.0, found.lower), std::max(0.0, found.upper)});
@@ -262,7 +265,7 @@ TEST(Budget, MoreOfItNeverMakesALookWider) {
           }
           last = now;
           WorkBudget decision(allowed);
-          const Verdict decided = DecideAt(pair.a, pair.b, pair.pose, &decision).verdict;
+          const Verdict decided = DecideAt({pair.a, pair.b, pair.pose}, &decision).verdict;
           EXPECT_TRUE(verdict == Verdict::kUndecided || decided == verdict) << allowed;
           verdict = decided;
         }

@@ -1,7 +1,8 @@
-// Goal:   a tree over solids and triangles covers them, says nothing too deep, and a look through it says what all pairs
-//         of elements say, at every budget.
-// Method: compounds by the hundred, of all kinds of solids, with and without a surface, from one solid to many; every
-//         pair of elements asked by itself (what is certain of such a pair is tested against exact numbers elsewhere).
+// Goal:   a tree over solids and triangles covers them, says nothing too deep, and a look through
+//         it says what all pairs of elements say, at every budget.
+// Method: compounds by the hundred, of all kinds of solids, with and without a surface, from one
+//         solid to many; every pair of elements asked by itself (what is certain of such a pair is
+//         tested against exact numbers elsewhere).
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "collision_core/narrow_phase/separation/element.h"
 #include "collision_core/narrow_phase/separation/refinement.h"
@@ -170,33 +171,33 @@ TEST(Compound, LooksSayWhatAllPairsSay) {
     const BodyTree a(of_a), b(of_b);
     const RelativePose pose = PoseBetween(of_a, of_b);
     const numeric::Interval least = LeastOfAll(a, b, pose);
-    const double rounding = 1e-13 * (a.reach() + b.reach() + pose.offset.norm());
+    const double rounding = 1e-13 * (a.reach() + b.reach() + pose.p_AB.norm());
     WorkBudget plenty(100000000);
-    const Decision decision = DecideAt(a, b, pose, &plenty);
+    const Decision decision = DecideAt({a, b, pose}, &plenty);
     // One inside the other, with their surfaces apart: then the distance is not that of any pair.
     const bool inside = least.lower > rounding && decision.verdict == Verdict::kTouching;
     numeric::Interval before{-numeric::kInfinity, numeric::kInfinity};
     for (std::uint64_t units = 0;; units = 3 * units + 20) {
       WorkBudget work(units);
-      const SeparationBracket look = QuerySeparation(a, b, pose, Goal::kDecision, &work);
-      if (look.upper > 0 && !inside) {
-        EXPECT_LE(look.lower, least.upper + rounding);
-        EXPECT_GE(look.upper, std::max(0.0, least.lower) - rounding);
+      const SeparationBracket bracket = QuerySeparation({a, b, pose}, Goal::kDecision, &work);
+      if (bracket.upper > 0 && !inside) {
+        EXPECT_LE(bracket.lower, least.upper + rounding);
+        EXPECT_GE(bracket.upper, std::max(0.0, least.lower) - rounding);
       }
-      EXPECT_GE(look.lower, before.lower);
-      EXPECT_LE(look.upper, before.upper);
+      EXPECT_GE(bracket.lower, before.lower);
+      EXPECT_LE(bracket.upper, before.upper);
       EXPECT_LE(work.spent(), units + kBatchUnits);
-      before = {look.lower, look.upper};
-      if (!look.exhausted) break;
+      before = {bracket.lower, bracket.upper};
+      if (!bracket.exhausted) break;
     }
     if (least.lower > rounding) {
       EXPECT_NE(decision.verdict, Verdict::kUndecided);
       ++(inside ? nested : apart);
       if (inside) continue;
-      const SeparationBracket nearest = QuerySeparation(a, b, pose, Goal::kNearest, &plenty);
+      const SeparationBracket nearest = QuerySeparation({a, b, pose}, Goal::kNearest, &plenty);
       EXPECT_LE(nearest.lower, least.upper);
       EXPECT_GE(nearest.lower, least.lower - 1e-6 * least.lower - rounding);
-      const SeparationBracket bracket = BracketSeparation(a, b, pose, 0, 0.01, &plenty);
+      const SeparationBracket bracket = BracketSeparation({a, b, pose}, {0, 0.01}, &plenty);
       EXPECT_LE(bracket.upper, 1.0101 * bracket.lower + rounding);
       EXPECT_LE(bracket.lower, least.upper + rounding);
     } else if (least.upper < -rounding) {
@@ -291,7 +292,7 @@ TEST(Compound, InsideASolidIsContact) {
     Posed within = RandomPosed(random, 0.01, Vector::Zero());
     const BodySegment a = around.Segment(), b = within.Segment();
     WorkBudget work(100);
-    EXPECT_EQ(DecideAt(BodyTree(a), BodyTree(b), PoseBetween(a, b), &work).verdict,
+    EXPECT_EQ(DecideAt({BodyTree(a), BodyTree(b), PoseBetween(a, b)}, &work).verdict,
               Verdict::kTouching);
   }
 }

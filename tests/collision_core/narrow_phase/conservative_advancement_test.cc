@@ -1,7 +1,8 @@
-// Goal:   a sweep never says a time later than the first touch of any motion within the bounds, and says it exactly
-//         where nothing is uncertain and nothing turns.
-// Method: two bodies that move and turn with constant velocities, disturbed by as much as the sweep was told, in long
-//         double; the distance of the surfaces just before the time that was said, and at many times before it.
+// Goal:   a sweep never says a time later than the first touch of any motion within the bounds, and
+//         says it exactly where nothing is uncertain and nothing turns.
+// Method: two bodies that move and turn with constant velocities, disturbed by as much as the sweep
+//         was told, in long double; the distance of the surfaces just before the time that was
+//         said, and at many times before it.
 #include "collision_core/narrow_phase/advancement/conservative_advancement.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ struct Case {
         Exponential(At(angle_A, h) * about_A) * Exponential(h * swept.spin_A.cast<Real>().eval());
     pose_B.q = Exponential(At(angle_B, h) * about_B) *
                Exponential(h * swept.spin_B.cast<Real>().eval()) * q_AB;
-    pose_B.p = swept.pose.offset.cast<Real>() + h * swept.velocity.cast<Real>();
+    pose_B.p = swept.pose.p_AB.cast<Real>() + h * swept.velocity.cast<Real>();
     return SurfaceDistance(TrueBody(a.shape.get(), a.ball.radius, pose_A),
                            TrueBody(b.shape.get(), b.ball.radius, pose_B));
   }
@@ -70,7 +71,7 @@ struct Case {
 
   ImpactBound Touch(std::uint64_t units = kPlenty) const {
     WorkBudget work(units);
-    return LowerBoundOfImpact(BodyTree(a), BodyTree(b), swept, duration, &work);
+    return LowerBoundOfImpact({BodyTree(a), BodyTree(b), swept}, duration, &work);
   }
 
   double size() const { return a.ball.radius + b.ball.radius; }
@@ -79,7 +80,7 @@ struct Case {
 void Turn(Case* c, const Quaternion& q) {
   c->q_AB = q.normalized();
   const numeric::Rotation rotation = RotationOf(numeric::UnitQuaternion(c->q_AB.cast<double>()));
-  c->swept.pose.matrix = rotation.matrix;
+  c->swept.pose.R_AB = rotation.matrix;
   c->swept.pose.matrix_error = rotation.error + 0x1p-48;
 }
 
@@ -117,9 +118,9 @@ Case RandomCase(Random& random, Wish wish) {
   if (c.a.shape) c.swept.turning_A = TurningOf(c.angle_A, c.swept.spin_A);
   if (c.b.shape) c.swept.turning_B = TurningOf(c.angle_B, c.swept.spin_B);
   const double apart = c.size() * random.Uniform(0.3, 2.5);
-  c.swept.pose.offset = apart * random.UnitVector();
+  c.swept.pose.p_AB = apart * random.UnitVector();
   // Towards each other, or past.
-  const Eigen::Vector3d aim = -c.swept.pose.offset + 0.7 * c.size() * random.UnitVector();
+  const Eigen::Vector3d aim = -c.swept.pose.p_AB + 0.7 * c.size() * random.UnitVector();
   c.swept.velocity = random.LogUniform(0.3, 3) * pace * aim;
   return c;
 }
@@ -161,7 +162,7 @@ Count ExpectNeverLate(Wish wish, std::uint64_t first, int cases, std::uint64_t u
   return count;
 }
 
-TEST(SweptPair, NeverLate) {
+TEST(ConservativeAdvancement, NeverLate) {
   for (const Wish wish :
        {Wish{false, false}, Wish{true, false}, Wish{false, true}, Wish{true, true}}) {
     constexpr int kCases = kSanitized ? 30 : 120;
@@ -171,20 +172,20 @@ TEST(SweptPair, NeverLate) {
   }
 }
 
-TEST(SweptPair, NeverLateWhenTheWorkIsSpent) {
+TEST(ConservativeAdvancement, NeverLateWhenTheWorkIsSpent) {
   for (const std::uint64_t units : {0, 1, 20, 200, 2000}) {
     ExpectNeverLate({true, true}, 1000, 25, units);
   }
 }
 
 // What is spent less says less, never another thing.
-TEST(SweptPair, ExhaustionIsSaidAndEarlier) {
+TEST(ConservativeAdvancement, ExhaustionIsSaidAndEarlier) {
   Random random(3);
   Case c = RandomCase(random, {});
   c.a = BodyOf(shape::Shape::Build(Sphere(4)));
   c.b = BodyOf(shape::Shape::Build(Moved(Sphere(4), {0.1, 0, 0})));
   c.duration = 1;
-  c.swept.pose.offset = {2.5, 0.1, 0.2};
+  c.swept.pose.p_AB = {2.5, 0.1, 0.2};
   c.swept.velocity = {-1, 0, 0};
   const ImpactBound whole = c.Touch();
   ASSERT_LT(whole.seconds, 1);
@@ -201,9 +202,9 @@ TEST(SweptPair, ExhaustionIsSaidAndEarlier) {
   }
 }
 
-// Nothing uncertain, nothing turns: at the time that is said the surfaces are together, or so near as steps of a
-// thousandth of the duration, the last of which is not taken, allow.
-TEST(SweptPair, TellsTheFirstTouchExactly) {
+// Nothing uncertain, nothing turns: at the time that is said the surfaces are together, or so near
+// as steps of a thousandth of the duration, the last of which is not taken, allow.
+TEST(ConservativeAdvancement, TellsTheFirstTouchExactly) {
   int touching = 0, exact = 0;
   for (std::uint64_t seed = 1; seed <= 200 && !HasFailure(); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -250,7 +251,7 @@ std::vector<Pass> Passes() {
           {"head on", rod, rod, {9, 0.1, 0.1}, 2.5}};
 }
 
-TEST(SweptPair, ExactPasses) {
+TEST(ConservativeAdvancement, ExactPasses) {
   for (const double scale : {1e-5, 1.0, 1e6}) {
     for (const Pass& pass : Passes()) {
       SCOPED_TRACE(pass.name);
@@ -261,7 +262,7 @@ TEST(SweptPair, ExactPasses) {
       c.a = scaled(pass.a);
       c.b = scaled(pass.b);
       c.duration = 4;
-      c.swept.pose.offset = scale * pass.offset;
+      c.swept.pose.p_AB = scale * pass.offset;
       c.swept.velocity = {-2 * scale, 0, 0};
       const ImpactBound touch = c.Touch();
       if (pass.touch == numeric::kInfinity) {
@@ -275,9 +276,10 @@ TEST(SweptPair, ExactPasses) {
   }
 }
 
-// Small bodies pass far off while what is not known of them grows: several tangents, each at a time at which the
-// uncertainty grows faster than before. Touch is where |offset + velocity h| = sizes + growth h².
-TEST(SweptPair, TangentsOfAPassWhileTheUncertaintyGrows) {
+// Small bodies pass far off while what is not known of them grows: several tangents, each at a time
+// at which the uncertainty grows faster than before. Touch is where |offset + velocity h| = sizes +
+// growth h².
+TEST(ConservativeAdvancement, TangentsOfAPassWhileTheUncertaintyGrows) {
   Case c;
   c.a = BodyOf(shape::Shape::Build(Cube(0.001)));
   c.b = BodyOf(nullptr, 0.001);
@@ -285,11 +287,11 @@ TEST(SweptPair, TangentsOfAPassWhileTheUncertaintyGrows) {
   c.swept.velocity = {-10, 0, 0};
   for (const double aside : {1.0, 3.0, 6.0, 9.0}) {
     for (const double growth : {1.0, 4.0, 16.0}) {
-      c.swept.pose.offset = {10, aside, 0};
+      c.swept.pose.p_AB = {10, aside, 0};
       c.swept.translation = {0, 0, growth};
       double apart = 0, touching = numeric::kInfinity;
       for (double h = 0; h <= c.duration && touching == numeric::kInfinity; h += 1e-3) {
-        const double distance = (c.swept.pose.offset + h * c.swept.velocity).norm();
+        const double distance = (c.swept.pose.p_AB + h * c.swept.velocity).norm();
         (distance > 0.002 + growth * h * h ? apart : touching) = h;
       }
       const ImpactBound touch = c.Touch();
@@ -300,10 +302,10 @@ TEST(SweptPair, TangentsOfAPassWhileTheUncertaintyGrows) {
 }
 
 // The end of the duration belongs to it; nothing after it does.
-TEST(SweptPair, TheEndIncluded) {
+TEST(ConservativeAdvancement, TheEndIncluded) {
   Case c;
   c.a = c.b = BodyOf(shape::Shape::Build(Cube(1)));
-  c.swept.pose.offset = {5, 0, 0};
+  c.swept.pose.p_AB = {5, 0, 0};
   c.swept.velocity = {-2, 0, 0};
   for (const double duration : {1.5, 1.50000001}) {
     c.duration = duration;
@@ -313,28 +315,28 @@ TEST(SweptPair, TheEndIncluded) {
   EXPECT_EQ(c.Touch().seconds, numeric::kInfinity);
   c.duration = 0;
   EXPECT_EQ(c.Touch().seconds, numeric::kInfinity);
-  c.swept.pose.offset = {1, 0.5, 0.25};
+  c.swept.pose.p_AB = {1, 0.5, 0.25};
   EXPECT_EQ(c.Touch().seconds, 0);
   c.duration = 1.5;
   EXPECT_EQ(c.Touch().seconds, 0);
 }
 
 // Where bodies overlap everything may touch at once: one pair that does is enough.
-TEST(SweptPair, OverlapIsSeenWithoutOpeningEverything) {
+TEST(ConservativeAdvancement, OverlapIsSeenWithoutOpeningEverything) {
   Case c;
   c.a = c.b = BodyOf(shape::Shape::Build(Sphere(5)));
-  c.swept.pose.offset = {0.5, 0.25, 0.125};
+  c.swept.pose.p_AB = {0.5, 0.25, 0.125};
   c.swept.velocity = {-1, 0, 0};
   WorkBudget work(kPlenty);
-  EXPECT_EQ(LowerBoundOfImpact(BodyTree(c.a), BodyTree(c.b), c.swept, 1, &work).seconds, 0);
+  EXPECT_EQ(LowerBoundOfImpact({BodyTree(c.a), BodyTree(c.b), c.swept}, 1, &work).seconds, 0);
   EXPECT_LE(work.spent(), 10u);
 }
 
 // Beyond the range of squares nothing is known, and nothing is said to be free.
-TEST(SweptPair, OverflowIsNotFreedom) {
+TEST(ConservativeAdvancement, OverflowIsNotFreedom) {
   Case c;
   c.a = c.b = BodyOf(shape::Shape::Build(Cube(1)));
-  c.swept.pose.offset = {5, 0, 0};
+  c.swept.pose.p_AB = {5, 0, 0};
   c.duration = 1;
   for (const double speed : {1e150, 1e160, 1e200, 1e300}) {
     c.swept.velocity = {speed, 0, 0};         // away from each other, but

@@ -1,7 +1,8 @@
-// Goal:   contact that is over sooner than the tolerance asked for is found all the same, both brackets as narrow as
-//         asked for; what passes by is free.
-// Method: fast balls, cubes and bars with closed answers, in contact for a millisecond down to nanoseconds, at
-//         tolerances up to the whole segment; also one brief contact after another, and after a near miss.
+// Goal:   contact that is over sooner than the tolerance asked for is found all the same, both
+//         brackets as narrow as asked for; what passes by is free.
+// Method: fast balls, cubes and bars with closed answers, in contact for a millisecond down to
+//         nanoseconds, at tolerances up to the whole segment; also one brief contact after another,
+//         and after a near miss.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {
@@ -17,7 +18,7 @@ void ExpectAsAsked(numeric::Interval bracket, Real truth, const ContactTolerance
 
 // Both ends contain the truth and are as narrow as asked for, at every tolerance.
 void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real end) {
-  for (const Told told : {Told::kAtStart, Told::kAtEnd, Told::kAtBoth}) {
+  for (const Result told : {Result::kAtStart, Result::kAtEnd, Result::kAtBoth}) {
     for (const ContactTolerance& tolerance : kTolerances) {
       for (const bool swapped : {false, true}) {
         const TimeOfContactResult found =
@@ -36,7 +37,7 @@ void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real
 
 void ExpectFree(const Body& a, const Body& b, double duration) {
   for (const ContactTolerance& tolerance : kTolerances) {
-    const TimeOfContactResult found = Find(a, b, duration, Told::kAtBoth, tolerance);
+    const TimeOfContactResult found = Find(a, b, duration, Result::kAtBoth, tolerance);
     EXPECT_EQ(found.status, ContactStatus::kFree) << tolerance.absolute;
   }
 }
@@ -84,14 +85,15 @@ TEST_P(BriefContactOf, BallThatGrazesAnEdge) {
     const Real middle = (static_cast<Real>(ball.p.y()) - ball.p.x()) * std::sqrt(0.5L);
     const Real speed = static_cast<Real>(slope) * std::sqrt(2.0L);
     for (const ContactTolerance& tolerance : kTolerances) {
-      const TimeOfContactResult found = Find(ball, cube, 2, Told::kAtStart, tolerance);
+      const TimeOfContactResult found = Find(ball, cube, 2, Result::kAtStart, tolerance);
       ASSERT_EQ(found.status, ContactStatus::kContact) << tolerance.absolute;
       // Rounding moves the ends by its share of the depth.
       EXPECT_LE(found.begin.lower, (middle - half) / speed + 1e-11);
       EXPECT_GE(found.begin.upper, (middle - half) / speed - 1e-11);
       EXPECT_LE(found.end.lower, (middle + half) / speed + 1e-11);
       EXPECT_GE(found.end.upper, (middle + half) / speed - 1e-11);
-      // The gap closes at 4 / s times the chord: 1e-14 m of it, what is rounded, take half a nanosecond.
+      // The gap closes at 4 / s times the chord: 1e-14 m of it, what is rounded, take half a
+      // nanosecond.
       if (tolerance.absolute == 1e-9 && chord < 1e-5) continue;
       EXPECT_EQ(found.limited_by, EventLimit::kNone) << tolerance.absolute;
     }
@@ -117,7 +119,8 @@ TEST(BriefContact, BeforeAContactThatLasts) {
   ExpectBrief(ball, scene, 1, 0.5L - 0.251e-3L, 1);
 }
 
-// The first and the last of many, each of them brief: plates in a row, and a bar that passes again and again.
+// The first and the last of many, each of them brief: plates in a row, and a bar that passes again
+// and again.
 TEST(BriefContact, OneAfterTheOther) {
   geometry::TriangleMesh plates;
   for (int i = 0; i < 40; ++i) {
@@ -155,14 +158,15 @@ TEST(BriefContact, AfterNearMisses) {
   }
 }
 
-// It grazes one, touching by nothing for a while, which is neither free nor contact; the next one it meets for certain.
+// It grazes one, touching by nothing for a while, which is neither free nor contact; the next one
+// it meets for certain.
 TEST(BriefContact, AfterATouchThatIsUndecided) {
   const Body ball{nullptr, 0.25, {-500, 0, 0}, {1000, 0, 0}};
   const geometry::TriangleMesh plates =
       Joined(Box({-300, 0.25, -1}, {-299, 1, 1}), Box({100, -1, -1}, {100.002, 1, 1}));
   const Body scene{shape::Shape::Build(plates)};
   for (const ContactTolerance& tolerance : kTolerances) {
-    const TimeOfContactResult found = Find(ball, scene, 1, Told::kAtStart, tolerance);
+    const TimeOfContactResult found = Find(ball, scene, 1, Result::kAtStart, tolerance);
     ASSERT_EQ(found.status, ContactStatus::kContact) << tolerance.absolute;
     EXPECT_LE(found.begin.lower, 0.2 + 1e-12);
     EXPECT_GE(found.begin.upper, 0.59975 - 1e-12);
@@ -182,14 +186,14 @@ TEST_P(BriefContactOf, AtTheEndsOfTheSegment) {
   const Body plate{PlateOf(1e-3)};
   for (const ContactTolerance& tolerance : kTolerances) {
     const Body leaving{nullptr, 0.25, {0.25, 0, 0}, {100, 0, 0}};
-    const TimeOfContactResult found = Find(leaving, plate, 1, Told::kAtBoth, tolerance);
+    const TimeOfContactResult found = Find(leaving, plate, 1, Result::kAtBoth, tolerance);
     ASSERT_EQ(found.status, ContactStatus::kContact);
     EXPECT_EQ(found.begin.upper, 0);
     EXPECT_LE(found.end.lower, 1e-5 * (1 + 1e-9));
     EXPECT_GE(found.end.upper, 1e-5 * (1 - 1e-9));
     EXPECT_EQ(found.limited_by, EventLimit::kNone);
     const Body coming{nullptr, 0.25, {-100.25, 0, 0}, {100, 0, 0}};
-    const TimeOfContactResult last = Find(coming, plate, 1, Told::kAtBoth, tolerance);
+    const TimeOfContactResult last = Find(coming, plate, 1, Result::kAtBoth, tolerance);
     ASSERT_EQ(last.status, ContactStatus::kContact);
     EXPECT_LE(last.begin.lower, 1 - 1e-5 * (1 - 1e-9));
     EXPECT_GE(last.begin.upper, 1 - 1e-5 * (1 + 1e-9));
@@ -198,8 +202,9 @@ TEST_P(BriefContactOf, AtTheEndsOfTheSegment) {
   }
 }
 
-// Stars that tumble past each other, with and without something unknown of their motion: what is found at the finest
-// tolerance is found at all of them, at less than its cost but where the motion limits it.
+// Stars that tumble past each other, with and without something unknown of their motion: what is
+// found at the finest tolerance is found at all of them, at less than its cost but where the motion
+// limits it.
 TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
   int contacts = 0, frees = 0, unknown = 0;
   std::uint64_t finest = 0, coarsest = 0;
@@ -220,7 +225,7 @@ TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
     frees += best.status == ContactStatus::kFree;
     unknown += best.limited_by == EventLimit::kMotion;
     for (const ContactTolerance& tolerance : kTolerances) {
-      const TimeOfContactResult found = Find(a, b, 1, Told::kAtStart, tolerance);
+      const TimeOfContactResult found = Find(a, b, 1, Result::kAtStart, tolerance);
       EXPECT_EQ(found.status, best.status) << tolerance.absolute;
       if (best.status != ContactStatus::kContact) continue;
       EXPECT_LE(found.begin.lower, best.begin.upper);

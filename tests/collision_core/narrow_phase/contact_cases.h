@@ -1,4 +1,5 @@
-// Bodies that move with constant velocities, told by states at either end: for tests of when they touch.
+// Bodies that move with constant velocities, told by states at either end: for tests of when they
+// touch.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -42,17 +43,17 @@ struct Body {
   }
 };
 
-enum class Told { kAtStart, kAtEnd, kAtBoth };
+enum class Result { kAtStart, kAtEnd, kAtBoth };
 
-inline narrow_phase::KnownMotion Known(const Body& body, double duration, Told told) {
+inline narrow_phase::KnownMotion Known(const Body& body, double duration, Result told) {
   narrow_phase::KnownMotion known;
-  if (told != Told::kAtEnd) known.last = body.At(0);
-  if (told != Told::kAtStart) known.next = body.At(duration);
+  if (told != Result::kAtEnd) known.last = body.At(0);
+  if (told != Result::kAtStart) known.next = body.At(duration);
   return known;
 }
 
 inline narrow_phase::TimeOfContactResult Find(const Body& a, const Body& b, double duration,
-                                              Told told = Told::kAtStart,
+                                              Result told = Result::kAtStart,
                                               narrow_phase::ContactTolerance tolerance = {},
                                               std::uint64_t units = kPlenty) {
   WorkBudget work(units);

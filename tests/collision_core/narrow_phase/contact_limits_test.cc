@@ -1,5 +1,7 @@
-// Goal:   a bracket is as narrow as the motion allows, costs no more than asked for, and says what limited it.
-// Method: closed cases with accelerations, budgets of every size, turns by the thousand, contacts that only graze.
+// Goal:   a bracket is as narrow as the motion allows, costs no more than asked for, and says what
+//         limited it.
+// Method: closed cases with accelerations, budgets of every size, turns by the thousand, contacts
+//         that only graze.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 #include "tests/support/truth/true_distance.h"
 
@@ -10,12 +12,12 @@ TEST(ContactLimits, AsNarrowAsAskedForAndNoWorkBeyond) {
   const Body a{UnitCube()}, b{UnitCube(), 0, {5, 0.3, 0.2}, {-10, 0, 0}};
   std::uint64_t before = ~std::uint64_t{0};
   for (const double relative : {1e-12, 1e-9, 1e-6, 1e-3}) {
-    const TimeOfContactResult found = Find(a, b, 1, Told::kAtStart, {0, relative});
+    const TimeOfContactResult found = Find(a, b, 1, Result::kAtStart, {0, relative});
     ExpectContact(found, 0.4L, 0.6L, relative);
     EXPECT_LE(found.work, before);
     before = found.work;
   }
-  const TimeOfContactResult absolute = Find(a, b, 1, Told::kAtStart, {1e-7, 0});
+  const TimeOfContactResult absolute = Find(a, b, 1, Result::kAtStart, {1e-7, 0});
   ExpectContact(absolute, 0.4L, 0.6L, 1e-7 / 0.4);
 }
 
@@ -27,7 +29,7 @@ TEST(ContactLimits, AsNarrowAsTheMotionAllows) {
     a.acceleration_max = b.acceleration_max = M;
     const Real first = (std::sqrt(25 + 4 * Real(M)) - 5) / M;
     const Real sure = (5 - std::sqrt(25 - 4 * Real(M))) / M;
-    for (const Told told : {Told::kAtStart, Told::kAtBoth}) {
+    for (const Result told : {Result::kAtStart, Result::kAtBoth}) {
       const TimeOfContactResult found = Find(a, b, 1, told);
       ASSERT_EQ(found.status, ContactStatus::kContact);
       EXPECT_EQ(found.limited_by, EventLimit::kMotion);
@@ -69,7 +71,7 @@ TEST(ContactLimits, TheWorkLimitIsTheOnlyOne) {
   ASSERT_EQ(best.limited_by, EventLimit::kNone);
   int limited = 0;
   for (std::uint64_t units = 0; units < 2 * best.work; units = units * 5 / 4 + 1) {
-    const TimeOfContactResult found = Find(a, b, 3, Told::kAtStart, {}, units);
+    const TimeOfContactResult found = Find(a, b, 3, Result::kAtStart, {}, units);
     EXPECT_LE(found.begin.lower, best.begin.upper) << units;
     EXPECT_GE(found.end.upper, best.end.lower) << units;
     ASSERT_NE(found.status, ContactStatus::kFree);
@@ -95,7 +97,7 @@ TEST(ContactLimits, WorkDoesNotGrowWithTurnsThatMatterNothing) {
   for (const double turns : {10.0, 1000.0, 100000.0}) {
     bar.w = {0, 0, 2 * kPi * turns};
     for (const Body& other : {ball, cube}) {
-      const TimeOfContactResult found = Find(bar, other, 1, Told::kAtStart, {}, 200000);
+      const TimeOfContactResult found = Find(bar, other, 1, Result::kAtStart, {}, 200000);
       EXPECT_EQ(found.status, ContactStatus::kFree) << turns;
     }
   }
@@ -109,8 +111,8 @@ TEST(ContactLimits, WorkDoesNotGrowWithTurnsThatMatterNothing) {
   EXPECT_LE(found.begin.width(), 1e-12);
 }
 
-// Turned by more than kRotationAngleMax a body may be turned any way, as if no bound were declared: that is what limits the
-// answer, whatever the budget.
+// Turned by more than kRotationAngleMax a body may be turned any way, as if no bound were declared:
+// that is what limits the answer, whatever the budget.
 TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
   Random random(3);
   const auto star = shape::Shape::Build(Subdivided(Star(3, random), 3));
@@ -121,11 +123,11 @@ TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
     Body undeclared = bar;
     undeclared.angular_acceleration_max = -1;
     for (const std::uint64_t units : {std::uint64_t{10'000}, std::uint64_t{200'000}}) {
-      const TimeOfContactResult least = Find(undeclared, other, 1, Told::kAtStart, {}, units);
+      const TimeOfContactResult least = Find(undeclared, other, 1, Result::kAtStart, {}, units);
       EXPECT_EQ(least.limited_by, EventLimit::kMotion);
       for (const double rate : {10 * numeric::kRotationAngleMax, 1e9, 1e15, 1e150}) {
         bar.w = {0, 0, rate};
-        for (const Told told : {Told::kAtStart, Told::kAtBoth}) {
+        for (const Result told : {Result::kAtStart, Result::kAtBoth}) {
           const TimeOfContactResult found = Find(bar, other, 1, told, {}, units);
           EXPECT_NE(found.status, ContactStatus::kFree);
           EXPECT_EQ(found.limited_by, EventLimit::kMotion) << rate;
@@ -141,7 +143,7 @@ TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
   // Near to a state it is known, whichever comes first.
   bar.w = {0, 0, 1.5 * numeric::kRotationAngleMax};
   const Body passing{nullptr, 0.2, {-5, 0, 0}, {10, 0, 0}};
-  const TimeOfContactResult found = Find(bar, passing, 1, Told::kAtBoth);
+  const TimeOfContactResult found = Find(bar, passing, 1, Result::kAtBoth);
   EXPECT_EQ(found.status, ContactStatus::kContact);
   EXPECT_EQ(found.limited_by, EventLimit::kNone);
   EXPECT_LE(found.begin.width(), 1e-12);
@@ -156,7 +158,7 @@ TEST(ContactLimits, GrazingEndsWithABracketAndItsReason) {
   const double first = kPi / 2 - std::atan2(0.1, 2), last = kPi - first;
   for (const double off : {-1e-9, 0.0, 1e-9}) {
     const Body wall{shape::Shape::Build(Box({-4, 0, -1}, {4, 1, 1})), 0, {0, reach + off, 0}};
-    const TimeOfContactResult found = Find(bar, wall, 2, Told::kAtStart, {}, 2'000'000);
+    const TimeOfContactResult found = Find(bar, wall, 2, Result::kAtStart, {}, 2'000'000);
     if (off > 0) {
       EXPECT_EQ(found.status, ContactStatus::kFree);
       continue;
@@ -185,8 +187,8 @@ Real TrueDistance(const Body& a, const Body& b, double t) {
   return SolidDistance(at(a), at(b));
 }
 
-// A cube on a long arm and a ball beside it, as fast as it: only that circles bend inward brings them
-// together.
+// A cube on a long arm and a ball beside it, as fast as it: only that circles bend inward brings
+// them together.
 TEST(ContactLimits, TheBendOfACircleCounts) {
   Body cube{shape::Shape::Build(Moved(Cube(0.125), {4, 0, 0}))};
   cube.w = {0, 0, 1};

@@ -1,7 +1,7 @@
-// Goal:   whatever is said of when two bodies touch holds for every motion within the bounds, however little may be
-//         spent on it, and no limit but the work allowed cuts it short.
-// Method: motions with random and extreme accelerations, in long double, of two bodies that nearly touch; the true
-//         distance before, in and after both brackets.
+// Goal:   whatever is said of when two bodies touch holds for every motion within the bounds,
+//         however little may be spent on it, and no limit but the work allowed cuts it short.
+// Method: motions with random and extreme accelerations, in long double, of two bodies that nearly
+//         touch; the true distance before, in and after both brackets.
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/contact/time_of_contact.h"

@@ -1,4 +1,5 @@
-// Goal:   what is told of one solid inside another holds whatever the budget is, and the budget holds.
+// Goal:   what is told of one solid inside another holds whatever the budget is, and the budget
+//         holds.
 // Method: a small box in the wall of a hollow cube, where the surfaces are apart and the solids
 //         overlap as deep as is known in closed form; a cloud of 1,000 parts in a cavity.
 #include <gtest/gtest.h>
@@ -16,7 +17,7 @@ geometry::TriangleMesh Hollow(const Vector3d& outside, const Vector3d& inside) {
   return Joined(Box(-outside, outside), Reversed(Box(-inside, inside)));
 }
 
-class NestingTest : public testing::TestWithParam<sphere_tree::TreeBuilder> {
+class ContainmentTest : public testing::TestWithParam<sphere_tree::TreeBuilder> {
  protected:
   static BodySegment Segment(const geometry::TriangleMesh& mesh, const Vector3d& at) {
     sphere_tree::ShapeOptions options;
@@ -29,14 +30,14 @@ class NestingTest : public testing::TestWithParam<sphere_tree::TreeBuilder> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Builders, NestingTest,
+INSTANTIATE_TEST_SUITE_P(Builders, ContainmentTest,
                          testing::Values(sphere_tree::TreeBuilder::kOctree,
                                          sphere_tree::TreeBuilder::kFitted,
                                          sphere_tree::TreeBuilder::kHalved));
 
-// The box of half-lengths h stands 1 - y - h below the cube's upper side, and as much as it is wide takes it
-// out that way; the way into the cavity is longer or as long.
-TEST_P(NestingTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
+// The box of half-lengths h stands 1 - y - h below the cube's upper side, and as much as it is wide
+// takes it out that way; the way into the cavity is longer or as long.
+TEST_P(ContainmentTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
   const Vector3d half(0.05, 0.006, 0.003);
   const BodySegment box = Segment(Box(-half, half), {0.2, 0.75, 0.1});
   const BodySegment wall = Segment(Hollow({1, 1, 1}, {0.96, 0.54, 0.95}), {0, 0, 0});
@@ -62,10 +63,10 @@ TEST_P(NestingTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
   WorkBudget all(100000);
   const BodyTree a(box), b(wall);
   const RelativePose pose = PoseAt(box, wall, {0, 0, true}, 0);
-  EXPECT_LE(QuerySeparation(a, b, pose, Goal::kNearest, &all).lower, apart);
-  EXPECT_EQ(DecideAt(a, b, pose, &all).verdict, Verdict::kTouching);
+  EXPECT_LE(QuerySeparation({a, b, pose}, Goal::kNearest, &all).lower, apart);
+  EXPECT_EQ(DecideAt({a, b, pose}, &all).verdict, Verdict::kTouching);
   Refinement refinement(RefinementOrder::kLargestFirst);
-  refinement.Add(a, b, pose, 1, Goal::kNearest, {}, &all);
+  refinement.Add({a, b, pose}, 1, Goal::kNearest, {}, &all);
   refinement.Refine(&all);
   EXPECT_GE(refinement.TotalWidth(), 0);
   EXPECT_LE(refinement.TotalWidth(), 1e-12);
@@ -73,7 +74,7 @@ TEST_P(NestingTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
 
 // Each part would have to be asked whether it is in the wall: at 100 units, beyond the budget.
 // Two parts of one body, far apart: one in the wall, where no spheres tell, one beyond the box.
-TEST_P(NestingTest, APartInsideIsFoundThoughAnotherIsFarOutside) {
+TEST_P(ContainmentTest, APartInsideIsFoundThoughAnotherIsFarOutside) {
   const Vector3d half(0.05, 0.006, 0.003), away(0, 5, 0);
   const BodySegment parts =
       Segment(Joined(Box(-half, half), Box(away - half, away + half)), {0.2, 0.75, 0.1});
@@ -83,7 +84,7 @@ TEST_P(NestingTest, APartInsideIsFoundThoughAnotherIsFarOutside) {
   EXPECT_LE(found.upper, 0);
 }
 
-TEST_P(NestingTest, ManyPartsStayWithinTheBudget) {
+TEST_P(ContainmentTest, ManyPartsStayWithinTheBudget) {
   geometry::TriangleMesh dust;
   for (int i = 0; i < 1000; ++i) {
     const Vector3d lower((i % 10 - 4.5) / 10, (i / 10 % 10 - 4.5) / 10, (i / 100 - 4.5) / 10);
@@ -105,13 +106,13 @@ TEST_P(NestingTest, ManyPartsStayWithinTheBudget) {
   constexpr std::uint64_t kBatch = 500;
   for (const std::uint64_t units : {0u, 100u, 3000u, 20000u}) {
     WorkBudget work(units);
-    const Decision decision = DecideAt(BodyTree(cube), BodyTree(cloud), pose, &work);
+    const Decision decision = DecideAt({BodyTree(cube), BodyTree(cloud), pose}, &work);
     EXPECT_EQ(decision.verdict, Verdict::kUndecided);
-    EXPECT_TRUE(decision.look.exhausted);
+    EXPECT_TRUE(decision.bracket.exhausted);
     EXPECT_LE(work.spent(), units + kBatch);
   }
   WorkBudget enough(1000000);
-  EXPECT_EQ(DecideAt(BodyTree(cube), BodyTree(cloud), pose, &enough).verdict, Verdict::kApart);
+  EXPECT_EQ(DecideAt({BodyTree(cube), BodyTree(cloud), pose}, &enough).verdict, Verdict::kApart);
 }
 
 }  // namespace

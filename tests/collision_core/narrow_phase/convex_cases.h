@@ -80,8 +80,8 @@ class ConvexCase {
   void MoveTo(double gap) {
     for (int i = 0; i < 3; ++i) {
       const narrow_phase::ConvexSeparation found = Ask();
-      pose_ = narrow_phase::PoseOf(pose_.matrix,
-                                   pose_.offset + (gap - found.separation.middle()) * found.normal);
+      pose_ = narrow_phase::PoseOf(pose_.R_AB,
+                                   pose_.p_AB + (gap - found.separation.middle()) * found.normal);
     }
   }
 
@@ -95,7 +95,7 @@ class ConvexCase {
   geometry::ConvexSet SetB() const { return PosedB(b_.set(), pose_); }
   ExactPoints CornersA() const { return ExactCorners(description_a_); }
   ExactPoints CornersB() const {
-    return Placed(ExactCorners(description_b_), PlacementOf(pose_.matrix, pose_.offset));
+    return Placed(ExactCorners(description_b_), PlacementOf(pose_.R_AB, pose_.p_AB));
   }
 
   narrow_phase::ConvexSeparation Ask(const narrow_phase::ConvexQuestion& question = {}) const {
@@ -123,7 +123,7 @@ class ConvexCase {
     EXPECT_TRUE(IsAtMost(found.separation.lower, square, rounding)) << found.separation.lower;
     if (square > 0) CheckNormal(found, nearest);
     narrow_phase::ConvexQuestion coarse;
-    coarse.share = 0.05;
+    coarse.relative_tolerance = 0.05;
     if (square > 0) CheckNormal(Ask(coarse), nearest);
     return square;
   }
@@ -160,7 +160,7 @@ class ConvexCase {
 
  private:
   ExactPoints Directions() const {
-    const ExactPlacement pose = PlacementOf(pose_.matrix, pose_.offset);
+    const ExactPlacement pose = PlacementOf(pose_.R_AB, pose_.p_AB);
     const ExactPoints a = EdgeDirections(description_a_, ExactPlacement());
     const ExactPoints b = EdgeDirections(description_b_, pose);
     if (a.empty() || b.empty()) return FaceDirections(CornersA(), CornersB());

@@ -79,7 +79,7 @@ TEST(ConvexEllipsoid, BallsOutsideAndInside) {
     b.rounding = random.Uniform(0.01, 1);
     b.p_BS = random.Uniform(0, 2) * random.UnitVector();
     ConvexQuestion question;
-    question.share = 1e-6;
+    question.relative_tolerance = 1e-6;
     const ConvexSeparation found = Ask(a, b, question);
     bool inside = false;
     const SquareBracket square = ToSurface(a, b.p_BS, &inside);
@@ -200,7 +200,7 @@ TEST(ConvexEllipsoid, EllipsoidsAndBoxes) {
     shape::ConvexDescription b = i % 3 ? RandomEllipsoid(random, 0.3) : RandomBox(random, 1);
     b.p_BS = random.Uniform(1.2, 4) * random.UnitVector();
     ConvexQuestion question;
-    question.share = 1e-6;
+    question.relative_tolerance = 1e-6;
     const ConvexSeparation found = Ask(a, b, question);
     if (!(found.separation.lower > 0.01)) continue;
     const Wide distance = ByProjections(WideSolid(a), WideSolid(b));
@@ -243,7 +243,8 @@ TEST(ConvexEllipsoid, ConcentricDepth) {
   }
 }
 
-// Goal:   however near the two are, the bracket is narrow: the corners of a simplex alone would not tell.
+// Goal:   however near the two are, the bracket is narrow: the corners of a simplex alone would not
+//         tell.
 TEST(ConvexEllipsoid, NearContactIsKnownToTheLastBits) {
   int beside[3] = {0, 0, 0};
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

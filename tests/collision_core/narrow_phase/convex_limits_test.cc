@@ -120,14 +120,14 @@ TEST(ConvexLimits, WidthAskedFor) {
     const Solids s = RandomSolids(random, 6);
     for (const double width : {1e-1, 1e-3, 1e-6}) {
       ConvexQuestion question;
-      question.width = i % 2 ? width : 0;
-      question.share = i % 2 ? 0 : width;
+      question.absolute_tolerance = i % 2 ? width : 0;
+      question.relative_tolerance = i % 2 ? 0 : width;
       geometry::GjkHint hint;
       WorkBudget work(1000000);
       const ConvexSeparation found = SeparationOf(s.a.set(), s.b.set(), question, &hint, &work);
       const numeric::Interval at = found.separation;
       if (!(at.lower > 1e-3)) continue;
-      EXPECT_LE(at.width(), std::max(question.width, question.share * at.lower));
+      EXPECT_LE(at.width(), std::max(question.absolute_tolerance, question.relative_tolerance * at.lower));
       if (width == 1e-1) coarse += work.spent();
       if (width == 1e-6) fine += work.spent();
     }

@@ -73,7 +73,7 @@ void CheckAll(const ConvexCase& c, double gap_known) {
 // Goal:   yes or no and the bracket are true of any two solids of few faces, from far apart to deep
 //         in each other, and as narrow as asked for.
 // Method: exact rational arithmetic; any rotations; like and unlike sizes from 1e-4 to 1e6 m.
-TEST(SolidPair, RandomPolytopes) {
+TEST(ConvexPairQuery, RandomPolytopes) {
   Random random(401);
   for (int i = 0; i < 200; ++i) {
     const double size = i % 2 ? 1 : random.LogUniform(1e-4, 1e6);
@@ -88,7 +88,7 @@ TEST(SolidPair, RandomPolytopes) {
 // Goal:   likewise where next to nothing decides, so that every error has to be counted in.
 // Method: moved along the shortest way until the two are a given gap apart, or as deep in each
 //         other: down to what is nothing but rounding.
-TEST(SolidPair, NearlyTouching) {
+TEST(ConvexPairQuery, NearlyTouching) {
   Random random(402);
   for (int i = 0; i < 300; ++i) {
     shape::ConvexDescription a = RandomPolytope(random, 1), b = RandomPolytope(random, 1);
@@ -104,7 +104,7 @@ TEST(SolidPair, NearlyTouching) {
 // Goal:   likewise of whatever coincides or degenerates, where gaps are exactly nothing.
 // Method: measures and places of small whole numbers, turned by rotations that are exact in doubles
 //         or by 3-4-5 ones.
-TEST(SolidPair, LatticePolytopes) {
+TEST(ConvexPairQuery, LatticePolytopes) {
   Random random(403);
   const Quaterniond turns[] = {
       {1, 0, 0, 0}, {1, 1, 0, 0}, {1, 1, 1, 1}, {2, 1, 0, 0}, {3, 0, 1, 0}};
@@ -120,7 +120,7 @@ TEST(SolidPair, LatticePolytopes) {
 }
 
 // Goal:   needles and plates, and boxes that are parallel but for rounding.
-TEST(SolidPair, NeedlesAndParallels) {
+TEST(ConvexPairQuery, NeedlesAndParallels) {
   Random random(404);
   for (int i = 0; i < 240; ++i) {
     shape::ConvexDescription a = RandomBox(random, 1), b = RandomBox(random, 1);
@@ -143,7 +143,7 @@ TEST(SolidPair, NeedlesAndParallels) {
 
 // Goal:   far from both reference points only what the placement rounds is lost, but all of it is
 //         counted in.
-TEST(SolidPair, FarFromTheOrigin) {
+TEST(ConvexPairQuery, FarFromTheOrigin) {
   Random random(405);
   for (int i = 0; i < 300; ++i) {
     shape::ConvexDescription a = RandomPolytope(random, 1), b = RandomPolytope(random, 1);
@@ -177,7 +177,7 @@ ExactPoints CornersOf(const Matrix3d& edges, const Vector3d& centre) {
 // Goal:   the rounding of a glance at boxes is counted in where nothing else hides it.
 // Method: edges and centres are what their doubles say; touching but for some units of rounding,
 //         on faces and on edges; exact arithmetic.
-TEST(SolidPair, BoxesAsTheyAreWritten) {
+TEST(ConvexPairQuery, BoxesAsTheyAreWritten) {
   Random random(409);
   int said = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -220,7 +220,7 @@ TEST(SolidPair, BoxesAsTheyAreWritten) {
 
 // Goal:   likewise of what the closed forms and the quick search say of cores, before anything else
 //         is counted in.
-TEST(SolidPair, CoresAsTheyAreWritten) {
+TEST(ConvexPairQuery, CoresAsTheyAreWritten) {
   Random random(411);
   for (int i = 0; i < 300; ++i) {
     geometry::ConvexSet a, b;
@@ -255,9 +255,9 @@ TEST(SolidPair, CoresAsTheyAreWritten) {
   }
 }
 
-// Goal:   likewise of the closed forms and the quick search: what they tell of sets that are exactly
-//         what they say, at a pose that is exact.
-TEST(SolidPair, SetsAsTheyAreWritten) {
+// Goal:   likewise of the closed forms and the quick search: what they tell of sets that are
+//         exactly what they say, at a pose that is exact.
+TEST(ConvexPairQuery, SetsAsTheyAreWritten) {
   Random random(410);
   for (int i = 0; i < 600; ++i) {
     shape::ConvexDescription a = RandomBox(random, 1), b = RandomHull(random, 1, 5);
@@ -294,7 +294,7 @@ TEST(SolidPair, SetsAsTheyAreWritten) {
 // Goal:   what the pose is uncertain by, in place and turn of either body, is counted in.
 // Method: asked at one pose with its uncertainty, held against the exact answer at another pose
 //         within it; near to touching, where that matters.
-TEST(SolidPair, UncertainPoses) {
+TEST(ConvexPairQuery, UncertainPoses) {
   Random random(406);
   int said = 0;
   for (int i = 0; i < 240; ++i) {
@@ -308,7 +308,7 @@ TEST(SolidPair, UncertainPoses) {
     ConvexCase c(a, b);
     c.Turn(q, 4 * random.UnitVector());
     c.MoveTo(random.Uniform(-2, 2) * angle);
-    const Vector3d offset = c.pose().offset;
+    const Vector3d offset = c.pose().p_AB;
     RelativePose uncertain = c.pose();
     const int kind = i % 3;
     if (kind == 0) uncertain.chord_B = 1.001 * angle, c.Turn(q * turn, offset);
@@ -332,7 +332,7 @@ TEST(SolidPair, UncertainPoses) {
 }
 
 // Goal:   a budget that is spent is noticed, and what is told at once costs little.
-TEST(SolidPair, WorkBudget) {
+TEST(ConvexPairQuery, WorkBudget) {
   Random random(407);
   ConvexCase c(RandomBox(random, 1), RandomBox(random, 1));
   c.Turn(RandomQuaternion(random), {10, 0, 0});
@@ -342,7 +342,7 @@ TEST(SolidPair, WorkBudget) {
 }
 
 // Goal:   the kernels give the same bits on every processor.
-TEST(SolidPair, KernelsAgree) {
+TEST(ConvexPairQuery, KernelsAgree) {
   if (Avx2SeparatingAxisTest() == nullptr) return;  // Nothing to compare with.
   Random random(408);
   for (int i = 0; i < 3000; ++i) {

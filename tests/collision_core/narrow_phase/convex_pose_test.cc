@@ -66,9 +66,9 @@ TEST(ConvexPose, ErrorsAreCounted) {
         PoseOf(RotationOf(numeric::UnitQuaternion(RandomQuaternion(random))).matrix,
                random.LogUniform(1e-3, 1e6) * random.UnitVector());
     const geometry::ConvexSet posed = PosedB(solid.set(), pose);
-    const ExactPoints there = Placed(exact, PlacementOf(pose.matrix, pose.offset));
+    const ExactPoints there = Placed(exact, PlacementOf(pose.R_AB, pose.p_AB));
     EXPECT_TRUE(AreWithin(CornersOf(posed), there, posed.error));
-    EXPECT_LE(posed.error, 2e-14 * (size + d.p_BS.norm() + pose.offset.norm()));
+    EXPECT_LE(posed.error, 2e-14 * (size + d.p_BS.norm() + pose.p_AB.norm()));
   }
 }
 
@@ -159,8 +159,8 @@ TEST(ConvexPose, TurnedHalfSpaces) {
                100 * random.UnitVector());
     const numeric::Interval found =
         SeparationOf(shape::ConvexSolid::Build(ball).set(), PosedB(ground, pose)).separation;
-    const ExactPlacement placement = PlacementOf(pose.matrix, pose.offset);
-    const ExactVector n(pose.matrix(0, 2), pose.matrix(1, 2), pose.matrix(2, 2));
+    const ExactPlacement placement = PlacementOf(pose.R_AB, pose.p_AB);
+    const ExactVector n(pose.R_AB(0, 2), pose.R_AB(1, 2), pose.R_AB(2, 2));
     const ExactVector from = ExactVector(ball.p_BS) - placement(ExactVector(ground.point));
     const Exact height = Dot(n, from);  // times |n|, which is 1 to within a few roundings
     const Exact slack = Exact(1e-15) * abs(height);

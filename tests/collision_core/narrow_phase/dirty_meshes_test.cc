@@ -1,7 +1,9 @@
-// Goal:   whatever a mesh looks like, it gets a tree, and every question about it an answer that holds, within the work
-//         allowed: brackets contain the true distance, what is said to be free is, what is said to touch does.
-// Method: dirty meshes by the thousand, built either way, in pairs and beside balls, at rest and in motion, with
-//         budgets from nothing to plenty; against all pairs of triangles in long double.
+// Goal:   whatever a mesh looks like, it gets a tree, and every question about it an answer that
+//         holds, within the work allowed: brackets contain the true distance, what is said to be
+//         free is, what is said to touch does.
+// Method: dirty meshes by the thousand, built either way, in pairs and beside balls, at rest and in
+//         motion, with budgets from nothing to plenty; against all pairs of triangles in long
+//         double.
 #include "tests/support/dirty_meshes.h"
 
 #include "collision_core/narrow_phase/separation/separation_search.h"
@@ -46,20 +48,20 @@ void ExpectLook(const Posed& a, const Posed& b, std::uint64_t units, bool brute)
   const BodyTree surface_a(of_a), surface_b(of_b);
   const RelativePose pose = PoseBetween(of_a, of_b);
   WorkBudget work(units);
-  const SeparationBracket look =
-      QuerySeparation(surface_a, surface_b, pose, Goal::kDecision, &work);
+  const SeparationBracket bracket =
+      QuerySeparation({surface_a, surface_b, pose}, Goal::kDecision, &work);
   EXPECT_LE(work.spent(), units + kBatchUnits);
-  EXPECT_FALSE(std::isnan(look.lower) || std::isnan(look.upper));
+  EXPECT_FALSE(std::isnan(bracket.lower) || std::isnan(bracket.upper));
   WorkBudget more(units);
-  const Decision decision = DecideAt(surface_a, surface_b, pose, &more);
+  const Decision decision = DecideAt({surface_a, surface_b, pose}, &more);
   if (!brute) return;
   const TrueBody body_a = a.Body(), body_b = b.Body();
   const Real surfaces = SurfaceDistance(body_a, body_b), solids = SolidDistance(body_a, body_b);
   const Real tolerance = 1e-15L * (surface_a.reach() + surface_b.reach());
-  if (look.upper > 0) {
-    EXPECT_LE(look.lower, surfaces + tolerance);
+  if (bracket.upper > 0) {
+    EXPECT_LE(bracket.lower, surfaces + tolerance);
   }
-  EXPECT_GE(std::max(0.0, look.upper), solids - tolerance);
+  EXPECT_GE(std::max(0.0, bracket.upper), solids - tolerance);
   if (decision.verdict == Verdict::kApart) {
     EXPECT_GT(solids, 0);
   }
@@ -83,7 +85,7 @@ TrueBody After(const Body& body, double seconds) {
 }
 
 void ExpectMotion(const Body& a, const Body& b, std::uint64_t units, bool brute) {
-  const TimeOfContactResult found = Find(a, b, 1, Told::kAtStart, {1e-4, 0}, units);
+  const TimeOfContactResult found = Find(a, b, 1, Result::kAtStart, {1e-4, 0}, units);
   EXPECT_LE(found.begin.lower, found.begin.upper);
   EXPECT_LE(found.end.lower, found.end.upper);
   if (!brute) return;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/narrow_phase/separation/containment.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
 #include "tests/support/random.h"
 
@@ -18,7 +19,7 @@ BodySegment At(std::shared_ptr<const shape::Shape> shape) {
 
 double GapAt(const BodyTree& a, const BodyTree& b, const RelativePose& pose, double enough) {
   WorkBudget work(kUnlimited);
-  const double gap = HullGapOf(a, b, pose, enough, &work);
+  const double gap = HullGapOf({a, b, pose}, enough, &work);
   EXPECT_LE(work.spent(), kHullDirectionsMax * kHullDirectionUnits);
   return gap;
 }
@@ -26,7 +27,7 @@ double GapAt(const BodyTree& a, const BodyTree& b, const RelativePose& pose, dou
 /// An upper bound of the distance, by the trees alone.
 double MostApart(const BodyTree& a, const BodyTree& b, const RelativePose& pose) {
   WorkBudget work(kUnlimited);
-  return QuerySeparation(a, b, pose, Goal::kNearest, &work).upper;
+  return QuerySeparation({a, b, pose}, Goal::kNearest, &work).upper;
 }
 
 // Goal:   never more than the distance; and mostly it is seen that bodies are apart.
@@ -86,8 +87,8 @@ TEST(HullGap, NotIdle) {
   EXPECT_GE(GapAt(a, b, turning, 0), 0.5 - 0.03 * reach - 1e-3);
 }
 
-// Goal:   what either body may be turned by is counted: however it really is turned, the distance is
-//         no less than was told.
+// Goal:   what either body may be turned by is counted: however it really is turned, the distance
+//         is no less than was told.
 // Method: rods side by side, B turned by some of the angle that was allowed.
 TEST(HullGap, HoldsForTurnedBodies) {
   Random random(412);
@@ -100,7 +101,7 @@ TEST(HullGap, HoldsForTurnedBodies) {
     const double angle = random.LogUniform(1e-3, 0.5);
     const Eigen::AngleAxisd turn(angle, random.Chance(0.5) ? Eigen::Vector3d(0, 0, 1)
                                                            : Eigen::Vector3d(random.UnitVector()));
-    const RelativePose turned = PoseOf(turn.toRotationMatrix(), pose.offset);
+    const RelativePose turned = PoseOf(turn.toRotationMatrix(), pose.p_AB);
     pose.chord_B = 2 * std::sin(angle / 2) * (1 + 1e-12);
     const double gap = GapAt(a, b, pose, 0);
     EXPECT_LE(gap, std::max(0.0, MostApart(a, b, turned)));
@@ -109,8 +110,8 @@ TEST(HullGap, HoldsForTurnedBodies) {
   EXPECT_GE(positive, 50);
 }
 
-// Goal:   bodies within each other, interlocked, at one place, or far beyond single precision: no gap
-//         is claimed that is not there, and no answer is not a number.
+// Goal:   bodies within each other, interlocked, at one place, or far beyond single precision: no
+//         gap is claimed that is not there, and no answer is not a number.
 TEST(HullGap, NoGap) {
   const BodySegment hollow = At(shape::Shape::Build(HollowCube(1, 0.9)));
   const BodySegment small = At(shape::Shape::Build(Cube(0.2)));
@@ -151,7 +152,7 @@ TEST(HullGap, KeepsToItsBudget) {
   const RelativePose pose = PoseOf(Eigen::Matrix3d::Identity(), {0.05, 0.15, 0});
   for (std::uint64_t allowed = 0; allowed < 10; ++allowed) {
     WorkBudget work(allowed);
-    EXPECT_LE(HullGapOf(a, b, pose, 0, &work), 0);
+    EXPECT_LE(HullGapOf({a, b, pose}, 0, &work), 0);
     EXPECT_LE(work.spent(), allowed);
   }
 }
@@ -170,13 +171,13 @@ TEST(HullGap, DecidesAsTheTreesDo) {
     const BodyTree a(segment_a), b(segment_b);
     const RelativePose pose = PoseBetween(segment_a, segment_b);
     WorkBudget work(kUnlimited);
-    const Decision decision = DecideAt(a, b, pose, &work);
+    const Decision decision = DecideAt({a, b, pose}, &work);
     if (decision.verdict != Verdict::kApart) continue;
-    const SeparationBracket look = QuerySeparation(a, b, pose, Goal::kNearest, &work);
-    EXPECT_GT(look.upper, 0);
-    EXPECT_LE(decision.look.lower, look.upper);
-    EXPECT_LE(look.lower, decision.look.upper);
-    EXPECT_TRUE(TestContainment(a, b, pose, &work).neither);
+    const SeparationBracket bracket = QuerySeparation({a, b, pose}, Goal::kNearest, &work);
+    EXPECT_GT(bracket.upper, 0);
+    EXPECT_LE(decision.bracket.lower, bracket.upper);
+    EXPECT_LE(bracket.lower, decision.bracket.upper);
+    EXPECT_TRUE(TestContainment({a, b, pose}, &work).neither);
     by_hull += GapAt(a, b, pose, pose.translation) > pose.translation;
   }
   EXPECT_GE(by_hull, 100);

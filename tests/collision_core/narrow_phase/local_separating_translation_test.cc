@@ -1,5 +1,7 @@
-// Goal:   shifted by what is told, or by more, a body meets nothing of the other; a little before it does.
-// Method: closed cases of ground with a far summit; random bodies against their distance at the shifted pose.
+// Goal:   shifted by what is told, or by more, a body meets nothing of the other; a little before
+//         it does.
+// Method: closed cases of ground with a far summit; random bodies against their distance at the
+//         shifted pose.
 #include "collision_core/narrow_phase/penetration/local_separating_translation.h"
 
 #include <gtest/gtest.h>
@@ -16,28 +18,28 @@ struct Pair {
   BodyTree surface_a{a}, surface_b{b};
   RelativePose pose = PoseBetween(a, b);
 
-  double Past(const Vector3d& n, double known, const ContactWitness& evidence = {},
+  double Past(const Vector3d& n, double known, const ContactWitness& witness = {},
               std::uint64_t units = kPlenty) const {
     WorkBudget work(units);
-    return LocalSeparatingTranslation(surface_a, surface_b, pose, n, known, evidence, &work);
+    return LocalSeparatingTranslation({surface_a, surface_b, pose}, n, known, witness, &work);
   }
   double Along(const Vector3d& n) const {
     WorkBudget work(kPlenty);
-    return SeparatingTranslationAlong(surface_a, surface_b, pose, n, &work);
+    return SeparatingTranslationAlong({surface_a, surface_b, pose}, n, &work);
   }
   double Apart() const {
     WorkBudget work(kPlenty);
-    return SeparatingTranslation(surface_a, surface_b, pose, Touching().evidence, &work);
+    return SeparatingTranslation({surface_a, surface_b, pose}, Touching().witness, &work);
   }
   SeparationBracket Touching() const {
     WorkBudget work(kPlenty);
-    return QuerySeparation(surface_a, surface_b, pose, Goal::kContact, &work);
+    return QuerySeparation({surface_a, surface_b, pose}, Goal::kContact, &work);
   }
   Verdict ShiftedBy(const Vector3d& shift) const {
     RelativePose shifted = pose;
-    shifted.offset += shift;
+    shifted.p_AB += shift;
     WorkBudget work(kPlenty);
-    return DecideAt(surface_a, surface_b, shifted, &work).verdict;
+    return DecideAt({surface_a, surface_b, shifted}, &work).verdict;
   }
 };
 
@@ -124,7 +126,7 @@ TEST(LocalSeparatingTranslation, WhatIsToldTakesTheTwoApart) {
     const Posed b = RandomBody(random, other, random.Uniform(0, 1) * size * RandomUnit(random));
     const Pair pair{a.Segment(), b.Segment()};
     const Vector3d n = random.UnitVector();
-    const double along = pair.Along(n), past = pair.Past(n, along, pair.Touching().evidence);
+    const double along = pair.Along(n), past = pair.Past(n, along, pair.Touching().witness);
     EXPECT_LE(past, along);
     if (past == along) continue;
     ++told;

@@ -1,6 +1,7 @@
 // Bodies at a pose: convex, hollow, open, spiky, thin, or a ball.
 #pragma once
 
+#include "collision_core/narrow_phase/pose/segment_pose.h"
 #include "collision_core/narrow_phase/separation/separation.h"
 #include "tests/support/meshes.h"
 #include "tests/support/truth/true_distance.h"

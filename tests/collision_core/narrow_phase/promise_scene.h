@@ -1,4 +1,5 @@
-// Two random bodies that nearly touch at some instant, and what is told of them: for tests of promises.
+// Two random bodies that nearly touch at some instant, and what is told of them: for tests of
+// promises.
 #pragma once
 
 #include "tests/support/meshes.h"

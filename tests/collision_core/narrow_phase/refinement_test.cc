@@ -1,6 +1,8 @@
-// Goal:   many searches share one budget: it is kept, nothing starves, what is left coarse is named, brackets only
-//         become narrower, and with all the work they ask for they are those of looks alone.
-// Method: random pairs of spiky surfaces, one of which can never be decided; both orders, beside looks alone.
+// Goal:   many searches share one budget: it is kept, nothing starves, what is left coarse is
+//         named, brackets only become narrower, and with all the work they ask for they are those
+//         of looks alone.
+// Method: random pairs of spiky surfaces, one of which can never be decided; both orders, beside
+//         looks alone.
 #include "collision_core/narrow_phase/separation/refinement.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +13,7 @@ namespace collision::narrow_phase {
 namespace {
 
 constexpr std::uint64_t kUnlimited = std::uint64_t{1} << 40;
-constexpr BracketWidth kNarrow = {0, 1e-6};
+constexpr BracketTolerance kNarrow = {0, 1e-6};
 
 class RefinementScene {
  protected:
@@ -34,7 +36,7 @@ class RefinementScene {
 
   void AddAll(Refinement* refinement, WorkBudget* work) const {
     for (std::size_t pair = 0; pair < poses_.size(); ++pair) {
-      refinement->Add(a(pair), b(pair), poses_[pair], 1, Goal::kDecision, kNarrow, work);
+      refinement->Add({a(pair), b(pair), poses_[pair]}, 1, Goal::kDecision, kNarrow, work);
     }
   }
 
@@ -81,14 +83,14 @@ TEST_P(RefinementTest, WithAllTheWorkItIsTheLookAlone) {
   EXPECT_TRUE(refinement.Coarse().empty());
   std::uint64_t alone = 0;
   for (std::size_t pair = 0; pair < poses_.size(); ++pair) {
-    SeparationSearch search(a(pair), b(pair), poses_[pair], Goal::kDecision, kNarrow,
+    SeparationSearch search({a(pair), b(pair), poses_[pair]}, Goal::kDecision, kNarrow,
                             SearchOrder::kNearest);
     WorkBudget own(kUnlimited);
     search.Start(&own);
     search.Refine(&own);
     alone += own.spent();
     EXPECT_EQ(refinement.At(pair).spent, own.spent());
-    const SeparationBracket x = refinement.Told(pair), y = search.Told();
+    const SeparationBracket x = refinement.Result(pair), y = search.Result();
     EXPECT_EQ(x.lower, y.lower);
     EXPECT_EQ(x.upper, y.upper);
     EXPECT_EQ(x.point, y.point);
@@ -119,12 +121,12 @@ TEST_P(RefinementTest, NothingStarves) {
   const BodyTree flat(sheet);
   Refinement refinement(GetParam());
   WorkBudget work(kUnlimited);
-  refinement.Add(flat, flat, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.5, 0.25, 0)), 8,
-                 Goal::kDecision, kNarrow, &work);
+  refinement.Add({flat, flat, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.5, 0.25, 0))},
+                 8, Goal::kDecision, kNarrow, &work);
   AddAll(&refinement, &work);
   std::uint64_t needed = 0;
   for (std::size_t pair = 0; pair < poses_.size(); ++pair) {
-    SeparationSearch search(a(pair), b(pair), poses_[pair], Goal::kDecision, kNarrow,
+    SeparationSearch search({a(pair), b(pair), poses_[pair]}, Goal::kDecision, kNarrow,
                             SearchOrder::kNearest);
     WorkBudget own(kUnlimited);
     search.Start(&own);
@@ -142,8 +144,8 @@ INSTANTIATE_TEST_SUITE_P(Orders, RefinementTest,
                          testing::Values(RefinementOrder::kLevelByLevel,
                                          RefinementOrder::kLargestFirst));
 
-// Goal:   what the two orders are good for. Largest first has the least total width at every budget but the smallest;
-//         level by level leaves no pair far behind.
+// Goal:   what the two orders are good for. Largest first has the least total width at every budget
+//         but the smallest; level by level leaves no pair far behind.
 // Method: the same pairs and budgets for both.
 TEST_F(RefinementOrders, LargestFirstIsTheNarrowerInTotal) {
   int narrower = 0, budgets = 0;

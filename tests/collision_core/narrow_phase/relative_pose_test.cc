@@ -1,10 +1,12 @@
-// Goal:   the relative pose of two bodies is off by no more than it says, in rounding and in motion, and its bounds are
-//         not much wider than needed.
-// Method: the same pose in long double, near and far from the origin; motions with the greatest accelerations.
+// Goal:   the relative pose of two bodies is off by no more than it says, in rounding and in
+//         motion, and its bounds are not much wider than needed.
+// Method: the same pose in long double, near and far from the origin; motions with the greatest
+//         accelerations.
 #include "collision_core/narrow_phase/pose/relative_pose.h"
 
 #include <gtest/gtest.h>
 
+#include "collision_core/narrow_phase/pose/segment_pose.h"
 #include "tests/support/meshes.h"
 #include "tests/support/truth/true_motion.h"
 
@@ -76,7 +78,7 @@ TEST(RelativePose, RoundingIsWithinItsBound) {
       EXPECT_LE((pose.ToA(x).cast<Real>() - x_A).norm(), allowed);
       EXPECT_LE((pose.ToB(pose.ToA(x)) - x).norm(), 4 * allowed);
       const Vector in_world =
-          pose.p_WA.cast<Real>() + pose.matrix_WA.cast<Real>() * x.cast<Real>().eval();
+          pose.p_WA.cast<Real>() + pose.R_WA.cast<Real>() * x.cast<Real>().eval();
       EXPECT_LE((in_world - true_a.p - true_a.q * x.cast<Real>().eval()).norm(),
                 2 * pose.error_A + 1e-4 * (from_origin > 1e6));
     }
@@ -136,7 +138,7 @@ TEST(RelativePose, TurnsBeyondAllMeasureAreNotKnown) {
     EXPECT_LT(pose.matrix_error, 1e-9);
     EXPECT_LT(pose.offset_error, 1e-8);
     const Eigen::Vector3d apart = b.state.p_WA + b.state.v_WA - a.state.p_WA - a.state.v_WA;
-    EXPECT_NEAR(pose.offset.norm(), apart.norm(), 1e-9 * apart.norm());
+    EXPECT_NEAR(pose.p_AB.norm(), apart.norm(), 1e-9 * apart.norm());
   }
 }
 

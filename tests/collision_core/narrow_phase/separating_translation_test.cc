@@ -1,5 +1,7 @@
-// Goal:   shifted by what is told, two bodies do not overlap; by noticeably less along the same way they would.
-// Method: random bodies in each other, against all vertices in long double; cubes that rest in each other.
+// Goal:   shifted by what is told, two bodies do not overlap; by noticeably less along the same way
+//         they would.
+// Method: random bodies in each other, against all vertices in long double; cubes that rest in each
+//         other.
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
 
 #include <gtest/gtest.h>
@@ -30,7 +32,8 @@ TEST(SeparatingTranslationAlong, IsWhatTheVerticesTell) {
     const RelativePose pose = PoseBetween(of_a, of_b);
     const Vector3d n = random.UnitVector();
     WorkBudget work(1'000'000);
-    const double shift = SeparatingTranslationAlong(BodyTree(of_a), BodyTree(of_b), pose, n, &work);
+    const double shift =
+        SeparatingTranslationAlong({BodyTree(of_a), BodyTree(of_b), pose}, n, &work);
     // In the world: A's frame is turned; a ball's is not.
     const Vector own = n.cast<Real>();
     const Vector way = a.shape ? Vector(a.pose.q * own) : own;
@@ -39,7 +42,7 @@ TEST(SeparatingTranslationAlong, IsWhatTheVerticesTell) {
     EXPECT_LE(shift, exact + 1e-3 * (size + other));
     to_last_bits += shift <= exact + 1e-11 * (size + other);
     WorkBudget none(0);
-    EXPECT_EQ(SeparatingTranslationAlong(BodyTree(of_a), BodyTree(of_b), pose, n, &none),
+    EXPECT_EQ(SeparatingTranslationAlong({BodyTree(of_a), BodyTree(of_b), pose}, n, &none),
               a.shape || b.shape ? numeric::kInfinity : shift);
   }
   EXPECT_GE(to_last_bits, 290);
@@ -60,7 +63,7 @@ TEST(SeparatingTranslationAlong, CostsLittleOnFlatSides) {
   on.pose.p = cube.p.cast<Real>();
   const BodySegment a = at.Segment(), b = on.Segment();
   WorkBudget work(1'000'000);
-  const double shift = SeparatingTranslationAlong(BodyTree(a), BodyTree(b), PoseBetween(a, b),
+  const double shift = SeparatingTranslationAlong({BodyTree(a), BodyTree(b), PoseBetween(a, b)},
                                                   Vector3d::UnitZ(), &work);
   EXPECT_GE(shift, 0.25 + highest);
   EXPECT_LE(shift, 0.2501);
@@ -77,9 +80,10 @@ double DepthOf(const Body& a, const Body& b) {
   const BodyTree surface_a(of_a), surface_b(of_b);
   const RelativePose pose = PoseBetween(of_a, of_b);
   WorkBudget work(1'000'000);
-  const SeparationBracket look = QuerySeparation(surface_a, surface_b, pose, Goal::kContact, &work);
-  EXPECT_LE(look.upper, 0);
-  return SeparatingTranslation(surface_a, surface_b, pose, look.evidence, &work);
+  const SeparationBracket bracket =
+      QuerySeparation({surface_a, surface_b, pose}, Goal::kContact, &work);
+  EXPECT_LE(bracket.upper, 0);
+  return SeparatingTranslation({surface_a, surface_b, pose}, bracket.witness, &work);
 }
 
 TEST(SeparatingTranslation, BodiesThatRestOnFacesAreToldExactly) {

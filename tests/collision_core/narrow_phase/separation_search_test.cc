@@ -1,7 +1,8 @@
-// Goal:   a search may stop and go on at any moment, overruns a budget by one step at most, and gives the same bits
-//         whatever the pauses and whatever the processor's vectors; a decision is right; a bracket is as narrow as asked.
-// Method: random poses of surfaces of all kinds and sizes, near to and far from the reference points, against brute
-//         force over all pairs of triangles in long double.
+// Goal:   a search may stop and go on at any moment, overruns a budget by one step at most, and
+//         gives the same bits whatever the pauses and whatever the processor's vectors; a decision
+//         is right; a bracket is as narrow as asked.
+// Method: random poses of surfaces of all kinds and sizes, near to and far from the reference
+//         points, against brute force over all pairs of triangles in long double.
 #include "collision_core/narrow_phase/separation/separation_search.h"
 
 #include <gtest/gtest.h>
@@ -54,8 +55,8 @@ void ExpectSame(const SeparationBracket& x, const SeparationBracket& y) {
   EXPECT_EQ(x.crossing_margin, y.crossing_margin);
   EXPECT_EQ(x.point, y.point);
   EXPECT_EQ(x.point_error, y.point_error);
-  EXPECT_EQ(x.evidence.a, y.evidence.a);
-  EXPECT_EQ(x.evidence.b, y.evidence.b);
+  EXPECT_EQ(x.witness.a, y.witness.a);
+  EXPECT_EQ(x.witness.b, y.witness.b);
   EXPECT_EQ(x.ways.size(), y.ways.size());
   EXPECT_EQ(x.level, y.level);
   EXPECT_EQ(x.exhausted, y.exhausted);
@@ -63,7 +64,7 @@ void ExpectSame(const SeparationBracket& x, const SeparationBracket& y) {
 
 struct Asked {
   Goal goal;
-  std::optional<BracketWidth> narrow;
+  std::optional<BracketTolerance> narrow;
   SearchOrder order = SearchOrder::kAsGoal;
 };
 
@@ -72,9 +73,9 @@ std::vector<Asked> Questions(double size) {
           {Goal::kContact, {}},
           {Goal::kNearest, {}},
           {Goal::kYesNo, {}},
-          {Goal::kDecision, BracketWidth{0, 1e-6}},
-          {Goal::kDecision, BracketWidth{0.01 * size, 0}},
-          {Goal::kDecision, BracketWidth{0, 1e-6}, SearchOrder::kNearest}};
+          {Goal::kDecision, BracketTolerance{0, 1e-6}},
+          {Goal::kDecision, BracketTolerance{0.01 * size, 0}},
+          {Goal::kDecision, BracketTolerance{0, 1e-6}, SearchOrder::kNearest}};
 }
 
 TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
@@ -84,8 +85,9 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
     const Pair pair = RandomPair(seed);
     for (const Asked& asked : Questions(pair.size())) {
       const auto search = [&] {
-        return std::make_unique<SeparationSearch>(pair.surface_a, pair.surface_b, pair.pose,
-                                                  asked.goal, asked.narrow, asked.order);
+        return std::make_unique<SeparationSearch>(
+            PosedPair{pair.surface_a, pair.surface_b, pair.pose}, asked.goal, asked.narrow,
+            asked.order);
       };
       const auto at_once = search(), in_steps = search();
       WorkBudget unlimited(kUnlimited), first(1);
@@ -106,7 +108,7 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
         pause = pause % 50 + 1;
       }
       EXPECT_EQ(spent, unlimited.spent());
-      ExpectSame(in_steps->Told(), at_once->Told());
+      ExpectSame(in_steps->Result(), at_once->Result());
     }
   }
   EXPECT_GT(most, 8u);
@@ -119,13 +121,13 @@ TEST(SeparationSearch, SameBitsForEveryWidthOfVectors) {
     if (seed % 3 == 0) pair.pose.chord_A = 1e-3, pair.pose.chord_B = 0.1;
     for (const Asked& asked : Questions(pair.size())) {
       const auto look_with = [&](const SpherePairKernel& scan, std::uint64_t* spent) {
-        SeparationSearch search(pair.surface_a, pair.surface_b, pair.pose, asked.goal, asked.narrow,
-                                asked.order, scan);
+        SeparationSearch search({pair.surface_a, pair.surface_b, pair.pose}, asked.goal,
+                                asked.narrow, asked.order, scan);
         WorkBudget work(kUnlimited);
         search.Start(&work);
         search.Refine(&work);
         *spent = work.spent();
-        return search.Told();
+        return search.Result();
       };
       std::uint64_t plain_units = 0, wide_units = 0;
       const SeparationBracket plain = look_with(*PlainSpherePairKernel(), &plain_units);
@@ -148,14 +150,14 @@ TEST(SeparationSearch, BracketsAreAsNarrowAsAsked) {
     for (const double width : {0.1, 0.01, 1e-4, 0.0}) {
       for (const double share : {0.0, 1e-6, 0.1}) {
         WorkBudget work(kUnlimited);
-        const SeparationBracket look = BracketSeparation(pair.surface_a, pair.surface_b, pair.pose,
-                                                         width * pair.size(), share, &work);
-        EXPECT_FALSE(look.exhausted);
-        if (look.upper <= 0) continue;  // one inside the other, or in contact
-        EXPECT_LE(look.lower, truth + floor);
-        EXPECT_GE(look.upper, SolidDistance(pair.a.Body(), pair.b.Body()) - floor);
-        EXPECT_LE(look.upper - look.lower,
-                  std::max<Real>(std::max(width * pair.size(), share * look.lower), 10 * floor));
+        const SeparationBracket bracket = BracketSeparation(
+            {pair.surface_a, pair.surface_b, pair.pose}, {width * pair.size(), share}, &work);
+        EXPECT_FALSE(bracket.exhausted);
+        if (bracket.upper <= 0) continue;  // one inside the other, or in contact
+        EXPECT_LE(bracket.lower, truth + floor);
+        EXPECT_GE(bracket.upper, SolidDistance(pair.a.Body(), pair.b.Body()) - floor);
+        EXPECT_LE(bracket.upper - bracket.lower,
+                  std::max<Real>(std::max(width * pair.size(), share * bracket.lower), 10 * floor));
         ++apart;
       }
     }
@@ -185,13 +187,13 @@ TEST(SeparationSearch, DecisionsAreRight) {
     const Real truth = SolidDistance(pair.a.Body(), pair.b.Body());
     const Real floor = 1e-13L * (pair.size() + pair.b.pose.p.norm());
     WorkBudget work(kUnlimited);
-    const Decision decision = DecideAt(pair.surface_a, pair.surface_b, pair.pose, &work);
+    const Decision decision = DecideAt({pair.surface_a, pair.surface_b, pair.pose}, &work);
     switch (decision.verdict) {
       case Verdict::kApart:
         ++apart;
         EXPECT_GT(truth, 0);
-        EXPECT_LE(decision.look.lower, truth + floor);
-        EXPECT_GT(decision.look.lower, 0);
+        EXPECT_LE(decision.bracket.lower, truth + floor);
+        EXPECT_GT(decision.bracket.lower, 0);
         break;
       case Verdict::kTouching:
         ++touching;
@@ -217,7 +219,7 @@ TEST(SeparationSearch, DecisionsCountUncertaintyIn) {
     Pair pair = RandomPair(seed);
     pair.pose.translation = pair.size() * random.LogUniform(1e-3, 0.3);
     WorkBudget work(kUnlimited);
-    const Decision decision = DecideAt(pair.surface_a, pair.surface_b, pair.pose, &work);
+    const Decision decision = DecideAt({pair.surface_a, pair.surface_b, pair.pose}, &work);
     if (decision.verdict == Verdict::kUndecided) continue;
     ++decided;
     for (int i = 0; i < 10; ++i) {
@@ -236,25 +238,25 @@ TEST(SeparationSearch, FarApartIsSeenAtOnce) {
     const RelativePose pose =
         PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(away * near.size(), 0, 0));
     WorkBudget work(kUnlimited);
-    const Decision decision = DecideAt(near.surface_a, near.surface_b, pose, &work);
+    const Decision decision = DecideAt({near.surface_a, near.surface_b, pose}, &work);
     EXPECT_EQ(decision.verdict, Verdict::kApart);
     EXPECT_EQ(work.spent(), 1u);
-    EXPECT_LE(decision.look.lower, away * near.size());
+    EXPECT_LE(decision.bracket.lower, away * near.size());
     if (away > 1e100) continue;  // squares overflow: less is known, nothing wrong
-    const SeparationBracket look =
-        BracketSeparation(near.surface_a, near.surface_b, pose, 0, 1e-6, &work);
-    EXPECT_LE(look.upper - look.lower, 1.1e-6 * look.lower);
-    EXPECT_LE(look.lower, away * near.size());
-    EXPECT_GE(look.upper, (away - 1) * near.size());
+    const SeparationBracket bracket =
+        BracketSeparation({near.surface_a, near.surface_b, pose}, {0, 1e-6}, &work);
+    EXPECT_LE(bracket.upper - bracket.lower, 1.1e-6 * bracket.lower);
+    EXPECT_LE(bracket.lower, away * near.size());
+    EXPECT_GE(bracket.upper, (away - 1) * near.size());
   }
 }
 
 TEST(SeparationSearch, WhatIsNotANumberIsUndecided) {
   const Pair pair = RandomPair(4);
   RelativePose pose = pair.pose;
-  pose.offset.x() = std::numeric_limits<double>::quiet_NaN();
+  pose.p_AB.x() = std::numeric_limits<double>::quiet_NaN();
   WorkBudget work(kUnlimited);
-  EXPECT_EQ(DecideAt(pair.surface_a, pair.surface_b, pose, &work).verdict, Verdict::kUndecided);
+  EXPECT_EQ(DecideAt({pair.surface_a, pair.surface_b, pose}, &work).verdict, Verdict::kUndecided);
   EXPECT_LT(work.spent(), 1000u);
 }
 
@@ -283,12 +285,12 @@ TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {
     for (const bool swapped : {false, true}) {
       const BodyTree a(swapped ? above : flat), b(swapped ? flat : above);
       WorkBudget work(1'000'000);
-      const SeparationBracket look = BracketSeparation(
-          a, b, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0)), 0, 1e-9, &work);
-      EXPECT_LE(look.lower, 1) << low << swapped;
-      EXPECT_GE(look.lower, 1 - 1e-9) << low << swapped;
-      EXPECT_GE(look.upper, 1) << low << swapped;
-      EXPECT_LE(look.upper, 1 + 1e-9) << low << swapped;
+      const SeparationBracket bracket = BracketSeparation(
+          {a, b, PoseOf(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0))}, {0, 1e-9}, &work);
+      EXPECT_LE(bracket.lower, 1) << low << swapped;
+      EXPECT_GE(bracket.lower, 1 - 1e-9) << low << swapped;
+      EXPECT_GE(bracket.upper, 1) << low << swapped;
+      EXPECT_LE(bracket.upper, 1 + 1e-9) << low << swapped;
     }
   }
 }

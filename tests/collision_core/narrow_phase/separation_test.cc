@@ -1,11 +1,12 @@
-// Goal:   the bracket contains the true distance at every budget, only narrows with more of it, and closes where the
-//         two are apart; what is inside what is told right.
-// Method: random poses of convex, hollow, open and spiky surfaces of sizes from 1e-6 to 1e6 m, against brute force over
-//         all pairs of triangles in long double.
+// Goal:   the bracket contains the true distance at every budget, only narrows with more of it, and
+//         closes where the two are apart; what is inside what is told right.
+// Method: random poses of convex, hollow, open and spiky surfaces of sizes from 1e-6 to 1e6 m,
+//         against brute force over all pairs of triangles in long double.
 #include "collision_core/narrow_phase/separation/separation.h"
 
 #include <gtest/gtest.h>
 
+#include "collision_core/narrow_phase/separation/containment.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
 
 namespace collision::narrow_phase {
@@ -13,8 +14,8 @@ namespace {
 
 SeparationBracket LookOf(const Posed& a, const Posed& b, Goal goal, WorkBudget* work) {
   const BodySegment of_a = a.Segment(), of_b = b.Segment();
-  return QuerySeparation(BodyTree(of_a), BodyTree(of_b), PoseAt(of_a, of_b, {0, 0, true}, 0), goal,
-                         work);
+  return QuerySeparation({BodyTree(of_a), BodyTree(of_b), PoseAt(of_a, of_b, {0, 0, true}, 0)},
+                         goal, work);
 }
 
 TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
@@ -34,20 +35,20 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
     double lower = -numeric::kInfinity, upper = numeric::kInfinity;
     for (std::uint64_t units = 0; units < 3000000; units = 4 * units + 50) {
       WorkBudget work(units);
-      const SeparationBracket look = LookOf(a, b, Goal::kDecision, &work);
-      if (look.upper > 0) {
-        EXPECT_LE(look.lower, surfaces + tolerance);
+      const SeparationBracket bracket = LookOf(a, b, Goal::kDecision, &work);
+      if (bracket.upper > 0) {
+        EXPECT_LE(bracket.lower, surfaces + tolerance);
       }
-      EXPECT_GE(std::max(0.0, look.upper), SolidDistance(body_a, body_b) - tolerance);
-      EXPECT_GE(look.lower, lower);
-      EXPECT_LE(look.upper, upper);
-      if (look.upper <= 0) {
+      EXPECT_GE(std::max(0.0, bracket.upper), SolidDistance(body_a, body_b) - tolerance);
+      EXPECT_GE(bracket.lower, lower);
+      EXPECT_LE(bracket.upper, upper);
+      if (bracket.upper <= 0) {
         ++deep;
-        const Vector by = (-look.upper * 0.999L) * RandomUnit(random);
+        const Vector by = (-bracket.upper * 0.999L) * RandomUnit(random);
         EXPECT_EQ(SolidDistance(body_a, body_b.Moved(by)), 0);
       }
-      lower = look.lower, upper = look.upper;
-      if (!look.exhausted) break;
+      lower = bracket.lower, upper = bracket.upper;
+      if (!bracket.exhausted) break;
     }
     WorkBudget unlimited(100000000);
     const SeparationBracket nearest = LookOf(a, b, Goal::kNearest, &unlimited);
@@ -85,13 +86,13 @@ TEST(Separation, TurningIsCountedInAtEveryBudget) {
     }
     for (const std::uint64_t units : {0, 10, 30, 100, 1000, 1000000}) {
       WorkBudget work(units);
-      const SeparationBracket look =
-          QuerySeparation(BodyTree(of_a), BodyTree(of_b), pose, Goal::kDecision, &work);
+      const SeparationBracket bracket =
+          QuerySeparation({BodyTree(of_a), BodyTree(of_b), pose}, Goal::kDecision, &work);
       for (const Real distance : distances) {
-        if (look.upper > 0 && distance > 0) {
-          EXPECT_LE(look.lower, distance + 1e-15L) << units;
+        if (bracket.upper > 0 && distance > 0) {
+          EXPECT_LE(bracket.lower, distance + 1e-15L) << units;
         }
-        EXPECT_GE(std::max(0.0, look.upper), distance - 1e-15L) << units;
+        EXPECT_GE(std::max(0.0, bracket.upper), distance - 1e-15L) << units;
       }
     }
   }
@@ -131,8 +132,8 @@ Containment TestContainment(const geometry::TriangleMesh& a, const geometry::Tri
   of_b.pose.p = swapped ? Vector(-p) : p;
   const BodySegment x = of_a.Segment(), y = of_b.Segment();
   WorkBudget work(1000000);
-  return collision::narrow_phase::TestContainment(BodyTree(x), BodyTree(y),
-                                                  PoseAt(x, y, {0, 0, true}, 0), &work);
+  return collision::narrow_phase::TestContainment(
+      {BodyTree(x), BodyTree(y), PoseAt(x, y, {0, 0, true}, 0)}, &work);
 }
 
 TEST(Separation, WhatIsInsideWhat) {

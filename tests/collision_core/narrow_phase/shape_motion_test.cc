@@ -1,5 +1,6 @@
-// Goal:   advances through time by sweeps go as far as they can and no further: along turns, to and from the middle
-//         between two states, over segments of no duration, and for solids inside of one another.
+// Goal:   advances through time by sweeps go as far as they can and no further: along turns, to and
+//         from the middle between two states, over segments of no duration, and for solids inside
+//         of one another.
 // Method: contacts whose times are known exactly.
 #include "collision_core/narrow_phase/contact/shape_motion.h"
 
@@ -74,8 +75,9 @@ double Ahead(const BodySegment& a, const BodySegment& b, double duration) {
   return FreeAhead(a, b, 0, duration, &work);
 }
 
-// A rod turns about z towards a ball of 0.1 m at 1.5 m from its middle, and past it were it not there: its side
-// reaches the ball where the two directions are asin(0.2 / 1.5) apart, before and after.
+// A rod turns about z towards a ball of 0.1 m at 1.5 m from its middle, and past it were it not
+// there: its side reaches the ball where the two directions are asin(0.2 / 1.5) apart, before and
+// after.
 TEST(ShapeMotion, TurnsAreFollowedToTheContactFromBothSides) {
   const auto rod = shape::Shape::Build(Rod(2, 0.1));
   const double half = std::asin(0.2 / 1.5);
@@ -107,7 +109,8 @@ TEST(ShapeMotion, TurnsAreFollowedToTheContactFromBothSides) {
   }
 }
 
-// In T = 1 s a body of 1 m/s² leaves what one state says by at most 0.5 m, what two say by at most 0.125 m.
+// In T = 1 s a body of 1 m/s² leaves what one state says by at most 0.5 m, what two say by at most
+// 0.125 m.
 TEST(ShapeMotion, EachHalfBetweenTwoStatesByTheNearerOne) {
   const auto cube = shape::Shape::Build(Cube(1));
   for (const double gap : {0.26, 0.24}) {
@@ -128,13 +131,15 @@ TEST(ShapeMotion, EachHalfBetweenTwoStatesByTheNearerOne) {
   }
 }
 
-// Away from the state at 1 s, from half-way on: what is not known grows although time runs backward, and faster than
-// at the state.
+// Away from the state at 1 s, from half-way on: what is not known grows although time runs
+// backward, and faster than at the state.
 TEST(ShapeMotion, BackwardFromHalfWayTheUncertaintyGrows) {
   const auto swept = [](const Body& a, const Body& b) {
     WorkBudget work(kPlenty);
     const BodySegment of_a = a.Segment(1, false), of_b = b.Segment(1, false);
-    return ShapeMotion(of_a, of_b, &work).SweepFrom(0.5, 0.5, true).touch.seconds;
+    return ShapeMotion(of_a, of_b, &work)
+        .SweepFrom(0.5, 0.5, TimeDirection::kBackward)
+        .touch.seconds;
   };
   // Both together (1 − δ)²: 0.49 m at 0.3 s.
   const auto cube = shape::Shape::Build(Cube(1));

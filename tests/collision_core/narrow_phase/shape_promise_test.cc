@@ -1,7 +1,9 @@
-// Goal:   whatever is said of two shapes over a segment of time holds for every motion within the bounds.
-// Method: motions with random and extreme accelerations, in long double; states taken from them before and after
-//         the segment; two bodies moved so that they nearly touch within it. Every verdict is held against the
-//         true distance: apart where it says apart, together where it says contact, points where they are said to be.
+// Goal:   whatever is said of two shapes over a segment of time holds for every motion within the
+//         bounds.
+// Method: motions with random and extreme accelerations, in long double; states taken from them
+//         before and after the segment; two bodies moved so that they nearly touch within it. Every
+//         verdict is held against the true distance: apart where it says apart, together where it
+//         says contact, points where they are said to be.
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/contact/shape_contact.h"

@@ -1,5 +1,5 @@
-// Goal:   solids that are round, alone and several together, meet when closed formulas say so; what they are never
-//         touches late, whatever is around it.
+// Goal:   solids that are round, alone and several together, meet when closed formulas say so; what
+//         they are never touches late, whatever is around it.
 // Method: balls, capsules, ellipsoids and compounds in motions with closed answers.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
@@ -67,9 +67,9 @@ TEST(SolidContact, TurningCapsuleMeetsABall) {
     ExpectContact(Find(bar, {nullptr, 0.2, {0, 1, 0}}, 2), begin, M_PIl - begin);
     Body ball = Of({Round(geometry::ConvexCore::kPoint, {0, 0, 0}, 0.2)});
     ball.p = {0, 1, 0};
-    ExpectContact(Find(ball, bar, 2, Told::kAtBoth), begin, M_PIl - begin);
+    ExpectContact(Find(ball, bar, 2, Result::kAtBoth), begin, M_PIl - begin);
     bar.w = {0, 0, 350 * kPi / 180 / 0.25};
-    const TimeOfContactResult found = Find(bar, ball, 0.25, Told::kAtBoth);
+    const TimeOfContactResult found = Find(bar, ball, 0.25, Result::kAtBoth);
     ASSERT_EQ(found.status, ContactStatus::kContact);
     ExpectWithin(found.begin, begin / Real(bar.w.z()), 1e-12, "begin");
   }

@@ -1,7 +1,7 @@
-// Goal:   a point within both bodies bounds how far they overlap, however little that is, and no point does where they
-//         are apart.
-// Method: cubes that overlap by 1e-15 to 1 in exact steps, posed anywhere; random points of random bodies in long
-//         double.
+// Goal:   a point within both bodies bounds how far they overlap, however little that is, and no
+//         point does where they are apart.
+// Method: cubes that overlap by 1e-15 to 1 in exact steps, posed anywhere; random points of random
+//         bodies in long double.
 #include "collision_core/narrow_phase/separation/solid_point.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ TEST(SolidPoint, TellsHowDeepToTheLastBits) {
     const SolidPoint of_A = PointOfA(surface, {0.5, 0.125, 0}, &work);
     const SolidPoint of_B = PointOfB(surface, {-0.5, -0.125, 0}, &work);
     for (const SolidPoint& point : {of_A, of_B}) {
-      const double upper = UpperBy(point, surface, surface, pose, &work);
+      const double upper = UpperBy(point, {surface, surface, pose}, &work);
       const double exact = -std::min(depth, 0.375);  // its side may be nearer than its face
       EXPECT_GE(upper, exact);
       EXPECT_LE(upper, exact + 1e-14);
@@ -52,14 +52,14 @@ TEST(SolidPoint, NeverDeeperThanItIs) {
     const Vector3d x = size * random.Uniform(0, 1) * random.UnitVector();
     const bool from_A = random.Chance(0.5);
     const SolidPoint point = from_A ? PointOfA(of_a, x, &work) : PointOfB(of_b, x, &work);
-    const double upper = UpperBy(point, of_a, of_b, pose, &work);
+    const double upper = UpperBy(point, {of_a, of_b, pose}, &work);
     deep += upper < 0;
     // Both bodies turned by as much as they may have.
     TruePose pose_A, pose_B;
     pose_A.q = Exponential(pose.chord_A * RandomUnit(random));
-    const Quaternion q_B(Eigen::Matrix<Real, 3, 3>(pose.matrix.cast<Real>()));
+    const Quaternion q_B(Eigen::Matrix<Real, 3, 3>(pose.R_AB.cast<Real>()));
     pose_B.q = Exponential(pose.chord_B * RandomUnit(random)) * q_B.normalized();
-    pose_B.p = pose.offset.cast<Real>();
+    pose_B.p = pose.p_AB.cast<Real>();
     const TrueBody true_a(a.shape.get(), a.ball.radius, pose_A),
         true_b(b.shape.get(), b.ball.radius, pose_B);
     if (upper >= 0) {
@@ -88,11 +88,12 @@ double DepthAfter(const BodySegment& a, const BodySegment& b, const Eigen::Matri
                   Vector3d offset, const Vector3d& step) {
   const BodyTree of_a(a), of_b(b);
   WorkBudget work(kPlenty);
-  const auto clues = FindContactCandidates(of_a, of_b, PoseOf(matrix, offset), 1e-9, 0, 0, &work);
+  const auto candidates =
+      FindContactCandidates({of_a, of_b, PoseOf(matrix, offset)}, 1e-9, 0, 0, &work);
   const RelativePose after = PoseOf(matrix, offset + step);
   double upper = numeric::kInfinity;
-  for (const ContactCandidate& clue : clues) {
-    upper = std::min(upper, UpperBy(clue.point, of_a, of_b, after, &work));
+  for (const ContactCandidate& candidate : candidates) {
+    upper = std::min(upper, UpperBy(candidate.point, {of_a, of_b, after}, &work));
   }
   return -upper;
 }
@@ -125,9 +126,9 @@ TEST(FindContactCandidates, PointsWhereFacesEdgesAndCornersOverlapSoon) {
             0.4e-6);
   // Nothing is near.
   WorkBudget work(kPlenty);
-  EXPECT_TRUE(FindContactCandidates(BodyTree(a), BodyTree(a),
-                                    PoseOf(Eigen::Matrix3d::Identity(), {1.1, 0, 0}), 1e-9, 0, 0,
-                                    &work)
+  EXPECT_TRUE(FindContactCandidates(
+                  {BodyTree(a), BodyTree(a), PoseOf(Eigen::Matrix3d::Identity(), {1.1, 0, 0})},
+                  1e-9, 0, 0, &work)
                   .empty());
 }
 

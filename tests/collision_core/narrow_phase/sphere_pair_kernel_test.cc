@@ -1,6 +1,7 @@
 // Goal:   the kernels' bounds hold, are nearly tight, and are the same bits on every processor.
-// Method: random packs and blocks of all scales at random poses, far from the reference points as well; exact rational
-//         arithmetic for the truth, each width of vectors beside the plain one.
+// Method: random packs and blocks of all scales at random poses, far from the reference points as
+//         well; exact rational arithmetic for the truth, each width of vectors beside the plain
+//         one.
 #include "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h"
 
 #include <gtest/gtest.h>
@@ -50,7 +51,7 @@ struct Scene {
     const Eigen::Matrix3d matrix = RandomMatrix(random);
     // The middles, not the reference points, are that far apart.
     pose = PoseOf(matrix, packed_a.origin - matrix * packed_b.origin + apart * random.UnitVector());
-    scan = KernelPoseOf(packed_a, packed_b, pose, SlackOf(a, b, pose));
+    scan = KernelPoseOf(packed_a, packed_b, pose, SlackOf({a, b, pose}));
     Eigen::Vector3f::Map(scan.direction) = random.UnitVector().cast<float>();
   }
 
@@ -115,7 +116,7 @@ void Turn(Scene* scene) {
   scene->pose.chord_A = scene->random.Uniform(0, 2);
   scene->pose.chord_B = scene->random.Chance(0.5) ? 0 : 1e-6;
   scene->scan = KernelPoseOf(scene->packed_a, scene->packed_b, scene->pose,
-                             SlackOf(scene->a, scene->b, scene->pose));
+                             SlackOf({scene->a, scene->b, scene->pose}));
 }
 
 TEST(SpherePairKernel, BallsAreTheSameBitsForEveryWidth) {
@@ -170,8 +171,8 @@ TEST(SpherePairKernel, TrianglesAreTheSameBitsForEveryWidth) {
 /// The exact place of a ball's centre or a corner of B, in A's body frame.
 ExactVector ExactlyPosed(const RelativePose& pose, const ExactVector& p) {
   const auto row = [&](int i) {
-    return Exact(pose.matrix(i, 0)) * p.x + Exact(pose.matrix(i, 1)) * p.y +
-           Exact(pose.matrix(i, 2)) * p.z + Exact(pose.offset[i]);
+    return Exact(pose.R_AB(i, 0)) * p.x + Exact(pose.R_AB(i, 1)) * p.y +
+           Exact(pose.R_AB(i, 2)) * p.z + Exact(pose.p_AB[i]);
   };
   return {row(0), row(1), row(2)};
 }
@@ -344,7 +345,7 @@ TEST(SpherePairKernel, TrianglesBeyondALimitAreCertainlyBeyond) {
     const PackedBody packed_a(a), packed_b(b);
     const RelativePose pose =
         PoseOf(RandomMatrix(random), random.Uniform(0, 1) * scale * random.UnitVector());
-    KernelPose scan = KernelPoseOf(packed_a, packed_b, pose, SlackOf(a, b, pose));
+    KernelPose scan = KernelPoseOf(packed_a, packed_b, pose, SlackOf({a, b, pose}));
     const auto limit =
         static_cast<float>(random.Chance(0.5) ? 0 : scale * random.LogUniform(1e-6, 1));
     const BlockScanTask task = {packed_a.tree->blocks(),

@@ -1,7 +1,7 @@
-// Goal:   what bodies sweep in all their turns is never left too late, and tells at once of bodies that turn about
-//         without meeting.
-// Method: bodies that turn and move with constant velocities, in long double, at many instants up to the time that was
-//         said; closed cases about one axis.
+// Goal:   what bodies sweep in all their turns is never left too late, and tells at once of bodies
+//         that turn about without meeting.
+// Method: bodies that turn and move with constant velocities, in long double, at many instants up
+//         to the time that was said; closed cases about one axis.
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ struct Case {
 
   double Touch(std::uint64_t units = kPlenty) const {
     WorkBudget work(units);
-    return SweptRingBound(BodyTree(a), BodyTree(b), swept, duration, &work);
+    return SweptRingBound({BodyTree(a), BodyTree(b), swept}, duration, &work);
   }
 
   // However far either has turned by then.
@@ -31,7 +31,7 @@ struct Case {
     TruePose pose_A, pose_B;
     pose_A.q = Exponential(turned_A * swept.spin_A.cast<Real>().eval());
     pose_B.q = Exponential(turned_B * swept.spin_B.cast<Real>().eval()) * q_AB;
-    pose_B.p = swept.pose.offset.cast<Real>() + h * swept.velocity.cast<Real>();
+    pose_B.p = swept.pose.p_AB.cast<Real>() + h * swept.velocity.cast<Real>();
     return SurfaceDistance(TrueBody(a.shape.get(), a.ball.radius, pose_A),
                            TrueBody(b.shape.get(), b.ball.radius, pose_B));
   }
@@ -45,7 +45,7 @@ Case RandomCase(Random& random) {
   if (!c.a.shape && !c.b.shape) c.b = BodyOf(shape::Shape::Build(Scaled(LShape(), size)));
   c.q_AB = RandomTurn(random).cast<double>().cast<Real>().normalized();
   const numeric::Rotation rotation = RotationOf(numeric::UnitQuaternion(c.q_AB.cast<double>()));
-  c.swept.pose.matrix = rotation.matrix;
+  c.swept.pose.R_AB = rotation.matrix;
   c.swept.pose.matrix_error = rotation.error + 0x1p-48;
   if (c.a.shape && random.Chance(0.7)) c.swept.spin_A = 100 * random.UnitVector();
   if (c.b.shape && random.Chance(0.7)) c.swept.spin_B = 30 * random.UnitVector();
@@ -55,12 +55,12 @@ Case RandomCase(Random& random) {
     (c.a.shape ? c.swept.spin_A : c.swept.spin_B) = 10 * random.UnitVector();
   }
   const double reach = c.a.ball.radius + c.b.ball.radius;
-  c.swept.pose.offset = reach * random.Uniform(0, 1.5) * random.UnitVector();
+  c.swept.pose.p_AB = reach * random.Uniform(0, 1.5) * random.UnitVector();
   c.swept.velocity = reach * random.Uniform(0, 1) * random.UnitVector();
   return c;
 }
 
-TEST(RevolvedPair, NeverLaterThanAnyTurnMayTouch) {
+TEST(SweptRing, NeverLaterThanAnyTurnMayTouch) {
   int free = 0, partly = 0, none = 0;
   for (std::uint64_t seed = 1; seed <= 300 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -84,12 +84,12 @@ TEST(RevolvedPair, NeverLaterThanAnyTurnMayTouch) {
 }
 
 // A bar about z; what comes down on it from above meets its top at z = 0.1, wherever it is.
-TEST(RevolvedPair, ExactAboutOneAxis) {
+TEST(SweptRing, ExactAboutOneAxis) {
   Case c;
   c.a = BodyOf(shape::Shape::Build(Box({-2, -0.1, -0.1}, {2, 0.1, 0.1})));
   c.b = BodyOf(shape::Shape::Build(Cube(0.5)));
   c.swept.spin_A = {0, 0, 1000};
-  c.swept.pose.offset = {0.5, 0.25, 1.1};
+  c.swept.pose.p_AB = {0.5, 0.25, 1.1};
   c.swept.velocity = {0, 0, -1};
   EXPECT_LE(c.Touch(), 0.5);
   EXPECT_GE(c.Touch(), 0.5 - 1e-12);
@@ -105,12 +105,12 @@ TEST(RevolvedPair, ExactAboutOneAxis) {
 }
 
 // What is not known of the motion counts: 0.5 m are used up by 0.2 + 0.1 h + 0.2 h² at h = 1.
-TEST(RevolvedPair, UncertaintyCounts) {
+TEST(SweptRing, UncertaintyCounts) {
   Case c;
   c.a = BodyOf(shape::Shape::Build(Box({-2, -0.1, -0.1}, {2, 0.1, 0.1})));
   c.b = BodyOf(nullptr, 0.25);
   c.swept.spin_A = {0, 0, 1000};
-  c.swept.pose.offset = {1, 0, 0.85};
+  c.swept.pose.p_AB = {1, 0, 0.85};
   c.swept.translation = {0.2, 0.1, 0.2};
   c.duration = 2;
   EXPECT_LE(c.Touch(), 1);
@@ -118,7 +118,7 @@ TEST(RevolvedPair, UncertaintyCounts) {
 }
 
 // In the hole of a ring that turns about its axis.
-TEST(RevolvedPair, InsideAHole) {
+TEST(SweptRing, InsideAHole) {
   Case c;
   c.a = BodyOf(shape::Shape::Build(Frame()));
   c.b = BodyOf(nullptr, 0.9);
@@ -129,8 +129,9 @@ TEST(RevolvedPair, InsideAHole) {
   EXPECT_GE(c.Touch(), 0.5 - 1e-9);
 }
 
-// Convex solids, boxes and hulls of their corners, tell the same as the boxes' triangles, and as soon.
-TEST(RevolvedPair, SolidsAreNoFartherThanTheirTriangles) {
+// Convex solids, boxes and hulls of their corners, tell the same as the boxes' triangles, and as
+// soon.
+TEST(SweptRing, SolidsAreNoFartherThanTheirTriangles) {
   int free = 0, partly = 0;
   for (std::uint64_t seed = 1; seed <= 300 && !testing::Test::HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -143,7 +144,7 @@ TEST(RevolvedPair, SolidsAreNoFartherThanTheirTriangles) {
     meshes.swept.spin_A = 100 * random.UnitVector();
     if (random.Chance(0.5)) meshes.swept.spin_B = 30 * random.UnitVector();
     const double reach = meshes.a.ball.radius + meshes.b.ball.radius;
-    meshes.swept.pose.offset = reach * random.Uniform(0.5, 1.5) * random.UnitVector();
+    meshes.swept.pose.p_AB = reach * random.Uniform(0.5, 1.5) * random.UnitVector();
     meshes.swept.velocity = reach * random.Uniform(0, 1) * random.UnitVector();
     Case solids = meshes;
     const bool hulls = random.Chance(0.5);
@@ -163,7 +164,7 @@ TEST(RevolvedPair, SolidsAreNoFartherThanTheirTriangles) {
 }
 
 // The bar of ExactAboutOneAxis, as a box, a hull, a capsule and an ellipsoid.
-TEST(RevolvedPair, SolidsAreExactAboutOneAxis) {
+TEST(SweptRing, SolidsAreExactAboutOneAxis) {
   shape::ConvexDescription capsule, ellipsoid;
   capsule.core = geometry::ConvexCore::kSegment;
   capsule.half = {0, 0, 1.9};
@@ -178,7 +179,7 @@ TEST(RevolvedPair, SolidsAreExactAboutOneAxis) {
     c.a = BodyOf(shape::Shape::Compound(nullptr, {bar}));
     c.b = BodyOf(shape::Shape::Compound(nullptr, {SolidBox({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})}));
     c.swept.spin_A = {0, 0, 1000};
-    c.swept.pose.offset = {0.5, 0.25, 1.1};
+    c.swept.pose.p_AB = {0.5, 0.25, 1.1};
     c.swept.velocity = {0, 0, -1};
     EXPECT_LE(c.Touch(), 0.5);
     EXPECT_GE(c.Touch(), 0.5 - 1e-9);

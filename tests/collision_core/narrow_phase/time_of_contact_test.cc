@@ -1,6 +1,7 @@
-// Goal:   where a contact has a closed answer, the bracket contains it and is as narrow as asked for: 1e-12 of it.
-// Method: cubes, bars and balls whose motion is known exactly, about every axis, at every size, swapped, far from the
-//         origin, told by states at either end; the answers in long double.
+// Goal:   where a contact has a closed answer, the bracket contains it and is as narrow as asked
+//         for: 1e-12 of it.
+// Method: cubes, bars and balls whose motion is known exactly, about every axis, at every size,
+//         swapped, far from the origin, told by states at either end; the answers in long double.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {
@@ -44,7 +45,7 @@ std::vector<Quaterniond> Turns() {
 TEST_P(ClosedContact, CubesHeadOn) {
   const Body a{first_}, b{second_, 0, {5, 0, 0}, {-10, 0, 0}};
   for (const Quaterniond& turn : Turns()) {
-    for (const Told told : {Told::kAtStart, Told::kAtEnd, Told::kAtBoth}) {
+    for (const Result told : {Result::kAtStart, Result::kAtEnd, Result::kAtBoth}) {
       ExpectContact(Find(Turned(a, turn), Turned(b, turn), 1, told), 0.4L, 0.6L);
       ExpectContact(Find(Turned(b, turn), Turned(a, turn), 1, told), 0.4L, 0.6L);
     }
@@ -83,7 +84,7 @@ TEST_P(ClosedContact, EdgeOnFace) {
     const Body b{second_, 0, {5, 0, 0}, {-10, 0, 0}, Vector3d::Zero(), Turn(45, {0, 0, 1})};
     const Real begin = (4.5L - root) / 10, end = (5.5L + root) / 10;
     ExpectContact(Find(Turned(a, turn), Turned(b, turn), 1), begin, end);
-    ExpectContact(Find(Turned(b, turn), Turned(a, turn), 1, Told::kAtBoth), begin, end);
+    ExpectContact(Find(Turned(b, turn), Turned(a, turn), 1, Result::kAtBoth), begin, end);
   }
 }
 
@@ -108,7 +109,7 @@ TEST_P(ClosedContact, EdgesAndCorners) {
 TEST_P(ClosedContact, FarFromTheOriginAndFast) {
   const Vector3d far(1e6, -1e6, 1e6), fast(1e4, 1e4, -1e4);
   const Real root = std::sqrt(Real(0.5));
-  for (const Told told : {Told::kAtStart, Told::kAtBoth}) {
+  for (const Result told : {Result::kAtStart, Result::kAtBoth}) {
     const Body a{first_, 0, far, fast};
     Body b{second_, 0, far + Vector3d(5, 0, 0), fast + Vector3d(-10, 0, 0)};
     ExpectContact(Find(a, b, 1, told), 0.4L, 0.6L);
@@ -127,7 +128,7 @@ TEST_P(ClosedContact, TurningBarMeetsABall) {
   for (const Quaterniond& turn : Turns()) {
     const Body a = Turned(bar, turn), b = Turned(ball, turn);
     ExpectContact(Find(a, b, 2), begin, M_PIl - begin);
-    ExpectContact(Find(b, a, 2, Told::kAtBoth), begin, M_PIl - begin);
+    ExpectContact(Find(b, a, 2, Result::kAtBoth), begin, M_PIl - begin);
   }
 }
 
@@ -137,7 +138,7 @@ TEST_P(ClosedContact, BarThatTurnsManyTimesBetweenTwoStates) {
     Body bar{BoxOf(GetParam().first, {-2, -0.1, -0.1}, {2, 0.1, 0.1})};
     const double step = 0.25, rate = degrees * kPi / 180 / step;
     bar.w = {0, 0, rate};
-    const TimeOfContactResult found = Find(bar, ball, step, Told::kAtBoth);
+    const TimeOfContactResult found = Find(bar, ball, step, Result::kAtBoth);
     ASSERT_EQ(found.status, ContactStatus::kContact) << degrees;
     ExpectWithin(found.begin, std::acos(Real(0.3)) / std::abs(Real(rate)), 1e-12, "begin");
     // The last time that it passes: whole half turns later.
@@ -239,8 +240,9 @@ TEST_P(ClosedContact, EdgeSweepsThroughInOneStep) {
   Body bar{BoxOf(GetParam().first, {-2, -0.1, -0.1}, {2, 0.1, 0.1})};
   bar.w = {0, 0, 6};
   const Body cube{CubeOf(GetParam().second, 0.125), 0, {0.125, 1, 0}};
-  // Its upper side meets the corner (0, 0.875): sin θ = (x sin θ ...) with the corner on the y axis.
-  const TimeOfContactResult found = Find(bar, cube, 0.5, Told::kAtBoth);
+  // Its upper side meets the corner (0, 0.875): sin θ = (x sin θ ...) with the corner on the y
+  // axis.
+  const TimeOfContactResult found = Find(bar, cube, 0.5, Result::kAtBoth);
   ASSERT_EQ(found.status, ContactStatus::kContact);
   // The corner (0.25, 0.875) is met first: cos θ y − sin θ x = 0.1.
   const Real x = 0.25L, y = 0.875L, at = std::atan2(y, x) - std::asin(0.1L / std::hypot(x, y));

@@ -1,5 +1,6 @@
 // Goal:   a body above a closed landscape does not pay for the large triangles below it.
-// Method: a plain over a floor that is a fan about its middle: every one of its balls holds the body.
+// Method: a plain over a floor that is a fan about its middle: every one of its balls holds the
+//         body.
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/contact/shape_contact.h"
@@ -52,8 +53,8 @@ TEST(WideLeaf, TheFloorBelowCostsLittle) {
   Body cube{shape::Shape::Build(Subdivided(Cube(0.25), 2)), 0, {1.125, 2.0625, 1.25}, {0, 0, -1}};
   for (const bool swapped : {false, true}) {
     const ContactTolerance tolerance{.absolute = 1e-6};
-    const TimeOfContactResult found = swapped ? Find(cube, ground, 2, Told::kAtStart, tolerance)
-                                              : Find(ground, cube, 2, Told::kAtStart, tolerance);
+    const TimeOfContactResult found = swapped ? Find(cube, ground, 2, Result::kAtStart, tolerance)
+                                              : Find(ground, cube, 2, Result::kAtStart, tolerance);
     EXPECT_EQ(found.status, ContactStatus::kContact);
     EXPECT_LE(found.begin.lower, 1);
     EXPECT_GE(found.begin.upper, 1);

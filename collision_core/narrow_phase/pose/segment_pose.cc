@@ -1,4 +1,4 @@
-#include "collision_core/narrow_phase/pose/relative_pose.h"
+#include "collision_core/narrow_phase/pose/segment_pose.h"
 
 #include <algorithm>
 
@@ -84,8 +84,8 @@ RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choi
   const double length = numeric::Norm(numeric::IntervalVector(middle)).upper;
 
   RelativePose pose;
-  pose.matrix = of_A.rotation.matrix.transpose() * of_B.rotation.matrix;
-  pose.offset = of_A.rotation.matrix.transpose() * middle;
+  pose.R_AB = of_A.rotation.matrix.transpose() * of_B.rotation.matrix;
+  pose.p_AB = of_A.rotation.matrix.transpose() * middle;
   const double errors = numeric::AddUp(of_A.rotation.error, of_B.rotation.error);
   pose.matrix_error = numeric::AddUp(
       numeric::AddUp(errors, numeric::MultiplyUp(of_A.rotation.error, of_B.rotation.error)),
@@ -100,7 +100,7 @@ RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choi
 
   const numeric::IntervalVector centre_A = CentreAt(ball_A, delta);
   pose.p_WA = centre_A.middle();
-  pose.matrix_WA = of_A.rotation.matrix;
+  pose.R_WA = of_A.rotation.matrix;
   const double rounding = numeric::MultiplyUp(
       kPosingRounding, numeric::AddUp(numeric::Norm(centre_A).upper, a.ball.radius + length));
   pose.error_A = numeric::AddUp(

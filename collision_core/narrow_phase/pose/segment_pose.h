@@ -1,0 +1,33 @@
+// The relative pose of two bodies at an instant of a segment of time.
+//
+// Of the bounds that hold (forward, backward) the least uncertain one is taken at each instant. B
+// is posed in A's body frame, positions subtracted first, so that far from the origin nothing is
+// lost but what the states lost.
+#pragma once
+
+#include <cstddef>
+
+#include "collision_core/narrow_phase/pose/body_segment.h"
+#include "collision_core/narrow_phase/pose/relative_pose.h"
+
+namespace collision::narrow_phase {
+
+/// The bounds of A and of B that leave the least uncertainty at an instant; `certain` is false
+/// where nothing is known of one of them.
+struct BoundChoice {
+  std::size_t of_A = 0;
+  std::size_t of_B = 0;
+  bool certain = false;
+};
+BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta);
+
+/// At δ after the segments' base.
+RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta);
+
+/// How far any point of the body may be from the reference point [m]; 0 for a ball, which looks
+/// the same however it turns.
+inline double ReachOf(const BodySegment& body) {
+  return body.shape ? body.shape->facts().radius : 0;
+}
+
+}  // namespace collision::narrow_phase

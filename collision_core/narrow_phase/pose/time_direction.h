@@ -1,0 +1,17 @@
+// Which way a query goes through a segment of time.
+#pragma once
+
+#include "collision_core/numeric/quadratic.h"
+
+namespace collision::narrow_phase {
+
+/// From the start of a segment towards its end, or from its end towards its start.
+enum class TimeDirection { kForward, kBackward };
+
+/// The quadratic as a function of the seconds that have passed since `at` in this direction.
+inline numeric::Quadratic From(const numeric::Quadratic& quadratic, double at,
+                               TimeDirection direction) {
+  return direction == TimeDirection::kBackward ? quadratic.BackwardFrom(at) : quadratic.From(at);
+}
+
+}  // namespace collision::narrow_phase

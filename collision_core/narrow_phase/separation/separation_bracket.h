@@ -1,0 +1,80 @@
+// What a query of the separation of two bodies asks for, and the certified bracket that it returns.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/numeric/interval.h"
+
+namespace collision::narrow_phase {
+
+/// How far a query goes before it ends by itself.
+enum class Goal {
+  kDecision,  ///< Certainly apart, with at least half of the distance; certainly in contact; or
+              ///< neither can become certain at this pose.
+  kContact,  ///< Likewise, but where contact is certain the look goes on for a while: the wider the
+             ///< margin, the longer contact lasts.
+  kNearest,  ///< Down to the triangles, so that the shortest way between the two is known.
+  kYesNo     ///< Certainly apart, or certainly in contact, and nothing more; or neither can become
+             ///< certain at this pose.
+};
+
+/// How narrow a bracket of the distance has to be: the wider of the two.
+struct BracketTolerance {
+  double absolute = 0;  ///< Width of the bracket [m].
+  double relative = 0;  ///< Width over the lower end.
+};
+
+/// Units for which Goal::kContact looks for a wider margin.
+inline constexpr std::uint64_t kMarginUnits = 1000;
+
+/// A witness: what makes contact certain at a pose, to be tested again at the next one.
+struct ContactWitness {
+  enum class Kind {
+    kNone,
+    kNodes,      ///< Balls within the solids, or about the surface, that overlap.
+    kTriangles,  ///< Two triangles that cross, or one that reaches into a ball.
+    kLeaves      ///< Any triangles of two leaves.
+  };
+  Kind kind = Kind::kNone;
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;
+};
+
+/// A way between the two surfaces that may be the shortest one; in A's body frame.
+struct NearestWay {
+  Eigen::Vector3d a, b;
+  double lower, upper;  ///< Its length, the turning of both counted in.
+};
+
+/// The result of one query at a pose. The uncertainty of rounding and turning is included, that of
+/// translation is not: the true distance lies in [lower − translation, upper + translation].
+struct SeparationBracket {
+  double lower = -numeric::kInfinity;  ///< The surfaces are apart by at least this.
+  double upper = numeric::kInfinity;  ///< At most; below 0: the bodies overlap by at least −upper.
+  /// Crossing triangles: contact is certain while no corner of theirs moves further than this.
+  double crossing_margin = -numeric::kInfinity;
+  ContactWitness witness;   ///< Of contact, where it is certain.
+  std::uint32_t level = 0;  ///< The deepest level of the sphere trees that was opened.
+  bool exhausted = false;   ///< The work allowed is spent.
+
+  /// A point common to both where contact is certain, else half-way between them where they are
+  /// nearest; A's body frame. Within `point_error`, uncertainty of translation aside.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  double point_error = numeric::kInfinity;
+  std::vector<NearestWay> ways;  ///< With Goal::kNearest: one of them is the shortest way.
+
+  /// The surfaces are apart wherever B is displaced by at most `translation` [m]. Says nothing of
+  /// one body inside the other.
+  bool CertainlyApart(double translation) const { return lower > translation; }
+  /// Balls within the solids overlap wherever B is displaced by at most `translation`.
+  bool CertainlyOverlapping(double translation) const { return upper <= -translation; }
+  /// Two triangles cross likewise: seen from half-way between the bodies, each moves by half.
+  bool CertainlyCrossing(double translation) const { return crossing_margin >= translation / 2; }
+  bool CertainlyTouching(double translation) const {
+    return CertainlyOverlapping(translation) || CertainlyCrossing(translation);
+  }
+};
+
+}  // namespace collision::narrow_phase
