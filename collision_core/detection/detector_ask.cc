@@ -296,7 +296,7 @@ void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, I
     return first_.size() > room && partner > first_.front();
   };
   found_.clear();
-  broad_phase_.Meetings(agent, from, until, horizon, skip, &found_);
+  broad_phase_.FindNeighbours(agent, {from, until, horizon}, skip, &found_);
   // They have been put into order since: what was seen first need not stand first.
   first_.clear();
   first_full = kNobody;
@@ -304,7 +304,7 @@ void Detector::Implementation::FindMeetings(std::uint32_t agent, Instant from, I
   look();
   if (first_.size() > room) first_full = std::min(first_full, first_.front());
   const std::uint32_t end = first_.size() > room ? first_.front() : kNobody;
-  std::erase_if(found_, [&](const broad_phase::Meeting& meeting) {
+  std::erase_if(found_, [&](const broad_phase::Neighbour& meeting) {
     return meeting.time.instant() <= until && (IsFull(meeting.partner) || meeting.partner >= end);
   });
   SortByPartner(0, &found_);
@@ -316,7 +316,7 @@ void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, b
                                             Instant covered) {
   const AgentRecord& record = At(agent);
   const Instant until = AnnounceUntil();
-  for (const broad_phase::Meeting& meeting : found_) {
+  for (const broad_phase::Neighbour& meeting : found_) {
     Instant when = meeting.time.instant();
     if (when > until) continue;
     const AgentRecord& partner = At(meeting.partner);
@@ -333,7 +333,7 @@ void Detector::Implementation::TakeMeetings(std::uint32_t agent, bool renewed, b
 // The earliest of found_ that is not tracked.
 Detector::Implementation::Next Detector::Implementation::FirstFound() const {
   Next next;
-  for (const broad_phase::Meeting& meeting : found_) {
+  for (const broad_phase::Neighbour& meeting : found_) {
     if (Marked(meeting.partner) || meeting.time.instant() >= next.key) continue;
     next = {meeting.time.instant(), meeting.partner};
   }
@@ -369,7 +369,7 @@ void Detector::Implementation::FindNext(std::uint32_t agent, Instant from, Insta
     return true;
   };
   found_.clear();
-  broad_phase_.Meetings(agent, from, known, horizon, sample, &found_);
+  broad_phase_.FindNeighbours(agent, {from, known, horizon}, sample, &found_);
   looks_ += offered - left_out;
   if (left_out == 0) return;
   if (!found_.empty()) horizon = found_.front().time.instant();
@@ -379,7 +379,7 @@ void Detector::Implementation::FindNext(std::uint32_t agent, Instant from, Insta
     return false;
   };
   found_.clear();
-  broad_phase_.Meetings(agent, from, known, horizon, all, &found_);
+  broad_phase_.FindNeighbours(agent, {from, known, horizon}, all, &found_);
 }
 
 Instant Detector::Implementation::Horizon(int step) const {

@@ -154,11 +154,11 @@ void Detector::Implementation::EarliestSearch::OfferPartners(std::uint32_t agent
 
 void Detector::Implementation::EarliestSearch::OfferMeetings(std::uint32_t agent, Instant until,
                                                              Instant horizon) {
-  std::vector<broad_phase::Meeting>& found = detector.found_;
+  std::vector<broad_phase::Neighbour>& found = detector.found_;
   found.clear();
   const auto skip = [this](std::uint32_t partner) { return detector.Marked(partner); };
-  detector.broad_phase_.Meetings(agent, detector.now_, until, horizon, skip, &found);
-  for (const broad_phase::Meeting& meeting : found) {
+  detector.broad_phase_.FindNeighbours(agent, {detector.now_, until, horizon}, skip, &found);
+  for (const broad_phase::Neighbour& meeting : found) {
     Offer(agent, meeting.partner, Canonical(agent, meeting.partner));
   }
 }

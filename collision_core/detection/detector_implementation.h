@@ -210,7 +210,7 @@ class Detector::Implementation {
   std::vector<std::uint32_t> fresh_;      // asked since the last SettleKeys()
 
   // Kept for their memory.
-  std::vector<broad_phase::Meeting> found_;
+  std::vector<broad_phase::Neighbour> found_;
   std::vector<std::uint32_t> candidates_, slots_, first_;
   std::vector<int> groups_;           // that an agent is asked about by themselves
   std::vector<WorkClaim> claims_;     // of slots_

@@ -85,11 +85,11 @@ std::uint64_t Detector::Implementation::LowerNearKeys(std::uint32_t agent, Insta
   };
   const broad_phase::BroadPhaseWork before = broad_phase_.work();
   found_.clear();
-  broad_phase_.Meetings(agent, from, horizon, horizon, skip, &found_);
+  broad_phase_.FindNeighbours(agent, {from, horizon, horizon}, skip, &found_);
   const broad_phase::BroadPhaseWork after = broad_phase_.work();
   looks_ += offers;
   SortByPartner(0, &found_);
-  for (const broad_phase::Meeting& meeting : found_)
+  for (const broad_phase::Neighbour& meeting : found_)
     LowerKey(meeting.partner, agent, meeting.time.instant());
   return after.filter_tests - before.filter_tests + kVisitUnits * (after.visits - before.visits) +
          kQueryUnits * (after.pair_queries - before.pair_queries) + kOfferUnits * offers;

@@ -94,10 +94,10 @@ void Detector::Implementation::FindAround(std::uint32_t agent, Instant from) {
     around.declaration.acceleration_max = 1e-30;  // not at rest for ever: it stands for what moves
     around.declaration.group = At(agent).bound().declaration.group;
     around.declaration.mask = At(agent).bound().declaration.mask;
-    broad_phase_.Put(agent, around);
+    broad_phase_.Set(agent, around);
     found_.clear();
-    broad_phase_.Meetings(agent, from, scene.newest, scene.newest, skip, &found_);
-    for (const broad_phase::Meeting& meeting : found_) {
+    broad_phase_.FindNeighbours(agent, {from, scene.newest, scene.newest}, skip, &found_);
+    for (const broad_phase::Neighbour& meeting : found_) {
       const AgentRecord& partner = At(meeting.partner);
       const motion::SpaceTimeBound bound = partner.margin.Widen(partner.bound());
       const double time = Span(partner.stamp(), scene.newest, options_.skew);

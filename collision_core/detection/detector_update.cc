@@ -260,14 +260,14 @@ void Detector::Implementation::Hear(const AgentId& id, Instant until) {
 
 void Detector::Implementation::Put(std::uint32_t agent) {
   const motion::SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
-  broad_phase_.Put(agent, wide);
+  broad_phase_.Set(agent, wide);
   key_rows_.Put(agent, wide);
   NoteBound(agent);
 }
 
 void Detector::Implementation::Narrow(std::uint32_t agent) {
   const motion::SpaceTimeBound wide = At(agent).margin.Widen(At(agent).bound());
-  broad_phase_.Narrow(agent, wide);
+  broad_phase_.Tighten(agent, wide);
   key_rows_.Put(agent, wide);
   NoteBound(agent);
 }

@@ -17,7 +17,7 @@ void FormerMotions::Keep(std::uint32_t agent, motion::SpaceTimeBound bound, Inst
     agents_[index] = agent;
   }
   bound.state.expiry = std::min(bound.state.expiry, until);
-  method_->Put(index, bound);
+  method_->Set(index, bound);
   motions_.push_back({index, agent, until});
 }
 
@@ -34,12 +34,12 @@ void FormerMotions::Forget(Instant since) {
 void FormerMotions::Find(const motion::SpaceTimeBound& around, Instant from, Instant until,
                          std::vector<std::uint32_t>* agents) {
   if (motions_.empty()) return;
-  method_->Put(kAsking, around);
+  method_->Set(kAsking, around);
   found_.clear();
-  method_->Meetings(
-      kAsking, from, until, until, [](std::uint32_t) { return false; }, &found_);
+  method_->FindNeighbours(
+      kAsking, {from, until, until}, [](std::uint32_t) { return false; }, &found_);
   method_->Remove(kAsking);
-  for (const broad_phase::Meeting& meeting : found_) agents->push_back(agents_[meeting.partner]);
+  for (const broad_phase::Neighbour& meeting : found_) agents->push_back(agents_[meeting.partner]);
 }
 
 }  // namespace collision::detection

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 
 namespace collision::detection {
 
@@ -15,7 +15,7 @@ namespace collision::detection {
 class FormerMotions {
  public:
   /// At most `motions_max` are kept; beyond, the oldest goes.
-  FormerMotions(std::unique_ptr<broad_phase::BroadPhase> method, std::size_t motions_max)
+  FormerMotions(std::unique_ptr<broad_phase::NeighbourIndex> method, std::size_t motions_max)
       : method_(std::move(method)), motions_max_(motions_max) {}
 
   /// The agent moved within `bound` up to `until`.
@@ -40,12 +40,12 @@ class FormerMotions {
 
   void DropFirst();
 
-  std::unique_ptr<broad_phase::BroadPhase> method_;
+  std::unique_ptr<broad_phase::NeighbourIndex> method_;
   std::size_t motions_max_;
   std::deque<Motion> motions_;         // in the order of their coming
   std::vector<std::uint32_t> agents_;  // by index in method_
   std::vector<std::uint32_t> free_;
-  std::vector<broad_phase::Meeting> found_;
+  std::vector<broad_phase::Neighbour> found_;
 };
 
 }  // namespace collision::detection

@@ -43,7 +43,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/earliest_sweep.h"
 #include "collision_core/broad_phase/face_sweep/alpha_t_faces.h"
 #include "collision_core/broad_phase/face_sweep/crossing_order.h"
 #include "collision_core/broad_phase/face_sweep/face_sweep_start.h"
@@ -63,23 +63,21 @@ namespace collision::broad_phase {
 ///
 /// Horns are swept in windows [s, s + w], w doubling, since a chord over a long window cuts far
 /// outside a horn; the first is chosen by FirstWindow(). Hypertrapezoids have their one window.
-/// Agents with no place on the grid (faces not finite, or far beyond all others) are asked against
-/// all, and so are half-spaces, which have no faces. It pays where the first meeting comes soon or
-/// N is small: the crossings of one axis grow as N² t. For one agent a sweep has no use:
-/// EarliestOf() and Meetings() ask every partner. Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
-class FaceSweep : public BroadPhase {
+/// Agents with no place on the grid (faces not finite, or far beyond all others) are tested against
+/// all, and so are half-spaces, which have no faces. It pays where the first intersection comes soon
+/// or N is small: the crossings of one axis grow as N² t.
+///
+/// A library call, not a method of the service: set all bounds, ask once. It has no incremental
+/// form, since a sweep has no use for a question about one agent. Callers: the paper's collision
+/// loop (tests/baselines/global_loop.h) and the benchmark of whole scenes (tests/bench/methods.h).
+/// Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
+class FaceSweep : public EarliestSweep {
  public:
-  void Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
   void Remove(std::uint32_t agent) override;
-  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
+  bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   std::optional<intersection::IntersectingPair> Earliest(
       const intersection::BroadQuery& query) override;
-  std::optional<intersection::IntersectingPair> EarliestOf(
-      std::uint32_t agent, const intersection::BroadQuery& query) override;
-  /// Asks all pairs.
-  void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
-  void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
-                std::vector<Meeting>* meetings) override;
   /// visits: crossings. filter_tests: tests of two boxes. rebuilds: windows.
   BroadPhaseWork work() const override { return work_; }
 
@@ -98,12 +96,6 @@ class FaceSweep : public BroadPhase {
   void AskLowest(Instant start, Instant end, Search* search);
   void AskCrossings(Instant start, Instant end, Search* search);
   void Ask(std::uint32_t agent, std::uint32_t partner, Search* search);
-  /// EarliestIntersectionOf() of two, one of which may be a half-space, if both are there and may meet.
-  intersection::IntersectionTime TimeOf(const intersection::BroadQuery& query, std::uint32_t a,
-                                        std::uint32_t b);
-  bool Moves(std::uint32_t agent) const { return agent < bounds_.size() && bounds_[agent]; }
-  /// One more than the greatest index, half-spaces included.
-  std::uint32_t IndexEnd() const;
 
   std::vector<std::optional<motion::SpaceTimeBound>> bounds_;  // By agent.
   std::vector<std::uint32_t> candidates_;  // Agents not yet asked against all others.

@@ -20,6 +20,9 @@ struct PlacedHorn {
   float speed;  ///< |v|
   float s0, s1, s2;
   std::uint32_t agent;
+
+  /// Of a horn that belongs to no agent: one that a question is asked about.
+  static constexpr std::uint32_t kNoAgent = ~0u;
 };
 
 /// The box around placed agents, and the greatest reach coefficients and speed of any of them.
@@ -89,7 +92,17 @@ class PlacementFrame {
     return horn;
   }
   /// The same in two steps: where the agent is at the begin, and from there to the middle.
-  PlacedHorn AtBegin(const HornTable& table, std::uint32_t agent) const;
+  PlacedHorn AtBegin(const HornTable& table, std::uint32_t agent) const {
+    PlacedHorn horn = AtBegin(BoundAt(table, agent));
+    horn.agent = agent;
+    return horn;
+  }
+  /// The horn of a row that is in no table, as Place(); of no agent (PlacedHorn::kNoAgent).
+  PlacedHorn Place(const HornRow& row) const {
+    PlacedHorn horn = AtBegin(BoundAt(row));
+    ToMiddle(&horn);
+    return horn;
+  }
   void ToMiddle(PlacedHorn* horn) const {
     for (int axis = 0; axis < 3; ++axis) {
       horn->c[axis] += static_cast<double>(horn->v[axis]) * middle_;
@@ -121,8 +134,12 @@ class PlacementFrame {
   TimeWindow After(Instant from, double seconds) const;
 
  private:
+  PlacedHorn AtBegin(const HornAt& at) const;
   HornAt BoundAt(const HornTable& table, std::uint32_t agent) const {
-    HornAt at = table.At(agent, query_.from);
+    return BoundAt(table.row(agent));
+  }
+  HornAt BoundAt(const HornRow& row) const {
+    HornAt at = HornTable::At(row, query_.from);
     if (query_.bound == intersection::BoundKind::kHypertrapezoid) at = BoxReach(at, duration_);
     return at;
   }
@@ -136,10 +153,9 @@ class PlacementFrame {
 };
 
 // Up, by more than a conversion to single precision takes, and with SphereFilter's slack.
-inline PlacedHorn PlacementFrame::AtBegin(const HornTable& table, std::uint32_t agent) const {
+inline PlacedHorn PlacementFrame::AtBegin(const HornAt& at) const {
   constexpr double kSlack = kFilterSlack, kLeast = kReachLeast;
   constexpr double kUp = (1 + kSlack) * (1 + 0x1p-22);
-  const HornAt at = BoundAt(table, agent);
   PlacedHorn horn;
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -153,7 +169,7 @@ inline PlacedHorn PlacementFrame::AtBegin(const HornTable& table, std::uint32_t 
   horn.s1 = static_cast<float>((at.s1 + kSlack * speed + kLeast) * kUp);
   horn.s2 = static_cast<float>(at.s2 * kUp);
   horn.speed = static_cast<float>(speed * kUp);
-  horn.agent = agent;
+  horn.agent = PlacedHorn::kNoAgent;
   return horn;
 }
 

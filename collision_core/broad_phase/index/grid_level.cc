@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/cube_root.h"
 
 namespace collision::broad_phase {
@@ -182,6 +183,21 @@ void GridLevel::Scatter(const PlacedHorn* placed) {
   }
 }
 
+void GridLevel::Validate() const {
+  CORE_CHECK(size_ == lanes_.size() && size_ == places_.size() && size_ == order_.size(),
+             "a grid has a lane and a place for each of its agents", size_, lanes_.size());
+  CORE_CHECK(cell_ >= cell_min_ && cell_min_ > 0, "a cell is as wide as two reaches", cell_,
+             cell_min_);
+  CORE_CHECK(begin_.front() == 0 && begin_[begin_.size() - 2] == size_,
+             "cells hold all agents of the grid", begin_.front(), begin_[begin_.size() - 2], size_);
+  CORE_CHECK(std::is_sorted(begin_.begin(), begin_.end() - 1), "cells do not overlap");
+  for (std::uint32_t k = 0; k < size_; ++k) {
+    CORE_CHECK(places_[k] < size_ && order_[places_[k]] == k,
+               "places and order are each other's inverse", k, places_[k]);
+  }
+  lanes_.Validate(size_);
+}
+
 double GridLevel::RowsWithin(double reach, TimeWindow stretch) const {
   const double cells = 2 * (reach + ReachMax(stretch)) * per_cell_ + 1;
   double rows = hashed_ ? std::ceil(cells / static_cast<double>(row_cells_)) : 1;
@@ -203,10 +219,10 @@ bool GridLevel::Ranges(const double* c, double reach, TimeWindow stretch, std::u
                       static_cast<double>((high.x >> shift) - (low.x >> shift) + 1);
   if (hashed_ && rows > static_cast<double>(size_) + 8) return false;
   Cell own{};
-  if (after != PlacedBalls::kNobody) own = CellOf(c[0], c[1], c[2]);
-  for (std::int64_t z = after != PlacedBalls::kNobody ? own.z : low.z; z <= high.z; ++z) {
+  if (after != PlacedBalls::kNoAgent) own = CellOf(c[0], c[1], c[2]);
+  for (std::int64_t z = after != PlacedBalls::kNoAgent ? own.z : low.z; z <= high.z; ++z) {
     const auto at_z = static_cast<float>(c[2] - (origin_[2] + static_cast<double>(z) * cell_));
-    const bool own_z = after != PlacedBalls::kNobody && z == own.z;
+    const bool own_z = after != PlacedBalls::kNoAgent && z == own.z;
     for (std::int64_t y = own_z ? own.y : low.y; y <= high.y; ++y) {
       const auto at_y = static_cast<float>(c[1] - (origin_[1] + static_cast<double>(y) * cell_));
       const std::uint32_t from = own_z && y == own.y ? after + 1 : 0;
