@@ -44,7 +44,7 @@ struct FilterQuery {
 /// is less than 2^-17 (R + W): reaches are to be made larger by kFilterSlack of themselves and of the
 /// way that their own centre goes. Below kReachLeast squares lose digits to underflow: reaches, and
 /// speeds too small to matter, are to count as at least that. A square that overflows is infinite,
-/// and less than no other. lane_scan_test compares it with exact fractions.
+/// and less than no other. sphere_filter_test compares it with exact fractions.
 using SphereFilter = std::uint32_t (*)(const FilterView& balls, const FilterQuery& query,
                                        const FilterRange* ranges, std::uint32_t range_count,
                                        std::uint32_t* hits);

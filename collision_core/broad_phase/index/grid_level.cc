@@ -28,6 +28,15 @@ constexpr double kCrowdingMax = 4 * kPerCell;
 constexpr double kCellShrink = 8;
 constexpr int kCellTriesMax = 12;
 
+/// What rounding takes from a position stored in single precision, for the two agents of a pair, as a
+/// part of the row's length: each loses at most 2^-24 of it on each axis, so both together lose less
+/// than 2 · √3 · 2^-24 < 2^-22 of it; twice that is allowed.
+constexpr double kStoredPositionLoss = 0x1p-21;
+
+/// Cells are looked up for a little more than both reaches: positions, sums and the division by the
+/// cell's width lose less than 2^-49 of the terms each.
+constexpr double kRangeSlack = 1 + 0x1p-20;
+
 /// Cells further out share the outermost one.
 constexpr double kCellIndexMax = 0x1p+50;
 
@@ -152,12 +161,12 @@ double GridLevel::Crowding() const {
 }
 
 // Agents keep their order within a cell. A position is stored as seen from the corner of its row,
-// or block, and cell: it loses at most 2^-24 of the row's length on each axis, and so does the
-// asker's; both together are less than 2^-21 of it.
+// or block, and cell (kStoredPositionLoss).
 void GridLevel::Scatter(const PlacedHorn* placed) {
   for (std::size_t cell = 2; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   lanes_.Reset(size_);
-  const auto lost = static_cast<float>(0x1p-21 * cell_ * static_cast<double>(row_cells_ + 1));
+  const auto lost =
+      static_cast<float>(kStoredPositionLoss * cell_ * static_cast<double>(row_cells_ + 1));
   constexpr std::uint32_t kAhead = 16;
   // First the order, then the agents in it: a few random reads cost less than many random writes.
   order_.resize(size_);
@@ -209,8 +218,7 @@ double GridLevel::RowsWithin(double reach, TimeWindow stretch) const {
 
 bool GridLevel::Ranges(const double* c, double reach, TimeWindow stretch, std::uint32_t after,
                        std::vector<FilterRange>* ranges) const {
-  // A little more, so that rounding below loses no agent.
-  const double half = (reach + ReachMax(stretch)) * (1 + 0x1p-20);
+  const double half = kRangeSlack * (reach + ReachMax(stretch));
   const Cell low = CellOf(c[0] - half, c[1] - half, c[2] - half);
   const Cell high = CellOf(c[0] + half, c[1] + half, c[2] + half);
   const std::int64_t shift = hashed_ ? kHashedRowShift : 62;

@@ -118,6 +118,9 @@ void WindowedSearch::PlaceEveryAgent() {
   horns_.resize(placed);
   store_->PlaceAll(scene(), &horns_);
   placed_ = true;
+#ifndef NDEBUG
+  Validate();
+#endif
 }
 
 void WindowedSearch::PlaceMoved() {

@@ -24,17 +24,17 @@ class RulesTable {
   const motion::SpaceTimeBound& bound(std::uint32_t i) const { return *bounds_[i]; }
   std::size_t rules() const { return rules_.size(); }
 
-  void Put(std::uint32_t i, const motion::SpaceTimeBound& bound) {
+  void Set(std::uint32_t i, const motion::SpaceTimeBound& bound) {
     Reserve(i);
     bounds_[i] = bound;
     half_spaces_.erase(i);
     method_->Set(i, bound);
   }
-  void Narrow(std::uint32_t i, const motion::SpaceTimeBound& bound) {
+  void Tighten(std::uint32_t i, const motion::SpaceTimeBound& bound) {
     bounds_[i] = bound;
     method_->Tighten(i, bound);
   }
-  void PutHalfSpace(std::uint32_t i, const HalfSpace& half_space) {
+  void SetHalfSpace(std::uint32_t i, const HalfSpace& half_space) {
     Reserve(i);
     bounds_[i].reset();
     half_spaces_[i] = half_space;
