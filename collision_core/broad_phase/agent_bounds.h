@@ -15,9 +15,9 @@ namespace collision::broad_phase {
 /// pairs, and half-spaces (floors, walls). It is the common base of NeighbourIndex and
 /// EarliestSweep, which ask questions about the bounds that are held.
 ///
-/// Rules and half-spaces enter a method here and nowhere else. A margin grows an agent's reach where
-/// its bound is stored (HornTable, AlphaTFaces), so that the filters know nothing of pairs; an
-/// exclusion is applied to the pairs that the filters leave (PairRules has both arguments).
+/// Rules and half-spaces enter a method here and nowhere else. A margin grows an agent's reach
+/// where its bound is stored (HornTable, AlphaTFaces), so that the filters know nothing of pairs;
+/// an exclusion is applied to the pairs that the filters leave (PairRules has both arguments).
 ///
 /// A change takes effect at once; structures are brought up to date by the next question. Indices
 /// are small whole numbers that the caller chooses; memory is in proportion to the greatest.
@@ -40,8 +40,8 @@ class AgentBounds {
   const HalfSpaces& half_spaces() const { return half_spaces_; }
 
   /// Replaces the rule of a pair; PairRule() takes it away. It counts from the next question on,
-  /// also for agents that are set later, until one of the two is removed. Returns false, and changes
-  /// nothing, if PairRules refuses it.
+  /// also for agents that are set later, until one of the two is removed. Returns false, and
+  /// changes nothing, if PairRules refuses it.
   bool SetRule(std::uint32_t a, std::uint32_t b, intersection::PairRule rule) {
     if (!rules_->Set(a, b, rule)) return false;
     UpdateRules(a);

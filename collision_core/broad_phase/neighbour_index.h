@@ -36,8 +36,8 @@ struct NeighbourWindow {
 /// change one at a time.
 ///
 /// Methods differ in cost, never in their answers: each time is EarliestIntersectionOf() of the two
-/// bounds, or of a half-space and a bound, with the pair's margin, bit for bit. Excluded pairs never
-/// meet. methods_test compares every method with the canonical routine for every pair.
+/// bounds, or of a half-space and a bound, with the pair's margin, bit for bit. Excluded pairs
+/// never meet. methods_test compares every method with the canonical routine for every pair.
 class NeighbourIndex : public virtual AgentBounds {
  public:
   using Skip = std::function<bool(std::uint32_t)>;

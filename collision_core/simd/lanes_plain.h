@@ -10,7 +10,8 @@
 //   Lesser, Greater     of two; the second where they do not compare (NaN)
 //   Root                the square root, correctly rounded
 //   NotGreater, NotLess, NotAtLeast
-//                       a mask of the lanes for which a > b (a < b, a >= b) does not hold: NaN counts
+//                       a mask of the lanes for which a > b (a < b, a >= b) does not hold: NaN
+//                       counts
 //   Lowest              a mask of the first lanes, at most kWidth
 //   StoreSelected       first + lane for each lane of a mask, ascending; returns how many
 //   StoreCopies         one value, `count` times. Both may write up to kWidth entries.

@@ -2,11 +2,11 @@
 //
 // Why its answer is that of all pairs, bit for bit, whatever rounds:
 //
-// 1. Faces contain every possible answer. EarliestIntersectionOf() gives t only if boxes overlap at t, up to
-// what the inputs' rounding forces and 1e-9 of the way (with directions and caps the boxes' first
-// overlap may be earlier than t, never later). Each face is moved outward by 2^-44 of all
-// magnitudes in the bound, and the canonical routine's allowances are some tens of 2^-53 of them;
-// the sweep goes on until 2^-29 of the way and 3 ns beyond the best answer (WithEarliness()).
+// 1. Faces contain every possible answer. EarliestIntersectionOf() gives t only if boxes overlap at
+// t, up to what the inputs' rounding forces and 1e-9 of the way (with directions and caps the
+// boxes' first overlap may be earlier than t, never later). Each face is moved outward by 2^-44 of
+// all magnitudes in the bound, and the canonical routine's allowances are some tens of 2^-53 of
+// them; the sweep goes on until 2^-29 of the way and 3 ns beyond the best answer (WithEarliness()).
 //
 // 2. Nothing rounds after that. Faces are rounded outward to whole numbers up to 2^50, and time is
 // cut into 2^30 ticks of the window: which face is higher at a tick, and when two change places,
@@ -54,18 +54,18 @@ namespace collision::broad_phase {
 /// is a segment in the α–t plane, and two boxes begin to overlap where an upper face of one passes
 /// a lower face of the other on one axis while their cross-sections overlap on the others. Bentley
 /// and Ottmann's sweep finds all crossings of each axis in the order of time; at each such crossing
-/// EarliestIntersectionOf() is asked, until the next crossing is later than the best answer. Boxes that
-/// overlap at the window's start are found there.
+/// EarliestIntersectionOf() is asked, until the next crossing is later than the best answer. Boxes
+/// that overlap at the window's start are found there.
 ///
-/// Its answer is AllPairs' answer, bit for bit: the faces contain all that EarliestIntersectionOf() can answer
-/// (kFacePadding), nothing after them is rounded (CrossingOrder), and it stops only beyond
-/// WithEarliness(). The proof is at the head of this file.
+/// Its answer is AllPairs' answer, bit for bit: the faces contain all that EarliestIntersectionOf()
+/// can answer (kFacePadding), nothing after them is rounded (CrossingOrder), and it stops only
+/// beyond WithEarliness(). The proof is at the head of this file.
 ///
 /// Horns are swept in windows [s, s + w], w doubling, since a chord over a long window cuts far
 /// outside a horn; the first is chosen by FirstWindow(). Hypertrapezoids have their one window.
 /// Agents with no place on the grid (faces not finite, or far beyond all others) are tested against
-/// all, and so are half-spaces, which have no faces. It pays where the first intersection comes soon
-/// or N is small: the crossings of one axis grow as N² t.
+/// all, and so are half-spaces, which have no faces. It pays where the first intersection comes
+/// soon or N is small: the crossings of one axis grow as N² t.
 ///
 /// A library call, not a method of the service: set all bounds, ask once. It has no incremental
 /// form, since a sweep has no use for a question about one agent. Callers: the paper's collision

@@ -80,13 +80,14 @@ class HornTable {
     return t.nanoseconds() > -kFarthest && t.nanoseconds() < kFarthest;
   }
 
-  /// Of a row that is not unfilterable, at an instant that is Near(). Before its stamp the line goes on
-  /// backward, and the reach stays.
+  /// Of a row that is not unfilterable, at an instant that is Near(). Before its stamp the line
+  /// goes on backward, and the reach stays.
   HornAt At(std::uint32_t agent, Instant instant) const { return At(rows_[agent], instant); }
   static HornAt At(const HornRow& row, Instant instant);
 
   /// A filter: no horn of the two meets earlier than this many seconds after `from`, and none at
-  /// all within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 for unfilterable ones.
+  /// all within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 for unfilterable
+  /// ones.
   double EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
     return EarlierBound(rows_[a], rows_[b], from, limit);
   }

@@ -1,5 +1,5 @@
-// Sixteen balls at once. This file is built for processors that not every machine has, so it includes
-// nothing that other files share.
+// Sixteen balls at once. This file is built for processors that not every machine has, so it
+// includes nothing that other files share.
 #include "collision_core/broad_phase/filter/point_filter.h"
 #include "collision_core/broad_phase/filter/sphere_filter.h"
 #include "collision_core/simd/lanes_avx512.h"

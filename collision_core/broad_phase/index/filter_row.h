@@ -30,8 +30,8 @@ class FilterRow {
   void FindNear(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch,
                 BroadPhaseWork* work, std::vector<std::uint32_t>* near);
 
-  /// Walks the row: as many lanes as places, no agent twice, positions and reaches that a filter can
-  /// compare. Throws CheckFailure.
+  /// Walks the row: as many lanes as places, no agent twice, positions and reaches that a filter
+  /// can compare. Throws CheckFailure.
   void Validate() const;
 
  private:

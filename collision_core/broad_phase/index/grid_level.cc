@@ -28,9 +28,9 @@ constexpr double kCrowdingMax = 4 * kPerCell;
 constexpr double kCellShrink = 8;
 constexpr int kCellTriesMax = 12;
 
-/// What rounding takes from a position stored in single precision, for the two agents of a pair, as a
-/// part of the row's length: each loses at most 2^-24 of it on each axis, so both together lose less
-/// than 2 · √3 · 2^-24 < 2^-22 of it; twice that is allowed.
+/// What rounding takes from a position stored in single precision, for the two agents of a pair, as
+/// a part of the row's length: each loses at most 2^-24 of it on each axis, so both together lose
+/// less than 2 · √3 · 2^-24 < 2^-22 of it; twice that is allowed.
 constexpr double kStoredPositionLoss = 0x1p-21;
 
 /// Cells are looked up for a little more than both reaches: positions, sums and the division by the

@@ -73,8 +73,8 @@ class HalfSpaces {
 };
 
 /// A filter in plain doubles: false if the agent certainly stays out of reach for `limit` seconds
-/// after the instant of `horn`, so that EarliestIntersectionOf() is later. The gap is concave, so it looks at
-/// both ends of the time ahead.
+/// after the instant of `horn`, so that EarliestIntersectionOf() is later. The gap is concave, so
+/// it looks at both ends of the time ahead.
 bool MayReach(const HalfSpaces::Entry& entry, const HornAt& horn, double margin, double limit);
 
 }  // namespace collision::broad_phase

@@ -18,7 +18,8 @@ inline bool Holds(const BoundList& bounds, std::uint32_t agent) {
   return agent < bounds.size() && bounds[agent].has_value();
 }
 
-/// Whether the canonical routine can give a time at all: collision filters, and one of the two moves.
+/// Whether the canonical routine can give a time at all: collision filters, and one of the two
+/// moves.
 bool CanMeet(intersection::BoundKind kind, const motion::SpaceTimeBound& a,
              const motion::SpaceTimeBound& b);
 

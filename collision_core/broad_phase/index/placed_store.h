@@ -29,8 +29,8 @@ struct PlacedScene {
   }
 };
 
-/// A structure over placed agents that finds those that come within reach of each other. Its answers
-/// may contain other agents and pairs too (they are candidates), but never lack one.
+/// A structure over placed agents that finds those that come within reach of each other. Its
+/// answers may contain other agents and pairs too (they are candidates), but never lack one.
 class PlacedStore {
  public:
   virtual ~PlacedStore() = default;

@@ -14,18 +14,21 @@
 
 namespace collision::broad_phase {
 
-/// Places every agent once, with the reach that its horn and its way give it from then on, and keeps
-/// it in a store. A bound inside the old one leaves the placing valid, so a tightened bound costs
-/// nothing here. Questions look ahead in time windows, each four times as long as the one before,
-/// until the next answer must lie beyond, and ask the canonical routine only about pairs that three
-/// filters leave open. Each filter is certified and of a fixed price; none decides a value.
+/// Places every agent once, with the reach that its horn and its way give it from then on, and
+/// keeps it in a store. A bound inside the old one leaves the placing valid, so a tightened bound
+/// costs nothing here. Questions look ahead in time windows, each four times as long as the one
+/// before, until the next answer must lie beyond, and ask the canonical routine only about pairs
+/// that three filters leave open. Each filter is certified and of a fixed price; none decides a
+/// value.
 ///
 /// - PlacementFrame: each agent is placed at the middle of the window, in a frame that moves with
-///   the average of all, with the reach that its horn has at the window's end. From there its centre
-///   strays by half its way.
-/// - SphereFilter: the least distance of two centres over the window against the sum of the reaches,
+///   the average of all, with the reach that its horn has at the window's end. From there its
+///   centre strays by half its way.
+/// - SphereFilter: the least distance of two centres over the window against the sum of the
+/// reaches,
 ///   in single precision, sixteen, eight or one at a time.
-/// - Approaching: one pair; the closest approach of the two lines, the gap along the first direction,
+/// - Approaching: one pair; the closest approach of the two lines, the gap along the first
+/// direction,
 ///   then up to six tangent steps in doubles.
 ///
 /// Agents too large or too far for filters ("unfilterable": reach or distance over 2^60 m, speed
@@ -36,8 +39,9 @@ namespace collision::broad_phase {
 /// placing (the best moment where the excess grows evenly), or once as many tests as there are
 /// agents were plainly wasted. No answer depends on when that happens.
 ///
-/// Earliest() first tests some 1.5 √N agents that lie close together, all pairs of them: their first
-/// intersection bounds that of all, so that the window is short from then on if a hit comes at once.
+/// Earliest() first tests some 1.5 √N agents that lie close together, all pairs of them: their
+/// first intersection bounds that of all, so that the window is short from then on if a hit comes
+/// at once.
 class WindowedSearch : public SweepingIndex {
  public:
   /// `store` decides the method: a row, or grids.
@@ -63,8 +67,8 @@ class WindowedSearch : public SweepingIndex {
   /// The bounds that are held.
   const HornTable& table() const { return table_; }
 
-  /// Walks the structure: each agent is either due to be placed, or placed, or unfilterable; and the
-  /// store. Throws CheckFailure.
+  /// Walks the structure: each agent is either due to be placed, or placed, or unfilterable; and
+  /// the store. Throws CheckFailure.
   void Validate() const;
 
  private:

@@ -17,7 +17,8 @@ namespace {
 /// So little of a part that it changes no answer, and all of its price.
 constexpr double kNothing = 1e-300;
 
-/// The exhaustive index asks about every partner of one agent: with more agents, no user would pick it by hand.
+/// The exhaustive index asks about every partner of one agent: with more agents, no user would pick
+/// it by hand.
 constexpr std::size_t kExhaustiveMax = 600;
 
 /// In larger scenes parts are not tried one by one: that takes minutes, and tells nothing new.

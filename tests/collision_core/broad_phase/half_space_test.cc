@@ -1,8 +1,8 @@
 // Goal:   an agent's meeting with a half-space is never late and not idle, with margins and speed
 //         caps; the filter before it rules out nothing that meets, and most of what does not.
 // Method: exact rational arithmetic. The distance to the plane, n·c − offset − |n| (ρ + margin), is
-//         concave in time, so that it is positive between two times where it is so at both; its sign
-//         is that of squares, as |n| is irrational.
+//         concave in time, so that it is positive between two times where it is so at both; its
+//         sign is that of squares, as |n| is irrational.
 #include "collision_core/broad_phase/index/half_space.h"
 
 #include <gtest/gtest.h>
@@ -209,7 +209,8 @@ TEST(HalfSpace, FallsToTheFloor) {
   }
 }
 
-// Goal:   who cannot meet meets never: masks in either direction, no motion, expiry, the query's end.
+// Goal:   who cannot meet meets never: masks in either direction, no motion, expiry, the query's
+// end.
 TEST(HalfSpace, MeetsOnlyWhatItMay) {
   HalfSpace floor{{0, 0, 1}, 0};
   motion::SpaceTimeBound bound = Falling();

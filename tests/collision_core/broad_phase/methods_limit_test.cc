@@ -1,7 +1,9 @@
-// Goal:   a pair whose canonical time is the query's last instant is found, and told as near, though
-//         that time is early and the exact one lies beyond: filters know how early an answer may be,
-//         and what the faces of hypertrapezoids lose by rounding.
-// Method: two that graze each other after minutes, or fly side by side a hair apart, among sixty who
+// Goal:   a pair whose canonical time is the query's last instant is found, and told as near,
+// though
+//         that time is early and the exact one lies beyond: filters know how early an answer may
+//         be, and what the faces of hypertrapezoids lose by rounding.
+// Method: two that graze each other after minutes, or fly side by side a hair apart, among sixty
+// who
 //         are far away, so that the grid is taken; each method beside the canonical routine.
 #include <gtest/gtest.h>
 
