@@ -3,26 +3,23 @@
 #include <algorithm>
 #include <utility>
 
-#include "collision_core/broad_phase/face_sweep/face_sweep.h"
 #include "collision_core/broad_phase/index/all_pairs.h"
+#include "collision_core/broad_phase/index/exhaustive_index.h"
 #include "collision_core/broad_phase/index/spatial_index.h"
 
 namespace collision::broad_phase {
 namespace {
 
 constexpr double kPairUnits = BroadPhaseWork::kPairUnits;
-constexpr double kPlaceUnits[] = {0, 8, 0, BroadPhaseWork::kPlaceUnits};  // per agent, by method
+/// To place one agent, by method.
+double PlaceUnits(BroadPhaseMethod kind) {
+  if (kind == BroadPhaseMethod::kSpatialIndex) return BroadPhaseWork::kPlaceUnits;
+  return kind == BroadPhaseMethod::kAllPairs ? 8 : 0;
+}
 
 /// Questions until the index is tried again; doubled by each try.
 constexpr std::uint64_t kPatience = 2048;
 constexpr std::uint64_t kPatienceMax = 1 << 20;
-
-/// The bounds of a method, for filling another.
-template <typename M>
-class Readable : public M {
- public:
-  const HornTable* bounds() const { return &this->table(); }
-};
 
 BroadPhaseWork operator+(const BroadPhaseWork& a, const BroadPhaseWork& b) {
   return {a.pair_queries + b.pair_queries,
@@ -52,10 +49,10 @@ const char* Name(BroadPhaseMethod method) {
   switch (method) {
     case BroadPhaseMethod::kAllPairs:
       return "all pairs";
-    case BroadPhaseMethod::kFaceSweep:
-      return "face sweep";
     case BroadPhaseMethod::kSpatialIndex:
       return "spatial index";
+    case BroadPhaseMethod::kExhaustive:
+      return "exhaustive";
     case BroadPhaseMethod::kAuto:
       break;
   }
@@ -64,20 +61,23 @@ const char* Name(BroadPhaseMethod method) {
 
 AdaptiveBroadPhase::Method AdaptiveBroadPhase::Make(BroadPhaseMethod kind) const {
   Method method;
-  if (kind == BroadPhaseMethod::kFaceSweep) {
-    method = {kind, std::make_unique<FaceSweep>()};
-  } else if (kind == BroadPhaseMethod::kSpatialIndex) {
-    auto phase = std::make_unique<Readable<SpatialIndex>>();
-    const HornTable* table = phase->bounds();
-    method = {kind, std::move(phase), table};
+  if (kind == BroadPhaseMethod::kExhaustive) {
+    method = {kind, std::make_unique<ExhaustiveIndex>()};
   } else {
-    auto phase = std::make_unique<Readable<AllPairs>>();
-    const HornTable* table = phase->bounds();
-    method = {BroadPhaseMethod::kAllPairs, std::move(phase), table};
+    const bool grids = kind == BroadPhaseMethod::kSpatialIndex;
+    std::unique_ptr<WindowedSearch> search;
+    if (grids) {
+      search = std::make_unique<SpatialIndex>();
+    } else {
+      search = std::make_unique<AllPairs>();
+    }
+    method.kind = grids ? BroadPhaseMethod::kSpatialIndex : BroadPhaseMethod::kAllPairs;
+    method.table = &search->table();
+    method.phase = std::move(search);
   }
-  method.phase->ShareRules(rules_);
-  for (const HalfSpaces::Entry& entry : half_spaces_) {
-    method.phase->PutHalfSpace(entry.agent, entry.half_space);
+  method.phase->ShareRules(shared_rules());
+  for (const HalfSpaces::Entry& entry : half_spaces()) {
+    method.phase->SetHalfSpace(entry.agent, entry.half_space);
   }
   return method;
 }
@@ -87,25 +87,25 @@ AdaptiveBroadPhase::AdaptiveBroadPhase(BroadPhaseMethod asked)
 
 AdaptiveBroadPhase::~AdaptiveBroadPhase() = default;
 
-void AdaptiveBroadPhase::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void AdaptiveBroadPhase::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
   if (held_.size() <= agent) held_.resize(agent + 1);
   agents_ += !held_[agent];
   held_[agent] = true;
-  const bool was_half_space = half_spaces_.Remove(agent);
-  method_.phase->Put(agent, bound);
-  if (Follows(agent) || (next_.phase && was_half_space)) next_.phase->Put(agent, bound);
+  const bool was_half_space = mutable_half_spaces().Remove(agent);
+  method_.phase->Set(agent, bound);
+  if (Follows(agent) || (next_.phase && was_half_space)) next_.phase->Set(agent, bound);
   Choose();
 }
 
-void AdaptiveBroadPhase::Narrow(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
-  method_.phase->Narrow(agent, bound);
-  if (Follows(agent)) next_.phase->Narrow(agent, bound);
+void AdaptiveBroadPhase::Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+  method_.phase->Tighten(agent, bound);
+  if (Follows(agent)) next_.phase->Tighten(agent, bound);
   if (next_.phase) Choose();
 }
 
 void AdaptiveBroadPhase::Remove(std::uint32_t agent) {
   ForgetRules(agent);
-  half_spaces_.Remove(agent);
+  mutable_half_spaces().Remove(agent);
   Release(agent);
   method_.phase->Remove(agent);
   if (next_.phase) next_.phase->Remove(agent);
@@ -118,18 +118,18 @@ void AdaptiveBroadPhase::Release(std::uint32_t agent) {
   --agents_;
 }
 
-bool AdaptiveBroadPhase::PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
-  if (!half_spaces_.Put(agent, half_space)) return false;
+bool AdaptiveBroadPhase::SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
+  if (!mutable_half_spaces().Set(agent, half_space)) return false;
   Release(agent);
-  method_.phase->PutHalfSpace(agent, half_space);
-  if (next_.phase) next_.phase->PutHalfSpace(agent, half_space);
+  method_.phase->SetHalfSpace(agent, half_space);
+  if (next_.phase) next_.phase->SetHalfSpace(agent, half_space);
   Choose();
   return true;
 }
 
-void AdaptiveBroadPhase::RulesChanged(std::uint32_t agent) {
-  method_.phase->RulesChanged(agent);
-  if (next_.phase) next_.phase->RulesChanged(agent);
+void AdaptiveBroadPhase::UpdateRules(std::uint32_t agent) {
+  method_.phase->UpdateRules(agent);
+  if (next_.phase) next_.phase->UpdateRules(agent);
 }
 
 std::optional<intersection::IntersectingPair> AdaptiveBroadPhase::Earliest(
@@ -147,24 +147,24 @@ std::optional<intersection::IntersectingPair> AdaptiveBroadPhase::EarliestOf(
   return answer;
 }
 
-void AdaptiveBroadPhase::Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
-                                  const Skip& skip, std::vector<Meeting>* meetings) {
+void AdaptiveBroadPhase::FindNeighbours(std::uint32_t agent, const NeighbourWindow& window,
+                                        const Skip& skip, std::vector<Neighbour>* neighbours) {
   const BroadPhaseWork before = method_.phase->work();
-  method_.phase->Meetings(agent, from, until, horizon, skip, meetings);
+  method_.phase->FindNeighbours(agent, window, skip, neighbours);
   EndQuestion(before);
 }
 
-void AdaptiveBroadPhase::MeetingsOf(const motion::SpaceTimeBound& bound, Instant from,
-                                    Instant until, const Skip& skip,
-                                    std::vector<Meeting>* meetings) {
+void AdaptiveBroadPhase::FindNeighbours(const motion::SpaceTimeBound& bound, Instant from,
+                                        Instant until, const Skip& skip,
+                                        std::vector<Neighbour>* neighbours) {
   const BroadPhaseWork before = method_.phase->work();
-  method_.phase->MeetingsOf(bound, from, until, skip, meetings);
+  method_.phase->FindNeighbours(bound, from, until, skip, neighbours);
   EndQuestion(before);
 }
 
-void AdaptiveBroadPhase::NearPairs(const intersection::BroadQuery& query,
-                                   std::vector<NearPair>* pairs) {
-  method_.phase->NearPairs(query, pairs);
+void AdaptiveBroadPhase::FindNearPairs(const intersection::BroadQuery& query,
+                                       std::vector<NearPair>* pairs) {
+  method_.phase->FindNearPairs(query, pairs);
   Choose();
 }
 
@@ -177,15 +177,15 @@ BroadPhaseWork AdaptiveBroadPhase::work() const {
 double AdaptiveBroadPhase::Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const {
   const double placed = static_cast<double>(done.rebuilds) * static_cast<double>(agents_);
   return kPairUnits * static_cast<double>(done.pair_queries) + done.search_units() +
-         kPlaceUnits[static_cast<int>(kind)] * placed;
+         PlaceUnits(kind) * placed;
 }
 
-// The same pairs, found by a test of every agent in each search.
+// The same pairs, found by a test of all agents in each search.
 double AdaptiveBroadPhase::UnitsByAllPairs(const BroadPhaseWork& done) const {
-  const auto everybody = static_cast<double>(agents_ + half_spaces_.size());
+  const auto all = static_cast<double>(agents_ + half_spaces().size());
   return kPairUnits * static_cast<double>(done.pair_queries) +
          static_cast<double>(done.neighbours) +
-         static_cast<double>(done.searches) * (everybody + BroadPhaseWork::kVisitUnits);
+         static_cast<double>(done.searches) * (all + BroadPhaseWork::kVisitUnits);
 }
 
 double AdaptiveBroadPhase::UnitsOf(const Method& method) const {
@@ -226,7 +226,7 @@ void AdaptiveBroadPhase::Settle() {
 void AdaptiveBroadPhase::Fill() {
   const std::uint32_t end = std::min(filled_ + kMoves, method_.table->size());
   for (; filled_ < end; ++filled_) {
-    if (held_[filled_]) next_.phase->Put(filled_, method_.table->bound(filled_));
+    if (held_[filled_]) next_.phase->Set(filled_, method_.table->bound(filled_));
   }
   if (filled_ >= method_.table->size()) Switch();
 }

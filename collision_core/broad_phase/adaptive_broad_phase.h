@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
 #include "collision_core/broad_phase/broad_phase_method.h"
+#include "collision_core/broad_phase/earliest_sweep.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
 
 namespace collision::broad_phase {
@@ -29,9 +29,8 @@ namespace collision::broad_phase {
 /// questions, with half as many agents more, or with kManyAgents.
 ///
 /// A new method is filled kMoves agents a call beside the old one, which answers until it is full:
-/// no call takes longer than the others. The face sweep has to be asked for: it has no incremental
-/// question about one agent.
-class AdaptiveBroadPhase : public BroadPhase {
+/// no call takes longer than the others.
+class AdaptiveBroadPhase : public SweepingIndex {
  public:
   static constexpr std::size_t kFewAgents = 128;
   static constexpr std::size_t kManyAgents = 768;
@@ -42,21 +41,20 @@ class AdaptiveBroadPhase : public BroadPhase {
   explicit AdaptiveBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);
   ~AdaptiveBroadPhase() override;
 
-  void Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
-  void Narrow(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
   void Remove(std::uint32_t agent) override;
-  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
-  void RulesChanged(std::uint32_t agent) override;
-  std::optional<intersection::IntersectingPair> Earliest(
-      const intersection::BroadQuery& query) override;
+  bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
+  void UpdateRules(std::uint32_t agent) override;
+  void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
+                      std::vector<Neighbour>* neighbours) override;
+  void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                      const Skip& skip, std::vector<Neighbour>* neighbours) override;
   std::optional<intersection::IntersectingPair> EarliestOf(
       std::uint32_t agent, const intersection::BroadQuery& query) override;
-  void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
-                std::vector<Meeting>* meetings) override;
-
-  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                  const Skip& skip, std::vector<Meeting>* meetings) override;
-  void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
+  void FindNearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
+  std::optional<intersection::IntersectingPair> Earliest(
+      const intersection::BroadQuery& query) override;
 
   /// The work of all methods together.
   BroadPhaseWork work() const override;
@@ -71,8 +69,8 @@ class AdaptiveBroadPhase : public BroadPhase {
  private:
   struct Method {
     BroadPhaseMethod kind = BroadPhaseMethod::kAuto;
-    std::unique_ptr<BroadPhase> phase;
-    const HornTable* table = nullptr;  ///< Its bounds; of the face sweep null.
+    std::unique_ptr<SweepingIndex> phase;
+    const HornTable* table = nullptr;  ///< Its bounds; null for the exhaustive index.
   };
 
   /// All methods share the rules; half-spaces are its own as well as each method's.

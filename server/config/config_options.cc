@@ -89,7 +89,7 @@ constexpr ConfigOption kOptions[] = {
     {"shape_bytes_max", "bytes", "1048576", "1099511627776", "", "268435456",
      "Of all shapes together: parts that have arrived, and meshes. A part that does not fit is "
      "refused. Trees come on top (tree_bytes in the status)."},
-    {"broad_phase", "none", "", "", "AUTO, ALL_PAIRS, FACE_SWEEP or SPATIAL_INDEX", "AUTO",
+    {"broad_phase", "none", "", "", "AUTO, ALL_PAIRS or SPATIAL_INDEX", "AUTO",
      "How candidate pairs are found. All methods give the same answers and differ in cost. AUTO "
      "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and in between the one that does "
      "less work."},

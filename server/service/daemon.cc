@@ -24,8 +24,6 @@ broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
   switch (method) {
     case v1::Config::ALL_PAIRS:
       return broad_phase::BroadPhaseMethod::kAllPairs;
-    case v1::Config::FACE_SWEEP:
-      return broad_phase::BroadPhaseMethod::kFaceSweep;
     case v1::Config::SPATIAL_INDEX:
       return broad_phase::BroadPhaseMethod::kSpatialIndex;
     default:

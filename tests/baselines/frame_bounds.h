@@ -1,7 +1,7 @@
 // The moving cubes as the broad phase sees them.
 #pragma once
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 #include "tests/baselines/ball_bound.h"
 #include "tests/baselines/moving_cubes.h"
 
@@ -20,7 +20,7 @@ inline motion::SpaceTimeBound BoundOf(const MovingCubes& cubes, std::uint32_t cu
 }
 
 /// Appends every pair that may first meet at or after `from`, by `until`.
-void AllMeetings(broad_phase::BroadPhase* phase, std::uint32_t agents, Instant from, Instant until,
-                 std::vector<intersection::IntersectingPair>* meetings);
+void AllNeighbours(broad_phase::NeighbourIndex* phase, std::uint32_t agents, Instant from,
+                   Instant until, std::vector<intersection::IntersectingPair>* meetings);
 
 }  // namespace collision::baselines

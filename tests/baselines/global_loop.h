@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/earliest_sweep.h"
+#include "collision_core/broad_phase/index/all_pairs.h"
 #include "tests/baselines/collision_loop.h"
 
 namespace collision::baselines {
@@ -15,12 +16,14 @@ namespace collision::baselines {
 /// the next frame is t_end. Source: Hubbard 1995, section 4.
 class GlobalLoop : public CollisionLoop {
  public:
-  explicit GlobalLoop(std::unique_ptr<broad_phase::BroadPhase> phase) : phase_(std::move(phase)) {}
+  explicit GlobalLoop(std::unique_ptr<broad_phase::EarliestSweep> sweep)
+      : sweep_(std::move(sweep)) {}
 
   std::optional<CubePair> Look(const MovingCubes& cubes) override;
 
  private:
-  std::unique_ptr<broad_phase::BroadPhase> phase_;
+  std::unique_ptr<broad_phase::EarliestSweep> sweep_;
+  broad_phase::AllPairs near_;  ///< The same bounds, for the pairs that could overlap.
   Instant t_end_ = Instant::Always();
   std::vector<intersection::IntersectingPair> could_overlap_;
 };

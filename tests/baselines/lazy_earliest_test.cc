@@ -41,7 +41,7 @@ TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
     Random random(seed);
     std::vector<Eigen::Vector3d> acceleration;
     for (std::uint32_t i = 0; i < scene.size(); ++i) {
-      asker.phase.Put(i, BoundOf(scene[i]));
+      asker.phase.Set(i, BoundOf(scene[i]));
       acceleration.push_back(random.UnitVector() * 0.9);
     }
     for (std::uint32_t i = 0; i < scene.size(); ++i) lazy.Ask(i, Instant());
@@ -54,7 +54,7 @@ TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
       state.v_WA += acceleration[agent] * since;
       state.stamp = t;
       const motion::SpaceTimeBound bound = BoundOf(state);
-      asker.phase.Narrow(agent, bound);
+      asker.phase.Tighten(agent, bound);
       lazy.Renewed(agent);
       const Instant now = bound.state.stamp;
       const auto expected = asker.phase.Earliest(

@@ -34,9 +34,9 @@ bool LocalLoop::Renew(const MovingCubes& cubes, std::uint32_t cube) {
   frame_of_bound_[cube] = cubes.frame();
   const motion::SpaceTimeBound bound = BoundOf(cubes, cube);
   if (is_new) {
-    phase_->Put(cube, bound);
+    phase_->Set(cube, bound);
   } else {
-    phase_->Narrow(cube, bound);
+    phase_->Tighten(cube, bound);
   }
   return true;
 }
@@ -52,17 +52,17 @@ void LocalLoop::Ask(const MovingCubes& cubes, std::uint32_t cube) {
   Renew(cubes, cube);
   for (;;) {
     meetings_.clear();
-    phase_->Meetings(cube, now, soon, horizon, is_close, &meetings_);
+    phase_->FindNeighbours(cube, {now, soon, horizon}, is_close, &meetings_);
     ++work_.questions;
     // A partner whose bound is old only seems near: renew it before it counts.
     bool renewed = false;
     Instant next = horizon;
-    for (const broad_phase::Meeting& meeting : meetings_) {
+    for (const broad_phase::Neighbour& meeting : meetings_) {
       renewed |= Renew(cubes, meeting.partner);
       next = std::min(next, std::max(meeting.time.instant(), soon));
     }
     if (renewed) continue;
-    for (const broad_phase::Meeting& meeting : meetings_) {
+    for (const broad_phase::Neighbour& meeting : meetings_) {
       if (meeting.time.instant() > soon) continue;
       close_.push_back(std::minmax(cube, meeting.partner));
       partners_[cube].push_back(meeting.partner);

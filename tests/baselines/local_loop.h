@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/detection/event_queue.h"
 #include "tests/baselines/collision_loop.h"
 
@@ -16,7 +16,8 @@ namespace collision::baselines {
 /// the queue and are tested in each frame, until they are well apart.
 class LocalLoop : public CollisionLoop {
  public:
-  explicit LocalLoop(std::unique_ptr<broad_phase::BroadPhase> phase) : phase_(std::move(phase)) {}
+  explicit LocalLoop(std::unique_ptr<broad_phase::NeighbourIndex> phase)
+      : phase_(std::move(phase)) {}
 
   std::optional<CubePair> Look(const MovingCubes& cubes) override;
 
@@ -29,13 +30,13 @@ class LocalLoop : public CollisionLoop {
   std::optional<CubePair> TestClosePairs(const MovingCubes& cubes);
   bool IsClose(std::uint32_t a, std::uint32_t b) const;
 
-  std::unique_ptr<broad_phase::BroadPhase> phase_;
+  std::unique_ptr<broad_phase::NeighbourIndex> phase_;
   detection::EventQueue<AgentIndex> queue_;
   std::vector<Instant> keys_;                         ///< By cube, as in the queue.
   std::vector<std::int64_t> frame_of_bound_;          ///< By cube.
   std::vector<CubePair> close_;                       ///< Pairs that could overlap.
   std::vector<std::vector<std::uint32_t>> partners_;  ///< By cube: those in `close_`.
-  std::vector<broad_phase::Meeting> meetings_;
+  std::vector<broad_phase::Neighbour> meetings_;
 };
 
 }  // namespace collision::baselines

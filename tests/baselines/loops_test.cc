@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "collision_core/broad_phase/face_sweep/face_sweep.h"
 #include "collision_core/broad_phase/index/all_pairs.h"
 #include "tests/baselines/global_loop.h"
 #include "tests/baselines/local_loop.h"
@@ -41,6 +42,8 @@ TEST_P(Loops, FindTheSameFirstCollision) {
     EXPECT_EQ(OutcomeOf<TurkHash>(options, cell).first, naive.first) << "cell " << cell;
   }
   EXPECT_EQ(OutcomeOf<GlobalLoop>(options, std::make_unique<broad_phase::AllPairs>()).first,
+            naive.first);
+  EXPECT_EQ(OutcomeOf<GlobalLoop>(options, std::make_unique<broad_phase::FaceSweep>()).first,
             naive.first);
   EXPECT_EQ(OutcomeOf<LocalLoop>(options, std::make_unique<broad_phase::AllPairs>()).first,
             naive.first);

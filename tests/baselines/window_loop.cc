@@ -39,10 +39,10 @@ bool WindowLoop::ListInOnePass(const MovingCubes& cubes) {
 
 void WindowLoop::ListByPhase(const MovingCubes& cubes) {
   for (std::uint32_t cube = 0; cube < cubes.count(); ++cube) {
-    phase_->Put(cube, BoundOf(cubes, cube));
+    phase_->Set(cube, BoundOf(cubes, cube));
   }
-  phase_->NearPairs({intersection::BoundKind::kHorn, InstantOf(cubes), InstantOf(cubes, frames_)},
-                    &list_);
+  phase_->FindNearPairs(
+      {intersection::BoundKind::kHorn, InstantOf(cubes), InstantOf(cubes, frames_)}, &list_);
 }
 
 void WindowLoop::ListAll(const MovingCubes& cubes) {

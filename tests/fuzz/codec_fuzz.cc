@@ -26,7 +26,9 @@ v1::Config FuzzedWorld(FuzzedData* data) {
   config.set_temporal_resolution_s(data->OneOf(kResolutions));
   config.set_announce_within_s(config.temporal_resolution_s() *
                                static_cast<double>(1 + data->Byte()));
-  config.set_broad_phase(static_cast<v1::Config::BroadPhase>(1 + data->Below(4)));
+  constexpr v1::Config::BroadPhase kMethods[] = {v1::Config::AUTO, v1::Config::ALL_PAIRS,
+                                                 v1::Config::SPATIAL_INDEX};
+  config.set_broad_phase(data->OneOf(kMethods));
   // Small, so that every limit is met and no input takes long.
   config.set_agents_max(static_cast<std::uint32_t>(4 + data->Below(4)));
   config.set_simulators_max(3);

@@ -21,7 +21,7 @@ constexpr std::uint32_t kAgents = 5;
 constexpr int kCallsMax = 120;
 constexpr int kStepsMax = 24;
 constexpr broad_phase::BroadPhaseMethod kMethods[] = {broad_phase::BroadPhaseMethod::kAllPairs,
-                                                      broad_phase::BroadPhaseMethod::kFaceSweep,
+                                                      broad_phase::BroadPhaseMethod::kExhaustive,
                                                       broad_phase::BroadPhaseMethod::kSpatialIndex};
 
 detection::DetectorOptions FuzzedOptions(FuzzedData* data) {

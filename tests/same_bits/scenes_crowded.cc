@@ -41,7 +41,7 @@ Scene Clustered(const std::string& name, v1::Config::BroadPhase method, int coun
 
 std::vector<Scene> CrowdedScenes() {
   return {Clustered("all-pairs", v1::Config::ALL_PAIRS, 250, 2 * kSecond),
-          Clustered("face-sweep", v1::Config::FACE_SWEEP, 250, 2 * kSecond),
+          Clustered("adaptive", v1::Config::AUTO, 250, 2 * kSecond),
           Clustered("spatial-index", v1::Config::SPATIAL_INDEX, 250, 2 * kSecond),
           Clustered("clusters", v1::Config::AUTO, 1500, kSecond)};
 }

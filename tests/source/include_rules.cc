@@ -15,23 +15,33 @@ struct Layer {
   Names ours;
 };
 
+/// The folders of rooms of the core.
+Names CoreRooms(const std::string& rooms) {
+  Names folders;
+  std::istringstream words(rooms);
+  for (std::string room; words >> room;) folders.push_back("collision_core/" + room + "/");
+  return folders;
+}
+
 const std::vector<Layer>& Layers() {
   static const std::string core = "collision_core/", api = "client/api/",
                            library = "client/library/", checker = "client/checker/",
                            programs = "client/programs/";
   static const std::string validation = library + "validation.h";
   static const std::vector<Layer> layers = {
-      {core + "base/", {core + "base/"}},
-      {core + "numeric/", {core + "base/", core + "numeric/"}},
-      {core + "motion/", {core + "base/", core + "numeric/", core + "motion/"}},
+      // The rooms of the core, each behind those that it may stand on.
+      {core + "base/", CoreRooms("base")},
+      {core + "numeric/", CoreRooms("base numeric")},
+      {core + "simd/", CoreRooms("simd")},
+      {core + "geometry/", CoreRooms("base numeric geometry")},
+      {core + "sphere_tree/", CoreRooms("base numeric geometry sphere_tree")},
       // A shape does not know that it moves.
-      {core + "shape/", {core + "base/", core + "numeric/", core + "shape/"}},
-      {core + "broad_phase/",
-       {core + "base/", core + "numeric/", core + "motion/", core + "shape/",
-        core + "broad_phase/"}},
-      {core + "narrow_phase/",
-       {core + "base/", core + "numeric/", core + "motion/", core + "shape/", core + "broad_phase/",
-        core + "narrow_phase/"}},
+      {core + "shape/", CoreRooms("base numeric geometry sphere_tree shape")},
+      {core + "motion/", CoreRooms("base numeric geometry sphere_tree shape motion")},
+      {core + "intersection/", CoreRooms("base numeric motion intersection")},
+      {core + "broad_phase/", CoreRooms("base numeric simd motion intersection broad_phase")},
+      {core + "narrow_phase/", CoreRooms("base numeric simd geometry sphere_tree shape motion "
+                                         "intersection narrow_phase")},
       {core, {core}},
       // A tree at rest is made of the core's own data; daemon and tools write the same.
       {"idl/tree_message", {"idl/", core + "shape/"}},
@@ -123,19 +133,25 @@ bool IsDds(const std::string& name) {
          name == "idl/collision.h";
 }
 
-bool IsWideInterface(const std::string& name) {
-  return name == "collision_core/broad_phase/filter/sphere_filter.h" ||
-         name == "collision_core/broad_phase/filter/point_filter.h" ||
-         name == "collision_core/broad_phase/filter/sphere_filter_wide.h" ||
-         name == "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h" ||
-         StartsWith(name, "collision_core/narrow_phase/pack_scan_wide") ||
-         name == "collision_core/sphere_tree/packed_layout.h";
+/// Code for one kind of processor: sources, and the kernels and lanes that they include.
+bool IsWide(const std::string& path) {
+  static const std::regex wide(
+      R"(collision_core/(simd/lanes_\w+\.h|.*_avx(2|512)\.cc|.*_wide\.h))");
+  return std::regex_match(path, wide);
 }
 
-bool IsWide(const std::string& path) {
-  return StartsWith(path, "collision_core/broad_phase/lane_scan_") ||
-         StartsWith(path, "collision_core/narrow_phase/pack_scan_avx") ||
-         StartsWith(path, "collision_core/narrow_phase/pack_scan_wide");
+/// What such code may include: its own kind, and interfaces that define no function.
+bool IsForWide(const std::string& name) {
+  static const Names interfaces = {"collision_core/broad_phase/filter/point_filter.h",
+                                   "collision_core/broad_phase/filter/sphere_filter.h",
+                                   "collision_core/narrow_phase/convex_pair/box_separating_axis.h",
+                                   "collision_core/narrow_phase/convex_pair/gjk_small.h",
+                                   "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h",
+                                   "collision_core/sphere_tree/packed_layout.h"};
+  static const Names standard = {"cmath", "cstdint", "immintrin.h"};
+  return IsWide(name) ||
+         std::find(interfaces.begin(), interfaces.end(), name) != interfaces.end() ||
+         std::find(standard.begin(), standard.end(), name) != standard.end();
 }
 
 bool IsPublicClientHeader(const std::string& path) { return StartsWith(path, "client/api/"); }
@@ -147,8 +163,7 @@ std::string Complaint(const std::string& path, const Include& include) {
   // Built for processors that not every machine has: code that others share must not be compiled
   // there.
   if (IsWide(path)) {
-    const bool own = include.name == "immintrin.h" || IsWideInterface(include.name);
-    return own ? "" : "wide vectors know nothing but their processor";
+    return IsForWide(include.name) ? "" : "wide vectors know nothing but their processor";
   }
   if (!include.quoted) {
     if (StartsWith(path, "collision_core/") && !IsForCore(include.name)) {

@@ -149,10 +149,10 @@ void JudgeSame(const Told& alone, const Told& among, const std::string& where, O
                   where + "calm pairs are asked again more often, at other times, or otherwise");
 }
 
-// The reference is the face sweep: it has no filter, so that it asks the canonical routine about
+// The reference is exhaustive: it has no filter, so that it asks the canonical routine about
 // every possible partner of an agent. How many of these questions the other methods spare depends
 // on where all agents are, also on the violent one: with and without it they may ask about a pair
-// less often, but never at a time at which the sweep asks nothing.
+// less often, but never at a time at which the reference asks nothing.
 void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told& alone,
               const Told& among, const Told& swept, Outcome* outcome) {
   const std::string where = std::string(Name(method)) + ", " + wild.name + ": ";
@@ -160,7 +160,7 @@ void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told
   const auto all = TimesOf(Of(swept, Question::kMet));
   const auto times = TimesOf(Of(among, Question::kMet));
   const auto without = TimesOf(Of(alone, Question::kMet));
-  if (method == broad_phase::BroadPhaseMethod::kFaceSweep) {
+  if (method == broad_phase::BroadPhaseMethod::kExhaustive) {
     outcome->Expect(times == all && without == all,
                     where + "calm ones are asked about each other at other times");
   }
@@ -180,11 +180,11 @@ void Violent(const Setting& setting, Outcome* outcome) {
   const int steps = setting.Many(640, 6400);
   for (const Wild& wild : kWild) {
     const Told swept =
-        RunAmong(wild, false, broad_phase::BroadPhaseMethod::kFaceSweep, steps, outcome);
+        RunAmong(wild, false, broad_phase::BroadPhaseMethod::kExhaustive, steps, outcome);
     outcome->Expect(CountOf(Of(swept, Question::kMet)) > kCalm * kCalm,
                     "no question was taken down");
     for (const auto method :
-         {broad_phase::BroadPhaseMethod::kFaceSweep, broad_phase::BroadPhaseMethod::kAllPairs,
+         {broad_phase::BroadPhaseMethod::kExhaustive, broad_phase::BroadPhaseMethod::kAllPairs,
           broad_phase::BroadPhaseMethod::kSpatialIndex, broad_phase::BroadPhaseMethod::kAuto}) {
       const Told alone = RunAmong(wild, false, method, steps, outcome);
       const Told among = RunAmong(wild, true, method, steps, outcome);

@@ -40,9 +40,9 @@ std::optional<FaceLines> FaceLinesOf(const motion::SpaceTimeBound& bound, Instan
                                      Instant end);
 
 /// How far faces move outward, as a part of all magnitudes that enter the agent's bound over the
-/// window. EarliestIntersectionOf() may let a pair meet that is apart by what its inputs' rounding forces:
-/// some tens of units in the last place (2^−53) of these magnitudes. With the padding such a pair's
-/// boxes overlap nevertheless, with room for 2^9 of them.
+/// window. EarliestIntersectionOf() may let a pair meet that is apart by what its inputs' rounding
+/// forces: some tens of units in the last place (2^−53) of these magnitudes. With the padding such
+/// a pair's boxes overlap nevertheless, with room for 2^9 of them.
 inline constexpr double kFacePadding = 0x1p-44;
 
 /// Makes the faces of many agents whole numbers, so that all that follows is exact: which of two

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision_core/broad_phase/face_sweep/face_sweep_window.h"
+#include "collision_core/broad_phase/index/pair_time.h"
 
 namespace collision::broad_phase {
 namespace {
@@ -13,17 +14,10 @@ Instant Add(Instant t, std::int64_t nanoseconds, Instant latest) {
                                     : latest;
 }
 
-/// Agents that are asked first of all once a pair meets at once.
+/// Agents that are tested first of all once a pair meets at once.
 constexpr std::size_t kLowest = 16;
 
 constexpr double kFractionOfTick = 1.0 / CrossingOrder::kTicks;
-
-/// What EarliestIntersectionOf() would say at once.
-bool MayMeet(intersection::BoundKind kind, const motion::SpaceTimeBound& a,
-             const motion::SpaceTimeBound& b) {
-  if (kind == intersection::BoundKind::kHorn && NeverMoves(a) && NeverMoves(b)) return false;
-  return CanMeet(a.declaration, b.declaration);
-}
 
 /// Crossings at later ticks lie after `time`, as seen in a window of 2^30 ticks.
 std::uint32_t TickLimit(Instant start, Instant end, Instant time) {
@@ -31,7 +25,7 @@ std::uint32_t TickLimit(Instant start, Instant end, Instant time) {
   if (time < start) return 0;
   const __int128 length = static_cast<__int128>(end.nanoseconds()) - start.nanoseconds();
   const __int128 passed = static_cast<__int128>(time.nanoseconds()) - start.nanoseconds();
-  // What crosses in (j − 1, j] is told at tick j.
+  // What crosses in (j − 1, j] is reported at tick j.
   const __int128 tick = (passed << CrossingOrder::kTickBits) / length + 1;
   return static_cast<std::uint32_t>(std::min<__int128>(tick, CrossingOrder::kTicks));
 }
@@ -53,34 +47,29 @@ struct FaceSweep::Search {
 
   bool meets_at_once() const { return best && best->time.instant() <= first; }
 
-  /// Can a meeting of these agents come before the best answer?
+  /// Whether an intersection of these agents can come before the best answer.
   bool IsOpen(std::uint32_t lower, std::uint32_t higher) const {
     return !meets_at_once() || lower < best->lower ||
            (lower == best->lower && higher < best->higher);
   }
 };
 
-void FaceSweep::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
-  half_spaces_.Remove(agent);
+void FaceSweep::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+  mutable_half_spaces().Remove(agent);
   if (bounds_.size() <= agent) bounds_.resize(agent + 1);
   bounds_[agent] = bound;
 }
 
 void FaceSweep::Remove(std::uint32_t agent) {
   ForgetRules(agent);
-  half_spaces_.Remove(agent);
-  if (Moves(agent)) bounds_[agent].reset();
+  mutable_half_spaces().Remove(agent);
+  if (Holds(bounds_, agent)) bounds_[agent].reset();
 }
 
-bool FaceSweep::PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
-  if (!half_spaces_.Put(agent, half_space)) return false;
-  if (Moves(agent)) bounds_[agent].reset();
+bool FaceSweep::SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
+  if (!mutable_half_spaces().Set(agent, half_space)) return false;
+  if (Holds(bounds_, agent)) bounds_[agent].reset();
   return true;
-}
-
-std::uint32_t FaceSweep::IndexEnd() const {
-  const auto end = static_cast<std::uint32_t>(bounds_.size());
-  return half_spaces_.size() == 0 ? end : std::max(end, std::prev(half_spaces_.end())->agent + 1);
 }
 
 std::optional<intersection::IntersectingPair> FaceSweep::Earliest(
@@ -94,7 +83,7 @@ std::optional<intersection::IntersectingPair> FaceSweep::Earliest(
     earliest = std::min(earliest, bounds_[agent]->state.stamp);
   }
   Search search{query, query.from, query.until, std::nullopt, false};
-  for (const HalfSpaces::Entry& entry : half_spaces_) {
+  for (const HalfSpaces::Entry& entry : half_spaces()) {
     for (const std::uint32_t agent : candidates_) Ask(entry.agent, agent, &search);
   }
   if (candidates_.size() < 2) return search.best;
@@ -202,92 +191,10 @@ void FaceSweep::AskCrossings(Instant start, Instant end, Search* search) {
 void FaceSweep::Ask(std::uint32_t agent, std::uint32_t partner, Search* search) {
   const auto [lower, higher] = std::minmax(agent, partner);
   if (!search->IsOpen(lower, higher)) return;
-  const intersection::IntersectingPair meeting{lower, higher, TimeOf(search->query, lower, higher)};
+  const intersection::IntersectingPair meeting{
+      lower, higher, PairTimeOf(search->query, *this, bounds_, {lower, higher}, &work_)};
   if (meeting.time.instant().is_never()) return;
   if (!search->best || meeting < *search->best) search->best = meeting;
-}
-
-intersection::IntersectionTime FaceSweep::TimeOf(const intersection::BroadQuery& query,
-                                                 std::uint32_t a, std::uint32_t b) {
-  const intersection::IntersectionTime never{query.from, numeric::kInfinity};
-  const intersection::PairRule rule = rules().Of(a, b);
-  const bool a_moves = Moves(a), b_moves = Moves(b);
-  if (rule.excluded || a == b || !(a_moves || b_moves)) return never;
-  if (a_moves && b_moves) {
-    if (!MayMeet(query.bound, *bounds_[a], *bounds_[b])) return never;
-    ++work_.pair_queries;
-    return EarliestIntersectionOf(query, *bounds_[a], *bounds_[b], rule.margin);
-  }
-  const HalfSpaces::Entry* entry = half_spaces_.Find(a_moves ? b : a);
-  const motion::SpaceTimeBound& bound = *bounds_[a_moves ? a : b];
-  if (entry == nullptr || !CanMeet(entry->half_space, bound)) return never;
-  ++work_.pair_queries;
-  return EarliestIntersectionOf(query, entry->half_space, bound, rule.margin);
-}
-
-std::optional<intersection::IntersectingPair> FaceSweep::EarliestOf(
-    std::uint32_t agent, const intersection::BroadQuery& query) {
-  Search search{query, query.from, query.until, std::nullopt, false};
-  for (std::uint32_t partner = 0; partner < IndexEnd(); ++partner) {
-    Ask(agent, partner, &search);
-  }
-  return search.best;
-}
-
-void FaceSweep::NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) {
-  std::vector<std::uint32_t> there;
-  for (std::uint32_t agent = 0; agent < IndexEnd(); ++agent) {
-    const bool held = agent < bounds_.size() && bounds_[agent];
-    if (held || half_spaces_.Find(agent) != nullptr) there.push_back(agent);
-  }
-  for (const std::uint32_t a : there) {
-    for (const std::uint32_t b : there) {
-      if (a < b && !TimeOf(query, a, b).instant().is_never()) pairs->push_back({a, b});
-    }
-  }
-}
-
-void FaceSweep::Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon,
-                         const Skip& skip, std::vector<Meeting>* meetings) {
-  const std::size_t told = meetings->size();
-  std::optional<Meeting> next;
-  const intersection::BroadQuery query{intersection::BoundKind::kHorn, from,
-                                       std::max(until, horizon)};
-  const std::uint32_t end = IndexEnd();
-  for (std::uint32_t partner = 0; partner < end; ++partner) {
-    work_.filter_tests += Moves(partner);  // a partner that is only skipped costs as much
-    if (partner == agent || skip(partner)) continue;
-    const Meeting meeting{partner, TimeOf(query, agent, partner)};
-    const Instant when = meeting.time.instant();
-    if (when.is_never()) continue;
-    if (when <= until) {
-      meetings->push_back(meeting);
-    } else if (when <= horizon && (!next || when < next->time.instant())) {
-      next = meeting;
-    }
-  }
-  if (next) meetings->push_back(*next);
-  SortByPartner(told, meetings);
-}
-
-void FaceSweep::MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                           const Skip& skip, std::vector<Meeting>* meetings) {
-  const intersection::BroadQuery query{intersection::BoundKind::kHorn, from, Instant::Never()};
-  const std::uint32_t end = IndexEnd();
-  for (std::uint32_t partner = 0; partner < end; ++partner) {
-    work_.filter_tests += Moves(partner);
-    if (skip(partner)) continue;
-    intersection::IntersectionTime time{from, numeric::kInfinity};
-    const HalfSpaces::Entry* entry = Moves(partner) ? nullptr : half_spaces_.Find(partner);
-    if (Moves(partner) && MayMeet(query.bound, bound, *bounds_[partner])) {
-      ++work_.pair_queries;
-      time = EarliestIntersectionOf(query, bound, *bounds_[partner]);
-    } else if (entry != nullptr && CanMeet(entry->half_space, bound)) {
-      ++work_.pair_queries;
-      time = EarliestIntersectionOf(query, entry->half_space, bound);
-    }
-    AppendIfBy(until, {partner, time}, meetings);
-  }
 }
 
 }  // namespace collision::broad_phase

@@ -2,11 +2,11 @@
 //
 // Why its answer is that of all pairs, bit for bit, whatever rounds:
 //
-// 1. Faces contain every possible answer. EarliestIntersectionOf() gives t only if boxes overlap at t, up to
-// what the inputs' rounding forces and 1e-9 of the way (with directions and caps the boxes' first
-// overlap may be earlier than t, never later). Each face is moved outward by 2^-44 of all
-// magnitudes in the bound, and the canonical routine's allowances are some tens of 2^-53 of them;
-// the sweep goes on until 2^-29 of the way and 3 ns beyond the best answer (WithEarliness()).
+// 1. Faces contain every possible answer. EarliestIntersectionOf() gives t only if boxes overlap at
+// t, up to what the inputs' rounding forces and 1e-9 of the way (with directions and caps the
+// boxes' first overlap may be earlier than t, never later). Each face is moved outward by 2^-44 of
+// all magnitudes in the bound, and the canonical routine's allowances are some tens of 2^-53 of
+// them; the sweep goes on until 2^-29 of the way and 3 ns beyond the best answer (WithEarliness()).
 //
 // 2. Nothing rounds after that. Faces are rounded outward to whole numbers up to 2^50, and time is
 // cut into 2^30 ticks of the window: which face is higher at a tick, and when two change places,
@@ -43,7 +43,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/earliest_sweep.h"
 #include "collision_core/broad_phase/face_sweep/alpha_t_faces.h"
 #include "collision_core/broad_phase/face_sweep/crossing_order.h"
 #include "collision_core/broad_phase/face_sweep/face_sweep_start.h"
@@ -54,34 +54,30 @@ namespace collision::broad_phase {
 /// is a segment in the α–t plane, and two boxes begin to overlap where an upper face of one passes
 /// a lower face of the other on one axis while their cross-sections overlap on the others. Bentley
 /// and Ottmann's sweep finds all crossings of each axis in the order of time; at each such crossing
-/// EarliestIntersectionOf() is asked, until the next crossing is later than the best answer. Boxes that
-/// overlap at the window's start are found there.
+/// EarliestIntersectionOf() is asked, until the next crossing is later than the best answer. Boxes
+/// that overlap at the window's start are found there.
 ///
-/// Its answer is AllPairs' answer, bit for bit: the faces contain all that EarliestIntersectionOf() can answer
-/// (kFacePadding), nothing after them is rounded (CrossingOrder), and it stops only beyond
-/// WithEarliness(). The proof is at the head of this file.
+/// Its answer is AllPairs' answer, bit for bit: the faces contain all that EarliestIntersectionOf()
+/// can answer (kFacePadding), nothing after them is rounded (CrossingOrder), and it stops only
+/// beyond WithEarliness(). The proof is at the head of this file.
 ///
 /// Horns are swept in windows [s, s + w], w doubling, since a chord over a long window cuts far
 /// outside a horn; the first is chosen by FirstWindow(). Hypertrapezoids have their one window.
-/// Agents with no place on the grid (faces not finite, or far beyond all others) are asked against
-/// all, and so are half-spaces, which have no faces. It pays where the first meeting comes soon or
-/// N is small: the crossings of one axis grow as N² t. For one agent a sweep has no use:
-/// EarliestOf() and Meetings() ask every partner. Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
-class FaceSweep : public BroadPhase {
+/// Agents with no place on the grid (faces not finite, or far beyond all others) are tested against
+/// all, and so are half-spaces, which have no faces. It pays where the first intersection comes
+/// soon or N is small: the crossings of one axis grow as N² t.
+///
+/// A library call, not a method of the service: set all bounds, ask once. It has no incremental
+/// form, since a sweep has no use for a question about one agent. Callers: the paper's collision
+/// loop (tests/baselines/global_loop.h) and the benchmark of whole scenes (tests/bench/methods.h).
+/// Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
+class FaceSweep : public EarliestSweep {
  public:
-  void Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
   void Remove(std::uint32_t agent) override;
-  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
+  bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   std::optional<intersection::IntersectingPair> Earliest(
       const intersection::BroadQuery& query) override;
-  std::optional<intersection::IntersectingPair> EarliestOf(
-      std::uint32_t agent, const intersection::BroadQuery& query) override;
-  /// Asks all pairs.
-  void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
-  void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
-                std::vector<Meeting>* meetings) override;
-  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                  const Skip& skip, std::vector<Meeting>* meetings) override;
   /// visits: crossings. filter_tests: tests of two boxes. rebuilds: windows.
   BroadPhaseWork work() const override { return work_; }
 
@@ -100,12 +96,6 @@ class FaceSweep : public BroadPhase {
   void AskLowest(Instant start, Instant end, Search* search);
   void AskCrossings(Instant start, Instant end, Search* search);
   void Ask(std::uint32_t agent, std::uint32_t partner, Search* search);
-  /// EarliestIntersectionOf() of two, one of which may be a half-space, if both are there and may meet.
-  intersection::IntersectionTime TimeOf(const intersection::BroadQuery& query, std::uint32_t a,
-                                        std::uint32_t b);
-  bool Moves(std::uint32_t agent) const { return agent < bounds_.size() && bounds_[agent]; }
-  /// One more than the greatest index, half-spaces included.
-  std::uint32_t IndexEnd() const;
 
   std::vector<std::optional<motion::SpaceTimeBound>> bounds_;  // By agent.
   std::vector<std::uint32_t> candidates_;  // Agents not yet asked against all others.

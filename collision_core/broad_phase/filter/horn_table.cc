@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision_core/base/check.h"
+
 namespace collision::broad_phase {
 namespace {
 
@@ -46,7 +48,7 @@ void HornTable::DropFull(HornRow* row) {
   row->full = kPlain;
 }
 
-// All but what depends on the table: `ruled` and `full`.
+// Everything but what depends on the table: `ruled` and `full`.
 void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* filled) {
   HornRow& row = *filled;
   const motion::MotionState& state = bound.state;
@@ -74,7 +76,7 @@ void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, Ho
   };
   row.unfilterable = !(std::max(largest(row.p), row.u0) < kPositionMax &&
                        std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
-  // An agent of no group meets no other; 0 is the mark of a free row.
+  // A group of no bits meets no agent, and is not the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
 }
 
@@ -84,13 +86,13 @@ HornRow HornTable::RowOf(const motion::SpaceTimeBound& bound) {
   return row;
 }
 
-void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void HornTable::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
   if (rows_.size() <= agent) rows_.resize(agent + 1);
   HornRow& row = rows_[agent];
   count_ += row.group == 0;
   still_count_ -= row.still;
-  wild_count_ -= row.unfilterable;
-  choosy_count_ -= row.group != 0 && row.mask != ~0u;
+  unfilterable_count_ -= row.unfilterable;
+  filtered_count_ -= row.group != 0 && row.mask != ~0u;
   row.ruled = rules_ != nullptr && rules_->HasAny(agent);
   const double half_margin = row.ruled ? rules_->HalfMargin(agent) : 0;
   if (half_margin == 0 && IsPlain(bound)) {
@@ -100,19 +102,19 @@ void HornTable::Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
   }
   Fill(bound, half_margin, &row);
   still_count_ += row.still;
-  wild_count_ += row.unfilterable;
-  choosy_count_ += row.mask != ~0u;
+  unfilterable_count_ += row.unfilterable;
+  filtered_count_ += row.mask != ~0u;
 }
 
 void HornTable::UpdateRules(std::uint32_t agent) {
-  if (contains(agent)) Put(agent, bound(agent));
+  if (contains(agent)) Set(agent, bound(agent));
 }
 
 void HornTable::Remove(std::uint32_t agent) {
   if (!contains(agent)) return;
   still_count_ -= rows_[agent].still;
-  wild_count_ -= rows_[agent].unfilterable;
-  choosy_count_ -= rows_[agent].mask != ~0u;
+  unfilterable_count_ -= rows_[agent].unfilterable;
+  filtered_count_ -= rows_[agent].mask != ~0u;
   DropFull(&rows_[agent]);
   rows_[agent] = HornRow();
   --count_;
@@ -135,6 +137,28 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
 double HornTable::EarlierBound(const HornRow& a, const HornRow& b, Instant from, double limit) {
   if (a.unfilterable || b.unfilterable || !Near(from)) return 0;
   return Between(At(a, from), At(b, from)).EarlierBound(limit);
+}
+
+void HornTable::Validate() const {
+  std::uint32_t count = 0, still = 0, unfilterable = 0, filtered = 0;
+  std::vector<bool> taken(full_.size());
+  for (const HornRow& row : rows_) {
+    if (row.group == 0) {
+      CORE_CHECK(row.full == kPlain && !row.still && !row.unfilterable, "a free row is empty");
+      continue;
+    }
+    ++count;
+    still += row.still;
+    unfilterable += row.unfilterable;
+    filtered += row.mask != ~0u;
+    if (row.full == kPlain) continue;
+    CORE_CHECK(row.full <= full_.size() && !taken[row.full - 1],
+               "a bound that is kept whole belongs to one row", row.full, full_.size());
+    taken[row.full - 1] = true;
+  }
+  CORE_CHECK(count == count_ && still == still_count_ && unfilterable == unfilterable_count_ &&
+                 filtered == filtered_count_,
+             "counts are those of the rows", count, still, unfilterable, filtered);
 }
 
 HornAt BoxReach(HornAt horn, double duration) {

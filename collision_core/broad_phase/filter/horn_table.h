@@ -48,16 +48,16 @@ class HornTable {
     return rows_[agent].ruled ? rules_->Of(partner, agent) : intersection::PairRule();
   }
 
-  void Put(std::uint32_t agent, const motion::SpaceTimeBound& bound);
+  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound);
   void Remove(std::uint32_t agent);
 
   /// One more than the greatest index ever used.
   std::uint32_t size() const { return static_cast<std::uint32_t>(rows_.size()); }
   std::uint32_t count() const { return count_; }
   std::uint32_t still_count() const { return still_count_; }
-  std::uint32_t wild_count() const { return wild_count_; }
+  std::uint32_t unfilterable_count() const { return unfilterable_count_; }
   /// Whether any agent has groups that it does not meet, or never moves.
-  bool has_collision_filters() const { return still_count_ + choosy_count_ > 0; }
+  bool has_collision_filters() const { return still_count_ + filtered_count_ > 0; }
   bool contains(std::uint32_t agent) const { return agent < size() && rows_[agent].group != 0; }
   const HornRow& row(std::uint32_t agent) const { return rows_[agent]; }
   /// Fetches the row into the cache, for a question that comes soon.
@@ -67,8 +67,12 @@ class HornTable {
   }
   /// The row of a bound that is in no table and has no rules.
   static HornRow RowOf(const motion::SpaceTimeBound& bound);
-  /// The bound as it was put, without orientation and shape, on which no meeting depends.
+  /// The bound as it was set, without orientation and shape, on which no meeting depends.
   motion::SpaceTimeBound bound(std::uint32_t agent) const;
+
+  /// Walks the table: counts are those of its rows, and bounds kept whole belong to one row each.
+  /// Throws CheckFailure.
+  void Validate() const;
 
   /// Whether filters can work with the instant: differences of such instants are exact.
   static bool Near(Instant t) {
@@ -76,13 +80,14 @@ class HornTable {
     return t.nanoseconds() > -kFarthest && t.nanoseconds() < kFarthest;
   }
 
-  /// The horn from an instant on. Before its stamp the line goes on backward, and the reach stays.
-  /// Requires a row that is not unfilterable, and an instant that is Near().
+  /// Of a row that is not unfilterable, at an instant that is Near(). Before its stamp the line
+  /// goes on backward, and the reach stays.
   HornAt At(std::uint32_t agent, Instant instant) const { return At(rows_[agent], instant); }
   static HornAt At(const HornRow& row, Instant instant);
 
   /// A filter: no horn of the two meets earlier than this many seconds after `from`, and none at
-  /// all within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 for unfilterable ones.
+  /// all within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 for unfilterable
+  /// ones.
   double EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
     return EarlierBound(rows_[a], rows_[b], from, limit);
   }
@@ -91,7 +96,7 @@ class HornTable {
  private:
   static constexpr std::uint32_t kPlain = 0;  // nothing beside the row
 
-  static void Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* row);
+  static void Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* filled);
   void SetFull(HornRow* row, const motion::SpaceTimeBound& bound);
   void DropFull(HornRow* row);
 
@@ -99,7 +104,7 @@ class HornTable {
   std::vector<HornRow> rows_;                 // by agent
   std::vector<motion::SpaceTimeBound> full_;  // at HornRow::full - 1
   std::vector<std::uint32_t> free_;           // of full_
-  std::uint32_t count_ = 0, still_count_ = 0, wild_count_ = 0, choosy_count_ = 0;
+  std::uint32_t count_ = 0, still_count_ = 0, unfilterable_count_ = 0, filtered_count_ = 0;
 };
 
 // Each value is a sum or product of fewer than sixteen terms of one sign, so that rounding takes
@@ -122,7 +127,7 @@ inline HornAt HornTable::At(const HornRow& row, Instant instant) {
   return at;
 }
 
-/// The pair of two horns from an instant on.
+/// Of two horns from an instant on.
 inline Approaching Between(const HornAt& a, const HornAt& b) {
   Approaching pair;
   for (int axis = 0; axis < 3; ++axis) {

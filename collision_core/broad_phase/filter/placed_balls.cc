@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "collision_core/base/check.h"
+
 namespace collision::broad_phase {
 namespace {
 
@@ -25,7 +27,7 @@ void PlacedBalls::Reset(std::uint32_t size) {
 void PlacedBalls::Resize(std::uint32_t size) {
   PlacedBalls grown;
   grown.Reset(size);
-  grown.agents_.assign(size, kNobody);
+  grown.agents_.assign(size, kNoAgent);
   const auto kept = static_cast<std::ptrdiff_t>(std::min(this->size(), size));
   for (std::size_t which = 0; which < kArrays && kept > 0; ++which) {
     std::copy_n(array(which), kept,
@@ -38,6 +40,27 @@ void PlacedBalls::Resize(std::uint32_t size) {
 FilterView PlacedBalls::view() const {
   return {array(kX),      array(kX + 1), array(kX + 2), array(kVx), array(kVx + 1),
           array(kVx + 2), array(kS0),    array(kS1),    array(kS2), array(kSpeed)};
+}
+
+void PlacedBalls::Validate(std::uint32_t count) const {
+  CORE_CHECK(count <= size(), "lanes hold all places that count", count, size());
+  std::vector<std::uint32_t> agents;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    if (agents_[k] == kNoAgent) {
+      CORE_CHECK(array(kX)[k] >= kFarAway, "a vacant place is far away", k, array(kX)[k]);
+      continue;
+    }
+    agents.push_back(agents_[k]);
+    for (std::size_t which = 0; which < kArrays; ++which) {
+      CORE_CHECK(!std::isnan(array(which)[k]), "a placed agent's lanes are numbers", k, which);
+    }
+    for (const std::size_t which : {kS0, kS1, kS2, kSpeed}) {
+      CORE_CHECK(array(which)[k] >= 0, "reaches and speed are not negative", k, which);
+    }
+  }
+  std::sort(agents.begin(), agents.end());
+  CORE_CHECK(std::adjacent_find(agents.begin(), agents.end()) == agents.end(),
+             "an agent stands at one place", count);
 }
 
 FilterQuery TimesOf(const PlacementFrame& placing, TimeWindow stretch) {
@@ -67,7 +90,7 @@ void ScanInto(const PlacedBalls& lanes, const FilterQuery& query,
                                    static_cast<std::uint32_t>(ranges.size()), hits->data());
   for (std::uint32_t hit = 0; hit < count; ++hit) {
     const std::uint32_t agent = lanes.agent((*hits)[hit]);
-    if (agent != PlacedBalls::kNobody) agents->push_back(agent);
+    if (agent != PlacedBalls::kNoAgent) agents->push_back(agent);
   }
 }
 

@@ -16,8 +16,8 @@ inline float ReachAt(float time, float s0, float s1, float s2) {
 /// Placed horns as arrays of floats, seen from a corner near them.
 class PlacedBalls {
  public:
-  static constexpr std::uint32_t kNobody = ~0u;
-  /// A position whose square is infinite, and reaches that are as large find every agent.
+  static constexpr std::uint32_t kNoAgent = ~0u;
+  /// A position whose square is infinite, and reaches that are as large find everybody.
   static constexpr float kFarAway = 1e30f;
 
   /// Empties it and makes room for `size` horns.
@@ -25,7 +25,7 @@ class PlacedBalls {
   /// Keeps the horns up to the new size.
   void Resize(std::uint32_t size);
   std::uint32_t size() const { return static_cast<std::uint32_t>(agents_.size()); }
-  /// kNobody where it was vacated.
+  /// kNoAgent where it was vacated.
   std::uint32_t agent(std::uint32_t k) const { return agents_[k]; }
   FilterView view() const;
 
@@ -40,9 +40,13 @@ class PlacedBalls {
     at[kSpeed * stride_] = horn.speed;
     agents_[k] = horn.agent;
   }
+  /// Walks the first `count` places: an agent stands at most once; its reaches, speed and position
+  /// are numbers, and reaches are not negative; a vacant place is too far for any filter. Throws
+  /// CheckFailure.
+  void Validate(std::uint32_t count) const;
   void Vacate(std::uint32_t k) {
     floats_[k] = kFarAway;
-    agents_[k] = kNobody;
+    agents_[k] = kNoAgent;
   }
 
   /// The position of the k-th as it is stored.

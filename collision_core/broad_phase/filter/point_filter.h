@@ -47,8 +47,8 @@ struct PointCounts {
 
 /// For each row, and for each asker that reaches it, writes the points after the asker that come
 /// within both reaches, and where there are velocities within both `own` (or where that is not a
-/// number), in order. Rounding is SphereFilter's: the caller makes reaches larger by kFilterSlack of
-/// themselves and of their way, and by what positions lost. The same hits and counts on every
+/// number), in order. Rounding is SphereFilter's: the caller makes reaches larger by kFilterSlack
+/// of themselves and of their way, and by what positions lost. The same hits and counts on every
 /// processor.
 using PointFilter = PointCounts (*)(const PointView& points, const PointAskers& askers,
                                     const PointRow* rows, std::uint32_t row_count, PointHits hits);

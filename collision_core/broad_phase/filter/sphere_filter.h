@@ -41,10 +41,10 @@ struct FilterQuery {
 /// the reaches: d, w, w u* and their sum are off by less than 2^-22 (D + W) together; u* by 2^-21
 /// (|u*| + D/|w|), which moves the point by less than 2^-21 (W + D); squares and R lose 2^-21 of
 /// themselves. Where D > 4 (R + W) the two are far apart, whatever rounding does. Else all of this
-/// is less than 2^-17 (R + W): reaches are to be made larger by kFilterSlack of themselves and of the
-/// way that their own centre goes. Below kReachLeast squares lose digits to underflow: reaches, and
-/// speeds too small to matter, are to count as at least that. A square that overflows is infinite,
-/// and less than no other. lane_scan_test compares it with exact fractions.
+/// is less than 2^-17 (R + W): reaches are to be made larger by kFilterSlack of themselves and of
+/// the way that their own centre goes. Below kReachLeast squares lose digits to underflow: reaches,
+/// and speeds too small to matter, are to count as at least that. A square that overflows is
+/// infinite, and less than no other. sphere_filter_test compares it with exact fractions.
 using SphereFilter = std::uint32_t (*)(const FilterView& balls, const FilterQuery& query,
                                        const FilterRange* ranges, std::uint32_t range_count,
                                        std::uint32_t* hits);

@@ -1,8 +1,5 @@
-// Both scans, in whatever a wide vector is. Only for lane_scan_*.cc, which say so first: WIDE, the
-// attribute of functions for their processor; Lanes, with the operators of its element, and kWidth;
-// Load(), All(), Lesser() and Greater() (of two, the second where they do not compare);
-// NotGreater(), NotLess() and NotAtLeast(), the lanes of a for which it does not hold beside b; and
-// Tell().
+// Both filters as kernels, for any lanes: only for sphere_filter*.cc, which include a lanes header
+// (simd/) first. They give the same hits and counts on every processor.
 #pragma once
 
 #include "collision_core/broad_phase/filter/point_filter.h"
@@ -11,11 +8,18 @@
 namespace collision::broad_phase {
 namespace {
 
-/// The lanes of a range's last vector that are still in it.
-inline unsigned Lowest(std::uint32_t count) {
-  return (1u << (count < kWidth ? count : kWidth)) - 1;
-}
+using simd::All;
+using simd::Greater;
+using simd::kWidth;
+using simd::Lanes;
+using simd::Lesser;
+using simd::Load;
+using simd::Lowest;
+using simd::NotAtLeast;
+using simd::NotGreater;
+using simd::NotLess;
 
+/// The lanes whose distance is not above the reach.
 WIDE inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
   return NotGreater((x * x + y * y) + z * z, reach * reach);
 }
@@ -63,19 +67,38 @@ WIDE std::uint32_t Scan(const FilterView& balls, const FilterQuery& query,
   return count;
 }
 
+/// The askers that reach beyond their row of cells, by the step towards the other row plus one.
+struct ReachingAskers {
+  unsigned y[3], z[3];
+};
+
+WIDE inline ReachingAskers ReachingOf(const PointView& points, const PointAskers& askers) {
+  const std::uint32_t count = askers.last - askers.first;
+  const Lanes cell = All(askers.cell), zero = All(0);
+  ReachingAskers reaching{{0, (1u << count) - 1, 0}, {0, ~0u, 0}};
+  for (std::uint32_t k = 0; k < kAskersMax; k += kWidth) {
+    const std::uint32_t first = askers.first + k;
+    const unsigned in_group = k < count ? Lowest(count - k) : 0;
+    if (in_group == 0) break;
+    const Lanes half = Load(points.reach + first) + All(askers.reach);
+    const Lanes y = Load(points.y + first), z = Load(points.z + first);
+    reaching.y[0] |= (in_group & NotAtLeast(y - half, zero)) << k;
+    reaching.y[2] |= (in_group & NotLess(y + half, cell)) << k;
+    reaching.z[0] |= (in_group & NotAtLeast(z - half, zero)) << k;
+    reaching.z[2] |= (in_group & NotLess(z + half, cell)) << k;
+  }
+  return reaching;
+}
+
 WIDE PointCounts ScanPoints(const PointView& points, const PointAskers& askers,
                             const PointRow* rows, std::uint32_t row_count, PointHits hits) {
-  const Lanes half = Load(points.reach + askers.first) + All(askers.reach);
-  const Lanes y = Load(points.y + askers.first), z = Load(points.z + askers.first);
-  const Lanes cell = All(askers.cell), zero = All(0);
-  const unsigned who = Lowest(askers.last - askers.first);
-  const unsigned in_y[3] = {who & NotAtLeast(y - half, zero), who, who & NotLess(y + half, cell)};
-  const unsigned in_z[3] = {NotAtLeast(z - half, zero), ~0u, NotLess(z + half, cell)};
+  const ReachingAskers reaching = ReachingOf(points, askers);
   PointCounts counts;
   for (const PointRow* row = rows; row != rows + row_count; ++row) {
     const float row_y = static_cast<float>(row->dy) * askers.cell;
     const float row_z = static_cast<float>(row->dz) * askers.cell;
-    for (unsigned left = in_y[row->dy + 1] & in_z[row->dz + 1]; left != 0; left &= left - 1) {
+    for (unsigned left = reaching.y[row->dy + 1] & reaching.z[row->dz + 1]; left != 0;
+         left &= left - 1) {
       const std::uint32_t asker = askers.first + static_cast<unsigned>(__builtin_ctz(left));
       const std::uint32_t begin = row->begin > asker ? row->begin : asker + 1;
       if (begin >= row->end) continue;
@@ -96,7 +119,9 @@ WIDE PointCounts ScanPoints(const PointView& points, const PointAskers& askers,
           ToClosest(vx, vy, vz, All(-askers.half), All(askers.half), &dx, &dy, &dz);
           mask &= Within(dx, dy, dz, All(points.own[asker]) + Load(points.own + k));
         }
-        Tell(mask, asker, k, hits, &counts.hits);
+        const std::uint32_t found = simd::StoreSelected(mask, k, hits.other + counts.hits);
+        simd::StoreCopies(asker, found, hits.asker + counts.hits);
+        counts.hits += found;
       }
     }
   }

@@ -1,23 +1,17 @@
 // The plainest method: compare every pair.
 #pragma once
 
-#include "collision_core/broad_phase/index/filter_row.h"
+#include <memory>
+
+#include "collision_core/broad_phase/index/row_store.h"
 #include "collision_core/broad_phase/index/windowed_search.h"
 
 namespace collision::broad_phase {
 
-/// Compares every agent with every other, in wide vectors: all agents in one row of lanes. The
-/// fastest method for small scenes, and the reference for the others.
+/// Compares every agent with every other, in wide vectors. The fastest method for small scenes.
 class AllPairs : public WindowedSearch {
- protected:
-  void PlaceAll() override;
-  void PlaceOne(const PlacedHorn& horn) override;
-  void Unplace(std::uint32_t agent) override;
-  void Join(TimeWindow stretch, PairSink* sink) override;
-  void FindNear(const PlacedHorn& horn, TimeWindow stretch) override;
-
- private:
-  FilterRow row_;  ///< By agent.
+ public:
+  AllPairs() : WindowedSearch(std::make_unique<RowStore>()) {}
 };
 
 }  // namespace collision::broad_phase

@@ -21,30 +21,30 @@ void EarliestPairSink::Limit(Instant until) {
                : numeric::AddUp(numeric::SecondsBetween(query_.from, until).upper, kNanosecond);
 }
 
-bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant from, double limit,
+bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Within& within,
              BroadPhaseWork* work) {
   if (!CanMeet(table.row(a), table.row(b))) return false;
   ++work->filter_tests;
-  const double bound = table.EarlierBound(a, b, from, limit);
+  const double bound = table.EarlierBound(a, b, within.from, within.seconds);
   // Infinite: the two part, or keep apart, for ever; no limit makes them meet.
-  const bool in_time = bound < numeric::kInfinity && Approaching::kEarly * bound <= limit;
+  const bool in_time = bound < numeric::kInfinity && Approaching::kEarly * bound <= within.seconds;
   const bool may = in_time && !table.RuleOf(a, b).excluded;
   work->pair_queries += may;
   return may;
 }
 
-bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, Instant from,
-             double limit, BroadPhaseWork* work) {
+bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, const Within& within,
+             BroadPhaseWork* work) {
   if (!CanMeet(row, table.row(agent))) return false;
   ++work->filter_tests;
-  const double bound = HornTable::EarlierBound(row, table.row(agent), from, limit);
-  const bool may = bound < numeric::kInfinity && Approaching::kEarly * bound <= limit;
+  const double bound = HornTable::EarlierBound(row, table.row(agent), within.from, within.seconds);
+  const bool may = bound < numeric::kInfinity && Approaching::kEarly * bound <= within.seconds;
   work->pair_queries += may;
   return may;
 }
 
 bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
-             Instant from, double limit, BroadPhaseWork* work) {
+             const Within& within, BroadPhaseWork* work) {
   const HornRow& row = table.row(agent);
   const HalfSpace& half_space = entry.half_space;
   if ((row.group & half_space.mask) == 0 || (half_space.group & row.mask) == 0 || row.still) {
@@ -52,8 +52,9 @@ bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32
   }
   ++work->filter_tests;
   const intersection::PairRule rule = table.RuleOf(agent, entry.agent);
-  const bool may = !rule.excluded && (row.unfilterable || !HornTable::Near(from) ||
-                                      MayReach(entry, table.At(agent, from), rule.margin, limit));
+  const bool may = !rule.excluded &&
+                   (row.unfilterable || !HornTable::Near(within.from) ||
+                    MayReach(entry, table.At(agent, within.from), rule.margin, within.seconds));
   work->pair_queries += may;
   return may;
 }
@@ -83,7 +84,7 @@ void EarliestPairSink::Offer(std::uint32_t a, std::uint32_t b) {
   if (query_.bound == intersection::BoundKind::kHypertrapezoid) {
     if (table_.RuleOf(lower, higher).excluded) return;
     ++work_->pair_queries;
-  } else if (!MayMeet(table_, lower, higher, query_.from, limit_, work_)) {
+  } else if (!MayMeet(table_, lower, higher, {query_.from, limit_}, work_)) {
     return;
   }
   Take({lower, higher, EarliestIntersectionOf(Narrowed(lower, higher), table_, lower, higher)});
@@ -103,7 +104,7 @@ intersection::BroadQuery EarliestPairSink::Narrowed(std::uint32_t lower,
 void EarliestPairSink::OfferHalfSpace(const HalfSpaces::Entry& entry, std::uint32_t agent) {
   const std::uint32_t lower = std::min(entry.agent, agent), higher = std::max(entry.agent, agent);
   if (!Betters(lower, higher)) return;
-  if (!MayMeet(table_, entry, agent, query_.from, limit_, work_)) return;
+  if (!MayMeet(table_, entry, agent, {query_.from, limit_}, work_)) return;
   Take({lower, higher, EarliestIntersectionOf(query_, entry, table_, agent)});
 }
 

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/broad_phase_work.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
 #include "collision_core/broad_phase/index/half_space.h"
 #include "collision_core/broad_phase/index/pair_sink.h"
@@ -38,11 +38,21 @@ class EarliestPairSink final : public PairSink {
   Instant when_ = Instant::Never();  ///< The instant of best_.
 };
 
-/// Whether the filters leave it open that the two meet within `limit` seconds after `from`.
-bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, Instant from, double limit,
+/// The `seconds` after `from`.
+struct Within {
+  Instant from;
+  double seconds;
+};
+
+/// Whether the filters leave it open that the two meet within the time; counts the test, and the
+/// pair query that the caller then makes.
+bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Within& within,
              BroadPhaseWork* work);
 bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
-             Instant from, double limit, BroadPhaseWork* work);
+             const Within& within, BroadPhaseWork* work);
+/// Likewise a row that is in no table and has no rules, and an agent of the table.
+bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, const Within& within,
+             BroadPhaseWork* work);
 
 /// Likewise of a row that is in no table and has no rules, and an agent of the table.
 bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, Instant from,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
+
 namespace collision::broad_phase {
 namespace {
 
@@ -32,7 +34,7 @@ void FilterRow::Join(const PlacementFrame& placing, TimeWindow stretch, BroadPha
                      PairSink* sink) {
   FilterQuery times = TimesOf(placing, stretch);
   for (std::uint32_t k = 0; k + 1 < count_; ++k) {
-    if (lanes_.agent(k) == PlacedBalls::kNobody) continue;
+    if (lanes_.agent(k) == PlacedBalls::kNoAgent) continue;
     if (sink->limit() < stretch.last) {
       stretch.last = std::max(stretch.first, sink->limit());
       times = TimesOf(placing, stretch);
@@ -61,6 +63,11 @@ void FilterRow::FindNear(const PlacedHorn& horn, const PlacementFrame& placing, 
   work->filter_tests += count_;
   ++work->visits;
   ScanInto(lanes_, query, range_, &hits_, near);
+}
+
+void FilterRow::Validate() const {
+  CORE_CHECK(count_ <= lanes_.size(), "every place of a row has its lane", count_, lanes_.size());
+  lanes_.Validate(count_);
 }
 
 }  // namespace collision::broad_phase

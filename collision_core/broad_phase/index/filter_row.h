@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/broad_phase/broad_phase_work.h"
 #include "collision_core/broad_phase/filter/placed_balls.h"
-#include "collision_core/broad_phase/index/earliest_pair_sink.h"
+#include "collision_core/broad_phase/index/pair_sink.h"
 
 namespace collision::broad_phase {
 
@@ -28,6 +29,10 @@ class FilterRow {
   /// Appends all agents that come within reach of `horn`.
   void FindNear(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch,
                 BroadPhaseWork* work, std::vector<std::uint32_t>* near);
+
+  /// Walks the row: as many lanes as places, no agent twice, positions and reaches that a filter
+  /// can compare. Throws CheckFailure.
+  void Validate() const;
 
  private:
   void Grow(std::uint32_t size);

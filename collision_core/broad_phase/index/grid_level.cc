@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/cube_root.h"
 
 namespace collision::broad_phase {
@@ -26,6 +27,15 @@ constexpr int kHashedRowShift = 3;
 constexpr double kCrowdingMax = 4 * kPerCell;
 constexpr double kCellShrink = 8;
 constexpr int kCellTriesMax = 12;
+
+/// What rounding takes from a position stored in single precision, for the two agents of a pair, as
+/// a part of the row's length: each loses at most 2^-24 of it on each axis, so both together lose
+/// less than 2 · √3 · 2^-24 < 2^-22 of it; twice that is allowed.
+constexpr double kStoredPositionLoss = 0x1p-21;
+
+/// Cells are looked up for a little more than both reaches: positions, sums and the division by the
+/// cell's width lose less than 2^-49 of the terms each.
+constexpr double kRangeSlack = 1 + 0x1p-20;
 
 /// Cells further out share the outermost one.
 constexpr double kCellIndexMax = 0x1p+50;
@@ -151,12 +161,12 @@ double GridLevel::Crowding() const {
 }
 
 // Agents keep their order within a cell. A position is stored as seen from the corner of its row,
-// or block, and cell: it loses at most 2^-24 of the row's length on each axis, and so does the
-// asker's; both together are less than 2^-21 of it.
+// or block, and cell (kStoredPositionLoss).
 void GridLevel::Scatter(const PlacedHorn* placed) {
   for (std::size_t cell = 2; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   lanes_.Reset(size_);
-  const auto lost = static_cast<float>(0x1p-21 * cell_ * static_cast<double>(row_cells_ + 1));
+  const auto lost =
+      static_cast<float>(kStoredPositionLoss * cell_ * static_cast<double>(row_cells_ + 1));
   constexpr std::uint32_t kAhead = 16;
   // First the order, then the agents in it: a few random reads cost less than many random writes.
   order_.resize(size_);
@@ -182,6 +192,21 @@ void GridLevel::Scatter(const PlacedHorn* placed) {
   }
 }
 
+void GridLevel::Validate() const {
+  CORE_CHECK(size_ == lanes_.size() && size_ == places_.size() && size_ == order_.size(),
+             "a grid has a lane and a place for each of its agents", size_, lanes_.size());
+  CORE_CHECK(cell_ >= cell_min_ && cell_min_ > 0, "a cell is as wide as two reaches", cell_,
+             cell_min_);
+  CORE_CHECK(begin_.front() == 0 && begin_[begin_.size() - 2] == size_,
+             "cells hold all agents of the grid", begin_.front(), begin_[begin_.size() - 2], size_);
+  CORE_CHECK(std::is_sorted(begin_.begin(), begin_.end() - 1), "cells do not overlap");
+  for (std::uint32_t k = 0; k < size_; ++k) {
+    CORE_CHECK(places_[k] < size_ && order_[places_[k]] == k,
+               "places and order are each other's inverse", k, places_[k]);
+  }
+  lanes_.Validate(size_);
+}
+
 double GridLevel::RowsWithin(double reach, TimeWindow stretch) const {
   const double cells = 2 * (reach + ReachMax(stretch)) * per_cell_ + 1;
   double rows = hashed_ ? std::ceil(cells / static_cast<double>(row_cells_)) : 1;
@@ -193,8 +218,7 @@ double GridLevel::RowsWithin(double reach, TimeWindow stretch) const {
 
 bool GridLevel::Ranges(const double* c, double reach, TimeWindow stretch, std::uint32_t after,
                        std::vector<FilterRange>* ranges) const {
-  // A little more, so that rounding below loses no agent.
-  const double half = (reach + ReachMax(stretch)) * (1 + 0x1p-20);
+  const double half = kRangeSlack * (reach + ReachMax(stretch));
   const Cell low = CellOf(c[0] - half, c[1] - half, c[2] - half);
   const Cell high = CellOf(c[0] + half, c[1] + half, c[2] + half);
   const std::int64_t shift = hashed_ ? kHashedRowShift : 62;
@@ -203,10 +227,10 @@ bool GridLevel::Ranges(const double* c, double reach, TimeWindow stretch, std::u
                       static_cast<double>((high.x >> shift) - (low.x >> shift) + 1);
   if (hashed_ && rows > static_cast<double>(size_) + 8) return false;
   Cell own{};
-  if (after != PlacedBalls::kNobody) own = CellOf(c[0], c[1], c[2]);
-  for (std::int64_t z = after != PlacedBalls::kNobody ? own.z : low.z; z <= high.z; ++z) {
+  if (after != PlacedBalls::kNoAgent) own = CellOf(c[0], c[1], c[2]);
+  for (std::int64_t z = after != PlacedBalls::kNoAgent ? own.z : low.z; z <= high.z; ++z) {
     const auto at_z = static_cast<float>(c[2] - (origin_[2] + static_cast<double>(z) * cell_));
-    const bool own_z = after != PlacedBalls::kNobody && z == own.z;
+    const bool own_z = after != PlacedBalls::kNoAgent && z == own.z;
     for (std::int64_t y = own_z ? own.y : low.y; y <= high.y; ++y) {
       const auto at_y = static_cast<float>(c[1] - (origin_[1] + static_cast<double>(y) * cell_));
       const std::uint32_t from = own_z && y == own.y ? after + 1 : 0;

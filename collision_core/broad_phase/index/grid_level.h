@@ -36,6 +36,10 @@ class GridLevel {
   bool Ranges(const double* c, double reach, TimeWindow stretch, std::uint32_t after,
               std::vector<FilterRange>* ranges) const;
 
+  /// Walks the grid: cells follow each other without a gap, each agent that is still there stands
+  /// in one of them once, `place(k)` is a permutation. O(N log N). Throws CheckFailure.
+  void Validate() const;
+
   /// About how many rows Ranges() has to look at; never more than there are agents.
   double RowsWithin(double reach, TimeWindow stretch) const;
 

@@ -62,7 +62,7 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
   return when < expiry && when <= query.until ? time : never;
 }
 
-bool HalfSpaces::Put(std::uint32_t agent, const HalfSpace& half_space) {
+bool HalfSpaces::Set(std::uint32_t agent, const HalfSpace& half_space) {
   const double largest = half_space.normal.cwiseAbs().maxCoeff();
   if (half_space.normal.hasNaN() || !(largest >= kNormalMin && largest <= kNormalMax)) return false;
   if (!std::isfinite(half_space.offset)) return false;

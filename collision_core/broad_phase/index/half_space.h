@@ -42,30 +42,29 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
 /// test (some 25 ns) an agent and half-space for all agents, one a half-space for one agent.
 class HalfSpaces {
  public:
-  /// The most half-spaces; beyond, Put() refuses.
+  /// Beyond so many Set() refuses.
   static constexpr std::size_t kCountMax = 64;
 
   /// The greatest component of a normal is not smaller, not larger: squares and products with
   /// lengths stay in range.
   static constexpr double kNormalMin = 1e-100, kNormalMax = 1e100;
 
-  /// A half-space and its index.
   struct Entry {
     std::uint32_t agent;
     HalfSpace half_space;
-    double length;  ///< The length of the normal, rounded up.
+    double length;  ///< Of the normal, rounded up.
   };
 
   /// Adds or replaces. False, and nothing is changed: a normal out of range or an offset that is
   /// not finite, or no more room.
-  bool Put(std::uint32_t agent, const HalfSpace& half_space);
-  /// Removes it; returns whether it was there.
+  bool Set(std::uint32_t agent, const HalfSpace& half_space);
+  /// Whether it was there.
   bool Remove(std::uint32_t agent);
 
-  /// The half-space of that index; null: there is none.
+  /// Null: it is none.
   const Entry* Find(std::uint32_t agent) const;
   std::size_t size() const { return entries_.size(); }
-  /// Entries in the order of indices.
+  /// In the order of indices.
   std::vector<Entry>::const_iterator begin() const { return entries_.begin(); }
   std::vector<Entry>::const_iterator end() const { return entries_.end(); }
 
@@ -74,8 +73,8 @@ class HalfSpaces {
 };
 
 /// A filter in plain doubles: false if the agent certainly stays out of reach for `limit` seconds
-/// after the instant of `horn`, so that EarliestIntersectionOf() is later. The gap is concave, so it looks at
-/// both ends of the time ahead.
+/// after the instant of `horn`, so that EarliestIntersectionOf() is later. The gap is concave, so
+/// it looks at both ends of the time ahead.
 bool MayReach(const HalfSpaces::Entry& entry, const HornAt& horn, double margin, double limit);
 
 }  // namespace collision::broad_phase

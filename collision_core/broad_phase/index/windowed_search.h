@@ -1,121 +1,119 @@
-// What all methods that place agents have in common: windows of time that grow until the next
-// answer must lie beyond them.
+// A search for neighbours in time windows that grow until the next answer must lie beyond them.
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <vector>
 
+#include "collision_core/broad_phase/earliest_sweep.h"
 #include "collision_core/broad_phase/filter/placement_frame.h"
 #include "collision_core/broad_phase/index/earliest_pair_sink.h"
 #include "collision_core/broad_phase/index/filter_row.h"
+#include "collision_core/broad_phase/index/placed_store.h"
 
 namespace collision::broad_phase {
 
-/// What all methods have in common that place agents. Every agent is placed once, with the reach
-/// that its horn and its way give it from then on; a bound inside the old one leaves the placing
-/// valid, so a kept state costs nothing here. Questions look ahead in windows of time, four times
-/// as long each, until the next answer must lie beyond, and ask the canonical routine only about
-/// pairs that three filters leave open. Each filter is certified and of a fixed price; none decides
-/// a value.
+/// Places every agent once, with the reach that its horn and its way give it from then on, and
+/// keeps it in a store. A bound inside the old one leaves the placing valid, so a tightened bound
+/// costs nothing here. Questions look ahead in time windows, each four times as long as the one
+/// before, until the next answer must lie beyond, and ask the canonical routine only about pairs
+/// that three filters leave open. Each filter is certified and of a fixed price; none decides a
+/// value.
 ///
-/// - Where (placing.h): each agent is placed at the middle of the window, in a frame that moves
-///   with the average of all, with the reach that its horn has at the window's end. From there its
+/// - PlacementFrame: each agent is placed at the middle of the window, in a frame that moves with
+///   the average of all, with the reach that its horn has at the window's end. From there its
 ///   centre strays by half its way.
-/// - PlacedBalls (lane_scan.h): the least distance of two centres over the window against the sum of the
-///   reaches, in single precision, sixteen, eight or one at a time.
-/// - One pair (approaching.h): the closest approach of the two lines, the gap along the first
-///   direction, then up to six tangent steps in doubles.
+/// - SphereFilter: the least distance of two centres over the window against the sum of the
+/// reaches,
+///   in single precision, sixteen, eight or one at a time.
+/// - Approaching: one pair; the closest approach of the two lines, the gap along the first
+/// direction,
+///   then up to six tangent steps in doubles.
 ///
-/// Agents too large or too far for filters ("unfilterable": reach or distance over 2^60 m, speed over 2^40
-/// m/s, a century from the begin) are asked directly.
+/// Agents too large or too far for filters ("unfilterable": reach or distance over 2^60 m, speed
+/// over 2^40 m/s, a century from the begin) are tested directly.
 ///
-/// Earliest() first asks some 1.5 √N agents that lie close together, all pairs of them: their first
-/// meeting bounds that of all, so that the window is short from then on if a hit comes at once.
-class WindowedSearch : public BroadPhase {
+/// Places grow old: reaches grow and agents stray, so questions cost ever more. All agents are
+/// placed anew once the excess over the cost of the first 64 questions adds up to the cost of
+/// placing (the best moment where the excess grows evenly), or once as many tests as there are
+/// agents were plainly wasted. No answer depends on when that happens.
+///
+/// Earliest() first tests some 1.5 √N agents that lie close together, all pairs of them: their
+/// first intersection bounds that of all, so that the window is short from then on if a hit comes
+/// at once.
+class WindowedSearch : public SweepingIndex {
  public:
-  WindowedSearch() { table_.UseRules(rules_.get()); }
-  WindowedSearch(const WindowedSearch&) = delete;
-  WindowedSearch& operator=(const WindowedSearch&) = delete;
+  /// `store` decides the method: a row, or grids.
+  explicit WindowedSearch(std::unique_ptr<PlacedStore> store);
 
-  void Put(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
-  void Narrow(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
   void Remove(std::uint32_t agent) override;
-  bool PutHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
+  bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   void ShareRules(std::shared_ptr<intersection::PairRules> rules) override;
-  void RulesChanged(std::uint32_t agent) override;
-  std::optional<intersection::IntersectingPair> Earliest(
-      const intersection::BroadQuery& query) override;
+  void UpdateRules(std::uint32_t agent) override;
+  void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
+                      std::vector<Neighbour>* neighbours) override;
+  void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                      const Skip& skip, std::vector<Neighbour>* neighbours) override;
   std::optional<intersection::IntersectingPair> EarliestOf(
       std::uint32_t agent, const intersection::BroadQuery& query) override;
-  void Meetings(std::uint32_t agent, Instant from, Instant until, Instant horizon, const Skip& skip,
-                std::vector<Meeting>* meetings) override;
-  void MeetingsOf(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                  const Skip& skip, std::vector<Meeting>* meetings) override;
-  void NearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
-  BroadPhaseWork work() const override { return work_; }
+  void FindNearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
+  std::optional<intersection::IntersectingPair> Earliest(
+      const intersection::BroadQuery& query) override;
+  BroadPhaseWork work() const override { return cost_.work; }
 
- protected:
-  /// All horns_ are to be placed anew.
-  virtual void PlaceAll() = 0;
-  /// Prepares for Join() alone, of a stretch up to `last` at first; FindNear() will not be called.
-  /// False: that would be no cheaper.
-  virtual bool PlaceOnce(double /*last*/) { return false; }
-  /// Places one since the last PlaceAll().
-  virtual void PlaceOne(const PlacedHorn& horn) = 0;
-  /// Removes the agent from the structure, if it is placed.
-  virtual void Unplace(std::uint32_t agent) = 0;
-  /// Offers all placed pairs that come within reach of each other during the stretch, and others.
-  virtual void Join(TimeWindow stretch, PairSink* sink) = 0;
-  /// Appends to near_ all placed agents that come within reach of `horn` during the stretch.
-  virtual void FindNear(const PlacedHorn& horn, TimeWindow stretch) = 0;
-
+  /// The bounds that are held.
   const HornTable& table() const { return table_; }
 
-  /// Places all agents for placing_.
-  void PlaceEverybody();
-
-  bool IsWild(std::uint32_t agent) const {
-    return table_.row(agent).unfilterable || placing_.blind();
-  }
-
-  PlacementFrame placing_;
-  std::vector<PlacedHorn> horns_;  ///< All agents but unfilterable ones, as of PlaceEverybody().
-  BroadPhaseWork work_;
-  std::uint64_t wasted_ = 0;  ///< Tests that a fresh placing would have saved, since the last.
-  std::vector<std::uint32_t> near_;
+  /// Walks the structure: each agent is either due to be placed, or placed, or unfilterable; and
+  /// the store. Throws CheckFailure.
+  void Validate() const;
 
  private:
-  void SortOutWild();
+  PlacedScene scene() const { return {&table_, &frame_}; }
   void Drop(std::uint32_t agent);
+  void MarkMoved(std::uint32_t agent);
+  void StartAnew(const PlacementFrame& frame);
+  void PlaceEveryAgent();
+  void PlaceMoved();
+  void Refresh(Instant from);
+  void RecordCost(const BroadPhaseWork& before);
+  void OfferCrowd(PairSink* sink);
+  void OfferUnfilterable(PairSink* sink) const;
+  void Join(TimeWindow window, PairSink* sink);
+  bool TestsAll(std::uint32_t agent, Instant from) const;
+  void FindNear(std::uint32_t agent, Instant from, double seconds);
+  void FindNear(PlacedHorn horn, Instant from, double seconds);
+  void FindAllBut(std::uint32_t agent);
+  void CountSearch();
   template <typename Each>
   void ForEachHalfSpace(std::uint32_t asked, Each each) const;
-  void Move(std::uint32_t agent);
-  void PlaceMoved();
-  void AskCrowd(PairSink* sink);
-  void StartAnew(const PlacementFrame& placing);
-  void OfferWild(PairSink* sink) const;
-  void Refresh(Instant from);
-  void NoteCost(const BroadPhaseWork& before);
-  bool AsksAll(std::uint32_t agent, Instant from) const;
-  void FindNear(std::uint32_t agent, Instant from, double seconds);
-  void FindNearOnce(std::uint32_t agent, Instant from, double seconds);
-  void FindNear(PlacedHorn horn, Instant from, double seconds);
-  void FindAll(std::uint32_t but);
-  void OfferHalfSpaces(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                       const Skip& skip, std::vector<Meeting>* meetings);
+  void AppendHalfSpaces(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                        const Skip& skip, std::vector<Neighbour>* neighbours);
+  bool AppendIfMeeting(std::uint32_t agent, std::uint32_t other, const Within& within,
+                       Instant until, std::vector<Neighbour>* neighbours);
 
   HornTable table_;
-  /// The first questions since the last placing, and their cost; the excess of later ones.
-  std::uint32_t fresh_ = 0;
-  double fresh_units_ = 0, excess_units_ = 0;
-  float fastest_ = 0;  ///< No horn that is placed has a greater speed.
-  FilterRow crowd_;
-  bool placed_ = false;  ///< All but those in moved_ are where they belong.
+  PlacementFrame frame_;
+  std::unique_ptr<PlacedStore> store_;
+  SearchCost cost_;
+  bool placed_ = false;  ///< All agents but those in moved_ are in store_ or unfilterable_.
   std::vector<std::uint32_t> moved_;
   std::vector<bool> has_moved_;  ///< By agent: in moved_.
-  std::vector<std::uint32_t> wild_;
-  std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that found it.
+  std::vector<std::uint32_t> unfilterable_;
+  float fastest_ = 0;  ///< No horn that is placed has a greater speed.
+
+  /// The first questions since the last placing and what they cost, and the excess of later ones.
+  std::uint32_t fresh_ = 0;
+  double fresh_units_ = 0, excess_units_ = 0;
+
+  std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that told of it.
   std::uint64_t question_ = 0;
+  FilterRow crowd_;                  ///< Scratch, like the next two.
+  std::vector<PlacedHorn> horns_;    ///< To be placed.
+  std::vector<std::uint32_t> near_;  ///< Found by the last search.
 };
 
 }  // namespace collision::broad_phase

@@ -249,10 +249,10 @@ void ClearanceQueries::TrackUncovered(const ClearanceQuestion& question) {
 }
 
 void ClearanceQueries::TrackDue(const ClearanceQuestion& question,
-                                const std::vector<broad_phase::Meeting>& found) {
+                                const std::vector<broad_phase::Neighbour>& found) {
   const AgentRecord& record = context_.agents[question.agent];
   const Instant until = context_.clock.announce_until();
-  for (const broad_phase::Meeting& meeting : found) {
+  for (const broad_phase::Neighbour& meeting : found) {
     Instant when = meeting.time.instant();
     if (when > until) continue;
     const AgentIndex partner(meeting.partner);

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/detection/clearance/due_meeting_search.h"
 #include "collision_core/detection/clearance/key_lowering.h"
 #include "collision_core/detection/clearance/next_meeting_search.h"
@@ -16,7 +16,7 @@ struct QueryTargets {
   CoverageTable* coverage;
   ToldClearances* told;
   TrackedPairs* pairs;
-  broad_phase::BroadPhase* broad_phase;  ///< Holds the wide bounds of all agents.
+  broad_phase::NeighbourIndex* broad_phase;  ///< Holds the wide bounds of all agents.
   const ClearanceFilter& filter;
   PreJumpMotions* former;
 };
@@ -64,7 +64,8 @@ class ClearanceQueries {
   NextMeeting QueryBroadPhase(const ClearanceQuestion& question);
   bool IsCrowded(const ClearanceQuestion& question);
   void TrackUncovered(const ClearanceQuestion& question);
-  void TrackDue(const ClearanceQuestion& question, const std::vector<broad_phase::Meeting>& found);
+  void TrackDue(const ClearanceQuestion& question,
+                const std::vector<broad_phase::Neighbour>& found);
   void TrackOrSaturate(const ClearanceQuestion& question, const UncoveredPartner& partner,
                        Past past);
   bool TracksAll(AgentIndex agent, int group) const;
@@ -85,7 +86,7 @@ class ClearanceQueries {
   bool in_crowd_ = false;            // the last question left its agent saturated
   // Scratch of one question, kept for its memory.
   PartnerMarks tracked_;
-  std::vector<broad_phase::Meeting> found_;
+  std::vector<broad_phase::Neighbour> found_;
   std::vector<int> groups_;
   std::vector<AgentIndex> far_;
 };

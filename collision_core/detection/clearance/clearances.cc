@@ -25,7 +25,7 @@ void Clearances::AddAgent(AgentIndex agent) {
 
 void Clearances::Renew(AgentIndex agent, const Renewal& renewal) {
   const motion::SpaceTimeBound wide = context_.agents[agent].wide_bound();
-  broad_phase_.Put(agent.value(), wide);
+  broad_phase_.Set(agent.value(), wide);
   filter_.Set(agent, wide);
   coverage_.Renew(agent, renewal.from, renewal.cause);
   told_.SetEffectiveFrom(agent, renewal.effective_from);
@@ -40,7 +40,7 @@ void Clearances::NotifyPartners(AgentIndex agent) {
 
 void Clearances::Tighten(AgentIndex agent) {
   const motion::SpaceTimeBound wide = context_.agents[agent].wide_bound();
-  broad_phase_.Narrow(agent.value(), wide);
+  broad_phase_.Tighten(agent.value(), wide);
   filter_.Set(agent, wide);
 }
 

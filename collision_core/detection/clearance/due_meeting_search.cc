@@ -5,7 +5,7 @@
 namespace collision::detection {
 
 // Of the meetings from `begin` on.
-void DueMeetingSearch::Take(const std::vector<broad_phase::Meeting>& found, std::size_t begin,
+void DueMeetingSearch::Take(const std::vector<broad_phase::Neighbour>& found, std::size_t begin,
                             Room* room) const {
   const Instant until = clock_.announce_until();
   std::vector<AgentIndex>& first = *room->first;
@@ -25,7 +25,7 @@ void DueMeetingSearch::Take(const std::vector<broad_phase::Meeting>& found, std:
 }
 
 AgentIndex DueMeetingSearch::Find(const ClearanceQuestion& question, Instant horizon,
-                                  std::vector<broad_phase::Meeting>* found) {
+                                  std::vector<broad_phase::Neighbour>* found) {
   const Instant until = clock_.announce_until();
   const std::size_t pairs = pairs_.RoomFor(question.agent);
   Room seen{.pairs = pairs, .first = &first_};
@@ -40,7 +40,8 @@ AgentIndex DueMeetingSearch::Find(const ClearanceQuestion& question, Instant hor
     if (pairs_.IsFull(partner)) return partner > seen.first_full;
     return first_.size() > pairs && partner > first_.front();
   };
-  broad_phase_->Meetings(question.agent.value(), question.from, until, horizon, skip, found);
+  broad_phase_->FindNeighbours(question.agent.value(), {question.from, until, horizon}, skip,
+                               found);
   // They have been sorted since: what was taken first need not stand first.
   first_.clear();
   Room all{.pairs = pairs, .first = &first_};
@@ -48,7 +49,7 @@ AgentIndex DueMeetingSearch::Find(const ClearanceQuestion& question, Instant hor
   const bool overflows = first_.size() > pairs;
   if (overflows) all.first_full = std::min(all.first_full, first_.front());
   const AgentIndex end = overflows ? first_.front() : AgentIndex::None();
-  std::erase_if(*found, [&](const broad_phase::Meeting& meeting) {
+  std::erase_if(*found, [&](const broad_phase::Neighbour& meeting) {
     const AgentIndex partner(meeting.partner);
     return meeting.time.instant() <= until && (pairs_.IsFull(partner) || partner >= end);
   });

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/detection/clearance/clearance_question.h"
 #include "collision_core/detection/pairs/pair_table.h"
 #include "collision_core/detection/step_clock.h"
@@ -17,7 +17,7 @@ namespace collision::detection {
 class DueMeetingSearch {
  public:
   /// All outlive the search.
-  DueMeetingSearch(broad_phase::BroadPhase* broad_phase, const AccelerationTiers& tiers,
+  DueMeetingSearch(broad_phase::NeighbourIndex* broad_phase, const AccelerationTiers& tiers,
                    const PairTable& pairs, const StepClock& clock)
       : broad_phase_(broad_phase), tiers_(tiers), pairs_(pairs), clock_(clock) {}
 
@@ -25,7 +25,7 @@ class DueMeetingSearch {
   /// `horizon`, in the order of partners. Returns the first partner for which there is no room:
   /// None() if the agent is not saturated.
   AgentIndex Find(const ClearanceQuestion& question, Instant horizon,
-                  std::vector<broad_phase::Meeting>* found);
+                  std::vector<broad_phase::Neighbour>* found);
 
  private:
   /// What the partners offered so far decide.
@@ -35,9 +35,9 @@ class DueMeetingSearch {
     std::vector<AgentIndex>* first;              // a heap of the least others, one more than fit
   };
 
-  void Take(const std::vector<broad_phase::Meeting>& found, std::size_t begin, Room* room) const;
+  void Take(const std::vector<broad_phase::Neighbour>& found, std::size_t begin, Room* room) const;
 
-  broad_phase::BroadPhase* broad_phase_;
+  broad_phase::NeighbourIndex* broad_phase_;
   const AccelerationTiers& tiers_;
   const PairTable& pairs_;
   const StepClock& clock_;

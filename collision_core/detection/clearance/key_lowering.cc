@@ -75,11 +75,12 @@ std::uint64_t KeyLowering::LowerNear(const Renewed& renewed, Instant horizon) {
   };
   const broad_phase::BroadPhaseWork before = broad_phase_->work();
   found_.clear();
-  broad_phase_->Meetings(renewed.agent.value(), renewed.from, horizon, horizon, skip, &found_);
+  broad_phase_->FindNeighbours(renewed.agent.value(), {renewed.from, horizon, horizon}, skip,
+                               &found_);
   const broad_phase::BroadPhaseWork after = broad_phase_->work();
   looks_ += offers;
   SortByPartner(0, &found_);
-  for (const broad_phase::Meeting& meeting : found_) {
+  for (const broad_phase::Neighbour& meeting : found_) {
     LowerOne(AgentIndex(meeting.partner), renewed.agent, meeting.time.instant());
   }
   return after.filter_tests - before.filter_tests + kVisitUnits * (after.visits - before.visits) +

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/detection/clearance/clearance_filter.h"
 #include "collision_core/detection/clearance/coverage_table.h"
 #include "collision_core/detection/clearance/partner_marks.h"
@@ -26,7 +26,7 @@ class KeyLowering {
  public:
   /// All outlive the object. `broad_phase` holds the wide bounds of all agents.
   KeyLowering(const DetectorContext& context, CoverageTable* coverage, ToldClearances* told,
-              broad_phase::BroadPhase* broad_phase, const ClearanceFilter& filter)
+              broad_phase::NeighbourIndex* broad_phase, const ClearanceFilter& filter)
       : context_(context),
         coverage_(coverage),
         told_(told),
@@ -55,13 +55,13 @@ class KeyLowering {
   const DetectorContext context_;
   CoverageTable* coverage_;
   ToldClearances* told_;
-  broad_phase::BroadPhase* broad_phase_;
+  broad_phase::NeighbourIndex* broad_phase_;
   const ClearanceFilter& filter_;
   const QueryHorizons horizons_;
   int split_ = 4;  // keys beyond this horizon are lowered one by one
   std::uint64_t looks_ = 0;
   // Scratch of one renewal, kept for its memory.
-  std::vector<broad_phase::Meeting> found_;
+  std::vector<broad_phase::Neighbour> found_;
   std::vector<AgentIndex> far_;
 };
 

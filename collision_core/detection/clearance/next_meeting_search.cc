@@ -14,10 +14,10 @@ constexpr int kStrideMax = 2;
 
 }  // namespace
 
-NextMeeting NextMeetingSearch::EarliestOf(const std::vector<broad_phase::Meeting>& meetings,
+NextMeeting NextMeetingSearch::EarliestOf(const std::vector<broad_phase::Neighbour>& meetings,
                                           const PartnerMarks& tracked) {
   NextMeeting next;
-  for (const broad_phase::Meeting& meeting : meetings) {
+  for (const broad_phase::Neighbour& meeting : meetings) {
     const AgentIndex partner(meeting.partner);
     if (tracked.Contains(partner) || meeting.time.instant() >= next.when) continue;
     next = {meeting.time.instant(), partner};
@@ -51,7 +51,7 @@ void NextMeetingSearch::FindUpTo(const ClearanceQuestion& question, Instant know
     return true;
   };
   found_.clear();
-  broad_phase_->Meetings(agent, question.from, known, horizon, sample, &found_);
+  broad_phase_->FindNeighbours(agent, {question.from, known, horizon}, sample, &found_);
   looks_ += offered - left_out;
   if (left_out == 0) return;
   if (!found_.empty()) horizon = found_.front().time.instant();
@@ -61,7 +61,7 @@ void NextMeetingSearch::FindUpTo(const ClearanceQuestion& question, Instant know
     return false;
   };
   found_.clear();
-  broad_phase_->Meetings(agent, question.from, known, horizon, all, &found_);
+  broad_phase_->FindNeighbours(agent, {question.from, known, horizon}, all, &found_);
 }
 
 }  // namespace collision::detection

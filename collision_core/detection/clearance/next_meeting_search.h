@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/detection/clearance/clearance_question.h"
 #include "collision_core/detection/clearance/query_horizons.h"
 
@@ -16,7 +16,7 @@ namespace collision::detection {
 class NextMeetingSearch {
  public:
   /// All outlive the search. `broad_phase` holds the wide bounds of all agents.
-  NextMeetingSearch(broad_phase::BroadPhase* broad_phase, const AccelerationTiers& tiers,
+  NextMeetingSearch(broad_phase::NeighbourIndex* broad_phase, const AccelerationTiers& tiers,
                     const StepClock& clock)
       : broad_phase_(broad_phase), tiers_(tiers), horizons_(clock) {}
 
@@ -34,7 +34,7 @@ class NextMeetingSearch {
   NextMeeting Find(const ClearanceQuestion& question, Instant known);
 
   /// The earliest of `meetings` whose partner is not tracked.
-  static NextMeeting EarliestOf(const std::vector<broad_phase::Meeting>& meetings,
+  static NextMeeting EarliestOf(const std::vector<broad_phase::Neighbour>& meetings,
                                 const PartnerMarks& tracked);
 
   /// Partners looked at beside the broad phase's own tests, since the start.
@@ -43,11 +43,11 @@ class NextMeetingSearch {
  private:
   void FindUpTo(const ClearanceQuestion& question, Instant known, Instant horizon);
 
-  broad_phase::BroadPhase* broad_phase_;
+  broad_phase::NeighbourIndex* broad_phase_;
   const AccelerationTiers& tiers_;
   QueryHorizons horizons_;
   std::uint64_t looks_ = 0;
-  std::vector<broad_phase::Meeting> found_;  // scratch of one question, kept for its memory
+  std::vector<broad_phase::Neighbour> found_;  // scratch of one question, kept for its memory
 };
 
 }  // namespace collision::detection

@@ -16,7 +16,7 @@ void PreJumpMotions::Record(AgentIndex agent, motion::SpaceTimeBound bound, Inst
     agents_[place] = agent;
   }
   bound.state.expiry = std::min(bound.state.expiry, until);
-  method_->Put(place, bound);
+  method_->Set(place, bound);
   motions_.push_back({place, until});
 }
 
@@ -35,8 +35,8 @@ void PreJumpMotions::Find(const motion::SpaceTimeBound& around, Instant from, In
   if (motions_.empty()) return;
   found_.clear();
   const auto none = [](std::uint32_t) { return false; };
-  method_->MeetingsOf(around, from, until, none, &found_);
-  for (const broad_phase::Meeting& meeting : found_) agents->push_back(agents_[meeting.partner]);
+  method_->FindNeighbours(around, from, until, none, &found_);
+  for (const broad_phase::Neighbour& meeting : found_) agents->push_back(agents_[meeting.partner]);
 }
 
 }  // namespace collision::detection

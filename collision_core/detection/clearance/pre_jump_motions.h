@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "collision_core/base/ids.h"
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/neighbour_index.h"
 
 namespace collision::detection {
 
@@ -17,7 +17,7 @@ namespace collision::detection {
 class PreJumpMotions {
  public:
   /// At most `motions_max` are kept; beyond, the oldest is dropped. `method` is empty.
-  PreJumpMotions(std::unique_ptr<broad_phase::BroadPhase> method, std::size_t motions_max)
+  PreJumpMotions(std::unique_ptr<broad_phase::NeighbourIndex> method, std::size_t motions_max)
       : method_(std::move(method)), motions_max_(motions_max) {}
 
   /// The agent moved within `bound` up to `until`.
@@ -41,12 +41,12 @@ class PreJumpMotions {
 
   void DropFirst();
 
-  std::unique_ptr<broad_phase::BroadPhase> method_;
+  std::unique_ptr<broad_phase::NeighbourIndex> method_;
   std::size_t motions_max_;
   std::deque<Motion> motions_;      // in the order of their coming
   std::vector<AgentIndex> agents_;  // by place
   std::vector<std::uint32_t> free_;
-  std::vector<broad_phase::Meeting> found_;  // scratch of one question, kept for its memory
+  std::vector<broad_phase::Neighbour> found_;  // scratch of one question, kept for its memory
 };
 
 }  // namespace collision::detection

@@ -99,8 +99,8 @@ void UncoveredSearch::FindAround(const ClearanceQuestion& question,
     return partner == question.agent || question.LeavesOut(partner, coverage_.tiers());
   };
   found_.clear();
-  broad_phase_->MeetingsOf(around, from, scene.newest, skip, &found_);
-  for (const broad_phase::Meeting& meeting : found_) {
+  broad_phase_->FindNeighbours(around, from, scene.newest, skip, &found_);
+  for (const broad_phase::Neighbour& meeting : found_) {
     const AgentRecord& partner = agents[AgentIndex(meeting.partner)];
     const double time = Span(partner.stamp(), scene.newest, agents.skew());
     if (GetsInto(around, own, partner.wide_bound(), std::max(others_time, time))) {

@@ -29,7 +29,7 @@ class UncoveredSearch {
  public:
   /// All outlive the search.
   UncoveredSearch(const DetectorContext& context, const CoverageTable& coverage,
-                  broad_phase::BroadPhase* broad_phase, PreJumpMotions* former)
+                  broad_phase::NeighbourIndex* broad_phase, PreJumpMotions* former)
       : context_(context), coverage_(coverage), broad_phase_(broad_phase), former_(former) {}
 
   /// The partners to be tracked, in the order of their indices; valid until the next call.
@@ -45,10 +45,10 @@ class UncoveredSearch {
 
   const DetectorContext context_;
   const CoverageTable& coverage_;
-  broad_phase::BroadPhase* broad_phase_;
+  broad_phase::NeighbourIndex* broad_phase_;
   PreJumpMotions* former_;
   // Scratch of one question, kept for its memory.
-  std::vector<broad_phase::Meeting> found_;
+  std::vector<broad_phase::Neighbour> found_;
   std::vector<AgentIndex> candidates_;
   std::vector<UncoveredPartner> uncovered_;
 };

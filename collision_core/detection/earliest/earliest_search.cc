@@ -252,8 +252,8 @@ void EarliestSearch::OfferMeetings(AgentIndex agent, Instant until, Instant hori
   const auto skip = [this](std::uint32_t partner) {
     return tracked_.Contains(AgentIndex(partner));
   };
-  broad_phase_->Meetings(agent.value(), run->now, until, horizon, skip, &found_);
-  for (const broad_phase::Meeting& meeting : found_) {
+  broad_phase_->FindNeighbours(agent.value(), {run->now, until, horizon}, skip, &found_);
+  for (const broad_phase::Neighbour& meeting : found_) {
     const AgentIndex partner(meeting.partner);
     run->Offer(agent, partner, Canonical(agent, partner));
   }

@@ -78,7 +78,7 @@ class EarliestSearch {
   const CoverageTable& coverage_;
   IndexSet<PairSlot>* pairs_changed_;
   IndexSet<AgentIndex>* agents_voided_;
-  broad_phase::BroadPhase* broad_phase_;
+  broad_phase::NeighbourIndex* broad_phase_;
   NextMeetingSearch next_;
   UncoveredSearch uncovered_;
   EventQueue<AgentIndex> agent_bounds_;  // Always(): not known
@@ -87,7 +87,7 @@ class EarliestSearch {
   IndexedVector<PairSlot, PairBound> pair_answers_;
   // Scratch of one question, kept for its memory.
   PartnerMarks tracked_;
-  std::vector<broad_phase::Meeting> found_;
+  std::vector<broad_phase::Neighbour> found_;
 };
 
 }  // namespace collision::detection

@@ -17,19 +17,20 @@ namespace {
 
 template <typename Type>
 Method MethodOf(const char* name) {
-  return {name, [] { return std::make_unique<Type>(); }};
+  const auto make = [] { return std::make_unique<Type>(); };
+  return {name, make, make};
 }
 
 /// One object, as of the libraries: for each question every bound is put anew.
 class MethodContestant : public Contestant {
  public:
-  explicit MethodContestant(const Method& method) : method_(method.make()) {}
+  explicit MethodContestant(const Method& method) : method_(method.make_sweep()) {}
 
   Timed Ask(const baselines::BallScene& scene, double horizon) override {
     Timed timed;
     const CpuStopwatch filling;
     for (std::size_t i = 0; i < scene.size(); ++i) {
-      method_->Put(static_cast<std::uint32_t>(i), baselines::BoundOf(scene[i]));
+      method_->Set(static_cast<std::uint32_t>(i), baselines::BoundOf(scene[i]));
     }
     timed.fill = filling.seconds();
     const CpuStopwatch asking;
@@ -44,7 +45,7 @@ class MethodContestant : public Contestant {
   }
 
  private:
-  std::unique_ptr<broad_phase::BroadPhase> method_;
+  std::unique_ptr<broad_phase::EarliestSweep> method_;
 };
 
 }  // namespace
@@ -52,7 +53,7 @@ class MethodContestant : public Contestant {
 const std::vector<Method>& OurMethods() {
   static const std::vector<Method> methods = {
       MethodOf<broad_phase::AllPairs>("all-pairs"),
-      MethodOf<broad_phase::FaceSweep>("face-sweep"),
+      {"face-sweep", [] { return std::make_unique<broad_phase::FaceSweep>(); }, nullptr},
       MethodOf<broad_phase::SpatialIndex>("spatial-index"),
       MethodOf<broad_phase::AdaptiveBroadPhase>("chosen"),
   };

@@ -6,14 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/broad_phase/broad_phase.h"
+#include "collision_core/broad_phase/earliest_sweep.h"
 
 namespace collision::bench {
 
 /// A method of ours: one line each.
 struct Method {
   std::string name;
-  std::function<std::unique_ptr<broad_phase::BroadPhase>()> make;
+  std::function<std::unique_ptr<broad_phase::EarliestSweep>()> make_sweep;
+  /// Null for a method that is a sweep alone.
+  std::function<std::unique_ptr<broad_phase::SweepingIndex>()> make;
 };
 const std::vector<Method>& OurMethods();
 

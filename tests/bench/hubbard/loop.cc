@@ -74,7 +74,8 @@ class TurkShips : public ShipBroadPhase {
 
 class HornShips : public ShipBroadPhase {
  public:
-  explicit HornShips(std::unique_ptr<broad_phase::BroadPhase> phase) : phase_(std::move(phase)) {}
+  explicit HornShips(std::unique_ptr<broad_phase::NeighbourIndex> phase)
+      : phase_(std::move(phase)) {}
 
   void Look(const Flight& flight, std::int64_t frame, std::vector<ShipPair>* near) override {
     if (frame >= until_) {
@@ -106,10 +107,10 @@ class HornShips : public ShipBroadPhase {
   void MakeList(const Flight& flight, std::int64_t frame) {
     until_ = frame + kWindow;
     for (std::uint32_t ship = 0; ship < flight.ships(); ++ship) {
-      phase_->Put(ship, flight.BoundOf(frame, ship));
+      phase_->Set(ship, flight.BoundOf(frame, ship));
     }
     found_.clear();
-    phase_->NearPairs(
+    phase_->FindNearPairs(
         {intersection::BoundKind::kHorn, Flight::InstantOf(frame), Flight::InstantOf(until_)},
         &found_);
     list_.clear();
@@ -121,12 +122,12 @@ class HornShips : public ShipBroadPhase {
     std::erase_if(list_, [ship](const Listed& listed) {
       return listed.pair.lower == ship || listed.pair.higher == ship;
     });
-    phase_->Put(ship, flight.BoundOf(frame, ship));
+    phase_->Set(ship, flight.BoundOf(frame, ship));
     meetings_.clear();
     const Instant until = Flight::InstantOf(until_);
     const auto skip_none = [](std::uint32_t) { return false; };
-    phase_->Meetings(ship, Flight::InstantOf(frame), until, until, skip_none, &meetings_);
-    for (const broad_phase::Meeting& meeting : meetings_) {
+    phase_->FindNeighbours(ship, {Flight::InstantOf(frame), until, until}, skip_none, &meetings_);
+    for (const broad_phase::Neighbour& meeting : meetings_) {
       const auto [lower, higher] = std::minmax(ship, meeting.partner);
       list_.push_back({{lower, higher}, frame});
     }
@@ -142,18 +143,18 @@ class HornShips : public ShipBroadPhase {
     return std::min(until_, frame + std::max<std::int64_t>(1, frames));
   }
 
-  std::unique_ptr<broad_phase::BroadPhase> phase_;
+  std::unique_ptr<broad_phase::NeighbourIndex> phase_;
   std::int64_t until_ = -1;  ///< The list knows of the frames before this one.
   std::vector<Listed> list_;
   std::vector<broad_phase::NearPair> found_;
-  std::vector<broad_phase::Meeting> meetings_;
+  std::vector<broad_phase::Neighbour> meetings_;
 };
 
 }  // namespace
 
 std::unique_ptr<ShipBroadPhase> MakeTurk(double cell) { return std::make_unique<TurkShips>(cell); }
 
-std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::BroadPhase> phase) {
+std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::NeighbourIndex> phase) {
   return std::make_unique<HornShips>(std::move(phase));
 }
 

@@ -17,8 +17,9 @@ namespace {
 /// So little of a part that it changes no answer, and all of its price.
 constexpr double kNothing = 1e-300;
 
-/// The face sweep asks every partner of one agent: with more agents, no user would pick it by hand.
-constexpr std::size_t kFaceSweepMax = 600;
+/// The exhaustive index asks about every partner of one agent: with more agents, no user would pick
+/// it by hand.
+constexpr std::size_t kExhaustiveMax = 600;
 
 /// In larger scenes parts are not tried one by one: that takes minutes, and tells nothing new.
 constexpr std::size_t kPartsMax = 2000;
@@ -134,8 +135,9 @@ void Profile(const DetectorScene& scene, Bench* bench) {
   std::string best_name;
   for (const broad_phase::BroadPhaseMethod method :
        {broad_phase::BroadPhaseMethod::kAllPairs, broad_phase::BroadPhaseMethod::kSpatialIndex,
-        broad_phase::BroadPhaseMethod::kFaceSweep, broad_phase::BroadPhaseMethod::kAuto}) {
-    if (method == broad_phase::BroadPhaseMethod::kFaceSweep && scene.agents.size() > kFaceSweepMax)
+        broad_phase::BroadPhaseMethod::kExhaustive, broad_phase::BroadPhaseMethod::kAuto}) {
+    if (method == broad_phase::BroadPhaseMethod::kExhaustive &&
+        scene.agents.size() > kExhaustiveMax)
       continue;
     Variation variation;
     variation.options.broad_phase = method;

@@ -26,8 +26,8 @@ class Scene {
       const motion::SpaceTimeBound bound = Bound();
       bounds_.resize(std::max<std::size_t>(bounds_.size(), agents_ + 1));
       bounds_[agents_] = bound;
-      chosen.Put(agents_, bound);
-      plain.Put(agents_++, bound);
+      chosen.Set(agents_, bound);
+      plain.Set(agents_++, bound);
     }
     while (agents_ > agents) {
       chosen.Remove(--agents_);
@@ -42,13 +42,13 @@ class Scene {
     motion::SpaceTimeBound& bound = bounds_[agent];
     if (random_.Chance(0.1)) {
       bound = Bound();
-      chosen.Put(agent, bound);
-      plain.Put(agent, bound);
+      chosen.Set(agent, bound);
+      plain.Set(agent, bound);
     } else {
       bound.state.p_WA += bound.state.v_WA * (1e-9 * (now_ - bound.state.stamp.nanoseconds()));
       bound.state.stamp = Instant::FromNanoseconds(now_);
-      chosen.Put(agent, bound);
-      plain.Put(agent, bound);
+      chosen.Set(agent, bound);
+      plain.Set(agent, bound);
     }
     const intersection::BroadQuery query{.from = Instant::FromNanoseconds(now_),
                                          .until = Instant::Never()};
@@ -149,7 +149,7 @@ TEST(AdaptiveBroadPhase, NoCallTakesAllTheWork) {
 }
 
 TEST(AdaptiveBroadPhase, WhatIsAskedForIsTaken) {
-  for (const BroadPhaseMethod method : {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kFaceSweep,
+  for (const BroadPhaseMethod method : {BroadPhaseMethod::kAllPairs, BroadPhaseMethod::kExhaustive,
                                         BroadPhaseMethod::kSpatialIndex}) {
     Scene scene(5, method);
     for (const std::uint32_t agents : {10, 700, 5}) {

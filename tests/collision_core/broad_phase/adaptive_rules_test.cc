@@ -24,10 +24,10 @@ TEST(ChosenBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
     const motion::SpaceTimeBound bound = BoundIn(60, 0.5, 5, 1, &random);
     const HalfSpace half_space{random.UnitVector(), random.Uniform(-60, -50)};
     const double kind = random.Uniform(0, 1);
-    both([&](BroadPhase* method) {
-      if (kind < 0.01) method->PutHalfSpace(i, half_space);
+    both([&](SweepingIndex* method) {
+      if (kind < 0.01) method->SetHalfSpace(i, half_space);
       if (kind > 0.02 && kind < 0.05) method->Remove(other);
-      if (kind > 0.4) method->Put(i, bound);
+      if (kind > 0.4) method->Set(i, bound);
       if (i == other) return;
       if (rule.excluded) {
         method->Exclude(i, other);
@@ -42,14 +42,14 @@ TEST(ChosenBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
   };
   for (std::uint32_t agent = 0; agent < most; ++agent) {
     const motion::SpaceTimeBound bound = BoundIn(60, 0.5, 5, 1, &random);
-    both([&](BroadPhase* method) { method->Put(agent, bound); });
+    both([&](SweepingIndex* method) { method->Set(agent, bound); });
     step(agent + 1);
     ASSERT_FALSE(HasFatalFailure()) << agent;
   }
   for (int i = 0; i < 300; ++i) step(most);
   ASSERT_FALSE(HasFatalFailure());
   for (std::uint32_t agent = most; agent-- > 100;) {
-    both([&](BroadPhase* method) { method->Remove(agent); });
+    both([&](SweepingIndex* method) { method->Remove(agent); });
     if (agent % 8 == 0) step(agent);
     ASSERT_FALSE(HasFatalFailure()) << agent;
   }
@@ -59,7 +59,8 @@ TEST(ChosenBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
   EXPECT_GE(chosen.changes(), 2u);
 }
 
-// Goal:   what changes while the next method is filled counts after the change: rules of agents that
+// Goal:   what changes while the next method is filled counts after the change: rules of agents
+// that
 //         are in it already, half-spaces of indices that are not yet.
 // Method: four agents far from all others, which only rules make meet or not, and half-spaces in
 //         which everybody lies; the next method is being filled when 139 agents are there.
@@ -69,25 +70,25 @@ TEST(ChosenBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
   for (std::uint32_t agent = 0; agent < 4; ++agent) {
     motion::SpaceTimeBound bound = BoundIn(0, 0.5, 0.01, 0, &random);
     bound.state.p_WA = {1e4, agent < 2 ? 0.0 : 1e4, agent % 2 * 2.0};
-    chosen.Put(agent, bound);
+    chosen.Set(agent, bound);
   }
   chosen.SetMargin(0, 1, 3);
   std::uint32_t next = 4;
   const auto grow_to = [&](std::uint32_t end) {
     for (; next < end; ++next) {
-      if (next < 100 || next > 102) chosen.Put(next, BoundIn(100, 0.01, 0.01, 0, &random));
+      if (next < 100 || next > 102) chosen.Set(next, BoundIn(100, 0.01, 0.01, 0, &random));
     }
   };
   const HalfSpace everywhere{{0, 0, 1}, 1e6};
-  ASSERT_TRUE(chosen.PutHalfSpace(100, everywhere));
-  ASSERT_TRUE(chosen.PutHalfSpace(101, everywhere));
+  ASSERT_TRUE(chosen.SetHalfSpace(100, everywhere));
+  ASSERT_TRUE(chosen.SetHalfSpace(101, everywhere));
   grow_to(142);
   ASSERT_EQ(chosen.method(), BroadPhaseMethod::kAllPairs);
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
                                        numeric::AddRoundedUp(kMethodStart, 1)};
   EXPECT_EQ(Text(chosen.EarliestOf(3, query)).substr(0, 7), "3 x 100");
   chosen.Remove(100);
-  chosen.Put(101, BoundIn(100, 0.01, 0.01, 0, &random));
+  chosen.Set(101, BoundIn(100, 0.01, 0.01, 0, &random));
   chosen.Remove(101);
   EXPECT_EQ(Text(chosen.EarliestOf(0, query)).substr(0, 5), "0 x 1");
   chosen.Exclude(0, 1);

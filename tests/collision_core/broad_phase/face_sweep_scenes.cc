@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace collision {
+namespace collision::broad_phase {
 namespace {
 
 double Whole(Random* random, int extent) {
@@ -184,10 +184,10 @@ std::optional<intersection::IntersectingPair> PlainEarliest(const SweepScene& sc
   return best;
 }
 
-broad_phase::FaceSweep Filled(const SweepScene& scene) {
-  broad_phase::FaceSweep sweep;
-  for (std::uint32_t i = 0; i < scene.agents.size(); ++i) sweep.Put(i, scene.agents[i]);
+std::unique_ptr<FaceSweep> Filled(const SweepScene& scene) {
+  auto sweep = std::make_unique<FaceSweep>();
+  for (std::uint32_t i = 0; i < scene.agents.size(); ++i) sweep->Set(i, scene.agents[i]);
   return sweep;
 }
 
-}  // namespace collision
+}  // namespace collision::broad_phase

@@ -1,13 +1,14 @@
 // Scenes that are hard on a sweep, and the plainest answer to them.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "collision_core/broad_phase/face_sweep/face_sweep.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::broad_phase {
 
 struct SweepScene {
   std::vector<motion::SpaceTimeBound> agents;
@@ -60,6 +61,6 @@ SweepScene RandomScene(SweepLayout layout, intersection::BoundKind kind, int cou
 /// The first meeting, by EarliestIntersectionOf() of each pair in turn.
 std::optional<intersection::IntersectingPair> PlainEarliest(const SweepScene& scene);
 
-broad_phase::FaceSweep Filled(const SweepScene& scene);
+std::unique_ptr<FaceSweep> Filled(const SweepScene& scene);
 
-}  // namespace collision
+}  // namespace collision::broad_phase

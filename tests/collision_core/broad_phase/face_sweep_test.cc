@@ -33,7 +33,8 @@ TEST_P(EveryLayout, AnswersAsThePlainLoopDoes) {
   for (int i = 0; i < kScenes; ++i) {
     const int count = static_cast<int>(i % 100 == 99 ? 300 : 2 + random.Below(59));
     const SweepScene scene = RandomScene(static_cast<SweepLayout>(layout), kind, count, &random);
-    FaceSweep sweep = Filled(scene);
+    const auto filled = Filled(scene);
+    FaceSweep& sweep = *filled;
     const std::optional<intersection::IntersectingPair> expected = PlainEarliest(scene);
     with_answer += expected.has_value();
     at_start += expected && expected->time.instant() == scene.query.from;
@@ -72,7 +73,7 @@ TEST(FaceSweep, TiesAreBrokenByIndexNotByCrossing) {
       const std::optional<intersection::IntersectingPair> expected = PlainEarliest(scene);
       EXPECT_EQ(0u, expected->lower);
       EXPECT_EQ(At(1000), expected->time.instant());
-      ExpectSame(expected, Filled(scene).Earliest(scene.query));
+      ExpectSame(expected, Filled(scene)->Earliest(scene.query));
     }
   }
 }
@@ -95,7 +96,8 @@ TEST(FaceSweep, AgentsSetApartAreAskedAgainstAll) {
     const std::optional<intersection::IntersectingPair> expected = PlainEarliest(scene);
     ASSERT_TRUE(expected);
     EXPECT_EQ(200u, expected->higher);
-    FaceSweep sweep = Filled(scene);
+    const auto filled = Filled(scene);
+    FaceSweep& sweep = *filled;
     ExpectSame(expected, sweep.Earliest(scene.query));
     EXPECT_EQ(200u, sweep.work().pair_queries);
   }
@@ -115,7 +117,8 @@ SweepScene Passing(int count, std::int64_t until, Random* random) {
 std::uint64_t Crossings(int count, std::int64_t until) {
   Random random(7);
   const SweepScene scene = Passing(count, until, &random);
-  FaceSweep sweep = Filled(scene);
+  const auto filled = Filled(scene);
+  FaceSweep& sweep = *filled;
   EXPECT_FALSE(sweep.Earliest(scene.query));
   EXPECT_LE(sweep.queued_max(), 2u * count);
   return sweep.work().visits;
@@ -138,7 +141,8 @@ TEST(FaceSweepCost, StopsAtTheFirstMeeting) {
   const double all = Crossings(1000, kSecond);
   scene.agents.push_back(Agent({100, 0, 0}, {1, 0, 0}, 0.5));
   scene.agents.push_back(Agent({101.02, 0, 0}, {-1, 0, 0}, 0.5));
-  FaceSweep sweep = Filled(scene);
+  const auto filled = Filled(scene);
+  FaceSweep& sweep = *filled;
   const std::optional<intersection::IntersectingPair> meeting = sweep.Earliest(scene.query);
   ASSERT_TRUE(meeting);
   EXPECT_EQ(1000u, meeting->lower);
@@ -157,7 +161,7 @@ TEST(FaceSweepCost, EverythingAtOnePoint) {
     Random random(9);
     for (std::uint32_t i = 0; i < kAgents; ++i) {
       const double offset = turned ? 1e-3 * (kAgents - i) / kAgents : 0;
-      sweep.Put(i, Agent({offset, 2, 3}, RandomVector(&random, 5), 1, 5));
+      sweep.Set(i, Agent({offset, 2, 3}, RandomVector(&random, 5), 1, 5));
     }
     const auto meeting = sweep.Earliest({intersection::BoundKind::kHorn, At(0), Instant::Never()});
     ASSERT_TRUE(meeting);
@@ -181,7 +185,7 @@ TEST(FaceSweep, RemembersNothing) {
     for (const motion::SpaceTimeBound& bound : LayOut(layout, 1 + random.Below(20), &random)) {
       const auto agent = static_cast<std::uint32_t>(random.Below(bounds.size()));
       bounds[agent] = bound;
-      sweep.Put(agent, bound);
+      sweep.Set(agent, bound);
     }
     const auto removed = static_cast<std::uint32_t>(random.Below(bounds.size()));
     if (bounds[removed]) sweep.Remove(removed);
@@ -189,34 +193,9 @@ TEST(FaceSweep, RemembersNothing) {
     const intersection::BroadQuery query{kind, At(0), At(random.Below(10 * kSecond))};
     FaceSweep fresh;
     for (std::uint32_t i = 0; i < bounds.size(); ++i) {
-      if (bounds[i]) fresh.Put(i, *bounds[i]);
+      if (bounds[i]) fresh.Set(i, *bounds[i]);
     }
     ExpectSame(fresh.Earliest(query), sweep.Earliest(query));
-  }
-}
-
-// Goal:   questions about one agent are those of any method.
-// Method: against EarliestIntersectionOf() of each partner.
-TEST(FaceSweep, OneAgentAsksEveryPartner) {
-  Random random(10);
-  for (int i = 0; i < kScenes / 4; ++i) {
-    const SweepScene scene =
-        RandomScene(SweepLayout::kUniform, intersection::BoundKind::kHorn, 30, &random);
-    FaceSweep sweep = Filled(scene);
-    std::optional<intersection::IntersectingPair> expected;
-    for (std::uint32_t partner = 1; partner < scene.agents.size(); ++partner) {
-      const intersection::IntersectingPair meeting{
-          0, partner, EarliestIntersectionOf(scene.query, scene.agents[0], scene.agents[partner])};
-      if (meeting.time.instant().is_never()) continue;
-      if (!expected || meeting < *expected) expected = meeting;
-    }
-    ExpectSame(expected, sweep.EarliestOf(0, scene.query));
-    std::vector<Meeting> meetings;
-    sweep.Meetings(
-        0, scene.query.from, scene.query.until, Instant::Never(),
-        [](std::uint32_t partner) { return partner == 3; }, &meetings);
-    for (const Meeting& meeting : meetings) EXPECT_NE(3u, meeting.partner);
-    EXPECT_TRUE(!expected || expected->higher == 3 || !meetings.empty());
   }
 }
 
@@ -224,9 +203,8 @@ TEST(FaceSweep, OfNoneOrOneIsNone) {
   FaceSweep sweep;
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, At(0), Instant::Never()};
   EXPECT_FALSE(sweep.Earliest(query));
-  sweep.Put(5, Agent({0, 0, 0}, {0, 0, 0}, 1));
+  sweep.Set(5, Agent({0, 0, 0}, {0, 0, 0}, 1));
   EXPECT_FALSE(sweep.Earliest(query));
-  EXPECT_FALSE(sweep.EarliestOf(5, query));
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // Goal:   an agent's meeting with a half-space is never late and not idle, with margins and speed
 //         caps; the filter before it rules out nothing that meets, and most of what does not.
 // Method: exact rational arithmetic. The distance to the plane, n·c − offset − |n| (ρ + margin), is
-//         concave in time, so that it is positive between two times where it is so at both; its sign
-//         is that of squares, as |n| is irrational.
+//         concave in time, so that it is positive between two times where it is so at both; its
+//         sign is that of squares, as |n| is irrational.
 #include "collision_core/broad_phase/index/half_space.h"
 
 #include <gtest/gtest.h>
@@ -209,7 +209,8 @@ TEST(HalfSpace, FallsToTheFloor) {
   }
 }
 
-// Goal:   who cannot meet meets never: masks in either direction, no motion, expiry, the query's end.
+// Goal:   who cannot meet meets never: masks in either direction, no motion, expiry, the query's
+// end.
 TEST(HalfSpace, MeetsOnlyWhatItMay) {
   HalfSpace floor{{0, 0, 1}, 0};
   motion::SpaceTimeBound bound = Falling();
@@ -240,19 +241,19 @@ TEST(HalfSpace, MeetsOnlyWhatItMay) {
 TEST(HalfSpaces, AreKeptInOrderAndFew) {
   HalfSpaces list;
   for (std::uint32_t i = 0; i < HalfSpaces::kCountMax; ++i) {
-    ASSERT_TRUE(list.Put(1000 - i, HalfSpace()));
+    ASSERT_TRUE(list.Set(1000 - i, HalfSpace()));
   }
-  EXPECT_FALSE(list.Put(5, HalfSpace()));
+  EXPECT_FALSE(list.Set(5, HalfSpace()));
   EXPECT_EQ(list.Find(5), nullptr);
   HalfSpace other;
   other.offset = 3;
-  EXPECT_TRUE(list.Put(1000, other));
+  EXPECT_TRUE(list.Set(1000, other));
   EXPECT_EQ(list.Find(1000)->half_space.offset, 3);
   EXPECT_TRUE(std::is_sorted(list.begin(), list.end(),
                              [](const auto& a, const auto& b) { return a.agent < b.agent; }));
   EXPECT_TRUE(list.Remove(1000));
   EXPECT_FALSE(list.Remove(1000));
-  EXPECT_TRUE(list.Put(5, HalfSpace()));
+  EXPECT_TRUE(list.Set(5, HalfSpace()));
 }
 
 TEST(HalfSpaces, RefuseWhatIsNone) {
@@ -261,10 +262,10 @@ TEST(HalfSpaces, RefuseWhatIsNone) {
   for (const Eigen::Vector3d& normal :
        {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 1e-101, 0), Eigen::Vector3d(1, 2e100, 0),
         Eigen::Vector3d(1, nan, 0), Eigen::Vector3d(numeric::kInfinity, 0, 0)}) {
-    EXPECT_FALSE(list.Put(1, {normal, 0}));
+    EXPECT_FALSE(list.Set(1, {normal, 0}));
   }
-  EXPECT_FALSE(list.Put(1, {Eigen::Vector3d::UnitX(), nan}));
-  EXPECT_FALSE(list.Put(1, {Eigen::Vector3d::UnitX(), numeric::kInfinity}));
+  EXPECT_FALSE(list.Set(1, {Eigen::Vector3d::UnitX(), nan}));
+  EXPECT_FALSE(list.Set(1, {Eigen::Vector3d::UnitX(), numeric::kInfinity}));
   EXPECT_EQ(list.size(), 0u);
 }
 
@@ -275,9 +276,9 @@ TEST(HalfSpaces, TheFilterRulesOutNothingThatMeets) {
   for (int i = 0; i < kCases; ++i) {
     const Case c = Draw(i % 4 == 0, &random);
     HalfSpaces list;
-    ASSERT_TRUE(list.Put(1, c.half_space));
+    ASSERT_TRUE(list.Set(1, c.half_space));
     HornTable table;
-    table.Put(0, c.bound);
+    table.Set(0, c.bound);
     if (table.row(0).unfilterable || table.row(0).still) continue;
     const intersection::IntersectionTime time =
         EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin);

@@ -43,14 +43,14 @@ TEST(HornTable, TheFilterIsNeverLaterThanTheCanonicalAnswer) {
     Random random(pair);
     const double size = random.LogUniform(1e-9, 1e9), time = random.LogUniform(1e-3, 1e3);
     HornTable table;
-    table.Put(0, Draw(size, time, &random));
+    table.Set(0, Draw(size, time, &random));
     motion::SpaceTimeBound other = Draw(size, time, &random);
     // Near each other also where both are far from the origin.
     if (random.Chance(0.7)) {
       other.state.p_WA =
           table.bound(0).state.p_WA + random.UnitVector() * size * random.Uniform(0, 10);
     }
-    table.Put(1, other);
+    table.Set(1, other);
     const Instant answer =
         intersection::EarliestIntersection(table.bound(0), table.bound(1), kStart).instant();
     const double bound = table.EarlierBound(0, 1, kStart, numeric::kInfinity);
@@ -67,12 +67,12 @@ TEST(HornTable, TheFilterIsNeverLaterThanTheCanonicalAnswer) {
 TEST(HornTable, CountsWhoIsThere) {
   HornTable table;
   motion::SpaceTimeBound bound;
-  table.Put(3, bound);
+  table.Set(3, bound);
   EXPECT_EQ(table.count(), 1u);
   EXPECT_EQ(table.size(), 4u);
   EXPECT_FALSE(table.contains(2));
   bound.declaration.radius = 1e30;
-  table.Put(3, bound);
+  table.Set(3, bound);
   EXPECT_TRUE(table.row(3).unfilterable);
   EXPECT_EQ(table.still_count(), 1u);
   EXPECT_EQ(table.EarlierBound(3, 3, kStart, 1), 0);

@@ -8,27 +8,80 @@
 
 #include "collision_core/broad_phase/face_sweep/face_sweep.h"
 #include "collision_core/broad_phase/index/all_pairs.h"
+#include "collision_core/broad_phase/index/exhaustive_index.h"
 #include "collision_core/broad_phase/index/spatial_index.h"
-#include "collision_core/numeric/seconds.h"
 #include "tests/support/random.h"
 
-namespace collision {
+namespace collision::broad_phase {
 
 inline constexpr Instant kMethodStart = Instant::FromNanoseconds(1'000'000'000'000);
 
 struct NamedMethod {
   const char* name;
-  std::unique_ptr<broad_phase::BroadPhase> (*make)();
+  std::unique_ptr<SweepingIndex> (*make)();
 };
 
 template <typename Method>
-std::unique_ptr<broad_phase::BroadPhase> MakeMethod() {
+std::unique_ptr<SweepingIndex> MakeMethod() {
   return std::make_unique<Method>();
 }
 
-inline const NamedMethod kMethods[] = {{"AllPairs", &MakeMethod<broad_phase::AllPairs>},
-                                       {"SpatialIndex", &MakeMethod<broad_phase::SpatialIndex>},
-                                       {"FaceSweep", &MakeMethod<broad_phase::FaceSweep>}};
+/// A face sweep answers one question about all agents; an exhaustive index beside it, over the same
+/// bounds, rules and half-spaces, answers the others.
+class SweepBesideIndex : public SweepingIndex {
+ public:
+  SweepBesideIndex() {
+    sweep_.ShareRules(shared_rules());
+    index_.ShareRules(shared_rules());
+  }
+  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override {
+    mutable_half_spaces().Remove(agent);
+    sweep_.Set(agent, bound);
+    index_.Set(agent, bound);
+  }
+  void Remove(std::uint32_t agent) override {
+    mutable_half_spaces().Remove(agent);
+    sweep_.Remove(agent);
+    index_.Remove(agent);
+  }
+  bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override {
+    const bool taken = sweep_.SetHalfSpace(agent, half_space);
+    return index_.SetHalfSpace(agent, half_space) && taken &&
+           mutable_half_spaces().Set(agent, half_space);
+  }
+  void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
+                      std::vector<Neighbour>* neighbours) override {
+    index_.FindNeighbours(agent, window, skip, neighbours);
+  }
+  void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                      const Skip& skip, std::vector<Neighbour>* neighbours) override {
+    index_.FindNeighbours(bound, from, until, skip, neighbours);
+  }
+  std::optional<intersection::IntersectingPair> EarliestOf(
+      std::uint32_t agent, const intersection::BroadQuery& query) override {
+    return index_.EarliestOf(agent, query);
+  }
+  void FindNearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override {
+    index_.FindNearPairs(query, pairs);
+  }
+  std::optional<intersection::IntersectingPair> Earliest(
+      const intersection::BroadQuery& query) override {
+    return sweep_.Earliest(query);
+  }
+  BroadPhaseWork work() const override {
+    const BroadPhaseWork a = sweep_.work(), b = index_.work();
+    return {a.pair_queries + b.pair_queries, a.filter_tests + b.filter_tests, a.visits + b.visits,
+            a.rebuilds + b.rebuilds};
+  }
+
+ private:
+  FaceSweep sweep_;
+  ExhaustiveIndex index_;
+};
+
+inline const NamedMethod kMethods[] = {{"AllPairs", &MakeMethod<AllPairs>},
+                                       {"SpatialIndex", &MakeMethod<SpatialIndex>},
+                                       {"FaceSweep", &MakeMethod<SweepBesideIndex>}};
 
 inline motion::SpaceTimeBound BoundIn(double extent, double radius, double speed,
                                       double acceleration_max, Random* random) {
@@ -195,4 +248,4 @@ inline const NamedScene kMethodScenes[] = {
      }},
 };
 
-}  // namespace collision
+}  // namespace collision::broad_phase

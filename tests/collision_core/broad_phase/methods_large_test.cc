@@ -1,7 +1,8 @@
 // Goal:   what methods do only for many agents (grids of many cells, a crowd asked first, levels,
 //         hashed rows) changes no answer either; and no pair that may meet is missing among those
 //         that are told as near.
-// Method: hundreds and thousands of agents evenly, in clusters, of all sizes, speeds and stamps; the
+// Method: hundreds and thousands of agents evenly, in clusters, of all sizes, speeds and stamps;
+// the
 //         oracle asks the canonical routine for every pair. Work counters show that the pass over a
 //         grid was taken where it should.
 #include <gtest/gtest.h>
@@ -109,8 +110,8 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
     SpatialIndex index;
     for (int i = 0; i < count; ++i) {
       bounds.push_back(scene.make(i, count, &random));
-      all_pairs.Put(i, bounds.back());
-      index.Put(i, bounds.back());
+      all_pairs.Set(i, bounds.back());
+      index.Set(i, bounds.back());
     }
     for (const intersection::BoundKind kind :
          {intersection::BoundKind::kHorn, intersection::BoundKind::kHypertrapezoid}) {
@@ -120,8 +121,8 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
       const std::vector<intersection::IntersectingPair> meetings = AllMeetings(bounds, query);
       const auto first = std::min_element(meetings.begin(), meetings.end());
       expected += meetings.size();
-      for (BroadPhase* method :
-           {static_cast<BroadPhase*>(&all_pairs), static_cast<BroadPhase*>(&index)}) {
+      for (SweepingIndex* method :
+           {static_cast<SweepingIndex*>(&all_pairs), static_cast<SweepingIndex*>(&index)}) {
         const std::string what = std::string(scene.name) + ", " + std::to_string(count) +
                                  (method == &index ? ", index" : ", all pairs");
         const auto answer = method->Earliest(query);
@@ -133,7 +134,7 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
           ASSERT_EQ(answer->time.seconds, first->time.seconds) << what;
         }
         std::vector<NearPair> near;
-        method->NearPairs(query, &near);
+        method->FindNearPairs(query, &near);
         std::set<std::pair<std::uint32_t, std::uint32_t>> pairs;
         for (const NearPair& pair : near) {
           ASSERT_LT(pair.lower, pair.higher) << what;
@@ -181,9 +182,9 @@ TEST(LargeMethods, AQuestionFromLongBeforeTheLastOneLosesNobody) {
                                           numeric::AddRoundedUp(kMethodStart, back + 1)};
       const intersection::BroadQuery early{intersection::BoundKind::kHorn, kMethodStart,
                                            numeric::AddRoundedUp(kMethodStart, 3)};
-      for (BroadPhase* method :
-           {static_cast<BroadPhase*>(&all_pairs), static_cast<BroadPhase*>(&index)}) {
-        for (std::uint32_t i = 0; i < bounds.size(); ++i) method->Put(i, bounds[i]);
+      for (SweepingIndex* method :
+           {static_cast<SweepingIndex*>(&all_pairs), static_cast<SweepingIndex*>(&index)}) {
+        for (std::uint32_t i = 0; i < bounds.size(); ++i) method->Set(i, bounds[i]);
         method->EarliestOf(1, late);
         for (std::uint32_t i = 0; i < kFast; ++i) {
           std::optional<intersection::IntersectingPair> first;
@@ -200,9 +201,9 @@ TEST(LargeMethods, AQuestionFromLongBeforeTheLastOneLosesNobody) {
           const auto got = method->EarliestOf(i, early);
           ASSERT_TRUE(first && got);
           ASSERT_EQ(got->time.seconds, first->time.seconds) << "seed " << seed << ", " << back;
-          std::vector<Meeting> meetings;
-          method->Meetings(
-              i, early.from, early.until, early.until, [](std::uint32_t) { return false; },
+          std::vector<Neighbour> meetings;
+          method->FindNeighbours(
+              i, {early.from, early.until, early.until}, [](std::uint32_t) { return false; },
               &meetings);
           ASSERT_EQ(meetings.size(), count) << "seed " << seed << ", " << back;
         }
@@ -218,11 +219,11 @@ TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
   for (int i = 0; i < 200; ++i) {
     motion::SpaceTimeBound bound = BoundIn(20, 0.5, 5, 2, &random);
     if (i == 0) bound.state.p_WA.x() = 5e10;
-    index.Put(i, bound);
+    index.Set(i, bound);
   }
   for (const double window : {0.1, 1.0, 10.0, 100.0, 1e3, 1e4}) {
     std::vector<NearPair> pairs;
-    index.NearPairs(
+    index.FindNearPairs(
         {intersection::BoundKind::kHorn, kMethodStart, numeric::AddRoundedUp(kMethodStart, window)},
         &pairs);
     const std::size_t told = pairs.size();
@@ -240,24 +241,25 @@ TEST(LargeMethods, WhoIsNotThereMeetsNobodyAndWhoIsWildIsAskedOnce) {
                                        numeric::AddRoundedUp(kMethodStart, 1e6)};
   AllPairs all_pairs;
   SpatialIndex index;
-  FaceSweep sweep;
+  SweepBesideIndex sweep;
   Random random(2);
-  for (BroadPhase* method : {static_cast<BroadPhase*>(&all_pairs), static_cast<BroadPhase*>(&index),
-                             static_cast<BroadPhase*>(&sweep)}) {
+  for (SweepingIndex* method :
+       {static_cast<SweepingIndex*>(&all_pairs), static_cast<SweepingIndex*>(&index),
+        static_cast<SweepingIndex*>(&sweep)}) {
     HalfSpace floor;
     floor.normal = {0, 0, 1};
     floor.offset = -1e9;
-    ASSERT_TRUE(method->PutHalfSpace(3, floor));
+    ASSERT_TRUE(method->SetHalfSpace(3, floor));
     EXPECT_FALSE(method->EarliestOf(7, query).has_value());
-    std::vector<Meeting> meetings;
-    method->Meetings(
-        7, query.from, query.until, query.until, [](std::uint32_t) { return false; }, &meetings);
+    std::vector<Neighbour> meetings;
+    method->FindNeighbours(
+        7, {query.from, query.until, query.until}, [](std::uint32_t) { return false; }, &meetings);
     EXPECT_TRUE(meetings.empty());
   }
   for (std::uint32_t i = 0; i < kCount; ++i) {
     motion::SpaceTimeBound bound = BoundIn(1e9, 0.5, 1, 0, &random);
     if (i == 5) bound.state.v_WA.x() = 0x1p41;
-    index.Put(i, bound);
+    index.Set(i, bound);
   }
   const std::uint64_t before = index.work().pair_queries;
   index.EarliestOf(5, query);
@@ -269,7 +271,7 @@ TEST(LargeMethods, ACrowdMakesTheWindowShort) {
   Random random(1);
   SpatialIndex index;
   constexpr int kCount = 4000;
-  for (int i = 0; i < kCount; ++i) index.Put(i, BoundIn(Half(kCount, 40), 0.2, 3, 1, &random));
+  for (int i = 0; i < kCount; ++i) index.Set(i, BoundIn(Half(kCount, 40), 0.2, 3, 1, &random));
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
                                        numeric::AddRoundedUp(kMethodStart, 100)};
   ASSERT_TRUE(index.Earliest(query).has_value());

@@ -1,7 +1,9 @@
-// Goal:   a pair whose canonical time is the query's last instant is found, and told as near, though
-//         that time is early and the exact one lies beyond: filters know how early an answer may be,
-//         and what the faces of hypertrapezoids lose by rounding.
-// Method: two that graze each other after minutes, or fly side by side a hair apart, among sixty who
+// Goal:   a pair whose canonical time is the query's last instant is found, and told as near,
+// though
+//         that time is early and the exact one lies beyond: filters know how early an answer may
+//         be, and what the faces of hypertrapezoids lose by rounding.
+// Method: two that graze each other after minutes, or fly side by side a hair apart, among sixty
+// who
 //         are far away, so that the grid is taken; each method beside the canonical routine.
 #include <gtest/gtest.h>
 
@@ -20,21 +22,21 @@ class MethodsAtTheLimit : public testing::TestWithParam<NamedMethod> {
   void ExpectFound(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
                    const intersection::BroadQuery& query) {
     const auto method = GetParam().make();
-    method->Put(0, a);
-    method->Put(1, b);
+    method->Set(0, a);
+    method->Set(1, b);
     for (std::uint32_t i = 0; i < 60; ++i) {
       motion::SpaceTimeBound far = a;
       far.state.v_WA.setZero();
       far.state.p_WA =
           Eigen::Vector3d(-3000 + 50.0 * (i % 4), 600 + 300.0 * (i / 4 % 4), 300.0 * (i / 16));
-      method->Put(2 + i, far);
+      method->Set(2 + i, far);
     }
     const auto found = method->Earliest(query);
     ASSERT_TRUE(found.has_value());
     EXPECT_EQ(found->lower, 0u);
     EXPECT_EQ(found->higher, 1u);
     std::vector<NearPair> pairs;
-    method->NearPairs(query, &pairs);
+    method->FindNearPairs(query, &pairs);
     EXPECT_EQ(std::count(pairs.begin(), pairs.end(), NearPair{0, 1}), 1);
   }
 };

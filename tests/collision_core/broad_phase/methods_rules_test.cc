@@ -18,16 +18,16 @@ namespace {
 constexpr int kHistories = kSanitized ? 1 : 4;
 constexpr int kSteps = 40;
 
-std::vector<std::string> Texts(const std::vector<Meeting>& meetings) {
+std::vector<std::string> Texts(const std::vector<Neighbour>& meetings) {
   std::vector<std::string> texts;
-  for (const Meeting& meeting : meetings) {
+  for (const Neighbour& meeting : meetings) {
     texts.push_back(Text(intersection::IntersectingPair{meeting.partner, 0, meeting.time}));
   }
   return texts;
 }
 
 /// Questions of one, and of all if asked for: those place everybody anew, the others do not.
-void ExpectAlike(const RulesTable& table, BroadPhase& method, Instant now, bool of_all,
+void ExpectAlike(const RulesTable& table, SweepingIndex& method, Instant now, bool of_all,
                  Random* random) {
   const auto one = static_cast<std::uint32_t>(random->Below(table.end()));
   for (const intersection::BoundKind kind :
@@ -45,17 +45,17 @@ void ExpectAlike(const RulesTable& table, BroadPhase& method, Instant now, bool 
   const Instant from = random->Chance(0.3) ? numeric::AddRoundedUp(now, -0.2) : now;
   const Instant until = numeric::AddRoundedUp(from, random->LogUniform(0.01, 5));
   const Instant horizon = random->Chance(0.5) ? Instant::Never() : numeric::AddRoundedUp(until, 2);
-  std::vector<Meeting> meetings;
+  std::vector<Neighbour> meetings;
   const auto none = [](std::uint32_t) { return false; };
-  method.Meetings(one, from, until, horizon, none, &meetings);
+  method.FindNeighbours(one, {from, until, horizon}, none, &meetings);
   ASSERT_EQ(Texts(meetings), Texts(table.Meetings(one, from, until, horizon))) << "of " << one;
 }
 
 /// Each pair once, none that is excluded, all that meet.
-void ExpectAllNear(const RulesTable& table, BroadPhase& method,
+void ExpectAllNear(const RulesTable& table, SweepingIndex& method,
                    const intersection::BroadQuery& query) {
   std::vector<NearPair> pairs;
-  method.NearPairs(query, &pairs);
+  method.FindNearPairs(query, &pairs);
   std::set<std::pair<std::uint32_t, std::uint32_t>> told;
   for (const NearPair& pair : pairs) {
     ASSERT_TRUE(told.insert({pair.lower, pair.higher}).second) << pair.lower << " " << pair.higher;
@@ -78,20 +78,20 @@ void Change(RulesTable* table, const NamedScene& scene, Instant now, Random* ran
   } else if (kind < 0.38) {
     table->Remove(i);
   } else if (kind < 0.45) {
-    table->PutHalfSpace(i, DrawHalfSpace(*table, random));
+    table->SetHalfSpace(i, DrawHalfSpace(*table, random));
   } else if (kind < 0.6 || !table->Moves(i)) {  // also where a half-space was
     motion::SpaceTimeBound bound = *scene.make(random).front();
     bound.state.stamp = now;
-    table->Put(i, bound);
+    table->Set(i, bound);
   } else if (table->bound(i).state.stamp < now) {  // a kept state, on the straight line
     motion::SpaceTimeBound bound = table->bound(i);
     bound.state.p_WA += bound.state.v_WA * numeric::SecondsBetween(bound.state.stamp, now).lower;
     bound.state.stamp = now;
-    table->Narrow(i, bound);
+    table->Tighten(i, bound);
   }
 }
 
-std::unique_ptr<BroadPhase> MakeChosen() { return std::make_unique<AdaptiveBroadPhase>(); }
+std::unique_ptr<SweepingIndex> MakeChosen() { return std::make_unique<AdaptiveBroadPhase>(); }
 
 class MethodsWithRules : public testing::TestWithParam<NamedMethod> {};
 
@@ -102,12 +102,13 @@ TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
       const auto method = GetParam().make();
       RulesTable table(method.get());
       const SceneAgents agents = scene.make(&random);
-      for (std::uint32_t a = 0; a < agents.size(); ++a) table.Put(a, *agents[a]);
-      table.PutHalfSpace(table.end() + 1, DrawHalfSpace(table, &random));
+      for (std::uint32_t a = 0; a < agents.size(); ++a) table.Set(a, *agents[a]);
+      table.SetHalfSpace(table.end() + 1, DrawHalfSpace(table, &random));
       Instant now = numeric::AddRoundedUp(kMethodStart, 1);
       for (int step = 0; step < kSteps; ++step) {
         for (int change = 0; change < 8; ++change) Change(&table, scene, now, &random);
         ExpectAlike(table, *method, now, step % 8 == 0, &random);
+        if (const auto* search = dynamic_cast<WindowedSearch*>(method.get())) search->Validate();
         ASSERT_FALSE(HasFatalFailure()) << scene.name << ", " << history << ", step " << step;
         ASSERT_EQ(method->rules().size(), table.rules());
         now = numeric::AddRoundedUp(now, random.Uniform(0, 0.05));
@@ -121,14 +122,14 @@ TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
 }
 
 /// `count` agents in a cube, asked about in turn; the work that the questions took.
-BroadPhaseWork WorkOfQuestions(BroadPhase* method, std::uint32_t count) {
+BroadPhaseWork WorkOfQuestions(SweepingIndex* method, std::uint32_t count) {
   const BroadPhaseWork before = method->work();
   for (std::uint32_t agent = 0; agent < count; agent += 7) {
     const Instant from = numeric::AddRoundedUp(kMethodStart, 1e-3 * agent);
-    std::vector<Meeting> meetings;
+    std::vector<Neighbour> meetings;
     const auto none = [](std::uint32_t) { return false; };
-    method->Meetings(agent, from, numeric::AddRoundedUp(from, 0.5), Instant::Never(), none,
-                     &meetings);
+    method->FindNeighbours(agent, {from, numeric::AddRoundedUp(from, 0.5), Instant::Never()}, none,
+                           &meetings);
     method->Earliest({intersection::BoundKind::kHorn, from, numeric::AddRoundedUp(from, 1)});
   }
   const BroadPhaseWork after = method->work();
@@ -136,10 +137,10 @@ BroadPhaseWork WorkOfQuestions(BroadPhase* method, std::uint32_t count) {
           after.visits - before.visits, after.rebuilds - before.rebuilds};
 }
 
-void Fill(BroadPhase* method, std::uint32_t count, double extent) {
+void Fill(SweepingIndex* method, std::uint32_t count, double extent) {
   Random random(9);
   for (std::uint32_t a = 0; a < count; ++a) {
-    method->Put(a, BoundIn(extent, 0.5, 5, 2, &random));
+    method->Set(a, BoundIn(extent, 0.5, 5, 2, &random));
   }
 }
 
@@ -162,8 +163,8 @@ TEST_P(MethodsWithRules, CostNothingWhereUnused) {
   }
   Fill(ruled.get(), kAgents, 20);
   for (std::uint32_t a = 1; a < 40; ++a) ruled->ClearRule(a + 3, a);
-  ASSERT_TRUE(ruled->PutHalfSpace(kAgents, {{0, 0, 1}, 1, 1, 2}));
-  ASSERT_TRUE(ruled->PutHalfSpace(kAgents + 1, {{0, 0, 1}, 1}));
+  ASSERT_TRUE(ruled->SetHalfSpace(kAgents, {{0, 0, 1}, 1, 1, 2}));
+  ASSERT_TRUE(ruled->SetHalfSpace(kAgents + 1, {{0, 0, 1}, 1}));
   ruled->Remove(kAgents + 1);
   ExpectSameWork(WorkOfQuestions(ruled.get(), kAgents), WorkOfQuestions(plain.get(), kAgents));
 }
@@ -181,7 +182,7 @@ TEST_P(MethodsWithRules, DoNotAskExcludedPairs) {
   EXPECT_FALSE(
       method->Earliest({intersection::BoundKind::kHypertrapezoid, kMethodStart, kMethodStart}));
   std::vector<NearPair> pairs;
-  method->NearPairs({intersection::BoundKind::kHorn, kMethodStart, kMethodStart}, &pairs);
+  method->FindNearPairs({intersection::BoundKind::kHorn, kMethodStart, kMethodStart}, &pairs);
   EXPECT_TRUE(pairs.empty());
 }
 
@@ -194,9 +195,9 @@ TEST_P(MethodsWithRules, MeetHalfSpacesBeforeOthersAreThere) {
   bound.state.p_WA = {3, 4, 7};
   bound.state.v_WA = {0, 0, -2};
   bound.declaration.radius = 1;
-  method->Put(0, bound);
-  ASSERT_TRUE(method->PutHalfSpace(1, {{0, 0, 1}, 0}));  // at 3 s
-  ASSERT_TRUE(method->PutHalfSpace(2, {{0, 0, 2}, 4}));  // at 2 s
+  method->Set(0, bound);
+  ASSERT_TRUE(method->SetHalfSpace(1, {{0, 0, 1}, 0}));  // at 3 s
+  ASSERT_TRUE(method->SetHalfSpace(2, {{0, 0, 2}, 4}));  // at 2 s
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
                                        Instant::Never()};
   const auto alone = method->Earliest(query);
@@ -205,7 +206,7 @@ TEST_P(MethodsWithRules, MeetHalfSpacesBeforeOthersAreThere) {
   EXPECT_LE(alone->time.seconds, 2);
   EXPECT_GE(alone->time.seconds, 2 - 1e-8);
   bound.state.stamp = numeric::AddRoundedUp(kMethodStart, 10);
-  method->Put(3, bound);
+  method->Set(3, bound);
   EXPECT_EQ(Text(method->Earliest(query)), Text(alone));
 }
 
@@ -217,16 +218,16 @@ TEST_P(MethodsWithRules, RefuseBeyondTheLimits) {
   EXPECT_FALSE(method->Exclude(1, 1));
   EXPECT_TRUE(method->rules().empty());
   for (std::uint32_t i = 0; i < HalfSpaces::kCountMax; ++i) {
-    ASSERT_TRUE(method->PutHalfSpace(10 + i, HalfSpace()));
+    ASSERT_TRUE(method->SetHalfSpace(10 + i, HalfSpace()));
   }
-  EXPECT_FALSE(method->PutHalfSpace(1, HalfSpace())) << "an agent's index, and it stays";
+  EXPECT_FALSE(method->SetHalfSpace(1, HalfSpace())) << "an agent's index, and it stays";
   EXPECT_EQ(method->half_spaces().size(), HalfSpaces::kCountMax);
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
                                        Instant::Never()};
   const auto expected = method->EarliestOf(1, query);
   ASSERT_TRUE(expected);
-  EXPECT_FALSE(method->PutHalfSpace(9, HalfSpace()));
-  EXPECT_FALSE(method->PutHalfSpace(12, {{0, 0, 0}, 0}));
+  EXPECT_FALSE(method->SetHalfSpace(9, HalfSpace()));
+  EXPECT_FALSE(method->SetHalfSpace(12, {{0, 0, 0}, 0}));
   EXPECT_EQ(Text(method->EarliestOf(1, query)), Text(expected));
 }
 

@@ -77,13 +77,13 @@ std::vector<std::string> ExpectedMeetings(const Agents& agents, std::uint32_t ag
   return texts;
 }
 
-std::vector<std::string> MeetingsOf(BroadPhase& method, std::uint32_t agent, Instant from,
+std::vector<std::string> MeetingsOf(SweepingIndex& method, std::uint32_t agent, Instant from,
                                     Instant until, Instant horizon) {
-  std::vector<Meeting> meetings;
-  method.Meetings(
-      agent, from, until, horizon, [](std::uint32_t) { return false; }, &meetings);
+  std::vector<Neighbour> meetings;
+  method.FindNeighbours(
+      agent, {from, until, horizon}, [](std::uint32_t) { return false; }, &meetings);
   std::vector<std::string> texts;
-  for (const Meeting& meeting : meetings) {
+  for (const Neighbour& meeting : meetings) {
     texts.push_back(std::to_string(meeting.partner) + " at " +
                     testing::PrintToString(meeting.time.seconds));
   }
@@ -98,7 +98,7 @@ TEST_P(Methods, FindTheSameEarliestMeetingInEveryScene) {
       Random random(1000 + seed);
       const Agents agents = scene.make(&random);
       const auto method = GetParam().make();
-      for (std::uint32_t a = 0; a < agents.size(); ++a) method->Put(a, *agents[a]);
+      for (std::uint32_t a = 0; a < agents.size(); ++a) method->Set(a, *agents[a]);
       const std::string what = std::string(scene.name) + ", seed " + std::to_string(seed);
       for (const intersection::BoundKind bound :
            {intersection::BoundKind::kHorn, intersection::BoundKind::kHypertrapezoid}) {
@@ -124,7 +124,7 @@ TEST_P(Methods, TellTheSameMeetingsOfOneAgent) {
       Random random(2000 + seed);
       const Agents agents = scene.make(&random);
       const auto method = GetParam().make();
-      for (std::uint32_t a = 0; a < agents.size(); ++a) method->Put(a, *agents[a]);
+      for (std::uint32_t a = 0; a < agents.size(); ++a) method->Set(a, *agents[a]);
       for (int question = 0; question < 4; ++question) {
         const auto agent = static_cast<std::uint32_t>(random.Below(agents.size()));
         const Instant from = numeric::AddRoundedUp(kMethodStart, random.Uniform(-0.5, 1));
@@ -159,7 +159,7 @@ TEST_P(Methods, StayRightThroughLongHistories) {
       Random random(3000 + seed);
       Agents agents = scene.make(&random);
       const auto method = GetParam().make();
-      for (std::uint32_t a = 0; a < agents.size(); ++a) method->Put(a, *agents[a]);
+      for (std::uint32_t a = 0; a < agents.size(); ++a) method->Set(a, *agents[a]);
       Instant now = kMethodStart;
       for (int step = 0; step < 60; ++step) {
         now = numeric::AddRoundedUp(now, random.Uniform(0, 0.05));
@@ -169,16 +169,16 @@ TEST_P(Methods, StayRightThroughLongHistories) {
           if (!agents[agent] || kind < 0.1) {  // admission, teleport
             agents[agent] = *scene.make(&random).front();
             agents[agent]->state.stamp = now;
-            method->Put(agent, *agents[agent]);
+            method->Set(agent, *agents[agent]);
           } else if (kind < 0.15) {
             agents[agent].reset();
             method->Remove(agent);
           } else if (kind < 0.3) {  // widening
             agents[agent]->declaration.acceleration_max *= 1.5;
-            method->Put(agent, *agents[agent]);
+            method->Set(agent, *agents[agent]);
           } else if (agents[agent]->state.stamp < now) {
             agents[agent] = Later(*agents[agent], now, &random);
-            method->Narrow(agent, *agents[agent]);
+            method->Tighten(agent, *agents[agent]);
           }
         }
         const intersection::BroadQuery query{
@@ -186,6 +186,7 @@ TEST_P(Methods, StayRightThroughLongHistories) {
             numeric::AddRoundedUp(now, random.LogUniform(0.01, 5))};
         const std::string what = std::string(scene.name) + ", seed " + std::to_string(seed) +
                                  ", step " + std::to_string(step);
+        if (const auto* search = dynamic_cast<WindowedSearch*>(method.get())) search->Validate();
         if (step % 10 == 0) ExpectSame(method->Earliest(query), Oracle(agents, query), what);
         const auto one = static_cast<std::uint32_t>(random.Below(agents.size()));
         if (!agents[one]) continue;

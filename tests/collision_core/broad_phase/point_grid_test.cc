@@ -144,8 +144,8 @@ TEST(PointGrid, RefusesCrowds) {
   EXPECT_LT(PairsOf(&grid).size(), 300u);  // A wide row costs digits.
 }
 
-// Some of a scene: those who are not there tell nothing, and whoever lies beyond those that were looked
-// at, or reaches farther, is found as well.
+// Some of a scene: those who are not there tell nothing, and whoever lies beyond those that were
+// looked at, or reaches farther, is found as well.
 TEST(PointGrid, FindsWhoLiesBeyondTheSampleAndNobodyWhoIsAbsent) {
   constexpr std::uint32_t kCount = 9000;  // Every third is looked at.
   constexpr double kSides[] = {40, 40, 40};
@@ -181,8 +181,8 @@ TEST(PointGrid, FindsWhoLiesBeyondTheSampleAndNobodyWhoIsAbsent) {
   }
 }
 
-// Two that pass each other within `own`, at any time within the half, are told; of those whose places
-// are near, but whose lines are not, few.
+// Two that pass each other within `own`, at any time within the half, are told; of those whose
+// places are near, but whose lines are not, few.
 TEST(PointGrid, ComparesLinesWhereAsked) {
   Random random(8);
   constexpr double kHalf = 0.5;

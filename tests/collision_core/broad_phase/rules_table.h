@@ -11,12 +11,12 @@
 
 #include "tests/collision_core/broad_phase/method_scenes.h"
 
-namespace collision {
+namespace collision::broad_phase {
 
 /// Asks the canonical routines for every pair. Every change is made to the method too.
 class RulesTable {
  public:
-  explicit RulesTable(broad_phase::BroadPhase* method) : method_(method) {}
+  explicit RulesTable(SweepingIndex* method) : method_(method) {}
 
   std::uint32_t end() const { return static_cast<std::uint32_t>(bounds_.size()); }
   bool Moves(std::uint32_t i) const { return i < end() && bounds_[i].has_value(); }
@@ -24,21 +24,21 @@ class RulesTable {
   const motion::SpaceTimeBound& bound(std::uint32_t i) const { return *bounds_[i]; }
   std::size_t rules() const { return rules_.size(); }
 
-  void Put(std::uint32_t i, const motion::SpaceTimeBound& bound) {
+  void Set(std::uint32_t i, const motion::SpaceTimeBound& bound) {
     Reserve(i);
     bounds_[i] = bound;
     half_spaces_.erase(i);
-    method_->Put(i, bound);
+    method_->Set(i, bound);
   }
-  void Narrow(std::uint32_t i, const motion::SpaceTimeBound& bound) {
+  void Tighten(std::uint32_t i, const motion::SpaceTimeBound& bound) {
     bounds_[i] = bound;
-    method_->Narrow(i, bound);
+    method_->Tighten(i, bound);
   }
-  void PutHalfSpace(std::uint32_t i, const broad_phase::HalfSpace& half_space) {
+  void SetHalfSpace(std::uint32_t i, const HalfSpace& half_space) {
     Reserve(i);
     bounds_[i].reset();
     half_spaces_[i] = half_space;
-    EXPECT_TRUE(method_->PutHalfSpace(i, half_space));
+    EXPECT_TRUE(method_->SetHalfSpace(i, half_space));
   }
   void Remove(std::uint32_t i) {
     if (i < end()) bounds_[i].reset();
@@ -86,12 +86,12 @@ class RulesTable {
     return best;
   }
 
-  std::vector<broad_phase::Meeting> Meetings(std::uint32_t agent, Instant from, Instant until,
-                                             Instant horizon) const {
-    std::vector<broad_phase::Meeting> meetings;
-    std::optional<broad_phase::Meeting> next;
+  std::vector<Neighbour> Meetings(std::uint32_t agent, Instant from, Instant until,
+                                  Instant horizon) const {
+    std::vector<Neighbour> meetings;
+    std::optional<Neighbour> next;
     for (std::uint32_t other = 0; other < end(); ++other) {
-      const broad_phase::Meeting meeting{
+      const Neighbour meeting{
           other, TimeOf({intersection::BoundKind::kHorn, from, horizon}, agent, other)};
       const Instant when = meeting.time.instant();
       if (when.is_never()) continue;
@@ -111,9 +111,9 @@ class RulesTable {
     if (end() <= i) bounds_.resize(i + 1);
   }
 
-  broad_phase::BroadPhase* method_;
+  SweepingIndex* method_;
   SceneAgents bounds_;
-  std::map<std::uint32_t, broad_phase::HalfSpace> half_spaces_;
+  std::map<std::uint32_t, HalfSpace> half_spaces_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, intersection::PairRule> rules_;
 };
 
@@ -125,8 +125,8 @@ inline std::string Text(const std::optional<intersection::IntersectingPair>& mee
 }
 
 /// Near some agent, any way round.
-inline broad_phase::HalfSpace DrawHalfSpace(const RulesTable& table, Random* random) {
-  broad_phase::HalfSpace half_space;
+inline HalfSpace DrawHalfSpace(const RulesTable& table, Random* random) {
+  HalfSpace half_space;
   half_space.normal = random->UnitVector() * random->LogUniform(1e-3, 1e3);
   const auto at = static_cast<std::uint32_t>(random->Below(table.end()));
   if (table.Moves(at)) {
@@ -145,4 +145,4 @@ inline intersection::PairRule DrawRule(Random* random) {
   return {.margin = random->LogUniform(1e-3, 10)};
 }
 
-}  // namespace collision
+}  // namespace collision::broad_phase

@@ -319,7 +319,7 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
     std::optional<std::vector<std::int64_t>> log;
     for (const broad_phase::BroadPhaseMethod method :
          {broad_phase::BroadPhaseMethod::kAllPairs, broad_phase::BroadPhaseMethod::kSpatialIndex,
-          broad_phase::BroadPhaseMethod::kFaceSweep, broad_phase::BroadPhaseMethod::kAuto}) {
+          broad_phase::BroadPhaseMethod::kExhaustive, broad_phase::BroadPhaseMethod::kAuto}) {
       SCOPED_TRACE(Name(method));
       RandomHistory history(static_cast<std::uint64_t>(box), box, method);
       for (int step = 0; step < steps; ++step) {

@@ -167,10 +167,10 @@ TEST(Config, WordsAreChecked) {
     EXPECT_EQ(ErrorsOf(*FindConfigOption("kind"), bad), 1) << bad;
   }
   const ConfigOption& method = *FindConfigOption("broad_phase");
-  for (const char* good : {"AUTO", "ALL_PAIRS", "FACE_SWEEP", "SPATIAL_INDEX"}) {
+  for (const char* good : {"AUTO", "ALL_PAIRS", "SPATIAL_INDEX"}) {
     EXPECT_EQ(ErrorsOf(method, good), 0) << good;
   }
-  for (const char* bad : {"BROAD_PHASE_UNSET", "OCTREE", "0", "\"AUTO\""}) {
+  for (const char* bad : {"BROAD_PHASE_UNSET", "FACE_SWEEP", "OCTREE", "0", "\"AUTO\""}) {
     EXPECT_EQ(ErrorsOf(method, bad), 1) << bad;
   }
 }
@@ -234,7 +234,7 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   if (option.path == "log_level") return "\"debug\"";
   if (option.path == "log_file" || option.path == "tree_cache_dir") return "\"/a b\\\"\\\\\"";
   if (option.path == "clock.kind") return random.Chance(0.5) ? "WALL" : "SIMULATED";
-  if (option.path == "broad_phase") return random.Chance(0.5) ? "AUTO" : "FACE_SWEEP";
+  if (option.path == "broad_phase") return random.Chance(0.5) ? "AUTO" : "ALL_PAIRS";
   if (option.path == "tree_builder") return random.Chance(0.5) ? "OCTREE" : "FITTED";
   if (option.least.empty()) return "RELEASE";
   const double least = std::max(std::stod(std::string(option.least)), 1e-6);

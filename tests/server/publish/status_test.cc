@@ -97,7 +97,6 @@ TEST(Status, TellsTheMethodAndWhatItCost) {
   const std::pair<v1::Config::BroadPhase, const char*> methods[] = {
       {v1::Config::AUTO, "all pairs"},
       {v1::Config::ALL_PAIRS, "all pairs"},
-      {v1::Config::FACE_SWEEP, "face sweep"},
       {v1::Config::SPATIAL_INDEX, "spatial index"}};
   for (const auto& [method, name] : methods) {
     v1::Config config = Simulated();

@@ -1,0 +1,80 @@
+// The bounds that a method of the broad phase holds, and the one door for rules and half-spaces.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "collision_core/broad_phase/index/half_space.h"
+#include "collision_core/intersection/pair_rules.h"
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision::broad_phase {
+
+/// The bounds of all agents by index, with what is agreed beside them: excluded pairs, margins of
+/// pairs, and half-spaces (floors, walls). It is the common base of NeighbourIndex and
+/// EarliestSweep, which ask questions about the bounds that are held.
+///
+/// Rules and half-spaces enter a method here and nowhere else. A margin grows an agent's reach
+/// where its bound is stored (HornTable, AlphaTFaces), so that the filters know nothing of pairs;
+/// an exclusion is applied to the pairs that the filters leave (PairRules has both arguments).
+///
+/// A change takes effect at once; structures are brought up to date by the next question. Indices
+/// are small whole numbers that the caller chooses; memory is in proportion to the greatest.
+/// Single-threaded.
+class AgentBounds {
+ public:
+  AgentBounds() = default;
+  AgentBounds(const AgentBounds&) = delete;
+  AgentBounds& operator=(const AgentBounds&) = delete;
+  virtual ~AgentBounds() = default;
+
+  /// Adds the agent, or replaces its bound or the half-space of that index.
+  virtual void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) = 0;
+  /// Removes the agent or half-space, if it is there, and all its rules.
+  virtual void Remove(std::uint32_t agent) = 0;
+
+  /// Adds a half-space under an index of its own, or replaces what that index held. Returns false,
+  /// and changes nothing, if HalfSpaces refuses it.
+  virtual bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) = 0;
+  const HalfSpaces& half_spaces() const { return half_spaces_; }
+
+  /// Replaces the rule of a pair; PairRule() takes it away. It counts from the next question on,
+  /// also for agents that are set later, until one of the two is removed. Returns false, and
+  /// changes nothing, if PairRules refuses it.
+  bool SetRule(std::uint32_t a, std::uint32_t b, intersection::PairRule rule) {
+    if (!rules_->Set(a, b, rule)) return false;
+    UpdateRules(a);
+    UpdateRules(b);
+    return true;
+  }
+  bool Exclude(std::uint32_t a, std::uint32_t b) { return SetRule(a, b, {.excluded = true}); }
+  bool SetMargin(std::uint32_t a, std::uint32_t b, double metres) {
+    return SetRule(a, b, {.margin = metres});
+  }
+  void ClearRule(std::uint32_t a, std::uint32_t b) { SetRule(a, b, {}); }
+  const intersection::PairRules& rules() const { return *rules_; }
+
+  /// Shares one object between methods that work together. Requires that no agent is held. The
+  /// caller that changes a rule calls UpdateRules() of each method.
+  virtual void ShareRules(std::shared_ptr<intersection::PairRules> rules) {
+    rules_ = std::move(rules);
+  }
+  /// The rules of the agent have changed: stored reaches that depend on them are updated.
+  virtual void UpdateRules(std::uint32_t /*agent*/) {}
+
+ protected:
+  /// Removes all rules of the agent and updates its partners.
+  void ForgetRules(std::uint32_t agent) {
+    for (const std::uint32_t partner : rules_->Forget(agent)) UpdateRules(partner);
+  }
+
+  std::shared_ptr<intersection::PairRules> shared_rules() const { return rules_; }
+  HalfSpaces& mutable_half_spaces() { return half_spaces_; }
+
+ private:
+  std::shared_ptr<intersection::PairRules> rules_ = std::make_shared<intersection::PairRules>();
+  HalfSpaces half_spaces_;
+};
+
+}  // namespace collision::broad_phase

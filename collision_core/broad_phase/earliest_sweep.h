@@ -1,0 +1,37 @@
+// Which two agents of a whole set can meet first: the one-shot interface of the broad phase.
+#pragma once
+
+#include <optional>
+
+#include "collision_core/broad_phase/agent_bounds.h"
+#include "collision_core/broad_phase/broad_phase_work.h"
+#include "collision_core/broad_phase/neighbour_index.h"
+#include "collision_core/intersection/intersection_query.h"
+
+namespace collision::broad_phase {
+
+/// Finds the earliest pair of a set of bounds in one sweep over all of them: set every bound, ask
+/// once. The paper's own question (t_end, the earliest possible intersection of all), which its
+/// collision loop asks before it looks at a single frame; tests/baselines/global_loop.h is that
+/// loop. A service that follows many agents asks a NeighbourIndex instead, agent by agent.
+///
+/// As for NeighbourIndex, methods differ in cost alone: the time is EarliestIntersectionOf() of the
+/// pair, bit for bit. Source: Hubbard, "Collision detection for interactive graphics applications",
+/// IEEE TVCG 1(3), 1995, section 4.
+class EarliestSweep : public virtual AgentBounds {
+ public:
+  /// The earliest possible intersection of all pairs within the query's window; of equal ones that
+  /// of the lower indices. nullopt: none.
+  virtual std::optional<intersection::IntersectingPair> Earliest(
+      const intersection::BroadQuery& query) = 0;
+
+  virtual BroadPhaseWork work() const = 0;
+};
+
+/// A method that answers both kinds of questions about the bounds it holds.
+class SweepingIndex : public NeighbourIndex, public EarliestSweep {
+ public:
+  BroadPhaseWork work() const override = 0;
+};
+
+}  // namespace collision::broad_phase

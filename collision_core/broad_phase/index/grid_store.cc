@@ -1,0 +1,248 @@
+#include "collision_core/broad_phase/index/grid_store.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collision_core/base/check.h"
+
+namespace collision::broad_phase {
+namespace {
+
+/// The level an agent belongs to, larger ones later: counted down from the greatest reach in powers
+/// of 4, so that agents that are all alike share one. Odd for those that never move.
+constexpr int kLevelsMax = 120;
+constexpr int kKeys = 2 * kLevelsMax + 2;
+std::uint8_t KeyOf(float reach, float greatest, bool still) {
+  int exponent;
+  std::frexp(greatest / reach, &exponent);
+  return static_cast<std::uint8_t>(2 * (kLevelsMax - std::clamp(exponent / 2, 0, kLevelsMax)) +
+                                   still);
+}
+
+}  // namespace
+
+void GridStore::PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horns) {
+  places_.assign(scene.table->size(), {});
+  unplaced_.Clear();
+  level_count_ = 0;
+  points_last_ = 0;
+  if (horns->empty()) return;
+  const FilterQuery times = TimesOf(*scene.frame, {0, scene.frame->window()});
+  PlacedExtent extent;
+  float least = std::numeric_limits<float>::infinity(), greatest = 0;
+  for (const PlacedHorn& horn : *horns) {
+    extent.Add(horn);
+    const float reach = ReachAt(times.time, horn.s0, horn.s1, horn.s2) + times.way * horn.speed;
+    least = std::min(least, reach), greatest = std::max(greatest, reach);
+  }
+  // Mostly all reach about as far, and move.
+  if (scene.table->still_count() == 0 && greatest < 4 * least) {
+    sorted_.swap(*horns);
+    BuildLevel(scene, false, {0, static_cast<std::uint32_t>(sorted_.size())}, extent);
+  } else {
+    SortByLevel(scene, *horns);
+  }
+}
+
+// Where most agents never move, levels spare the comparison of still agents with each other.
+bool GridStore::PlaceForJoin(const PlacedScene& scene, double last) {
+  return 2 * scene.table->still_count() < scene.table->count() && BuildPoints(scene, last);
+}
+
+bool GridStore::BuildPoints(const PlacedScene& scene, double last) {
+  const HornTable& table = *scene.table;
+  const auto at = [&](std::uint32_t agent, ReachPoint* point) {
+    if (!table.contains(agent) || scene.IsUnfilterable(agent)) return false;
+    *point = scene.frame->HalfWay(table, agent, last);
+    return true;
+  };
+  if (!points_.Build(table.size(), table.count(), 0.5 * last, at)) return false;
+  points_last_ = last;
+  return true;
+}
+
+void GridStore::JoinPoints(const PlacedScene& scene, double last, SearchCost* cost,
+                           PairSink* sink) {
+  const HornTable& table = *scene.table;
+  const std::uint64_t tests = points_.tests(), ranges = points_.ranges();
+  const auto fetch = [&](std::uint32_t a, std::uint32_t b) { table.Fetch(a), table.Fetch(b); };
+  const auto visit = [&](std::uint32_t a, std::uint32_t b) {
+    const Approaching pair = scene.frame->Approach(table, a, b);
+    const double until = std::min(last, sink->limit());
+    ++cost->work.filter_tests;
+    if (pair.MayMeetBy(until)) sink->Offer(a, b);
+  };
+  points_.ForEachPair(fetch, visit);
+  cost->work.filter_tests += points_.tests() - tests;
+  cost->work.visits += points_.ranges() - ranges;
+}
+
+void GridStore::SortByLevel(const PlacedScene& scene, const std::vector<PlacedHorn>& horns) {
+  reaches_.resize(horns.size());
+  keys_.resize(horns.size());
+  float greatest = 0;
+  for (std::size_t k = 0; k < horns.size(); ++k) {
+    reaches_[k] = static_cast<float>(scene.frame->Reach(horns[k], {0, scene.frame->window()}));
+    greatest = std::max(greatest, reaches_[k]);
+  }
+  std::uint32_t counts[kKeys] = {}, next[kKeys];
+  for (std::size_t k = 0; k < horns.size(); ++k) {
+    keys_[k] = KeyOf(reaches_[k], greatest, scene.table->row(horns[k].agent).still);
+    ++counts[keys_[k]];
+  }
+  std::uint32_t sum = 0;
+  for (int key = 0; key < kKeys; ++key) next[key] = sum, sum += counts[key];
+  sorted_.resize(horns.size());
+  for (std::size_t k = 0; k < horns.size(); ++k) sorted_[next[keys_[k]]++] = horns[k];
+  for (int key = 0; key < kKeys; ++key) {
+    if (counts[key] == 0) continue;
+    const std::uint32_t first = next[key] - counts[key];
+    PlacedExtent extent;
+    for (std::uint32_t k = first; k < next[key]; ++k) extent.Add(sorted_[k]);
+    BuildLevel(scene, key % 2 == 1, {first, counts[key]}, extent);
+  }
+}
+
+void GridStore::BuildLevel(const PlacedScene& scene, bool still, Part part,
+                           const PlacedExtent& extent) {
+  if (levels_.size() == level_count_) levels_.emplace_back();
+  Level& level = levels_[level_count_];
+  level.still = still;
+  level.first = part.first;
+  level.grid.Build(*scene.frame, sorted_.data() + part.first, part.count, extent);
+  for (std::uint32_t k = 0; k < part.count; ++k) {
+    places_[sorted_[part.first + k].agent] = {level_count_, level.grid.place(k)};
+  }
+  ++level_count_;
+}
+
+void GridStore::Place(const PlacedHorn& horn) {
+  places_[horn.agent] = {kUnsorted, unplaced_.size()};
+  unplaced_.Add(horn);
+}
+
+void GridStore::Unplace(std::uint32_t agent) {
+  if (places_.size() <= agent) places_.resize(agent + 1);
+  const Spot place = places_[agent];
+  if (place.level != kUnsorted) {
+    levels_[place.level].grid.Vacate(place.place);
+  } else if (place.place < unplaced_.size() && unplaced_.agent(place.place) == agent) {
+    unplaced_.Vacate(place.place);
+  }
+  places_[agent] = {};
+}
+
+void GridStore::Scan(const PlacedBalls& lanes, const FilterQuery& query, SearchCost* cost,
+                     std::vector<std::uint32_t>* near) {
+  for (const FilterRange& range : ranges_) cost->work.filter_tests += range.end - range.begin;
+  cost->work.visits += ranges_.size();
+  ScanInto(lanes, query, ranges_, &hits_, near);
+}
+
+void GridStore::TakeAll(const GridLevel& grid, std::vector<std::uint32_t>* near) {
+  for (std::uint32_t k = 0; k < grid.size(); ++k) {
+    if (grid.lanes().agent(k) != PlacedBalls::kNoAgent) near->push_back(grid.lanes().agent(k));
+  }
+}
+
+void GridStore::JoinRows(const Level& level, TimeWindow stretch, SearchCost* cost, PairSink* sink) {
+  const PlacedBalls& lanes = level.grid.lanes();
+  const auto visit = [&](std::uint32_t place, const FilterQuery& query,
+                         const std::vector<FilterRange>& ranges) {
+    near_.clear();
+    cost->work.visits += ranges.size();
+    ScanInto(lanes, query, ranges, &hits_, &near_);
+    for (const std::uint32_t other : near_) sink->Offer(lanes.agent(place), other);
+    return sink->limit();
+  };
+  level.grid.ForEachPlace(stretch, visit);
+}
+
+// Many agents with a short reach search few with a long one, or the other way round.
+double GridStore::CostOfAsking(const Level& level, const Level& other, TimeWindow stretch) {
+  return level.grid.size() * other.grid.RowsWithin(level.grid.ReachMax(stretch), stretch);
+}
+
+void GridStore::JoinCells(const PlacedScene& scene, const LevelPair& levels, TimeWindow stretch,
+                          SearchCost* cost, PairSink* sink) {
+  const Level &level = *levels.asking, &other = *levels.asked;
+  for (std::uint32_t k = 0; k < level.grid.size(); ++k) {
+    const PlacedHorn& horn = sorted_[level.first + k];
+    stretch.last = std::min(stretch.last, std::max(stretch.first, sink->limit()));
+    const std::uint32_t after = &level == &other ? level.grid.place(k) : PlacedBalls::kNoAgent;
+    near_.clear();
+    ranges_.clear();
+    if (other.grid.Ranges(horn.c, scene.frame->Reach(horn, stretch), stretch, after, &ranges_)) {
+      Scan(other.grid.lanes(), QueryOf(horn, *scene.frame, stretch), cost, &near_);
+    } else {
+      TakeAll(other.grid, &near_);
+    }
+    for (const std::uint32_t partner : near_) sink->Offer(horn.agent, partner);
+  }
+}
+
+bool GridStore::Join(const PlacedScene& scene, TimeWindow stretch, SearchCost* cost,
+                     PairSink* sink) {
+  if (points_last_ > 0) {
+    if (points_last_ < stretch.last && !BuildPoints(scene, stretch.last)) return false;
+    JoinPoints(scene, stretch.last, cost, sink);
+    return true;
+  }
+  // The farthest-reaching first: they are few, and what they meet makes the window short for the
+  // rest.
+  for (std::uint32_t m = level_count_; m-- > 0;) {
+    for (std::uint32_t l = m + 1; l-- > 0;) {
+      if (levels_[l].still && levels_[m].still) continue;
+      if (l == m && levels_[l].grid.in_rows()) {
+        JoinRows(levels_[l], stretch, cost, sink);
+      } else if (CostOfAsking(levels_[l], levels_[m], stretch) <=
+                 CostOfAsking(levels_[m], levels_[l], stretch)) {
+        JoinCells(scene, {&levels_[l], &levels_[m]}, stretch, cost, sink);
+      } else {
+        JoinCells(scene, {&levels_[m], &levels_[l]}, stretch, cost, sink);
+      }
+    }
+  }
+  return true;
+}
+
+void GridStore::FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow stretch,
+                         SearchCost* cost, std::vector<std::uint32_t>* near) {
+  const bool still = horn.agent != PlacedHorn::kNoAgent && scene.table->row(horn.agent).still;
+  const bool late = stretch.first > scene.frame->window();
+  const FilterQuery query = QueryOf(horn, *scene.frame, stretch);
+  for (std::uint32_t l = 0; l < level_count_; ++l) {
+    if (levels_[l].still && still) continue;
+    ranges_.clear();
+    const GridLevel& grid = levels_[l].grid;
+    if (grid.Ranges(horn.c, scene.frame->Reach(horn, stretch), stretch, PlacedBalls::kNoAgent,
+                    &ranges_)) {
+      const std::uint64_t before = cost->work.filter_tests;
+      Scan(grid.lanes(), query, cost, near);
+      if (late) cost->wasted += cost->work.filter_tests - before;
+    } else {
+      TakeAll(grid, near);
+      cost->wasted += grid.size();
+    }
+  }
+  if (unplaced_.size() == 0) return;
+  cost->wasted += unplaced_.size();
+  unplaced_.FindNear(horn, *scene.frame, stretch, &cost->work, near);
+}
+
+void GridStore::Validate() const {
+  for (std::uint32_t l = 0; l < level_count_ && points_last_ == 0; ++l) levels_[l].grid.Validate();
+  unplaced_.Validate();
+  for (std::uint32_t agent = 0; agent < places_.size() && points_last_ == 0; ++agent) {
+    const Spot& place = places_[agent];
+    if (place.level == kUnsorted) continue;
+    CORE_CHECK(place.level < level_count_, "a place names a level that is in use", agent,
+               place.level, level_count_);
+    const PlacedBalls& lanes = levels_[place.level].grid.lanes();
+    CORE_CHECK(place.place < lanes.size() && lanes.agent(place.place) == agent,
+               "an agent stands at its place in its level", agent, place.level, place.place);
+  }
+}
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,85 @@
+// Placed agents in grids, one for each size of reach: the store for large and changing scenes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/filter/point_grid.h"
+#include "collision_core/broad_phase/index/filter_row.h"
+#include "collision_core/broad_phase/index/grid_level.h"
+#include "collision_core/broad_phase/index/placed_store.h"
+
+namespace collision::broad_phase {
+
+/// Sorts agents by reach, in powers of 4 below the greatest, and gives each level a grid
+/// (grid_level.h), so that neither a few large or fast agents nor clusters slow the others down. An
+/// agent asks its own level and the coarser ones, so size ratios of 1e6 cost a dozen look-ups.
+/// Agents that never move have grids of their own and do not ask each other. Of two levels, the one
+/// for which it is less work asks the other: a few agents with a long reach ask the many, the
+/// farthest-reaching first, because what they meet shortens the window for the rest.
+///
+/// An agent that is placed later goes to a list, which every question scans; that, and windows long
+/// past, counts as wasted (SearchCost), which makes the search place all agents anew.
+///
+/// A question about all agents at once is one pass over a grid of points (point_grid.h) where the
+/// scene suits one grid; crowds, very different reaches, and scenes that mostly stand still use the
+/// levels.
+class GridStore : public PlacedStore {
+ public:
+  void PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horns) override;
+  bool PlaceForJoin(const PlacedScene& scene, double last) override;
+  void Place(const PlacedHorn& horn) override;
+  void Unplace(std::uint32_t agent) override;
+  bool Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost, PairSink* sink) override;
+  void FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow window,
+                SearchCost* cost, std::vector<std::uint32_t>* near) override;
+  void Validate() const override;
+
+ private:
+  struct Level {
+    bool still = false;
+    std::uint32_t first = 0;  ///< Of sorted_.
+    GridLevel grid;
+  };
+  struct Spot {
+    std::uint32_t level = kUnsorted;  ///< Of grids, or kUnsorted.
+    std::uint32_t place = 0;
+  };
+  static constexpr std::uint32_t kUnsorted = ~0u;
+
+  /// A part of sorted_.
+  struct Part {
+    std::uint32_t first, count;
+  };
+  /// Each agent of one level is looked for in the other.
+  struct LevelPair {
+    const Level *asking, *asked;
+  };
+
+  bool BuildPoints(const PlacedScene& scene, double last);
+  void JoinPoints(const PlacedScene& scene, double last, SearchCost* cost, PairSink* sink);
+  void SortByLevel(const PlacedScene& scene, const std::vector<PlacedHorn>& horns);
+  void BuildLevel(const PlacedScene& scene, bool still, Part part, const PlacedExtent& extent);
+  void JoinRows(const Level& level, TimeWindow stretch, SearchCost* cost, PairSink* sink);
+  static double CostOfAsking(const Level& level, const Level& other, TimeWindow stretch);
+  void JoinCells(const PlacedScene& scene, const LevelPair& levels, TimeWindow stretch,
+                 SearchCost* cost, PairSink* sink);
+  void Scan(const PlacedBalls& lanes, const FilterQuery& query, SearchCost* cost,
+            std::vector<std::uint32_t>* near);
+  static void TakeAll(const GridLevel& grid, std::vector<std::uint32_t>* near);
+
+  std::vector<Level> levels_;  ///< From small to large reach; the first level_count_ count.
+  std::uint32_t level_count_ = 0;
+  std::vector<PlacedHorn> sorted_;  ///< In the order of levels and, within one, of agents.
+  std::vector<Spot> places_;        ///< By agent.
+  FilterRow unplaced_;
+  PointGrid points_;        ///< Instead of levels, for one question about all.
+  double points_last_ = 0;  ///< Up to when it holds, after the begin [s]; 0: not in use.
+
+  std::vector<float> reaches_;  ///< Of the horns given, like the keys of their levels.
+  std::vector<std::uint8_t> keys_;
+  std::vector<FilterRange> ranges_;
+  std::vector<std::uint32_t> hits_, near_;
+};
+
+}  // namespace collision::broad_phase

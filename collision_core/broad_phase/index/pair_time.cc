@@ -1,0 +1,32 @@
+#include "collision_core/broad_phase/index/pair_time.h"
+
+namespace collision::broad_phase {
+
+bool CanMeet(intersection::BoundKind kind, const motion::SpaceTimeBound& a,
+             const motion::SpaceTimeBound& b) {
+  if (kind == intersection::BoundKind::kHorn && NeverMoves(a) && NeverMoves(b)) return false;
+  return CanMeet(a.declaration, b.declaration);
+}
+
+intersection::IntersectionTime PairTimeOf(const intersection::BroadQuery& query,
+                                          const AgentBounds& set, const BoundList& bounds,
+                                          std::pair<std::uint32_t, std::uint32_t> pair,
+                                          BroadPhaseWork* work) {
+  const intersection::IntersectionTime never{query.from, numeric::kInfinity};
+  const auto [a, b] = pair;
+  const intersection::PairRule rule = set.rules().Of(a, b);
+  const bool a_moves = Holds(bounds, a), b_moves = Holds(bounds, b);
+  if (rule.excluded || a == b || !(a_moves || b_moves)) return never;
+  if (a_moves && b_moves) {
+    if (!CanMeet(query.bound, *bounds[a], *bounds[b])) return never;
+    ++work->pair_queries;
+    return EarliestIntersectionOf(query, *bounds[a], *bounds[b], rule.margin);
+  }
+  const HalfSpaces::Entry* entry = set.half_spaces().Find(a_moves ? b : a);
+  const motion::SpaceTimeBound& bound = *bounds[a_moves ? a : b];
+  if (entry == nullptr || !CanMeet(entry->half_space, bound)) return never;
+  ++work->pair_queries;
+  return EarliestIntersectionOf(query, entry->half_space, bound, rule.margin);
+}
+
+}  // namespace collision::broad_phase

@@ -1,0 +1,62 @@
+// Where a windowed search keeps the agents that it has placed: the part in which methods differ.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "collision_core/broad_phase/broad_phase_work.h"
+#include "collision_core/broad_phase/filter/horn_table.h"
+#include "collision_core/broad_phase/filter/placement_frame.h"
+#include "collision_core/broad_phase/index/pair_sink.h"
+
+namespace collision::broad_phase {
+
+/// What the searches of a store have cost.
+struct SearchCost {
+  BroadPhaseWork work;
+  std::uint64_t wasted = 0;  ///< Tests that a fresh placing would have saved, since the last one.
+};
+
+/// All agents, and the frame in which they are placed. Both belong to the search; they stay where
+/// they are in memory as long as it exists.
+struct PlacedScene {
+  const HornTable* table;
+  const PlacementFrame* frame;
+
+  /// The agent is too large or too far for filters: it is not placed, but tested directly.
+  bool IsUnfilterable(std::uint32_t agent) const {
+    return table->row(agent).unfilterable || frame->blind();
+  }
+};
+
+/// A structure over placed agents that finds those that come within reach of each other. Its
+/// answers may contain other agents and pairs too (they are candidates), but never lack one.
+class PlacedStore {
+ public:
+  virtual ~PlacedStore() = default;
+
+  /// Replaces everything by `horns`, all agents of the scene but unfilterable ones, ascending. May
+  /// take their memory.
+  virtual void PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horns) = 0;
+  /// Prepares for Join() alone, of a window up to `last` at first; FindNear() must not follow.
+  /// Returns false if that would be no cheaper than PlaceAll().
+  virtual bool PlaceForJoin(const PlacedScene& /*scene*/, double /*last*/) { return false; }
+  /// Adds an agent that is not placed.
+  virtual void Place(const PlacedHorn& horn) = 0;
+  /// Removes the agent, if it is placed.
+  virtual void Unplace(std::uint32_t agent) = 0;
+
+  /// Offers all pairs that come within reach of each other during the window, and others. Returns
+  /// false, and offers none, if the store was only prepared for a shorter window: PlaceAll() first.
+  virtual bool Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost,
+                    PairSink* sink) = 0;
+  /// Appends all agents that come within reach of `horn` during the window, and others.
+  virtual void FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow window,
+                        SearchCost* cost, std::vector<std::uint32_t>* near) = 0;
+
+  /// Walks the structure: every agent that is placed stands where FindNear() looks for it. Throws
+  /// CheckFailure.
+  virtual void Validate() const = 0;
+};
+
+}  // namespace collision::broad_phase

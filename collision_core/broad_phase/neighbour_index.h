@@ -1,0 +1,90 @@
+// Which agents can one agent meet: the incremental interface of the broad phase.
+#pragma once
+
+#include <algorithm>
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "collision_core/broad_phase/agent_bounds.h"
+#include "collision_core/broad_phase/broad_phase_work.h"
+#include "collision_core/intersection/intersection_query.h"
+
+namespace collision::broad_phase {
+
+/// A partner, and the earliest possible intersection with it.
+struct Neighbour {
+  std::uint32_t partner;
+  intersection::IntersectionTime time;
+};
+
+/// Two agents that may meet, lower < higher.
+struct NearPair {
+  std::uint32_t lower, higher;
+
+  friend auto operator<=>(const NearPair&, const NearPair&) = default;
+};
+
+/// When neighbours are looked for: all in [from, until], and the earliest in (until, horizon].
+struct NeighbourWindow {
+  Instant from, until, horizon;
+};
+
+/// Finds the neighbours of an agent, or of any bound, among the bounds that are held, while these
+/// change one at a time.
+///
+/// Methods differ in cost, never in their answers: each time is EarliestIntersectionOf() of the two
+/// bounds, or of a half-space and a bound, with the pair's margin, bit for bit. Excluded pairs
+/// never meet. methods_test compares every method with the canonical routine for every pair.
+class NeighbourIndex : public virtual AgentBounds {
+ public:
+  using Skip = std::function<bool(std::uint32_t)>;
+
+  /// Replaces the bound of an agent by one that lies inside it; cheaper than Set(). Requires that
+  /// it does lie inside.
+  virtual void Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+    Set(agent, bound);
+  }
+
+  /// Appends each partner that `agent` (or half-space) may first meet (horns) within
+  /// [window.from, window.until]; of the later ones only the earliest, if it is not later than
+  /// window.horizon. In the order of partners, without those for which `skip` holds. Appends
+  /// nothing for an index that is not held.
+  virtual void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
+                              std::vector<Neighbour>* neighbours) = 0;
+
+  /// Appends each agent or half-space that may first meet `bound` in [from, until], likewise in
+  /// order. `bound` is of no agent that is held, so no rule applies to it.
+  virtual void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+                              const Skip& skip, std::vector<Neighbour>* neighbours) = 0;
+
+  /// The earliest possible intersection of one agent with any other within the query's window; of
+  /// equal ones that of the lower indices. nullopt: none.
+  virtual std::optional<intersection::IntersectingPair> EarliestOf(
+      std::uint32_t agent, const intersection::BroadQuery& query) = 0;
+
+  /// Appends every pair that may first meet within the query's window, and others that are near,
+  /// each once; pairs that cannot meet at all are left out. Much cheaper than FindNeighbours() of
+  /// every agent.
+  virtual void FindNearPairs(const intersection::BroadQuery& query,
+                             std::vector<NearPair>* pairs) = 0;
+
+  virtual BroadPhaseWork work() const = 0;
+};
+
+/// Sorts the entries from `first` on by partner.
+inline void SortByPartner(std::size_t first, std::vector<Neighbour>* neighbours) {
+  std::sort(neighbours->begin() + static_cast<std::ptrdiff_t>(first), neighbours->end(),
+            [](const Neighbour& a, const Neighbour& b) { return a.partner < b.partner; });
+}
+
+/// Appends the neighbour if its time is `until` or earlier.
+inline void AppendIfBy(Instant until, const Neighbour& neighbour,
+                       std::vector<Neighbour>* neighbours) {
+  const Instant when = neighbour.time.instant();
+  if (when <= until && !when.is_never()) neighbours->push_back(neighbour);
+}
+
+}  // namespace collision::broad_phase
