@@ -3,6 +3,7 @@
 
 #include "collision_core/geometry/convex/convex_set.h"
 #include "collision_core/narrow_phase/pose/relative_pose.h"
+#include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
 
