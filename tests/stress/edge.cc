@@ -100,13 +100,13 @@ void Meshes(Outcome* outcome) {
     const geometry::TriangleMesh mesh = Cube(size / 2);
     const double diagonal = size * std::sqrt(3);
     const bool allowed = diagonal >= geometry::kMeshSizeMin && diagonal <= geometry::kMeshSizeMax;
-    outcome->Expect(allowed != collision::RefusalOf(mesh, 100).has_value(),
+    outcome->Expect(allowed != geometry::RefusalOf(mesh, 100).has_value(),
                     "a mesh of " + Show(size) + " m");
     shape::ConvexDescription box;
     box.core = geometry::ConvexCore::kBox;
     box.half = Eigen::Vector3d::Constant(size / 2);
     const bool box_allowed = diagonal >= shape::kConvexSizeMin && diagonal <= shape::kConvexSizeMax;
-    outcome->Expect(box_allowed != collision::RefusalOf(box).has_value(),
+    outcome->Expect(box_allowed != shape::RefusalOf(box).has_value(),
                     "a box of " + Show(size) + " m");
     outcome->Add(allowed ? "accepted" : "refused", 2);
   }

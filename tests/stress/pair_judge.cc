@@ -154,8 +154,8 @@ void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound&
                   Outcome* outcome) {
   const Instant base = a.state.stamp;
   const narrow_phase::SegmentResult verdict =
-      EvaluateBallSegment({a.declaration.radius, {ForwardBall(a, base)}},
-                          {b.declaration.radius, {ForwardBall(b, base)}}, duration);
+      narrow_phase::EvaluateBallSegment({a.declaration.radius, {ForwardBall(a, base)}},
+                                        {b.declaration.radius, {ForwardBall(b, base)}}, duration);
   outcome->Add("segments", 1);
   if (!outcome->Expect(IsOrdered(verdict, duration), Named("not ordered", a, b, duration))) return;
   const BoundGap outer(a, b, 1), inner(a, b, -1);

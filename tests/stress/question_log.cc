@@ -5,13 +5,9 @@
 #include "collision_core/detection/pairs/segment_evaluation.h"
 #include "collision_core/intersection/earliest_intersection.h"
 
-// The linker takes __wrap_X for X wherever one source of the core calls another (CMakeLists.txt
-// beside this file), and __real_X is then X itself. Names are those of the C++ ABI that g++ and
-// clang++ have in common; of another signature nothing would be taken down, which `violent-agent`
-// notices.
-#define COLLISION_ASK "_ZN9collision20EarliestIntersectionERKNS_14SpaceTimeBoundES2_NS_7InstantE"
-#define COLLISION_JUDGE \
-  "_ZN9collision16EvaluateSegmentsERKNS_7HistoryES2_NS_7InstantEPNS_4WorkEPNS_14ContactTrackerE"
+// The linker takes __wrap_X for X wherever one source of the core calls another, and __real_X is then
+// X itself. CMakeLists.txt beside this file names the functions as the C++ ABI of g++ and clang++
+// does; a function of another signature would not be wrapped, which `violent-agent` notices.
 
 namespace collision::stress {
 namespace {
@@ -25,7 +21,7 @@ using Bound = motion::SpaceTimeBound;
 intersection::IntersectionTime RealAsk(const Bound& a, const Bound& b,
                                        Instant from) asm("__real_" COLLISION_ASK);
 intersection::IntersectionTime RealMeet(const Bound& a, const Bound& b, Instant from, Instant until,
-                                        double margin) asm("__real_" COLLISION_ASK "S3_d");
+                                        double margin) asm("__real_" COLLISION_MEET);
 detection::SegmentCount RealJudge(
     const detection::History& a, const detection::History& b, Instant until, WorkBudget* work,
     detection::ContactTracker* tracker) asm("__real_" COLLISION_JUDGE);
@@ -34,7 +30,7 @@ intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b,
                                           Instant from) asm("__wrap_" COLLISION_ASK);
 intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Instant from,
                                            Instant until,
-                                           double margin) asm("__wrap_" COLLISION_ASK "S3_d");
+                                           double margin) asm("__wrap_" COLLISION_MEET);
 detection::SegmentCount WrappedJudge(
     const detection::History& a, const detection::History& b, Instant until, WorkBudget* work,
     detection::ContactTracker* tracker) asm("__wrap_" COLLISION_JUDGE);

@@ -38,7 +38,8 @@ std::shared_ptr<const shape::Shape> BoxShape(const Eigen::Vector3d& half, bool s
 
 narrow_phase::TimeOfContactResult FindContact(const Body& a, const Body& b, double duration,
                                               std::uint64_t units) {
-  const narrow_phase::BodyPair pair = SegmentsOf({a.Bound(), {}}, {b.Bound(), {}}, Instant());
+  const narrow_phase::BodyPair pair =
+      narrow_phase::SegmentsOf({a.Bound(), {}}, {b.Bound(), {}}, Instant());
   WorkBudget work(units);
   return TimeOfContact(pair.a, pair.b, duration, {}, &work);
 }

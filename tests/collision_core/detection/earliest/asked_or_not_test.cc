@@ -134,7 +134,7 @@ class Scene {
 
 TEST(EarliestAsked, ChangesNoLaterEventAndNoClearance) {
   for (const broad_phase::BroadPhaseMethod method :
-       {broad_phase::BroadPhaseMethod::kAllPairs, broad_phase::BroadPhaseMethod::kFaceSweep,
+       {broad_phase::BroadPhaseMethod::kAllPairs, broad_phase::BroadPhaseMethod::kExhaustive,
         broad_phase::BroadPhaseMethod::kSpatialIndex}) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
       Scene scene(seed, method);
