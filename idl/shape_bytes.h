@@ -58,8 +58,8 @@ constexpr std::uint64_t ShapeParts(std::uint64_t total_bytes) {
 ///
 /// With solids "CSHAPE\0\2", u32 vertices, u32 triangles, u32 solids, u32 points of all hulls, then
 /// vertices and triangles as above, then each solid as u32 kind, u32 points and eleven doubles
-/// (position, orientation, half extents, rounding), then all points as vertices. So a mesh alone has
-/// the same bytes, and the same hash, as ever.
+/// (position, orientation, half extents, rounding), then all points as vertices. So a mesh alone
+/// has the same bytes, and the same hash, as ever.
 ///
 /// Throws std::length_error for more than 2^32 - 1 of any.
 std::string EncodeShape(const ShapeContent& content);

@@ -12,8 +12,8 @@ namespace collision {
 
 v1::SphereTree ToMessage(const sphere_tree::SphereTree& tree);
 
-/// nullopt: columns of different lengths, or more nodes than can be numbered. Values are not judged:
-/// RefusalOf(tree, mesh) of collision_core/sphere_tree/tree_check.h does that.
+/// nullopt: columns of different lengths, or more nodes than can be numbered. Values are not
+/// judged: RefusalOf(tree, mesh) of collision_core/sphere_tree/tree_check.h does that.
 std::optional<sphere_tree::SphereTree> FromMessage(const v1::SphereTree& message);
 
 /// Without the fingerprint.

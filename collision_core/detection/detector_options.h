@@ -21,8 +21,9 @@ struct DetectorOptions {
   /// (narrow_phase/work.h); beyond, brackets stay wider and say that the budget limited them.
   std::uint64_t work_units_per_turn = 40000;
   /// Likewise in one step on all pairs of shapes, shared out among those that are evaluated
-  /// (pairs/work_shares.h). WorkBudget that one pair leaves goes to the next. The last evaluation of a
-  /// pair of which an agent leaves or expires does not count. 0: no limit but each evaluation's.
+  /// (pairs/work_shares.h). WorkBudget that one pair leaves goes to the next. The last evaluation
+  /// of a pair of which an agent leaves or expires does not count. 0: no limit but each
+  /// evaluation's.
   std::uint64_t work_units_per_step = 0;
   /// How candidate pairs are found; changes the cost, never an answer.
   broad_phase::BroadPhaseMethod broad_phase = broad_phase::BroadPhaseMethod::kAuto;

@@ -8,8 +8,8 @@
 namespace collision::numeric {
 
 /// sin x and cos x for every x of the interval [rad], each known to about 1.2e-15. No library
-/// function is called, so every platform gives the same bits. For |x| beyond kRotationAngleMax both are [−1,
-/// 1].
+/// function is called, so every platform gives the same bits. For |x| beyond kRotationAngleMax both
+/// are [−1, 1].
 struct SinCos {
   Interval sin, cos;
 };

@@ -21,8 +21,8 @@ namespace collision::server {
 /// The recipe is the builder, its options, and a hash of what this builder makes of a fixed mesh,
 /// so that another version of the builder, or arithmetic that differs, never uses these files. A
 /// file is used if format, hash and recipe are the ones wanted, the checksum is right, and the tree
-/// has the structure of a tree of this mesh (collision_core/sphere_tree/tree_check.h). Any other file is
-/// counted, logged, built anew and replaced: it costs the time to build and nothing else.
+/// has the structure of a tree of this mesh (collision_core/sphere_tree/tree_check.h). Any other
+/// file is counted, logged, built anew and replaced: it costs the time to build and nothing else.
 ///
 /// What a tree says of distances is believed, since proving it again costs as much as building. The
 /// checksum guards against accidents; against people only the permissions of the folder do.

@@ -8,8 +8,8 @@
 
 namespace collision::baselines {
 
-/// A cubic region about the origin, in cells not smaller than `cell`: two agents that are nearer to each
-/// other than that are in the same cell or in neighbouring ones.
+/// A cubic region about the origin, in cells not smaller than `cell`: two agents that are nearer to
+/// each other than that are in the same cell or in neighbouring ones.
 class Cells {
  public:
   Cells(double half, double cell)

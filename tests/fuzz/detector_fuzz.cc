@@ -254,8 +254,8 @@ class Session {
     CheckPromises();
   }
 
-  /// Two agents that keep their last velocities do not touch before the clearance of both has ended,
-  /// unless their contact was announced.
+  /// Two agents that keep their last velocities do not touch before the clearance of both has
+  /// ended, unless their contact was announced.
   void CheckPromises() const {
     for (auto a = told_.begin(); a != told_.end(); ++a) {
       for (auto b = std::next(a); b != told_.end(); ++b)

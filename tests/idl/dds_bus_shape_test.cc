@@ -1,4 +1,5 @@
-// Goal:   shapes cross whole however large, reach who comes late, and their disposal arrives part by
+// Goal:   shapes cross whole however large, reach who comes late, and their disposal arrives part
+// by
 //         part, before and after it is written anew.
 // Method: real DDS on loopback; waiting loops with a deadline.
 #include <gtest/gtest.h>

@@ -62,7 +62,8 @@ TEST(ShapeBytes, HoldSolids) {
   EXPECT_EQ(EncodeShape(*back), bytes);
 }
 
-// Goal:   whatever one byte of the counts becomes: back as it stands, or refused; never read beyond.
+// Goal:   whatever one byte of the counts becomes: back as it stands, or refused; never read
+// beyond.
 TEST(ShapeBytes, SolidsThatDoNotAddUpAreRefused) {
   const std::string bytes = EncodeShape(CapsuleAndHull());
   std::string error;

@@ -11,8 +11,8 @@
 
 namespace collision::report {
 
-/// The page as one self-contained file: `pictures` (SVG, by the ids of their charts) are part of it.
-/// It is laid out for narrow screens and paper as well.
+/// The page as one self-contained file: `pictures` (SVG, by the ids of their charts) are part of
+/// it. It is laid out for narrow screens and paper as well.
 std::string PageOf(const v1::Results& results, const std::vector<Section>& sections,
                    const std::map<std::string, std::string>& pictures,
                    const Comparison* comparison);

@@ -89,7 +89,8 @@ TEST(ReportTable, ACellPastItsCutOffSaysSo) {
   EXPECT_EQ(table.rows.at(0).at(1), "> 5 s");
 }
 
-// Goal:   what moves with everything else is noise of the machine, what moves alone by more is told,
+// Goal:   what moves with everything else is noise of the machine, what moves alone by more is
+// told,
 //         and counts have no noise.
 TEST(ReportCompare, TellsWhatMovedByMoreThanTheNoise) {
   v1::Results before = Timed(1, 2.0), after = Timed(1, 3.0);
@@ -177,8 +178,8 @@ TEST(ReportPage, ReplacesThePlotsBetweenTheMarks) {
   EXPECT_THROW(WithPlots("no marks", {}, "plots"), std::runtime_error);
 }
 
-// A count above its bound breaks a promise, and so does one that was not measured; an experiment that
-// is not there promises nothing, one that failed is told.
+// A count above its bound breaks a promise, and so does one that was not measured; an experiment
+// that is not there promises nothing, one that failed is told.
 TEST(ReportPromises, AreBrokenByCountsAndByFailures) {
   v1::Results results;
   EXPECT_TRUE(BrokenIn(results).empty());

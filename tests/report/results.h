@@ -9,8 +9,8 @@ namespace collision::report {
 
 /// A folder of tests/report/measure: `facts` (a line each, name and value parted by a tab),
 /// `reference` (a number a line), and for each experiment NAME.about (as facts) and NAME.json (what
-/// its program wrote, {"figures": {}, "measurements": []}), in the order of `order` (a name a line).
-/// Throws std::runtime_error that names the file.
+/// its program wrote, {"figures": {}, "measurements": []}), in the order of `order` (a name a
+/// line). Throws std::runtime_error that names the file.
 v1::Results Assemble(const std::string& folder);
 
 std::string ToJson(const v1::Results& results);

@@ -25,8 +25,8 @@ enum class Builders {
   kChance    ///< Three threads; a tree counts when it happens to be there.
 };
 
-/// `recording`: a file to be written; empty: none. Throws std::runtime_error if time stands still before
-/// the scene's end.
+/// `recording`: a file to be written; empty: none. Throws std::runtime_error if time stands still
+/// before the scene's end.
 Told RunScene(const Scene& scene, Builders builders, const std::string& recording = {});
 
 /// Throws std::runtime_error if the recording is damaged.

@@ -66,7 +66,8 @@ Scene Declarations() {
   return {.name = "declarations", .config = config, .network = Lossy(8), .fill = fill};
 }
 
-/// Two that meet about half-way through, of one size, far from everything else; not faster than light.
+/// Two that meet about half-way through, of one size, far from everything else; not faster than
+/// light.
 void AddMeeting(double size, const Eigen::Vector3d& at, double acceleration_max,
                 std::int64_t end_ns, std::vector<SimulatedAgent>* agents) {
   const double speed = std::min(8 * size, 299'792'458.0);

@@ -1,5 +1,5 @@
-// Orientation of bodies that turn evenly, in nothing but plain arithmetic: an input must be the same
-// bits in every build, as std::sin need not be.
+// Orientation of bodies that turn evenly, in nothing but plain arithmetic: an input must be the
+// same bits in every build, as std::sin need not be.
 #pragma once
 
 #include <Eigen/Core>

@@ -37,14 +37,14 @@ const std::vector<Layer>& Layers() {
       {core + "sphere_tree/", CoreRooms("base numeric geometry sphere_tree")},
       // A shape does not know that it moves.
       {core + "shape/", CoreRooms("base numeric geometry sphere_tree shape")},
-      {core + "motion/", CoreRooms("base numeric geometry sphere_tree shape motion")},
+      {core + "motion/", CoreRooms("base numeric motion")},
       {core + "intersection/", CoreRooms("base numeric motion intersection")},
       {core + "broad_phase/", CoreRooms("base numeric simd motion intersection broad_phase")},
-      {core + "narrow_phase/", CoreRooms("base numeric simd geometry sphere_tree shape motion "
-                                         "intersection narrow_phase")},
+      {core + "narrow_phase/",
+       CoreRooms("base numeric simd geometry sphere_tree shape motion narrow_phase")},
       {core, {core}},
       // A tree at rest is made of the core's own data; daemon and tools write the same.
-      {"idl/tree_message", {"idl/", core + "shape/"}},
+      {"idl/tree_message", {"idl/", core + "sphere_tree/", core + "shape/"}},
       {"idl/", {"idl/"}},
       // The rooms of the server, each behind those that it stands on; main sees only the program.
       {"server/process/", {"server/process/"}},
@@ -70,12 +70,12 @@ const std::vector<Layer>& Layers() {
       {library + "world/contract.cc",
        {api, library + "vector.h", library + "world/contract.h",
         core + "motion/contract_between.h"}},
-      {library + "shape/core_mesh.h", {api, core + "shape/triangle_mesh.h"}},
+      {library + "shape/core_mesh.h", {api, core + "geometry/mesh/triangle_mesh.h"}},
       {library + "shape/shape.cc", {"idl/shape_bytes.h", api, validation, library + "shape/"}},
       {library + "shape/solid_check.cc",
        {api, validation, library + "shape/", core + "shape/convex_solid.h"}},
       {"client/mesh/mesh_file.cc",
-       {api, validation, "client/mesh/", core + "shape/triangle_mesh.h"}},
+       {api, validation, "client/mesh/", core + "geometry/mesh/triangle_mesh.h"}},
       {"client/mesh/", {api, validation, "client/mesh/"}},
       {library + "shape/", {"idl/shape_bytes.h", api, library + "shape/"}},
       {library + "network/", {"idl/", api, validation, library + "network/"}},

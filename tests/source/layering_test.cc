@@ -22,7 +22,7 @@ std::vector<std::string> ViolationsOf(const Planted& planted) {
 
 TEST(Layering, BadIncludesAreFoundWithTheirLine) {
   const Planted bad[] = {
-      {"collision_core/numeric/a.h", "\"collision_core/base/instant.h\""},
+      {"collision_core/numeric/a.h", "\"collision_core/motion/motion_state.h\""},
       {"collision_core/motion/a.h", "\"collision_core/intersection/earliest_intersection.h\""},
       {"collision_core/shape/a.h", "\"collision_core/base/instant.h\""},
       {"collision_core/shape/a.cc", "\"collision_core/geometry/triangle/triangle_pair.h\""},

@@ -52,8 +52,8 @@ inline constexpr double kContactUnits = 21;
 /// segment.
 inline constexpr double kContactResolution = 1.01e-13;
 
-/// EvaluateBallSegment() over [stamp, stamp + duration]: ordered, free where it says so, touching where it
-/// says so, and each end within K units. Requires equal stamps.
+/// EvaluateBallSegment() over [stamp, stamp + duration]: ordered, free where it says so, touching
+/// where it says so, and each end within K units. Requires equal stamps.
 void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, double duration,
                   Outcome* outcome);
 

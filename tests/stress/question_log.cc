@@ -5,9 +5,10 @@
 #include "collision_core/detection/pairs/segment_evaluation.h"
 #include "collision_core/intersection/earliest_intersection.h"
 
-// The linker takes __wrap_X for X wherever one source of the core calls another, and __real_X is then
-// X itself. CMakeLists.txt beside this file names the functions as the C++ ABI of g++ and clang++
-// does; a function of another signature would not be wrapped, which `violent-agent` notices.
+// The linker takes __wrap_X for X wherever one source of the core calls another, and __real_X is
+// then X itself. CMakeLists.txt beside this file names the functions as the C++ ABI of g++ and
+// clang++ does; a function of another signature would not be wrapped, which `violent-agent`
+// notices.
 
 namespace collision::stress {
 namespace {

@@ -13,8 +13,8 @@ BoundMargin::BoundMargin(const motion::SpaceTimeBound& bound) {
   velocity_ = kShare * speed + kStampRounding * bound.declaration.acceleration_max;
 }
 
-// Widen() rounds the sum of error and margin down. The sum of the state before may be too small by a
-// unit in its last place, 2^-52 of it; the next sum is never too large. So drift plus that unit,
+// Widen() rounds the sum of error and margin down. The sum of the state before may be too small by
+// a unit in its last place, 2^-52 of it; the next sum is never too large. So drift plus that unit,
 // taken off the margin, keeps the next widened bound inside the one before; twice the unit covers
 // the rounding of the product below. Zero and a margin add up exactly.
 bool BoundMargin::Spend(const motion::ContractCheck& check, const motion::MotionState& before) {

@@ -10,8 +10,8 @@ namespace {
 /// With so few keys all are looked at one by one.
 constexpr std::size_t kFewKeys = 32;
 
-/// WorkBudget in units of a filter's test, about as it takes time: to look at one key, at a place, at a
-/// partner that the broad phase offers, and a pair query.
+/// WorkBudget in units of a filter's test, about as it takes time: to look at one key, at a place,
+/// at a partner that the broad phase offers, and a pair query.
 constexpr std::uint64_t kKeyUnits = 16;
 constexpr std::uint64_t kVisitUnits = 16;
 constexpr std::uint64_t kOfferUnits = 32;

@@ -121,7 +121,8 @@ class Growth {
   }
 
   bool IsGoodEnough(double distance) const {
-    const double width = std::max({goal_.absolute_tolerance, goal_.relative_tolerance * distance, final_});
+    const double width =
+        std::max({goal_.absolute_tolerance, goal_.relative_tolerance * distance, final_});
     return least_ - distance <= width || distance - 2 * pair_.PointError() > goal_.inside;
   }
 

@@ -11,8 +11,9 @@ inline constexpr std::uint32_t kEpaStepsMax = 128;
 
 /// When the growth may end: as soon as one of the conditions holds.
 struct EpaGoal {
-  double relative_tolerance = 0;  ///< Relative tolerance between the certain and the possible depth.
-  double absolute_tolerance = 0;  ///< Absolute tolerance [m].
+  double relative_tolerance =
+      0;  ///< Relative tolerance between the certain and the possible depth.
+  double absolute_tolerance = 0;       ///< Absolute tolerance [m].
   double inside = numeric::kInfinity;  ///< Stop when they are known to overlap by this [m].
   std::uint32_t steps = kEpaStepsMax;
 };

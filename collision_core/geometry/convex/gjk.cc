@@ -78,7 +78,8 @@ class Search {
   /// The nearest point is not nearer than `along`, and not further than `length`.
   bool IsGoodEnough(double length, double along) const {
     const double rest = length - along;
-    const double share = along > 0 ? goal_.relative_tolerance * std::abs(along - goal_.rounding) : 0;
+    const double share =
+        along > 0 ? goal_.relative_tolerance * std::abs(along - goal_.rounding) : 0;
     return rest <= std::max({goal_.absolute_tolerance, share, enough_});
   }
 

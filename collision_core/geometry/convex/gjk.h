@@ -102,7 +102,8 @@ struct GjkGoal {
   /// Relative tolerance: stop when the lower and the upper bound of the distance differ by at most
   /// this fraction of how much they differ from `rounding`.
   double relative_tolerance = 0;
-  double absolute_tolerance = 0;     ///< Absolute tolerance [m]: stop when the bounds differ by at most this.
+  double absolute_tolerance =
+      0;                ///< Absolute tolerance [m]: stop when the bounds differ by at most this.
   double rounding = 0;  ///< The rounding radii of both sets together [m].
   double apart = numeric::kInfinity;  ///< Stop when the distance is known to exceed this [m].
   double near = -numeric::kInfinity;  ///< Stop when the distance is known to be below this [m].

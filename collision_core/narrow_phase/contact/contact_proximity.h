@@ -13,8 +13,8 @@ namespace collision::narrow_phase {
 ContactNormal NormalOf(const ShapeMotion::PoseQuery& instance);
 
 /// Distance, depth and point at the instant of `instance`, a query of `motion` of which
-/// CheckContainment() was called; the normal is a guess along the centres, with an error of π. `size`:
-/// the sum of the radii of both bodies' balls [m].
+/// CheckContainment() was called; the normal is a guess along the centres, with an error of π.
+/// `size`: the sum of the radii of both bodies' balls [m].
 Proximity ProximityFrom(const ShapeMotion::PoseQuery& instance, const ShapeMotion& motion,
                         double size);
 

@@ -11,8 +11,8 @@
 // there the shortest way between the two is known. Where they may touch at once it is that of the
 // last state before, unless a jump lies between or the shape was another one. All ways that may be
 // the shortest are kept, and the error covers them all and what the uncertainty can turn them by
-// (derived in contact_proximity.cc). Bodies that overlap have no shortest way; without an approach that was
-// seen, the normal is a guess along the centres and its error says so (π).
+// (derived in contact_proximity.cc). Bodies that overlap have no shortest way; without an approach
+// that was seen, the normal is a guess along the centres and its error says so (π).
 //
 // Budgets. With more work a query, a bracket of some width and a refinement take the same steps,
 // only more of them: their brackets never become wider, and a decision that was made stays.

@@ -75,8 +75,8 @@ class ShapeMotion {
   /// Whether certainly neither body is inside the other. Requires surfaces that are apart.
   bool NeitherInside(const RelativePose& pose) const;
 
-  /// Tests containment if the query found the surfaces apart: one solid inside the other is contact,
-  /// as deep as the surfaces are apart, because no shorter way takes it out again.
+  /// Tests containment if the query found the surfaces apart: one solid inside the other is
+  /// contact, as deep as the surfaces are apart, because no shorter way takes it out again.
   void CheckContainment(PoseQuery* instance) const;
 
   /// An upper bound of the penetration depth at an instant, for all motions within the bounds [m].

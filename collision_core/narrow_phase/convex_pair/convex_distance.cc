@@ -99,7 +99,8 @@ class Bracket {
   }
 
   geometry::GjkGoal GoalOfSearch() const {
-    geometry::GjkGoal goal{question_.relative_tolerance / 4, question_.absolute_tolerance / 4, rounding_};
+    geometry::GjkGoal goal{question_.relative_tolerance / 4, question_.absolute_tolerance / 4,
+                           rounding_};
     goal.steps = StepsOf(kGjkStepUnits, geometry::kGjkStepsMax);
     if (question_.goal != ConvexGoal::kYesNo) return goal;
     const double margin = 2 * (pair_.GapError() + pair_.PointError() + error_);
@@ -142,7 +143,8 @@ class Bracket {
     }
     const double least = std::max({0.0, separation_lower(), -separation_upper()});
     const double share = question_.relative_tolerance * least;
-    return upper_ - lower_ <= std::max({question_.absolute_tolerance, share, kTight * pair_.size()});
+    return upper_ - lower_ <=
+           std::max({question_.absolute_tolerance, share, kTight * pair_.size()});
   }
 
   /// The way between nearest points a short way apart is uncertain; features tell it exactly.

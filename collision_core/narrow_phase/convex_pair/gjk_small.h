@@ -23,9 +23,10 @@ struct SmallGjkPair {
   double apart;   ///< Stop when the distance is known to exceed this [m].
   double near;    ///< Stop when the distance is known to be below this [m].
   double inside;  ///< Stop when the ball of this radius about 0 belongs to the difference [m]; > 0.
-  double relative_tolerance;   ///< Relative tolerance: bounds that differ by this fraction of their distance
-  double rounding;  ///< from `rounding` [m] are close enough.
-  double absolute_tolerance;     ///< Absolute tolerance [m].
+  double relative_tolerance;  ///< Relative tolerance: bounds that differ by this fraction of their
+                              ///< distance
+  double rounding;            ///< from `rounding` [m] are close enough.
+  double absolute_tolerance;  ///< Absolute tolerance [m].
 };
 
 /// A certified bracket of the distance.

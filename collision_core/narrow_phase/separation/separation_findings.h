@@ -22,8 +22,8 @@ inline constexpr double kEnoughOfUpper = 0.5;
 /// of the pair stays as wide as it is then.
 inline constexpr std::uint64_t kSolidPairUnits = 192;
 
-/// The bracket of a search while it narrows: pairs of balls and of elements are measured in doubles,
-/// and what may matter for the answer is kept.
+/// The bracket of a search while it narrows: pairs of balls and of elements are measured in
+/// doubles, and what may matter for the answer is kept.
 class SeparationFindings {
  public:
   /// Everything passed in outlives this.
@@ -38,8 +38,8 @@ class SeparationFindings {
 
   const SeparationBracket& bracket() const { return bracket_; }
   double slack() const { return slack_; }
-  /// From A to B along the shortest way found so far: a unit vector but for rounding; zero if there is
-  /// none.
+  /// From A to B along the shortest way found so far: a unit vector but for rounding; zero if there
+  /// is none.
   const Eigen::Vector3d& direction() const { return direction_; }
 
   /// Adds a lower bound on the distance of a pair that is measured and will not be opened again.

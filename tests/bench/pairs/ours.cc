@@ -45,8 +45,7 @@ Reply Bracket(const narrow_phase::BodySegment& body, const PlainPose& at, double
               double share = 0) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  return Told(
-      narrow_phase::BracketSeparation({a, b, PoseOf(at)}, {width, share}, &work));
+  return Told(narrow_phase::BracketSeparation({a, b, PoseOf(at)}, {width, share}, &work));
 }
 
 Reply Decide(const narrow_phase::BodySegment& body, const PlainPose& at) {

@@ -3,7 +3,8 @@
 //         ahead; directions of contact are those of the true approach, or not told.
 // Method: two bodies that move and turn as hard as they may, towards each other and away; the true
 // first contact in
-//         long double, by steps that no motion can outrun. Every clearance and every event is held against it.
+//         long double, by steps that no motion can outrun. Every clearance and every event is held
+//         against it.
 #include <gtest/gtest.h>
 
 #include <optional>

@@ -3,8 +3,8 @@
 //         was known of the past stays known, no verdict becomes less certain.
 // Method: two detectors that hear the same of two ships; one of them is told the twin now and then,
 // the other
-//         the same shape again. With a twin of the same tree all they tell is the same, bit for bit; with one of
-//         a better tree verdicts are those of who had it from the start.
+//         the same shape again. With a twin of the same tree all they tell is the same, bit for
+//         bit; with one of a better tree verdicts are those of who had it from the start.
 #include <gtest/gtest.h>
 
 #include <map>

@@ -1,6 +1,7 @@
 // Goal:   events of agents with shapes: contacts confirmed with brackets that contain the truth,
 // near passes
-//         dismissed, shapes that arrive late or change, jumps, containment; the same calls give the same events.
+//         dismissed, shapes that arrive late or change, jumps, containment; the same calls give the
+//         same events.
 // Method: few agents on lines whose contacts are exact; states 64 times a second, one clock.
 #include <gtest/gtest.h>
 

@@ -178,7 +178,8 @@ TEST(PairTimeOracle, HugeOffsets) {
   });
 }
 
-// Goal:   grazing at the distance of the radii: exactly, one unit in the last place more or less, and
+// Goal:   grazing at the distance of the radii: exactly, one unit in the last place more or less,
+// and
 //         by 1e-15 to 1e-3. Method: a passage at a right angle, without growth and with.
 TEST(PairTimeOracle, Grazing) {
   JudgeAll(103, Tally::kForced4, [](Random& random) {

@@ -120,8 +120,8 @@ TEST(PairMargin, HeadOnIsExact) {
   EXPECT_GE(time.seconds, 1 - 1e-9);
 }
 
-/// The first overlap of two boxes with flat faces, `margin` apart at the most on each axis, by exact
-/// rationals: as a fraction of the window; nullopt: none.
+/// The first overlap of two boxes with flat faces, `margin` apart at the most on each axis, by
+/// exact rationals: as a fraction of the window; nullopt: none.
 std::optional<Exact> ExactOverlap(const motion::Hypertrapezoid& a, const motion::Hypertrapezoid& b,
                                   Exact margin) {
   Exact entry = 0, exit = 1;

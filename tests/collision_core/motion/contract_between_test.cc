@@ -34,7 +34,8 @@ bool AreApart(const Pair& pair, const Exact& share = 1, const Exact& more = 0) {
   return BallsComeApart(pair.before, pair.next, share, more);
 }
 
-/// A state and one that follows from it by full thrust, or nearly so, in one to `pieces_max` pieces.
+/// A state and one that follows from it by full thrust, or nearly so, in one to `pieces_max`
+/// pieces.
 struct Flight {
   Pair pair;
   bool on_a_line = false;
@@ -66,7 +67,8 @@ Flight RandomFlight(Random* random, int pieces_max) {
   return flight;
 }
 
-// Goal:   full thrust, whatever way it turns, is no breach; under 1 % less it is one, where it turns
+// Goal:   full thrust, whatever way it turns, is no breach; under 1 % less it is one, where it
+// turns
 //         once and on a line: then both balls touch just at the turn.
 TEST(ContractBetween, FullThrustIsKeptAndMoreIsNot) {
   Random random(611);
@@ -195,9 +197,11 @@ double RoomOf(const Pair& pair) {
   return least;
 }
 
-// Goal:   exactly what is contradictory in exact arithmetic is a breach, but for rounding; the excess
+// Goal:   exactly what is contradictory in exact arithmetic is a breach, but for rounding; the
+// excess
 //         told is no greater than the true one, and not less either.
-// Method: pairs that keep the contract of position and of velocity, so that nothing else tells them;
+// Method: pairs that keep the contract of position and of velocity, so that nothing else tells
+// them;
 //         M made such that many are at the edge, on both sides of it.
 TEST(ContractBetween, ContradictionsAreFoundFromBothSides) {
   Random random(614);
@@ -228,7 +232,8 @@ TEST(ContractBetween, ContradictionsAreFoundFromBothSides) {
   EXPECT_GT(between, 3000);
 }
 
-// Goal:   who is back where it rested 2 s before, under 1 m/s², comes with 2√2 − 2 m/s at most (away
+// Goal:   who is back where it rested 2 s before, under 1 m/s², comes with 2√2 − 2 m/s at most
+// (away
 //         for 2 − √2 s, then back), though 2 m/s could be reached, and the place too.
 TEST(ContractBetween, BackAtTheSamePlaceNotAtAnySpeed) {
   Pair pair;

@@ -243,8 +243,8 @@ TEST(ContractRotation, SkewCountsTwice) {
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kBreached);
 }
 
-// Goal:   with skew, a faster rotation of the new state leaves less room: its bound grows by |ω'| κ.
-// Method: α = ½, s = 1, κ = ¼: ½ α s (s + 2 κ) = 0.375 rad, less (1.4 − 1) κ = 0.1 rad.
+// Goal:   with skew, a faster rotation of the new state leaves less room: its bound grows by |ω'|
+// κ. Method: α = ½, s = 1, κ = ¼: ½ α s (s + 2 κ) = 0.375 rad, less (1.4 − 1) κ = 0.1 rad.
 TEST(ContractRotation, FasterRotationUnderSkewWidens) {
   SpaceTimeBound before = Turning(0.5, {0, 0, 1});
   before.skew = 0.25;

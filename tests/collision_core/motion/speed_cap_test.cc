@@ -117,7 +117,8 @@ TEST(SpeedCap, Extremes) {
   EXPECT_FALSE(NeverMoves(Capped({0, 0, 0}, {1, 0, 0}, 5, 0)));
 }
 
-// Goal:   no honest motion leaves the capped ball, the capped box or its hypertrapezoid, and straight
+// Goal:   no honest motion leaves the capped ball, the capped box or its hypertrapezoid, and
+// straight
 //         ahead it comes as far as they say. Method: seeded motions; full thrust along x.
 TEST(SpeedCap, ContainsHonestMotions) {
   Random random(22);
@@ -154,9 +155,12 @@ TEST(SpeedCap, ContainsHonestMotions) {
   EXPECT_NEAR(CappedRadius(CapBall(ahead), Instant::FromNanoseconds(10 * kSecond)), 44, 1e-7);
 }
 
-// Goal:   what an honest agent reports is kept, and takes no answer back: neither its ball nor its box
-//         grows beyond the old one, nor does a meeting come earlier by more than the drift explains.
-// Method: reports at random times up to 5 s, also long after the cap took over; another agent waits.
+// Goal:   what an honest agent reports is kept, and takes no answer back: neither its ball nor its
+// box
+//         grows beyond the old one, nor does a meeting come earlier by more than the drift
+//         explains.
+// Method: reports at random times up to 5 s, also long after the cap took over; another agent
+// waits.
 TEST(SpeedCap, HonestReportsAreKeptAndTakeNothingBack) {
   Random random(23);
   int postponed = 0;
@@ -217,7 +221,8 @@ TEST(SpeedCap, Breaches) {
   EXPECT_NE(CheckContract(before, next).verdict, ContractVerdict::kBreached);
 }
 
-// Goal:   a report that skew explains, but whose ball leaves the old capped ball, widens; one just inside
+// Goal:   a report that skew explains, but whose ball leaves the old capped ball, widens; one just
+// inside
 //         is kept. Method: along a diagonal, where the box has room; by 1 µm either way.
 TEST(SpeedCap, OutsideTheCappedBallIsWidened) {
   SpaceTimeBound before = Capped({0, 0, 0}, {0, 0, 0}, 2, 5);
@@ -252,7 +257,8 @@ TEST(SpeedCap, TakingOverEarlyIsDrift) {
   EXPECT_GE(CheckContract(before, next).position_drift, 8e-9);
 }
 
-// Goal:   the pair's answer under a cap, by hand. Method: from rest to 2 m/s in 1 s and 1 m, then 9 m;
+// Goal:   the pair's answer under a cap, by hand. Method: from rest to 2 m/s in 1 s and 1 m, then 9
+// m;
 //         at the cap towards a resting agent along (2, 3, 6) / 7: the distance by the speed.
 TEST(SpeedCap, MeetingsByHand) {
   SpaceTimeBound a = Capped({0, 0, 0}, {0, 0, 0}, 2, 2), b = Capped({11, 0, 0}, {0, 0, 0}, 0, 0);

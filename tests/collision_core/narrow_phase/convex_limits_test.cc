@@ -127,7 +127,8 @@ TEST(ConvexLimits, WidthAskedFor) {
       const ConvexSeparation found = SeparationOf(s.a.set(), s.b.set(), question, &hint, &work);
       const numeric::Interval at = found.separation;
       if (!(at.lower > 1e-3)) continue;
-      EXPECT_LE(at.width(), std::max(question.absolute_tolerance, question.relative_tolerance * at.lower));
+      EXPECT_LE(at.width(),
+                std::max(question.absolute_tolerance, question.relative_tolerance * at.lower));
       if (width == 1e-1) coarse += work.spent();
       if (width == 1e-6) fine += work.spent();
     }

@@ -35,7 +35,8 @@ TEST(QuickFirstApproach, KnownByHand) {
 }
 
 // Goal:   what a few units in the last place decide, and magnitudes whose rounding is not relative,
-//         are left to intervals, at a time that is certified; nothing infinite is taken for decided.
+//         are left to intervals, at a time that is certified; nothing infinite is taken for
+//         decided.
 TEST(QuickFirstApproach, LeavesTheRest) {
   for (const QuickApproach& approach :
        {Make(1, 0, 1), Make(1, 1, 1), Make(1e-200, 0, 0, 1e-200), Make(1e200, -1e200, 0),

@@ -86,8 +86,8 @@ TEST(Interval, PointsAreTight) {
   }
 }
 
-// Goal:   the greater, the lesser and the magnitude contain those of every two numbers, and each end
-// is that of some two. Method: both ends against those of the operands.
+// Goal:   the greater, the lesser and the magnitude contain those of every two numbers, and each
+// end is that of some two. Method: both ends against those of the operands.
 TEST(Interval, GreaterLesserAndMagnitude) {
   Random random(5);
   for (int i = 0; i < kTrials; ++i) {

@@ -73,7 +73,8 @@ TEST(OuterHull, NothingReachesFurther) {
   }
 }
 
-// Goal:   what single precision cuts off a point when it is stored is told. Along an axis nothing else is lost.
+// Goal:   what single precision cuts off a point when it is stored is told. Along an axis nothing
+// else is lost.
 TEST(OuterHull, StoredPointsLoseNothing) {
   const double beyond = 1 + 0x1p-25;  // rounded to 1
   const OuterHull hull(std::vector{Vector3d(beyond, 0, 0), Vector3d(-beyond, 0, 0)}, 0);
@@ -141,7 +142,8 @@ ConvexDescription RandomSolid(Random& random) {
   return d;
 }
 
-// Goal:   around solids of all kinds, alike and unlike rounded, alone and with a mesh; and not twice
+// Goal:   around solids of all kinds, alike and unlike rounded, alone and with a mesh; and not
+// twice
 //         as large.
 // Method: the foremost point of each solid, known to kSupportError.
 TEST(HullAround, SolidsAndTriangles) {

@@ -31,8 +31,8 @@ std::vector<geometry::TriangleMesh> ClosedMeshes(Random& random) {
           Moved(Star(1, random), {1e6, 1e6, -1e6})};
 }
 
-// What the narrow phase takes from a node: with s >= 0 a point of the surface within s, with s < 0 a
-// ball of that radius inside the solid.
+// What the narrow phase takes from a node: with s >= 0 a point of the surface within s, with s < 0
+// a ball of that radius inside the solid.
 TEST(Shape, SignedDistancesAreUpperBoundsAndTight) {
   Random random(71);
   for (const geometry::TriangleMesh& mesh : ClosedMeshes(random)) {

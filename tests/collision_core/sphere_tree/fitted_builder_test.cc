@@ -1,6 +1,6 @@
-// Goal:   the fitted tree keeps its form and its limits whatever the mesh, makes the same bits again,
-// and is tight where geometry says how tight it can be.
-// Method: counts and closed answers; coverage by proof (tree_coverage.h).
+// Goal:   the fitted tree keeps its form and its limits whatever the mesh, makes the same bits
+// again, and is tight where geometry says how tight it can be. Method: counts and closed answers;
+// coverage by proof (tree_coverage.h).
 #include "collision_core/sphere_tree/fitted/fitted_builder.h"
 
 #include <gtest/gtest.h>
@@ -63,9 +63,10 @@ TEST(FittedBuilder, ASphereIsOneBall) {
   ExpectProven(mesh, tree);
 }
 
-// A patch of width w of a face overshoots a ball at depth d inside by about w² / 8d, not by w / 2 as
-// a ball about the patch does: nearly all balls are left for the edges. A length L of an edge asks
-// for r + s = 0.354 L at least (centre 0.354 L from both faces), all edges together for 0.354 · 24.
+// A patch of width w of a face overshoots a ball at depth d inside by about w² / 8d, not by w / 2
+// as a ball about the patch does: nearly all balls are left for the edges. A length L of an edge
+// asks for r + s = 0.354 L at least (centre 0.354 L from both faces), all edges together for 0.354
+// · 24.
 TEST(FittedBuilder, FlatFacesHaveBallsInside) {
   const geometry::TriangleMesh mesh = Subdivided(Cube(1), 4);
   const SphereTree tree = Build(mesh);
@@ -129,7 +130,8 @@ TEST(FittedBuilder, FansAndCopiesEnd) {
 
 // Goal:   large triangles among small ones are halved, and what rounding does to the corners is in
 // the radii: without kHalvingError this fails.
-// Method: far from the origin, where coordinates are rounded by 1e-9 and middles of edges with them.
+// Method: far from the origin, where coordinates are rounded by 1e-9 and middles of edges with
+// them.
 TEST(FittedBuilder, HalvedTrianglesAreCoveredFarFromTheOrigin) {
   Random random(514);
   for (int i = 0; i < 20; ++i) {

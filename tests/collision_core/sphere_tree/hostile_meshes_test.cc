@@ -1,6 +1,8 @@
-// Goal:   no mesh makes a tree grow, or its building last, beyond what its number of triangles allows; the tree is
+// Goal:   no mesh makes a tree grow, or its building last, beyond what its number of triangles
+// allows; the tree is
 //         one of its mesh all the same, and covers it.
-// Method: thousands of triangles that are in each other's way, through every builder; counts, no clocks.
+// Method: thousands of triangles that are in each other's way, through every builder; counts, no
+// clocks.
 #include <gtest/gtest.h>
 
 #include "collision_core/shape/shape.h"
@@ -71,7 +73,8 @@ TEST(HostileMeshes, TreesOfThemAreBounded) {
   }
 }
 
-// The bound is not idle: three more levels would break it. Where it ends a node, the part is still covered.
+// The bound is not idle: three more levels would break it. Where it ends a node, the part is still
+// covered.
 TEST(HostileMeshes, OctreesGrowUpToTheBound) {
   DyadicPool::Install();
   Random random(802);

@@ -1,6 +1,9 @@
-// Goal:   the quick builder's trees are what sphere_tree.h says, like those of the others, on any mesh; each
-//         triangle stands in one leaf, leaves are full and about as deep, and the first balls are measured.
-// Method: proofs by exact arithmetic that share no code with the builder (tree_coverage.h, tree_distances.h);
+// Goal:   the quick builder's trees are what sphere_tree.h says, like those of the others, on any
+// mesh; each
+//         triangle stands in one leaf, leaves are full and about as deep, and the first balls are
+//         measured.
+// Method: proofs by exact arithmetic that share no code with the builder (tree_coverage.h,
+// tree_distances.h);
 //         counts.
 #include "collision_core/sphere_tree/median_split/median_split_builder.h"
 
@@ -23,8 +26,9 @@ ShapeOptions Halved(std::uint32_t leaf = 4) {
   return {.builder = TreeBuilder::kHalved, .triangles_per_leaf = leaf};
 }
 
-/// The middle of a long edge is a centre that rounding alone keeps off the surface, and every ray that
-/// the proof tries meets that edge: there it cannot tell inside from outside, and is not asked.
+/// The middle of a long edge is a centre that rounding alone keeps off the surface, and every ray
+/// that the proof tries meets that edge: there it cannot tell inside from outside, and is not
+/// asked.
 SphereTree WithoutCentresOnEdges(SphereTree tree, const geometry::TriangleMesh& mesh,
                                  std::size_t* left_out) {
   const double reach = FactsOf(mesh).radius;
@@ -98,8 +102,8 @@ TEST(HalvedBuilder, CopiesUponEachOther) {
   EXPECT_EQ(tree.triangle_indices.size(), 1000u);
 }
 
-// Its first balls tell of the inside, as those of other builders do; the others are never said to be nearer than
-// they may be.
+// Its first balls tell of the inside, as those of other builders do; the others are never said to
+// be nearer than they may be.
 TEST(HalvedBuilder, TheFirstBallsAreMeasured) {
   Random random(603);
   const geometry::TriangleMesh mesh = Star(4, random);

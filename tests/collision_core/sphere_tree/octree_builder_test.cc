@@ -1,6 +1,6 @@
 // Goal:   nodes cover the surface: parts unite, balls contain their parts, every level is a cut.
-// Method: points of the surface in exact rational arithmetic, with no allowance; each must lead from
-// the root to a leaf that lists its triangle, through balls that contain it.
+// Method: points of the surface in exact rational arithmetic, with no allowance; each must lead
+// from the root to a leaf that lists its triangle, through balls that contain it.
 #include "collision_core/sphere_tree/octree/octree_builder.h"
 
 #include <gtest/gtest.h>
@@ -126,8 +126,8 @@ TEST(Octree, EveryPointOfTheSurfaceIsCoveredOnEveryCut) {
 
 // Goal:   the rounding of cuts is in the radii: without kCutError this fails.
 // Method: nine million metres from the origin coordinates are rounded by 1e-9. The rim of a plate
-// rises by a few such steps, so that the corners where it is cut are rounded, often inward; balls of
-// square pieces pass through them, and nothing else covers the rim.
+// rises by a few such steps, so that the corners where it is cut are rounded, often inward; balls
+// of square pieces pass through them, and nothing else covers the rim.
 TEST(Octree, TheRimOfAPlateIsCoveredWhereItIsCut) {
   Random random(62);
   ShapeOptions options;

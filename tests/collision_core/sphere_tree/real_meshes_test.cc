@@ -22,7 +22,8 @@ class RealMeshes : public testing::TestWithParam<Known> {};
 
 double Length(const Exact& squared) { return std::sqrt(squared.convert_to<double>()); }
 
-/// The least over all triangles, one by one, exact where it matters: candidates come from intervals.
+/// The least over all triangles, one by one, exact where it matters: candidates come from
+/// intervals.
 Exact BruteForceSquaredDistance(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& p) {
   const auto corners = [&](const geometry::Triangle& t) {
     return geometry::TriangleCorners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};

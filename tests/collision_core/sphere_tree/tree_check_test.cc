@@ -115,7 +115,8 @@ SphereTree TwoLeaves(std::vector<std::uint32_t> triangles, std::uint32_t first,
 }
 
 // Goal:   a small tree makes no traversal take more steps than it has numbers.
-// Method: leaves upon each other, beside each other; the same triangle twice in a leaf, once in both.
+// Method: leaves upon each other, beside each other; the same triangle twice in a leaf, once in
+// both.
 TEST(TreeCheck, LeavesShareNoLists) {
   geometry::TriangleMesh mesh = Sheet(1, 1);
   EXPECT_EQ(RefusalOf(TwoLeaves({0, 1}, 1, 1), mesh), std::nullopt);

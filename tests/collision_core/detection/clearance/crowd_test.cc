@@ -1,5 +1,6 @@
 // Goal:   a crowd costs what is told of it: contacts that cannot end are not judged, those that may
-//         are judged at a glance; who is saturated costs one look; and nothing is told later for that.
+//         are judged at a glance; who is saturated costs one look; and nothing is told later for
+//         that.
 // Method: counted work; many contacts at once beside each of them alone.
 #include <gtest/gtest.h>
 

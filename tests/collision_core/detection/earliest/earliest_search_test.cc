@@ -3,8 +3,8 @@
 //         computed at an earlier time.
 // Method: pairs of the same geometry, turned at random, so that all meet at the same time but for
 // rounding and the
-//         canonical routine's earliness, which comes out anew at each time that it is asked from; every pair asked
-//         again beside it. No news in between: nothing but time passes.
+//         canonical routine's earliness, which comes out anew at each time that it is asked from;
+//         every pair asked again beside it. No news in between: nothing but time passes.
 #include <gtest/gtest.h>
 
 #include <cmath>
