@@ -18,7 +18,8 @@ nav a { display: inline-block; margin-right: 1rem; }
           gap: 1.5rem; }
 figure { margin: 0; } figure img { width: 100%; height: auto; }
 figcaption { font-size: 0.9rem; } figcaption ul { margin: 0.3rem 0 0; padding-left: 1.2rem; }
-.wide { overflow-x: auto; } table { border-collapse: collapse; font-size: 0.85rem; margin: 0.5rem 0; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 0.85rem; margin: 0.5rem 0; }
 th, td { text-align: left; vertical-align: top; padding: 0.15rem 0.6rem 0.15rem 0;
          border-bottom: 1px solid #eee; font-variant-numeric: tabular-nums; }
 .bad { color: #b00020; font-weight: 600; } .small { font-size: 0.85rem; color: #555; }

@@ -42,12 +42,13 @@ bool Named(const Scenario& scenario, const detection::AgentId& agent, v1::Cleara
 }
 
 // Goal:   a state that breaks its own bound is the new truth, is counted, and its partners are
-// told. Method: a resting agent appears moved by 40 m without a discontinuity.
+// told. Method: a resting agent appears moved by 80 m without a discontinuity, near enough that the
+// partner's clearance must be lowered.
 TEST(Faults, ABreachIsTheNewTruthAndIsTold) {
   Scenario scenario(ConfigFor(1), {});
   SimulatedAgent mover = At(100);
   mover.motion.pieces = {{.start_ns = 0, .end_ns = 3 * kSecond, .p = {100, 0, 0}},
-                         {.start_ns = 3 * kSecond, .end_ns = kEnd, .p = {60, 0, 0}}};
+                         {.start_ns = 3 * kSecond, .end_ns = kEnd, .p = {20, 0, 0}}};
   auto& alpha = scenario.Add({.end_ns = kEnd}, {At(0), mover});
   scenario.StartService();
   alpha.Start();

@@ -90,7 +90,7 @@ const std::vector<Layer>& Layers() {
       // Shows what the service would build, so it builds it.
       {programs + "tools/sphere_tree/",
        {"idl/", api, library + "shape/core_mesh.h", programs + "shared/", programs + "tools/",
-        core + "shape/"}},
+        core + "geometry/mesh/", core + "sphere_tree/", core + "shape/"}},
       {programs + "tools/",
        {"idl/", api, library, checker, programs + "shared/", programs + "tools/"}},
       {programs + "shared/", {"idl/", api, library, programs + "shared/"}},

@@ -24,8 +24,8 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
   const Planted bad[] = {
       {"collision_core/numeric/a.h", "\"collision_core/motion/motion_state.h\""},
       {"collision_core/motion/a.h", "\"collision_core/intersection/earliest_intersection.h\""},
-      {"collision_core/shape/a.h", "\"collision_core/base/instant.h\""},
-      {"collision_core/shape/a.cc", "\"collision_core/geometry/triangle/triangle_pair.h\""},
+      {"collision_core/shape/a.h", "\"collision_core/motion/motion_state.h\""},
+      {"collision_core/shape/a.cc", "\"collision_core/narrow_phase/pose/verdict.h\""},
       {"collision_core/broad_phase/a.cc", "\"collision_core/narrow_phase/a.h\""},
       {"collision_core/narrow_phase/a.cc", "\"collision_core/detection/a.h\""},
       {"collision_core/detection/a.h", "\"idl/messages.pb.h\""},

@@ -6,6 +6,7 @@
 #include <unordered_set>
 
 #include "collision_core/geometry/triangle/triangle_directions.h"
+#include "collision_core/narrow_phase/advancement/swept_balls.h"
 #include "collision_core/narrow_phase/advancement/swept_convex_pair.h"
 #include "collision_core/narrow_phase/pose/boxed_triangle.h"
 #include "collision_core/narrow_phase/pose/node_pair.h"
@@ -15,10 +16,7 @@
 namespace collision::narrow_phase {
 namespace {
 
-// Tangent steps for one pair of balls; each goes on from where the last one ended.
-constexpr int kTangentSteps = 4;
-
-// Likewise for a pair of triangles, each step only when no other pair may touch earlier.
+// Tangent steps for a pair of triangles, each only when no other pair may touch earlier.
 constexpr int kTriangleSteps = 16;
 
 // The direction of a way as short as this, as a share of the triangles' size, is uncertain.
@@ -31,25 +29,6 @@ constexpr double kSquareMin = 0x1p-900, kSquareMax = 0x1p+900;
 constexpr double kWideLeaf = 8;
 
 using Reach = SweptPose::Growth;
-
-// Up to when |d + w h| > reach(h): at each h the distance is at least its part along the direction
-// at h, so that steps of that tangent never go too far.
-double BallsTouch(const Eigen::Vector3d& d, const Eigen::Vector3d& w, const Reach& reach,
-                  double duration, double step_worth) {
-  double h = 0;
-  for (int step = 0; step < kTangentSteps; ++step) {
-    const Eigen::Vector3d between = d + h * w;
-    const double distance = between.norm();
-    const double gap = distance - (reach.c0 + h * (reach.c1 + h * reach.c2));
-    if (!(gap > 0)) return h;
-    const double closing = reach.c1 + 2 * h * reach.c2 - between.dot(w) / distance;
-    const double further = numeric::FirstRoot(gap, closing, reach.c2);
-    h += further;
-    if (h > duration) return numeric::kInfinity;
-    if (further < step_worth * duration) break;
-  }
-  return h;
-}
 
 class Search {
  public:
@@ -234,8 +213,9 @@ class Search {
     const sphere_tree::SphereNode& b = b_.node(nodes.b);
     const Eigen::Vector3d c_b = swept_.pose.ToA(b.centre);
     const Reach reach = ReachOf(a.radius + b.radius, a.centre.norm(), b.centre.norm());
-    const double time = BallsTouch(c_b - a.centre, VelocityOfB(c_b) - VelocityOfA(a.centre), reach,
-                                   duration_, detail_.step_worth);
+    const double time =
+        SweptBallsTouch({c_b - a.centre, VelocityOfB(c_b) - VelocityOfA(a.centre), reach},
+                        duration_, detail_.step_worth);
     // Balls within the solids that overlap already: nothing is free, and nothing need be opened.
     const bool within =
         !(time > 0) && (c_b - a.centre).norm() + a.signed_distance + b.signed_distance < 0;
@@ -347,7 +327,7 @@ class Search {
     return std::max(whole, least);
   }
 
-  // One tangent step, as in BallsTouch(): from where the pair is known to be apart up to.
+  // One tangent step, as in SweptBallsTouch(): from where the pair is known to be apart up to.
   void Step(Candidate pair) {
     work_.Spend(kTrianglePairUnits);
     const double further = FurtherApart(pair.a, pair.b, pair.time);
