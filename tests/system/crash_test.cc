@@ -17,6 +17,7 @@ TEST(Crash, KilledSimulatorIsWaitedFor) {
   const auto left = world.StartSimulator(kShortLeft, {"--linger"});
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
+  ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
   left->Signal(SIGKILL);
   ASSERT_EQ(left->WaitForExit(), 128 + SIGKILL);
   // Its silence is known, and the other stands still until it is back.
