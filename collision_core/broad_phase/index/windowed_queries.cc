@@ -129,7 +129,7 @@ bool WindowedSearch::AppendIfMeeting(std::uint32_t agent, std::uint32_t other, c
 
 void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& window,
                                     const Skip& skip, std::vector<Neighbour>* neighbours) {
-  const auto [from, until, horizon] = window;
+  const Instant from = window.from, until = window.until, horizon = window.horizon;
   Refresh(from);
   const BroadPhaseWork before = cost_.work;
   ++question_;

@@ -92,7 +92,8 @@ Vector3d NormalOf(const BodyTree& surface, std::uint32_t element) {
 // kSupportError of the spans, spans at most thrice the reach, sums and products by less than as
 // much again.
 double SeparatingTranslationAlong(const PosedPair& pair, const Vector3d& n, WorkBudget* work) {
-  const auto& [a, b, pose] = pair;
+  const BodyTree &a = pair.a, &b = pair.b;
+  const RelativePose& pose = pair.pose;
   const double reach_a = Reaching(a, n, work).Find();
   const double reach_b = Reaching(b, -(pose.R_AB.transpose() * n), work).Find();
   const double size = a.reach() + b.reach() + pose.p_AB.cwiseAbs().sum();
@@ -104,7 +105,8 @@ double SeparatingTranslationAlong(const PosedPair& pair, const Vector3d& n, Work
 
 double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witness,
                              WorkBudget* work) {
-  const auto& [a, b, pose] = pair;
+  const BodyTree &a = pair.a, &b = pair.b;
+  const RelativePose& pose = pair.pose;
   // What shows the contact first: bodies that touch are mostly taken apart across it.
   std::vector<Vector3d> ways;
   const auto add = [&](const Vector3d& direction) {

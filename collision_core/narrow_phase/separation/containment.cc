@@ -52,7 +52,8 @@ void JudgeEach(const BodyTree& body, const shape::Shape& other, ToOther to_other
 
 // Balls about the bodies that are apart.
 bool AreRootsApart(const PosedPair& pair, double slack) {
-  const auto& [a, b, pose] = pair;
+  const BodyTree &a = pair.a, &b = pair.b;
+  const RelativePose& pose = pair.pose;
   const sphere_tree::SphereNode& root_a = a.node(0);
   const sphere_tree::SphereNode& root_b = b.node(0);
   const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
@@ -64,7 +65,8 @@ bool AreRootsApart(const PosedPair& pair, double slack) {
 // The surfaces are apart by more than all that is uncertain: so a point's side is that of the point
 // where it is computed to be.
 Containment TestContainment(const PosedPair& pair, WorkBudget* work) {
-  const auto& [a, b, pose] = pair;
+  const BodyTree &a = pair.a, &b = pair.b;
+  const RelativePose& pose = pair.pose;
   Containment nesting;
   nesting.neither = true;
   const double turning = numeric::AddUp(numeric::MultiplyUp(pose.chord_A, a.turning_reach()),
