@@ -32,8 +32,8 @@ struct IntersectionTime {
 /// the certified one in intervals takes over from the time proved so far (first_approach.h). Then
 /// directions and speed caps may postpone the answer (box_overlap.h, capped_balls.h).
 /// earliest_intersection_oracle_test judges a million pairs of 13 hard distributions in exact
-/// dyadic arithmetic, by Bernstein coefficients and Sturm's theorem. How early the finite answers of
-/// one run were, by share of the pairs (the last column is explained by four units in the last
+/// dyadic arithmetic, by Bernstein coefficients and Sturm's theorem. How early the finite answers
+/// of one run were, by share of the pairs (the last column is explained by four units in the last
 /// place of the inputs):
 ///
 ///   distribution                             to 2^-50  to 2^-40  to 1e-9    more
