@@ -5,8 +5,8 @@
 // polynomial of a pair reaches the fourth power of a distance) and far from magnitudes at which
 // doubles are coarse. Each one is generous against anything that exists.
 //
-// A client refuses a value beyond its limit before it is sent (client/validation.h); the service
-// refuses it again and tells the sender (server/codec/codec.h).
+// A client refuses a value beyond its limit before it is sent (client/library/validation.h); the
+// service refuses it again and tells the sender (server/codec/codec.h).
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ struct DetectorOptions {
   /// States of one agent that are kept; beyond, the oldest are dropped and brackets widen. >= 1.
   std::uint32_t history_max = 64;
   /// WorkBudget that the narrow phase may spend on a pair of shapes in one evaluation
-  /// (narrow_phase/work.h); beyond, brackets stay wider and say that the budget limited them.
+  /// (base/work_budget.h); beyond, brackets stay wider and say that the budget limited them.
   std::uint64_t work_units_per_turn = 40000;
   /// Likewise in one step on all pairs of shapes, shared out among those that are evaluated
   /// (pairs/work_shares.h). WorkBudget that one pair leaves goes to the next. The last evaluation

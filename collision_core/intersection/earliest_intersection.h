@@ -30,11 +30,11 @@ struct IntersectionTime {
 ///
 /// Method. A quick root finder in plain doubles decides nearly all pairs (first_approach_quick.h);
 /// the certified one in intervals takes over from the time proved so far (first_approach.h). Then
-/// directions and speed caps may postpone the answer (pair_time_boxes.h, pair_time_capped.h).
-/// pair_time_oracle_test judges a million pairs of 13 hard distributions in exact dyadic
-/// arithmetic, by Bernstein coefficients and Sturm's theorem. How early the finite answers of one
-/// run were, by share of the pairs (the last column is explained by four units in the last place of
-/// the inputs):
+/// directions and speed caps may postpone the answer (box_overlap.h, capped_balls.h).
+/// earliest_intersection_oracle_test judges a million pairs of 13 hard distributions in exact
+/// dyadic arithmetic, by Bernstein coefficients and Sturm's theorem. How early the finite answers
+/// of one run were, by share of the pairs (the last column is explained by four units in the last
+/// place of the inputs):
 ///
 ///   distribution                             to 2^-50  to 2^-40  to 1e-9    more
 ///   all magnitudes, 1e-12 to 1e12              49 %      49 %      2 %      -

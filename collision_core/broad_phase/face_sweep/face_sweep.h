@@ -69,7 +69,8 @@ namespace collision::broad_phase {
 ///
 /// A library call, not a method of the service: set all bounds, ask once. It has no incremental
 /// form, since a sweep has no use for a question about one agent. Callers: the paper's collision
-/// loop (tests/baselines/global_loop.h) and the benchmark of whole scenes (tests/bench/methods.h).
+/// loop (tests/baselines/global_loop.h) and the benchmark of the broad phase
+/// (tests/bench/broad_phase/methods.h).
 /// Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
 class FaceSweep : public EarliestSweep {
  public:

@@ -17,9 +17,9 @@ namespace collision::broad_phase {
 std::int64_t FirstWindow(const std::vector<std::optional<motion::SpaceTimeBound>>& bounds,
                          const std::vector<std::uint32_t>& agents);
 
-/// How early a horn's meeting may be reported: 1e−9 of its distance (pair_time.h), here 2^−29 and
-/// three nanoseconds for rounding both. Whatever is told as `time` or earlier, after `first`,
-/// overlaps by the instant that this returns, Never() − 1 ns at the latest.
+/// How early a horn's meeting may be reported: 1e−9 of its distance (earliest_intersection.h), here
+/// 2^−29 and three nanoseconds for rounding both. Whatever is told as `time` or earlier,
+/// after `first`, overlaps by the instant that this returns, Never() − 1 ns at the latest.
 Instant WithEarliness(Instant first, Instant time);
 
 }  // namespace collision::broad_phase

@@ -127,7 +127,7 @@ struct GjkResult {
 /// Searches the point of B − A nearest to 0, until the goal is reached or the steps are used up. It
 /// follows the search down to 2^-44 of the pair's size; 1e-6 of the distance takes some 15 to 40
 /// steps for smooth cores, which would never end by themselves. The result is a proposal:
-/// narrow_phase/convex_distance.h certifies it. Source: Gilbert, Johnson and Keerthi, "A fast
+/// convex_pair/convex_distance.h certifies it. Source: Gilbert, Johnson and Keerthi, "A fast
 /// procedure for computing the distance between complex objects in three-dimensional space", IEEE
 /// J. Robotics and Automation 4(2), 1988.
 void RunGjk(const ConvexPair& pair, const GjkHint& start, const GjkGoal& goal, GjkResult* result);

@@ -43,7 +43,7 @@ class Search {
     const auto& [a, b, swept] = pair;
     const RelativePose& pose = swept.pose;
     // All positions h seconds on are sums of a few of these, and of h times those; compare
-    // RoundingOf() in separation.cc. What is lost grows with h, so that soon after the start the
+    // SlackOf() in posed_pair.h. What is lost grows with h, so that soon after the start the
     // time is known as well as the pose is. The offset counts in what turns as well: a point of B
     // is seen from B's reference point only after both were posed, each with its rounding. What is
     // not known of the motion needs no share: where it is more than the bodies are apart, they may
