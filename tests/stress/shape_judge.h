@@ -33,7 +33,8 @@ inline constexpr std::uint64_t kPlenty = 2'000'000;
 ///
 /// K is not derived: it is a power of two above the widest that was seen (96). What can be said of
 /// it, in units of 2^-52 L, where L is place and size: freedom is followed up to a gap of 2^-48 of
-/// all lengths (conservative_advancement.cc), 28 units at most, and 28 more for each L that is flown
+/// all lengths (conservative_advancement.cc), 28 units at most, and 28 more for each L that is
+/// flown
 /// within the
 /// duration; contact is shown from a depth of 2^-49 of them on (SlackOf), 14 units. The rest is
 /// what the search makes of it, which ends where another step is not worth its work
