@@ -17,6 +17,7 @@ namespace collision::client {
 class MessageMonitor;
 class Receiver;
 
+/// Which world a monitor reads.
 struct MonitorOptions {
   std::string world = "default";  ///< 1 to 64 of [A-Za-z0-9_-].
   std::uint32_t domain = 0;       ///< DDS domain, 0 to 230.

@@ -63,6 +63,7 @@ struct State {
   bool discontinuity = false;                ///< The motion jumped here: a teleport or a bounce.
 };
 
+/// A closed interval of time that contains a begin or an end.
 struct TimeBracket {
   std::int64_t earliest_ns = kNever;
   std::int64_t latest_ns = kNever;  ///< kNever: open.

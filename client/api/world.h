@@ -13,6 +13,7 @@
 
 namespace collision::client {
 
+/// How a simulator connects to its world.
 struct WorldOptions {
   std::string world = "default";  ///< 1 to 64 of [A-Za-z0-9_-].
   std::string simulator =

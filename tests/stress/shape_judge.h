@@ -31,14 +31,13 @@ inline constexpr std::uint64_t kPlenty = 2'000'000;
 /// K of times of contact: a bracket is at most 1e-12 of the time wide, and K units in the last
 /// place of where the bodies are and how large they are over their speed.
 ///
-/// K is not derived: it is a power of two above the widest that was seen (96). What can be said of
-/// it, in units of 2^-52 L, where L is place and size: freedom is followed up to a gap of 2^-48 of
-/// all lengths (conservative_advancement.cc), 28 units at most, and 28 more for each L that is
-/// flown
-/// within the
-/// duration; contact is shown from a depth of 2^-49 of them on (SlackOf), 14 units. The rest is
-/// what the search makes of it, which ends where another step is not worth its work
-/// (contact_boundary.cc: kStepGrowth, kWorthNarrowing): no bound of that is known.
+/// K is not derived: it is a power of two above the widest that was seen (96). What can be said
+/// of it, in units of 2^-52 L, where L is place and size: freedom is followed up to a gap of
+/// 2^-48 of all lengths (conservative_advancement.cc), 28 units at most, and 28 more for each L
+/// that is flown within the duration; contact is shown from a depth of 2^-49 of them on
+/// (SlackOf), 14 units. The rest is what the search makes of it, which ends where another step is
+/// not worth its work (contact_boundary.cc: kStepGrowth, kWorthNarrowing): no bound of that is
+/// known.
 inline constexpr double kShapeUnits = 128;
 
 /// The two touch on [begin, end] seconds, exactly. `speed` at which they close.

@@ -49,6 +49,7 @@ class HalfSpaces {
   /// lengths stay in range.
   static constexpr double kNormalMin = 1e-100, kNormalMax = 1e100;
 
+  /// A half-space that is held, and the index under which partners see it.
   struct Entry {
     std::uint32_t agent;
     HalfSpace half_space;

@@ -29,6 +29,7 @@
 
 namespace collision::narrow_phase {
 
+/// What is known of two bodies over a segment, when they are nearest, and how they approach.
 struct ShapeSegmentResult {
   SegmentResult times;
   ContactNormal normal;    ///< From the last instant before `times.free_until` with a good normal.

@@ -23,6 +23,7 @@ class ShapeMotion {
   /// Where and in which direction a sweep begins; of this class and its source.
   struct Departure;
 
+  /// What is found at one pose of the two bodies.
   struct PoseQuery {
     double at = 0;
     BoundChoice choice;
