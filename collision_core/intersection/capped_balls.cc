@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "collision_core/intersection/moving_ball_pair.h"
+#include "collision_core/motion/speed_cap.h"
+#include "collision_core/numeric/first_approach.h"
 
 namespace collision::intersection {
 namespace {
@@ -10,15 +11,15 @@ namespace {
 /// An agent's ball over time: the horn's, and under the cap another from `start` on (which may lie
 /// before the base).
 struct Timeline {
-  BallPart horn, cap;
+  numeric::MovingBall horn, cap;
   double start = numeric::kInfinity;
 
   Timeline(const motion::SpaceTimeBound& bound, Instant base)
-      : horn(HornPart(bound, base)), cap(horn) {
-    const std::optional<CappedPart> part = CapPart(bound, base);
-    if (!part) return;
-    start = part->start;
-    cap = part->ball;
+      : horn(ForwardBall(bound, base)), cap(horn) {
+    const std::optional<motion::LateBall> capped = CappedBallFrom(bound, base);
+    if (!capped) return;
+    start = capped->start;
+    cap = capped->ball;
   }
 
   Timeline WithoutCap() const {
@@ -27,7 +28,7 @@ struct Timeline {
     return horn_only;
   }
 
-  const BallPart& at(double delta) const { return delta < start ? horn : cap; }
+  const numeric::MovingBall& at(double delta) const { return delta < start ? horn : cap; }
 };
 
 /// The first overlap, piece by piece.
@@ -37,9 +38,9 @@ double FirstOverlap(const Timeline& a, const Timeline& b, double margin, double 
   // Before `first` they are the horns, which do not overlap then.
   if (first > limit) return numeric::kInfinity;
   const double end = std::min(second, limit);
-  const double time = FirstApproach(ApproachOf(a.at(first), b.at(first), margin), end, first);
+  const double time = FirstApproach(Difference(a.at(first), b.at(first), margin), end, first);
   if (time < numeric::kInfinity || second > limit) return time;
-  return FirstApproach(ApproachOf(a.at(second), b.at(second), margin), limit, second);
+  return FirstApproach(Difference(a.at(second), b.at(second), margin), limit, second);
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 #include "collision_core/intersection/box_overlap.h"
 #include "collision_core/intersection/capped_balls.h"
-#include "collision_core/intersection/moving_ball_pair.h"
 #include "collision_core/intersection/overlap_estimate.h"
 #include "collision_core/intersection/quick_horn_pair.h"
+#include "collision_core/numeric/first_approach.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::intersection {
@@ -18,7 +18,7 @@ double BallTime(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b
                 double margin, double limit) {
   const numeric::QuickAnswer quick = QuickFirstApproach(QuickHornPair(a, b, base, margin), limit);
   if (quick.decided) return quick.delta;
-  return FirstApproach(ApproachOf(HornPart(a, base), HornPart(b, base), margin), limit,
+  return FirstApproach(Difference(ForwardBall(a, base), ForwardBall(b, base), margin), limit,
                        quick.delta);
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::intersection {
@@ -18,60 +19,58 @@ double Seconds(Instant from, Instant to) {
   return static_cast<double>(nanoseconds) / 1e9;
 }
 
-/// One agent's part, from `base` on.
-struct Part {
-  double shift[3];    // v τ, each off by 3ε.
-  double u0, u1, u2;  // All terms are positive. σ is off by 3ε, σ + h by 4ε, a product of both by
-                      // 9ε, |v| κ by 4ε, and the sums make it 13ε.
-
-  Part(const motion::SpaceTimeBound& bound, Instant base) {
-    const Eigen::Vector3d& v = bound.state.v_WA;
-    const double tau = Seconds(bound.state.stamp, base), sigma = tau + bound.skew;
-    const double step = bound.declaration.time_step, error = bound.state.velocity_error;
-    for (int i = 0; i < 3; ++i) shift[i] = v[i] * tau;
-    u2 = 0.5 * bound.declaration.acceleration_max;
-    u1 = error + u2 * (2 * sigma + step);
-    u0 = bound.state.position_error + error * sigma + u2 * (sigma * (sigma + step));
-    if (bound.skew > 0) {
-      u0 += bound.skew * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    }
+/// The horn's ball from `base` on, as seen from p_WA and less its radius r, rounded to nearest. The
+/// centre v τ is off by 3ε. All terms of the reach u are positive: σ is off by 3ε, σ + h by 4ε, a
+/// product of both by 9ε, |v| κ by 4ε, and the sums make it 13ε.
+numeric::QuickBall Rounded(const motion::SpaceTimeBound& bound, Instant base) {
+  const Eigen::Vector3d& v = bound.state.v_WA;
+  const double tau = Seconds(bound.state.stamp, base), sigma = tau + bound.skew;
+  const double step = bound.declaration.time_step, error = bound.state.velocity_error;
+  numeric::QuickBall ball;
+  for (int axis = 0; axis < 3; ++axis) ball.c[axis] = v[axis] * tau, ball.v[axis] = v[axis];
+  ball.s2 = 0.5 * bound.declaration.acceleration_max;
+  ball.s1 = error + ball.s2 * (2 * sigma + step);
+  ball.s0 = bound.state.position_error + error * sigma + ball.s2 * (sigma * (sigma + step));
+  if (bound.skew > 0) {
+    ball.s0 += bound.skew * std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
   }
-};
+  return ball;
+}
 
-/// Of the reach's terms, the 13ε of each part and the sums of five.
+/// Of the reach's terms: the 13ε of each ball, and the sums of five terms.
 constexpr double kErrorOfReach = 20 * kEpsilon;
 
-/// Of d, relative to the sum of the magnitudes of its terms p_B − p_A, v_B τ_B and v_A τ_A: each is
-/// off by 3ε at most, and two more sums make it 5ε.
+/// Of the centre, relative to the sum of the magnitudes of its terms p_B − p_A, v_B τ_B and v_A τ_A:
+/// each is off by 3ε at most, and two more sums make it 5ε.
 constexpr double kErrorOfDistance = 6 * kEpsilon;
 
-/// Of w = v_B − v_A: ε, and what summing the magnitudes costs.
+/// Of the velocity v_B − v_A: ε, and what summing the magnitudes costs.
 constexpr double kErrorOfVelocity = 2 * kEpsilon;
 
 }  // namespace
 
 numeric::QuickApproach QuickHornPair(const motion::SpaceTimeBound& a,
                                      const motion::SpaceTimeBound& b, Instant base, double margin) {
-  const Part part_A(a, base), part_B(b, base);
-  numeric::QuickApproach q;
+  CORE_CHECK(a.state.stamp <= base && b.state.stamp <= base, "a forward horn starts at its stamp",
+             a.state.stamp.nanoseconds(), b.state.stamp.nanoseconds(), base.nanoseconds());
+  const numeric::QuickBall ball_A = Rounded(a, base), ball_B = Rounded(b, base);
+  numeric::QuickBall ball = Difference(ball_A, ball_B);
   double magnitude = 0, speed = 0;
-  for (int i = 0; i < 3; ++i) {
+  for (int axis = 0; axis < 3; ++axis) {
     // Positions first: a scene far from the origin loses only what its inputs lost.
-    const double between = b.state.p_WA[i] - a.state.p_WA[i];
-    q.d[i] = between + (part_B.shift[i] - part_A.shift[i]);
-    q.w[i] = b.state.v_WA[i] - a.state.v_WA[i];
-    magnitude += std::abs(between) + (std::abs(part_B.shift[i]) + std::abs(part_A.shift[i]));
-    speed += std::abs(q.w[i]);
+    const double between = b.state.p_WA[axis] - a.state.p_WA[axis];
+    ball.c[axis] = between + ball.c[axis];
+    magnitude += std::abs(between) + (std::abs(ball_B.c[axis]) + std::abs(ball_A.c[axis]));
+    speed += std::abs(ball.v[axis]);
   }
   const double radii = (a.declaration.radius + b.declaration.radius) + margin;
-  const double s0 = radii + (part_A.u0 + part_B.u0);
-  const double s1 = part_A.u1 + part_B.u1;
-  q.doubt0 = kErrorOfDistance * magnitude + kErrorOfReach * s0;
-  q.doubt1 = kErrorOfVelocity * speed + kErrorOfReach * s1;
-  q.s0 = s0 + q.doubt0;
-  q.s1 = s1 + q.doubt1;
-  q.s2 = (part_A.u2 + part_B.u2) * (1 + kErrorOfReach);
-  return q;
+  const double s0 = radii + ball.s0, s1 = ball.s1;
+  const double doubt0 = kErrorOfDistance * magnitude + kErrorOfReach * s0;
+  const double doubt1 = kErrorOfVelocity * speed + kErrorOfReach * s1;
+  ball.s0 = s0 + doubt0;
+  ball.s1 = s1 + doubt1;
+  ball.s2 *= 1 + kErrorOfReach;
+  return {ball, doubt0, doubt1};
 }
 
 }  // namespace collision::intersection

@@ -6,9 +6,10 @@
 
 namespace collision::intersection {
 
-/// The balls of two forward horns as an exact problem in doubles, with time counted from `base` and
-/// the sum of the radii larger by `margin` [m]. What rounding may have cost d and w is added to the
-/// reach: 6 · 2^-53 of the terms of d and 2 · 2^-53 of w. Symmetric: (A, B) and (B, A) give the
+/// The relative motion of two forward horns as an exact problem in doubles, with time counted from
+/// `base` and the sum of the radii larger by `margin` [m]. What rounding may have cost centre and
+/// velocity is added to the reach: 6 · 2^-53 of the terms of the centre and 2 · 2^-53 of the
+/// velocity. Symmetric: (A, B) and (B, A) give the
 /// same bits, or the negated ones. If a difference of times overflows, all reaches are infinite and
 /// so decide nothing. Requires a base not before either stamp.
 numeric::QuickApproach QuickHornPair(const motion::SpaceTimeBound& a,

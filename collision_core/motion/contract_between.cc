@@ -111,12 +111,12 @@ double GapBetween(const SpaceTimeBound& before, const MotionState& next) {
   if (share < 0) return 0;
 
   const double s = std::min(share * duration.lower, duration.lower);
-  const MovingBall forward = ForwardBall(before, base);
-  const MovingBall backward = BackwardBall({next, before.declaration, before.skew}, base);
+  const numeric::MovingBall forward = ForwardBall(before, base);
+  const numeric::MovingBall backward = BackwardBall({next, before.declaration, before.skew}, base);
   const numeric::IntervalVector offset =
-      (forward.centre - backward.centre) +
+      (forward.centre() - backward.centre()) +
       numeric::Interval(s) * (forward.velocity - backward.velocity);
-  return std::max(0.0, (numeric::Norm(offset) - (forward.u() + backward.u()).At(s)).lower);
+  return std::max(0.0, (numeric::Norm(offset) - (forward.u + backward.u).At(s)).lower);
 }
 
 }  // namespace collision::motion

@@ -89,7 +89,7 @@ class Comparison {
     const numeric::Interval since =
         numeric::SecondsBetween(from, after_.state.stamp) + numeric::Interval(2) * before_.skew;
     const numeric::Interval limit =
-        ForwardBall(lenient_, from).u0 + after_.state.position_error + speed * since;
+        ForwardBall(lenient_, from).u.c0 + after_.state.position_error + speed * since;
     check_.position_excess = std::max(check_.position_excess, (away - limit).lower);
   }
 

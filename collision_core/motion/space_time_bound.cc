@@ -38,11 +38,11 @@ numeric::Quadratic Errors(const SpaceTimeBound& bound, Elapsed elapsed) {
           numeric::Interval(state.velocity_error) * elapsed.slope, 0};
 }
 
-MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed, numeric::Interval since_stamp) {
+numeric::MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed,
+                         numeric::Interval since_stamp) {
   const numeric::IntervalVector velocity(bound.state.v_WA);
-  const numeric::Quadratic u = Errors(bound, elapsed) + Deviation(bound.declaration, elapsed);
-  return {numeric::IntervalVector(bound.state.p_WA) + since_stamp * velocity, velocity, u.c0, u.c1,
-          u.c2};
+  return {numeric::IntervalVector(bound.state.p_WA), since_stamp * velocity, velocity,
+          bound.declaration.radius, Errors(bound, elapsed) + Deviation(bound.declaration, elapsed)};
 }
 
 bool HasDirection(const MotionState& state) { return !state.direction.isZero(0); }
@@ -57,11 +57,11 @@ void CapReach(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval
 
 }  // namespace
 
-MovingBall ForwardBall(const SpaceTimeBound& bound, Instant base) {
+numeric::MovingBall ForwardBall(const SpaceTimeBound& bound, Instant base) {
   return Ball(bound, ForwardFrom(bound, base), numeric::SecondsBetween(bound.state.stamp, base));
 }
 
-MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base) {
+numeric::MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base) {
   return Ball(bound, BackwardFrom(bound, base), numeric::SecondsBetween(bound.state.stamp, base));
 }
 

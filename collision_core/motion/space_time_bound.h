@@ -33,7 +33,7 @@
 #pragma once
 
 #include "collision_core/motion/motion_state.h"
-#include "collision_core/numeric/quadratic.h"
+#include "collision_core/numeric/moving_ball.h"
 
 namespace collision::motion {
 
@@ -59,25 +59,13 @@ inline bool NeverMoves(const SpaceTimeBound& bound) {
          (bound.declaration.acceleration_max == 0 || bound.declaration.speed_max == 0);
 }
 
-/// The ball of a bound as functions of the seconds δ >= 0 after a base instant:
-///
-///   centre(δ) = centre + velocity δ [m],   u(δ) = u0 + u1 δ + u2 δ² [m],   u2 >= 0 (convex).
-///
-/// Each interval contains the exact coefficient.
-struct MovingBall {
-  numeric::IntervalVector centre;
-  numeric::IntervalVector velocity;
-  numeric::Interval u0, u1, u2;
-
-  numeric::Quadratic u() const { return {u0, u1, u2}; }
-};
-
-/// The forward horn from `base` on. Requires base >= state.stamp.
-MovingBall ForwardBall(const SpaceTimeBound& bound, Instant base);
+/// The forward horn from `base` on: the ball of radius r + u(δ), anchored at p_WA. Requires base >=
+/// state.stamp.
+numeric::MovingBall ForwardBall(const SpaceTimeBound& bound, Instant base);
 
 /// The backward horn from `base` on, valid while base + δ <= state.stamp. Requires base <=
 /// state.stamp.
-MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base);
+numeric::MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base);
 
 /// The part ½ M σ (σ + h) of u alone [m], which a declared direction makes smaller. Requires base
 /// >= state.stamp.

@@ -58,9 +58,18 @@ CappedBall CapBall(const SpaceTimeBound& bound) {
   if (cap.from.is_never()) return cap;
   cap.shift = numeric::SecondsBetween(bound.state.stamp, cap.from) *
               numeric::IntervalVector(bound.state.v_WA);
-  cap.u = ForwardBall(bound, cap.from).u0;
+  cap.u = ForwardBall(bound, cap.from).u.c0;
   cap.speed = CappedSpeed(bound.declaration);
   return cap;
+}
+
+std::optional<LateBall> CappedBallFrom(const SpaceTimeBound& bound, Instant base) {
+  if (!HasSpeedCap(bound.declaration)) return std::nullopt;
+  const CappedBall cap = CapBall(bound);
+  if (cap.from.is_never()) return std::nullopt;
+  return LateBall{numeric::SecondsBetween(base, cap.from).lower,
+                  {numeric::IntervalVector(bound.state.p_WA), cap.shift,
+                   numeric::IntervalVector(0, 0, 0), bound.declaration.radius, cap.UFrom(base)}};
 }
 
 CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval fraction) {

@@ -1,6 +1,8 @@
 // What a declared speed cap takes away from the horn.
 #pragma once
 
+#include <optional>
+
 #include "collision_core/motion/space_time_bound.h"
 
 namespace collision::motion {
@@ -72,6 +74,16 @@ struct CappedBall {
 
 /// The capped ball of a bound. Requires a cap. `from` may be Never(); then only `from` is set.
 CappedBall CapBall(const SpaceTimeBound& bound);
+
+/// A ball that counts from `start` seconds after its base on; they may be negative.
+struct LateBall {
+  double start;  ///< [s], rounded down.
+  numeric::MovingBall ball;
+};
+
+/// The capped ball as seen from `base`, anchored at p_WA; it counts beside the horn's. nullopt: no
+/// cap is declared, or it never takes over.
+std::optional<LateBall> CappedBallFrom(const SpaceTimeBound& bound, Instant base);
 
 /// One face under the cap at t >= from: A reaches up to radius + u + speed · (t − from) from
 /// p_WA + shift along the face's normal.

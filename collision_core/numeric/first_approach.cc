@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collision_core/numeric/quadratic.h"
+#include "collision_core/base/check.h"
 
 namespace collision::numeric {
 namespace {
@@ -35,18 +35,20 @@ IntervalVector Cross(const IntervalVector& a, const IntervalVector& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The approach as seen from δ.
+/// The relative motion as seen from δ.
 struct View {
-  IntervalVector d;  // At δ.
-  IntervalVector n;  // Of any length; all bounds divide by it.
+  IntervalVector d;  // The centre at δ.
+  IntervalVector n;  // Along d, of any length; all bounds divide by it.
   Interval length;   // Of n.
-  Quadratic reach;   // In x, upper ends only count.
+  Quadratic reach;   // In x.
 
-  View(const Approach& approach, double delta)
-      : d(approach.d0 + Interval(delta) * approach.w),
+  /// `reach_upper`: the upper ends of the radius, which alone count.
+  View(const IntervalVector& d0, const IntervalVector& w, const Quadratic& reach_upper,
+       double delta)
+      : d(d0 + Interval(delta) * w),
         n(Towards(d)),
         length(Norm(n)),
-        reach(Quadratic{approach.s0.upper, approach.s1.upper, approach.s2.upper}.From(delta)) {}
+        reach(reach_upper.From(delta)) {}
 
   /// |d + w x| >= n·(d + w x) / |n|: a tangent of the convex distance.
   GapBound Tangent(const IntervalVector& w) const {
@@ -83,17 +85,21 @@ double FirstZeroWithin(const GapBound& bound, double x_max) {
 
 }  // namespace
 
-double FirstApproach(const Approach& approach, double limit, double start) {
+double FirstApproach(const MovingBall& difference, double limit, double start) {
+  CORE_CHECK(start >= 0, "an approach is searched from its base on", start);
+  const IntervalVector d0 = difference.centre(), w = difference.velocity;
+  const Quadratic reach = difference.reach();
+  const Quadratic reach_upper{reach.c0.upper, reach.c1.upper, reach.c2.upper};
   double delta = start;
   double last_step = 0;
   for (int count = 0; count < kStepsMax; ++count) {
-    const View view(approach, delta);
-    const GapBound tangent = view.Tangent(approach.w);
+    const View view(d0, w, reach_upper, delta);
+    const GapBound tangent = view.Tangent(w);
     if (!(tangent.gap > 0)) return delta;
     double step = FirstZero(tangent.gap, tangent.closing, tangent.growth);
     if (count >= kTangentSteps && step < kInfinity) {
       const double x_max = std::max(2 * step, last_step);
-      const double curved = FirstZeroWithin(view.Curved(approach.w, tangent, x_max), x_max);
+      const double curved = FirstZeroWithin(view.Curved(w, tangent, x_max), x_max);
       step = std::max(step, std::min(curved, x_max));
     }
     const double next = AddDown(delta, step);

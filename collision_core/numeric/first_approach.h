@@ -17,23 +17,16 @@
 // rounding.
 #pragma once
 
-#include "collision_core/numeric/interval.h"
+#include "collision_core/numeric/moving_ball.h"
 
 namespace collision::numeric {
 
-/// A relative motion: the distance |d0 + w δ| [m] against the reach S(δ) = s0 + s1 δ + s2 δ² [m],
-/// for δ >= 0 [s] and s2 >= 0.
-struct Approach {
-  IntervalVector d0;
-  IntervalVector w;
-  Interval s0, s1, s2;
-};
-
-/// A certified lower bound on the least δ in [0, limit] with |d0 + w δ| <= S(δ): no real motion
-/// within the intervals reaches it earlier. 0 if they are, or may be, within reach at once;
-/// +infinity if never up to `limit` (which may be +infinity). Early by at most max(1e-9 δ, what the
-/// widths of the intervals force). `start` [s]: a time before which it is already known that
-/// nothing is within reach. The method is derived at the head of this file.
-double FirstApproach(const Approach& approach, double limit, double start = 0);
+/// A certified lower bound on the least δ in [0, limit] at which the ball of a relative motion
+/// (Difference() of two balls) contains the origin: with d(δ) its centre and S(δ) its radius, |d(δ)|
+/// <= S(δ). No real motion within the intervals reaches it earlier. 0 if the two are, or may be,
+/// within reach at once; +infinity if never up to `limit` (which may be +infinity). Early by at most
+/// max(1e-9 δ, what the widths of the intervals force). `start` [s]: a time before which it is
+/// already known that nothing is within reach. The method is derived at the head of this file.
+double FirstApproach(const MovingBall& difference, double limit, double start = 0);
 
 }  // namespace collision::numeric

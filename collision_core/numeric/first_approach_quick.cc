@@ -13,7 +13,7 @@ constexpr int kStepsMax = 24;
 /// ε: the most that one rounding costs, relative.
 constexpr double kEpsilon = 0x1p-53;
 
-/// Of an evaluation, relative to the greatest terms; derived at Seen.
+/// Of an evaluation, relative to the greatest terms; derived at View.
 constexpr double kErrorOfGap = 10 * kEpsilon;
 constexpr double kErrorOfSlope = 10 * kEpsilon;
 
@@ -39,44 +39,47 @@ constexpr double kNearlyThere = 0x1p-12;
 
 /// The approach seen from δ, with its errors.
 ///
-/// Gap. x_i = d_i + w_i δ is off by ε (|d_i| + 2 |w_i| δ) at most, together by 2ε (D + W δ), where
-/// D and W are the sums of |d_i| and |w_i|. Squares, two sums and the root give |x| with 3ε:
-/// squares ε, sums 2ε, halved by the root, and its own ε. The reach s0 + δ (s1 + δ s2) has four
-/// roundings, the difference one more. Together less than 6ε (D + W δ) + 6ε S, second order
+/// Gap. x_i = c_i + v_i δ is off by ε (|c_i| + 2 |v_i| δ) at most, together by 2ε (C + V δ), where
+/// C and V are the sums of |c_i| and |v_i|. Squares, two sums and the root give |x| with 3ε:
+/// squares ε, sums 2ε, halved by the root, and its own ε. The reach S = s0 + δ (s1 + δ s2) has four
+/// roundings, the difference one more. Together less than 6ε (C + V δ) + 6ε S, second order
 /// included.
 ///
-/// Slope. The tangent holds for any direction, so x is one without error. x·w has three roundings a
-/// term, |x| 3ε and the quotient one: 7ε W. s1 + 2 δ s2 has three roundings, the difference one
+/// Slope. The tangent holds for any direction, so x is one without error. x·v has three roundings a
+/// term, |x| 3ε and the quotient one: 7ε V. s1 + 2 δ s2 has three roundings, the difference one
 /// more.
-struct Seen {
-  const QuickApproach& a;
-  double scale_w, delta;
+struct View {
+  const QuickApproach& approach;
+  double scale_v, delta;
   double x[3];
   double distance, reach, error;
 
-  Seen(const QuickApproach& approach, double scale_d, double velocity_scale, double offset)
-      : a(approach),
-        scale_w(velocity_scale),
+  View(const QuickApproach& given, double scale_c, double velocity_scale, double offset)
+      : approach(given),
+        scale_v(velocity_scale),
         delta(offset),
-        x{a.d[0] + a.w[0] * delta, a.d[1] + a.w[1] * delta, a.d[2] + a.w[2] * delta},
+        x{ball().c[0] + ball().v[0] * delta, ball().c[1] + ball().v[1] * delta,
+          ball().c[2] + ball().v[2] * delta},
         distance(std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2])),
-        reach(a.s0 + delta * (a.s1 + delta * a.s2)),
-        error(kErrorOfGap * (scale_d + scale_w * delta + reach)) {}
+        reach(ball().s0 + delta * (ball().s1 + delta * ball().s2)),
+        error(kErrorOfGap * (scale_c + scale_v * delta + reach)) {}
+
+  const QuickBall& ball() const { return approach.ball; }
 
   bool in_range() const { return distance >= kDistanceMin && distance <= kDistanceMax; }
   double gap_lower() const { return (distance - reach) - error; }
 
   /// Is the true distance certainly within the true reach?
   bool overlaps() const {
-    const double doubt = 2 * (error + a.doubt0 + a.doubt1 * delta);
+    const double doubt = 2 * (error + approach.doubt0 + approach.doubt1 * delta);
     return reach <= kDistanceMax && distance + doubt <= reach;
   }
 
   /// How fast the tangent's gap closes, at most.
   double closing() const {
-    const double along = (x[0] * a.w[0] + x[1] * a.w[1] + x[2] * a.w[2]) / distance;
-    const double growing = a.s1 + 2 * delta * a.s2;
-    return (growing - along) + kErrorOfSlope * (scale_w + growing);
+    const double along = (x[0] * ball().v[0] + x[1] * ball().v[1] + x[2] * ball().v[2]) / distance;
+    const double growing = ball().s1 + 2 * delta * ball().s2;
+    return (growing - along) + kErrorOfSlope * (scale_v + growing);
   }
 };
 
@@ -97,21 +100,22 @@ double SumOfMagnitudes(const double (&v)[3]) {
 }  // namespace
 
 QuickAnswer QuickFirstApproach(const QuickApproach& approach, double limit) {
-  const double scale_d = SumOfMagnitudes(approach.d), scale_w = SumOfMagnitudes(approach.w);
+  const QuickBall& ball = approach.ball;
+  const double scale_c = SumOfMagnitudes(ball.c), scale_v = SumOfMagnitudes(ball.v);
   const auto arrives = [&](double delta) {
-    return Seen(approach, scale_d, scale_w, delta * kAhead).overlaps();
+    return View(approach, scale_c, scale_v, delta * kAhead).overlaps();
   };
-  const double speeds = scale_w + approach.s1;
+  const double speeds = scale_v + ball.s1;
   if (speeds > 0 && speeds < kSpeedMin) return {false, 0};
   double delta = 0;
   for (int count = 0; count < kStepsMax; ++count) {
-    const Seen seen(approach, scale_d, scale_w, delta);
-    if (!seen.in_range()) return {seen.overlaps(), delta};
-    const double gap = seen.gap_lower();
+    const View view(approach, scale_c, scale_v, delta);
+    if (!view.in_range()) return {view.overlaps(), delta};
+    const double gap = view.gap_lower();
     if (!(gap > 0)) return {arrives(delta), delta};
-    const double closing = seen.closing();
-    if (closing <= 0 && approach.s2 == 0) return {true, kInfinity};
-    const double step = Step(gap, closing, approach.s2);
+    const double closing = view.closing();
+    if (closing <= 0 && ball.s2 == 0) return {true, kInfinity};
+    const double step = Step(gap, closing, ball.s2);
     if (!(step < kInfinity)) return {false, delta};
     const double next = AddDown(delta, step);
     if (next > limit) return {true, kInfinity};

@@ -1,15 +1,15 @@
 // The root finder in plain doubles, with a proven error: decides nearly all pairs.
 #pragma once
 
+#include "collision_core/numeric/moving_ball.h"
+
 namespace collision::numeric {
 
-/// |d + w δ| against s0 + s1 δ + s2 δ², for δ >= 0 [s], all s >= 0 [m]. The numbers are exact: the
-/// caller has added its uncertainty of d and w to the reach.
+/// The ball of a relative motion, which has grown by doubt0 + doubt1 δ [m] for the rounding of its
+/// numbers: the true ball lies inside it, and reaches twice that less at least.
 struct QuickApproach {
-  double d[3];
-  double w[3];
-  double s0, s1, s2;
-  double doubt0, doubt1;  ///< What was added to s0 and s1 for rounding.
+  QuickBall ball;
+  double doubt0, doubt1;
 };
 
 /// What the quick root finder knows.
@@ -20,7 +20,8 @@ struct QuickAnswer {
   double delta;
 };
 
-/// The least δ in [0, limit] with |d + w δ| <= s0 + s1 δ + s2 δ². Undecided where a few units in
+/// The least δ in [0, limit] at which the ball contains the origin: |c + v δ| <= s0 + s1 δ + s2 δ².
+/// Undecided where a few units in
 /// the last place decide (grazing, touching), near triple roots, and beyond the magnitudes for
 /// which its errors are proven (1e-140 to 1e140 m): FirstApproach() then goes on from the time
 /// certified so far.

@@ -9,9 +9,6 @@
 namespace collision::broad_phase {
 namespace {
 
-// As in At().
-constexpr double kOutward = 1 + 0x1p-48;
-
 // Beyond these, squares and products leave the range of doubles (and of single precision).
 constexpr double kPositionMax = 0x1p+60;
 constexpr double kRateMax = 0x1p+40;
@@ -51,31 +48,32 @@ void HornTable::DropFull(HornRow* row) {
 // Everything but what depends on the table: `ruled` and `full`.
 void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* filled) {
   HornRow& row = *filled;
+  numeric::QuickBall& ball = row.ball;
   const motion::MotionState& state = bound.state;
   const motion::AgentDeclaration& declaration = bound.declaration;
   for (int axis = 0; axis < 3; ++axis) {
-    row.p[axis] = state.p_WA[axis];
-    row.v[axis] = state.v_WA[axis];
+    ball.c[axis] = state.p_WA[axis];
+    ball.v[axis] = state.v_WA[axis];
   }
   const double half = 0.5 * declaration.acceleration_max;
-  row.u0 = declaration.radius, row.u1 = 0, row.u2 = half;
+  ball.s0 = declaration.radius, ball.s1 = 0, ball.s2 = half;
   row.stamp = state.stamp;
   row.group = declaration.group;
   row.mask = declaration.mask;
   if (half_margin != 0 || !IsPlain(bound)) {
     const double skew = bound.skew, step = declaration.time_step;
     const double given = declaration.radius + half_margin + state.position_error;
-    row.u0 = kOutward * (given + Length(row.v) * skew + state.velocity_error * skew +
-                         half * skew * (skew + step));
-    row.u1 = kOutward * (state.velocity_error + half * (2 * skew + step));
-    row.u2 = kOutward * half;
+    ball.s0 = kOutward * (given + Length(ball.v) * skew + state.velocity_error * skew +
+                          half * skew * (skew + step));
+    ball.s1 = kOutward * (state.velocity_error + half * (2 * skew + step));
+    ball.s2 = kOutward * half;
   }
   row.still = NeverMoves(bound);
   const auto largest = [](const double* v) {
     return std::max({std::abs(v[0]), std::abs(v[1]), std::abs(v[2])});
   };
-  row.unfilterable = !(std::max(largest(row.p), row.u0) < kPositionMax &&
-                       std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
+  row.unfilterable = !(std::max(largest(ball.c), ball.s0) < kPositionMax &&
+                       std::max({largest(ball.v), ball.s1, ball.s2}) < kRateMax && Near(row.stamp));
   // A group of no bits meets no agent, and is not the mark of a free row.
   if (row.group == 0) row.group = 1, row.mask = 0;
 }
@@ -125,10 +123,10 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   if (row.full != kPlain) return full_[row.full - 1];
   motion::SpaceTimeBound bound;
   bound.state.stamp = row.stamp;
-  bound.state.p_WA = {row.p[0], row.p[1], row.p[2]};
-  bound.state.v_WA = {row.v[0], row.v[1], row.v[2]};
-  bound.declaration.radius = row.u0;
-  bound.declaration.acceleration_max = 2 * row.u2;
+  bound.state.p_WA = {row.ball.c[0], row.ball.c[1], row.ball.c[2]};
+  bound.state.v_WA = {row.ball.v[0], row.ball.v[1], row.ball.v[2]};
+  bound.declaration.radius = row.ball.s0;
+  bound.declaration.acceleration_max = 2 * row.ball.s2;
   bound.declaration.group = row.group;
   bound.declaration.mask = row.mask;
   return bound;
@@ -136,7 +134,7 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
 
 double HornTable::EarlierBound(const HornRow& a, const HornRow& b, Instant from, double limit) {
   if (a.unfilterable || b.unfilterable || !Near(from)) return 0;
-  return Between(At(a, from), At(b, from)).EarlierBound(limit);
+  return broad_phase::EarlierBound(Difference(At(a, from), At(b, from)), limit);
 }
 
 void HornTable::Validate() const {
@@ -161,11 +159,11 @@ void HornTable::Validate() const {
              "counts are those of the rows", count, still, unfilterable, filtered);
 }
 
-HornAt BoxReach(HornAt horn, double duration) {
-  constexpr double kCorner = kOutward * std::numbers::sqrt3, kWayRounding = 0x1p-48;
+numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration) {
+  constexpr double kCorner = kOutward * std::numbers::sqrt3;
   double way = 0;
   for (const double v : horn.v) way += std::abs(v) * duration;
-  horn.s0 = kCorner * (horn.s0 + kWayRounding * way);
+  horn.s0 = kCorner * (horn.s0 + kLineRounding * way);
   horn.s1 = kCorner * (horn.s1 + horn.s2 * duration);
   horn.s2 = 0;
   return horn;

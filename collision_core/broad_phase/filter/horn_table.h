@@ -6,33 +6,30 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/broad_phase/filter/approaching.h"
+#include "collision_core/broad_phase/filter/pair_filter.h"
 #include "collision_core/intersection/intersection_query.h"
 #include "collision_core/intersection/pair_rules.h"
 
 namespace collision::broad_phase {
 
-/// A horn in plain doubles, rounded outward: at τ >= 0 after its stamp the agent lies within
-/// u0 + u1 τ + u2 τ² of p + v τ, whatever direction, expiry or speed cap say beyond.
+/// A horn in plain doubles, rounded outward: its ball holds from the stamp on, whatever direction,
+/// expiry or speed cap say beyond.
 struct HornRow {
-  double p[3];
-  double v[3];
-  double u0, u1, u2;
+  numeric::QuickBall ball;  ///< s0 is grown by half of the agent's greatest margin.
   Instant stamp;
   std::uint32_t group = 0;  ///< 0: no such agent.
   std::uint32_t mask = 0;
   std::uint32_t full = 0;     ///< HornTable's own.
   bool still = false;         ///< NeverMoves().
   bool unfilterable = false;  ///< Too large or too far for filters: to be asked directly.
-  bool ruled = false;  ///< PairRules has any for it; u0 is grown by half of its greatest margin.
+  bool ruled = false;         ///< PairRules has any for it.
 };
+static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache");
 
-/// The same from an instant on: at x >= 0 after it within s0 + s1 x + s2 x² of c + v x.
-struct HornAt {
-  double c[3];
-  double v[3];
-  double s0, s1, s2;
-};
+/// Outward for a sum or product of fewer than sixteen terms of one sign, which rounding takes less
+/// than 16 · 2^-53 of; likewise, what a sum of terms of either sign loses is less than
+/// kLineRounding of their magnitudes. All reaches below are rounded outward by these two.
+inline constexpr double kOutward = 1 + 0x1p-48, kLineRounding = 0x1p-48;
 
 /// All bounds by index. For an agent that declares no more than radius and acceleration the row of
 /// 96 bytes is everything that is kept: the bound itself is made again from it, bit for bit, for
@@ -63,7 +60,7 @@ class HornTable {
   /// Fetches the row into the cache, for a question that comes soon.
   void Fetch(std::uint32_t agent) const {
     __builtin_prefetch(&rows_[agent]);
-    __builtin_prefetch(&rows_[agent].u1);
+    __builtin_prefetch(&rows_[agent].ball.s1);
   }
   /// The row of a bound that is in no table and has no rules.
   static HornRow RowOf(const motion::SpaceTimeBound& bound);
@@ -82,8 +79,10 @@ class HornTable {
 
   /// Of a row that is not unfilterable, at an instant that is Near(). Before its stamp the line
   /// goes on backward, and the reach stays.
-  HornAt At(std::uint32_t agent, Instant instant) const { return At(rows_[agent], instant); }
-  static HornAt At(const HornRow& row, Instant instant);
+  numeric::QuickBall At(std::uint32_t agent, Instant instant) const {
+    return At(rows_[agent], instant);
+  }
+  static numeric::QuickBall At(const HornRow& row, Instant instant);
 
   /// A filter: no horn of the two meets earlier than this many seconds after `from`, and none at
   /// all within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 for unfilterable
@@ -107,40 +106,28 @@ class HornTable {
   std::uint32_t count_ = 0, still_count_ = 0, unfilterable_count_ = 0, filtered_count_ = 0;
 };
 
-// Each value is a sum or product of fewer than sixteen terms of one sign, so that rounding takes
-// less than 16 · 2^-53 of it; positions, which are sums of lines, are off by less than that part of
-// their terms.
-inline HornAt HornTable::At(const HornRow& row, Instant instant) {
-  constexpr double kOutward = 1 + 0x1p-48, kLineRounding = 0x1p-48;
+// The reach is a sum of terms of one sign; the centre is a sum of lines, and its loss is added to
+// the reach.
+inline numeric::QuickBall HornTable::At(const HornRow& row, Instant instant) {
+  const numeric::QuickBall& from = row.ball;
   const double line = static_cast<double>(instant.nanoseconds() - row.stamp.nanoseconds()) * 1e-9;
   const double tau = std::max(line, 0.0);
-  HornAt at;
+  numeric::QuickBall at;
   double lost = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    at.v[axis] = row.v[axis];
-    at.c[axis] = row.p[axis] + row.v[axis] * line;
-    lost += std::abs(row.p[axis]) + std::abs(row.v[axis] * line);
+    at.v[axis] = from.v[axis];
+    at.c[axis] = from.c[axis] + from.v[axis] * line;
+    lost += std::abs(from.c[axis]) + std::abs(from.v[axis] * line);
   }
-  at.s0 = kOutward * (row.u0 + tau * (row.u1 + tau * row.u2)) + kLineRounding * lost;
-  at.s1 = kOutward * (row.u1 + 2 * tau * row.u2);
-  at.s2 = row.u2;
+  at.s0 = kOutward * (from.s0 + tau * (from.s1 + tau * from.s2)) + kLineRounding * lost;
+  at.s1 = kOutward * (from.s1 + 2 * tau * from.s2);
+  at.s2 = from.s2;
   return at;
-}
-
-/// Of two horns from an instant on.
-inline Approaching Between(const HornAt& a, const HornAt& b) {
-  Approaching pair;
-  for (int axis = 0; axis < 3; ++axis) {
-    pair.d[axis] = b.c[axis] - a.c[axis];
-    pair.w[axis] = b.v[axis] - a.v[axis];
-  }
-  pair.s0 = a.s0 + b.s0, pair.s1 = a.s1 + b.s1, pair.s2 = a.s2 + b.s2;
-  return pair;
 }
 
 /// The reach of a hypertrapezoid's box over a window of `duration` seconds, from that of its horn:
 /// chords instead of parabolas, corners √3 away instead of the ball, and what its faces at the end
 /// of the window lose by rounding.
-HornAt BoxReach(HornAt horn, double duration);
+numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration);
 
 }  // namespace collision::broad_phase

@@ -37,7 +37,7 @@ Sample TakeSample(const HornTable& table, Instant from) {
   double speed = 0, count = 0;
   for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
     if (!table.contains(agent) || table.row(agent).unfilterable) continue;
-    const HornAt horn = table.At(agent, from);
+    const numeric::QuickBall horn = table.At(agent, from);
     count += 1;
     speed += Length(horn.v);
     sample.s0 += horn.s0, sample.s1 += horn.s1, sample.s2 += horn.s2;
@@ -52,7 +52,7 @@ Sample TakeSample(const HornTable& table, Instant from) {
     *sum /= count;
   for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
     if (!table.contains(agent) || table.row(agent).unfilterable) continue;
-    const double* v = table.row(agent).v;
+    const double* v = table.row(agent).ball.v;
     const double seen[3] = {v[0] - sample.v[0], v[1] - sample.v[1], v[2] - sample.v[2]};
     sample.speed += Length(seen);
   }
@@ -117,7 +117,7 @@ Region PlacementFrame::Crowd(const HornTable& table, std::size_t count) const {
   const std::uint32_t stride = table.size() / kSampleMax + 1;
   for (std::uint32_t agent = 0; agent < table.size(); agent += stride) {
     if (!table.contains(agent) || table.row(agent).unfilterable) continue;
-    const HornAt horn = table.At(agent, query_.from);
+    const numeric::QuickBall horn = table.At(agent, query_.from);
     points.push_back({{horn.c[0], horn.c[1], horn.c[2]}});
   }
   const double part =

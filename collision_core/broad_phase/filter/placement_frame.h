@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision_core/broad_phase/filter/approaching.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
+#include "collision_core/broad_phase/filter/pair_filter.h"
 #include "collision_core/broad_phase/filter/point_grid.h"
 #include "collision_core/broad_phase/filter/sphere_filter.h"
 
@@ -93,13 +93,13 @@ class PlacementFrame {
   }
   /// The same in two steps: where the agent is at the begin, and from there to the middle.
   PlacedHorn AtBegin(const HornTable& table, std::uint32_t agent) const {
-    PlacedHorn horn = AtBegin(BoundAt(table, agent));
+    PlacedHorn horn = AtBegin(BallAt(table, agent));
     horn.agent = agent;
     return horn;
   }
   /// The horn of a row that is in no table, as Place(); of no agent (PlacedHorn::kNoAgent).
   PlacedHorn Place(const HornRow& row) const {
-    PlacedHorn horn = AtBegin(BoundAt(row));
+    PlacedHorn horn = AtBegin(BallAt(row));
     ToMiddle(&horn);
     return horn;
   }
@@ -110,17 +110,17 @@ class PlacementFrame {
     horn->s0 = (horn->s0 + horn->speed * slack_ + least_) * (1 + 0x1p-22f);
   }
 
-  /// Two agents from the begin on.
-  Approaching Approach(const HornTable& table, std::uint32_t a, std::uint32_t b) const {
-    return Between(BoundAt(table, a), BoundAt(table, b));
+  /// The relative motion of two agents from the begin on.
+  numeric::QuickBall DifferenceOf(const HornTable& table, std::uint32_t a, std::uint32_t b) const {
+    return Difference(BallAt(table, a), BallAt(table, b));
   }
 
   /// Where an agent is half-way to `last` seconds after the begin, and how far from there it
   /// reaches in between; it does not depend on the middle.
   ReachPoint HalfWay(const HornTable& table, std::uint32_t agent, double last) const {
-    return HalfWay(BoundAt(table, agent), last);
+    return HalfWay(BallAt(table, agent), last);
   }
-  ReachPoint HalfWay(const HornAt& at, double last) const;
+  ReachPoint HalfWay(const numeric::QuickBall& at, double last) const;
 
   /// How far from its place a horn comes during the stretch.
   template <typename Horn>
@@ -134,12 +134,12 @@ class PlacementFrame {
   TimeWindow After(Instant from, double seconds) const;
 
  private:
-  PlacedHorn AtBegin(const HornAt& at) const;
-  HornAt BoundAt(const HornTable& table, std::uint32_t agent) const {
-    return BoundAt(table.row(agent));
+  PlacedHorn AtBegin(const numeric::QuickBall& at) const;
+  numeric::QuickBall BallAt(const HornTable& table, std::uint32_t agent) const {
+    return BallAt(table.row(agent));
   }
-  HornAt BoundAt(const HornRow& row) const {
-    HornAt at = HornTable::At(row, query_.from);
+  numeric::QuickBall BallAt(const HornRow& row) const {
+    numeric::QuickBall at = HornTable::At(row, query_.from);
     if (query_.bound == intersection::BoundKind::kHypertrapezoid) at = BoxReach(at, duration_);
     return at;
   }
@@ -153,7 +153,7 @@ class PlacementFrame {
 };
 
 // Up, by more than a conversion to single precision takes, and with SphereFilter's slack.
-inline PlacedHorn PlacementFrame::AtBegin(const HornAt& at) const {
+inline PlacedHorn PlacementFrame::AtBegin(const numeric::QuickBall& at) const {
   constexpr double kSlack = kFilterSlack, kLeast = kReachLeast;
   constexpr double kUp = (1 + kSlack) * (1 + 0x1p-22);
   PlacedHorn horn;
@@ -175,7 +175,7 @@ inline PlacedHorn PlacementFrame::AtBegin(const HornAt& at) const {
 
 // At() has given the reach 2^-48 of the terms of c, which covers this sum's rounding as well; all
 // else loses less than 2^-20 of the way and the reach. SphereFilter's slack is added.
-inline ReachPoint PlacementFrame::HalfWay(const HornAt& at, double last) const {
+inline ReachPoint PlacementFrame::HalfWay(const numeric::QuickBall& at, double last) const {
   constexpr double kSlack = kFilterSlack, kLeast = kReachLeast, kUp = 1 + 0x1p-20;
   const double half = 0.5 * last;
   ReachPoint point;

@@ -27,7 +27,7 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Wit
   ++work->filter_tests;
   const double bound = table.EarlierBound(a, b, within.from, within.seconds);
   // Infinite: the two part, or keep apart, for ever; no limit makes them meet.
-  const bool in_time = bound < numeric::kInfinity && Approaching::kEarly * bound <= within.seconds;
+  const bool in_time = bound < numeric::kInfinity && kFilterEarliness * bound <= within.seconds;
   const bool may = in_time && !table.RuleOf(a, b).excluded;
   work->pair_queries += may;
   return may;
@@ -38,7 +38,7 @@ bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, co
   if (!CanMeet(row, table.row(agent))) return false;
   ++work->filter_tests;
   const double bound = HornTable::EarlierBound(row, table.row(agent), within.from, within.seconds);
-  const bool may = bound < numeric::kInfinity && Approaching::kEarly * bound <= within.seconds;
+  const bool may = bound < numeric::kInfinity && kFilterEarliness * bound <= within.seconds;
   work->pair_queries += may;
   return may;
 }

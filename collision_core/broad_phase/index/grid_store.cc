@@ -68,10 +68,9 @@ void GridStore::JoinPoints(const PlacedScene& scene, double last, SearchCost* co
   const std::uint64_t tests = points_.tests(), ranges = points_.ranges();
   const auto fetch = [&](std::uint32_t a, std::uint32_t b) { table.Fetch(a), table.Fetch(b); };
   const auto visit = [&](std::uint32_t a, std::uint32_t b) {
-    const Approaching pair = scene.frame->Approach(table, a, b);
     const double until = std::min(last, sink->limit());
     ++cost->work.filter_tests;
-    if (pair.MayMeetBy(until)) sink->Offer(a, b);
+    if (MayMeetBy(scene.frame->DifferenceOf(table, a, b), until)) sink->Offer(a, b);
   };
   points_.ForEachPair(fetch, visit);
   cost->work.filter_tests += points_.tests() - tests;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision_core/intersection/moving_ball_pair.h"
+#include "collision_core/motion/speed_cap.h"
 
 namespace collision::broad_phase {
 namespace {
@@ -12,12 +12,12 @@ namespace {
 /// it, times |n|, is a quadratic that no tangent has to bound:
 ///   (n·(p + shift) − offset − |n| (r + margin + u0)) − (|n| u1 − n·v) δ − |n| u2 δ².
 /// Positions first: far from the origin only what the inputs lost is lost.
-double FirstReach(const HalfSpace& half_space, const intersection::BallPart& ball, double margin) {
+double FirstReach(const HalfSpace& half_space, const numeric::MovingBall& ball, double margin) {
   const numeric::IntervalVector n(half_space.normal);
   const numeric::Interval length = numeric::Norm(n);
   const numeric::Quadratic reach =
       length * (numeric::Quadratic{ball.radius + margin, 0, 0} + ball.u);
-  const numeric::Interval along = (Dot(n, ball.p_WA) - half_space.offset) + Dot(n, ball.shift);
+  const numeric::Interval along = (Dot(n, ball.anchor) - half_space.offset) + Dot(n, ball.shift);
   const numeric::Interval closing = reach.c1 - Dot(n, ball.velocity);
   return numeric::FirstZero((along - reach.c0).lower, closing.upper, std::max(0.0, reach.c2.upper));
 }
@@ -50,11 +50,11 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
   const Instant expiry = bound.state.expiry;
   const intersection::IntersectionTime never{base, numeric::kInfinity};
   if (!CanMeet(half_space, bound) || expiry <= base || base > query.until) return never;
-  intersection::IntersectionTime time{
-      base, FirstReach(half_space, intersection::HornPart(bound, base), margin)};
+  intersection::IntersectionTime time{base,
+                                      FirstReach(half_space, ForwardBall(bound, base), margin)};
   if (time.seconds == numeric::kInfinity) return never;
   // The capped ball is the horn's until it starts, and from then on only ever grows.
-  const std::optional<intersection::CappedPart> cap = intersection::CapPart(bound, base);
+  const std::optional<motion::LateBall> cap = CappedBallFrom(bound, base);
   if (cap && time.seconds > cap->start) {
     time.seconds = std::max(time.seconds, FirstReach(half_space, cap->ball, margin));
   }
@@ -91,7 +91,8 @@ const HalfSpaces::Entry* HalfSpaces::Find(std::uint32_t agent) const {
 }
 
 // The distance is concave in time: above zero at both ends it is so between them.
-bool MayReach(const HalfSpaces::Entry& entry, const HornAt& horn, double margin, double limit) {
+bool MayReach(const HalfSpaces::Entry& entry, const numeric::QuickBall& horn, double margin,
+              double limit) {
   const HalfSpace& half_space = entry.half_space;
   const auto stays_out_at = [&](double x) {
     double along = -half_space.offset, magnitude = std::abs(half_space.offset);

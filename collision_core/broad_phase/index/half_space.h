@@ -76,6 +76,7 @@ class HalfSpaces {
 /// A filter in plain doubles: false if the agent certainly stays out of reach for `limit` seconds
 /// after the instant of `horn`, so that EarliestIntersectionOf() is later. The gap is concave, so
 /// it looks at both ends of the time ahead.
-bool MayReach(const HalfSpaces::Entry& entry, const HornAt& horn, double margin, double limit);
+bool MayReach(const HalfSpaces::Entry& entry, const numeric::QuickBall& horn, double margin,
+              double limit);
 
 }  // namespace collision::broad_phase

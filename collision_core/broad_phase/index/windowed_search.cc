@@ -78,7 +78,8 @@ void WindowedSearch::UpdateRules(std::uint32_t agent) {
   const HornRow before = table_.row(agent);
   table_.UpdateRules(agent);
   const HornRow& row = table_.row(agent);
-  if (placed_ && (row.u0 > before.u0 || row.unfilterable != before.unfilterable)) MarkMoved(agent);
+  if (placed_ && (row.ball.s0 > before.ball.s0 || row.unfilterable != before.unfilterable))
+    MarkMoved(agent);
 }
 
 // The next question places the agent, or all of them where too many have moved.

@@ -27,7 +27,7 @@ namespace collision::broad_phase {
 /// - SphereFilter: the least distance of two centres over the window against the sum of the
 /// reaches,
 ///   in single precision, sixteen, eight or one at a time.
-/// - Approaching: one pair; the closest approach of the two lines, the gap along the first
+/// - MayMeetBy(): one pair; the closest approach of the two lines, the gap along the first
 /// direction,
 ///   then up to six tangent steps in doubles.
 ///

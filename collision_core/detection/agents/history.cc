@@ -129,12 +129,12 @@ narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant
   const motion::SpaceTimeBound& after = samples_[i].bound;
   segment.awaited = HasShape(before.declaration) || HasShape(after.declaration);
   if (from < before.state.stamp || after.declaration != before.declaration) return segment;
-  motion::MovingBall ball = ForwardBall(before, from);
-  const motion::MovingBall jumped =
+  numeric::MovingBall ball = ForwardBall(before, from);
+  const numeric::MovingBall jumped =
       from >= after.state.stamp ? ForwardBall(after, from) : BackwardBall(after, from);
-  ball.u0 = ball.u0 + jumped.u0 + numeric::Norm(jumped.centre - ball.centre);
-  ball.u1 = ball.u1 + jumped.u1 + numeric::Norm(jumped.velocity - ball.velocity);
-  ball.u2 = ball.u2 + jumped.u2;
+  ball.u.c0 = ball.u.c0 + jumped.u.c0 + numeric::Norm(jumped.centre() - ball.centre());
+  ball.u.c1 = ball.u.c1 + jumped.u.c1 + numeric::Norm(jumped.velocity - ball.velocity);
+  ball.u.c2 = ball.u.c2 + jumped.u.c2;
   segment.ball.radius = before.declaration.radius;
   segment.ball.bounds.push_back(ball);
   return segment;
@@ -168,7 +168,7 @@ narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
     ball.bounds.push_back(BackwardBall(next, from));
     if (segment.shape) segment.turns.push_back(BackwardRotation(next, from));
   }
-  for (motion::MovingBall& bound : ball.bounds) bound.u0 = bound.u0 + spread;
+  for (numeric::MovingBall& bound : ball.bounds) bound.u.c0 = bound.u.c0 + spread;
   return segment;
 }
 

@@ -15,7 +15,7 @@ Nearest NearestOf(const narrow_phase::BallSegment& a, const narrow_phase::BallSe
                   Instant from, double duration) {
   Nearest nearest;
   if (a.bounds.empty() || b.bounds.empty()) return nearest;
-  const Eigen::Vector3d d = (b.bounds[0].centre - a.bounds[0].centre).middle();
+  const Eigen::Vector3d d = (b.bounds[0].centre() - a.bounds[0].centre()).middle();
   const Eigen::Vector3d w = (b.bounds[0].velocity - a.bounds[0].velocity).middle();
   const double speed_squared = w.squaredNorm();
   const double bottom = speed_squared > 0 ? -d.dot(w) / speed_squared : 0;

@@ -35,10 +35,10 @@ struct Choice {
 std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
   std::vector<Choice> choices;
   choices.reserve(a.bounds.size() * b.bounds.size());
-  for (const motion::MovingBall& ball_A : a.bounds) {
-    for (const motion::MovingBall& ball_B : b.bounds) {
-      choices.push_back({ball_B.centre - ball_A.centre, ball_B.velocity - ball_A.velocity,
-                         ball_A.u() + ball_B.u(), numeric::Interval(a.radius) + b.radius});
+  for (const numeric::MovingBall& ball_A : a.bounds) {
+    for (const numeric::MovingBall& ball_B : b.bounds) {
+      choices.push_back({ball_B.centre() - ball_A.centre(), ball_B.velocity - ball_A.velocity,
+                         ball_A.u + ball_B.u, numeric::Interval(a.radius) + b.radius});
     }
   }
   return choices;
@@ -145,10 +145,11 @@ double FreeFrom(const std::vector<Choice>& choices, double duration, bool backwa
     for (const Choice& choice : choices) {
       const numeric::Quadratic reach = numeric::Quadratic{choice.radii, 0, 0} + choice.u;
       const numeric::Quadratic seen = backward ? reach.BackwardFrom(at) : reach.From(at);
-      const numeric::Approach approach{choice.d0 + numeric::Interval(at) * choice.w,
-                                       backward ? numeric::Interval(-1) * choice.w : choice.w,
-                                       seen.c0, seen.c1, seen.c2};
-      step = std::max(step, FirstApproach(approach, backward ? at : numeric::AddUp(duration, -at)));
+      const numeric::MovingBall difference{choice.d0, numeric::Interval(at) * choice.w,
+                                           backward ? numeric::Interval(-1) * choice.w : choice.w,
+                                           0, seen};
+      step =
+          std::max(step, FirstApproach(difference, backward ? at : numeric::AddUp(duration, -at)));
     }
     if (step == numeric::kInfinity) return backward ? -numeric::kInfinity : numeric::kInfinity;
     at = backward ? numeric::AddUp(at, -step) : numeric::AddDown(at, step);
@@ -165,7 +166,7 @@ struct Ends {
   double magnitude = 0;  ///< All terms added up, without their signs.
 };
 
-Ends EndsOf(const motion::MovingBall& a, const motion::MovingBall& b, double duration) {
+Ends EndsOf(const numeric::MovingBall& a, const numeric::MovingBall& b, double duration) {
   Ends ends;
   double square[2] = {};
   const auto axis = [&](numeric::Interval a_c, numeric::Interval b_c, numeric::Interval a_v,
@@ -178,15 +179,18 @@ Ends EndsOf(const motion::MovingBall& a, const motion::MovingBall& b, double dur
     square[0] += first * first, square[1] += last * last;
     ends.magnitude += first + duration * std::max(std::abs(w_low), std::abs(w_high));
   };
-  axis(a.centre.x, b.centre.x, a.velocity.x, b.velocity.x);
-  axis(a.centre.y, b.centre.y, a.velocity.y, b.velocity.y);
-  axis(a.centre.z, b.centre.z, a.velocity.z, b.velocity.z);
+  const numeric::IntervalVector centre_A = a.centre(), centre_B = b.centre();
+  axis(centre_A.x, centre_B.x, a.velocity.x, b.velocity.x);
+  axis(centre_A.y, centre_B.y, a.velocity.y, b.velocity.y);
+  axis(centre_A.z, centre_B.z, a.velocity.z, b.velocity.z);
   const auto u = [&](double u0, double u1, double u2, double* at) {
     at[0] = u0, at[1] = u0 + duration * (u1 + duration * u2);
     ends.magnitude += std::abs(u0) + duration * (std::abs(u1) + duration * std::abs(u2));
   };
-  u(a.u0.lower + b.u0.lower, a.u1.lower + b.u1.lower, a.u2.lower + b.u2.lower, ends.u_least);
-  u(a.u0.upper + b.u0.upper, a.u1.upper + b.u1.upper, a.u2.upper + b.u2.upper, ends.u_greatest);
+  u(a.u.c0.lower + b.u.c0.lower, a.u.c1.lower + b.u.c1.lower, a.u.c2.lower + b.u.c2.lower,
+    ends.u_least);
+  u(a.u.c0.upper + b.u.c0.upper, a.u.c1.upper + b.u.c1.upper, a.u.c2.upper + b.u.c2.upper,
+    ends.u_greatest);
   for (int end = 0; end < 2; ++end) ends.distance[end] = std::sqrt(square[end]);
   return ends;
 }
@@ -209,8 +213,8 @@ std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSe
   if (!(duration > 0)) return std::nullopt;
   const double radii = a.radius + b.radius;
   bool touches = false;
-  for (const motion::MovingBall& ball_A : a.bounds) {
-    for (const motion::MovingBall& ball_B : b.bounds) {
+  for (const numeric::MovingBall& ball_A : a.bounds) {
+    for (const numeric::MovingBall& ball_B : b.bounds) {
       const Ends ends = EndsOf(ball_A, ball_B, duration);
       const double sum = radii + ends.magnitude;
       if (!(sum > kSmallest && sum < kLargest)) return std::nullopt;
@@ -252,12 +256,12 @@ SeparationAt EvaluateBallsAt(const BallSegment& a, const BallSegment& b, double 
     at.separation.upper = std::min(at.separation.upper, (distance + u).upper);
   }
   const auto locate = [delta](const BallSegment& ball, Eigen::Vector3d& p, double& error) {
-    for (const motion::MovingBall& bound : ball.bounds) {
+    for (const numeric::MovingBall& bound : ball.bounds) {
       const numeric::IntervalVector centre =
-          bound.centre + numeric::Interval(delta) * bound.velocity;
+          bound.centre() + numeric::Interval(delta) * bound.velocity;
       const Eigen::Vector3d middle = centre.middle();
       const double off =
-          (bound.u().At(delta) + numeric::Norm(centre - numeric::IntervalVector(middle))).upper;
+          (bound.u.At(delta) + numeric::Norm(centre - numeric::IntervalVector(middle))).upper;
       if (off < error) p = middle, error = off;
     }
   };

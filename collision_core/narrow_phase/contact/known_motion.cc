@@ -10,13 +10,13 @@ namespace {
 //   p_X + v_X (t − s_X) − p_R − v_R (t − s_R)
 //     = (p_X − p_R) + v_R (s_R − s_X) + (v_X − v_R)(t − s_X).
 void SeeFrom(const motion::SpaceTimeBound& frame, const motion::SpaceTimeBound& bound, Instant base,
-             motion::MovingBall* ball) {
+             numeric::MovingBall* ball) {
   const motion::MotionState &r = frame.state, &x = bound.state;
   const numeric::IntervalVector v_R(r.v_WA);
   ball->velocity = numeric::IntervalVector(x.v_WA) - v_R;
-  ball->centre = (numeric::IntervalVector(x.p_WA) - numeric::IntervalVector(r.p_WA)) +
-                 numeric::SecondsBetween(x.stamp, r.stamp) * v_R +
-                 numeric::SecondsBetween(x.stamp, base) * ball->velocity;
+  ball->anchor = (numeric::IntervalVector(x.p_WA) - numeric::IntervalVector(r.p_WA)) +
+                 numeric::SecondsBetween(x.stamp, r.stamp) * v_R;
+  ball->shift = numeric::SecondsBetween(x.stamp, base) * ball->velocity;
 }
 
 BodySegment SegmentOf(const KnownMotion& motion, const motion::SpaceTimeBound& frame,

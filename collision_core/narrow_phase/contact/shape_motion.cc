@@ -158,8 +158,8 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
   work_.Spend(kPoseUnits);
   SweptPose swept;
   swept.pose = PoseAt(a_, b_, choice, from.at);
-  const motion::MovingBall& ball_A = a_.ball.bounds[choice.of_A];
-  const motion::MovingBall& ball_B = b_.ball.bounds[choice.of_B];
+  const numeric::MovingBall& ball_A = a_.ball.bounds[choice.of_A];
+  const numeric::MovingBall& ball_B = b_.ball.bounds[choice.of_B];
   const numeric::IntervalVector velocity = ball_B.velocity - ball_A.velocity;
   const double sign = from.direction == TimeDirection::kBackward ? -1 : 1;
   const auto seen = [&](const Eigen::Vector3d& v) {
@@ -173,7 +173,7 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
                                     TurningOf(a_, choice.of_A, from.at, from.direction).spin +
                                     TurningOf(b_, choice.of_B, from.at, from.direction).spin;
   swept.velocity_error = numeric::MultiplyUp(2 * swept.pose.matrix_error + 0x1p-47, fastest.upper);
-  const numeric::Quadratic u = From(ball_A.u() + ball_B.u(), from.at, from.direction);
+  const numeric::Quadratic u = From(ball_A.u + ball_B.u, from.at, from.direction);
   swept.translation = {u.c0.upper, u.c1.upper, std::max(0.0, u.c2.upper)};
   if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_A], from, swept.pose.chord_A);
   if (b_.shape) swept.turning_B = GrowthOf(b_.turns[choice.of_B], from, swept.pose.chord_B);
@@ -264,15 +264,15 @@ bool ShapeMotion::NeitherInside(const RelativePose& pose) const {
 
 ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance,
                                           TimeDirection direction) const {
-  const motion::MovingBall& ball_A = a_.ball.bounds[instance.choice.of_A];
-  const motion::MovingBall& ball_B = b_.ball.bounds[instance.choice.of_B];
+  const numeric::MovingBall& ball_A = a_.ball.bounds[instance.choice.of_A];
+  const numeric::MovingBall& ball_B = b_.ball.bounds[instance.choice.of_B];
   const Turning of_A = TurningOf(a_, instance.choice.of_A, instance.at, direction);
   const Turning of_B = TurningOf(b_, instance.choice.of_B, instance.at, direction);
   Drift drift;
   drift.along = numeric::Norm(ball_B.velocity - ball_A.velocity);
   drift.spin_sum = of_A.spin + of_B.spin;
   drift.spin_most = numeric::Max(of_A.spin, of_B.spin);
-  drift.translation = From(ball_A.u() + ball_B.u(), instance.at, direction);
+  drift.translation = From(ball_A.u + ball_B.u, instance.at, direction);
   drift.turned1_sum = of_A.turned1 + of_B.turned1;
   drift.turned2_sum = of_A.turned2 + of_B.turned2;
   drift.turned1_most = numeric::Max(of_A.turned1, of_B.turned1);

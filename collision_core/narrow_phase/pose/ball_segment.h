@@ -9,10 +9,10 @@ namespace collision::narrow_phase {
 
 /// What is certain about one ball over [base, base + duration]: every bound in `bounds` holds at
 /// every instant of it (forward from the last known state, backward from the next one). Empty:
-/// nothing is known.
+/// nothing is known. `radius` counts for all of them, in place of their own.
 struct BallSegment {
   double radius = 0;
-  std::vector<motion::MovingBall> bounds;
+  std::vector<numeric::MovingBall> bounds;
 };
 
 }  // namespace collision::narrow_phase

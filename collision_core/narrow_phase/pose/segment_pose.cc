@@ -46,7 +46,7 @@ double TurnedAbout(const motion::MovingRotation& turn, double delta) {
 
 double Uncertainty(const BodySegment& body, std::size_t bound, double delta) {
   const double turned = body.shape ? TurnedAbout(body.turns[bound], delta) * ReachOf(body) : 0;
-  return body.ball.bounds[bound].u().At(delta).upper + turned;
+  return body.ball.bounds[bound].u.At(delta).upper + turned;
 }
 
 std::size_t LeastUncertain(const BodySegment& body, double delta) {
@@ -57,8 +57,8 @@ std::size_t LeastUncertain(const BodySegment& body, double delta) {
   return best;
 }
 
-numeric::IntervalVector CentreAt(const motion::MovingBall& ball, double delta) {
-  return ball.centre + numeric::Interval(delta) * ball.velocity;
+numeric::IntervalVector CentreAt(const numeric::MovingBall& ball, double delta) {
+  return ball.centre() + numeric::Interval(delta) * ball.velocity;
 }
 
 double Width(const numeric::IntervalVector& v, const Eigen::Vector3d& middle) {
@@ -73,12 +73,12 @@ BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta)
 }
 
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta) {
-  const motion::MovingBall& ball_A = a.ball.bounds[choice.of_A];
-  const motion::MovingBall& ball_B = b.ball.bounds[choice.of_B];
+  const numeric::MovingBall& ball_A = a.ball.bounds[choice.of_A];
+  const numeric::MovingBall& ball_B = b.ball.bounds[choice.of_B];
   const Orientation of_A = OrientationOf(a, choice.of_A, delta);
   const Orientation of_B = OrientationOf(b, choice.of_B, delta);
   // Positions are subtracted first: far from the origin nothing is lost but what the states lost.
-  const numeric::IntervalVector d = (ball_B.centre - ball_A.centre) +
+  const numeric::IntervalVector d = (ball_B.centre() - ball_A.centre()) +
                                     numeric::Interval(delta) * (ball_B.velocity - ball_A.velocity);
   const Eigen::Vector3d middle = d.middle();
   const double length = numeric::Norm(numeric::IntervalVector(middle)).upper;
@@ -94,7 +94,7 @@ RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choi
       Width(d, middle),
       numeric::MultiplyUp(numeric::AddUp(of_A.rotation.error, kProductRounding + kPosingRounding),
                           length));
-  pose.translation = std::max(0.0, (ball_A.u().At(delta) + ball_B.u().At(delta)).upper);
+  pose.translation = std::max(0.0, (ball_A.u.At(delta) + ball_B.u.At(delta)).upper);
   pose.chord_A = of_A.chord;
   pose.chord_B = of_B.chord;
 
@@ -104,7 +104,7 @@ RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choi
   const double rounding = numeric::MultiplyUp(
       kPosingRounding, numeric::AddUp(numeric::Norm(centre_A).upper, a.ball.radius + length));
   pose.error_A = numeric::AddUp(
-      numeric::AddUp(ball_A.u().At(delta).upper, Width(centre_A, pose.p_WA)),
+      numeric::AddUp(ball_A.u.At(delta).upper, Width(centre_A, pose.p_WA)),
       numeric::AddUp(rounding, numeric::MultiplyUp(of_A.rotation.error, ReachOf(a))));
   return pose;
 }

@@ -284,7 +284,7 @@ TEST(HalfSpaces, TheFilterRulesOutNothingThatMeets) {
         EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin);
     const double waited = numeric::SecondsBetween(kFrom, time.base).upper,
                  meets = waited + time.seconds;
-    const HornAt horn = table.At(0, kFrom);
+    const numeric::QuickBall horn = table.At(0, kFrom);
     const auto may = [&](double limit) { return MayReach(*list.begin(), horn, c.margin, limit); };
     if (time.seconds < numeric::kInfinity) {
       ASSERT_TRUE(may(meets)) << "case " << i;

@@ -39,28 +39,28 @@ TEST(QuickHornPair, ReachesContainTheRounding) {
     const ExactHorn horn_A(a, base), horn_B(b, base);
     Exact off_d = 0, off_w = 0;
     for (int k = 0; k < 3; ++k) {
-      const Exact d = horn_B.p[k] - horn_A.p[k] - Exact(q.d[k]);
-      const Exact w = horn_B.v[k] - horn_A.v[k] - Exact(q.w[k]);
+      const Exact d = horn_B.p[k] - horn_A.p[k] - Exact(q.ball.c[k]);
+      const Exact w = horn_B.v[k] - horn_A.v[k] - Exact(q.ball.v[k]);
       off_d += d * d;
       off_w += w * w;
     }
     const Exact s0 =
         Exact(a.declaration.radius) + Exact(b.declaration.radius) + horn_A.u[0] + horn_B.u[0];
     const Exact s1 = horn_A.u[1] + horn_B.u[1], s2 = horn_A.u[2] + horn_B.u[2];
-    const Exact more0 = Exact(q.s0) - s0, more1 = Exact(q.s1) - s1;
+    const Exact more0 = Exact(q.ball.s0) - s0, more1 = Exact(q.ball.s1) - s1;
     ASSERT_GE(more0, 0);
     ASSERT_GE(more0 * more0, off_d);
     ASSERT_GE(more1, 0);
     ASSERT_GE(more1 * more1, off_w);
-    ASSERT_GE(Exact(q.s2), s2);
+    ASSERT_GE(Exact(q.ball.s2), s2);
     ASSERT_LE(more0, 2 * Exact(q.doubt0));
     ASSERT_LE(more1, 2 * Exact(q.doubt1));
-    ASSERT_LE(Exact(q.s2), s2 * (1 + Exact(0x1p-46)));
+    ASSERT_LE(Exact(q.ball.s2), s2 * (1 + Exact(0x1p-46)));
     // Turned about, the same numbers.
     const numeric::QuickApproach turned = QuickHornPair(b, a, base);
-    ASSERT_EQ(turned.s0, q.s0);
-    ASSERT_EQ(turned.s1, q.s1);
-    for (int k = 0; k < 3; ++k) ASSERT_EQ(turned.d[k], -q.d[k]);
+    ASSERT_EQ(turned.ball.s0, q.ball.s0);
+    ASSERT_EQ(turned.ball.s1, q.ball.s1);
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(turned.ball.c[k], -q.ball.c[k]);
   }
 }
 
@@ -81,13 +81,13 @@ TEST(QuickHornPair, PointsHaveTheirAllowance) {
     const ExactHorn horn_A(a, base), horn_B(b, base);
     Exact off_d = 0, off_w = 0;
     for (int k = 0; k < 3; ++k) {
-      const Exact d = horn_B.p[k] - horn_A.p[k] - Exact(q.d[k]);
-      const Exact w = horn_B.v[k] - horn_A.v[k] - Exact(q.w[k]);
+      const Exact d = horn_B.p[k] - horn_A.p[k] - Exact(q.ball.c[k]);
+      const Exact w = horn_B.v[k] - horn_A.v[k] - Exact(q.ball.v[k]);
       off_d += d * d;
       off_w += w * w;
     }
-    ASSERT_GE(Exact(q.s0) * Exact(q.s0), off_d);
-    ASSERT_GE(Exact(q.s1) * Exact(q.s1), off_w);
+    ASSERT_GE(Exact(q.ball.s0) * Exact(q.ball.s0), off_d);
+    ASSERT_GE(Exact(q.ball.s1) * Exact(q.ball.s1), off_w);
   }
 }
 

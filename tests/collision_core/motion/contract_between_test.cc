@@ -178,7 +178,7 @@ Pair RandomPair(Random* random) {
   pair.next.position_error = some(0.1 * declaration.acceleration_max * s * s);
   old.velocity_error = some(0.1 * declaration.acceleration_max * s);
   pair.next.velocity_error = some(0.1 * declaration.acceleration_max * s);
-  const double reach = ForwardBall(pair.before, pair.next.stamp).u0.lower;
+  const double reach = ForwardBall(pair.before, pair.next.stamp).u.c0.lower;
   pair.next.p_WA = s * old.v_WA + reach * random->Uniform(0, 1) * random->UnitVector();
   return pair;
 }
@@ -187,12 +187,12 @@ Pair RandomPair(Random* random) {
 double RoomOf(const Pair& pair) {
   const Instant base = pair.before.state.stamp;
   const SpaceTimeBound after{pair.next, pair.before.declaration, pair.before.skew};
-  const MovingBall a = ForwardBall(pair.before, base), b = BackwardBall(after, base);
+  const numeric::MovingBall a = ForwardBall(pair.before, base), b = BackwardBall(after, base);
   double least = numeric::kInfinity;
   for (int i = 0; i <= 1000; ++i) {
     const double s = pair.Seconds() * i / 1000;
-    const Vector3d d = (a.centre - b.centre).middle() + s * (a.velocity - b.velocity).middle();
-    least = std::min(least, (a.u() + b.u()).At(s).middle() / d.norm());
+    const Vector3d d = (a.centre() - b.centre()).middle() + s * (a.velocity - b.velocity).middle();
+    least = std::min(least, (a.u + b.u).At(s).middle() / d.norm());
   }
   return least;
 }

@@ -233,7 +233,7 @@ TEST(SpeedCap, OutsideTheCappedBallIsWidened) {
   SpaceTimeBound after = before;
   after.state = next;
   const double room =
-      CappedRadius(CapBall(before), next.stamp) - ForwardBall(after, next.stamp).u0.upper;
+      CappedRadius(CapBall(before), next.stamp) - ForwardBall(after, next.stamp).u.c0.upper;
   const auto verdict = [&](double distance) {
     next.p_WA = distance * Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0);
     return CheckContract(before, next).verdict;

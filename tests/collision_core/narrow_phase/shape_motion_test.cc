@@ -57,7 +57,7 @@ struct Body {
   }
 
  private:
-  void Add(const motion::MovingBall& ball, const motion::MovingRotation& turn,
+  void Add(const numeric::MovingBall& ball, const motion::MovingRotation& turn,
            BodySegment* segment) const {
     segment->ball.bounds.push_back(ball);
     if (shape) segment->turns.push_back(turn);

@@ -13,7 +13,7 @@ namespace {
 constexpr double kForever = INFINITY;
 
 QuickApproach Make(double d, double w, double s0, double s1 = 0, double s2 = 0) {
-  return {{d, 0, 0}, {w, 0, 0}, s0, s1, s2, 0, 0};
+  return {{{d, 0, 0}, {w, 0, 0}, s0, s1, s2}, 0, 0};
 }
 
 // Goal:   simple approaches are decided, never late and early by 1e-9 at most; a limit cuts.
@@ -25,7 +25,7 @@ TEST(QuickFirstApproach, KnownByHand) {
     EXPECT_GE(answer.delta, exact * (1 - 1e-9));
   };
   expect(Make(12, -10, 2), 1);
-  expect({{6, 4, 0}, {-1, 0, 0}, 5, 0, 0, 0, 0}, 3);
+  expect({{{6, 4, 0}, {-1, 0, 0}, 5, 0, 0}, 0, 0}, 3);
   expect(Make(18, 0, 0, 0, 2), 3);
   expect(Make(10, 2, 1, 5), 3);
   expect(Make(1, 0, 2), 0);
@@ -43,10 +43,11 @@ TEST(QuickFirstApproach, LeavesTheRest) {
         Make(1, 0, kForever), Make(kForever, 0, 1), Make(NAN, 0, 1), Make(1e-130, -1e-320, 0),
         Make(1, 0, 0, 1e-300), Make(1, 0, 0, 0, 5e-324)}) {
     const QuickAnswer answer = QuickFirstApproach(approach, kForever);
-    EXPECT_FALSE(answer.decided) << approach.d[0] << ' ' << approach.s0;
+    EXPECT_FALSE(answer.decided) << approach.ball.c[0] << ' ' << approach.ball.s0;
     EXPECT_EQ(answer.delta, 0);
   }
-  const QuickAnswer grazing = QuickFirstApproach({{-1, 1, 0}, {1, 0, 0}, 1, 0, 0, 0, 0}, kForever);
+  const QuickAnswer grazing =
+      QuickFirstApproach({{{-1, 1, 0}, {1, 0, 0}, 1, 0, 0}, 0, 0}, kForever);
   EXPECT_FALSE(grazing.decided);
   EXPECT_LE(grazing.delta, 1);
   EXPECT_GE(grazing.delta, 1 - 1e-6);
@@ -60,20 +61,20 @@ TEST(QuickFirstApproach, NeverLate) {
   int decided = 0;
   constexpr int kApproaches = 20000;
   for (int i = 0; i < kApproaches; ++i) {
-    QuickApproach a = {};
+    QuickBall a = {};
     const auto number = [&] {
       return std::ldexp(static_cast<double>(random.Below(64)), static_cast<int>(random.Below(12)));
     };
     const auto sign = [&] { return random.Chance(0.5) ? 1.0 : -1.0; };
-    for (int k = 0; k < 3; ++k) a.d[k] = sign() * number(), a.w[k] = sign() * number();
+    for (int k = 0; k < 3; ++k) a.c[k] = sign() * number(), a.v[k] = sign() * number();
     a.s0 = number() / 8;
     a.s1 = random.Chance(0.5) ? 0 : number() / 64;
     a.s2 = random.Chance(0.5) ? 0 : number() / 64;
-    const QuickAnswer answer = QuickFirstApproach(a, kForever);
+    const QuickAnswer answer = QuickFirstApproach({a, 0, 0}, kForever);
     decided += answer.decided;
     DyadicPolynomial gap;
     for (int k = 0; k < 3; ++k) {
-      const DyadicPolynomial d = {a.d[k], a.w[k]};
+      const DyadicPolynomial d = {a.c[k], a.v[k]};
       gap = gap + d * d;
     }
     const DyadicPolynomial reach = {a.s0, a.s1, a.s2};

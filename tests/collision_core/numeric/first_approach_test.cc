@@ -7,8 +7,8 @@
 namespace collision::numeric {
 namespace {
 
-Approach Make(IntervalVector d0, IntervalVector w, Interval s0, Interval s1, Interval s2) {
-  return {d0, w, s0, s1, s2};
+MovingBall Make(IntervalVector d0, IntervalVector w, Interval s0, Interval s1, Interval s2) {
+  return {d0, {0, 0, 0}, w, 0, {s0, s1, s2}};
 }
 
 // Goal:   simple approaches are met within 1e-14, and a limit cuts.

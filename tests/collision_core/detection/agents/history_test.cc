@@ -28,8 +28,8 @@ TEST(History, BothDirectionsHoldBetweenStatesThatFollow) {
   const narrow_phase::BodySegment segment =
       Of(Bound(0), Bound(1), Link::kFollows).Over(At(0), At(1));
   ASSERT_EQ(segment.ball.bounds.size(), 2u);
-  EXPECT_EQ(segment.ball.bounds[0].u().At(1).upper, 1);  // ½ 2 1²
-  EXPECT_EQ(segment.ball.bounds[1].u().At(0).upper, 1);
+  EXPECT_EQ(segment.ball.bounds[0].u.At(1).upper, 1);  // ½ 2 1²
+  EXPECT_EQ(segment.ball.bounds[1].u.At(0).upper, 1);
 }
 
 TEST(History, NoBoundRunsBackwardOverAJump) {
@@ -60,12 +60,13 @@ TEST(History, BetweenTwoDeclarationsTheWiderCounts) {
     const History history = Of(Bound(0, first), Bound(1, second), Link::kFollows);
     const narrow_phase::BodySegment segment = history.Over(At(0), At(1));
     ASSERT_EQ(segment.ball.bounds.size(), 2u);
-    for (const motion::MovingBall& ball : segment.ball.bounds) EXPECT_EQ(ball.u2.upper, 2);  // ½ 4
+    for (const numeric::MovingBall& ball : segment.ball.bounds)
+      EXPECT_EQ(ball.u.c2.upper, 2);  // ½ 4
   }
   const narrow_phase::BodySegment of_radii =
       Of(Bound(0, 2, 1), Bound(1, 2, 3), Link::kFollows).Over(At(0), At(1));
   EXPECT_EQ(of_radii.ball.radius, 1);
-  EXPECT_EQ(of_radii.ball.bounds[0].u().At(0).upper, 2);
+  EXPECT_EQ(of_radii.ball.bounds[0].u.At(0).upper, 2);
 }
 
 TEST(History, AMotionIsUninterruptedUpToAJumpOrABreach) {
@@ -85,7 +86,7 @@ TEST(History, AboutAJumpOneBallHoldsBothMotions) {
   const History history = Of(first, second, Link::kJumped);
   const narrow_phase::BodySegment segment = history.Over(At(0.875), At(1));
   ASSERT_EQ(segment.ball.bounds.size(), 1u);
-  EXPECT_GE(segment.ball.bounds[0].u().At(0).lower, 5);
+  EXPECT_GE(segment.ball.bounds[0].u.At(0).lower, 5);
 }
 
 }  // namespace

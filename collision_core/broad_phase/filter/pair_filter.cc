@@ -1,4 +1,4 @@
-#include "collision_core/broad_phase/filter/approaching.h"
+#include "collision_core/broad_phase/filter/pair_filter.h"
 
 #include <cmath>
 
@@ -17,12 +17,13 @@ constexpr double kWorthAStep = 1e-9;
 // Neither near the lines' closest approach, nor along the first direction between them, where the
 // gap is concave: open at both ends, it is open in between. What rounding takes is less than 2^-48
 // of distances, ways and reaches; it is given to the reach.
-bool Approaching::ComeNear(double last) const {
+bool ComeNear(const numeric::QuickBall& difference, double last) {
+  const auto& [c, v, s0, s1, s2] = difference;
   double square = 0, away = 0, speed_square = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    square += d[axis] * d[axis];
-    away += d[axis] * w[axis];
-    speed_square += w[axis] * w[axis];
+    square += c[axis] * c[axis];
+    away += c[axis] * v[axis];
+    speed_square += v[axis] * v[axis];
   }
   const double grown = s0 + last * (s1 + last * s2);
   const double lost = 0x1p-44 * (grown * grown + square + speed_square * last * last);
@@ -33,28 +34,29 @@ bool Approaching::ComeNear(double last) const {
   if (away < 0) at = speed_square * last > -away ? -away / speed_square : last;
   double closest = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double x = d[axis] + w[axis] * at;
+    const double x = c[axis] + v[axis] * at;
     closest += x * x;
   }
   return !(closest > reach_square);
 }
 
-// With d and w between the lines, n = d(x) / |d(x)| and g the gap |d(x)| − S(x), the distance lies
-// above its tangent, so that nothing meets before the positive root y of
-//   g − c y − s2 y²,   c = s1 + 2 s2 x − n·w.
-// Rounding: d(x) and S(x) are off by less than 2^-48 of the terms they are sums of, n·w by 2^-50
-// |w|; the gap is made smaller and c larger by more than that, and the step shorter by 2^-40, which
+// With d(x) = c + v x, n = d(x) / |d(x)| and g the gap |d(x)| − S(x), the distance lies above its
+// tangent, so that nothing meets before the positive root y of
+//   g − k y − s2 y²,   k = s1 + 2 s2 x − n·v.
+// Rounding: d(x) and S(x) are off by less than 2^-48 of the terms they are sums of, n·v by 2^-50
+// |v|; the gap is made smaller and k larger by more than that, and the step shorter by 2^-40, which
 // covers the root's own rounding.
-double Approaching::EarlierBound(double limit) const {
-  const double speed = Length(w), span = Length(d);
+double EarlierBound(const numeric::QuickBall& difference, double limit) {
+  const auto& [c, v, s0, s1, s2] = difference;
+  const double speed = Length(v), span = Length(c);
   double x = 0;
   for (int tangent = 0; tangent < kTangentsMax; ++tangent) {
-    const double at[3] = {d[0] + w[0] * x, d[1] + w[1] * x, d[2] + w[2] * x};
+    const double at[3] = {c[0] + v[0] * x, c[1] + v[1] * x, c[2] + v[2] * x};
     const double length = Length(at);
     const double reach = s0 + x * (s1 + x * s2);
     const double gap = length - reach - 0x1p-46 * (span + speed * x + reach);
     if (!(gap > 0)) return x;
-    const double along = (at[0] * w[0] + at[1] * w[1] + at[2] * w[2]) / length;
+    const double along = (at[0] * v[0] + at[1] * v[1] + at[2] * v[2]) / length;
     const double closing = (s1 + 2 * s2 * x - along) + 0x1p-46 * (s1 + 2 * s2 * x + speed);
     double step = numeric::kInfinity;
     if (s2 > 0) {

@@ -1,0 +1,71 @@
+// A ball that moves along a line and grows: in intervals, and in plain doubles.
+//
+// The space-time bound of an agent is such a ball, and so is the relative motion of two of them: A
+// and B can touch when the ball about c_B − c_A, with the velocity v_B − v_A and the radius ρ_A +
+// ρ_B, contains the origin. Three precisions exist, each with one type:
+//
+//   MovingBall   intervals; contains the exact ball. The certified routines compute with it.
+//   QuickBall    doubles; reaches outward as far as its centre and reach may be off. The quick root
+//                finder and the filter of one pair compute with it.
+//   PlacedBall   floats (broad_phase/filter/placed_ball.h); the filter in wide vectors.
+//
+// Each conversion stands where the type is made, with the argument for its rounding: ForwardBall()
+// and BackwardBall() in motion/space_time_bound.cc, QuickHornPair() in
+// intersection/quick_horn_pair.cc, HornTable::At() in broad_phase/filter/horn_table.h, and
+// PlacementFrame in broad_phase/filter/placement_frame.h.
+#pragma once
+
+#include "collision_core/numeric/interval.h"
+#include "collision_core/numeric/quadratic.h"
+
+namespace collision::numeric {
+
+/// A ball as functions of the seconds δ >= 0 after a base instant:
+///
+///   centre(δ) = anchor + shift + velocity δ [m],   radius(δ) = radius + u(δ) [m].
+///
+/// Each interval contains the exact coefficient. Anchor and shift are kept apart so that the
+/// difference of two balls subtracts anchors first: a scene far from the origin loses only what its
+/// inputs lost.
+struct MovingBall {
+  IntervalVector anchor;    ///< Where the motion was known: p_WA of a bound.
+  IntervalVector shift;     ///< From there to the centre at δ = 0.
+  IntervalVector velocity;  ///< [m/s]
+  Interval radius;          ///< The constant part of the radius.
+  Quadratic u;              ///< The growing part; u.c2 >= 0 (convex).
+
+  /// The centre at δ = 0.
+  IntervalVector centre() const { return anchor + shift; }
+  /// The whole radius.
+  Quadratic reach() const { return {radius + u.c0, u.c1, u.c2}; }
+};
+
+/// The ball of the relative motion from A to B, larger by `margin` [m]: A and B come within the
+/// margin of each other when it contains the origin. (B, A) gives the negated centre and the same
+/// radius, bit for bit: negation is exact, and a + b is b + a.
+inline MovingBall Difference(const MovingBall& a, const MovingBall& b, double margin) {
+  return {b.anchor - a.anchor, b.shift - a.shift, b.velocity - a.velocity,
+          (a.radius + b.radius) + margin, a.u + b.u};
+}
+
+/// A ball in plain doubles: at δ >= 0 [s] within s0 + s1 δ + s2 δ² [m] of c + v δ [m], where all s
+/// are >= 0. The numbers are exact: whatever made it has added its rounding to the reach.
+struct QuickBall {
+  double c[3];
+  double v[3];
+  double s0, s1, s2;
+};
+
+/// The ball of the relative motion from A to B, rounded to nearest: what that costs is part of the
+/// argument at each use.
+inline QuickBall Difference(const QuickBall& a, const QuickBall& b) {
+  QuickBall difference;
+  for (int axis = 0; axis < 3; ++axis) {
+    difference.c[axis] = b.c[axis] - a.c[axis];
+    difference.v[axis] = b.v[axis] - a.v[axis];
+  }
+  difference.s0 = a.s0 + b.s0, difference.s1 = a.s1 + b.s1, difference.s2 = a.s2 + b.s2;
+  return difference;
+}
+
+}  // namespace collision::numeric
