@@ -25,7 +25,7 @@ namespace collision::broad_phase {
 /// search, which follows from the index's counts, so that nothing is asked twice; or with what all
 /// pairs cost just before the index was tried again, if that is less. The excess adds up; all pairs
 /// are taken where the sum exceeds kExcessUnits an agent. A lower threshold would react to start-up
-/// cost and to the ordinary ageing of a placing. Then the index gets its next try after ever more
+/// cost and to the ordinary ageing of a placement. Then the index gets its next try after ever more
 /// questions, with half as many agents more, or with kManyAgents.
 ///
 /// A new method is filled kMoves agents a call beside the old one, which answers until it is full:

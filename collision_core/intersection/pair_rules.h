@@ -32,7 +32,7 @@ inline double HalfUp(double margin) {
 /// intervals, capped balls and boxes alike, so the pair meets where it comes within m, certified as
 /// before. Filters know no pairs, so an agent's reach is grown by half of its greatest margin,
 /// which covers every pair of two agents. A greater margin places the agent anew; a smaller one
-/// leaves the placing valid. An excluded pair is dropped after the filters, before the canonical
+/// leaves the placement valid. An excluded pair is dropped after the filters, before the canonical
 /// routine. Rules are looked up only for agents that have any; without rules no answer and no count
 /// differs.
 class PairRules {

@@ -9,8 +9,7 @@
 namespace collision::broad_phase {
 namespace {
 
-// Up, by more than a conversion to single precision takes.
-float Up(double x) { return static_cast<float>(x) * (1 + 0x1p-22f); }
+float Up(double x) { return static_cast<float>(x) * static_cast<float>(kFloatUp); }
 
 }  // namespace
 
@@ -63,17 +62,17 @@ void PlacedBalls::Validate(std::uint32_t count) const {
              "an agent stands at one place", count);
 }
 
-FilterQuery TimesOf(const PlacementFrame& placing, TimeWindow stretch) {
+FilterQuery TimesOf(const PlacementFrame& frame, TimeWindow window) {
   FilterQuery times{};
-  times.first = static_cast<float>(stretch.first - placing.middle());
-  times.last = static_cast<float>(stretch.last - placing.middle());
+  times.first = static_cast<float>(window.first - frame.middle());
+  times.last = static_cast<float>(window.last - frame.middle());
   times.way = std::max(std::abs(times.first), std::abs(times.last));
-  times.time = Up(stretch.last);
+  times.time = Up(window.last);
   return times;
 }
 
-FilterQuery QueryOf(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch) {
-  FilterQuery query = TimesOf(placing, stretch);
+FilterQuery QueryOf(const PlacedBall& horn, const PlacementFrame& frame, TimeWindow window) {
+  FilterQuery query = TimesOf(frame, window);
   query.vx = horn.v[0], query.vy = horn.v[1], query.vz = horn.v[2], query.speed = horn.speed;
   query.reach = ReachAt(query.time, horn.s0, horn.s1, horn.s2);
   return query;

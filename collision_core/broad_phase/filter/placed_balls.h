@@ -1,4 +1,4 @@
-// Placed horns in the arrays that SphereFilter reads.
+// Placed balls in the arrays that SphereFilter reads.
 #pragma once
 
 #include <vector>
@@ -8,29 +8,31 @@
 
 namespace collision::broad_phase {
 
-/// A reach at a time, up by more than the operations take.
+/// A reach at a time, rounded up by more than the operations take.
 inline float ReachAt(float time, float s0, float s1, float s2) {
   return (s0 + time * (s1 + time * s2)) * (1 + 0x1p-21f);
 }
 
-/// Placed horns as arrays of floats, seen from a corner near them.
+/// Placed balls as arrays of floats, seen from a corner near them.
 class PlacedBalls {
  public:
   static constexpr std::uint32_t kNoAgent = ~0u;
-  /// A position whose square is infinite, and reaches that are as large find everybody.
+  /// The x of a vacant place. Its square is infinite in single precision, so that no filter finds the
+  /// place; a reach that is as large finds all places anyway.
   static constexpr float kFarAway = 1e30f;
 
-  /// Empties it and makes room for `size` horns.
+  /// Empties it and makes room for `size` balls.
   void Reset(std::uint32_t size);
-  /// Keeps the horns up to the new size.
+  /// Changes the size and keeps the balls up to it; new places hold no agent.
   void Resize(std::uint32_t size);
   std::uint32_t size() const { return static_cast<std::uint32_t>(agents_.size()); }
-  /// kNoAgent where it was vacated.
+  /// The agent at place k; kNoAgent where it is vacant.
   std::uint32_t agent(std::uint32_t k) const { return agents_[k]; }
   FilterView view() const;
 
-  /// At k, as seen from `corner`; `lost` is what that costs positions, its own and askers'.
-  void Set(std::uint32_t k, const PlacedHorn& horn, const double* corner, float lost) {
+  /// Stores a ball at place k, as seen from `corner`; `lost` is what single precision takes from its
+  /// position and from that of a query's ball there, and is added to the reach.
+  void Set(std::uint32_t k, const PlacedBall& horn, const double* corner, float lost) {
     float* const at = floats_.data() + k;
     for (int axis = 0; axis < 3; ++axis) {
       at[(kX + axis) * stride_] = static_cast<float>(horn.c[axis] - corner[axis]);
@@ -40,8 +42,8 @@ class PlacedBalls {
     at[kSpeed * stride_] = horn.speed;
     agents_[k] = horn.agent;
   }
-  /// Walks the first `count` places: an agent stands at most once; its reaches, speed and position
-  /// are numbers, and reaches are not negative; a vacant place is too far for any filter. Throws
+  /// Walks the first `count` places: each agent has at most one; its reaches, speed and position are
+  /// numbers, and reaches are not negative; a vacant place is too far for any filter. Throws
   /// CheckFailure.
   void Validate(std::uint32_t count) const;
   void Vacate(std::uint32_t k) {
@@ -49,12 +51,12 @@ class PlacedBalls {
     agents_[k] = kNoAgent;
   }
 
-  /// The position of the k-th as it is stored.
+  /// The positions as they are stored.
   const float* x() const { return array(kX); }
   const float* y() const { return array(kX + 1); }
   const float* z() const { return array(kX + 2); }
 
-  /// The query of the k-th: the times of `times`, and its own motion and reach.
+  /// The query of the ball at place k: the times of `times`, and its own motion and reach.
   FilterQuery QueryOf(std::uint32_t k, const FilterQuery& times) const {
     FilterQuery query = times;
     const float* const at = floats_.data() + k;
@@ -68,20 +70,20 @@ class PlacedBalls {
   enum { kX = 0, kVx = 3, kS0 = 6, kS1, kS2, kSpeed, kArrays };
   const float* array(std::size_t which) const { return floats_.data() + which * stride_; }
 
-  // The arrays, one after the other, not a whole number of pages apart: else all of them would
-  // fight for the same lines of the processor's cache.
+  /// The arrays, one after the other, not a whole number of pages apart: else they would compete for
+  /// the same lines of the processor's cache.
   std::vector<float> floats_;
   std::size_t stride_ = 0;
   std::vector<std::uint32_t> agents_;
 };
 
 /// The times of a query; its motion and reach are zero.
-FilterQuery TimesOf(const PlacementFrame& placing, TimeWindow stretch);
+FilterQuery TimesOf(const PlacementFrame& frame, TimeWindow window);
 
-/// The query of a placed horn.
-FilterQuery QueryOf(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch);
+/// The query of a placed ball.
+FilterQuery QueryOf(const PlacedBall& horn, const PlacementFrame& frame, TimeWindow window);
 
-/// How far the asker comes from its place.
+/// How far the query's ball comes from its place.
 inline float WayOf(const FilterQuery& query) {
   return (query.reach + query.way * query.speed) * (1 + 0x1p-21f);
 }

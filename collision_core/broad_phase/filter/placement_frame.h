@@ -11,13 +11,14 @@
 
 namespace collision::broad_phase {
 
-/// At u seconds after its placing's middle the agent's centre is at c + v u, as seen from the
-/// placing's frame, and up to x seconds after the placing's begin all of it lies within
-/// s0 + x (s1 + x s2) of there. Rounded outward, with the slack that SphereFilter asks for.
-struct PlacedHorn {
-  double c[3];
+/// A horn's ball in floats, for the filter in wide vectors: at u seconds after the middle of the
+/// placement's window its centre is at c + v u, as seen from the placement's frame, and up to x
+/// seconds after the placement's begin all of it lies within s0 + x (s1 + x s2) of there. Rounded
+/// outward, with the slack that SphereFilter asks for; PlacementFrame makes it.
+struct PlacedBall {
+  double c[3];  ///< In doubles: PlacedBalls stores it relative to a corner nearby.
   float v[3];
-  float speed;  ///< |v|
+  float speed;  ///< |v|, rounded up.
   float s0, s1, s2;
   std::uint32_t agent;
 
@@ -31,7 +32,7 @@ struct PlacedExtent {
          high[3] = {-numeric::kInfinity, -numeric::kInfinity, -numeric::kInfinity};
   float s0 = 0, s1 = 0, s2 = 0, speed = 0;
 
-  void Add(const PlacedHorn& horn) {
+  void Add(const PlacedBall& horn) {
     s0 = std::max(s0, horn.s0), s1 = std::max(s1, horn.s1), s2 = std::max(s2, horn.s2);
     speed = std::max(speed, horn.speed);
     for (int axis = 0; axis < 3; ++axis) {
@@ -41,7 +42,7 @@ struct PlacedExtent {
   }
 };
 
-/// A stretch of time, in seconds after a placing's begin. It may begin earlier.
+/// From `first` to `last`, in seconds after a placement's begin; `first` may be negative.
 struct TimeWindow {
   double first, last;
 };
@@ -56,25 +57,26 @@ struct Region {
   }
 };
 
-/// A common begin, a frame that moves with the agents on the average, and a middle: over a stretch
-/// of time an agent is never farther from where it is placed than half its way, and its reach.
-/// Windows are not shorter [s], and beyond the longest every instant is Never().
+/// No window is shorter [s]; beyond the longest every instant is Never().
 inline constexpr double kWindowMin = 1e-9;
 inline constexpr double kWindowMax = 2e10;
 
-/// Where filters put agents: a common begin, a frame that moves with the average of all agents, and
-/// a middle of the window. Over a stretch of time an agent is never farther from where it is placed
-/// than half its way and its reach.
+/// Up, by more than a conversion to single precision and a product there take (2^-24 each).
+inline constexpr double kFloatUp = 1 + 0x1p-22;
+
+/// Where filters put agents for a window of time: as seen from a frame that moves with the average
+/// of all agents, at the middle of the window. Until its end an agent is never farther from where it
+/// is placed than half its way and its reach.
 class PlacementFrame {
  public:
   /// Places nothing.
   PlacementFrame() = default;
-  /// For stretches of the query up to `seconds_max`; how long they are at first is chosen so that
-  /// few pairs come within reach of each other.
+  /// For windows of the query up to `seconds_max` [s]; how long the first is, is chosen so that few
+  /// pairs come within reach of each other.
   PlacementFrame(const HornTable& table, const intersection::BroadQuery& query, double seconds_max);
 
   Instant begin() const { return query_.from; }
-  /// The begin is too far away for filters: all agents are asked directly.
+  /// The begin is too far away for filters: all pairs are given to the canonical routine.
   bool blind() const { return !HornTable::Near(query_.from); }
   intersection::BoundKind bound() const { return query_.bound; }
   /// The time ahead that was chosen [s].
@@ -82,32 +84,32 @@ class PlacementFrame {
   /// Looks less far ahead. Requires that no agent was moved to its middle.
   void Shorten(double seconds);
 
-  /// About `count` of the agents that are placed, near each other: where to look for a first
+  /// A box with about `count` of the agents in it, near each other: where to look for a first
   /// answer.
   Region Crowd(const HornTable& table, std::size_t count) const;
 
-  PlacedHorn Place(const HornTable& table, std::uint32_t agent) const {
-    PlacedHorn horn = AtBegin(table, agent);
+  PlacedBall Place(const HornTable& table, std::uint32_t agent) const {
+    PlacedBall horn = AtBegin(table, agent);
     ToMiddle(&horn);
     return horn;
   }
   /// The same in two steps: where the agent is at the begin, and from there to the middle.
-  PlacedHorn AtBegin(const HornTable& table, std::uint32_t agent) const {
-    PlacedHorn horn = AtBegin(BallAt(table, agent));
+  PlacedBall AtBegin(const HornTable& table, std::uint32_t agent) const {
+    PlacedBall horn = AtBegin(BallAt(table, agent));
     horn.agent = agent;
     return horn;
   }
-  /// The horn of a row that is in no table, as Place(); of no agent (PlacedHorn::kNoAgent).
-  PlacedHorn Place(const HornRow& row) const {
-    PlacedHorn horn = AtBegin(BallAt(row));
+  /// The horn of a row that is in no table, as Place(); of no agent (PlacedBall::kNoAgent).
+  PlacedBall Place(const HornRow& row) const {
+    PlacedBall horn = AtBegin(BallAt(row));
     ToMiddle(&horn);
     return horn;
   }
-  void ToMiddle(PlacedHorn* horn) const {
+  void ToMiddle(PlacedBall* horn) const {
     for (int axis = 0; axis < 3; ++axis) {
       horn->c[axis] += static_cast<double>(horn->v[axis]) * middle_;
     }
-    horn->s0 = (horn->s0 + horn->speed * slack_ + least_) * (1 + 0x1p-22f);
+    horn->s0 = (horn->s0 + horn->speed * slack_ + least_) * static_cast<float>(kFloatUp);
   }
 
   /// The relative motion of two agents from the begin on.
@@ -115,26 +117,33 @@ class PlacementFrame {
     return Difference(BallAt(table, a), BallAt(table, b));
   }
 
-  /// Where an agent is half-way to `last` seconds after the begin, and how far from there it
-  /// reaches in between; it does not depend on the middle.
+  /// Where an agent is half-way to `last` seconds after the begin, and how far from there it reaches
+  /// until then; independent of the window.
   ReachPoint HalfWay(const HornTable& table, std::uint32_t agent, double last) const {
     return HalfWay(BallAt(table, agent), last);
   }
   ReachPoint HalfWay(const numeric::QuickBall& at, double last) const;
 
-  /// How far from its place a horn comes during the stretch.
+  /// How far from its place a horn (or the greatest of many, PlacedExtent) comes during the window.
   template <typename Horn>
-  double Reach(const Horn& horn, TimeWindow stretch) const {
-    const double way = std::max(middle_ - stretch.first, stretch.last - middle_);
-    return horn.s0 + stretch.last * (horn.s1 + stretch.last * horn.s2) + horn.speed * way;
+  double Reach(const Horn& horn, TimeWindow window) const {
+    const double way = std::max(middle_ - window.first, window.last - middle_);
+    return horn.s0 + window.last * (horn.s1 + window.last * horn.s2) + horn.speed * way;
   }
   double middle() const { return middle_; }
 
-  /// The stretch of `seconds` after `from`, which may lie before the begin.
+  /// The window of the `seconds` after `from`, which may lie before the begin.
   TimeWindow After(Instant from, double seconds) const;
 
  private:
-  PlacedHorn AtBegin(const numeric::QuickBall& at) const;
+  /// A velocity as seen from the frame, and its length.
+  struct SeenVelocity {
+    double v[3];
+    double speed;
+  };
+
+  SeenVelocity Seen(const numeric::QuickBall& ball) const;
+  PlacedBall AtBegin(const numeric::QuickBall& at) const;
   numeric::QuickBall BallAt(const HornTable& table, std::uint32_t agent) const {
     return BallAt(table.row(agent));
   }
@@ -145,48 +154,59 @@ class PlacementFrame {
   }
 
   intersection::BroadQuery query_;
-  double duration_ = 0;  // of a hypertrapezoid's window
-  double v_[3] = {};
+  double duration_ = 0;  ///< Of a hypertrapezoid's window [s].
+  double v_[3] = {};     ///< Of the frame [m/s].
   double window_ = 0, middle_ = 0;
-  // SphereFilter's, for the way to the middle: of the speed, and beside it.
+  /// SphereFilter's slack for the way to the middle: of the speed, and beside it.
   float slack_ = 0, least_ = 0;
 };
 
-// Up, by more than a conversion to single precision takes, and with SphereFilter's slack.
-inline PlacedHorn PlacementFrame::AtBegin(const numeric::QuickBall& at) const {
-  constexpr double kSlack = kFilterSlack, kLeast = kReachLeast;
-  constexpr double kUp = (1 + kSlack) * (1 + 0x1p-22);
-  PlacedHorn horn;
+// From doubles to floats. Both functions below round up what they store:
+// - HornTable::At() has given the reach 2^-48 of the terms of c; that covers the sums of doubles
+//   here, which have fewer than sixteen terms, and the speed's 2^-50.
+// - A conversion to single precision takes 2^-24 of the number, likewise the product after it:
+//   kFloatUp. Where a second sum follows in single precision, 2^-20 stands for all of it.
+// - SphereFilter asks for kFilterSlack of the reach and of the way, and for kReachLeast of both.
+
+inline PlacementFrame::SeenVelocity PlacementFrame::Seen(const numeric::QuickBall& ball) const {
+  SeenVelocity seen;
   double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double v = at.v[axis] - v_[axis];
-    horn.c[axis] = at.c[axis];
-    horn.v[axis] = static_cast<float>(v);
-    square += v * v;
+    seen.v[axis] = ball.v[axis] - v_[axis];
+    square += seen.v[axis] * seen.v[axis];
   }
-  const double speed = std::sqrt(square) * (1 + 0x1p-40);
+  seen.speed = std::sqrt(square);
+  return seen;
+}
+
+inline PlacedBall PlacementFrame::AtBegin(const numeric::QuickBall& at) const {
+  constexpr double kSlack = kFilterSlack, kLeast = kReachLeast, kUp = (1 + kSlack) * kFloatUp;
+  constexpr double kSpeedUp = 1 + 0x1p-40;
+  const SeenVelocity seen = Seen(at);
+  PlacedBall horn;
+  for (int axis = 0; axis < 3; ++axis) {
+    horn.c[axis] = at.c[axis];
+    horn.v[axis] = static_cast<float>(seen.v[axis]);
+  }
+  const double speed = seen.speed * kSpeedUp;
   horn.s0 = static_cast<float>((at.s0 + kLeast) * kUp);
   horn.s1 = static_cast<float>((at.s1 + kSlack * speed + kLeast) * kUp);
   horn.s2 = static_cast<float>(at.s2 * kUp);
   horn.speed = static_cast<float>(speed * kUp);
-  horn.agent = PlacedHorn::kNoAgent;
+  horn.agent = PlacedBall::kNoAgent;
   return horn;
 }
 
-// At() has given the reach 2^-48 of the terms of c, which covers this sum's rounding as well; all
-// else loses less than 2^-20 of the way and the reach. SphereFilter's slack is added.
 inline ReachPoint PlacementFrame::HalfWay(const numeric::QuickBall& at, double last) const {
   constexpr double kSlack = kFilterSlack, kLeast = kReachLeast, kUp = 1 + 0x1p-20;
+  const SeenVelocity seen = Seen(at);
   const double half = 0.5 * last;
   ReachPoint point;
-  double square = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double v = at.v[axis] - v_[axis];
-    point.c[axis] = at.c[axis] + v * half;
-    point.v[axis] = static_cast<float>(v);
-    square += v * v;
+    point.c[axis] = at.c[axis] + seen.v[axis] * half;
+    point.v[axis] = static_cast<float>(seen.v[axis]);
   }
-  const double way = half * std::sqrt(square);
+  const double way = half * seen.speed;
   const double own = (at.s0 + last * (at.s1 + last * at.s2)) * (1 + kSlack) + kSlack * way;
   point.own = static_cast<float>(own * kUp + kLeast * half);
   point.reach = static_cast<float>((own + way) * kUp + kLeast * half);

@@ -5,25 +5,25 @@
 namespace collision::broad_phase {
 namespace {
 
-/// Points in a cell of an evenly filled grid: rows of three cells fill a wide vector.
+/// Points in a cell of an evenly filled grid, so that rows of three cells fill a wide vector.
 constexpr double kPerCell = 5;
 
 /// Longer rows would cost too many digits of a position.
 constexpr double kRowCellsMax = 4096;
 
-/// Cells per point, beyond which most are empty.
+/// The most cells per point; beyond it most are empty.
 constexpr double kCellsPerPoint = 4;
 
-/// With more than so many points in the cube of a reach lines are compared as well.
+/// Lines are compared where the cube of a reach holds more points than this.
 constexpr double kDense = 0.05;
 
-/// Few points are in one cell, whatever they are like.
+/// Up to this number all points share one cell.
 constexpr std::uint32_t kFewPoints = 32;
 
 }  // namespace
 
-// Positions lose at most 2^-24 of a row's length on each axis, the asker's as well, and reaches and
-// the ranges' bounds as much: together less than 2^-20 of it. Squares lose digits to underflow
+// Positions lose at most 2^-24 of a row's length on each axis, for both points of a pair, and reaches
+// and the ranges' bounds as much: together less than 2^-20 of it. Squares lose digits to underflow
 // below kReachLeast.
 bool PointGrid::ChooseCells(std::uint32_t present, const PointExtent& extent) {
   double widest = 0, volume = 1;
@@ -75,8 +75,8 @@ bool PointGrid::SumCells(std::uint32_t present) {
   return present <= kFewPoints || squares <= kCrowdingMax * present;
 }
 
-// The arrays, where they are long, are not a whole number of pages apart, else they would fight
-// for the same lines of the processor's cache.
+// Long arrays are not a whole number of pages apart: else they would compete for the same lines of
+// the processor's cache.
 void PointGrid::Reserve(std::uint32_t count) {
   constexpr std::size_t kPage = 1024, kApart = 208;
   std::size_t room = count + kLanesMax;
@@ -110,9 +110,9 @@ std::uint32_t PointGrid::RowsBeside(std::int32_t x, std::int32_t y, std::int32_t
       points += end - begin;
     }
   }
-  const std::size_t room = kBatch + kAskersMax * points + kLanesMax;
-  if (askers_.size() < room) {
-    askers_.resize(room);
+  const std::size_t room = kBatch + kQueryPointsMax * points + kLanesMax;
+  if (queries_.size() < room) {
+    queries_.resize(room);
     others_.resize(room);
   }
   return count;

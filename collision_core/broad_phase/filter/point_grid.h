@@ -11,12 +11,14 @@
 
 namespace collision::broad_phase {
 
-/// Where a body is half-way through a time, how far from there it reaches in all of it, and how far
-/// from its place on the line with velocity v. Reaches include SphereFilter's slack.
+/// A moving ball for one window of time, seen from half-way through it. PlacedBall's reach grows with
+/// time; here it is taken at the window's end, once for a centre that stays and once for one that
+/// moves along its line. Both are rounded up, with SphereFilter's slack.
 struct ReachPoint {
-  double c[3];
-  float v[3];
-  float reach, own;
+  double c[3];  ///< Its centre half-way through the window.
+  float v[3];   ///< As seen from the placement's frame.
+  float reach;  ///< All of the window the ball lies within this of c,
+  float own;    ///< and at u seconds after half-way within this of c + v u.
 };
 
 /// The box around points, and the farthest reach.
@@ -49,28 +51,27 @@ struct PointExtent {
   }
 };
 
-/// A grid for one question about all agents at once, where they are of like reach and evenly
+/// A grid for one question about all agents at once, where they have similar reaches and are evenly
 /// spread. Half-way through the window each agent is a point with a reach: sixteen bytes in the
 /// order of the cells, thirty-two where lines are compared. Nothing is kept for a later question.
 ///
 /// A sample of the points determines how wide the grid is, and whether it suits the scene; if a
-/// point lies beyond the sampled extent the grid is made again. Cell by cell, up to eight points
-/// look into the rows beside them together, and each is compared with sixteen others at a time;
-/// where reaches are so long that many places are near each other, the lines are compared in the
-/// same step. Cells that lie side by side along x do so in memory as well, and are scanned as one
-/// range.
+/// point lies beyond the sampled extent the grid is built again. PointFilter takes up to eight points
+/// of a cell at a time and compares each with sixteen others in the rows beside it; where reaches are
+/// so long that many places are near each other, it compares their lines in the same step. Cells that
+/// lie side by side along x do so in memory as well, and are scanned as one range.
 class PointGrid {
  public:
-  /// `at(k, &point)` gives the k-th point of `count`, or returns false: it has none; about
-  /// `present` have. Some are asked twice; where others lie beyond them by more than a little, all
-  /// are. `half`, of the time: where many places come near each other lines are compared as well;
-  /// 0: not. False: the points do not suit a grid, as they crowd in few of its cells, or its rows
-  /// would be too long.
+  /// Builds the grid of up to `count` points. `at(k, &point)` writes the k-th one, or returns false
+  /// if there is none; about `present` exist. It is called twice for a sample of the points, or for
+  /// all of them if some lie well beyond the sample. `half`: half of the window [s], to compare lines
+  /// as well where many places come near each other; 0: never compare lines. Returns false if the
+  /// points do not suit a grid: they crowd in few of its cells, or its rows would be too long.
   template <typename At>
   bool Build(std::uint32_t count, std::uint32_t present, double half, At at);
 
-  /// Calls visit(k, l) with the points of each two that may be within the sum of their reaches,
-  /// once; and a little earlier fetch(k, l).
+  /// Calls visit(k, l) once for each pair of points that may be within the sum of their reaches, and
+  /// some pairs earlier fetch(k, l), so that it can prefetch what visit() reads.
   template <typename Fetch, typename Visit>
   void ForEachPair(Fetch fetch, Visit visit);
   template <typename Visit>
@@ -78,20 +79,20 @@ class PointGrid {
     ForEachPair([](std::uint32_t, std::uint32_t) {}, visit);
   }
 
-  /// Counted since the start.
+  /// Comparisons of two points, and ranges scanned, since the start.
   std::uint64_t tests() const { return tests_; }
   std::uint64_t ranges() const { return range_count_; }
 
  private:
-  /// A cell's own row, and those beside it that come later: so many.
+  /// A cell's own row, and the rows beside it that come later.
   static constexpr int kRowsMax = 5;
-  /// At least so many points are sampled for how far they lie and reach; all are assumed to lie and
-  /// reach this part farther.
+  /// The least number of points that are sampled for the extent, and the part by which the extent is
+  /// then widened for the points that are not.
   static constexpr std::uint32_t kSample = 4096;
   static constexpr double kBeyondSample = 1.0 / 32;
   /// The most points that a point may find in its own cell, on the average, for a grid to be used.
   static constexpr double kCrowdingMax = 16;
-  /// Pairs are visited so many at a time, so that what is fetched for them has come.
+  /// Pairs visited at a time, enough for what was fetched for them to have arrived.
   static constexpr std::uint32_t kBatch = 64;
 
   struct Entry {
@@ -117,11 +118,12 @@ class PointGrid {
   bool SumCells(std::uint32_t present);
   void Reserve(std::uint32_t count);
   float* Array(int k) { return floats_.data() + static_cast<std::size_t>(k) * stride_; }
-  /// Into rows_, and their number: a cell is as wide as two reaches at least, so that what is near
-  /// lies in cells side by side. Room for what they may tell is made as well.
+  /// Writes the rows that a cell is compared with into rows_, and returns their number: a cell is at
+  /// least two reaches wide, so that what is near lies in neighbouring cells. Makes room for as many
+  /// hits as they can have.
   std::uint32_t RowsBeside(std::int32_t x, std::int32_t y, std::int32_t z, std::size_t cell);
   std::int32_t CellOf(double x, int axis) const {
-    // Within the box no point lies past its last cell, which is computed alike.
+    // Within the extent no point lies past the last cell, which is computed the same way.
     return static_cast<std::int32_t>((x - origin_[axis]) * per_cell_);
   }
   std::uint32_t CellAt(const ReachPoint& point) const {
@@ -133,16 +135,16 @@ class PointGrid {
   double cell_ = 0, per_cell_ = 0;
   float reach_most_ = 0, lost_ = 0, half_ = 0;
   std::int32_t cells_[3] = {};
-  std::vector<std::uint32_t>
-      begin_;                    // by cell, the last for points that are not there, and two more
-  std::vector<Entry> entries_;   // by point
-  std::vector<Motion> motions_;  // by point, where lines are compared
-  std::vector<std::uint32_t> cell_of_;  // by point
-  std::vector<std::uint32_t> order_;    // by place: its point
-  std::vector<float> floats_;           // arrays by place: of entries, then of motions
+  /// By cell; then one cell for points that do not exist, and two entries more.
+  std::vector<std::uint32_t> begin_;
+  std::vector<Entry> entries_;          ///< By point.
+  std::vector<Motion> motions_;         ///< By point, where lines are compared.
+  std::vector<std::uint32_t> cell_of_;  ///< By point.
+  std::vector<std::uint32_t> order_;    ///< By place: its point.
+  std::vector<float> floats_;           ///< Arrays by place: of entries, then of motions.
   std::size_t stride_ = 0;
   PointRow rows_[kRowsMax] = {};
-  std::vector<std::uint32_t> askers_, others_;  // by hit
+  std::vector<std::uint32_t> queries_, others_;  ///< By hit.
   std::uint64_t tests_ = 0, range_count_ = 0;
 };
 
@@ -160,12 +162,12 @@ template <typename At>
 bool PointGrid::LooksCrowded(std::uint32_t count, std::uint32_t present, std::uint32_t stride,
                              const PointExtent& extent, At at) {
   ReachPoint point;
-  std::uint64_t seen = 0;  // by each of the others in its cell that came before
+  std::uint64_t pairs = 0;  // of points in the same cell
   for (std::uint32_t k = 0; k < count; k += stride) {
-    if (at(k, &point) && extent.Holds(point)) seen += begin_[CellAt(point)]++;
+    if (at(k, &point) && extent.Holds(point)) pairs += begin_[CellAt(point)]++;
   }
   std::fill(begin_.begin(), begin_.end(), 0);
-  return 2.0 * stride * stride * static_cast<double>(seen) > kCrowdingMax * present;
+  return 2.0 * stride * stride * static_cast<double>(pairs) > kCrowdingMax * present;
 }
 
 template <typename At>
@@ -230,7 +232,7 @@ void PointGrid::ForEachPair(Fetch fetch, Visit visit) {
   if (half_ > 0) view.vx = Array(4), view.vy = Array(5), view.vz = Array(6), view.own = Array(7);
   std::uint32_t count = 0;
   const auto visit_all = [&] {
-    for (std::uint32_t hit = 0; hit < count; ++hit) visit(askers_[hit], others_[hit]);
+    for (std::uint32_t hit = 0; hit < count; ++hit) visit(queries_[hit], others_[hit]);
     count = 0;
   };
   std::size_t cell = 0;
@@ -239,15 +241,15 @@ void PointGrid::ForEachPair(Fetch fetch, Visit visit) {
       for (std::int32_t x = 0; x < cells_[0]; ++x, ++cell) {
         if (begin_[cell] == begin_[cell + 1]) continue;
         const std::uint32_t row_count = RowsBeside(x, y, z, cell);
-        PointAskers askers{begin_[cell], 0, static_cast<float>(cell_), reach_most_, half_};
-        for (; askers.first < begin_[cell + 1]; askers.first = askers.last) {
-          askers.last = std::min(askers.first + kAskersMax, begin_[cell + 1]);
-          const PointCounts counts = scan(view, askers, rows_, row_count,
-                                          {askers_.data() + count, others_.data() + count});
+        QueryPoints queries{begin_[cell], 0, static_cast<float>(cell_), reach_most_, half_};
+        for (; queries.first < begin_[cell + 1]; queries.first = queries.last) {
+          queries.last = std::min(queries.first + kQueryPointsMax, begin_[cell + 1]);
+          const PointCounts counts = scan(view, queries, rows_, row_count,
+                                          {queries_.data() + count, others_.data() + count});
           tests_ += counts.tests, range_count_ += counts.ranges;
           for (const std::uint32_t end = count + counts.hits; count < end; ++count) {
-            askers_[count] = order_[askers_[count]], others_[count] = order_[others_[count]];
-            fetch(askers_[count], others_[count]);
+            queries_[count] = order_[queries_[count]], others_[count] = order_[others_[count]];
+            fetch(queries_[count], others_[count]);
           }
           if (count >= kBatch) visit_all();
         }

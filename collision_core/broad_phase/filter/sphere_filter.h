@@ -1,4 +1,4 @@
-// Which of many moving balls may touch a given one: the filter of every method, in wide vectors.
+// Which of many moving balls may touch a given one: the filter of all methods, in wide vectors.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +15,25 @@ struct FilterView {
   const float* speed;
 };
 
-/// Balls [begin, end), and where the asker is as seen from their corner.
+/// Balls [begin, end), and where the query's ball is as seen from their corner.
 struct FilterRange {
   std::uint32_t begin, end;
   float x, y, z;
 };
 
-/// The asker, and when: u in [first, last], where |u| <= way; reaches at `time`.
+/// The ball that is compared with all of the ranges, and when.
 struct FilterQuery {
-  float vx, vy, vz;
-  float reach;
-  float speed;
-  float first, last;
-  float way;
-  float time;
+  float vx, vy, vz;   ///< Its velocity.
+  float reach;        ///< At `time`.
+  float speed;        ///< |v| or more.
+  float first, last;  ///< u in [first, last] [s].
+  float way;          ///< The greatest |u| in it [s].
+  float time;         ///< The time of all reaches [s].
 };
 
 /// Writes the indices k, range by range and in order, whose centre comes within the sum of the two
-/// reaches of the asker's (or where that is not a number), and returns how many. `hits` has room
-/// for all of the ranges and kLanesMax more. A filter: sixteen, eight or one ball at a time.
+/// reaches of the query's centre (or where that is not a number), and returns how many. `hits` has room
+/// for all of the ranges and kLanesMax more. Compares sixteen, eight or one ball at a time.
 ///
 /// Most balls are farther apart at u = 0 than reaches and ways together: they are not examined
 /// further. For the others, with d and w the differences, the least |d + w u| is at u* = −d·w /
@@ -41,15 +41,15 @@ struct FilterQuery {
 /// the reaches: d, w, w u* and their sum are off by less than 2^-22 (D + W) together; u* by 2^-21
 /// (|u*| + D/|w|), which moves the point by less than 2^-21 (W + D); squares and R lose 2^-21 of
 /// themselves. Where D > 4 (R + W) the two are far apart, whatever rounding does. Else all of this
-/// is less than 2^-17 (R + W): reaches are to be made larger by kFilterSlack of themselves and of
-/// the way that their own centre goes. Below kReachLeast squares lose digits to underflow: reaches,
-/// and speeds too small to matter, are to count as at least that. A square that overflows is
-/// infinite, and less than no other. sphere_filter_test compares it with exact fractions.
+/// is less than 2^-17 (R + W): the caller makes each reach larger by kFilterSlack of itself and of
+/// the way of its own centre. Below kReachLeast squares lose digits to underflow: the caller adds it
+/// to each reach and speed. A square that overflows is infinite, and less than no other.
+/// sphere_filter_test compares the hits with exact fractions.
 using SphereFilter = std::uint32_t (*)(const FilterView& balls, const FilterQuery& query,
                                        const FilterRange* ranges, std::uint32_t range_count,
                                        std::uint32_t* hits);
 
-/// By how much reaches are made larger, as a part of themselves and of the way; derived above.
+/// The slack of a reach, as a part of itself and of the way; derived above.
 inline constexpr float kFilterSlack = 0x1p-16f;
 /// The least reach [m] and speed [m/s] that count.
 inline constexpr float kReachLeast = 0x1p-60f;

@@ -67,20 +67,21 @@ WIDE std::uint32_t Scan(const FilterView& balls, const FilterQuery& query,
   return count;
 }
 
-/// The askers that reach beyond their row of cells, by the step towards the other row plus one.
-struct ReachingAskers {
+/// The query points that reach beyond their row of cells, as bits by point, for each step towards
+/// the other row plus one.
+struct ReachingPoints {
   unsigned y[3], z[3];
 };
 
-WIDE inline ReachingAskers ReachingOf(const PointView& points, const PointAskers& askers) {
-  const std::uint32_t count = askers.last - askers.first;
-  const Lanes cell = All(askers.cell), zero = All(0);
-  ReachingAskers reaching{{0, (1u << count) - 1, 0}, {0, ~0u, 0}};
-  for (std::uint32_t k = 0; k < kAskersMax; k += kWidth) {
-    const std::uint32_t first = askers.first + k;
+WIDE inline ReachingPoints ReachingOf(const PointView& points, const QueryPoints& queries) {
+  const std::uint32_t count = queries.last - queries.first;
+  const Lanes cell = All(queries.cell), zero = All(0);
+  ReachingPoints reaching{{0, (1u << count) - 1, 0}, {0, ~0u, 0}};
+  for (std::uint32_t k = 0; k < kQueryPointsMax; k += kWidth) {
+    const std::uint32_t first = queries.first + k;
     const unsigned in_group = k < count ? Lowest(count - k) : 0;
     if (in_group == 0) break;
-    const Lanes half = Load(points.reach + first) + All(askers.reach);
+    const Lanes half = Load(points.reach + first) + All(queries.reach);
     const Lanes y = Load(points.y + first), z = Load(points.z + first);
     reaching.y[0] |= (in_group & NotAtLeast(y - half, zero)) << k;
     reaching.y[2] |= (in_group & NotLess(y + half, cell)) << k;
@@ -90,37 +91,37 @@ WIDE inline ReachingAskers ReachingOf(const PointView& points, const PointAskers
   return reaching;
 }
 
-WIDE PointCounts ScanPoints(const PointView& points, const PointAskers& askers,
+WIDE PointCounts ScanPoints(const PointView& points, const QueryPoints& queries,
                             const PointRow* rows, std::uint32_t row_count, PointHits hits) {
-  const ReachingAskers reaching = ReachingOf(points, askers);
+  const ReachingPoints reaching = ReachingOf(points, queries);
   PointCounts counts;
   for (const PointRow* row = rows; row != rows + row_count; ++row) {
-    const float row_y = static_cast<float>(row->dy) * askers.cell;
-    const float row_z = static_cast<float>(row->dz) * askers.cell;
+    const float row_y = static_cast<float>(row->dy) * queries.cell;
+    const float row_z = static_cast<float>(row->dz) * queries.cell;
     for (unsigned left = reaching.y[row->dy + 1] & reaching.z[row->dz + 1]; left != 0;
          left &= left - 1) {
-      const std::uint32_t asker = askers.first + static_cast<unsigned>(__builtin_ctz(left));
-      const std::uint32_t begin = row->begin > asker ? row->begin : asker + 1;
+      const std::uint32_t query = queries.first + static_cast<unsigned>(__builtin_ctz(left));
+      const std::uint32_t begin = row->begin > query ? row->begin : query + 1;
       if (begin >= row->end) continue;
       counts.tests += row->end - begin;
       ++counts.ranges;
-      const Lanes at_x = All(points.x[asker]), at_y = All(points.y[asker] - row_y),
-                  at_z = All(points.z[asker] - row_z);
-      const Lanes reach = All(points.reach[asker]);
+      const Lanes at_x = All(points.x[query]), at_y = All(points.y[query] - row_y),
+                  at_z = All(points.z[query] - row_z);
+      const Lanes reach = All(points.reach[query]);
       for (std::uint32_t k = begin; k < row->end; k += kWidth) {
         Lanes dx = Load(points.x + k) - at_x, dy = Load(points.y + k) - at_y,
               dz = Load(points.z + k) - at_z;
         const Lanes reaches = reach + Load(points.reach + k);
         unsigned mask = Lowest(row->end - k) & Within(dx, dy, dz, reaches);
         if (mask != 0 && points.own != nullptr) {
-          const Lanes vx = Load(points.vx + k) - All(points.vx[asker]),
-                      vy = Load(points.vy + k) - All(points.vy[asker]),
-                      vz = Load(points.vz + k) - All(points.vz[asker]);
-          ToClosest(vx, vy, vz, All(-askers.half), All(askers.half), &dx, &dy, &dz);
-          mask &= Within(dx, dy, dz, All(points.own[asker]) + Load(points.own + k));
+          const Lanes vx = Load(points.vx + k) - All(points.vx[query]),
+                      vy = Load(points.vy + k) - All(points.vy[query]),
+                      vz = Load(points.vz + k) - All(points.vz[query]);
+          ToClosest(vx, vy, vz, All(-queries.half), All(queries.half), &dx, &dy, &dz);
+          mask &= Within(dx, dy, dz, All(points.own[query]) + Load(points.own + k));
         }
         const std::uint32_t found = simd::StoreSelected(mask, k, hits.other + counts.hits);
-        simd::StoreCopies(asker, found, hits.asker + counts.hits);
+        simd::StoreCopies(query, found, hits.query + counts.hits);
         counts.hits += found;
       }
     }

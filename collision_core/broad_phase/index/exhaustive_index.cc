@@ -74,7 +74,7 @@ void ExhaustiveIndex::FindNearPairs(const intersection::BroadQuery& query,
 
 void ExhaustiveIndex::FindNeighbours(std::uint32_t agent, const NeighbourWindow& window,
                                      const Skip& skip, std::vector<Neighbour>* neighbours) {
-  const std::size_t told = neighbours->size();
+  const std::size_t first_new = neighbours->size();
   std::optional<Neighbour> next;
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, window.from,
                                        std::max(window.until, window.horizon)};
@@ -92,7 +92,7 @@ void ExhaustiveIndex::FindNeighbours(std::uint32_t agent, const NeighbourWindow&
     }
   }
   if (next) neighbours->push_back(*next);
-  SortByPartner(told, neighbours);
+  SortByPartner(first_new, neighbours);
 }
 
 void ExhaustiveIndex::FindNeighbours(const motion::SpaceTimeBound& bound, Instant from,

@@ -21,23 +21,23 @@ void FilterRow::Grow(std::uint32_t size) {
   for (; count_ < size; ++count_) lanes_.Vacate(count_);
 }
 
-void FilterRow::Add(const PlacedHorn& horn) { Set(count_, horn); }
+void FilterRow::Add(const PlacedBall& horn) { Set(count_, horn); }
 
-void FilterRow::Set(std::uint32_t k, const PlacedHorn& horn) {
+void FilterRow::Set(std::uint32_t k, const PlacedBall& horn) {
   if (count_ == 0) std::copy_n(horn.c, 3, corner_);
   if (k >= count_) Grow(k + 1);
   const double offset[3] = {horn.c[0] - corner_[0], horn.c[1] - corner_[1], horn.c[2] - corner_[2]};
   lanes_.Set(k, horn, corner_, LostAt(offset));
 }
 
-void FilterRow::Join(const PlacementFrame& placing, TimeWindow stretch, BroadPhaseWork* work,
+void FilterRow::Join(const PlacementFrame& frame, TimeWindow window, BroadPhaseWork* work,
                      PairSink* sink) {
-  FilterQuery times = TimesOf(placing, stretch);
+  FilterQuery times = TimesOf(frame, window);
   for (std::uint32_t k = 0; k + 1 < count_; ++k) {
     if (lanes_.agent(k) == PlacedBalls::kNoAgent) continue;
-    if (sink->limit() < stretch.last) {
-      stretch.last = std::max(stretch.first, sink->limit());
-      times = TimesOf(placing, stretch);
+    if (sink->limit() < window.last) {
+      window.last = std::max(window.first, sink->limit());
+      times = TimesOf(frame, window);
     }
     near_.clear();
     range_.assign(1, {k + 1, count_, lanes_.x()[k], lanes_.y()[k], lanes_.z()[k]});
@@ -48,7 +48,7 @@ void FilterRow::Join(const PlacementFrame& placing, TimeWindow stretch, BroadPha
   }
 }
 
-void FilterRow::FindNear(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch,
+void FilterRow::FindNear(const PlacedBall& horn, const PlacementFrame& frame, TimeWindow window,
                          BroadPhaseWork* work, std::vector<std::uint32_t>* near) {
   double offset[3];
   FilterRange all{0, count_, 0, 0, 0};
@@ -57,7 +57,7 @@ void FilterRow::FindNear(const PlacedHorn& horn, const PlacementFrame& placing, 
     offset[axis] = horn.c[axis] - corner_[axis];
     *at[axis] = static_cast<float>(offset[axis]);
   }
-  FilterQuery query = QueryOf(horn, placing, stretch);
+  FilterQuery query = QueryOf(horn, frame, window);
   query.reach += LostAt(offset);
   range_.assign(1, all);
   work->filter_tests += count_;

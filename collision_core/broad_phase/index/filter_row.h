@@ -17,17 +17,17 @@ class FilterRow {
   std::uint32_t size() const { return count_; }
   std::uint32_t agent(std::uint32_t k) const { return lanes_.agent(k); }
 
-  void Add(const PlacedHorn& horn);
+  void Add(const PlacedBall& horn);
   /// Places between are vacant.
-  void Set(std::uint32_t k, const PlacedHorn& horn);
+  void Set(std::uint32_t k, const PlacedBall& horn);
   void Vacate(std::uint32_t k) { lanes_.Vacate(k); }
 
-  /// Offers all pairs that come within reach of each other during the stretch, and others.
-  void Join(const PlacementFrame& placing, TimeWindow stretch, BroadPhaseWork* work,
+  /// Offers all pairs that come within reach of each other during the window, and others.
+  void Join(const PlacementFrame& frame, TimeWindow window, BroadPhaseWork* work,
             PairSink* sink);
 
   /// Appends all agents that come within reach of `horn`.
-  void FindNear(const PlacedHorn& horn, const PlacementFrame& placing, TimeWindow stretch,
+  void FindNear(const PlacedBall& horn, const PlacementFrame& frame, TimeWindow window,
                 BroadPhaseWork* work, std::vector<std::uint32_t>* near);
 
   /// Walks the row: as many lanes as places, no agent twice, positions and reaches that a filter

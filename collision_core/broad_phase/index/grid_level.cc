@@ -64,9 +64,9 @@ inline GridLevel::Cell GridLevel::CellOf(double x, double y, double z) const {
   return {cell[0], cell[1], cell[2]};
 }
 
-void GridLevel::Build(const PlacementFrame& placing, const PlacedHorn* placed, std::uint32_t count,
+void GridLevel::Build(const PlacementFrame& frame, const PlacedBall* placed, std::uint32_t count,
                       const PlacedExtent& extent) {
-  placing_ = &placing;
+  frame_ = &frame;
   size_ = count;
   most_ = extent;
   ChooseCell();
@@ -87,7 +87,7 @@ void GridLevel::ChooseCell() {
     extent_[axis] = most_.high[axis] - most_.low[axis];
     widest = std::max(widest, extent_[axis]);
   }
-  cell_min_ = 2 * ReachMax({0, placing_->window()});
+  cell_min_ = 2 * ReachMax({0, frame_->window()});
   if (size_ <= kListMax) {
     cell_ = std::max(cell_min_, 2 * widest);
     return;
@@ -142,7 +142,7 @@ std::uint32_t GridLevel::RowOf(std::int64_t block, std::int64_t y, std::int64_t 
 }
 
 // Which cell of the table each is in, and how many are in each.
-void GridLevel::Count(const PlacedHorn* placed) {
+void GridLevel::Count(const PlacedBall* placed) {
   begin_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(row_cells_) + 2, 0);
   places_.resize(size_);
   for (std::uint32_t k = 0; k < size_; ++k) {
@@ -162,7 +162,7 @@ double GridLevel::Crowding() const {
 
 // Agents keep their order within a cell. A position is stored as seen from the corner of its row,
 // or block, and cell (kStoredPositionLoss).
-void GridLevel::Scatter(const PlacedHorn* placed) {
+void GridLevel::Scatter(const PlacedBall* placed) {
   for (std::size_t cell = 2; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
   lanes_.Reset(size_);
   const auto lost =
@@ -175,7 +175,7 @@ void GridLevel::Scatter(const PlacedHorn* placed) {
     order_[places_[k]] = k;
   }
   for (std::uint32_t place = 0; place < size_;) {
-    const PlacedHorn& first = placed[order_[place]];
+    const PlacedBall& first = placed[order_[place]];
     const Cell cell = CellOf(first.c[0], first.c[1], first.c[2]);
     const std::int64_t block = hashed_ ? cell.x & -row_cells_ : 0;
     const double corner[3] = {origin_[0] + static_cast<double>(block) * cell_,
@@ -207,8 +207,8 @@ void GridLevel::Validate() const {
   lanes_.Validate(size_);
 }
 
-double GridLevel::RowsWithin(double reach, TimeWindow stretch) const {
-  const double cells = 2 * (reach + ReachMax(stretch)) * per_cell_ + 1;
+double GridLevel::RowsWithin(double reach, TimeWindow window) const {
+  const double cells = 2 * (reach + ReachMax(window)) * per_cell_ + 1;
   double rows = hashed_ ? std::ceil(cells / static_cast<double>(row_cells_)) : 1;
   for (int axis = 1; axis < 3; ++axis) {
     rows *= hashed_ ? cells : std::min(cells, static_cast<double>(cells_[axis]));
@@ -216,9 +216,9 @@ double GridLevel::RowsWithin(double reach, TimeWindow stretch) const {
   return std::min(rows, static_cast<double>(size_));
 }
 
-bool GridLevel::Ranges(const double* c, double reach, TimeWindow stretch, std::uint32_t after,
+bool GridLevel::Ranges(const double* c, double reach, TimeWindow window, std::uint32_t after,
                        std::vector<FilterRange>* ranges) const {
-  const double half = kRangeSlack * (reach + ReachMax(stretch));
+  const double half = kRangeSlack * (reach + ReachMax(window));
   const Cell low = CellOf(c[0] - half, c[1] - half, c[2] - half);
   const Cell high = CellOf(c[0] + half, c[1] + half, c[2] + half);
   const std::int64_t shift = hashed_ ? kHashedRowShift : 62;

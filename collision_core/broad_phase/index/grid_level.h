@@ -17,8 +17,8 @@ namespace collision::broad_phase {
 /// chance cost one test, never an answer.
 class GridLevel {
  public:
-  /// Requires at least one agent, all of them finite. The cells suit the placing's window.
-  void Build(const PlacementFrame& placing, const PlacedHorn* placed, std::uint32_t count,
+  /// Requires at least one agent, all of them finite. The cells suit the placement's window.
+  void Build(const PlacementFrame& frame, const PlacedBall* placed, std::uint32_t count,
              const PlacedExtent& extent);
 
   const PlacedBalls& lanes() const { return lanes_; }
@@ -27,13 +27,13 @@ class GridLevel {
   std::uint32_t place(std::uint32_t k) const { return places_[k]; }
   /// Empties the place.
   void Vacate(std::uint32_t place) { lanes_.Vacate(place); }
-  /// No agent of this level comes farther from its place during the stretch.
-  double ReachMax(TimeWindow stretch) const { return placing_->Reach(most_, stretch); }
-  /// Appends ranges in which all agents are that come within `reach` of `c` during the stretch.
+  /// No agent of this level comes farther from its place during the window.
+  double ReachMax(TimeWindow window) const { return frame_->Reach(most_, window); }
+  /// Appends ranges in which all agents are that come within `reach` of `c` during the window.
   /// With `after` given, only those that come after that place in an order of the cells (`c` is
   /// that agent's): of two agents exactly one finds the other. False, and none: that would be more
   /// cells than there are agents.
-  bool Ranges(const double* c, double reach, TimeWindow stretch, std::uint32_t after,
+  bool Ranges(const double* c, double reach, TimeWindow window, std::uint32_t after,
               std::vector<FilterRange>* ranges) const;
 
   /// Walks the grid: cells follow each other without a gap, each agent that is still there stands
@@ -41,15 +41,15 @@ class GridLevel {
   void Validate() const;
 
   /// About how many rows Ranges() has to look at; never more than there are agents.
-  double RowsWithin(double reach, TimeWindow stretch) const;
+  double RowsWithin(double reach, TimeWindow window) const;
 
   /// The rows are those of a box, and ForEachPlace() can be asked.
   bool in_rows() const { return !hashed_; }
 
   /// Goes through the places in order, row by row: Ranges(..., place) of each. Calls
-  /// visit(place, stretch, ranges), which returns when the stretch may end from now on.
+  /// visit(place, window, ranges), which returns when the window may end from now on.
   template <typename Visit>
-  void ForEachPlace(TimeWindow stretch, Visit visit) const;
+  void ForEachPlace(TimeWindow window, Visit visit) const;
 
  private:
   struct Cell {
@@ -66,13 +66,13 @@ class GridLevel {
 
   void ChooseCell();
   void ChooseRows();
-  void Count(const PlacedHorn* placed);
+  void Count(const PlacedBall* placed);
   double Crowding() const;
-  void Scatter(const PlacedHorn* placed);
+  void Scatter(const PlacedBall* placed);
   Cell CellOf(double x, double y, double z) const;
   std::uint32_t RowOf(std::int64_t block, std::int64_t y, std::int64_t z) const;
 
-  const PlacementFrame* placing_ = nullptr;
+  const PlacementFrame* frame_ = nullptr;
   std::uint32_t size_ = 0;
   PlacedExtent most_;
   double origin_[3] = {}, extent_[3] = {};
@@ -88,18 +88,18 @@ class GridLevel {
 
 /// Single precision is enough: what it loses is made up for by a part of a cell.
 template <typename Visit>
-void GridLevel::ForEachPlace(TimeWindow stretch, Visit visit) const {
+void GridLevel::ForEachPlace(TimeWindow window, Visit visit) const {
   std::vector<FilterRange> ranges;
   const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
   const float last_x = static_cast<float>(cells_[0] - 1);
   const std::int32_t cells_y = static_cast<std::int32_t>(cells_[1]);
   FilterQuery times;
   float most;
-  const auto set_stretch = [&] {
-    times = TimesOf(*placing_, stretch);
-    most = static_cast<float>(ReachMax(stretch)) * (1 + 0x1p-20f) + cell * 0x1p-9f;
+  const auto set_window = [&] {
+    times = TimesOf(*frame_, window);
+    most = static_cast<float>(ReachMax(window)) * (1 + 0x1p-20f) + cell * 0x1p-9f;
   };
-  set_stretch();
+  set_window();
   std::uint32_t place = 0;
   for (std::int32_t z = 0; z < cells_[2]; ++z) {
     for (std::int32_t y = 0; y < cells_y; ++y) {
@@ -129,9 +129,9 @@ void GridLevel::ForEachPlace(TimeWindow stretch, Visit visit) const {
           }
         }
         const double until = visit(place, query, ranges);
-        if (until < stretch.last) {
-          stretch.last = std::max(until, stretch.first);
-          set_stretch();
+        if (until < window.last) {
+          window.last = std::max(until, window.first);
+          set_window();
         }
       }
     }

@@ -22,7 +22,7 @@ std::uint8_t KeyOf(float reach, float greatest, bool still) {
 
 }  // namespace
 
-void GridStore::PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horns) {
+void GridStore::PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horns) {
   places_.assign(scene.table->size(), {});
   unplaced_.Clear();
   level_count_ = 0;
@@ -31,7 +31,7 @@ void GridStore::PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horn
   const FilterQuery times = TimesOf(*scene.frame, {0, scene.frame->window()});
   PlacedExtent extent;
   float least = std::numeric_limits<float>::infinity(), greatest = 0;
-  for (const PlacedHorn& horn : *horns) {
+  for (const PlacedBall& horn : *horns) {
     extent.Add(horn);
     const float reach = ReachAt(times.time, horn.s0, horn.s1, horn.s2) + times.way * horn.speed;
     least = std::min(least, reach), greatest = std::max(greatest, reach);
@@ -77,7 +77,7 @@ void GridStore::JoinPoints(const PlacedScene& scene, double last, SearchCost* co
   cost->work.visits += points_.ranges() - ranges;
 }
 
-void GridStore::SortByLevel(const PlacedScene& scene, const std::vector<PlacedHorn>& horns) {
+void GridStore::SortByLevel(const PlacedScene& scene, const std::vector<PlacedBall>& horns) {
   reaches_.resize(horns.size());
   keys_.resize(horns.size());
   float greatest = 0;
@@ -116,7 +116,7 @@ void GridStore::BuildLevel(const PlacedScene& scene, bool still, Part part,
   ++level_count_;
 }
 
-void GridStore::Place(const PlacedHorn& horn) {
+void GridStore::Place(const PlacedBall& horn) {
   places_[horn.agent] = {kUnsorted, unplaced_.size()};
   unplaced_.Add(horn);
 }
@@ -145,7 +145,7 @@ void GridStore::TakeAll(const GridLevel& grid, std::vector<std::uint32_t>* near)
   }
 }
 
-void GridStore::JoinRows(const Level& level, TimeWindow stretch, SearchCost* cost, PairSink* sink) {
+void GridStore::JoinRows(const Level& level, TimeWindow window, SearchCost* cost, PairSink* sink) {
   const PlacedBalls& lanes = level.grid.lanes();
   const auto visit = [&](std::uint32_t place, const FilterQuery& query,
                          const std::vector<FilterRange>& ranges) {
@@ -155,25 +155,25 @@ void GridStore::JoinRows(const Level& level, TimeWindow stretch, SearchCost* cos
     for (const std::uint32_t other : near_) sink->Offer(lanes.agent(place), other);
     return sink->limit();
   };
-  level.grid.ForEachPlace(stretch, visit);
+  level.grid.ForEachPlace(window, visit);
 }
 
 // Many agents with a short reach search few with a long one, or the other way round.
-double GridStore::CostOfAsking(const Level& level, const Level& other, TimeWindow stretch) {
-  return level.grid.size() * other.grid.RowsWithin(level.grid.ReachMax(stretch), stretch);
+double GridStore::CostOfSearch(const Level& level, const Level& other, TimeWindow window) {
+  return level.grid.size() * other.grid.RowsWithin(level.grid.ReachMax(window), window);
 }
 
-void GridStore::JoinCells(const PlacedScene& scene, const LevelPair& levels, TimeWindow stretch,
+void GridStore::JoinCells(const PlacedScene& scene, const LevelPair& levels, TimeWindow window,
                           SearchCost* cost, PairSink* sink) {
-  const Level &level = *levels.asking, &other = *levels.asked;
+  const Level &level = *levels.queries, &other = *levels.searched;
   for (std::uint32_t k = 0; k < level.grid.size(); ++k) {
-    const PlacedHorn& horn = sorted_[level.first + k];
-    stretch.last = std::min(stretch.last, std::max(stretch.first, sink->limit()));
+    const PlacedBall& horn = sorted_[level.first + k];
+    window.last = std::min(window.last, std::max(window.first, sink->limit()));
     const std::uint32_t after = &level == &other ? level.grid.place(k) : PlacedBalls::kNoAgent;
     near_.clear();
     ranges_.clear();
-    if (other.grid.Ranges(horn.c, scene.frame->Reach(horn, stretch), stretch, after, &ranges_)) {
-      Scan(other.grid.lanes(), QueryOf(horn, *scene.frame, stretch), cost, &near_);
+    if (other.grid.Ranges(horn.c, scene.frame->Reach(horn, window), window, after, &ranges_)) {
+      Scan(other.grid.lanes(), QueryOf(horn, *scene.frame, window), cost, &near_);
     } else {
       TakeAll(other.grid, &near_);
     }
@@ -181,11 +181,11 @@ void GridStore::JoinCells(const PlacedScene& scene, const LevelPair& levels, Tim
   }
 }
 
-bool GridStore::Join(const PlacedScene& scene, TimeWindow stretch, SearchCost* cost,
+bool GridStore::Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost,
                      PairSink* sink) {
   if (points_last_ > 0) {
-    if (points_last_ < stretch.last && !BuildPoints(scene, stretch.last)) return false;
-    JoinPoints(scene, stretch.last, cost, sink);
+    if (points_last_ < window.last && !BuildPoints(scene, window.last)) return false;
+    JoinPoints(scene, window.last, cost, sink);
     return true;
   }
   // The farthest-reaching first: they are few, and what they meet makes the window short for the
@@ -194,28 +194,28 @@ bool GridStore::Join(const PlacedScene& scene, TimeWindow stretch, SearchCost* c
     for (std::uint32_t l = m + 1; l-- > 0;) {
       if (levels_[l].still && levels_[m].still) continue;
       if (l == m && levels_[l].grid.in_rows()) {
-        JoinRows(levels_[l], stretch, cost, sink);
-      } else if (CostOfAsking(levels_[l], levels_[m], stretch) <=
-                 CostOfAsking(levels_[m], levels_[l], stretch)) {
-        JoinCells(scene, {&levels_[l], &levels_[m]}, stretch, cost, sink);
+        JoinRows(levels_[l], window, cost, sink);
+      } else if (CostOfSearch(levels_[l], levels_[m], window) <=
+                 CostOfSearch(levels_[m], levels_[l], window)) {
+        JoinCells(scene, {&levels_[l], &levels_[m]}, window, cost, sink);
       } else {
-        JoinCells(scene, {&levels_[m], &levels_[l]}, stretch, cost, sink);
+        JoinCells(scene, {&levels_[m], &levels_[l]}, window, cost, sink);
       }
     }
   }
   return true;
 }
 
-void GridStore::FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow stretch,
+void GridStore::FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeWindow window,
                          SearchCost* cost, std::vector<std::uint32_t>* near) {
-  const bool still = horn.agent != PlacedHorn::kNoAgent && scene.table->row(horn.agent).still;
-  const bool late = stretch.first > scene.frame->window();
-  const FilterQuery query = QueryOf(horn, *scene.frame, stretch);
+  const bool still = horn.agent != PlacedBall::kNoAgent && scene.table->row(horn.agent).still;
+  const bool late = window.first > scene.frame->window();
+  const FilterQuery query = QueryOf(horn, *scene.frame, window);
   for (std::uint32_t l = 0; l < level_count_; ++l) {
     if (levels_[l].still && still) continue;
     ranges_.clear();
     const GridLevel& grid = levels_[l].grid;
-    if (grid.Ranges(horn.c, scene.frame->Reach(horn, stretch), stretch, PlacedBalls::kNoAgent,
+    if (grid.Ranges(horn.c, scene.frame->Reach(horn, window), window, PlacedBalls::kNoAgent,
                     &ranges_)) {
       const std::uint64_t before = cost->work.filter_tests;
       Scan(grid.lanes(), query, cost, near);
@@ -227,7 +227,7 @@ void GridStore::FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeW
   }
   if (unplaced_.size() == 0) return;
   cost->wasted += unplaced_.size();
-  unplaced_.FindNear(horn, *scene.frame, stretch, &cost->work, near);
+  unplaced_.FindNear(horn, *scene.frame, window, &cost->work, near);
 }
 
 void GridStore::Validate() const {

@@ -26,12 +26,12 @@ namespace collision::broad_phase {
 /// levels.
 class GridStore : public PlacedStore {
  public:
-  void PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horns) override;
+  void PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horns) override;
   bool PlaceForJoin(const PlacedScene& scene, double last) override;
-  void Place(const PlacedHorn& horn) override;
+  void Place(const PlacedBall& horn) override;
   void Unplace(std::uint32_t agent) override;
   bool Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost, PairSink* sink) override;
-  void FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow window,
+  void FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeWindow window,
                 SearchCost* cost, std::vector<std::uint32_t>* near) override;
   void Validate() const override;
 
@@ -53,16 +53,16 @@ class GridStore : public PlacedStore {
   };
   /// Each agent of one level is looked for in the other.
   struct LevelPair {
-    const Level *asking, *asked;
+    const Level *queries, *searched;
   };
 
   bool BuildPoints(const PlacedScene& scene, double last);
   void JoinPoints(const PlacedScene& scene, double last, SearchCost* cost, PairSink* sink);
-  void SortByLevel(const PlacedScene& scene, const std::vector<PlacedHorn>& horns);
+  void SortByLevel(const PlacedScene& scene, const std::vector<PlacedBall>& horns);
   void BuildLevel(const PlacedScene& scene, bool still, Part part, const PlacedExtent& extent);
-  void JoinRows(const Level& level, TimeWindow stretch, SearchCost* cost, PairSink* sink);
-  static double CostOfAsking(const Level& level, const Level& other, TimeWindow stretch);
-  void JoinCells(const PlacedScene& scene, const LevelPair& levels, TimeWindow stretch,
+  void JoinRows(const Level& level, TimeWindow window, SearchCost* cost, PairSink* sink);
+  static double CostOfSearch(const Level& level, const Level& other, TimeWindow window);
+  void JoinCells(const PlacedScene& scene, const LevelPair& levels, TimeWindow window,
                  SearchCost* cost, PairSink* sink);
   void Scan(const PlacedBalls& lanes, const FilterQuery& query, SearchCost* cost,
             std::vector<std::uint32_t>* near);
@@ -70,7 +70,7 @@ class GridStore : public PlacedStore {
 
   std::vector<Level> levels_;  ///< From small to large reach; the first level_count_ count.
   std::uint32_t level_count_ = 0;
-  std::vector<PlacedHorn> sorted_;  ///< In the order of levels and, within one, of agents.
+  std::vector<PlacedBall> sorted_;  ///< In the order of levels and, within one, of agents.
   std::vector<Spot> places_;        ///< By agent.
   FilterRow unplaced_;
   PointGrid points_;        ///< Instead of levels, for one question about all.

@@ -14,7 +14,7 @@ namespace collision::broad_phase {
 /// What the searches of a store have cost.
 struct SearchCost {
   BroadPhaseWork work;
-  std::uint64_t wasted = 0;  ///< Tests that a fresh placing would have saved, since the last one.
+  std::uint64_t wasted = 0;  ///< Tests that a fresh placement would have saved, since the last one.
 };
 
 /// All agents, and the frame in which they are placed. Both belong to the search; they stay where
@@ -37,12 +37,12 @@ class PlacedStore {
 
   /// Replaces everything by `horns`, all agents of the scene but unfilterable ones, ascending. May
   /// take their memory.
-  virtual void PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horns) = 0;
+  virtual void PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horns) = 0;
   /// Prepares for Join() alone, of a window up to `last` at first; FindNear() must not follow.
   /// Returns false if that would be no cheaper than PlaceAll().
   virtual bool PlaceForJoin(const PlacedScene& /*scene*/, double /*last*/) { return false; }
   /// Adds an agent that is not placed.
-  virtual void Place(const PlacedHorn& horn) = 0;
+  virtual void Place(const PlacedBall& horn) = 0;
   /// Removes the agent, if it is placed.
   virtual void Unplace(std::uint32_t agent) = 0;
 
@@ -51,7 +51,7 @@ class PlacedStore {
   virtual bool Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost,
                     PairSink* sink) = 0;
   /// Appends all agents that come within reach of `horn` during the window, and others.
-  virtual void FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow window,
+  virtual void FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeWindow window,
                         SearchCost* cost, std::vector<std::uint32_t>* near) = 0;
 
   /// Walks the structure: every agent that is placed stands where FindNear() looks for it. Throws

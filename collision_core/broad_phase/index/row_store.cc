@@ -4,12 +4,12 @@
 
 namespace collision::broad_phase {
 
-void RowStore::PlaceAll(const PlacedScene& /*scene*/, std::vector<PlacedHorn>* horns) {
+void RowStore::PlaceAll(const PlacedScene& /*scene*/, std::vector<PlacedBall>* horns) {
   row_.Clear();
-  for (const PlacedHorn& horn : *horns) Place(horn);
+  for (const PlacedBall& horn : *horns) Place(horn);
 }
 
-void RowStore::Place(const PlacedHorn& horn) { row_.Set(horn.agent, horn); }
+void RowStore::Place(const PlacedBall& horn) { row_.Set(horn.agent, horn); }
 
 void RowStore::Unplace(std::uint32_t agent) {
   if (agent < row_.size()) row_.Vacate(agent);
@@ -20,7 +20,7 @@ bool RowStore::Join(const PlacedScene& scene, TimeWindow window, SearchCost* cos
   return true;
 }
 
-void RowStore::FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow window,
+void RowStore::FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeWindow window,
                         SearchCost* cost, std::vector<std::uint32_t>* near) {
   const std::size_t before = near->size();
   row_.FindNear(horn, *scene.frame, window, &cost->work, near);

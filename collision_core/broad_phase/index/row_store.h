@@ -11,11 +11,11 @@ namespace collision::broad_phase {
 /// Compares an agent with all others, in wide vectors. O(1) to change, O(N) a search, O(N²) a join.
 class RowStore : public PlacedStore {
  public:
-  void PlaceAll(const PlacedScene& scene, std::vector<PlacedHorn>* horns) override;
-  void Place(const PlacedHorn& horn) override;
+  void PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horns) override;
+  void Place(const PlacedBall& horn) override;
   void Unplace(std::uint32_t agent) override;
   bool Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost, PairSink* sink) override;
-  void FindNear(const PlacedScene& scene, const PlacedHorn& horn, TimeWindow window,
+  void FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeWindow window,
                 SearchCost* cost, std::vector<std::uint32_t>* near) override;
   void Validate() const override;
 

@@ -69,7 +69,7 @@ class NearPairList final : public PairSink {
 void WindowedSearch::FindNearPairs(const intersection::BroadQuery& query,
                                    std::vector<NearPair>* pairs) {
   const double seconds = std::min(EarliestPairSink(table_, query, &cost_.work).limit(), kWindowMax);
-  const auto told = static_cast<std::ptrdiff_t>(pairs->size());
+  const auto before = static_cast<std::ptrdiff_t>(pairs->size());
   NearPairList list(table_, seconds, pairs);
   StartAnew(PlacementFrame(table_, query, seconds));
   if (frame_.blind() || !store_->PlaceForJoin(scene(), seconds)) PlaceEveryAgent();
@@ -77,7 +77,7 @@ void WindowedSearch::FindNearPairs(const intersection::BroadQuery& query,
   Join(frame_.After(query.from, seconds), &list);
   // A level that is taken whole tells pairs from both sides.
   if (placed_) {
-    const auto first = pairs->begin() + told;
+    const auto first = pairs->begin() + before;
     std::sort(first, pairs->end());
     pairs->erase(std::unique(first, pairs->end()), pairs->end());
   }
@@ -133,8 +133,8 @@ void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& 
   Refresh(from);
   const BroadPhaseWork before = cost_.work;
   ++question_;
-  if (told_in_.size() < table_.size()) told_in_.resize(table_.size(), 0);
-  const std::size_t told = neighbours->size();
+  if (reported_in_.size() < table_.size()) reported_in_.resize(table_.size(), 0);
+  const std::size_t first_new = neighbours->size();
   EarliestPairSink next(table_, {intersection::BoundKind::kHorn, from, horizon}, &cost_.work);
   const intersection::BroadQuery by_until{intersection::BoundKind::kHorn, from, until};
   const double first = EarliestPairSink(table_, by_until, &cost_.work).limit();
@@ -151,9 +151,9 @@ void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& 
   for (double seconds = std::min(first, kWindowMax); table_.contains(agent);) {
     FindNear(agent, from, seconds);
     for (const std::uint32_t other : near_) {
-      if (told_in_[other] == question_ || other == agent || skip(other)) continue;
+      if (reported_in_[other] == question_ || other == agent || skip(other)) continue;
       if (seconds <= first && AppendIfMeeting(agent, other, {from, first}, until, neighbours)) {
-        told_in_[other] = question_;
+        reported_in_[other] = question_;
       } else {
         next.Offer(agent, other);
       }
@@ -165,7 +165,7 @@ void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& 
     const intersection::IntersectingPair& best = *next.best();
     neighbours->push_back({best.lower == agent ? best.higher : best.lower, best.time});
   }
-  SortByPartner(told, neighbours);
+  SortByPartner(first_new, neighbours);
   RecordCost(before);
 }
 
@@ -174,14 +174,14 @@ void WindowedSearch::FindNeighbours(const motion::SpaceTimeBound& bound, Instant
                                     std::vector<Neighbour>* neighbours) {
   Refresh(from);
   const BroadPhaseWork before = cost_.work;
-  const std::size_t told = neighbours->size();
+  const std::size_t first_new = neighbours->size();
   AppendHalfSpaces(bound, from, until, skip, neighbours);
   const HornRow row = HornTable::RowOf(bound);
   const intersection::BroadQuery by_until{intersection::BoundKind::kHorn, from, until};
   const double limit = EarliestPairSink(table_, by_until, &cost_.work).limit();
   near_.clear();
   if (row.unfilterable || frame_.blind() || !HornTable::Near(from)) {
-    FindAllBut(PlacedHorn::kNoAgent);
+    FindAllBut(PlacedBall::kNoAgent);
   } else {
     FindNear(frame_.Place(row), from, std::min(limit, kWindowMax));
   }
@@ -192,7 +192,7 @@ void WindowedSearch::FindNeighbours(const motion::SpaceTimeBound& bound, Instant
     AppendIfBy(until, {other, EarliestIntersectionOf(from_on, bound, table_.bound(other))},
                neighbours);
   }
-  SortByPartner(told, neighbours);
+  SortByPartner(first_new, neighbours);
   RecordCost(before);
 }
 

@@ -22,7 +22,7 @@ constexpr double kCrowdOfRoot = 1.5;
 /// indices.
 constexpr std::uint32_t kSomeMin = 8192, kStrideMax = 16;
 
-/// So many questions after a placing say what a question costs when it is fresh.
+/// So many questions after a placement say what a question costs when it is fresh.
 constexpr std::uint32_t kFreshQuestions = 64;
 
 /// A sum of two rounded lengths in single precision, rounded up.
@@ -72,7 +72,7 @@ void WindowedSearch::ShareRules(std::shared_ptr<intersection::PairRules> rules) 
   table_.UseRules(shared_rules().get());
 }
 
-// A smaller margin leaves the placing valid.
+// A smaller margin leaves the placement valid.
 void WindowedSearch::UpdateRules(std::uint32_t agent) {
   if (!table_.contains(agent)) return;
   const HornRow before = table_.row(agent);
@@ -133,7 +133,7 @@ void WindowedSearch::PlaceMoved() {
     if (scene().IsUnfilterable(agent)) {
       unfilterable_.push_back(agent);
     } else {
-      const PlacedHorn horn = frame_.Place(table_, agent);
+      const PlacedBall horn = frame_.Place(table_, agent);
       fastest_ = std::max(fastest_, horn.speed);
       store_->Place(horn);
     }
@@ -150,7 +150,7 @@ void WindowedSearch::OfferCrowd(PairSink* sink) {
   crowd_.Clear();
   for (std::uint32_t agent = 0; agent < table_.size(); agent += stride) {
     if (!table_.contains(agent) || scene().IsUnfilterable(agent)) continue;
-    PlacedHorn horn = frame_.AtBegin(table_, agent);
+    PlacedBall horn = frame_.AtBegin(table_, agent);
     if (crowd_.size() >= 4 * count || !region.Contains(horn.c)) continue;
     frame_.ToMiddle(&horn);
     crowd_.Add(horn);
@@ -159,12 +159,12 @@ void WindowedSearch::OfferCrowd(PairSink* sink) {
   frame_.Shorten(sink->limit());
 }
 
-// Brings the placing up to date for questions about horns from `from` on.
+// Brings the placement up to date for questions about horns from `from` on.
 void WindowedSearch::Refresh(Instant from) {
   const bool usable = placed_ && frame_.bound() == intersection::BoundKind::kHorn &&
                       !(frame_.blind() && HornTable::Near(from));
-  const double placing_units = BroadPhaseWork::kPlaceUnits * static_cast<double>(table_.count());
-  if (usable && cost_.wasted <= table_.count() && excess_units_ <= placing_units) {
+  const double frame_units = BroadPhaseWork::kPlaceUnits * static_cast<double>(table_.count());
+  if (usable && cost_.wasted <= table_.count() && excess_units_ <= frame_units) {
     return PlaceMoved();
   }
   StartAnew(
@@ -188,8 +188,8 @@ void WindowedSearch::OfferUnfilterable(PairSink* sink) const {
     for (std::uint32_t other = 0; other < table_.size(); ++other) {
       if (!table_.contains(other)) continue;
       // A pair of two unfilterable agents once.
-      const bool told = other <= agent && scene().IsUnfilterable(other);
-      if (!told) sink->Offer(agent, other);
+      const bool is_offered = other <= agent && scene().IsUnfilterable(other);
+      if (!is_offered) sink->Offer(agent, other);
     }
   }
 }
@@ -229,7 +229,7 @@ void WindowedSearch::FindAllBut(std::uint32_t agent) {
 
 // Placed horns have SphereFilter's slack for the way to the middle and from there on. A question
 // from before the begin looks farther back, which takes more of it.
-void WindowedSearch::FindNear(PlacedHorn horn, Instant from, double seconds) {
+void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
   const TimeWindow window = frame_.After(from, seconds);
   const double farther = -window.first - frame_.middle();
   if (farther > 0) {

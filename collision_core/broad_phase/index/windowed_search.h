@@ -15,7 +15,7 @@
 namespace collision::broad_phase {
 
 /// Places every agent once, with the reach that its horn and its way give it from then on, and
-/// keeps it in a store. A bound inside the old one leaves the placing valid, so a tightened bound
+/// keeps it in a store. A bound inside the old one leaves the placement valid, so a tightened bound
 /// costs nothing here. Questions look ahead in time windows, each four times as long as the one
 /// before, until the next answer must lie beyond, and ask the canonical routine only about pairs
 /// that three filters leave open. Each filter is certified and of a fixed price; none decides a
@@ -36,7 +36,7 @@ namespace collision::broad_phase {
 ///
 /// Places grow old: reaches grow and agents stray, so questions cost ever more. All agents are
 /// placed anew once the excess over the cost of the first 64 questions adds up to the cost of
-/// placing (the best moment where the excess grows evenly), or once as many tests as there are
+/// placement (the best moment where the excess grows evenly), or once as many tests as there are
 /// agents were plainly wasted. No answer depends on when that happens.
 ///
 /// Earliest() first tests some 1.5 √N agents that lie close together, all pairs of them: their
@@ -85,7 +85,7 @@ class WindowedSearch : public SweepingIndex {
   void Join(TimeWindow window, PairSink* sink);
   bool TestsAll(std::uint32_t agent, Instant from) const;
   void FindNear(std::uint32_t agent, Instant from, double seconds);
-  void FindNear(PlacedHorn horn, Instant from, double seconds);
+  void FindNear(PlacedBall horn, Instant from, double seconds);
   void FindAllBut(std::uint32_t agent);
   void CountSearch();
   template <typename Each>
@@ -105,14 +105,14 @@ class WindowedSearch : public SweepingIndex {
   std::vector<std::uint32_t> unfilterable_;
   float fastest_ = 0;  ///< No horn that is placed has a greater speed.
 
-  /// The first questions since the last placing and what they cost, and the excess of later ones.
+  /// The first questions since the last placement and what they cost, and the excess of later ones.
   std::uint32_t fresh_ = 0;
   double fresh_units_ = 0, excess_units_ = 0;
 
-  std::vector<std::uint64_t> told_in_;  ///< By agent: the last question that told of it.
+  std::vector<std::uint64_t> reported_in_;  ///< By agent: the last question that told of it.
   std::uint64_t question_ = 0;
   FilterRow crowd_;                  ///< Scratch, like the next two.
-  std::vector<PlacedHorn> horns_;    ///< To be placed.
+  std::vector<PlacedBall> horns_;    ///< To be placed.
   std::vector<std::uint32_t> near_;  ///< Found by the last search.
 };
 

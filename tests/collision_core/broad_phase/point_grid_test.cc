@@ -253,9 +253,9 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
   lines.own = arrays[7].data();
   for (int trial = 0; trial < 200; ++trial) {
     const PointView& view = trial % 2 == 0 ? places : lines;
-    // One to eight askers; rows of any length in any place.
+    // One to eight queries; rows of any length in any place.
     const auto first = static_cast<std::uint32_t>(random.Below(30));
-    const PointAskers who{first, first + 1 + static_cast<std::uint32_t>(trial / 2 % kAskersMax),
+    const QueryPoints who{first, first + 1 + static_cast<std::uint32_t>(trial / 2 % kQueryPointsMax),
                           0.7f, 0.5f, 0.4f};
     std::vector<PointRow> rows;
     for (int row = 0; row < 5; ++row) {
@@ -264,10 +264,10 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
       rows.push_back({begin, end, row % 3 - 1, row % 2});
     }
     const auto hits_of = [&](PointFilter scan) {
-      std::vector<std::uint32_t> askers(kAskersMax * 5 * kCount + kLanesMax), others(askers);
-      const PointCounts counts = scan(view, who, rows.data(), 5, {askers.data(), others.data()});
+      std::vector<std::uint32_t> queries(kQueryPointsMax * 5 * kCount + kLanesMax), others(queries);
+      const PointCounts counts = scan(view, who, rows.data(), 5, {queries.data(), others.data()});
       std::vector<Pair> hits = {{counts.tests, counts.ranges}};
-      for (std::uint32_t k = 0; k < counts.hits; ++k) hits.push_back({askers[k], others[k]});
+      for (std::uint32_t k = 0; k < counts.hits; ++k) hits.push_back({queries[k], others[k]});
       return hits;
     };
     const auto plain = hits_of(PlainPointFilter());

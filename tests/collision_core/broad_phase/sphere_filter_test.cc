@@ -37,7 +37,7 @@ struct Balls {
 struct Question {
   FilterQuery query;
   FilterRange range;
-  Ball asker;
+  Ball query_ball;
 };
 
 /// The exact square of the least distance of the centres for u in [first, last].
@@ -71,7 +71,7 @@ float WithSlack(double reach, double way) {
 
 class LaneScanTest : public testing::Test {
  protected:
-  /// Distances, speeds and times of one scale each; every second ball just touches the asker, or
+  /// Distances, speeds and times of one scale each; every second ball just touches the query_ball, or
   /// just does not, at some time.
   void Draw(int seed) {
     Random random(seed);
@@ -81,12 +81,12 @@ class LaneScanTest : public testing::Test {
     const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
     for (auto& array : balls_.arrays) array.assign(kBalls + kLanesMax, 0);
     balls_.truth.clear();
-    Ball& asker = question_.asker;
+    Ball& query_ball = question_.query_ball;
     for (int i = 0; i < 3; ++i) {
-      asker.p[i] = single(random.Uniform(-size, size));
-      asker.v[i] = single(random.Uniform(-speed, speed));
+      query_ball.p[i] = single(random.Uniform(-size, size));
+      query_ball.v[i] = single(random.Uniform(-speed, speed));
     }
-    asker.reach = single(size * random.Uniform(0, 0.5));
+    query_ball.reach = single(size * random.Uniform(0, 0.5));
     question_.query.first = static_cast<float>(first);
     question_.query.last = static_cast<float>(last);
     question_.query.time = static_cast<float>(last);
@@ -97,24 +97,24 @@ class LaneScanTest : public testing::Test {
       return std::sqrt(ball.v[0] * ball.v[0] + ball.v[1] * ball.v[1] + ball.v[2] * ball.v[2]);
     };
     const auto way = [&](const Ball& ball) { return reach_time * speed_of(ball); };
-    question_.query.vx = static_cast<float>(asker.v[0]);
-    question_.query.vy = static_cast<float>(asker.v[1]);
-    question_.query.vz = static_cast<float>(asker.v[2]);
-    question_.query.reach = WithSlack(asker.reach, way(asker));
-    question_.query.speed = WithSlack(speed_of(asker), 0);
+    question_.query.vx = static_cast<float>(query_ball.v[0]);
+    question_.query.vy = static_cast<float>(query_ball.v[1]);
+    question_.query.vz = static_cast<float>(query_ball.v[2]);
+    question_.query.reach = WithSlack(query_ball.reach, way(query_ball));
+    question_.query.speed = WithSlack(speed_of(query_ball), 0);
     question_.query.way = static_cast<float>(reach_time);
-    question_.range = {0, kBalls, static_cast<float>(asker.p[0]), static_cast<float>(asker.p[1]),
-                       static_cast<float>(asker.p[2])};
+    question_.range = {0, kBalls, static_cast<float>(query_ball.p[0]), static_cast<float>(query_ball.p[1]),
+                       static_cast<float>(query_ball.p[2])};
     for (int k = 0; k < kBalls; ++k) {
       Ball ball;
       for (int i = 0; i < 3; ++i) {
-        ball.p[i] = single(asker.p[i] + random.Uniform(-3 * size, 3 * size));
+        ball.p[i] = single(query_ball.p[i] + random.Uniform(-3 * size, 3 * size));
         ball.v[i] = single(random.Uniform(-speed, speed));
       }
       const double least =
-          std::sqrt(static_cast<double>(LeastSquare(asker, ball, Exact(first_), Exact(last_))));
+          std::sqrt(static_cast<double>(LeastSquare(query_ball, ball, Exact(first_), Exact(last_))));
       ball.reach =
-          std::max(0.0, k % 2 == 0 ? (least - asker.reach) * (1 + random.Uniform(-4, 4) * 0x1p-52)
+          std::max(0.0, k % 2 == 0 ? (least - query_ball.reach) * (1 + random.Uniform(-4, 4) * 0x1p-52)
                                    : size * random.Uniform(0, 0.5));
       for (int i = 0; i < 3; ++i) {
         balls_.arrays[i][k] = static_cast<float>(ball.p[i]);
@@ -151,8 +151,8 @@ TEST_F(LaneScanTest, LosesNobodyAndRulesOutMost) {
     for (const std::uint32_t k : Hits(PlainSphereFilter())) hit[k] = true;
     for (int k = 0; k < kBalls; ++k) {
       const Exact square =
-          LeastSquare(question_.asker, balls_.truth[k], Exact(first_), Exact(last_));
-      const Exact reach = Exact(question_.asker.reach) + Exact(balls_.truth[k].reach);
+          LeastSquare(question_.query_ball, balls_.truth[k], Exact(first_), Exact(last_));
+      const Exact reach = Exact(question_.query_ball.reach) + Exact(balls_.truth[k].reach);
       if (square <= reach * reach) {
         ++near;
         ASSERT_TRUE(hit[k]) << "seed " << seed << ", ball " << k;

@@ -52,7 +52,7 @@ TEST(Validate, SpatialIndexIsWholeThroughHistories) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) ExpectWholeThroughHistory<SpatialIndex>(seed);
 }
 
-PlacedHorn HornOf(std::uint32_t agent, double x) {
+PlacedBall HornOf(std::uint32_t agent, double x) {
   return {{x, 0, 0}, {1, 0, 0}, 1, 1, 0.5f, 0.25f, agent};
 }
 
@@ -69,7 +69,7 @@ TEST(Validate, TellsAnAgentThatStandsTwiceInARow) {
 
 TEST(Validate, TellsANegativeReachInARow) {
   FilterRow row;
-  PlacedHorn horn = HornOf(0, 0);
+  PlacedBall horn = HornOf(0, 0);
   horn.s0 = -1;
   row.Add(horn);
   EXPECT_THROW(row.Validate(), CheckFailure);
@@ -82,7 +82,7 @@ TEST(Validate, GridIsWholeBesideVacantPlaces) {
   table.Validate();
   const PlacementFrame frame(
       table, {intersection::BoundKind::kHorn, kMethodStart, Instant::Never()}, kWindowMax);
-  std::vector<PlacedHorn> horns;
+  std::vector<PlacedBall> horns;
   PlacedExtent extent;
   for (std::uint32_t a = 0; a < table.size(); ++a) {
     horns.push_back(frame.Place(table, a));
