@@ -21,7 +21,7 @@ inline BallPart HornPart(const motion::SpaceTimeBound& bound, Instant base) {
   const numeric::IntervalVector velocity(bound.state.v_WA);
   return {numeric::IntervalVector(bound.state.p_WA),
           numeric::SecondsBetween(bound.state.stamp, base) * velocity, velocity,
-          bound.declaration.radius, ForwardBall(bound, base).u()};
+          bound.limits.radius, ForwardBall(bound, base).u()};
 }
 
 /// The capped ball's, which counts beside the horn's from `start` on; it may lie before the base.
@@ -32,12 +32,12 @@ struct CappedPart {
 
 /// nullopt: no cap is declared, or it never takes over.
 inline std::optional<CappedPart> CapPart(const motion::SpaceTimeBound& bound, Instant base) {
-  if (!HasSpeedCap(bound.declaration)) return std::nullopt;
+  if (!HasSpeedCap(bound.limits)) return std::nullopt;
   const motion::CappedBall ball = CapBall(bound);
   if (ball.from.is_never()) return std::nullopt;
   return CappedPart{numeric::SecondsBetween(base, ball.from).lower,
                     {numeric::IntervalVector(bound.state.p_WA), ball.shift,
-                     numeric::IntervalVector(0, 0, 0), bound.declaration.radius, ball.UFrom(base)}};
+                     numeric::IntervalVector(0, 0, 0), bound.limits.radius, ball.UFrom(base)}};
 }
 
 /// The relative motion from A to B, with the sum of the radii larger by `margin`. Positions are

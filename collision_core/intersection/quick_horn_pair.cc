@@ -27,9 +27,9 @@ struct Part {
   Part(const motion::SpaceTimeBound& bound, Instant base) {
     const Eigen::Vector3d& v = bound.state.v_WA;
     const double tau = Seconds(bound.state.stamp, base), sigma = tau + bound.skew;
-    const double step = bound.declaration.time_step, error = bound.state.velocity_error;
+    const double step = bound.limits.time_step, error = bound.state.velocity_error;
     for (int i = 0; i < 3; ++i) shift[i] = v[i] * tau;
-    u2 = 0.5 * bound.declaration.acceleration_max;
+    u2 = 0.5 * bound.limits.acceleration_max;
     u1 = error + u2 * (2 * sigma + step);
     u0 = bound.state.position_error + error * sigma + u2 * (sigma * (sigma + step));
     if (bound.skew > 0) {
@@ -63,7 +63,7 @@ numeric::QuickApproach QuickHornPair(const motion::SpaceTimeBound& a,
     magnitude += std::abs(between) + (std::abs(part_B.shift[i]) + std::abs(part_A.shift[i]));
     speed += std::abs(q.w[i]);
   }
-  const double radii = (a.declaration.radius + b.declaration.radius) + margin;
+  const double radii = (a.limits.radius + b.limits.radius) + margin;
   const double s0 = radii + (part_A.u0 + part_B.u0);
   const double s1 = part_A.u1 + part_B.u1;
   q.doubt0 = kErrorOfDistance * magnitude + kErrorOfReach * s0;

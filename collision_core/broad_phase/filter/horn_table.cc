@@ -20,11 +20,11 @@ constexpr double kRateMax = 0x1p+40;
 // whole.
 bool IsPlain(const motion::SpaceTimeBound& bound) {
   const motion::MotionState& state = bound.state;
-  const motion::AgentDeclaration& declaration = bound.declaration;
+  const motion::MotionLimits& limits = bound.limits;
   return bound.skew == 0 && state.position_error == 0 && state.velocity_error == 0 &&
-         declaration.time_step == 0 && declaration.speed_max == numeric::kInfinity &&
+         limits.time_step == 0 && limits.speed_max == numeric::kInfinity &&
          state.direction.isZero(0) && state.expiry.is_never() &&
-         2 * (0.5 * declaration.acceleration_max) == declaration.acceleration_max;
+         2 * (0.5 * limits.acceleration_max) == limits.acceleration_max;
 }
 
 }  // namespace
@@ -40,7 +40,7 @@ void HornTable::SetFull(HornRow* row, const motion::SpaceTimeBound& bound) {
   }
   motion::SpaceTimeBound& kept = full_[row->full - 1];
   kept = bound;
-  kept.declaration.shape.reset();
+  kept.limits.shape.reset();
 }
 
 void HornTable::DropFull(HornRow* row) {
@@ -52,19 +52,19 @@ void HornTable::DropFull(HornRow* row) {
 void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* filled) {
   HornRow& row = *filled;
   const motion::MotionState& state = bound.state;
-  const motion::AgentDeclaration& declaration = bound.declaration;
+  const motion::MotionLimits& limits = bound.limits;
   for (int axis = 0; axis < 3; ++axis) {
     row.p[axis] = state.p_WA[axis];
     row.v[axis] = state.v_WA[axis];
   }
-  const double half = 0.5 * declaration.acceleration_max;
-  row.u0 = declaration.radius, row.u1 = 0, row.u2 = half;
+  const double half = 0.5 * limits.acceleration_max;
+  row.u0 = limits.radius, row.u1 = 0, row.u2 = half;
   row.stamp = state.stamp;
-  row.group = declaration.group;
-  row.mask = declaration.mask;
+  row.group = limits.group;
+  row.mask = limits.mask;
   if (half_margin != 0 || !IsPlain(bound)) {
-    const double skew = bound.skew, step = declaration.time_step;
-    const double given = declaration.radius + half_margin + state.position_error;
+    const double skew = bound.skew, step = limits.time_step;
+    const double given = limits.radius + half_margin + state.position_error;
     row.u0 = kOutward * (given + Length(row.v) * skew + state.velocity_error * skew +
                          half * skew * (skew + step));
     row.u1 = kOutward * (state.velocity_error + half * (2 * skew + step));
@@ -127,10 +127,10 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   bound.state.stamp = row.stamp;
   bound.state.p_WA = {row.p[0], row.p[1], row.p[2]};
   bound.state.v_WA = {row.v[0], row.v[1], row.v[2]};
-  bound.declaration.radius = row.u0;
-  bound.declaration.acceleration_max = 2 * row.u2;
-  bound.declaration.group = row.group;
-  bound.declaration.mask = row.mask;
+  bound.limits.radius = row.u0;
+  bound.limits.acceleration_max = 2 * row.u2;
+  bound.limits.group = row.group;
+  bound.limits.mask = row.mask;
   return bound;
 }
 
