@@ -88,7 +88,7 @@ UpdateOutcome Detector::Implementation::Keep(const NextState& next,
   ++counters_.updates_kept;
   AgentRecord& record = agents_[next.agent];
   const bool covered = record.margin.Spend(check, record.bound().state);
-  if (IsNarrower(record.bound().declaration, next.bound.declaration)) {
+  if (IsNarrower(record.bound().limits, next.bound.limits)) {
     clearances_.RecordFormerMotion(next.agent, record.bound(), next.stamp());
   }
   agents_.Store(next.agent, next.bound, Link::kFollows);

@@ -46,7 +46,7 @@ struct Agent {
     const numeric::Interval velocity = sign * bound.state.v_WA[axis];
     face.horn = {0, since * velocity, velocity, errors + fraction * deviation};
     face.cap.start = numeric::kInfinity;
-    if (!HasSpeedCap(bound.declaration)) return face;
+    if (!HasSpeedCap(bound.limits)) return face;
     const motion::CappedFace cap = CapFace(bound, axis, sign, fraction);
     if (cap.from.is_never()) return face;
     face.cap = {numeric::SecondsBetween(base, cap.from).lower, cap.shift, 0, cap.UFrom(base)};
@@ -120,7 +120,7 @@ std::array<Condition, 6> Conditions(const Agent& a, const Agent& b, double margi
   const motion::DirectionalReach reach_A = A_holds ? ReachOfDirection(a.bound.state) : all;
   const motion::DirectionalReach reach_B = B_holds ? ReachOfDirection(b.bound.state) : all;
   const numeric::Interval radii =
-      (numeric::Interval(a.bound.declaration.radius) + b.bound.declaration.radius) + margin;
+      (numeric::Interval(a.bound.limits.radius) + b.bound.limits.radius) + margin;
   const auto condition = [&](int axis, int sign) {
     const numeric::Interval along =
         numeric::Interval(sign * b.bound.state.p_WA[axis]) - sign * a.bound.state.p_WA[axis];
@@ -133,8 +133,8 @@ std::array<Condition, 6> Conditions(const Agent& a, const Agent& b, double margi
 }
 
 bool BoxMatters(const motion::SpaceTimeBound& bound, Instant base) {
-  if (bound.declaration.acceleration_max > 0 && DirectionHoldsFor(bound, base) > 0) return true;
-  return HasSpeedCap(bound.declaration);
+  if (bound.limits.acceleration_max > 0 && DirectionHoldsFor(bound, base) > 0) return true;
+  return HasSpeedCap(bound.limits);
 }
 
 }  // namespace

@@ -30,14 +30,14 @@ struct Glance {
   Glance(const motion::SpaceTimeBound& given, Instant base, double time)
       : bound(given), tau(Seconds(bound.state.stamp, base) + time) {
     const motion::MotionState& state = bound.state;
-    const bool capped = bound.declaration.speed_max < numeric::kInfinity;
+    const bool capped = bound.limits.speed_max < numeric::kInfinity;
     double speed = 0;
     if (capped || bound.skew > 0) speed = state.v_WA.norm();
     skew_reach = speed * bound.skew;
-    radius = bound.declaration.radius + U(tau, 1);
+    radius = bound.limits.radius + U(tau, 1);
     const double turn = capped ? TakesOver(speed, 1) : numeric::kInfinity;
     capped_radius =
-        tau <= turn ? radius : bound.declaration.radius + U(turn, 1) + CappedSpeed() * (tau - turn);
+        tau <= turn ? radius : bound.limits.radius + U(turn, 1) + CappedSpeed() * (tau - turn);
     const bool directed = !state.direction.isZero(0) && DirectionHoldsFor(bound, base) > time;
     for (int i = 0; i < 3; ++i) {
       centre[i] = state.v_WA[i] * tau;
@@ -48,13 +48,13 @@ struct Glance {
   }
 
   double CappedSpeed() const {
-    const motion::AgentDeclaration& d = bound.declaration;
+    const motion::MotionLimits& d = bound.limits;
     return d.speed_max + 0.5 * d.acceleration_max * d.time_step;
   }
 
   /// u at τ, with a fraction of the deviation.
   double U(double at, double fraction) const {
-    const motion::AgentDeclaration& d = bound.declaration;
+    const motion::MotionLimits& d = bound.limits;
     const double sigma = at + bound.skew;
     return bound.state.position_error + skew_reach + bound.state.velocity_error * sigma +
            fraction * (0.5 * d.acceleration_max * sigma * (sigma + d.time_step));
@@ -62,7 +62,7 @@ struct Glance {
 
   /// The time since the stamp when the cap takes over from the slope `along`.
   double TakesOver(double along, double fraction) const {
-    const motion::AgentDeclaration& d = bound.declaration;
+    const motion::MotionLimits& d = bound.limits;
     const double rate = fraction * d.acceleration_max;
     const double room = d.speed_max - along - bound.state.velocity_error +
                         0.5 * d.time_step * (d.acceleration_max - rate);
@@ -78,13 +78,13 @@ struct Glance {
 
   double Face(double along, double fraction) const {
     double reach = along * tau + U(tau, fraction);
-    if (bound.declaration.speed_max < numeric::kInfinity) {
+    if (bound.limits.speed_max < numeric::kInfinity) {
       const double turn = TakesOver(along, fraction);
       if (tau > turn) {
         reach = along * turn + U(turn, fraction) + CappedSpeed() * (tau - turn);
       }
     }
-    return bound.declaration.radius + reach;
+    return bound.limits.radius + reach;
   }
 };
 

@@ -25,10 +25,10 @@ double Seconds(Instant from, Instant to) {
 numeric::QuickBall Rounded(const motion::SpaceTimeBound& bound, Instant base) {
   const Eigen::Vector3d& v = bound.state.v_WA;
   const double tau = Seconds(bound.state.stamp, base), sigma = tau + bound.skew;
-  const double step = bound.declaration.time_step, error = bound.state.velocity_error;
+  const double step = bound.limits.time_step, error = bound.state.velocity_error;
   numeric::QuickBall ball;
   for (int axis = 0; axis < 3; ++axis) ball.c[axis] = v[axis] * tau, ball.v[axis] = v[axis];
-  ball.s2 = 0.5 * bound.declaration.acceleration_max;
+  ball.s2 = 0.5 * bound.limits.acceleration_max;
   ball.s1 = error + ball.s2 * (2 * sigma + step);
   ball.s0 = bound.state.position_error + error * sigma + ball.s2 * (sigma * (sigma + step));
   if (bound.skew > 0) {
@@ -63,7 +63,7 @@ numeric::QuickApproach QuickHornPair(const motion::SpaceTimeBound& a,
     magnitude += std::abs(between) + (std::abs(ball_B.c[axis]) + std::abs(ball_A.c[axis]));
     speed += std::abs(ball.v[axis]);
   }
-  const double radii = (a.declaration.radius + b.declaration.radius) + margin;
+  const double radii = (a.limits.radius + b.limits.radius) + margin;
   const double s0 = radii + ball.s0, s1 = ball.s1;
   const double doubt0 = kErrorOfDistance * magnitude + kErrorOfReach * s0;
   const double doubt1 = kErrorOfVelocity * speed + kErrorOfReach * s1;

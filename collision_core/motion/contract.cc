@@ -35,7 +35,7 @@ struct Allowance {
 /// which the two ends and the path between them bound; v += a dt likewise, and its error works on p
 /// for s. A stamp off by kStampRounding moves p by |v| and v by M times that.
 Allowance RoundingAllowance(const SpaceTimeBound& before, const MotionState& next, double s) {
-  const double acceleration_max = before.declaration.acceleration_max;
+  const double acceleration_max = before.limits.acceleration_max;
   const double speed = std::max(before.state.v_WA.norm(), next.v_WA.norm()) + acceleration_max * s;
   const double range = std::max(before.state.p_WA.norm(), next.p_WA.norm()) + speed * s;
   constexpr double kRounding = kStepsBetweenStates * kRoundingPerStep;
@@ -70,12 +70,11 @@ Limits LimitsOfMotion(const SpaceTimeBound& before, const MotionState& next, num
   const MotionState& old = before.state;
   const numeric::Interval skew = numeric::Interval(2) * before.skew;
   const numeric::Interval sigma = s + skew;
-  const numeric::Interval acceleration_max = before.declaration.acceleration_max;
+  const numeric::Interval acceleration_max = before.limits.acceleration_max;
   return {numeric::Interval(old.position_error) + next.position_error +
               numeric::Norm(numeric::IntervalVector(old.v_WA)) * skew +
               numeric::Interval(old.velocity_error) * sigma +
-              numeric::Interval(0.5) * acceleration_max * sigma *
-                  (sigma + before.declaration.time_step),
+              numeric::Interval(0.5) * acceleration_max * sigma * (sigma + before.limits.time_step),
           numeric::Interval(old.velocity_error) + next.velocity_error + acceleration_max * sigma};
 }
 
@@ -84,7 +83,7 @@ Limits LimitsOfMotion(const SpaceTimeBound& before, const MotionState& next, num
 Limits LimitsOfHorn(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
   const MotionState& old = before.state;
   const numeric::Interval skew = before.skew;
-  const numeric::Interval acceleration_max = before.declaration.acceleration_max;
+  const numeric::Interval acceleration_max = before.limits.acceleration_max;
   const numeric::Interval less_speed = numeric::Norm(numeric::IntervalVector(old.v_WA)) -
                                        numeric::Norm(numeric::IntervalVector(next.v_WA));
   const numeric::Interval less_velocity_error =
@@ -92,7 +91,7 @@ Limits LimitsOfHorn(const SpaceTimeBound& before, const MotionState& next, numer
   return {numeric::Interval(old.position_error) - next.position_error + less_speed * skew +
               numeric::Interval(old.velocity_error) * s + less_velocity_error * skew +
               numeric::Interval(0.5) * acceleration_max * s *
-                  (s + numeric::Interval(2) * skew + before.declaration.time_step),
+                  (s + numeric::Interval(2) * skew + before.limits.time_step),
           less_velocity_error + acceleration_max * s};
 }
 
@@ -114,7 +113,7 @@ Against AgainstDirection(const SpaceTimeBound& before, const MotionState& next,
 /// long.
 bool LosesDirection(const SpaceTimeBound& before, const MotionState& next) {
   const MotionState& old = before.state;
-  if (before.declaration.acceleration_max == 0) return false;
+  if (before.limits.acceleration_max == 0) return false;
   if (!(DirectionHoldsFor(before, next.stamp) > 0)) return false;
   return next.direction != old.direction || next.direction_until < old.direction_until;
 }
@@ -136,7 +135,7 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, num
   // Errors and skew may explain a deviation against the direction, acceleration may not.
   const Limits motion = LimitsOfMotion(before, next, s);
   SpaceTimeBound at_rest = before;
-  at_rest.declaration.acceleration_max = 0;
+  at_rest.limits.acceleration_max = 0;
   const Limits errors = LimitsOfMotion(at_rest, next, s);
   check->position_excess =
       std::max(Excess(deviations.position_length, motion.position, allowance.position),
@@ -154,7 +153,7 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, num
       (numeric::Max(0, deviations.position_length - horn.position) + against.position).upper;
   check->velocity_drift =
       (numeric::Max(0, deviations.velocity_length - horn.velocity) + against.velocity).upper;
-  if (HasSpeedCap(before.declaration)) {
+  if (HasSpeedCap(before.limits)) {
     const CapCheck cap = CheckCap(before, next);
     const auto exceed = [](double excess, double allowed, double* of) {
       if (excess > allowed) *of = std::max(*of, excess);
@@ -178,19 +177,18 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, num
 // it is; stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
 
 /// Whether the declaration says anything of the orientation that matters.
-bool BoundsRotation(const AgentDeclaration& declaration) {
-  const bool has_shape = declaration.shape != nullptr || declaration.shape_awaited;
-  return has_shape && declaration.angular_acceleration_max >= 0;
+bool BoundsRotation(const MotionLimits& limits) {
+  const bool has_shape = limits.shape != nullptr || limits.shape_awaited;
+  return has_shape && limits.angular_acceleration_max >= 0;
 }
 
 /// No true motion turns further: the orientation, then the angular velocity.
 Limits LimitsOfTurning(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
   const numeric::Interval skew = numeric::Interval(2) * before.skew, sigma = s + skew;
-  const numeric::Interval acceleration_max = before.declaration.angular_acceleration_max;
+  const numeric::Interval acceleration_max = before.limits.angular_acceleration_max;
   return {numeric::Interval(before.state.rotation_error) + next.rotation_error +
               numeric::Norm(numeric::IntervalVector(before.state.w_WB)) * skew +
-              numeric::Interval(0.5) * acceleration_max * sigma *
-                  (sigma + before.declaration.time_step),
+              numeric::Interval(0.5) * acceleration_max * sigma * (sigma + before.limits.time_step),
           acceleration_max * sigma};
 }
 
@@ -199,18 +197,18 @@ Limits LimitsOfTurningHorn(const SpaceTimeBound& before, const MotionState& next
                            numeric::Interval s) {
   const MotionState& old = before.state;
   const numeric::Interval skew = before.skew;
-  const numeric::Interval acceleration_max = before.declaration.angular_acceleration_max;
+  const numeric::Interval acceleration_max = before.limits.angular_acceleration_max;
   const numeric::Interval less_speed = numeric::Norm(numeric::IntervalVector(old.w_WB)) -
                                        numeric::Norm(numeric::IntervalVector(next.w_WB));
   return {numeric::Interval(old.rotation_error) - next.rotation_error + less_speed * skew +
               numeric::Interval(0.5) * acceleration_max * s *
-                  (s + numeric::Interval(2) * skew + before.declaration.time_step),
+                  (s + numeric::Interval(2) * skew + before.limits.time_step),
           acceleration_max * s};
 }
 
 /// As RoundingAllowance(), of orientation and angular velocity.
 Allowance TurnRoundingAllowance(const SpaceTimeBound& before, const MotionState& next, double s) {
-  const double acceleration_max = before.declaration.angular_acceleration_max;
+  const double acceleration_max = before.limits.angular_acceleration_max;
   const double speed = std::max(before.state.w_WB.norm(), next.w_WB.norm()) + acceleration_max * s;
   const double velocity =
       kStepsBetweenStates * kRoundingPerStep * speed + kStampRounding * acceleration_max;
@@ -243,7 +241,7 @@ ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& nex
   const numeric::Interval s = numeric::SecondsBetween(before.state.stamp, next.stamp);
   ContractCheck check;
   bool is_inside = CheckTranslation(before, next, s, &check);
-  if (BoundsRotation(before.declaration)) {
+  if (BoundsRotation(before.limits)) {
     is_inside = CheckRotation(before, next, s, &check) && is_inside;
   }
   if (check.position_excess > 0 || check.velocity_excess > 0 || check.rotation_excess > 0 ||

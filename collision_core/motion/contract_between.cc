@@ -31,8 +31,8 @@ struct Span {
 
 Span SpanOf(const SpaceTimeBound& before, const MotionState& next, double duration) {
   const MotionState& old = before.state;
-  const double acceleration_max = before.declaration.acceleration_max;
-  const double step = before.declaration.time_step, skew = before.skew;
+  const double acceleration_max = before.limits.acceleration_max;
+  const double step = before.limits.time_step, skew = before.skew;
   const double whole = duration + skew;
   const Vector3d back = old.p_WA - next.p_WA;
   const double speeds = skew > 0 ? old.v_WA.norm() + next.v_WA.norm() : 0;
@@ -112,7 +112,7 @@ double GapBetween(const SpaceTimeBound& before, const MotionState& next) {
 
   const double s = std::min(share * duration.lower, duration.lower);
   const numeric::MovingBall forward = ForwardBall(before, base);
-  const numeric::MovingBall backward = BackwardBall({next, before.declaration, before.skew}, base);
+  const numeric::MovingBall backward = BackwardBall({next, before.limits, before.skew}, base);
   const numeric::IntervalVector offset =
       (forward.centre() - backward.centre()) +
       numeric::Interval(s) * (forward.velocity - backward.velocity);

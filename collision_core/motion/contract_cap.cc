@@ -10,7 +10,7 @@ class Comparison {
  public:
   Comparison(const SpaceTimeBound& before, const MotionState& next)
       : before_(before),
-        after_{next, before.declaration, before.skew},
+        after_{next, before.limits, before.skew},
         lenient_(before),
         step_(numeric::IntervalVector(next.p_WA) - numeric::IntervalVector(before.state.p_WA)) {
     // Both stamps may be off, in opposite ways.
@@ -21,7 +21,7 @@ class Comparison {
 
   CapCheck Result() {
     const numeric::Interval too_fast = numeric::Norm(numeric::IntervalVector(after_.state.v_WA)) -
-                                       after_.state.velocity_error - before_.declaration.speed_max;
+                                       after_.state.velocity_error - before_.limits.speed_max;
     check_.velocity_excess = std::max(0.0, too_fast.lower);
     CompareBalls();
     const bool use_direction = DirectionHoldsFor(before_, after_.state.stamp) >= 0;
@@ -76,7 +76,7 @@ class Comparison {
     if (early == numeric::kInfinity) return {0, numeric::kInfinity};
     return numeric::Interval(early) *
            (shortfall +
-            numeric::Interval(before_.declaration.acceleration_max) * numeric::Interval(early));
+            numeric::Interval(before_.limits.acceleration_max) * numeric::Interval(early));
   }
 
   void Drift(numeric::Interval outside) {

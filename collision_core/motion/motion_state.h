@@ -37,7 +37,7 @@ struct MotionState {
 /// What the owner declares about an agent once, and what then holds from state to state. A change
 /// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
 /// detector asks about all partners again.
-struct AgentDeclaration {
+struct MotionLimits {
   /// r: radius of a ball about the reference point that contains the agent in every orientation
   /// [m], >= 0.
   double radius = 0;
@@ -57,14 +57,15 @@ struct AgentDeclaration {
   /// but confirms none. `shape` is null.
   bool shape_awaited = false;
 
-  friend bool operator==(const AgentDeclaration&, const AgentDeclaration&) = default;
+  friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
+using AgentDeclaration = MotionLimits;
 
 /// The larger of two bounds on the angular acceleration; < 0 (not declared) if either is.
 inline double WiderAngularBound(double a, double b) { return a < 0 || b < 0 ? -1 : a < b ? b : a; }
 
 /// A pair can meet only if each is in a group that the other's mask names.
-inline bool CanMeet(const AgentDeclaration& a, const AgentDeclaration& b) {
+inline bool CanMeet(const MotionLimits& a, const MotionLimits& b) {
   return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
 }
 

@@ -10,10 +10,10 @@ constexpr double kHalfTurn = 0x1.921fb54442d19p+1;
 
 // θ with σ = start + slope δ.
 numeric::Quadratic OffAngle(const SpaceTimeBound& bound, numeric::Interval start, double slope) {
-  const double alpha = bound.declaration.angular_acceleration_max;
+  const double alpha = bound.limits.angular_acceleration_max;
   if (alpha < 0) return {kHalfTurn, 0, 0};
   const numeric::Interval half = numeric::Interval(0.5) * alpha;
-  const numeric::Interval step = bound.declaration.time_step;
+  const numeric::Interval step = bound.limits.time_step;
   const numeric::Interval still =
       bound.skew > 0 ? numeric::Norm(numeric::IntervalVector(bound.state.w_WB)) * bound.skew
                      : numeric::Interval(0);

@@ -21,9 +21,9 @@ Elapsed BackwardFrom(const SpaceTimeBound& bound, Instant base) {
 }
 
 /// ½ M σ (σ + h) as a quadratic in δ.
-numeric::Quadratic Deviation(const AgentDeclaration& declaration, Elapsed elapsed) {
-  const numeric::Interval half_max = numeric::Interval(0.5) * declaration.acceleration_max;
-  const numeric::Interval step = declaration.time_step;
+numeric::Quadratic Deviation(const MotionLimits& limits, Elapsed elapsed) {
+  const numeric::Interval half_max = numeric::Interval(0.5) * limits.acceleration_max;
+  const numeric::Interval step = limits.time_step;
   return {half_max * elapsed.start * (elapsed.start + step),
           half_max * elapsed.slope * (numeric::Interval(2) * elapsed.start + step), half_max};
 }
@@ -42,7 +42,7 @@ numeric::MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed,
                          numeric::Interval since_stamp) {
   const numeric::IntervalVector velocity(bound.state.v_WA);
   return {numeric::IntervalVector(bound.state.p_WA), since_stamp * velocity, velocity,
-          bound.declaration.radius, Errors(bound, elapsed) + Deviation(bound.declaration, elapsed)};
+          bound.limits.radius, Errors(bound, elapsed) + Deviation(bound.limits, elapsed)};
 }
 
 bool HasDirection(const MotionState& state) { return !state.direction.isZero(0); }
@@ -66,7 +66,7 @@ numeric::MovingBall BackwardBall(const SpaceTimeBound& bound, Instant base) {
 }
 
 numeric::Quadratic ForwardDeviation(const SpaceTimeBound& bound, Instant base) {
-  return Deviation(bound.declaration, ForwardFrom(bound, base));
+  return Deviation(bound.limits, ForwardFrom(bound, base));
 }
 
 numeric::Quadratic ForwardErrors(const SpaceTimeBound& bound, Instant base) {
@@ -101,10 +101,10 @@ FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, bool use_direction) {
   const Elapsed elapsed = ForwardFrom(bound, t);
   const numeric::Interval since = numeric::SecondsBetween(bound.state.stamp, t);
   const numeric::Interval errors = Errors(bound, elapsed).c0;
-  const numeric::Interval deviation = Deviation(bound.declaration, elapsed).c0;
+  const numeric::Interval deviation = Deviation(bound.limits, elapsed).c0;
   const DirectionalReach reach = use_direction ? ReachOfDirection(bound.state) : DirectionalReach();
-  const bool capped = HasSpeedCap(bound.declaration);
-  const numeric::Interval radius = bound.declaration.radius;
+  const bool capped = HasSpeedCap(bound.limits);
+  const numeric::Interval radius = bound.limits.radius;
   FaceBox box;
   for (int axis = 0; axis < 3; ++axis) {
     const numeric::Interval shift = since * numeric::Interval(bound.state.v_WA[axis]);

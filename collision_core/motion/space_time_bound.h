@@ -48,7 +48,7 @@ namespace collision::motion {
 /// "Collision detection for interactive graphics applications", IEEE TVCG 1(3), 1995, section 3.
 struct SpaceTimeBound {
   MotionState state;
-  AgentDeclaration declaration;
+  MotionLimits limits;
   double skew = 0;  ///< κ [s], >= 0: the sender's clock is off by at most this.
 };
 
@@ -56,7 +56,7 @@ struct SpaceTimeBound {
 /// speed cap is zero. Its position need not be known exactly. Two such agents never meet.
 inline bool NeverMoves(const SpaceTimeBound& bound) {
   return bound.state.v_WA.isZero(0) && bound.state.velocity_error == 0 &&
-         (bound.declaration.acceleration_max == 0 || bound.declaration.speed_max == 0);
+         (bound.limits.acceleration_max == 0 || bound.limits.speed_max == 0);
 }
 
 /// The forward horn from `base` on: the ball of radius r + u(δ), anchored at p_WA. Requires base >=

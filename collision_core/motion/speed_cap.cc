@@ -12,7 +12,7 @@ constexpr double kAtTheCap = 0x1p-40;
 /// The stamp + the time until slope + rate · σ has grown to the limit, where `room` is what it has
 /// left: the least instant for which that may be.
 Instant TakesOver(const SpaceTimeBound& bound, numeric::Interval room, numeric::Interval rate) {
-  if (room.lower <= kAtTheCap * bound.declaration.speed_max) return bound.state.stamp;
+  if (room.lower <= kAtTheCap * bound.limits.speed_max) return bound.state.stamp;
   if (rate.lower <= 0) return Instant::Never();
   const double seconds = (room / rate - bound.skew).lower;
   return numeric::AddRoundedDown(bound.state.stamp, std::max(0.0, seconds));
@@ -25,26 +25,25 @@ numeric::Quadratic Growing(numeric::Interval u, numeric::Interval speed, Instant
 
 }  // namespace
 
-numeric::Interval CappedSpeed(const AgentDeclaration& declaration) {
-  return numeric::Interval(declaration.speed_max) + numeric::Interval(0.5) *
-                                                        declaration.acceleration_max *
-                                                        numeric::Interval(declaration.time_step);
+numeric::Interval CappedSpeed(const MotionLimits& limits) {
+  return numeric::Interval(limits.speed_max) +
+         numeric::Interval(0.5) * limits.acceleration_max * numeric::Interval(limits.time_step);
 }
 
 Instant CapTakesOver(const SpaceTimeBound& bound) {
-  const numeric::Interval room = numeric::Interval(bound.declaration.speed_max) -
+  const numeric::Interval room = numeric::Interval(bound.limits.speed_max) -
                                  numeric::Norm(numeric::IntervalVector(bound.state.v_WA)) -
                                  bound.state.velocity_error;
-  return TakesOver(bound, room, bound.declaration.acceleration_max);
+  return TakesOver(bound, room, bound.limits.acceleration_max);
 }
 
 Instant FaceCapTakesOver(const SpaceTimeBound& bound, double along, double fraction) {
-  const AgentDeclaration& declaration = bound.declaration;
-  const numeric::Interval rate = numeric::Interval(fraction) * declaration.acceleration_max;
-  const numeric::Interval step_room = numeric::Interval(0.5) * declaration.time_step *
-                                      (numeric::Interval(declaration.acceleration_max) - rate);
+  const MotionLimits& limits = bound.limits;
+  const numeric::Interval rate = numeric::Interval(fraction) * limits.acceleration_max;
+  const numeric::Interval step_room = numeric::Interval(0.5) * limits.time_step *
+                                      (numeric::Interval(limits.acceleration_max) - rate);
   const numeric::Interval room =
-      numeric::Interval(declaration.speed_max) - along - bound.state.velocity_error;
+      numeric::Interval(limits.speed_max) - along - bound.state.velocity_error;
   return TakesOver(bound, room + step_room, rate);
 }
 
@@ -59,17 +58,17 @@ CappedBall CapBall(const SpaceTimeBound& bound) {
   cap.shift = numeric::SecondsBetween(bound.state.stamp, cap.from) *
               numeric::IntervalVector(bound.state.v_WA);
   cap.u = ForwardBall(bound, cap.from).u.c0;
-  cap.speed = CappedSpeed(bound.declaration);
+  cap.speed = CappedSpeed(bound.limits);
   return cap;
 }
 
 std::optional<LateBall> CappedBallFrom(const SpaceTimeBound& bound, Instant base) {
-  if (!HasSpeedCap(bound.declaration)) return std::nullopt;
+  if (!HasSpeedCap(bound.limits)) return std::nullopt;
   const CappedBall cap = CapBall(bound);
   if (cap.from.is_never()) return std::nullopt;
   return LateBall{numeric::SecondsBetween(base, cap.from).lower,
                   {numeric::IntervalVector(bound.state.p_WA), cap.shift,
-                   numeric::IntervalVector(0, 0, 0), bound.declaration.radius, cap.UFrom(base)}};
+                   numeric::IntervalVector(0, 0, 0), bound.limits.radius, cap.UFrom(base)}};
 }
 
 CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval fraction) {
@@ -79,7 +78,7 @@ CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, numeric::Int
   if (cap.from.is_never()) return cap;
   cap.shift = numeric::SecondsBetween(bound.state.stamp, cap.from) * numeric::Interval(along);
   cap.u = ForwardErrors(bound, cap.from).c0 + fraction * ForwardDeviation(bound, cap.from).c0;
-  cap.speed = CappedSpeed(bound.declaration);
+  cap.speed = CappedSpeed(bound.limits);
   return cap;
 }
 

@@ -46,12 +46,12 @@ namespace collision::motion {
 /// Breach: |v'| > V + ε_v', or p' farther from where the cap took over than errors, 2 κ and V'
 /// explain, beyond the rounding allowance. Changing or dropping a cap is a widening, also lowering
 /// it (the ball then changes sooner); declaring one where there was none is not.
-inline bool HasSpeedCap(const AgentDeclaration& declaration) {
-  return declaration.speed_max < numeric::kInfinity;
+inline bool HasSpeedCap(const MotionLimits& limits) {
+  return limits.speed_max < numeric::kInfinity;
 }
 
 /// V' = V + ½ M h [m/s]. Requires a cap.
-numeric::Interval CappedSpeed(const AgentDeclaration& declaration);
+numeric::Interval CappedSpeed(const MotionLimits& limits);
 
 /// When the capped ball leaves the horn: not before the state's stamp; Never() if it never does.
 /// Rounded down to the nanosecond; any instant would be sound. Requires a cap.

@@ -13,8 +13,8 @@ inline motion::SpaceTimeBound BoundOf(const BallAgent& agent) {
   bound.state.stamp = numeric::AddRoundedDown(Instant(), agent.stamp);
   bound.state.p_WA = agent.p_WA;
   bound.state.v_WA = agent.v_WA;
-  bound.declaration.radius = agent.radius;
-  bound.declaration.acceleration_max = agent.acceleration_max;
+  bound.limits.radius = agent.radius;
+  bound.limits.acceleration_max = agent.acceleration_max;
   return bound;
 }
 

@@ -21,7 +21,7 @@ struct Flier {
   Real from = 0;  ///< Of the segment, after the state's stamp [s].
 
   TrueBody At(Real t) const {
-    return {bound.declaration.shape.get(), bound.declaration.radius, motion.At(from + t)};
+    return {bound.limits.shape.get(), bound.limits.radius, motion.At(from + t)};
   }
 
   /// What long double loses of it by `t`.
@@ -29,13 +29,13 @@ struct Flier {
     const motion::MotionState& state = bound.state;
     const Real turned = (from + t) * state.w_WB.cast<Real>().norm();
     return 1e-17L * (state.p_WA.cast<Real>().norm() + (from + t) * state.v_WA.cast<Real>().norm() +
-                     bound.declaration.radius * (1 + turned));
+                     bound.limits.radius * (1 + turned));
   }
 
   /// The oracle knows balls and small surfaces.
   bool judged() const {
-    const shape::Shape* shape = bound.declaration.shape.get();
-    if (bound.state.v_WA.norm() > bound.declaration.speed_max) return false;
+    const shape::Shape* shape = bound.limits.shape.get();
+    if (bound.state.v_WA.norm() > bound.limits.speed_max) return false;
     return shape == nullptr ||
            (shape->solids().empty() && shape->mesh().triangles.size() <= kTrianglesJudged);
   }
@@ -54,9 +54,9 @@ std::optional<Flier> FuzzedFlier(Instant from, FuzzedData* data) {
   Flier flier;
   flier.bound = {std::get<motion::MotionState>(state),
                  std::get<motion::AgentDeclaration>(declaration), 0};
-  flier.bound.declaration.shape = FuzzedBody(data);
-  if (const shape::Shape* shape = flier.bound.declaration.shape.get()) {
-    double& radius = flier.bound.declaration.radius;
+  flier.bound.limits.shape = FuzzedBody(data);
+  if (const shape::Shape* shape = flier.bound.limits.shape.get()) {
+    double& radius = flier.bound.limits.radius;
     radius = std::max(radius, shape->facts().radius);
   }
   const motion::MotionState& told = flier.bound.state;

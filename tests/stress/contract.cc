@@ -35,14 +35,14 @@ Exact SumOf(const ExactVector& v) { return abs(v.x) + abs(v.y) + abs(v.z); }
 Excess OfPosition(const motion::SpaceTimeBound& before, const motion::MotionState& next) {
   const Exact s = ExactSeconds(before.state.stamp, next.stamp);
   const ExactVector p(before.state.p_WA), v(before.state.v_WA), q(next.p_WA);
-  const Exact reach = Exact(before.declaration.acceleration_max) / 2 * s * s;
+  const Exact reach = Exact(before.limits.acceleration_max) / 2 * s * s;
   return {q - p - s * v, reach, SumOf(p) + SumOf(q)};
 }
 
 Excess OfVelocity(const motion::SpaceTimeBound& before, const motion::MotionState& next) {
   const Exact s = ExactSeconds(before.state.stamp, next.stamp);
   const ExactVector v(before.state.v_WA), w(next.v_WA);
-  const Exact reach = Exact(before.declaration.acceleration_max) * s;
+  const Exact reach = Exact(before.limits.acceleration_max) * s;
   return {w - v, reach, SumOf(v) + SumOf(w) + reach};
 }
 
@@ -52,8 +52,7 @@ void JudgeState(const motion::SpaceTimeBound& before, const motion::MotionState&
   const Excess position = OfPosition(before, next), velocity = OfVelocity(before, next);
   const Exact s = ExactSeconds(before.state.stamp, next.stamp);
   const Exact lost(kSteps * 0x1p-52), speed = velocity.size;
-  const Exact more_v =
-      lost * speed + Exact(kNanosecond) * Exact(before.declaration.acceleration_max);
+  const Exact more_v = lost * speed + Exact(kNanosecond) * Exact(before.limits.acceleration_max);
   const Exact more_p = lost * (position.size + speed * s) + more_v * s + Exact(kNanosecond) * speed;
   const bool breached = check.verdict == motion::ContractVerdict::kBreached;
   outcome->Add(breached ? "breaches" : "states_kept", 1);
@@ -105,7 +104,7 @@ void Contract(const Setting& setting, Outcome* outcome) {
     const double s = static_cast<double>(step) * 1e-9;
     const double off = random.Chance(0.5) ? random.LogUniform(1e-17, 10) : 0;
     const double share = random.Chance(0.3) ? std::max(0.0, 1 - off) : 1 + off;
-    const Vector3d a = share * before.declaration.acceleration_max * random.UnitVector();
+    const Vector3d a = share * before.limits.acceleration_max * random.UnitVector();
     const double back = random.Chance(0.5) ? s * random.Uniform(0, 1) : 0;  // The last part.
     next.v_WA += (s - 2 * back) * a;
     next.p_WA += s * before.state.v_WA + (s * s / 2 - back * back) * a;

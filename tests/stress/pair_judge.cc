@@ -14,18 +14,17 @@ std::string Named(const char* what, const motion::SpaceTimeBound& a,
                   const motion::SpaceTimeBound& b, double at) {
   const Eigen::Vector3d d = b.state.p_WA - a.state.p_WA, v = b.state.v_WA - a.state.v_WA;
   return std::string(what) + " at " + Show(at) + " s: distance " + Show(d.cwiseAbs().maxCoeff()) +
-         " m, speed " + Show(v.cwiseAbs().maxCoeff()) + " m/s, radii " +
-         Show(a.declaration.radius) + " and " + Show(b.declaration.radius) + " m, M " +
-         Show(a.declaration.acceleration_max) + " and " + Show(b.declaration.acceleration_max) +
-         " m/s2";
+         " m, speed " + Show(v.cwiseAbs().maxCoeff()) + " m/s, radii " + Show(a.limits.radius) +
+         " and " + Show(b.limits.radius) + " m, M " + Show(a.limits.acceleration_max) + " and " +
+         Show(b.limits.acceleration_max) + " m/s2";
 }
 
 /// Near the denormals a unit in the last place is no share of anything: radius and M grow by so
 /// many.
 motion::SpaceTimeBound LargerBy(motion::SpaceTimeBound bound, double units) {
-  bound.declaration.radius += units * 0x1p-1074;
-  if (bound.declaration.acceleration_max > 0) {
-    bound.declaration.acceleration_max += units * 0x1p-1074;
+  bound.limits.radius += units * 0x1p-1074;
+  if (bound.limits.acceleration_max > 0) {
+    bound.limits.acceleration_max += units * 0x1p-1074;
   }
   return bound;
 }
@@ -46,9 +45,9 @@ struct BoundGap : ExactGap {
   DyadicPolynomial size;  ///< What rounding is a share of: |Δp| + |Δv| δ + r + u.
 
   BoundGap(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, int sign_of_u) {
-    const Dyadic half_M = Dyadic(0.5) * (Dyadic(a.declaration.acceleration_max) +
-                                         Dyadic(b.declaration.acceleration_max));
-    const Dyadic radii = Dyadic(a.declaration.radius) + Dyadic(b.declaration.radius);
+    const Dyadic half_M =
+        Dyadic(0.5) * (Dyadic(a.limits.acceleration_max) + Dyadic(b.limits.acceleration_max));
+    const Dyadic radii = Dyadic(a.limits.radius) + Dyadic(b.limits.radius);
     reach = {radii, {}, Dyadic(1.0 * sign_of_u) * half_M};
     size = {radii, {}, half_M};
     for (int i = 0; i < 3; ++i) {
@@ -124,8 +123,8 @@ motion::SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, 
   motion::SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
-  bound.declaration.radius = radius;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = radius;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 
@@ -154,8 +153,8 @@ void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound&
                   Outcome* outcome) {
   const Instant base = a.state.stamp;
   const narrow_phase::SegmentResult verdict =
-      narrow_phase::EvaluateBallSegment({a.declaration.radius, {ForwardBall(a, base)}},
-                                        {b.declaration.radius, {ForwardBall(b, base)}}, duration);
+      narrow_phase::EvaluateBallSegment({a.limits.radius, {ForwardBall(a, base)}},
+                                        {b.limits.radius, {ForwardBall(b, base)}}, duration);
   outcome->Add("segments", 1);
   if (!outcome->Expect(IsOrdered(verdict, duration), Named("not ordered", a, b, duration))) return;
   const BoundGap outer(a, b, 1), inner(a, b, -1);

@@ -91,8 +91,8 @@ void MixedSizes(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(2000, 100000); ++i) {
     const auto any = [&random] { return random.LogUniform(1e-12, 1e12); };
     Passage passage = PassageOf({any(), any(), random.Chance(0.5) ? 0 : any()}, random);
-    passage.a.declaration.radius = random.Chance(0.5) ? any() : passage.b.declaration.radius;
-    passage.b.declaration.radius = any();
+    passage.a.limits.radius = random.Chance(0.5) ? any() : passage.b.limits.radius;
+    passage.b.limits.radius = any();
     JudgeBoth(passage, outcome);
   }
   SayJudged(outcome);
@@ -158,7 +158,7 @@ void ZeroRadius(const Setting& setting, Outcome* outcome) {
     const double aside = random.Chance(0.4) ? 0 : away * random.LogUniform(0x1p-60, 1);
     Passage passage{Ball({0, 0, 0}, {0, 0, 0}, random.Chance(0.5) ? 0 : aside),
                     Ball({-away, aside, 0}, {speed, 0, 0}, 0), 2 * away / speed};
-    if (random.Chance(0.3)) passage.b.declaration.acceleration_max = speed * speed / away;
+    if (random.Chance(0.3)) passage.b.limits.acceleration_max = speed * speed / away;
     JudgeBoth(passage, outcome);
   }
   SayJudged(outcome);
@@ -173,8 +173,8 @@ void Denormals(const Setting& setting, Outcome* outcome) {
     const Vector3d along = random.UnitVector();
     Passage passage{Ball({0, 0, 0}, small() * random.UnitVector(), small()),
                     Ball(-unit * along, unit * along, small()), 2};
-    if (random.Chance(0.3)) passage.a.declaration.acceleration_max = small();
-    if (random.Chance(0.3)) passage.a.declaration.radius = unit;
+    if (random.Chance(0.3)) passage.a.limits.acceleration_max = small();
+    if (random.Chance(0.3)) passage.a.limits.radius = unit;
     JudgeBoth(passage, outcome, kDenormalUnits);
   }
   SayJudged(outcome);
@@ -206,8 +206,8 @@ void OnePlace(const Setting& setting, Outcome* outcome) {
                     random.LogUniform(1e-9, 1e9)};
     passage.b = passage.a;
     if (random.Chance(0.5)) passage.b.state.v_WA = any() * random.UnitVector();
-    if (random.Chance(0.5)) passage.b.declaration.radius = any();
-    if (random.Chance(0.5)) passage.b.declaration.acceleration_max = 0;
+    if (random.Chance(0.5)) passage.b.limits.radius = any();
+    if (random.Chance(0.5)) passage.b.limits.acceleration_max = 0;
     JudgeBoth(passage, outcome);
   }
   SayJudged(outcome);

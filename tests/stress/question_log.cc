@@ -40,7 +40,7 @@ intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instan
   const intersection::IntersectionTime time = RealAsk(a, b, from);
   if (log != nullptr) {
     log->Note(
-        Question::kAsked, a.declaration.radius, b.declaration.radius,
+        Question::kAsked, a.limits.radius, b.limits.radius,
         {.from = from.nanoseconds(), .answer = time.seconds, .base = time.base.nanoseconds()});
   }
   return time;
@@ -49,8 +49,7 @@ intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instan
 intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Instant from,
                                            Instant until, double margin) {
   if (log != nullptr) {
-    log->Note(Question::kMet, a.declaration.radius, b.declaration.radius,
-              {.from = from.nanoseconds()});
+    log->Note(Question::kMet, a.limits.radius, b.limits.radius, {.from = from.nanoseconds()});
   }
   return RealMeet(a, b, from, until, margin);
 }
@@ -59,7 +58,7 @@ detection::SegmentCount WrappedJudge(const detection::History& a, const detectio
                                      Instant until, WorkBudget* work,
                                      detection::ContactTracker* tracker) {
   if (log != nullptr) {
-    log->Note(Question::kJudged, a.newest().declaration.radius, b.newest().declaration.radius,
+    log->Note(Question::kJudged, a.newest().limits.radius, b.newest().limits.radius,
               {.from = until.nanoseconds()});
   }
   return RealJudge(a, b, until, work, tracker);

@@ -38,9 +38,9 @@ bool IsFar(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Ins
   const auto way = [&](const motion::SpaceTimeBound& bound) {
     const double s = numeric::SecondsBetween(bound.state.stamp, std::max(now, until)).upper;
     const motion::MotionState& state = bound.state;
-    return bound.declaration.radius + state.position_error +
+    return bound.limits.radius + state.position_error +
            s * (state.v_WA.norm() + state.velocity_error) +
-           s * s / 2 * bound.declaration.acceleration_max;
+           s * s / 2 * bound.limits.acceleration_max;
   };
   return (b.state.p_WA - a.state.p_WA).norm() > 2 * (way(a) + way(b));
 }
@@ -85,7 +85,7 @@ std::uint32_t Scene::Add(const motion::AgentDeclaration& declaration, Motion mot
   agents_.emplace_back();
   agents_[agent].motion = std::move(motion);
   agents_[agent].every = every;
-  agents_[agent].told.declaration = declaration;
+  agents_[agent].told.limits = declaration;
   anybody_accelerates_ |= declaration.acceleration_max > 0;
   const bool admitted = detector_.Admit(IdOf(agent), declaration, Tell(agent, now_), now_);
   outcome_->Expect(admitted, "not admitted");
@@ -169,17 +169,16 @@ void Scene::CheckDistance(const detection::CollisionEvent& event) {
   double open = 0, size = 0;
   for (const std::uint32_t agent : {event.lower.slot, event.higher.slot}) {
     const Agent& it = agents_[agent];
-    const motion::AgentDeclaration& declaration = it.told.declaration;
-    if (declaration.shape) return;
+    const motion::MotionLimits& limits = it.told.limits;
+    if (limits.shape) return;
     const auto next =
         std::upper_bound(it.places.begin() + 1, it.places.end(), event.evaluated_at,
                          [](Instant at, const auto& place) { return at < place.first; });
     const auto last = std::prev(next);
     const double s = numeric::SecondsBetween(last->first, event.evaluated_at).upper + kNanosecond;
     const motion::MotionState& state = it.told.state;
-    open +=
-        state.position_error + s * state.velocity_error + s * s / 2 * declaration.acceleration_max;
-    size += declaration.radius + last->second + (next == it.places.end() ? last : next)->second;
+    open += state.position_error + s * state.velocity_error + s * s / 2 * limits.acceleration_max;
+    size += limits.radius + last->second + (next == it.places.end() ? last : next)->second;
   }
   const double width = event.separation_upper - event.separation_lower;
   const double unit = 0x1p-52 * (size + open);
@@ -226,7 +225,7 @@ bool Scene::CouldTouchBy(std::uint32_t agent, Instant until) const {
   const motion::SpaceTimeBound& bound = agents_[agent].told;
   for (std::uint32_t other = 0; other < agents_.size(); ++other) {
     const motion::SpaceTimeBound& partner = agents_[other].told;
-    if (other == agent || !CanMeet(bound.declaration, partner.declaration)) continue;
+    if (other == agent || !CanMeet(bound.limits, partner.limits)) continue;
     if (IsFar(bound, partner, now_, until)) continue;
     if (IsToldToTouch(std::min(agent, other), std::max(agent, other))) continue;
     const ExactMeeting larger(bound, partner, now_, {false, kPairUnits * 0x1p-52});

@@ -25,9 +25,9 @@ motion::SpaceTimeBound Body::Bound() const {
   bound.state.v_WA = v;
   bound.state.w_WB = w;
   bound.state.q_WB = q;
-  bound.declaration.radius = shape ? shape->facts().radius : radius;
-  bound.declaration.shape = shape;
-  bound.declaration.angular_acceleration_max = 0;
+  bound.limits.radius = shape ? shape->facts().radius : radius;
+  bound.limits.shape = shape;
+  bound.limits.angular_acceleration_max = 0;
   return bound;
 }
 

@@ -74,8 +74,8 @@ motion::MotionState ToCore(const State& state) {
 motion::SpaceTimeBound ToCore(const MotionBounds& bounds, const State& state) {
   motion::SpaceTimeBound core;
   core.state = ToCore(state);
-  core.declaration.acceleration_max = bounds.acceleration_max_m_s2;
-  core.declaration.time_step = bounds.time_step_s;
+  core.limits.acceleration_max = bounds.acceleration_max_m_s2;
+  core.limits.time_step = bounds.time_step_s;
   return core;
 }
 

@@ -38,14 +38,14 @@ double Nanoseconds(Instant from, Instant to) {
 /// by some units in the last place of the magnitudes that kFacePadding counts.
 FaceLines LinesOfBall(const motion::SpaceTimeBound& bound, Instant start, Instant end) {
   const motion::MotionState& state = bound.state;
-  const motion::AgentDeclaration& declaration = bound.declaration;
-  const double errors = declaration.radius + state.position_error +
-                        (bound.skew > 0 ? state.v_WA.norm() : 0) * bound.skew;
+  const motion::MotionLimits& limits = bound.limits;
+  const double errors =
+      limits.radius + state.position_error + (bound.skew > 0 ? state.v_WA.norm() : 0) * bound.skew;
   FaceLines lines;
   const auto at = [&](Instant t, std::array<double, 6>* faces) {
     const double elapsed = 1e-9 * Nanoseconds(state.stamp, t), worked = elapsed + bound.skew;
-    const double reach = errors + (state.velocity_error + 0.5 * declaration.acceleration_max *
-                                                              (worked + declaration.time_step)) *
+    const double reach = errors + (state.velocity_error +
+                                   0.5 * limits.acceleration_max * (worked + limits.time_step)) *
                                       worked;
     for (int axis = 0; axis < 3; ++axis) {
       const double centre = state.p_WA[axis] + state.v_WA[axis] * elapsed;
@@ -59,13 +59,13 @@ FaceLines LinesOfBall(const motion::SpaceTimeBound& bound, Instant start, Instan
 }
 
 motion::SpaceTimeBound Grown(motion::SpaceTimeBound bound, double by) {
-  bound.declaration.radius += by;
+  bound.limits.radius += by;
   return bound;
 }
 
 /// Requires stamp <= start.
 FaceLines LinesFrom(const motion::SpaceTimeBound& bound, Instant start, Instant end) {
-  const bool is_ball = bound.state.direction.isZero(0) && !HasSpeedCap(bound.declaration);
+  const bool is_ball = bound.state.direction.isZero(0) && !HasSpeedCap(bound.limits);
   return is_ball ? LinesOfBall(bound, start, end) : LinesOf(MakeHypertrapezoid(bound, start, end));
 }
 

@@ -65,10 +65,9 @@ std::int64_t FirstWindow(const std::vector<std::optional<motion::SpaceTimeBound>
   for (std::size_t i = 0; i < agents.size(); i += step) sample.push_back(&*bounds[agents[i]]);
   if (sample.empty()) return 1;
   std::vector<double> radii =
-      Gather(sample, [](const motion::SpaceTimeBound& bound) { return bound.declaration.radius; });
-  std::vector<double> accelerations = Gather(sample, [](const motion::SpaceTimeBound& bound) {
-    return bound.declaration.acceleration_max;
-  });
+      Gather(sample, [](const motion::SpaceTimeBound& bound) { return bound.limits.radius; });
+  std::vector<double> accelerations = Gather(
+      sample, [](const motion::SpaceTimeBound& bound) { return bound.limits.acceleration_max; });
   const double length = Quantile(&radii, 7, 8) + Spacing(sample, agents.size());
   // Infinite, or not a number, where nothing moves or has a length: then any window will do.
   const double seconds = std::min(std::sqrt(length / Quantile(&accelerations, 7, 8)),

@@ -17,11 +17,11 @@ constexpr double kRateMax = 0x1p+40;
 // whole.
 bool IsPlain(const motion::SpaceTimeBound& bound) {
   const motion::MotionState& state = bound.state;
-  const motion::AgentDeclaration& declaration = bound.declaration;
+  const motion::MotionLimits& limits = bound.limits;
   return bound.skew == 0 && state.position_error == 0 && state.velocity_error == 0 &&
-         declaration.time_step == 0 && declaration.speed_max == numeric::kInfinity &&
+         limits.time_step == 0 && limits.speed_max == numeric::kInfinity &&
          state.direction.isZero(0) && state.expiry.is_never() &&
-         2 * (0.5 * declaration.acceleration_max) == declaration.acceleration_max;
+         2 * (0.5 * limits.acceleration_max) == limits.acceleration_max;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ void HornTable::SetFull(HornRow* row, const motion::SpaceTimeBound& bound) {
   }
   motion::SpaceTimeBound& kept = full_[row->full - 1];
   kept = bound;
-  kept.declaration.shape.reset();
+  kept.limits.shape.reset();
 }
 
 void HornTable::DropFull(HornRow* row) {
@@ -50,19 +50,19 @@ void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, Ho
   HornRow& row = *filled;
   numeric::QuickBall& ball = row.ball;
   const motion::MotionState& state = bound.state;
-  const motion::AgentDeclaration& declaration = bound.declaration;
+  const motion::MotionLimits& limits = bound.limits;
   for (int axis = 0; axis < 3; ++axis) {
     ball.c[axis] = state.p_WA[axis];
     ball.v[axis] = state.v_WA[axis];
   }
-  const double half = 0.5 * declaration.acceleration_max;
-  ball.s0 = declaration.radius, ball.s1 = 0, ball.s2 = half;
+  const double half = 0.5 * limits.acceleration_max;
+  ball.s0 = limits.radius, ball.s1 = 0, ball.s2 = half;
   row.stamp = state.stamp;
-  row.group = declaration.group;
-  row.mask = declaration.mask;
+  row.group = limits.group;
+  row.mask = limits.mask;
   if (half_margin != 0 || !IsPlain(bound)) {
-    const double skew = bound.skew, step = declaration.time_step;
-    const double given = declaration.radius + half_margin + state.position_error;
+    const double skew = bound.skew, step = limits.time_step;
+    const double given = limits.radius + half_margin + state.position_error;
     ball.s0 = kOutward * (given + Length(ball.v) * skew + state.velocity_error * skew +
                           half * skew * (skew + step));
     ball.s1 = kOutward * (state.velocity_error + half * (2 * skew + step));
@@ -125,10 +125,10 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   bound.state.stamp = row.stamp;
   bound.state.p_WA = {row.ball.c[0], row.ball.c[1], row.ball.c[2]};
   bound.state.v_WA = {row.ball.v[0], row.ball.v[1], row.ball.v[2]};
-  bound.declaration.radius = row.ball.s0;
-  bound.declaration.acceleration_max = 2 * row.ball.s2;
-  bound.declaration.group = row.group;
-  bound.declaration.mask = row.mask;
+  bound.limits.radius = row.ball.s0;
+  bound.limits.acceleration_max = 2 * row.ball.s2;
+  bound.limits.group = row.group;
+  bound.limits.mask = row.mask;
   return bound;
 }
 

@@ -38,8 +38,8 @@ constexpr double kForever = 2e10;
 }  // namespace
 
 bool CanMeet(const HalfSpace& half_space, const motion::SpaceTimeBound& bound) {
-  return (half_space.group & bound.declaration.mask) != 0 &&
-         (bound.declaration.group & half_space.mask) != 0 && !NeverMoves(bound);
+  return (half_space.group & bound.limits.mask) != 0 &&
+         (bound.limits.group & half_space.mask) != 0 && !NeverMoves(bound);
 }
 
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,

@@ -5,7 +5,7 @@ namespace collision::broad_phase {
 bool CanMeet(intersection::BoundKind kind, const motion::SpaceTimeBound& a,
              const motion::SpaceTimeBound& b) {
   if (kind == intersection::BoundKind::kHorn && NeverMoves(a) && NeverMoves(b)) return false;
-  return CanMeet(a.declaration, b.declaration);
+  return CanMeet(a.limits, b.limits);
 }
 
 intersection::IntersectionTime PairTimeOf(const intersection::BroadQuery& query,

@@ -8,9 +8,9 @@ BoundMargin::BoundMargin(const motion::SpaceTimeBound& bound) {
   constexpr double kShare = 0x1p-40;
   constexpr double kStampRounding = 4e-9;
   const double speed = bound.state.v_WA.norm();
-  const double magnitude = bound.state.p_WA.norm() + speed + bound.declaration.radius;
+  const double magnitude = bound.state.p_WA.norm() + speed + bound.limits.radius;
   position_ = kShare * magnitude + kStampRounding * speed;
-  velocity_ = kShare * speed + kStampRounding * bound.declaration.acceleration_max;
+  velocity_ = kShare * speed + kStampRounding * bound.limits.acceleration_max;
 }
 
 // Widen() rounds the sum of error and margin down. The sum of the state before may be too small by
@@ -36,7 +36,7 @@ motion::SpaceTimeBound BoundMargin::Widen(const motion::SpaceTimeBound& bound) c
   if (bound.state.discontinuity && bound.skew > 0) {
     // The jump may have come earlier by the skew: where it has been since then belongs to the
     // bound.
-    const double speed = bound.state.v_WA.norm() + bound.declaration.acceleration_max * bound.skew;
+    const double speed = bound.state.v_WA.norm() + bound.limits.acceleration_max * bound.skew;
     wide.state.position_error += 2 * speed * bound.skew;
   }
   return wide;

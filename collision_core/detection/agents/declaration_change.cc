@@ -12,7 +12,7 @@ bool SameBody(const std::shared_ptr<const shape::Shape>& a,
 
 void Reshape(const motion::AgentDeclaration& before, const motion::AgentDeclaration& declaration,
              AgentRecord* record) {
-  motion::AgentDeclaration& in_force = record->history.newest().declaration;
+  motion::AgentDeclaration& in_force = record->history.newest().limits;
   const bool arrived = before.shape_awaited && declaration.shape != nullptr;
   const bool same = SameBody(declaration.shape, before.shape) &&
                     declaration.shape_awaited == before.shape_awaited;
@@ -32,7 +32,7 @@ void Reshape(const motion::AgentDeclaration& before, const motion::AgentDeclarat
 
 BoundChange Redeclare(const motion::AgentDeclaration& declaration, AgentRecord* record) {
   record->declaration = declaration;
-  motion::AgentDeclaration& in_force = record->history.newest().declaration;
+  motion::AgentDeclaration& in_force = record->history.newest().limits;
   const motion::AgentDeclaration before = in_force;
   in_force.radius = std::max(before.radius, declaration.radius);
   in_force.acceleration_max = std::max(before.acceleration_max, declaration.acceleration_max);

@@ -8,9 +8,8 @@ namespace collision::detection {
 namespace {
 
 // The declaration under which an agent moved between two states: whatever either allowed.
-motion::AgentDeclaration Widest(const motion::AgentDeclaration& a,
-                                const motion::AgentDeclaration& b) {
-  motion::AgentDeclaration widest = b;
+motion::MotionLimits Widest(const motion::MotionLimits& a, const motion::MotionLimits& b) {
+  motion::MotionLimits widest = b;
   widest.radius = std::max(a.radius, b.radius);
   widest.acceleration_max = std::max(a.acceleration_max, b.acceleration_max);
   widest.time_step = std::max(a.time_step, b.time_step);
@@ -19,8 +18,8 @@ motion::AgentDeclaration Widest(const motion::AgentDeclaration& a,
   return widest;
 }
 
-bool HasShape(const motion::AgentDeclaration& declaration) {
-  return declaration.shape != nullptr || declaration.shape_awaited;
+bool HasShape(const motion::MotionLimits& limits) {
+  return limits.shape != nullptr || limits.shape_awaited;
 }
 
 }  // namespace
@@ -34,7 +33,7 @@ void History::Push(const motion::SpaceTimeBound& bound, Link link, std::size_t c
 
 void History::ReplaceTree(const std::shared_ptr<const shape::Shape>& shape) {
   for (Sample& sample : samples_) {
-    std::shared_ptr<const shape::Shape>& known = sample.bound.declaration.shape;
+    std::shared_ptr<const shape::Shape>& known = sample.bound.limits.shape;
     if (known && known->IsSameBodyAs(*shape)) known = shape;
   }
 }
@@ -43,8 +42,8 @@ void History::ReplaceTree(const std::shared_ptr<const shape::Shape>& shape) {
 void History::Thin() {
   const auto spared = [this](std::size_t i) {
     return samples_[i].link == Link::kFollows && samples_[i + 1].link == Link::kFollows &&
-           samples_[i].bound.declaration == samples_[i - 1].bound.declaration &&
-           samples_[i].bound.declaration == samples_[i + 1].bound.declaration;
+           samples_[i].bound.limits == samples_[i - 1].bound.limits &&
+           samples_[i].bound.limits == samples_[i + 1].bound.limits;
   };
   std::vector<Sample> kept;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -127,15 +126,15 @@ narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant
   }
   const motion::SpaceTimeBound& before = samples_[i - 1].bound;
   const motion::SpaceTimeBound& after = samples_[i].bound;
-  segment.awaited = HasShape(before.declaration) || HasShape(after.declaration);
-  if (from < before.state.stamp || after.declaration != before.declaration) return segment;
+  segment.awaited = HasShape(before.limits) || HasShape(after.limits);
+  if (from < before.state.stamp || after.limits != before.limits) return segment;
   numeric::MovingBall ball = ForwardBall(before, from);
   const numeric::MovingBall jumped =
       from >= after.state.stamp ? ForwardBall(after, from) : BackwardBall(after, from);
   ball.u.c0 = ball.u.c0 + jumped.u.c0 + numeric::Norm(jumped.centre() - ball.centre());
   ball.u.c1 = ball.u.c1 + jumped.u.c1 + numeric::Norm(jumped.velocity - ball.velocity);
   ball.u.c2 = ball.u.c2 + jumped.u.c2;
-  segment.ball.radius = before.declaration.radius;
+  segment.ball.radius = before.limits.radius;
   segment.ball.bounds.push_back(ball);
   return segment;
 }
@@ -151,12 +150,12 @@ narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
   motion::SpaceTimeBound last = samples_[k].bound;
   motion::SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
   narrow_phase::BallSegment& ball = segment.ball;
-  ball.radius = std::min(last.declaration.radius, next.declaration.radius);
+  ball.radius = std::min(last.limits.radius, next.limits.radius);
   const numeric::Interval spread =
-      numeric::Interval(std::max(last.declaration.radius, next.declaration.radius)) - ball.radius;
-  if (last.declaration.shape == next.declaration.shape) segment.shape = last.declaration.shape;
-  segment.awaited = !segment.shape && (HasShape(last.declaration) || HasShape(next.declaration));
-  last.declaration = next.declaration = Widest(last.declaration, next.declaration);
+      numeric::Interval(std::max(last.limits.radius, next.limits.radius)) - ball.radius;
+  if (last.limits.shape == next.limits.shape) segment.shape = last.limits.shape;
+  segment.awaited = !segment.shape && (HasShape(last.limits) || HasShape(next.limits));
+  last.limits = next.limits = Widest(last.limits, next.limits);
 
   const bool broken = has_next && samples_[k + 1].link == Link::kBroken;
   const bool at_last = to == last.state.stamp;

@@ -64,13 +64,13 @@ class History {
     const std::size_t in_force = InForce(from);
     double radius = 0, acceleration_max = 0;
     for (std::size_t i = in_force < samples_.size() ? in_force : 0; i < samples_.size(); ++i) {
-      const motion::AgentDeclaration& declaration = samples_[i].bound.declaration;
-      radius = std::max(radius, declaration.radius);
-      acceleration_max = std::max(acceleration_max, declaration.acceleration_max);
+      const motion::MotionLimits& limits = samples_[i].bound.limits;
+      radius = std::max(radius, limits.radius);
+      acceleration_max = std::max(acceleration_max, limits.acceleration_max);
       if (i + 1 < samples_.size() && samples_[i + 1].link == Link::kFollows) continue;
       motion::SpaceTimeBound motion = samples_[i].bound;
-      motion.declaration.radius = radius;
-      motion.declaration.acceleration_max = acceleration_max;
+      motion.limits.radius = radius;
+      motion.limits.acceleration_max = acceleration_max;
       use(motion);
     }
   }

@@ -10,8 +10,8 @@ void SceneExtremes::Bounds::Include(const motion::SpaceTimeBound& bound) {
   newest = std::max(newest, state.stamp);
   speed_max = std::max(speed_max, state.v_WA.norm() + state.velocity_error);
   position_error_max = std::max(position_error_max, state.position_error);
-  acceleration_max = std::max(acceleration_max, bound.declaration.acceleration_max);
-  time_step_max = std::max(time_step_max, bound.declaration.time_step);
+  acceleration_max = std::max(acceleration_max, bound.limits.acceleration_max);
+  time_step_max = std::max(time_step_max, bound.limits.time_step);
 }
 
 }  // namespace collision::detection

@@ -21,19 +21,19 @@ enum Feature {
 
 SceneProfile::Features SceneProfile::Of(const motion::SpaceTimeBound& bound) {
   const motion::MotionState& state = bound.state;
-  const motion::AgentDeclaration& declaration = bound.declaration;
-  const bool shaped = declaration.shape || declaration.shape_awaited;
-  const bool turning = declaration.angular_acceleration_max != 0 || !state.w_WB.isZero();
+  const motion::MotionLimits& limits = bound.limits;
+  const bool shaped = limits.shape || limits.shape_awaited;
+  const bool turning = limits.angular_acceleration_max != 0 || !state.w_WB.isZero();
   unsigned features = 0;
   const auto set = [&](Feature feature, bool needed) { features |= needed ? 1u << feature : 0; };
-  set(kAccelerating, declaration.acceleration_max > 0);
-  set(kCapped, declaration.speed_max < numeric::kInfinity);
+  set(kAccelerating, limits.acceleration_max > 0);
+  set(kCapped, limits.speed_max < numeric::kInfinity);
   set(kDirected, !state.direction.isZero());
-  set(kStepping, declaration.time_step > 0);
+  set(kStepping, limits.time_step > 0);
   set(kUncertain, state.position_error > 0 || state.velocity_error > 0);
   set(kSkewed, bound.skew > 0);
   set(kExpiring, !state.expiry.is_never());
-  set(kMasked, declaration.group != 1 || declaration.mask != ~0u);
+  set(kMasked, limits.group != 1 || limits.mask != ~0u);
   set(kShaped, shaped);
   set(kTurning, shaped && turning);
   set(kMoving, !NeverMoves(bound));

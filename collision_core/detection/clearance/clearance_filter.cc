@@ -28,15 +28,15 @@ void ClearanceFilter::Set(AgentIndex agent, const motion::SpaceTimeBound& bound)
   if (!rows_.contains(agent)) rows_.resize(agent.value() + 1);
   Row& row = rows_[agent];
   const motion::MotionState& state = bound.state;
-  const motion::AgentDeclaration& declaration = bound.declaration;
+  const motion::MotionLimits& limits = bound.limits;
   row.p = state.p_WA;
   row.v = state.v_WA;
   row.speed = state.v_WA.norm();
   row.magnitude = state.p_WA.norm() + row.speed;
-  row.reach = declaration.radius + state.position_error + row.speed * skew_;
+  row.reach = limits.radius + state.position_error + row.speed * skew_;
   row.velocity_error = state.velocity_error;
-  row.acceleration_max = declaration.acceleration_max;
-  row.time_step = declaration.time_step;
+  row.acceleration_max = limits.acceleration_max;
+  row.time_step = limits.time_step;
   row.stamp = state.stamp;
 }
 

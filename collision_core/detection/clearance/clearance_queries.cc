@@ -213,7 +213,7 @@ bool ClearanceQueries::IsCrowded(const ClearanceQuestion& question) {
     if (partner == agent || !agents.Contains(partner)) continue;
     const AgentRecord& other = agents[partner];
     if (other.expired || tracked_.Contains(partner)) continue;
-    if (!CanMeet(record.bound().declaration, other.bound().declaration)) continue;
+    if (!CanMeet(record.bound().limits, other.bound().limits)) continue;
     ++context_.counters->pair_queries;
     const intersection::IntersectionTime time =
         intersection::EarliestIntersection(bound, other.wide_bound(), question.from);

@@ -51,7 +51,7 @@ void CoverageTable::Renew(AgentIndex agent, Instant from, ClearanceCause cause) 
   if (record.renewed_cause != ClearanceCause::kBreach) record.renewed_cause = cause;
   settled_.Remove(agent);
   voided_.Insert(agent);
-  tiers_.Set(agent, context_.agents[agent].bound().declaration.acceleration_max);
+  tiers_.Set(agent, context_.agents[agent].bound().limits.acceleration_max);
   if (!IsSaturated(agent)) record.keys.SetAll(std::min(record.keys.earliest(), from));
   KeysChanged(agent);
 }

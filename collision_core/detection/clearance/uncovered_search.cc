@@ -27,8 +27,8 @@ double Path(double speed, double acceleration_max, double time_step, double t) {
 
 /// Of one agent, from where its newest state says.
 double PathOf(const motion::SpaceTimeBound& bound, double t) {
-  return Path(bound.state.v_WA.norm() + bound.state.velocity_error,
-              bound.declaration.acceleration_max, bound.declaration.time_step, t);
+  return Path(bound.state.v_WA.norm() + bound.state.velocity_error, bound.limits.acceleration_max,
+              bound.limits.time_step, t);
 }
 
 /// [s], with twice the skew: of either clock.
@@ -40,7 +40,7 @@ double Span(Instant a, Instant b, double skew) {
 /// `around`, `reach` wide beside its radius.
 bool GetsInto(const motion::SpaceTimeBound& around, double reach,
               const motion::SpaceTimeBound& bound, double t) {
-  const double sum = reach + around.declaration.radius + bound.declaration.radius +
+  const double sum = reach + around.limits.radius + bound.limits.radius +
                      2 * bound.state.position_error + PathOf(bound, t);
   const double magnitude = around.state.p_WA.norm() + bound.state.p_WA.norm();
   return !((around.state.p_WA - bound.state.p_WA).norm() >
@@ -90,10 +90,10 @@ void UncoveredSearch::FindAround(const ClearanceQuestion& question,
   around.state.stamp = from;
   around.state.p_WA = motion.state.p_WA;
   around.state.position_error = std::min(own + others, kReachMax);
-  around.declaration.radius = motion.declaration.radius;
-  around.declaration.acceleration_max = kNotAtRest;
-  around.declaration.group = agents[question.agent].bound().declaration.group;
-  around.declaration.mask = agents[question.agent].bound().declaration.mask;
+  around.limits.radius = motion.limits.radius;
+  around.limits.acceleration_max = kNotAtRest;
+  around.limits.group = agents[question.agent].bound().limits.group;
+  around.limits.mask = agents[question.agent].bound().limits.mask;
   const auto skip = [&](std::uint32_t index) {
     const AgentIndex partner(index);
     return partner == question.agent || question.LeavesOut(partner, coverage_.tiers());
@@ -123,7 +123,7 @@ void UncoveredSearch::Check(const ClearanceQuestion& question, AgentIndex partne
   if (partner == question.agent || !agents.Contains(partner)) return;
   const AgentRecord &record = agents[question.agent], &other = agents[partner];
   if (other.expired || question.LeavesOut(partner, coverage_.tiers()) ||
-      !CanMeet(record.bound().declaration, other.bound().declaration)) {
+      !CanMeet(record.bound().limits, other.bound().limits)) {
     return;
   }
   Instant free_until =

@@ -17,8 +17,8 @@ bool MayRest(const RestingPair& pair) {
                      (preview.in_contact() && preview.episode().begin.latest <= settled.at());
   if (!begun || !preview.in_contact() || !preview.finished().empty()) return false;
   for (const motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
-    const motion::AgentDeclaration& declaration = bound->declaration;
-    if (declaration.shape || declaration.shape_awaited) return false;
+    const motion::MotionLimits& limits = bound->limits;
+    if (limits.shape || limits.shape_awaited) return false;
     if (bound->state.stamp > preview.at()) return false;
   }
   return true;
@@ -31,8 +31,8 @@ double OverlapAt(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& 
   const Eigen::Vector3d d =
       (b.state.p_WA - a.state.p_WA) + tau_B * b.state.v_WA - tau_A * a.state.v_WA;
   const double sum = a.state.p_WA.norm() + b.state.p_WA.norm() + tau_A * a.state.v_WA.norm() +
-                     tau_B * b.state.v_WA.norm() + a.declaration.radius + b.declaration.radius;
-  return a.declaration.radius + b.declaration.radius - d.norm() - kMargin * sum;
+                     tau_B * b.state.v_WA.norm() + a.limits.radius + b.limits.radius;
+  return a.limits.radius + b.limits.radius - d.norm() - kMargin * sum;
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ SegmentCount EvaluateSegments(const History& a, const History& b, Instant until,
 }
 
 bool HaveShapes(const History& a, const History& b) {
-  return a.newest().declaration.shape || b.newest().declaration.shape;
+  return a.newest().limits.shape || b.newest().limits.shape;
 }
 
 Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,

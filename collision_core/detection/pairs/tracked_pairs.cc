@@ -136,7 +136,7 @@ WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
 void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality) {
   PairRecord& pair = table_[slot];
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
-  if (!CanMeet(a.bound().declaration, b.bound().declaration)) {
+  if (!CanMeet(a.bound().limits, b.bound().limits)) {
     return Drop(slot, Departure::kUnwatched);
   }
   // One budget for all horizons, what is settled first.

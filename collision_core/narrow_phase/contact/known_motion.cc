@@ -26,8 +26,8 @@ BodySegment SegmentOf(const KnownMotion& motion, const motion::SpaceTimeBound& f
     if (!known->has_value()) continue;
     const motion::SpaceTimeBound& bound = **known;
     const bool ahead = known == &motion.last;
-    segment.ball.radius = bound.declaration.radius;
-    segment.shape = bound.declaration.shape;
+    segment.ball.radius = bound.limits.radius;
+    segment.shape = bound.limits.shape;
     segment.ball.bounds.push_back(ahead ? ForwardBall(bound, base) : BackwardBall(bound, base));
     SeeFrom(frame, bound, base, &segment.ball.bounds.back());
     if (!segment.shape) continue;

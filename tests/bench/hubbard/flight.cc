@@ -143,10 +143,10 @@ motion::SpaceTimeBound Flight::BoundOf(std::int64_t frame, std::uint32_t ship) c
   bound.state.q_WB = state.q_WB;
   bound.state.w_WB = state.w_WB;
   bound.state.discontinuity = state.jumped;
-  bound.declaration.radius = kind(ship).radius;
-  bound.declaration.acceleration_max = kind(ship).acceleration_max;
-  bound.declaration.angular_acceleration_max = 0;
-  bound.declaration.shape = kind(ship).shape;
+  bound.limits.radius = kind(ship).radius;
+  bound.limits.acceleration_max = kind(ship).acceleration_max;
+  bound.limits.angular_acceleration_max = 0;
+  bound.limits.shape = kind(ship).shape;
   return bound;
 }
 

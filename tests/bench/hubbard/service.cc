@@ -56,7 +56,7 @@ Run Fly(const Flight& flight, std::uint64_t units) {
   options.work_units_per_step = units;
   detection::Detector detector(options);
   for (std::uint32_t ship = 0; ship < flight.ships(); ++ship) {
-    detector.Admit(IdOf(ship), flight.BoundOf(0, ship).declaration, StateOf(flight, 0, ship),
+    detector.Admit(IdOf(ship), flight.BoundOf(0, ship).limits, StateOf(flight, 0, ship),
                    Flight::InstantOf(0));
   }
   Run run;

@@ -34,9 +34,9 @@ motion::SpaceTimeBound BoundOf(const MovingBody& body, double at,
   bound.state.v_WA = VectorOf(body.v);
   bound.state.w_WB = VectorOf(body.w);
   bound.state.q_WB = Eigen::Quaterniond(body.q[0], body.q[1], body.q[2], body.q[3]);
-  bound.declaration.radius = shape ? shape->facts().radius : body.half[0];
-  bound.declaration.shape = std::move(shape);
-  bound.declaration.angular_acceleration_max = 0;
+  bound.limits.radius = shape ? shape->facts().radius : body.half[0];
+  bound.limits.shape = std::move(shape);
+  bound.limits.angular_acceleration_max = 0;
   return bound;
 }
 

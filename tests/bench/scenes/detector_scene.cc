@@ -25,7 +25,7 @@ DetectorScene Told(const std::string& name, const baselines::BallScene& balls, i
   scene.steps = steps;
   for (const baselines::BallAgent& ball : balls) {
     const motion::SpaceTimeBound bound = baselines::BoundOf(ball);
-    scene.agents.push_back({bound.state, bound.declaration});
+    scene.agents.push_back({bound.state, bound.limits});
     scene.agents.back().state.stamp = Instant();
   }
   return scene;

@@ -71,8 +71,8 @@ class Scene {
     bound.state.p_WA = {random_.Uniform(0, 1000), random_.Uniform(0, 1000),
                         random_.Uniform(0, 1000)};
     bound.state.v_WA = random_.UnitVector() * random_.Uniform(0, 5);
-    bound.declaration.radius = 0.5;
-    bound.declaration.acceleration_max = 1;
+    bound.limits.radius = 0.5;
+    bound.limits.acceleration_max = 1;
     return bound;
   }
 

@@ -46,7 +46,7 @@ TEST(ExhaustiveIndex, AnAgentAloneMeetsNone) {
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, Instant(), Instant::Never()};
   EXPECT_FALSE(index.Earliest(query));
   motion::SpaceTimeBound bound;
-  bound.declaration.radius = 1;
+  bound.limits.radius = 1;
   index.Set(5, bound);
   EXPECT_FALSE(index.Earliest(query));
   EXPECT_FALSE(index.EarliestOf(5, query));

@@ -18,7 +18,7 @@ motion::SpaceTimeBound RandomBound(Random* random) {
             random->Uniform(0, 1), random->Chance(0.3) ? 0 : scale);
   bound.state.position_error = random->Uniform(0, 1);
   bound.state.velocity_error = random->Uniform(0, 1);
-  bound.declaration.time_step = random->Uniform(0, 1);
+  bound.limits.time_step = random->Uniform(0, 1);
   return bound;
 }
 
@@ -52,7 +52,7 @@ TEST(FaceLines, ContainTheHorn) {
     for (int part = 0; part <= 4; ++part) {
       const Exact t = Exact(late) + Exact(length - late) * Exact(part) / 4;  // From the start, ns.
       const Exact fraction = t / Exact(length), delta = (t - Exact(late)) / Exact(kSecond);
-      const Exact reach = Exact(moved.declaration.radius) + Evaluate(horn.u, delta);
+      const Exact reach = Exact(moved.limits.radius) + Evaluate(horn.u, delta);
       for (int axis = 0; axis < 3; ++axis) {
         const Exact centre = horn.p[axis] + horn.v[axis] * delta;
         const auto line = [&](int face) {

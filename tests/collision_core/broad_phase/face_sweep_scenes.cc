@@ -44,8 +44,8 @@ motion::SpaceTimeBound RandomAgent(SweepLayout layout, Random* random) {
         const int what = static_cast<int>(random->Below(4));
         if (what == 0) bound.state.p_WA *= far;
         if (what == 1) bound.state.v_WA *= far;
-        if (what == 2) bound.declaration.radius = far;
-        if (what == 3) bound.declaration.acceleration_max = far;
+        if (what == 2) bound.limits.radius = far;
+        if (what == 3) bound.limits.acceleration_max = far;
       }
       return bound;
     }
@@ -116,17 +116,17 @@ void Embellish(double chance, Instant from, bool late, motion::SpaceTimeBound* b
   if (random->Chance(chance)) state.position_error = random->Uniform(0, 0.1);
   if (random->Chance(chance)) state.velocity_error = random->Uniform(0, 0.1);
   if (random->Chance(chance)) bound->skew = random->Uniform(0, 0.01);
-  if (random->Chance(chance)) bound->declaration.time_step = random->Uniform(0, 0.1);
+  if (random->Chance(chance)) bound->limits.time_step = random->Uniform(0, 0.1);
   if (random->Chance(chance)) {
     state.direction = random->UnitVector();
     if (random->Chance(0.5)) {
       state.direction_until = At(state.stamp.nanoseconds() + random->Below(5 * kSecond));
     }
   }
-  if (random->Chance(chance)) bound->declaration.speed_max = random->Uniform(0, 30);
+  if (random->Chance(chance)) bound->limits.speed_max = random->Uniform(0, 30);
   if (random->Chance(chance)) {
-    bound->declaration.group = 1u << random->Below(4);
-    bound->declaration.mask = static_cast<std::uint32_t>(random->Below(16));
+    bound->limits.group = 1u << random->Below(4);
+    bound->limits.mask = static_cast<std::uint32_t>(random->Below(16));
   }
 }
 

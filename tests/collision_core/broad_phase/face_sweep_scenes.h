@@ -30,8 +30,8 @@ inline motion::SpaceTimeBound Agent(const Eigen::Vector3d& p, const Eigen::Vecto
   motion::SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
-  bound.declaration.radius = radius;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = radius;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 

@@ -108,7 +108,7 @@ SweepScene Passing(int count, std::int64_t until, Random* random) {
   SweepScene scene;
   for (int i = 0; i < count; ++i) {
     scene.agents.push_back(Agent(RandomVector(random, 40), RandomVector(random, 1), 0.5));
-    scene.agents.back().declaration.mask = 0;
+    scene.agents.back().limits.mask = 0;
   }
   scene.query = {intersection::BoundKind::kHypertrapezoid, At(0), At(until)};
   return scene;

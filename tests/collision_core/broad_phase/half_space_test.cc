@@ -33,8 +33,8 @@ class ExactPlane {
       : half_space_(half_space), bound_(bound), since_(ExactSeconds(bound.state.stamp, base)) {
     for (int i = 0; i < 3; ++i)
       square_ += Exact(half_space.normal[i]) * Exact(half_space.normal[i]);
-    radius_ = Exact(bound.declaration.radius) + Exact(margin);
-    if (!HasSpeedCap(bound.declaration)) return;
+    radius_ = Exact(bound.limits.radius) + Exact(margin);
+    if (!HasSpeedCap(bound.limits)) return;
     const Instant from = CapTakesOver(bound);
     if (!from.is_never()) cap_ = ExactSeconds(bound.state.stamp, from);
   }
@@ -52,14 +52,14 @@ class ExactPlane {
 
   /// Does it stay out for ever, by one of the balls?
   bool FreeForEver() const {
-    const Exact M = bound_.declaration.acceleration_max;
+    const Exact M = bound_.limits.acceleration_max;
     const Exact error = bound_.state.velocity_error;
     Exact along = 0;
     for (int i = 0; i < 3; ++i) along += Exact(half_space_.normal[i]) * Exact(bound_.state.v_WA[i]);
     const bool horn = M == 0 && along >= 0 && along * along >= square_ * error * error &&
                       IsOut(since_, since_, 0);
     const Exact turn = cap_ ? std::max(*cap_, since_) : Exact(0);
-    const bool cap = cap_ && bound_.declaration.speed_max == 0 && M == 0 &&
+    const bool cap = cap_ && bound_.limits.speed_max == 0 && M == 0 &&
                      IsOut(since_, std::min(since_, *cap_), 0) && IsOut(turn, *cap_, 0);
     return horn || cap;
   }
@@ -68,11 +68,11 @@ class ExactPlane {
   /// At `tau` seconds after the stamp, of a ball that was the horn's until `turn`. At the edge is
   /// not out, except that a promise up to an instant does not count that instant itself.
   bool IsOut(const Exact& tau, const Exact& turn, double forced) const {
-    const motion::AgentDeclaration& declaration = bound_.declaration;
-    const Exact M = declaration.acceleration_max, step = declaration.time_step;
+    const motion::MotionLimits& limits = bound_.limits;
+    const Exact M = limits.acceleration_max, step = limits.time_step;
     Exact reach = radius_ + Exact(bound_.state.position_error) +
                   Exact(bound_.state.velocity_error) * turn + M * turn * (turn + step) / 2;
-    if (tau > turn) reach += (Exact(declaration.speed_max) + M * step / 2) * (tau - turn);
+    if (tau > turn) reach += (Exact(limits.speed_max) + M * step / 2) * (tau - turn);
     Exact distance = -Exact(half_space_.offset), magnitude = abs(distance);
     for (int i = 0; i < 3; ++i) {
       const Exact n = half_space_.normal[i], way = Exact(bound_.state.v_WA[i]) * turn;
@@ -104,22 +104,22 @@ Case Draw(bool caps, Random* random) {
   c.half_space.normal = length * random->UnitVector();
   if (random->Chance(0.2)) c.half_space.normal = {0, 0, length};
   motion::MotionState& state = c.bound.state;
-  motion::AgentDeclaration& declaration = c.bound.declaration;
+  motion::MotionLimits& limits = c.bound.limits;
   state.stamp = Instant::FromNanoseconds(static_cast<std::int64_t>(random->Below(3'000'000'000)));
   state.p_WA = size * random->LogUniform(1e-3, 1e6) * random->UnitVector();
   if (random->Chance(0.8)) state.v_WA = size * random->LogUniform(1e-3, 10) * random->UnitVector();
   if (random->Chance(0.3)) state.v_WA.setZero();
-  if (random->Chance(0.8)) declaration.radius = size * random->LogUniform(1e-6, 1);
-  if (random->Chance(0.7)) declaration.acceleration_max = size * random->LogUniform(1e-3, 10);
+  if (random->Chance(0.8)) limits.radius = size * random->LogUniform(1e-6, 1);
+  if (random->Chance(0.7)) limits.acceleration_max = size * random->LogUniform(1e-3, 10);
   if (random->Chance(0.2)) state.position_error = 0.01 * size;
   if (random->Chance(0.2)) state.velocity_error = 0.1 * state.v_WA.norm();
-  if (random->Chance(0.2)) declaration.time_step = 0.01;
+  if (random->Chance(0.2)) limits.time_step = 0.01;
   if (random->Chance(0.3)) c.margin = size * random->LogUniform(1e-6, 10);
-  if (caps) declaration.speed_max = state.v_WA.norm() * random->Uniform(1, 2);
+  if (caps) limits.speed_max = state.v_WA.norm() * random->Uniform(1, 2);
   const double since = std::max(0.0, numeric::SecondsBetween(state.stamp, kFrom).upper);
   const double along = c.half_space.normal.dot(state.p_WA + since * state.v_WA);
-  double gap = declaration.radius + c.margin + state.position_error + state.velocity_error * since +
-               0.5 * declaration.acceleration_max * since * (since + declaration.time_step);
+  double gap = limits.radius + c.margin + state.position_error + state.velocity_error * since +
+               0.5 * limits.acceleration_max * since * (since + limits.time_step);
   if (random->Chance(0.7)) gap += size * random->LogUniform(1e-6, 10);
   if (random->Chance(0.1)) gap = -gap;
   c.half_space.offset = along - c.half_space.normal.norm() * gap;
@@ -167,7 +167,7 @@ TEST(HalfSpace, SpeedCapsPostponeThem) {
     Judge(c, &met);
     ASSERT_FALSE(HasFatalFailure()) << "case " << i;
     const double capped = EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin).seconds;
-    c.bound.declaration.speed_max = numeric::kInfinity;
+    c.bound.limits.speed_max = numeric::kInfinity;
     const double without =
         EarliestIntersectionOf(kForever, c.half_space, c.bound, c.margin).seconds;
     ASSERT_TRUE(NeverMoves(c.bound) || capped >= without);
@@ -181,7 +181,7 @@ motion::SpaceTimeBound Falling() {
   motion::SpaceTimeBound bound;
   bound.state.p_WA = {100, -200, 7};
   bound.state.v_WA = {3, 0, -2};
-  bound.declaration.radius = 1;
+  bound.limits.radius = 1;
   return bound;
 }
 
@@ -223,18 +223,18 @@ TEST(HalfSpace, MeetsOnlyWhatItMay) {
   EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   floor.group = 2, floor.mask = 1;
   EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  bound.declaration.mask = 1;
+  bound.limits.mask = 1;
   EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  bound.declaration.mask = 2;
+  bound.limits.mask = 2;
   EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  bound.declaration.group = 4;
+  bound.limits.group = 4;
   EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
   bound = Falling();
   bound.state.v_WA.setZero();
   bound.state.p_WA.z() = -5;
   EXPECT_EQ(Seconds(HalfSpace(), bound, Instant::Never()), numeric::kInfinity)
       << "inside, but still";
-  bound.declaration.acceleration_max = 1e-9;
+  bound.limits.acceleration_max = 1e-9;
   EXPECT_EQ(Seconds(HalfSpace(), bound, Instant::Never()), 0);
 }
 
@@ -292,7 +292,7 @@ TEST(HalfSpaces, TheFilterRulesOutNothingThatMeets) {
       ++passed;
     }
     // Caps are left to the canonical routine, and stamps to come cost some.
-    if (!HasSpeedCap(c.bound.declaration) && waited == 0 && meets > 1e-3) {
+    if (!HasSpeedCap(c.bound.limits) && waited == 0 && meets > 1e-3) {
       ++(may(std::min(0.99 * meets, 1e9)) ? idle : ruled_out);
     }
   }

@@ -25,11 +25,11 @@ motion::SpaceTimeBound Draw(double size, double time, Random* random) {
   bound.state.p_WA = random->UnitVector() * (size * random->Uniform(0, 10));
   if (random->Chance(0.2)) bound.state.p_WA.array() += size * random->LogUniform(1, 1e9);
   bound.state.v_WA = random->UnitVector() * speed;
-  bound.declaration.radius = random->Chance(0.2) ? 0 : size * random->LogUniform(1e-6, 1);
-  bound.declaration.acceleration_max =
+  bound.limits.radius = random->Chance(0.2) ? 0 : size * random->LogUniform(1e-6, 1);
+  bound.limits.acceleration_max =
       random->Chance(0.3) ? 0 : size / (time * time) * random->LogUniform(1e-4, 1e4);
   if (random->Chance(0.3)) {
-    bound.declaration.time_step = 0.01 * time;
+    bound.limits.time_step = 0.01 * time;
     bound.state.position_error = 0.01 * size;
     bound.state.velocity_error = 0.01 * speed;
     bound.skew = 0.02 * time;
@@ -71,7 +71,7 @@ TEST(HornTable, CountsWhoIsThere) {
   EXPECT_EQ(table.count(), 1u);
   EXPECT_EQ(table.size(), 4u);
   EXPECT_FALSE(table.contains(2));
-  bound.declaration.radius = 1e30;
+  bound.limits.radius = 1e30;
   table.Set(3, bound);
   EXPECT_TRUE(table.row(3).unfilterable);
   EXPECT_EQ(table.still_count(), 1u);

@@ -89,8 +89,8 @@ inline motion::SpaceTimeBound BoundIn(double extent, double radius, double speed
   bound.state.stamp = kMethodStart;
   for (int axis = 0; axis < 3; ++axis) bound.state.p_WA[axis] = random->Uniform(-extent, extent);
   bound.state.v_WA = random->UnitVector() * (speed * random->Uniform(0, 1));
-  bound.declaration.radius = radius;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = radius;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 
@@ -209,7 +209,7 @@ inline const NamedScene kMethodScenes[] = {
          motion::SpaceTimeBound bound = BoundIn(30, 0.5, 5, 2, r);
          bound.state.position_error = r->Uniform(0, 0.2);
          bound.state.velocity_error = r->Uniform(0, 0.2);
-         bound.declaration.time_step = 0.01;
+         bound.limits.time_step = 0.01;
          bound.skew = 0.02;
          return bound;
        });
@@ -218,8 +218,8 @@ inline const NamedScene kMethodScenes[] = {
      [](Random* r) {
        return Several(10, 90, r, [&](int) {
          motion::SpaceTimeBound bound = BoundIn(15, 0.5, 5, 2, r);
-         bound.declaration.group = 1u << r->Below(4);
-         bound.declaration.mask = static_cast<std::uint32_t>(r->Below(16));
+         bound.limits.group = 1u << r->Below(4);
+         bound.limits.mask = static_cast<std::uint32_t>(r->Below(16));
          if (r->Chance(0.5))
            bound.state.expiry = numeric::AddRoundedUp(kMethodStart, r->Uniform(0, 3));
          return bound;
@@ -239,9 +239,9 @@ inline const NamedScene kMethodScenes[] = {
      [](Random* r) {
        return Several(10, 60, r, [&](int i) {
          motion::SpaceTimeBound bound = BoundIn(20, 0.5, 5, 1, r);
-         if (i % 5 == 0) bound.declaration.radius = r->LogUniform(1, 1e300);
+         if (i % 5 == 0) bound.limits.radius = r->LogUniform(1, 1e300);
          if (i % 5 == 1) bound.state.p_WA.x() = r->LogUniform(1, 1e300);
-         if (i % 5 == 2) bound.declaration.acceleration_max = r->LogUniform(1e-300, 1e18);
+         if (i % 5 == 2) bound.limits.acceleration_max = r->LogUniform(1e-300, 1e18);
          if (i % 5 == 3) bound.state.v_WA.y() = r->LogUniform(1, 1e200);
          return bound;
        });

@@ -77,8 +77,8 @@ const LargeScene kLargeScenes[] = {
     {"masks, stamps and errors",
      [](int i, int n, Random* r) {
        motion::SpaceTimeBound bound = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
-       bound.declaration.group = 1u << (i % 3);
-       bound.declaration.mask = i % 7 == 0 ? 0 : 6;
+       bound.limits.group = 1u << (i % 3);
+       bound.limits.mask = i % 7 == 0 ? 0 : 6;
        bound.state.stamp = numeric::AddRoundedUp(kMethodStart, -r->Uniform(0, 0.5));
        bound.state.position_error = r->Uniform(0, 0.1);
        return bound;
@@ -139,7 +139,7 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
         for (const NearPair& pair : near) {
           ASSERT_LT(pair.lower, pair.higher) << what;
           ASSERT_TRUE(pairs.insert({pair.lower, pair.higher}).second) << what << ": twice";
-          ASSERT_TRUE(CanMeet(bounds[pair.lower].declaration, bounds[pair.higher].declaration));
+          ASSERT_TRUE(CanMeet(bounds[pair.lower].limits, bounds[pair.higher].limits));
         }
         for (const intersection::IntersectingPair& meeting : meetings) {
           ASSERT_TRUE(pairs.contains({meeting.lower, meeting.higher})) << what << ": missing";

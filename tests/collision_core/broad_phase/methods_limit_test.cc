@@ -49,8 +49,8 @@ TEST_P(MethodsAtTheLimit, GrazingHorns) {
   for (int trial = 0; trial < 600 && !HasFatalFailure(); ++trial) {
     motion::SpaceTimeBound a;
     a.state.stamp = kMethodStart;
-    a.declaration.radius = 0.5;
-    a.declaration.acceleration_max = 0x1p-40;
+    a.limits.radius = 0.5;
+    a.limits.acceleration_max = 0x1p-40;
     motion::SpaceTimeBound b = a;
     for (int axis = 0; axis < 3; ++axis) {
       a.state.p_WA[axis] = on_grid(random.Uniform(-200, -100));
@@ -76,7 +76,7 @@ TEST_P(MethodsAtTheLimit, HypertrapezoidsAHairApart) {
     motion::SpaceTimeBound a;
     a.state.stamp = kMethodStart;
     a.state.v_WA = speed * Eigen::Vector3d(0.3, 0.5, 0.7);
-    a.declaration.radius = radius;
+    a.limits.radius = radius;
     motion::SpaceTimeBound b = a;
     b.state.p_WA.setConstant(2 * radius + speed * random.LogUniform(1e-17, 1e-9));
     const intersection::BroadQuery query{intersection::BoundKind::kHypertrapezoid, kMethodStart,

@@ -194,7 +194,7 @@ TEST_P(MethodsWithRules, MeetHalfSpacesBeforeOthersAreThere) {
   bound.state.stamp = kMethodStart;
   bound.state.p_WA = {3, 4, 7};
   bound.state.v_WA = {0, 0, -2};
-  bound.declaration.radius = 1;
+  bound.limits.radius = 1;
   method->Set(0, bound);
   ASSERT_TRUE(method->SetHalfSpace(1, {{0, 0, 1}, 0}));  // at 3 s
   ASSERT_TRUE(method->SetHalfSpace(2, {{0, 0, 2}, 4}));  // at 2 s

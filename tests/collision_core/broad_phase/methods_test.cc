@@ -144,7 +144,7 @@ TEST_P(Methods, TellTheSameMeetingsOfOneAgent) {
 motion::SpaceTimeBound Later(const motion::SpaceTimeBound& bound, Instant stamp, Random* random) {
   motion::SpaceTimeBound next = bound;
   const double s = numeric::SecondsBetween(bound.state.stamp, stamp).lower;
-  const double acceleration_max = bound.declaration.acceleration_max;
+  const double acceleration_max = bound.limits.acceleration_max;
   next.state.stamp = stamp;
   next.state.p_WA += bound.state.v_WA * s + random->UnitVector() * (0.45 * acceleration_max * s *
                                                                     s * random->Uniform(0, 1));
@@ -174,7 +174,7 @@ TEST_P(Methods, StayRightThroughLongHistories) {
             agents[agent].reset();
             method->Remove(agent);
           } else if (kind < 0.3) {  // widening
-            agents[agent]->declaration.acceleration_max *= 1.5;
+            agents[agent]->limits.acceleration_max *= 1.5;
             method->Set(agent, *agents[agent]);
           } else if (agents[agent]->state.stamp < now) {
             agents[agent] = Later(*agents[agent], now, &random);

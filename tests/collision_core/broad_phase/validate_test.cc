@@ -28,7 +28,7 @@ void ExpectWholeThroughHistory(std::uint64_t seed) {
     } else {
       motion::SpaceTimeBound bound =
           BoundIn(random.Chance(0.05) ? 0x1p61 : 100, random.LogUniform(1e-2, 10), 5, 1, &random);
-      if (random.Chance(0.2)) bound.state.v_WA.setZero(), bound.declaration.acceleration_max = 0;
+      if (random.Chance(0.2)) bound.state.v_WA.setZero(), bound.limits.acceleration_max = 0;
       method.Set(agent, bound);
     }
     method.Validate();

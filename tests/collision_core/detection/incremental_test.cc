@@ -277,13 +277,13 @@ class RandomHistory {
   void Speak(std::uint32_t slot, Instant now) {
     motion::SpaceTimeBound& bound = known_[slot];
     const double s = numeric::SecondsBetween(bound.state.stamp, now).middle();
-    const double pull = 0.9 * bound.declaration.acceleration_max;
+    const double pull = 0.9 * bound.limits.acceleration_max;
     const Vector3d a = random_.UnitVector() * random_.Uniform(0, pull);
     motion::MotionState state = bound.state;
     state.stamp = now;
     state.p_WA += state.v_WA * s + a * (s * s / 2);
     state.v_WA += a * s;
-    const double cap = bound.declaration.speed_max;
+    const double cap = bound.limits.speed_max;
     if (state.v_WA.norm() > cap) state.v_WA *= 0.999 * cap / state.v_WA.norm();
     state.discontinuity = false;
     if (random_.Chance(0.01)) {
@@ -295,8 +295,8 @@ class RandomHistory {
       state.position_error = random_.Uniform(0, 0.5);
     }
     if (random_.Chance(0.01)) {
-      bound.declaration = Declaration();
-      detector_->Redeclare(Id(slot), bound.declaration, now);
+      bound.limits = Declaration();
+      detector_->Redeclare(Id(slot), bound.limits, now);
     }
     detector_->Update(Id(slot), state, now);
     bound.state = state;

@@ -127,8 +127,8 @@ motion::SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, 
   motion::SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
-  bound.declaration.radius = radius;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = radius;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 
@@ -146,7 +146,7 @@ motion::SpaceTimeBound AnyAgent(Random& random) {
       Ball(Any(random) * random.UnitVector(), AnyOrZero(random) * random.UnitVector(),
            AnyOrZero(random), AnyOrZero(random));
   if (random.Chance(0.3)) bound.state.stamp = Stamp(random, kSecond);
-  if (random.Chance(0.2)) bound.declaration.time_step = random.LogUniform(1e-6, 1);
+  if (random.Chance(0.2)) bound.limits.time_step = random.LogUniform(1e-6, 1);
   if (random.Chance(0.2)) bound.state.position_error = Any(random);
   if (random.Chance(0.2)) bound.state.velocity_error = Any(random);
   return bound;
@@ -231,11 +231,11 @@ TEST(PairTimeOracle, Degenerate) {
     Pair pair{AnyAgent(random), AnyAgent(random), Instant()};
     if (random.Chance(0.5)) pair.b.state.p_WA = pair.a.state.p_WA;
     if (random.Chance(0.5)) pair.b.state.v_WA = pair.a.state.v_WA;
-    if (random.Chance(0.3)) pair.b.declaration = pair.a.declaration;
+    if (random.Chance(0.3)) pair.b.limits = pair.a.limits;
     if (random.Chance(0.2)) pair.b = pair.a;
-    if (random.Chance(0.3)) pair.a.declaration.acceleration_max = 0;
-    if (random.Chance(0.3)) pair.b.declaration.acceleration_max = 0;
-    if (random.Chance(0.2)) pair.a.declaration.radius = pair.b.declaration.radius = 0;
+    if (random.Chance(0.3)) pair.a.limits.acceleration_max = 0;
+    if (random.Chance(0.3)) pair.b.limits.acceleration_max = 0;
+    if (random.Chance(0.2)) pair.a.limits.radius = pair.b.limits.radius = 0;
     return pair;
   });
 }
@@ -254,7 +254,7 @@ TEST(PairTimeOracle, FarApartStamps) {
       // Back to where they are near at the time asked.
       const Instant base = std::max({pair.from, pair.a.state.stamp, pair.b.state.stamp});
       for (motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
-        bound->declaration.acceleration_max = 0;
+        bound->limits.acceleration_max = 0;
         bound->state.p_WA -=
             numeric::SecondsBetween(bound->state.stamp, base).lower * bound->state.v_WA;
       }
@@ -313,7 +313,7 @@ TEST(PairTimeOracle, ErrorsSkewAndStep) {
       if (random.Chance(0.8)) bound.skew = random.LogUniform(1e-9, 0.5);
       if (random.Chance(0.5)) bound.state.position_error = random.LogUniform(1e-6, 1);
       if (random.Chance(0.5)) bound.state.velocity_error = random.LogUniform(1e-6, 1);
-      if (random.Chance(0.5)) bound.declaration.time_step = random.LogUniform(1e-4, 1);
+      if (random.Chance(0.5)) bound.limits.time_step = random.LogUniform(1e-4, 1);
       return bound;
     };
     return Pair{agent(), agent(), Instant::FromNanoseconds(kSecond)};
@@ -337,7 +337,7 @@ TEST(PairTimeOracle, Directions) {
                   Instant::FromNanoseconds(kSecond)};
         for (motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
           bound->state.v_WA *= random.Uniform(0, 0.2);
-          bound->declaration.acceleration_max = random.LogUniform(0.01, 20);
+          bound->limits.acceleration_max = random.LogUniform(0.01, 20);
           if (random.Chance(0.3)) bound->skew = random.LogUniform(1e-6, 0.2);
         }
         AddDirection(random, &pair.a);
@@ -356,12 +356,12 @@ TEST(PairTimeOracle, SpeedCaps) {
                   Instant::FromNanoseconds(kSecond)};
         for (motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
           if (random.Chance(0.2)) continue;
-          bound->declaration.acceleration_max = random.LogUniform(0.01, 100);
+          bound->limits.acceleration_max = random.LogUniform(0.01, 100);
           const double speed = bound->state.v_WA.norm();
-          bound->declaration.speed_max = speed * (1 + random.LogUniform(1e-6, 10));
-          if (random.Chance(0.2)) bound->declaration.speed_max = speed;
+          bound->limits.speed_max = speed * (1 + random.LogUniform(1e-6, 10));
+          if (random.Chance(0.2)) bound->limits.speed_max = speed;
           if (random.Chance(0.2)) bound->skew = random.LogUniform(1e-6, 0.2);
-          if (random.Chance(0.2)) bound->declaration.time_step = random.LogUniform(1e-4, 0.1);
+          if (random.Chance(0.2)) bound->limits.time_step = random.LogUniform(1e-4, 0.1);
           if (random.Chance(0.2)) bound->state.velocity_error = random.LogUniform(1e-6, 1);
           if (random.Chance(0.2)) AddDirection(random, bound);
         }

@@ -19,8 +19,8 @@ motion::SpaceTimeBound Ball(const Eigen::Vector3d& p, const Eigen::Vector3d& v, 
   motion::SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
-  bound.declaration.radius = radius;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = radius;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 
@@ -45,7 +45,7 @@ struct ExactPair {
     }
     reach = horn_A.u;
     for (int i = 0; i < 3; ++i) reach[i] += horn_B.u[i];
-    reach[0] += Exact(a.declaration.radius) + Exact(b.declaration.radius);
+    reach[0] += Exact(a.limits.radius) + Exact(b.limits.radius);
     gap = Multiply(reach, reach);
     for (int i = 0; i < 5; ++i) gap[i] = (i < 3 ? distance_square[i] : Exact(0)) - gap[i];
   }
@@ -113,7 +113,7 @@ motion::SpaceTimeBound AnyAgent(Random& random) {
            MagnitudeOrZero(random), MagnitudeOrZero(random));
   if (random.Chance(0.3)) bound.state.stamp = Instant::FromNanoseconds(random.Below(kSecond));
   if (random.Chance(0.1)) bound.state.stamp = Instant::FromNanoseconds(random.Next() >> 2);
-  if (random.Chance(0.2)) bound.declaration.time_step = random.LogUniform(1e-6, 1);
+  if (random.Chance(0.2)) bound.limits.time_step = random.LogUniform(1e-6, 1);
   if (random.Chance(0.2)) bound.state.position_error = Magnitude(random);
   if (random.Chance(0.2)) bound.state.velocity_error = Magnitude(random);
   return bound;
@@ -230,9 +230,9 @@ TEST(EarliestIntersection, PlainCases) {
   EXPECT_EQ(seconds(), numeric::kInfinity);
   b.state.expiry = Instant::Never();
 
-  b.declaration.mask = 2;
+  b.limits.mask = 2;
   EXPECT_EQ(seconds(), numeric::kInfinity);
-  a.declaration.group = 2;
+  a.limits.group = 2;
   EXPECT_LE(seconds(), 1.0);
   a.state.v_WA.x() = -10;
   EXPECT_EQ(seconds(), numeric::kInfinity);

@@ -31,10 +31,10 @@ motion::SpaceTimeBound Draw(double size, Random* random) {
       Instant::FromNanoseconds(static_cast<std::int64_t>(random->Below(kFrom.nanoseconds())));
   bound.state.p_WA = 10 * size * random->Uniform(0, 1) * random->UnitVector();
   bound.state.v_WA = size * random->LogUniform(1e-3, 10) * random->UnitVector();
-  bound.declaration.radius = random->Chance(0.2) ? 0 : size * random->Uniform(0, 1);
-  if (random->Chance(0.7)) bound.declaration.acceleration_max = size * random->LogUniform(1e-3, 10);
+  bound.limits.radius = random->Chance(0.2) ? 0 : size * random->Uniform(0, 1);
+  if (random->Chance(0.7)) bound.limits.acceleration_max = size * random->LogUniform(1e-3, 10);
   if (random->Chance(0.2)) bound.state.velocity_error = 0.01 * size;
-  if (random->Chance(0.2)) bound.declaration.time_step = 0.01;
+  if (random->Chance(0.2)) bound.limits.time_step = 0.01;
   return bound;
 }
 
@@ -45,7 +45,7 @@ Pair DrawPair(bool boxes, Random* random) {
   for (motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
     if (!boxes || random->Chance(0.3)) continue;
     if (random->Chance(0.5)) bound->state.direction = random->UnitVector();
-    if (random->Chance(0.5)) bound->declaration.speed_max = 1.5 * bound->state.v_WA.norm();
+    if (random->Chance(0.5)) bound->limits.speed_max = 1.5 * bound->state.v_WA.norm();
   }
   return pair;
 }
@@ -113,7 +113,7 @@ TEST(PairMargin, HeadOnIsExact) {
   Pair pair{{}, {}, 2};
   pair.a.state.v_WA = {10, 0, 0};
   pair.b.state.p_WA = {14, 0, 0};
-  pair.a.declaration.radius = pair.b.declaration.radius = 1;
+  pair.a.limits.radius = pair.b.limits.radius = 1;
   const IntersectionTime time =
       EarliestIntersection(pair.a, pair.b, Instant(), Instant::Never(), 2);
   EXPECT_LE(time.seconds, 1);

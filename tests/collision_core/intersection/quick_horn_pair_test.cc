@@ -21,9 +21,9 @@ motion::SpaceTimeBound AnyAgent(Random& random) {
   bound.state.stamp = Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(1ull << 33)));
   bound.state.position_error = any();
   bound.state.velocity_error = any();
-  bound.declaration.radius = any();
-  bound.declaration.acceleration_max = any();
-  bound.declaration.time_step = random.LogUniform(1e-6, 1);
+  bound.limits.radius = any();
+  bound.limits.acceleration_max = any();
+  bound.limits.time_step = random.LogUniform(1e-6, 1);
   return bound;
 }
 
@@ -44,8 +44,7 @@ TEST(QuickHornPair, ReachesContainTheRounding) {
       off_d += d * d;
       off_w += w * w;
     }
-    const Exact s0 =
-        Exact(a.declaration.radius) + Exact(b.declaration.radius) + horn_A.u[0] + horn_B.u[0];
+    const Exact s0 = Exact(a.limits.radius) + Exact(b.limits.radius) + horn_A.u[0] + horn_B.u[0];
     const Exact s1 = horn_A.u[1] + horn_B.u[1], s2 = horn_A.u[2] + horn_B.u[2];
     const Exact more0 = Exact(q.ball.s0) - s0, more1 = Exact(q.ball.s1) - s1;
     ASSERT_GE(more0, 0);

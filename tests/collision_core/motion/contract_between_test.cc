@@ -44,7 +44,7 @@ struct Flight {
 Flight RandomFlight(Random* random, int pieces_max) {
   Flight flight;
   SpaceTimeBound& before = flight.pair.before;
-  before.declaration.acceleration_max = random->LogUniform(1e-3, 1e3);
+  before.limits.acceleration_max = random->LogUniform(1e-3, 1e3);
   before.state.p_WA = random->LogUniform(1e-3, 1e6) * random->UnitVector();
   before.state.v_WA = random->LogUniform(1e-3, 1e3) * random->UnitVector();
   flight.on_a_line = random->Chance(0.5);
@@ -55,7 +55,7 @@ Flight RandomFlight(Random* random, int pieces_max) {
     const auto piece = static_cast<std::int64_t>(random->LogUniform(1e6, 1e10));
     const double dt = static_cast<double>(piece) * 1e-9;
     n = flight.on_a_line ? Vector3d(-n) : random->UnitVector();
-    const Vector3d a = (1 - 0x1p-51) * before.declaration.acceleration_max * n;
+    const Vector3d a = (1 - 0x1p-51) * before.limits.acceleration_max * n;
     p += dt * v + 0.5 * dt * dt * a;
     v += dt * a;
     ns += piece;
@@ -80,7 +80,7 @@ TEST(ContractBetween, FullThrustIsKeptAndMoreIsNot) {
     ++turns;
     // Far from the origin the rounding of places may explain more than 1 %.
     const double s = flight.pair.Seconds();
-    double& acceleration_max = flight.pair.before.declaration.acceleration_max;
+    double& acceleration_max = flight.pair.before.limits.acceleration_max;
     if (acceleration_max * s * s < 1e-3) continue;
     acceleration_max *= 0.99;
     ASSERT_GT(flight.pair.BetweenExcess(), 0) << i;
@@ -99,7 +99,7 @@ TEST(ContractBetween, ErrorsOfTheTellerAreNoBreach) {
     const auto some = [&](double most) {
       return random.Chance(0.5) ? 0 : random.LogUniform(1e-6 * most, most);
     };
-    const double s = pair.Seconds(), acceleration_max = pair.before.declaration.acceleration_max;
+    const double s = pair.Seconds(), acceleration_max = pair.before.limits.acceleration_max;
     for (MotionState* state : {&pair.before.state, &pair.next}) {
       state->position_error = some(acceleration_max * s * s);
       state->velocity_error = some(acceleration_max * s);
@@ -128,10 +128,10 @@ TEST(ContractBetween, StepsOfEulerAreKept) {
     const double h = static_cast<double>(step_ns) * 1e-9;
     const bool place_first = i % 2 == 0;
     Pair pair;
-    AgentDeclaration& declaration = pair.before.declaration;
-    declaration.time_step = h;
-    declaration.acceleration_max = random.LogUniform(1e-3, 1e3);
-    const Vector3d a = (1 - 0x1p-51) * declaration.acceleration_max * random.UnitVector();
+    MotionLimits& limits = pair.before.limits;
+    limits.time_step = h;
+    limits.acceleration_max = random.LogUniform(1e-3, 1e3);
+    const Vector3d a = (1 - 0x1p-51) * limits.acceleration_max * random.UnitVector();
     const int steps = static_cast<int>(1 + random.Below(100));
     const int turn = random.Chance(0.3) ? steps : static_cast<int>(random.Below(steps));
     MotionState& next = pair.next;
@@ -142,7 +142,7 @@ TEST(ContractBetween, StepsOfEulerAreKept) {
     }
     next.stamp = Instant::FromNanoseconds(steps * step_ns);
     ASSERT_FALSE(pair.IsBreach()) << i << ": " << pair.BetweenExcess();
-    declaration.time_step = 0;
+    limits.time_step = 0;
     if (place_first && turn == steps) {
       ASSERT_GT(pair.BetweenExcess(), 0) << i;
     }
@@ -166,18 +166,18 @@ Pair RandomPair(Random* random) {
   const auto ns = static_cast<std::int64_t>(random->LogUniform(1e7, 1e11));
   pair.next.stamp = Instant::FromNanoseconds(ns);
   const double s = pair.Seconds(), change = (pair.next.v_WA - old.v_WA).norm();
-  AgentDeclaration& declaration = pair.before.declaration;
-  declaration.acceleration_max = std::max(change, 0.01) / s * random->Uniform(1, 2);
+  MotionLimits& limits = pair.before.limits;
+  limits.acceleration_max = std::max(change, 0.01) / s * random->Uniform(1, 2);
   const bool errs = random->Chance(0.5);
   const auto some = [&](double most) {
     return errs && random->Chance(0.5) ? random->Uniform(0, most) : 0;
   };
-  declaration.time_step = some(0.1 * s);
+  limits.time_step = some(0.1 * s);
   pair.before.skew = some(0.1 * s);
-  old.position_error = some(0.1 * declaration.acceleration_max * s * s);
-  pair.next.position_error = some(0.1 * declaration.acceleration_max * s * s);
-  old.velocity_error = some(0.1 * declaration.acceleration_max * s);
-  pair.next.velocity_error = some(0.1 * declaration.acceleration_max * s);
+  old.position_error = some(0.1 * limits.acceleration_max * s * s);
+  pair.next.position_error = some(0.1 * limits.acceleration_max * s * s);
+  old.velocity_error = some(0.1 * limits.acceleration_max * s);
+  pair.next.velocity_error = some(0.1 * limits.acceleration_max * s);
   const double reach = ForwardBall(pair.before, pair.next.stamp).u.c0.lower;
   pair.next.p_WA = s * old.v_WA + reach * random->Uniform(0, 1) * random->UnitVector();
   return pair;
@@ -186,7 +186,7 @@ Pair RandomPair(Random* random) {
 /// The least R / |D|, sampled: by this share all of D may grow.
 double RoomOf(const Pair& pair) {
   const Instant base = pair.before.state.stamp;
-  const SpaceTimeBound after{pair.next, pair.before.declaration, pair.before.skew};
+  const SpaceTimeBound after{pair.next, pair.before.limits, pair.before.skew};
   const numeric::MovingBall a = ForwardBall(pair.before, base), b = BackwardBall(after, base);
   double least = numeric::kInfinity;
   for (int i = 0; i <= 1000; ++i) {
@@ -210,7 +210,7 @@ TEST(ContractBetween, ContradictionsAreFoundFromBothSides) {
     Pair pair = RandomPair(&random);
     if (i % 3 != 0) {
       // All of R but what skew and errors add grows with M.
-      pair.before.declaration.acceleration_max /=
+      pair.before.limits.acceleration_max /=
           RoomOf(pair) * (1 + (i % 3 == 1 ? 1e-4 : random.Uniform(-1e-2, 1e-2)));
     }
     const bool apart = AreApart(pair);
@@ -237,7 +237,7 @@ TEST(ContractBetween, ContradictionsAreFoundFromBothSides) {
 //         for 2 − √2 s, then back), though 2 m/s could be reached, and the place too.
 TEST(ContractBetween, BackAtTheSamePlaceNotAtAnySpeed) {
   Pair pair;
-  pair.before.declaration.acceleration_max = 1;
+  pair.before.limits.acceleration_max = 1;
   pair.next.stamp = Instant::FromNanoseconds(2 * kSecond);
   const double speed = 2 * std::sqrt(2) - 2;
   pair.next.v_WA = {0, speed * (1 - 1e-8), 0};
@@ -256,7 +256,7 @@ TEST(ContractBetween, BackAtTheSamePlaceNotAtAnySpeed) {
 TEST(ContractBetween, AnyUnitsWillDo) {
   for (const double unit : {1e-300, 1e-160, 1e-12, 1.0, 1e12, 1e100}) {
     Pair pair;
-    pair.before.declaration.acceleration_max = unit;
+    pair.before.limits.acceleration_max = unit;
     pair.next.stamp = Instant::FromNanoseconds(2 * kSecond);
     pair.next.v_WA = {0, 0.82 * unit, 0};
     EXPECT_FALSE(pair.IsBreach()) << unit;

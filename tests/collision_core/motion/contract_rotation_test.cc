@@ -18,8 +18,8 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 SpaceTimeBound Turning(double angular_acceleration_max, const Vector3d& w_WB = Vector3d::Zero()) {
   SpaceTimeBound bound;
-  bound.declaration.shape_awaited = true;
-  bound.declaration.angular_acceleration_max = angular_acceleration_max;
+  bound.limits.shape_awaited = true;
+  bound.limits.angular_acceleration_max = angular_acceleration_max;
   bound.state.w_WB = w_WB;
   return bound;
 }
@@ -75,8 +75,8 @@ Real Seconds(Instant from, Instant to) {
 /// Of the bound on the orientation, the part that differs between two states of an agent.
 Real TurnBound(const SpaceTimeBound& bound, Instant t) {
   const Real sigma = Seconds(bound.state.stamp, t);
-  return Real(bound.state.rotation_error) + Real(bound.declaration.angular_acceleration_max) / 2 *
-                                                sigma * (sigma + Real(bound.declaration.time_step));
+  return Real(bound.state.rotation_error) + Real(bound.limits.angular_acceleration_max) / 2 *
+                                                sigma * (sigma + Real(bound.limits.time_step));
 }
 
 // Goal:   an integrator that honours α exactly in double arithmetic is never told it breached.
@@ -91,8 +91,8 @@ TEST(ContractRotation, HonestIntegratorsAreKept) {
     before.state.q_WB = Turn(3 * random.UnitVector());
     const int steps = static_cast<int>(1 + random.Below(1000));
     const double dt = random.LogUniform(1e-4, 1e-2);
-    before.declaration.time_step = dt;
-    const double full = before.declaration.angular_acceleration_max * (1 - 0x1p-50);
+    before.limits.time_step = dt;
+    const double full = before.limits.angular_acceleration_max * (1 - 0x1p-50);
     const bool steady = random.Chance(0.5);
     const Vector3d direction = random.UnitVector();
     MotionState next = before.state;
@@ -111,7 +111,7 @@ TEST(ContractRotation, HonestIntegratorsAreKept) {
       const Instant t = numeric::AddRoundedDown(next.stamp, later);
       const Real apart = Angle(Predicted(before.state, Seconds(before.state.stamp, t)),
                                Predicted(next, Seconds(next.stamp, t)));
-      const Real room = TurnBound(before, t) - TurnBound({next, before.declaration}, t) +
+      const Real room = TurnBound(before, t) - TurnBound({next, before.limits}, t) +
                         Real(check.rotation_drift) +
                         Real(check.angular_velocity_drift) * Real(later);
       ASSERT_LE(apart, room + Real(1e-40));
@@ -127,7 +127,7 @@ TEST(ContractRotation, FullAccelerationIsJustKept) {
     const Vector3d axis = random.UnitVector();
     SpaceTimeBound before = Turning(random.LogUniform(0.1, 1), random.Uniform(0.1, 5) * axis);
     before.state.q_WB = Turn(random.UnitVector());
-    const double a = before.declaration.angular_acceleration_max, s = 1.5;
+    const double a = before.limits.angular_acceleration_max, s = 1.5;
     MotionState next = AfterAndTurned(before, 3 * kSecond / 2, (0.5 * a * s * s) * axis);
     next.w_WB += a * s * axis;
     EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
@@ -178,7 +178,7 @@ TEST(ContractRotation, AngularVelocityIsInTheWorldFrame) {
 // Goal:   a declared step allows what Euler needs and no more: ½ α s (s + h) = 1.125 for h = ¼.
 TEST(ContractRotation, StepWidensTheOrientationOnly) {
   SpaceTimeBound before = Turning(0.5);
-  before.declaration.time_step = 0.25;
+  before.limits.time_step = 0.25;
   const Vector3d turn(0, 0, 1.125);
   EXPECT_EQ(CheckContract(before, AfterAndTurned(before, 2 * kSecond, (1 - 1e-6) * turn)).verdict,
             ContractVerdict::kKept);
@@ -265,7 +265,7 @@ TEST(ContractRotation, OnlyOfShapesThatDeclareIt) {
   MotionState next = AfterAndTurned(before, kSecond, {0, 0, 1});
   next.w_WB = {9, 9, 9};
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kBreached);
-  before.declaration.shape_awaited = false;
+  before.limits.shape_awaited = false;
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
   before = Turning(-1);
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);

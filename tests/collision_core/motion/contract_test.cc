@@ -13,7 +13,7 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 SpaceTimeBound Resting(double acceleration_max) {
   SpaceTimeBound bound;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 
@@ -38,9 +38,8 @@ TEST(Contract, HonestIntegratorsAreKept) {
     const bool is_euler = random.Chance(0.5);
     const int steps = static_cast<int>(1 + random.Below(1000));
     const double dt = random.LogUniform(1e-4, 1);
-    before.declaration.time_step = is_euler ? dt : 0;
-    const Eigen::Vector3d a =
-        before.declaration.acceleration_max * (1 - 0x1p-52) * random.UnitVector();
+    before.limits.time_step = is_euler ? dt : 0;
+    const Eigen::Vector3d a = before.limits.acceleration_max * (1 - 0x1p-52) * random.UnitVector();
     MotionState next = before.state;
     for (int step = 0; step < steps; ++step) {
       if (is_euler) {
@@ -58,7 +57,7 @@ TEST(Contract, HonestIntegratorsAreKept) {
 
     for (const double later : {0.0, 1.0, 1000.0}) {
       const Instant t = numeric::AddRoundedDown(next.stamp, later);
-      const ExactHorn inner({next, before.declaration}, t), outer(before, t);
+      const ExactHorn inner({next, before.limits}, t), outer(before, t);
       Exact square = 0;
       for (int axis = 0; axis < 3; ++axis) {
         square += (inner.p[axis] - outer.p[axis]) * (inner.p[axis] - outer.p[axis]);
@@ -100,7 +99,7 @@ TEST(Contract, BreachesAreFoundFromBothSides) {
 // Goal:   a declared step allows what Euler needs and no more: ½ M s (s + h) = 6.75 for h = 0.25.
 TEST(Contract, StepWidensThePositionOnly) {
   SpaceTimeBound before = Resting(3);
-  before.declaration.time_step = 0.25;
+  before.limits.time_step = 0.25;
   MotionState next = After(before, 2 * kSecond);
   next.p_WA.z() = 6.75 * (1 - 1e-6);
   next.v_WA.z() = 6 * (1 - 1e-6);

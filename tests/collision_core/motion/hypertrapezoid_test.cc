@@ -18,9 +18,9 @@ SpaceTimeBound AnyBound(Random& random, double range) {
   bound.state.v_WA = random.LogUniform(1e-3, 1e2) * random.UnitVector();
   bound.state.position_error = random.Uniform(0, 0.1);
   bound.state.velocity_error = random.Uniform(0, 0.1);
-  bound.declaration.radius = random.Uniform(0, 1);
-  bound.declaration.acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(1e-3, 1e2);
-  bound.declaration.time_step = random.Chance(0.5) ? 0 : 0.125;
+  bound.limits.radius = random.Uniform(0, 1);
+  bound.limits.acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(1e-3, 1e2);
+  bound.limits.time_step = random.Chance(0.5) ? 0 : 0.125;
   return bound;
 }
 
@@ -31,7 +31,7 @@ Exact Chord(double start, double end, const Exact& fraction) {
 /// The exact lower and upper face of the horn's box.
 std::pair<Exact, Exact> Faces(const SpaceTimeBound& bound, Instant t, int axis) {
   const ExactHorn horn(bound, t);
-  const Exact reach = horn.u[0] + Exact(bound.declaration.radius);
+  const Exact reach = horn.u[0] + Exact(bound.limits.radius);
   return {horn.p[axis] - reach, horn.p[axis] + reach};
 }
 
@@ -117,7 +117,7 @@ TEST(Hypertrapezoid, FirstOverlapIsCertifiedAndTight) {
 // Goal:   a direction counts only if it holds over the whole window.
 TEST(Hypertrapezoid, DirectionThatEndsInsideDoesNotCount) {
   SpaceTimeBound bound;
-  bound.declaration.acceleration_max = 2;
+  bound.limits.acceleration_max = 2;
   bound.state.direction = {1, 0, 0};
   bound.state.direction_until = Instant::FromNanoseconds(2 * kSecond);
   const Instant end = Instant::FromNanoseconds(2 * kSecond);

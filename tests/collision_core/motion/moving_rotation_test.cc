@@ -15,7 +15,7 @@ SpaceTimeBound Turning(double w, double alpha, double seconds) {
   SpaceTimeBound bound;
   bound.state.stamp = Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * 1e9));
   bound.state.w_WB = {0, 0, w};
-  bound.declaration.angular_acceleration_max = alpha;
+  bound.limits.angular_acceleration_max = alpha;
   return bound;
 }
 
@@ -47,7 +47,7 @@ TEST(MovingRotation, ErrorsClockAndStepAreCounted) {
   SpaceTimeBound bound = Turning(-2, 0.25, 1);
   bound.state.rotation_error = 0.01;
   bound.skew = 0.125;
-  bound.declaration.time_step = 0.0625;
+  bound.limits.time_step = 0.0625;
   const double sigma = 1.5 + 0.125;
   EXPECT_NEAR(ForwardRotation(bound, kBase).off_angle.At(0.5).upper,
               0.01 + 2 * 0.125 + 0.125 * sigma * (sigma + 0.0625), 1e-14);
@@ -77,10 +77,10 @@ TEST(MovingRotation, NoMotionWithinTheBoundIsOutside) {
         random.Chance(0.3) ? Vector(motion.start.w.normalized()) : RandomUnit(random);
     motion.pieces = {{random.Uniform(0, 3), Vector::Zero(), alpha * axis},
                      {3, Vector::Zero(), -alpha * axis}};
-    AgentDeclaration declaration;
-    declaration.angular_acceleration_max = alpha;
+    MotionLimits limits;
+    limits.angular_acceleration_max = alpha;
     for (const bool is_forward : {true, false}) {
-      SpaceTimeBound bound = BoundAt(motion, is_forward ? 1 : 3, declaration);
+      SpaceTimeBound bound = BoundAt(motion, is_forward ? 1 : 3, limits);
       // ω is rounded too, which no state declares.
       bound.state.rotation_error = 1e-14;
       const Instant base = Instant::FromNanoseconds(1500000000);

@@ -17,9 +17,9 @@ SpaceTimeBound AnyBound(Random& random) {
   bound.state.v_WA = random.LogUniform(1e-3, 1e3) * Eigen::Vector3d(2, -3, 6);
   bound.state.position_error = random.Uniform(0, 1);
   bound.state.velocity_error = random.Uniform(0, 1);
-  bound.declaration.radius = random.Uniform(0, 10);
-  bound.declaration.acceleration_max = random.LogUniform(1e-3, 1e3);
-  bound.declaration.time_step = random.Chance(0.5) ? 0 : random.Uniform(0, 0.1);
+  bound.limits.radius = random.Uniform(0, 10);
+  bound.limits.acceleration_max = random.LogUniform(1e-3, 1e3);
+  bound.limits.time_step = random.Chance(0.5) ? 0 : random.Uniform(0, 0.1);
   return bound;
 }
 
@@ -59,8 +59,8 @@ TEST(SpaceTimeBound, FormulaByHand) {
   bound.state.v_WA = {2, 3, 6};
   bound.state.position_error = 0.25;
   bound.state.velocity_error = 0.5;
-  bound.declaration.acceleration_max = 2;
-  bound.declaration.time_step = 0.5;
+  bound.limits.acceleration_max = 2;
+  bound.limits.time_step = 0.5;
   bound.skew = 1;
   const numeric::Interval u = ForwardBall(bound, Instant()).u.At(3);
   EXPECT_EQ(u.lower, 27.25);
@@ -71,10 +71,10 @@ TEST(SpaceTimeBound, FormulaByHand) {
 // without. Method: full thrust along +x; exact in doubles with h = 1/8.
 TEST(SpaceTimeBound, StepOfSemiImplicitEuler) {
   SpaceTimeBound bound;
-  bound.declaration.acceleration_max = 2;
-  bound.declaration.time_step = 0.125;
+  bound.limits.acceleration_max = 2;
+  bound.limits.time_step = 0.125;
   SpaceTimeBound without = bound;
-  without.declaration.time_step = 0;
+  without.limits.time_step = 0;
   double p = 0, v = 0;
   for (int step = 1; step <= 100; ++step) {
     v += 2 * 0.125;
@@ -91,7 +91,7 @@ TEST(SpaceTimeBound, StepOfSemiImplicitEuler) {
 // (0.6, 0.8, 0).
 TEST(SpaceTimeBound, BoxWithDirection) {
   SpaceTimeBound bound;
-  bound.declaration.acceleration_max = 2;
+  bound.limits.acceleration_max = 2;
   bound.state.direction = {0.6, 0.8, 0};
   bound.state.direction_until = Instant::FromNanoseconds(4 * kSecond);
   const FaceBox box = BoxAt(bound, Instant::FromNanoseconds(4 * kSecond));

@@ -21,9 +21,9 @@ SpaceTimeBound Capped(const Eigen::Vector3d& p, const Eigen::Vector3d& v, double
   SpaceTimeBound bound;
   bound.state.p_WA = p;
   bound.state.v_WA = v;
-  bound.declaration.radius = 0.5;
-  bound.declaration.acceleration_max = acceleration_max;
-  bound.declaration.speed_max = speed_max;
+  bound.limits.radius = 0.5;
+  bound.limits.acceleration_max = acceleration_max;
+  bound.limits.speed_max = speed_max;
   return bound;
 }
 
@@ -33,28 +33,25 @@ class Honest {
   static constexpr std::int64_t kStep = kSecond / 100;
 
   Honest(Random* random, const SpaceTimeBound& bound, const Eigen::Vector3d& favourite)
-      : random_(*random),
-        declaration_(bound.declaration),
-        state_(bound.state),
-        favourite_(favourite) {}
+      : random_(*random), limits_(bound.limits), state_(bound.state), favourite_(favourite) {}
 
   const MotionState& state() const { return state_; }
 
   void Step() {
-    const double h = declaration_.time_step;
+    const double h = limits_.time_step;
     if (random_.Chance(0.05)) wish_ = random_.UnitVector();
     if (random_.Chance(0.02)) wish_ = favourite_;
-    const Eigen::Vector3d v = state_.v_WA + declaration_.acceleration_max * h * wish_;
+    const Eigen::Vector3d v = state_.v_WA + limits_.acceleration_max * h * wish_;
     // The nearest allowed velocity is no further from the old one, which is allowed.
     const double speed = v.norm();
-    state_.v_WA = speed <= declaration_.speed_max ? v : v * (declaration_.speed_max / speed);
+    state_.v_WA = speed <= limits_.speed_max ? v : v * (limits_.speed_max / speed);
     state_.p_WA += h * state_.v_WA;
     state_.stamp = Instant::FromNanoseconds(state_.stamp.nanoseconds() + kStep);
   }
 
  private:
   Random& random_;
-  AgentDeclaration declaration_;
+  MotionLimits limits_;
   MotionState state_;
   Eigen::Vector3d favourite_;
   Eigen::Vector3d wish_ = Eigen::Vector3d::Zero();
@@ -65,7 +62,7 @@ SpaceTimeBound AnyCapped(Random& random) {
   SpaceTimeBound bound =
       Capped(100 * random.UnitVector(), random.Uniform(0, 1) * speed_max * random.UnitVector(),
              random.LogUniform(0.5, 20), speed_max);
-  bound.declaration.time_step = 0.01;
+  bound.limits.time_step = 0.01;
   return bound;
 }
 
@@ -75,9 +72,9 @@ double CappedRadius(const CappedBall& ball, Instant t) { return ball.UFrom(t).c0
 // Goal:   a step of Euler's at the cap may go ½ M h² too far: V + ½ M h. Method: 4 + ½ 8 ¼ = 5.
 TEST(SpeedCap, StepAddsHalfOfWhatItGains) {
   SpaceTimeBound bound = Capped({0, 0, 0}, {4, 0, 0}, 8, 4);
-  bound.declaration.time_step = 0.25;
-  EXPECT_EQ(CappedSpeed(bound.declaration).lower, 5);
-  EXPECT_EQ(CappedSpeed(bound.declaration).upper, 5);
+  bound.limits.time_step = 0.25;
+  EXPECT_EQ(CappedSpeed(bound.limits).lower, 5);
+  EXPECT_EQ(CappedSpeed(bound.limits).upper, 5);
 }
 
 // Goal:   the cap takes over when the definition says, to the nanosecond below.
@@ -90,9 +87,9 @@ TEST(SpeedCap, TakesOverWhenTheSlopeReachesIt) {
                                   7 + random.LogUniform(1e-3, 1e3));
     bound.state.stamp = Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(kSecond)));
     bound.state.velocity_error = 1e-4 * k;
-    bound.declaration.time_step = 0.25;
+    bound.limits.time_step = 0.25;
     bound.skew = 1e-3 * k;
-    const Exact V(bound.declaration.speed_max), M(bound.declaration.acceleration_max);
+    const Exact V(bound.limits.speed_max), M(bound.limits.acceleration_max);
     const Exact errors = Exact(bound.state.velocity_error), kappa(bound.skew);
     const auto expect = [&](Instant from, const Exact& exact) {
       const Exact after = ExactSeconds(bound.state.stamp, from) - (exact < 0 ? Exact(0) : exact);
@@ -106,7 +103,7 @@ TEST(SpeedCap, TakesOverWhenTheSlopeReachesIt) {
 
 // Goal:   extremes are defined: no acceleration, at the cap, above it, no cap.
 TEST(SpeedCap, Extremes) {
-  EXPECT_FALSE(HasSpeedCap(AgentDeclaration()));
+  EXPECT_FALSE(HasSpeedCap(MotionLimits()));
   EXPECT_TRUE(CapTakesOver(Capped({0, 0, 0}, {1, 0, 0}, 0, 2)).is_never());
   EXPECT_EQ(CapTakesOver(Capped({0, 0, 0}, {2, 0, 0}, 0, 2)), Instant());
   EXPECT_EQ(CapTakesOver(Capped({0, 0, 0}, {2, 0, 0}, 5, 2)), Instant());
@@ -147,7 +144,7 @@ TEST(SpeedCap, ContainsHonestMotions) {
     }
   }
   SpaceTimeBound ahead = Capped({0, 0, 0}, {1, 0, 0}, 2, 5);
-  ahead.declaration.time_step = 0;
+  ahead.limits.time_step = 0;
   // 2 s of thrust to 5 m/s, 6 m on the way, and 8 s at 5 m/s; backward 3 s, −6 m, and 7 s.
   const FaceBox box = BoxAt(ahead, Instant::FromNanoseconds(10 * kSecond));
   EXPECT_NEAR(box.upper[0].upper, 46.5, 1e-7);
@@ -206,7 +203,7 @@ TEST(SpeedCap, Breaches) {
   EXPECT_EQ(verdict(40, 5 + 1e-6,
                     [&] {
                       SpaceTimeBound without = before;
-                      without.declaration.speed_max = numeric::kInfinity;
+                      without.limits.speed_max = numeric::kInfinity;
                       return without;
                     }()),
             ContractVerdict::kKept);
@@ -265,10 +262,10 @@ TEST(SpeedCap, MeetingsByHand) {
   const auto seconds = [&] { return intersection::EarliestIntersection(a, b, Instant()).seconds; };
   EXPECT_LE(seconds(), 5.5);
   EXPECT_GE(seconds(), 5.5 * (1 - 1e-8));
-  a.declaration.speed_max = 1e6;
+  a.limits.speed_max = 1e6;
   const double without = seconds();
   EXPECT_NEAR(without, std::sqrt(10), 1e-8);
-  a.declaration.speed_max = numeric::kInfinity;
+  a.limits.speed_max = numeric::kInfinity;
   EXPECT_EQ(seconds(), without);
 
   a = Capped({0, 0, 0}, {2, 3, 6}, 3, 7);

@@ -17,14 +17,14 @@ motion::SpaceTimeBound Bound(std::int64_t ns, const Eigen::Vector3d& p, const Ei
   bound.state.stamp = Instant::FromNanoseconds(ns);
   bound.state.p_WA = p;
   bound.state.v_WA = v;
-  bound.declaration.radius = radius;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = radius;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 
 /// Between two known states, seen from the first.
 BallSegment Between(const motion::SpaceTimeBound& from, const motion::SpaceTimeBound& to) {
-  return {from.declaration.radius,
+  return {from.limits.radius,
           {ForwardBall(from, from.state.stamp), BackwardBall(to, from.state.stamp)}};
 }
 
@@ -291,11 +291,11 @@ TEST(EvaluateBallsAt, BestOverTheBounds) {
 TEST(EvaluateBallSegment, ContactIsFoundAtSpeedsWhoseSquaresUnderflow) {
   for (const double unit : {1e-250, 1e-300, 1e-310}) {
     motion::SpaceTimeBound a, b;
-    a.declaration.radius = 1e-6 * unit;
+    a.limits.radius = 1e-6 * unit;
     b.state.p_WA = {-unit, 0, 0};
     b.state.v_WA = {unit, 0, 0};
     const SegmentResult verdict = EvaluateBallSegment(
-        {a.declaration.radius, {ForwardBall(a, Instant())}}, {0, {ForwardBall(b, Instant())}}, 2);
+        {a.limits.radius, {ForwardBall(a, Instant())}}, {0, {ForwardBall(b, Instant())}}, 2);
     EXPECT_LE(verdict.contact_from, 1) << unit;
     EXPECT_GE(verdict.contact_to, 1) << unit;
     EXPECT_LE(verdict.contact_from - verdict.free_until, 1e-7) << unit;

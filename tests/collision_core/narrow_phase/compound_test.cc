@@ -224,9 +224,9 @@ motion::SpaceTimeBound BoundOf(const Posed& posed, const Vector3d& v, const Vect
   bound.state.q_WB = posed.pose.q.cast<double>();
   bound.state.v_WA = v;
   bound.state.w_WB = w;
-  bound.declaration.radius = posed.radius;
-  bound.declaration.shape = posed.shape;
-  bound.declaration.angular_acceleration_max = 0;
+  bound.limits.radius = posed.radius;
+  bound.limits.shape = posed.shape;
+  bound.limits.angular_acceleration_max = 0;
   return bound;
 }
 

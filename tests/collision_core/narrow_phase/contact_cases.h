@@ -35,10 +35,10 @@ struct Body {
       const Vector turned = static_cast<Real>(seconds) * w.cast<Real>();
       bound.state.q_WB = (Exponential(turned) * q.cast<Real>()).cast<double>();
     }
-    bound.declaration.radius = shape ? shape->facts().radius : radius;
-    bound.declaration.shape = shape;
-    bound.declaration.acceleration_max = acceleration_max;
-    bound.declaration.angular_acceleration_max = angular_acceleration_max;
+    bound.limits.radius = shape ? shape->facts().radius : radius;
+    bound.limits.shape = shape;
+    bound.limits.acceleration_max = acceleration_max;
+    bound.limits.angular_acceleration_max = angular_acceleration_max;
     return bound;
   }
 };

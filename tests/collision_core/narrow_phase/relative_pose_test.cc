@@ -22,8 +22,8 @@ std::shared_ptr<const shape::Shape> UnitCube() {
 
 BodySegment Forward(const motion::SpaceTimeBound& bound) {
   BodySegment segment;
-  segment.shape = bound.declaration.shape;
-  segment.ball.radius = bound.declaration.radius;
+  segment.shape = bound.limits.shape;
+  segment.ball.radius = bound.limits.radius;
   segment.ball.bounds.push_back(ForwardBall(bound, kBase));
   if (segment.shape) segment.turns.push_back(ForwardRotation(bound, kBase));
   return segment;
@@ -39,9 +39,9 @@ motion::SpaceTimeBound RandomBound(Random& random, double from_origin) {
   const double scale = random.LogUniform(0.5, 2);  // a quaternion need not be a unit one
   bound.state.q_WB = Eigen::Quaterniond(scale * double(q.w()), scale * double(q.x()),
                                         scale * double(q.y()), scale * double(q.z()));
-  bound.declaration.angular_acceleration_max = 0;
-  bound.declaration.shape = UnitCube();
-  bound.declaration.radius = UnitCube()->facts().radius;
+  bound.limits.angular_acceleration_max = 0;
+  bound.limits.shape = UnitCube();
+  bound.limits.radius = UnitCube()->facts().radius;
   return bound;
 }
 
@@ -109,7 +109,7 @@ TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
   for (int i = 0; i < 300; ++i) {
     motion::SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
     const double alpha = random.LogUniform(1e-3, 8);
-    a.declaration.angular_acceleration_max = b.declaration.angular_acceleration_max = alpha;
+    a.limits.angular_acceleration_max = b.limits.angular_acceleration_max = alpha;
     const double delta = random.Uniform(0, 1);
     const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, delta);
     const double angle = 0.5 * alpha * delta * delta;
@@ -119,7 +119,7 @@ TEST(RelativePose, TurningMovesAPointByAtMostTheChord) {
     EXPECT_EQ(pose.chord_A, pose.chord_B);
   }
   motion::SpaceTimeBound unknown = RandomBound(random, 0);
-  unknown.declaration.angular_acceleration_max = -1;
+  unknown.limits.angular_acceleration_max = -1;
   const RelativePose pose =
       PoseAt(Forward(unknown), Forward(RandomBound(random, 0)), {0, 0, true}, 0.5);
   EXPECT_EQ(pose.chord_A, 2);
@@ -145,8 +145,8 @@ TEST(RelativePose, TurnsBeyondAllMeasureAreNotKnown) {
 TEST(RelativePose, ABallDoesNotTurn) {
   Random random(5);
   motion::SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
-  a.declaration.shape = nullptr;
-  a.declaration.angular_acceleration_max = -1;
+  a.limits.shape = nullptr;
+  a.limits.angular_acceleration_max = -1;
   const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, 1);
   EXPECT_EQ(pose.chord_A, 0);
   EXPECT_EQ(ReachOf(Forward(a)), 0);
@@ -156,9 +156,9 @@ TEST(RelativePose, ABallDoesNotTurn) {
 TEST(RelativePose, TheLeastUncertainBoundsAreTaken) {
   motion::SpaceTimeBound a;
   a.state.stamp = kBase;
-  a.declaration.shape = UnitCube();
-  a.declaration.acceleration_max = 1;
-  a.declaration.angular_acceleration_max = 1;
+  a.limits.shape = UnitCube();
+  a.limits.acceleration_max = 1;
+  a.limits.angular_acceleration_max = 1;
   motion::SpaceTimeBound next = a;
   next.state.stamp = Instant::FromNanoseconds(1000000000);
   BodySegment both = Forward(a);

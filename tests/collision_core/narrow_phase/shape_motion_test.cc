@@ -38,17 +38,17 @@ struct Body {
     const double angle = w.norm() * stamp;
     if (angle > 0) bound.state.q_WB = Eigen::AngleAxisd(angle, w.normalized());
     bound.state.rotation_error = 1e-14;
-    bound.declaration.radius = shape ? shape->facts().radius : radius;
-    bound.declaration.acceleration_max = M;
-    bound.declaration.angular_acceleration_max = alpha;
-    bound.declaration.shape = shape;
+    bound.limits.radius = shape ? shape->facts().radius : radius;
+    bound.limits.acceleration_max = M;
+    bound.limits.angular_acceleration_max = alpha;
+    bound.limits.shape = shape;
     return bound;
   }
 
   // Of the states at 0 and at `next`, those that are there.
   BodySegment Segment(std::optional<double> next, bool last = true) const {
     BodySegment segment;
-    segment.ball.radius = BoundAt(0).declaration.radius;
+    segment.ball.radius = BoundAt(0).limits.radius;
     segment.shape = shape;
     if (last) Add(ForwardBall(BoundAt(0), kBase), ForwardRotation(BoundAt(0), kBase), &segment);
     if (next)

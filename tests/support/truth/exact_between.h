@@ -12,7 +12,7 @@ namespace collision {
 /// rational.
 inline bool BallsComeApart(const motion::SpaceTimeBound& before, const motion::MotionState& next,
                            const Exact& share = 1, const Exact& more = 0) {
-  const motion::SpaceTimeBound after{next, before.declaration, before.skew};
+  const motion::SpaceTimeBound after{next, before.limits, before.skew};
   const Instant base = before.state.stamp;
   const ExactHorn forward(before, base), backward(after, base, -1);
   ExactPolynomial radii(3);

@@ -31,10 +31,10 @@ struct ExactHorn {
       p[i] = Exact(bound.state.p_WA[i]) + v[i] * tau;
       square += v[i] * v[i];
     }
-    const Exact kappa(bound.skew), half_max = Exact(bound.declaration.acceleration_max) / 2;
+    const Exact kappa(bound.skew), half_max = Exact(bound.limits.acceleration_max) / 2;
     const ExactPolynomial sigma = {direction * tau + kappa, Exact(direction)};
     ExactPolynomial longer = sigma;
-    longer[0] += Exact(bound.declaration.time_step);
+    longer[0] += Exact(bound.limits.time_step);
     u = Multiply({half_max}, Multiply(sigma, longer));
     const Exact velocity_error(bound.state.velocity_error);
     u[0] += Exact(bound.state.position_error) + velocity_error * sigma[0];

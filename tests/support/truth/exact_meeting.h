@@ -35,7 +35,7 @@ class ExactMeeting {
                                             b_.LineAt0(i).Magnitude(),
                                         (b_.Slope(i) - a_.Slope(i)).Magnitude()};
     }
-    radii_ = Scaled2(Dyadic(a.declaration.radius) + Dyadic(b.declaration.radius));
+    radii_ = Scaled2(Dyadic(a.limits.radius) + Dyadic(b.limits.radius));
     AddBallTests();
     if (BoxesSayMore(a) || BoxesSayMore(b)) MakeBoxes(a, b, base);
   }
@@ -93,8 +93,8 @@ class ExactMeeting {
       const Dyadic skew = kNano() * Dyadic(bound.skew);
       const DyadicPolynomial sigma = {since + skew, 1.0};
       DyadicPolynomial longer = sigma;
-      longer[0] = longer[0] + kNano() * Dyadic(bound.declaration.time_step);
-      deviation = Dyadic(bound.declaration.acceleration_max).Scaled(-1) * (sigma * longer);
+      longer[0] = longer[0] + kNano() * Dyadic(bound.limits.time_step);
+      deviation = Dyadic(bound.limits.acceleration_max).Scaled(-1) * (sigma * longer);
       errors = kNano() * Dyadic(bound.state.velocity_error) * sigma;
       errors[0] = errors[0] + Scaled2(bound.state.position_error);
       if (bound.skew > 0) {
@@ -110,7 +110,7 @@ class ExactMeeting {
 
     /// V' = V + ½ M h, a nanosecond's worth of it.
     Dyadic CapSlope() const {
-      const motion::AgentDeclaration& d = bound.declaration;
+      const motion::AgentDeclaration& d = bound.limits;
       return kNano() *
              (Dyadic(d.speed_max) + (Dyadic(d.acceleration_max) * Dyadic(d.time_step)).Scaled(-1));
     }
@@ -123,7 +123,7 @@ class ExactMeeting {
     std::vector<Reach> Balls() const {
       Reach horn{{}, {}, errors + deviation};
       for (int i = 0; i < 3; ++i) horn.line[i] = {LineAt0(i), Slope(i)};
-      if (!HasSpeedCap(bound.declaration)) return {horn};
+      if (!HasSpeedCap(bound.limits)) return {horn};
       const Instant takes_over = CapTakesOver(bound);
       if (takes_over.is_never()) return {horn};
       const Dyadic from = Between(base, takes_over);
@@ -146,7 +146,7 @@ class ExactMeeting {
       const Dyadic along = Dyadic::Integer(sign);
       Reach horn{{}, {}, errors + Fraction(axis, sign, holds) * deviation};
       horn.line[0] = {along * LineAt0(axis), along * Slope(axis)};
-      if (!HasSpeedCap(bound.declaration)) return {horn};
+      if (!HasSpeedCap(bound.limits)) return {horn};
       const motion::DirectionalReach reach =
           holds ? ReachOfDirection(bound.state) : motion::DirectionalReach();
       const Instant takes_over =
@@ -168,7 +168,7 @@ class ExactMeeting {
   };
 
   static bool BoxesSayMore(const motion::SpaceTimeBound& bound) {
-    return !bound.state.direction.isZero(0) || HasSpeedCap(bound.declaration);
+    return !bound.state.direction.isZero(0) || HasSpeedCap(bound.limits);
   }
 
   DyadicPolynomial Inflated(const DyadicPolynomial& reach) const {

@@ -94,7 +94,7 @@ inline motion::SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
   bound.state.position_error = 1e-15 * size;
   bound.state.velocity_error = 1e-15 * static_cast<double>(pose.v.norm());
   bound.state.rotation_error = 1e-15;
-  bound.declaration = declaration;
+  bound.limits = declaration;
   return bound;
 }
 

@@ -40,10 +40,10 @@ motion::ContractVerdict ServiceSays(const MotionBounds& bounds, const State& sen
                                     const State& next) {
   motion::SpaceTimeBound before;
   before.state = ToCore(sent);
-  before.declaration.acceleration_max = bounds.acceleration_max_m_s2;
-  before.declaration.time_step = bounds.time_step_s;
-  before.declaration.angular_acceleration_max = bounds.angular_acceleration_max_rad_s2;
-  before.declaration.shape_awaited = bounds.turns;
+  before.limits.acceleration_max = bounds.acceleration_max_m_s2;
+  before.limits.time_step = bounds.time_step_s;
+  before.limits.angular_acceleration_max = bounds.angular_acceleration_max_rad_s2;
+  before.limits.shape_awaited = bounds.turns;
   return CheckContract(before, ToCore(next)).verdict;
 }
 

@@ -15,7 +15,7 @@ motion::SpaceTimeBound BoundAt(double t, double expiry = 0) {
   motion::SpaceTimeBound bound;
   bound.state = State(t, {0, 0, 0}, {0, 0, 0});
   if (expiry > 0) bound.state.expiry = At(expiry);
-  bound.declaration.radius = 1;
+  bound.limits.radius = 1;
   return bound;
 }
 

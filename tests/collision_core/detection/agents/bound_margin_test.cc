@@ -9,8 +9,8 @@ motion::SpaceTimeBound Moving() {
   motion::SpaceTimeBound bound;
   bound.state.p_WA = {3000, 4000, 0};
   bound.state.v_WA = {0, 60, 80};
-  bound.declaration.radius = 10;
-  bound.declaration.acceleration_max = 5;
+  bound.limits.radius = 10;
+  bound.limits.acceleration_max = 5;
   return bound;
 }
 

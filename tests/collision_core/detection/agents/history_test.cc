@@ -12,8 +12,8 @@ namespace {
 motion::SpaceTimeBound Bound(double t, double acceleration_max = 2, double radius = 1) {
   motion::SpaceTimeBound bound;
   bound.state = State(t, {0, 0, 0}, {0, 0, 0});
-  bound.declaration.radius = radius;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = radius;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 

@@ -18,8 +18,8 @@ motion::SpaceTimeBound Draw(double t, Random* random) {
   bound.state = State(t, {0, 0, 0}, random->UnitVector() * random->LogUniform(0.1, 100));
   bound.state.position_error = random->Uniform(0, 1);
   bound.state.velocity_error = random->Uniform(0, 1);
-  bound.declaration.acceleration_max = random->LogUniform(0.01, 100);
-  bound.declaration.time_step = random->Uniform(0, 0.1);
+  bound.limits.acceleration_max = random->LogUniform(0.01, 100);
+  bound.limits.time_step = random->Uniform(0, 0.1);
   return bound;
 }
 
@@ -65,13 +65,13 @@ TEST(SceneProfile, NamesWhatNoAgentNeeds) {
   motion::SpaceTimeBound plain;
   plain.state = State(0, {0, 0, 0}, {1, 0, 0});
   motion::SpaceTimeBound full = plain;
-  full.declaration.acceleration_max = 1;
-  full.declaration.speed_max = 10;
-  full.declaration.time_step = 0.1;
+  full.limits.acceleration_max = 1;
+  full.limits.speed_max = 10;
+  full.limits.time_step = 0.1;
   full.state.direction = {1, 0, 0};
   full.state.position_error = 0.1;
   full.state.expiry = At(1);
-  full.declaration.mask = 2;
+  full.limits.mask = 2;
   full.skew = 0.1;
   profile.Add(SceneProfile::Of(plain));
   const char* const parts[] = {"parabolic growth", "speed caps", "directional boxes",

@@ -115,10 +115,10 @@ class History {
       state.position_error = random_.Uniform(0, 0.5);
     }
     if (last <= now_ && random_.Chance(0.03)) {
-      const double radius = agent->bound.declaration.radius;
-      agent->bound.declaration = Declaration();
-      agent->bound.declaration.radius = radius;
-      detector_.Redeclare(Id(slot), agent->bound.declaration, now_);
+      const double radius = agent->bound.limits.radius;
+      agent->bound.limits = Declaration();
+      agent->bound.limits.radius = radius;
+      detector_.Redeclare(Id(slot), agent->bound.limits, now_);
     }
     EXPECT_NE(detector_.Update(Id(slot), state, now_), UpdateOutcome::kBreached);
     detector_.SetHeardUntil(OwnerOf(Id(slot)), state.stamp);
@@ -143,7 +143,7 @@ class History {
           << a.first << "-" << b.first;
     }
     const Instant end = std::max(a.second.bound.state.stamp, b.second.bound.state.stamp);
-    const double sum = a.second.bound.declaration.radius + b.second.bound.declaration.radius;
+    const double sum = a.second.bound.limits.radius + b.second.bound.limits.radius;
     for (Instant t = now_; t < end; t = numeric::AddRoundedUp(t, 0.02)) {
       if ((a.second.PlaceAt(t) - b.second.PlaceAt(t)).norm() > sum - 1e-6 || WasTold(a, b, t))
         continue;

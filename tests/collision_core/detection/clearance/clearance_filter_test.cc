@@ -28,10 +28,10 @@ motion::SpaceTimeBound Draw(double skew, Random* random) {
   if (random->Chance(0.3)) state.position_error = random->LogUniform(1e-3, 1);
   if (random->Chance(0.3)) state.velocity_error = random->LogUniform(1e-3, 1);
   if (random->Chance(0.2)) state.discontinuity = true;
-  motion::AgentDeclaration& declaration = bound.declaration;
-  declaration.radius = random->LogUniform(0.01, 100);
-  declaration.acceleration_max = random->Chance(0.3) ? 0 : random->LogUniform(1e-3, 100);
-  if (random->Chance(0.3)) declaration.time_step = random->LogUniform(1e-3, 0.1);
+  motion::MotionLimits& limits = bound.limits;
+  limits.radius = random->LogUniform(0.01, 100);
+  limits.acceleration_max = random->Chance(0.3) ? 0 : random->LogUniform(1e-3, 100);
+  if (random->Chance(0.3)) limits.time_step = random->LogUniform(1e-3, 0.1);
   bound.skew = skew;
   return BoundMargin(bound).Widen(bound);
 }

@@ -14,15 +14,15 @@ namespace {
 motion::SpaceTimeBound Around(double x) {
   motion::SpaceTimeBound bound;
   bound.state = State(0, {x, 0, 0}, {0, 0, 0});
-  bound.declaration.radius = 1;
-  bound.declaration.acceleration_max = 1e-30;
+  bound.limits.radius = 1;
+  bound.limits.acceleration_max = 1e-30;
   return bound;
 }
 
 motion::SpaceTimeBound Runner(double y = 0) {
   motion::SpaceTimeBound bound;
   bound.state = State(0, {0, y, 0}, {10, 0, 0});
-  bound.declaration.radius = 1;
+  bound.limits.radius = 1;
   return bound;
 }
 

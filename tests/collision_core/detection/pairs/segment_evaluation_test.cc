@@ -17,8 +17,8 @@ constexpr double kBegin = 1, kEnd = 3;  // |4 - 2 t| <= 2
 motion::SpaceTimeBound BoundAt(double t, double x, double v, double acceleration_max) {
   motion::SpaceTimeBound bound;
   bound.state = State(t, {x + v * t, 0, 0}, {v, 0, 0});
-  bound.declaration.radius = 1;
-  bound.declaration.acceleration_max = acceleration_max;
+  bound.limits.radius = 1;
+  bound.limits.acceleration_max = acceleration_max;
   return bound;
 }
 
@@ -64,7 +64,7 @@ TEST(SegmentEvaluation, ConfirmsNothingWhileAShapeIsAwaited) {
   History awaited;
   for (int k = 0; k <= 20; ++k) {
     motion::SpaceTimeBound bound = BoundAt(0.25 * k, 0, 0, 0);
-    bound.declaration.shape_awaited = true;
+    bound.limits.shape_awaited = true;
     awaited.Push(bound, k == 0 ? Link::kJumped : Link::kFollows, 64);
   }
   const ContactTracker tracker = Evaluated(awaited, Moving(4, -2, 0), 5);
