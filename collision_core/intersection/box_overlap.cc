@@ -113,12 +113,10 @@ double FirstOfAll(const std::array<Condition, 6>& conditions, double start) {
   return time;
 }
 
-/// The conditions while the directions of A, of B do or do not hold.
-std::array<Condition, 6> Conditions(const Agent& a, const Agent& b, double margin, bool A_holds,
-                                    bool B_holds) {
-  const motion::DirectionalReach all;
-  const motion::DirectionalReach reach_A = A_holds ? ReachOfDirection(a.bound.state) : all;
-  const motion::DirectionalReach reach_B = B_holds ? ReachOfDirection(b.bound.state) : all;
+/// The conditions while the deviations of A and B reach as far as given.
+std::array<Condition, 6> Conditions(const Agent& a, const motion::DirectionalReach& reach_A,
+                                    const Agent& b, const motion::DirectionalReach& reach_B,
+                                    double margin) {
   const numeric::Interval radii =
       (numeric::Interval(a.bound.limits.radius) + b.bound.limits.radius) + margin;
   const auto condition = [&](int axis, int sign) {
@@ -139,20 +137,22 @@ bool BoxMatters(const motion::SpaceTimeBound& bound, Instant base) {
 
 }  // namespace
 
-bool BoxesMatter(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base) {
-  return BoxMatters(a, base) || BoxMatters(b, base);
+bool BoxesMatter(const BoundPair& pair) {
+  return BoxMatters(pair.a, pair.base) || BoxMatters(pair.b, pair.base);
 }
 
-double LaterOfBoxes(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
-                    double margin, double time, double limit) {
-  const Agent agent_A(a, base), agent_B(b, base);
+double LaterOfBoxes(const BoundPair& pair, double time, double limit) {
+  const Agent agent_A(pair.a, pair.base), agent_B(pair.b, pair.base);
+  const motion::DirectionalReach everywhere;
   // Piece by piece between the ends of the directions.
   double start = 0;
   while (start <= limit) {
     const bool A_holds = agent_A.direction_end > start, B_holds = agent_B.direction_end > start;
     const double end = std::min(A_holds ? agent_A.direction_end : numeric::kInfinity,
                                 B_holds ? agent_B.direction_end : numeric::kInfinity);
-    const auto conditions = Conditions(agent_A, agent_B, margin, A_holds, B_holds);
+    const auto conditions =
+        Conditions(agent_A, A_holds ? ReachOfDirection(pair.a.state) : everywhere, agent_B,
+                   B_holds ? ReachOfDirection(pair.b.state) : everywhere, pair.margin);
     // Boxes that overlap at `time` have done so before, or do so just then.
     if (time >= start && time < end && FirstOfAll(conditions, time) == time) return time;
     const double overlap = FirstOfAll(conditions, start);

@@ -1,21 +1,20 @@
 // When the boxes of two agents first overlap.
 #pragma once
 
-#include "collision_core/motion/space_time_bound.h"
+#include "collision_core/intersection/bound_pair.h"
 
 namespace collision::intersection {
 
-/// Whether the boxes say more than the balls from `base` on: only with a direction or a speed cap.
-bool BoxesMatter(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base);
+/// Whether the boxes say more than the balls from the base on: only with a direction or a speed cap.
+bool BoxesMatter(const BoundPair& pair);
 
 /// The later of `time` and the first overlap of the boxes of the two horns (parabolic faces, made
-/// smaller by direction and speed cap, and with `margin` between them), in seconds after `base`,
-/// rounded down; it may be +infinity. Nothing later than `limit` is searched.
+/// smaller by direction and speed cap, and with the pair's margin between them), in seconds after
+/// the base, rounded down; it may be +infinity. Nothing later than `limit` is searched.
 ///
 /// The boxes overlap when six functions of time are all >= 0. Each is convex and quadratic in
 /// pieces (up to the speed cap of either agent, and from there on), so it fails on one interval of
 /// time at most: six rounds find the end of the last failure. Pieces end where a direction ends.
-double LaterOfBoxes(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
-                    double margin, double time, double limit);
+double LaterOfBoxes(const BoundPair& pair, double time, double limit);
 
 }  // namespace collision::intersection

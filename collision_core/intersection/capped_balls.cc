@@ -45,12 +45,11 @@ double FirstOverlap(const Timeline& a, const Timeline& b, double margin, double 
 
 }  // namespace
 
-double LaterOfCappedBalls(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
-                          Instant base, double margin, double time, double limit) {
-  const Timeline line_A(a, base), line_B(b, base);
+double LaterOfCappedBalls(const BoundPair& pair, double time, double limit) {
+  const Timeline line_A(pair.a, pair.base), line_B(pair.b, pair.base);
   const auto wait = [&](const Timeline& first, const Timeline& second) {
     if (time > std::min(first.start, second.start)) {
-      time = std::max(time, FirstOverlap(first, second, margin, limit));
+      time = std::max(time, FirstOverlap(first, second, pair.margin, limit));
     }
   };
   wait(line_A, line_B.WithoutCap());

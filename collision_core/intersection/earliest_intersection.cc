@@ -14,12 +14,12 @@ namespace {
 
 /// The first overlap of the two horns' balls: decided in plain doubles, or with intervals from
 /// where they gave up.
-double BallTime(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
-                double margin, double limit) {
-  const numeric::QuickAnswer quick = QuickFirstApproach(QuickHornPair(a, b, base, margin), limit);
+double BallTime(const BoundPair& pair, double limit) {
+  const numeric::QuickAnswer quick = QuickFirstApproach(QuickHornPair(pair), limit);
   if (quick.decided) return quick.delta;
-  return FirstApproach(Difference(ForwardBall(a, base), ForwardBall(b, base), margin), limit,
-                       quick.delta);
+  return FirstApproach(
+      Difference(ForwardBall(pair.a, pair.base), ForwardBall(pair.b, pair.base), pair.margin),
+      limit, quick.delta);
 }
 
 }  // namespace
@@ -42,14 +42,15 @@ IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
       until.is_never() ? expiry : std::min(expiry, numeric::AddRoundedUp(until, 2e-9));
   const double limit =
       end.is_never() ? numeric::kInfinity : numeric::SecondsBetween(base, end).upper;
-  IntersectionTime time{base, BallTime(a, b, base, margin, limit)};
+  const BoundPair pair{a, b, base, margin};
+  IntersectionTime time{base, BallTime(pair, limit)};
   // The horns' balls say it all unless a direction or a cap is declared.
-  if (time.seconds < limit && BoxesMatter(a, b, base)) {
-    const auto stands = [&] { return SeemToOverlap(a, b, base, margin, time.seconds); };
+  if (time.seconds < limit && BoxesMatter(pair)) {
+    const auto stands = [&] { return SeemToOverlap(pair, time.seconds); };
     if (!stands()) {
-      time.seconds = LaterOfCappedBalls(a, b, base, margin, time.seconds, limit);
+      time.seconds = LaterOfCappedBalls(pair, time.seconds, limit);
       if (time.seconds < limit && !stands()) {
-        time.seconds = LaterOfBoxes(a, b, base, margin, time.seconds, limit);
+        time.seconds = LaterOfBoxes(pair, time.seconds, limit);
       }
     }
   }

@@ -17,7 +17,7 @@ double Square(double x) { return x * x; }
 constexpr double kAhead = 1 + 0x1p-30;
 
 /// One agent's bounds at one time, from p_WA.
-struct Glance {
+struct Estimate {
   const motion::SpaceTimeBound& bound;
   double tau;
   double skew_reach = 0;  // |v| κ.
@@ -27,7 +27,7 @@ struct Glance {
   double capped_radius;
   double up[3], down[3];  // The box's faces.
 
-  Glance(const motion::SpaceTimeBound& given, Instant base, double time)
+  Estimate(const motion::SpaceTimeBound& given, Instant base, double time)
       : bound(given), tau(Seconds(bound.state.stamp, base) + time) {
     const motion::MotionState& state = bound.state;
     const bool capped = bound.limits.speed_max < numeric::kInfinity;
@@ -35,13 +35,14 @@ struct Glance {
     if (capped || bound.skew > 0) speed = state.v_WA.norm();
     skew_reach = speed * bound.skew;
     radius = bound.limits.radius + U(tau, 1);
-    const double turn = capped ? TakesOver(speed, 1) : numeric::kInfinity;
-    capped_radius =
-        tau <= turn ? radius : bound.limits.radius + U(turn, 1) + CappedSpeed() * (tau - turn);
+    const double takeover = capped ? TakesOver(speed, 1) : numeric::kInfinity;
+    capped_radius = tau <= takeover
+                        ? radius
+                        : bound.limits.radius + U(takeover, 1) + CappedSpeed() * (tau - takeover);
     const bool directed = !state.direction.isZero(0) && DirectionHoldsFor(bound, base) > time;
     for (int i = 0; i < 3; ++i) {
       centre[i] = state.v_WA[i] * tau;
-      capped_centre[i] = state.v_WA[i] * std::min(tau, turn);
+      capped_centre[i] = state.v_WA[i] * std::min(tau, takeover);
       up[i] = Face(state.v_WA[i], directed ? Fraction(i, 1) : 1);
       down[i] = Face(-state.v_WA[i], directed ? Fraction(i, -1) : 1);
     }
@@ -79,9 +80,9 @@ struct Glance {
   double Face(double along, double fraction) const {
     double reach = along * tau + U(tau, fraction);
     if (bound.limits.speed_max < numeric::kInfinity) {
-      const double turn = TakesOver(along, fraction);
-      if (tau > turn) {
-        reach = along * turn + U(turn, fraction) + CappedSpeed() * (tau - turn);
+      const double takeover = TakesOver(along, fraction);
+      if (tau > takeover) {
+        reach = along * takeover + U(takeover, fraction) + CappedSpeed() * (tau - takeover);
       }
     }
     return bound.limits.radius + reach;
@@ -96,9 +97,9 @@ bool Within(const double (&p)[3], const double (&of_A)[3], const double (&of_B)[
 
 }  // namespace
 
-bool SeemToOverlap(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, Instant base,
-                   double margin, double time) {
-  const Glance at_A(a, base, time * kAhead), at_B(b, base, time * kAhead);
+bool SeemToOverlap(const BoundPair& pair, double time) {
+  const auto& [a, b, base, margin] = pair;
+  const Estimate at_A(a, base, time * kAhead), at_B(b, base, time * kAhead);
   double p[3];
   for (int i = 0; i < 3; ++i) {
     p[i] = b.state.p_WA[i] - a.state.p_WA[i];

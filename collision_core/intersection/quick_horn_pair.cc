@@ -49,8 +49,8 @@ constexpr double kErrorOfVelocity = 2 * kEpsilon;
 
 }  // namespace
 
-numeric::QuickApproach QuickHornPair(const motion::SpaceTimeBound& a,
-                                     const motion::SpaceTimeBound& b, Instant base, double margin) {
+numeric::QuickApproach QuickHornPair(const BoundPair& pair) {
+  const auto& [a, b, base, margin] = pair;
   CORE_CHECK(a.state.stamp <= base && b.state.stamp <= base, "a forward horn starts at its stamp",
              a.state.stamp.nanoseconds(), b.state.stamp.nanoseconds(), base.nanoseconds());
   const numeric::QuickBall ball_A = Rounded(a, base), ball_B = Rounded(b, base);

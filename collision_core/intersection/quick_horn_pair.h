@@ -1,19 +1,17 @@
 // A pair of horns, in plain doubles for the quick root finder.
 #pragma once
 
-#include "collision_core/motion/space_time_bound.h"
+#include "collision_core/intersection/bound_pair.h"
 #include "collision_core/numeric/first_approach_quick.h"
 
 namespace collision::intersection {
 
-/// The relative motion of two forward horns as an exact problem in doubles, with time counted from
-/// `base` and the sum of the radii larger by `margin` [m]. What rounding may have cost centre and
+/// The relative motion of two forward horns as an exact problem in doubles, with the sum of the
+/// radii larger by the pair's margin. What rounding may have cost centre and
 /// velocity is added to the reach: 6 · 2^-53 of the terms of the centre and 2 · 2^-53 of the
 /// velocity. Symmetric: (A, B) and (B, A) give the
 /// same bits, or the negated ones. If a difference of times overflows, all reaches are infinite and
-/// so decide nothing. Requires a base not before either stamp.
-numeric::QuickApproach QuickHornPair(const motion::SpaceTimeBound& a,
-                                     const motion::SpaceTimeBound& b, Instant base,
-                                     double margin = 0);
+/// so decide nothing.
+numeric::QuickApproach QuickHornPair(const BoundPair& pair);
 
 }  // namespace collision::intersection

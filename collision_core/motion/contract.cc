@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision_core/base/check.h"
 #include "collision_core/motion/contract_between.h"
 #include "collision_core/motion/contract_cap.h"
 #include "collision_core/numeric/rotation.h"
@@ -238,6 +239,8 @@ bool CheckRotation(const SpaceTimeBound& before, const MotionState& next, numeri
 }  // namespace
 
 ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next) {
+  CORE_CHECK(next.stamp >= before.state.stamp, "a state follows the one before",
+             next.stamp.nanoseconds(), before.state.stamp.nanoseconds());
   const numeric::Interval s = numeric::SecondsBetween(before.state.stamp, next.stamp);
   ContractCheck check;
   bool is_inside = CheckTranslation(before, next, s, &check);

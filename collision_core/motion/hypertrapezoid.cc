@@ -1,5 +1,6 @@
 #include "collision_core/motion/hypertrapezoid.h"
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::motion {
@@ -24,9 +25,12 @@ Span NotPositive(numeric::Interval start, numeric::Interval end) {
 }  // namespace
 
 Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, Instant end) {
-  const bool use_direction = DirectionHoldsFor(bound, end) >= 0;
-  const FaceBox first = BoxAt(bound, start, use_direction);
-  const FaceBox last = BoxAt(bound, end, use_direction);
+  CORE_CHECK(start <= end, "a window does not end before it starts", start.nanoseconds(),
+             end.nanoseconds());
+  const DirectionUse direction =
+      DirectionHoldsFor(bound, end) >= 0 ? DirectionUse::kCounted : DirectionUse::kIgnored;
+  const FaceBox first = BoxAt(bound, start, direction);
+  const FaceBox last = BoxAt(bound, end, direction);
   Hypertrapezoid h;
   h.start = start;
   h.duration = numeric::SecondsBetween(start, end).lower;
@@ -40,6 +44,8 @@ Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, In
 }
 
 double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b) {
+  CORE_CHECK(a.start == b.start && a.duration == b.duration, "both have the same window",
+             a.duration, b.duration);
   Span overlap;
   const auto meet = [&overlap](const Hypertrapezoid& below, const Hypertrapezoid& above, int axis) {
     const Span span =
@@ -57,6 +63,8 @@ double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b) {
 }
 
 Hypertrapezoid Unite(const Hypertrapezoid& a, const Hypertrapezoid& b) {
+  CORE_CHECK(a.start == b.start && a.duration == b.duration, "both have the same window",
+             a.duration, b.duration);
   Hypertrapezoid h = a;
   for (int axis = 0; axis < 3; ++axis) {
     h.lower_start[axis] = std::min(a.lower_start[axis], b.lower_start[axis]);

@@ -1,5 +1,6 @@
 #include "collision_core/motion/moving_rotation.h"
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::motion {
@@ -24,11 +25,15 @@ numeric::Quadratic OffAngle(const SpaceTimeBound& bound, numeric::Interval start
 }  // namespace
 
 MovingRotation ForwardRotation(const SpaceTimeBound& bound, Instant base) {
+  CORE_CHECK(base >= bound.state.stamp, "a forward rotation starts at its stamp",
+             base.nanoseconds(), bound.state.stamp.nanoseconds());
   const numeric::Interval since = numeric::SecondsBetween(bound.state.stamp, base);
   return {bound.state.q_WB, bound.state.w_WB, since, OffAngle(bound, since + bound.skew, 1)};
 }
 
 MovingRotation BackwardRotation(const SpaceTimeBound& bound, Instant base) {
+  CORE_CHECK(base <= bound.state.stamp, "a backward rotation ends at its stamp", base.nanoseconds(),
+             bound.state.stamp.nanoseconds());
   const numeric::Interval since = numeric::SecondsBetween(bound.state.stamp, base);
   return {bound.state.q_WB, bound.state.w_WB, since, OffAngle(bound, -since + bound.skew, -1)};
 }

@@ -1,5 +1,6 @@
 #include "collision_core/motion/space_time_bound.h"
 
+#include "collision_core/base/check.h"
 #include "collision_core/motion/speed_cap.h"
 #include "collision_core/numeric/seconds.h"
 
@@ -13,10 +14,14 @@ struct Elapsed {
 };
 
 Elapsed ForwardFrom(const SpaceTimeBound& bound, Instant base) {
+  CORE_CHECK(base >= bound.state.stamp, "a forward horn starts at its stamp", base.nanoseconds(),
+             bound.state.stamp.nanoseconds());
   return {numeric::SecondsBetween(bound.state.stamp, base) + bound.skew, 1};
 }
 
 Elapsed BackwardFrom(const SpaceTimeBound& bound, Instant base) {
+  CORE_CHECK(base <= bound.state.stamp, "a backward horn ends at its stamp", base.nanoseconds(),
+             bound.state.stamp.nanoseconds());
   return {numeric::SecondsBetween(base, bound.state.stamp) + bound.skew, -1};
 }
 
@@ -47,12 +52,10 @@ numeric::MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed,
 
 bool HasDirection(const MotionState& state) { return !state.direction.isZero(0); }
 
-/// How far the face with the normal `sign` times the axis has come from p_WA by t, less the radius,
-/// if the cap has taken over before; else nothing is changed.
-void CapReach(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval fraction,
-              Instant t, numeric::Interval* reach) {
-  const CappedFace face = CapFace(bound, axis, sign, fraction);
-  if (face.from < t) *reach = face.shift + face.UFrom(t).c0;
+/// How far a capped face has come from p_WA by t, less the radius; `horn_reach` if the cap has not
+/// taken over before.
+numeric::Interval ReachAt(const CappedFace& face, Instant t, numeric::Interval horn_reach) {
+  return face.from < t ? face.shift + face.UFrom(t).c0 : horn_reach;
 }
 
 }  // namespace
@@ -94,15 +97,17 @@ double DirectionHoldsFor(const SpaceTimeBound& bound, Instant base) {
 }
 
 FaceBox BoxAt(const SpaceTimeBound& bound, Instant t) {
-  return BoxAt(bound, t, DirectionHoldsFor(bound, t) >= 0);
+  const bool holds = DirectionHoldsFor(bound, t) >= 0;
+  return BoxAt(bound, t, holds ? DirectionUse::kCounted : DirectionUse::kIgnored);
 }
 
-FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, bool use_direction) {
+FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, DirectionUse direction) {
   const Elapsed elapsed = ForwardFrom(bound, t);
   const numeric::Interval since = numeric::SecondsBetween(bound.state.stamp, t);
   const numeric::Interval errors = Errors(bound, elapsed).c0;
   const numeric::Interval deviation = Deviation(bound.limits, elapsed).c0;
-  const DirectionalReach reach = use_direction ? ReachOfDirection(bound.state) : DirectionalReach();
+  const DirectionalReach reach =
+      direction == DirectionUse::kCounted ? ReachOfDirection(bound.state) : DirectionalReach();
   const bool capped = HasSpeedCap(bound.limits);
   const numeric::Interval radius = bound.limits.radius;
   FaceBox box;
@@ -111,8 +116,8 @@ FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, bool use_direction) {
     numeric::Interval down = errors + reach.downward[axis] * deviation - shift;
     numeric::Interval up = errors + reach.upward[axis] * deviation + shift;
     if (capped) {
-      CapReach(bound, axis, -1, reach.downward[axis], t, &down);
-      CapReach(bound, axis, 1, reach.upward[axis], t, &up);
+      down = ReachAt(CapFace(bound, axis, -1, reach.downward[axis]), t, down);
+      up = ReachAt(CapFace(bound, axis, 1, reach.upward[axis]), t, up);
     }
     box.lower[axis] = numeric::Interval(bound.state.p_WA[axis]) - (radius + down);
     box.upper[axis] = numeric::Interval(bound.state.p_WA[axis]) + (radius + up);

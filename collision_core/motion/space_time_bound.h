@@ -99,7 +99,10 @@ struct FaceBox {
 /// where it holds. Requires t >= state.stamp.
 FaceBox BoxAt(const SpaceTimeBound& bound, Instant t);
 
-/// The same with the direction counted (`use_direction`) or not, whatever its end says.
-FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, bool use_direction);
+/// Whether a declared direction makes a box smaller.
+enum class DirectionUse { kIgnored, kCounted };
+
+/// The same with the direction counted or ignored, whenever it ends.
+FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, DirectionUse direction);
 
 }  // namespace collision::motion

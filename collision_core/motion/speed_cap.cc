@@ -1,5 +1,6 @@
 #include "collision_core/motion/speed_cap.h"
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::motion {
@@ -52,6 +53,7 @@ numeric::Quadratic CappedBall::UFrom(Instant base) const { return Growing(u, spe
 numeric::Quadratic CappedFace::UFrom(Instant base) const { return Growing(u, speed, from, base); }
 
 CappedBall CapBall(const SpaceTimeBound& bound) {
+  CORE_CHECK(HasSpeedCap(bound.limits), "a capped ball has a cap");
   CappedBall cap;
   cap.from = CapTakesOver(bound);
   if (cap.from.is_never()) return cap;
@@ -72,6 +74,7 @@ std::optional<LateBall> CappedBallFrom(const SpaceTimeBound& bound, Instant base
 }
 
 CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval fraction) {
+  CORE_CHECK(HasSpeedCap(bound.limits), "a capped face has a cap", axis, sign);
   const double along = sign * bound.state.v_WA[axis];
   CappedFace cap;
   cap.from = FaceCapTakesOver(bound, along, fraction.upper);

@@ -1,5 +1,7 @@
 #include "collision_core/numeric/quadratic.h"
 
+#include "collision_core/base/check.h"
+
 namespace collision::numeric {
 
 Quadratic Quadratic::From(double start) const {
@@ -19,6 +21,7 @@ Quadratic operator*(Interval s, const Quadratic& a) { return {s * a.c0, s * a.c1
 
 double FirstZero(double gap, double closing, double growth) {
   if (!(gap > 0)) return 0;
+  CORE_CHECK(growth >= 0, "a gap closes ever faster, or evenly", gap, closing, growth);
   if (growth == 0) return closing > 0 ? DivideDown(gap, closing) : kInfinity;
   // The positive root of growth x² + closing x − gap, in the form of the two that does not cancel.
   // The root of the discriminant is a length: Norm keeps it from overflowing where the answer would

@@ -1,5 +1,7 @@
 #include "collision_core/numeric/seconds.h"
 
+#include "collision_core/base/check.h"
+
 namespace collision::numeric {
 namespace {
 
@@ -8,8 +10,12 @@ constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 /// More seconds than lie between any two instants.
 constexpr double kSecondsMax = 2e10;
 
-/// `from + seconds`, saturated; the fraction of a nanosecond goes down or up.
-Instant Add(Instant from, double seconds, bool up) {
+enum class Rounding { kDown, kUp };
+
+/// `from + seconds`, saturated and rounded to a whole nanosecond.
+Instant Add(Instant from, double seconds, Rounding rounding) {
+  CORE_CHECK(!std::isnan(seconds), "a time is a number");
+  const bool up = rounding == Rounding::kUp;
   if (seconds == 0 || from == Instant::Never() || from == Instant::Always()) return from;
   if (seconds > kSecondsMax) return Instant::Never();
   if (seconds < -kSecondsMax) return Instant::Always();
@@ -51,8 +57,8 @@ Interval SecondsBetween(Instant from, Instant to) {
          Interval(static_cast<double>(rest)) / Interval(kNanosecondsPerSecond);
 }
 
-Instant AddRoundedDown(Instant from, double seconds) { return Add(from, seconds, false); }
+Instant AddRoundedDown(Instant from, double seconds) { return Add(from, seconds, Rounding::kDown); }
 
-Instant AddRoundedUp(Instant from, double seconds) { return Add(from, seconds, true); }
+Instant AddRoundedUp(Instant from, double seconds) { return Add(from, seconds, Rounding::kUp); }
 
 }  // namespace collision::numeric

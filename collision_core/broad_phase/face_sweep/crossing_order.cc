@@ -4,6 +4,8 @@
 #include <bit>
 #include <numeric>
 
+#include "collision_core/base/check.h"
+
 namespace collision::broad_phase {
 namespace {
 
@@ -72,6 +74,7 @@ bool CrossingOrder::HasNext(std::uint32_t limit) {
 }
 
 FaceCrossing CrossingOrder::Next() {
+  CORE_CHECK(!queue_.empty(), "there is a next crossing");
   const std::uint32_t place = queue_.place();
   const FaceCrossing crossing{queue_.tick(), faces_[place], faces_[place + 1]};
   std::swap(faces_[place], faces_[place + 1]);

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "collision_core/base/check.h"
-
 namespace collision::broad_phase {
 namespace {
 

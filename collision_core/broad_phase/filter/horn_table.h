@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/base/check.h"
 #include "collision_core/broad_phase/filter/pair_filter.h"
 #include "collision_core/intersection/intersection_query.h"
 #include "collision_core/intersection/pair_rules.h"
@@ -37,7 +38,10 @@ inline constexpr double kOutward = 1 + 0x1p-48, kLineRounding = 0x1p-48;
 class HornTable {
  public:
   /// Grows rows by their agents' margins; null: there are no rules. Requires an empty table.
-  void UseRules(const intersection::PairRules* rules) { rules_ = rules; }
+  void UseRules(const intersection::PairRules* rules) {
+    CORE_CHECK(count_ == 0, "rules are set before agents are", count_);
+    rules_ = rules;
+  }
   /// The agent's rules have changed.
   void UpdateRules(std::uint32_t agent);
   /// The rule of an agent of the table and any other; fastest if `agent` has no rules.

@@ -1,17 +1,15 @@
 // The plainest method: compare every pair.
 #pragma once
 
-#include <memory>
-
-#include "collision_core/broad_phase/index/row_store.h"
 #include "collision_core/broad_phase/index/windowed_search.h"
 
 namespace collision::broad_phase {
 
-/// Compares every agent with every other, in wide vectors. The fastest method for small scenes.
+/// Compares every agent with every other, in wide vectors: O(1) to change an agent, O(N) for a
+/// question about one, O(N²) about all. The fastest method for small scenes.
 class AllPairs : public WindowedSearch {
  public:
-  AllPairs() : WindowedSearch(std::make_unique<RowStore>()) {}
+  AllPairs();
 };
 
 }  // namespace collision::broad_phase

@@ -5,8 +5,8 @@
 
 #include "collision_core/broad_phase/broad_phase_work.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
+#include "collision_core/broad_phase/filter/pair_sink.h"
 #include "collision_core/broad_phase/index/half_space.h"
-#include "collision_core/broad_phase/index/pair_sink.h"
 
 namespace collision::broad_phase {
 
@@ -53,10 +53,6 @@ bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32
 /// Likewise a row that is in no table and has no rules, and an agent of the table.
 bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, const Within& within,
              BroadPhaseWork* work);
-
-/// Likewise of a row that is in no table and has no rules, and an agent of the table.
-bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, Instant from,
-             double limit, BroadPhaseWork* work);
 
 /// The canonical time of two agents of the table, with their margin. Requires that they are not
 /// excluded.

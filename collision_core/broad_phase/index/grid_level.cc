@@ -66,6 +66,7 @@ inline GridLevel::Cell GridLevel::CellOf(double x, double y, double z) const {
 
 void GridLevel::Build(const PlacementFrame& frame, const PlacedBall* placed, std::uint32_t count,
                       const PlacedExtent& extent) {
+  CORE_CHECK(count > 0, "a level has agents");
   frame_ = &frame;
   size_ = count;
   most_ = extent;

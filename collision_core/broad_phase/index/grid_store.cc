@@ -9,15 +9,16 @@
 namespace collision::broad_phase {
 namespace {
 
-/// The level an agent belongs to, larger ones later: counted down from the greatest reach in powers
-/// of 4, so that agents that are all alike share one. Odd for those that never move.
+/// Levels and their keys: agents that move and agents that never move have a level each.
 constexpr int kLevelsMax = 120;
 constexpr int kKeys = 2 * kLevelsMax + 2;
-std::uint8_t KeyOf(float reach, float greatest, bool still) {
+
+/// The level of an agent, larger for larger reaches: counted down from the greatest reach in powers
+/// of 4, so that agents of similar reach share one.
+int LevelOf(float reach, float greatest) {
   int exponent;
   std::frexp(greatest / reach, &exponent);
-  return static_cast<std::uint8_t>(2 * (kLevelsMax - std::clamp(exponent / 2, 0, kLevelsMax)) +
-                                   still);
+  return kLevelsMax - std::clamp(exponent / 2, 0, kLevelsMax);
 }
 
 }  // namespace
@@ -39,7 +40,7 @@ void GridStore::PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horn
   // Mostly all reach about as far, and move.
   if (scene.table->still_count() == 0 && greatest < 4 * least) {
     sorted_.swap(*horns);
-    BuildLevel(scene, false, {0, static_cast<std::uint32_t>(sorted_.size())}, extent);
+    BuildLevel(scene, {0, static_cast<std::uint32_t>(sorted_.size()), false}, extent);
   } else {
     SortByLevel(scene, *horns);
   }
@@ -87,7 +88,8 @@ void GridStore::SortByLevel(const PlacedScene& scene, const std::vector<PlacedBa
   }
   std::uint32_t counts[kKeys] = {}, next[kKeys];
   for (std::size_t k = 0; k < horns.size(); ++k) {
-    keys_[k] = KeyOf(reaches_[k], greatest, scene.table->row(horns[k].agent).still);
+    const bool still = scene.table->row(horns[k].agent).still;
+    keys_[k] = static_cast<std::uint8_t>(2 * LevelOf(reaches_[k], greatest) + still);
     ++counts[keys_[k]];
   }
   std::uint32_t sum = 0;
@@ -99,15 +101,14 @@ void GridStore::SortByLevel(const PlacedScene& scene, const std::vector<PlacedBa
     const std::uint32_t first = next[key] - counts[key];
     PlacedExtent extent;
     for (std::uint32_t k = first; k < next[key]; ++k) extent.Add(sorted_[k]);
-    BuildLevel(scene, key % 2 == 1, {first, counts[key]}, extent);
+    BuildLevel(scene, {first, counts[key], key % 2 == 1}, extent);
   }
 }
 
-void GridStore::BuildLevel(const PlacedScene& scene, bool still, Part part,
-                           const PlacedExtent& extent) {
+void GridStore::BuildLevel(const PlacedScene& scene, const Part& part, const PlacedExtent& extent) {
   if (levels_.size() == level_count_) levels_.emplace_back();
   Level& level = levels_[level_count_];
-  level.still = still;
+  level.still = part.still;
   level.first = part.first;
   level.grid.Build(*scene.frame, sorted_.data() + part.first, part.count, extent);
   for (std::uint32_t k = 0; k < part.count; ++k) {

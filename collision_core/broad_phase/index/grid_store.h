@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/broad_phase/filter/filter_row.h"
 #include "collision_core/broad_phase/filter/point_grid.h"
-#include "collision_core/broad_phase/index/filter_row.h"
 #include "collision_core/broad_phase/index/grid_level.h"
 #include "collision_core/broad_phase/index/placed_store.h"
 
@@ -47,9 +47,10 @@ class GridStore : public PlacedStore {
   };
   static constexpr std::uint32_t kUnsorted = ~0u;
 
-  /// A part of sorted_.
+  /// The agents of one level, a part of sorted_.
   struct Part {
     std::uint32_t first, count;
+    bool still;  ///< They never move.
   };
   /// Each agent of one level is looked for in the other.
   struct LevelPair {
@@ -59,7 +60,7 @@ class GridStore : public PlacedStore {
   bool BuildPoints(const PlacedScene& scene, double last);
   void JoinPoints(const PlacedScene& scene, double last, SearchCost* cost, PairSink* sink);
   void SortByLevel(const PlacedScene& scene, const std::vector<PlacedBall>& horns);
-  void BuildLevel(const PlacedScene& scene, bool still, Part part, const PlacedExtent& extent);
+  void BuildLevel(const PlacedScene& scene, const Part& part, const PlacedExtent& extent);
   void JoinRows(const Level& level, TimeWindow window, SearchCost* cost, PairSink* sink);
   static double CostOfSearch(const Level& level, const Level& other, TimeWindow window);
   void JoinCells(const PlacedScene& scene, const LevelPair& levels, TimeWindow window,

@@ -6,8 +6,8 @@
 
 #include "collision_core/broad_phase/broad_phase_work.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
+#include "collision_core/broad_phase/filter/pair_sink.h"
 #include "collision_core/broad_phase/filter/placement_frame.h"
-#include "collision_core/broad_phase/index/pair_sink.h"
 
 namespace collision::broad_phase {
 

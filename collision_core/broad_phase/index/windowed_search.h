@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "collision_core/broad_phase/earliest_sweep.h"
+#include "collision_core/broad_phase/filter/filter_row.h"
 #include "collision_core/broad_phase/filter/placement_frame.h"
 #include "collision_core/broad_phase/index/earliest_pair_sink.h"
-#include "collision_core/broad_phase/index/filter_row.h"
 #include "collision_core/broad_phase/index/placed_store.h"
 
 namespace collision::broad_phase {

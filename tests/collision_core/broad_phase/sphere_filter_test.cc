@@ -103,19 +103,19 @@ class LaneScanTest : public testing::Test {
     question_.query.reach = WithSlack(query_ball.reach, way(query_ball));
     question_.query.speed = WithSlack(speed_of(query_ball), 0);
     question_.query.way = static_cast<float>(reach_time);
-    question_.range = {0, kBalls, static_cast<float>(query_ball.p[0]), static_cast<float>(query_ball.p[1]),
-                       static_cast<float>(query_ball.p[2])};
+    question_.range = {0, kBalls, static_cast<float>(query_ball.p[0]),
+                       static_cast<float>(query_ball.p[1]), static_cast<float>(query_ball.p[2])};
     for (int k = 0; k < kBalls; ++k) {
       Ball ball;
       for (int i = 0; i < 3; ++i) {
         ball.p[i] = single(query_ball.p[i] + random.Uniform(-3 * size, 3 * size));
         ball.v[i] = single(random.Uniform(-speed, speed));
       }
-      const double least =
-          std::sqrt(static_cast<double>(LeastSquare(query_ball, ball, Exact(first_), Exact(last_))));
-      ball.reach =
-          std::max(0.0, k % 2 == 0 ? (least - query_ball.reach) * (1 + random.Uniform(-4, 4) * 0x1p-52)
-                                   : size * random.Uniform(0, 0.5));
+      const double least = std::sqrt(
+          static_cast<double>(LeastSquare(query_ball, ball, Exact(first_), Exact(last_))));
+      ball.reach = std::max(
+          0.0, k % 2 == 0 ? (least - query_ball.reach) * (1 + random.Uniform(-4, 4) * 0x1p-52)
+                          : size * random.Uniform(0, 0.5));
       for (int i = 0; i < 3; ++i) {
         balls_.arrays[i][k] = static_cast<float>(ball.p[i]);
         balls_.arrays[3 + i][k] = static_cast<float>(ball.v[i]);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "collision_core/base/check.h"
-#include "collision_core/broad_phase/index/filter_row.h"
+#include "collision_core/broad_phase/filter/filter_row.h"
 #include "collision_core/broad_phase/index/grid_level.h"
 #include "tests/collision_core/broad_phase/method_scenes.h"
 #include "tests/support/sanitized.h"

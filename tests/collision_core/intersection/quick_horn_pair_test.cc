@@ -35,7 +35,7 @@ TEST(QuickHornPair, ReachesContainTheRounding) {
   for (int i = 0; i < 4000; ++i) {
     const motion::SpaceTimeBound a = AnyAgent(random), b = AnyAgent(random);
     const Instant base = Instant::FromNanoseconds(1ll << 33);
-    const numeric::QuickApproach q = QuickHornPair(a, b, base);
+    const numeric::QuickApproach q = QuickHornPair({a, b, base});
     const ExactHorn horn_A(a, base), horn_B(b, base);
     Exact off_d = 0, off_w = 0;
     for (int k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ TEST(QuickHornPair, ReachesContainTheRounding) {
     ASSERT_LE(more1, 2 * Exact(q.doubt1));
     ASSERT_LE(Exact(q.ball.s2), s2 * (1 + Exact(0x1p-46)));
     // Turned about, the same numbers.
-    const numeric::QuickApproach turned = QuickHornPair(b, a, base);
+    const numeric::QuickApproach turned = QuickHornPair({b, a, base});
     ASSERT_EQ(turned.ball.s0, q.ball.s0);
     ASSERT_EQ(turned.ball.s1, q.ball.s1);
     for (int k = 0; k < 3; ++k) ASSERT_EQ(turned.ball.c[k], -q.ball.c[k]);
@@ -76,7 +76,7 @@ TEST(QuickHornPair, PointsHaveTheirAllowance) {
           Instant::FromNanoseconds(static_cast<std::int64_t>(random.Below(1ull << 33)));
     }
     const Instant base = Instant::FromNanoseconds(1ll << 33);
-    const numeric::QuickApproach q = QuickHornPair(a, b, base);
+    const numeric::QuickApproach q = QuickHornPair({a, b, base});
     const ExactHorn horn_A(a, base), horn_B(b, base);
     Exact off_d = 0, off_w = 0;
     for (int k = 0; k < 3; ++k) {

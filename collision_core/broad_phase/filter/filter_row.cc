@@ -1,4 +1,4 @@
-#include "collision_core/broad_phase/index/filter_row.h"
+#include "collision_core/broad_phase/filter/filter_row.h"
 
 #include <algorithm>
 #include <cmath>

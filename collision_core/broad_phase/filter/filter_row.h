@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "collision_core/broad_phase/broad_phase_work.h"
+#include "collision_core/broad_phase/filter/pair_sink.h"
 #include "collision_core/broad_phase/filter/placed_balls.h"
-#include "collision_core/broad_phase/index/pair_sink.h"
 
 namespace collision::broad_phase {
 
@@ -23,8 +23,7 @@ class FilterRow {
   void Vacate(std::uint32_t k) { lanes_.Vacate(k); }
 
   /// Offers all pairs that come within reach of each other during the window, and others.
-  void Join(const PlacementFrame& frame, TimeWindow window, BroadPhaseWork* work,
-            PairSink* sink);
+  void Join(const PlacementFrame& frame, TimeWindow window, BroadPhaseWork* work, PairSink* sink);
 
   /// Appends all agents that come within reach of `horn`.
   void FindNear(const PlacedBall& horn, const PlacementFrame& frame, TimeWindow window,

@@ -1,0 +1,17 @@
+// Two bounds and the terms on which they meet: what each part of the canonical routine is given.
+#pragma once
+
+#include "collision_core/motion/space_time_bound.h"
+
+namespace collision::intersection {
+
+/// Two bounds as seen from `base`, from which seconds are counted. They meet where they come within
+/// `margin` of each other. Requires a base not before either stamp, and a margin that is finite and
+/// >= 0. The bounds outlive the pair.
+struct BoundPair {
+  const motion::SpaceTimeBound &a, &b;
+  Instant base;
+  double margin = 0;  ///< [m]
+};
+
+}  // namespace collision::intersection
