@@ -26,7 +26,7 @@ class Swarm {
       if (!drone) p = Vector3d(10000 + 5 * p.x(), 5 * p.y(), 10 * p.z());
       states_.push_back(
           State(0, p, drone ? random.UnitVector() * random.Uniform(0, 10) : Vector3d(0, 0, 0)));
-      declarations_.push_back({.radius = 0.5, .acceleration_max = drone ? 5 : 1e-3});
+      declarations_.push_back({.limits = {.radius = 0.5, .acceleration_max = drone ? 5 : 1e-3}});
     }
     DetectorOptions options;
     options.agents_max = drones + others;
@@ -71,7 +71,7 @@ class Swarm {
  private:
   std::uint32_t drones_;
   std::vector<motion::MotionState> states_;
-  std::vector<motion::AgentDeclaration> declarations_;
+  std::vector<AgentDeclaration> declarations_;
 };
 
 TEST(ManyChanges, AreToldAsIfTheyCameOneByOne) {
