@@ -17,7 +17,7 @@ double PlaceUnits(BroadPhaseMethod kind) {
   return kind == BroadPhaseMethod::kAllPairs ? 8 : 0;
 }
 
-/// Questions until the index is tried again; doubled by each try.
+/// Questions until the index is tried again; doubled after each try.
 constexpr std::uint64_t kPatience = 2048;
 constexpr std::uint64_t kPatienceMax = 1 << 20;
 
@@ -82,8 +82,8 @@ AdaptiveBroadPhase::Method AdaptiveBroadPhase::Make(BroadPhaseMethod kind) const
   return method;
 }
 
-AdaptiveBroadPhase::AdaptiveBroadPhase(BroadPhaseMethod asked)
-    : asked_(asked), method_(Make(asked)), patience_(kPatience) {}
+AdaptiveBroadPhase::AdaptiveBroadPhase(BroadPhaseMethod requested)
+    : requested_(requested), method_(Make(requested)), patience_(kPatience) {}
 
 AdaptiveBroadPhase::~AdaptiveBroadPhase() = default;
 
@@ -215,7 +215,7 @@ void AdaptiveBroadPhase::Switch() {
   Settle();
 }
 
-// A decision has been made.
+// Starts to count anew after a decision.
 void AdaptiveBroadPhase::Settle() {
   questions_ = 0;
   answering_ = {};
@@ -231,9 +231,9 @@ void AdaptiveBroadPhase::Fill() {
 }
 
 void AdaptiveBroadPhase::Choose() {
-  if (asked_ != BroadPhaseMethod::kAuto) return;
+  if (requested_ != BroadPhaseMethod::kAuto) return;
   if (next_.phase) {
-    // Its reason may have gone meanwhile.
+    // The reason for it may have gone since.
     if (next_.kind == BroadPhaseMethod::kAllPairs && agents_ > kManyAgents) return Drop();
     return Fill();
   }
@@ -256,7 +256,7 @@ void AdaptiveBroadPhase::ChooseFromAllPairs() {
 }
 
 void AdaptiveBroadPhase::ChooseFromIndex() {
-  // With room between them: a scene about as large as the limit does not go to and fro.
+  // Half the limit: a scene about as large as it does not switch back and forth.
   if (agents_ <= kFewAgents / 2) {
     units_ = 0;
     return Start(BroadPhaseMethod::kAllPairs);
@@ -282,7 +282,7 @@ void AdaptiveBroadPhase::EndQuestion(const BroadPhaseWork& before) {
 
 std::string AdaptiveBroadPhase::why() const {
   const std::string agents = std::to_string(agents_) + " agents";
-  if (asked_ != BroadPhaseMethod::kAuto) return agents + "; the configuration asks for it";
+  if (requested_ != BroadPhaseMethod::kAuto) return agents + "; the configuration asks for it";
   const bool all_pairs = method_.kind == BroadPhaseMethod::kAllPairs;
   if (agents_ <= kFewAgents && all_pairs) {
     return agents + ": up to " + std::to_string(kFewAgents) + " it costs least";

@@ -17,28 +17,29 @@ namespace collision::broad_phase {
 /// is counted, never timed, so that the same calls choose the same everywhere; and as all methods
 /// give the same answers, only the cost depends on the choice.
 ///
-/// Units stand in the ratio of what the pieces cost: a filter's test 1, a place looked at 16, a
-/// pair query 256, an agent placed anew in the index 64 (BroadPhaseWork). Up to kFewAgents all
-/// pairs answer, beyond that the index, and all pairs again at half as many. Up to three quarters
-/// of kManyAgents, every kPeriodQuestions questions, the index's work on questions of one agent is
-/// compared with what all pairs would have done: the same pairs and neighbours, and N tests a
-/// search, which follows from the index's counts, so that nothing is asked twice; or with what all
-/// pairs cost just before the index was tried again, if that is less. The excess adds up; all pairs
-/// are taken where the sum exceeds kExcessUnits an agent. A lower threshold would react to start-up
-/// cost and to the ordinary ageing of a placement. Then the index gets its next try after ever more
-/// questions, with half as many agents more, or with kManyAgents.
+/// The units of work are in the ratio of what the pieces cost: a filter's test 1, a place looked at
+/// 16, a pair query 256, an agent placed anew in the index 64 (BroadPhaseWork). Up to kFewAgents
+/// all pairs answer, beyond that the index; and all pairs again at half that number. Up to three
+/// quarters of kManyAgents, after every kPeriodQuestions questions, the index's work on questions
+/// about one agent is compared with what all pairs would have done: the same pairs and neighbours,
+/// and N tests a search. That follows from the index's counts, so that no question is repeated. If
+/// all pairs cost less just before the index was tried again, it is compared with that. The excess
+/// adds up; all pairs take over when the sum exceeds kExcessUnits per agent. A lower threshold
+/// would react to start-up cost and to the ordinary ageing of a placement. The index is then tried
+/// again after a number of questions that doubles each time, or with half as many agents more, or
+/// with kManyAgents.
 ///
-/// A new method is filled kMoves agents a call beside the old one, which answers until it is full:
-/// no call takes longer than the others.
+/// A new method is filled with kMoves agents a call beside the old one, which answers until the new
+/// one is full: no call takes longer than the others.
 class AdaptiveBroadPhase : public SweepingIndex {
  public:
   static constexpr std::size_t kFewAgents = 128;
   static constexpr std::size_t kManyAgents = 768;
   static constexpr std::uint64_t kPeriodQuestions = 256;
-  static constexpr double kExcessUnits = 480;  ///< 7½ placings of all. FITTED.
+  static constexpr double kExcessUnits = 480;  ///< 7½ placements of all; fitted to scenes.
   static constexpr std::uint32_t kMoves = 8;
 
-  explicit AdaptiveBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);
+  explicit AdaptiveBroadPhase(BroadPhaseMethod requested = BroadPhaseMethod::kAuto);
   ~AdaptiveBroadPhase() override;
 
   void Set(std::uint32_t agent, const AgentBound& bound) override;
@@ -90,13 +91,13 @@ class AdaptiveBroadPhase : public SweepingIndex {
   void EndQuestion(const BroadPhaseWork& before);
   void Settle();
 
-  const BroadPhaseMethod asked_;
+  const BroadPhaseMethod requested_;
   Method method_;
-  Method next_;               ///< Being filled; its phase null: none.
+  Method next_;               ///< Being filled; none if its phase is null.
   std::uint32_t filled_ = 0;  ///< Agents below this index are in next_ as well.
   std::size_t agents_ = 0;    ///< Held.
   std::vector<bool> held_;    ///< By agent.
-  BroadPhaseWork before_{};   ///< The work of methods that are gone.
+  BroadPhaseWork before_{};   ///< The work of methods that were replaced.
   double units_before_ = 0;   ///< Likewise.
 
   std::uint64_t questions_ = 0;   ///< Questions of one agent since the last decision.

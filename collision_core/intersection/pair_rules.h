@@ -1,4 +1,4 @@
-// What is agreed about single pairs: some never meet, others keep a distance.
+// Rules of single pairs: some never meet, others keep a distance.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct PairRule {
   friend bool operator==(const PairRule&, const PairRule&) = default;
 };
 
-/// Halving is exact but among the denormals.
+/// Half of the margin, rounded up; exact except among the denormals.
 inline double HalfUp(double margin) {
   const double half = 0.5 * margin;
   return 2 * half == margin ? half : numeric::NextUp(half);
@@ -37,13 +37,14 @@ inline double HalfUp(double margin) {
 /// differs.
 class PairRules {
  public:
-  /// The most rules in all, and of one agent: beyond them Set() refuses. An agent that is to ignore
-  /// more should say so by its mask. The second limit bounds what one change costs.
+  /// The most rules in all, and of one agent; Set() refuses more. An agent that is to ignore more
+  /// partners uses its mask. The second limit bounds what one change costs.
   static constexpr std::size_t kRulesMax = std::size_t{1} << 20;
   static constexpr std::size_t kRulesOfAgentMax = 4096;
 
-  /// Replaces the pair's rule; PairRule() takes it away. False, and nothing is changed: an agent
-  /// with itself, a margin that is negative, infinite or not a number, or no more room.
+  /// Replaces the pair's rule; PairRule() takes it away. Returns false, and changes nothing, for an
+  /// agent with itself, for a margin that is negative, infinite or not a number, or if there is no
+  /// more room.
   bool Set(std::uint32_t a, std::uint32_t b, PairRule rule);
 
   /// Removes all rules of the agent; returns the agents that had one with it, ascending.
@@ -65,7 +66,7 @@ class PairRules {
     PairRule rule;
   };
   struct Rules {
-    std::vector<Entry> entries;  // by partner
+    std::vector<Entry> entries;  ///< Ascending by partner.
     double margin_max = 0;
 
     void Update();
@@ -75,7 +76,7 @@ class PairRules {
   void Put(std::uint32_t agent, std::uint32_t partner, PairRule rule);
   void Drop(std::uint32_t agent, std::uint32_t partner);
 
-  std::unordered_map<std::uint32_t, Rules> of_;  // each rule twice; nothing depends on its order
+  std::unordered_map<std::uint32_t, Rules> of_;  ///< By agent, each rule twice. Never iterated.
   std::size_t size_ = 0;
 };
 

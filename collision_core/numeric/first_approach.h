@@ -22,10 +22,10 @@
 namespace collision::numeric {
 
 /// A certified lower bound on the least δ in [0, limit] at which the ball of a relative motion
-/// (Difference() of two balls) contains the origin: with d(δ) its centre and S(δ) its radius, |d(δ)|
-/// <= S(δ). No real motion within the intervals reaches it earlier. 0 if the two are, or may be,
-/// within reach at once; +infinity if never up to `limit` (which may be +infinity). Early by at most
-/// max(1e-9 δ, what the widths of the intervals force). `start` [s]: a time before which it is
+/// (Difference() of two balls) contains the origin: with d(δ) its centre and S(δ) its radius,
+/// |d(δ)| <= S(δ). No real motion within the intervals reaches it earlier. 0 if the two are, or may
+/// be, within reach at once; +infinity if never up to `limit` (which may be +infinity). Early by at
+/// most max(1e-9 δ, what the widths of the intervals force). `start` [s]: a time before which it is
 /// already known that nothing is within reach. The method is derived at the head of this file.
 double FirstApproach(const MovingBall& difference, double limit, double start = 0);
 

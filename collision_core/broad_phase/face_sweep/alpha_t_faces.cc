@@ -13,7 +13,8 @@ namespace {
 /// each round by at most one unit: four in all, and one to spare.
 constexpr double kSectionSlack = 5;
 
-/// The faces farther out than the others' farthest by this factor cost them ten bits of the grid.
+/// Faces that reach this many times as far as all others would cost the others ten bits of the
+/// grid.
 constexpr double kApartFactor = 1024;
 
 FaceLines LinesOf(const motion::Hypertrapezoid& h) {
@@ -27,7 +28,7 @@ FaceLines LinesOf(const motion::Hypertrapezoid& h) {
   return lines;
 }
 
-/// The farther of two values, as seen from inside.
+/// The outer one of two values of a face.
 double Outer(int face, double a, double b) { return face < 3 ? std::min(a, b) : std::max(a, b); }
 
 double Nanoseconds(Instant from, Instant to) {
@@ -69,7 +70,7 @@ FaceLines LinesFrom(const motion::SpaceTimeBound& bound, Instant start, Instant 
   return is_ball ? LinesOfBall(bound, start, end) : LinesOf(MakeHypertrapezoid(bound, start, end));
 }
 
-/// Lines that hold from the stamp on, so that they hold over the window where they count. What
+/// Prolongs lines that start at the stamp back to the window's start, as FaceLinesOf() says. What
 /// rounds here is far below the padding: no factor is above 1.
 void ProlongToStart(Instant start, Instant stamp, Instant end, FaceLines* lines) {
   const double before = Nanoseconds(start, stamp), after = Nanoseconds(stamp, end);

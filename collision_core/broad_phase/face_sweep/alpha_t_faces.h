@@ -31,11 +31,11 @@ struct FaceLines {
 /// Lines that bound the horn (and the hypertrapezoid) from outside wherever it counts in [start,
 /// end], each moved outward by kFacePadding. nullopt: not finite.
 ///
-/// Before its stamp an agent meets no other, so a stamp inside the window asks for faces from there
-/// on only. If it lies in the first half, each is the chord from the stamp to the end, prolonged
+/// An agent meets no other before its stamp, so faces count only from a stamp inside the window on.
+/// If the stamp lies in the first half, each face is the chord from the stamp to the end, prolonged
 /// back to the start (and there not inside the face at the stamp, so that no box is turned inside
-/// out); else, as a prolonged chord would run away, the farther of its two ends, constant: a convex
-/// face lies inside both. Requires stamp <= end.
+/// out). Else a prolonged chord would lead far outside; the face is then constant, the outer one of
+/// its values at stamp and end. A convex face lies inside both. Requires stamp <= end.
 std::optional<FaceLines> FaceLinesOf(const motion::SpaceTimeBound& bound, Instant start,
                                      Instant end);
 
@@ -45,20 +45,21 @@ std::optional<FaceLines> FaceLinesOf(const motion::SpaceTimeBound& bound, Instan
 /// a pair's boxes overlap nevertheless, with room for 2^9 of them.
 inline constexpr double kFacePadding = 0x1p-44;
 
-/// Makes the faces of many agents whole numbers, so that all that follows is exact: which of two
-/// faces is higher at a tick, and at which tick they change places. Lower faces round down, upper
-/// ones up, each by one unit more than it needs: boxes that touch in metres overlap on the grid.
+/// Rounds the faces of many agents to whole numbers, so that everything after it is exact: which of
+/// two faces is higher at a tick, and at which tick they change places. Lower faces round down,
+/// upper ones up, each by one unit more than needed: boxes that touch in metres overlap on the
+/// grid.
 class AlphaTFaces {
  public:
   /// Coordinates lie within ±2^50, a little more with rounding.
   static constexpr int kCoordinateBits = 50;
-  /// At most one agent of so many is set apart because it reaches so much farther than the others
-  /// that the grid would be too coarse for them; never more than kApartMax.
+  /// Agents that reach so much farther than the others that the grid would be too coarse for them
+  /// are set apart: at most one in this many, and never more than kApartMax.
   static constexpr std::size_t kAgentsPerApart = 64;
   static constexpr std::size_t kApartMax = 32;
 
-  /// Takes those of `agents` that count in [start, end]: not expired before, stamped by its end.
-  /// Each is grown by half of its greatest margin, so that what is within one overlaps.
+  /// Takes those of `agents` that count in [start, end]: not expired before it, and stamped by its
+  /// end. Each is grown by half of its greatest margin, so that pairs within a margin overlap.
   void Build(const BoundList& bounds, const std::vector<std::uint32_t>& agents, Instant start,
              Instant end, const intersection::PairRules& rules = {});
 
@@ -68,8 +69,8 @@ class AlphaTFaces {
   const std::vector<std::uint32_t>& apart() const { return apart_; }
   /// The faces with normals along `axis` in the order of slots, lower before upper.
   const std::vector<AlphaTFace>& faces(int axis) const { return faces_[axis]; }
-  /// Do the boxes of two slots overlap at one of two times, given as fractions of the window? True
-  /// where rounding leaves it open.
+  /// Whether the boxes of two slots may overlap at one of two times, given as fractions of the
+  /// window. True where rounding leaves it open.
   bool MayOverlap(std::uint32_t slot, std::uint32_t other, double fraction_1,
                   double fraction_2) const;
 

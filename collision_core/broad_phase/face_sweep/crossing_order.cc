@@ -9,8 +9,8 @@
 namespace collision::broad_phase {
 namespace {
 
-/// The first stretch, as a part of the window: an order without crossings is passed over five times
-/// while stretches grow eightfold.
+/// The first stretch, in ticks: as stretches without crossings grow eightfold, an order without
+/// crossings takes five passes.
 constexpr std::uint32_t kFirstStretch = CrossingOrder::kTicks >> 10;
 
 bool StartsBelow(const AlphaTFace& a, const AlphaTFace& b) {
@@ -107,8 +107,9 @@ void CrossingOrder::Extend() {
   }
   crossings_in_stretch_ = 0;
   due_ = std::min(due_ + stretch_, kTicks);
-  // One comparison, rarely true, lets through all whose tick is up to due_, by a margin of one tick
-  // for its rounding, and none that fall apart but those that coincide; Schedule() decides.
+  // A cheap filter, rarely true: it passes every pair whose tick is up to due_, with a margin of
+  // one tick for its rounding. Of pairs that draw apart it passes only those that coincide.
+  // Schedule() decides.
   const double fraction = static_cast<double>(due_ + 1) / kTicks;
   for (std::uint32_t place = 0; place + 1 < faces_.size(); ++place) {
     const std::int64_t at_start = faces_[place + 1].start - faces_[place].start;

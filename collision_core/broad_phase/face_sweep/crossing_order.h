@@ -32,24 +32,23 @@ class CrossingOrder {
   static constexpr int kTickBits = 30;
   static constexpr std::uint32_t kTicks = 1u << kTickBits;
 
-  /// Sorts `faces` by start, of equal ones by end, then by name, and begins at tick 0.
+  /// Sorts `faces` by start, then end, then name, and begins at tick 0.
   void Start(const std::vector<AlphaTFace>& faces);
 
   /// The faces in their present order, from below.
   const std::vector<AlphaTFace>& faces() const { return faces_; }
 
-  /// Is there another crossing up to `limit` <= kTicks? Then it is at tick().
+  /// Whether there is another crossing up to `limit` <= kTicks; if so, it is at tick().
   bool HasNext(std::uint32_t limit);
   std::uint32_t tick() const { return queue_.tick(); }
-  /// Lets the next pair change places. Requires HasNext().
+  /// Swaps the next pair and returns it. Requires HasNext().
   FaceCrossing Next();
 
   /// The most events that were queued at once since Start().
   std::size_t queued_max() const { return queued_max_; }
 
  private:
-  /// A bucket for each face on average, then each bucket by itself: in clusters that is a plain
-  /// sort.
+  /// Sorts into as many buckets as faces, then each bucket: in clusters that is a plain sort.
   void SortInto(const std::vector<AlphaTFace>& faces);
   /// Queues the neighbours `place` and `place` + 1 if they cross by due_.
   void Schedule(std::uint32_t place);
@@ -59,9 +58,9 @@ class CrossingOrder {
   std::vector<AlphaTFace> faces_;
   std::vector<std::uint32_t> bucket_ends_;
   CrossingQueue queue_;
-  // Crossings up to due_ are queued: a queue of a stretch of the window fits into the cache. Later
-  // ones wait in the order itself and are found by one pass over it per stretch, whose length
-  // follows the number of crossings in it.
+  // Only crossings up to due_ are queued, so that the queue of a stretch of the window fits into
+  // the cache. One pass over the order per stretch finds those that have become due; the length of
+  // a stretch follows the number of crossings in the one before.
   std::uint32_t due_ = 0;
   std::uint32_t stretch_ = 0;
   std::size_t crossings_in_stretch_ = 0;

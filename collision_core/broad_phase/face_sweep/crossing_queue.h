@@ -6,8 +6,8 @@
 
 namespace collision::broad_phase {
 
-/// At most one event per place, ordered by tick, then place: a binary heap that knows where each
-/// place's event is. So it never holds more events than places, whatever happened before.
+/// A binary heap of events, at most one per place, ordered by tick, then place. It knows where each
+/// place's event is, so a new event replaces the old one.
 class CrossingQueue {
  public:
   /// Empties it and makes room for `places` places.
@@ -18,9 +18,9 @@ class CrossingQueue {
   std::uint32_t tick() const { return static_cast<std::uint32_t>(heap_.front() >> 32); }
   std::uint32_t place() const { return PlaceOf(heap_.front()); }
 
-  /// The event of `place` is at `tick` from now on.
+  /// Sets or moves the event of `place` to `tick`.
   void Set(std::uint32_t place, std::uint32_t tick);
-  /// `place` has no event.
+  /// Removes the event of `place`, if there is one.
   void Clear(std::uint32_t place);
 
  private:

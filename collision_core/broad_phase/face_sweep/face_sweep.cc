@@ -36,11 +36,11 @@ std::uint32_t TickLimit(Instant start, Instant end, Instant time) {
 struct FaceSweep::Search {
   const intersection::BroadQuery& query;
   Instant first;  ///< No pair meets before.
-  Instant last;   ///< Whatever meets within the query overlaps by then.
+  Instant last;   ///< Every pair that meets within the query overlaps by then.
   std::optional<intersection::IntersectingPair> best;
   bool is_settled = false;  ///< No other pair can come before the best answer.
 
-  /// What meets no later than the best answer overlaps by then.
+  /// Every pair that meets no later than the best answer overlaps by then.
   Instant limit() const {
     return best ? std::min(WithEarliness(first, best->time.instant()), last) : last;
   }
@@ -84,7 +84,7 @@ std::optional<intersection::IntersectingPair> FaceSweep::Earliest(
   }
   Search search{query, query.from, query.until, std::nullopt, false};
   for (const HalfSpaces::Entry& entry : half_spaces()) {
-    for (const std::uint32_t agent : candidates_) Ask(entry.agent, agent, &search);
+    for (const std::uint32_t agent : candidates_) Test(entry.agent, agent, &search);
   }
   if (candidates_.size() < 2) return search.best;
   // A pair's time counts from the later of its stamps on.
@@ -113,30 +113,30 @@ void FaceSweep::SweepHorns(Search* search) {
 void FaceSweep::SweepWindow(Instant start, Instant end, Search* search) {
   ++work_.rebuilds;
   faces_.Build(bounds_, candidates_, start, end, rules());
-  AskApart(search);
+  TestApart(search);
   if (faces_.agents().size() < 2) return;
   for (int axis = 0; axis < 3; ++axis) orders_[axis].Start(faces_.faces(axis));
-  AskOverlapsAtStart(start, end, search);
-  if (start < end && !search->is_settled) AskCrossings(start, end, search);
+  TestOverlapsAtStart(start, end, search);
+  if (start < end && !search->is_settled) TestCrossings(start, end, search);
   for (const CrossingOrder& order : orders_) {
     queued_max_ = std::max(queued_max_, order.queued_max());
   }
 }
 
-void FaceSweep::AskApart(Search* search) {
+void FaceSweep::TestApart(Search* search) {
   for (const std::uint32_t agent : faces_.apart()) {
     candidates_.erase(std::lower_bound(candidates_.begin(), candidates_.end(), agent));
-    for (const std::uint32_t partner : candidates_) Ask(agent, partner, search);
+    for (const std::uint32_t partner : candidates_) Test(agent, partner, search);
   }
 }
 
-void FaceSweep::AskOverlapsAtStart(Instant start, Instant end, Search* search) {
+void FaceSweep::TestOverlapsAtStart(Instant start, Instant end, Search* search) {
   const std::vector<std::uint32_t>& agents = faces_.agents();
-  bool has_asked_lowest = false;
+  bool has_tested_lowest = false;
   const auto ceiling = [&] {
     if (!search->meets_at_once()) return ~0u;
-    if (!has_asked_lowest) AskLowest(start, end, search);
-    has_asked_lowest = true;
+    if (!has_tested_lowest) TestLowest(start, end, search);
+    has_tested_lowest = true;
     if (search->is_settled) return 0u;
     const auto above = std::upper_bound(agents.begin(), agents.end(), search->best->lower);
     return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(above - agents.begin(), 1) - 1);
@@ -144,12 +144,12 @@ void FaceSweep::AskOverlapsAtStart(Instant start, Instant end, Search* search) {
   work_.filter_tests +=
       at_start_.ForEach({&orders_[0].faces(), &orders_[1].faces(), &orders_[2].faces()}, ceiling(),
                         [&](std::uint32_t lower, std::uint32_t higher) {
-                          Ask(agents[lower], agents[higher], search);
+                          Test(agents[lower], agents[higher], search);
                           return ceiling();
                         });
 }
 
-void FaceSweep::AskLowest(Instant start, Instant end, Search* search) {
+void FaceSweep::TestLowest(Instant start, Instant end, Search* search) {
   const std::vector<std::uint32_t>& agents = faces_.agents();
   const double fraction =
       start < end ? TickLimit(start, end, search->limit()) * kFractionOfTick : 0;
@@ -158,13 +158,13 @@ void FaceSweep::AskLowest(Instant start, Instant end, Search* search) {
     for (std::uint32_t other = slot + 1; other < agents.size(); ++other) {
       if (!search->IsOpen(agents[slot], agents[other])) break;
       ++work_.filter_tests;
-      if (faces_.MayOverlap(slot, other, 0, fraction)) Ask(agents[slot], agents[other], search);
+      if (faces_.MayOverlap(slot, other, 0, fraction)) Test(agents[slot], agents[other], search);
     }
   }
   search->is_settled = search->best->lower <= agents[lowest - 1];
 }
 
-void FaceSweep::AskCrossings(Instant start, Instant end, Search* search) {
+void FaceSweep::TestCrossings(Instant start, Instant end, Search* search) {
   const std::vector<std::uint32_t>& agents = faces_.agents();
   std::uint32_t limit = TickLimit(start, end, search->limit());
   for (;;) {
@@ -183,12 +183,12 @@ void FaceSweep::AskCrossings(Instant start, Instant end, Search* search) {
                            crossing.tick * kFractionOfTick)) {
       continue;
     }
-    Ask(agents[slot], agents[other], search);
+    Test(agents[slot], agents[other], search);
     limit = TickLimit(start, end, search->limit());
   }
 }
 
-void FaceSweep::Ask(std::uint32_t agent, std::uint32_t partner, Search* search) {
+void FaceSweep::Test(std::uint32_t agent, std::uint32_t partner, Search* search) {
   const auto [lower, higher] = std::minmax(agent, partner);
   if (!search->IsOpen(lower, higher)) return;
   const intersection::IntersectingPair meeting{

@@ -25,17 +25,17 @@
 // by one eight times as long.
 //
 // Windows double (FirstWindow() gives the first). An agent whose stamp lies inside a window has
-// faces that count from there on, prolonged back. Infinite faces, and up to 32 agents that reach
-// 1,000 times farther than all others and would spoil the grid, are asked against every other. If a
-// pair meets at once, only lower indices count, and the lowest 16 agents are asked first: a heap of
-// agents in which all meet costs O(N).
+// faces that count from there on, prolonged back. Agents with infinite faces, and up to 32 agents
+// that reach 1,000 times farther than all others and would make the grid too coarse, are tested
+// against every other. If a pair meets at once, only lower indices count, and the lowest 16 agents
+// are tested first: a crowd in which all agents meet costs O(N).
 //
 // Cost. Crossings = 6 N² t · mean |Δv| / L for N agents in a cube of side L, |Δv| along one axis:
 // two faces each on three axes, whatever their size;
 // FaceSweepCost.CrossingsGrowAsSquareOfAgentsTimesTime holds the count to 5 % of it. Each costs
 // 0.17 to 0.26 µs of a loaded core. Most events queued at once: 0.38 N. About 0.5 kB an agent
 // beside its bound, kept from question to question. It loses where N² t is large, and where
-// everything crosses at one point; a heap in which all boxes overlap but no pair meets costs all
+// everything crosses at one point; a crowd in which all boxes overlap but no pair meets costs all
 // its pairs, as for any method.
 #pragma once
 
@@ -90,16 +90,16 @@ class FaceSweep : public EarliestSweep {
 
   void SweepHorns(Search* search);
   void SweepWindow(Instant start, Instant end, Search* search);
-  void AskApart(Search* search);
-  void AskOverlapsAtStart(Instant start, Instant end, Search* search);
-  /// Once some pair meets at once only pairs of lower indices count: the lowest agents are asked
-  /// first, which settles a heap of agents that all meet.
-  void AskLowest(Instant start, Instant end, Search* search);
-  void AskCrossings(Instant start, Instant end, Search* search);
-  void Ask(std::uint32_t agent, std::uint32_t partner, Search* search);
+  void TestApart(Search* search);
+  void TestOverlapsAtStart(Instant start, Instant end, Search* search);
+  /// Once some pair meets at once only pairs of lower indices count: tests the lowest agents first,
+  /// which settles a crowd of agents that all meet.
+  void TestLowest(Instant start, Instant end, Search* search);
+  void TestCrossings(Instant start, Instant end, Search* search);
+  void Test(std::uint32_t agent, std::uint32_t partner, Search* search);
 
   BoundList bounds_;                       // By agent.
-  std::vector<std::uint32_t> candidates_;  // Agents not yet asked against all others.
+  std::vector<std::uint32_t> candidates_;  // Agents not yet tested against all others.
   AlphaTFaces faces_;
   FaceSweepStart at_start_;
   std::array<CrossingOrder, 3> orders_;

@@ -73,7 +73,7 @@ void FaceSweepStart::Enter(const Entry& entry, const Found& found) {
 void FaceSweepStart::TestAll(const Entry& entry, std::uint32_t strip, std::vector<Entry>* actives,
                              const Found& found) {
   const std::uint32_t start = places_[along_][2 * entry.slot];
-  // The latest first: where agents lie in descending order, a lower one need not be told after it.
+  // The latest first: where agents lie in descending order, that lowers the ceiling soonest.
   for (std::size_t i = actives->size(); i-- > 0;) {
     Entry& active = (*actives)[i];
     const bool is_over = active.end < start;
@@ -85,7 +85,7 @@ void FaceSweepStart::TestAll(const Entry& entry, std::uint32_t strip, std::vecto
       continue;
     }
     ++tests_;
-    // Two boxes may share several strips: told in the first one.
+    // Two boxes may share several strips; the pair is reported in the first of them.
     const bool is_first = std::max(entry.lower_across, active.lower_across) / strip_width_ == strip;
     if (is_first && entry.lower_across < active.upper_across &&
         active.lower_across < entry.upper_across && entry.lower_other < active.upper_other &&

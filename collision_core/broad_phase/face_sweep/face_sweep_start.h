@@ -11,20 +11,20 @@
 namespace collision::broad_phase {
 
 /// Finds the boxes that overlap at a window's start, by the order of their faces alone: a lower
-/// face before an upper one counts as overlap. So a pair is found here, or some axis's order has
-/// its faces the other way round, and CrossingOrder reports when they change places.
+/// face before an upper one counts as overlap. A pair that is not found here has its faces the
+/// other way round on some axis, and CrossingOrder reports when they change places.
 ///
-/// It sweeps along the axis on which fewest pairs overlap, counted, in strips across the next best
-/// one. A strip is as many faces wide as a box spans on average, so that a box lies in two strips
-/// on average, whatever the scene. A box may be inside out (an agent above its own speed cap): it
-/// overlaps those that reach from its lower face to its upper one.
+/// It sweeps along the axis on which the fewest pairs overlap, in strips across the axis with the
+/// second fewest. A strip is as many faces wide as a box spans on average, so that a box lies in
+/// two strips on average, whatever the scene. The box of an agent above its own speed cap may be
+/// inside out: it overlaps the boxes that reach from its lower face to its upper one.
 class FaceSweepStart {
  public:
-  /// Receives a pair of slots, lower < higher. Returns the least slot c such that pairs whose lower
-  /// slot is above c are of no more use; never more than it returned before.
+  /// Receives a pair of slots, lower < higher. Returns the *ceiling*: pairs whose lower slot is
+  /// above it are no longer needed. It never rises.
   using Found = std::function<std::uint32_t(std::uint32_t lower, std::uint32_t higher)>;
 
-  /// `orders`: the sorted faces of each axis, all of the same slots. `ceiling`: as Found returns.
+  /// `orders`: the sorted faces of each axis, all of the same slots. `ceiling`: the first one.
   /// Returns the number of tests of two boxes.
   std::uint64_t ForEach(const std::array<const std::vector<AlphaTFace>*, 3>& orders,
                         std::uint32_t ceiling, const Found& found);
@@ -37,8 +37,8 @@ class FaceSweepStart {
     std::uint32_t lower_across, upper_across;
     std::uint32_t lower_other, upper_other;
   };
-  /// The boxes in a strip, by whether their slot is up to the ceiling: a slot above it need not
-  /// look at others above it.
+  /// The boxes in a strip, by whether their slot is up to the ceiling: two slots above it need not
+  /// be compared.
   struct Strip {
     std::vector<Entry> useful;
     std::vector<Entry> others;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kSampleMax = 1024;
 
-/// A window is cut into 2^30 ticks: one in which an agent moves by ℓ / 2^6 is short.
+/// A window is cut into 2^30 ticks; in a short one an agent moves by at most ℓ / 2^6.
 constexpr double kTicksPerLength = 0x1p+24;
 
 /// Longer than any window, and an integer when converted.
@@ -20,7 +20,7 @@ double Quantile(std::vector<double>* values, std::size_t part, std::size_t parts
   return *at;
 }
 
-/// A property of the sample's agents, sorted apart.
+/// A property of each of the sample's agents.
 template <typename Property>
 std::vector<double> Gather(const std::vector<const motion::SpaceTimeBound*>& sample,
                            Property property) {
@@ -42,7 +42,7 @@ double Spacing(const std::vector<const motion::SpaceTimeBound*>& sample, std::si
   return extent / static_cast<double>(per_axis);
 }
 
-/// How fast the agents move against each other.
+/// How fast the agents move relative to each other.
 double Speed(const std::vector<const motion::SpaceTimeBound*>& sample) {
   std::vector<double> apart(sample.size(), 0);
   for (int axis = 0; axis < 3; ++axis) {
@@ -68,7 +68,7 @@ std::int64_t FirstWindow(const BoundList& bounds, const std::vector<std::uint32_
   std::vector<double> accelerations = Gather(
       sample, [](const motion::SpaceTimeBound& bound) { return bound.limits.acceleration_max; });
   const double length = Quantile(&radii, 7, 8) + Spacing(sample, agents.size());
-  // Infinite, or not a number, where nothing moves or has a length: then any window will do.
+  // Infinite, or not a number, if nothing moves or has a length: any window will do then.
   const double seconds = std::min(std::sqrt(length / Quantile(&accelerations, 7, 8)),
                                   kTicksPerLength * length / Speed(sample));
   const double nanoseconds = 1e9 * seconds;

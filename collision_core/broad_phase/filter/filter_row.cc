@@ -8,7 +8,7 @@
 namespace collision::broad_phase {
 namespace {
 
-// What a position as seen from a corner so far away loses in single precision.
+/// What a position as seen from a corner loses in single precision; `offset` leads there.
 float LostAt(const double* offset) {
   return static_cast<float>((std::abs(offset[0]) + std::abs(offset[1]) + std::abs(offset[2])) *
                             0x1p-22);

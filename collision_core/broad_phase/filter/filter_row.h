@@ -10,15 +10,17 @@
 
 namespace collision::broad_phase {
 
-/// A row of lanes. A comparison of one with all costs a filter test each.
+/// Placed balls in one row of lanes. Comparing a ball with the row costs a filter test for each
+/// place.
 class FilterRow {
  public:
   void Clear() { count_ = 0; }
   std::uint32_t size() const { return count_; }
   std::uint32_t agent(std::uint32_t k) const { return lanes_.agent(k); }
 
+  /// Stores the ball at a new place.
   void Add(const PlacedBall& horn);
-  /// Places between are vacant.
+  /// Stores the ball at place k; new places before it are vacant.
   void Set(std::uint32_t k, const PlacedBall& horn);
   void Vacate(std::uint32_t k) { lanes_.Vacate(k); }
 
@@ -39,7 +41,7 @@ class FilterRow {
   PlacedBalls lanes_;
   std::uint32_t count_ = 0;
   double corner_[3] = {};
-  std::vector<FilterRange> range_;  // kept for its memory, like these
+  std::vector<FilterRange> range_;  ///< Scratch, like the next line.
   std::vector<std::uint32_t> hits_, near_;
 };
 

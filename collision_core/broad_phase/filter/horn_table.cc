@@ -7,12 +7,12 @@
 namespace collision::broad_phase {
 namespace {
 
-// Beyond these, squares and products leave the range of doubles (and of single precision).
+/// Beyond these [m, m/s], squares and products leave the range of doubles or of single precision.
 constexpr double kPositionMax = 0x1p+60;
 constexpr double kRateMax = 0x1p+40;
 
-// Whether radius and acceleration are all that a meeting depends on, and twice the half is the
-// whole.
+/// Whether a meeting depends on radius and acceleration alone, so that the row says everything. The
+/// row holds half of the acceleration, which has to be exact.
 bool IsPlain(const motion::SpaceTimeBound& bound) {
   const motion::MotionState& state = bound.state;
   const motion::MotionLimits& limits = bound.limits;
@@ -41,7 +41,7 @@ void HornTable::DropFull(HornRow* row) {
   row->full = kPlain;
 }
 
-// Everything but what depends on the table: `ruled` and `full`.
+// Fills everything but `ruled` and `full`, which depend on the table.
 void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* filled) {
   HornRow& row = *filled;
   numeric::QuickBall& ball = row.ball;

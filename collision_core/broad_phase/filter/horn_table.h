@@ -42,9 +42,9 @@ class HornTable {
     CORE_CHECK(count_ == 0, "rules are set before agents are", count_);
     rules_ = rules;
   }
-  /// The agent's rules have changed.
+  /// Updates the row of an agent whose rules have changed.
   void UpdateRules(std::uint32_t agent);
-  /// The rule of an agent of the table and any other; fastest if `agent` has no rules.
+  /// The rule of an agent of the table with another; fastest if `agent` has no rules.
   intersection::PairRule RuleOf(std::uint32_t agent, std::uint32_t partner) const {
     return rows_[agent].ruled ? rules_->Of(partner, agent) : intersection::PairRule();
   }
@@ -57,13 +57,13 @@ class HornTable {
   std::uint32_t count() const { return count_; }
   std::uint32_t still_count() const { return still_count_; }
   std::uint32_t unfilterable_count() const { return unfilterable_count_; }
-  /// Whether any agent has groups that it does not meet, or never moves.
+  /// Whether two agents may be unable to meet: any agent never moves, or has a mask.
   bool has_collision_filters() const { return still_count_ + filtered_count_ > 0; }
   bool contains(std::uint32_t agent) const {
     return agent < size() && rows_[agent].filter.group != 0;
   }
   const HornRow& row(std::uint32_t agent) const { return rows_[agent]; }
-  /// Fetches the row into the cache, for a question that comes soon.
+  /// Prefetches the row into the cache.
   void Fetch(std::uint32_t agent) const {
     __builtin_prefetch(&rows_[agent]);
     __builtin_prefetch(&rows_[agent].ball.s1);
@@ -78,38 +78,39 @@ class HornTable {
   /// Throws CheckFailure.
   void Validate() const;
 
-  /// Whether filters can work with the instant: differences of such instants are exact.
+  /// Whether filters can work with the instant: differences of such instants do not overflow.
   static bool Near(Instant t) {
     constexpr std::int64_t kFarthest = std::int64_t{1} << 61;
     return t.nanoseconds() > -kFarthest && t.nanoseconds() < kFarthest;
   }
 
-  /// Of a row that is not unfilterable, at an instant that is Near(). Before its stamp the line
-  /// goes on backward, and the reach stays.
+  /// The ball of a row as seen from an instant on. Before the row's stamp its line goes on
+  /// backward, and its reach stays what it is at the stamp. Requires a row that is not
+  /// unfilterable, and an instant that is Near().
   numeric::QuickBall At(std::uint32_t agent, Instant instant) const {
     return At(rows_[agent], instant);
   }
   static numeric::QuickBall At(const HornRow& row, Instant instant);
 
-  /// A filter: no horn of the two meets earlier than this many seconds after `from`, and none at
-  /// all within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 for unfilterable
-  /// ones.
+  /// A filter: the horns of the two do not meet earlier than this many seconds after `from`, and
+  /// not within `limit` if the answer is larger. Off by a relative 1e-9 or so; 0 if either is
+  /// unfilterable.
   double EarlierBound(std::uint32_t a, std::uint32_t b, Instant from, double limit) const {
     return EarlierBound(rows_[a], rows_[b], from, limit);
   }
   static double EarlierBound(const HornRow& a, const HornRow& b, Instant from, double limit);
 
  private:
-  static constexpr std::uint32_t kPlain = 0;  // nothing beside the row
+  static constexpr std::uint32_t kPlain = 0;  ///< HornRow::full: the row says everything.
 
   static void Fill(const AgentBound& agent, double half_margin, HornRow* filled);
   void SetFull(HornRow* row, const motion::SpaceTimeBound& bound);
   void DropFull(HornRow* row);
 
   const intersection::PairRules* rules_ = nullptr;
-  std::vector<HornRow> rows_;                 // by agent
-  std::vector<motion::SpaceTimeBound> full_;  // at HornRow::full - 1
-  std::vector<std::uint32_t> free_;           // of full_
+  std::vector<HornRow> rows_;                 ///< By agent.
+  std::vector<motion::SpaceTimeBound> full_;  ///< At HornRow::full − 1.
+  std::vector<std::uint32_t> free_;           ///< Places of full_, one more than each.
   std::uint32_t count_ = 0, still_count_ = 0, unfilterable_count_ = 0, filtered_count_ = 0;
 };
 
@@ -132,9 +133,9 @@ inline numeric::QuickBall HornTable::At(const HornRow& row, Instant instant) {
   return at;
 }
 
-/// The reach of a hypertrapezoid's box over a window of `duration` seconds, from that of its horn:
-/// chords instead of parabolas, corners √3 away instead of the ball, and what its faces at the end
-/// of the window lose by rounding.
+/// A ball around a hypertrapezoid's box over a window of `duration` seconds, from the ball of its
+/// horn: chords instead of parabolas, corners √3 times as far as the ball, and what the faces at
+/// the end of the window lose by rounding.
 numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration);
 
 }  // namespace collision::broad_phase

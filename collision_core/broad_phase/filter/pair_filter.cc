@@ -7,16 +7,28 @@
 namespace collision::broad_phase {
 namespace {
 
+/// Tangent steps at most; the time certified so far is then the answer.
 constexpr int kTangentsMax = 6;
 
-/// A step that is a smaller part of the way ends it: the answer is as good as the next one.
+/// What squares lose by rounding, as a part of the squares of reach, distance and way: eight times
+/// what they do lose.
+constexpr double kSquareLoss = 0x1p-44;
+
+/// What a gap and its slope lose by rounding, as a part of their terms; derived at EarlierBound().
+constexpr double kGapLoss = 0x1p-46;
+
+/// A step is made shorter by more than its root's own rounding.
+constexpr double kStepShare = 1 - 0x1p-40;
+
+/// A step below this part of the time so far ends the search: the next one would add nothing.
 constexpr double kWorthAStep = 1e-9;
 
 }  // namespace
 
-// Neither near the lines' closest approach, nor along the first direction between them, where the
-// gap is concave: open at both ends, it is open in between. What rounding takes is less than 2^-48
-// of distances, ways and reaches; it is given to the reach.
+// Two tests show that the balls stay apart. Along the direction from one centre to the other at the
+// start the gap is concave in time: positive at both ends, it is positive in between. And the least
+// distance of the two lines may exceed the reach at the end. What rounding takes is less than 2^-48
+// of distances, ways and reaches; it is added to the reach.
 bool ComeNear(const numeric::QuickBall& difference, double last) {
   const auto& [c, v, s0, s1, s2] = difference;
   double square = 0, away = 0, speed_square = 0;
@@ -26,7 +38,7 @@ bool ComeNear(const numeric::QuickBall& difference, double last) {
     speed_square += v[axis] * v[axis];
   }
   const double grown = s0 + last * (s1 + last * s2);
-  const double lost = 0x1p-44 * (grown * grown + square + speed_square * last * last);
+  const double lost = kSquareLoss * (grown * grown + square + speed_square * last * last);
   const double reach_square = grown * grown + lost;
   const double along = square + away * last;
   if (square > s0 * s0 + lost && along > 0 && along * along > square * reach_square) return false;
@@ -54,10 +66,10 @@ double EarlierBound(const numeric::QuickBall& difference, double limit) {
     const double at[3] = {c[0] + v[0] * x, c[1] + v[1] * x, c[2] + v[2] * x};
     const double length = Length(at);
     const double reach = s0 + x * (s1 + x * s2);
-    const double gap = length - reach - 0x1p-46 * (span + speed * x + reach);
+    const double gap = length - reach - kGapLoss * (span + speed * x + reach);
     if (!(gap > 0)) return x;
     const double along = (at[0] * v[0] + at[1] * v[1] + at[2] * v[2]) / length;
-    const double closing = (s1 + 2 * s2 * x - along) + 0x1p-46 * (s1 + 2 * s2 * x + speed);
+    const double closing = (s1 + 2 * s2 * x - along) + kGapLoss * (s1 + 2 * s2 * x + speed);
     double step = numeric::kInfinity;
     if (s2 > 0) {
       const double root = std::sqrt(closing * closing + 4 * s2 * gap);
@@ -65,7 +77,7 @@ double EarlierBound(const numeric::QuickBall& difference, double limit) {
     } else if (closing > 0) {
       step = gap / closing;
     }
-    x += step * (1 - 0x1p-40);
+    x += step * kStepShare;
     if (!(x <= limit) || step < kWorthAStep * x) return x;
   }
   return x;

@@ -17,8 +17,8 @@ inline float ReachAt(float time, float s0, float s1, float s2) {
 class PlacedBalls {
  public:
   static constexpr std::uint32_t kNoAgent = ~0u;
-  /// The x of a vacant place. Its square is infinite in single precision, so that no filter finds the
-  /// place; a reach that is as large finds all places anyway.
+  /// The x of a vacant place. Its square is infinite in single precision, so that no filter finds
+  /// the place; a reach that is as large finds all places anyway.
   static constexpr float kFarAway = 1e30f;
 
   /// Empties it and makes room for `size` balls.
@@ -30,8 +30,8 @@ class PlacedBalls {
   std::uint32_t agent(std::uint32_t k) const { return agents_[k]; }
   FilterView view() const;
 
-  /// Stores a ball at place k, as seen from `corner`; `lost` is what single precision takes from its
-  /// position and from that of a query's ball there, and is added to the reach.
+  /// Stores a ball at place k, as seen from `corner`; `lost` is what single precision takes from
+  /// its position and from that of a query's ball there, and is added to the reach.
   void Set(std::uint32_t k, const PlacedBall& horn, const double* corner, float lost) {
     float* const at = floats_.data() + k;
     for (int axis = 0; axis < 3; ++axis) {
@@ -42,8 +42,8 @@ class PlacedBalls {
     at[kSpeed * stride_] = horn.speed;
     agents_[k] = horn.agent;
   }
-  /// Walks the first `count` places: each agent has at most one; its reaches, speed and position are
-  /// numbers, and reaches are not negative; a vacant place is too far for any filter. Throws
+  /// Walks the first `count` places: each agent has at most one; its reaches, speed and position
+  /// are numbers, and reaches are not negative; a vacant place is too far for any filter. Throws
   /// CheckFailure.
   void Validate(std::uint32_t count) const;
   void Vacate(std::uint32_t k) {
@@ -70,8 +70,8 @@ class PlacedBalls {
   enum { kX = 0, kVx = 3, kS0 = 6, kS1, kS2, kSpeed, kArrays };
   const float* array(std::size_t which) const { return floats_.data() + which * stride_; }
 
-  /// The arrays, one after the other, not a whole number of pages apart: else they would compete for
-  /// the same lines of the processor's cache.
+  /// The arrays, one after the other, not a whole number of pages apart: else they would compete
+  /// for the same lines of the processor's cache.
   std::vector<float> floats_;
   std::size_t stride_ = 0;
   std::vector<std::uint32_t> agents_;

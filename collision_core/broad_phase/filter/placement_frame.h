@@ -65,8 +65,8 @@ inline constexpr double kWindowMax = 2e10;
 inline constexpr double kFloatUp = 1 + 0x1p-22;
 
 /// Where filters put agents for a window of time: as seen from a frame that moves with the average
-/// of all agents, at the middle of the window. Until its end an agent is never farther from where it
-/// is placed than half its way and its reach.
+/// of all agents, at the middle of the window. Until its end an agent is never farther from where
+/// it is placed than half its way and its reach.
 class PlacementFrame {
  public:
   /// Places nothing.
@@ -117,8 +117,8 @@ class PlacementFrame {
     return Difference(BallAt(table, a), BallAt(table, b));
   }
 
-  /// Where an agent is half-way to `last` seconds after the begin, and how far from there it reaches
-  /// until then; independent of the window.
+  /// Where an agent is half-way to `last` seconds after the begin, and how far from there it
+  /// reaches until then; independent of the window.
   ReachPoint HalfWay(const HornTable& table, std::uint32_t agent, double last) const {
     return HalfWay(BallAt(table, agent), last);
   }

@@ -1,4 +1,5 @@
-// Which of many points may lie within reach of each other: the filter of PointGrid, in wide vectors.
+// Which of many points may lie within reach of each other: the filter of PointGrid, in wide
+// vectors.
 #pragma once
 
 #include <cstdint>
@@ -7,10 +8,10 @@
 
 namespace collision::broad_phase {
 
-/// Points in arrays, in single precision (ReachPoint): half-way through the window each has its place
-/// x, y, z; all of the window it is within `reach` of there, and within `own` of its place + u v at u
-/// seconds after half-way. x is as seen from a corner near all of them, y and z as seen from the
-/// corner of the point's own row of cells. Without velocities only places are compared.
+/// Points in arrays, in single precision (ReachPoint): half-way through the window each has its
+/// place x, y, z; all of the window it is within `reach` of there, and within `own` of its place +
+/// u v at u seconds after half-way. x is as seen from a corner near all of them, y and z as seen
+/// from the corner of the point's own row of cells. Without velocities only places are compared.
 struct PointView {
   const float *x, *y, *z;
   const float* reach;
@@ -18,8 +19,8 @@ struct PointView {
   const float* own = nullptr;
 };
 
-/// Up to kQueryPointsMax points [first, last) of one cell, each of which is compared with the points
-/// after it in its row of cells and in the rows beside it that it reaches.
+/// Up to kQueryPointsMax points [first, last) of one cell, each of which is compared with the
+/// points after it in its row of cells and in the rows beside it that it reaches.
 struct QueryPoints {
   std::uint32_t first, last;
   float cell;      ///< How wide a row is.

@@ -22,9 +22,9 @@ constexpr std::uint32_t kFewPoints = 32;
 
 }  // namespace
 
-// Positions lose at most 2^-24 of a row's length on each axis, for both points of a pair, and reaches
-// and the ranges' bounds as much: together less than 2^-20 of it. Squares lose digits to underflow
-// below kReachLeast.
+// Positions lose at most 2^-24 of a row's length on each axis, for both points of a pair, and
+// reaches and the ranges' bounds as much: together less than 2^-20 of it. Squares lose digits to
+// underflow below kReachLeast.
 bool PointGrid::ChooseCells(std::uint32_t present, const PointExtent& extent) {
   double widest = 0, volume = 1;
   for (int axis = 0; axis < 3; ++axis) {

@@ -11,9 +11,9 @@
 
 namespace collision::broad_phase {
 
-/// A moving ball for one window of time, seen from half-way through it. PlacedBall's reach grows with
-/// time; here it is taken at the window's end, once for a centre that stays and once for one that
-/// moves along its line. Both are rounded up, with SphereFilter's slack.
+/// A moving ball for one window of time, seen from half-way through it. PlacedBall's reach grows
+/// with time; here it is taken at the window's end, once for a centre that stays and once for one
+/// that moves along its line. Both are rounded up, with SphereFilter's slack.
 struct ReachPoint {
   double c[3];  ///< Its centre half-way through the window.
   float v[3];   ///< As seen from the placement's frame.
@@ -56,22 +56,22 @@ struct PointExtent {
 /// order of the cells, thirty-two where lines are compared. Nothing is kept for a later question.
 ///
 /// A sample of the points determines how wide the grid is, and whether it suits the scene; if a
-/// point lies beyond the sampled extent the grid is built again. PointFilter takes up to eight points
-/// of a cell at a time and compares each with sixteen others in the rows beside it; where reaches are
-/// so long that many places are near each other, it compares their lines in the same step. Cells that
-/// lie side by side along x do so in memory as well, and are scanned as one range.
+/// point lies beyond the sampled extent the grid is built again. PointFilter takes up to eight
+/// points of a cell at a time and compares each with sixteen others in the rows beside it; where
+/// reaches are so long that many places are near each other, it compares their lines in the same
+/// step. Cells that lie side by side along x do so in memory as well, and are scanned as one range.
 class PointGrid {
  public:
   /// Builds the grid of up to `count` points. `at(k, &point)` writes the k-th one, or returns false
   /// if there is none; about `present` exist. It is called twice for a sample of the points, or for
-  /// all of them if some lie well beyond the sample. `half`: half of the window [s], to compare lines
-  /// as well where many places come near each other; 0: never compare lines. Returns false if the
-  /// points do not suit a grid: they crowd in few of its cells, or its rows would be too long.
+  /// all of them if some lie well beyond the sample. `half`: half of the window [s], to compare
+  /// lines as well where many places come near each other; 0: never compare lines. Returns false if
+  /// the points do not suit a grid: they crowd in few of its cells, or its rows would be too long.
   template <typename At>
   bool Build(std::uint32_t count, std::uint32_t present, double half, At at);
 
-  /// Calls visit(k, l) once for each pair of points that may be within the sum of their reaches, and
-  /// some pairs earlier fetch(k, l), so that it can prefetch what visit() reads.
+  /// Calls visit(k, l) once for each pair of points that may be within the sum of their reaches,
+  /// and some pairs earlier fetch(k, l), so that it can prefetch what visit() reads.
   template <typename Fetch, typename Visit>
   void ForEachPair(Fetch fetch, Visit visit);
   template <typename Visit>
@@ -86,8 +86,8 @@ class PointGrid {
  private:
   /// A cell's own row, and the rows beside it that come later.
   static constexpr int kRowsMax = 5;
-  /// The least number of points that are sampled for the extent, and the part by which the extent is
-  /// then widened for the points that are not.
+  /// The least number of points that are sampled for the extent, and the part by which the extent
+  /// is then widened for the points that are not.
   static constexpr std::uint32_t kSample = 4096;
   static constexpr double kBeyondSample = 1.0 / 32;
   /// The most points that a point may find in its own cell, on the average, for a grid to be used.
@@ -118,9 +118,9 @@ class PointGrid {
   bool SumCells(std::uint32_t present);
   void Reserve(std::uint32_t count);
   float* Array(int k) { return floats_.data() + static_cast<std::size_t>(k) * stride_; }
-  /// Writes the rows that a cell is compared with into rows_, and returns their number: a cell is at
-  /// least two reaches wide, so that what is near lies in neighbouring cells. Makes room for as many
-  /// hits as they can have.
+  /// Writes the rows that a cell is compared with into rows_, and returns their number: a cell is
+  /// at least two reaches wide, so that what is near lies in neighbouring cells. Makes room for as
+  /// many hits as they can have.
   std::uint32_t RowsBeside(std::int32_t x, std::int32_t y, std::int32_t z, std::size_t cell);
   std::int32_t CellOf(double x, int axis) const {
     // Within the extent no point lies past the last cell, which is computed the same way.

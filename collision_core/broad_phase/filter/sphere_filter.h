@@ -32,8 +32,8 @@ struct FilterQuery {
 };
 
 /// Writes the indices k, range by range and in order, whose centre comes within the sum of the two
-/// reaches of the query's centre (or where that is not a number), and returns how many. `hits` has room
-/// for all of the ranges and kLanesMax more. Compares sixteen, eight or one ball at a time.
+/// reaches of the query's centre (or where that is not a number), and returns how many. `hits` has
+/// room for all of the ranges and kLanesMax more. Compares sixteen, eight or one ball at a time.
 ///
 /// Most balls are farther apart at u = 0 than reaches and ways together: they are not examined
 /// further. For the others, with d and w the differences, the least |d + w u| is at u* = −d·w /
@@ -42,8 +42,8 @@ struct FilterQuery {
 /// (|u*| + D/|w|), which moves the point by less than 2^-21 (W + D); squares and R lose 2^-21 of
 /// themselves. Where D > 4 (R + W) the two are far apart, whatever rounding does. Else all of this
 /// is less than 2^-17 (R + W): the caller makes each reach larger by kFilterSlack of itself and of
-/// the way of its own centre. Below kReachLeast squares lose digits to underflow: the caller adds it
-/// to each reach and speed. A square that overflows is infinite, and less than no other.
+/// the way of its own centre. Below kReachLeast squares lose digits to underflow: the caller adds
+/// it to each reach and speed. A square that overflows is infinite, and less than no other.
 /// sphere_filter_test compares the hits with exact fractions.
 using SphereFilter = std::uint32_t (*)(const FilterView& balls, const FilterQuery& query,
                                        const FilterRange* ranges, std::uint32_t range_count,

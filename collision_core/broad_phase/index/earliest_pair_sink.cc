@@ -26,7 +26,7 @@ bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Wit
   if (!CanMeet(table.row(a), table.row(b))) return false;
   ++work->filter_tests;
   const double bound = table.EarlierBound(a, b, within.from, within.seconds);
-  // Infinite: the two part, or keep apart, for ever; no limit makes them meet.
+  // Infinite: the two never meet, whatever the limit is.
   const bool in_time = bound < numeric::kInfinity && kFilterEarliness * bound <= within.seconds;
   const bool may = in_time && !table.RuleOf(a, b).excluded;
   work->pair_queries += may;
@@ -72,7 +72,7 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
 }
 
 bool EarliestPairSink::Betters(std::uint32_t lower, std::uint32_t higher) const {
-  // Nothing comes before the query's begin, so that of those only the lowest indices count.
+  // No time is earlier than the query's begin: once the best is there, only lower indices count.
   if (!best_ || when_ > query_.from) return true;
   return lower != best_->lower ? lower < best_->lower : higher < best_->higher;
 }
@@ -89,8 +89,8 @@ void EarliestPairSink::Offer(std::uint32_t a, std::uint32_t b) {
   Take({lower, higher, EarliestIntersectionOf(Narrowed(lower, higher), table_, lower, higher)});
 }
 
-// What is later than the best, or as late and of higher indices, need not be told exactly. A
-// hypertrapezoid's window is part of what is asked.
+// A pair that is later than the best, or as late and of higher indices, needs no exact answer. The
+// window of a hypertrapezoid is part of the question and stays.
 intersection::BroadQuery EarliestPairSink::Narrowed(std::uint32_t lower,
                                                     std::uint32_t higher) const {
   intersection::BroadQuery narrowed = query_;

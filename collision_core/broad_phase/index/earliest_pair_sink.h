@@ -1,4 +1,4 @@
-// The earliest meeting found so far, and the pairs that can still improve it.
+// The earliest intersection found so far, and the pairs that can still improve it.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 namespace collision::broad_phase {
 
 /// Takes pairs in any order, asks the canonical routine only about those that a filter does not
-/// rule out, and keeps the earliest meeting. The answer does not depend on the order.
+/// rule out, and keeps the earliest intersection. The answer does not depend on the order.
 class EarliestPairSink final : public PairSink {
  public:
   EarliestPairSink(const HornTable& table, const intersection::BroadQuery& query,
                    BroadPhaseWork* work);
 
-  /// Offers a pair. Meetings later than the best do not count: the limit shrinks.
+  /// Offers a pair. Intersections later than the best do not count: the limit shrinks.
   void Offer(std::uint32_t a, std::uint32_t b) override;
 
   /// Offers a half-space and an agent.
@@ -38,19 +38,19 @@ class EarliestPairSink final : public PairSink {
   Instant when_ = Instant::Never();  ///< The instant of best_.
 };
 
-/// The `seconds` after `from`.
+/// The time from `from` until `seconds` later.
 struct Within {
   Instant from;
   double seconds;
 };
 
-/// Whether the filters leave it open that the two meet within the time; counts the test, and the
-/// pair query that the caller then makes.
+/// Whether the filters leave it open that the two meet within the time. Counts the test, and if so
+/// also the pair query that the caller then makes.
 bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Within& within,
              BroadPhaseWork* work);
 bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32_t agent,
              const Within& within, BroadPhaseWork* work);
-/// Likewise a row that is in no table and has no rules, and an agent of the table.
+/// The same for a row that is in no table and has no rules, and an agent of the table.
 bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, const Within& within,
              BroadPhaseWork* work);
 
@@ -64,7 +64,7 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
                                                       const HalfSpaces::Entry& entry,
                                                       const HornTable& table, std::uint32_t agent);
 
-/// Whether two rows can meet at all: masks, and one of them can move.
+/// Whether two rows can meet at all: their filters allow it, and one of them can move.
 inline bool CanMeet(const HornRow& a, const HornRow& b) {
   return CanMeet(a.filter, b.filter) && !(a.still && b.still);
 }

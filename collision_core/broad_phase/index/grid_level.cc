@@ -3,19 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collision_core/base/check.h"
 #include "collision_core/numeric/cube_root.h"
 
 namespace collision::broad_phase {
 namespace {
 
-/// Agents in a cell of an evenly filled grid: rows of three cells fill a wide vector.
+/// Agents in a cell of an evenly filled grid, so that rows of three cells fill a wide vector.
 constexpr double kPerCell = 4;
 
-/// Up to so many are kept in one cell.
+/// Up to this number all agents share one cell.
 constexpr std::uint32_t kListMax = 32;
 
-/// Cells of the box around all, per agent, beyond which rows are found by hashing.
+/// The most cells of the box around all, per agent; beyond it rows are found by hashing.
 constexpr double kCellsPerAgent = 4;
 
 /// Longer rows would cost too many digits of a position.
@@ -23,7 +22,8 @@ constexpr double kRowCellsMax = 4096;
 
 constexpr int kHashedRowShift = 3;
 
-/// An agent sees so many in its own cell before smaller cells are tried.
+/// The most agents that an agent may find in its own cell, on average, before smaller cells are
+/// tried; how much smaller, and how often.
 constexpr double kCrowdingMax = 4 * kPerCell;
 constexpr double kCellShrink = 8;
 constexpr int kCellTriesMax = 12;
@@ -51,7 +51,8 @@ inline GridLevel::Cell GridLevel::CellOf(double x, double y, double z) const {
   std::int64_t cell[3];
   for (int axis = 0; axis < 3; ++axis) {
     const double index = (at[axis] - origin_[axis]) * per_cell_;
-    // Down, or towards zero and held within the box: monotone is all that counts.
+    // Rounded down, or towards zero and clamped to the box; the search only needs it to be
+    // monotone.
     if (hashed_) {
       const double held = std::clamp(index, -kCellIndexMax, kCellIndexMax);
       cell[axis] = static_cast<std::int64_t>(held);
@@ -93,7 +94,7 @@ void GridLevel::ChooseCell() {
     cell_ = std::max(cell_min_, 2 * widest);
     return;
   }
-  // kPerCell in a cell, where axes along which all fit into one cell do not count.
+  // Aims at kPerCell agents a cell; axes along which all agents fit into one cell do not count.
   double cell = widest;
   for (int dimensions = 3; dimensions > 0; --dimensions) {
     double volume = 1;
@@ -142,7 +143,7 @@ std::uint32_t GridLevel::RowOf(std::int64_t block, std::int64_t y, std::int64_t 
   return static_cast<std::uint32_t>(h >> 32) & (rows_ - 1);
 }
 
-// Which cell of the table each is in, and how many are in each.
+// Finds the cell of each agent, and how many agents are in each.
 void GridLevel::Count(const PlacedBall* placed) {
   begin_.assign(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(row_cells_) + 2, 0);
   places_.resize(size_);
@@ -182,7 +183,7 @@ void GridLevel::Scatter(const PlacedBall* placed) {
     const double corner[3] = {origin_[0] + static_cast<double>(block) * cell_,
                               origin_[1] + static_cast<double>(cell.y) * cell_,
                               origin_[2] + static_cast<double>(cell.z) * cell_};
-    // Of a box all of the row has one corner; rows found by hashing may be shared.
+    // All of a box's row has one corner; a row found by hashing may be shared by several.
     const auto row = static_cast<std::size_t>(RowOf(0, cell.y, cell.z) + 1);
     const std::uint32_t end =
         hashed_ ? place + 1 : begin_[row * static_cast<std::size_t>(row_cells_)];

@@ -1,23 +1,24 @@
-// Agents of like reach in the cells of a grid.
+// Agents of similar reach in the cells of a grid.
 #pragma once
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/base/check.h"
 #include "collision_core/broad_phase/filter/placed_balls.h"
 
 namespace collision::broad_phase {
 
-/// A grid over placed agents of like reach. A cell is as wide as two reaches, or as four agents
+/// A grid over placed agents of similar reach. A cell is as wide as two reaches, or as four agents
 /// need where they are sparse. Cells that lie side by side along x also lie side by side in memory,
-/// in rows that are scanned as one range. Where the box around all agents has few cells the rows
-/// are those of the box, else short rows of eight cells found by hashing, so that neither far
-/// outliers nor dense clusters cost memory or time. Two agents that share a place in the table by
-/// chance cost one test, never an answer.
+/// in rows that are scanned as one range. If the box around all agents has few cells, the rows are
+/// those of the box; else they are short rows of eight cells, found by hashing, so that neither far
+/// outliers nor dense clusters cost memory or time. Two agents that share a cell of the table by a
+/// collision of the hash cost one test, never an answer.
 class GridLevel {
  public:
-  /// Requires at least one agent, all of them finite. The cells suit the placement's window.
+  /// Builds the grid for the frame's window. Requires at least one agent, and finite numbers.
   void Build(const PlacementFrame& frame, const PlacedBall* placed, std::uint32_t count,
              const PlacedExtent& extent);
 
@@ -29,10 +30,10 @@ class GridLevel {
   void Vacate(std::uint32_t place) { lanes_.Vacate(place); }
   /// No agent of this level comes farther from its place during the window.
   double ReachMax(TimeWindow window) const { return frame_->Reach(most_, window); }
-  /// Appends ranges in which all agents are that come within `reach` of `c` during the window.
-  /// With `after` given, only those that come after that place in an order of the cells (`c` is
-  /// that agent's): of two agents exactly one finds the other. False, and none: that would be more
-  /// cells than there are agents.
+  /// Appends ranges that contain all agents that come within `reach` of `c` during the window. With
+  /// `after` given, which is the place of the agent at `c`, only those that come after it in the
+  /// order of the cells, so that of two agents exactly one finds the other. Returns false, and
+  /// appends none, if that would be more cells than there are agents.
   bool Ranges(const double* c, double reach, TimeWindow window, std::uint32_t after,
               std::vector<FilterRange>* ranges) const;
 
@@ -40,14 +41,14 @@ class GridLevel {
   /// in one of them once, `place(k)` is a permutation. O(N log N). Throws CheckFailure.
   void Validate() const;
 
-  /// About how many rows Ranges() has to look at; never more than there are agents.
+  /// About how many rows Ranges() looks at; never more than there are agents.
   double RowsWithin(double reach, TimeWindow window) const;
 
-  /// The rows are those of a box, and ForEachPlace() can be asked.
+  /// Whether the rows are those of a box: ForEachPlace() requires it.
   bool in_rows() const { return !hashed_; }
 
-  /// Goes through the places in order, row by row: Ranges(..., place) of each. Calls
-  /// visit(place, window, ranges), which returns when the window may end from now on.
+  /// For each place in order, row by row, calls visit(place, query, ranges) with the query of its
+  /// ball and the ranges of Ranges(..., place). It returns when the window may end from now on [s].
   template <typename Visit>
   void ForEachPlace(TimeWindow window, Visit visit) const;
 
@@ -56,7 +57,7 @@ class GridLevel {
     std::int64_t x, y, z;
   };
 
-  /// The whole number below; far ones are all one, and beyond any cell.
+  /// The whole number at or below x; clamped where x lies beyond any cell.
   static std::int32_t Below(float x) {
     constexpr float kFarthest = 1 << 30;
     const float held = std::min(std::max(x, -kFarthest), kFarthest);
@@ -78,17 +79,19 @@ class GridLevel {
   double origin_[3] = {}, extent_[3] = {};
   double cell_ = 0, cell_min_ = 0, per_cell_ = 0;
   bool hashed_ = false;
-  std::int64_t cells_[3] = {};                 // of the box around all
-  std::int64_t row_cells_ = 0;                 // of one row of the table
-  std::uint32_t rows_ = 0;                     // of the table; a power of two where hashed
-  std::vector<std::uint32_t> begin_;           // by cell of the table, and one more
-  std::vector<std::uint32_t> places_, order_;  // place by agent given, and the other way round
+  std::int64_t cells_[3] = {};                 ///< Of the box around all.
+  std::int64_t row_cells_ = 0;                 ///< Of one row of the table.
+  std::uint32_t rows_ = 0;                     ///< Of the table; a power of two where hashed.
+  std::vector<std::uint32_t> begin_;           ///< By cell of the table, and one more.
+  std::vector<std::uint32_t> places_, order_;  ///< Place by agent given, and the inverse.
   PlacedBalls lanes_;
 };
 
-/// Single precision is enough: what it loses is made up for by a part of a cell.
+/// Single precision is enough: the search reaches farther by a part of a cell that exceeds what it
+/// loses.
 template <typename Visit>
 void GridLevel::ForEachPlace(TimeWindow window, Visit visit) const {
+  CORE_CHECK(in_rows(), "the rows of a grid are those of a box");
   std::vector<FilterRange> ranges;
   const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
   const float last_x = static_cast<float>(cells_[0] - 1);
@@ -109,7 +112,7 @@ void GridLevel::ForEachPlace(TimeWindow window, Visit visit) const {
         const FilterQuery query = lanes_.QueryOf(place, times);
         const float half = WayOf(query) + most;
         const float at[3] = {lanes_.x()[place], lanes_.y()[place], lanes_.z()[place]};
-        // Cells relative to the own one, held within the box; truncated where they are positive.
+        // Cells relative to the place's own one, clamped to the box; truncated where positive.
         const auto x_from = static_cast<std::int32_t>(std::max((at[0] - half) * per_cell, 0.0f));
         const auto x_to = static_cast<std::int32_t>(std::min((at[0] + half) * per_cell, last_x));
         const std::int32_t y_from = std::max(Below((at[1] - half) * per_cell), -y);

@@ -37,7 +37,7 @@ void GridStore::PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horn
     const float reach = ReachAt(times.time, horn.s0, horn.s1, horn.s2) + times.way * horn.speed;
     least = std::min(least, reach), greatest = std::max(greatest, reach);
   }
-  // Mostly all reach about as far, and move.
+  // The usual scene: all agents move, and reach about as far.
   if (scene.table->still_count() == 0 && greatest < 4 * least) {
     sorted_.swap(*horns);
     BuildLevel(scene, {0, static_cast<std::uint32_t>(sorted_.size()), false}, extent);
@@ -159,7 +159,7 @@ void GridStore::JoinRows(const Level& level, TimeWindow window, SearchCost* cost
   level.grid.ForEachPlace(window, visit);
 }
 
-// Many agents with a short reach search few with a long one, or the other way round.
+// The cost of looking up every agent of `level` in the grid of `other`, in rows looked at.
 double GridStore::CostOfSearch(const Level& level, const Level& other, TimeWindow window) {
   return level.grid.size() * other.grid.RowsWithin(level.grid.ReachMax(window), window);
 }
@@ -189,8 +189,8 @@ bool GridStore::Join(const PlacedScene& scene, TimeWindow window, SearchCost* co
     JoinPoints(scene, window.last, cost, sink);
     return true;
   }
-  // The farthest-reaching first: they are few, and what they meet makes the window short for the
-  // rest.
+  // The farthest-reaching levels first: they are small, and what they meet shortens the window for
+  // the rest.
   for (std::uint32_t m = level_count_; m-- > 0;) {
     for (std::uint32_t l = m + 1; l-- > 0;) {
       if (levels_[l].still && levels_[m].still) continue;

@@ -12,18 +12,19 @@
 namespace collision::broad_phase {
 
 /// Sorts agents by reach, in powers of 4 below the greatest, and gives each level a grid
-/// (grid_level.h), so that neither a few large or fast agents nor clusters slow the others down. An
-/// agent asks its own level and the coarser ones, so size ratios of 1e6 cost a dozen look-ups.
-/// Agents that never move have grids of their own and do not ask each other. Of two levels, the one
-/// for which it is less work asks the other: a few agents with a long reach ask the many, the
-/// farthest-reaching first, because what they meet shortens the window for the rest.
+/// (grid_level.h), so that neither a few large or fast agents nor clusters slow the others down;
+/// size ratios of 1e6 cost a dozen look-ups. Agents that never move have levels of their own, which
+/// are not compared with each other. To compare two levels, the store looks up the agents of one in
+/// the grid of the other, whichever way is less work. The farthest-reaching levels come first,
+/// because what they meet shortens the window for the rest.
 ///
-/// An agent that is placed later goes to a list, which every question scans; that, and windows long
-/// past, counts as wasted (SearchCost), which makes the search place all agents anew.
+/// An agent that is placed later goes to a list, which every question scans. Those tests, and tests
+/// in windows after the placement's, count as wasted (SearchCost), which makes the search place all
+/// agents anew.
 ///
 /// A question about all agents at once is one pass over a grid of points (point_grid.h) where the
-/// scene suits one grid; crowds, very different reaches, and scenes that mostly stand still use the
-/// levels.
+/// scene suits one grid; scenes with crowds, with very different reaches, or that mostly stand
+/// still use the levels.
 class GridStore : public PlacedStore {
  public:
   void PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horns) override;
@@ -74,8 +75,8 @@ class GridStore : public PlacedStore {
   std::vector<PlacedBall> sorted_;  ///< In the order of levels and, within one, of agents.
   std::vector<Spot> places_;        ///< By agent.
   FilterRow unplaced_;
-  PointGrid points_;        ///< Instead of levels, for one question about all.
-  double points_last_ = 0;  ///< Up to when it holds, after the begin [s]; 0: not in use.
+  PointGrid points_;        ///< Instead of levels, for one question about all agents.
+  double points_last_ = 0;  ///< When points_ ends, after the begin [s]; 0: not in use.
 
   std::vector<float> reaches_;  ///< Of the horns given, like the keys of their levels.
   std::vector<std::uint8_t> keys_;

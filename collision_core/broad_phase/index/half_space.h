@@ -13,9 +13,9 @@
 namespace collision::broad_phase {
 
 /// All x with normal·x <= offset, in the world frame. It never moves and never expires, and meets
-/// what moves only. The normal need not be of length 1: what is given is what holds, exactly.
+/// only agents that move. The normal need not have length 1: the numbers are taken as exact.
 struct HalfSpace {
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Out of it.
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Points out of it.
   double offset = 0;                                  ///< [m], times the normal's length.
   CollisionFilter filter;
 };
@@ -41,10 +41,10 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
 /// test (some 25 ns) an agent and half-space for all agents, one a half-space for one agent.
 class HalfSpaces {
  public:
-  /// Beyond so many Set() refuses.
+  /// The most half-spaces; Set() refuses more.
   static constexpr std::size_t kCountMax = 64;
 
-  /// The greatest component of a normal is not smaller, not larger: squares and products with
+  /// The greatest component of a normal lies between these, so that squares and products with
   /// lengths stay in range.
   static constexpr double kNormalMin = 1e-100, kNormalMax = 1e100;
 
@@ -55,13 +55,13 @@ class HalfSpaces {
     double length;  ///< Of the normal, rounded up.
   };
 
-  /// Adds or replaces. False, and nothing is changed: a normal out of range or an offset that is
-  /// not finite, or no more room.
+  /// Adds or replaces a half-space. Returns false, and changes nothing, for a normal out of range,
+  /// an offset that is not finite, or if there is no more room.
   bool Set(std::uint32_t agent, const HalfSpace& half_space);
-  /// Whether it was there.
+  /// Returns whether it was there.
   bool Remove(std::uint32_t agent);
 
-  /// Null: it is none.
+  /// Null if there is no half-space of that index.
   const Entry* Find(std::uint32_t agent) const;
   std::size_t size() const { return entries_.size(); }
   /// In the order of indices.

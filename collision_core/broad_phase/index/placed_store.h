@@ -14,7 +14,8 @@ namespace collision::broad_phase {
 /// What the searches of a store have cost.
 struct SearchCost {
   BroadPhaseWork work;
-  std::uint64_t wasted = 0;  ///< Tests that a fresh placement would have saved, since the last one.
+  /// Tests since the last placement that a fresh one would have saved.
+  std::uint64_t wasted = 0;
 };
 
 /// All agents, and the frame in which they are placed. Both belong to the search; they stay where
@@ -23,7 +24,7 @@ struct PlacedScene {
   const HornTable* table;
   const PlacementFrame* frame;
 
-  /// The agent is too large or too far for filters: it is not placed, but tested directly.
+  /// Whether the agent is too large or too far for filters: it is not placed, but tested directly.
   bool IsUnfilterable(std::uint32_t agent) const {
     return table->row(agent).unfilterable || frame->blind();
   }
@@ -35,8 +36,8 @@ class PlacedStore {
  public:
   virtual ~PlacedStore() = default;
 
-  /// Replaces everything by `horns`, all agents of the scene but unfilterable ones, ascending. May
-  /// take their memory.
+  /// Replaces everything by `horns`: all agents of the scene that are not unfilterable, ascending.
+  /// May swap the vector's memory with its own.
   virtual void PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horns) = 0;
   /// Prepares for Join() alone, of a window up to `last` at first; FindNear() must not follow.
   /// Returns false if that would be no cheaper than PlaceAll().

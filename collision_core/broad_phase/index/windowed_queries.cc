@@ -6,12 +6,13 @@
 namespace collision::broad_phase {
 namespace {
 
-/// Each window is so many times the one before.
+/// Each window is this many times as long as the one before.
 constexpr double kWindowFactor = 4;
 
 }  // namespace
 
-// For an agent every half-space, for a half-space every agent.
+// Calls each(entry, agent) for every half-space if `asked` is an agent, and for every agent if it
+// is a half-space.
 template <typename Each>
 void WindowedSearch::ForEachHalfSpace(std::uint32_t asked, Each each) const {
   const HalfSpaces::Entry* half_space = half_spaces().Find(asked);
@@ -75,7 +76,7 @@ void WindowedSearch::FindNearPairs(const intersection::BroadQuery& query,
   if (frame_.blind() || !store_->PlaceForJoin(scene(), seconds)) PlaceEveryAgent();
   OfferUnfilterable(&list);
   Join(frame_.After(query.from, seconds), &list);
-  // A level that is taken whole tells pairs from both sides.
+  // A level that is taken whole offers a pair from both sides.
   if (placed_) {
     const auto first = pairs->begin() + before;
     std::sort(first, pairs->end());

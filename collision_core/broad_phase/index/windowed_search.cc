@@ -9,20 +9,20 @@
 namespace collision::broad_phase {
 namespace {
 
-/// Beyond so many agents that have moved, and that share of all, all are placed anew.
+/// All agents are placed anew if more than this number, and more than this share, have moved.
 constexpr std::size_t kMovedMin = 64;
 constexpr double kMovedShare = 1.0 / 16;
 
-/// With at least so many agents, a crowd of this part of the root of their number is tested first:
+/// From this number of agents on, a crowd of this multiple of the number's root is tested first:
 /// all pairs among them cost as much as a few tests of each agent.
 constexpr std::uint32_t kCrowdMin = 2048;
 constexpr double kCrowdOfRoot = 1.5;
 
-/// The crowd is chosen from so many at least, and from every kStrideMax-th, spread evenly over the
-/// indices.
+/// The crowd is chosen from agents at equal steps of the index: at least kSomeMin of them, and at
+/// least every kStrideMax-th.
 constexpr std::uint32_t kSomeMin = 8192, kStrideMax = 16;
 
-/// So many questions after a placement say what a question costs when it is fresh.
+/// The questions after a placement that say what a question costs while it is fresh.
 constexpr std::uint32_t kFreshQuestions = 64;
 
 /// A sum of two rounded lengths in single precision, rounded up.
@@ -82,7 +82,7 @@ void WindowedSearch::UpdateRules(std::uint32_t agent) {
     MarkMoved(agent);
 }
 
-// The next question places the agent, or all of them where too many have moved.
+// The next question places the agent, or all of them if too many have moved.
 void WindowedSearch::MarkMoved(std::uint32_t agent) {
   if (has_moved_.size() <= agent) has_moved_.resize(table_.size());
   if (has_moved_[agent]) return;
@@ -143,7 +143,7 @@ void WindowedSearch::PlaceMoved() {
   moved_.clear();
 }
 
-// Some agents that are close to each other are tested first: a first answer makes the window short.
+// Tests some agents that are close to each other: a first answer shortens the window.
 void WindowedSearch::OfferCrowd(PairSink* sink) {
   if (table_.count() < kCrowdMin || frame_.blind()) return;
   const std::uint32_t stride = std::min(table_.size() / kSomeMin + 1, kStrideMax);
@@ -174,7 +174,7 @@ void WindowedSearch::Refresh(Instant from) {
   PlaceEveryAgent();
 }
 
-// A question has been answered.
+// Called after each question.
 void WindowedSearch::RecordCost(const BroadPhaseWork& before) {
   const double units = cost_.work.search_units() - before.search_units();
   if (fresh_ < kFreshQuestions) {
@@ -189,7 +189,7 @@ void WindowedSearch::OfferUnfilterable(PairSink* sink) const {
   for (const std::uint32_t agent : unfilterable_) {
     for (std::uint32_t other = 0; other < table_.size(); ++other) {
       if (!table_.contains(other)) continue;
-      // A pair of two unfilterable agents once.
+      // A pair of two unfilterable agents is offered once.
       const bool is_offered = other <= agent && scene().IsUnfilterable(other);
       if (!is_offered) sink->Offer(agent, other);
     }
@@ -203,7 +203,7 @@ void WindowedSearch::Join(TimeWindow window, PairSink* sink) {
   CORE_CHECK(joined, "a store joins after it has placed all agents");
 }
 
-// All agents, in the first window.
+// Whether a question about the agent tests all others at once, in the first window.
 bool WindowedSearch::TestsAll(std::uint32_t agent, Instant from) const {
   return scene().IsUnfilterable(agent) || !HornTable::Near(from);
 }
@@ -229,8 +229,8 @@ void WindowedSearch::FindAllBut(std::uint32_t agent) {
   }
 }
 
-// Placed horns have SphereFilter's slack for the way to the middle and from there on. A question
-// from before the begin looks farther back, which takes more of it.
+// Placed balls have SphereFilter's slack for the way to the middle and from there on. A question
+// from before the begin looks farther back, which takes more slack.
 void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
   const TimeWindow window = frame_.After(from, seconds);
   const double farther = -window.first - frame_.middle();

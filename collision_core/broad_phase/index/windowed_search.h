@@ -16,10 +16,9 @@ namespace collision::broad_phase {
 
 /// Places every agent once, with the reach that its horn and its way give it from then on, and
 /// keeps it in a store. A bound inside the old one leaves the placement valid, so a tightened bound
-/// costs nothing here. Questions look ahead in time windows, each four times as long as the one
-/// before, until the next answer must lie beyond, and ask the canonical routine only about pairs
-/// that three filters leave open. Each filter is certified and of a fixed price; none decides a
-/// value.
+/// costs nothing here. A question searches time windows, each four times as long as the one before,
+/// until the next answer must lie beyond, and asks the canonical routine only about pairs that
+/// three filters leave open. Each filter is certified and of a fixed price; none decides a value.
 ///
 /// - PlacementFrame: each agent is placed at the middle of the window, in a frame that moves with
 ///   the average of all, with the reach that its horn has at the window's end. From there its
@@ -34,14 +33,13 @@ namespace collision::broad_phase {
 /// Agents too large or too far for filters ("unfilterable": reach or distance over 2^60 m, speed
 /// over 2^40 m/s, a century from the begin) are tested directly.
 ///
-/// Places grow old: reaches grow and agents stray, so questions cost ever more. All agents are
+/// A placement ages: reaches grow and agents stray, so questions cost ever more. All agents are
 /// placed anew once the excess over the cost of the first 64 questions adds up to the cost of
 /// placement (the best moment where the excess grows evenly), or once as many tests as there are
 /// agents were plainly wasted. No answer depends on when that happens.
 ///
-/// Earliest() first tests some 1.5 √N agents that lie close together, all pairs of them: their
-/// first intersection bounds that of all, so that the window is short from then on if a hit comes
-/// at once.
+/// Earliest() first tests all pairs among some 1.5 √N agents that lie close together: their first
+/// intersection bounds that of all, which shortens the window.
 class WindowedSearch : public SweepingIndex {
  public:
   /// `store` decides the method: a row, or grids.
@@ -109,11 +107,11 @@ class WindowedSearch : public SweepingIndex {
   std::uint32_t fresh_ = 0;
   double fresh_units_ = 0, excess_units_ = 0;
 
-  std::vector<std::uint64_t> reported_in_;  ///< By agent: the last question that told of it.
+  std::vector<std::uint64_t> reported_in_;  ///< By agent: the last question that reported it.
   std::uint64_t question_ = 0;
   FilterRow crowd_;                  ///< Scratch, like the next two.
   std::vector<PlacedBall> horns_;    ///< To be placed.
-  std::vector<std::uint32_t> near_;  ///< Found by the last search.
+  std::vector<std::uint32_t> near_;  ///< Agents found by the last search.
 };
 
 }  // namespace collision::broad_phase

@@ -71,8 +71,8 @@ float WithSlack(double reach, double way) {
 
 class LaneScanTest : public testing::Test {
  protected:
-  /// Distances, speeds and times of one scale each; every second ball just touches the query_ball, or
-  /// just does not, at some time.
+  /// Distances, speeds and times of one scale each; every second ball just touches the query_ball,
+  /// or just does not, at some time.
   void Draw(int seed) {
     Random random(seed);
     const double size = random.LogUniform(1e-6, 1e6), time = random.LogUniform(1e-3, 1e3);
