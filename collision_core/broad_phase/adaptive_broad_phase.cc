@@ -87,7 +87,7 @@ AdaptiveBroadPhase::AdaptiveBroadPhase(BroadPhaseMethod asked)
 
 AdaptiveBroadPhase::~AdaptiveBroadPhase() = default;
 
-void AdaptiveBroadPhase::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void AdaptiveBroadPhase::Set(std::uint32_t agent, const AgentBound& bound) {
   if (held_.size() <= agent) held_.resize(agent + 1);
   agents_ += !held_[agent];
   held_[agent] = true;
@@ -97,7 +97,7 @@ void AdaptiveBroadPhase::Set(std::uint32_t agent, const motion::SpaceTimeBound& 
   Choose();
 }
 
-void AdaptiveBroadPhase::Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void AdaptiveBroadPhase::Tighten(std::uint32_t agent, const AgentBound& bound) {
   method_.phase->Tighten(agent, bound);
   if (Follows(agent)) next_.phase->Tighten(agent, bound);
   if (next_.phase) Choose();
@@ -154,9 +154,8 @@ void AdaptiveBroadPhase::FindNeighbours(std::uint32_t agent, const NeighbourWind
   EndQuestion(before);
 }
 
-void AdaptiveBroadPhase::FindNeighbours(const motion::SpaceTimeBound& bound, Instant from,
-                                        Instant until, const Skip& skip,
-                                        std::vector<Neighbour>* neighbours) {
+void AdaptiveBroadPhase::FindNeighbours(const AgentBound& bound, Instant from, Instant until,
+                                        const Skip& skip, std::vector<Neighbour>* neighbours) {
   const BroadPhaseWork before = method_.phase->work();
   method_.phase->FindNeighbours(bound, from, until, skip, neighbours);
   EndQuestion(before);
@@ -226,7 +225,7 @@ void AdaptiveBroadPhase::Settle() {
 void AdaptiveBroadPhase::Fill() {
   const std::uint32_t end = std::min(filled_ + kMoves, method_.table->size());
   for (; filled_ < end; ++filled_) {
-    if (held_[filled_]) next_.phase->Set(filled_, method_.table->bound(filled_));
+    if (held_[filled_]) next_.phase->Set(filled_, method_.table->agent_bound(filled_));
   }
   if (filled_ >= method_.table->size()) Switch();
 }

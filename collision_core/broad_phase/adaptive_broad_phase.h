@@ -41,15 +41,15 @@ class AdaptiveBroadPhase : public SweepingIndex {
   explicit AdaptiveBroadPhase(BroadPhaseMethod asked = BroadPhaseMethod::kAuto);
   ~AdaptiveBroadPhase() override;
 
-  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
-  void Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const AgentBound& bound) override;
+  void Tighten(std::uint32_t agent, const AgentBound& bound) override;
   void Remove(std::uint32_t agent) override;
   bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   void UpdateRules(std::uint32_t agent) override;
   void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
                       std::vector<Neighbour>* neighbours) override;
-  void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                      const Skip& skip, std::vector<Neighbour>* neighbours) override;
+  void FindNeighbours(const AgentBound& bound, Instant from, Instant until, const Skip& skip,
+                      std::vector<Neighbour>* neighbours) override;
   std::optional<intersection::IntersectingPair> EarliestOf(
       std::uint32_t agent, const intersection::BroadQuery& query) override;
   void FindNearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;

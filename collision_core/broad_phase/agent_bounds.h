@@ -5,9 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "collision_core/broad_phase/agent_bound.h"
 #include "collision_core/broad_phase/index/half_space.h"
 #include "collision_core/intersection/pair_rules.h"
-#include "collision_core/motion/space_time_bound.h"
 
 namespace collision::broad_phase {
 
@@ -30,7 +30,7 @@ class AgentBounds {
   virtual ~AgentBounds() = default;
 
   /// Adds the agent, or replaces its bound or the half-space of that index.
-  virtual void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) = 0;
+  virtual void Set(std::uint32_t agent, const AgentBound& bound) = 0;
   /// Removes the agent or half-space, if it is there, and all its rules.
   virtual void Remove(std::uint32_t agent) = 0;
 

@@ -44,9 +44,7 @@ class NeighbourIndex : public virtual AgentBounds {
 
   /// Replaces the bound of an agent by one that lies inside it; cheaper than Set(). Requires that
   /// it does lie inside.
-  virtual void Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
-    Set(agent, bound);
-  }
+  virtual void Tighten(std::uint32_t agent, const AgentBound& bound) { Set(agent, bound); }
 
   /// Appends each partner that `agent` (or half-space) may first meet (horns) within
   /// [window.from, window.until]; of the later ones only the earliest, if it is not later than
@@ -57,7 +55,7 @@ class NeighbourIndex : public virtual AgentBounds {
 
   /// Appends each agent or half-space that may first meet `bound` in [from, until], likewise in
   /// order. `bound` is of no agent that is held, so no rule applies to it.
-  virtual void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
+  virtual void FindNeighbours(const AgentBound& bound, Instant from, Instant until,
                               const Skip& skip, std::vector<Neighbour>* neighbours) = 0;
 
   /// The earliest possible intersection of one agent with any other within the query's window; of

@@ -8,7 +8,7 @@ Detector::Detector(const DetectorOptions& options)
     : implementation_(std::make_unique<Implementation>(options)) {}
 Detector::~Detector() = default;
 
-bool Detector::Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+bool Detector::Admit(const AgentId& id, const AgentDeclaration& declaration,
                      const motion::MotionState& state, Instant effective_from) {
   return implementation_->Admit(id, declaration, state, effective_from);
 }
@@ -16,7 +16,7 @@ UpdateOutcome Detector::Update(const AgentId& id, const motion::MotionState& sta
                                Instant effective_from) {
   return implementation_->Update(id, state, effective_from);
 }
-bool Detector::Redeclare(const AgentId& id, const motion::AgentDeclaration& declaration,
+bool Detector::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
                          Instant effective_from) {
   return implementation_->Redeclare(id, declaration, effective_from);
 }

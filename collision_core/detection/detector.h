@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "collision_core/detection/agents/agent_declaration.h"
 #include "collision_core/detection/clearance/agent_clearance.h"
 #include "collision_core/detection/detector_counters.h"
 #include "collision_core/detection/detector_options.h"
 #include "collision_core/detection/earliest/earliest_answer.h"
 #include "collision_core/detection/events/collision_event.h"
 #include "collision_core/motion/contract.h"
-#include "collision_core/motion/motion_state.h"
 
 namespace collision::detection {
 
@@ -53,7 +53,7 @@ class Detector {
   /// another id (a new generation): the former one is evaluated a last time beside it.
   /// `effective_from`: the greatest time granted to any agent it can meet (simulated clock), else
   /// the state's stamp.
-  bool Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+  bool Admit(const AgentId& id, const AgentDeclaration& declaration,
              const motion::MotionState& state, Instant effective_from);
 
   /// `effective_from` is used where the state jumps, widens or breaches.
@@ -61,8 +61,7 @@ class Detector {
 
   /// A new declaration. What widens counts at once (and is told as effective from
   /// `effective_from`); what narrows counts from the next state on. False: unknown agent.
-  bool Redeclare(const AgentId& id, const motion::AgentDeclaration& declaration,
-                 Instant effective_from);
+  bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
 
   /// The owner gives the agent up; its open events are withdrawn (ended, where confirmed) once what
   /// was heard of it has passed. False: unknown agent.

@@ -23,13 +23,13 @@ Detector::Implementation::Implementation(const DetectorOptions& options)
       clearances_(options, {clock_, agents_, &counters_, &clearances_dirty_}, &pairs_),
       earliest_({clock_, agents_, &counters_, &clearances_dirty_}, &pairs_, &clearances_) {}
 
-bool Detector::Implementation::Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+bool Detector::Implementation::Admit(const AgentId& id, const AgentDeclaration& declaration,
                                      const motion::MotionState& state, Instant effective_from) {
   const AgentIndex agent = agents_.Admit(id, declaration, state.stamp);
   if (agent.is_none()) return false;
   pairs_.AddAgent(agent);
   clearances_.AddAgent(agent);
-  agents_.Store(agent, {state, declaration, agents_.skew()}, Link::kJumped);
+  agents_.Store(agent, state, Link::kJumped);
   Renew(agent, {state.stamp, ClearanceCause::kAdmission, effective_from});
   return true;
 }
@@ -40,16 +40,18 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::
   if (agent.is_none()) return UpdateOutcome::kUnknown;
   const AgentRecord& record = agents_[agent];
   if (state.stamp < record.stamp()) return UpdateOutcome::kOlder;
-  const NextState next{agent, {state, record.declaration, agents_.skew()}, effective_from};
+  const NextState next{agent, state, effective_from};
   if (record.expired) return Return(next);
   if (state.discontinuity) return Jump(next);
-  const motion::ContractCheck check = CheckContract(record.bound(), state);
+  const auto orientation = record.history.newest().has_shape() ? motion::Orientation::kMatters
+                                                               : motion::Orientation::kIgnored;
+  const motion::ContractCheck check = CheckContract(record.bound(), state, orientation);
   switch (check.verdict) {
     case motion::ContractVerdict::kKept:
       return Keep(next, check);
     case motion::ContractVerdict::kWidened:
       ++counters_.widenings;
-      agents_.Store(agent, next.bound, Link::kFollows);
+      agents_.Store(agent, next.state, Link::kFollows);
       Renew(agent, {next.stamp(), ClearanceCause::kWidening, effective_from});
       return UpdateOutcome::kWidened;
     case motion::ContractVerdict::kBreached:
@@ -65,7 +67,7 @@ UpdateOutcome Detector::Implementation::Return(const NextState& next) {
   record.admitted_from = next.stamp();
   record.history.Clear();
   clearances_.Readmit(next.agent);
-  agents_.Store(next.agent, next.bound, Link::kJumped);
+  agents_.Store(next.agent, next.state, Link::kJumped);
   Renew(next.agent, {next.stamp(), ClearanceCause::kAdmission, next.effective_from});
   return UpdateOutcome::kJumped;
 }
@@ -74,9 +76,9 @@ UpdateOutcome Detector::Implementation::Jump(const NextState& next) {
   ++counters_.jumps;
   const AgentRecord& record = agents_[next.agent];
   const double skew = agents_.skew();
-  clearances_.RecordFormerMotion(next.agent, record.bound(),
+  clearances_.RecordFormerMotion(next.agent, {record.bound(), record.declaration.filter},
                                  numeric::AddRoundedUp(next.stamp(), skew));
-  agents_.Store(next.agent, next.bound, Link::kJumped);
+  agents_.Store(next.agent, next.state, Link::kJumped);
   // By our clock the jump may have come earlier by the skew.
   const Instant from = numeric::AddRoundedDown(next.stamp(), -skew);
   Renew(next.agent, {from, ClearanceCause::kTeleport, next.effective_from});
@@ -88,10 +90,11 @@ UpdateOutcome Detector::Implementation::Keep(const NextState& next,
   ++counters_.updates_kept;
   AgentRecord& record = agents_[next.agent];
   const bool covered = record.margin.Spend(check, record.bound().state);
-  if (IsNarrower(record.bound().limits, next.bound.limits)) {
-    clearances_.RecordFormerMotion(next.agent, record.bound(), next.stamp());
+  if (IsNarrower(record.bound().limits, record.declaration.limits)) {
+    clearances_.RecordFormerMotion(next.agent, {record.bound(), record.declaration.filter},
+                                   next.stamp());
   }
-  agents_.Store(next.agent, next.bound, Link::kFollows);
+  agents_.Store(next.agent, next.state, Link::kFollows);
   if (!covered) {
     Renew(next.agent, {next.stamp(), ClearanceCause::kWidening, next.effective_from});
     return UpdateOutcome::kKept;
@@ -104,15 +107,14 @@ UpdateOutcome Detector::Implementation::Keep(const NextState& next,
 UpdateOutcome Detector::Implementation::Breach(const NextState& next) {
   ++counters_.breaches;
   const Instant last_honest = agents_[next.agent].stamp();
-  agents_.Store(next.agent, next.bound, Link::kBroken);
+  agents_.Store(next.agent, next.state, Link::kBroken);
   clearances_.RecordBreach(next.agent, last_honest);
   Renew(next.agent, {next.stamp(), ClearanceCause::kBreach, next.effective_from});
   pairs_.MarkBroken(next.agent, last_honest);
   return UpdateOutcome::kBreached;
 }
 
-bool Detector::Implementation::Redeclare(const AgentId& id,
-                                         const motion::AgentDeclaration& declaration,
+bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclaration& declaration,
                                          Instant effective_from) {
   const AgentIndex agent = agents_.Find(id);
   if (agent.is_none()) return false;

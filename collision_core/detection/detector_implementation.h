@@ -18,11 +18,10 @@ class Detector::Implementation {
  public:
   explicit Implementation(const DetectorOptions& options);
 
-  bool Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+  bool Admit(const AgentId& id, const AgentDeclaration& declaration,
              const motion::MotionState& state, Instant effective_from);
   UpdateOutcome Update(const AgentId& id, const motion::MotionState& state, Instant effective_from);
-  bool Redeclare(const AgentId& id, const motion::AgentDeclaration& declaration,
-                 Instant effective_from);
+  bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
   bool Remove(const AgentId& id);
   void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
   void Advance(Instant now);
@@ -40,13 +39,13 @@ class Detector::Implementation {
   void Validate() const;
 
  private:
-  /// A state of a known agent, as a bound, and from when a change counts.
+  /// A state of a known agent, and from when a change counts.
   struct NextState {
     AgentIndex agent;
-    motion::SpaceTimeBound bound;
+    const motion::MotionState& state;
     Instant effective_from;
 
-    Instant stamp() const { return bound.state.stamp; }
+    Instant stamp() const { return state.stamp; }
   };
 
   UpdateOutcome Return(const NextState& next);

@@ -35,7 +35,7 @@ IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
   const Instant base = std::max({from, a.state.stamp, b.state.stamp});
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
   const IntersectionTime never{base, numeric::kInfinity};
-  if (!CanMeet(a.limits, b.limits) || expiry <= base || base > until) return never;
+  if (expiry <= base || base > until) return never;
   if (NeverMoves(a) && NeverMoves(b)) return never;
   // A meeting within the nanosecond of `until` rounds down to it.
   const Instant end =

@@ -25,8 +25,8 @@ struct IntersectionTime {
 /// - Symmetric: (A, B) and (B, A) give the same bits.
 ///
 /// Boxes are evaluated only where a direction or a speed cap is declared; elsewhere they contain
-/// the balls. The answer is never for agents that cannot meet (masks), if one of them has expired
-/// by base, and for times after an expiry; also for two that never move, even if they overlap.
+/// the balls. The answer is never if one of the agents has expired by base, and for times after an
+/// expiry; also for two that never move, even if they overlap.
 ///
 /// Method. A quick root finder in plain doubles decides nearly all pairs (first_approach_quick.h);
 /// the certified one in intervals takes over from the time proved so far (first_approach.h). Then

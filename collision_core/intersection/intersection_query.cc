@@ -29,7 +29,7 @@ IntersectionTime EarliestIntersectionOf(const BroadQuery& query, const motion::S
     return EarliestIntersection(a, b, query.from, query.until, margin);
   }
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
-  if (!CanMeet(a.limits, b.limits) || (NeverMoves(a) && NeverMoves(b)) || expiry <= query.from) {
+  if ((NeverMoves(a) && NeverMoves(b)) || expiry <= query.from) {
     return {query.from, numeric::kInfinity};
   }
   motion::Hypertrapezoid of_A = MakeHypertrapezoid(a, query.from, query.until);

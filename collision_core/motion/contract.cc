@@ -176,12 +176,6 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, num
 // steps Φ <= ½ α h² n (n + 1) = ½ α τ (τ + h). An error of the orientation at the start stays what
 // it is; stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
 
-/// Whether the declaration says anything of the orientation that matters.
-bool BoundsRotation(const MotionLimits& limits) {
-  const bool has_shape = limits.shape != nullptr || limits.shape_awaited;
-  return has_shape && limits.angular_acceleration_max >= 0;
-}
-
 /// No true motion turns further: the orientation, then the angular velocity.
 Limits LimitsOfTurning(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
   const numeric::Interval skew = numeric::Interval(2) * before.skew, sigma = s + skew;
@@ -237,11 +231,12 @@ bool CheckRotation(const SpaceTimeBound& before, const MotionState& next, numeri
 
 }  // namespace
 
-ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next) {
+ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next,
+                            Orientation orientation) {
   const numeric::Interval s = numeric::SecondsBetween(before.state.stamp, next.stamp);
   ContractCheck check;
   bool is_inside = CheckTranslation(before, next, s, &check);
-  if (BoundsRotation(before.limits)) {
+  if (orientation == Orientation::kMatters && before.limits.angular_acceleration_max >= 0) {
     is_inside = CheckRotation(before, next, s, &check) && is_inside;
   }
   if (check.position_excess > 0 || check.velocity_excess > 0 || check.rotation_excess > 0 ||

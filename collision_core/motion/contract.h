@@ -35,6 +35,9 @@ struct ContractCheck {
   double angular_velocity_drift = 0;
 };
 
+/// Whether an agent's orientation matters; that of a plain ball does not.
+enum class Orientation { kMatters, kIgnored };
+
 /// Compares `next` with the bound of the state before it. With s = next.stamp − before.state.stamp:
 ///
 ///   |p' − c(t0')| <= ½ M s (s + h) + errors   and   |v' − v| <= M s + errors.
@@ -43,12 +46,12 @@ struct ContractCheck {
 /// velocity with which the agent cannot have come from there. So at every instant between the two
 /// states the forward ball of the one and the backward ball of the other must have a point in
 /// common (contract_between.h). Under a speed cap V also |v'| <= V, and p' must lie in the old
-/// capped ball and box (speed_cap.h). An agent that has, or will have, a shape and declares α is
-/// also checked for its rotation, with Φ the angle between two orientations:
+/// capped ball and box (speed_cap.h). Where the orientation matters and α is declared, the
+/// rotation is checked too, with Φ the angle between two orientations:
 ///
 ///   Φ(q', exp(ω s) q) <= ½ α s (s + h) + errors   and   |ω' − ω| <= α s + errors.
 ///
-/// Requires the same declaration for both states and next.stamp >= before.state.stamp. O(1),
+/// Requires the same limits for both states and next.stamp >= before.state.stamp. O(1),
 /// allocates nothing.
 ///
 /// Why this keeps standing answers valid. The new horn is inside the old one if for all τ' >= 0,
@@ -78,6 +81,7 @@ struct ContractCheck {
 /// half of one, so s by up to 1 ns: |v| · 1 ns and M · 1 ns. For the angle it is 1000 · 2^-49 rad
 /// (the exponential and the product of each step), the error of ω for s, and |ω| · 1 ns. What is
 /// actually used is returned as drift: the published bounds must leave that much room.
-ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next);
+ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next,
+                            Orientation orientation = Orientation::kMatters);
 
 }  // namespace collision::motion

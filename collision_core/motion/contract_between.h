@@ -26,7 +26,7 @@ namespace collision::motion {
 /// Which s is tested comes from plain doubles; that the balls are apart there is proved in
 /// intervals, beyond the rounding allowance of p' and, for T, of v' (contract.h).
 ///
-/// Requires the same declaration, skew and order of stamps as CheckContract(). Honest states are
+/// Requires the same limits, skew and order of stamps as CheckContract(). Honest states are
 /// mostly decided by a quick test in plain doubles. Allocates nothing.
 double GapBetween(const SpaceTimeBound& before, const MotionState& next);
 

@@ -3,15 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cstdint>
-#include <memory>
 
 #include "collision_core/base/instant.h"
 #include "collision_core/numeric/rounding.h"
-
-namespace collision::shape {
-class Shape;
-}  // namespace collision::shape
 
 namespace collision::motion {
 
@@ -34,9 +28,7 @@ struct MotionState {
   bool discontinuity = false;         ///< The motion jumped here; no breach.
 };
 
-/// What the owner declares about an agent once, and what then holds from state to state. A change
-/// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
-/// detector asks about all partners again.
+/// What the owner declares about an agent's motion once, and what then holds from state to state.
 struct MotionLimits {
   /// r: radius of a ball about the reference point that contains the agent in every orientation
   /// [m], >= 0.
@@ -46,27 +38,14 @@ struct MotionLimits {
   /// V: |velocity| of the reference point never exceeds it [m/s], >= 0; +infinity: not declared.
   /// What it changes in the bound, and why to raise it is a widening: speed_cap.h.
   double speed_max = numeric::kInfinity;
-  std::uint32_t group = 1;   ///< Bits of the groups that the agent belongs to.
-  std::uint32_t mask = ~0u;  ///< Bits of the groups that it can meet.
   /// α >= |angular acceleration| [rad/s²], gyroscopic terms included; < 0: not declared, then
   /// nothing is known of the orientation between two states. Counts for shapes only.
   double angular_acceleration_max = -1;
-  /// The shape, within the ball of `radius`; null: the ball itself.
-  std::shared_ptr<const shape::Shape> shape = nullptr;
-  /// The shape is not known yet: it lies somewhere within the ball. The ball then excludes contacts
-  /// but confirms none. `shape` is null.
-  bool shape_awaited = false;
 
   friend bool operator==(const MotionLimits&, const MotionLimits&) = default;
 };
-using AgentDeclaration = MotionLimits;
 
 /// The larger of two bounds on the angular acceleration; < 0 (not declared) if either is.
 inline double WiderAngularBound(double a, double b) { return a < 0 || b < 0 ? -1 : a < b ? b : a; }
-
-/// A pair can meet only if each is in a group that the other's mask names.
-inline bool CanMeet(const MotionLimits& a, const MotionLimits& b) {
-  return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
-}
 
 }  // namespace collision::motion

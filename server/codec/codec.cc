@@ -87,7 +87,7 @@ std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock) {
   return CheckName(clock.simulator_id(), clock.simulator_name(), At(clock));
 }
 
-Decoded<motion::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
+Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& wire) {
   FieldCheck check(At(wire));
   check.Integer("slot", wire.slot(), 0, wire::kSlotMax);
   check.Text("agent_name", wire.agent_name(), wire::kNameMax);
@@ -106,15 +106,13 @@ Decoded<motion::AgentDeclaration> DecodeDescription(const v1::AgentDescription& 
   if (!check.passed()) return *check.refusal();
   const double alpha = wire.angular_acceleration_max_rad_s2();
   const double cap = wire.speed_max_m_s();
-  return motion::AgentDeclaration{.radius = wire.radius_m(),
-                                  .acceleration_max = wire.acceleration_max_m_s2(),
-                                  .time_step = wire.time_step_s(),
-                                  .speed_max = cap > 0 ? cap : numeric::kInfinity,
-                                  .group = wire.group(),
-                                  .mask = wire.mask(),
-                                  .angular_acceleration_max = alpha < 0 ? -1 : alpha,
-                                  .shape = nullptr,
-                                  .shape_awaited = !hash.empty()};
+  return detection::AgentDeclaration{.limits = {.radius = wire.radius_m(),
+                                                .acceleration_max = wire.acceleration_max_m_s2(),
+                                                .time_step = wire.time_step_s(),
+                                                .speed_max = cap > 0 ? cap : numeric::kInfinity,
+                                                .angular_acceleration_max = alpha < 0 ? -1 : alpha},
+                                     .filter = {.group = wire.group(), .mask = wire.mask()},
+                                     .shape_awaited = !hash.empty()};
 }
 
 std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk) {

@@ -36,7 +36,7 @@
 #include <string>
 #include <variant>
 
-#include "collision_core/motion/motion_state.h"
+#include "collision_core/detection/agents/agent_declaration.h"
 #include "idl/limits.h"
 #include "idl/messages.pb.h"
 #include "server/codec/refusal.h"
@@ -55,7 +55,7 @@ std::optional<Refusal> CheckIdentity(const v1::SimulatorClock& clock);
 /// The declaration of an agent. A speed cap of 0 is none: a recording from before the field says
 /// nothing about speed. A description with a shape hash awaits its shape: only the intake knows
 /// which shapes are there.
-Decoded<motion::AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
+Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescription& description);
 
 /// Which times a state may carry.
 struct StampRules {

@@ -18,7 +18,7 @@ AgentRegistry::AgentRegistry(const v1::Config& config, World* world, detection::
       undescribed_(ToNanoseconds(config.undescribed_after_s())) {}
 
 void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
-                             const motion::AgentDeclaration& declaration) {
+                             const detection::AgentDeclaration& declaration) {
   AgentTable& agents = simulator->agents();
   const std::uint32_t slot = wire.slot();
   if (agents.HasEnded(slot, wire.generation())) return;
@@ -30,7 +30,7 @@ void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& w
 }
 
 void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wire,
-                           const motion::AgentDeclaration& declaration) {
+                           const detection::AgentDeclaration& declaration) {
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
@@ -131,7 +131,7 @@ void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
   const Instant stamp = waiting.state.stamp;
   const StampRules rules = world_.RulesForState(*simulator, false);
   if (const auto refusal = CheckStamp(id, stamp, rules)) return rejections_.Add(*refusal);
-  const motion::AgentDeclaration& declaration = simulator->agents().Find(slot)->declaration;
+  const detection::AgentDeclaration& declaration = simulator->agents().Find(slot)->declaration;
   if (!detector_.Admit(id, declaration, waiting.state, world_.EffectiveFrom(stamp))) return;
   ++counters_.admitted;
   CountAccepted(simulator);

@@ -39,7 +39,7 @@ class AgentRegistry {
 
   /// Takes a description from the owner of its simulator.
   void Describe(Simulator* simulator, const v1::AgentDescription& wire,
-                const motion::AgentDeclaration& declaration);
+                const detection::AgentDeclaration& declaration);
 
   /// Takes one state of a chunk from the owner of its simulator.
   void TakeState(Simulator* simulator, const v1::AgentStates& chunk, const v1::AgentState& wire);
@@ -63,7 +63,7 @@ class AgentRegistry {
 
  private:
   void Revise(Simulator* simulator, const v1::AgentDescription& wire,
-              const motion::AgentDeclaration& declaration);
+              const detection::AgentDeclaration& declaration);
   void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
               const motion::MotionState& state);
   void KeepWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);

@@ -62,12 +62,12 @@ void AgentShapes::Refer(Simulator* simulator, std::uint32_t slot, const std::str
 }
 
 void AgentShapes::Give(const Simulator& simulator, std::uint32_t slot, Agent* agent) {
-  motion::AgentDeclaration& declaration = agent->declaration;
+  detection::AgentDeclaration& declaration = agent->declaration;
   std::shared_ptr<const shape::Shape> shape = store_.Find(agent->shape_hash);
   if (!shape) return;
   const double radius = shape->facts().radius;
-  if (radius <= declaration.radius * (1 + wire::kShapeRadiusTolerance)) {
-    declaration.radius = std::max(declaration.radius, radius);
+  if (radius <= declaration.limits.radius * (1 + wire::kShapeRadiusTolerance)) {
+    declaration.limits.radius = std::max(declaration.limits.radius, radius);
     declaration.shape = std::move(shape);
     declaration.shape_awaited = false;
     return;
@@ -77,7 +77,8 @@ void AgentShapes::Give(const Simulator& simulator, std::uint32_t slot, Agent* ag
       fmt::format(
           "{}; its shape {} reaches {:.9g} m from the reference point; allowed: {:.9g} to {}. "
           "The agent stays its ball",
-          declaration.radius, ShortHash(agent->shape_hash), radius, radius, wire::kRadiusMax)));
+          declaration.limits.radius, ShortHash(agent->shape_hash), radius, radius,
+          wire::kRadiusMax)));
 }
 
 void AgentShapes::TakeReady(const v1::ShapeReady& message) {

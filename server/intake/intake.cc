@@ -64,9 +64,9 @@ void Intake::TakeDescription(const v1::Input& input) {
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
   simulator->time().NoteDescriptions(wire.sequence());
-  const Decoded<motion::AgentDeclaration> decoded = DecodeDescription(wire);
+  const Decoded<detection::AgentDeclaration> decoded = DecodeDescription(wire);
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
-  agents_.Describe(simulator, wire, std::get<motion::AgentDeclaration>(decoded));
+  agents_.Describe(simulator, wire, std::get<detection::AgentDeclaration>(decoded));
 }
 
 void Intake::TakeStates(const v1::Input& input) {

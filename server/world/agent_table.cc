@@ -54,7 +54,7 @@ Agent* AgentTable::Add(std::uint32_t slot_index, const Agent& agent) {
 }
 
 void AgentTable::Revise(std::uint32_t slot, std::uint32_t revision,
-                        const motion::AgentDeclaration& declaration) {
+                        const detection::AgentDeclaration& declaration) {
   Agent& agent = AgentIn(slot);
   agent.revision_ = revision;
   agent.declaration = declaration;

@@ -20,12 +20,12 @@ namespace collision::server {
 /// AgentTable changes them, and marks the sample.
 class Agent {
  public:
-  Agent(std::uint32_t generation, std::uint32_t revision, const motion::AgentDeclaration& told)
+  Agent(std::uint32_t generation, std::uint32_t revision, const detection::AgentDeclaration& told)
       : declaration(told), generation_(generation), revision_(revision) {}
 
-  motion::AgentDeclaration declaration;  ///< As told; with its shape once that is visible.
-  std::string shape_hash = {};           ///< Of the shape that it refers to; empty: the ball.
-  bool told_no_room = false;             ///< Its owner knows that the world is full.
+  detection::AgentDeclaration declaration;  ///< As told; with its shape once that is visible.
+  std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
+  bool told_no_room = false;                ///< Its owner knows that the world is full.
 
   std::uint32_t generation() const { return generation_; }
   std::uint32_t revision() const { return revision_; }
@@ -87,7 +87,7 @@ class AgentTable {
 
   /// A newer revision of the description of the agent in `slot` is in force. Requires an agent.
   void Revise(std::uint32_t slot, std::uint32_t revision,
-              const motion::AgentDeclaration& declaration);
+              const detection::AgentDeclaration& declaration);
 
   /// Replaces the state that waits in `slot`.
   void KeepWaiting(std::uint32_t slot, const WaitingState& waiting);

@@ -17,12 +17,11 @@ constexpr std::size_t kTrianglesJudged = 12;  // the truth takes each against ea
 /// An agent that flies and turns on as its state says: one motion that its bound allows.
 struct Flier {
   motion::SpaceTimeBound bound;
+  std::shared_ptr<const shape::Shape> body;  ///< Null: a ball.
   TrueMotion motion;
   Real from = 0;  ///< Of the segment, after the state's stamp [s].
 
-  TrueBody At(Real t) const {
-    return {bound.limits.shape.get(), bound.limits.radius, motion.At(from + t)};
-  }
+  TrueBody At(Real t) const { return {body.get(), bound.limits.radius, motion.At(from + t)}; }
 
   /// What long double loses of it by `t`.
   Real Lost(Real t) const {
@@ -34,7 +33,7 @@ struct Flier {
 
   /// The oracle knows balls and small surfaces.
   bool judged() const {
-    const shape::Shape* shape = bound.limits.shape.get();
+    const shape::Shape* shape = body.get();
     if (bound.state.v_WA.norm() > bound.limits.speed_max) return false;
     return shape == nullptr ||
            (shape->solids().empty() && shape->mesh().triangles.size() <= kTrianglesJudged);
@@ -49,13 +48,13 @@ std::optional<Flier> FuzzedFlier(Instant from, FuzzedData* data) {
   const v1::AgentState wire = FuzzedState(from.nanoseconds(), data);
   const auto declaration = server::DecodeDescription(description);
   const auto state = server::DecodeState({}, wire, {.latest = from});
-  if (!std::holds_alternative<motion::AgentDeclaration>(declaration)) return std::nullopt;
+  if (!std::holds_alternative<detection::AgentDeclaration>(declaration)) return std::nullopt;
   if (!std::holds_alternative<motion::MotionState>(state)) return std::nullopt;
   Flier flier;
   flier.bound = {std::get<motion::MotionState>(state),
-                 std::get<motion::AgentDeclaration>(declaration), 0};
-  flier.bound.limits.shape = FuzzedBody(data);
-  if (const shape::Shape* shape = flier.bound.limits.shape.get()) {
+                 std::get<detection::AgentDeclaration>(declaration).limits, 0};
+  flier.body = FuzzedBody(data);
+  if (const shape::Shape* shape = flier.body.get()) {
     double& radius = flier.bound.limits.radius;
     radius = std::max(radius, shape->facts().radius);
   }
@@ -127,8 +126,9 @@ void FuzzContact(Bytes bytes) {
   const auto a = FuzzedFlier(from, &data), b = FuzzedFlier(from, &data);
   if (!a || !b) return;
   WorkBudget work(allowed);
-  const narrow_phase::TimeOfContactResult time = TimeOfContact(
-      {.last = a->bound, .next = {}}, {.last = b->bound, .next = {}}, from, to, tolerance, &work);
+  const narrow_phase::TimeOfContactResult time =
+      TimeOfContact({.last = a->bound, .next = {}, .shape = a->body},
+                    {.last = b->bound, .next = {}, .shape = b->body}, from, to, tolerance, &work);
   const double duration = static_cast<double>(to.nanoseconds() - from.nanoseconds()) / 1e9;
   CheckForm(time, duration * (1 + 1e-15));
   Require(work.spent() <= allowed + kBatchUnits, "spent ", work.spent(), " of ", allowed);

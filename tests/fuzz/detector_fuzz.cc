@@ -50,7 +50,7 @@ bool Same(const detection::AgentClearance& a, const detection::AgentClearance& b
 /// What is known of an agent apart from the detector.
 struct Told {
   Ballistic ball;
-  motion::AgentDeclaration declaration;
+  detection::AgentDeclaration declaration;
   bool contradicts = false;  ///< Faster than its own cap: no motion is allowed at all.
 };
 
@@ -172,20 +172,21 @@ class Session {
     return {.simulator = 1 + slot, .slot = slot, .run = 1, .generation = generations_[slot]};
   }
 
-  std::optional<motion::AgentDeclaration> Declaration(FuzzedData* data) {
+  std::optional<detection::AgentDeclaration> Declaration(FuzzedData* data) {
     v1::AgentDescription wire = FuzzedDeclaration("alpha", data);
     wire.clear_shape_hash();
     wire.set_slot(0);
     wire.set_agent_name("");
     auto decoded = server::DecodeDescription(wire);
-    if (!std::holds_alternative<motion::AgentDeclaration>(decoded)) return std::nullopt;
-    auto declaration = std::get<motion::AgentDeclaration>(decoded);
+    if (!std::holds_alternative<detection::AgentDeclaration>(decoded)) return std::nullopt;
+    auto declaration = std::get<detection::AgentDeclaration>(decoded);
     const std::uint8_t kind = data->Byte();
     if (kind >= 250) declaration.shape_awaited = true;
     if (kind >= 192 && kind < 250) declaration.shape = FuzzedBody(data);
     // The server refuses a shape that reaches beyond the ball.
     if (declaration.shape) {
-      declaration.radius = std::max(declaration.radius, declaration.shape->facts().radius);
+      declaration.limits.radius =
+          std::max(declaration.limits.radius, declaration.shape->facts().radius);
     }
     return declaration;
   }
@@ -200,10 +201,11 @@ class Session {
   }
 
   void Note(std::uint32_t slot, const motion::MotionState& state,
-            const motion::AgentDeclaration& declaration) {
+            const detection::AgentDeclaration& declaration) {
     Told& told = told_[slot];
-    told = {.ball = {.state = state, .radius = declaration.radius}, .declaration = declaration};
-    told.contradicts = !(state.v_WA.norm() <= declaration.speed_max);
+    told = {.ball = {.state = state, .radius = declaration.limits.radius},
+            .declaration = declaration};
+    told.contradicts = !(state.v_WA.norm() <= declaration.limits.speed_max);
   }
 
   void Tell(std::uint32_t slot, FuzzedData* data) {
@@ -264,7 +266,8 @@ class Session {
   }
 
   void CheckPair(std::uint32_t slot_a, const Told& a, std::uint32_t slot_b, const Told& b) const {
-    if (a.contradicts || b.contradicts || !CanMeet(a.declaration, b.declaration)) return;
+    if (a.contradicts || b.contradicts || !CanMeet(a.declaration.filter, b.declaration.filter))
+      return;
     for (const Told* agent : {&a, &b}) {
       if (agent->declaration.shape || agent->declaration.shape_awaited) return;
     }

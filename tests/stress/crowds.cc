@@ -11,10 +11,10 @@ using Eigen::Vector3d;
 
 constexpr std::int64_t kStep = 1'000'000'000 / 64;
 
-motion::AgentDeclaration BallOf(double radius, double acceleration_max = 0) {
-  motion::AgentDeclaration declaration;
-  declaration.radius = radius;
-  declaration.acceleration_max = acceleration_max;
+detection::AgentDeclaration BallOf(double radius, double acceleration_max = 0) {
+  detection::AgentDeclaration declaration;
+  declaration.limits.radius = radius;
+  declaration.limits.acceleration_max = acceleration_max;
   return declaration;
 }
 

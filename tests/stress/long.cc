@@ -90,9 +90,9 @@ class LongRun {
   explicit LongRun(Outcome* outcome) : detector_(detection::DetectorOptions{}), outcome_(outcome) {
     for (int pair = 0; pair < kPairs; ++pair) {
       for (const int which : {0, 1}) {
-        motion::AgentDeclaration declaration;
-        declaration.radius = 1;
-        declaration.acceleration_max = SwingOf(pair).M;
+        detection::AgentDeclaration declaration;
+        declaration.limits.radius = 1;
+        declaration.limits.acceleration_max = SwingOf(pair).M;
         detector_.Admit(Id(pair, which), declaration, StateOf(pair, which, 0), Instant());
       }
     }

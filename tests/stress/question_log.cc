@@ -58,7 +58,7 @@ detection::SegmentCount WrappedJudge(const detection::History& a, const detectio
                                      Instant until, WorkBudget* work,
                                      detection::ContactTracker* tracker) {
   if (log != nullptr) {
-    log->Note(Question::kJudged, a.newest().limits.radius, b.newest().limits.radius,
+    log->Note(Question::kJudged, a.newest().bound.limits.radius, b.newest().bound.limits.radius,
               {.from = until.nanoseconds()});
   }
   return RealJudge(a, b, until, work, tracker);

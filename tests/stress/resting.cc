@@ -40,19 +40,19 @@ std::shared_ptr<const shape::Shape> SlabShape() {
   return slab;
 }
 
-motion::AgentDeclaration Of(std::shared_ptr<const shape::Shape> shape, double acceleration_max) {
-  motion::AgentDeclaration declaration;
-  declaration.radius = shape->facts().radius;
-  declaration.acceleration_max = acceleration_max;
-  declaration.angular_acceleration_max = acceleration_max;
+detection::AgentDeclaration Of(std::shared_ptr<const shape::Shape> shape, double acceleration_max) {
+  detection::AgentDeclaration declaration;
+  declaration.limits.radius = shape->facts().radius;
+  declaration.limits.acceleration_max = acceleration_max;
+  declaration.limits.angular_acceleration_max = acceleration_max;
   declaration.shape = std::move(shape);
   return declaration;
 }
 
-motion::AgentDeclaration BallOf(double radius, double acceleration_max) {
-  motion::AgentDeclaration declaration;
-  declaration.radius = radius;
-  declaration.acceleration_max = acceleration_max;
+detection::AgentDeclaration BallOf(double radius, double acceleration_max) {
+  detection::AgentDeclaration declaration;
+  declaration.limits.radius = radius;
+  declaration.limits.acceleration_max = acceleration_max;
   return declaration;
 }
 
@@ -67,16 +67,17 @@ detection::DetectorOptions Limited() {
 /// Two far from everything else, which meet after `begin` seconds: no other pair may starve them.
 /// Returns the first of them; the second comes next. Between two states each surface is known to
 /// T²/8 of the greatest acceleration of its points, ahead and behind; they close at 2 m/s.
-std::uint32_t AddPair(Scene* scene, const motion::AgentDeclaration& declaration,
+std::uint32_t AddPair(Scene* scene, const detection::AgentDeclaration& declaration,
                       const Vector3d& far, double begin) {
   const Vector3d x(1, 0, 0);
   const double half = 0.5 + begin;
   const auto a = scene->Add(declaration, Straight(far - half * x, x));
   const auto b = scene->Add(declaration, Straight(far + half * x, -x));
   const double turning =
-      declaration.shape ? declaration.angular_acceleration_max * declaration.radius : 0;
+      declaration.shape ? declaration.limits.angular_acceleration_max * declaration.limits.radius
+                        : 0;
   const double open =
-      2 * (declaration.acceleration_max + turning) * kStepSeconds * kStepSeconds / 8;
+      2 * (declaration.limits.acceleration_max + turning) * kStepSeconds * kStepSeconds / 8;
   scene->Touch(a, b, begin, begin + 1, 2 * open / 2 + kInstants);
   return a;
 }

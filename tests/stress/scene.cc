@@ -80,13 +80,14 @@ const motion::MotionState& Scene::Tell(std::uint32_t agent, Instant t) {
   return it.told.state;
 }
 
-std::uint32_t Scene::Add(const motion::AgentDeclaration& declaration, Motion motion, int every) {
+std::uint32_t Scene::Add(const detection::AgentDeclaration& declaration, Motion motion, int every) {
   const auto agent = static_cast<std::uint32_t>(agents_.size());
   agents_.emplace_back();
   agents_[agent].motion = std::move(motion);
   agents_[agent].every = every;
-  agents_[agent].told.limits = declaration;
-  anybody_accelerates_ |= declaration.acceleration_max > 0;
+  agents_[agent].declaration = declaration;
+  agents_[agent].told.limits = declaration.limits;
+  anybody_accelerates_ |= declaration.limits.acceleration_max > 0;
   const bool admitted = detector_.Admit(IdOf(agent), declaration, Tell(agent, now_), now_);
   outcome_->Expect(admitted, "not admitted");
   return agent;
@@ -170,7 +171,7 @@ void Scene::CheckDistance(const detection::CollisionEvent& event) {
   for (const std::uint32_t agent : {event.lower.slot, event.higher.slot}) {
     const Agent& it = agents_[agent];
     const motion::MotionLimits& limits = it.told.limits;
-    if (limits.shape) return;
+    if (it.declaration.shape) return;
     const auto next =
         std::upper_bound(it.places.begin() + 1, it.places.end(), event.evaluated_at,
                          [](Instant at, const auto& place) { return at < place.first; });
@@ -225,7 +226,10 @@ bool Scene::CouldTouchBy(std::uint32_t agent, Instant until) const {
   const motion::SpaceTimeBound& bound = agents_[agent].told;
   for (std::uint32_t other = 0; other < agents_.size(); ++other) {
     const motion::SpaceTimeBound& partner = agents_[other].told;
-    if (other == agent || !CanMeet(bound.limits, partner.limits)) continue;
+    if (other == agent ||
+        !CanMeet(agents_[agent].declaration.filter, agents_[other].declaration.filter)) {
+      continue;
+    }
     if (IsFar(bound, partner, now_, until)) continue;
     if (IsToldToTouch(std::min(agent, other), std::max(agent, other))) continue;
     const ExactMeeting larger(bound, partner, now_, {false, kPairUnits * 0x1p-52});

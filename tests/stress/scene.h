@@ -46,7 +46,7 @@ class Scene {
   Scene(const detection::DetectorOptions& options, Instant start, Outcome* outcome);
 
   /// At rest at the start of the scene or later; told every `every` steps.
-  std::uint32_t Add(const motion::AgentDeclaration& declaration, Motion motion, int every = 1);
+  std::uint32_t Add(const detection::AgentDeclaration& declaration, Motion motion, int every = 1);
 
   /// All true contacts: pairs that are not named never touch.
   void Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end, Seconds width = 0);
@@ -81,6 +81,7 @@ class Scene {
   struct Agent {
     Motion motion;
     int every = 1;
+    detection::AgentDeclaration declaration;
     motion::SpaceTimeBound told;  ///< As of its newest state.
     /// How far off it was when, of all states.
     std::vector<std::pair<Instant, double>> places;

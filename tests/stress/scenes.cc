@@ -16,11 +16,11 @@ constexpr double kHalfStep = kStepSeconds / 2;  ///< What begins then lies betwe
 constexpr double kLight = 299792458;
 
 /// Agents of one group meet only those of that group.
-motion::AgentDeclaration Declared(double radius, double acceleration_max = 0, int group = 0) {
-  motion::AgentDeclaration declaration;
-  declaration.radius = radius;
-  declaration.acceleration_max = acceleration_max;
-  declaration.group = declaration.mask = 1u << group;
+detection::AgentDeclaration Declared(double radius, double acceleration_max = 0, int group = 0) {
+  detection::AgentDeclaration declaration;
+  declaration.limits.radius = radius;
+  declaration.limits.acceleration_max = acceleration_max;
+  declaration.filter.group = declaration.filter.mask = 1u << group;
   return declaration;
 }
 

@@ -26,7 +26,6 @@ motion::SpaceTimeBound Body::Bound() const {
   bound.state.w_WB = w;
   bound.state.q_WB = q;
   bound.limits.radius = shape ? shape->facts().radius : radius;
-  bound.limits.shape = shape;
   bound.limits.angular_acceleration_max = 0;
   return bound;
 }
@@ -39,7 +38,7 @@ std::shared_ptr<const shape::Shape> BoxShape(const Eigen::Vector3d& half, bool s
 narrow_phase::TimeOfContactResult FindContact(const Body& a, const Body& b, double duration,
                                               std::uint64_t units) {
   const narrow_phase::BodyPair pair =
-      narrow_phase::SegmentsOf({a.Bound(), {}}, {b.Bound(), {}}, Instant());
+      narrow_phase::SegmentsOf({a.Bound(), {}, a.shape}, {b.Bound(), {}, b.shape}, Instant());
   WorkBudget work(units);
   return TimeOfContact(pair.a, pair.b, duration, {}, &work);
 }

@@ -67,10 +67,10 @@ Motion Round(std::uint32_t which, int jumps_every) {
   };
 }
 
-motion::AgentDeclaration Ball(double radius, double acceleration_max) {
-  motion::AgentDeclaration declaration;
-  declaration.radius = radius;
-  declaration.acceleration_max = acceleration_max;
+detection::AgentDeclaration Ball(double radius, double acceleration_max) {
+  detection::AgentDeclaration declaration;
+  declaration.limits.radius = radius;
+  declaration.limits.acceleration_max = acceleration_max;
   return declaration;
 }
 

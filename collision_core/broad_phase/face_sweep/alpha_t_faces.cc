@@ -110,14 +110,13 @@ std::optional<FaceLines> FaceLinesOf(const motion::SpaceTimeBound& bound, Instan
   return lines;
 }
 
-void AlphaTFaces::Build(const std::vector<std::optional<motion::SpaceTimeBound>>& bounds,
-                        const std::vector<std::uint32_t>& agents, Instant start, Instant end,
-                        const intersection::PairRules& rules) {
+void AlphaTFaces::Build(const BoundList& bounds, const std::vector<std::uint32_t>& agents,
+                        Instant start, Instant end, const intersection::PairRules& rules) {
   agents_.clear();
   apart_.clear();
   lines_.clear();
   for (const std::uint32_t agent : agents) {
-    const motion::SpaceTimeBound& bound = *bounds[agent];
+    const motion::SpaceTimeBound& bound = bounds[agent]->bound;
     if (bound.state.expiry < start || bound.state.stamp > end) continue;
     // The sum rounds far below the padding.
     const double half_margin = rules.empty() ? 0 : rules.HalfMargin(agent);

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "collision_core/broad_phase/agent_bound.h"
 #include "collision_core/intersection/pair_rules.h"
-#include "collision_core/motion/space_time_bound.h"
 
 namespace collision::broad_phase {
 
@@ -59,9 +59,8 @@ class AlphaTFaces {
 
   /// Takes those of `agents` that count in [start, end]: not expired before, stamped by its end.
   /// Each is grown by half of its greatest margin, so that what is within one overlaps.
-  void Build(const std::vector<std::optional<motion::SpaceTimeBound>>& bounds,
-             const std::vector<std::uint32_t>& agents, Instant start, Instant end,
-             const intersection::PairRules& rules = {});
+  void Build(const BoundList& bounds, const std::vector<std::uint32_t>& agents, Instant start,
+             Instant end, const intersection::PairRules& rules = {});
 
   /// The agent in each slot, ascending.
   const std::vector<std::uint32_t>& agents() const { return agents_; }

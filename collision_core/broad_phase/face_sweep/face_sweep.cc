@@ -54,7 +54,7 @@ struct FaceSweep::Search {
   }
 };
 
-void FaceSweep::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void FaceSweep::Set(std::uint32_t agent, const AgentBound& bound) {
   mutable_half_spaces().Remove(agent);
   if (bounds_.size() <= agent) bounds_.resize(agent + 1);
   bounds_[agent] = bound;
@@ -77,10 +77,10 @@ std::optional<intersection::IntersectingPair> FaceSweep::Earliest(
   candidates_.clear();
   Instant earliest = Instant::Never(), second = Instant::Never();
   for (std::uint32_t agent = 0; agent < bounds_.size(); ++agent) {
-    if (!bounds_[agent] || bounds_[agent]->state.expiry <= query.from) continue;
+    if (!bounds_[agent] || bounds_[agent]->bound.state.expiry <= query.from) continue;
     candidates_.push_back(agent);
-    second = std::min(second, std::max(earliest, bounds_[agent]->state.stamp));
-    earliest = std::min(earliest, bounds_[agent]->state.stamp);
+    second = std::min(second, std::max(earliest, bounds_[agent]->bound.state.stamp));
+    earliest = std::min(earliest, bounds_[agent]->bound.state.stamp);
   }
   Search search{query, query.from, query.until, std::nullopt, false};
   for (const HalfSpaces::Entry& entry : half_spaces()) {

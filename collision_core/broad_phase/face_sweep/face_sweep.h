@@ -74,7 +74,7 @@ namespace collision::broad_phase {
 /// Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
 class FaceSweep : public EarliestSweep {
  public:
-  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const AgentBound& bound) override;
   void Remove(std::uint32_t agent) override;
   bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   std::optional<intersection::IntersectingPair> Earliest(
@@ -98,7 +98,7 @@ class FaceSweep : public EarliestSweep {
   void AskCrossings(Instant start, Instant end, Search* search);
   void Ask(std::uint32_t agent, std::uint32_t partner, Search* search);
 
-  std::vector<std::optional<motion::SpaceTimeBound>> bounds_;  // By agent.
+  BoundList bounds_;                       // By agent.
   std::vector<std::uint32_t> candidates_;  // Agents not yet asked against all others.
   AlphaTFaces faces_;
   FaceSweepStart at_start_;

@@ -58,11 +58,10 @@ double Speed(const std::vector<const motion::SpaceTimeBound*>& sample) {
 
 }  // namespace
 
-std::int64_t FirstWindow(const std::vector<std::optional<motion::SpaceTimeBound>>& bounds,
-                         const std::vector<std::uint32_t>& agents) {
+std::int64_t FirstWindow(const BoundList& bounds, const std::vector<std::uint32_t>& agents) {
   std::vector<const motion::SpaceTimeBound*> sample;
   const std::size_t step = agents.size() / kSampleMax + 1;
-  for (std::size_t i = 0; i < agents.size(); i += step) sample.push_back(&*bounds[agents[i]]);
+  for (std::size_t i = 0; i < agents.size(); i += step) sample.push_back(&bounds[agents[i]]->bound);
   if (sample.empty()) return 1;
   std::vector<double> radii =
       Gather(sample, [](const motion::SpaceTimeBound& bound) { return bound.limits.radius; });

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/motion/space_time_bound.h"
+#include "collision_core/broad_phase/agent_bound.h"
 
 namespace collision::broad_phase {
 
@@ -14,8 +14,7 @@ namespace collision::broad_phase {
 /// move ℓ. Typical is the seventh octile of at most 1024 agents at equal steps through `agents`:
 /// the answer follows from the bounds alone, and a few agents out of the ordinary do not decide.
 /// It bears on the cost only.
-std::int64_t FirstWindow(const std::vector<std::optional<motion::SpaceTimeBound>>& bounds,
-                         const std::vector<std::uint32_t>& agents);
+std::int64_t FirstWindow(const BoundList& bounds, const std::vector<std::uint32_t>& agents);
 
 /// How early a horn's meeting may be reported: 1e−9 of its distance (earliest_intersection.h), here
 /// 2^−29 and three nanoseconds for rounding both. Whatever is told as `time` or earlier,

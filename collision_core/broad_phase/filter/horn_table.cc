@@ -38,9 +38,7 @@ void HornTable::SetFull(HornRow* row, const motion::SpaceTimeBound& bound) {
     row->full = free_.back();
     free_.pop_back();
   }
-  motion::SpaceTimeBound& kept = full_[row->full - 1];
-  kept = bound;
-  kept.limits.shape.reset();
+  full_[row->full - 1] = bound;
 }
 
 void HornTable::DropFull(HornRow* row) {
@@ -49,8 +47,9 @@ void HornTable::DropFull(HornRow* row) {
 }
 
 // Everything but what depends on the table: `ruled` and `full`.
-void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* filled) {
+void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* filled) {
   HornRow& row = *filled;
+  const motion::SpaceTimeBound& bound = agent.bound;
   const motion::MotionState& state = bound.state;
   const motion::MotionLimits& limits = bound.limits;
   for (int axis = 0; axis < 3; ++axis) {
@@ -60,8 +59,7 @@ void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, Ho
   const double half = 0.5 * limits.acceleration_max;
   row.u0 = limits.radius, row.u1 = 0, row.u2 = half;
   row.stamp = state.stamp;
-  row.group = limits.group;
-  row.mask = limits.mask;
+  row.filter = agent.filter;
   if (half_margin != 0 || !IsPlain(bound)) {
     const double skew = bound.skew, step = limits.time_step;
     const double given = limits.radius + half_margin + state.position_error;
@@ -77,44 +75,44 @@ void HornTable::Fill(const motion::SpaceTimeBound& bound, double half_margin, Ho
   row.unfilterable = !(std::max(largest(row.p), row.u0) < kPositionMax &&
                        std::max({largest(row.v), row.u1, row.u2}) < kRateMax && Near(row.stamp));
   // A group of no bits meets no agent, and is not the mark of a free row.
-  if (row.group == 0) row.group = 1, row.mask = 0;
+  if (row.filter.group == 0) row.filter = {.group = 1, .mask = 0};
 }
 
-HornRow HornTable::RowOf(const motion::SpaceTimeBound& bound) {
+HornRow HornTable::RowOf(const AgentBound& bound) {
   HornRow row;
   Fill(bound, 0, &row);
   return row;
 }
 
-void HornTable::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void HornTable::Set(std::uint32_t agent, const AgentBound& bound) {
   if (rows_.size() <= agent) rows_.resize(agent + 1);
   HornRow& row = rows_[agent];
-  count_ += row.group == 0;
+  count_ += row.filter.group == 0;
   still_count_ -= row.still;
   unfilterable_count_ -= row.unfilterable;
-  filtered_count_ -= row.group != 0 && row.mask != ~0u;
+  filtered_count_ -= row.filter.group != 0 && row.filter.mask != ~0u;
   row.ruled = rules_ != nullptr && rules_->HasAny(agent);
   const double half_margin = row.ruled ? rules_->HalfMargin(agent) : 0;
-  if (half_margin == 0 && IsPlain(bound)) {
+  if (half_margin == 0 && IsPlain(bound.bound)) {
     DropFull(&row);
   } else {
-    SetFull(&row, bound);
+    SetFull(&row, bound.bound);
   }
   Fill(bound, half_margin, &row);
   still_count_ += row.still;
   unfilterable_count_ += row.unfilterable;
-  filtered_count_ += row.mask != ~0u;
+  filtered_count_ += row.filter.mask != ~0u;
 }
 
 void HornTable::UpdateRules(std::uint32_t agent) {
-  if (contains(agent)) Set(agent, bound(agent));
+  if (contains(agent)) Set(agent, agent_bound(agent));
 }
 
 void HornTable::Remove(std::uint32_t agent) {
   if (!contains(agent)) return;
   still_count_ -= rows_[agent].still;
   unfilterable_count_ -= rows_[agent].unfilterable;
-  filtered_count_ -= rows_[agent].mask != ~0u;
+  filtered_count_ -= rows_[agent].filter.mask != ~0u;
   DropFull(&rows_[agent]);
   rows_[agent] = HornRow();
   --count_;
@@ -129,8 +127,6 @@ motion::SpaceTimeBound HornTable::bound(std::uint32_t agent) const {
   bound.state.v_WA = {row.v[0], row.v[1], row.v[2]};
   bound.limits.radius = row.u0;
   bound.limits.acceleration_max = 2 * row.u2;
-  bound.limits.group = row.group;
-  bound.limits.mask = row.mask;
   return bound;
 }
 
@@ -143,14 +139,14 @@ void HornTable::Validate() const {
   std::uint32_t count = 0, still = 0, unfilterable = 0, filtered = 0;
   std::vector<bool> taken(full_.size());
   for (const HornRow& row : rows_) {
-    if (row.group == 0) {
+    if (row.filter.group == 0) {
       CORE_CHECK(row.full == kPlain && !row.still && !row.unfilterable, "a free row is empty");
       continue;
     }
     ++count;
     still += row.still;
     unfilterable += row.unfilterable;
-    filtered += row.mask != ~0u;
+    filtered += row.filter.mask != ~0u;
     if (row.full == kPlain) continue;
     CORE_CHECK(row.full <= full_.size() && !taken[row.full - 1],
                "a bound that is kept whole belongs to one row", row.full, full_.size());

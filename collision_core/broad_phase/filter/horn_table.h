@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/broad_phase/agent_bound.h"
 #include "collision_core/broad_phase/filter/approaching.h"
 #include "collision_core/intersection/intersection_query.h"
 #include "collision_core/intersection/pair_rules.h"
@@ -19,11 +20,10 @@ struct HornRow {
   double v[3];
   double u0, u1, u2;
   Instant stamp;
-  std::uint32_t group = 0;  ///< 0: no such agent.
-  std::uint32_t mask = 0;
-  std::uint32_t full = 0;     ///< HornTable's own.
-  bool still = false;         ///< NeverMoves().
-  bool unfilterable = false;  ///< Too large or too far for filters: to be asked directly.
+  CollisionFilter filter{0, 0};  ///< Group 0: no such agent.
+  std::uint32_t full = 0;        ///< HornTable's own.
+  bool still = false;            ///< NeverMoves().
+  bool unfilterable = false;     ///< Too large or too far for filters: to be asked directly.
   bool ruled = false;  ///< PairRules has any for it; u0 is grown by half of its greatest margin.
 };
 
@@ -48,7 +48,7 @@ class HornTable {
     return rows_[agent].ruled ? rules_->Of(partner, agent) : intersection::PairRule();
   }
 
-  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound);
+  void Set(std::uint32_t agent, const AgentBound& bound);
   void Remove(std::uint32_t agent);
 
   /// One more than the greatest index ever used.
@@ -58,7 +58,9 @@ class HornTable {
   std::uint32_t unfilterable_count() const { return unfilterable_count_; }
   /// Whether any agent has groups that it does not meet, or never moves.
   bool has_collision_filters() const { return still_count_ + filtered_count_ > 0; }
-  bool contains(std::uint32_t agent) const { return agent < size() && rows_[agent].group != 0; }
+  bool contains(std::uint32_t agent) const {
+    return agent < size() && rows_[agent].filter.group != 0;
+  }
   const HornRow& row(std::uint32_t agent) const { return rows_[agent]; }
   /// Fetches the row into the cache, for a question that comes soon.
   void Fetch(std::uint32_t agent) const {
@@ -66,9 +68,10 @@ class HornTable {
     __builtin_prefetch(&rows_[agent].u1);
   }
   /// The row of a bound that is in no table and has no rules.
-  static HornRow RowOf(const motion::SpaceTimeBound& bound);
-  /// The bound as it was set, without orientation and shape, on which no meeting depends.
+  static HornRow RowOf(const AgentBound& bound);
+  /// The bound as it was set, perhaps without its orientation, on which no meeting depends.
   motion::SpaceTimeBound bound(std::uint32_t agent) const;
+  AgentBound agent_bound(std::uint32_t agent) const { return {bound(agent), rows_[agent].filter}; }
 
   /// Walks the table: counts are those of its rows, and bounds kept whole belong to one row each.
   /// Throws CheckFailure.
@@ -96,7 +99,7 @@ class HornTable {
  private:
   static constexpr std::uint32_t kPlain = 0;  // nothing beside the row
 
-  static void Fill(const motion::SpaceTimeBound& bound, double half_margin, HornRow* filled);
+  static void Fill(const AgentBound& agent, double half_margin, HornRow* filled);
   void SetFull(HornRow* row, const motion::SpaceTimeBound& bound);
   void DropFull(HornRow* row);
 

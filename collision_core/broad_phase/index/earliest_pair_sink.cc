@@ -47,9 +47,7 @@ bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32
              const Within& within, BroadPhaseWork* work) {
   const HornRow& row = table.row(agent);
   const HalfSpace& half_space = entry.half_space;
-  if ((row.group & half_space.mask) == 0 || (half_space.group & row.mask) == 0 || row.still) {
-    return false;
-  }
+  if (!CanMeet(row.filter, half_space.filter) || row.still) return false;
   ++work->filter_tests;
   const intersection::PairRule rule = table.RuleOf(agent, entry.agent);
   const bool may = !rule.excluded &&
@@ -62,13 +60,14 @@ bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HornTable& table, std::uint32_t a,
                                                       std::uint32_t b) {
-  return EarliestIntersectionOf(query, table.bound(a), table.bound(b), table.RuleOf(a, b).margin);
+  return EarliestIntersectionOf(query, table.agent_bound(a), table.agent_bound(b),
+                                table.RuleOf(a, b).margin);
 }
 
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HalfSpaces::Entry& entry,
                                                       const HornTable& table, std::uint32_t agent) {
-  return EarliestIntersectionOf(query, entry.half_space, table.bound(agent),
+  return EarliestIntersectionOf(query, entry.half_space, table.agent_bound(agent),
                                 table.RuleOf(agent, entry.agent).margin);
 }
 

@@ -70,7 +70,7 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
 
 /// Whether two rows can meet at all: masks, and one of them can move.
 inline bool CanMeet(const HornRow& a, const HornRow& b) {
-  return (a.group & b.mask) != 0 && (b.group & a.mask) != 0 && !(a.still && b.still);
+  return CanMeet(a.filter, b.filter) && !(a.still && b.still);
 }
 
 }  // namespace collision::broad_phase

@@ -7,7 +7,7 @@
 
 namespace collision::broad_phase {
 
-void ExhaustiveIndex::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void ExhaustiveIndex::Set(std::uint32_t agent, const AgentBound& bound) {
   mutable_half_spaces().Remove(agent);
   if (bounds_.size() <= agent) bounds_.resize(agent + 1);
   bounds_[agent] = bound;
@@ -95,9 +95,8 @@ void ExhaustiveIndex::FindNeighbours(std::uint32_t agent, const NeighbourWindow&
   SortByPartner(told, neighbours);
 }
 
-void ExhaustiveIndex::FindNeighbours(const motion::SpaceTimeBound& bound, Instant from,
-                                     Instant until, const Skip& skip,
-                                     std::vector<Neighbour>* neighbours) {
+void ExhaustiveIndex::FindNeighbours(const AgentBound& bound, Instant from, Instant until,
+                                     const Skip& skip, std::vector<Neighbour>* neighbours) {
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, from, Instant::Never()};
   const std::uint32_t end = IndexEnd();
   for (std::uint32_t partner = 0; partner < end; ++partner) {

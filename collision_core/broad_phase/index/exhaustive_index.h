@@ -13,13 +13,13 @@ namespace collision::broad_phase {
 /// for one agent, O(N²) for all. Too slow to serve; no setting of the service selects it.
 class ExhaustiveIndex : public SweepingIndex {
  public:
-  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const AgentBound& bound) override;
   void Remove(std::uint32_t agent) override;
   bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
                       std::vector<Neighbour>* neighbours) override;
-  void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                      const Skip& skip, std::vector<Neighbour>* neighbours) override;
+  void FindNeighbours(const AgentBound& bound, Instant from, Instant until, const Skip& skip,
+                      std::vector<Neighbour>* neighbours) override;
   std::optional<intersection::IntersectingPair> EarliestOf(
       std::uint32_t agent, const intersection::BroadQuery& query) override;
   void FindNearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
@@ -37,7 +37,7 @@ class ExhaustiveIndex : public SweepingIndex {
   intersection::IntersectionTime TimeOf(const intersection::BroadQuery& query, std::uint32_t a,
                                         std::uint32_t b);
 
-  std::vector<std::optional<motion::SpaceTimeBound>> bounds_;  // By agent.
+  BoundList bounds_;  // By agent.
   BroadPhaseWork work_;
 };
 

@@ -37,19 +37,18 @@ constexpr double kForever = 2e10;
 
 }  // namespace
 
-bool CanMeet(const HalfSpace& half_space, const motion::SpaceTimeBound& bound) {
-  return (half_space.group & bound.limits.mask) != 0 &&
-         (bound.limits.group & half_space.mask) != 0 && !NeverMoves(bound);
+bool CanMeet(const HalfSpace& half_space, const AgentBound& bound) {
+  return CanMeet(half_space.filter, bound.filter) && !NeverMoves(bound.bound);
 }
 
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HalfSpace& half_space,
-                                                      const motion::SpaceTimeBound& bound,
-                                                      double margin) {
+                                                      const AgentBound& agent, double margin) {
+  const motion::SpaceTimeBound& bound = agent.bound;
   const Instant base = std::max(query.from, bound.state.stamp);
   const Instant expiry = bound.state.expiry;
   const intersection::IntersectionTime never{base, numeric::kInfinity};
-  if (!CanMeet(half_space, bound) || expiry <= base || base > query.until) return never;
+  if (!CanMeet(half_space, agent) || expiry <= base || base > query.until) return never;
   intersection::IntersectionTime time{
       base, FirstReach(half_space, intersection::HornPart(bound, base), margin)};
   if (time.seconds == numeric::kInfinity) return never;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/broad_phase/agent_bound.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
 #include "collision_core/intersection/intersection_query.h"
 
@@ -16,12 +17,11 @@ namespace collision::broad_phase {
 struct HalfSpace {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Out of it.
   double offset = 0;                                  ///< [m], times the normal's length.
-  std::uint32_t group = 1;                            ///< Bits it is.
-  std::uint32_t mask = ~0u;                           ///< Bits it can meet.
+  CollisionFilter filter;
 };
 
-/// Masks, and the agent can move.
-bool CanMeet(const HalfSpace& half_space, const motion::SpaceTimeBound& bound);
+/// Whether the filters let the two meet, and the agent can move.
+bool CanMeet(const HalfSpace& half_space, const AgentBound& bound);
 
 /// When the agent may first touch the half-space, or come within `margin` [m] of it, by the query's
 /// end, rounded down; +infinity: not within it. With n the normal and c(t), ρ(t) centre and radius
@@ -35,8 +35,7 @@ bool CanMeet(const HalfSpace& half_space, const motion::SpaceTimeBound& bound);
 /// something overflows, the answer is "at once". Both kinds of bound give the same answer.
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HalfSpace& half_space,
-                                                      const motion::SpaceTimeBound& bound,
-                                                      double margin = 0);
+                                                      const AgentBound& bound, double margin = 0);
 
 /// Half-spaces by their own indices. They are few, so each is asked about all agents that move: one
 /// test (some 25 ns) an agent and half-space for all agents, one a half-space for one agent.

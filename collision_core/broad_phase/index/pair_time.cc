@@ -2,10 +2,10 @@
 
 namespace collision::broad_phase {
 
-bool CanMeet(intersection::BoundKind kind, const motion::SpaceTimeBound& a,
-             const motion::SpaceTimeBound& b) {
-  if (kind == intersection::BoundKind::kHorn && NeverMoves(a) && NeverMoves(b)) return false;
-  return CanMeet(a.limits, b.limits);
+bool CanMeet(intersection::BoundKind kind, const AgentBound& a, const AgentBound& b) {
+  const bool horns = kind == intersection::BoundKind::kHorn;
+  if (horns && NeverMoves(a.bound) && NeverMoves(b.bound)) return false;
+  return CanMeet(a.filter, b.filter);
 }
 
 intersection::IntersectionTime PairTimeOf(const intersection::BroadQuery& query,
@@ -23,7 +23,7 @@ intersection::IntersectionTime PairTimeOf(const intersection::BroadQuery& query,
     return EarliestIntersectionOf(query, *bounds[a], *bounds[b], rule.margin);
   }
   const HalfSpaces::Entry* entry = set.half_spaces().Find(a_moves ? b : a);
-  const motion::SpaceTimeBound& bound = *bounds[a_moves ? a : b];
+  const AgentBound& bound = *bounds[a_moves ? a : b];
   if (entry == nullptr || !CanMeet(entry->half_space, bound)) return never;
   ++work->pair_queries;
   return EarliestIntersectionOf(query, entry->half_space, bound, rule.margin);

@@ -169,9 +169,8 @@ void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& 
   RecordCost(before);
 }
 
-void WindowedSearch::FindNeighbours(const motion::SpaceTimeBound& bound, Instant from,
-                                    Instant until, const Skip& skip,
-                                    std::vector<Neighbour>* neighbours) {
+void WindowedSearch::FindNeighbours(const AgentBound& bound, Instant from, Instant until,
+                                    const Skip& skip, std::vector<Neighbour>* neighbours) {
   Refresh(from);
   const BroadPhaseWork before = cost_.work;
   const std::size_t told = neighbours->size();
@@ -189,16 +188,15 @@ void WindowedSearch::FindNeighbours(const motion::SpaceTimeBound& bound, Instant
   const intersection::BroadQuery from_on{intersection::BoundKind::kHorn, from, Instant::Never()};
   for (const std::uint32_t other : near_) {
     if (skip(other) || !MayMeet(row, table_, other, {from, limit}, &cost_.work)) continue;
-    AppendIfBy(until, {other, EarliestIntersectionOf(from_on, bound, table_.bound(other))},
+    AppendIfBy(until, {other, EarliestIntersectionOf(from_on, bound.bound, table_.bound(other))},
                neighbours);
   }
   SortByPartner(told, neighbours);
   RecordCost(before);
 }
 
-void WindowedSearch::AppendHalfSpaces(const motion::SpaceTimeBound& bound, Instant from,
-                                      Instant until, const Skip& skip,
-                                      std::vector<Neighbour>* neighbours) {
+void WindowedSearch::AppendHalfSpaces(const AgentBound& bound, Instant from, Instant until,
+                                      const Skip& skip, std::vector<Neighbour>* neighbours) {
   const intersection::BroadQuery from_on{intersection::BoundKind::kHorn, from, Instant::Never()};
   for (const HalfSpaces::Entry& entry : half_spaces()) {
     if (skip(entry.agent) || !CanMeet(entry.half_space, bound)) continue;

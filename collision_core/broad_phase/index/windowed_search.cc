@@ -35,13 +35,13 @@ WindowedSearch::WindowedSearch(std::unique_ptr<PlacedStore> store) : store_(std:
   table_.UseRules(&rules());
 }
 
-void WindowedSearch::Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void WindowedSearch::Set(std::uint32_t agent, const AgentBound& bound) {
   mutable_half_spaces().Remove(agent);
   table_.Set(agent, bound);
   if (placed_) MarkMoved(agent);
 }
 
-void WindowedSearch::Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) {
+void WindowedSearch::Tighten(std::uint32_t agent, const AgentBound& bound) {
   if (!table_.contains(agent)) return Set(agent, bound);
   const bool was_unfilterable = table_.row(agent).unfilterable;
   table_.Set(agent, bound);

@@ -47,16 +47,16 @@ class WindowedSearch : public SweepingIndex {
   /// `store` decides the method: a row, or grids.
   explicit WindowedSearch(std::unique_ptr<PlacedStore> store);
 
-  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
-  void Tighten(std::uint32_t agent, const motion::SpaceTimeBound& bound) override;
+  void Set(std::uint32_t agent, const AgentBound& bound) override;
+  void Tighten(std::uint32_t agent, const AgentBound& bound) override;
   void Remove(std::uint32_t agent) override;
   bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
   void ShareRules(std::shared_ptr<intersection::PairRules> rules) override;
   void UpdateRules(std::uint32_t agent) override;
   void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
                       std::vector<Neighbour>* neighbours) override;
-  void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                      const Skip& skip, std::vector<Neighbour>* neighbours) override;
+  void FindNeighbours(const AgentBound& bound, Instant from, Instant until, const Skip& skip,
+                      std::vector<Neighbour>* neighbours) override;
   std::optional<intersection::IntersectingPair> EarliestOf(
       std::uint32_t agent, const intersection::BroadQuery& query) override;
   void FindNearPairs(const intersection::BroadQuery& query, std::vector<NearPair>* pairs) override;
@@ -90,8 +90,8 @@ class WindowedSearch : public SweepingIndex {
   void CountSearch();
   template <typename Each>
   void ForEachHalfSpace(std::uint32_t asked, Each each) const;
-  void AppendHalfSpaces(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                        const Skip& skip, std::vector<Neighbour>* neighbours);
+  void AppendHalfSpaces(const AgentBound& bound, Instant from, Instant until, const Skip& skip,
+                        std::vector<Neighbour>* neighbours);
   bool AppendIfMeeting(std::uint32_t agent, std::uint32_t other, const Within& within,
                        Instant until, std::vector<Neighbour>* neighbours);
 

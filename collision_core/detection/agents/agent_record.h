@@ -19,8 +19,8 @@ struct Owner {
 /// One agent. `history` is never empty once the agent is in the table.
 struct AgentRecord {
   AgentId id;
-  motion::AgentDeclaration
-      declaration;  ///< In force from the next state on; each bound has its own.
+  /// In force from the next state on, its filter at once; each sample of the history has its own.
+  AgentDeclaration declaration;
   History history;
   BoundMargin margin;                         ///< What is left of it since the last renewal.
   Instant admitted_from = Instant::Always();  ///< Nothing is known, or promised, before.
@@ -31,14 +31,14 @@ struct AgentRecord {
   bool shape_redeclared = false;  ///< The shape was declared anew since the newest state.
   SceneProfile::Features features = 0;
 
-  const motion::SpaceTimeBound& bound() const { return history.newest(); }
+  const motion::SpaceTimeBound& bound() const { return history.newest().bound; }
   Instant stamp() const { return bound().state.stamp; }
   /// The owner has told everything about the agent up to here.
   Instant heard_until() const {
     return owner == nullptr ? told_until : std::max(told_until, owner->heard_until);
   }
   /// The newest bound, wider by the margin: clearance keys are computed from it.
-  motion::SpaceTimeBound wide_bound() const { return margin.Widen(bound()); }
+  broad_phase::AgentBound wide_bound() const { return {margin.Widen(bound()), declaration.filter}; }
 };
 
 }  // namespace collision::detection

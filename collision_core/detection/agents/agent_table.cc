@@ -17,7 +17,7 @@ std::size_t AgentTable::IdHash::operator()(const AgentId& id) const {
   return hash;
 }
 
-AgentIndex AgentTable::Admit(const AgentId& id, const motion::AgentDeclaration& declaration,
+AgentIndex AgentTable::Admit(const AgentId& id, const AgentDeclaration& declaration,
                              Instant stamp) {
   if (index_.size() >= limits_.agents_max || index_.contains(id)) return AgentIndex::None();
   AgentIndex agent(agents_.size());
@@ -46,11 +46,17 @@ AgentIndex AgentTable::Find(const AgentId& id) const {
   return found == index_.end() ? AgentIndex::None() : found->second;
 }
 
-void AgentTable::Store(AgentIndex agent, const motion::SpaceTimeBound& bound, Link link) {
+void AgentTable::Store(AgentIndex agent, const motion::MotionState& state, Link link) {
   AgentRecord& record = (*this)[agent];
-  record.history.Push(bound, link, limits_.history_max);
+  const AgentDeclaration& declared = record.declaration;
+  record.history.Push({.bound = {state, declared.limits, limits_.skew},
+                       .filter = declared.filter,
+                       .shape = declared.shape,
+                       .shape_awaited = declared.shape_awaited,
+                       .link = link},
+                      limits_.history_max);
   record.shape_redeclared = false;
-  record.told_until = std::max(record.told_until, bound.state.stamp);
+  record.told_until = std::max(record.told_until, state.stamp);
   MarkChanged(agent);
 }
 
@@ -63,7 +69,7 @@ void AgentTable::RecordBound(AgentIndex agent) {
   } else {
     expiries_.Set(agent, bound.state.expiry);
   }
-  const SceneProfile::Features features = SceneProfile::Of(bound);
+  const SceneProfile::Features features = SceneProfile::Of(record.history.newest());
   if (features == record.features || record.removal != 0) return;
   profile_.Remove(record.features);
   profile_.Add(features);
@@ -88,7 +94,7 @@ void AgentTable::Remove(AgentIndex agent) {
   AgentRecord& record = (*this)[agent];
   CORE_CHECK(record.removal == 0, "an agent is removed once", agent.value());
   LeaveOwner(&record);
-  Instant& expiry = record.history.newest().state.expiry;
+  Instant& expiry = record.history.newest().bound.state.expiry;
   expiry = std::min(expiry, record.told_until);
   expiries_.Set(agent, expiry);
   record.removal = ++removals_;

@@ -33,7 +33,7 @@ class AgentTable {
 
   /// The index of a new agent without any state yet: Store() must follow. None() if `agents_max` is
   /// reached or the id is present.
-  AgentIndex Admit(const AgentId& id, const motion::AgentDeclaration& declaration, Instant stamp);
+  AgentIndex Admit(const AgentId& id, const AgentDeclaration& declaration, Instant stamp);
 
   /// None() if there is no agent of this name.
   AgentIndex Find(const AgentId& id) const;
@@ -48,8 +48,8 @@ class AgentTable {
   /// One more than the greatest index ever used.
   std::size_t index_end() const { return agents_.size(); }
 
-  /// Appends a state to the agent's history. RecordBound() must follow before the step.
-  void Store(AgentIndex agent, const motion::SpaceTimeBound& bound, Link link);
+  /// Appends a state under the agent's declaration to its history. RecordBound() must follow before the step.
+  void Store(AgentIndex agent, const motion::MotionState& state, Link link);
   /// The newest bound has changed: takes its expiry, and what it means for the scene as a whole.
   void RecordBound(AgentIndex agent);
   /// The agent has news in this step.

@@ -10,9 +10,9 @@ bool SameBody(const std::shared_ptr<const shape::Shape>& a,
   return a == b || (a && b && a->IsSameBodyAs(*b));
 }
 
-void Reshape(const motion::AgentDeclaration& before, const motion::AgentDeclaration& declaration,
+void Reshape(const History::Sample& before, const AgentDeclaration& declaration,
              AgentRecord* record) {
-  motion::AgentDeclaration& in_force = record->history.newest().limits;
+  History::Sample& in_force = record->history.newest();
   const bool arrived = before.shape_awaited && declaration.shape != nullptr;
   const bool same = SameBody(declaration.shape, before.shape) &&
                     declaration.shape_awaited == before.shape_awaited;
@@ -28,31 +28,41 @@ void Reshape(const motion::AgentDeclaration& before, const motion::AgentDeclarat
   if (!arrived && (!same || declaration.shape_awaited)) record->shape_redeclared = true;
 }
 
+/// Whatever either allows.
+motion::MotionLimits Wider(const motion::MotionLimits& a, const motion::MotionLimits& b) {
+  return {.radius = std::max(a.radius, b.radius),
+          .acceleration_max = std::max(a.acceleration_max, b.acceleration_max),
+          .time_step = std::max(a.time_step, b.time_step),
+          .speed_max = std::max(a.speed_max, b.speed_max),
+          .angular_acceleration_max =
+              motion::WiderAngularBound(a.angular_acceleration_max, b.angular_acceleration_max)};
+}
+
+bool AddsGroups(const broad_phase::CollisionFilter& before,
+                const broad_phase::CollisionFilter& next) {
+  return (next.group & ~before.group) != 0 || (next.mask & ~before.mask) != 0;
+}
+
 }  // namespace
 
-BoundChange Redeclare(const motion::AgentDeclaration& declaration, AgentRecord* record) {
+BoundChange Redeclare(const AgentDeclaration& declaration, AgentRecord* record) {
   record->declaration = declaration;
-  motion::AgentDeclaration& in_force = record->history.newest().limits;
-  const motion::AgentDeclaration before = in_force;
-  in_force.radius = std::max(before.radius, declaration.radius);
-  in_force.acceleration_max = std::max(before.acceleration_max, declaration.acceleration_max);
-  in_force.speed_max = std::max(before.speed_max, declaration.speed_max);
-  in_force.time_step = std::max(before.time_step, declaration.time_step);
-  in_force.angular_acceleration_max = motion::WiderAngularBound(
-      before.angular_acceleration_max, declaration.angular_acceleration_max);
-  const bool spins_faster = in_force.angular_acceleration_max != before.angular_acceleration_max;
+  History::Sample& in_force = record->history.newest();
+  const History::Sample before = in_force;
+  const motion::MotionLimits& old = before.bound.limits;
+  const motion::MotionLimits& limits = in_force.bound.limits = Wider(old, declaration.limits);
+  const bool spins_faster = limits.angular_acceleration_max != old.angular_acceleration_max;
   Reshape(before, declaration, record);
-  in_force.group = declaration.group;
-  in_force.mask = declaration.mask;
+  in_force.filter = declaration.filter;
   const bool widened =
-      in_force.radius > before.radius || in_force.acceleration_max > before.acceleration_max ||
-      in_force.speed_max > before.speed_max || in_force.time_step > before.time_step ||
+      limits.radius > old.radius || limits.acceleration_max > old.acceleration_max ||
+      limits.speed_max > old.speed_max || limits.time_step > old.time_step ||
       (before.shape && (!SameBody(in_force.shape, before.shape) || spins_faster)) ||
-      (in_force.group & ~before.group) != 0 || (in_force.mask & ~before.mask) != 0;
+      AddsGroups(before.filter, in_force.filter);
   return widened ? BoundChange::kWidened : BoundChange::kWithin;
 }
 
-bool IsNarrower(const motion::AgentDeclaration& before, const motion::AgentDeclaration& next) {
+bool IsNarrower(const motion::MotionLimits& before, const motion::MotionLimits& next) {
   return next.radius < before.radius || next.acceleration_max < before.acceleration_max ||
          next.time_step < before.time_step;
 }

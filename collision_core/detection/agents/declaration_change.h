@@ -15,9 +15,9 @@ enum class BoundChange {
 /// waits for the next state. A shape that had been awaited is in force from the state on with which
 /// it was awaited; a shape that changes is somewhere within the ball until the next state. Another
 /// tree of the same body takes the former tree's place in the whole history.
-BoundChange Redeclare(const motion::AgentDeclaration& declaration, AgentRecord* record);
+BoundChange Redeclare(const AgentDeclaration& declaration, AgentRecord* record);
 
 /// Whether an agent that could be met under `before` may not be met under `next`.
-bool IsNarrower(const motion::AgentDeclaration& before, const motion::AgentDeclaration& next);
+bool IsNarrower(const motion::MotionLimits& before, const motion::MotionLimits& next);
 
 }  // namespace collision::detection

@@ -7,7 +7,7 @@
 namespace collision::detection {
 namespace {
 
-// The declaration under which an agent moved between two states: whatever either allowed.
+// The limits within which an agent moved between two states: whatever either allowed.
 motion::MotionLimits Widest(const motion::MotionLimits& a, const motion::MotionLimits& b) {
   motion::MotionLimits widest = b;
   widest.radius = std::max(a.radius, b.radius);
@@ -18,23 +18,23 @@ motion::MotionLimits Widest(const motion::MotionLimits& a, const motion::MotionL
   return widest;
 }
 
-bool HasShape(const motion::MotionLimits& limits) {
-  return limits.shape != nullptr || limits.shape_awaited;
+bool SameDeclaration(const History::Sample& a, const History::Sample& b) {
+  return a.bound.limits == b.bound.limits && a.filter == b.filter && a.shape == b.shape &&
+         a.shape_awaited == b.shape_awaited;
 }
 
 }  // namespace
 
-void History::Push(const motion::SpaceTimeBound& bound, Link link, std::size_t capacity) {
+void History::Push(const Sample& sample, std::size_t capacity) {
   if (samples_.size() >= capacity) Thin();
   // Where nothing can be spared, the oldest goes, and what it covered becomes unknown.
   if (samples_.size() >= capacity) samples_.erase(samples_.begin());
-  samples_.push_back({bound, link});
+  samples_.push_back(sample);
 }
 
 void History::ReplaceTree(const std::shared_ptr<const shape::Shape>& shape) {
   for (Sample& sample : samples_) {
-    std::shared_ptr<const shape::Shape>& known = sample.bound.limits.shape;
-    if (known && known->IsSameBodyAs(*shape)) known = shape;
+    if (sample.shape && sample.shape->IsSameBodyAs(*shape)) sample.shape = shape;
   }
 }
 
@@ -42,8 +42,8 @@ void History::ReplaceTree(const std::shared_ptr<const shape::Shape>& shape) {
 void History::Thin() {
   const auto spared = [this](std::size_t i) {
     return samples_[i].link == Link::kFollows && samples_[i + 1].link == Link::kFollows &&
-           samples_[i].bound.limits == samples_[i - 1].bound.limits &&
-           samples_[i].bound.limits == samples_[i + 1].bound.limits;
+           SameDeclaration(samples_[i], samples_[i - 1]) &&
+           SameDeclaration(samples_[i], samples_[i + 1]);
   };
   std::vector<Sample> kept;
   for (std::size_t i = 0; i < samples_.size(); ++i) {
@@ -69,7 +69,7 @@ std::size_t History::InForce(Instant t) const {
 double History::LastInterval() const {
   if (samples_.size() < 2) return 0;
   return numeric::SecondsBetween(samples_[samples_.size() - 2].bound.state.stamp,
-                                 newest().state.stamp)
+                                 newest().bound.state.stamp)
       .upper;
 }
 
@@ -99,13 +99,13 @@ Instant History::LastStampBefore(Instant t) const {
   return Instant::Never();
 }
 
-const motion::SpaceTimeBound* History::Uninterrupted(Instant t) const {
+const History::Sample* History::Uninterrupted(Instant t) const {
   const std::size_t k = InForce(t);
   if (k == samples_.size()) return nullptr;
   for (std::size_t later = k + 1; later < samples_.size(); ++later) {
     if (samples_[later].link != Link::kFollows) return nullptr;
   }
-  return &samples_[k].bound;
+  return &samples_[k];
 }
 
 bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
@@ -126,8 +126,8 @@ narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant
   }
   const motion::SpaceTimeBound& before = samples_[i - 1].bound;
   const motion::SpaceTimeBound& after = samples_[i].bound;
-  segment.awaited = HasShape(before.limits) || HasShape(after.limits);
-  if (from < before.state.stamp || after.limits != before.limits) return segment;
+  segment.awaited = samples_[i - 1].has_shape() || samples_[i].has_shape();
+  if (from < before.state.stamp || !SameDeclaration(samples_[i - 1], samples_[i])) return segment;
   motion::MovingBall ball = ForwardBall(before, from);
   const motion::MovingBall jumped =
       from >= after.state.stamp ? ForwardBall(after, from) : BackwardBall(after, from);
@@ -147,14 +147,14 @@ narrow_phase::BodySegment History::Over(Instant from, Instant to) const {
     if (JumpsNear(i, from, to)) return OverJump(i, from, to);
   }
   const bool has_next = k + 1 < samples_.size();
-  motion::SpaceTimeBound last = samples_[k].bound;
-  motion::SpaceTimeBound next = samples_[has_next ? k + 1 : k].bound;
+  const Sample &sample = samples_[k], &next_sample = samples_[has_next ? k + 1 : k];
+  motion::SpaceTimeBound last = sample.bound, next = next_sample.bound;
   narrow_phase::BallSegment& ball = segment.ball;
   ball.radius = std::min(last.limits.radius, next.limits.radius);
   const numeric::Interval spread =
       numeric::Interval(std::max(last.limits.radius, next.limits.radius)) - ball.radius;
-  if (last.limits.shape == next.limits.shape) segment.shape = last.limits.shape;
-  segment.awaited = !segment.shape && (HasShape(last.limits) || HasShape(next.limits));
+  if (sample.shape == next_sample.shape) segment.shape = sample.shape;
+  segment.awaited = !segment.shape && (sample.has_shape() || next_sample.has_shape());
   last.limits = next.limits = Widest(last.limits, next.limits);
 
   const bool broken = has_next && samples_[k + 1].link == Link::kBroken;

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "collision_core/base/check.h"
+#include "collision_core/detection/agents/agent_declaration.h"
 #include "collision_core/narrow_phase/pose/body_segment.h"
 
 namespace collision::detection {
@@ -20,14 +22,20 @@ enum class Link {
 /// imply is dropped; if there is none, the oldest goes, and what it covered becomes unknown.
 class History {
  public:
-  /// One state of the history, as a bound.
+  /// One state, as a bound, and what was declared beside it.
   struct Sample {
     motion::SpaceTimeBound bound;
-    Link link;
+    broad_phase::CollisionFilter filter{};
+    std::shared_ptr<const shape::Shape> shape = nullptr;  ///< As in AgentDeclaration.
+    bool shape_awaited = false;                           ///< Likewise.
+    Link link = Link::kFollows;
+
+    /// Whether the agent has a shape, known or not.
+    bool has_shape() const { return shape != nullptr || shape_awaited; }
   };
 
   void Clear() { samples_.clear(); }
-  void Push(const motion::SpaceTimeBound& bound, Link link, std::size_t capacity);
+  void Push(const Sample& sample, std::size_t capacity);
 
   /// Replaces the tree of every sample with the same body as this shape: a better tree of the same
   /// geometry says nothing new of the past, and the former one is of no use.
@@ -40,8 +48,11 @@ class History {
   bool empty() const { return samples_.empty(); }
 
   /// The newest state. Requires !empty().
-  const motion::SpaceTimeBound& newest() const { return Newest().bound; }
-  motion::SpaceTimeBound& newest() { return const_cast<motion::SpaceTimeBound&>(Newest().bound); }
+  const Sample& newest() const {
+    CORE_CHECK(!samples_.empty(), "only a history with a state has a newest one");
+    return samples_.back();
+  }
+  Sample& newest() { return const_cast<Sample&>(std::as_const(*this).newest()); }
 
   /// The seconds between the newest two samples; 0 if there is only one.
   double LastInterval() const;
@@ -55,7 +66,7 @@ class History {
   Instant LastStampBefore(Instant t) const;
 
   /// The sample in force at `t`, if every later one follows from it; else nullptr.
-  const motion::SpaceTimeBound* Uninterrupted(Instant t) const;
+  const Sample* Uninterrupted(Instant t) const;
 
   /// Calls `use` with the last bound of each motion since `from`: a jump or a breach begins a new
   /// one. Radius and acceleration are the greatest so far.
@@ -81,10 +92,6 @@ class History {
   narrow_phase::BodySegment Over(Instant from, Instant to) const;
 
  private:
-  const Sample& Newest() const {
-    CORE_CHECK(!samples_.empty(), "only a history with a state has a newest one");
-    return samples_.back();
-  }
   void Thin();
   bool JumpsNear(std::size_t i, Instant from, Instant to) const;
   narrow_phase::BodySegment OverJump(std::size_t i, Instant from, Instant to) const;

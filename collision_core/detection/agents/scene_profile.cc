@@ -19,10 +19,11 @@ enum Feature {
 
 }  // namespace
 
-SceneProfile::Features SceneProfile::Of(const motion::SpaceTimeBound& bound) {
+SceneProfile::Features SceneProfile::Of(const History::Sample& newest) {
+  const motion::SpaceTimeBound& bound = newest.bound;
   const motion::MotionState& state = bound.state;
   const motion::MotionLimits& limits = bound.limits;
-  const bool shaped = limits.shape || limits.shape_awaited;
+  const bool shaped = newest.has_shape();
   const bool turning = limits.angular_acceleration_max != 0 || !state.w_WB.isZero();
   unsigned features = 0;
   const auto set = [&](Feature feature, bool needed) { features |= needed ? 1u << feature : 0; };
@@ -33,7 +34,7 @@ SceneProfile::Features SceneProfile::Of(const motion::SpaceTimeBound& bound) {
   set(kUncertain, state.position_error > 0 || state.velocity_error > 0);
   set(kSkewed, bound.skew > 0);
   set(kExpiring, !state.expiry.is_never());
-  set(kMasked, limits.group != 1 || limits.mask != ~0u);
+  set(kMasked, newest.filter != broad_phase::CollisionFilter());
   set(kShaped, shaped);
   set(kTurning, shaped && turning);
   set(kMoving, !NeverMoves(bound));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/motion/space_time_bound.h"
+#include "collision_core/detection/agents/history.h"
 
 namespace collision::detection {
 
@@ -17,7 +17,7 @@ class SceneProfile {
   /// One bit for each part that an agent needs.
   using Features = std::uint16_t;
 
-  static Features Of(const motion::SpaceTimeBound& bound);
+  static Features Of(const History::Sample& newest);
 
   void Add(Features features) { Count(features, 1); }
   void Remove(Features features) { Count(features, -1); }

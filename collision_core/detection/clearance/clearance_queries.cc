@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "collision_core/intersection/earliest_intersection.h"
-
 namespace collision::detection {
 namespace {
 
@@ -205,7 +203,7 @@ bool ClearanceQueries::IsCrowded(const ClearanceQuestion& question) {
   const AgentIndex agent = question.agent;
   if (pairs_.table().RoomFor(agent) > 0) return false;
   const AgentRecord& record = agents[agent];
-  const motion::SpaceTimeBound bound = record.wide_bound();
+  const broad_phase::AgentBound bound = record.wide_bound();
   const AgentIndex before =
       question.was_saturated ? coverage_[agent].crowded_with : AgentIndex::None();
   for (const AgentIndex partner :
@@ -213,10 +211,10 @@ bool ClearanceQueries::IsCrowded(const ClearanceQuestion& question) {
     if (partner == agent || !agents.Contains(partner)) continue;
     const AgentRecord& other = agents[partner];
     if (other.expired || tracked_.Contains(partner)) continue;
-    if (!CanMeet(record.bound().limits, other.bound().limits)) continue;
+    if (!CanMeet(record.declaration.filter, other.declaration.filter)) continue;
     ++context_.counters->pair_queries;
     const intersection::IntersectionTime time =
-        intersection::EarliestIntersection(bound, other.wide_bound(), question.from);
+        EarliestIntersection(bound, other.wide_bound(), question.from);
     if (time.instant() > context_.clock.announce_until()) continue;
     coverage_.Saturate(agent, partner);
     return true;

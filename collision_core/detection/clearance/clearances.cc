@@ -24,9 +24,9 @@ void Clearances::AddAgent(AgentIndex agent) {
 }
 
 void Clearances::Renew(AgentIndex agent, const Renewal& renewal) {
-  const motion::SpaceTimeBound wide = context_.agents[agent].wide_bound();
+  const broad_phase::AgentBound wide = context_.agents[agent].wide_bound();
   broad_phase_.Set(agent.value(), wide);
-  filter_.Set(agent, wide);
+  filter_.Set(agent, wide.bound);
   coverage_.Renew(agent, renewal.from, renewal.cause);
   told_.SetEffectiveFrom(agent, renewal.effective_from);
   told_.RecordRenewal(agent);
@@ -39,9 +39,9 @@ void Clearances::NotifyPartners(AgentIndex agent) {
 }
 
 void Clearances::Tighten(AgentIndex agent) {
-  const motion::SpaceTimeBound wide = context_.agents[agent].wide_bound();
+  const broad_phase::AgentBound wide = context_.agents[agent].wide_bound();
   broad_phase_.Tighten(agent.value(), wide);
-  filter_.Set(agent, wide);
+  filter_.Set(agent, wide.bound);
 }
 
 void Clearances::Remove(AgentIndex agent) {

@@ -37,7 +37,7 @@ class Clearances {
   /// The agent has told a state that keeps its contract, perhaps ahead of its key.
   void StateAdvanced(AgentIndex agent) { coverage_.StateAdvanced(agent); }
   /// Up to `until` the agent moved within `bound`, which its newest bound does not contain.
-  void RecordFormerMotion(AgentIndex agent, const motion::SpaceTimeBound& bound, Instant until) {
+  void RecordFormerMotion(AgentIndex agent, const broad_phase::AgentBound& bound, Instant until) {
     former_.Record(agent, bound, until);
   }
   /// The agent broke its bound some time after its last honest state.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "collision_core/intersection/earliest_intersection.h"
-
 namespace collision::detection {
 namespace {
 
@@ -54,12 +52,12 @@ std::uint64_t KeyLowering::LowerFar(const Renewed& renewed, Instant next,
   });
   if (far->empty()) return sooner;
   std::sort(far->begin(), far->end());
-  const motion::SpaceTimeBound bound = context_.agents[renewed.agent].wide_bound();
+  const broad_phase::AgentBound bound = context_.agents[renewed.agent].wide_bound();
   for (const AgentIndex partner : *far) {
     ++context_.counters->pair_queries;
-    const motion::SpaceTimeBound of_partner = context_.agents[partner].wide_bound();
+    const broad_phase::AgentBound of_partner = context_.agents[partner].wide_bound();
     LowerOne(partner, renewed.agent,
-             intersection::EarliestIntersection(bound, of_partner, renewed.from).instant());
+             EarliestIntersection(bound, of_partner, renewed.from).instant());
   }
   return sooner;
 }

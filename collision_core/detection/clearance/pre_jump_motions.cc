@@ -4,7 +4,7 @@
 
 namespace collision::detection {
 
-void PreJumpMotions::Record(AgentIndex agent, motion::SpaceTimeBound bound, Instant until) {
+void PreJumpMotions::Record(AgentIndex agent, broad_phase::AgentBound bound, Instant until) {
   if (motions_max_ == 0) return;
   if (motions_.size() == motions_max_) DropFirst();
   auto place = static_cast<std::uint32_t>(agents_.size());
@@ -15,7 +15,7 @@ void PreJumpMotions::Record(AgentIndex agent, motion::SpaceTimeBound bound, Inst
     free_.pop_back();
     agents_[place] = agent;
   }
-  bound.state.expiry = std::min(bound.state.expiry, until);
+  bound.bound.state.expiry = std::min(bound.bound.state.expiry, until);
   method_->Set(place, bound);
   motions_.push_back({place, until});
 }
@@ -30,7 +30,7 @@ void PreJumpMotions::Forget(Instant since) {
   while (!motions_.empty() && motions_.front().until <= since) DropFirst();
 }
 
-void PreJumpMotions::Find(const motion::SpaceTimeBound& around, Instant from, Instant until,
+void PreJumpMotions::Find(const broad_phase::AgentBound& around, Instant from, Instant until,
                           std::vector<AgentIndex>* agents) {
   if (motions_.empty()) return;
   found_.clear();

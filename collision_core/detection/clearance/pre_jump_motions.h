@@ -21,14 +21,14 @@ class PreJumpMotions {
       : method_(std::move(method)), motions_max_(motions_max) {}
 
   /// The agent moved within `bound` up to `until`.
-  void Record(AgentIndex agent, motion::SpaceTimeBound bound, Instant until);
+  void Record(AgentIndex agent, broad_phase::AgentBound bound, Instant until);
 
   /// No question will be about a time before `since`.
   void Forget(Instant since);
 
   /// Appends the agents whose former motion may meet `around` in [from, until]; one agent perhaps
   /// several times.
-  void Find(const motion::SpaceTimeBound& around, Instant from, Instant until,
+  void Find(const broad_phase::AgentBound& around, Instant from, Instant until,
             std::vector<AgentIndex>* agents);
 
   std::size_t size() const { return motions_.size(); }

@@ -92,22 +92,21 @@ void UncoveredSearch::FindAround(const ClearanceQuestion& question,
   around.state.position_error = std::min(own + others, kReachMax);
   around.limits.radius = motion.limits.radius;
   around.limits.acceleration_max = kNotAtRest;
-  around.limits.group = agents[question.agent].bound().limits.group;
-  around.limits.mask = agents[question.agent].bound().limits.mask;
+  const broad_phase::AgentBound asked{around, agents[question.agent].declaration.filter};
   const auto skip = [&](std::uint32_t index) {
     const AgentIndex partner(index);
     return partner == question.agent || question.LeavesOut(partner, coverage_.tiers());
   };
   found_.clear();
-  broad_phase_->FindNeighbours(around, from, scene.newest, skip, &found_);
+  broad_phase_->FindNeighbours(asked, from, scene.newest, skip, &found_);
   for (const broad_phase::Neighbour& meeting : found_) {
     const AgentRecord& partner = agents[AgentIndex(meeting.partner)];
     const double time = Span(partner.stamp(), scene.newest, agents.skew());
-    if (GetsInto(around, own, partner.wide_bound(), std::max(others_time, time))) {
+    if (GetsInto(around, own, partner.wide_bound().bound, std::max(others_time, time))) {
       candidates_.push_back(AgentIndex(meeting.partner));
     }
   }
-  former_->Find(around, from, scene.newest, &candidates_);
+  former_->Find(asked, from, scene.newest, &candidates_);
 }
 
 // How far from its place the agent may have been in this motion since `from`.
@@ -123,7 +122,7 @@ void UncoveredSearch::Check(const ClearanceQuestion& question, AgentIndex partne
   if (partner == question.agent || !agents.Contains(partner)) return;
   const AgentRecord &record = agents[question.agent], &other = agents[partner];
   if (other.expired || question.LeavesOut(partner, coverage_.tiers()) ||
-      !CanMeet(record.bound().limits, other.bound().limits)) {
+      !CanMeet(record.declaration.filter, other.declaration.filter)) {
     return;
   }
   Instant free_until =
@@ -138,11 +137,12 @@ void UncoveredSearch::Check(const ClearanceQuestion& question, AgentIndex partne
 
 bool UncoveredSearch::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,
                                Instant to) const {
-  const motion::SpaceTimeBound* bound_a = a.history.Uninterrupted(from);
-  const motion::SpaceTimeBound* bound_b = b.history.Uninterrupted(from);
-  if (bound_a == nullptr || bound_b == nullptr) return false;
+  const History::Sample* of_a = a.history.Uninterrupted(from);
+  const History::Sample* of_b = b.history.Uninterrupted(from);
+  if (of_a == nullptr || of_b == nullptr) return false;
   ++context_.counters->pair_queries;
-  return intersection::EarliestIntersection(*bound_a, *bound_b, from).instant() >= to;
+  return !CanMeet(of_a->filter, of_b->filter) ||
+         intersection::EarliestIntersection(of_a->bound, of_b->bound, from).instant() >= to;
 }
 
 }  // namespace collision::detection

@@ -102,8 +102,9 @@ void EarliestSearch::TakeChanges() {
 Instant EarliestSearch::Canonical(AgentIndex a, AgentIndex b) const {
   ++context_.counters->pair_queries;
   const AgentTable& agents = context_.agents;
-  return intersection::EarliestIntersection(agents[a].bound(), agents[b].bound(),
-                                            context_.clock.now)
+  const AgentRecord &of_a = agents[a], &of_b = agents[b];
+  if (!CanMeet(of_a.declaration.filter, of_b.declaration.filter)) return Instant::Never();
+  return intersection::EarliestIntersection(of_a.bound(), of_b.bound(), context_.clock.now)
       .instant();
 }
 
@@ -164,10 +165,10 @@ void EarliestSearch::OfferPair(PairSlot slot, Run* run) {
 Instant EarliestSearch::LowerBoundOf(const PairRecord& pair) const {
   ++context_.counters->pair_queries;
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
-  Instant bound = intersection::EarliestIntersection(BoundMargin(a.bound()).Widen(a.bound()),
-                                                     BoundMargin(b.bound()).Widen(b.bound()),
-                                                     context_.clock.now)
-                      .instant();
+  const auto wide = [](const AgentRecord& agent) -> broad_phase::AgentBound {
+    return {BoundMargin(agent.bound()).Widen(agent.bound()), agent.declaration.filter};
+  };
+  Instant bound = EarliestIntersection(wide(a), wide(b), context_.clock.now).instant();
   if (pair.clear_until < std::max(a.stamp(), b.stamp())) bound = std::min(bound, pair.clear_until);
   return std::max(kEarliestBound, std::min(bound, pair.ahead_from));
 }

@@ -16,10 +16,8 @@ bool MayRest(const RestingPair& pair) {
   const bool begun = settled.in_contact() ||
                      (preview.in_contact() && preview.episode().begin.latest <= settled.at());
   if (!begun || !preview.in_contact() || !preview.finished().empty()) return false;
-  for (const motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
-    const motion::MotionLimits& limits = bound->limits;
-    if (limits.shape || limits.shape_awaited) return false;
-    if (bound->state.stamp > preview.at()) return false;
+  for (const History::Sample* newest : {&pair.a, &pair.b}) {
+    if (newest->has_shape() || newest->bound.state.stamp > preview.at()) return false;
   }
   return true;
 }
@@ -39,10 +37,11 @@ double OverlapAt(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& 
 
 Instant ContactRestsUntil(const RestingPair& pair, Instant now, double longest) {
   if (!MayRest(pair)) return Instant::Always();
-  const Eigen::Vector3d w = pair.b.state.v_WA - pair.a.state.v_WA;
+  const motion::SpaceTimeBound &a = pair.a.bound, &b = pair.b.bound;
+  const Eigen::Vector3d w = b.state.v_WA - a.state.v_WA;
   double left = numeric::kInfinity;
   for (const Instant at : {pair.preview.at(), now}) {
-    left = OverlapAt(pair.a, pair.b, at);
+    left = OverlapAt(a, b, at);
     if (!(left > 0)) return Instant::Always();
   }
   const double speed = w.norm();

@@ -1,15 +1,15 @@
 // How long a contact of two balls certainly goes on.
 #pragma once
 
+#include "collision_core/detection/agents/history.h"
 #include "collision_core/detection/pairs/contact_tracker.h"
-#include "collision_core/motion/space_time_bound.h"
 
 namespace collision::detection {
 
 /// A pair in contact, as it was last evaluated.
 struct RestingPair {
-  const motion::SpaceTimeBound& a;
-  const motion::SpaceTimeBound& b;
+  const History::Sample& a;  ///< The newest states.
+  const History::Sample& b;
   const ContactTracker& settled;
   const ContactTracker& preview;  ///< Run ahead of `settled`, up to what was heard.
 };

@@ -50,6 +50,7 @@ void PairEvaluator::EvaluateUntil(const PairOfAgents& agents, Instant until, Wor
 ContactTracker PairEvaluator::Evaluate(const PairOfAgents& agents, Finality finality,
                                        WorkBudget* work) const {
   const AgentRecord &a = agents.lower, &b = agents.higher;
+  CORE_CHECK(CanMeet(a.declaration.filter, b.declaration.filter), "only agents that can meet");
   const bool last = finality == Finality::kLast;
   const Instant there = ExpiryOf(agents);
   const Instant heard = std::min({a.heard_until(), b.heard_until(), clock_.now, there});

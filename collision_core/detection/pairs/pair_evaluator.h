@@ -33,7 +33,7 @@ class PairEvaluator {
       : clock_(clock), counters_(counters) {}
 
   /// Brings pair.tracker up to what is settled and returns a copy of it that runs ahead to the last
-  /// horizon that holds. With Finality::kLast all that was heard is settled, and nothing is
+  /// horizon that holds. Requires that the two can meet. With Finality::kLast all that was heard is settled, and nothing is
   /// promised.
   ContactTracker Evaluate(const PairOfAgents& agents, Finality finality, WorkBudget* work) const;
 

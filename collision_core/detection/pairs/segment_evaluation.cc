@@ -110,9 +110,7 @@ SegmentCount EvaluateSegments(const History& a, const History& b, Instant until,
   return count;
 }
 
-bool HaveShapes(const History& a, const History& b) {
-  return a.newest().limits.shape || b.newest().limits.shape;
-}
+bool HaveShapes(const History& a, const History& b) { return a.newest().shape || b.newest().shape; }
 
 Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
                         WorkBudget* work) {

@@ -5,7 +5,6 @@
 
 #include "collision_core/detection/pairs/contact_rest.h"
 #include "collision_core/detection/pairs/segment_evaluation.h"
-#include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
@@ -136,7 +135,7 @@ WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
 void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality) {
   PairRecord& pair = table_[slot];
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
-  if (!CanMeet(a.bound().limits, b.bound().limits)) {
+  if (!CanMeet(a.declaration.filter, b.declaration.filter)) {
     return Drop(slot, Departure::kUnwatched);
   }
   // One budget for all horizons, what is settled first.
@@ -187,8 +186,8 @@ Instant TrackedPairs::RestsUntil(PairSlot slot, const ContactTracker& preview) c
   const PairRecord& pair = table_[slot];
   const double part = static_cast<double>(slot.value() % kRestTimes) / kRestTimes;
   const double longest = kRestShare * options_.announce_within * (1 + part) / 2;
-  return ContactRestsUntil({context_.agents[pair.lower].bound(),
-                            context_.agents[pair.higher].bound(), pair.tracker, preview},
+  return ContactRestsUntil({context_.agents[pair.lower].history.newest(),
+                            context_.agents[pair.higher].history.newest(), pair.tracker, preview},
                            context_.clock.now, longest);
 }
 
@@ -208,7 +207,7 @@ bool TrackedPairs::Release(PairSlot slot) {
   if (!HaveShapes(a.history, b.history)) {
     ++context_.counters->pair_queries;
     const intersection::IntersectionTime wide =
-        intersection::EarliestIntersection(a.wide_bound(), b.wide_bound(), context_.clock.now);
+        EarliestIntersection(a.wide_bound(), b.wide_bound(), context_.clock.now);
     key = std::min(key, wide.instant());
   }
   if (key <= context_.clock.announce_until() || key < std::max(a.stamp(), b.stamp())) return false;

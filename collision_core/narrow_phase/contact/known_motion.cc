@@ -22,12 +22,12 @@ void SeeFrom(const motion::SpaceTimeBound& frame, const motion::SpaceTimeBound& 
 BodySegment SegmentOf(const KnownMotion& motion, const motion::SpaceTimeBound& frame,
                       Instant base) {
   BodySegment segment;
+  segment.shape = motion.shape;
   for (const auto* known : {&motion.last, &motion.next}) {
     if (!known->has_value()) continue;
     const motion::SpaceTimeBound& bound = **known;
     const bool ahead = known == &motion.last;
     segment.ball.radius = bound.limits.radius;
-    segment.shape = bound.limits.shape;
     segment.ball.bounds.push_back(ahead ? ForwardBall(bound, base) : BackwardBall(bound, base));
     SeeFrom(frame, bound, base, &segment.ball.bounds.back());
     if (!segment.shape) continue;

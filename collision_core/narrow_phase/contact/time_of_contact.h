@@ -88,6 +88,7 @@ TimeOfContactResult TimeOfContact(const BodySegment& a, const BodySegment& b, do
 struct KnownMotion {
   std::optional<motion::SpaceTimeBound> last;
   std::optional<motion::SpaceTimeBound> next;
+  std::shared_ptr<const shape::Shape> shape = nullptr;  ///< Null: the ball itself.
 };
 
 /// Both bodies over what follows `from`, seen from a frame that moves along with A's state: nothing

@@ -146,7 +146,6 @@ motion::SpaceTimeBound Flight::BoundOf(std::int64_t frame, std::uint32_t ship) c
   bound.limits.radius = kind(ship).radius;
   bound.limits.acceleration_max = kind(ship).acceleration_max;
   bound.limits.angular_acceleration_max = 0;
-  bound.limits.shape = kind(ship).shape;
   return bound;
 }
 

@@ -56,8 +56,9 @@ Run Fly(const Flight& flight, std::uint64_t units) {
   options.work_units_per_step = units;
   detection::Detector detector(options);
   for (std::uint32_t ship = 0; ship < flight.ships(); ++ship) {
-    detector.Admit(IdOf(ship), flight.BoundOf(0, ship).limits, StateOf(flight, 0, ship),
-                   Flight::InstantOf(0));
+    detector.Admit(IdOf(ship),
+                   {.limits = flight.BoundOf(0, ship).limits, .shape = flight.kind(ship).shape},
+                   StateOf(flight, 0, ship), Flight::InstantOf(0));
   }
   Run run;
   for (std::int64_t frame = 0; frame < flight.frames(); ++frame) {

@@ -27,7 +27,7 @@ geometry::TriangleMesh MeshOf(const MovingBody& body) {
 }
 
 motion::SpaceTimeBound BoundOf(const MovingBody& body, double at,
-                               std::shared_ptr<const shape::Shape> shape) {
+                               const std::shared_ptr<const shape::Shape>& shape) {
   motion::SpaceTimeBound bound;
   bound.state.stamp = Instant::FromNanoseconds(std::llround(at * 1e9));
   bound.state.p_WA = VectorOf(body.p);
@@ -35,7 +35,6 @@ motion::SpaceTimeBound BoundOf(const MovingBody& body, double at,
   bound.state.w_WB = VectorOf(body.w);
   bound.state.q_WB = Eigen::Quaterniond(body.q[0], body.q[1], body.q[2], body.q[3]);
   bound.limits.radius = shape ? shape->facts().radius : body.half[0];
-  bound.limits.shape = std::move(shape);
   bound.limits.angular_acceleration_max = 0;
   return bound;
 }
@@ -43,6 +42,7 @@ motion::SpaceTimeBound BoundOf(const MovingBody& body, double at,
 narrow_phase::KnownMotion MotionOf(const MovingBody& body, const ContactCase& of,
                                    const std::shared_ptr<const shape::Shape>& shape) {
   narrow_phase::KnownMotion motion;
+  motion.shape = shape;
   motion.last = BoundOf(body, 0, shape);
   if (of.both_ends) motion.next = BoundOf(body.After(of.duration), of.duration, shape);
   return motion;

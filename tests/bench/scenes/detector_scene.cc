@@ -25,7 +25,7 @@ DetectorScene Told(const std::string& name, const baselines::BallScene& balls, i
   scene.steps = steps;
   for (const baselines::BallAgent& ball : balls) {
     const motion::SpaceTimeBound bound = baselines::BoundOf(ball);
-    scene.agents.push_back({bound.state, bound.limits});
+    scene.agents.push_back({bound.state, {.limits = bound.limits}});
     scene.agents.back().state.stamp = Instant();
   }
   return scene;
@@ -99,7 +99,8 @@ DetectorCost Cost(const DetectorScene& scene, const Variation& variation) {
   cost.seconds += CpuNow() - start;
   for (int step = 1; step <= scene.steps; ++step) {
     for (SceneAgent& agent : agents) {
-      const double force = variation.forces ? kForce * agent.declaration.acceleration_max : 0;
+      const double force =
+          variation.forces ? kForce * agent.declaration.limits.acceleration_max : 0;
       Move(scene.step, random.Uniform(0, force) * random.UnitVector(), &agent.state);
       if (variation.change) variation.change(&agent);
     }

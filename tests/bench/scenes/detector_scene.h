@@ -12,7 +12,7 @@ namespace collision::bench {
 
 struct SceneAgent {
   motion::MotionState state;
-  motion::AgentDeclaration declaration;
+  detection::AgentDeclaration declaration;
 };
 
 struct DetectorScene {

@@ -54,9 +54,9 @@ Variation Changed(const Change& change) {
   return variation;
 }
 
-void NotAccelerate(SceneAgent* agent) { agent->declaration.acceleration_max = 0; }
+void NotAccelerate(SceneAgent* agent) { agent->declaration.limits.acceleration_max = 0; }
 void AsLargeAsTheBall(SceneAgent* agent) {
-  agent->declaration.radius = std::max(agent->declaration.radius, 1.0);
+  agent->declaration.limits.radius = std::max(agent->declaration.limits.radius, 1.0);
 }
 
 std::vector<Part> Parts() {
@@ -67,27 +67,28 @@ std::vector<Part> Parts() {
   const auto take_shape = [shape](SceneAgent* agent) {
     AsLargeAsTheBall(agent);
     agent->declaration.shape = shape;
-    agent->declaration.angular_acceleration_max = 0;
+    agent->declaration.limits.angular_acceleration_max = 0;
   };
   const Variation shaped = Changed(take_shape);
   const Variation turning = Changed([take_shape](SceneAgent* agent) {
     take_shape(agent);
-    agent->declaration.angular_acceleration_max = kNothing;
+    agent->declaration.limits.angular_acceleration_max = kNothing;
   });
   // Without forces: an agent with a direction may not be pushed back along it.
   Variation growing,
       directed =
           Changed([](SceneAgent*agent) { agent->state.direction = Eigen::Vector3d::UnitX(); });
   growing.forces = directed.forces = false;
-  const Variation capped = Changed([](SceneAgent* agent) { agent->declaration.speed_max = 1e12; });
+  const Variation capped =
+      Changed([](SceneAgent* agent) { agent->declaration.limits.speed_max = 1e12; });
   const Variation stepping =
-      Changed([](SceneAgent* agent) { agent->declaration.time_step = kNothing; });
+      Changed([](SceneAgent* agent) { agent->declaration.limits.time_step = kNothing; });
   const Variation uncertain = Changed([](SceneAgent* agent) {
     agent->state.position_error = agent->state.velocity_error = kNothing;
   });
   const Variation expiring = Changed(
       [](SceneAgent* agent) { agent->state.expiry = numeric::AddRoundedDown(Instant(), 1e9); });
-  const Variation masked = Changed([](SceneAgent* agent) { agent->declaration.group = 3; });
+  const Variation masked = Changed([](SceneAgent* agent) { agent->declaration.filter.group = 3; });
   std::vector<Part> parts;
   parts.push_back(MakePart("parabolic growth", "parabolic growth", coasting, growing));
   parts.push_back(MakePart("speed caps", "speed caps", plain, capped));

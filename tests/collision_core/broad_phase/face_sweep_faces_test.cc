@@ -95,7 +95,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> Told(const AlphaTFaces& fac
 TEST(FaceSweepStart, TellsEachOverlapOnce) {
   for (int layout = 0; layout < kLayouts; ++layout) {
     Random random(40 + layout);
-    std::vector<std::optional<motion::SpaceTimeBound>> bounds;
+    BoundList bounds;
     std::vector<std::uint32_t> agents;
     for (motion::SpaceTimeBound& bound : LayOut(static_cast<SweepLayout>(layout), 400, &random)) {
       agents.push_back(static_cast<std::uint32_t>(bounds.size()));
@@ -109,9 +109,9 @@ TEST(FaceSweepStart, TellsEachOverlapOnce) {
     for (std::uint32_t a = 0; a < faces.agents().size(); ++a) {
       for (std::uint32_t b = a + 1; b < faces.agents().size(); ++b) {
         const motion::Hypertrapezoid h_A =
-            MakeHypertrapezoid(*bounds[faces.agents()[a]], At(0), At(0));
+            MakeHypertrapezoid(bounds[faces.agents()[a]]->bound, At(0), At(0));
         const motion::Hypertrapezoid h_B =
-            MakeHypertrapezoid(*bounds[faces.agents()[b]], At(0), At(0));
+            MakeHypertrapezoid(bounds[faces.agents()[b]]->bound, At(0), At(0));
         if (FirstOverlap(h_A, h_B) > 0) continue;
         ++expected;
         EXPECT_TRUE(std::binary_search(told.begin(), told.end(), std::pair(a, b)));
@@ -126,7 +126,7 @@ TEST(FaceSweepStart, TellsEachOverlapOnce) {
 // Goal:   a horn's first window fits the scene, and follows its bounds alone.
 // Method: spheres of 1 m in a heap, M = 1 m/s²: ½ M w² = ½ m at one second. No motion: no limit.
 TEST(FirstWindow, FitsTheScene) {
-  std::vector<std::optional<motion::SpaceTimeBound>> bounds(100, Agent({1, 1, 1}, {0, 0, 0}, 1, 1));
+  BoundList bounds(100, Agent({1, 1, 1}, {0, 0, 0}, 1, 1));
   std::vector<std::uint32_t> agents(100);
   for (std::uint32_t i = 0; i < 100; ++i) agents[i] = i;
   EXPECT_EQ(kSecond, FirstWindow(bounds, agents));

@@ -102,8 +102,8 @@ Instant RandomUntil(intersection::BoundKind kind, Instant from, Random* random) 
 }
 
 /// What a scene's agents have beside their motions, each with the chance given.
-void Embellish(double chance, Instant from, bool late, motion::SpaceTimeBound* bound,
-               Random* random) {
+void Embellish(double chance, Instant from, bool late, AgentBound* agent, Random* random) {
+  motion::SpaceTimeBound* bound = &agent->bound;
   motion::MotionState& state = bound->state;
   if (random->Chance(chance)) {
     const std::int64_t ago = random->Chance(0.1) ? kCentury / 10 : 10 * kSecond;
@@ -125,19 +125,18 @@ void Embellish(double chance, Instant from, bool late, motion::SpaceTimeBound* b
   }
   if (random->Chance(chance)) bound->limits.speed_max = random->Uniform(0, 30);
   if (random->Chance(chance)) {
-    bound->limits.group = 1u << random->Below(4);
-    bound->limits.mask = static_cast<std::uint32_t>(random->Below(16));
+    agent->filter.group = 1u << random->Below(4);
+    agent->filter.mask = static_cast<std::uint32_t>(random->Below(16));
   }
 }
 
 /// Else nearly every scene's first meeting is at once.
 void RemoveOverlapsAtStart(SweepScene* scene) {
-  std::vector<motion::SpaceTimeBound> kept;
-  for (const motion::SpaceTimeBound& bound : scene->agents) {
-    const bool is_apart =
-        std::none_of(kept.begin(), kept.end(), [&](const motion::SpaceTimeBound& other) {
-          return EarliestIntersectionOf(scene->query, bound, other).instant() <= scene->query.from;
-        });
+  std::vector<AgentBound> kept;
+  for (const AgentBound& bound : scene->agents) {
+    const bool is_apart = std::none_of(kept.begin(), kept.end(), [&](const AgentBound& other) {
+      return EarliestIntersectionOf(scene->query, bound, other).instant() <= scene->query.from;
+    });
     if (is_apart) kept.push_back(bound);
   }
   scene->agents = kept;
@@ -157,14 +156,16 @@ std::vector<motion::SpaceTimeBound> LayOut(SweepLayout layout, int count, Random
 SweepScene RandomScene(SweepLayout layout, intersection::BoundKind kind, int count,
                        Random* random) {
   SweepScene scene;
-  scene.agents = LayOut(layout, count, random);
+  for (const motion::SpaceTimeBound& bound : LayOut(layout, count, random)) {
+    scene.agents.emplace_back(bound);
+  }
   // The clock of 1970 as well as one that starts at zero.
   const Instant from =
       At(random->Chance(0.5) ? 0 : 1'700'000'000 * kSecond + random->Below(kSecond));
   const double chance = random->Chance(0.5) ? 0 : 0.2;
-  for (motion::SpaceTimeBound& bound : scene.agents) {
-    bound.state.stamp = from;
-    Embellish(chance, from, kind == intersection::BoundKind::kHorn, &bound, random);
+  for (AgentBound& agent : scene.agents) {
+    agent.bound.state.stamp = from;
+    Embellish(chance, from, kind == intersection::BoundKind::kHorn, &agent, random);
   }
   scene.query = {kind, from, RandomUntil(kind, from, random)};
   if (random->Chance(0.7)) RemoveOverlapsAtStart(&scene);

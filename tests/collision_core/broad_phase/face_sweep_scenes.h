@@ -11,7 +11,7 @@
 namespace collision::broad_phase {
 
 struct SweepScene {
-  std::vector<motion::SpaceTimeBound> agents;
+  std::vector<AgentBound> agents;
   intersection::BroadQuery query;
 };
 

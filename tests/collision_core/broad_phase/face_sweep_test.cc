@@ -108,7 +108,7 @@ SweepScene Passing(int count, std::int64_t until, Random* random) {
   SweepScene scene;
   for (int i = 0; i < count; ++i) {
     scene.agents.push_back(Agent(RandomVector(random, 40), RandomVector(random, 1), 0.5));
-    scene.agents.back().limits.mask = 0;
+    scene.agents.back().filter.mask = 0;
   }
   scene.query = {intersection::BoundKind::kHypertrapezoid, At(0), At(until)};
   return scene;
@@ -177,7 +177,7 @@ TEST(FaceSweepCost, EverythingAtOnePoint) {
 TEST(FaceSweep, RemembersNothing) {
   Random random(8);
   FaceSweep sweep;
-  std::vector<std::optional<motion::SpaceTimeBound>> bounds(80);
+  BoundList bounds(80);
   for (int step = 0; step < kScenes; ++step) {
     const auto kind = random.Chance(0.5) ? intersection::BoundKind::kHorn
                                          : intersection::BoundKind::kHypertrapezoid;

@@ -185,7 +185,7 @@ motion::SpaceTimeBound Falling() {
   return bound;
 }
 
-double Seconds(const HalfSpace& half_space, const motion::SpaceTimeBound& bound, Instant until,
+double Seconds(const HalfSpace& half_space, const AgentBound& bound, Instant until,
                double margin = 0) {
   return EarliestIntersectionOf({intersection::BoundKind::kHorn, Instant(), until}, half_space,
                                 bound, margin)
@@ -209,33 +209,34 @@ TEST(HalfSpace, FallsToTheFloor) {
   }
 }
 
-// Goal:   who cannot meet meets never: masks in either direction, no motion, expiry, the query's
-// end.
+// Goal:   agents that cannot meet the floor never do: masks in either direction, no motion, an
+//         expiry, the query's end.
 TEST(HalfSpace, MeetsOnlyWhatItMay) {
-  HalfSpace floor{{0, 0, 1}, 0};
-  motion::SpaceTimeBound bound = Falling();
+  HalfSpace floor{{0, 0, 1}, 0, {}};
+  AgentBound agent = Falling();
+  motion::SpaceTimeBound& bound = agent.bound;
   const Instant just_before = Instant::FromNanoseconds(2'999'999'990);
-  EXPECT_EQ(Seconds(floor, bound, just_before), numeric::kInfinity);
-  EXPECT_LT(Seconds(floor, bound, Instant::FromNanoseconds(3'000'000'000)), numeric::kInfinity);
+  EXPECT_EQ(Seconds(floor, agent, just_before), numeric::kInfinity);
+  EXPECT_LT(Seconds(floor, agent, Instant::FromNanoseconds(3'000'000'000)), numeric::kInfinity);
   bound.state.expiry = just_before;
-  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
+  EXPECT_EQ(Seconds(floor, agent, Instant::Never()), numeric::kInfinity);
   bound.state.expiry = Instant::FromNanoseconds(3'000'000'010);
-  EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  floor.group = 2, floor.mask = 1;
-  EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  bound.limits.mask = 1;
-  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  bound.limits.mask = 2;
-  EXPECT_LT(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  bound.limits.group = 4;
-  EXPECT_EQ(Seconds(floor, bound, Instant::Never()), numeric::kInfinity);
-  bound = Falling();
+  EXPECT_LT(Seconds(floor, agent, Instant::Never()), numeric::kInfinity);
+  floor.filter = {.group = 2, .mask = 1};
+  EXPECT_LT(Seconds(floor, agent, Instant::Never()), numeric::kInfinity);
+  agent.filter.mask = 1;
+  EXPECT_EQ(Seconds(floor, agent, Instant::Never()), numeric::kInfinity);
+  agent.filter.mask = 2;
+  EXPECT_LT(Seconds(floor, agent, Instant::Never()), numeric::kInfinity);
+  agent.filter.group = 4;
+  EXPECT_EQ(Seconds(floor, agent, Instant::Never()), numeric::kInfinity);
+  agent = Falling();
   bound.state.v_WA.setZero();
   bound.state.p_WA.z() = -5;
-  EXPECT_EQ(Seconds(HalfSpace(), bound, Instant::Never()), numeric::kInfinity)
+  EXPECT_EQ(Seconds(HalfSpace(), agent, Instant::Never()), numeric::kInfinity)
       << "inside, but still";
   bound.limits.acceleration_max = 1e-9;
-  EXPECT_EQ(Seconds(HalfSpace(), bound, Instant::Never()), 0);
+  EXPECT_EQ(Seconds(HalfSpace(), agent, Instant::Never()), 0);
 }
 
 TEST(HalfSpaces, AreKeptInOrderAndFew) {

@@ -34,7 +34,7 @@ class SweepBesideIndex : public SweepingIndex {
     sweep_.ShareRules(shared_rules());
     index_.ShareRules(shared_rules());
   }
-  void Set(std::uint32_t agent, const motion::SpaceTimeBound& bound) override {
+  void Set(std::uint32_t agent, const AgentBound& bound) override {
     mutable_half_spaces().Remove(agent);
     sweep_.Set(agent, bound);
     index_.Set(agent, bound);
@@ -53,8 +53,8 @@ class SweepBesideIndex : public SweepingIndex {
                       std::vector<Neighbour>* neighbours) override {
     index_.FindNeighbours(agent, window, skip, neighbours);
   }
-  void FindNeighbours(const motion::SpaceTimeBound& bound, Instant from, Instant until,
-                      const Skip& skip, std::vector<Neighbour>* neighbours) override {
+  void FindNeighbours(const AgentBound& bound, Instant from, Instant until, const Skip& skip,
+                      std::vector<Neighbour>* neighbours) override {
     index_.FindNeighbours(bound, from, until, skip, neighbours);
   }
   std::optional<intersection::IntersectingPair> EarliestOf(
@@ -94,7 +94,7 @@ inline motion::SpaceTimeBound BoundIn(double extent, double radius, double speed
   return bound;
 }
 
-using SceneAgents = std::vector<std::optional<motion::SpaceTimeBound>>;
+using SceneAgents = BoundList;
 
 template <typename Make>
 SceneAgents Several(int least, int most, Random* random, Make make) {
@@ -217,12 +217,12 @@ inline const NamedScene kMethodScenes[] = {
     {"masks and expiries", true,
      [](Random* r) {
        return Several(10, 90, r, [&](int) {
-         motion::SpaceTimeBound bound = BoundIn(15, 0.5, 5, 2, r);
-         bound.limits.group = 1u << r->Below(4);
-         bound.limits.mask = static_cast<std::uint32_t>(r->Below(16));
+         AgentBound agent = BoundIn(15, 0.5, 5, 2, r);
+         agent.filter.group = 1u << r->Below(4);
+         agent.filter.mask = static_cast<std::uint32_t>(r->Below(16));
          if (r->Chance(0.5))
-           bound.state.expiry = numeric::AddRoundedUp(kMethodStart, r->Uniform(0, 3));
-         return bound;
+           agent.bound.state.expiry = numeric::AddRoundedUp(kMethodStart, r->Uniform(0, 3));
+         return agent;
        });
      }},
     {"directions", true,

@@ -29,66 +29,69 @@ constexpr int kHypertrapezoidsMax = 600;
 struct LargeScene {
   const char* name;
   /// Agent i of n; sizes are such that few touch at the start.
-  motion::SpaceTimeBound (*make)(int i, int n, Random* random);
+  AgentBound (*make)(int i, int n, Random* random);
 };
 
 /// Half the side of a cube in which each has so much room.
 double Half(int n, double volume) { return 0.5 * std::cbrt(n * volume); }
 
 const LargeScene kLargeScenes[] = {
-    {"sparse", [](int, int n, Random* r) { return BoundIn(Half(n, 3000), 0.5, 3, 1, r); }},
-    {"dense", [](int, int n, Random* r) { return BoundIn(Half(n, 30), 0.2, 3, 1, r); }},
-    {"at rest", [](int, int n, Random* r) { return BoundIn(Half(n, 2000), 0.5, 0, 0.5, r); }},
+    {"sparse",
+     [](int, int n, Random* r) -> AgentBound { return BoundIn(Half(n, 3000), 0.5, 3, 1, r); }},
+    {"dense",
+     [](int, int n, Random* r) -> AgentBound { return BoundIn(Half(n, 30), 0.2, 3, 1, r); }},
+    {"at rest",
+     [](int, int n, Random* r) -> AgentBound { return BoundIn(Half(n, 2000), 0.5, 0, 0.5, r); }},
     {"far away, in a moving frame",
-     [](int, int n, Random* r) {
+     [](int, int n, Random* r) -> AgentBound {
        motion::SpaceTimeBound bound = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
        bound.state.p_WA.array() += 1e9;
        bound.state.v_WA.y() += 3e3;
        return bound;
      }},
     {"clusters",
-     [](int i, int n, Random* r) {
+     [](int i, int n, Random* r) -> AgentBound {
        motion::SpaceTimeBound bound = BoundIn(Half(n / 5, 200), 0.2, 3, 1, r);
        bound.state.p_WA.x() += 1e6 * (i % 5);
        return bound;
      }},
     {"all sizes",
-     [](int, int n, Random* r) {
+     [](int, int n, Random* r) -> AgentBound {
        return BoundIn(Half(n, 1e5), r->LogUniform(1e-3, 30), r->LogUniform(1e-2, 10), 1, r);
      }},
     {"a plate",
-     [](int i, int n, Random* r) {
+     [](int i, int n, Random* r) -> AgentBound {
        motion::SpaceTimeBound bound = BoundIn(3 * std::sqrt(n), 0.2, 2, 1, r);
        bound.state.p_WA.z() = 1e-3 * (i % 3);
        return bound;
      }},
     {"a row",
-     [](int i, int, Random* r) {
+     [](int i, int, Random* r) -> AgentBound {
        motion::SpaceTimeBound bound = BoundIn(1, 0.2, 2, 1, r);
        bound.state.p_WA.x() += 3 * i;
        return bound;
      }},
     {"some still, some fast",
-     [](int i, int n, Random* r) {
+     [](int i, int n, Random* r) -> AgentBound {
        if (i % 50 == 7) return BoundIn(Half(n, 3000), 0.5, 300, 1, r);
        return i % 3 == 0 ? BoundIn(Half(n, 3000), 0.5, 0, 0, r)
                          : BoundIn(Half(n, 3000), 0.5, 3, 1, r);
      }},
     {"masks, stamps and errors",
-     [](int i, int n, Random* r) {
-       motion::SpaceTimeBound bound = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
-       bound.limits.group = 1u << (i % 3);
-       bound.limits.mask = i % 7 == 0 ? 0 : 6;
-       bound.state.stamp = numeric::AddRoundedUp(kMethodStart, -r->Uniform(0, 0.5));
-       bound.state.position_error = r->Uniform(0, 0.1);
-       return bound;
+     [](int i, int n, Random* r) -> AgentBound {
+       AgentBound agent = BoundIn(Half(n, 3000), 0.5, 3, 1, r);
+       agent.filter.group = 1u << (i % 3);
+       agent.filter.mask = i % 7 == 0 ? 0 : 6;
+       agent.bound.state.stamp = numeric::AddRoundedUp(kMethodStart, -r->Uniform(0, 0.5));
+       agent.bound.state.position_error = r->Uniform(0, 0.1);
+       return agent;
      }},
 };
 
 class LargeMethods : public testing::TestWithParam<LargeScene> {};
 
-std::vector<intersection::IntersectingPair> AllMeetings(
-    const std::vector<motion::SpaceTimeBound>& bounds, const intersection::BroadQuery& query) {
+std::vector<intersection::IntersectingPair> AllMeetings(const std::vector<AgentBound>& bounds,
+                                                        const intersection::BroadQuery& query) {
   std::vector<intersection::IntersectingPair> meetings;
   for (std::uint32_t a = 0; a < bounds.size(); ++a) {
     for (std::uint32_t b = a + 1; b < bounds.size(); ++b) {
@@ -105,7 +108,7 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
   std::size_t told = 0, expected = 0;
   for (const int count : kSizes) {
     Random random(count);
-    std::vector<motion::SpaceTimeBound> bounds;
+    std::vector<AgentBound> bounds;
     AllPairs all_pairs;
     SpatialIndex index;
     for (int i = 0; i < count; ++i) {
@@ -139,7 +142,7 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
         for (const NearPair& pair : near) {
           ASSERT_LT(pair.lower, pair.higher) << what;
           ASSERT_TRUE(pairs.insert({pair.lower, pair.higher}).second) << what << ": twice";
-          ASSERT_TRUE(CanMeet(bounds[pair.lower].limits, bounds[pair.higher].limits));
+          ASSERT_TRUE(CanMeet(bounds[pair.lower].filter, bounds[pair.higher].filter));
         }
         for (const intersection::IntersectingPair& meeting : meetings) {
           ASSERT_TRUE(pairs.contains({meeting.lower, meeting.higher})) << what << ": missing";

@@ -80,14 +80,15 @@ void Change(RulesTable* table, const NamedScene& scene, Instant now, Random* ran
   } else if (kind < 0.45) {
     table->SetHalfSpace(i, DrawHalfSpace(*table, random));
   } else if (kind < 0.6 || !table->Moves(i)) {  // also where a half-space was
-    motion::SpaceTimeBound bound = *scene.make(random).front();
-    bound.state.stamp = now;
-    table->Set(i, bound);
-  } else if (table->bound(i).state.stamp < now) {  // a kept state, on the straight line
-    motion::SpaceTimeBound bound = table->bound(i);
-    bound.state.p_WA += bound.state.v_WA * numeric::SecondsBetween(bound.state.stamp, now).lower;
-    bound.state.stamp = now;
-    table->Tighten(i, bound);
+    AgentBound agent = *scene.make(random).front();
+    agent.bound.state.stamp = now;
+    table->Set(i, agent);
+  } else if (table->bound(i).bound.state.stamp < now) {  // a kept state, on the straight line
+    AgentBound agent = table->bound(i);
+    motion::MotionState& state = agent.bound.state;
+    state.p_WA += state.v_WA * numeric::SecondsBetween(state.stamp, now).lower;
+    state.stamp = now;
+    table->Tighten(i, agent);
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kScenes = kSanitized ? 6 : 60;
 
-using Agents = std::vector<std::optional<motion::SpaceTimeBound>>;
+using Agents = SceneAgents;
 
 std::optional<intersection::IntersectingPair> Oracle(const Agents& agents,
                                                      const intersection::BroadQuery& query,
@@ -60,7 +60,7 @@ std::vector<std::string> ExpectedMeetings(const Agents& agents, std::uint32_t ag
   for (std::uint32_t other = 0; other < agents.size(); ++other) {
     if (other == agent || !agents[other]) continue;
     const intersection::IntersectionTime time =
-        intersection::EarliestIntersection(*agents[agent], *agents[other], from);
+        EarliestIntersection(*agents[agent], *agents[other], from);
     if (time.instant() <= until) {
       all.emplace_back(other, time);
     } else if (!time.instant().is_never() && time.instant() <= horizon &&
@@ -168,16 +168,16 @@ TEST_P(Methods, StayRightThroughLongHistories) {
           const double kind = random.Uniform(0, 1);
           if (!agents[agent] || kind < 0.1) {  // admission, teleport
             agents[agent] = *scene.make(&random).front();
-            agents[agent]->state.stamp = now;
+            agents[agent]->bound.state.stamp = now;
             method->Set(agent, *agents[agent]);
           } else if (kind < 0.15) {
             agents[agent].reset();
             method->Remove(agent);
           } else if (kind < 0.3) {  // widening
-            agents[agent]->limits.acceleration_max *= 1.5;
+            agents[agent]->bound.limits.acceleration_max *= 1.5;
             method->Set(agent, *agents[agent]);
-          } else if (agents[agent]->state.stamp < now) {
-            agents[agent] = Later(*agents[agent], now, &random);
+          } else if (agents[agent]->bound.state.stamp < now) {
+            agents[agent]->bound = Later(agents[agent]->bound, now, &random);
             method->Tighten(agent, *agents[agent]);
           }
         }

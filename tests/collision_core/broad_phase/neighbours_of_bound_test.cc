@@ -27,7 +27,7 @@ Answer Expected(const SceneAgents& agents, std::uint32_t guest, Instant from, In
   for (std::uint32_t other = 0; other < agents.size(); ++other) {
     if (other == guest || other % 5 == 3) continue;
     const intersection::IntersectionTime time =
-        intersection::EarliestIntersection(*agents[guest], *agents[other], from);
+        EarliestIntersection(*agents[guest], *agents[other], from);
     if (time.instant() <= until && !time.instant().is_never()) {
       answer.emplace_back(other, time.seconds);
     }
@@ -35,8 +35,7 @@ Answer Expected(const SceneAgents& agents, std::uint32_t guest, Instant from, In
   return answer;
 }
 
-Answer Asked(SweepingIndex* method, const motion::SpaceTimeBound& bound, Instant from,
-             Instant until) {
+Answer Asked(SweepingIndex* method, const AgentBound& bound, Instant from, Instant until) {
   std::vector<Neighbour> neighbours;
   const auto skip = [](std::uint32_t other) { return other % 5 == 3; };
   method->FindNeighbours(bound, from, until, skip, &neighbours);

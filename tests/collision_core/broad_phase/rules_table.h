@@ -21,16 +21,16 @@ class RulesTable {
   std::uint32_t end() const { return static_cast<std::uint32_t>(bounds_.size()); }
   bool Moves(std::uint32_t i) const { return i < end() && bounds_[i].has_value(); }
   bool Holds(std::uint32_t i) const { return Moves(i) || half_spaces_.count(i) != 0; }
-  const motion::SpaceTimeBound& bound(std::uint32_t i) const { return *bounds_[i]; }
+  const AgentBound& bound(std::uint32_t i) const { return *bounds_[i]; }
   std::size_t rules() const { return rules_.size(); }
 
-  void Set(std::uint32_t i, const motion::SpaceTimeBound& bound) {
+  void Set(std::uint32_t i, const AgentBound& bound) {
     Reserve(i);
     bounds_[i] = bound;
     half_spaces_.erase(i);
     method_->Set(i, bound);
   }
-  void Tighten(std::uint32_t i, const motion::SpaceTimeBound& bound) {
+  void Tighten(std::uint32_t i, const AgentBound& bound) {
     bounds_[i] = bound;
     method_->Tighten(i, bound);
   }
@@ -132,9 +132,9 @@ inline HalfSpace DrawHalfSpace(const RulesTable& table, Random* random) {
   if (table.Moves(at)) {
     const double out = random->LogUniform(0.1, 30);
     half_space.offset =
-        half_space.normal.dot(table.bound(at).state.p_WA) - half_space.normal.norm() * out;
+        half_space.normal.dot(table.bound(at).bound.state.p_WA) - half_space.normal.norm() * out;
   }
-  if (random->Chance(0.3)) half_space.group = half_space.mask = 3;
+  if (random->Chance(0.3)) half_space.filter = {.group = 3, .mask = 3};
   return half_space;
 }
 

@@ -93,18 +93,22 @@ TEST(Detector, DeclaredJumpIsNoBreach) {
 
 TEST(Detector, MasksKeepApart) {
   Line line;
-  line.detector.Admit(Id(1), {.radius = 1, .acceleration_max = 1, .group = 1, .mask = 2},
-                      State(0, {0, 0, 0}, {0, 0, 0}), At(0));
-  line.detector.Admit(Id(2), {.radius = 1, .acceleration_max = 1, .group = 1, .mask = 2},
-                      State(0, {1, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(
+      Id(1), {.limits = {.radius = 1, .acceleration_max = 1}, .filter = {.group = 1, .mask = 2}},
+      State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(
+      Id(2), {.limits = {.radius = 1, .acceleration_max = 1}, .filter = {.group = 1, .mask = 2}},
+      State(0, {1, 0, 0}, {0, 0, 0}), At(0));
   line.Step();
   EXPECT_TRUE(line.events.empty());
   EXPECT_FALSE(line.detector.Earliest().found);
   // A widened mask is a new danger; they overlap already.
-  line.detector.Redeclare(Id(1), {.radius = 1, .acceleration_max = 1, .group = 3, .mask = 3},
-                          At(0));
-  line.detector.Redeclare(Id(2), {.radius = 1, .acceleration_max = 1, .group = 3, .mask = 3},
-                          At(0));
+  line.detector.Redeclare(
+      Id(1), {.limits = {.radius = 1, .acceleration_max = 1}, .filter = {.group = 3, .mask = 3}},
+      At(0));
+  line.detector.Redeclare(
+      Id(2), {.limits = {.radius = 1, .acceleration_max = 1}, .filter = {.group = 3, .mask = 3}},
+      At(0));
   line.Step();
   EXPECT_EQ(line.With(EventStatus::kPossible).size(), 1u);
   EXPECT_EQ(line.With(EventStatus::kConfirmed).size(), 0u) << "not heard beyond the first state";
@@ -266,7 +270,7 @@ TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
     Detector detector{DetectorOptions{}};
     std::vector<CollisionEvent> events;
     const AgentId jumper = first_jumps ? Id(1) : Id(2), runner = first_jumps ? Id(2) : Id(1);
-    const motion::AgentDeclaration ball{1, 0};
+    const AgentDeclaration ball{.limits = {1, 0}};
     const auto step = [&](double now) {
       detector.Advance(At(now));
       events.insert(events.end(), detector.events().begin(), detector.events().end());
@@ -308,7 +312,7 @@ TEST(Detector, NothingIsCertainWithinTheSkewAboutAJump) {
     options.skew = 0.01;
     Detector detector{options};
     std::vector<CollisionEvent> events;
-    const motion::AgentDeclaration ball{1, 0};
+    const AgentDeclaration ball{.limits = {1, 0}};
     const Vector3d here(0, 0, 0), away(0, 100, 0);
     detector.Admit(Id(1), ball, State(0, jumps_onto ? away : here, {0, 0, 0}), At(0));
     // The other passes the origin, touching only within 5 ms about 1 s.

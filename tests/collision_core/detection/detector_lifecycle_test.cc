@@ -111,7 +111,7 @@ TEST(Detector, RemovalWithdraws) {
 // ends, and what could come after they have left is no news.
 TEST(Detector, RemovalAnnouncesNothingNew) {
   Detector detector{DetectorOptions{}};
-  const motion::AgentDeclaration ball{0.3, 0};
+  const AgentDeclaration ball{.limits = {0.3, 0}};
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {2, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {9, 0, 0}, {-2, 0, 0}), At(0));
   detector.Advance(At(0));
@@ -182,7 +182,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   options.history_max = 8;
   Detector detector{options};
   std::vector<CollisionEvent> events;
-  const motion::AgentDeclaration ball{0.5, 0.1};
+  const AgentDeclaration ball{.limits = {0.5, 0.1}};
   const auto speak = [&](double t) {
     detector.Update(Id(1), State(t, {-20 + 2 * t, 0, 0}, {2, 0, 0}), At(t));
     detector.Update(Id(2), State(t, {20 - 2 * t, 0, 0}, {-2, 0, 0}), At(t));
@@ -225,7 +225,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
 TEST(Detector, TwoContactsBetweenStatesAreTwoEvents) {
   Detector detector{DetectorOptions{}};
   std::vector<CollisionEvent> events;
-  const motion::AgentDeclaration ball{1, 0};
+  const AgentDeclaration ball{.limits = {1, 0}};
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {12, 0, 0}, {-40, 0, 0}), At(0));
   for (double now = 0.0625; now <= 3; now += 0.0625) {
@@ -283,7 +283,7 @@ TEST(Detector, ContactBeforeLeavingIsConfirmed) {
 // own state has come.
 TEST(Detector, AContactThatIsOverWaitsForTheStatesAfterIt) {
   Detector detector{DetectorOptions{}};
-  const motion::AgentDeclaration ball{.radius = 1, .acceleration_max = 0.1};
+  const AgentDeclaration ball{.limits = {.radius = 1, .acceleration_max = 0.1}};
   const Vector3d p(4, 0, 0), v(-10, 0, 0);
   detector.Admit(Id(1), ball, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, p, v), At(0));

@@ -134,7 +134,7 @@ RunLog Simulate(const Crowd& crowd, int steps) {
   Detector detector{DetectorOptions{}};
   std::vector<motion::SpaceTimeBound> newest(crowd.size());
   std::map<std::pair<AgentId, AgentId>, EventStatus> last;
-  const motion::AgentDeclaration declaration{kRadius, kAccelerationMax};
+  const AgentDeclaration declaration{.limits = {kRadius, kAccelerationMax}};
   for (int step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < crowd.size(); ++i) {
       if (step > 0 && !Speaks(i, step)) continue;
@@ -144,7 +144,7 @@ RunLog Simulate(const Crowd& crowd, int steps) {
       } else {
         EXPECT_EQ(detector.Update(Id(i), state, state.stamp), UpdateOutcome::kKept);
       }
-      newest[i] = {state, declaration, 0};
+      newest[i] = {state, declaration.limits, 0};
     }
     const Instant now = At(step * kStep);
     for (std::size_t i = 0; i < crowd.size(); ++i) detector.SetHeardUntil(OwnerOf(Id(i)), now);
@@ -268,7 +268,7 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
   Random random(31);
   Detector detector{DetectorOptions{}};
   constexpr std::size_t kPairs = 24;
-  const motion::AgentDeclaration still{1, 0};
+  const AgentDeclaration still{.limits = {1, 0}};
   std::vector<Knot> start;
   for (std::size_t i = 0; i < kPairs; ++i) {
     const Vector3d middle =
@@ -285,7 +285,7 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
       state.stamp = At(t);
       state.p_WA = start[i].p + start[i].v * Seconds(At(t));
       state.v_WA = start[i].v;
-      newest[i] = {state, still, 0};
+      newest[i] = {state, still.limits, 0};
       if (step == 0) detector.Admit(Id(i), still, state, state.stamp);
       if (step > 0) {
         EXPECT_EQ(detector.Update(Id(i), state, state.stamp), UpdateOutcome::kKept);

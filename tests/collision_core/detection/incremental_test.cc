@@ -29,8 +29,8 @@ class Lattice {
     options.agents_max = side * side;
     detector.emplace(options);
     for (std::uint32_t slot = 0; slot < side * side; ++slot) {
-      detector->Admit(Id(slot), {.radius = 1, .acceleration_max = 0.01}, StateOf(slot, At(0)),
-                      At(0));
+      detector->Admit(Id(slot), {.limits = {.radius = 1, .acceleration_max = 0.01}},
+                      StateOf(slot, At(0)), At(0));
     }
   }
 
@@ -101,8 +101,8 @@ TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
   options.pairs_per_agent_max = 16;
   Detector detector(options);
   for (std::uint32_t slot = 0; slot < agents; ++slot) {
-    detector.Admit(Id(slot), {.radius = 1, .acceleration_max = 1}, State(0, {0, 0, 0}, {0, 0, 0}),
-                   At(0));
+    detector.Admit(Id(slot), {.limits = {.radius = 1, .acceleration_max = 1}},
+                   State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   }
   detector.Advance(At(0));
   const std::vector<AgentClearance> told = detector.TakeChangedClearances();
@@ -132,11 +132,11 @@ TEST(Incremental, TheEarliestKnowsWhoIsSaturated) {
   DetectorOptions options;
   options.pairs_per_agent_max = 1;
   Detector detector(options);
-  detector.Admit(Id(1), {.radius = 1}, State(0, {0, 0, 0}, {1, 0, 0}), At(0));
-  detector.Admit(Id(2), {.radius = 1}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
+  detector.Admit(Id(1), {.limits = {.radius = 1}}, State(0, {0, 0, 0}, {1, 0, 0}), At(0));
+  detector.Admit(Id(2), {.limits = {.radius = 1}}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
   EXPECT_EQ(detector.Earliest().higher, Id(2));
-  detector.Admit(Id(3), {.radius = 1}, State(0, {-2.5, 0, 0}, {2, 0, 0}), At(0));
+  detector.Admit(Id(3), {.limits = {.radius = 1}}, State(0, {-2.5, 0, 0}, {2, 0, 0}), At(0));
   detector.Advance(At(0));
   const EarliestAnswer earliest = detector.Earliest();
   EXPECT_TRUE(detector.ClearanceOf(Id(1))->saturated);
@@ -152,8 +152,8 @@ TEST(Incremental, EqualMeetingsGoByTheIds) {
   Detector detector{DetectorOptions{}};
   const std::pair<std::uint32_t, double> places[] = {{8, 0}, {9, 300}, {1, 100}, {2, 200}};
   for (const auto& [slot, x] : places) {
-    detector.Admit(Id(slot), {.radius = 1, .acceleration_max = 1}, State(0, {x, 0, 0}, {0, 0, 0}),
-                   At(0));
+    detector.Admit(Id(slot), {.limits = {.radius = 1, .acceleration_max = 1}},
+                   State(0, {x, 0, 0}, {0, 0, 0}), At(0));
   }
   detector.Advance(At(0));
   const EarliestAnswer earliest = detector.Earliest();
@@ -213,8 +213,7 @@ class RandomHistory {
     }
     for (auto a = known_.begin(); a != known_.end(); ++a) {
       for (auto b = std::next(a); b != known_.end(); ++b) {
-        const Instant when =
-            intersection::EarliestIntersection(a->second, b->second, now).instant();
+        const Instant when = EarliestIntersection(a->second, b->second, now).instant();
         if (when.is_never()) continue;
         // What an older state certified may be later than the canonical answer by its rounding.
         const Instant rounded = numeric::AddRoundedUp(when, 2e-9);
@@ -254,12 +253,12 @@ class RandomHistory {
     return {random_.Uniform(0, box_), random_.Uniform(0, box_), random_.Uniform(0, box_)};
   }
 
-  motion::AgentDeclaration Declaration() {
-    motion::AgentDeclaration declaration;
-    declaration.radius = random_.LogUniform(0.1, 4);
-    declaration.acceleration_max = random_.Chance(0.3) ? 0 : random_.LogUniform(0.01, 5);
-    if (random_.Chance(0.2)) declaration.speed_max = 20;
-    if (random_.Chance(0.2)) declaration.mask = 1u << random_.Below(2);
+  AgentDeclaration Declaration() {
+    AgentDeclaration declaration;
+    declaration.limits.radius = random_.LogUniform(0.1, 4);
+    declaration.limits.acceleration_max = random_.Chance(0.3) ? 0 : random_.LogUniform(0.01, 5);
+    if (random_.Chance(0.2)) declaration.limits.speed_max = 20;
+    if (random_.Chance(0.2)) declaration.filter.mask = 1u << random_.Below(2);
     return declaration;
   }
 
@@ -269,13 +268,13 @@ class RandomHistory {
     state.stamp = now;
     state.p_WA = Place();
     state.v_WA = random_.UnitVector() * random_.Uniform(0, 8);
-    const motion::AgentDeclaration declaration = Declaration();
+    const AgentDeclaration declaration = Declaration();
     ASSERT_TRUE(detector_->Admit(Id(slot), declaration, state, now));
-    known_[slot] = {state, declaration, 0};
+    known_[slot] = {motion::SpaceTimeBound{state, declaration.limits, 0}, declaration.filter};
   }
 
   void Speak(std::uint32_t slot, Instant now) {
-    motion::SpaceTimeBound& bound = known_[slot];
+    motion::SpaceTimeBound& bound = known_[slot].bound;
     const double s = numeric::SecondsBetween(bound.state.stamp, now).middle();
     const double pull = 0.9 * bound.limits.acceleration_max;
     const Vector3d a = random_.UnitVector() * random_.Uniform(0, pull);
@@ -295,8 +294,10 @@ class RandomHistory {
       state.position_error = random_.Uniform(0, 0.5);
     }
     if (random_.Chance(0.01)) {
-      bound.limits = Declaration();
-      detector_->Redeclare(Id(slot), bound.limits, now);
+      const AgentDeclaration declaration = Declaration();
+      known_[slot] = {motion::SpaceTimeBound{bound.state, declaration.limits, 0},
+                      declaration.filter};
+      detector_->Redeclare(Id(slot), declaration, now);
     }
     detector_->Update(Id(slot), state, now);
     bound.state = state;
@@ -305,7 +306,7 @@ class RandomHistory {
   Random random_;
   const double box_;
   std::optional<Detector> detector_;
-  std::map<std::uint32_t, motion::SpaceTimeBound> known_;
+  std::map<std::uint32_t, broad_phase::AgentBound> known_;
   std::map<std::uint32_t, AgentClearance> clearances_;
   std::vector<std::int64_t> log_;
   std::int64_t now_ = 0;
@@ -344,7 +345,7 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
 // the place where another one appears now. The contact lies before its newest state.
 TEST(Incremental, WhoJumpsAheadIsMetBeforeItsJump) {
   Detector detector{DetectorOptions{}};
-  const motion::AgentDeclaration ball{.radius = 1};
+  const AgentDeclaration ball{.limits = {.radius = 1}};
   detector.Admit(Id(1), ball, State(0, {-8, 0, 0}, {8, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {0, 5000, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
@@ -373,7 +374,7 @@ TEST(Incremental, WhoJumpsAheadIsMetBeforeItsJump) {
 // Likewise with a partner that only speaks ahead: it passes the place before its newest state.
 TEST(Incremental, WhoSpeaksAheadIsMetBeforeItsNewestState) {
   Detector detector{DetectorOptions{}};
-  const motion::AgentDeclaration ball{.radius = 1};
+  const AgentDeclaration ball{.limits = {.radius = 1}};
   detector.Admit(Id(1), ball, State(0, {-8, 0, 0}, {8, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {0, 5000, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
@@ -394,9 +395,9 @@ TEST(Incremental, WhoSpeaksAheadIsMetBeforeItsNewestState) {
 // and is not forgotten.
 TEST(Incremental, WhoSpeaksFarAheadIsMetBeforeItsNewestState) {
   Detector detector{DetectorOptions{}};
-  detector.Admit(Id(1), {.radius = 1, .acceleration_max = 1}, State(0, {0, 0, 0}, {0, 0, 0}),
-                 At(0));
-  detector.Admit(Id(2), {.radius = 1}, State(0, {-80, 5, 0}, {8, 0, 0}), At(0));
+  detector.Admit(Id(1), {.limits = {.radius = 1, .acceleration_max = 1}},
+                 State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  detector.Admit(Id(2), {.limits = {.radius = 1}}, State(0, {-80, 5, 0}, {8, 0, 0}), At(0));
   detector.Advance(At(0));
   detector.Advance(At(1));
   EXPECT_EQ(detector.Update(Id(2), State(12, {16, 5, 0}, {8, 0, 0}), At(12)), UpdateOutcome::kKept);
@@ -414,7 +415,8 @@ TEST(Incremental, ATeleportWithSkewTracksOnlyWhoIsNear) {
   options.skew = 0.01;
   Detector detector(options);
   for (std::uint32_t slot = 0; slot < 400; ++slot) {
-    detector.Admit(Id(slot), {.radius = 1}, State(0, {100.0 * slot, 0, 0}, {0, 1, 0}), At(0));
+    detector.Admit(Id(slot), {.limits = {.radius = 1}}, State(0, {100.0 * slot, 0, 0}, {0, 1, 0}),
+                   At(0));
   }
   detector.Advance(At(0));
   EXPECT_EQ(detector.pairs_tracked(), 0u);

@@ -23,7 +23,7 @@ namespace {
 constexpr double kEnd = 4;
 
 struct Ship {
-  motion::AgentDeclaration declaration;
+  AgentDeclaration declaration;
   std::shared_ptr<const shape::Shape>
       triangles;  // What it is in truth, whatever it is declared to be.
   TrueMotion motion;
@@ -56,13 +56,13 @@ Made RandomShape(Random& random) {
 
 Ship RandomShip(Random& random, bool of_solids) {
   Ship ship;
-  motion::AgentDeclaration& declared = ship.declaration;
+  AgentDeclaration& declared = ship.declaration;
   const Made made = RandomShape(random);
   ship.triangles = made.triangles;
   declared.shape = of_solids ? made.solids : made.triangles;
-  declared.radius = declared.shape ? declared.shape->facts().radius : 0.8;
-  declared.acceleration_max = random.Chance(0.3) ? 0 : random.LogUniform(0.05, 4);
-  declared.angular_acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(0.05, 2);
+  declared.limits.radius = declared.shape ? declared.shape->facts().radius : 0.8;
+  declared.limits.acceleration_max = random.Chance(0.3) ? 0 : random.LogUniform(0.05, 4);
+  declared.limits.angular_acceleration_max = random.Chance(0.2) ? 0 : random.LogUniform(0.05, 2);
   ship.states_per_second = 1 << random.Below(7);
   ship.motion.start.q = RandomTurn(random);
   if (random.Chance(0.8)) ship.motion.start.w = random.LogUniform(0.05, 2) * RandomUnit(random);
@@ -70,13 +70,13 @@ Ship RandomShip(Random& random, bool of_solids) {
 }
 
 // As hard as allowed, most often towards where the other one is.
-std::vector<TrueMotion::Piece> Pieces(Random& random, const motion::AgentDeclaration& declared,
+std::vector<TrueMotion::Piece> Pieces(Random& random, const AgentDeclaration& declared,
                                       const Vector& towards) {
   std::vector<TrueMotion::Piece> pieces;
   for (double at = 0; at < kEnd;) {
     at = std::min(kEnd, at + random.LogUniform(0.25, 2));
-    const double M = (1 - 1e-9) * declared.acceleration_max;
-    const double alpha = (1 - 1e-9) * declared.angular_acceleration_max;
+    const double M = (1 - 1e-9) * declared.limits.acceleration_max;
+    const double alpha = (1 - 1e-9) * declared.limits.angular_acceleration_max;
     const Vector a = random.Chance(0.6) ? towards : RandomUnit(random);
     pieces.push_back({at, M * a, alpha * RandomUnit(random)});
   }
@@ -87,8 +87,8 @@ struct Encounter {
   Ship ships[2];
 
   TrueBody Body(int i, Real t) const {
-    const motion::AgentDeclaration& declared = ships[i].declaration;
-    return {ships[i].triangles.get(), declared.radius, ships[i].motion.At(t)};
+    const AgentDeclaration& declared = ships[i].declaration;
+    return {ships[i].triangles.get(), declared.limits.radius, ships[i].motion.At(t)};
   }
   Real Distance(Real t) const { return SolidDistance(Body(0, t), Body(1, t)); }
 
@@ -96,10 +96,11 @@ struct Encounter {
   Real SpeedMax() const {
     Real speed = 0;
     for (const Ship& ship : ships) {
-      const motion::AgentDeclaration& declared = ship.declaration;
+      const AgentDeclaration& declared = ship.declaration;
       const TruePose& start = ship.motion.start;
-      speed += start.v.norm() + kEnd * declared.acceleration_max +
-               (start.w.norm() + kEnd * declared.angular_acceleration_max) * declared.radius;
+      speed += start.v.norm() + kEnd * declared.limits.acceleration_max +
+               (start.w.norm() + kEnd * declared.limits.angular_acceleration_max) *
+                   declared.limits.radius;
     }
     return speed;
   }
@@ -128,9 +129,10 @@ Encounter RandomEncounter(Random& random, bool of_solids) {
   if (!met.ships[0].declaration.shape && !met.ships[1].declaration.shape) {
     met.ships[0].triangles = LShaped().triangles;
     met.ships[0].declaration.shape = of_solids ? LShaped().solids : LShaped().triangles;
-    met.ships[0].declaration.radius = 1.6;
+    met.ships[0].declaration.limits.radius = 1.6;
   }
-  const double reach = met.ships[0].declaration.radius + met.ships[1].declaration.radius;
+  const double reach =
+      met.ships[0].declaration.limits.radius + met.ships[1].declaration.limits.radius;
   const Vector direction = RandomUnit(random);
   // Within the balls, or outside of them.
   met.ships[1].motion.start.p = reach * random.Uniform(0.4, 2.5) * direction;
@@ -184,7 +186,7 @@ void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
       const Ship& ship = met.ships[i];
       const AgentId id = Id(static_cast<std::uint32_t>(i));
       if (tick % (64 / ship.states_per_second) == 0) {
-        const motion::MotionState state = BoundAt(ship.motion, now, ship.declaration).state;
+        const motion::MotionState state = BoundAt(ship.motion, now, ship.declaration.limits).state;
         if (tick == 0) {
           detector.Admit(id, ship.declaration, state, At(0));
         } else {
@@ -238,7 +240,7 @@ TEST(DetectorShapePromise, NorWithConvexSolids) { CheckEncounters(true); }
 
 // One state a second of a cube that comes along x and does not turn; nobody told that it does not.
 struct Coming {
-  explicit Coming(const motion::AgentDeclaration& still) {
+  explicit Coming(const AgentDeclaration& still) {
     detector.Admit(Id(1), still, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
     detector.Admit(Id(2), declared, State(0, At0(0), {-1, 0, 0}), At(0));
   }
@@ -278,7 +280,7 @@ struct Coming {
   }
 
   Detector detector{{}};
-  motion::AgentDeclaration declared{.radius = 1, .acceleration_max = 0.2};
+  AgentDeclaration declared{.limits = {.radius = 1, .acceleration_max = 0.2}};
   std::optional<Vector3d> jumped_to;
   bool has_jumped = false;
   std::vector<CollisionEvent> events;
@@ -287,8 +289,9 @@ struct Coming {
 // Into the other one, from where it was in sight: the way there was none through space.
 TEST(DetectorShapePromise, NoDirectionThroughAJump) {
   const auto cube = shape::Shape::Build(Cube(0.5));
-  Coming coming({.radius = 1, .acceleration_max = 0, .angular_acceleration_max = 0, .shape = cube});
-  coming.declared.angular_acceleration_max = 0;
+  Coming coming({.limits = {.radius = 1, .acceleration_max = 0, .angular_acceleration_max = 0},
+                 .shape = cube});
+  coming.declared.limits.angular_acceleration_max = 0;
   coming.Redeclare(cube);
   for (const double t : {1, 2}) coming.Tell(t), coming.Advance(t);
   coming.jumped_to = Vector3d(0, 0, 0.75);
@@ -301,7 +304,7 @@ TEST(DetectorShapePromise, NoDirectionThroughAJump) {
 TEST(DetectorShapePromise, NoDirectionFromBeforeAShapeWasKnown) {
   const auto cube = shape::Shape::Build(Cube(0.5));
   for (const bool other_is_ball : {true, false}) {
-    motion::AgentDeclaration still{.radius = 1, .acceleration_max = 0};
+    AgentDeclaration still{.limits = {.radius = 1, .acceleration_max = 0}};
     if (!other_is_ball) still.shape = cube;
     Coming coming(still);
     for (const double t : {1, 2}) coming.Tell(t), coming.Advance(t);

@@ -29,7 +29,7 @@ constexpr sphere_tree::ShapeOptions kCoarse{.triangles_per_leaf = 16};
 using ShapePointer = std::shared_ptr<const shape::Shape>;
 
 struct Ship {
-  motion::AgentDeclaration declaration;
+  AgentDeclaration declaration;
   TrueMotion motion;
   int ticks_per_state = 1;
   std::set<int> jumps;  // ticks, of one state that jumps aside and stays there
@@ -39,9 +39,9 @@ struct Ship {
 Ship RandomShip(Random& random, const geometry::TriangleMesh& mesh) {
   Ship ship;
   ship.declaration.shape = shape::Shape::Build(mesh, kCoarse);
-  ship.declaration.radius = ship.declaration.shape->facts().radius;
-  ship.declaration.acceleration_max = random.LogUniform(0.01, 1);
-  if (random.Chance(0.8)) ship.declaration.angular_acceleration_max = 0.1;
+  ship.declaration.limits.radius = ship.declaration.shape->facts().radius;
+  ship.declaration.limits.acceleration_max = random.LogUniform(0.01, 1);
+  if (random.Chance(0.8)) ship.declaration.limits.angular_acceleration_max = 0.1;
   ship.ticks_per_state = 1 << random.Below(5);
   ship.motion.start.q = RandomTurn(random);
   if (random.Chance(0.7)) ship.motion.start.w = RandomUnit(random);
@@ -65,19 +65,19 @@ Told Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double
   options.work_units_per_turn = 60'000;
   Detector detector(options);
   Told told;
-  std::vector<motion::AgentDeclaration> declarations;
+  std::vector<AgentDeclaration> declarations;
   for (const Ship& ship : ships) declarations.push_back(ship.declaration);
   for (int tick = 0; tick <= kTicksPerSecond * kEnd; ++tick) {
     const double now = static_cast<double>(tick) / kTicksPerSecond;
     for (std::uint32_t i = 0; i < ships.size(); ++i) {
       const Ship& ship = ships[i];
-      motion::AgentDeclaration& declaration = declarations[i];
+      AgentDeclaration& declaration = declarations[i];
       if (redeclared.contains(tick)) {
         declaration.shape = next(i, tick);
         detector.Redeclare(Id(i), declaration, At(now));
       }
       if (tick % ship.ticks_per_state == 0) {
-        motion::MotionState state = BoundAt(ship.motion, now, declaration).state;
+        motion::MotionState state = BoundAt(ship.motion, now, declaration.limits).state;
         if (!ship.jumps.empty() && tick >= *ship.jumps.begin()) state.p_WA += ship.aside;
         state.discontinuity = ship.jumps.contains(tick);
         if (tick == 0) {
@@ -115,7 +115,8 @@ Scene RandomScene(std::uint64_t seed) {
   Random random(seed);
   Scene scene;
   for (int i = 0; i < 2; ++i) scene.ships.push_back(RandomShip(random, Star(1, random)));
-  const double reach = scene.ships[0].declaration.radius + scene.ships[1].declaration.radius;
+  const double reach =
+      scene.ships[0].declaration.limits.radius + scene.ships[1].declaration.limits.radius;
   const Vector direction = RandomUnit(random);
   TruePose& other = scene.ships[1].motion.start;
   other.p = reach * random.Uniform(0.8, 2) * direction;

@@ -20,18 +20,18 @@ const std::shared_ptr<const shape::Shape>& Ship() {
   return ship;
 }
 
-motion::AgentDeclaration Declared(const std::shared_ptr<const shape::Shape>& shape, double radius,
-                                  double M = 1) {
-  motion::AgentDeclaration declaration;
-  declaration.radius = radius;
-  declaration.acceleration_max = M;
-  declaration.angular_acceleration_max = 0.5;
+AgentDeclaration Declared(const std::shared_ptr<const shape::Shape>& shape, double radius,
+                          double M = 1) {
+  AgentDeclaration declaration;
+  declaration.limits.radius = radius;
+  declaration.limits.acceleration_max = M;
+  declaration.limits.angular_acceleration_max = 0.5;
   declaration.shape = shape;
   return declaration;
 }
 
-motion::AgentDeclaration Awaited(double radius) {
-  motion::AgentDeclaration declaration = Declared(nullptr, radius);
+AgentDeclaration Awaited(double radius) {
+  AgentDeclaration declaration = Declared(nullptr, radius);
   declaration.shape_awaited = true;
   return declaration;
 }
@@ -47,7 +47,7 @@ class Scene : public Line {
     return options;
   }
 
-  void Put(std::uint32_t slot, const motion::AgentDeclaration& declaration, const Vector3d& p,
+  void Put(std::uint32_t slot, const AgentDeclaration& declaration, const Vector3d& p,
            const Vector3d& v) {
     detector.Admit(Id(slot), declaration, State(now, p, v), At(now));
     agents.push_back({slot, p, v, now});
@@ -175,13 +175,13 @@ TEST(DetectorShapes, ChangedShapeIsUnknownUntilTheNextState) {
 
 // Both stand where the ships overlap; nothing but declarations comes after the first states.
 struct Standing : Scene {
-  explicit Standing(const motion::AgentDeclaration& second) {
+  explicit Standing(const AgentDeclaration& second) {
     Put(1, Declared(Ship(), 2), {0, 0, 0}, {0, 0, 0});
     Put(2, second, {1.5, 0, 0.1}, {0, 0, 0});
     Step();
   }
 
-  std::size_t ConfirmedAfter(const motion::AgentDeclaration& second) {
+  std::size_t ConfirmedAfter(const AgentDeclaration& second) {
     detector.Redeclare(Id(2), second, At(now));
     detector.SetHeardUntil(OwnerOf(Id(1)), At(now + 0.0625));
     detector.SetHeardUntil(OwnerOf(Id(2)), At(now + 0.0625));

@@ -230,10 +230,6 @@ TEST(EarliestIntersection, PlainCases) {
   EXPECT_EQ(seconds(), numeric::kInfinity);
   b.state.expiry = Instant::Never();
 
-  b.limits.mask = 2;
-  EXPECT_EQ(seconds(), numeric::kInfinity);
-  a.limits.group = 2;
-  EXPECT_LE(seconds(), 1.0);
   a.state.v_WA.x() = -10;
   EXPECT_EQ(seconds(), numeric::kInfinity);
   EXPECT_TRUE(EarliestIntersection(a, b, Instant()).instant().is_never());

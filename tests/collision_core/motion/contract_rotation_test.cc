@@ -18,7 +18,6 @@ constexpr std::int64_t kSecond = 1'000'000'000;
 
 SpaceTimeBound Turning(double angular_acceleration_max, const Vector3d& w_WB = Vector3d::Zero()) {
   SpaceTimeBound bound;
-  bound.limits.shape_awaited = true;
   bound.limits.angular_acceleration_max = angular_acceleration_max;
   bound.state.w_WB = w_WB;
   return bound;
@@ -265,8 +264,7 @@ TEST(ContractRotation, OnlyOfShapesThatDeclareIt) {
   MotionState next = AfterAndTurned(before, kSecond, {0, 0, 1});
   next.w_WB = {9, 9, 9};
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kBreached);
-  before.limits.shape_awaited = false;
-  EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
+  EXPECT_EQ(CheckContract(before, next, Orientation::kIgnored).verdict, ContractVerdict::kKept);
   before = Turning(-1);
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
 }

@@ -225,7 +225,6 @@ motion::SpaceTimeBound BoundOf(const Posed& posed, const Vector3d& v, const Vect
   bound.state.v_WA = v;
   bound.state.w_WB = w;
   bound.limits.radius = posed.radius;
-  bound.limits.shape = posed.shape;
   bound.limits.angular_acceleration_max = 0;
   return bound;
 }
@@ -249,6 +248,7 @@ TEST(Compound, MeetWhenAllPairsMeet) {
     KnownMotion of_a, of_b;
     of_a.last = BoundOf(a, Vector3d::Zero(), spin_a);
     of_b.last = BoundOf(b, v, spin_b);
+    of_a.shape = a.shape, of_b.shape = b.shape;
     WorkBudget work(20'000'000);
     const TimeOfContactResult found = TimeOfContact(
         of_a, of_b, Instant(), Instant::FromNanoseconds(1'000'000'000), {kWidth, 0}, &work);

@@ -36,7 +36,6 @@ struct Body {
       bound.state.q_WB = (Exponential(turned) * q.cast<Real>()).cast<double>();
     }
     bound.limits.radius = shape ? shape->facts().radius : radius;
-    bound.limits.shape = shape;
     bound.limits.acceleration_max = acceleration_max;
     bound.limits.angular_acceleration_max = angular_acceleration_max;
     return bound;
@@ -47,6 +46,7 @@ enum class Result { kAtStart, kAtEnd, kAtBoth };
 
 inline narrow_phase::KnownMotion Known(const Body& body, double duration, Result told) {
   narrow_phase::KnownMotion known;
+  known.shape = body.shape;
   if (told != Result::kAtEnd) known.last = body.At(0);
   if (told != Result::kAtStart) known.next = body.At(duration);
   return known;

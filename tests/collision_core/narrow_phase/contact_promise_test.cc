@@ -15,8 +15,7 @@ struct Count {
 };
 
 void CheckInstants(const Scene& scene, const TimeOfContactResult& found, Random& random) {
-  const Real tolerance =
-      kOracle * (scene.agents[0].declaration.radius + scene.agents[1].declaration.radius);
+  const Real tolerance = kOracle * (scene.agents[0].limits.radius + scene.agents[1].limits.radius);
   std::vector<Real> instants = {0, scene.duration};
   for (int i = 0; i < 10; ++i) instants.push_back(scene.duration * random.Uniform(0, 1));
   for (const numeric::Interval& bracket : {found.begin, found.end}) {
@@ -47,7 +46,7 @@ void CheckNearest(const Scene& scene, const TimeOfContactResult& found) {
     least = std::min(least, scene.Distance(t));
   }
   // Between two of these instants the bodies move on; the pace of RandomScene() is 3 at most.
-  const Real size = scene.agents[0].declaration.radius + scene.agents[1].declaration.radius;
+  const Real size = scene.agents[0].limits.radius + scene.agents[1].limits.radius;
   const Real moved = 10 * size * found.begin.width() / scene.duration / 64;
   EXPECT_LE(least, found.within + moved + kOracle * size);
 }

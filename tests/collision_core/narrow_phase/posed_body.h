@@ -17,11 +17,10 @@ struct Posed {
   narrow_phase::BodySegment Segment() const {
     TrueMotion motion;
     motion.start = pose;
-    motion::AgentDeclaration declaration;
-    declaration.shape = shape;
-    declaration.radius = radius;
-    declaration.angular_acceleration_max = 0;
-    const motion::SpaceTimeBound bound = BoundAt(motion, 0, declaration);
+    motion::MotionLimits limits;
+    limits.radius = radius;
+    limits.angular_acceleration_max = 0;
+    const motion::SpaceTimeBound bound = BoundAt(motion, 0, limits);
     narrow_phase::BodySegment segment;
     segment.shape = shape;
     segment.ball.radius = radius;

@@ -33,7 +33,7 @@ inline std::shared_ptr<const shape::Shape> RandomShape(Random& random, double si
 
 struct Agent {
   std::shared_ptr<const shape::Shape> shape;
-  motion::AgentDeclaration declaration;
+  motion::MotionLimits limits;
   TrueMotion motion;
 };
 
@@ -54,23 +54,23 @@ struct Scene {
   bool last[2], next[2];
 
   TrueBody Body(int i, Real t) const {
-    return {agents[i].shape.get(), agents[i].declaration.radius, agents[i].motion.At(t)};
+    return {agents[i].shape.get(), agents[i].limits.radius, agents[i].motion.At(t)};
   }
   Real Distance(Real t) const { return SolidDistance(Body(0, t), Body(1, t)); }
 
   narrow_phase::BodySegment Segment(int i) const {
     const Agent& agent = agents[i];
     narrow_phase::BodySegment segment;
-    segment.ball.radius = agent.declaration.radius;
+    segment.ball.radius = agent.limits.radius;
     segment.shape = agent.shape;
     const Instant base = Instant::FromNanoseconds(0);
     if (last[i]) {
-      const motion::SpaceTimeBound bound = BoundAt(agent.motion, 0, agent.declaration);
+      const motion::SpaceTimeBound bound = BoundAt(agent.motion, 0, agent.limits);
       segment.ball.bounds.push_back(ForwardBall(bound, base));
       if (agent.shape) segment.turns.push_back(ForwardRotation(bound, base));
     }
     if (next[i]) {
-      const motion::SpaceTimeBound bound = BoundAt(agent.motion, duration, agent.declaration);
+      const motion::SpaceTimeBound bound = BoundAt(agent.motion, duration, agent.limits);
       segment.ball.bounds.push_back(BackwardBall(bound, base));
       if (agent.shape) segment.turns.push_back(BackwardRotation(bound, base));
     }
@@ -91,19 +91,17 @@ inline Scene RandomScene(Random& random) {
     agent.shape = RandomShape(random, size * random.LogUniform(0.3, 3));
     if (i == 1 && !agent.shape && !scene.agents[0].shape)
       agent.shape = shape::Shape::Build(Cube(size));
-    motion::AgentDeclaration& declaration = agent.declaration;
-    declaration.radius =
-        agent.shape ? agent.shape->facts().radius : size * random.LogUniform(0.1, 1);
-    declaration.shape = agent.shape;
+    motion::MotionLimits& limits = agent.limits;
+    limits.radius = agent.shape ? agent.shape->facts().radius : size * random.LogUniform(0.1, 1);
     const bool steady = random.Chance(0.3);
-    declaration.acceleration_max = steady ? 0 : 2 * uncertain * declaration.radius;
-    declaration.angular_acceleration_max = random.Chance(0.3) ? 0 : 2 * uncertain;
+    limits.acceleration_max = steady ? 0 : 2 * uncertain * limits.radius;
+    limits.angular_acceleration_max = random.Chance(0.3) ? 0 : 2 * uncertain;
     TruePose& start = agent.motion.start;
     start.q = RandomTurn(random);
-    start.v = pace * declaration.radius * RandomUnit(random);
+    start.v = pace * limits.radius * RandomUnit(random);
     if (random.Chance(0.8)) start.w = pace * RandomUnit(random);
-    agent.motion.pieces = RandomPieces(random, scene.duration, declaration.acceleration_max,
-                                       declaration.angular_acceleration_max);
+    agent.motion.pieces = RandomPieces(random, scene.duration, limits.acceleration_max,
+                                       limits.angular_acceleration_max);
     const bool forward_only = random.Chance(0.4), backward_only = random.Chance(0.2);
     scene.last[i] = forward_only || !backward_only;
     scene.next[i] = !forward_only;
@@ -113,7 +111,7 @@ inline Scene RandomScene(Random& random) {
   const Vector direction = RandomUnit(random), p_0 = scene.agents[0].motion.At(t).p;
   Vector& start = scene.agents[1].motion.start.p;
   const Vector here = p_0 - scene.agents[1].motion.At(t).p;
-  const Real reach = scene.agents[0].declaration.radius + scene.agents[1].declaration.radius;
+  const Real reach = scene.agents[0].limits.radius + scene.agents[1].limits.radius;
   Real near = 0, far = 1.01L * reach;
   for (int i = 0; i < 30; ++i) {
     const Real middle = (near + far) / 2;

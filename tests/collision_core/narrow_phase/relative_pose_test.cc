@@ -20,9 +20,10 @@ std::shared_ptr<const shape::Shape> UnitCube() {
   return cube;
 }
 
-BodySegment Forward(const motion::SpaceTimeBound& bound) {
+BodySegment Forward(const motion::SpaceTimeBound& bound,
+                    std::shared_ptr<const shape::Shape> shape = UnitCube()) {
   BodySegment segment;
-  segment.shape = bound.limits.shape;
+  segment.shape = std::move(shape);
   segment.ball.radius = bound.limits.radius;
   segment.ball.bounds.push_back(ForwardBall(bound, kBase));
   if (segment.shape) segment.turns.push_back(ForwardRotation(bound, kBase));
@@ -40,7 +41,6 @@ motion::SpaceTimeBound RandomBound(Random& random, double from_origin) {
   bound.state.q_WB = Eigen::Quaterniond(scale * double(q.w()), scale * double(q.x()),
                                         scale * double(q.y()), scale * double(q.z()));
   bound.limits.angular_acceleration_max = 0;
-  bound.limits.shape = UnitCube();
   bound.limits.radius = UnitCube()->facts().radius;
   return bound;
 }
@@ -145,18 +145,16 @@ TEST(RelativePose, TurnsBeyondAllMeasureAreNotKnown) {
 TEST(RelativePose, ABallDoesNotTurn) {
   Random random(5);
   motion::SpaceTimeBound a = RandomBound(random, 0), b = RandomBound(random, 0);
-  a.limits.shape = nullptr;
   a.limits.angular_acceleration_max = -1;
-  const RelativePose pose = PoseAt(Forward(a), Forward(b), {0, 0, true}, 1);
+  const RelativePose pose = PoseAt(Forward(a, nullptr), Forward(b), {0, 0, true}, 1);
   EXPECT_EQ(pose.chord_A, 0);
-  EXPECT_EQ(ReachOf(Forward(a)), 0);
+  EXPECT_EQ(ReachOf(Forward(a, nullptr)), 0);
 }
 
 // Near the next state its bound is the better one; of each body by itself.
 TEST(RelativePose, TheLeastUncertainBoundsAreTaken) {
   motion::SpaceTimeBound a;
   a.state.stamp = kBase;
-  a.limits.shape = UnitCube();
   a.limits.acceleration_max = 1;
   a.limits.angular_acceleration_max = 1;
   motion::SpaceTimeBound next = a;

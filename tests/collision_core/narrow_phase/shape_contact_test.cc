@@ -30,18 +30,17 @@ struct Body {
     motion.start.v = v.cast<Real>();
     motion.start.w = w.cast<Real>();
     motion.start.q = Exponential(turned);
-    motion::AgentDeclaration declaration;
-    declaration.radius = shape ? shape->facts().radius : radius;
-    declaration.shape = shape;
-    declaration.acceleration_max = acceleration_max;
-    declaration.angular_acceleration_max = angular_acceleration_max;
+    motion::MotionLimits limits;
+    limits.radius = shape ? shape->facts().radius : radius;
+    limits.acceleration_max = acceleration_max;
+    limits.angular_acceleration_max = angular_acceleration_max;
     BodySegment segment;
-    segment.ball.radius = declaration.radius;
+    segment.ball.radius = limits.radius;
     segment.shape = shape;
     const Instant base = Instant::FromNanoseconds(0);
     for (const bool at_end : {false, true}) {
       if (at_end && !both) continue;
-      const motion::SpaceTimeBound bound = BoundAt(motion, at_end ? duration : 0, declaration);
+      const motion::SpaceTimeBound bound = BoundAt(motion, at_end ? duration : 0, limits);
       segment.ball.bounds.push_back(at_end ? BackwardBall(bound, base) : ForwardBall(bound, base));
       if (shape)
         segment.turns.push_back(at_end ? BackwardRotation(bound, base)

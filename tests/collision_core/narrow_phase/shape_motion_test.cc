@@ -41,7 +41,6 @@ struct Body {
     bound.limits.radius = shape ? shape->facts().radius : radius;
     bound.limits.acceleration_max = M;
     bound.limits.angular_acceleration_max = alpha;
-    bound.limits.shape = shape;
     return bound;
   }
 

@@ -66,8 +66,7 @@ void CheckNearest(const Scene& scene, const ShapeSegmentResult& verdict, Real to
 void CheckVerdict(const Scene& scene, const ShapeSegmentResult& verdict, Random& random,
                   Count* count) {
   const SegmentResult& times = verdict.times;
-  const Real tolerance =
-      kOracle * (scene.agents[0].declaration.radius + scene.agents[1].declaration.radius);
+  const Real tolerance = kOracle * (scene.agents[0].limits.radius + scene.agents[1].limits.radius);
   std::vector<Real> instants = {0, scene.duration};
   for (int i = 0; i < 10; ++i) instants.push_back(scene.duration * random.Uniform(0, 1));
   for (const double edge :

@@ -253,6 +253,7 @@ TEST_P(ClosedContact, EdgeSweepsThroughInOneStep) {
 TEST_P(ClosedContact, StatesOfDifferentStamps) {
   Body a{first_, 0, {1e6, 0, 0}, {8192, 0, 0}}, b{second_, 0, {1e6 + 5, 0, 0}, {8182, 0, 0}};
   KnownMotion of_a, of_b;
+  of_a.shape = first_, of_b.shape = second_;
   of_a.last = a.At(0);
   of_b.next = b.At(2);
   WorkBudget work(kPlenty);

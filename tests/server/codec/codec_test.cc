@@ -92,14 +92,14 @@ TEST(Codec, AcceptsTheLimits) {
   description.set_acceleration_max_m_s2(wire::kAccelerationMax);
   description.set_shape_hash(std::string(kShapeHashBytes, '\0'));
   const auto ball = DecodeDescription(description);
-  ASSERT_TRUE(std::holds_alternative<motion::AgentDeclaration>(ball));
-  EXPECT_FALSE(std::get<motion::AgentDeclaration>(ball).shape_awaited);
+  ASSERT_TRUE(std::holds_alternative<detection::AgentDeclaration>(ball));
+  EXPECT_FALSE(std::get<detection::AgentDeclaration>(ball).shape_awaited);
   description.set_shape_hash(std::string(kShapeHashBytes, 'h'));
   description.set_angular_acceleration_max_rad_s2(wire::kAccelerationMax);
   const auto shaped = DecodeDescription(description);
-  ASSERT_TRUE(std::holds_alternative<motion::AgentDeclaration>(shaped));
-  EXPECT_TRUE(std::get<motion::AgentDeclaration>(shaped).shape_awaited);
-  EXPECT_EQ(std::get<motion::AgentDeclaration>(shaped).angular_acceleration_max,
+  ASSERT_TRUE(std::holds_alternative<detection::AgentDeclaration>(shaped));
+  EXPECT_TRUE(std::get<detection::AgentDeclaration>(shaped).shape_awaited);
+  EXPECT_EQ(std::get<detection::AgentDeclaration>(shaped).angular_acceleration_max,
             wire::kAccelerationMax);
 }
 
@@ -108,8 +108,8 @@ TEST(Codec, TakesTheAngularAcceleration) {
   v1::AgentDescription description = Description("a", 1);
   for (const auto& [sent, taken] : {std::pair(-7.0, -1.0), {-0.0, 0.0}, {0.0, 0.0}, {2.5, 2.5}}) {
     description.set_angular_acceleration_max_rad_s2(sent);
-    const auto decoded = std::get<motion::AgentDeclaration>(DecodeDescription(description));
-    EXPECT_EQ(decoded.angular_acceleration_max, taken);
+    const auto decoded = std::get<detection::AgentDeclaration>(DecodeDescription(description));
+    EXPECT_EQ(decoded.limits.angular_acceleration_max, taken);
   }
 }
 
@@ -124,14 +124,15 @@ TEST(Codec, TakesTheSpeedCap) {
                                     {0.0, kInf},
                                     {-0.0, kInf}}) {
     description.set_speed_max_m_s(sent);
-    EXPECT_EQ(std::get<motion::AgentDeclaration>(DecodeDescription(description)).speed_max, taken)
+    EXPECT_EQ(std::get<detection::AgentDeclaration>(DecodeDescription(description)).speed_max,
+              taken)
         << sent;
   }
   description.set_speed_max_m_s(7);
   v1::AgentDescription recorded;
   ASSERT_TRUE(recorded.ParseFromString(description.SerializeAsString()));
   recorded.clear_speed_max_m_s();
-  EXPECT_EQ(std::get<motion::AgentDeclaration>(DecodeDescription(recorded)).speed_max, kInf);
+  EXPECT_EQ(std::get<detection::AgentDeclaration>(DecodeDescription(recorded)).speed_max, kInf);
 }
 
 // Goal:   a quaternion off by less than 1e-3 is normalised, and its error covers what that may

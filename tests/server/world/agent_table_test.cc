@@ -15,7 +15,7 @@ using Chunks = std::set<std::uint32_t>;
 
 Instant At(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
 
-Agent Described(std::uint32_t generation) { return {generation, 1, motion::AgentDeclaration{}}; }
+Agent Described(std::uint32_t generation) { return {generation, 1, detection::AgentDeclaration{}}; }
 
 detection::AgentClearance ClearanceOf(std::uint32_t slot, std::uint32_t generation,
                                       Instant clear_until) {

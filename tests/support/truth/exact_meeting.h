@@ -110,7 +110,7 @@ class ExactMeeting {
 
     /// V' = V + ½ M h, a nanosecond's worth of it.
     Dyadic CapSlope() const {
-      const motion::AgentDeclaration& d = bound.limits;
+      const motion::MotionLimits& d = bound.limits;
       return kNano() *
              (Dyadic(d.speed_max) + (Dyadic(d.acceleration_max) * Dyadic(d.time_step)).Scaled(-1));
     }

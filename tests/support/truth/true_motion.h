@@ -81,7 +81,7 @@ inline Quaternion RandomTurn(Random& random) {
 /// An agent that moves so, as told by a state at `stamp` seconds, with what rounding to doubles
 /// costs declared.
 inline motion::SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
-                                      const motion::AgentDeclaration& declaration) {
+                                      const motion::MotionLimits& limits) {
   const TruePose pose = motion.At(stamp);
   motion::SpaceTimeBound bound;
   bound.state.stamp =
@@ -94,7 +94,7 @@ inline motion::SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
   bound.state.position_error = 1e-15 * size;
   bound.state.velocity_error = 1e-15 * static_cast<double>(pose.v.norm());
   bound.state.rotation_error = 1e-15;
-  bound.limits = declaration;
+  bound.limits = limits;
   return bound;
 }
 

@@ -43,8 +43,9 @@ motion::ContractVerdict ServiceSays(const MotionBounds& bounds, const State& sen
   before.limits.acceleration_max = bounds.acceleration_max_m_s2;
   before.limits.time_step = bounds.time_step_s;
   before.limits.angular_acceleration_max = bounds.angular_acceleration_max_rad_s2;
-  before.limits.shape_awaited = bounds.turns;
-  return CheckContract(before, ToCore(next)).verdict;
+  const auto orientation =
+      bounds.turns ? motion::Orientation::kMatters : motion::Orientation::kIgnored;
+  return CheckContract(before, ToCore(next), orientation).verdict;
 }
 
 Quaternion About(const Eigen::Vector3d& axis, double angle) {

@@ -11,18 +11,16 @@
 namespace collision::detection {
 namespace {
 
-motion::SpaceTimeBound BoundAt(double t, double expiry = 0) {
-  motion::SpaceTimeBound bound;
-  bound.state = State(t, {0, 0, 0}, {0, 0, 0});
-  if (expiry > 0) bound.state.expiry = At(expiry);
-  bound.limits.radius = 1;
-  return bound;
+motion::MotionState StateAt(double t, double expiry = 0) {
+  motion::MotionState state = State(t, {0, 0, 0}, {0, 0, 0});
+  if (expiry > 0) state.expiry = At(expiry);
+  return state;
 }
 
 AgentIndex Admitted(const AgentId& id, double t, AgentTable* table, double expiry = 0) {
-  const AgentIndex agent = table->Admit(id, {.radius = 1}, At(t));
+  const AgentIndex agent = table->Admit(id, {.limits = {.radius = 1}}, At(t));
   if (agent.is_none()) return agent;
-  table->Store(agent, BoundAt(t, expiry), Link::kJumped);
+  table->Store(agent, StateAt(t, expiry), Link::kJumped);
   table->RecordBound(agent);
   return agent;
 }
@@ -99,7 +97,7 @@ TEST(AgentTable, RandomLivesKeepItsInvariants) {
     } else if (random.Chance(0.2)) {
       table.Remove(agent);
     } else {
-      table.Store(agent, BoundAt(now), Link::kFollows);
+      table.Store(agent, StateAt(now), Link::kFollows);
       table.RecordBound(agent);
     }
     if (random.Chance(0.3)) table.SetHeardUntil(OwnerOf(id), At(now));

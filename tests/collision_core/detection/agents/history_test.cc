@@ -19,8 +19,8 @@ motion::SpaceTimeBound Bound(double t, double acceleration_max = 2, double radiu
 
 History Of(const motion::SpaceTimeBound& first, const motion::SpaceTimeBound& second, Link link) {
   History history;
-  history.Push(first, Link::kJumped, 8);
-  history.Push(second, link, 8);
+  history.Push({.bound = first, .link = Link::kJumped}, 8);
+  history.Push({.bound = second, .link = link}, 8);
   return history;
 }
 
@@ -48,7 +48,7 @@ TEST(History, NothingIsSaidBeyondAnExpiry) {
   motion::SpaceTimeBound bound = Bound(0);
   bound.state.expiry = At(1);
   History history;
-  history.Push(bound, Link::kJumped, 8);
+  history.Push({.bound = bound, .link = Link::kJumped}, 8);
   EXPECT_EQ(history.NextCutAfter(At(0)), At(1));
   EXPECT_EQ(history.Over(At(0), At(1)).ball.bounds.size(), 1u);
   EXPECT_TRUE(history.Over(At(1), At(2)).ball.bounds.empty());

@@ -62,17 +62,17 @@ bool LeavesOut(const SceneProfile& profile, const std::string& what) {
 
 TEST(SceneProfile, NamesWhatNoAgentNeeds) {
   SceneProfile profile;
-  motion::SpaceTimeBound plain;
-  plain.state = State(0, {0, 0, 0}, {1, 0, 0});
-  motion::SpaceTimeBound full = plain;
-  full.limits.acceleration_max = 1;
-  full.limits.speed_max = 10;
-  full.limits.time_step = 0.1;
-  full.state.direction = {1, 0, 0};
-  full.state.position_error = 0.1;
-  full.state.expiry = At(1);
-  full.limits.mask = 2;
-  full.skew = 0.1;
+  History::Sample plain;
+  plain.bound.state = State(0, {0, 0, 0}, {1, 0, 0});
+  History::Sample full = plain;
+  full.bound.limits.acceleration_max = 1;
+  full.bound.limits.speed_max = 10;
+  full.bound.limits.time_step = 0.1;
+  full.bound.state.direction = {1, 0, 0};
+  full.bound.state.position_error = 0.1;
+  full.bound.state.expiry = At(1);
+  full.filter.mask = 2;
+  full.bound.skew = 0.1;
   profile.Add(SceneProfile::Of(plain));
   const char* const parts[] = {"parabolic growth", "speed caps", "directional boxes",
                                "integrator step",  "growth by",  "clock skew",

@@ -83,10 +83,10 @@ class History {
 
   Vector3d Place() { return random_.Uniform(0, box_) * random_.UnitVector(); }
 
-  motion::AgentDeclaration Declaration() {
-    motion::AgentDeclaration declaration;
-    declaration.radius = random_.LogUniform(0.2, 3);
-    declaration.acceleration_max = random_.Chance(0.3) ? 0 : random_.LogUniform(1e-3, 1e3);
+  AgentDeclaration Declaration() {
+    AgentDeclaration declaration;
+    declaration.limits.radius = random_.LogUniform(0.2, 3);
+    declaration.limits.acceleration_max = random_.Chance(0.3) ? 0 : random_.LogUniform(1e-3, 1e3);
     return declaration;
   }
 
@@ -96,9 +96,9 @@ class History {
     state.stamp = now_;
     state.p_WA = Place();
     state.v_WA = random_.Uniform(0, 20) * random_.UnitVector();
-    const motion::AgentDeclaration declaration = Declaration();
+    const AgentDeclaration declaration = Declaration();
     ASSERT_TRUE(detector_.Admit(Id(slot), declaration, state, now_));
-    agents_[slot] = {{state, declaration, 0}, {{now_, state.p_WA, state.v_WA}}};
+    agents_[slot] = {{state, declaration.limits, 0}, {{now_, state.p_WA, state.v_WA}}};
   }
 
   void Speak(std::uint32_t slot, Agent* agent) {
@@ -115,10 +115,10 @@ class History {
       state.position_error = random_.Uniform(0, 0.5);
     }
     if (last <= now_ && random_.Chance(0.03)) {
-      const double radius = agent->bound.limits.radius;
-      agent->bound.limits = Declaration();
-      agent->bound.limits.radius = radius;
-      detector_.Redeclare(Id(slot), agent->bound.limits, now_);
+      AgentDeclaration declaration = Declaration();
+      declaration.limits.radius = agent->bound.limits.radius;
+      agent->bound.limits = declaration.limits;
+      detector_.Redeclare(Id(slot), declaration, now_);
     }
     EXPECT_NE(detector_.Update(Id(slot), state, now_), UpdateOutcome::kBreached);
     detector_.SetHeardUntil(OwnerOf(Id(slot)), state.stamp);

@@ -11,7 +11,7 @@
 namespace collision::detection {
 namespace {
 
-const motion::AgentDeclaration kSlow{.radius = 1, .acceleration_max = 0.01};
+const AgentDeclaration kSlow{.limits = {.radius = 1, .acceleration_max = 0.01}};
 
 DetectorOptions Options(std::uint32_t pairs_per_agent_max = 256) {
   DetectorOptions options;
@@ -103,8 +103,8 @@ TEST(StateAhead, ToldBeforeTheEarliestOfAllIsAsked) {
 void Crowd(Detector* detector) {
   detector->Admit(Id(1), kSlow, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector->Advance(At(0));
-  motion::AgentDeclaration about = kSlow, passing = kSlow;
-  about.group = 4, about.mask = 1, passing.group = 2;
+  AgentDeclaration about = kSlow, passing = kSlow;
+  about.filter.group = 4, about.filter.mask = 1, passing.filter.group = 2;
   detector->Admit(Id(2), about, State(0, {0.1, 0, 0}, {0, 0, 0}), At(0));
   detector->Admit(Id(3), about, State(0, {-0.1, 0, 0}, {0, 0, 0}), At(0));
   detector->Admit(Id(0), passing, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));

@@ -15,10 +15,8 @@ class CoverageTest : public testing::Test {
  protected:
   CoverageTest() {
     for (std::uint32_t k = 0; k < 2; ++k) {
-      const AgentIndex agent = agents_.Admit(Id(k), {.radius = 1}, At(0));
-      motion::SpaceTimeBound bound;
-      bound.state = State(0, {0, 0, 0}, {0, 0, 0});
-      agents_.Store(agent, bound, Link::kJumped);
+      const AgentIndex agent = agents_.Admit(Id(k), {.limits = {.radius = 1}}, At(0));
+      agents_.Store(agent, State(0, {0, 0, 0}, {0, 0, 0}), Link::kJumped);
       coverage_.AddAgent(agent);
       coverage_.Renew(agent, At(0), ClearanceCause::kAdmission);
     }
@@ -86,9 +84,7 @@ TEST_F(CoverageTest, SettledAgentsStandByTheirLatestKeys) {
 TEST_F(CoverageTest, AStateAheadOfItsKeyIsAskedAboutAtOnce) {
   SetKey(a_, 5);
   SetKey(b_, 30);
-  motion::SpaceTimeBound ahead;
-  ahead.state = State(6, {0, 0, 0}, {0, 0, 0});
-  agents_.Store(a_, ahead, Link::kFollows);
+  agents_.Store(a_, State(6, {0, 0, 0}, {0, 0, 0}), Link::kFollows);
   coverage_.StateAdvanced(a_);
   EXPECT_EQ(coverage_.due().top(), a_);
   EXPECT_EQ(coverage_.due().top_key(), Instant::Always());

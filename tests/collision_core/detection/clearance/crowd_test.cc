@@ -21,7 +21,7 @@ struct Crowd {
     options.pairs_max = pairs_max;
     detector.emplace(options);
     for (std::uint32_t slot = 0; slot < agents; ++slot) {
-      detector->Admit(Id(slot), {.radius = 1, .acceleration_max = 1},
+      detector->Admit(Id(slot), {.limits = {.radius = 1, .acceleration_max = 1}},
                       State(0, {0, 0, 0}, {0, 0, 0}), At(0));
     }
     Step(0);
@@ -127,7 +127,8 @@ TEST(ACrowd, WhoIsSaturatedCountsHoweverOthersComeAndGo) {
     return state;
   };
   for (std::uint32_t slot = 0; slot < kAgents; ++slot) {
-    detector.Admit(Id(slot), {.radius = 1, .acceleration_max = 0.1}, place(slot, true, 0), At(0));
+    detector.Admit(Id(slot), {.limits = {.radius = 1, .acceleration_max = 0.1}},
+                   place(slot, true, 0), At(0));
   }
   std::size_t saturated = 0, all_clear = 0, fresh = 0;
   for (int step = 1; step <= 600; ++step) {
@@ -184,7 +185,8 @@ struct Couples {
     detector.emplace(options);
     for (std::uint32_t couple = first; couple < last; ++couple) {
       for (const bool second : {false, true}) {
-        detector->Admit(Id(2 * couple + second), {.radius = 1, .acceleration_max = Max(couple)},
+        detector->Admit(Id(2 * couple + second),
+                        {.limits = {.radius = 1, .acceleration_max = Max(couple)}},
                         At(couple, second, 0), collision::At(0));
       }
     }

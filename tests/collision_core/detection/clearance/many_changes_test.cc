@@ -26,7 +26,7 @@ class Swarm {
       if (!drone) p = Vector3d(10000 + 5 * p.x(), 5 * p.y(), 10 * p.z());
       states_.push_back(
           State(0, p, drone ? random.UnitVector() * random.Uniform(0, 10) : Vector3d(0, 0, 0)));
-      declarations_.push_back({.radius = 0.5, .acceleration_max = drone ? 5 : 1e-3});
+      declarations_.push_back({.limits = {.radius = 0.5, .acceleration_max = drone ? 5 : 1e-3}});
     }
     DetectorOptions options;
     options.agents_max = drones + others;
@@ -46,7 +46,7 @@ class Swarm {
   std::uint32_t Widen(std::uint32_t every, bool one_by_one) {
     std::uint32_t widened = 0;
     for (std::uint32_t slot = 0; slot < drones_; slot += every, ++widened) {
-      declarations_[slot].acceleration_max *= 1.01;
+      declarations_[slot].limits.acceleration_max *= 1.01;
       detector->Redeclare(Id(slot), declarations_[slot], At(0));
       if (one_by_one) detector->Advance(At(0));
     }
@@ -71,7 +71,7 @@ class Swarm {
  private:
   std::uint32_t drones_;
   std::vector<motion::MotionState> states_;
-  std::vector<motion::AgentDeclaration> declarations_;
+  std::vector<AgentDeclaration> declarations_;
 };
 
 TEST(ManyChanges, AreToldAsIfTheyCameOneByOne) {

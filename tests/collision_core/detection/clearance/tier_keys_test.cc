@@ -28,12 +28,12 @@ TEST(TierKeys, EachTierThatIsDueIsAskedAbout) {
     const double times[] = {0.6, 0.6 + later}, accelerations[] = {1, 100};
     const double first = std::min(times[0], times[1]);
     Detector detector(AnnouncedFor(0.5));
-    detector.Admit(Id(0), {.radius = 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+    detector.Admit(Id(0), {.limits = {.radius = 1}}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
     Vector3d places[2];
     for (const std::uint32_t k : {0u, 1u}) {
       const double gap = accelerations[k] * times[k] * times[k] / 2;
       places[k] = {k == 0 ? 2 + gap : -2 - gap, 0, 0};
-      detector.Admit(Id(1 + k), {.radius = 1, .acceleration_max = accelerations[k]},
+      detector.Admit(Id(1 + k), {.limits = {.radius = 1, .acceleration_max = accelerations[k]}},
                      State(0, places[k], {0, 0, 0}), At(0));
     }
     detector.Advance(At(0));
@@ -53,13 +53,13 @@ TEST(TierKeys, EachTierThatIsDueIsAskedAbout) {
 // somebody near it: it must not be told that it is clear of what lies before that state.
 TEST(TierKeys, AStateAheadOfTheComparableKeyIsAskedAbout) {
   Detector detector(AnnouncedFor(0.5));
-  const motion::AgentDeclaration calm{.radius = 1, .acceleration_max = 0.5};
+  const AgentDeclaration calm{.limits = {.radius = 1, .acceleration_max = 0.5}};
   detector.Admit(Id(0), calm, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
-  motion::AgentDeclaration other = calm;
-  other.mask = 1;
+  AgentDeclaration other = calm;
+  other.filter.mask = 1;
   detector.Admit(Id(1), other, State(0, {1, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), calm, State(0, {1, 2.2, 0}, {0, 0, 0}), At(0));
-  detector.Admit(Id(3), {.radius = 1, .acceleration_max = 1000, .group = 2},
+  detector.Admit(Id(3), {.limits = {.radius = 1, .acceleration_max = 1000}, .filter = {.group = 2}},
                  State(0, {-20, 1000, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
   Speak(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
@@ -73,8 +73,9 @@ TEST(TierKeys, AStateAheadOfTheComparableKeyIsAskedAbout) {
 // whose state lies ahead learns of somebody new whom it may meet later.
 TEST(TierKeys, AStateAheadIsAskedThoughAKeyIsLowered) {
   Detector detector(AnnouncedFor(0.5));
-  const motion::AgentDeclaration calm{.radius = 1, .acceleration_max = 0.5};
-  const motion::AgentDeclaration violent{.radius = 1, .acceleration_max = 1000, .group = 2};
+  const AgentDeclaration calm{.limits = {.radius = 1, .acceleration_max = 0.5}};
+  const AgentDeclaration violent{.limits = {.radius = 1, .acceleration_max = 1000},
+                                 .filter = {.group = 2}};
   detector.Admit(Id(0), calm, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
   detector.Admit(Id(1), violent, State(0, {-20, 1000, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(2), calm, State(0, {-20, 1182, 0}, {0, 0, 0}), At(0));
@@ -82,8 +83,8 @@ TEST(TierKeys, AStateAheadIsAskedThoughAKeyIsLowered) {
   EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(0.61));
   Speak(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
   detector.Remove(Id(2));
-  motion::AgentDeclaration later = calm;
-  later.mask = 1;
+  AgentDeclaration later = calm;
+  later.filter.mask = 1;
   detector.Admit(Id(3), later, State(0.4, {80, 0, 0}, {0, 0, 0}), At(0.4));
   detector.Advance(At(0.4));
   EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(1.42));

@@ -17,7 +17,7 @@ constexpr double kStep = 1.0 / 32;
 
 struct Mover {
   motion::MotionState state;
-  motion::AgentDeclaration declaration;
+  AgentDeclaration declaration;
   std::uint32_t generation = 0;  ///< 0: not there.
 };
 
@@ -89,8 +89,8 @@ class Scene {
     Mover& mover = movers_[slot];
     ++mover.generation;
     mover.state = State(now_, Place(), random_.UnitVector() * random_.Uniform(0, 10));
-    mover.declaration = {.radius = random_.LogUniform(0.2, 3),
-                         .acceleration_max = random_.LogUniform(0.01, 100)};
+    mover.declaration = {.limits = {.radius = random_.LogUniform(0.2, 3),
+                                    .acceleration_max = random_.LogUniform(0.01, 100)}};
     Both([&](Detector* detector) {
       detector->Admit(IdOf(slot, mover.generation), mover.declaration, mover.state, At(now_));
     });

@@ -70,10 +70,10 @@ class Pairs {
     for (const double side : {-0.5, 0.5}) {
       const motion::MotionState state =
           State(0, middle + side * (n * approach.gap + across), -2 * side * approach.speed * n);
-      const motion::AgentDeclaration declaration{.radius = 1,
-                                                 .acceleration_max = approach.acceleration_max};
+      const AgentDeclaration declaration{
+          .limits = {.radius = 1, .acceleration_max = approach.acceleration_max}};
       detector_->Admit(Id(static_cast<std::uint32_t>(bounds_.size())), declaration, state, At(0));
-      bounds_.push_back({state, declaration, 0});
+      bounds_.push_back({state, declaration.limits, 0});
     }
   }
 
@@ -127,7 +127,7 @@ TEST(Earliest, GrazingIsDecidedAnewAtEachTime) {
 // is asked anew.
 TEST(Earliest, RoundingOfManyStatesIsNoNews) {
   Detector detector{DetectorOptions{}};
-  const motion::AgentDeclaration slow{.radius = 1, .acceleration_max = 1e-6};
+  const AgentDeclaration slow{.limits = {.radius = 1, .acceleration_max = 1e-6}};
   const Vector3d v(1e-3, 2e-3, 0);
   const Vector3d places[] = {{1e8, 3e7, 0}, {1e8, 3.1e7, 0}};
   for (int step = 0; step < 2000; ++step) {
@@ -149,7 +149,8 @@ TEST(Earliest, RoundingOfManyStatesIsNoNews) {
 TEST(Earliest, TheEndOfTimeIsReached) {
   Detector detector{{.announce_within = 1e9}};
   for (const std::uint32_t slot : {0u, 1u}) {
-    detector.Admit(Id(slot), {.radius = 1}, State(0, {3.0 * slot, 0, 0}, {1, 0, 0}), At(0));
+    detector.Admit(Id(slot), {.limits = {.radius = 1}}, State(0, {3.0 * slot, 0, 0}, {1, 0, 0}),
+                   At(0));
   }
   detector.Advance(At(0));
   detector.Advance(At(9e9));

@@ -26,7 +26,8 @@ motion::SpaceTimeBound BoundAt(double t, double x, double v, double acceleration
 History Moving(double x, double v, double acceleration_max) {
   History history;
   for (int k = 0; k <= 20; ++k) {
-    history.Push(BoundAt(0.25 * k, x, v, acceleration_max), k == 0 ? Link::kJumped : Link::kFollows,
+    history.Push({.bound = BoundAt(0.25 * k, x, v, acceleration_max),
+                  .link = k == 0 ? Link::kJumped : Link::kFollows},
                  64);
   }
   return history;
@@ -63,9 +64,10 @@ TEST(SegmentEvaluation, BracketsTheContactOfTwoBalls) {
 TEST(SegmentEvaluation, ConfirmsNothingWhileAShapeIsAwaited) {
   History awaited;
   for (int k = 0; k <= 20; ++k) {
-    motion::SpaceTimeBound bound = BoundAt(0.25 * k, 0, 0, 0);
-    bound.limits.shape_awaited = true;
-    awaited.Push(bound, k == 0 ? Link::kJumped : Link::kFollows, 64);
+    awaited.Push({.bound = BoundAt(0.25 * k, 0, 0, 0),
+                  .shape_awaited = true,
+                  .link = k == 0 ? Link::kJumped : Link::kFollows},
+                 64);
   }
   const ContactTracker tracker = Evaluated(awaited, Moving(4, -2, 0), 5);
   ASSERT_EQ(tracker.finished().size(), 1u);
@@ -76,8 +78,7 @@ TEST(SegmentEvaluation, ConfirmsNothingWhileAShapeIsAwaited) {
 
 TEST(SegmentEvaluation, IsUndecidedWhereABoundWasBroken) {
   History broken = Moving(0, 0, 0);
-  motion::SpaceTimeBound next = BoundAt(5.25, 100, 0, 0);
-  broken.Push(next, Link::kBroken, 64);
+  broken.Push({.bound = BoundAt(5.25, 100, 0, 0), .link = Link::kBroken}, 64);
   ContactTracker tracker(At(5), Past::kKnown);
   WorkBudget work(1000);
   EvaluateSegments(broken, Moving(4, -2, 0), At(5.25), &work, &tracker);

@@ -24,8 +24,8 @@ class Meetings : public Line {
  public:
   explicit Meetings(std::uint64_t per_step) : Line(Options(per_step)) {
     const auto ship = shape::Shape::Build(LShape());
-    motion::AgentDeclaration declaration{2, 1};
-    declaration.angular_acceleration_max = 0.5;
+    AgentDeclaration declaration{.limits = {2, 1}};
+    declaration.limits.angular_acceleration_max = 0.5;
     declaration.shape = ship;
     for (std::uint32_t i = 0; i < kPairs; ++i) {
       Put(2 * i + 1, declaration, {0, 100.0 * i, 0}, {0, 0, 0});
@@ -58,7 +58,7 @@ class Meetings : public Line {
     return options;
   }
 
-  void Put(std::uint32_t slot, const motion::AgentDeclaration& declaration, const Vector3d& p,
+  void Put(std::uint32_t slot, const AgentDeclaration& declaration, const Vector3d& p,
            const Vector3d& v) {
     detector.Admit(Id(slot), declaration, State(now, p, v), At(now));
     agents.push_back({slot, p, v, now});

@@ -1,0 +1,28 @@
+// What the owner of an agent declares about it.
+#pragma once
+
+#include <memory>
+
+#include "collision_core/broad_phase/agent_bound.h"
+#include "collision_core/motion/motion_state.h"
+
+namespace collision::shape {
+class Shape;
+}  // namespace collision::shape
+
+namespace collision::detection {
+
+/// What an owner declares about an agent once, and what then holds from state to state. A change
+/// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
+/// detector asks about all partners again.
+struct AgentDeclaration {
+  motion::MotionLimits limits;
+  broad_phase::CollisionFilter filter;
+  /// The shape, within the ball of `limits.radius`; null: the ball itself.
+  std::shared_ptr<const shape::Shape> shape = nullptr;
+  /// The shape is not known yet: it lies somewhere within the ball. The ball then excludes contacts
+  /// but confirms none. Requires that `shape` is null.
+  bool shape_awaited = false;
+};
+
+}  // namespace collision::detection
