@@ -4,7 +4,7 @@
 // Method: random bounds of all magnitudes against their ratio; agents come, change and leave,
 // beside a
 //         look at all.
-#include "collision_core/detection/clearance/acceleration_tiers.h"
+#include "collision_core/detection/clearance/keys/acceleration_tiers.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // the
 //         earliest of all is known.
 // Method: random changes, beside a key for each tier in a plain array.
-#include "collision_core/detection/clearance/clearance_keys.h"
+#include "collision_core/detection/clearance/keys/clearance_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // walk
 //         finds a key that promises too little or a queue that does not agree.
 // Method: one or two agents by hand.
-#include "collision_core/detection/clearance/coverage_table.h"
+#include "collision_core/detection/clearance/keys/coverage_table.h"
 
 #include <gtest/gtest.h>
 
