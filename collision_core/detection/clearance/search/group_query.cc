@@ -58,7 +58,7 @@ bool GroupQuery::IsCrowded(const ClearanceQuestion& question) {
        {before, coverage_.last_saturated(), coverage_.last_untracked()}) {
     if (partner == agent || !agents.Contains(partner)) continue;
     const AgentRecord& other = agents[partner];
-    if (other.expired || tracked_.Contains(partner)) continue;
+    if (other.expired || question.tracked->Contains(partner)) continue;
     if (!CanMeet(record.declaration.filter, other.declaration.filter)) continue;
     ++context_.counters->pair_queries;
     const intersection::IntersectionTime time =
@@ -82,7 +82,7 @@ NextMeeting GroupQuery::QueryBroadPhase(const ClearanceQuestion& question) {
   in_crowd_ = coverage_.IsSaturated(agent);
   TrackDue(question);
   if (coverage_.IsSaturated(agent)) return {};
-  const NextMeeting next = NextMeetingSearch::EarliestOf(found_, tracked_);
+  const NextMeeting next = NextMeetingSearch::EarliestOf(found_, *question.tracked);
   if (next.when.is_never()) return next_.Find(question, until);
   next_.Record(question, next.when);
   return next;
