@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "collision_core/detection/agents/agent_declaration.h"
-#include "collision_core/detection/clearance/agent_clearance.h"
+#include "collision_core/detection/clearance/keys/agent_clearance.h"
 #include "collision_core/detection/detector_counters.h"
 #include "collision_core/detection/detector_options.h"
 #include "collision_core/detection/earliest/earliest_answer.h"
@@ -19,9 +19,9 @@ namespace collision::detection {
 /// What became of a state.
 enum class UpdateOutcome {
   kKept,      ///< Inside what was promised: standing answers stay valid.
-  kJumped,    ///< A declared discontinuity: asked about anew.
-  kWidened,   ///< Promises less than before: asked about anew.
-  kBreached,  ///< Broke its bound: the new truth, asked about anew, partners told.
+  kJumped,    ///< A declared discontinuity: the agent is queried anew.
+  kWidened,   ///< Promises less than before: the agent is queried anew.
+  kBreached,  ///< Breaks the last bound: the agent is queried anew, its partners are notified.
   kOlder,     ///< Not newer than the newest known: dropped.
   kUnknown    ///< No such agent: dropped.
 };
@@ -59,15 +59,16 @@ class Detector {
   /// `effective_from` is used where the state jumps, widens or breaches.
   UpdateOutcome Update(const AgentId& id, const motion::MotionState& state, Instant effective_from);
 
-  /// A new declaration. What widens counts at once (and is told as effective from
-  /// `effective_from`); what narrows counts from the next state on. False: unknown agent.
+  /// A new declaration. What widens counts at once (clearances report it as effective from
+  /// `effective_from`); what narrows counts from the next state on. False: unknown agent. Requires,
+  /// like Admit(), that a shape that is awaited is null.
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
 
   /// The owner gives the agent up; its open events are withdrawn (ended, where confirmed) once what
   /// was heard of it has passed. False: unknown agent.
   bool Remove(const AgentId& id);
 
-  /// The owner, one run of a simulator, has told everything about its agents up to `until`:
+  /// The owner, one run of a simulator, has reported everything about its agents up to `until`:
   /// contacts are evaluated up to there. Holds for all agents of the owner, also for those admitted
   /// later; has no effect while it has none. Never goes back. O(log owners).
   void SetHeardUntil(const OwnerId& owner, Instant until);
@@ -86,15 +87,14 @@ class Detector {
   std::optional<AgentClearance> ClearanceOf(const AgentId& id) const;
 
   /// The canonical earliest intersection as of the last Advance(). No later event or clearance
-  /// depends on whether it is asked for; what it learns is kept in a cache of its own, so that two
-  /// threads may not ask at the same time either.
+  /// depends on whether it is called; it has a cache of its own, so two threads may not call it at
+  /// the same time either.
   EarliestAnswer Earliest() const;
 
   Instant now() const;
   std::size_t agents() const;
   std::size_t pairs_tracked() const;
-  /// Events that wait for their time: agents to be asked about again, pairs to be evaluated,
-  /// expiries.
+  /// Entries that wait for their time: agents to be queried again, pairs to be evaluated, expiries.
   std::size_t queued() const;
   const DetectorCounters& counters() const;
 

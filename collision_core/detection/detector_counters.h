@@ -5,10 +5,10 @@
 
 namespace collision::detection {
 
-/// WorkBudget and occurrences since the start.
+/// Work and occurrences since the start.
 struct DetectorCounters {
   std::uint64_t updates_kept = 0, jumps = 0, widenings = 0, breaches = 0;
-  std::uint64_t queries = 0;          ///< Agents whose earliest meetings were asked for.
+  std::uint64_t queries = 0;          ///< Queries for the meetings of one agent.
   std::uint64_t pair_queries = 0;     ///< Pairs given to the canonical routine.
   std::uint64_t filter_tests = 0;     ///< Pairs given to a cheaper test of the broad phase.
   std::uint64_t broad_units = 0;      ///< All work of the broad phase, in the units it chooses by.

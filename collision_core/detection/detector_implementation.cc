@@ -8,8 +8,8 @@
 namespace collision::detection {
 namespace {
 
-/// News may be so late, in units of announce_within, and still find what was known of the time it
-/// tells about. Of what came later than that, less is certain.
+/// A state may arrive this late, in units of announce_within, and still find everything that was
+/// known about the time of its stamp. For later ones, less is certain.
 constexpr double kLateness = 2;
 
 }  // namespace
@@ -131,7 +131,8 @@ bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclarati
   return true;
 }
 
-// It is there until its owner last spoke of it; partners are evaluated up to then.
+// The agent is there up to the time that its owner has reported; its pairs are evaluated up to
+// then.
 bool Detector::Implementation::Remove(const AgentId& id) {
   const AgentIndex agent = agents_.Find(id);
   if (agent.is_none()) return false;
@@ -154,8 +155,8 @@ void Detector::Implementation::Tighten(AgentIndex agent) {
   clearances_.Tighten(agent);
 }
 
-// Agents that leave or expire may have met others since the last step, so that they are asked about
-// first and evaluated after that.
+// Agents that leave or expire may have met others since the last step: they are queried first and
+// evaluated after that.
 void Detector::Implementation::Advance(Instant now) {
   clock_.now = std::max(clock_.now, now);
   ++clock_.step;

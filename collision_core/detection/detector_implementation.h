@@ -12,8 +12,8 @@
 
 namespace collision::detection {
 
-/// Owns the components and passes on what one tells the others: agents change, clearances are asked
-/// for, pairs are evaluated. No component but this one changes the agent table or the clock.
+/// Owns the components and passes results from one to the next: agents change, clearances are
+/// queried, pairs are evaluated. No component but this one changes the agent table or the clock.
 class Detector::Implementation {
  public:
   explicit Implementation(const DetectorOptions& options);

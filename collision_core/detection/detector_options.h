@@ -17,13 +17,12 @@ struct DetectorOptions {
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
   /// States of one agent that are kept; beyond, the oldest are dropped and brackets widen. >= 1.
   std::uint32_t history_max = 64;
-  /// WorkBudget that the narrow phase may spend on a pair of shapes in one evaluation
-  /// (base/work_budget.h); beyond, brackets stay wider and say that the budget limited them.
+  /// Work units that the narrow phase may spend on a pair of shapes in one evaluation
+  /// (base/work_budget.h); beyond, brackets stay wider and are marked as limited by the budget.
   std::uint64_t work_units_per_turn = 40000;
   /// Likewise in one step on all pairs of shapes, shared out among those that are evaluated
-  /// (pairs/work_shares.h). WorkBudget that one pair leaves goes to the next. The last evaluation
-  /// of a pair of which an agent leaves or expires does not count. 0: no limit but each
-  /// evaluation's.
+  /// (pairs/work_shares.h). Units that one pair leaves go to the next. The last evaluation of a
+  /// pair of which an agent leaves or expires does not count. 0: no limit but each evaluation's.
   std::uint64_t work_units_per_step = 0;
   /// How candidate pairs are found; changes the cost, never an answer.
   broad_phase::BroadPhaseMethod broad_phase = broad_phase::BroadPhaseMethod::kAuto;

@@ -14,7 +14,7 @@ namespace collision::detection {
 
 /// What an owner declares about an agent once, and what then holds from state to state. A change
 /// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
-/// detector asks about all partners again.
+/// detector queries the agent for all partners again.
 struct AgentDeclaration {
   motion::MotionLimits limits;
   broad_phase::CollisionFilter filter;

@@ -1,4 +1,4 @@
-// What the detector knows of one agent from its owner.
+// What the detector knows about one agent.
 #pragma once
 
 #include <algorithm>
@@ -10,9 +10,10 @@
 
 namespace collision::detection {
 
-/// A run of a simulator that has agents in the table.
+/// One run of a simulator, with agents in the table.
 struct Owner {
-  Instant heard_until = Instant::Always();  ///< It has told everything about its agents up to here.
+  Instant heard_until =
+      Instant::Always();  ///< It has reported everything about its agents up to here.
   std::uint32_t agents = 0;
 };
 
@@ -22,10 +23,10 @@ struct AgentRecord {
   /// In force from the next state on, its filter at once; each sample of the history has its own.
   AgentDeclaration declaration;
   History history;
-  BoundMargin margin;                         ///< What is left of it since the last renewal.
-  Instant admitted_from = Instant::Always();  ///< Nothing is known, or promised, before.
-  Instant told_until = Instant::Always();     ///< The newest stamp; once removed, heard_until().
-  const Owner* owner = nullptr;               ///< Null once removed.
+  BoundMargin margin;                          ///< What is left of it since the last renewal.
+  Instant admitted_from = Instant::Always();   ///< Nothing is known, or promised, before.
+  Instant reported_until = Instant::Always();  ///< The newest stamp; once removed, heard_until().
+  const Owner* owner = nullptr;                ///< Null once removed.
   std::uint64_t removal = 0;  ///< 1-based removal number, while the last state lies ahead; 0: none.
   bool expired = false;       ///< Promises exclude the agent: its last state has run out.
   bool shape_redeclared = false;  ///< The shape was declared anew since the newest state.
@@ -33,9 +34,9 @@ struct AgentRecord {
 
   const motion::SpaceTimeBound& bound() const { return history.newest().bound; }
   Instant stamp() const { return bound().state.stamp; }
-  /// The owner has told everything about the agent up to here.
+  /// The owner has reported everything about the agent up to here.
   Instant heard_until() const {
-    return owner == nullptr ? told_until : std::max(told_until, owner->heard_until);
+    return owner == nullptr ? reported_until : std::max(reported_until, owner->heard_until);
   }
   /// The newest bound, wider by the margin: clearance keys are computed from it.
   broad_phase::AgentBound wide_bound() const { return {margin.Widen(bound()), declaration.filter}; }

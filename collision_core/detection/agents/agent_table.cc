@@ -19,6 +19,7 @@ std::size_t AgentTable::IdHash::operator()(const AgentId& id) const {
 
 AgentIndex AgentTable::Admit(const AgentId& id, const AgentDeclaration& declaration,
                              Instant stamp) {
+  CORE_CHECK(!declaration.shape || !declaration.shape_awaited, "an awaited shape is null");
   if (index_.size() >= limits_.agents_max || index_.contains(id)) return AgentIndex::None();
   AgentIndex agent(agents_.size());
   if (free_.empty()) {
@@ -31,7 +32,7 @@ AgentIndex AgentTable::Admit(const AgentId& id, const AgentDeclaration& declarat
   AgentRecord& record = (*this)[agent];
   record.id = id;
   record.declaration = declaration;
-  record.told_until = stamp;
+  record.reported_until = stamp;
   record.admitted_from = stamp;
   Owner& owner = owners_[OwnerOf(id)];
   ++owner.agents;
@@ -56,7 +57,7 @@ void AgentTable::Store(AgentIndex agent, const motion::MotionState& state, Link 
                        .link = link},
                       limits_.history_max);
   record.shape_redeclared = false;
-  record.told_until = std::max(record.told_until, state.stamp);
+  record.reported_until = std::max(record.reported_until, state.stamp);
   MarkChanged(agent);
 }
 
@@ -82,9 +83,9 @@ void AgentTable::SetHeardUntil(const OwnerId& owner, Instant until) {
   found->second.heard_until = std::max(found->second.heard_until, until);
 }
 
-// Its owner no longer speaks for it: what was told up to now is all there is.
+// The owner reports nothing more about the agent: what is known now is all there is.
 void AgentTable::LeaveOwner(AgentRecord* record) {
-  record->told_until = record->heard_until();
+  record->reported_until = record->heard_until();
   record->owner = nullptr;
   const auto owner = owners_.find(OwnerOf(record->id));
   if (--owner->second.agents == 0) owners_.erase(owner);
@@ -95,7 +96,7 @@ void AgentTable::Remove(AgentIndex agent) {
   CORE_CHECK(record.removal == 0, "an agent is removed once", agent.value());
   LeaveOwner(&record);
   Instant& expiry = record.history.newest().bound.state.expiry;
-  expiry = std::min(expiry, record.told_until);
+  expiry = std::min(expiry, record.reported_until);
   expiries_.Set(agent, expiry);
   record.removal = ++removals_;
   profile_.Remove(record.features);

@@ -22,17 +22,17 @@ struct AgentLimits {
 };
 
 /// Holds each agent under a stable index. An agent's life: Admit(), any number of Store(), Remove()
-/// by its owner, and Release() once what it told has passed; or SetExpired() and Store() again. All
-/// is O(1) amortized but for the expiries' O(log agents). Single-threaded.
+/// by its owner, and Release() once its reported time has passed; or SetExpired() and Store()
+/// again. All is O(1) amortized but for the expiries' O(log agents). Single-threaded.
 ///
-/// A removed agent has no name any more but stays in the table up to what its owner has told, so
-/// that its pairs are evaluated a last time.
+/// A removed agent has no name any more but stays in the table up to the time that its owner has
+/// reported, so that its pairs are evaluated a last time.
 class AgentTable {
  public:
   explicit AgentTable(const AgentLimits& limits) : limits_(limits) {}
 
   /// The index of a new agent without any state yet: Store() must follow. None() if `agents_max` is
-  /// reached or the id is present.
+  /// reached or the id is present. Requires that an awaited shape is null.
   AgentIndex Admit(const AgentId& id, const AgentDeclaration& declaration, Instant stamp);
 
   /// None() if there is no agent of this name.
@@ -48,15 +48,16 @@ class AgentTable {
   /// One more than the greatest index ever used.
   std::size_t index_end() const { return agents_.size(); }
 
-  /// Appends a state under the agent's declaration to its history. RecordBound() must follow before the step.
+  /// Appends a state under the agent's declaration to its history. RecordBound() must follow before
+  /// the step.
   void Store(AgentIndex agent, const motion::MotionState& state, Link link);
   /// The newest bound has changed: takes its expiry, and what it means for the scene as a whole.
   void RecordBound(AgentIndex agent);
-  /// The agent has news in this step.
+  /// The agent has changed in this step.
   void MarkChanged(AgentIndex agent) { changed_.Insert(agent); }
   const IndexSet<AgentIndex>& changed() const { return changed_; }
 
-  /// The run of the simulator has told everything about its agents up to `until`. O(1) whatever
+  /// The run of the simulator has reported everything about its agents up to `until`. O(1) whatever
   /// their number. An owner is known while it has agents that are not removed: an earlier call has
   /// no effect. Never goes back.
   void SetHeardUntil(const OwnerId& owner, Instant until);
@@ -78,7 +79,7 @@ class AgentTable {
   const SceneProfile& profile() const { return profile_; }
   double skew() const { return limits_.skew; }
 
-  /// The step is over: forgets each changed agent's past before what `needed_from(agent)` says.
+  /// The step is over: forgets each changed agent's past before `needed_from(agent)`.
   template <typename NeededFrom>
   void EndStep(const NeededFrom& needed_from) {
     for (const AgentIndex agent : changed_) {

@@ -21,7 +21,7 @@ class BoundMargin {
   explicit BoundMargin(const motion::SpaceTimeBound& bound);
 
   /// Takes off what a kept state may have lost against the one before it. False: there is not
-  /// enough left, and every agent that relied on the bound must be asked about anew.
+  /// enough left, and all keys that relied on the bound must be computed anew.
   bool Spend(const motion::ContractCheck& check, const motion::MotionState& before);
 
   /// The bound with the rest of the margin added to its errors; after a jump also with where the

@@ -14,7 +14,8 @@ enum class BoundChange {
 /// Makes `declaration` the agent's. What is wider than before is in force at once; what is narrower
 /// waits for the next state. A shape that had been awaited is in force from the state on with which
 /// it was awaited; a shape that changes is somewhere within the ball until the next state. Another
-/// tree of the same body takes the former tree's place in the whole history.
+/// tree of the same body takes the former tree's place in the whole history. Requires that an
+/// awaited shape is null.
 BoundChange Redeclare(const AgentDeclaration& declaration, AgentRecord* record);
 
 /// Whether an agent that could be met under `before` may not be met under `next`.

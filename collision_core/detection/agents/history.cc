@@ -122,7 +122,7 @@ bool History::JumpsNear(std::size_t i, Instant from, Instant to) const {
 narrow_phase::BodySegment History::OverJump(std::size_t i, Instant from, Instant to) const {
   narrow_phase::BodySegment segment;
   for (std::size_t other = i + 1; other < samples_.size(); ++other) {
-    if (JumpsNear(other, from, to)) return segment;  // more than two motions: nothing is said
+    if (JumpsNear(other, from, to)) return segment;  // more than two motions: nothing is known
   }
   const motion::SpaceTimeBound& before = samples_[i - 1].bound;
   const motion::SpaceTimeBound& after = samples_[i].bound;

@@ -1,4 +1,4 @@
-// The states of one agent that are still needed, and what they say about the time between them.
+// The states of one agent that are still needed, and what follows for the time between them.
 #pragma once
 
 #include <algorithm>
@@ -37,8 +37,8 @@ class History {
   void Clear() { samples_.clear(); }
   void Push(const Sample& sample, std::size_t capacity);
 
-  /// Replaces the tree of every sample with the same body as this shape: a better tree of the same
-  /// geometry says nothing new of the past, and the former one is of no use.
+  /// Gives every sample with the same body as this shape its tree: a better tree of the same
+  /// geometry says nothing new about the past.
   void ReplaceTree(const std::shared_ptr<const shape::Shape>& shape);
 
   /// Forgets what is not needed from `since` on: later calls of Uninterrupted() and Over() may not

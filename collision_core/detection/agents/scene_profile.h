@@ -10,8 +10,9 @@
 
 namespace collision::detection {
 
-/// Counts which parts of the mathematics the scene uses; by what the agents declare and say, never
-/// by measured time, so that the same scene gives the same profile everywhere. O(1) per change.
+/// Counts which parts of the mathematics the scene uses, by the agents' declarations and states,
+/// never by measured time, so that the same scene gives the same profile everywhere. O(1) per
+/// change.
 class SceneProfile {
  public:
   /// One bit for each part that an agent needs.

@@ -1,4 +1,4 @@
-// A cheap test in front of the canonical routine: can a renewed agent concern another one?
+// A cheap test before the canonical routine: can a renewed agent lower another agent's key?
 #pragma once
 
 #include "collision_core/base/ids.h"

@@ -5,27 +5,23 @@
 namespace collision::detection {
 namespace {
 
-/// Beyond so many renewed agents at once, those with far keys are asked about anew: to look at each
-/// such key for each renewed agent would cost more.
+/// If more agents than this are renewed in one step, agents with far keys are queried anew: to look
+/// at each such key for each renewed agent would cost more.
 constexpr std::size_t kManyRenewed = 4096;
 
 /// Keys beyond this horizon are far.
 constexpr int kFarHorizon = 4;
 
-/// Beyond this horizon a question looks for the next meeting alone.
-constexpr int kHorizonNear = 4;
-
 }  // namespace
 
-ClearanceQueries::ClearanceQueries(const DetectorContext& context, const QueryTargets& targets)
+ClearanceQueries::ClearanceQueries(const DetectorContext& context, const QueryTargets& targets,
+                                   const ClearanceFilter& filter)
     : context_(context),
       coverage_(*targets.coverage),
-      told_(*targets.told),
-      pairs_(*targets.pairs),
-      uncovered_(context, coverage_, targets.broad_phase, targets.former),
-      due_(targets.broad_phase, coverage_.tiers(), pairs_.table(), context.clock),
-      next_(targets.broad_phase, coverage_.tiers(), context.clock),
-      lowering_(context, targets.coverage, targets.told, targets.broad_phase, targets.filter) {}
+      reported_(*targets.reported),
+      pairs_(targets.pairs->table()),
+      group_query_(context, targets),
+      lowering_(context, targets, filter) {}
 
 void ClearanceQueries::QueryDueAgents() {
   IndexSet<AgentIndex>& renewed = *coverage_.renewed();
@@ -47,7 +43,7 @@ void ClearanceQueries::QueryDueAgents() {
   SettleQueried();
 }
 
-// Keys that were set in this step may be lowered by what is renewed from now on.
+// From now on a renewed agent may lower the keys that were set in this step.
 void ClearanceQueries::SettleQueried() {
   for (const AgentIndex agent : queried_) {
     if (!context_.agents.Contains(agent) || context_.agents[agent].expired) continue;
@@ -60,7 +56,7 @@ void ClearanceQueries::SettleQueried() {
 void ClearanceQueries::Query(AgentIndex agent, Renewals renewals) {
   ++context_.counters->queries;
   coverage_[agent].queried_step = context_.clock.step;
-  tracked_.Start(agent, pairs_.table(), context_.agents.index_end());
+  tracked_.Start(agent, pairs_, context_.agents.index_end());
   if (NeedsTiersOnly(agent, renewals)) {
     QueryTiers(agent);
   } else {
@@ -68,35 +64,34 @@ void ClearanceQueries::Query(AgentIndex agent, Renewals renewals) {
   }
 }
 
-// Whether the comparable partners are certified to be far beyond what is to be known now.
+// Whether the key of the comparable partners lies beyond everything that this step must know.
 bool ClearanceQueries::NeedsTiersOnly(AgentIndex agent, Renewals renewals) const {
   const AgentCoverage& record = coverage_[agent];
   return !record.renewed_from && !coverage_.IsSaturated(agent) && renewals == Renewals::kFew &&
-         pairs_.table().RoomFor(agent) > 0 && coverage_.tiers().HasGroupsBeside(agent) &&
+         pairs_.RoomFor(agent) > 0 && coverage_.tiers().HasGroupsBeside(agent) &&
          record.keys.comparable() > DueUntil(agent);
 }
 
-// The groups whose keys are not later are asked about.
+// A query covers the groups whose keys are not later than this.
 Instant ClearanceQueries::DueUntil(AgentIndex agent) const {
   return std::max({context_.clock.announce_until(), coverage_[agent].keys.earliest(),
                    context_.agents[agent].stamp()});
 }
 
-// The agent stays settled: about agents that are renewed in this step, and comparable, it is not
-// asked.
+// The agent stays settled: the query leaves out comparable agents that are renewed in this step.
 void ClearanceQueries::QueryTiers(AgentIndex agent) {
   AgentCoverage& record = coverage_[agent];
   groups_.clear();
   record.keys.TiersUpTo(DueUntil(agent), &groups_);
   for (const int group : groups_) {
     NextMeeting next;
-    if (!TracksAll(agent, group)) {
+    if (!group_query_.TracksAll(agent, group)) {
       const Instant covered = record.keys.Of(group);
-      next = QueryGroup({.agent = agent,
-                         .group = group,
-                         .from = std::min(context_.clock.now, covered),
-                         .covered = covered,
-                         .tracked = &tracked_});
+      next = group_query_.Find({.agent = agent,
+                                .group = group,
+                                .from = std::min(context_.clock.now, covered),
+                                .covered = covered,
+                                .tracked = &tracked_});
     }
     if (coverage_.IsSaturated(agent)) return;
     record.keys.SetTier(group, next.when);
@@ -122,7 +117,7 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   coverage_.LeaveSettled(agent);
   queried_.push_back(agent);
   coverage_.voided()->Insert(agent);
-  // Asked before its key was due, because many others changed: an earlier key stays.
+  // Queried before its key was due, because many others changed: an earlier key stays.
   const bool early =
       many && !renewed && !was_saturated && covered > context_.clock.announce_until();
   const AgentIndex next_before = record.next_partner;
@@ -162,11 +157,11 @@ NextMeeting ClearanceQueries::QueryGroups(AgentIndex agent, const Promised& prom
   groups_.clear();
   coverage_.tiers().GroupsBeside(agent, &groups_);
   const int comparable = groups_.empty() ? kEveryGroup : AccelerationTiers::kComparable;
-  NextMeeting next = QueryGroup(QuestionAbout(agent, comparable, promised));
+  NextMeeting next = group_query_.Find(QuestionAbout(agent, comparable, promised));
   if (!coverage_.IsSaturated(agent)) record.keys.SetAll(next.when);
   for (const int group : groups_) {
-    if (coverage_.IsSaturated(agent) || TracksAll(agent, group)) continue;
-    const NextMeeting first = QueryGroup(QuestionAbout(agent, group, promised));
+    if (coverage_.IsSaturated(agent) || group_query_.TracksAll(agent, group)) continue;
+    const NextMeeting first = group_query_.Find(QuestionAbout(agent, group, promised));
     if (coverage_.IsSaturated(agent)) continue;
     record.keys.SetTier(group, first.when);
     if (first.when < next.when) next = first;
@@ -174,127 +169,26 @@ NextMeeting ClearanceQueries::QueryGroups(AgentIndex agent, const Promised& prom
   return next;
 }
 
-// Tracks the partners of one group that may be met soon. Returns the first of the others, unless
-// the agent has become saturated.
-NextMeeting ClearanceQueries::QueryGroup(const ClearanceQuestion& question) {
-  TrackUncovered(question);
-  if (IsCrowded(question)) {
-    in_crowd_ = true;
-    return {};
-  }
-  return QueryBroadPhase(question);
-}
-
-// None of the group is left that could be met.
-bool ClearanceQueries::TracksAll(AgentIndex agent, int group) const {
-  std::uint32_t tracked = 0;
-  for (const PairSlot slot : pairs_.table().Of(agent)) {
-    const AgentIndex partner = pairs_.table()[slot].PartnerOf(agent);
-    tracked += coverage_.tiers().GroupOf(partner, agent) == group;
-  }
-  return tracked == coverage_.tiers().Count(group);
-}
-
-// An agent without room for another pair is saturated if there is a partner that should be tracked.
-// In a crowd that usually is one that was in the way before, or that the last such agent met; so a
-// crowd costs one pair query an agent, not one for each two.
-bool ClearanceQueries::IsCrowded(const ClearanceQuestion& question) {
-  const AgentTable& agents = context_.agents;
-  const AgentIndex agent = question.agent;
-  if (pairs_.table().RoomFor(agent) > 0) return false;
-  const AgentRecord& record = agents[agent];
-  const broad_phase::AgentBound bound = record.wide_bound();
-  const AgentIndex before =
-      question.was_saturated ? coverage_[agent].crowded_with : AgentIndex::None();
-  for (const AgentIndex partner :
-       {before, coverage_.last_saturated(), coverage_.last_untracked()}) {
-    if (partner == agent || !agents.Contains(partner)) continue;
-    const AgentRecord& other = agents[partner];
-    if (other.expired || tracked_.Contains(partner)) continue;
-    if (!CanMeet(record.declaration.filter, other.declaration.filter)) continue;
-    ++context_.counters->pair_queries;
-    const intersection::IntersectionTime time =
-        EarliestIntersection(bound, other.wide_bound(), question.from);
-    if (time.instant() > context_.clock.announce_until()) continue;
-    coverage_.Saturate(agent, partner);
-    return true;
-  }
-  return false;
-}
-
-NextMeeting ClearanceQueries::QueryBroadPhase(const ClearanceQuestion& question) {
-  const AgentIndex agent = question.agent;
-  // In a crowd most agents are saturated, and need no key.
-  const bool crowd = in_crowd_ || question.was_saturated;
-  const int begin = next_.Begin(question);
-  const bool only_near = crowd || begin > kHorizonNear;
-  const Instant until = only_near ? context_.clock.announce_until() : next_.horizons().At(begin);
-  const AgentIndex no_room = due_.Find(question, until, &found_);
-  if (!no_room.is_none()) coverage_.Saturate(agent, no_room);
-  in_crowd_ = coverage_.IsSaturated(agent);
-  TrackDue(question, found_);
-  if (coverage_.IsSaturated(agent)) return {};
-  const NextMeeting next = NextMeetingSearch::EarliestOf(found_, tracked_);
-  if (next.when.is_never()) return next_.Find(question, until);
-  next_.Record(question, next.when);
-  return next;
-}
-
-void ClearanceQueries::TrackUncovered(const ClearanceQuestion& question) {
-  for (const UncoveredPartner& partner : uncovered_.Find(question)) {
-    TrackOrSaturate(question, partner, question.renewed ? Past::kUnknown : Past::kKnown);
-  }
-}
-
-void ClearanceQueries::TrackDue(const ClearanceQuestion& question,
-                                const std::vector<broad_phase::Neighbour>& found) {
-  const AgentRecord& record = context_.agents[question.agent];
-  const Instant until = context_.clock.announce_until();
-  for (const broad_phase::Neighbour& meeting : found) {
-    Instant when = meeting.time.instant();
-    if (when > until) continue;
-    const AgentIndex partner(meeting.partner);
-    const bool overlap = meeting.time.seconds <= 0;
-    // They may have met before: as far back as is not covered, and both were there.
-    if (overlap && question.renewed) {
-      when = std::min(when, UncoveredFrom(record, context_.agents[partner], question.covered));
-    }
-    const bool unknown_before =
-        question.renewed || question.was_saturated || coverage_.IsSaturated(partner);
-    TrackOrSaturate(question, {partner, when},
-                    overlap && unknown_before ? Past::kUnknown : Past::kKnown);
-    if (question.renewed) told_.NotifyPartner(partner, question.agent);
-  }
-}
-
-void ClearanceQueries::TrackOrSaturate(const ClearanceQuestion& question,
-                                       const UncoveredPartner& partner, Past past) {
-  if (!pairs_.Track(question.agent, partner.partner, partner.free_until, past)) {
-    coverage_.Saturate(question.agent, partner.partner);
-    coverage_.Saturate(partner.partner, question.agent);
-  }
-  question.tracked->Add(partner.partner);
-}
-
-// They are asked about after the renewed agents, as if their keys were due. Which these are depends
-// on keys alone, not on what the broad phase costs: answers may be early, and the more so the
-// farther ahead they were asked for.
+// Queries agents with far keys after the renewed ones, as if their keys were due. The choice
+// depends on keys alone, not on the cost of the broad phase: an answer may be early, and the more
+// so the farther ahead it lies.
 void ClearanceQueries::QueryFarKeysAnew() {
   far_.clear();
-  coverage_.AppendSettledFrom(next_.horizons().At(kFarHorizon), &far_);
+  coverage_.AppendSettledFrom(group_query_.horizons().At(kFarHorizon), &far_);
   for (const AgentIndex agent : far_) {
     coverage_.LeaveSettled(agent);
     coverage_.QueryAtOnce(agent);
   }
 }
 
-// An agent that was asked about, was not renewed itself, and relied on a later key up to now: one
-// of the renewed agents is why.
+// The key of an agent that was queried but not renewed is now earlier: a renewed agent is the
+// cause.
 void ClearanceQueries::NotifyIfLowered(AgentIndex agent, Instant before) {
   const AgentCoverage& record = coverage_[agent];
   if (record.renewed_cause != ClearanceCause::kNone || record.keys.earliest() >= before) return;
   const AgentIndex cause = coverage_.IsSaturated(agent) ? record.crowded_with : record.next_partner;
-  if (coverage_[cause].renewed_cause != ClearanceCause::kNone) told_.NotifyPartner(agent, cause);
+  if (coverage_[cause].renewed_cause != ClearanceCause::kNone)
+    reported_.NotifyPartner(agent, cause);
 }
 
 }  // namespace collision::detection

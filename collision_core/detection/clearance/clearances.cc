@@ -10,17 +10,18 @@ Clearances::Clearances(const DetectorOptions& options, const DetectorContext& co
       former_(std::make_unique<broad_phase::AdaptiveBroadPhase>(), options.agents_max),
       filter_(options.skew),
       coverage_(context),
-      told_(context, *pairs, coverage_),
-      queries_(context, {.coverage = &coverage_,
-                         .told = &told_,
-                         .pairs = pairs,
-                         .broad_phase = &broad_phase_,
-                         .filter = filter_,
-                         .former = &former_}) {}
+      reported_(context, *pairs, coverage_),
+      queries_(context,
+               {.coverage = &coverage_,
+                .reported = &reported_,
+                .pairs = pairs,
+                .broad_phase = &broad_phase_,
+                .former = &former_},
+               filter_) {}
 
 void Clearances::AddAgent(AgentIndex agent) {
   coverage_.AddAgent(agent);
-  told_.AddAgent(agent);
+  reported_.AddAgent(agent);
 }
 
 void Clearances::Renew(AgentIndex agent, const Renewal& renewal) {
@@ -28,13 +29,13 @@ void Clearances::Renew(AgentIndex agent, const Renewal& renewal) {
   broad_phase_.Set(agent.value(), wide);
   filter_.Set(agent, wide.bound);
   coverage_.Renew(agent, renewal.from, renewal.cause);
-  told_.SetEffectiveFrom(agent, renewal.effective_from);
-  told_.RecordRenewal(agent);
+  reported_.SetEffectiveFrom(agent, renewal.effective_from);
+  reported_.RecordRenewal(agent);
 }
 
 void Clearances::NotifyPartners(AgentIndex agent) {
   for (const PairSlot slot : pairs_->table().Of(agent)) {
-    told_.NotifyPartner(pairs_->table()[slot].PartnerOf(agent), agent);
+    reported_.NotifyPartner(pairs_->table()[slot].PartnerOf(agent), agent);
   }
 }
 

@@ -1,4 +1,4 @@
-// Which agents may meet when: the clearance keys of all agents, and what agents are told.
+// When agents may meet: the clearance keys of all agents, and the clearances published to them.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace collision::detection {
 
-/// Why and from when what was promised of an agent holds no longer.
+/// From when, and why, the promises made about an agent no longer hold.
 struct Renewal {
   Instant from;
   ClearanceCause cause = ClearanceCause::kNone;
@@ -18,7 +18,7 @@ struct Renewal {
 };
 
 /// The component that keeps never-late true for pairs that are not tracked: it owns the broad
-/// phase, the clearance keys and the questions, and derives the clearances that agents are told.
+/// phase, the clearance keys and the queries, and derives the clearances that are published.
 class Clearances {
  public:
   /// `pairs` outlives the object.
@@ -28,13 +28,13 @@ class Clearances {
   void AddAgent(AgentIndex agent);
   /// An agent that had expired is back. Renew() must follow.
   void Readmit(AgentIndex agent) { coverage_[agent].keys.SetAll(Instant::Never()); }
-  /// The newest bound may reach beyond the former one: the agent is asked about anew.
+  /// The newest bound may reach beyond the former one: the agent is queried anew.
   void Renew(AgentIndex agent, const Renewal& renewal);
-  /// Tells the partners of the agent's tracked pairs that its renewal may lower their clearance.
+  /// Marks the partners in the agent's tracked pairs: its renewal may lower their clearance.
   void NotifyPartners(AgentIndex agent);
   /// The newest bound, widened by the margin, lies inside the former one: all keys stay valid.
   void Tighten(AgentIndex agent);
-  /// The agent has told a state that keeps its contract, perhaps ahead of its key.
+  /// The agent has a new state that keeps its contract and may lie ahead of its key.
   void StateAdvanced(AgentIndex agent) { coverage_.StateAdvanced(agent); }
   /// Up to `until` the agent moved within `bound`, which its newest bound does not contain.
   void RecordFormerMotion(AgentIndex agent, const broad_phase::AgentBound& bound, Instant until) {
@@ -42,24 +42,24 @@ class Clearances {
   }
   /// The agent broke its bound some time after its last honest state.
   void RecordBreach(AgentIndex agent, Instant last_honest) {
-    told_.RecordBreach(agent, last_honest);
+    reported_.RecordBreach(agent, last_honest);
   }
   /// The agent has expired: promises exclude it until Readmit().
   void Remove(AgentIndex agent);
   /// The agent has left.
   void Forget(AgentIndex agent) { coverage_.Forget(agent); }
 
-  /// Asks about all agents that were renewed or are due. Once a step.
+  /// Queries all agents that were renewed or are due. Once a step.
   void QueryDueAgents();
   /// The keys of the two agents of each pair cover it from now on.
   void Cover(const std::vector<ReleasedPair>& pairs);
-  /// No question will be about a time before `since`.
+  /// No query will be about a time before `since`.
   void ForgetBefore(Instant since) { former_.Forget(since); }
 
-  std::vector<AgentClearance> TakeChanged() { return told_.TakeChanged(); }
-  AgentClearance Of(AgentIndex agent) const { return told_.Of(agent); }
+  std::vector<AgentClearance> TakeChanged() { return reported_.TakeChanged(); }
+  AgentClearance Of(AgentIndex agent) const { return reported_.Of(agent); }
 
-  /// What earliest/ reads.
+  /// For EarliestSearch.
   const CoverageTable& coverage() const { return coverage_; }
   IndexSet<AgentIndex>* voided() { return coverage_.voided(); }
   broad_phase::AdaptiveBroadPhase* broad_phase() { return &broad_phase_; }
@@ -79,7 +79,7 @@ class Clearances {
   PreJumpMotions former_;
   ClearanceFilter filter_;
   CoverageTable coverage_;
-  ToldClearances told_;
+  ReportedClearances reported_;
   ClearanceQueries queries_;
 };
 

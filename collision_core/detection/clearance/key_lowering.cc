@@ -8,14 +8,14 @@ namespace {
 /// With so few keys all are looked at one by one.
 constexpr std::size_t kFewKeys = 32;
 
-/// WorkBudget in units of a filter's test, about as it takes time: to look at one key, at a place,
-/// at a partner that the broad phase offers, and a pair query.
+/// Costs in units of one filter test, about in proportion to time: a key looked at, a place
+/// visited, a partner offered by the broad phase, and a pair query.
 constexpr std::uint64_t kKeyUnits = 16;
 constexpr std::uint64_t kVisitUnits = 16;
 constexpr std::uint64_t kOfferUnits = 32;
 constexpr std::uint64_t kQueryUnits = 256;
 
-/// A question one horizon farther costs about so many times more.
+/// A query one horizon farther costs about this many times more.
 constexpr std::uint64_t kFartherCosts = 2;
 
 }  // namespace
@@ -29,13 +29,13 @@ void KeyLowering::Lower(AgentIndex agent, Instant from, const PartnerMarks& trac
   const Instant last = coverage_->LatestKey();
   far_.clear();
   if (last > split) coverage_->AppendSettledFrom(split, &far_);
-  const std::uint64_t asked = few ? 0 : LowerNear(renewed, std::min(last, split));
+  const std::uint64_t queried = few ? 0 : LowerNear(renewed, std::min(last, split));
   const std::uint64_t looks = kKeyUnits * far_.size();
   const std::uint64_t spared = kKeyUnits * LowerFar(renewed, horizons_.At(split_ + 1), &far_);
   if (few) return;
-  if (spared > kFartherCosts * asked) {
+  if (spared > kFartherCosts * queried) {
     split_ = std::min(split_ + 1, QueryHorizons::kLast + 1);
-  } else if (asked > looks) {
+  } else if (queried > looks) {
     split_ = std::max(split_ - 1, 1);
   }
 }
@@ -95,7 +95,7 @@ void KeyLowering::LowerOne(AgentIndex partner, AgentIndex agent, Instant when) {
     if (sooner) record.next_partner = agent;
     coverage_->LowerKey(partner, agent, when);
   }
-  if (sooner) told_->NotifyPartner(partner, agent);
+  if (sooner) reported_->NotifyPartner(partner, agent);
 }
 
 }  // namespace collision::detection

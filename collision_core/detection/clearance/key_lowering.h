@@ -4,33 +4,29 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/detection/clearance/clearance_filter.h"
-#include "collision_core/detection/clearance/coverage_table.h"
-#include "collision_core/detection/clearance/partner_marks.h"
-#include "collision_core/detection/clearance/query_horizons.h"
-#include "collision_core/detection/clearance/told_clearances.h"
+#include "collision_core/detection/clearance/search/group_query.h"
 
 namespace collision::detection {
 
 /// After a renewal, every partner whose key is later than its meeting with the renewed agent gets
-/// the earlier one. Only keys of earlier steps need it (CoverageTable::IsSettled): an agent that is
-/// asked about in the same step is asked about the new bound.
+/// the earlier one. Only keys of earlier steps need it (CoverageTable::IsSettled): a query in the
+/// same step sees the new bound.
 ///
 /// Keys up to a horizon are found with the broad phase, by where their agents are; each later key
 /// is looked at by itself (ClearanceFilter, some 20 ns). So agents that are clear for long do not
-/// make a renewal look as far ahead, where it would meet every agent. By counted work the horizon
-/// goes to where both together cost least: farther where that spares more looks than it costs,
-/// nearer where the question costs more than all looks.
+/// make the query look as far ahead, where the renewed agent would meet every other. By counted
+/// work the horizon goes to where both together cost least: farther where that spares more looks
+/// than it costs, nearer where the question costs more than all looks.
 class KeyLowering {
  public:
-  /// All outlive the object. `broad_phase` holds the wide bounds of all agents.
-  KeyLowering(const DetectorContext& context, CoverageTable* coverage, ToldClearances* told,
-              broad_phase::NeighbourIndex* broad_phase, const ClearanceFilter& filter)
+  /// All outlive the object.
+  KeyLowering(const DetectorContext& context, const QueryTargets& targets,
+              const ClearanceFilter& filter)
       : context_(context),
-        coverage_(coverage),
-        told_(told),
-        broad_phase_(broad_phase),
+        coverage_(targets.coverage),
+        reported_(targets.reported),
+        broad_phase_(targets.broad_phase),
         filter_(filter),
         horizons_(context.clock) {}
 
@@ -38,7 +34,7 @@ class KeyLowering {
   /// on.
   void Lower(AgentIndex agent, Instant from, const PartnerMarks& tracked);
 
-  /// Partners looked at beside the broad phase's own tests, since the start.
+  /// Partners examined besides the broad phase's own tests, since the start.
   std::uint64_t looks() const { return looks_; }
 
  private:
@@ -54,7 +50,7 @@ class KeyLowering {
 
   const DetectorContext context_;
   CoverageTable* coverage_;
-  ToldClearances* told_;
+  ReportedClearances* reported_;
   broad_phase::NeighbourIndex* broad_phase_;
   const ClearanceFilter& filter_;
   const QueryHorizons horizons_;

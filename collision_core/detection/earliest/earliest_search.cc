@@ -3,24 +3,24 @@
 #include <algorithm>
 #include <tuple>
 
-#include "collision_core/detection/pairs/segment_evaluation.h"
+#include "collision_core/detection/pairs/interval_evaluation.h"
 #include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
 namespace {
 
-/// Lower bounds come from the canonical routine as well, asked from an earlier time, and its
+/// Lower bounds come from the canonical routine as well, evaluated from an earlier time, and its
 /// answers are early by up to 1e-9 of the way: from now on perhaps by nothing, then by all of that.
-/// A pair that may be told as early as `told` meets, at the latest, by told + 1e-9 / (1 - 1e-9) of
-/// the way and 1 ns for the rounding, so that its lower bound is not later than this. What the
-/// rounding of the inputs forces beyond that, the margin in the lower bounds covers (BoundMargin).
-Instant MeetsBy(Instant now, Instant told) {
+/// A pair whose lower bound is `bound` meets, at the latest, by bound + 1e-9 / (1 - 1e-9) of the
+/// way and 1 ns for the rounding, so that its lower bound is not later than this. What the rounding
+/// of the inputs forces beyond that, the margin in the lower bounds covers (BoundMargin).
+Instant MeetsBy(Instant now, Instant bound) {
   constexpr double kEarliness = 0x1p-29;
   constexpr double kInstantRounding = 2e-9;
-  if (told.is_never() || told <= now) return told;
+  if (bound.is_never() || bound <= now) return bound;
   return numeric::AddRoundedUp(
-      told, kEarliness * numeric::SecondsBetween(now, told).upper + kInstantRounding);
+      bound, kEarliness * numeric::SecondsBetween(now, bound).upper + kInstantRounding);
 }
 
 /// The bound of a pair that is known, at the earliest: Always() stands for one that is not.
@@ -143,7 +143,7 @@ void EarliestSearch::OfferPair(PairSlot slot, Run* run) {
     const bool known = pair.canonical_step == step;
     answer = {step, known ? pair.canonical : Canonical(pair.lower, pair.higher)};
   }
-  // States that lie ahead may tell of a contact that begins and ends before them.
+  // A contact may begin and end before states that lie ahead.
   if (!pair.ahead_from.is_never() && pair.ahead_until > run->now) {
     run->Offer(pair.lower, pair.higher, std::max(run->now, pair.ahead_from));
   }

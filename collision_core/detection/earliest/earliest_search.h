@@ -5,19 +5,19 @@
 #include <vector>
 
 #include "collision_core/detection/clearance/clearances.h"
-#include "collision_core/detection/clearance/next_meeting_search.h"
-#include "collision_core/detection/clearance/uncovered_search.h"
+#include "collision_core/detection/clearance/search/next_meeting_search.h"
+#include "collision_core/detection/clearance/search/uncovered_search.h"
 #include "collision_core/detection/earliest/earliest_answer.h"
 #include "collision_core/detection/pairs/tracked_pairs.h"
 
 namespace collision::detection {
 
 /// Answers Detector::Earliest(). The answer is canonical: the earliest of what the canonical
-/// routine says of every pair, asked from now on, though only few pairs are asked.
+/// routine gives for all pairs from now on, though only few pairs are queried.
 ///
 /// For each agent and each tracked pair the search remembers a *lower bound* of what it can add to
-/// the answer. Two queues order them; agents and pairs are asked in the order of their bounds until
-/// no bound is early enough to better the best answer. A bound that is early enough is first
+/// the answer. Two queues order them; agents and pairs are queried in the order of their bounds
+/// until no bound is early enough to better the best answer. A bound that is early enough is first
 /// computed anew from now on, which usually is enough for many steps.
 ///
 /// An agent's bound is its earliest clearance key, or the agent's next meeting as found by a
@@ -26,12 +26,12 @@ namespace collision::detection {
 /// (CoverageTable::voided), covers the pair. Bounds are computed from wide bounds (BoundMargin), so
 /// that they hold for newer states that keep their contracts.
 ///
-/// Between two steps an agent may have been renewed, or have told a state beyond its key: what lies
+/// Between two steps an agent may have been renewed, or have got a state beyond its key: what lies
 /// before its newest state is then looked at as at the next step, and its bound stays unknown.
 ///
 /// What is remembered is a cache of its own: keys, pairs, events and clearances do not depend on
-/// whether the search is ever asked. A perfect lattice, in which all pairs tie, costs as much as it
-/// has agents, at each question.
+/// whether the search is ever called. A perfect lattice, in which all pairs tie, costs as much as
+/// it has agents, at each question.
 class EarliestSearch {
  public:
   /// All outlive the search.

@@ -24,15 +24,15 @@ bool Narrower(const TimeBracket& found, const TimeBracket& published) {
          kNarrowerShare * numeric::SecondsBetween(published.earliest, published.latest).lower;
 }
 
-// A later evaluation may know less than an earlier one (its work was spent elsewhere). Both are
-// certain unless a bound was broken in between, so what either says of the contact holds.
+// A later evaluation may give wider brackets than an earlier one (its work was spent elsewhere).
+// Both are certain unless a bound was broken in between, so their brackets are intersected.
 void TakeBrackets(const ContactEpisode& episode, PublishedEvent* published) {
   CollisionEvent& event = published->event;
   TimeBracket begin = episode.begin;
   Instant end = episode.end.earliest;
   bool continuous = episode.continuous;
   if (event.status == EventStatus::kConfirmed && !published->broken) {
-    // What was certain of a later contact says nothing of where this one ends.
+    // A later contact that was certified says nothing about the end of this one.
     const bool same = event.begin.latest <= episode.end.latest;
     const bool adds =
         event.begin.latest < begin.latest || (same && event.continuous && event.end.earliest > end);
@@ -94,14 +94,14 @@ PairInterest Announcer::Report(const PairName& pair, const PairOutlook& outlook,
   const Subject subject{pair, proximity, *published};
   for (const ContactEpisode& episode : outlook.settled) Finish(subject, episode);
 
-  // What is not settled may hold several episodes; the event is about the first until that is
+  // There may be several episodes that are not settled; the event is about the first until that is
   // settled.
   if (!outlook.heard.empty()) {
     const ContactEpisode& first = outlook.heard.front();
     if (first.contact) {
       Confirm(subject, first);
     } else if (!published->announced && finality == Finality::kOngoing) {
-      Open(subject, first.begin.earliest, first.began_before);
+      Open(subject, {first.begin.earliest, first.began_before});
     }
     return PairInterest::kNear;
   }
@@ -132,7 +132,7 @@ void Announcer::Close(const PairName& pair, const ContactEpisode* open, Departur
     if (departure == Departure::kRemoved) event.end.latest = std::max(now_, event.end.earliest);
     Emit(subject, EventStatus::kEnded);
   } else if (open != nullptr) {
-    // What was heard of the two does not exclude that they touched.
+    // What is known of the two does not exclude a contact.
     event.begin = event.end = {open->begin.earliest, std::max(now_, open->begin.earliest)};
     TakeProximity(open->nearest, open->normal, &event);
     Emit(subject, EventStatus::kUndecided);
@@ -158,13 +158,14 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
       published.doubted = true;
       return;
     }
-    // A bound was broken since: what was confirmed under it cannot be repeated, and ends in doubt.
+    // A bound was broken since: the contact confirmed under it can no longer be certified, and ends
+    // in doubt.
     event.end.latest = episode.end.latest;
     event.end.earliest = std::min(event.end.earliest, event.end.latest);
     event.continuous = false;
     Emit(subject, EventStatus::kEnded);
   } else {
-    if (!published.announced) Open(subject, episode.begin.earliest, episode.began_before);
+    if (!published.announced) Open(subject, {episode.begin.earliest, episode.began_before});
     event.begin = episode.begin;
     event.end = episode.end;
     TakeProximity(episode.nearest, episode.normal, &event);
@@ -177,7 +178,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
 void Announcer::Possible(const Subject& subject, const PairOutlook& outlook) {
   const Instant earliest = outlook.free_until;
   if (!subject.published.announced) {
-    Open(subject, earliest, outlook.began_before);
+    Open(subject, {earliest, outlook.began_before});
     return;
   }
   CollisionEvent& event = subject.published.event;
@@ -194,7 +195,7 @@ void Announcer::Possible(const Subject& subject, const PairOutlook& outlook) {
 // Confirms the contact, or narrows its brackets if that was done already.
 void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   PublishedEvent& published = subject.published;
-  if (!published.announced) Open(subject, episode.begin.earliest, episode.began_before);
+  if (!published.announced) Open(subject, {episode.begin.earliest, episode.began_before});
   CollisionEvent& event = published.event;
   if (event.status == EventStatus::kConfirmed && !Narrower(episode.begin, event.begin)) return;
   TakeBrackets(episode, &published);
@@ -205,7 +206,7 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   Emit(subject, EventStatus::kConfirmed);
 }
 
-void Announcer::Open(const Subject& subject, Instant free_until, bool began_before) {
+void Announcer::Open(const Subject& subject, const Opening& opening) {
   PublishedEvent& published = subject.published;
   published.announced = true;
   published.doubted = published.broken = false;
@@ -217,8 +218,8 @@ void Announcer::Open(const Subject& subject, Instant free_until, bool began_befo
   event.pair_slot = subject.pair.slot.value();
   event.contact = numbers_.Next(subject.pair.lower_index, subject.pair.higher_index);
   event.revision = 0;
-  event.begin.earliest = free_until;
-  event.began_before = began_before;
+  event.begin.earliest = opening.free_until;
+  event.began_before = opening.began_before;
   Emit(subject, EventStatus::kPossible);
 }
 

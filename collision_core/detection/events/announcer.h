@@ -1,4 +1,4 @@
-// When news of a pair is worth an event, and what the event says.
+// When a change of a pair is worth an event, and the content of the event.
 #pragma once
 
 #include <vector>
@@ -18,27 +18,27 @@ struct PairName {
   PairSlot slot;
 };
 
-/// What has been published of a pair.
+/// What has been published about a pair.
 struct PublishedEvent {
   CollisionEvent event{};  ///< The last revision.
   bool announced = false;  ///< `event` is open.
-  bool doubted =
-      false;  ///< The event covers a doubt that lies before its contact and apart from it.
-  bool broken = false;     ///< A bound was broken since it was opened: what it said may be void.
+  /// The event covers a doubt that lies before its contact and apart from it.
+  bool doubted = false;
+  bool broken = false;     ///< A bound was broken since it was opened: its content may be void.
   std::uint64_t work = 0;  ///< Segments and instants evaluated since the contact got its number.
 };
 
-/// How near the two agents of one pair are at an instant; what it costs is its own concern.
+/// Computes how near the two agents of one pair are at an instant, with a budget of its own.
 class ProximitySource {
  public:
   virtual ~ProximitySource() = default;
   virtual narrow_phase::Proximity At(Instant at) = 0;
 };
 
-/// Whether more will be known of a pair.
+/// Whether more will be known about a pair.
 enum class Finality {
   kOngoing,  ///< States may still come.
-  kLast      ///< One of the two leaves or expires: what was is told, nothing new is announced.
+  kLast      ///< One of the two leaves or expires: the past is reported, nothing new announced.
 };
 
 /// Why a pair is no longer watched.
@@ -50,7 +50,7 @@ enum class Departure {
 /// Whether a pair has to be tracked further.
 enum class PairInterest { kNear, kFarApart };
 
-/// Turns what is known of a pair into revisions of events: possible before confirmed, confirmed
+/// Turns what is known about a pair into revisions of events: possible before confirmed, confirmed
 /// before ended, each status once, and further revisions only where a bracket moved by enough to
 /// matter. It computes no geometry. O(episodes) per call.
 class Announcer {
@@ -64,7 +64,7 @@ class Announcer {
   /// In the order in which they came about; valid until the next Start().
   const std::vector<CollisionEvent>& events() const { return events_; }
 
-  /// Asks `proximity` only about the instant at which a contact is confirmed.
+  /// Calls `proximity` only for the instant at which a contact is confirmed.
   PairInterest Report(const PairName& pair, const PairOutlook& outlook, Finality finality,
                       ProximitySource* proximity, PublishedEvent* published);
 
@@ -81,10 +81,16 @@ class Announcer {
  private:
   struct Subject;  // one call of Report() or Close()
 
+  /// Where an event begins.
+  struct Opening {
+    Instant free_until;
+    bool began_before;  // as in CollisionEvent
+  };
+
   void Finish(const Subject& subject, const ContactEpisode& episode);
   void Possible(const Subject& subject, const PairOutlook& outlook);
   void Confirm(const Subject& subject, const ContactEpisode& episode);
-  void Open(const Subject& subject, Instant free_until, bool began_before);
+  void Open(const Subject& subject, const Opening& opening);
   void Emit(const Subject& subject, EventStatus status);
 
   const DetectorOptions options_;

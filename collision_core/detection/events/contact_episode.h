@@ -1,4 +1,4 @@
-// A stretch of time in which two agents may have touched, and what an event can tell of it.
+// An interval of time in which two agents may have touched, and what is known about it.
 #pragma once
 
 #include <span>
@@ -15,7 +15,7 @@ struct Nearest {
   bool exhausted = false;  ///< The work budget ended the search early.
 };
 
-/// One stretch of time in which a pair was not certified free.
+/// One interval of time in which a pair was not certified free.
 struct ContactEpisode {
   bool contact = false;  ///< Contact is certified at some instant; false: undecided.
   TimeBracket begin;     ///< [freedom certified up to, first certified contact].
@@ -27,17 +27,17 @@ struct ContactEpisode {
   narrow_phase::ContactNormal normal;  ///< For shapes: the direction in which they approached.
 };
 
-/// What is known of a pair at one step: the settled past, and a preview up to what was heard. Views
-/// into the pair's trackers, valid as long as these are not changed.
+/// What is known about a pair at one step: the settled past, and a preview up to what was heard.
+/// Views into the pair's trackers, valid as long as these are not changed.
 struct PairOutlook {
-  /// Episodes that were settled since the last report, in the order of time.
+  /// Episodes settled since the last report, in the order of time.
   std::span<const ContactEpisode> settled;
   /// Episodes that have ended but are not settled yet.
   std::span<const ContactEpisode> heard;
   const ContactEpisode* open = nullptr;  ///< The one open at the preview's end; null: free there.
   bool settled_free = true;              ///< None is open at the end of the settled past.
   Instant free_until;                    ///< Free up to here, or the begin of the open episode.
-  bool began_before = false;             ///< What came before free_until is not known.
+  bool began_before = false;             ///< What happened before free_until is not known.
 
   bool free() const { return open == nullptr; }
   bool in_contact() const { return open != nullptr && open->contact; }

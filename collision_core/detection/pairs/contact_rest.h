@@ -14,8 +14,8 @@ struct RestingPair {
   const ContactTracker& preview;  ///< Run ahead of `settled`, up to what was heard.
 };
 
-/// Up to when, at most now + `longest` seconds, no evaluation can say anything new of a contact of
-/// two balls while neither agent has news. Always() where that is not certain.
+/// Until when, at most now + `longest` seconds, no evaluation can change what is known about a
+/// contact of two balls while neither agent has a new state. Always() if that is not certain.
 ///
 /// With an uncertainty u >= 0 no freedom can be certified where the centres' distance |Δc| is at
 /// most the sum r of the radii, and |Δc| is convex in time. So contact holds from the last

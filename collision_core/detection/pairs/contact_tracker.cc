@@ -7,22 +7,22 @@
 namespace collision::detection {
 namespace {
 
-// Two states that no motion joins are a breach (motion/contract_between.h), but for what rounding
-// may explain; and where states were thinned out, each may have followed from the last with an
-// error of its own, and the last not from the first. Then one bound says apart, and another
-// touching, at the same time. There nothing is certain, and brackets hold what both say.
-narrow_phase::SegmentResult WithoutContradiction(narrow_phase::SegmentResult verdict) {
-  if (verdict.contact_from > verdict.contact_to) return verdict;
-  const narrow_phase::SegmentResult said = verdict;
-  if (said.free_until > said.contact_from) {
-    verdict.free_until = said.contact_from;
-    verdict.contact_from = said.free_until;
+// Two states that no motion joins are a breach (motion/contract_between.h), unless rounding
+// explains it; and where states were thinned out, each may have followed from the one before with
+// an error of its own, but the last not from the first. Then one bound gives freedom and another
+// contact for the same time. Nothing is certain there, and the brackets contain both.
+narrow_phase::SegmentResult WithoutContradiction(narrow_phase::SegmentResult result) {
+  if (result.contact_from > result.contact_to) return result;
+  const narrow_phase::SegmentResult given = result;
+  if (given.free_until > given.contact_from) {
+    result.free_until = given.contact_from;
+    result.contact_from = given.free_until;
   }
-  if (said.free_from < said.contact_to) {
-    verdict.free_from = said.contact_to;
-    verdict.contact_to = said.free_from;
+  if (given.free_from < given.contact_to) {
+    result.free_from = given.contact_to;
+    result.contact_to = given.free_from;
   }
-  return verdict;
+  return result;
 }
 
 }  // namespace
@@ -67,20 +67,20 @@ void ContactTracker::Close(Instant free_from) {
 }
 
 // Contact on [contact_from, contact_to] of a segment that starts at `from`.
-void ContactTracker::AddContact(const narrow_phase::SegmentResult& verdict, Instant from,
+void ContactTracker::AddContact(const narrow_phase::SegmentResult& result, Instant from,
                                 Instant to) {
   // Rounded outward: contact has begun by `first`, and lasts at least until `last`.
-  const Instant first = std::min(numeric::AddRoundedUp(from, verdict.contact_from), to);
-  const Instant last = std::min(numeric::AddRoundedDown(from, verdict.contact_to), to);
-  const bool joins = episode_.contact && contact_until_ >= from && verdict.contact_from <= 0;
+  const Instant first = std::min(numeric::AddRoundedUp(from, result.contact_from), to);
+  const Instant last = std::min(numeric::AddRoundedDown(from, result.contact_to), to);
+  const bool joins = episode_.contact && contact_until_ >= from && result.contact_from <= 0;
   if (!episode_.contact) {
     episode_.contact = true;
     episode_.begin.latest = first;
-    episode_.end.earliest = std::min(numeric::AddRoundedDown(from, verdict.contact_from), to);
+    episode_.end.earliest = std::min(numeric::AddRoundedDown(from, result.contact_from), to);
   } else if (!joins) {
     episode_.continuous = false;
   }
-  if (!verdict.contact_continuous) {
+  if (!result.contact_continuous) {
     episode_.continuous = false;
     return;
   }
@@ -90,14 +90,14 @@ void ContactTracker::AddContact(const narrow_phase::SegmentResult& verdict, Inst
   }
 }
 
-void ContactTracker::Apply(const narrow_phase::SegmentResult& said, Instant to,
+void ContactTracker::Apply(const narrow_phase::SegmentResult& given, Instant to,
                            const Nearest& nearest, const narrow_phase::ContactNormal& normal) {
   CORE_CHECK(to >= at_, "segments follow each other", at_.nanoseconds(), to.nanoseconds());
-  const narrow_phase::SegmentResult verdict = WithoutContradiction(said);
+  const narrow_phase::SegmentResult result = WithoutContradiction(given);
   const Instant from = at_;
-  const Instant free_until = numeric::AddRoundedDown(from, verdict.free_until);
+  const Instant free_until = numeric::AddRoundedDown(from, result.free_until);
   const bool free_throughout = free_until >= to;
-  const bool free_at_start = verdict.free_until > 0;
+  const bool free_at_start = result.free_until > 0;
   at_ = to;
   if (free_at_start) began_before_ = false;
   if (open_ && free_at_start) Close(from);
@@ -109,8 +109,8 @@ void ContactTracker::Apply(const narrow_phase::SegmentResult& said, Instant to,
        nearest.found.separation.upper < episode_.nearest.found.separation.upper)) {
     episode_.nearest = nearest;
   }
-  if (verdict.contact_from <= verdict.contact_to) AddContact(verdict, from, to);
-  const Instant free_from = numeric::AddRoundedUp(from, verdict.free_from);
+  if (result.contact_from <= result.contact_to) AddContact(result, from, to);
+  const Instant free_from = numeric::AddRoundedUp(from, result.free_from);
   if (free_from < to) Close(free_from);
 }
 

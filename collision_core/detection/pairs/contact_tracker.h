@@ -1,4 +1,4 @@
-// From verdicts over segments of time to the begin and end brackets of contacts.
+// From results over segments of time to the begin and end brackets of contacts.
 #pragma once
 
 #include <vector>
@@ -35,16 +35,16 @@ class ContactTracker {
   /// Freedom is certified continuously up to here; the begin of the open episode otherwise.
   Instant free_until() const { return open_ ? episode_.begin.earliest : at_; }
 
-  /// What came before free_until() is not known.
+  /// What happened before free_until() is not known.
   bool began_before() const { return open_ ? episode_.began_before : began_before_; }
 
   /// While free: freedom is certified further, or (a bound was broken) only up to `until`.
   void ExtendFree(Instant until);
   void RetractFree(Instant until, Past past);
 
-  /// The verdict on [at(), to]; `nearest` is given where the verdict is not all free, `normal`
-  /// where shapes approached each other. Requires to >= at().
-  void Apply(const narrow_phase::SegmentResult& said, Instant to, const Nearest& nearest,
+  /// Adds the result for [at(), to]; `nearest` is given unless all of it is free, `normal` where
+  /// shapes approached each other. Requires to >= at().
+  void Apply(const narrow_phase::SegmentResult& given, Instant to, const Nearest& nearest,
              const narrow_phase::ContactNormal& normal);
 
   /// Episodes that have ended since the last call.
@@ -54,7 +54,7 @@ class ContactTracker {
  private:
   void Open(Instant free_until, const narrow_phase::ContactNormal& normal);
   void Close(Instant free_from);
-  void AddContact(const narrow_phase::SegmentResult& verdict, Instant from, Instant to);
+  void AddContact(const narrow_phase::SegmentResult& result, Instant from, Instant to);
 
   Instant at_;
   bool open_ = false;
@@ -64,7 +64,7 @@ class ContactTracker {
   std::vector<ContactEpisode> finished_;
 };
 
-/// What the announcer is told: takes the settled episodes out of `settled` into `taken`, which with
+/// The outlook for the announcer. Moves the finished episodes of `settled` into `taken`, which with
 /// `preview` must outlive the outlook.
 PairOutlook OutlookOf(ContactTracker* settled, const ContactTracker& preview,
                       std::vector<ContactEpisode>* taken);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collision_core/detection/pairs/segment_evaluation.h"
+#include "collision_core/detection/pairs/interval_evaluation.h"
 #include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/numeric/seconds.h"
 

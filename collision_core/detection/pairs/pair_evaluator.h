@@ -18,14 +18,15 @@ struct PairOfAgents {
 
 /// Evaluates a pair up to three horizons:
 ///  1. Settled, up to the older of the two newest states: horns of both directions hold, the
-///     verdict is final. A state of an agent that speaks seldom is waited for no longer than
-///     PatienceOf(); then what was heard of it is final with its forward horn alone.
-///  2. Heard, up to what both owners have told: forward horns only, but no unknown jump lies
-///     before. Contacts are confirmed up to here, and narrowed once settled.
+///     result is final. The evaluator waits for an agent's next state no longer than PatienceOf();
+///     then the time heard is final with the forward horn alone.
+///  2. Heard, up to the time that both owners have reported: forward horns only, but no unknown
+///     jump lies before. Contacts are confirmed up to here, and narrowed once settled.
 ///  3. Promised, beyond: freedom as long as both keep their newest bounds. Only freedom is claimed
 ///     here; a jump, breach or widening takes it back.
-/// Where balls may meet soon, the shapes are asked how long they stay apart for all motions within
-/// the newest bounds: ships that pass close by do not hold up the clock and are not announced.
+/// Where balls may meet soon, the narrow phase computes how long the shapes stay apart for all
+/// motions within the newest bounds: ships that pass close by do not hold up the clock and are not
+/// announced.
 class PairEvaluator {
  public:
   /// Both outlive the evaluator.
@@ -33,12 +34,12 @@ class PairEvaluator {
       : clock_(clock), counters_(counters) {}
 
   /// Brings pair.tracker up to what is settled and returns a copy of it that runs ahead to the last
-  /// horizon that holds. Requires that the two can meet. With Finality::kLast all that was heard is settled, and nothing is
-  /// promised.
+  /// horizon that holds. Requires that the two can meet. With Finality::kLast all that was heard is
+  /// settled, and nothing is promised.
   ContactTracker Evaluate(const PairOfAgents& agents, Finality finality, WorkBudget* work) const;
 
-  /// No state of the agent is waited for longer than this [s]. An agent that speaks seldom, or
-  /// once, is not waited for longer than twice its last interval.
+  /// How long to wait for the agent's next state [s]: announce_within, or twice its last interval
+  /// if that is longer.
   double PatienceOf(const AgentRecord& agent) const;
 
  private:

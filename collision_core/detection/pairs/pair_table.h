@@ -25,18 +25,19 @@ struct PairRecord {
   Instant canonical = Instant::Never();
   std::uint64_t canonical_step = 0;
   std::uint64_t evaluated_step = 0;  ///< The step in which it was last evaluated.
-  /// When the shapes were last asked how long they stay apart.
+  /// When it was last computed how long the shapes stay apart.
   Instant looked_ahead = Instant::Always();
-  /// From then on no state is waited for that could tell more of a contact that has ended.
+  /// When the wait ends for a state that could narrow the end of a contact.
   Instant settles = Instant::Never();
-  /// The end of the last contact, or doubt, that was heard of and is not settled; Always(): none.
+  /// The end of the last contact, or doubt, that has ended but is not settled; Always(): none.
   Instant unsettled_until = Instant::Always();
   bool in_contact = false;
   Instant rests_until = Instant::Always();  ///< In contact: without news it goes on until then.
-  /// A contact, or a doubt, that is heard of but lies after `now`: [from, until].
+  /// A contact, or a doubt, that is known but lies after `now`: [from, until].
   Instant ahead_from = Instant::Never();
   Instant ahead_until = Instant::Never();
-  std::uint64_t spent = kAllWanted;  ///< In the last evaluation, if that was enough.
+  std::uint64_t spent =
+      kAllWanted;  ///< Work units of the last evaluation; kAllWanted: they were not enough.
   PublishedEvent published{};
 
   AgentIndex PartnerOf(AgentIndex agent) const { return agent == lower ? higher : lower; }

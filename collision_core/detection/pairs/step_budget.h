@@ -8,11 +8,11 @@
 
 namespace collision::detection {
 
-/// Shares out `work_units_per_step` before the first evaluation of a step; what one pair leaves of
-/// its share goes to the next. A pair that claims nothing (two balls, which cost next to nothing)
-/// has no share and no limit but that of one evaluation. The order of evaluations does not change,
-/// so that the order of events does not either. An evaluation finishes what it has begun: that is
-/// the one way to spend more than allowed.
+/// Shares out `work_units_per_step` before the first evaluation of a step; what one pair does not
+/// use of its share goes to the next. A pair that claims nothing (two balls, which cost next to
+/// nothing) has no share and no limit but that of one evaluation. The order of evaluations does not
+/// change, so that the order of events does not either. An evaluation finishes what it has begun:
+/// that is the one way to spend more than allowed.
 class StepBudget {
  public:
   /// Units for one evaluation, and for a whole step (0: no limit).
@@ -24,8 +24,8 @@ class StepBudget {
   /// A step begins: one claim for each pair, in the order of their evaluations. Requires
   /// is_limited().
   void Start(const std::vector<WorkClaim>& claims);
-  /// What the next pair may spend, and what it spent. Calls alternate, one pair after the other;
-  /// Requires as many claims.
+  /// What the next pair may spend, and what it spent. The calls alternate, one pair after the
+  /// other. Requires a claim for each.
   std::uint64_t Allowed();
   void Spent(std::uint64_t units);
 

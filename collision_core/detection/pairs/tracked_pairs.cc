@@ -4,14 +4,14 @@
 #include <utility>
 
 #include "collision_core/detection/pairs/contact_rest.h"
-#include "collision_core/detection/pairs/segment_evaluation.h"
+#include "collision_core/detection/pairs/interval_evaluation.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
 namespace {
 
-// How much a pair counts beside one that is not announced, when a step's work is shared out: a
-// possible event waits for a verdict, and a contact for its end.
+// Weights of a pair, beside 1 for one that is not announced, when a step's work is shared out: a
+// possible event waits for its outcome, a contact for its end.
 constexpr std::uint32_t kDoubtWeight = 4;
 constexpr std::uint32_t kContactWeight = 2;
 
@@ -224,7 +224,7 @@ void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
   }
 }
 
-// The two are not watched any longer, whatever they do.
+// The two are no longer watched.
 void TrackedPairs::Drop(PairSlot slot, Departure departure) {
   PairRecord& pair = table_[slot];
   const ContactEpisode* open = pair.tracker.free() ? nullptr : &pair.tracker.episode();

@@ -13,8 +13,8 @@
 
 namespace collision::detection {
 
-/// A pair that is tracked no longer: the two agents must be covered by their clearance keys, which
-/// are certified not later than `clear_until`.
+/// A pair that is no longer tracked: the clearance keys of its agents must cover it, with keys not
+/// later than `clear_until`.
 struct ReleasedPair {
   AgentIndex lower, higher;
   Instant clear_until;
@@ -28,14 +28,14 @@ struct DetectorContext {
   IndexSet<AgentIndex>* clearances_dirty;  ///< Agents whose clearance may have changed.
 };
 
-/// Tracks pairs, evaluates each when one of its agents has news or when it is due, and reports what
-/// is known to the announcer. Pairs are evaluated in the order of their slots, which is the order
+/// Tracks pairs, evaluates each when one of its agents has changed or when it is due, and reports
+/// the result to the announcer. Pairs are evaluated in the order of their slots, which is the order
 /// of events. A step costs O(pairs evaluated), plus a logarithm for each in the queue.
 ///
 /// A pair is due at every step while contact is possible within Δt, while it is to be announced, in
-/// a contact that may end, and when what was heard of an ended contact is settled. Beyond
-/// kPairsEvaluatedEachStep tracked pairs a contact of two balls rests (contact_rest.h) until it may
-/// end, or at most an eighth of announce_within, each pair another part of it.
+/// a contact that may end, and when an ended contact is settled. Beyond kPairsEvaluatedEachStep
+/// tracked pairs a contact of two balls rests (contact_rest.h) until it may end, or at most an
+/// eighth of announce_within, each pair another part of it.
 class TrackedPairs {
  public:
   static constexpr std::size_t kPairsEvaluatedEachStep = 512;
@@ -53,14 +53,14 @@ class TrackedPairs {
   /// there is no room. Requires that they are not tracked.
   [[nodiscard]] bool Track(AgentIndex a, AgentIndex b, Instant free_until, Past past);
 
-  /// Nothing that was certified of the agent's pairs beyond `from` holds any longer.
+  /// Freedom that was certified for the agent's pairs beyond `from` no longer holds.
   void RetractFree(AgentIndex agent, Instant from);
-  /// A bound of the agent was broken: what was published of its pairs may be void.
+  /// A bound of the agent was broken: events published about its pairs may be void.
   void MarkBroken(AgentIndex agent, Instant last_honest);
 
   /// Starts a step's events, before anything else of that step.
   void StartStep() { announcer_.Start(context_.clock.now); }
-  /// Evaluates the pairs of all agents with news, and those that are due.
+  /// Evaluates the pairs of all agents that have changed, and those that are due.
   void EvaluateDuePairs();
   /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer.
   void EvaluateLastTime(AgentIndex agent, Departure departure);
@@ -76,7 +76,7 @@ class TrackedPairs {
   const std::vector<CollisionEvent>& events() const { return announcer_.events(); }
   std::size_t queued() const { return due_.size(); }
 
-  /// Walks the table, the queue and what they say of each other.
+  /// Walks the table and the queue, and compares them.
   void Validate() const;
 
  private:

@@ -12,6 +12,7 @@ namespace collision::detection {
 const std::vector<std::uint64_t>& WorkShares::Of(const std::vector<WorkClaim>& claims,
                                                  std::uint64_t total) {
   CORE_CHECK(total <= kTotalMax, "the products of shares fit", static_cast<double>(total));
+  CORE_CHECK(claims.size() < kClaimsMax, "the sum of weights fits", claims.size());
   for (const WorkClaim& claim : claims) {
     CORE_CHECK(claim.weight >= 1 && claim.weight <= kWeightMax, "a claim has a weight",
                claim.weight);

@@ -132,7 +132,7 @@ inline HalfSpace DrawHalfSpace(const RulesTable& table, Random* random) {
   if (table.Moves(at)) {
     const double out = random->LogUniform(0.1, 30);
     half_space.offset =
-        half_space.normal.dot(table.bound(at).state.p_WA) - half_space.normal.norm() * out;
+        half_space.normal.dot(table.bound(at).bound.state.p_WA) - half_space.normal.norm() * out;
   }
   if (random->Chance(0.3)) half_space.filter = {.group = 3, .mask = 3};
   return half_space;

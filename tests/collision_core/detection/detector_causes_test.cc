@@ -1,6 +1,5 @@
-// Goal:   whatever changes the rules (a breach, a jump, a mask, an expiry, a limit) is told with
-// its cause, and no
-//         meeting is lost by it.
+// Goal:   each change of the rules (a breach, a jump, a mask, an expiry, a limit) is reported with
+//         its cause, and loses no meeting.
 // Method: few agents on lines, whose meetings are exact; states every 1/16 s, one clock.
 #include <gtest/gtest.h>
 
@@ -9,7 +8,7 @@
 namespace collision::detection {
 namespace {
 
-TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
+TEST(Detector, BreachNotifiesThePartnerFromWhenPromisesAreVoid) {
   Line line;
   line.Add(1, {0, 0, 0}, {0, 0, 0});
   line.Add(2, {1000, 0, 0}, {0, 0, 0});
@@ -32,7 +31,7 @@ TEST(Detector, BreachTellsThePartnerAndFromWhenPromisesAreVoid) {
 }
 
 // Back at the same place after a second, so fast that no motion of 1 m/s² leads there, though both
-// the place and the speed could be reached. What was promised of it holds, but its owner is told.
+// the place and the speed could be reached. Earlier promises hold, but the update reports a breach.
 TEST(Detector, StatesThatNoMotionJoinsAreABreach) {
   Line line;
   line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
@@ -56,8 +55,8 @@ TEST(Detector, StatesThatNoMotionJoinsAreABreach) {
   EXPECT_EQ(line.detector.counters().breaches, 1u);
 }
 
-// Who is admitted in the same step lowers the same clearance, but voids nothing.
-TEST(Detector, BreachIsToldWhateverElseComesInTheSameStep) {
+// An agent admitted in the same step lowers the same clearance, but voids nothing.
+TEST(Detector, BreachIsReportedWhateverElseComesInTheSameStep) {
   Line line;
   line.Add(1, {0, 0, 0}, {0, 0, 0});
   line.Add(2, {1000, 0, 0}, {0, 0, 0});
@@ -144,7 +143,7 @@ TEST(Detector, ExpiredAgentsLeaveThePromises) {
   line.Step();
   EXPECT_EQ(line.With(EventStatus::kWithdrawn).size(), 1u);
   EXPECT_EQ(line.detector.ClearanceOf(Id(2))->clear_until, Instant::Never());
-  // It speaks again: promises count it from here on.
+  // A new state comes: promises include the agent from here on.
   line.detector.Update(Id(1), State(3, {0, 0, 0}, {0, 0, 0}), At(3));
   line.now = 3;
   line.Step();
@@ -200,7 +199,7 @@ TEST(Detector, DismissedPairIsNotForgotten) {
   ASSERT_FALSE(line.With(EventStatus::kDismissed).empty());
   ASSERT_EQ(line.detector.pairs_tracked(), 0u);
   EXPECT_LT(line.detector.ClearanceOf(Id(1))->clear_until, At(20));
-  // A jump of the velocity alone, told as such.
+  // A jump of the velocity alone, declared as such.
   motion::MotionState turn =
       State(line.now, line.agents[1].p + line.agents[1].v * line.now, {-0.9, 0, 0});
   turn.discontinuity = true;
@@ -248,7 +247,7 @@ TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
   step(1);
   detector.Update(Id(2), State(1.0625, {1062.5, 0, 0}, fast), At(1.0625));
   step(1.0625);
-  // At 1 s it jumped to where the other passed at 1.03 s; told at 1.1 s.
+  // At 1 s it jumped to where the other passed at 1.03 s; the state comes at 1.1 s.
   motion::MotionState jump = State(1, {1030, 0, 0}, {0, 0, 0});
   jump.discontinuity = true;
   detector.Update(Id(1), jump, At(1.1));
@@ -263,8 +262,8 @@ TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
   EXPECT_GE(confirmed->begin.latest, At(1.028));
 }
 
-// One was granted time up to 10 s and used it; then the other's jump made them meet at 4.5 s.
-// Nothing asked in between may lose that, in whichever order they were admitted.
+// One agent was granted time up to 10 s and used it; then the other's jump makes them meet at 4.5
+// s. No query in between may lose that meeting, in whichever order the two were admitted.
 TEST(Detector, MeetingBeforeAStateThatIsAheadIsNotLost) {
   for (const bool first_jumps : {true, false}) {
     Detector detector{DetectorOptions{}};

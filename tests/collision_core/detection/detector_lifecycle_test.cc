@@ -43,10 +43,10 @@ TEST(Detector, PassingThroughIsPossibleConfirmedEnded) {
 
 // Passing at 2.5 m with radii 1: the bounds of 1 m/s² reach each other beforehand, the motion does
 // not.
-// Goal:   the end of a contact is told although nobody needs to speak any more.
-// Method: two pass through each other and fall silent in the middle, but their clocks go on. From
-//         there |d| = 4 τ exceeds 2 + τ² after 0.59 s: then they are apart, whatever they do.
-TEST(Detector, AContactEndsThoughNobodySpeaksAnyMore) {
+// Goal:   the end of a contact is published although no more states come.
+// Method: two pass through each other and send nothing from the middle on, but their clocks go on.
+//         From there |d| = 4 τ exceeds 2 + τ² after 0.59 s: then they are apart, whatever they do.
+TEST(Detector, AContactEndsThoughNoMoreStatesCome) {
   Line line;
   line.Add(1, {0, 0, 0}, {2, 0, 0});
   line.Add(2, {10, 0, 0}, {-2, 0, 0});
@@ -77,8 +77,8 @@ TEST(Detector, PassingByIsDismissed) {
   EXPECT_EQ(line.detector.pairs_tracked(), 0u);
 }
 
-// Surfaces that pass within a tenth of a millimetre of touching cannot be told from touching
-// between states.
+// If surfaces pass within a tenth of a millimetre, a contact between states can be neither excluded
+// nor confirmed.
 TEST(Detector, GrazingIsUndecidedWithItsDistance) {
   Line line;
   line.Add(1, {-6.03, 0, 0}, {1, 0, 0});
@@ -142,7 +142,7 @@ TEST(Detector, RemovalInContactEnds) {
 
 // Without acceleration the meeting at 5 s is known from the start; it is announced 2 s ahead, not
 // when it comes.
-TEST(Detector, AnnouncesAsFarAheadAsAsked) {
+TEST(Detector, AnnouncesAsFarAheadAsConfigured) {
   Detector detector{DetectorOptions{}};
   detector.Admit(Id(1), {1, 0}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
   detector.Admit(Id(2), {1, 0}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
@@ -156,7 +156,7 @@ TEST(Detector, AnnouncesAsFarAheadAsAsked) {
 }
 
 // Between two states the owner's word "nothing else happened up to now" is enough to confirm.
-TEST(Detector, ConfirmsBetweenStatesUpToWhatWasHeard) {
+TEST(Detector, ConfirmsBetweenStatesUpToTheReportedTime) {
   for (const bool heard : {true, false}) {
     Detector detector{DetectorOptions{}};
     std::size_t confirmed = 0;
@@ -172,7 +172,7 @@ TEST(Detector, ConfirmsBetweenStatesUpToWhatWasHeard) {
         confirmed += event.status == EventStatus::kConfirmed;
       }
     }
-    EXPECT_EQ(confirmed > 0, heard) << "a jump that nobody told of yet may have come before";
+    EXPECT_EQ(confirmed > 0, heard) << "a jump that is not reported yet may have come before";
   }
 }
 
@@ -183,7 +183,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   Detector detector{options};
   std::vector<CollisionEvent> events;
   const AgentDeclaration ball{.limits = {0.5, 0.1}};
-  const auto speak = [&](double t) {
+  const auto send = [&](double t) {
     detector.Update(Id(1), State(t, {-20 + 2 * t, 0, 0}, {2, 0, 0}), At(t));
     detector.Update(Id(2), State(t, {20 - 2 * t, 0, 0}, {-2, 0, 0}), At(t));
   };
@@ -196,7 +196,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   detector.Admit(Id(1), ball, State(0, {-20, 0, 0}, {2, 0, 0}), At(0));
   detector.Admit(Id(2), ball, State(0, {20, 0, 0}, {-2, 0, 0}), At(0));
   for (double now = 0; now <= 9.75; now += 0.25) {
-    speak(now);
+    send(now);
     step(now);
   }
   step(9.78125);
@@ -205,7 +205,7 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   for (double t = 10; t < 16.5; t += 0.125) {
     detector.Update(Id(1), State(t, {-20 + 2 * t, 0, 0}, {2, 0, 0}), At(t));
   }
-  speak(16.5);
+  send(16.5);
   step(16.5);
   step(16.75);
   const auto ended = std::find_if(events.begin(), events.end(), [](const auto& event) {
@@ -220,8 +220,8 @@ TEST(Detector, ConfirmedContactEndsAfterLostStates) {
   EXPECT_LE(ended->end.latest, At(10.5));
 }
 
-// Two contacts before the next state: the event tells of the first until that is settled, then the
-// second has its own.
+// Two contacts before the next state: the event is about the first until that is settled, then the
+// second gets its own.
 TEST(Detector, TwoContactsBetweenStatesAreTwoEvents) {
   Detector detector{DetectorOptions{}};
   std::vector<CollisionEvent> events;
@@ -261,7 +261,7 @@ TEST(Detector, TwoContactsBetweenStatesAreTwoEvents) {
   EXPECT_GE(ended[1].begin.latest, At(0.65));
 }
 
-// A contact just before the owner leaves, told in the same breath, counts.
+// A contact just before the owner leaves, reported in the same step, counts.
 TEST(Detector, ContactBeforeLeavingIsConfirmed) {
   Line line;
   line.Add(1, {0, 0, 0}, {0, 0, 0});
@@ -278,9 +278,8 @@ TEST(Detector, ContactBeforeLeavingIsConfirmed) {
   ASSERT_EQ(line.With(EventStatus::kEnded).size(), 1u);
 }
 
-// Two that pass each other between two states a second apart: that they touched is known from the
-// states before, how exactly from those after it. Who waits for what is told: each agent until its
-// own state has come.
+// Two agents pass each other between two states a second apart: the states before confirm the
+// contact, those after it narrow its brackets. The end waits for the next state of each agent.
 TEST(Detector, AContactThatIsOverWaitsForTheStatesAfterIt) {
   Detector detector{DetectorOptions{}};
   const AgentDeclaration ball{.limits = {.radius = 1, .acceleration_max = 0.1}};
@@ -312,8 +311,8 @@ TEST(Detector, AContactThatIsOverWaitsForTheStatesAfterIt) {
   EXPECT_EQ(detector.TakeChangedClearances().size(), 2u);
 }
 
-// One meeting is announced, the next one is not yet: when that may change is told as well.
-TEST(Detector, WhenOthersMayBeAnnouncedIsTold) {
+// One meeting is announced, the next one is not yet: the clearance says from when that may change.
+TEST(Detector, TheClearanceSaysWhenOthersMayBeAnnounced) {
   Line line;
   line.Add(1, {0, 0, 0}, {0, 0, 0});
   line.Add(2, {3, 0, 0}, {0, 0, 0});

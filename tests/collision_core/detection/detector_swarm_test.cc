@@ -1,5 +1,5 @@
-// Goal:   in a crowd no contact is late, none is made up, brackets contain the truth and are
-//         nearly tight, and the lazily kept earliest intersection is the one asked from scratch.
+// Goal:   in a crowd no contact is late, none is made up, brackets contain the truth and are nearly
+//         tight, and the cached earliest intersection is the one computed from scratch.
 // Method: seeded crowds under forces that honour M exactly, with states of unequal rate; the
 //         truth is the closed-form motion, sampled eight times a step and bisected.
 #include <gtest/gtest.h>
@@ -125,8 +125,9 @@ motion::MotionState StateOf(const Crowd& crowd, std::size_t agent, int step) {
   return state;
 }
 
-// The agents that speak in a step: each at a rate of its own, from every step to every fourth.
-bool Speaks(std::size_t agent, int step) { return step % (1 + agent % 4) == 0; }
+// The agents with a new state in a step: each at a rate of its own, from every step to every
+// fourth.
+bool HasNewState(std::size_t agent, int step) { return step % (1 + agent % 4) == 0; }
 
 RunLog Simulate(const Crowd& crowd, int steps) {
   RunLog run;
@@ -137,7 +138,7 @@ RunLog Simulate(const Crowd& crowd, int steps) {
   const AgentDeclaration declaration{.limits = {kRadius, kAccelerationMax}};
   for (int step = 0; step < steps; ++step) {
     for (std::size_t i = 0; i < crowd.size(); ++i) {
-      if (step > 0 && !Speaks(i, step)) continue;
+      if (step > 0 && !HasNewState(i, step)) continue;
       const motion::MotionState state = StateOf(crowd, i, step);
       if (step == 0) {
         detector.Admit(Id(i), declaration, state, state.stamp);
@@ -285,7 +286,7 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
       state.stamp = At(t);
       state.p_WA = start[i].p + start[i].v * Seconds(At(t));
       state.v_WA = start[i].v;
-      newest[i] = {state, still, 0};
+      newest[i] = {state, still.limits, 0};
       if (step == 0) detector.Admit(Id(i), still, state, state.stamp);
       if (step > 0) {
         EXPECT_EQ(detector.Update(Id(i), state, state.stamp), UpdateOutcome::kKept);

@@ -38,9 +38,9 @@ TEST(EventQueue, HeadIsTheLeastAfterEveryChange) {
   }
 }
 
-// Goal:   those up to a key are told, each once, and nobody else, whatever the shape of the heap.
-// Method: every size up to 70, keys with many ties, every limit, beside a sorted copy.
-TEST(EventQueue, UpToTellsAllThatAreNotLater) {
+// Goal:   UpTo() gives each index up to a key once, and no other, whatever the shape of the heap.
+// Method: every size up to 70, keys with many ties, every limit, against a sorted copy.
+TEST(EventQueue, UpToGivesAllThatAreNotLater) {
   Random random(4);
   for (std::uint32_t size = 0; size <= 70; ++size) {
     EventQueue<AgentIndex> queue;
@@ -62,7 +62,8 @@ TEST(EventQueue, UpToTellsAllThatAreNotLater) {
   }
 }
 
-// Goal:   what an empty queue, or one without the index, is asked for is refused, not undefined.
+// Goal:   a question about the head of an empty queue, or an absent index, is refused, not
+//         undefined.
 TEST(EventQueue, RefusesToNameAHeadThatItDoesNotHave) {
   EventQueue<AgentIndex> queue;
   EXPECT_THROW(queue.top(), CheckFailure);

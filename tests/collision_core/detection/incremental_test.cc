@@ -1,7 +1,7 @@
 // Goal:   a step costs what has changed and what is due, an update inside its bound nothing; and
-//         what is kept over long histories is what would be asked from scratch.
+//         the results of long histories are those computed from scratch.
 // Method: counted work and counted allocations; random histories of everything that can happen to
-//         an agent, beside every pair asked anew, with every method of the broad phase.
+//         an agent, against every pair computed anew, with every method of the broad phase.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -21,7 +21,7 @@ namespace {
 
 Instant Exactly(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
 
-// Agents far apart near a lattice; each speaks once a second, at its own time.
+// Agents far apart near a lattice; each has a new state once a second, at its own time.
 class Lattice {
  public:
   Lattice(std::uint32_t side, double spacing) : side_(side), spacing_(spacing) {
@@ -44,7 +44,7 @@ class Lattice {
     return state;
   }
 
-  /// A sixtieth of the agents speak; returns what the updates allocated.
+  /// A sixtieth of the agents have new states; returns what the updates allocated.
   std::size_t Step() {
     ++step_;
     const Instant now = Exactly(step_ * 1'000'000'000 / 60);
@@ -75,8 +75,8 @@ TEST(Incremental, AKeptUpdateAllocatesNothing) {
   EXPECT_EQ(lattice.detector->counters().updates_kept, 6u * 900);
 }
 
-// Two seconds in which nothing comes near: nobody is asked but for the earliest of all, which gets
-// later with every state. A walk over all agents or pairs would show as 2500 a step.
+// Two seconds in which nothing comes near: no agent is queried except for the earliest of all,
+// which gets later with every state. A walk over all agents or pairs would show as 2500 a step.
 TEST(Incremental, AStepCostsWhatIsDue) {
   Lattice lattice(50, 1000);
   lattice.detector->Advance(At(0));
@@ -93,7 +93,7 @@ TEST(Incremental, AStepCostsWhatIsDue) {
 // The output of 10,000 agents at one point is: each is saturated. Asking about every pair would be
 // 50 million questions; tracked are no more pairs than there is room for, and asking goes no
 // further.
-TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
+TEST(Incremental, ACrowdAtOnePointCostsWhatIsPublished) {
   const std::uint32_t agents = kSanitized ? 1000 : 10000;
   DetectorOptions options;
   options.agents_max = agents;
@@ -122,13 +122,13 @@ TEST(Incremental, EverybodyAtOnePointCostsWhatIsTold) {
     detector.Advance(At(step / 64.0));
     detector.Earliest();
   }
-  // Each is asked once more whether it is still crowded.
+  // One more query for each finds whether it is still saturated.
   EXPECT_LT(detector.counters().pair_queries - before,
             20u * 3 * 1000 + (kSanitized ? 40u : 10u) * agents);
 }
 
 // What cannot be tracked counts for the earliest intersection as well.
-TEST(Incremental, TheEarliestKnowsWhoIsSaturated) {
+TEST(Incremental, TheEarliestCountsSaturatedAgents) {
   DetectorOptions options;
   options.pairs_per_agent_max = 1;
   Detector detector(options);
@@ -177,7 +177,7 @@ class RandomHistory {
     while (static_cast<int>(known_.size()) < agents_wanted) Admit(now);
     const std::vector<std::uint32_t> slots = Slots();
     for (const std::uint32_t slot : slots) {
-      if (random_.Chance(0.3)) Speak(slot, now);
+      if (random_.Chance(0.3)) SendState(slot, now);
       if (random_.Chance(0.002)) {
         detector_->Remove(Id(slot));
         known_.erase(slot);
@@ -205,7 +205,7 @@ class RandomHistory {
       contact |= clearances_.at(slot).in_contact;
       unsure |= clearances_.at(slot).not_clear;
     }
-    // Whatever has changed was told.
+    // Every change was published.
     for (const auto& [slot, bound] : known_) {
       const AgentClearance clearance = *detector_->ClearanceOf(Id(slot));
       ASSERT_EQ(clearances_.at(slot).clear_until, clearance.clear_until) << slot;
@@ -273,7 +273,7 @@ class RandomHistory {
     known_[slot] = {motion::SpaceTimeBound{state, declaration.limits, 0}, declaration.filter};
   }
 
-  void Speak(std::uint32_t slot, Instant now) {
+  void SendState(std::uint32_t slot, Instant now) {
     motion::SpaceTimeBound& bound = known_[slot].bound;
     const double s = numeric::SecondsBetween(bound.state.stamp, now).middle();
     const double pull = 0.9 * bound.limits.acceleration_max;
@@ -294,8 +294,10 @@ class RandomHistory {
       state.position_error = random_.Uniform(0, 0.5);
     }
     if (random_.Chance(0.01)) {
-      bound.limits = Declaration();
-      detector_->Redeclare(Id(slot), bound.limits, now);
+      const AgentDeclaration declaration = Declaration();
+      known_[slot] = {motion::SpaceTimeBound{bound.state, declaration.limits, 0},
+                      declaration.filter};
+      detector_->Redeclare(Id(slot), declaration, now);
     }
     detector_->Update(Id(slot), state, now);
     bound.state = state;
@@ -312,7 +314,7 @@ class RandomHistory {
   int compared_ = 0;
 };
 
-TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
+TEST(Incremental, LongHistoriesEqualScratchWithEveryMethod) {
   const int steps = kSanitized ? 60 : 600;
   for (const double box : {60, 150, 400}) {
     std::optional<std::vector<std::int64_t>> log;
@@ -341,7 +343,7 @@ TEST(Incremental, LongHistoriesAreWhatScratchSaysWithEveryMethod) {
 
 // An agent whose owner was granted more time has jumped away in the future; before that it crosses
 // the place where another one appears now. The contact lies before its newest state.
-TEST(Incremental, WhoJumpsAheadIsMetBeforeItsJump) {
+TEST(Incremental, AnAgentThatJumpsAheadIsMetBeforeItsJump) {
   Detector detector{DetectorOptions{}};
   const AgentDeclaration ball{.limits = {.radius = 1}};
   detector.Admit(Id(1), ball, State(0, {-8, 0, 0}, {8, 0, 0}), At(0));
@@ -369,8 +371,8 @@ TEST(Incremental, WhoJumpsAheadIsMetBeforeItsJump) {
   }));
 }
 
-// Likewise with a partner that only speaks ahead: it passes the place before its newest state.
-TEST(Incremental, WhoSpeaksAheadIsMetBeforeItsNewestState) {
+// Likewise with a partner whose states lie ahead: it passes the place before its newest state.
+TEST(Incremental, AStateAheadIsMetBeforeIt) {
   Detector detector{DetectorOptions{}};
   const AgentDeclaration ball{.limits = {.radius = 1}};
   detector.Admit(Id(1), ball, State(0, {-8, 0, 0}, {8, 0, 0}), At(0));
@@ -384,14 +386,14 @@ TEST(Incremental, WhoSpeaksAheadIsMetBeforeItsNewestState) {
   detector.SetHeardUntil(OwnerOf(Id(2)), At(0.25));
   detector.Advance(At(0.25));
   EXPECT_LE(detector.ClearanceOf(Id(2))->clear_until, At(0.75));
-  // One that passes elsewhere is nobody's concern.
+  // An agent that passes elsewhere changes nothing.
   EXPECT_EQ(detector.pairs_tracked(), 1u);
 }
 
-// An owner that was granted much time tells where its agent will be long after it has passed
-// another one, which is asked first. What lies before that state is more than announce_within away,
-// and is not forgotten.
-TEST(Incremental, WhoSpeaksFarAheadIsMetBeforeItsNewestState) {
+// An owner that was granted much time reports where its agent will be long after it has passed
+// another one, which is queried first. The time before that state begins more than announce_within
+// earlier, and is not forgotten.
+TEST(Incremental, AStateFarAheadIsMetBeforeIt) {
   Detector detector{DetectorOptions{}};
   detector.Admit(Id(1), {.limits = {.radius = 1, .acceleration_max = 1}},
                  State(0, {0, 0, 0}, {0, 0, 0}), At(0));
@@ -407,8 +409,8 @@ TEST(Incremental, WhoSpeaksFarAheadIsMetBeforeItsNewestState) {
   }
 }
 
-// A teleport with a clock that may be off concerns those who are near, not everybody.
-TEST(Incremental, ATeleportWithSkewTracksOnlyWhoIsNear) {
+// A teleport with a clock that may be off concerns near agents, not all of them.
+TEST(Incremental, ATeleportWithSkewTracksOnlyNearAgents) {
   DetectorOptions options;
   options.skew = 0.01;
   Detector detector(options);

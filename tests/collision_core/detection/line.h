@@ -1,4 +1,4 @@
-// Few agents on lines, told to a detector: what the tests of the detector share.
+// A detector with few agents on lines: what the tests of the detector share.
 #pragma once
 
 #include <algorithm>

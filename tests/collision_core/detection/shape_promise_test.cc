@@ -1,10 +1,9 @@
-// Goal:   what the detector promises of two shapes holds for every motion within their bounds,
-// however far it looks
-//         ahead; directions of contact are those of the true approach, or not told.
+// Goal:   the detector's promises about two shapes hold for every motion within their bounds,
+//         however far ahead they reach; contact normals are those of the true approach, or not
+//         given.
 // Method: two bodies that move and turn as hard as they may, towards each other and away; the true
-// first contact in
-//         long double, by steps that no motion can outrun. Every clearance and every event is held
-//         against it.
+//         first contact in long double, by steps that no motion can outrun. Every clearance and
+//         every event is checked against it.
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -164,7 +163,7 @@ void CheckEvents(const std::vector<CollisionEvent>& events, const Encounter& met
     const Real near = SolidDistance(a, b);
     if (near == 0) continue;
     const Vector n = event.normal.cast<Real>();
-    // To move apart along the direction told never brings them together.
+    // To move apart along the published normal never brings them together.
     EXPECT_GT(SolidDistance(a, b.Moved(0.02L * n)), near - 1e-3L);
   }
 }
@@ -238,7 +237,7 @@ TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) { CheckEncounters(
 
 TEST(DetectorShapePromise, NorWithConvexSolids) { CheckEncounters(true); }
 
-// One state a second of a cube that comes along x and does not turn; nobody told that it does not.
+// One state a second of a cube that comes along x and does not turn, but does not declare that.
 struct Coming {
   explicit Coming(const AgentDeclaration& still) {
     detector.Admit(Id(1), still, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
@@ -299,8 +298,8 @@ TEST(DetectorShapePromise, NoDirectionThroughAJump) {
   coming.ExpectNoDirection();
 }
 
-// The cube is a ball until it is told otherwise at 2.5 s: of [2, 3] nobody knows its shape, and at
-// 3 s the balls are still just apart. Of how it came near nothing can be told from that segment.
+// The cube counts as a ball until its shape is declared at 2.5 s: its shape during [2, 3] is not
+// known, and at 3 s the balls are still just apart. So that segment gives no direction of approach.
 TEST(DetectorShapePromise, NoDirectionFromBeforeAShapeWasKnown) {
   const auto cube = shape::Shape::Build(Cube(0.5));
   for (const bool other_is_ball : {true, false}) {

@@ -1,10 +1,8 @@
-// Goal:   a shape's twin, the same body by another tree, takes its place unnoticed: it is no
-// widening, what
-//         was known of the past stays known, no verdict becomes less certain.
-// Method: two detectors that hear the same of two ships; one of them is told the twin now and then,
-// the other
-//         the same shape again. With a twin of the same tree all they tell is the same, bit for
-//         bit; with one of a better tree verdicts are those of who had it from the start.
+// Goal:   a shape's twin, the same body with another tree, takes its place unnoticed: it is no
+//         widening, the past stays known, and no result becomes less certain.
+// Method: two detectors with the same states of two ships; one gets the twin now and then, the
+//         other the same shape again. With a twin of the same tree all their outputs are the same,
+//         bit for bit; with a better tree they are as certain as with that tree from the start.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -50,7 +48,7 @@ Ship RandomShip(Random& random, const geometry::TriangleMesh& mesh) {
   return ship;
 }
 
-struct Told {
+struct Outputs {
   std::vector<CollisionEvent> events;
   std::vector<Instant> clear_until;
   std::uint64_t widenings = 0;
@@ -58,13 +56,13 @@ struct Told {
 
 // At each of `redeclared` the ships are declared anew, with the shapes that `next` hands out.
 template <typename Next>
-Told Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double skew,
-         const Next& next) {
+Outputs Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double skew,
+            const Next& next) {
   DetectorOptions options;
   options.skew = skew;
   options.work_units_per_turn = 60'000;
   Detector detector(options);
-  Told told;
+  Outputs outputs;
   std::vector<AgentDeclaration> declarations;
   for (const Ship& ship : ships) declarations.push_back(ship.declaration);
   for (int tick = 0; tick <= kTicksPerSecond * kEnd; ++tick) {
@@ -77,7 +75,7 @@ Told Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double
         detector.Redeclare(Id(i), declaration, At(now));
       }
       if (tick % ship.ticks_per_state == 0) {
-        motion::MotionState state = BoundAt(ship.motion, now, declaration).state;
+        motion::MotionState state = BoundAt(ship.motion, now, declaration.limits).state;
         if (!ship.jumps.empty() && tick >= *ship.jumps.begin()) state.p_WA += ship.aside;
         state.discontinuity = ship.jumps.contains(tick);
         if (tick == 0) {
@@ -89,13 +87,13 @@ Told Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, double
       detector.SetHeardUntil(OwnerOf(Id(i)), At(now));
     }
     detector.Advance(At(now));
-    told.events.insert(told.events.end(), detector.events().begin(), detector.events().end());
+    outputs.events.insert(outputs.events.end(), detector.events().begin(), detector.events().end());
     for (std::uint32_t i = 0; i < ships.size(); ++i) {
-      told.clear_until.push_back(detector.ClearanceOf(Id(i))->clear_until);
+      outputs.clear_until.push_back(detector.ClearanceOf(Id(i))->clear_until);
     }
   }
-  told.widenings = detector.counters().widenings;
-  return told;
+  outputs.widenings = detector.counters().widenings;
+  return outputs;
 }
 
 auto Values(const CollisionEvent& e) {
@@ -129,7 +127,7 @@ Scene RandomScene(std::uint64_t seed) {
 }
 
 // Goal:   with the same tree nothing at all changes.
-TEST(ShapeTwin, TheSameTreeTellsTheSame) {
+TEST(ShapeTwin, TheSameTreeGivesTheSame) {
   std::set<EventStatus> seen;
   int events = 0;
   for (int seed = 1; seed <= kScenes; ++seed) {
@@ -140,8 +138,8 @@ TEST(ShapeTwin, TheSameTreeTellsTheSame) {
       const shape::Shape& shape = *scene.ships[i].declaration.shape;
       return shape::Shape::Build(shape.mesh(), kCoarse, &shape);
     };
-    const Told a = Fly(scene.ships, scene.redeclared, scene.skew, same);
-    const Told b = Fly(scene.ships, scene.redeclared, scene.skew, twin);
+    const Outputs a = Fly(scene.ships, scene.redeclared, scene.skew, same);
+    const Outputs b = Fly(scene.ships, scene.redeclared, scene.skew, twin);
     EXPECT_EQ(a.widenings, b.widenings);
     EXPECT_EQ(a.clear_until, b.clear_until);
     ASSERT_EQ(a.events.size(), b.events.size());
@@ -155,9 +153,8 @@ TEST(ShapeTwin, TheSameTreeTellsTheSame) {
   EXPECT_TRUE(seen.contains(EventStatus::kConfirmed) && seen.contains(EventStatus::kEnded));
 }
 
-// Goal:   with a better tree verdicts are at least as certain as with the coarse one, and no
-// clearance is lowered
-//         because of it.
+// Goal:   with a better tree the results are at least as certain as with the coarse one, and no
+//         clearance is lowered because of it.
 TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
   int confirmed = 0, switched = 0;
   for (int seed = 1; seed <= kScenes; ++seed) {
@@ -171,8 +168,8 @@ TEST(ShapeTwin, ABetterTreeTakesNothingBack) {
     }
     const auto better = [&](std::uint32_t i, int) { return ++switched, fine[i]; };
     const auto same = [&](std::uint32_t i, int) { return scene.ships[i].declaration.shape; };
-    const Told coarse = Fly(scene.ships, scene.redeclared, scene.skew, same);
-    const Told refined = Fly(scene.ships, scene.redeclared, scene.skew, better);
+    const Outputs coarse = Fly(scene.ships, scene.redeclared, scene.skew, same);
+    const Outputs refined = Fly(scene.ships, scene.redeclared, scene.skew, better);
     EXPECT_EQ(refined.widenings, coarse.widenings);
     std::map<std::uint32_t, EventStatus> last;
     for (const CollisionEvent& event : refined.events) {

@@ -1,7 +1,6 @@
 // Goal:   events of agents with shapes: contacts confirmed with brackets that contain the truth,
-// near passes
-//         dismissed, shapes that arrive late or change, jumps, containment; the same calls give the
-//         same events.
+//         near passes dismissed, shapes that arrive late or change, jumps, containment; the same
+//         calls give the same events.
 // Method: few agents on lines whose contacts are exact; states 64 times a second, one clock.
 #include <gtest/gtest.h>
 
@@ -194,7 +193,7 @@ struct Standing : Scene {
 TEST(DetectorShapes, WithoutAStateOnlyAnArrivalCounts) {
   EXPECT_EQ(Standing(Awaited(2)).ConfirmedAfter(Declared(Ship(), 2)), 1u);
   EXPECT_EQ(Standing(Awaited(2)).ConfirmedAfter(Awaited(2)), 0u);
-  // Thin and far up it touches nothing; from when on it is a ship instead nobody knows.
+  // Thin and far up it touches nothing; since when it is a ship instead is not known.
   const auto rod = shape::Shape::Build(Moved(Rod(0.5, 0.01), {0, 0, 1.5}));
   EXPECT_EQ(Standing(Declared(rod, 2)).ConfirmedAfter(Declared(Ship(), 2)), 0u);
 }
@@ -205,7 +204,7 @@ TEST(DetectorShapes, BallsBuildNothing) {
   scene.Put(2, Declared(nullptr, 1), {8, 0, 0}, {-2, 0, 0});
   scene.Run(8);
   EXPECT_EQ(scene.With(EventStatus::kEnded).size(), 1u);
-  // A segment of two balls is one unit, and so is what an event tells.
+  // A segment of two balls is one unit, and so is the proximity in an event.
   EXPECT_LE(scene.detector.counters().work_units,
             scene.detector.counters().segments + scene.With(EventStatus::kConfirmed).size());
 }

@@ -52,7 +52,7 @@ TEST(AgentTable, TimeHeardOfAnOwnerHoldsForAllItsAgents) {
   EXPECT_EQ(table[of_a].heard_until(), At(2)) << "never back";
 }
 
-TEST(AgentTable, ARemovedAgentStaysUpToWhatWasHeardOfIt) {
+TEST(AgentTable, ARemovedAgentStaysUntilItsReportedTime) {
   AgentTable table({});
   const AgentIndex agent = Admitted(Id(1), 0, &table);
   table.SetHeardUntil(OwnerOf(Id(1)), At(2));

@@ -1,5 +1,6 @@
-// Goal:   between two states only that is said which holds, whatever lies between them. Method: two
-// states a second apart, joined, jumped, broken, expired, redeclared; the bounds by hand.
+// Goal:   between two states the history gives only what holds for every motion between them.
+// Method: two states a second apart, joined, jumped, broken, expired, redeclared; the bounds by
+//         hand.
 #include "collision_core/detection/agents/history.h"
 
 #include <gtest/gtest.h>
@@ -37,14 +38,14 @@ TEST(History, NoBoundRunsBackwardOverAJump) {
   EXPECT_EQ(history.Over(At(0), At(1)).ball.bounds.size(), 1u);
 }
 
-TEST(History, NothingIsSaidWhereABoundWasBroken) {
+TEST(History, NothingIsKnownWhereABoundWasBroken) {
   const History history = Of(Bound(0), Bound(1), Link::kBroken);
   EXPECT_TRUE(history.Over(At(0), At(1)).ball.bounds.empty());
   EXPECT_EQ(history.Over(At(0), At(0)).ball.bounds.size(), 1u);
   EXPECT_EQ(history.Over(At(1), At(2)).ball.bounds.size(), 1u);
 }
 
-TEST(History, NothingIsSaidBeyondAnExpiry) {
+TEST(History, NothingIsKnownBeyondAnExpiry) {
   motion::SpaceTimeBound bound = Bound(0);
   bound.state.expiry = At(1);
   History history;

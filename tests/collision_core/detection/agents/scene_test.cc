@@ -1,6 +1,6 @@
-// Goal:   what is kept of a scene as a whole is never narrower than the truth, is the truth once a
-//         round is over, and names exactly the parts of the mathematics that the scene uses.
-// Method: random bounds beside a look at all of them; scenes with one feature each.
+// Goal:   the extremes of a scene are never narrower than the truth, and are the truth once a round
+//         is over; the profile names exactly the parts of the mathematics that the scene uses.
+// Method: random bounds against a walk over all of them; scenes with one feature each.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,10 +1,9 @@
 // Goal:   whether a partner is in a group of its own beside an agent depends on the declared
-//         accelerations of the two alone: never within 8 times, always from 64 times; and which
-//         agents are there is known.
+//         accelerations of the two alone: never within 8 times, always from 64 times; and the
+//         agents of each tier are counted.
 // Method: random bounds of all magnitudes against their ratio; agents come, change and leave,
-// beside a
-//         look at all.
-#include "collision_core/detection/clearance/acceleration_tiers.h"
+//         against a walk over all.
+#include "collision_core/detection/clearance/keys/acceleration_tiers.h"
 
 #include <gtest/gtest.h>
 
@@ -67,7 +66,7 @@ TEST(AccelerationTiers, NoAccelerationIsBelowEveryTier) {
   for (std::uint32_t k = 0; k < 6; ++k) EXPECT_FALSE(HasOwnGroup(scene, 5, k)) << k;
 }
 
-// Where many agents declare none, they are not asked about by themselves.
+// If many agents declare no acceleration, they are not queried separately.
 TEST(AccelerationTiers, NotWhereManyDeclareNone) {
   constexpr std::uint32_t kMost = AccelerationTiers::kUnacceleratedMax;
   AccelerationTiers scene;

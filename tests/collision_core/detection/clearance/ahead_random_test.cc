@@ -1,8 +1,8 @@
-// Goal:   nobody is told to be clear beyond a meeting, however far ahead states lie and whoever has
-//         no room for pairs.
-// Method: random histories of agents on lines, of accelerations of every magnitude, that speak
-//         ahead, jump, promise less, declare anew and leave; beside the canonical routine for every
-//         pair, and their true places up to the newest states.
+// Goal:   no clearance lies beyond a meeting, however far ahead states lie and whichever agents
+//         have no room for pairs.
+// Method: random histories of agents on lines, of accelerations of every magnitude, with states
+//         ahead, jumps, weaker promises, new declarations and departures; against the canonical
+//         routine for every pair, and the true places up to the newest states.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -48,7 +48,7 @@ class History {
     while (agents_.size() < wanted_) Admit();
     std::vector<std::uint32_t> gone;
     for (auto& [slot, agent] : agents_) {
-      if (random_.Chance(0.3)) Speak(slot, &agent);
+      if (random_.Chance(0.3)) SendState(slot, &agent);
       if (random_.Chance(0.01)) gone.push_back(slot);
     }
     for (const std::uint32_t slot : gone) {
@@ -101,7 +101,7 @@ class History {
     agents_[slot] = {{state, declaration.limits, 0}, {{now_, state.p_WA, state.v_WA}}};
   }
 
-  void Speak(std::uint32_t slot, Agent* agent) {
+  void SendState(std::uint32_t slot, Agent* agent) {
     motion::MotionState state = agent->bound.state;
     const Instant last = state.stamp;
     state.stamp = numeric::AddRoundedUp(now_, random_.Chance(0.5) ? 0 : random_.Uniform(0, 5));
@@ -115,10 +115,10 @@ class History {
       state.position_error = random_.Uniform(0, 0.5);
     }
     if (last <= now_ && random_.Chance(0.03)) {
-      const double radius = agent->bound.limits.radius;
-      agent->bound.limits = Declaration();
-      agent->bound.limits.radius = radius;
-      detector_.Redeclare(Id(slot), agent->bound.limits, now_);
+      AgentDeclaration declaration = Declaration();
+      declaration.limits.radius = agent->bound.limits.radius;
+      agent->bound.limits = declaration.limits;
+      detector_.Redeclare(Id(slot), declaration, now_);
     }
     EXPECT_NE(detector_.Update(Id(slot), state, now_), UpdateOutcome::kBreached);
     detector_.SetHeardUntil(OwnerOf(Id(slot)), state.stamp);

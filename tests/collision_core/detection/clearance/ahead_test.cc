@@ -1,9 +1,7 @@
-// Goal:   where a state lies ahead of what its agent is certified free of, nobody is told to be
-// clear of
-//         what comes before that state.
-// Method: few agents whose earliest meeting is known in closed form; one of them speaks far ahead,
-// in
-//         every way in which the others, or itself, might not be asked about the time in between.
+// Goal:   if a state lies ahead of the time up to which its agent is certified free, no clearance
+//         promises more than what is certified before that state.
+// Method: few agents whose earliest meeting is known in closed form; one of them has a state far
+//         ahead, in every way in which a query could miss the time in between.
 #include <gtest/gtest.h>
 
 #include "tests/collision_core/detection/line.h"
@@ -20,7 +18,7 @@ DetectorOptions Options(std::uint32_t pairs_per_agent_max = 256) {
   return options;
 }
 
-UpdateOutcome Speak(std::uint32_t slot, const motion::MotionState& state, Detector* detector) {
+UpdateOutcome SendState(std::uint32_t slot, const motion::MotionState& state, Detector* detector) {
   const UpdateOutcome outcome = detector->Update(Id(slot), state, state.stamp);
   detector->SetHeardUntil(OwnerOf(Id(slot)), state.stamp);
   return outcome;
@@ -39,7 +37,7 @@ TEST(StateAhead, OneWhoseStateIsOlderStillCounts) {
   detector.Admit(Id(0), kSlow, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Admit(Id(1), kSlow, State(0, {-40, 0, 0}, {20, 0, 0}), At(0));
   detector.Advance(At(0));
-  EXPECT_EQ(Speak(0, State(2.2, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
+  EXPECT_EQ(SendState(0, State(2.2, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
   for (const double now : {0.4, 1.0, 1.5}) {
     detector.Advance(At(now));
     for (const std::uint32_t slot : {0u, 1u}) ExpectClearUntil(1.85, 1.9, slot, detector);
@@ -47,14 +45,14 @@ TEST(StateAhead, OneWhoseStateIsOlderStillCounts) {
   EXPECT_EQ(detector.events().size(), 1u);
 }
 
-// Two agents of which one has jumped into the way of the other, which then speaks from behind it.
+// One of two agents jumps into the way of the other, whose next state then lies behind it.
 void PutInTheWay(Detector* detector) {
   detector->Admit(Id(0), kSlow, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
   detector->Admit(Id(1), kSlow, State(0, {0, 100, 0}, {0, 0, 0}), At(0));
   detector->Advance(At(0));
   motion::MotionState jumped = State(0.1, {0, 0, 0}, {0, 0, 0});
   jumped.discontinuity = true;
-  Speak(1, jumped, detector);
+  SendState(1, jumped, detector);
   detector->Advance(At(0.1));
 }
 
@@ -68,7 +66,7 @@ TEST(StateAhead, ThatPromisesLess) {
   PutInTheWay(&detector);
   motion::MotionState state = State(5, {30, 0, 0}, {10, 0, 0});
   state.position_error = 0.5;
-  EXPECT_EQ(Speak(0, state, &detector), UpdateOutcome::kWidened);
+  EXPECT_EQ(SendState(0, state, &detector), UpdateOutcome::kWidened);
   for (const double now : {0.4, 1.0, 1.7}) ExpectTold(now, &detector);
 }
 
@@ -77,29 +75,29 @@ TEST(StateAhead, AfterAJump) {
   PutInTheWay(&detector);
   motion::MotionState state = State(5, {30, 0, 0}, {10, 0, 0});
   state.discontinuity = true;
-  EXPECT_EQ(Speak(0, state, &detector), UpdateOutcome::kJumped);
+  EXPECT_EQ(SendState(0, state, &detector), UpdateOutcome::kJumped);
   for (const double now : {0.4, 1.0, 1.7}) ExpectTold(now, &detector);
 }
 
-// It has been asked in the step before.
-TEST(StateAhead, ToldBeforeTheEarliestOfAllIsAsked) {
+// The agent was queried in the step before.
+TEST(StateAhead, BeforeTheEarliestOfAllIsComputed) {
   Detector detector(Options());
   detector.Admit(Id(0), kSlow, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
   detector.Admit(Id(1), kSlow, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
   motion::MotionState state = State(0.1, {-19, 0, 0}, {10, 0, 0});
   state.position_error = 0.01;
-  EXPECT_EQ(Speak(0, state, &detector), UpdateOutcome::kWidened);
+  EXPECT_EQ(SendState(0, state, &detector), UpdateOutcome::kWidened);
   detector.Advance(At(0.1));
   state = State(5, {30, 0, 0}, {10, 0, 0});
   state.position_error = 0.01;
-  EXPECT_EQ(Speak(0, state, &detector), UpdateOutcome::kKept);
+  EXPECT_EQ(SendState(0, state, &detector), UpdateOutcome::kKept);
   EXPECT_LE(detector.Earliest().earliest, At(1.8));
   for (const double now : {0.4, 1.0, 1.7}) ExpectTold(now, &detector);
 }
 
-// One in the way has no room for pairs, since two others stand about it; nobody was promised
-// anything by it.
+// The agent in the way has no room for pairs, since two others stand about it; its clearance
+// promises nothing.
 void Crowd(Detector* detector) {
   detector->Admit(Id(1), kSlow, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
   detector->Advance(At(0));
@@ -115,28 +113,28 @@ void Crowd(Detector* detector) {
 TEST(StateAhead, BehindOneThatIsSaturated) {
   Detector detector(Options(1));
   Crowd(&detector);
-  EXPECT_EQ(Speak(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector), UpdateOutcome::kKept);
+  EXPECT_EQ(SendState(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector), UpdateOutcome::kKept);
   detector.Advance(At(0.4));
   EXPECT_LE(detector.ClearanceOf(Id(0))->clear_until, At(1.8));
 }
 
-// In the step after it speaks the other one is asked, but not itself.
+// In the step after its state the other agent is queried, but not the agent itself.
 TEST(StateAhead, OfOneThatIsSaturated) {
   Detector detector(Options(1));
   Crowd(&detector);
   for (const double now : {0.3, 0.6, 0.9, 1.2, 1.29}) detector.Advance(At(now));
-  EXPECT_EQ(Speak(1, State(5, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
+  EXPECT_EQ(SendState(1, State(5, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
   for (const double now : {1.3, 1.5, 1.7}) {
     detector.Advance(At(now));
     EXPECT_LE(detector.ClearanceOf(Id(0))->clear_until, At(1.8)) << now;
   }
 }
 
-// It is asked first, and still has no room; then the other one.
+// The agent is queried first, and still has no room; then the other one.
 TEST(StateAhead, OfOneThatStaysSaturated) {
   Detector detector(Options(1));
   Crowd(&detector);
-  EXPECT_EQ(Speak(1, State(5, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
+  EXPECT_EQ(SendState(1, State(5, {0, 0, 0}, {0, 0, 0}), &detector), UpdateOutcome::kKept);
   for (const double now : {0.1, 0.2, 0.3, 0.5, 0.9, 1.3, 1.5, 1.7}) {
     detector.Advance(At(now));
     EXPECT_LE(detector.ClearanceOf(Id(0))->clear_until, At(1.8)) << now;

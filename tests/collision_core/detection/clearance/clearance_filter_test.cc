@@ -1,8 +1,8 @@
 // Goal:   the cheap test never spares a partner whose key must be lowered, and spares nearly all
 //         others.
 // Method: random bounds of every kind, keys about when the canonical routine lets the two meet;
-// with
-//         stamps of our days, where a double of all nanoseconds would be off by hundreds of them.
+//         with stamps of our days, where a double of all nanoseconds would be off by hundreds of
+//         them.
 #include "collision_core/detection/clearance/clearance_filter.h"
 
 #include <gtest/gtest.h>
@@ -63,7 +63,7 @@ TEST(ClearanceFilter, CertainlyLaterIsNeverWrong) {
     if (key <= from) {
       EXPECT_TRUE(later);
     } else if (later) {
-      // What the canonical routine tells is early by up to 1e-9 of the way.
+      // The canonical answer is early by up to 1e-9 of the way.
       const double way = meet.is_never() ? 0 : numeric::SecondsBetween(from, meet).upper;
       ASSERT_GE(before, -2e-9 * way - 2e-9) << i;
     }

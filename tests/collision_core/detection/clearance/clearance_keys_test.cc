@@ -1,8 +1,7 @@
 // Goal:   each group has the key it was given, never a later one than the comparable partners, and
-// the
-//         earliest of all is known.
+//         the earliest of all is known.
 // Method: random changes, beside a key for each tier in a plain array.
-#include "collision_core/detection/clearance/clearance_keys.h"
+#include "collision_core/detection/clearance/keys/clearance_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,7 @@
-// Goal:   agents wait in the queue for the time at which they must be asked about again, and the
-// walk
-//         finds a key that promises too little or a queue that does not agree.
+// Goal:   agents are queued for the time at which they must be queried again; the walk finds a key
+//         that promises too little, and a queue that does not agree.
 // Method: one or two agents by hand.
-#include "collision_core/detection/clearance/coverage_table.h"
+#include "collision_core/detection/clearance/keys/coverage_table.h"
 
 #include <gtest/gtest.h>
 
@@ -54,7 +53,7 @@ TEST_F(CoverageTest, AgentsWaitForTheirEarliestKey) {
   EXPECT_TRUE(dirty_.Contains(a_) && dirty_.Contains(b_));
 }
 
-TEST_F(CoverageTest, ASaturatedAgentIsAskedAboutAgainSoon) {
+TEST_F(CoverageTest, ASaturatedAgentIsQueriedAgainSoon) {
   SetKey(a_, 30);
   SetKey(b_, 30);
   coverage_.Saturate(a_, b_);
@@ -81,7 +80,7 @@ TEST_F(CoverageTest, SettledAgentsStandByTheirLatestKeys) {
   coverage_.Validate();
 }
 
-TEST_F(CoverageTest, AStateAheadOfItsKeyIsAskedAboutAtOnce) {
+TEST_F(CoverageTest, AStateAheadOfItsKeyIsQueriedAtOnce) {
   SetKey(a_, 5);
   SetKey(b_, 30);
   agents_.Store(a_, State(6, {0, 0, 0}, {0, 0, 0}), Link::kFollows);

@@ -1,7 +1,7 @@
-// Goal:   a crowd costs what is told of it: contacts that cannot end are not judged, those that may
-//         are judged at a glance; who is saturated costs one look; and nothing is told later for
-//         that.
-// Method: counted work; many contacts at once beside each of them alone.
+// Goal:   a crowd costs in proportion to what is published about it: contacts that cannot end are
+//         not evaluated, those that may end take a glance, a saturated agent costs one pair query;
+//         and no event comes later because of that.
+// Method: counted work; many contacts at once against each of them alone.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -27,7 +27,7 @@ struct Crowd {
     Step(0);
   }
 
-  /// One of so many speaks; of all is heard.
+  /// Every `every`-th agent has a new state; the time heard advances for all.
   void Step(std::uint32_t every) {
     const double now = step / 64.0;
     for (std::uint32_t slot = 0; slot < agents; ++slot) {
@@ -71,8 +71,8 @@ TEST(ACrowd, ContactsThatCannotEndRest) {
   EXPECT_TRUE(crowd.detector->ClearanceOf(Id(0))->in_contact);
 }
 
-// Who speaks has its own contacts judged: two segments each, and mostly at a glance.
-TEST(ACrowd, WhoSpeaksHasItsContactsJudgedAtAGlance) {
+// Contacts of an agent with a new state are evaluated: two segments each, mostly at a glance.
+TEST(ACrowd, ANewStateHasItsContactsEvaluatedAtAGlance) {
   constexpr std::uint32_t kPairs = 4000;
   Crowd crowd(300, kPairs);
   for (int i = 0; i < 64; ++i) crowd.Step(16);
@@ -84,9 +84,9 @@ TEST(ACrowd, WhoSpeaksHasItsContactsJudgedAtAGlance) {
   EXPECT_GT(after.glances - before.glances, 0.95 * static_cast<double>(segments));
 }
 
-// Eight times in a second everybody without room is asked whether it still is crowded. A question
-// to the broad phase would find all others.
-TEST(ACrowd, WhoIsSaturatedIsAskedAtTheCostOfOneLook) {
+// Eight times in a second each agent without room is queried again. A query of the broad phase
+// would find all others.
+TEST(ACrowd, ASaturatedAgentIsQueriedAtTheCostOfOnePair) {
   constexpr std::uint32_t kAgents = 2000;
   Crowd crowd(kAgents, 600);
   ASSERT_TRUE(crowd.detector->ClearanceOf(Id(kAgents - 1))->saturated);
@@ -99,23 +99,23 @@ TEST(ACrowd, WhoIsSaturatedIsAskedAtTheCostOfOneLook) {
   EXPECT_LT(after.filter_tests - before.filter_tests, kAgents);
   EXPECT_LT(after.pair_queries - before.pair_queries, 10 * kAgents);
   EXPECT_TRUE(crowd.detector->ClearanceOf(Id(kAgents - 1))->saturated);
-  // Who jumps away from the crowd has nobody in the way, and no room is needed for that.
+  // An agent that jumps away from the crowd has no partner in its way, and needs no room.
   motion::MotionState away = State(1, {1e6, 0, 0}, {0, 0, 0});
   away.discontinuity = true;
   crowd.detector->Update(Id(kAgents - 2), away, At(1));
   crowd.Step(0);
   EXPECT_FALSE(crowd.detector->ClearanceOf(Id(kAgents - 2))->saturated);
   EXPECT_FALSE(crowd.detector->ClearanceOf(Id(kAgents - 2))->not_clear);
-  // Where the others go away the agent is asked in earnest.
+  // Once the others go away, the agent gets a full query.
   for (std::uint32_t slot = 0; slot + 1 < kAgents; ++slot) crowd.detector->Remove(Id(slot));
   for (int i = 0; i < 64; ++i) crowd.Step(0);
   EXPECT_FALSE(crowd.detector->ClearanceOf(Id(kAgents - 1))->saturated);
   EXPECT_FALSE(crowd.detector->ClearanceOf(Id(kAgents - 1))->not_clear);
 }
 
-// Agents jump into a crowd and out of it: whoever is saturated is told so, and counts for the
-// earliest intersection, which is that of the lowest ids; nobody else does.
-TEST(ACrowd, WhoIsSaturatedCountsHoweverOthersComeAndGo) {
+// Agents jump into a crowd and out of it: each saturated agent has a clearance of now, and counts
+// for the earliest intersection, which is that of the lowest ids; no other agent does.
+TEST(ACrowd, ASaturatedAgentCountsHoweverOthersComeAndGo) {
   constexpr std::uint32_t kAgents = 24;
   DetectorOptions options;
   options.pairs_max = 4;
@@ -145,11 +145,11 @@ TEST(ACrowd, WhoIsSaturatedCountsHoweverOthersComeAndGo) {
     }
     std::size_t now_saturated = 0;
     std::uint32_t lowest = kAgents;
-    bool anybody = false;
+    bool any_not_clear = false;
     for (std::uint32_t slot = 0; slot < kAgents; ++slot) {
       const AgentClearance clearance = *detector.ClearanceOf(Id(slot));
       if (clearance.saturated && now_saturated++ == 0) lowest = slot;
-      // Who may have touched before now was told so before.
+      // An agent that may have touched before now had an earlier clearance.
       const bool news = clearance.saturated && clearance.clear_until == At(now);
       if (news) {
         ASSERT_TRUE(told.contains(slot)) << slot << " at " << step;
@@ -158,14 +158,14 @@ TEST(ACrowd, WhoIsSaturatedCountsHoweverOthersComeAndGo) {
         ASSERT_TRUE(clearance.saturated) << slot << " at " << step;
       }
       fresh += news;
-      anybody |= clearance.not_clear;
+      any_not_clear |= clearance.not_clear;
     }
     const EarliestAnswer earliest = detector.Earliest();
     if (now_saturated > 0) {
       ASSERT_EQ(earliest.earliest, At(now));
       // Of equal ones that of the lowest ids.
       ASSERT_LE(earliest.lower.slot, lowest);
-    } else if (!anybody) {
+    } else if (!any_not_clear) {
       ASSERT_GT(earliest.earliest, At(now));
       ++all_clear;
     }
@@ -177,7 +177,7 @@ TEST(ACrowd, WhoIsSaturatedCountsHoweverOthersComeAndGo) {
 }
 
 // Pairs far from each other that overlap at first and go apart, some at once and some in seconds;
-// some speak now and then.
+// some agents have new states now and then.
 struct Couples {
   Couples(std::uint32_t first, std::uint32_t last) : first(first), last(last) {
     DetectorOptions options;
@@ -203,7 +203,7 @@ struct Couples {
     return State(t, p + d + t * (v + w), v + w);
   }
 
-  /// What was told in this step of each couple.
+  /// What was published about each couple in this step.
   void Step() {
     const double now = step / 64.0;
     for (std::uint32_t couple = first; couple < last; ++couple) {
@@ -241,7 +241,7 @@ struct Couples {
   std::optional<Detector> detector;
 };
 
-TEST(ACrowd, WhatRestsIsToldWhenItEnds) {
+TEST(ACrowd, AContactThatRestsIsPublishedWhenItEnds) {
   constexpr std::uint32_t kCouples = 600;
   constexpr int kSteps = 6 * 64;
   Couples all(0, kCouples);

@@ -1,5 +1,5 @@
-// Goal:   many changes at once cost each a question that looks no farther than it must, whatever
-//         else is in the scene; and what is told does not depend on how many came at once.
+// Goal:   of many changes at once each costs one query that looks no farther than it must, whatever
+//         else is in the scene; and clearances do not depend on how many changes came at once.
 // Method: counted work in a swarm, and in one beside agents that are clear for long; the same
 //         changes one by one.
 #include <gtest/gtest.h>
@@ -42,11 +42,11 @@ class Swarm {
     detector->Advance(At(0));
   }
 
-  /// Every so manieth drone may accelerate harder from now on.
+  /// Every `every`-th drone may accelerate harder from now on.
   std::uint32_t Widen(std::uint32_t every, bool one_by_one) {
     std::uint32_t widened = 0;
     for (std::uint32_t slot = 0; slot < drones_; slot += every, ++widened) {
-      declarations_[slot].acceleration_max *= 1.01;
+      declarations_[slot].limits.acceleration_max *= 1.01;
       detector->Redeclare(Id(slot), declarations_[slot], At(0));
       if (one_by_one) detector->Advance(At(0));
     }
@@ -54,7 +54,7 @@ class Swarm {
     return widened;
   }
 
-  std::vector<Instant> Told() const {
+  std::vector<Instant> Clearances() const {
     std::vector<Instant> told;
     for (std::uint32_t slot = 0; slot < states_.size(); ++slot) {
       const AgentClearance clearance = *detector->ClearanceOf(Id(slot));
@@ -74,23 +74,23 @@ class Swarm {
   std::vector<AgentDeclaration> declarations_;
 };
 
-TEST(ManyChanges, AreToldAsIfTheyCameOneByOne) {
+TEST(ManyChanges, HaveTheEffectOfOneByOne) {
   Swarm at_once(500, 300), one_by_one(500, 300);
   at_once.AdmitAll(false);
   one_by_one.AdmitAll(true);
-  ASSERT_EQ(at_once.Told(), one_by_one.Told());
+  ASSERT_EQ(at_once.Clearances(), one_by_one.Clearances());
   for (const std::uint32_t every : {1, 2, 7}) {
-    const std::vector<Instant> before = at_once.Told();
+    const std::vector<Instant> before = at_once.Clearances();
     at_once.Widen(every, false);
     one_by_one.Widen(every, true);
-    ASSERT_NE(at_once.Told(), before);
-    ASSERT_EQ(at_once.Told(), one_by_one.Told()) << every;
+    ASSERT_NE(at_once.Clearances(), before);
+    ASSERT_EQ(at_once.Clearances(), one_by_one.Clearances()) << every;
   }
   EXPECT_EQ(at_once.detector->Earliest().earliest, one_by_one.detector->Earliest().earliest);
 }
 
-// So many that those with far keys are asked anew, instead of looked at by each.
-TEST(ManyChanges, VeryManyAreToldAsIfTheyCameOneByOne) {
+// So many changes that agents with far keys are queried anew, instead of examined for each change.
+TEST(ManyChanges, VeryManyHaveTheEffectOfOneByOne) {
   constexpr std::uint32_t kDrones = 4200, kOthers = 300;
   Swarm at_once(kDrones, kOthers), one_by_one(kDrones, kOthers);
   Swarm all_pairs(kDrones, kOthers, broad_phase::BroadPhaseMethod::kAllPairs);
@@ -100,14 +100,14 @@ TEST(ManyChanges, VeryManyAreToldAsIfTheyCameOneByOne) {
   }
   const std::uint64_t asked = at_once.detector->counters().queries;
   at_once.Widen(1, false);
-  // A question each, also of those who stand aside, instead of a look at them by each drone.
+  // One query for each agent, bystanders included, instead of a test of each for each drone.
   EXPECT_EQ(at_once.detector->counters().queries - asked, kDrones + kOthers);
   one_by_one.Widen(1, true);
   all_pairs.Widen(1, false);
-  ASSERT_EQ(at_once.Told(), one_by_one.Told());
-  ASSERT_EQ(at_once.Told(), all_pairs.Told());
+  ASSERT_EQ(at_once.Clearances(), one_by_one.Clearances());
+  ASSERT_EQ(at_once.Clearances(), all_pairs.Clearances());
   EXPECT_EQ(at_once.detector->Earliest().earliest, one_by_one.detector->Earliest().earliest);
-  // Whose clearance was lowered is told why, and by whom.
+  // A lowered clearance names the cause and its agent.
   std::uint32_t others = 0;
   for (const AgentClearance& told : at_once.detector->TakeChangedClearances()) {
     EXPECT_EQ(told.cause, ClearanceCause::kWidening) << told.agent.slot;
@@ -123,7 +123,7 @@ TEST(ManyChanges, VeryManyAreToldAsIfTheyCameOneByOne) {
 }
 
 // An agent's next meeting is 0.4 s beyond announce_within in the mean, so that some ten partners
-// are near enough to count. A look twice as far would be at 64 times as many.
+// are near enough to count. A query twice as far would find 64 times as many.
 TEST(ManyChanges, AnAdmissionLooksNoFartherThanItMust) {
   constexpr std::uint32_t kDrones = 4000;
   Swarm swarm(kDrones, 0);
@@ -136,9 +136,9 @@ TEST(ManyChanges, AnAdmissionLooksNoFartherThanItMust) {
   EXPECT_LT(swarm.tests() - tests, 400 * kDrones);
 }
 
-// Those who are clear for a minute do not make each renewal look a minute ahead, where it meets
-// all.
-TEST(ManyChanges, ThoseWhoAreClearForLongCostARenewalALookEach) {
+// Agents that are clear for a minute do not make each renewal query a minute ahead, where it meets
+// all others.
+TEST(ManyChanges, AgentsThatAreClearForLongCostARenewalOneTestEach) {
   constexpr std::uint32_t kDrones = 3000, kOthers = 200;
   Swarm swarm(kDrones, kOthers);
   swarm.AdmitAll(false);
@@ -146,7 +146,7 @@ TEST(ManyChanges, ThoseWhoAreClearForLongCostARenewalALookEach) {
   for (const std::uint32_t every : {2, 20}) {
     const std::uint64_t tests = swarm.tests(), queries = swarm.queries();
     const std::uint32_t widened = swarm.Widen(every, false);
-    // Filters here have the drones in few cells; a look at each of them would come on top.
+    // Here the broad phase has the drones in few cells; a test of each of them would come on top.
     EXPECT_LT(swarm.tests() - tests, 2 * (kDrones + kOthers) * widened) << every;
     EXPECT_LT(swarm.queries() - queries, 6 * widened) << every;
   }

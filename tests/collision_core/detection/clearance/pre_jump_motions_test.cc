@@ -1,7 +1,7 @@
-// Goal:   an agent that jumped is found where it was on its way to, up to the jump, and not beyond;
-//         what is kept is bounded and forgotten in time.
-// Method: one agent on a line, asked about at places that it passes before and after its jump.
-#include "collision_core/detection/clearance/pre_jump_motions.h"
+// Goal:   an agent that jumped is found on its former motion up to the jump, and not beyond; the
+//         motions that are kept are bounded, and forgotten in time.
+// Method: one agent on a line; queries at places that it passes before and after its jump.
+#include "collision_core/detection/clearance/search/pre_jump_motions.h"
 
 #include <gtest/gtest.h>
 

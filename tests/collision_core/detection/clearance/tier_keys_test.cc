@@ -16,14 +16,14 @@ DetectorOptions AnnouncedFor(double seconds) {
   return options;
 }
 
-void Speak(std::uint32_t slot, const motion::MotionState& state, Detector* detector) {
+void SendState(std::uint32_t slot, const motion::MotionState& state, Detector* detector) {
   EXPECT_EQ(detector->Update(Id(slot), state, state.stamp), UpdateOutcome::kKept);
   detector->SetHeardUntil(OwnerOf(Id(slot)), state.stamp);
 }
 
 // One that never moves between one of M = 1 and one of M = 100 m/s², each of which may touch it 0.6
 // s after its state, give or take 5 ms: both are due at once, and then not before 0.65 s.
-TEST(TierKeys, EachTierThatIsDueIsAskedAbout) {
+TEST(TierKeys, EachTierThatIsDueIsQueried) {
   for (const double later : {0.005, -0.005}) {
     const double times[] = {0.6, 0.6 + later}, accelerations[] = {1, 100};
     const double first = std::min(times[0], times[1]);
@@ -40,7 +40,7 @@ TEST(TierKeys, EachTierThatIsDueIsAskedAbout) {
     EXPECT_LE(detector.ClearanceOf(Id(0))->clear_until, At(first));
     EXPECT_GE(detector.ClearanceOf(Id(0))->clear_until, At(first - 1e-3));
     for (const std::uint32_t k : {0u, 1u}) {
-      Speak(1 + k, State(0.05, places[k], {0, 0, 0}), &detector);
+      SendState(1 + k, State(0.05, places[k], {0, 0, 0}), &detector);
     }
     detector.Advance(At(0.11));
     EXPECT_LE(detector.ClearanceOf(Id(0))->clear_until, At(0.05 + first)) << later;
@@ -48,10 +48,10 @@ TEST(TierKeys, EachTierThatIsDueIsAskedAbout) {
   }
 }
 
-// Two meet in 1.9 s; the state of one lies beyond that, and beyond its key of a violent agent a
-// kilometre away, which the other cannot meet. The other is asked again first, since it had
-// somebody near it: it must not be told that it is clear of what lies before that state.
-TEST(TierKeys, AStateAheadOfTheComparableKeyIsAskedAbout) {
+// Two agents meet in 1.9 s; the state of one lies beyond that, and beyond its key for a violent
+// agent a kilometre away, which the other cannot meet. The other is queried first, since it had a
+// partner near it: its clearance must not cover the time before that state.
+TEST(TierKeys, AStateAheadOfTheComparableKeyIsQueried) {
   Detector detector(AnnouncedFor(0.5));
   const AgentDeclaration calm{.limits = {.radius = 1, .acceleration_max = 0.5}};
   detector.Admit(Id(0), calm, State(0, {-20, 0, 0}, {10, 0, 0}), At(0));
@@ -62,16 +62,16 @@ TEST(TierKeys, AStateAheadOfTheComparableKeyIsAskedAbout) {
   detector.Admit(Id(3), {.limits = {.radius = 1, .acceleration_max = 1000}, .filter = {.group = 2}},
                  State(0, {-20, 1000, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
-  Speak(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
+  SendState(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
   detector.Remove(Id(2));
   detector.Advance(At(0.4));
   EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(1.9));
   EXPECT_GE(detector.ClearanceOf(Id(1))->clear_until, At(1.3));
 }
 
-// As above, the other way round: the violent agent is asked again first. In the same step the one
-// whose state lies ahead learns of somebody new whom it may meet later.
-TEST(TierKeys, AStateAheadIsAskedThoughAKeyIsLowered) {
+// As above, the other way round: the violent agent is queried first. In the same step a new agent
+// appears that the agent with the state ahead may meet later.
+TEST(TierKeys, AStateAheadIsQueriedThoughAKeyIsLowered) {
   Detector detector(AnnouncedFor(0.5));
   const AgentDeclaration calm{.limits = {.radius = 1, .acceleration_max = 0.5}};
   const AgentDeclaration violent{.limits = {.radius = 1, .acceleration_max = 1000},
@@ -81,7 +81,7 @@ TEST(TierKeys, AStateAheadIsAskedThoughAKeyIsLowered) {
   detector.Admit(Id(2), calm, State(0, {-20, 1182, 0}, {0, 0, 0}), At(0));
   detector.Advance(At(0));
   EXPECT_LE(detector.ClearanceOf(Id(1))->clear_until, At(0.61));
-  Speak(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
+  SendState(0, State(5, {30, 0, 0}, {10, 0, 0}), &detector);
   detector.Remove(Id(2));
   AgentDeclaration later = calm;
   later.filter.mask = 1;

@@ -1,10 +1,8 @@
-// Goal:   the earliest intersection of all is, bit for bit, the one asked from scratch, also where
-// what is kept was
-//         computed at an earlier time.
-// Method: pairs of the same geometry, turned at random, so that all meet at the same time but for
-// rounding and the
-//         canonical routine's earliness, which comes out anew at each time that it is asked from;
-//         every pair asked again beside it. No news in between: nothing but time passes.
+// Goal:   the earliest intersection of all is, bit for bit, the one computed from scratch, also
+//         where a cached bound was computed at an earlier time.
+// Method: pairs of the same geometry, turned at random, so that all meet at the same time up to
+//         rounding and the canonical routine's earliness, which differs for each start time; every
+//         pair computed anew beside it. No new states: only time passes.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -33,7 +31,7 @@ struct Approach {
   }
 };
 
-/// Each agent is told once.
+/// Each agent has one state.
 class Pairs {
  public:
   Pairs(const Approach& approach, double announce_within, std::uint64_t seed) : random_(seed) {
@@ -73,7 +71,7 @@ class Pairs {
       const AgentDeclaration declaration{
           .limits = {.radius = 1, .acceleration_max = approach.acceleration_max}};
       detector_->Admit(Id(static_cast<std::uint32_t>(bounds_.size())), declaration, state, At(0));
-      bounds_.push_back({state, declaration, 0});
+      bounds_.push_back({state, declaration.limits, 0});
     }
   }
 
@@ -122,9 +120,9 @@ TEST(Earliest, GrazingIsDecidedAnewAtEachTime) {
   }
 }
 
-// Far from the origin a slow agent's states are off by what their last place is worth, much more
-// than what it moves in a nanosecond. The margin of the bounds lasts for thousands of them: nobody
-// is asked anew.
+// Far from the origin a slow agent's states are off by a unit in the last place, much more than it
+// moves in a nanosecond. The margin of the bounds lasts for thousands of them: no agent is queried
+// anew.
 TEST(Earliest, RoundingOfManyStatesIsNoNews) {
   Detector detector{DetectorOptions{}};
   const AgentDeclaration slow{.limits = {.radius = 1, .acceleration_max = 1e-6}};
@@ -145,7 +143,7 @@ TEST(Earliest, RoundingOfManyStatesIsNoNews) {
   EXPECT_EQ(detector.counters().queries, 2u);
 }
 
-// So near the end of time that there is no instant announce_within later: nobody is due for ever.
+// So near the end of time that there is no instant announce_within later: no agent is due for ever.
 TEST(Earliest, TheEndOfTimeIsReached) {
   Detector detector{{.announce_within = 1e9}};
   for (const std::uint32_t slot : {0u, 1u}) {

@@ -1,6 +1,7 @@
-// Goal:   what several looks at one contact tell is put together without claiming more than any of
-// them. Method: hand-made verdicts on a pair whose event is confirmed by one look and ended by
-// another; one second a segment.
+// Goal:   the results of several evaluations of one contact are combined without claiming more than
+//         any of them.
+// Method: hand-made results for a pair whose event is confirmed by one evaluation and ended by
+//         another; one second a segment.
 #include "collision_core/detection/events/announcer.h"
 
 #include <gtest/gtest.h>
@@ -16,22 +17,22 @@ Instant At(double seconds) {
   return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * kSecond));
 }
 
-/// Remembers about which instants it was asked.
+/// Records the instants for which it is called.
 class AskedProximity final : public ProximitySource {
  public:
   narrow_phase::Proximity At(Instant at) override {
-    asked.push_back(at);
+    called_for.push_back(at);
     narrow_phase::Proximity found;
     found.separation.upper = -0.5;
     return found;
   }
 
-  std::vector<Instant> asked;
+  std::vector<Instant> called_for;
 };
 
 class AnnouncerTest : public testing::Test {
  protected:
-  /// A look at [0, 1] that finds this.
+  /// An evaluation of [0, 1] with this result.
   static ContactTracker Look(const narrow_phase::SegmentResult& verdict) {
     ContactTracker tracker(At(0), Past::kKnown);
     tracker.Apply(verdict, At(1), Nearest{}, narrow_phase::ContactNormal{});
@@ -46,7 +47,7 @@ class AnnouncerTest : public testing::Test {
     return announcer_.events().empty() ? CollisionEvent{} : announcer_.events().back();
   }
 
-  /// One look confirms, a later one, which is final, tells of the end.
+  /// One evaluation confirms the contact; a later, final one gives its end.
   CollisionEvent EndOf(const narrow_phase::SegmentResult& first,
                        const narrow_phase::SegmentResult& last) {
     const ContactTracker nothing(At(0), Past::kKnown);
@@ -64,7 +65,7 @@ class AnnouncerTest : public testing::Test {
   PublishedEvent published_;
 };
 
-TEST_F(AnnouncerTest, LooksThatOverlapAreOneContact) {
+TEST_F(AnnouncerTest, EvaluationsThatOverlapAreOneContact) {
   const CollisionEvent ended =
       EndOf({0.125, 0.25, 0.5, true, 1}, {0.1875, 0.375, 0.75, true, 0.875});
   EXPECT_TRUE(ended.continuous);
@@ -74,7 +75,7 @@ TEST_F(AnnouncerTest, LooksThatOverlapAreOneContact) {
 
 // The first was certain of [0.25, 0.5], the second of [0.625, 0.75]: between these the two may have
 // been apart.
-TEST_F(AnnouncerTest, LooksThatDoNotMeetMayBeTwoContacts) {
+TEST_F(AnnouncerTest, EvaluationsThatDoNotMeetMayBeTwoContacts) {
   const CollisionEvent ended =
       EndOf({0.125, 0.25, 0.5, true, 1}, {0.125, 0.625, 0.75, true, 0.875});
   EXPECT_FALSE(ended.continuous);
@@ -82,7 +83,7 @@ TEST_F(AnnouncerTest, LooksThatDoNotMeetMayBeTwoContacts) {
   EXPECT_EQ(ended.end.latest, At(0.875));
 }
 
-TEST_F(AnnouncerTest, AnEarlierLookKnewTheEndBetter) {
+TEST_F(AnnouncerTest, AnEarlierEvaluationKnewTheEndBetter) {
   const CollisionEvent ended =
       EndOf({0.125, 0.25, 0.8125, true, 1}, {0.125, 0.375, 0.5, true, 0.875});
   EXPECT_TRUE(ended.continuous);
@@ -102,8 +103,8 @@ TEST_F(AnnouncerTest, WhatLiesBeyondTheEndIsAnotherContact) {
   EXPECT_EQ(before.end.earliest, At(0.5));
 }
 
-// After a breach nothing holds that was told under the broken bound.
-TEST_F(AnnouncerTest, ABrokenBoundTakesBackWhatWasTold) {
+// After a breach nothing published under the broken bound holds.
+TEST_F(AnnouncerTest, ABrokenBoundTakesBackWhatWasPublished) {
   const ContactTracker nothing(At(0), Past::kKnown);
   Report(nothing, Look({0.125, 0.25, 0.8125, true, 1}));
   published_.broken = true;
@@ -113,16 +114,16 @@ TEST_F(AnnouncerTest, ABrokenBoundTakesBackWhatWasTold) {
   EXPECT_EQ(ended.end, (TimeBracket{At(0.5), At(0.875)}));
 }
 
-// Goal:   geometry is asked for at the instant that is published, and nowhere else.
-TEST_F(AnnouncerTest, AsksForTheProximityAtTheFirstCertainContactAlone) {
+// Goal:   proximity is computed at the instant that is published, and nowhere else.
+TEST_F(AnnouncerTest, ComputesProximityAtTheFirstCertainContactAlone) {
   const ContactTracker nothing(At(0), Past::kKnown);
   const CollisionEvent confirmed = Report(nothing, Look({0.125, 0.25, 0.5, true, 1}));
-  EXPECT_EQ(proximity_.asked, std::vector<Instant>{At(0.25)});
+  EXPECT_EQ(proximity_.called_for, std::vector<Instant>{At(0.25)});
   EXPECT_EQ(confirmed.evaluated_at, At(0.25));
   EXPECT_EQ(confirmed.separation_upper, -0.5);
   EXPECT_EQ(confirmed.pair_slot, 3u);
   Report(nothing, Look({0.125, 0.25, 0.5, true, 1}));
-  EXPECT_EQ(proximity_.asked.size(), 1u) << "nothing is narrower than what was published";
+  EXPECT_EQ(proximity_.called_for.size(), 1u) << "nothing is narrower than what was published";
 }
 
 // Goal:   what a pair's event becomes when it is not watched any longer says what is known.

@@ -1,5 +1,6 @@
-// Goal:   verdicts over segments become brackets that contain every begin and end, and nothing
-// certain is lost. Method: hand-made verdicts whose brackets are known; one second a segment.
+// Goal:   results over segments become brackets that contain every begin and end, and nothing
+//         certain is lost.
+// Method: hand-made results whose brackets are known; one second a segment.
 #include "collision_core/detection/pairs/contact_tracker.h"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,7 @@ TEST(ContactTracker, ContactAcrossSegmentsJoins) {
 
 // After an uncertain gap the first contact may have ended in it: the end bracket must contain both
 // cases.
-TEST(ContactTracker, GapInContactIsSaid) {
+TEST(ContactTracker, GapInContactIsReported) {
   ContactTracker tracker(At(0), Past::kKnown);
   Apply(&tracker, {0.5, 0.75, 1, true, 1});
   Apply(&tracker, Undecided());

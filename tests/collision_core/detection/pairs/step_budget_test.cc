@@ -1,5 +1,5 @@
-// Goal:   a step's budget is kept, whoever asks for more; it costs width and never truth, nobody
-//         starves, and who was cut short says so.
+// Goal:   a step's budget is kept, however much the pairs want; a small one widens brackets and
+//         makes none wrong, no pair starves, and an event that was cut short says so.
 // Method: pairs of ships that all meet at the same known time, under budgets from none to plenty.
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(StepBudget, ThatIsPlentyChangesNothing) {
   EXPECT_GT(free.most, 100000u) << "the budgets of the test above were tight";
 }
 
-TEST(StepBudget, StarvesNobodyAndSaysWhatItCost) {
+TEST(StepBudget, StarvesNoPairAndReportsItsEffect) {
   Meetings free(0), tight(20000);
   free.Run(7);
   tight.Run(7);

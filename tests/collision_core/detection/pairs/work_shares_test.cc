@@ -1,5 +1,5 @@
-// Goal:   one step's work is shared out so that nobody starves, nobody gets more than wanted, and
-//         nothing is left over while somebody wants more.
+// Goal:   one step's work is shared out so that no claim starves, none gets more than it wants, and
+//         nothing is left over while a claim wants more.
 // Method: cases with known shares; random claims against the conditions that define the shares.
 #include "collision_core/detection/pairs/work_shares.h"
 
@@ -28,7 +28,7 @@ TEST(WorkShares, AreKnown) {
 }
 
 // Goal:   the conditions of the header, whatever is claimed.
-TEST(WorkShares, StarveNobodyAndWasteNothing) {
+TEST(WorkShares, StarveNoClaimAndWasteNothing) {
   Random random(1);
   WorkShares shares;
   for (int round = 0; round < 2000; ++round) {

@@ -1,4 +1,4 @@
-// What one agent may rely on.
+// Until when one agent is certified clear of contacts.
 #pragma once
 
 #include "collision_core/base/instant.h"
@@ -18,11 +18,10 @@ struct AgentClearance {
   bool saturated = false;                  ///< More partners than are tracked for one agent.
   /// Until then the agent meets no partner but those of announced events; >= clear_until.
   Instant unannounced_until = Instant::Never();
-  /// A contact, or a doubt, has ended by then, and a state newer than that tells more of it;
-  /// Always(): none.
+  /// A contact, or a doubt, has ended by then, and a newer state will narrow it; Always(): none.
   Instant unsettled_until = Instant::Always();
   Instant effective_from =
-      Instant::Always();  ///< Promises count the latest admission, jump or widening from here.
+      Instant::Always();  ///< Promises include the latest admission, jump or widening from here.
   ClearanceCause cause = ClearanceCause::kNone;  ///< Of the last lowering.
   AgentId cause_agent{};
   Instant void_from = Instant::Never();  ///< With kBreach: earlier promises are void from here.

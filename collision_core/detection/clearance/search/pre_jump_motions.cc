@@ -1,4 +1,4 @@
-#include "collision_core/detection/clearance/pre_jump_motions.h"
+#include "collision_core/detection/clearance/search/pre_jump_motions.h"
 
 #include <algorithm>
 

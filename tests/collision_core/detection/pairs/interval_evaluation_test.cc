@@ -2,7 +2,7 @@
 //         contact where a shape is awaited, and nothing where a bound was broken.
 // Method: two balls on a line whose contact is known in closed form: 2 m/s towards each other's
 //         place, in touch from 1 s to 3 s.
-#include "collision_core/detection/pairs/segment_evaluation.h"
+#include "collision_core/detection/pairs/interval_evaluation.h"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ ContactTracker Evaluated(const History& a, const History& b, double until) {
   return tracker;
 }
 
-TEST(SegmentEvaluation, BracketsTheContactOfTwoBalls) {
+TEST(IntervalEvaluation, BracketsTheContactOfTwoBalls) {
   for (const double acceleration_max : {0.0, 0.1, 2.0}) {
     const ContactTracker tracker =
         Evaluated(Moving(0, 0, acceleration_max), Moving(4, -2, acceleration_max), 5);
@@ -61,7 +61,7 @@ TEST(SegmentEvaluation, BracketsTheContactOfTwoBalls) {
   }
 }
 
-TEST(SegmentEvaluation, ConfirmsNothingWhileAShapeIsAwaited) {
+TEST(IntervalEvaluation, ConfirmsNothingWhileAShapeIsAwaited) {
   History awaited;
   for (int k = 0; k <= 20; ++k) {
     awaited.Push({.bound = BoundAt(0.25 * k, 0, 0, 0),
@@ -76,7 +76,7 @@ TEST(SegmentEvaluation, ConfirmsNothingWhileAShapeIsAwaited) {
   EXPECT_GE(tracker.finished().front().end.latest, At(kEnd));
 }
 
-TEST(SegmentEvaluation, IsUndecidedWhereABoundWasBroken) {
+TEST(IntervalEvaluation, IsUndecidedWhereABoundWasBroken) {
   History broken = Moving(0, 0, 0);
   broken.Push({.bound = BoundAt(5.25, 100, 0, 0), .link = Link::kBroken}, 64);
   ContactTracker tracker(At(5), Past::kKnown);
@@ -86,7 +86,7 @@ TEST(SegmentEvaluation, IsUndecidedWhereABoundWasBroken) {
   for (const ContactEpisode& episode : tracker.finished()) EXPECT_FALSE(episode.contact);
 }
 
-TEST(SegmentEvaluation, TheProximityOfTwoBallsIsTheirDistance) {
+TEST(IntervalEvaluation, TheProximityOfTwoBallsIsTheirDistance) {
   WorkBudget work(10);
   const narrow_phase::Proximity found =
       ProximityAt(Moving(0, 0, 0), Moving(4, -2, 0), At(0.5), &work);

@@ -1,6 +1,7 @@
-// Goal:   asking for the earliest intersection changes no later event and no later clearance.
-// Method: random scenes of agents that jump, breach, widen, leave and crowd, told to two detectors
-//         alike; one is asked after every step, the other never; each method of the broad phase.
+// Goal:   calling Earliest() changes no later event and no later clearance.
+// Method: random scenes of agents that jump, breach, widen, leave and crowd, in two detectors
+//         alike; Earliest() is called after every step of one, and never of the other; each method
+//         of the broad phase.
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -51,7 +52,7 @@ class Scene {
 
   void Step() {
     now_ += kStep;
-    for (std::uint32_t slot = 0; slot < kAgents; ++slot) Speak(slot);
+    for (std::uint32_t slot = 0; slot < kAgents; ++slot) SendState(slot);
     for (Detector* detector : {&asked_, &unasked_}) {
       detector->Advance(At(now_));
       ASSERT_NO_THROW(detector->Validate());
@@ -97,7 +98,7 @@ class Scene {
     there_[slot] = true;
   }
 
-  void Speak(std::uint32_t slot) {
+  void SendState(std::uint32_t slot) {
     Mover& mover = movers_[slot];
     const AgentId id = IdOf(slot, mover.generation);
     if (!there_[slot]) {

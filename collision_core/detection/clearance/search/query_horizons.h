@@ -1,24 +1,24 @@
-// How far ahead the broad phase is asked.
+// How far ahead a query of the broad phase looks.
 #pragma once
 
 #include <algorithm>
 #include <array>
 
-#include "collision_core/detection/clearance/acceleration_tiers.h"
+#include "collision_core/detection/clearance/keys/acceleration_tiers.h"
 #include "collision_core/detection/step_clock.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
 
-/// A question about the next meeting looks up to a horizon, and if there is no meeting up to a
-/// later one: horizon k lies announce_within · kFactor^k ahead of now, and beyond kLast all time is
-/// looked at. As a horn widens with the square of the time, the number of agents that may be met
-/// grows with its sixth power, so that one look too far costs more than a few that are too short.
-/// The answer is the same bits whatever the horizons.
+/// A query for the next meeting looks up to a horizon and, if there is no meeting, up to a later
+/// one: horizon k lies announce_within · kFactor^k ahead of now; beyond kLast there is no limit. As
+/// a horn widens with the square of the time, the number of agents that may be met grows with its
+/// sixth power, so that one look too far costs more than a few that are too short. The answer is
+/// the same bits whatever the horizons.
 ///
-/// Questions begin with the horizon within which half of the last answers lay: one for each tier
-/// that asks and group that is asked about, so that agents of comparable accelerations are asked at
-/// the same cost whether or not a faster one is in the scene.
+/// Queries begin with the horizon within which half of the last answers lay. There is one for each
+/// agent's tier and group of partners, so that queries among agents of comparable accelerations
+/// cost the same whether or not a faster one is in the scene.
 class QueryHorizons {
  public:
   static constexpr double kFactor = 1.25;
@@ -36,10 +36,10 @@ class QueryHorizons {
     return numeric::AddRoundedUp(clock_.now, ahead);
   }
 
-  /// With which horizon an agent of `tier` is asked about `group` (kEveryGroup: -1) at first.
+  /// The first horizon of a query for `group` (kEveryGroup: -1) beside an agent of `tier`.
   int Begin(int tier, int group) const { return begins_.at(Row(tier)).at(Row(group)); }
 
-  /// The answer's time: the next question begins a step nearer to it.
+  /// The answer's time: the next query begins a step nearer to it.
   void Record(int tier, int group, Instant when) {
     int& begin = begins_.at(Row(tier)).at(Row(group));
     if (when > At(begin)) {

@@ -1,4 +1,4 @@
-#include "collision_core/detection/clearance/uncovered_search.h"
+#include "collision_core/detection/clearance/search/uncovered_search.h"
 
 #include <algorithm>
 
@@ -15,8 +15,8 @@ constexpr double kPathSlack = 1.000001;
 constexpr double kPlaceSlack = 1e-12;
 /// A finite error [m] for a reach that overflows: no canonical routine sees an infinite one.
 constexpr double kReachMax = 1e300;
-/// So small that it adds nothing [m/s²], and not 0: the ball stands for what moves, and two bounds
-/// that never move are not compared.
+/// So small that it adds nothing [m/s²], but not 0: the ball stands for an agent that moves, and
+/// two bounds that never move are not compared.
 constexpr double kNotAtRest = 1e-30;
 
 /// |v| t + M t (t + h) is more than the path that either direction of the horn allows, with room
@@ -25,7 +25,7 @@ double Path(double speed, double acceleration_max, double time_step, double t) {
   return kPathSlack * (speed + acceleration_max * (t + time_step)) * t;
 }
 
-/// Of one agent, from where its newest state says.
+/// The path of one agent from its newest state.
 double PathOf(const motion::SpaceTimeBound& bound, double t) {
   return Path(bound.state.v_WA.norm() + bound.state.velocity_error, bound.limits.acceleration_max,
               bound.limits.time_step, t);
@@ -57,9 +57,8 @@ const std::vector<UncoveredPartner>& UncoveredSearch::Find(const ClearanceQuesti
   uncovered_.clear();
   const AgentRecord& record = context_.agents[question.agent];
   const Instant covered = question.covered;
-  // Otherwise the agent is covered beyond its own newest state, and so is every other: an agent
-  // whose state lies beyond its key is renewed or asked about first of all, but for the saturated
-  // ones.
+  // Otherwise every agent is covered beyond its own newest state: one whose state lies beyond its
+  // key is renewed or queried first of all, unless it is saturated.
   const bool none_saturated = coverage_.saturated().empty();
   if (!question.renewed && record.stamp() <= covered && none_saturated) return uncovered_;
   FindCandidates(question, question.renewed ? std::max(covered, record.admitted_from) : covered);
@@ -77,7 +76,7 @@ void UncoveredSearch::FindCandidates(const ClearanceQuestion& question, Instant 
   candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
 }
 
-// Whichever agent may have met this motion between `from` and the newest states.
+// Adds the agents that may have met this motion between `from` and the newest states.
 void UncoveredSearch::FindAround(const ClearanceQuestion& question,
                                  const motion::SpaceTimeBound& motion, Instant from) {
   const AgentTable& agents = context_.agents;
@@ -92,13 +91,13 @@ void UncoveredSearch::FindAround(const ClearanceQuestion& question,
   around.state.position_error = std::min(own + others, kReachMax);
   around.limits.radius = motion.limits.radius;
   around.limits.acceleration_max = kNotAtRest;
-  const broad_phase::AgentBound asked{around, agents[question.agent].declaration.filter};
+  const broad_phase::AgentBound guest{around, agents[question.agent].declaration.filter};
   const auto skip = [&](std::uint32_t index) {
     const AgentIndex partner(index);
     return partner == question.agent || question.LeavesOut(partner, coverage_.tiers());
   };
   found_.clear();
-  broad_phase_->FindNeighbours(asked, from, scene.newest, skip, &found_);
+  broad_phase_->FindNeighbours(guest, from, scene.newest, skip, &found_);
   for (const broad_phase::Neighbour& meeting : found_) {
     const AgentRecord& partner = agents[AgentIndex(meeting.partner)];
     const double time = Span(partner.stamp(), scene.newest, agents.skew());
@@ -106,10 +105,10 @@ void UncoveredSearch::FindAround(const ClearanceQuestion& question,
       candidates_.push_back(AgentIndex(meeting.partner));
     }
   }
-  former_->Find(asked, from, scene.newest, &candidates_);
+  former_->Find(guest, from, scene.newest, &candidates_);
 }
 
-// How far from its place the agent may have been in this motion since `from`.
+// How far from its stated position the agent may have been in this motion since `from`.
 double UncoveredSearch::OwnReach(const motion::SpaceTimeBound& motion, Instant from) const {
   const double skew = context_.agents.skew();
   const Instant stamp = motion.state.stamp, newest = context_.agents.extremes().newest;

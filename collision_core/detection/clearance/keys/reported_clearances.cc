@@ -1,4 +1,4 @@
-#include "collision_core/detection/clearance/told_clearances.h"
+#include "collision_core/detection/clearance/keys/reported_clearances.h"
 
 #include <algorithm>
 
@@ -14,53 +14,53 @@ bool Same(const AgentClearance& a, const AgentClearance& b) {
 
 }  // namespace
 
-void ToldClearances::AddAgent(AgentIndex agent) {
-  if (!told_.contains(agent)) told_.resize(agent.value() + 1);
-  told_[agent] = Told();
+void ReportedClearances::AddAgent(AgentIndex agent) {
+  if (!reports_.contains(agent)) reports_.resize(agent.value() + 1);
+  reports_[agent] = Report();
 }
 
-void ToldClearances::SetEffectiveFrom(AgentIndex agent, Instant effective_from) {
-  Told& told = told_.at(agent);
-  told.effective_from = std::max(told.effective_from, effective_from);
+void ReportedClearances::SetEffectiveFrom(AgentIndex agent, Instant effective_from) {
+  Report& report = reports_.at(agent);
+  report.effective_from = std::max(report.effective_from, effective_from);
 }
 
 // `cause`, `cause_agent` and `void_from` count.
-void ToldClearances::RecordCause(const AgentClearance& cause, Told* told) const {
-  if (cause.void_from > told->void_from) return;
-  told->cause = cause.cause;
-  told->cause_agent = cause.cause_agent;
-  told->void_from = cause.void_from;
+void ReportedClearances::RecordCause(const AgentClearance& cause, Report* report) const {
+  if (cause.void_from > report->void_from) return;
+  report->cause = cause.cause;
+  report->cause_agent = cause.cause_agent;
+  report->void_from = cause.void_from;
 }
 
-void ToldClearances::RecordBreach(AgentIndex agent, Instant from) {
+void ReportedClearances::RecordBreach(AgentIndex agent, Instant from) {
   RecordCause({.cause = ClearanceCause::kBreach,
                .cause_agent = context_.agents[agent].id,
                .void_from = from},
-              &told_.at(agent));
+              &reports_.at(agent));
 }
 
-void ToldClearances::RecordRenewal(AgentIndex agent) {
+void ReportedClearances::RecordRenewal(AgentIndex agent) {
   const ClearanceCause cause = coverage_[agent].renewed_cause;
   if (cause == ClearanceCause::kBreach) return;
-  RecordCause({.cause = cause, .cause_agent = context_.agents[agent].id}, &told_.at(agent));
+  RecordCause({.cause = cause, .cause_agent = context_.agents[agent].id}, &reports_.at(agent));
 }
 
-void ToldClearances::NotifyPartner(AgentIndex agent, AgentIndex cause) {
+void ReportedClearances::NotifyPartner(AgentIndex agent, AgentIndex cause) {
   const ClearanceCause why = coverage_[cause].renewed_cause;
   const bool breach = why == ClearanceCause::kBreach;
   RecordCause({.cause = why,
                .cause_agent = context_.agents[cause].id,
-               .void_from = breach ? told_.at(cause).void_from : Instant::Never()},
-              &told_.at(agent));
+               .void_from = breach ? reports_.at(cause).void_from : Instant::Never()},
+              &reports_.at(agent));
   context_.clearances_dirty->Insert(agent);
 }
 
-AgentClearance ToldClearances::Of(AgentIndex agent) const {
+AgentClearance ReportedClearances::Of(AgentIndex agent) const {
   const AgentRecord& record = context_.agents[agent];
   const Instant now = context_.clock.now;
   AgentClearance clearance;
   clearance.agent = record.id;
-  clearance.effective_from = told_.at(agent).effective_from;
+  clearance.effective_from = reports_.at(agent).effective_from;
   clearance.saturated = coverage_.IsSaturated(agent);
   clearance.clear_until = clearance.unannounced_until = coverage_[agent].keys.earliest();
   for (const PairSlot slot : pairs_.Of(agent)) {
@@ -81,28 +81,29 @@ AgentClearance ToldClearances::Of(AgentIndex agent) const {
   return clearance;
 }
 
-std::optional<AgentClearance> ToldClearances::TakeChange(AgentIndex agent) {
-  Told& told = told_.at(agent);
+std::optional<AgentClearance> ReportedClearances::TakeChange(AgentIndex agent) {
+  Report& report = reports_.at(agent);
   AgentClearance clearance = Of(agent);
-  const bool lowered = told.last && clearance.clear_until < told.last->clear_until;
-  const bool changed = !told.last || !Same(clearance, *told.last) || !told.void_from.is_never();
+  const bool lowered = report.last && clearance.clear_until < report.last->clear_until;
+  const bool changed =
+      !report.last || !Same(clearance, *report.last) || !report.void_from.is_never();
   if (changed) {
-    if (!told.last || lowered || told.cause_agent == clearance.agent) {
-      clearance.cause = told.cause;
-      clearance.cause_agent = told.cause_agent;
-      clearance.void_from = told.void_from;
+    if (!report.last || lowered || report.cause_agent == clearance.agent) {
+      clearance.cause = report.cause;
+      clearance.cause_agent = report.cause_agent;
+      clearance.void_from = report.void_from;
     }
-    told.last = clearance;
+    report.last = clearance;
   }
-  told.cause = ClearanceCause::kNone;
-  told.cause_agent = AgentId{};
-  told.void_from = Instant::Never();
+  report.cause = ClearanceCause::kNone;
+  report.cause_agent = AgentId{};
+  report.void_from = Instant::Never();
   return changed ? std::optional(clearance) : std::nullopt;
 }
 
 // Only agents whose key, pairs or contacts have changed can have another clearance, and the
 // saturated ones, whose clearance is always now.
-std::vector<AgentClearance> ToldClearances::TakeChanged() {
+std::vector<AgentClearance> ReportedClearances::TakeChanged() {
   for (const AgentIndex agent : coverage_.saturated()) context_.clearances_dirty->Insert(agent);
   std::vector<AgentIndex> agents;
   for (const AgentIndex agent : *context_.clearances_dirty) {

@@ -1,4 +1,4 @@
-// Where agents were on their way to before they jumped.
+// The motions that agents had before they jumped.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,8 @@
 
 namespace collision::detection {
 
-/// An agent whose newest state lies after a jump may have met others before it, on the motion that
-/// it had until then. Holds these motions by time. Empty, and free of cost, in a scene without
-/// jumps.
+/// An agent whose newest state lies after a jump may have met others before the jump. Holds the
+/// motions that ended with a jump, by time. Empty, and free of cost, in a scene without jumps.
 class PreJumpMotions {
  public:
   /// At most `motions_max` are kept; beyond, the oldest is dropped. `method` is empty.
@@ -23,10 +22,10 @@ class PreJumpMotions {
   /// The agent moved within `bound` up to `until`.
   void Record(AgentIndex agent, broad_phase::AgentBound bound, Instant until);
 
-  /// No question will be about a time before `since`.
+  /// No query will be about a time before `since`.
   void Forget(Instant since);
 
-  /// Appends the agents whose former motion may meet `around` in [from, until]; one agent perhaps
+  /// Appends the agents whose former motion may meet `around` in [from, until]; an agent may appear
   /// several times.
   void Find(const broad_phase::AgentBound& around, Instant from, Instant until,
             std::vector<AgentIndex>* agents);
@@ -43,7 +42,7 @@ class PreJumpMotions {
 
   std::unique_ptr<broad_phase::NeighbourIndex> method_;
   std::size_t motions_max_;
-  std::deque<Motion> motions_;      // in the order of their coming
+  std::deque<Motion> motions_;      // in the order of Record()
   std::vector<AgentIndex> agents_;  // by place
   std::vector<std::uint32_t> free_;
   std::vector<broad_phase::Neighbour> found_;  // scratch of one question, kept for its memory

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "collision_core/broad_phase/neighbour_index.h"
-#include "collision_core/detection/clearance/clearance_question.h"
+#include "collision_core/detection/clearance/search/clearance_question.h"
 #include "collision_core/detection/pairs/pair_table.h"
 #include "collision_core/detection/step_clock.h"
 
 namespace collision::detection {
 
 /// Finds the partners that an agent may meet by announce_until, as far as there is room for them.
-/// If more partners qualify than fit, those with the lowest indices count, and partners that are
-/// full do not: the agent is saturated. The result does not depend on the order in which the broad
-/// phase offers partners, and what is not needed for it is not asked.
+/// If more partners qualify than fit, the agent is saturated: it takes those with the lowest
+/// indices and leaves out partners that are full. The result does not depend on the order in which
+/// the broad phase offers partners, and the search makes no pair query that it does not need.
 class DueMeetingSearch {
  public:
   /// All outlive the search.
@@ -28,7 +28,7 @@ class DueMeetingSearch {
                   std::vector<broad_phase::Neighbour>* found);
 
  private:
-  /// What the partners offered so far decide.
+  /// The outcome of the partners offered so far.
   struct Room {
     std::size_t pairs = 0;                       // that the agent can still have
     AgentIndex first_full = AgentIndex::None();  // the least index without room of its own

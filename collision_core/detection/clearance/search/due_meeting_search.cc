@@ -1,4 +1,4 @@
-#include "collision_core/detection/clearance/due_meeting_search.h"
+#include "collision_core/detection/clearance/search/due_meeting_search.h"
 
 #include <algorithm>
 
@@ -42,7 +42,7 @@ AgentIndex DueMeetingSearch::Find(const ClearanceQuestion& question, Instant hor
   };
   broad_phase_->FindNeighbours(question.agent.value(), {question.from, until, horizon}, skip,
                                found);
-  // They have been sorted since: what was taken first need not stand first.
+  // The neighbours have been sorted since: the order in which they were taken is lost.
   first_.clear();
   Room all{.pairs = pairs, .first = &first_};
   Take(*found, 0, &all);

@@ -1,4 +1,4 @@
-#include "collision_core/detection/pairs/segment_evaluation.h"
+#include "collision_core/detection/pairs/interval_evaluation.h"
 
 #include <algorithm>
 #include <numbers>
@@ -28,7 +28,7 @@ Nearest NearestOf(const narrow_phase::BallSegment& a, const narrow_phase::BallSe
   return nearest;
 }
 
-// Only the ball of an awaited shape is known: it can exclude a contact, but neither confirms one
+// Only the ball of an awaited shape is known: it can exclude a contact, but it neither confirms one
 // nor bounds the separation from above.
 Nearest AwaitedNearest(Nearest nearest) {
   nearest.found.separation.upper = numeric::kInfinity;
@@ -39,8 +39,9 @@ Nearest AwaitedNearest(Nearest nearest) {
   return nearest;
 }
 
-// Where two shapes may touch as soon as the segment begins, the normal is that of the last state
-// before, whose pose is known best. None where a jump lies between, or where a shape was not known.
+// If two shapes may touch as soon as the segment begins, the normal is that at the last state
+// before, where the pose is known best. There is none if a jump lies in between or a shape was not
+// known.
 narrow_phase::ContactNormal NormalBefore(const History& a, const History& b, Instant from,
                                          WorkBudget* work) {
   const Instant of_a = a.LastStampBefore(from), of_b = b.LastStampBefore(from);
@@ -52,9 +53,10 @@ narrow_phase::ContactNormal NormalBefore(const History& a, const History& b, Ins
   return NormalAt(body_a, body_b, 0, work);
 }
 
-// True if the segment was decided at a glance.
-bool EvaluateOne(const History& history_a, const History& history_b, Instant from, Instant to,
-                 WorkBudget* work, ContactTracker* tracker) {
+// Evaluates [tracker->at(), to]. True if QuickBallContact() decided the segment.
+bool EvaluateOne(const History& history_a, const History& history_b, Instant to, WorkBudget* work,
+                 ContactTracker* tracker) {
+  const Instant from = tracker->at();
   const narrow_phase::BodySegment a = history_a.Over(from, to), b = history_b.Over(from, to);
   const double duration = numeric::SecondsBetween(from, to).upper;
   const bool balls = a.is_ball() && b.is_ball();
@@ -78,17 +80,17 @@ bool EvaluateOne(const History& history_a, const History& history_b, Instant fro
       const bool contact = goes_on || times.contact_from <= times.contact_to;
       if (!contact) nearest = NearestOf(a.ball, b.ball, from, duration);
     } else {
-      const narrow_phase::ShapeSegmentResult verdict =
+      const narrow_phase::ShapeSegmentResult result =
           EvaluateShapeSegment(a, b, duration, times, work);
-      times = verdict.times;
-      normal = verdict.normal;
+      times = result.times;
+      normal = result.normal;
       if (tracker->free() && times.free_until < duration && !normal.tells()) {
         const narrow_phase::ContactNormal before = NormalBefore(history_a, history_b, from, work);
         if (before.known && (!normal.known || before.error < normal.error)) normal = before;
       }
-      if (verdict.looked) {
-        nearest = {std::min(numeric::AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest,
-                   verdict.exhausted};
+      if (result.looked) {
+        nearest = {std::min(numeric::AddRoundedDown(from, result.nearest_at), to), result.nearest,
+                   result.exhausted};
       }
     }
   }
@@ -104,7 +106,7 @@ SegmentCount EvaluateSegments(const History& a, const History& b, Instant until,
   while (tracker->at() < until) {
     const Instant from = tracker->at();
     const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
-    count.at_a_glance += EvaluateOne(a, b, from, to, work, tracker);
+    count.at_a_glance += EvaluateOne(a, b, to, work, tracker);
     ++count.segments;
   }
   return count;
@@ -114,6 +116,8 @@ bool HaveShapes(const History& a, const History& b) { return a.newest().shape ||
 
 Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
                         WorkBudget* work) {
+  CORE_CHECK(from >= a.newest().bound.state.stamp && from >= b.newest().bound.state.stamp,
+             "the newest bounds hold from their states on", from.nanoseconds());
   until = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
   if (until <= from) return from;
   const narrow_phase::BodySegment of_a = a.Over(from, until);

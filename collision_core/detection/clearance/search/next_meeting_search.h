@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "collision_core/broad_phase/neighbour_index.h"
-#include "collision_core/detection/clearance/clearance_question.h"
-#include "collision_core/detection/clearance/query_horizons.h"
+#include "collision_core/detection/clearance/search/clearance_question.h"
+#include "collision_core/detection/clearance/search/query_horizons.h"
 
 namespace collision::detection {
 
 /// Finds the next meeting with the broad phase, horizon by horizon. Far ahead a whole swarm may
-/// come near at about the same time: there one partner in 32 is asked first, and the earliest of
-/// these answers spares nearly all of the others.
+/// come near at about the same time: then one partner in 32 is queried first, and the earliest of
+/// these answers spares nearly all other pair queries.
 class NextMeetingSearch {
  public:
   /// All outlive the search. `broad_phase` holds the wide bounds of all agents.
@@ -21,23 +21,23 @@ class NextMeetingSearch {
       : broad_phase_(broad_phase), tiers_(tiers), horizons_(clock) {}
 
   const QueryHorizons& horizons() const { return horizons_; }
-  /// The horizon with which this question begins.
+  /// The horizon with which the search begins.
   int Begin(const ClearanceQuestion& question) const {
     return horizons_.Begin(tiers_.TierOf(question.agent), question.group);
   }
-  /// The answer to a question was found by other means.
+  /// The answer was found by other means.
   void Record(const ClearanceQuestion& question, Instant when) {
     horizons_.Record(tiers_.TierOf(question.agent), question.group, when);
   }
 
-  /// The first meeting, none of which comes by `known`, of the partners that are not left out.
+  /// The first meeting with a partner that is not left out. Requires that there is none by `known`.
   NextMeeting Find(const ClearanceQuestion& question, Instant known);
 
   /// The earliest of `meetings` whose partner is not tracked.
   static NextMeeting EarliestOf(const std::vector<broad_phase::Neighbour>& meetings,
                                 const PartnerMarks& tracked);
 
-  /// Partners looked at beside the broad phase's own tests, since the start.
+  /// Partners examined besides the broad phase's own tests, since the start.
   std::uint64_t looks() const { return looks_; }
 
  private:

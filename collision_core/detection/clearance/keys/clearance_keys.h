@@ -1,4 +1,4 @@
-// Up to when an agent is certified clear of its partners.
+// Until when an agent is certified clear of its partners.
 #pragma once
 
 #include <algorithm>
@@ -6,14 +6,14 @@
 
 #include "collision_core/base/check.h"
 #include "collision_core/base/instant.h"
-#include "collision_core/detection/clearance/acceleration_tiers.h"
+#include "collision_core/detection/clearance/keys/acceleration_tiers.h"
 
 namespace collision::detection {
 
 /// The clearance keys of one agent. A *clearance key* is the time until which the agent is
 /// certified clear of all partners that are not tracked: one for each group of partners beside it
 /// (AccelerationTiers::GroupOf). The key of the comparable partners holds for each tier that has no
-/// earlier one. Of a saturated agent keys promise nothing. O(tiers that have an earlier key).
+/// earlier one. The keys of a saturated agent promise nothing. O(tiers that have an earlier key).
 class ClearanceKeys {
  public:
   /// The earliest of all.

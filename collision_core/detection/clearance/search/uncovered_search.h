@@ -3,28 +3,28 @@
 
 #include <vector>
 
-#include "collision_core/detection/clearance/clearance_question.h"
-#include "collision_core/detection/clearance/coverage_table.h"
-#include "collision_core/detection/clearance/pre_jump_motions.h"
+#include "collision_core/detection/clearance/keys/coverage_table.h"
+#include "collision_core/detection/clearance/search/clearance_question.h"
+#include "collision_core/detection/clearance/search/pre_jump_motions.h"
 
 namespace collision::detection {
 
-/// A partner that the agent may have met before both newest states: free of it up to here.
+/// A partner that the agent may have met before both newest states; the two were free up to here.
 struct UncoveredPartner {
   AgentIndex partner;
   Instant free_until;
 };
 
-/// The broad phase answers from the newest states on. Where those lie ahead of the time up to which
-/// a pair is covered (an owner was granted more time than others, or news came out of order), what
-/// lies between must be certified free as well, or the pair must be tracked and evaluated.
+/// The broad phase answers from the newest states on. These may lie ahead of the time up to which a
+/// pair is covered (an owner was granted more time than others, or news came out of order). Then
+/// the time in between must be certified free as well, or the pair must be tracked and evaluated.
 ///
 /// Each of the agent's motions since that time (a jump or a breach begins a new one) is replaced by
-/// a ball at rest that holds all of it, and is wider by as far as any agent of the scene may move
-/// in that time. So an agent that met it overlaps that ball with its newest bound, or with the
-/// motion it had before a jump. Of those found by their newest bounds only one that may itself have
-/// moved as far is a candidate: one very fast agent does not have all others asked about each
-/// other.
+/// a ball at rest that contains it and is wider by as far as any agent of the scene may move in
+/// that time. So a partner that met the agent overlaps that ball with its newest bound, or with the
+/// motion it had before a jump. Of the partners found by their newest bounds, only those that may
+/// have moved far enough are candidates: one very fast agent does not make all others candidates of
+/// each other.
 class UncoveredSearch {
  public:
   /// All outlive the search.
@@ -53,8 +53,7 @@ class UncoveredSearch {
   std::vector<UncoveredPartner> uncovered_;
 };
 
-/// The time from which the two are not certified free of each other: nothing is promised of an
-/// agent before it was admitted.
+/// The time from which the two are not certified free of each other; not before both were admitted.
 Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covered);
 
 }  // namespace collision::detection

@@ -1,4 +1,4 @@
-#include "collision_core/detection/clearance/coverage_table.h"
+#include "collision_core/detection/clearance/keys/coverage_table.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 namespace collision::detection {
 namespace {
 
-/// A saturated agent is asked about again after this share of announce_within.
+/// A saturated agent is queried again after this share of announce_within.
 constexpr double kSaturatedShare = 0.125;
 
 /// Beyond announce_until by this much [s], so that it is not due before that time has passed.
@@ -21,7 +21,7 @@ void CoverageTable::AddAgent(AgentIndex agent) {
   agents_[agent].keys.SetAll(Instant::Never());
 }
 
-// An agent whose state lies beyond its key is asked about at once.
+// An agent whose state lies beyond its key is queried at once.
 Instant CoverageTable::DueAt(AgentIndex agent) const {
   const Instant key = (*this)[agent].keys.earliest();
   return key < context_.agents[agent].stamp() ? Instant::Always() : key;
@@ -30,7 +30,8 @@ Instant CoverageTable::DueAt(AgentIndex agent) const {
 void CoverageTable::KeysChanged(AgentIndex agent) {
   const AgentCoverage& record = (*this)[agent];
   if (IsSaturated(agent)) {
-    due_.Set(agent, context_.clock.announce_until());  // something has changed: asked next step
+    due_.Set(agent,
+             context_.clock.announce_until());  // something has changed: queried in the next step
     return;
   }
   const bool queried = record.queried_step == context_.clock.step;
@@ -95,7 +96,7 @@ void CoverageTable::ValidateAgent(AgentIndex agent) const {
   const std::uint32_t index = agent.value();
   record.keys.Validate();
   CORE_CHECK(due_.Contains(agent) != context_.agents[agent].expired,
-             "an agent waits to be asked unless it has expired", index);
+             "an agent is queued for a query unless it has expired", index);
   CORE_CHECK(record.renewed_from.has_value() <= renewed_.Contains(agent),
              "a renewed agent is listed", index);
   if (settled_.Contains(agent)) {
@@ -124,7 +125,7 @@ void CoverageTable::Validate() const {
       continue;
     }
     CORE_CHECK(!due_.Contains(agent) && !settled_.Contains(agent) && !saturated_.Contains(agent),
-               "an agent that has left waits for nothing", agent.value());
+               "an agent that has left is in no queue", agent.value());
   }
 }
 

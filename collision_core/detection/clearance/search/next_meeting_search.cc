@@ -1,11 +1,11 @@
-#include "collision_core/detection/clearance/next_meeting_search.h"
+#include "collision_core/detection/clearance/search/next_meeting_search.h"
 
 #include <algorithm>
 
 namespace collision::detection {
 namespace {
 
-/// Up to so many partners are all asked; of more, one in kSampleShare is asked first.
+/// Up to this many partners are queried at once; beyond, one in kSampleShare is queried first.
 constexpr std::size_t kAllAsked = 64;
 constexpr std::size_t kSampleShare = 32;
 

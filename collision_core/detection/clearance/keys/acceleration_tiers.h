@@ -1,4 +1,4 @@
-// Which partners accelerate so much harder than an agent that they are asked about by themselves.
+// Which partners accelerate so much harder than an agent that they are queried separately.
 #pragma once
 
 #include <algorithm>
@@ -15,16 +15,16 @@ namespace collision::detection {
 /// Agents by tiers of their declared acceleration bounds, each tier 8 times the one before.
 ///
 /// A partner whose bound is much larger than an agent's comes within reach of it over and over.
-/// Were there one question about all partners, one such partner would have the agent asked about
-/// all others as often. So beside an agent the partners form groups: each tier at least two above
-/// the agent's (always at 64 times its bound, never at 8 times) is a group of its own, all others
-/// are the group kComparable. Beside an agent that declares no acceleration every tier above 0 is a
-/// group of its own; not so where more than kUnacceleratedMax agents declare none, since each would
-/// be asked about all the others that hardly move, to the end of time.
+/// With one query for all partners, one such partner would make the agent query all others as
+/// often. So beside an agent the partners form groups: each tier at least two above the agent's
+/// (always at 64 times its bound, never at 8 times) is a group of its own; all others are the group
+/// kComparable. Beside an agent that declares no acceleration every tier above 0 is a group of its
+/// own, unless more than kUnacceleratedMax agents declare none: each query would then look at all
+/// the others, which hardly move, to the end of time.
 ///
-/// But for that limit, the group of a partner beside an agent depends on the two alone: agents of
-/// comparable bounds are asked about each other at the same times, and get the same bits, whether
-/// or not a faster one is in the scene. All operations are O(1) or O(kTiers).
+/// Apart from that limit, the group of a partner beside an agent depends on the two alone: agents
+/// of comparable bounds are queried for each other at the same times, and get the same bits,
+/// whether or not a faster one is in the scene. All operations are O(1) or O(kTiers).
 class AccelerationTiers {
  public:
   static constexpr int kTiers = 44;

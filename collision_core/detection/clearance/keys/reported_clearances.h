@@ -1,27 +1,28 @@
-// What agents are told: clearances, when they change, and why.
+// The clearances that are published: when they change, and why.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "collision_core/base/ids.h"
-#include "collision_core/detection/clearance/agent_clearance.h"
-#include "collision_core/detection/clearance/coverage_table.h"
+#include "collision_core/detection/clearance/keys/agent_clearance.h"
+#include "collision_core/detection/clearance/keys/coverage_table.h"
 #include "collision_core/detection/pairs/tracked_pairs.h"
 
 namespace collision::detection {
 
-/// Derives each agent's clearance from its keys and its tracked pairs, and remembers what was told
-/// last. Of several causes of a lowering in one step the breach counts that voids promises from the
-/// earliest time on, whatever comes after it: it is the only trace of the culprit.
-class ToldClearances {
+/// Derives each agent's clearance from its keys and its tracked pairs, and remembers the last one
+/// published. If several causes lower a clearance in one step, the breach that voids promises from
+/// the earliest time is reported, whatever comes after it: no other message names the agent that
+/// broke its bound.
+class ReportedClearances {
  public:
   /// All outlive the object.
-  ToldClearances(const DetectorContext& context, const TrackedPairs& pairs,
-                 const CoverageTable& coverage)
+  ReportedClearances(const DetectorContext& context, const TrackedPairs& pairs,
+                     const CoverageTable& coverage)
       : context_(context), pairs_(pairs.table()), coverage_(coverage) {}
 
-  /// The agent of this index is new: nothing has been told.
+  /// The agent of this index is new: nothing has been published.
   void AddAgent(AgentIndex agent);
 
   /// The agent's own promises count from `effective_from`, the latest of several.
@@ -33,13 +34,14 @@ class ToldClearances {
   /// The agent's clearance may be lowered because of the renewal of `cause`.
   void NotifyPartner(AgentIndex agent, AgentIndex cause);
 
-  /// Clearances that differ from those told last, or whose promises are void, in the order of ids.
+  /// Clearances that differ from those published last, or whose promises are void, in the order of
+  /// ids.
   std::vector<AgentClearance> TakeChanged();
   /// As of the last step. Requires an agent of the table.
   AgentClearance Of(AgentIndex agent) const;
 
  private:
-  struct Told {
+  struct Report {
     std::optional<AgentClearance> last;
     ClearanceCause cause = ClearanceCause::kNone;  // since then
     AgentId cause_agent;
@@ -47,13 +49,13 @@ class ToldClearances {
     Instant effective_from = Instant::Always();
   };
 
-  void RecordCause(const AgentClearance& cause, Told* told) const;
+  void RecordCause(const AgentClearance& cause, Report* report) const;
   std::optional<AgentClearance> TakeChange(AgentIndex agent);
 
   const DetectorContext context_;
   const PairTable& pairs_;
   const CoverageTable& coverage_;
-  IndexedVector<AgentIndex, Told> told_;
+  IndexedVector<AgentIndex, Report> reports_;
 };
 
 }  // namespace collision::detection

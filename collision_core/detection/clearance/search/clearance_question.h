@@ -1,0 +1,63 @@
+// A question about the clearance of one agent.
+#pragma once
+
+#include <cstdint>
+
+#include "collision_core/base/ids.h"
+#include "collision_core/base/instant.h"
+#include "collision_core/detection/clearance/keys/acceleration_tiers.h"
+#include "collision_core/detection/pairs/pair_table.h"
+
+namespace collision::detection {
+
+/// A set of partners of one agent, emptied in O(1); kept for its memory from one question to the
+/// next.
+class PartnerMarks {
+ public:
+  /// The agent and the partners that it is tracked with; `agents`: no index is as great.
+  void Start(AgentIndex agent, const PairTable& pairs, std::size_t agents) {
+    ++mark_;
+    if (marks_.size() < agents) marks_.resize(agents, 0);
+    for (const PairSlot slot : pairs.Of(agent)) {
+      marks_.at(pairs[slot].lower) = marks_.at(pairs[slot].higher) = mark_;
+    }
+  }
+  void Add(AgentIndex partner) { marks_.at(partner) = mark_; }
+  /// False for an index beyond those that were there at Start().
+  bool Contains(AgentIndex partner) const {
+    return marks_.contains(partner) && marks_[partner] == mark_;
+  }
+
+ private:
+  IndexedVector<AgentIndex, std::uint64_t> marks_;
+  std::uint64_t mark_ = 0;
+};
+
+/// The group of a question about all partners (else one of AccelerationTiers::GroupOf).
+inline constexpr int kEveryGroup = -1;
+
+/// Which partners, of those not left out, may `agent` meet at or after `from`? Everything that the
+/// answer depends on, besides the bounds themselves.
+struct ClearanceQuestion {
+  AgentIndex agent;
+  int group = kEveryGroup;
+  Instant from;     ///< min(now, covered)
+  Instant covered;  ///< Up to here the agent is certified clear of the group's untracked partners.
+  bool renewed = false;        ///< Promises made from `covered` on are void.
+  bool was_saturated = false;  ///< Nothing was promised up to now.
+  /// The tracked partners, which are left out; those that become tracked are added.
+  PartnerMarks* tracked = nullptr;
+
+  bool LeavesOut(AgentIndex partner, const AccelerationTiers& tiers) const {
+    if (tracked->Contains(partner)) return true;
+    return group != kEveryGroup && tiers.GroupOf(partner, agent) != group;
+  }
+};
+
+/// The first meeting with a partner that is not tracked.
+struct NextMeeting {
+  Instant when = Instant::Never();  ///< Never(): none.
+  AgentIndex partner;
+};
+
+}  // namespace collision::detection

@@ -1,0 +1,120 @@
+#include "collision_core/detection/clearance/search/group_query.h"
+
+#include <algorithm>
+
+namespace collision::detection {
+namespace {
+
+/// A question that begins beyond this horizon looks for the next meeting separately.
+constexpr int kHorizonNear = 4;
+
+}  // namespace
+
+GroupQuery::GroupQuery(const DetectorContext& context, const QueryTargets& targets)
+    : context_(context),
+      coverage_(*targets.coverage),
+      reported_(*targets.reported),
+      pairs_(*targets.pairs),
+      uncovered_(context, coverage_, targets.broad_phase, targets.former),
+      due_(targets.broad_phase, coverage_.tiers(), pairs_.table(), context.clock),
+      next_(targets.broad_phase, coverage_.tiers(), context.clock) {}
+
+NextMeeting GroupQuery::Find(const ClearanceQuestion& question) {
+  TrackUncovered(question);
+  if (IsCrowded(question)) {
+    in_crowd_ = true;
+    return {};
+  }
+  return QueryBroadPhase(question);
+}
+
+bool GroupQuery::TracksAll(AgentIndex agent, int group) const {
+  std::uint32_t tracked = 0;
+  for (const PairSlot slot : pairs_.table().Of(agent)) {
+    const AgentIndex partner = pairs_.table()[slot].PartnerOf(agent);
+    tracked += coverage_.tiers().GroupOf(partner, agent) == group;
+  }
+  return tracked == coverage_.tiers().Count(group);
+}
+
+void GroupQuery::TrackUncovered(const ClearanceQuestion& question) {
+  for (const UncoveredPartner& partner : uncovered_.Find(question)) {
+    TrackOrSaturate(question, partner, question.renewed ? Past::kUnknown : Past::kKnown);
+  }
+}
+
+// An agent without room for another pair is saturated if there is a partner that should be tracked.
+// In a crowd that usually is the partner that saturated it before, or the one that saturated the
+// last such agent; so a crowd costs one pair query an agent, not one a pair.
+bool GroupQuery::IsCrowded(const ClearanceQuestion& question) {
+  const AgentTable& agents = context_.agents;
+  const AgentIndex agent = question.agent;
+  if (pairs_.table().RoomFor(agent) > 0) return false;
+  const AgentRecord& record = agents[agent];
+  const broad_phase::AgentBound bound = record.wide_bound();
+  const AgentIndex before =
+      question.was_saturated ? coverage_[agent].crowded_with : AgentIndex::None();
+  for (const AgentIndex partner :
+       {before, coverage_.last_saturated(), coverage_.last_untracked()}) {
+    if (partner == agent || !agents.Contains(partner)) continue;
+    const AgentRecord& other = agents[partner];
+    if (other.expired || question.tracked->Contains(partner)) continue;
+    if (!CanMeet(record.declaration.filter, other.declaration.filter)) continue;
+    ++context_.counters->pair_queries;
+    const intersection::IntersectionTime time =
+        EarliestIntersection(bound, other.wide_bound(), question.from);
+    if (time.instant() > context_.clock.announce_until()) continue;
+    coverage_.Saturate(agent, partner);
+    return true;
+  }
+  return false;
+}
+
+NextMeeting GroupQuery::QueryBroadPhase(const ClearanceQuestion& question) {
+  const AgentIndex agent = question.agent;
+  // In a crowd most agents are saturated, and need no key.
+  const bool crowd = in_crowd_ || question.was_saturated;
+  const int begin = next_.Begin(question);
+  const bool only_near = crowd || begin > kHorizonNear;
+  const Instant until = only_near ? context_.clock.announce_until() : next_.horizons().At(begin);
+  const AgentIndex no_room = due_.Find(question, until, &found_);
+  if (!no_room.is_none()) coverage_.Saturate(agent, no_room);
+  in_crowd_ = coverage_.IsSaturated(agent);
+  TrackDue(question);
+  if (coverage_.IsSaturated(agent)) return {};
+  const NextMeeting next = NextMeetingSearch::EarliestOf(found_, *question.tracked);
+  if (next.when.is_never()) return next_.Find(question, until);
+  next_.Record(question, next.when);
+  return next;
+}
+
+void GroupQuery::TrackDue(const ClearanceQuestion& question) {
+  const AgentRecord& record = context_.agents[question.agent];
+  const Instant until = context_.clock.announce_until();
+  for (const broad_phase::Neighbour& meeting : found_) {
+    Instant when = meeting.time.instant();
+    if (when > until) continue;
+    const AgentIndex partner(meeting.partner);
+    const bool overlap = meeting.time.seconds <= 0;
+    // They may have met before, at any time that is not covered and at which both were there.
+    if (overlap && question.renewed) {
+      when = std::min(when, UncoveredFrom(record, context_.agents[partner], question.covered));
+    }
+    const bool unknown_before =
+        question.renewed || question.was_saturated || coverage_.IsSaturated(partner);
+    TrackOrSaturate(question, {partner, when},
+                    overlap && unknown_before ? Past::kUnknown : Past::kKnown);
+    if (question.renewed) reported_.NotifyPartner(partner, question.agent);
+  }
+}
+
+void GroupQuery::TrackOrSaturate(const ClearanceQuestion& question, const UncoveredPartner& partner,
+                                 Past past) {
+  if (!pairs_.Track(question.agent, partner.partner, partner.free_until, past)) {
+    coverage_.Saturate(question.agent, partner.partner);
+    coverage_.Saturate(partner.partner, question.agent);
+  }
+  question.tracked->Add(partner.partner);
+}
+
+}  // namespace collision::detection

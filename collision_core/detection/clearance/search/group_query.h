@@ -1,0 +1,63 @@
+// The question about one group of an agent's partners.
+#pragma once
+
+#include <vector>
+
+#include "collision_core/broad_phase/neighbour_index.h"
+#include "collision_core/detection/clearance/keys/reported_clearances.h"
+#include "collision_core/detection/clearance/search/due_meeting_search.h"
+#include "collision_core/detection/clearance/search/next_meeting_search.h"
+#include "collision_core/detection/clearance/search/uncovered_search.h"
+
+namespace collision::detection {
+
+/// What the questions read and change beside the DetectorContext. All outlive them.
+struct QueryTargets {
+  CoverageTable* coverage;
+  ReportedClearances* reported;
+  TrackedPairs* pairs;
+  broad_phase::NeighbourIndex* broad_phase;  ///< Holds the wide bounds of all agents.
+  PreJumpMotions* former;
+};
+
+/// Finds the partners of one group that an agent may meet, and tracks those that it may meet by
+/// announce_until. Without room for one of them it saturates the agent.
+///
+/// For an agent that has no room for another pair, one partner that should be tracked decides.
+/// Usually it is one that saturated the agent before: one pair query.
+class GroupQuery {
+ public:
+  GroupQuery(const DetectorContext& context, const QueryTargets& targets);
+
+  const QueryHorizons& horizons() const { return next_.horizons(); }
+
+  /// Tracks the partners that may be met soon, and marks them in `question.tracked`. Returns the
+  /// first meeting with one of the others; none if the agent is saturated afterwards.
+  NextMeeting Find(const ClearanceQuestion& question);
+
+  /// Whether the agent is tracked with every partner of the group, so that no query is needed.
+  bool TracksAll(AgentIndex agent, int group) const;
+
+  /// Partners looked at beside the broad phase's own tests, since the start.
+  std::uint64_t looks() const { return next_.looks(); }
+
+ private:
+  void TrackUncovered(const ClearanceQuestion& question);
+  bool IsCrowded(const ClearanceQuestion& question);
+  NextMeeting QueryBroadPhase(const ClearanceQuestion& question);
+  void TrackDue(const ClearanceQuestion& question);
+  void TrackOrSaturate(const ClearanceQuestion& question, const UncoveredPartner& partner,
+                       Past past);
+
+  const DetectorContext context_;
+  CoverageTable& coverage_;
+  ReportedClearances& reported_;
+  TrackedPairs& pairs_;
+  UncoveredSearch uncovered_;
+  DueMeetingSearch due_;
+  NextMeetingSearch next_;
+  bool in_crowd_ = false;                      // the last question left its agent saturated
+  std::vector<broad_phase::Neighbour> found_;  // scratch of one question, kept for its memory
+};
+
+}  // namespace collision::detection
