@@ -17,7 +17,7 @@ namespace collision::broad_phase {
 struct HalfSpace {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< Points out of it.
   double offset = 0;                                  ///< [m], times the normal's length.
-  CollisionFilter filter;
+  CollisionFilter filter{};
 };
 
 /// Whether the filters let the two meet, and the agent can move.

@@ -16,8 +16,8 @@ namespace collision::detection {
 /// that promises less (a larger radius or M, another shape, wider masks) is a *widening*: the
 /// detector queries the agent for all partners again.
 struct AgentDeclaration {
-  motion::MotionLimits limits;
-  broad_phase::CollisionFilter filter;
+  motion::MotionLimits limits{};
+  broad_phase::CollisionFilter filter{};
   /// The shape, within the ball of `limits.radius`; null: the ball itself.
   std::shared_ptr<const shape::Shape> shape = nullptr;
   /// The shape is not known yet: it lies somewhere within the ball. The ball then excludes contacts

@@ -34,8 +34,8 @@ TEST(Detector, BreachNotifiesThePartnerFromWhenPromisesAreVoid) {
 // the place and the speed could be reached. Earlier promises hold, but the update reports a breach.
 TEST(Detector, StatesThatNoMotionJoinsAreABreach) {
   Line line;
-  line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
-  line.detector.Admit(Id(2), {1, 0}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(1), {.limits = {1, 1}}, State(0, {0, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(2), {.limits = {1, 0}}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
   const auto update = [&line](double now, const Vector3d& p, const Vector3d& v) {
     line.now = now;
     const UpdateOutcome outcome = line.detector.Update(Id(1), State(now, p, v), At(now));
@@ -64,7 +64,7 @@ TEST(Detector, BreachIsReportedWhateverElseComesInTheSameStep) {
   line.detector.TakeChangedClearances();
   const double next = line.now + 1.0 / 16;
   line.detector.Update(Id(1), State(next, {990, 0, 0}, {0, 0, 0}), At(next));
-  line.detector.Admit(Id(3), {1, 1}, State(next, {1003, 0, 0}, {0, 0, 0}), At(next));
+  line.detector.Admit(Id(3), {.limits = {1, 1}}, State(next, {1003, 0, 0}, {0, 0, 0}), At(next));
   line.detector.Advance(At(next));
   const auto changed = line.detector.TakeChangedClearances();
   const auto partner = std::find_if(changed.begin(), changed.end(),
@@ -121,7 +121,7 @@ TEST(Detector, WiderBoundLowersThePartnersClearance) {
   line.Step();
   line.detector.TakeChangedClearances();
   const Instant before = line.detector.ClearanceOf(Id(2))->clear_until;
-  line.detector.Redeclare(Id(1), {1, 100}, At(3));
+  line.detector.Redeclare(Id(1), {.limits = {1, 100}}, At(3));
   line.Step();
   const auto changed = line.detector.TakeChangedClearances();
   ASSERT_EQ(changed.size(), 2u);
@@ -135,8 +135,8 @@ TEST(Detector, ExpiredAgentsLeaveThePromises) {
   Line line;
   motion::MotionState state = State(0, {0, 0, 0}, {0, 0, 0});
   state.expiry = At(2);
-  line.detector.Admit(Id(1), {1, 1}, state, At(0));
-  line.detector.Admit(Id(2), {1, 1}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
+  line.detector.Admit(Id(1), {.limits = {1, 1}}, state, At(0));
+  line.detector.Admit(Id(2), {.limits = {1, 1}}, State(0, {3, 0, 0}, {0, 0, 0}), At(0));
   line.Step();
   ASSERT_EQ(line.With(EventStatus::kPossible).size(), 1u);
   line.now = 2;
@@ -176,7 +176,7 @@ TEST(Detector, ASaturatedAgentIsNotClearUpToAStateAhead) {
   options.pairs_per_agent_max = 1;
   Detector detector(options);
   for (std::uint32_t slot = 0; slot < 4; ++slot) {
-    detector.Admit(Id(slot), {1, 1}, State(1, {2.5 * slot, 0, 0}, {0, 0, 0}), At(0));
+    detector.Admit(Id(slot), {.limits = {1, 1}}, State(1, {2.5 * slot, 0, 0}, {0, 0, 0}), At(0));
   }
   detector.Advance(At(0.5));
   std::size_t saturated = 0;
@@ -240,8 +240,8 @@ TEST(Detector, ContactBetweenALateJumpAndNewerStatesIsFound) {
     events.insert(events.end(), detector.events().begin(), detector.events().end());
   };
   const Vector3d fast(1000, 0, 0);
-  detector.Admit(Id(1), {1, 0}, State(0, {5000, 9000, 0}, {0, 0, 0}), At(0));
-  detector.Admit(Id(2), {1, 0}, State(0, {0, 0, 0}, fast), At(0));
+  detector.Admit(Id(1), {.limits = {1, 0}}, State(0, {5000, 9000, 0}, {0, 0, 0}), At(0));
+  detector.Admit(Id(2), {.limits = {1, 0}}, State(0, {0, 0, 0}, fast), At(0));
   step(0);
   detector.Update(Id(2), State(1.0, {1000, 0, 0}, fast), At(1));
   step(1);
@@ -340,9 +340,12 @@ TEST(Detector, LimitsAndStrangers) {
   DetectorOptions options;
   options.agents_max = 1;
   Line line(options);
-  EXPECT_TRUE(line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
-  EXPECT_FALSE(line.detector.Admit(Id(1), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
-  EXPECT_FALSE(line.detector.Admit(Id(2), {1, 1}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_TRUE(
+      line.detector.Admit(Id(1), {.limits = {1, 1}}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(
+      line.detector.Admit(Id(1), {.limits = {1, 1}}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
+  EXPECT_FALSE(
+      line.detector.Admit(Id(2), {.limits = {1, 1}}, State(0, {0, 0, 0}, {0, 0, 0}), At(0)));
   EXPECT_EQ(line.detector.Update(Id(2), State(0, {0, 0, 0}, {0, 0, 0}), At(0)),
             UpdateOutcome::kUnknown);
   EXPECT_EQ(line.detector.Update(Id(1), State(-1, {0, 0, 0}, {0, 0, 0}), At(0)),

@@ -144,8 +144,8 @@ TEST(Detector, RemovalInContactEnds) {
 // when it comes.
 TEST(Detector, AnnouncesAsFarAheadAsConfigured) {
   Detector detector{DetectorOptions{}};
-  detector.Admit(Id(1), {1, 0}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
-  detector.Admit(Id(2), {1, 0}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
+  detector.Admit(Id(1), {.limits = {1, 0}}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
+  detector.Admit(Id(2), {.limits = {1, 0}}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
   detector.Advance(At(2.9375));
   EXPECT_TRUE(detector.events().empty());
   EXPECT_GE(detector.ClearanceOf(Id(1))->clear_until, At(5 - 1e-6));
@@ -160,8 +160,8 @@ TEST(Detector, ConfirmsBetweenStatesUpToTheReportedTime) {
   for (const bool heard : {true, false}) {
     Detector detector{DetectorOptions{}};
     std::size_t confirmed = 0;
-    detector.Admit(Id(1), {1, 0.01}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
-    detector.Admit(Id(2), {1, 0.01}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
+    detector.Admit(Id(1), {.limits = {1, 0.01}}, State(0, {-6, 0, 0}, {1, 0, 0}), At(0));
+    detector.Admit(Id(2), {.limits = {1, 0.01}}, State(0, {6, 0, 0}, {-1, 0, 0}), At(0));
     for (double now = 0; now <= 6; now += 1.0 / 16) {
       if (heard) {
         detector.SetHeardUntil(OwnerOf(Id(1)), At(now));

@@ -33,7 +33,7 @@ class Line {
   explicit Line(detection::DetectorOptions options = {}) : detector(options) {}
 
   void Add(std::uint32_t slot, const Vector3d& p, const Vector3d& v, double radius = 1) {
-    detector.Admit(Id(slot), {radius, 1}, State(now, p, v), At(now));
+    detector.Admit(Id(slot), {.limits = {radius, 1}}, State(now, p, v), At(now));
     agents.push_back({slot, p, v, now});
   }
 

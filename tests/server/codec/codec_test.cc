@@ -99,7 +99,7 @@ TEST(Codec, AcceptsTheLimits) {
   const auto shaped = DecodeDescription(description);
   ASSERT_TRUE(std::holds_alternative<detection::AgentDeclaration>(shaped));
   EXPECT_TRUE(std::get<detection::AgentDeclaration>(shaped).shape_awaited);
-  EXPECT_EQ(std::get<detection::AgentDeclaration>(shaped).angular_acceleration_max,
+  EXPECT_EQ(std::get<detection::AgentDeclaration>(shaped).limits.angular_acceleration_max,
             wire::kAccelerationMax);
 }
 
@@ -124,15 +124,17 @@ TEST(Codec, TakesTheSpeedCap) {
                                     {0.0, kInf},
                                     {-0.0, kInf}}) {
     description.set_speed_max_m_s(sent);
-    EXPECT_EQ(std::get<detection::AgentDeclaration>(DecodeDescription(description)).speed_max,
-              taken)
+    EXPECT_EQ(
+        std::get<detection::AgentDeclaration>(DecodeDescription(description)).limits.speed_max,
+        taken)
         << sent;
   }
   description.set_speed_max_m_s(7);
   v1::AgentDescription recorded;
   ASSERT_TRUE(recorded.ParseFromString(description.SerializeAsString()));
   recorded.clear_speed_max_m_s();
-  EXPECT_EQ(std::get<detection::AgentDeclaration>(DecodeDescription(recorded)).speed_max, kInf);
+  EXPECT_EQ(std::get<detection::AgentDeclaration>(DecodeDescription(recorded)).limits.speed_max,
+            kInf);
 }
 
 // Goal:   a quaternion off by less than 1e-3 is normalised, and its error covers what that may
