@@ -82,11 +82,11 @@ bool EvaluateOne(const History& history_a, const History& history_b, Instant fro
           EvaluateShapeSegment(a, b, duration, times, work);
       times = verdict.times;
       normal = verdict.normal;
-      if (tracker->free() && times.free_until < duration && !normal.tells()) {
+      if (tracker->free() && times.free_until < duration && !normal.is_good()) {
         const narrow_phase::ContactNormal before = NormalBefore(history_a, history_b, from, work);
         if (before.known && (!normal.known || before.error < normal.error)) normal = before;
       }
-      if (verdict.looked) {
+      if (verdict.examined) {
         nearest = {std::min(numeric::AddRoundedDown(from, verdict.nearest_at), to), verdict.nearest,
                    verdict.exhausted};
       }
