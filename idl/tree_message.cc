@@ -23,11 +23,12 @@ v1::SphereTree ToMessage(const sphere_tree::SphereTree& tree) {
     message.add_level(node.level);
     message.add_first_child(node.first_child);
     message.add_children(node.children);
-    message.add_first_triangle(node.first_triangle);
-    message.add_triangles(node.triangles);
+    message.add_first_triangle(node.first_element);
+    message.add_triangles(node.elements);
   }
-  message.mutable_triangle_indices()->Add(tree.triangle_indices.begin(),
-                                          tree.triangle_indices.end());
+  for (const ElementIndex triangle : tree.elements) {
+    message.add_triangle_indices(triangle.value());
+  }
   return message;
 }
 
@@ -44,11 +45,13 @@ std::optional<sphere_tree::SphereTree> FromMessage(const v1::SphereTree& message
     node.level = message.level(i);
     node.first_child = message.first_child(i);
     node.children = message.children(i);
-    node.first_triangle = message.first_triangle(i);
-    node.triangles = message.triangles(i);
+    node.first_element = message.first_triangle(i);
+    node.elements = message.triangles(i);
   }
-  tree.triangle_indices.assign(message.triangle_indices().begin(),
-                               message.triangle_indices().end());
+  tree.elements.reserve(static_cast<std::size_t>(message.triangle_indices_size()));
+  for (const std::uint32_t triangle : message.triangle_indices()) {
+    tree.elements.emplace_back(triangle);
+  }
   return tree;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::shape {
@@ -21,7 +22,8 @@ double LengthUp(const Vector3d& v) { return (1 + 0x1p-50) * v.norm() + 0x1p-500;
 /// A node to be; of a gathering, the range of parts below it.
 struct Part {
   sphere_tree::SphereNode node;
-  bool is_surface = false;
+  enum class Kind { kGathering, kSolid, kSurface } kind = Kind::kGathering;
+  ElementIndex solid = {};
   std::vector<Part> children = {};
 };
 
@@ -43,13 +45,11 @@ double DistanceUp(const Vector3d& point, const ConvexSolid& solid) {
   return numeric::AddUp(numeric::AddUp(LengthUp(seen - set.SupportPoint(seen)), lost), off);
 }
 
-sphere_tree::SphereNode NodeOf(const ConvexSolid& solid, std::uint32_t element) {
+sphere_tree::SphereNode NodeOf(const ConvexSolid& solid) {
   sphere_tree::SphereNode node;
   node.centre = solid.facts().ball_centre;
   node.radius = solid.facts().ball_radius;
   node.signed_distance = DistanceUp(node.centre, solid);
-  node.first_triangle = element;
-  node.triangles = 1;
   return node;
 }
 
@@ -140,25 +140,26 @@ Part Gathered(std::span<Part> parts) {
 class Flattening {
  public:
   explicit Flattening(const sphere_tree::SphereTree* surface) : surface_(surface) {
-    if (surface_) tree_.triangle_indices = surface_->triangle_indices;
+    if (surface_) tree_.elements = surface_->elements;
   }
 
   sphere_tree::SphereTree Run(const Part& root) {
-    std::vector<Place> level = {{&root, 0}};
+    std::vector<Place> level = {{&root, sphere_tree::SphereTree::kRoot}};
     for (std::uint32_t depth = 0; !level.empty(); ++depth) {
       tree_.levels = depth + 1;
       const auto next = static_cast<std::uint32_t>(tree_.nodes.size() + level.size());
       std::vector<Place> below;
       for (const Place& place : level) {
         sphere_tree::SphereNode node =
-            place.part ? place.part->node : surface_->nodes[place.of_surface];
+            place.part ? place.part->node : surface_->node(place.of_surface);
         node.level = depth;
         node.first_child = next + static_cast<std::uint32_t>(below.size());
         const std::size_t before = below.size();
         AddChildren(place, &below);
         node.children = static_cast<std::uint32_t>(below.size() - before);
         if (node.children == 0) node.first_child = 0;
-        if (place.part && !place.part->is_surface && node.triangles == 1) SetElement(&node);
+        if (place.part && place.part->kind == Part::Kind::kSolid)
+          AddSolid(place.part->solid, &node);
         tree_.nodes.push_back(node);
       }
       level = std::move(below);
@@ -169,24 +170,22 @@ class Flattening {
  private:
   struct Place {
     const Part* part;  ///< Null: a node of the surface.
-    std::uint32_t of_surface;
+    NodeIndex of_surface;
   };
 
   void AddChildren(const Place& place, std::vector<Place>* below) const {
-    if (place.part && !place.part->is_surface) {
-      for (const Part& child : place.part->children) below->push_back({&child, 0});
+    if (place.part && place.part->kind != Part::Kind::kSurface) {
+      for (const Part& child : place.part->children) below->push_back({&child, {}});
       return;
     }
-    const sphere_tree::SphereNode& own = surface_->nodes[place.of_surface];
-    for (std::uint32_t i = 0; i < own.children; ++i)
-      below->push_back({nullptr, own.first_child + i});
+    const sphere_tree::SphereNode& own = surface_->node(place.of_surface);
+    for (std::uint32_t i = 0; i < own.children; ++i) below->push_back({nullptr, own.child(i)});
   }
 
-  /// A solid's leaf has no triangles yet but a number.
-  void SetElement(sphere_tree::SphereNode* node) {
-    const std::uint32_t element = node->first_triangle;
-    node->first_triangle = static_cast<std::uint32_t>(tree_.triangle_indices.size());
-    tree_.triangle_indices.push_back(element);
+  void AddSolid(ElementIndex solid, sphere_tree::SphereNode* leaf) {
+    leaf->first_element = static_cast<std::uint32_t>(tree_.elements.size());
+    leaf->elements = 1;
+    tree_.elements.push_back(solid);
   }
 
   const sphere_tree::SphereTree* const surface_;
@@ -198,10 +197,11 @@ class Flattening {
 sphere_tree::SphereTree BuildCompound(const sphere_tree::SphereTree* surface,
                                       std::uint32_t triangles,
                                       std::span<const ConvexSolid> solids) {
+  CORE_CHECK(!solids.empty(), "a compound has a solid");
   std::vector<Part> parts;
-  if (surface) parts.push_back({surface->root(), true});
+  if (surface) parts.push_back({surface->root(), Part::Kind::kSurface});
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    parts.push_back({NodeOf(solids[i], triangles + static_cast<std::uint32_t>(i))});
+    parts.push_back({NodeOf(solids[i]), Part::Kind::kSolid, ElementIndex(triangles + i)});
   }
   return Flattening(surface).Run(Gathered(parts));
 }

@@ -9,11 +9,11 @@
 
 namespace collision::shape {
 
-/// Builds one tree over convex solids and a surface. Every solid is a leaf of its own, with the
-/// element `triangles` + its number as its only one; the surface's tree (of `triangles` triangles;
-/// null: none) hangs below as it is. Above them up to eight near balls at a time are gathered into
-/// one. The signed distance of a gathering is that of its best child, plus the way between the two
-/// centres; the union is at least as near.
+/// Builds one tree over convex solids and a surface. Every solid is a leaf of its own, whose only
+/// element is `triangles` + its number; the surface's tree (of `triangles` triangles; null: none)
+/// hangs below as it is. Above them up to eight near balls at a time are gathered into one. The
+/// signed distance of a gathering is that of its best child, plus the way between the two centres;
+/// the union is at least as near.
 ///
 /// O(n log n) for n solids, plus the copy of the surface's tree. Requires a solid.
 sphere_tree::SphereTree BuildCompound(const sphere_tree::SphereTree* surface,

@@ -1,5 +1,7 @@
 #include "collision_core/shape/hull_builder.h"
 
+#include "collision_core/base/check.h"
+
 namespace collision::shape {
 namespace {
 
@@ -58,6 +60,7 @@ void AddVertices(const geometry::TriangleMesh& mesh, std::vector<Vector3d>* poin
 }  // namespace
 
 OuterHull HullAround(const geometry::TriangleMesh& mesh, std::span<const ConvexSolid> solids) {
+  CORE_CHECK(!mesh.triangles.empty() || !solids.empty(), "a hull is around something");
   double common = mesh.triangles.empty() ? numeric::kInfinity : 0;
   for (const ConvexSolid& solid : solids) common = std::min(common, solid.set().rounding);
   std::vector<Vector3d> points;

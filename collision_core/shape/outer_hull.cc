@@ -38,19 +38,20 @@ double ExcessOf(const Heights& a, const Heights& b) {
 struct OuterHull::Patch {
   std::uint32_t face, u, v, width, along_edge;
 
-  /// The direction at a corner; coordinates are multiples of 2 / along_edge: exact.
-  Vector3d Corner(bool far_u, bool far_v) const {
+  /// The direction at a corner of cells, counted along the face; its coordinates are multiples of
+  /// 2 / along_edge: exact.
+  Vector3d Corner(std::uint32_t at_u, std::uint32_t at_v) const {
     const auto axis = static_cast<Eigen::Index>(face / 2);
     Vector3d n;
     n[axis] = face % 2 == 0 ? 1 : -1;
-    n[(axis + 1) % 3] = 2.0 * (u + (far_u ? width : 0)) / along_edge - 1;
-    n[(axis + 2) % 3] = 2.0 * (v + (far_v ? width : 0)) / along_edge - 1;
+    n[(axis + 1) % 3] = 2.0 * at_u / along_edge - 1;
+    n[(axis + 2) % 3] = 2.0 * at_v / along_edge - 1;
     return n;
   }
 
   std::vector<Heights> HeightsOf(const std::vector<Vector3d>& points) const {
-    const Vector3d corners[] = {Corner(false, false), Corner(false, true), Corner(true, false),
-                                Corner(true, true)};
+    const Vector3d corners[] = {Corner(u, v), Corner(u, v + width), Corner(u + width, v),
+                                Corner(u + width, v + width)};
     std::vector<Heights> heights;
     heights.reserve(points.size());
     for (const Vector3d& p : points) {
@@ -103,6 +104,7 @@ HullCell CellFor(const std::vector<Heights>& heights, const std::vector<Vector3d
 
 OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
     : along_edge_(CellsFor(points.size())) {
+  CORE_CHECK(!points.empty(), "a hull is around a point");
   Vector3d lower = points[0], upper = points[0];
   for (const Vector3d& p : points) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
   origin_ = 0.5 * lower + 0.5 * upper;

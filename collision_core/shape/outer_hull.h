@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "collision_core/base/check.h"
+
 namespace collision::shape {
 
 /// Points for one cell of directions: one of them reaches farthest along a direction of the cell,
@@ -110,6 +112,7 @@ inline OuterHull::Foremost OuterHull::ForemostAlong(const Eigen::Vector3f& n) co
 }
 
 inline OuterHull::Support OuterHull::Along(const Eigen::Vector3f& n) const {
+  CORE_CHECK(std::abs(n.squaredNorm() - 1) < 0x1p-14f, "the direction has length 1", n.norm());
   const Foremost foremost = ForemostAlong(n);
   return {foremost.height + foremost.more, foremost.point};
 }

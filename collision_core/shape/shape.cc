@@ -4,23 +4,26 @@
 #include <span>
 #include <utility>
 
+#include "collision_core/base/check.h"
 #include "collision_core/shape/compound_builder.h"
 #include "collision_core/shape/hull_builder.h"
 #include "collision_core/sphere_tree/fitted/fitted_builder.h"
 #include "collision_core/sphere_tree/median_split/median_split_builder.h"
 #include "collision_core/sphere_tree/octree/octree_builder.h"
 #include "collision_core/sphere_tree/surface_query.h"
+#include "collision_core/sphere_tree/tree_check.h"
 
 namespace collision::shape {
 namespace {
 
 /// Negative only where certain: inside a closed solid the ball of that radius meets no triangle.
-double SignedDistanceAt(const sphere_tree::SphereNode& node, bool closed,
+double SignedDistanceAt(const sphere_tree::SphereNode& node, sphere_tree::SurfaceKind kind,
                         sphere_tree::SurfaceQuery* query) {
   // The node's ball contains some of the surface, so its radius bounds the distance.
   const numeric::Interval distance = query->DistanceTo(node.centre, node.radius);
-  if (!closed || query->WindingNumberAt(node.centre).value_or(0) == 0) return distance.upper;
-  return -distance.lower;
+  const bool is_inside = kind == sphere_tree::SurfaceKind::kClosed &&
+                         query->WindingNumberAt(node.centre).value_or(0) != 0;
+  return is_inside ? -distance.lower : distance.upper;
 }
 
 /// Of a quick tree so many balls are measured: enough to tell a deep contact.
@@ -33,25 +36,25 @@ constexpr std::size_t kWorkPerBall = 1024;
 
 /// Of the first `count` nodes, as long as there is work left for them; of the others the radius
 /// stays.
-void MeasureCentres(const geometry::TriangleMesh& mesh, bool closed, std::size_t count,
-                    sphere_tree::SphereTree* tree) {
+void MeasureCentres(const geometry::TriangleMesh& mesh, sphere_tree::SurfaceKind kind,
+                    std::size_t count, sphere_tree::SphereTree* tree) {
   sphere_tree::SurfaceQuery query(mesh, *tree);
   const auto nodes = std::span(tree->nodes).first(std::min(count, tree->nodes.size()));
   for (sphere_tree::SphereNode& node : nodes) {
     if (query.work() >= kWorkPerBall * nodes.size()) return;
-    node.signed_distance = SignedDistanceAt(node, closed, &query);
+    node.signed_distance = SignedDistanceAt(node, kind, &query);
   }
 }
 
 /// All but the layout for traversals.
 sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
-                                  const sphere_tree::ShapeOptions& options, bool closed) {
-  if (options.builder == sphere_tree::TreeBuilder::kFitted)
-    return BuildFitted(mesh, options, closed);
+                                  const sphere_tree::ShapeOptions& options,
+                                  sphere_tree::SurfaceKind kind) {
+  if (options.builder == sphere_tree::TreeBuilder::kFitted) return BuildFitted(mesh, options, kind);
   const bool halved = options.builder == sphere_tree::TreeBuilder::kHalved;
   sphere_tree::SphereTree tree =
       halved ? BuildMedianSplit(mesh, options) : BuildOctree(mesh, options);
-  MeasureCentres(mesh, closed, halved ? kHalvedMeasured : tree.nodes.size(), &tree);
+  MeasureCentres(mesh, kind, halved ? kHalvedMeasured : tree.nodes.size(), &tree);
   return tree;
 }
 
@@ -60,10 +63,13 @@ sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
 std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
                                           const sphere_tree::ShapeOptions& options,
                                           const Shape* twin) {
+  CORE_CHECK(!mesh.triangles.empty(), "a surface has a triangle");
   std::shared_ptr<Shape> shape(new Shape());
   if (twin) shape->body_ = twin->body_;
   shape->facts_ = FactsOf(mesh);
-  shape->tree_ = BuildTree(mesh, options, shape->facts_.closed);
+  shape->tree_ = BuildTree(
+      mesh, options,
+      shape->closed() ? sphere_tree::SurfaceKind::kClosed : sphere_tree::SurfaceKind::kOpen);
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
   shape->packed_ = sphere_tree::PackedTree(shape->mesh_, shape->tree_);
@@ -73,6 +79,7 @@ std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
 
 std::shared_ptr<const Shape> Shape::FromTree(geometry::TriangleMesh mesh,
                                              sphere_tree::SphereTree tree) {
+  CORE_CHECK(!RefusalOf(tree, mesh), "a tree has the structure of one of its mesh");
   std::shared_ptr<Shape> shape(new Shape());
   shape->facts_ = FactsOf(mesh);
   shape->tree_ = std::move(tree);
@@ -85,6 +92,8 @@ std::shared_ptr<const Shape> Shape::FromTree(geometry::TriangleMesh mesh,
 
 std::shared_ptr<const Shape> Shape::Compound(std::shared_ptr<const Shape> surface,
                                              std::vector<ConvexSolid> solids, const Shape* twin) {
+  CORE_CHECK(!solids.empty() && solids.size() <= kSolidsMax,
+             "a compound has 1 to kSolidsMax solids", solids.size());
   std::shared_ptr<Shape> shape(new Shape());
   if (twin) shape->body_ = twin->body_;
   if (surface) {
@@ -112,6 +121,7 @@ numeric::Interval Shape::DistanceTo(const Eigen::Vector3d& point) const {
 }
 
 std::optional<int> Shape::WindingNumberAt(const Eigen::Vector3d& point) const {
+  CORE_CHECK(closed(), "an open surface has no winding number");
   if (surface_) return surface_->WindingNumberAt(point);
   if (mesh_.triangles.empty()) return 0;
   const bool is_outside_box =

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/numeric/interval.h"
 #include "collision_core/shape/convex_solid.h"
@@ -22,12 +23,12 @@ inline constexpr std::size_t kSolidsMax = std::size_t{1} << 16;
 /// the other rooms. Immutable once built; shared by all agents of that shape, and between threads.
 /// Body frame B, metres.
 ///
-/// The *elements* of a shape are the triangles of the surface, by their numbers, and then the
-/// solids. The body is the union of them all and, if the surface is closed, of its inside. One
-/// numbering serves the tree, a search, and what is remembered of a contact. A solid is a leaf of
-/// its own; up to eight near ones at a time are gathered into a ball, and the surface's tree (which
-/// the cache keeps) hangs among them unchanged. Nothing is inside a solid without touching it, so
-/// winding numbers are asked of the surface only.
+/// The *elements* of a shape (ElementIndex) are the triangles of the surface, by their numbers, and
+/// then the solids. The body is the union of them all and, if the surface is closed, of its inside.
+/// One numbering serves the tree, a search, and what is remembered of a contact. A solid is a leaf
+/// of its own; up to eight near ones at a time are gathered into a ball, and the surface's tree
+/// (which the cache keeps) hangs among them unchanged. Nothing is inside a solid without touching
+/// it, so winding numbers are asked of the surface only.
 ///
 /// *Twins* are shapes of one body with different trees, for example a coarse tree and the fitted
 /// tree that replaces it. What is known of an agent with the one shape holds with the other.
@@ -58,9 +59,12 @@ class Shape {
   /// The triangles of the surface; empty if there is none.
   const geometry::TriangleMesh& mesh() const { return surface_ ? surface_->mesh_ : mesh_; }
   const std::vector<ConvexSolid>& solids() const { return solids_; }
-  bool IsSolid(std::uint32_t element) const { return element >= mesh().triangles.size(); }
-  const ConvexSolid& SolidAt(std::uint32_t element) const {
-    return solids_[element - mesh().triangles.size()];
+  /// Whether an element is a convex solid; else it is a triangle of the surface.
+  bool IsSolid(ElementIndex element) const { return element.value() >= mesh().triangles.size(); }
+  /// Requires IsSolid(element).
+  const ConvexSolid& SolidAt(ElementIndex element) const {
+    CORE_CHECK(IsSolid(element), "the element is a convex solid", element.value());
+    return solids_[element.value() - mesh().triangles.size()];
   }
 
   const geometry::MeshFacts& facts() const { return facts_; }

@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "collision_core/sphere_tree/element_index.h"
+
 namespace collision::sphere_tree {
 
 /// Balls in a pack: what one node holds, its children or their children.
@@ -34,9 +36,9 @@ struct alignas(64) BallPack {
 struct alignas(64) TriangleBlock {
   float x[4 * kBlockTriangles], y[4 * kBlockTriangles], z[4 * kBlockTriangles];
   float above[kBlockTriangles], below[kBlockTriangles];
-  std::uint32_t triangle[kBlockTriangles];  ///< In the mesh.
-  std::uint32_t left;                       ///< Triangles of the leaf from this block on.
-  float reach;                              ///< No corner is farther from the reference point.
+  ElementIndex element[kBlockTriangles];  ///< The triangles, or one solid and its repetitions.
+  std::uint32_t left;                     ///< Elements of the leaf from this block on.
+  float reach;                            ///< No corner is farther from the reference point.
 };
 
 }  // namespace collision::sphere_tree

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "collision_core/base/check.h"
+
 namespace collision::sphere_tree {
 namespace {
 
@@ -30,6 +32,7 @@ BallPack EmptyPack() {
 
 /// The middle of the balls' box: coordinates seen from there lose the least.
 Eigen::Vector3d MiddleOf(const SphereTree& tree) {
+  CORE_CHECK(!tree.nodes.empty(), "a tree has a root");
   Eigen::Vector3d lower = tree.root().centre, upper = lower;
   for (const SphereNode& node : tree.nodes) {
     lower = lower.cwiseMin(node.centre), upper = upper.cwiseMax(node.centre);
@@ -42,7 +45,8 @@ Eigen::Vector3d MiddleOf(const SphereTree& tree) {
 /// A ball, by its number, and the nodes that it holds: its children, or a part of them where they
 /// are too many for a pack. None: a leaf.
 struct PackedTree::Lane {
-  std::uint32_t node, first, count;
+  NodeIndex node;
+  std::uint32_t first, count;
 };
 
 struct PackedTree::Lanes {
@@ -50,15 +54,15 @@ struct PackedTree::Lanes {
   std::uint32_t count = 0;
 
   void Add(const Lane& more) { lane[count++] = more; }
-  void Add(const SphereTree& tree, std::uint32_t node) {
-    Add({node, tree.nodes[node].first_child, tree.nodes[node].children});
+  void Add(const SphereTree& tree, NodeIndex node) {
+    Add({node, tree.node(node).first_child, tree.node(node).children});
   }
 };
 
 PackedTree::PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tree)
     : origin_(MiddleOf(tree)) {
   Lanes root;
-  root.Add(tree, 0);
+  root.Add(tree, SphereTree::kRoot);
   std::vector<Lanes> packs = {root};
   for (std::uint32_t next = 0; next < packs.size(); ++next) {
     const Lanes lanes = packs[next];
@@ -66,7 +70,7 @@ PackedTree::PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tre
     nodes_.resize(packs_.size() * kPackBalls);
     for (std::uint32_t i = 0; i < lanes.count; ++i) {
       const Lane& lane = lanes.lane[i];
-      const SphereNode& node = tree.nodes[lane.node];
+      const SphereNode& node = tree.node(lane.node);
       nodes_[next * kPackBalls + i] = lane.node;
       SetBall(node, next * kPackBalls + i);
       if (lane.count == 0) {
@@ -97,9 +101,9 @@ PackedTree::Lanes PackedTree::LanesOf(const SphereTree& tree, const Lane& parent
     }
     return lanes;
   }
-  for (std::uint32_t i = 0; i < parent.count; ++i) lanes.Add(tree, parent.first + i);
+  for (std::uint32_t i = 0; i < parent.count; ++i) lanes.Add(tree, NodeIndex(parent.first + i));
   const auto overshoot = [&](const Lane& lane) {
-    return tree.nodes[lane.node].radius + tree.nodes[lane.node].signed_distance;
+    return tree.node(lane.node).radius + tree.node(lane.node).signed_distance;
   };
   for (;;) {
     Lane* widest = nullptr;
@@ -111,7 +115,7 @@ PackedTree::Lanes PackedTree::LanesOf(const SphereTree& tree, const Lane& parent
     if (widest == nullptr) return lanes;
     const Lane opened = *widest;
     *widest = lanes.lane[--lanes.count];
-    for (std::uint32_t i = 0; i < opened.count; ++i) lanes.Add(tree, opened.first + i);
+    for (std::uint32_t i = 0; i < opened.count; ++i) lanes.Add(tree, NodeIndex(opened.first + i));
   }
 }
 
@@ -137,26 +141,26 @@ void PackedTree::SetBall(const SphereNode& node, BallRef ball) {
 
 std::uint32_t PackedTree::AddLeaf(const geometry::TriangleMesh& mesh, const SphereTree& tree,
                                   const SphereNode& leaf) {
-  const auto triangles = tree.TrianglesOf(leaf);
+  const auto elements = tree.ElementsOf(leaf);
   const auto first = static_cast<std::uint32_t>(blocks_.size());
-  for (std::size_t done = 0; done < triangles.size(); done += kBlockTriangles) {
+  for (std::size_t done = 0; done < elements.size(); done += kBlockTriangles) {
     TriangleBlock& block = blocks_.emplace_back();
     block.reach = 0;
-    block.left = static_cast<std::uint32_t>(triangles.size() - done);
+    block.left = static_cast<std::uint32_t>(elements.size() - done);
     for (std::uint32_t i = 0; i < kBlockTriangles; ++i) {
-      SetTriangle(mesh, triangles[i < block.left ? done + i : done], i, &block);
+      SetElement(mesh, elements[i < block.left ? done + i : done], i, &block);
     }
   }
   return first | BallLink::kLeaf;
 }
 
-void PackedTree::SetTriangle(const geometry::TriangleMesh& mesh, std::uint32_t triangle,
-                             std::uint32_t lane, TriangleBlock* block) {
+void PackedTree::SetElement(const geometry::TriangleMesh& mesh, ElementIndex element,
+                            std::uint32_t lane, TriangleBlock* block) {
   Eigen::Vector3d corners[3] = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                 Eigen::Vector3d::Zero()};
-  const bool is_solid = triangle >= mesh.triangles.size();
+  const bool is_solid = element.value() >= mesh.triangles.size();
   for (std::size_t k = 0; k < 3 && !is_solid; ++k) {
-    const Eigen::Vector3d& vertex = mesh.vertices[mesh.triangles[triangle][k]];
+    const Eigen::Vector3d& vertex = mesh.vertices[mesh.triangles[element.value()][k]];
     block->reach = std::max(block->reach, FloatUp(vertex.norm() * (1 + 0x1p-50)));
     corners[k] = vertex - origin_;
     extent_ = std::max(extent_, corners[k].norm() * (1 + 0x1p-50));
@@ -177,7 +181,7 @@ void PackedTree::SetTriangle(const geometry::TriangleMesh& mesh, std::uint32_t t
     above = std::max(above, height), below = std::min(below, height);
   }
   block->above[lane] = above, block->below[lane] = below;
-  block->triangle[lane] = triangle;
+  block->element[lane] = element;
 }
 
 void PackedTree::FindExtremes(const geometry::TriangleMesh& mesh) {

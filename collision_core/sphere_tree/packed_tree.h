@@ -33,7 +33,7 @@ using BallRef = std::uint32_t;
 /// The sphere tree in the order in which traversals read it: packs of up to eight balls, and blocks
 /// of four triangles, in single precision seen from the middle of the tree and rounded outward. 224
 /// bytes for each pack (28 a ball where packs are full), 256 for each four triangles of a leaf, or
-/// for a convex solid: then `triangle[0]` is its element, and its corners are not used.
+/// for a convex solid: then `element[0]` is that solid, and the corners are not used.
 ///
 /// Packs stand in breadth-first order; the first one holds the root alone. A ball's pack is a cut
 /// through what is below it, as wide as there is room: the node that overshoots the surface most is
@@ -51,7 +51,7 @@ class PackedTree {
   }
 
   /// The node of the sphere tree that a ball stands for.
-  std::uint32_t NodeOf(BallRef ball) const { return nodes_[ball]; }
+  NodeIndex NodeOf(BallRef ball) const { return nodes_[ball]; }
 
   /// In the body frame [m].
   const Eigen::Vector3d& origin() const { return origin_; }
@@ -72,12 +72,12 @@ class PackedTree {
   std::uint32_t AddLeaf(const geometry::TriangleMesh& mesh, const SphereTree& tree,
                         const SphereNode& leaf);
   void SetBall(const SphereNode& node, BallRef ball);
-  void SetTriangle(const geometry::TriangleMesh& mesh, std::uint32_t triangle, std::uint32_t lane,
-                   TriangleBlock* block);
+  void SetElement(const geometry::TriangleMesh& mesh, ElementIndex element, std::uint32_t lane,
+                  TriangleBlock* block);
   void FindExtremes(const geometry::TriangleMesh& mesh);
 
   std::vector<BallPack> packs_;
-  std::vector<std::uint32_t> nodes_;  ///< The nodes of the sphere tree, lane by lane.
+  std::vector<NodeIndex> nodes_;  ///< The nodes of the sphere tree, lane by lane.
   std::vector<TriangleBlock> blocks_;
   Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();
   double extent_ = 0;

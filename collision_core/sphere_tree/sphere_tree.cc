@@ -2,17 +2,16 @@
 
 namespace collision::sphere_tree {
 
-std::vector<std::uint32_t> SphereTree::Cut(std::uint32_t level) const {
-  std::vector<std::uint32_t> cut;
+std::vector<NodeIndex> SphereTree::Cut(std::uint32_t level) const {
+  std::vector<NodeIndex> cut;
   for (std::uint32_t i = 0; i < nodes.size() && nodes[i].level <= level; ++i) {
-    if (nodes[i].level == level || nodes[i].children == 0) cut.push_back(i);
+    if (nodes[i].level == level || nodes[i].is_leaf()) cut.emplace_back(i);
   }
   return cut;
 }
 
 std::size_t SphereTree::bytes() const {
-  return nodes.capacity() * sizeof(SphereNode) +
-         triangle_indices.capacity() * sizeof(std::uint32_t);
+  return nodes.capacity() * sizeof(SphereNode) + elements.capacity() * sizeof(ElementIndex);
 }
 
 }  // namespace collision::sphere_tree

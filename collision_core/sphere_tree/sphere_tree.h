@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "collision_core/sphere_tree/element_index.h"
+
 namespace collision::sphere_tree {
 
 /// Bounds by count, the same on every machine, against hostile meshes: thousands of large triangles
@@ -35,32 +37,41 @@ struct SphereNode {
   /// solid, where the ball of that radius about the centre belongs to the solid. Where the sign is
   /// uncertain, and for open surfaces, the distance.
   double signed_distance = 0;
-  std::uint32_t first_child = 0;     ///< Children stand one after the other.
-  std::uint32_t children = 0;        ///< 0: a leaf.
-  std::uint32_t first_triangle = 0;  ///< For a leaf: where it begins in triangle_indices.
-  std::uint32_t triangles = 0;
-  std::uint32_t level = 0;  ///< The root's is 0.
+  std::uint32_t first_child = 0;    ///< Children stand one after the other.
+  std::uint32_t children = 0;       ///< How many; 0: a leaf.
+  std::uint32_t first_element = 0;  ///< For a leaf: where it begins in SphereTree::elements.
+  std::uint32_t elements = 0;       ///< For a leaf: how many it has.
+  std::uint32_t level = 0;          ///< The root's is 0.
+
+  bool is_leaf() const { return children == 0; }
+  /// Child `i`, counted from 0. Requires i < children.
+  NodeIndex child(std::uint32_t i) const { return NodeIndex(first_child + i); }
 };
 
 /// A tree of balls that covers a surface. Nodes stand in breadth-first order: the root first, each
 /// level in one run, children after parents.
 struct SphereTree {
+  /// The root of every tree.
+  static constexpr NodeIndex kRoot{std::uint32_t{0}};
+
   std::vector<SphereNode> nodes;
-  /// The triangles of each leaf, whole: the leaf's part lies within them.
-  std::vector<std::uint32_t> triangle_indices;
+  /// The elements of each leaf, whole: the leaf's part lies within them. A builder's tree has
+  /// triangles only; a compound's also has convex solids, each a leaf of its own.
+  std::vector<ElementIndex> elements;
   std::uint32_t levels = 0;  ///< The deepest level + 1.
 
   const SphereNode& root() const { return nodes.front(); }
   std::span<const SphereNode> ChildrenOf(const SphereNode& node) const {
     return {nodes.data() + node.first_child, node.children};
   }
-  std::span<const std::uint32_t> TrianglesOf(const SphereNode& node) const {
-    return {triangle_indices.data() + node.first_triangle, node.triangles};
+  const SphereNode& node(NodeIndex index) const { return nodes[index.value()]; }
+  std::span<const ElementIndex> ElementsOf(const SphereNode& node) const {
+    return {elements.data() + node.first_element, node.elements};
   }
 
   /// Level `level` as a cut through the tree: its nodes, and the leaves above it. Together their
   /// parts are the whole surface.
-  std::vector<std::uint32_t> Cut(std::uint32_t level) const;
+  std::vector<NodeIndex> Cut(std::uint32_t level) const;
 
   /// Memory in use [bytes].
   std::size_t bytes() const;

@@ -4,6 +4,7 @@
 
 #include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/sphere_tree/surface_query.h"
+#include "collision_core/sphere_tree/underflow.h"
 
 namespace collision::sphere_tree {
 namespace {
@@ -15,20 +16,20 @@ using Eigen::Vector3d;
 constexpr double kFar = 1e100;
 
 /// No point of the node's part is nearer. A computed |d| is off by a relative 3.5 u, u = 2^−53, but
-/// for 1e-150 where squares underflow; subtracting rounds by another u of the difference.
+/// for kDistanceUnderflow; subtracting rounds by another u of the difference.
 double LowerBound(const SphereNode& node, const Vector3d& point) {
   const double d = (point - node.centre).norm();
-  return (d - node.radius) - 0x1p-50 * (d + node.radius) - 1e-150;
+  return (d - node.radius) - 0x1p-50 * (d + node.radius) - kDistanceUnderflow;
 }
 
 }  // namespace
 
 void SurfaceQuery::TryLeaf(const SphereNode& leaf, const Vector3d& point, numeric::Interval* best) {
-  work_ += leaf.triangles;
-  for (const std::uint32_t index : tree_.TrianglesOf(leaf)) {
-    std::uint32_t& place = measured_[index % kPlaces];
+  work_ += leaf.elements;
+  for (const ElementIndex index : tree_.ElementsOf(leaf)) {
+    ElementIndex& place = measured_[index.value() % kPlaces];
     if (place == index) continue;
-    const geometry::Triangle& t = mesh_.triangles[index];
+    const geometry::Triangle& t = mesh_.triangles[index.value()];
     const geometry::TriangleCorners corners = {mesh_.vertices[t[0]], mesh_.vertices[t[1]],
                                                mesh_.vertices[t[2]]};
     if (geometry::IsCertainlyFarther(point, corners, best->upper)) continue;
@@ -47,17 +48,17 @@ numeric::Interval SurfaceQuery::DistanceTo(const Vector3d& point, double known_u
   }
   numeric::Interval best(numeric::kInfinity, known_upper);
   heap_.clear();
-  measured_.fill(kNone);
-  heap_.push_back({LowerBound(tree_.root(), point), 0});
+  measured_.fill(ElementIndex::None());
+  heap_.push_back({LowerBound(tree_.root(), point), SphereTree::kRoot});
   while (!heap_.empty() && heap_.front().lower <= best.upper) {
-    const SphereNode& node = tree_.nodes[heap_.front().node];
+    const SphereNode& node = tree_.node(heap_.front().node);
     std::pop_heap(heap_.begin(), heap_.end());
     heap_.pop_back();
     work_ += 1 + node.children;
-    if (node.children == 0) TryLeaf(node, point, &best);
+    if (node.is_leaf()) TryLeaf(node, point, &best);
     for (std::uint32_t i = 0; i < node.children; ++i) {
-      const std::uint32_t child = node.first_child + i;
-      const double lower = LowerBound(tree_.nodes[child], point);
+      const NodeIndex child = node.child(i);
+      const double lower = LowerBound(tree_.node(child), point);
       if (lower > best.upper) continue;
       heap_.push_back({lower, child});
       std::push_heap(heap_.begin(), heap_.end());

@@ -49,7 +49,7 @@ class SurfaceQuery {
  private:
   struct Candidate {
     double lower;
-    std::uint32_t node;
+    NodeIndex node;
     bool operator<(const Candidate& other) const { return lower > other.lower; }
   };
 
@@ -59,15 +59,14 @@ class SurfaceQuery {
   /// place, and a triangle that lost its place is measured again, so the cost of a look-up does not
   /// depend on how many there are.
   static constexpr std::size_t kPlaces = 256;
-  static constexpr std::uint32_t kNone = 0xffffffff;
 
   const geometry::TriangleMesh& mesh_;
   const SphereTree& tree_;
   std::vector<Candidate> heap_;
   std::uint64_t work_ = 0;
-  std::array<std::uint32_t, kPlaces> measured_;
-  std::vector<std::pair<std::uint32_t, int>> passed_;  ///< By the ray: triangles, with their signs.
-  std::vector<std::uint32_t> stack_;
+  std::array<ElementIndex, kPlaces> measured_;
+  std::vector<std::pair<ElementIndex, int>> passed_;  ///< By the ray: triangles, with their signs.
+  std::vector<NodeIndex> stack_;
 };
 
 }  // namespace collision::sphere_tree

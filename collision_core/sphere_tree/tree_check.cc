@@ -54,7 +54,7 @@ std::optional<std::string> RefusalOfNodes(const SphereTree& tree) {
 }
 
 /// The leaves' lists stand one after the other, in the order of the leaves, and each names a
-/// triangle once: so all of them together are no longer than `triangle_indices`.
+/// triangle once: so all of them together are no longer than `elements`.
 std::optional<std::string> RefusalOfTriangles(const SphereTree& tree,
                                               const geometry::TriangleMesh& mesh) {
   std::vector<bool> held(mesh.triangles.size());
@@ -62,26 +62,27 @@ std::optional<std::string> RefusalOfTriangles(const SphereTree& tree,
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const SphereNode& node = tree.nodes[i];
     if (node.children > 0) {
-      if (node.triangles > 0) return At(i, "triangles of its own beside children");
+      if (node.elements > 0) return At(i, "triangles of its own beside children");
       continue;
     }
-    if (node.triangles == 0) return At(i, "a leaf without triangles");
-    if (node.first_triangle != next_triangle) {
+    if (node.elements == 0) return At(i, "a leaf without triangles");
+    if (node.first_element != next_triangle) {
       return At(i, "its triangles do not stand where they belong");
     }
-    if (node.triangles > tree.triangle_indices.size() - next_triangle) {
+    if (node.elements > tree.elements.size() - next_triangle) {
       return At(i, "triangles beyond the last");
     }
     std::size_t least = 0;
-    for (const std::uint32_t triangle : tree.TrianglesOf(node)) {
+    for (const ElementIndex element : tree.ElementsOf(node)) {
+      const std::size_t triangle = element.value();
       if (triangle >= held.size()) return At(i, "a triangle that the mesh does not have");
       if (triangle < least) return At(i, "its triangles do not ascend");
-      least = std::size_t{triangle} + 1;
+      least = triangle + 1;
       held[triangle] = true;
     }
-    next_triangle += node.triangles;
+    next_triangle += node.elements;
   }
-  if (next_triangle != tree.triangle_indices.size()) return "triangles that no leaf has";
+  if (next_triangle != tree.elements.size()) return "triangles that no leaf has";
   for (std::size_t triangle = 0; triangle < held.size(); ++triangle) {
     if (!held[triangle]) return "triangle " + std::to_string(triangle) + " is in no leaf";
   }
@@ -91,7 +92,7 @@ std::optional<std::string> RefusalOfTriangles(const SphereTree& tree,
 }  // namespace
 
 std::optional<std::string> RefusalOf(const SphereTree& tree, const geometry::TriangleMesh& mesh) {
-  const std::size_t nodes = tree.nodes.size(), triangles = tree.triangle_indices.size();
+  const std::size_t nodes = tree.nodes.size(), triangles = tree.elements.size();
   if (nodes == 0 || nodes > kTreeSizeMax || triangles > kTreeSizeMax) {
     return std::to_string(nodes) + " nodes with " + std::to_string(triangles) +
            " triangles; allowed: 1 to " + std::to_string(kTreeSizeMax);

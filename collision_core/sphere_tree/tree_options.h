@@ -13,6 +13,9 @@ enum class TreeBuilder : std::uint8_t {
   kHalved   ///< Quick, until another tree is built: only its first balls are measured.
 };
 
+/// Whether a surface has an inside (MeshFacts::closed).
+enum class SurfaceKind : std::uint8_t { kOpen, kClosed };
+
 /// Options of Shape::Build().
 struct ShapeOptions {
   TreeBuilder builder = TreeBuilder::kOctree;

@@ -6,20 +6,22 @@
 #include "collision_core/geometry/triangle/ray_passage.h"
 #include "collision_core/numeric/rounding.h"
 #include "collision_core/sphere_tree/surface_query.h"
+#include "collision_core/sphere_tree/underflow.h"
 
 namespace collision::sphere_tree {
 namespace {
 
 using Eigen::Vector3d;
 
-/// Whether a line along x through the point may meet the ball, on the side that is asked. The
-/// computed square is off by a relative 5 u, u = 2^−53, r² by u; 1e-290 covers what underflows. The
-/// sum along x is rounded monotonically, to the right side.
-bool RayMayMeet(const SphereNode& node, const Vector3d& point, bool forward) {
+/// Whether a ray from the point along +x (kForward) or −x (kBackward) may meet the ball. The
+/// computed square is off by a relative 5 u, u = 2^−53, r² by u; kSquareUnderflow covers what
+/// underflows. The sum along x is rounded monotonically, to the right side.
+bool RayMayMeet(const SphereNode& node, const Vector3d& point, geometry::Passing side) {
   const double dy = point.y() - node.centre.y(), dz = point.z() - node.centre.z();
   const double r = node.radius;
-  if (dy * dy + dz * dz > r * r * (1 + 0x1p-48) + 1e-290) return false;
-  return forward ? node.centre.x() + r >= point.x() : node.centre.x() - r <= point.x();
+  if (dy * dy + dz * dz > r * r * (1 + 0x1p-48) + kSquareUnderflow) return false;
+  return side == geometry::Passing::kForward ? node.centre.x() + r >= point.x()
+                                             : node.centre.x() - r <= point.x();
 }
 
 }  // namespace
@@ -31,16 +33,16 @@ std::optional<int> SurfaceQuery::WindingNumberAt(const Vector3d& point) {
   const geometry::Passing asked =
       forward ? geometry::Passing::kForward : geometry::Passing::kBackward;
   passed_.clear();
-  stack_.assign(1, 0);
+  stack_.assign(1, SphereTree::kRoot);
   while (!stack_.empty()) {
-    const SphereNode& node = tree_.nodes[stack_.back()];
+    const SphereNode& node = tree_.node(stack_.back());
     stack_.pop_back();
     ++work_;
-    if (!RayMayMeet(node, point, forward)) continue;
-    for (std::uint32_t i = 0; i < node.children; ++i) stack_.push_back(node.first_child + i);
-    work_ += node.triangles;
-    for (const std::uint32_t index : tree_.TrianglesOf(node)) {
-      const geometry::Triangle& t = mesh_.triangles[index];
+    if (!RayMayMeet(node, point, asked)) continue;
+    for (std::uint32_t i = 0; i < node.children; ++i) stack_.push_back(node.child(i));
+    work_ += node.elements;
+    for (const ElementIndex index : tree_.ElementsOf(node)) {
+      const geometry::Triangle& t = mesh_.triangles[index.value()];
       const geometry::RayPassage pass = geometry::PassageOf(
           {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]}, point);
       if (pass.passing == geometry::Passing::kUnknown) return std::nullopt;

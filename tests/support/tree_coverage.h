@@ -27,7 +27,9 @@ class TreeCoverage {
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
       const sphere_tree::SphereNode& node = tree.nodes[i];
       for (std::uint32_t k = 0; k < node.children; ++k) parent_[node.first_child + k] = i;
-      for (const std::uint32_t triangle : tree.TrianglesOf(node)) leaves_of_[triangle].push_back(i);
+      for (const ElementIndex triangle : tree.ElementsOf(node)) {
+        leaves_of_[triangle.value()].push_back(i);
+      }
     }
   }
 

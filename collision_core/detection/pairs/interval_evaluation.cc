@@ -84,11 +84,11 @@ bool EvaluateOne(const History& history_a, const History& history_b, Instant to,
           EvaluateShapeSegment(a, b, duration, times, work);
       times = result.times;
       normal = result.normal;
-      if (tracker->free() && times.free_until < duration && !normal.tells()) {
+      if (tracker->free() && times.free_until < duration && !normal.is_good()) {
         const narrow_phase::ContactNormal before = NormalBefore(history_a, history_b, from, work);
         if (before.known && (!normal.known || before.error < normal.error)) normal = before;
       }
-      if (result.looked) {
+      if (result.examined) {
         nearest = {std::min(numeric::AddRoundedDown(from, result.nearest_at), to), result.nearest,
                    result.exhausted};
       }

@@ -12,7 +12,7 @@
 // themselves. For a drone above such a closed landscape with a coarse tree that takes 12,000 units
 // in the median instead of 70,000, and 50,000 at most instead of 3,100,000. A triangle may stand in
 // several leaves; that two triangles are examined once only, from the time of the first pair of
-// leaves on, is right because of the order (derived at OfferTriangles).
+// leaves on, is right because of the order (derived at OfferElements).
 //
 // One choice of bounds serves a whole sweep, and all of them hold throughout; a sweep ends half-way
 // between two states, where the other bounds become the narrower ones.
@@ -20,6 +20,7 @@
 
 #include "collision_core/base/work_budget.h"
 #include "collision_core/narrow_phase/advancement/swept_pose.h"
+#include "collision_core/narrow_phase/pose/pair_parts.h"
 
 namespace collision::narrow_phase {
 
@@ -34,11 +35,9 @@ struct SweepDetail {
 /// A lower bound on the time at which the two may touch, and where.
 struct ImpactBound {
   double seconds = 0;      ///< +infinity: not within the duration, its end included.
-  bool exhausted = false;  ///< The work allowed is spent: the true time may be later.
-  /// The leaves that may touch first, where the search went down to them.
-  bool resolved = false;
-  std::uint32_t leaf_A = 0;
-  std::uint32_t leaf_B = 0;
+  bool exhausted = false;  ///< The work allowed was spent: the true time may be later.
+  bool resolved = false;   ///< The search went down to two elements.
+  NodePair leaves;         ///< If resolved: the leaves that may touch first; else the roots.
 };
 
 /// Best-first over pairs of nodes by the time at which their moving balls may touch first; two

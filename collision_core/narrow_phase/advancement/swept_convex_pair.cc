@@ -21,7 +21,7 @@ constexpr double kAside = 0x1p-10;
 /// Ends this near to each other are one.
 constexpr double kOneInstant = 0x1p-46;
 
-/// Each evaluation asks four times for a support.
+/// Each evaluation takes four supports.
 constexpr std::uint64_t kGapUnits = 2;
 
 /// Where the set is later; what a direction is sought for need not be exact.

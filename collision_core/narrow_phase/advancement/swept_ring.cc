@@ -189,7 +189,7 @@ class Search {
   }
 
   double Run() {
-    OfferNodes({0, 0}, 0);
+    OfferNodes({}, 0);
     while (!heap_.empty()) {
       const Candidate front = heap_.front();
       if (front.resolved || work_.exhausted()) return front.time;
@@ -203,18 +203,18 @@ class Search {
  private:
   struct Candidate {
     double time;
-    std::uint32_t a, b;
+    NodePair nodes;
     bool resolved;
 
     friend bool operator<(const Candidate& x, const Candidate& y) {
       if (x.time != y.time) return x.time > y.time;
-      return x.a != y.a ? x.a > y.a : x.b > y.b;
+      return x.nodes.a != y.nodes.a ? x.nodes.a > y.nodes.a : x.nodes.b > y.nodes.b;
     }
   };
 
   void Open(const Candidate& pair) {
     const auto offer = [&](NodePair children) { OfferNodes(children, pair.time); };
-    if (!OpenLarger(a_, b_, {pair.a, pair.b}, offer)) OfferParts(pair);
+    if (!OpenLarger(a_, b_, pair.nodes, offer)) OfferParts(pair);
   }
 
   void OfferNodes(NodePair nodes, double parent) {
@@ -222,37 +222,49 @@ class Search {
     const sphere_tree::SphereNode &a = a_.node(nodes.a), &b = b_.node(nodes.b);
     const Part of_a = Part::Ball(a.centre, a.radius);
     const Part of_b = Part::Ball(SeenFromB(b.centre), b.radius);
-    Push({std::max(parent, LowerBoundOfImpact(of_a, of_b)), nodes.a, nodes.b, false});
+    Push({std::max(parent, LowerBoundOfImpact(of_a, of_b)), nodes, false});
   }
 
   // Two leaves are resolved by the earliest of their triangles; where the work ends before all were
   // looked at, by their balls.
   void OfferParts(const Candidate& pair) {
-    const std::vector<Part> of_a = PartsOf(a_, pair.a, false), of_b = PartsOf(b_, pair.b, true);
+    const std::vector<Part> of_a = PartsOfA(pair.nodes.a), of_b = PartsOfB(pair.nodes.b);
     double earliest = numeric::kInfinity;
     for (const Part& a : of_a) {
       for (const Part& b : of_b) {
-        if (work_.exhausted()) return Push({pair.time, pair.a, pair.b, true});
+        if (work_.exhausted()) return Push({pair.time, pair.nodes, true});
         work_.Spend(kTrianglePairUnits);
         earliest = std::min(earliest, LowerBoundOfImpact(a, b));
       }
     }
-    Push({std::max(pair.time, earliest), pair.a, pair.b, true});
+    Push({std::max(pair.time, earliest), pair.nodes, true});
   }
 
   Vector3d SeenFromB(const Vector3d& x_B) const { return swept_.pose.ToA(x_B) - swept_.pose.p_AB; }
 
-  std::vector<Part> PartsOf(const BodyTree& surface, std::uint32_t node, bool is_b) const {
-    if (surface.shape() == nullptr) return {Part::Ball(Vector3d::Zero(), surface.reach())};
+  /// The elements of a leaf of A, or A itself if it is a ball.
+  std::vector<Part> PartsOfA(NodeIndex leaf) const { return PartsOf(a_, leaf); }
+
+  /// The same of B, in the axes of A's body.
+  std::vector<Part> PartsOfB(NodeIndex leaf) const {
+    std::vector<Part> parts = PartsOf(b_, leaf);
+    if (b_.shape() == nullptr) return parts;
+    for (Part& part : parts) {
+      for (int i = 0; i < part.count; ++i) part.corners[i] = SeenFromB(part.corners[i]);
+    }
+    return parts;
+  }
+
+  static std::vector<Part> PartsOf(const BodyTree& body, NodeIndex leaf) {
+    if (body.shape() == nullptr) return {Part::Ball(Vector3d::Zero(), body.reach())};
     std::vector<Part> parts;
-    for (const std::uint32_t t : surface.shape()->tree().TrianglesOf(surface.node(node))) {
+    for (const ElementIndex element : body.shape()->tree().ElementsOf(body.node(leaf))) {
       Part part;
-      if (surface.shape()->IsSolid(t)) {
-        part = Around(surface.shape()->SolidAt(t));
+      if (body.shape()->IsSolid(element)) {
+        part = Around(body.shape()->SolidAt(element));
       } else {
-        for (const Vector3d& corner : CornersOf(*surface.shape(), t)) part.Add(corner);
+        for (const Vector3d& corner : CornersOf(*body.shape(), element)) part.Add(corner);
       }
-      for (int i = 0; is_b && i < part.count; ++i) part.corners[i] = SeenFromB(part.corners[i]);
       parts.push_back(part);
     }
     return parts;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/narrow_phase/pose/time_direction.h"
 #include "collision_core/numeric/first_approach.h"
 
 namespace collision::narrow_phase {
@@ -35,10 +36,10 @@ struct Choice {
 std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
   std::vector<Choice> choices;
   choices.reserve(a.bounds.size() * b.bounds.size());
-  for (const numeric::MovingBall& ball_A : a.bounds) {
-    for (const numeric::MovingBall& ball_B : b.bounds) {
-      choices.push_back({ball_B.centre() - ball_A.centre(), ball_B.velocity - ball_A.velocity,
-                         ball_A.u + ball_B.u, numeric::Interval(a.radius) + b.radius});
+  for (const numeric::MovingBall& ball_a : a.bounds) {
+    for (const numeric::MovingBall& ball_b : b.bounds) {
+      choices.push_back({ball_b.centre() - ball_a.centre(), ball_b.velocity - ball_a.velocity,
+                         ball_a.u + ball_b.u, numeric::Interval(a.radius) + b.radius});
     }
   }
   return choices;
@@ -118,7 +119,7 @@ Contact ContactOf(const Choice& choice, double duration) {
           at_end ? duration : LastCertified(choice, inside, duration, resolution)};
 }
 
-void JudgeContact(const std::vector<Choice>& choices, double duration, SegmentResult& verdict) {
+void FindContact(const std::vector<Choice>& choices, double duration, SegmentResult& result) {
   std::vector<Contact> contacts;
   for (const Choice& choice : choices) {
     const Contact contact = ContactOf(choice, duration);
@@ -127,24 +128,25 @@ void JudgeContact(const std::vector<Choice>& choices, double duration, SegmentRe
   if (contacts.empty()) return;
   std::sort(contacts.begin(), contacts.end(),
             [](const Contact& a, const Contact& b) { return a.from < b.from; });
-  verdict.contact_from = contacts.front().from;
-  verdict.contact_to = contacts.front().to;
+  result.contact_from = contacts.front().from;
+  result.contact_to = contacts.front().to;
   for (const Contact& contact : contacts) {
-    if (contact.from > verdict.contact_to) verdict.contact_continuous = false;
-    verdict.contact_to = std::max(verdict.contact_to, contact.to);
+    if (contact.from > result.contact_to) result.contact_continuous = false;
+    result.contact_to = std::max(result.contact_to, contact.to);
   }
 }
 
 /// From one end of the segment: how far towards the other the two stay apart. The end itself is the
 /// answer if they may touch there at once; ±infinity if they are apart on all of it, both ends
 /// included. A choice that is certified free from where another gave up carries on from there.
-double FreeFrom(const std::vector<Choice>& choices, double duration, bool backward) {
+double FreeFrom(const std::vector<Choice>& choices, double duration, TimeDirection direction) {
+  const bool backward = direction == TimeDirection::kBackward;
   double at = backward ? duration : 0;
   for (int round = 0; round < kRoundsMax; ++round) {
     double step = 0;
     for (const Choice& choice : choices) {
       const numeric::Quadratic reach = numeric::Quadratic{choice.radii, 0, 0} + choice.u;
-      const numeric::Quadratic seen = backward ? reach.BackwardFrom(at) : reach.From(at);
+      const numeric::Quadratic seen = From(reach, at, direction);
       const numeric::MovingBall difference{choice.d0, numeric::Interval(at) * choice.w,
                                            backward ? numeric::Interval(-1) * choice.w : choice.w,
                                            0, seen};
@@ -213,9 +215,9 @@ std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSe
   if (!(duration > 0)) return std::nullopt;
   const double radii = a.radius + b.radius;
   bool touches = false;
-  for (const numeric::MovingBall& ball_A : a.bounds) {
-    for (const numeric::MovingBall& ball_B : b.bounds) {
-      const Ends ends = EndsOf(ball_A, ball_B, duration);
+  for (const numeric::MovingBall& ball_a : a.bounds) {
+    for (const numeric::MovingBall& ball_b : b.bounds) {
+      const Ends ends = EndsOf(ball_a, ball_b, duration);
       const double sum = radii + ends.magnitude;
       if (!(sum > kSmallest && sum < kLargest)) return std::nullopt;
       const double margin = kMargin * sum;
@@ -229,20 +231,20 @@ std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSe
     }
   }
   if (!touches) return std::nullopt;
-  SegmentResult verdict;
-  verdict.free_until = 0;
-  verdict.contact_from = 0;
-  verdict.contact_to = verdict.free_from = duration;
-  return verdict;
+  SegmentResult result;
+  result.free_until = 0;
+  result.contact_from = 0;
+  result.contact_to = result.free_from = duration;
+  return result;
 }
 
 SegmentResult EvaluateBallSegment(const BallSegment& a, const BallSegment& b, double duration) {
   const std::vector<Choice> choices = ChoicesOf(a, b);
-  SegmentResult verdict;
-  JudgeContact(choices, duration, verdict);
-  verdict.free_until = FreeFrom(choices, duration, false);
-  verdict.free_from = FreeFrom(choices, duration, true);
-  return verdict;
+  SegmentResult result;
+  FindContact(choices, duration, result);
+  result.free_until = FreeFrom(choices, duration, TimeDirection::kForward);
+  result.free_from = FreeFrom(choices, duration, TimeDirection::kBackward);
+  return result;
 }
 
 SeparationAt EvaluateBallsAt(const BallSegment& a, const BallSegment& b, double delta) {

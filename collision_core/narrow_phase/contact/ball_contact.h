@@ -42,10 +42,10 @@ struct SegmentResult {
 /// its end hold at the exact end too. Works with duration 0 (an instant).
 SegmentResult EvaluateBallSegment(const BallSegment& a, const BallSegment& b, double duration);
 
-/// The verdict of EvaluateBallSegment(), bit for bit, where a few operations in plain doubles show
-/// that the two balls touch throughout; else nullopt. Balls that overlap deeply for long are judged
-/// again and again: touching is certain at both ends and no choice of bounds starts free, which is
-/// seen here with a margin derived beside the code, at a tenth of the cost.
+/// The result of EvaluateBallSegment(), bit for bit, where a few operations in plain doubles show
+/// that the two balls touch throughout; else nullopt. Balls that overlap deeply for long are
+/// evaluated again and again: touching is certain at both ends and no choice of bounds starts free,
+/// which is seen here with a margin derived beside the code, at a tenth of the cost.
 std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSegment& b,
                                               double duration);
 

@@ -12,7 +12,7 @@ constexpr double kStallShare = 0.125;
 // Nor do steps of a few units in the last place.
 constexpr double kStallRounding = 0x1p-51;
 
-// Contact is looked for half of the tolerance after the last certain freedom, and so many times
+// Contact is searched half of the tolerance after the last certain freedom, and so many times
 // farther each time.
 constexpr double kFirstShare = 0.5;
 constexpr double kStepGrowth = 4;
@@ -20,19 +20,19 @@ constexpr double kStepGrowth = 4;
 // It is not narrowed further where that would make the bracket narrower by less than this share.
 constexpr double kWorthNarrowing = 0.0625;
 
-// Looks at everything begin at this share of what is left.
+// Queries of the whole bodies begin at this share of what is left.
 constexpr double kThoroughShare = 1e-6;
 
 // Beyond where freedom was interrupted they begin at this share of the way there: interruptions may
-// follow each other, and are not to be followed one by one. Sooner only what may touch first is
-// asked.
+// follow each other, and are not to be followed one by one. Before that only what may touch first
+// is queried.
 constexpr double kIslandShare = 0.0625;
 
-// What may show contact is all tried at first, then the best of it only.
+// All candidates are tried at first, then only so many of the best.
 constexpr std::size_t kCandidatesKept = 4;
 
-// To ask what bodies sweep in all their turns costs as much as the sweeps since it was last asked,
-// and this at least.
+// A query of what the bodies sweep in all their turns may cost as much as the sweeps since the last
+// such query, and this at least.
 constexpr std::uint64_t kRevolveUnits = 4096;
 
 // A contact that begins deepens, so that it lasts about twice as long at each step.
@@ -61,7 +61,7 @@ bool ContactBoundary::Exhausted() {
   return work_.exhausted();
 }
 
-// Asked after one sweep, and if that leads no further than a sweep does, after two more, four, …
+// Queried after one sweep, and if it leads no further than a sweep does, after two more, four, …
 double ContactBoundary::RevolvedFrom(double at, double left, double span, Turns* turns) const {
   if (++turns->sweeps < turns->wait) return 0;
   const std::uint64_t units = std::max(kRevolveUnits, work_.spent() - turns->spent);
@@ -91,7 +91,7 @@ double ContactBoundary::FreeFrom(double at) {
     if (!sweep.known) return at;
     touch_ = sweep.touch;
     any_way_ = std::max(sweep.pose.chord_A, sweep.pose.chord_B) >= kAnyWay;
-    // The insides need to be asked once: later they are apart continuously.
+    // Containment is tested once: later the surfaces stay apart, so nothing gets inside.
     if (!asked_inside && touch_.seconds > 0) {
       asked_inside = true;
       nested_ = !motion_.NeitherInside(sweep.pose);
@@ -109,8 +109,8 @@ double ContactBoundary::FreeFrom(double at) {
   return at;
 }
 
-// Remembers what an instant tells; does it tell of contact?
-bool ContactBoundary::Note(const ShapeMotion::PoseQuery& instance) {
+// Records a query; returns whether it shows contact.
+bool ContactBoundary::Record(const ShapeMotion::PoseQuery& instance) {
   if (!instance.choice.certain) return false;
   nearest_ = std::min(
       nearest_, std::max(0.0, numeric::AddUp(instance.bracket.upper, instance.pose.translation)));
@@ -121,7 +121,7 @@ bool ContactBoundary::TouchesByCandidates(double at) {
   std::vector<std::pair<double, std::size_t>> by_depth;
   for (std::size_t i = 0; i < candidates_.size() && !Exhausted(); ++i) {
     const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, candidates_[i]);
-    if (Note(instance)) {
+    if (Record(instance)) {
       std::rotate(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(i),
                   candidates_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       return true;
@@ -141,19 +141,18 @@ bool ContactBoundary::TouchesByCandidates(double at) {
 bool ContactBoundary::Touches(double at, Scope scope) {
   apart_ = false;
   if (TouchesByCandidates(at)) return true;
-  const ContactWitness leaves{ContactWitness::Kind::kLeaves, touch_.leaf_A, touch_.leaf_B};
+  const ContactWitness leaves = ContactWitness::Leaves(touch_.leaves);
   for (const ContactWitness& witness : {touch_.resolved ? leaves : ContactWitness{}, witness_}) {
-    if (witness.kind == ContactWitness::Kind::kNone || Exhausted()) continue;
-    if (Note(motion_.RecheckWitness(at, witness))) return true;
+    if (witness.is_none() || Exhausted()) continue;
+    if (Record(motion_.RecheckWitness(at, witness))) return true;
   }
   if (scope == Scope::kLikely || Exhausted()) return false;
   ShapeMotion::PoseQuery instance =
       motion_.QuerySeparation(at, Goal::kYesNo, touch_.resolved ? leaves : ContactWitness{});
   if (nested_) motion_.CheckContainment(&instance);
   exhausted_ = exhausted_ || instance.bracket.exhausted;
-  if (Note(instance)) {
-    if (instance.bracket.witness.kind != ContactWitness::Kind::kNone)
-      witness_ = instance.bracket.witness;
+  if (Record(instance)) {
+    if (!instance.bracket.witness.is_none()) witness_ = instance.bracket.witness;
     return true;
   }
   apart_ = !nested_ && instance.apart();
@@ -189,7 +188,7 @@ double ContactBoundary::Towards(double until, double from, double step) const {
   return is_backward() ? std::max(until, from - step) : std::min(until, from + step);
 }
 
-// By what may touch first only.
+// Contact by queries of what may touch first only.
 std::optional<double> ContactBoundary::QuickContact(double free, double until) {
   double before = free;
   for (double step = FirstStep(free, until); !Exhausted(); step *= kStepGrowth) {
@@ -201,8 +200,8 @@ std::optional<double> ContactBoundary::QuickContact(double free, double until) {
   return std::nullopt;
 }
 
-// By looks at everything. Where one tells that the two are apart again, however little they were
-// not before, it goes on from where that freedom ends.
+// Contact by queries of the whole bodies. Where one shows that the two are apart again, however
+// short the interruption was, the search goes on from where that freedom ends.
 std::optional<double> ContactBoundary::ThoroughContact(double free, double until) {
   double from = free, before = free;
   double thorough = kThoroughShare * std::abs(until - free);

@@ -40,14 +40,17 @@ class ContactBoundary {
   /// candidate that showed it.
   double LastsFrom(double touching, double until) const;
 
-  bool nested() const { return nested_; }  ///< One body may be inside the other: never apart.
-  const ImpactBound& touch() const { return touch_; }  ///< What ended the last FreeFrom().
-  bool exhausted() const { return exhausted_; }        ///< The budget ended something early.
-  double nearest() const { return nearest_; }  ///< The bodies certainly come as near as this [m].
-  bool uncertain() const {
-    return uncertain_;
-  }  ///< The pose, by more than rounding, at the end of FreeFrom().
-  /// The orientation of one body was unknown there; more work does not help.
+  /// Whether one body may be inside the other: then no instant is certified free.
+  bool nested() const { return nested_; }
+  /// The sweep that ended the last FreeFrom().
+  const ImpactBound& touch() const { return touch_; }
+  /// Whether the budget ended a step early.
+  bool exhausted() const { return exhausted_; }
+  /// The bodies certainly come as near as this [m].
+  double nearest() const { return nearest_; }
+  /// Whether the pose where FreeFrom() ended is uncertain by more than rounding.
+  bool uncertain() const { return uncertain_; }
+  /// Whether the orientation of a body was unknown there; more work does not help.
   bool any_way() const { return any_way_; }
 
  private:
@@ -71,7 +74,7 @@ class ContactBoundary {
   // A sweep refines nearly down to the uncertainty of the motion, as far as tangents serve.
   static constexpr SweepDetail kFineDetail{.fine_enough = 0.03125, .step_worth = 1e-6};
 
-  // How often SweptRingBound() was asked, and what it cost.
+  // When SweptRingBound() is evaluated next: after `wait` sweeps; what it had cost until then.
   struct Turns {
     int sweeps = 0, wait = 1;
     std::uint64_t spent = 0;
@@ -85,7 +88,7 @@ class ContactBoundary {
   bool Exhausted();
   bool Touches(double at, Scope scope);
   bool TouchesByCandidates(double at);
-  bool Note(const ShapeMotion::PoseQuery& instance);
+  bool Record(const ShapeMotion::PoseQuery& instance);
   double Narrow(double apart, double touching, double free, Scope scope);
   void Prepare(double free);
   double FirstStep(double free, double until) const;

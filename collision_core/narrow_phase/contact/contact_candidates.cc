@@ -13,10 +13,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Pairs of triangles that are near enough, and of such that are looked at, at most. Where large
-// faces lie on each other many are; any two of them show what is needed.
+// The most pairs of elements that are near enough, and the most that are measured. Where large
+// faces lie on each other many are near; any two of them show what is needed.
 constexpr std::size_t kPairsMax = 64;
-constexpr std::size_t kLooksMax = 1024;
+constexpr std::size_t kMeasuredMax = 1024;
 
 // Of each kind, for either body.
 constexpr std::size_t kKept = 2;
@@ -68,9 +68,9 @@ double LengthOf(const std::vector<Vector3d>& points) {
   return length;
 }
 
-class Patch {
+class CandidateSearch {
  public:
-  Patch(const PosedPair& pair, double within, WorkBudget* work)
+  CandidateSearch(const PosedPair& pair, double within, WorkBudget* work)
       : a_(pair.a),
         b_(pair.b),
         pose_(pair.pose),
@@ -78,10 +78,11 @@ class Patch {
         level_(kLevel * (a_.reach() + b_.reach() + pose_.p_AB.norm())),
         work_(*work) {}
 
-  std::vector<ContactCandidate> Run(std::uint32_t leaf_A, std::uint32_t leaf_B) {
-    if (IsLeafPair(leaf_A, leaf_B)) Leaves(leaf_A, leaf_B);
-    stack_.push_back({0, 0});
-    while (!stack_.empty() && pairs_ < kPairsMax && looks_ < kLooksMax && !work_.exhausted()) {
+  std::vector<ContactCandidate> Run(NodePair first) {
+    if (a_.node(first.a).is_leaf() && b_.node(first.b).is_leaf()) Leaves(first);
+    stack_.push_back({});
+    while (!stack_.empty() && pairs_ < kPairsMax && measured_ < kMeasuredMax &&
+           !work_.exhausted()) {
       const NodePair nodes = stack_.back();
       stack_.pop_back();
       Visit(nodes);
@@ -90,55 +91,51 @@ class Patch {
   }
 
  private:
-  bool IsLeafPair(std::uint32_t i, std::uint32_t j) const {
-    return a_.node(i).children == 0 && b_.node(j).children == 0;
-  }
-
   void Visit(NodePair nodes) {
     work_.Spend(1);
     const sphere_tree::SphereNode &a = a_.node(nodes.a), &b = b_.node(nodes.b);
     if ((pose_.ToA(b.centre) - a.centre).norm() - a.radius - b.radius > within_) return;
     const auto keep = [&](NodePair children) { stack_.push_back(children); };
-    if (!OpenLarger(a_, b_, nodes, keep)) Leaves(nodes.a, nodes.b);
+    if (!OpenLarger(a_, b_, nodes, keep)) Leaves(nodes);
   }
 
-  void Leaves(std::uint32_t i, std::uint32_t j) {
-    for (const std::uint32_t s : a_.shape()->tree().TrianglesOf(a_.node(i))) {
-      for (const std::uint32_t t : b_.shape()->tree().TrianglesOf(b_.node(j))) {
+  void Leaves(NodePair leaves) {
+    for (const ElementIndex s : a_.shape()->tree().ElementsOf(a_.node(leaves.a))) {
+      for (const ElementIndex t : b_.shape()->tree().ElementsOf(b_.node(leaves.b))) {
         if (work_.exhausted()) return;
-        AnySolid(a_, s, b_, t) ? Solids(s, t) : Triangles(s, t);
+        AnySolid(a_, b_, {s, t}) ? Solids({s, t}) : Triangles({s, t});
       }
     }
   }
 
-  void Triangles(std::uint32_t s, std::uint32_t t) {
-    const BoxedTriangle of_a(s, CornersOf(*a_.shape(), s));
-    const BoxedTriangle of_b(t, CornersOf(*b_.shape(), t, pose_));
+  void Triangles(ElementPair pair) {
+    const BoxedTriangle of_a(pair.a, CornersOf(*a_.shape(), pair.a));
+    const BoxedTriangle of_b(pair.b, CornersOf(*b_.shape(), pair.b, pose_));
     work_.Spend(kBoxPairUnits);
     if (BoxDistance(of_a, of_b) > within_) return;
-    if (!seen_.insert({s, t}).second) return;
-    ++looks_;
+    if (!seen_.insert(pair).second) return;
+    ++measured_;
     work_.Spend(kTrianglePairUnits);
     if (geometry::DistanceOf(of_a.corners, of_b.corners).distance.lower > within_) return;
     ++pairs_;
-    FaceOn(of_a.corners, of_b.corners, true);
-    FaceOn(of_b.corners, of_a.corners, false);
+    FaceOn(PairMember::kA, of_a.corners, of_b.corners);
+    FaceOn(PairMember::kB, of_b.corners, of_a.corners);
   }
 
-  void Solids(std::uint32_t s, std::uint32_t t) {
-    if (!seen_.insert({s, t}).second) return;
-    ++looks_;
+  void Solids(ElementPair pair) {
+    if (!seen_.insert(pair).second) return;
+    ++measured_;
     geometry::GjkHint none;
     const ConvexSeparation found =
-        SeparationOf(PosedA(SetOf(a_, s), pose_), PosedB(SetOf(b_, t), pose_),
+        SeparationOf(PosedA(SetOf(a_, pair.a), pose_), PosedB(SetOf(b_, pair.b), pose_),
                      {ConvexGoal::kDistance, 0, within_ / 2}, &none, &work_);
     if (found.separation.lower > within_) return;
     ++pairs_;
-    solids_.push_back({{}, {ContactWitness::Kind::kTriangles, s, t}});
+    solids_.push_back({{}, ContactWitness::Elements(pair)});
   }
 
-  void Keep(Kind kind, bool of_A, const Vector3d& x, double extent) {
-    std::vector<Proposal>& list = proposals_[kind][of_A ? 0 : 1];
+  void Keep(Kind kind, PairMember body, const Vector3d& x, double extent) {
+    std::vector<Proposal>& list = proposals_[kind][body == PairMember::kA ? 0 : 1];
     for (Proposal& other : list) {
       if ((other.x - x).norm() > level_) continue;
       other.extent = std::max(other.extent, extent);
@@ -152,7 +149,8 @@ class Patch {
 
   // What of one triangle stands over the other, where it is the nearest to its plane; of edges that
   // meet the point or the part where they do, since what stands over the rim counts.
-  void FaceOn(const geometry::TrianglePoints& t, const geometry::TrianglePoints& base, bool of_A) {
+  void FaceOn(PairMember body, const geometry::TrianglePoints& t,
+              const geometry::TrianglePoints& base) {
     const Vector3d n = (base[1] - base[0]).cross(base[2] - base[0]).normalized();
     if (!(n.norm() > 0.5)) return;
     std::vector<Vector3d> polygon(t.begin(), t.end());
@@ -169,7 +167,7 @@ class Patch {
     }
     const double area = AreaOf(low), length = LengthOf(low);
     const Kind kind = area > level_ * length ? kFace : length > 4 * level_ ? kEdge : kCorner;
-    Keep(kind, of_A, MeanOf(low), kind == kFace ? area : length);
+    Keep(kind, body, MeanOf(low), kind == kFace ? area : length);
   }
 
   std::vector<ContactCandidate> Best() {
@@ -191,9 +189,9 @@ class Patch {
   const double within_;
   const double level_;
   WorkBudget& work_;
-  std::size_t pairs_ = 0, looks_ = 0;
+  std::size_t pairs_ = 0, measured_ = 0;
   std::vector<NodePair> stack_;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> seen_;
+  std::set<ElementPair> seen_;
   std::vector<ContactCandidate> solids_;
   std::vector<Proposal> proposals_[kKinds][2];
 };
@@ -201,13 +199,12 @@ class Patch {
 }  // namespace
 
 std::vector<ContactCandidate> FindContactCandidates(const PosedPair& pair, double within,
-                                                    std::uint32_t leaf_A, std::uint32_t leaf_B,
-                                                    WorkBudget* work) {
+                                                    NodePair first, WorkBudget* work) {
   const BodyTree &a = pair.a, &b = pair.b;
   if (a.shape() == nullptr || b.shape() == nullptr) return {};
   const bool any_solids = !a.shape()->solids().empty() || !b.shape()->solids().empty();
   if (!a.shape()->closed() && !b.shape()->closed() && !any_solids) return {};
-  return Patch(pair, within, work).Run(leaf_A, leaf_B);
+  return CandidateSearch(pair, within, work).Run(first);
 }
 
 }  // namespace collision::narrow_phase

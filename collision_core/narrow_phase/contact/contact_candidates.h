@@ -10,9 +10,9 @@ namespace collision::narrow_phase {
 /// involved, two elements.
 struct ContactCandidate {
   SolidPoint point;
-  ContactWitness pair;  ///< Kind::kTriangles: two elements; kNone: the point counts.
+  ContactWitness pair;  ///< Kind::kElements: two elements; kNone: the point counts.
 
-  bool is_pair() const { return pair.kind != ContactWitness::Kind::kNone; }
+  bool is_pair() const { return !pair.is_none(); }
 };
 
 /// Proposes points of either body at which the two are within `within` [m] of each other at this
@@ -20,11 +20,10 @@ struct ContactCandidate {
 /// all pairs of elements that are so near and of which one is a convex solid. The proposals are
 /// made in plain doubles; UpperBy() certifies them, so that a bad one does no harm.
 ///
-/// Returns a few points of each kind, the widest first. The search begins at the leaves `leaf_A`
-/// and `leaf_B`. If one of the bodies is a ball there are no candidates, because a ball and an
+/// Returns a few points of each kind, the widest first. The search begins at `first` if
+/// both are leaves. If one of the bodies is a ball there are no candidates, because a ball and an
 /// element are measured exactly.
 std::vector<ContactCandidate> FindContactCandidates(const PosedPair& pair, double within,
-                                                    std::uint32_t leaf_A, std::uint32_t leaf_B,
-                                                    WorkBudget* work);
+                                                    NodePair first, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

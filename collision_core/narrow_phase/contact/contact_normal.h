@@ -14,8 +14,8 @@ struct ContactNormal {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Unit, from A to B, in the world.
   double error = 0;                                  ///< The true one is within this [rad].
 
-  /// The error is good enough; else an earlier instant is evaluated as well.
-  bool tells() const { return known && error < kGoodNormal; }
+  /// Whether the error is small enough; else an earlier instant is evaluated as well.
+  bool is_good() const { return known && error < kGoodNormal; }
 };
 
 }  // namespace collision::narrow_phase

@@ -8,15 +8,17 @@ namespace {
 
 using PoseQuery = ShapeMotion::PoseQuery;
 
-// Covers a dozen roundings of a result, each 2^-53 of it, a thousand times over.
+// Covers a dozen roundings of a result, each 2^-53 of it, several hundred times over.
 constexpr double kRounding = 1e-12;
 
 // The rounding of the directions that are compared and turned into the world [rad]: a few dozen
 // units of 2^-53.
 constexpr double kDirectionRounding = 1e-12;
 
-// The rounding of a point's distance from the reference point [m]: 2.5 · 2^-53 of that distance, so
-// enough up to 3 km.
+// What rounding may have taken from the computed |x| of a point of A in A's body frame [m]: at most
+// 2.5 · 2^-53 |x|, which is less than this for |x| < 3.6 km. That is the distance from A's
+// reference point, not from the origin of the world. For larger bodies the error of an event's
+// point may be stated too small by 2.5 · 2^-53 of the part that turning contributes, chord_A |x|.
 constexpr double kLengthRounding = 1e-12;
 
 // A bound on the angle whose sine is x: the tangent is no smaller, and where x is near 1, so that
@@ -95,7 +97,7 @@ Proximity ProximityFrom(const PoseQuery& instance, const ShapeMotion& motion, do
       numeric::AddUp(pose.translation,
                      numeric::MultiplyUp(pose.chord_A,
                                          numeric::AddUp(bracket.point.norm(), kLengthRounding))));
-  // A guess, and told as one.
+  // A guess: normal_error stays π.
   const Eigen::Vector3d between = pose.R_WA * pose.p_AB;
   if (between.norm() > 0) proximity.normal = between.normalized();
   proximity.level = bracket.level;

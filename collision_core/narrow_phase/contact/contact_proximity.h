@@ -1,4 +1,4 @@
-// What an event tells of one instant, from the separation query at that instant.
+// What an event reports of one instant, from the separation query at that instant.
 #pragma once
 
 #include "collision_core/narrow_phase/contact/contact_normal.h"

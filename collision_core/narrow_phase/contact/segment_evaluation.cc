@@ -16,8 +16,9 @@ constexpr double kResolution = 1e-6;
 // Contact that is certain for less than this share of the segment is followed no further.
 constexpr double kShortestStep = 1e-10;
 
-// The direction is told where the gap is this many times what is uncertain, if there is such an
-// instant: nearer it is not known, farther it is of another time. DeviationOf() makes it 0.19 rad.
+// The direction is taken where the gap is this many times what is uncertain, if there is such an
+// instant: nearer it is not known, farther it is that of another time. DeviationOf() makes it 0.19
+// rad.
 constexpr double kTellingGap = 128;
 
 // At least so long before the first possible touch, as a share of the segment.
@@ -26,8 +27,8 @@ constexpr double kNormalBefore = 1e-3;
 // An instant whose pose is so many times better known is preferred, though it is earlier.
 constexpr double kMuchBetter = 16;
 
-// Contact is looked for from this share of the segment after the last certain freedom on, and when
-// it is found between two looks, so often half-way between them.
+// Contact is searched from this share of the segment after the last certain freedom on, and when it
+// is found between two queries, so often half-way between them.
 constexpr double kFirstStep = 1e-4;
 constexpr double kStepGrowth = 4;
 constexpr int kHalvings = 5;
@@ -41,7 +42,7 @@ constexpr double kFallenShort = 0.25;
 constexpr int kSearchDepth = 8;
 
 // Contact that is found so much later than what is not known of the motion explains, and by more
-// than this share of the segment, is looked for again, by points near where the two touch first.
+// than this share of the segment, is searched again, by points near where the two touch first.
 constexpr double kLate = 4;
 constexpr double kLateShare = 1e-5;
 constexpr double kFineShare = 1e-9;
@@ -94,7 +95,7 @@ ContactNormal SegmentEvaluation::Normal() {
   const double back = std::max(kNormalBefore * duration_, gap / motion_.SpeedAt(end));
   const double before = std::max(approach_->from, approach_->to - back);
   const ContactNormal near = NormalOf(motion_.QuerySeparation(before, Goal::kNearest, leaves_));
-  if (near.tells() || before == approach_->from || work_.exhausted()) return near;
+  if (near.is_good() || before == approach_->from || work_.exhausted()) return near;
   const ContactNormal far =
       NormalOf(motion_.QuerySeparation(approach_->from, Goal::kNearest, leaves_));
   return far.known && (!near.known || far.error < near.error) ? far : near;
@@ -129,14 +130,14 @@ void SegmentEvaluation::SharpenEnd(double free, double until, TimeDirection dire
 }
 
 void SegmentEvaluation::Remember(const ImpactBound& touch, double start, double at) {
-  if (touch.resolved) leaves_ = {ContactWitness::Kind::kLeaves, touch.leaf_A, touch.leaf_B};
+  if (touch.resolved) leaves_ = ContactWitness::Leaves(touch.leaves);
   if (at > start) approach_ = Approach{start, at};
 }
 
 // The leaves that may touch first are likely to: when do their triangles cross for certain? At f,
 // where contact goes on from before; else at growing distances from it, then nearer by halves.
 bool SegmentEvaluation::FollowLeaves(double f, double g, SegmentResult* times) {
-  if (leaves_.kind == ContactWitness::Kind::kNone || Exhausted()) return false;
+  if (leaves_.is_none() || Exhausted()) return false;
   witness_ = {};
   const auto touches = [&](double place) {
     const PoseQuery instance = motion_.RecheckWitness(place, leaves_);
@@ -180,7 +181,8 @@ bool SegmentEvaluation::TryContact(double f, double g, double place, SegmentResu
   return true;
 }
 
-// Both advances end where contact is looked for first.
+// Queries one instant. Both advances end where contact is searched first, so the last query from
+// either side is kept.
 ShapeMotion::PoseQuery& SegmentEvaluation::QueryAt(double at, TimeDirection direction) {
   const bool backward = direction == TimeDirection::kBackward;
   std::optional<PoseQuery>& last = backward ? last_backward_ : last_forward_;
@@ -192,7 +194,7 @@ ShapeMotion::PoseQuery& SegmentEvaluation::QueryAt(double at, TimeDirection dire
 }
 
 // How far contact is certain from here on, without a gap. What makes it certain at one instant is
-// looked at again at the next; where that falls short something else is looked for.
+// tested again at the next; where that falls short another witness is searched.
 double SegmentEvaluation::Extend(double at, TimeDirection direction) {
   const bool backward = direction == TimeDirection::kBackward;
   ContactWitness witness = witness_;

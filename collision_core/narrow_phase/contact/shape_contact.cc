@@ -10,23 +10,23 @@ namespace {
 
 using PoseQuery = ShapeMotion::PoseQuery;
 
-// Of the work that is left: for all that is about times, so that something remains for the depth;
-// in there for how long the two are free from the start, then from the end, then for the direction
-// in which they came near; the rest is for contact.
+// Shares of the work that is left: for all times, so that something remains for the depth; within
+// it for how long the two are free from the start, then from the end, then for the direction in
+// which they approach; the rest is for contact.
 constexpr double kTimesShare = 0.9;
 constexpr double kForwardShare = 0.4;
 constexpr double kBackwardShare = 0.3;
 constexpr double kDirectionShare = 0.6;
 
-// When, and the direction before; what is told of an instant is left.
+// The times of freedom and contact, and the normal before; the caller adds the proximity.
 ShapeSegmentResult EvaluateTimes(double duration, const SegmentResult& balls,
                                  SegmentEvaluation* evaluation, WorkBudget* work) {
-  ShapeSegmentResult verdict;
-  SegmentResult& times = verdict.times;
+  ShapeSegmentResult result;
+  SegmentResult& times = result.times;
   if (balls.free_until == numeric::kInfinity || balls.free_from == -numeric::kInfinity) {
     times.free_until = numeric::kInfinity;
     times.free_from = -numeric::kInfinity;
-    return verdict;
+    return result;
   }
   const double from = std::max(0.0, balls.free_until);
   times.free_until = [&] {
@@ -36,7 +36,7 @@ ShapeSegmentResult EvaluateTimes(double duration, const SegmentResult& balls,
   if (balls.free_until < 0 && times.free_until == from) times.free_until = balls.free_until;
   if (times.free_until == numeric::kInfinity) {
     times.free_from = -numeric::kInfinity;
-    return verdict;
+    return result;
   }
   const double until = std::min(duration, balls.free_from);
   times.free_from = [&] {
@@ -45,22 +45,22 @@ ShapeSegmentResult EvaluateTimes(double duration, const SegmentResult& balls,
   }();
   if (times.free_from == -numeric::kInfinity) {  // the same from the other side
     times.free_until = numeric::kInfinity;
-    return verdict;
+    return result;
   }
   if (times.free_from < times.free_until) {  // the two advances met
     times.free_until = numeric::kInfinity;
     times.free_from = -numeric::kInfinity;
-    return verdict;
+    return result;
   }
   times.free_until = std::min(times.free_until, numeric::NextDown(duration));
   {
     const WorkShare share(kDirectionShare, work);
-    verdict.normal = evaluation->Normal();
+    result.normal = evaluation->Normal();
   }
   evaluation->FindContact(std::max(0.0, times.free_until), times.free_from, &times);
   evaluation->Sharpen(std::max(0.0, times.free_until), times.free_from, &times);
   evaluation->QueryOnce(std::max(0.0, times.free_until));
-  return verdict;
+  return result;
 }
 
 }  // namespace
@@ -68,19 +68,19 @@ ShapeSegmentResult EvaluateTimes(double duration, const SegmentResult& balls,
 ShapeSegmentResult EvaluateShapeSegment(const BodySegment& a, const BodySegment& b, double duration,
                                         const SegmentResult& balls, WorkBudget* work) {
   SegmentEvaluation evaluation(a, b, duration, work);
-  ShapeSegmentResult verdict = [&] {
+  ShapeSegmentResult result = [&] {
     const WorkShare share(kTimesShare, work);
     return EvaluateTimes(duration, balls, &evaluation, work);
   }();
-  verdict.exhausted = evaluation.exhausted();
+  result.exhausted = evaluation.exhausted();
   if (evaluation.nearest()) {
-    verdict.looked = true;
-    verdict.nearest_at = evaluation.nearest()->at;
-    verdict.nearest = evaluation.NearestProximity();
-    const bool contact = verdict.times.contact_from <= verdict.times.contact_to;
-    if (!contact && evaluation.exhausted()) verdict.nearest.limited_by = EventLimit::kBudget;
+    result.examined = true;
+    result.nearest_at = evaluation.nearest()->at;
+    result.nearest = evaluation.NearestProximity();
+    const bool contact = result.times.contact_from <= result.times.contact_to;
+    if (!contact && evaluation.exhausted()) result.nearest.limited_by = EventLimit::kBudget;
   }
-  return verdict;
+  return result;
 }
 
 double FreeAhead(const BodySegment& a, const BodySegment& b, double from, double duration,

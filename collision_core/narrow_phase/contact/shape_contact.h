@@ -35,13 +35,13 @@ struct ShapeSegmentResult {
   ContactNormal normal;    ///< From the last instant before `times.free_until` with a good normal.
   bool exhausted = false;  ///< The work ended before everything was examined.
   /// The instant, of those examined, with the least upper bound of the distance.
-  bool looked = false;
+  bool examined = false;  ///< An instant was examined: `nearest_at` and `nearest` are set.
   double nearest_at = 0;
   Proximity nearest;
 };
 
-/// Judges [0, duration] within what the balls leave open (`balls`: the verdict on the two balls).
-/// Conservative advancement as described at the head of this file. Requires that neither is
+/// Evaluates [0, duration] within what the balls leave open (`balls`: the result for the two
+/// balls). Conservative advancement as described at the head of this file. Requires that neither is
 /// awaited.
 ShapeSegmentResult EvaluateShapeSegment(const BodySegment& a, const BodySegment& b, double duration,
                                         const SegmentResult& balls, WorkBudget* work);

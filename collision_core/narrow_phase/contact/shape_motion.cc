@@ -137,8 +137,8 @@ std::vector<ContactCandidate> ShapeMotion::CandidatesAt(double at, const ImpactB
   if (!instance.choice.certain) return {};
   const double size = surface_a_.reach() + surface_b_.reach();
   const double within = kPatchReach * size + kPatchBeyond * instance.uncertainty;
-  return FindContactCandidates({surface_a_, surface_b_, instance.pose}, within, touch.leaf_A,
-                               touch.leaf_B, &work_);
+  return FindContactCandidates({surface_a_, surface_b_, instance.pose}, within, touch.leaves,
+                               &work_);
 }
 
 double ShapeMotion::DepthAtMost(const PoseQuery& instance) const {
@@ -158,25 +158,25 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
   work_.Spend(kPoseUnits);
   SweptPose swept;
   swept.pose = PoseAt(a_, b_, choice, from.at);
-  const numeric::MovingBall& ball_A = a_.ball.bounds[choice.of_A];
-  const numeric::MovingBall& ball_B = b_.ball.bounds[choice.of_B];
-  const numeric::IntervalVector velocity = ball_B.velocity - ball_A.velocity;
+  const numeric::MovingBall& ball_a = a_.ball.bounds[choice.of_a];
+  const numeric::MovingBall& ball_b = b_.ball.bounds[choice.of_b];
+  const numeric::IntervalVector velocity = ball_b.velocity - ball_a.velocity;
   const double sign = from.direction == TimeDirection::kBackward ? -1 : 1;
   const auto seen = [&](const Eigen::Vector3d& v) {
     return Eigen::Vector3d(sign * swept.pose.R_WA.transpose() * v);
   };
   swept.velocity = seen(velocity.middle());
-  if (a_.shape) swept.spin_A = seen(a_.turns[choice.of_A].w_WB);
-  if (b_.shape) swept.spin_B = seen(b_.turns[choice.of_B].w_WB);
+  if (a_.shape) swept.spin_A = seen(a_.turns[choice.of_a].w_WB);
+  if (b_.shape) swept.spin_B = seen(b_.turns[choice.of_b].w_WB);
   // Each of the three is turned by a matrix that is off by matrix_error at most, and rounded.
   const numeric::Interval fastest = numeric::Norm(velocity) +
-                                    TurningOf(a_, choice.of_A, from.at, from.direction).spin +
-                                    TurningOf(b_, choice.of_B, from.at, from.direction).spin;
+                                    TurningOf(a_, choice.of_a, from.at, from.direction).spin +
+                                    TurningOf(b_, choice.of_b, from.at, from.direction).spin;
   swept.velocity_error = numeric::MultiplyUp(2 * swept.pose.matrix_error + 0x1p-47, fastest.upper);
-  const numeric::Quadratic u = From(ball_A.u + ball_B.u, from.at, from.direction);
+  const numeric::Quadratic u = From(ball_a.u + ball_b.u, from.at, from.direction);
   swept.translation = {u.c0.upper, u.c1.upper, std::max(0.0, u.c2.upper)};
-  if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_A], from, swept.pose.chord_A);
-  if (b_.shape) swept.turning_B = GrowthOf(b_.turns[choice.of_B], from, swept.pose.chord_B);
+  if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_a], from, swept.pose.chord_A);
+  if (b_.shape) swept.turning_B = GrowthOf(b_.turns[choice.of_b], from, swept.pose.chord_B);
   return swept;
 }
 
@@ -191,7 +191,7 @@ ShapeMotion::Sweep ShapeMotion::SweepFrom(double at, double span, TimeDirection 
   sweep.touch = LowerBoundOfImpact({surface_a_, surface_b_, swept}, span, &work_, detail);
   if (sweep.touch.resolved) {
     const double h = sweep.touch.seconds;
-    const double bend = BendOf(a_, choice.of_A) + BendOf(b_, choice.of_B);
+    const double bend = BendOf(a_, choice.of_a) + BendOf(b_, choice.of_b);
     const double unknown =
         swept.translation.c0 + h * (swept.translation.c1 + h * swept.translation.c2);
     sweep.final =
@@ -234,11 +234,11 @@ double ShapeMotion::RevolvedFree(double at, double left, TimeDirection direction
   double free = SweptRingBound({surface_a_, surface_b_, swept}, span, &work_);
   // A body that turns much more slowly than the other may be better taken for one that does not,
   // for a while: what its turning moves a point by counts as unknown.
-  const double of_A = swept.spin_A.norm(), of_B = swept.spin_B.norm();
-  const double slow = std::min(of_A, of_B), fast = std::max(of_A, of_B);
+  const double of_a = swept.spin_A.norm(), of_b = swept.spin_B.norm();
+  const double slow = std::min(of_a, of_b), fast = std::max(of_a, of_b);
   if (free < span && slow > 0 && kMuchSlower * slow < fast) {
-    (of_A < of_B ? swept.spin_A : swept.spin_B).setZero();
-    (of_A < of_B ? swept.turning_A : swept.turning_B).c1 += slow * (1 + 0x1p-40);
+    (of_a < of_b ? swept.spin_A : swept.spin_B).setZero();
+    (of_a < of_b ? swept.turning_A : swept.turning_B).c1 += slow * (1 + 0x1p-40);
     const double some = std::min(span, kTurnOfSweep / slow);
     free = std::max(free,
                     std::min(some, SweptRingBound({surface_a_, surface_b_, swept}, some, &work_)));
@@ -264,19 +264,19 @@ bool ShapeMotion::NeitherInside(const RelativePose& pose) const {
 
 ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance,
                                           TimeDirection direction) const {
-  const numeric::MovingBall& ball_A = a_.ball.bounds[instance.choice.of_A];
-  const numeric::MovingBall& ball_B = b_.ball.bounds[instance.choice.of_B];
-  const Turning of_A = TurningOf(a_, instance.choice.of_A, instance.at, direction);
-  const Turning of_B = TurningOf(b_, instance.choice.of_B, instance.at, direction);
+  const numeric::MovingBall& ball_a = a_.ball.bounds[instance.choice.of_a];
+  const numeric::MovingBall& ball_b = b_.ball.bounds[instance.choice.of_b];
+  const Turning of_a = TurningOf(a_, instance.choice.of_a, instance.at, direction);
+  const Turning of_b = TurningOf(b_, instance.choice.of_b, instance.at, direction);
   Drift drift;
-  drift.along = numeric::Norm(ball_B.velocity - ball_A.velocity);
-  drift.spin_sum = of_A.spin + of_B.spin;
-  drift.spin_most = numeric::Max(of_A.spin, of_B.spin);
-  drift.translation = From(ball_A.u + ball_B.u, instance.at, direction);
-  drift.turned1_sum = of_A.turned1 + of_B.turned1;
-  drift.turned2_sum = of_A.turned2 + of_B.turned2;
-  drift.turned1_most = numeric::Max(of_A.turned1, of_B.turned1);
-  drift.turned2_most = numeric::Max(of_A.turned2, of_B.turned2);
+  drift.along = numeric::Norm(ball_b.velocity - ball_a.velocity);
+  drift.spin_sum = of_a.spin + of_b.spin;
+  drift.spin_most = numeric::Max(of_a.spin, of_b.spin);
+  drift.translation = From(ball_a.u + ball_b.u, instance.at, direction);
+  drift.turned1_sum = of_a.turned1 + of_b.turned1;
+  drift.turned2_sum = of_a.turned2 + of_b.turned2;
+  drift.turned1_most = numeric::Max(of_a.turned1, of_b.turned1);
+  drift.turned2_most = numeric::Max(of_a.turned2, of_b.turned2);
   return drift;
 }
 

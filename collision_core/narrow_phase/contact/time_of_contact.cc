@@ -24,7 +24,7 @@ constexpr double kBeginShare = 0.6;
 constexpr double kFiner = 0x1p-20;
 constexpr double kFinest = 1e-12;
 
-// What the verdict on two balls costs.
+// What the evaluation of two balls costs.
 constexpr std::uint64_t kBallPairUnits = 20;
 
 TimeOfContactResult Free(double duration) {
@@ -129,7 +129,7 @@ class ContactSearch {
   bool exhausted_ = false, uncertain_ = false, any_way_ = false;
 };
 
-// The balls' own verdict is as narrow as rounding and the motion allow.
+// The result for two balls is as narrow as rounding and the motion allow.
 TimeOfContactResult OfBalls(const BodySegment& a, const BodySegment& b, double duration,
                             const SegmentResult& balls, const ContactTolerance& tolerance) {
   if (balls.free_until == numeric::kInfinity || balls.free_from == -numeric::kInfinity ||

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/separation/separation.h"
 
 namespace collision::narrow_phase {
@@ -11,28 +12,30 @@ namespace {
 /// A direction that saves less than a quarter is not worth a search.
 constexpr double kWorthwhile = 0.75;
 
-/// Of the answer: nearer to a place where the two are not known to be apart no other is tried.
+/// As a share of the answer: the search ends when it is so near to a shift at which the two are not
+/// known to be apart.
 constexpr double kNearEnough = 0.25;
 
-/// Of what is known: a place nearer than this is near enough.
+/// As a share of the known shift: no smaller shift is tried.
 constexpr double kFirstPlace = 0x1p-16;
 
-class Shifting {
+class TranslationSearch {
  public:
-  Shifting(const PosedPair& pair, const Eigen::Vector3d& n, const ContactWitness& witness,
-           WorkBudget* work)
+  TranslationSearch(const PosedPair& pair, const Eigen::Vector3d& n, const ContactWitness& witness,
+                    WorkBudget* work)
       : a_(pair.a), b_(pair.b), pose_(pair.pose), n_(n), witness_(witness), work_(*work) {}
 
   double Least(double known) {
     const double most = kWorthwhile * known;
-    // Before what shows the contact is gone nothing else need be asked.
+    // As long as the witness shows contact no other query is needed.
     double shift = most;
-    if (Shows(shift)) return known;
-    while (shift > kFirstPlace * known && !work_.exhausted() && !Shows(shift / 2)) shift /= 2;
+    if (IsContactShown(shift)) return known;
+    while (shift > kFirstPlace * known && !work_.exhausted() && !IsContactShown(shift / 2))
+      shift /= 2;
     double touching = 0, apart = known;
     while (apart - touching > std::max(kNearEnough * apart, kFirstPlace * known) &&
            !work_.exhausted()) {
-      const double spare = Shows(shift) || work_.exhausted() ? -1 : Spare(shift);
+      const double spare = IsContactShown(shift) || work_.exhausted() ? -1 : Spare(shift);
       // 2^-40: the length of n, and the difference.
       if (spare >= 0) apart = std::min(apart, (shift - spare) * (1 + 0x1p-40));
       if (spare < 0) touching = shift;
@@ -43,7 +46,8 @@ class Shifting {
   }
 
  private:
-  // What is posed by the new offset is rounded relative to that; its own sum loses less.
+  // The pose with B shifted. Points posed with the new offset are rounded relative to it; the sum
+  // that makes the offset loses less.
   RelativePose At(double shift) const {
     RelativePose shifted = pose_;
     shifted.p_AB += shift * n_;
@@ -54,18 +58,18 @@ class Shifting {
     return shifted;
   }
 
-  bool Shows(double shift) {
+  bool IsContactShown(double shift) {
     const SeparationBracket bracket = RecheckWitness({a_, b_, At(shift)}, witness_, &work_);
     return bracket.CertainlyTouching(0);
   }
 
-  /// How much less of a shift would do as well; negative: it may not do itself.
+  /// By how much the shift may be reduced with the two still apart; negative: at this shift they
+  /// are not known to be apart.
   double Spare(double shift) {
     const Decision decision = DecideAt({a_, b_, At(shift)}, &work_);
-    if (decision.bracket.witness.kind != ContactWitness::Kind::kNone)
-      witness_ = decision.bracket.witness;
+    if (!decision.bracket.witness.is_none()) witness_ = decision.bracket.witness;
     if (decision.verdict != Verdict::kApart) return -1;
-    // Surfaces so far apart do not meet on the way, and what is outside remains outside.
+    // Surfaces so far apart do not meet on the way back, and what is outside remains outside.
     return std::max(0.0, decision.bracket.lower);
   }
 
@@ -81,8 +85,9 @@ class Shifting {
 
 double LocalSeparatingTranslation(const PosedPair& pair, const Eigen::Vector3d& n, double known,
                                   const ContactWitness& witness, WorkBudget* work) {
+  CORE_CHECK(IsUnit(n), "the direction has length 1", n.norm());
   if (!std::isfinite(known) || work->exhausted()) return known;
-  return Shifting(pair, n, witness, work).Least(known);
+  return TranslationSearch(pair, n, witness, work).Least(known);
 }
 
 }  // namespace collision::narrow_phase

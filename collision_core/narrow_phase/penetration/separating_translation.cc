@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/narrow_phase/penetration/local_separating_translation.h"
 #include "collision_core/narrow_phase/separation/element.h"
@@ -12,22 +13,26 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of a tree, for one direction: many corners may reach equally far. Then the hull around it tells,
-/// to a millionth of the size where corners are few, to some hundredths along round sides.
+/// The most nodes of a tree that are examined for one direction, since many corners may reach
+/// equally far. Beyond, the hull around the shape bounds the reach: to a millionth of the size
+/// where corners are few, to some hundredths along round sides.
 constexpr std::uint64_t kNodesMax = 64;
 
-/// How far a body reaches along n, in its own frame: best first down its tree, so that little of it
-/// is looked at. What rounding makes of it, relative to the reach, is left to the caller.
-class Reaching {
+/// Directions of other lengths are not tried: their squares may have lost digits.
+constexpr double kLengthMin = 0x1p-500, kLengthMax = 0x1p+500;
+
+/// How far a body reaches along n, in its own frame: best first down its tree, so that few nodes
+/// are examined. What rounding makes of the result, relative to the reach, the caller adds.
+class ReachQuery {
  public:
-  Reaching(const BodyTree& surface, const Vector3d& n, WorkBudget* work)
-      : surface_(surface), n_(n), work_(*work) {}
+  ReachQuery(const BodyTree& body, const Vector3d& n, WorkBudget* work)
+      : body_(body), n_(n), work_(*work) {}
 
   double Find() {
-    if (surface_.shape() == nullptr) return surface_.reach();
-    Visit(0);
+    if (body_.shape() == nullptr) return body_.reach();
+    Visit(sphere_tree::SphereTree::kRoot);
     if (nodes_ <= kNodesMax) return work_.exhausted() ? numeric::kInfinity : farthest_;
-    const shape::OuterHull& hull = surface_.shape()->hull();
+    const shape::OuterHull& hull = body_.shape()->hull();
     const double height = static_cast<double>(hull.Along(n_.cast<float>()).height);
     // n as a float is off by less than 2 · 2^-24.
     return n_.dot(hull.origin()) + height + (shape::kHullSupportError + 0x1p-23) * hull.extent();
@@ -38,28 +43,27 @@ class Reaching {
     return n_.dot(node.centre) + node.radius;
   }
 
-  void Visit(std::uint32_t index) {
-    const sphere_tree::SphereNode& node = surface_.node(index);
+  void Visit(NodeIndex index) {
+    const sphere_tree::SphereNode& node = body_.node(index);
     if (nodes_ > kNodesMax || work_.exhausted()) return;
     ++nodes_;
     work_.Spend(1);
     if (BoundOf(node) <= farthest_) return;
-    const sphere_tree::SphereTree& tree = surface_.shape()->tree();
-    for (const std::uint32_t element : tree.TrianglesOf(node)) Take(element);
+    const sphere_tree::SphereTree& tree = body_.shape()->tree();
+    for (const ElementIndex element : tree.ElementsOf(node)) Take(element);
     // The child that may reach the farthest first: it makes the others needless.
     std::uint32_t best = 0;
     for (std::uint32_t i = 1; i < node.children; ++i) {
-      const sphere_tree::SphereNode* const children = &tree.nodes[node.first_child];
-      if (BoundOf(children[i]) > BoundOf(children[best])) best = i;
+      if (BoundOf(tree.node(node.child(i))) > BoundOf(tree.node(node.child(best)))) best = i;
     }
-    if (node.children > 0) Visit(node.first_child + best);
+    if (!node.is_leaf()) Visit(node.child(best));
     for (std::uint32_t i = 0; i < node.children; ++i) {
-      if (i != best) Visit(node.first_child + i);
+      if (i != best) Visit(node.child(i));
     }
   }
 
-  void Take(std::uint32_t element) {
-    const shape::Shape& shape = *surface_.shape();
+  void Take(ElementIndex element) {
+    const shape::Shape& shape = *body_.shape();
     if (shape.IsSolid(element)) {
       const geometry::ConvexSet& set = shape.SolidAt(element).set();
       const double core = n_.dot(set.centre) + n_.dot(set.SupportPoint(n_));
@@ -71,7 +75,7 @@ class Reaching {
     }
   }
 
-  const BodyTree& surface_;
+  const BodyTree& body_;
   const Vector3d n_;
   WorkBudget& work_;
   std::uint64_t nodes_ = 0;
@@ -79,7 +83,7 @@ class Reaching {
 };
 
 /// Across an element: of a triangle its normal.
-Vector3d NormalOf(const BodyTree& surface, std::uint32_t element) {
+Vector3d NormalOf(const BodyTree& surface, ElementIndex element) {
   if (surface.shape() == nullptr || surface.shape()->IsSolid(element)) return Vector3d::Zero();
   const geometry::TrianglePoints t = CornersOf(*surface.shape(), element);
   return (t[1] - t[0]).cross(t[2] - t[0]);
@@ -92,10 +96,11 @@ Vector3d NormalOf(const BodyTree& surface, std::uint32_t element) {
 // kSupportError of the spans, spans at most thrice the reach, sums and products by less than as
 // much again.
 double SeparatingTranslationAlong(const PosedPair& pair, const Vector3d& n, WorkBudget* work) {
+  CORE_CHECK(IsUnit(n), "the direction has length 1", n.norm());
   const BodyTree &a = pair.a, &b = pair.b;
   const RelativePose& pose = pair.pose;
-  const double reach_a = Reaching(a, n, work).Find();
-  const double reach_b = Reaching(b, -(pose.R_AB.transpose() * n), work).Find();
+  const double reach_a = ReachQuery(a, n, work).Find();
+  const double reach_b = ReachQuery(b, -(pose.R_AB.transpose() * n), work).Find();
   const double size = a.reach() + b.reach() + pose.p_AB.cwiseAbs().sum();
   const double turning = pose.chord_A * a.turning_reach() + pose.chord_B * b.turning_reach();
   const double shift = reach_a + reach_b - n.dot(pose.p_AB);
@@ -107,27 +112,27 @@ double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witnes
                              WorkBudget* work) {
   const BodyTree &a = pair.a, &b = pair.b;
   const RelativePose& pose = pair.pose;
-  // What shows the contact first: bodies that touch are mostly taken apart across it.
+  // First across the witness of contact: bodies that touch are mostly taken apart that way.
   std::vector<Vector3d> ways;
   const auto add = [&](const Vector3d& direction) {
     const double length = direction.norm();
-    if (length > 0x1p-500 && length < 0x1p+500) ways.push_back(direction / length);
+    if (length > kLengthMin && length < kLengthMax) ways.push_back(direction / length);
   };
   const auto add_axis = [&](const Vector3d& axis) {
     add(axis.dot(pose.p_AB) < 0 ? Vector3d(-axis) : axis);
   };
   if (witness.kind == ContactWitness::Kind::kNodes) {
-    add(pose.ToA(b.node(witness.b).centre) - a.node(witness.a).centre);
+    add(pose.ToA(b.node(witness.nodes.b).centre) - a.node(witness.nodes.a).centre);
   }
-  if (witness.kind == ContactWitness::Kind::kTriangles) {
-    if (AnySolid(a, witness.a, b, witness.b)) {
+  if (witness.kind == ContactWitness::Kind::kElements) {
+    const auto [of_a, of_b] = witness.elements;
+    if (AnySolid(a, b, witness.elements)) {
       geometry::GjkHint none;
-      add(SeparationOf(PosedA(SetOf(a, witness.a), pose), PosedB(SetOf(b, witness.b), pose), {},
-                       &none, work)
+      add(SeparationOf(PosedA(SetOf(a, of_a), pose), PosedB(SetOf(b, of_b), pose), {}, &none, work)
               .normal);
     }
-    add(NormalOf(a, witness.a));
-    add(pose.R_AB * -NormalOf(b, witness.b));
+    add(NormalOf(a, of_a));
+    add(pose.R_AB * -NormalOf(b, of_b));
   }
   add(pose.p_AB);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {

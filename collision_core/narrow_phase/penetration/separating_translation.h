@@ -18,7 +18,7 @@ namespace collision::narrow_phase {
 /// Shifted by this along n [m], in A's body frame, B is certainly apart from A: the reach of A
 /// along n and that of B against it, less what they are apart. Rounded up; the uncertainty of
 /// rounding and turning is counted in, that of translation is not. +infinity where the work was
-/// spent before. Requires |n| within 2^-50 of 1.
+/// spent before. Requires IsUnit(n).
 double SeparatingTranslationAlong(const PosedPair& pair, const Eigen::Vector3d& n,
                                   WorkBudget* work);
 

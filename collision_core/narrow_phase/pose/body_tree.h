@@ -1,4 +1,4 @@
-// The sphere tree of one body as queries of pairs traverse it.
+// One body as queries of pairs traverse it: its sphere tree, or a single ball.
 #pragma once
 
 #include "collision_core/narrow_phase/pose/body_segment.h"
@@ -14,11 +14,15 @@ class BodyTree {
     ball_.signed_distance = -body.ball.radius;
   }
 
-  const sphere_tree::SphereNode& node(std::uint32_t index) const {
-    return shape_ ? shape_->tree().nodes[index] : ball_;
+  /// A node of the shape's tree; of a ball, the ball whatever the index.
+  const sphere_tree::SphereNode& node(NodeIndex index) const {
+    return shape_ ? shape_->tree().node(index) : ball_;
   }
+  const sphere_tree::SphereNode& root() const { return node(sphere_tree::SphereTree::kRoot); }
   const shape::Shape* shape() const { return shape_; }  ///< Null: a ball.
-  double reach() const { return reach_; }  ///< Of its points about the reference point [m].
+  /// No point of the body is farther from the reference point [m].
+  double reach() const { return reach_; }
+  /// No point that turning moves is farther from the reference point [m]; 0 for a ball.
   double turning_reach() const { return shape_ ? reach_ : 0; }
 
  private:

@@ -7,15 +7,15 @@
 
 namespace collision::narrow_phase {
 
-/// The corners of a triangle in its own body frame.
-inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, std::uint32_t triangle) {
+/// The corners of a triangle in its own body frame. Requires an element that is no solid.
+inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, ElementIndex triangle) {
   const geometry::TriangleMesh& mesh = shape.mesh();
-  const geometry::Triangle& t = mesh.triangles[triangle];
+  const geometry::Triangle& t = mesh.triangles[triangle.value()];
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-/// The corners of a triangle of B, in A's body frame.
-inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, std::uint32_t triangle,
+/// The corners of a triangle of B, in A's body frame. Requires an element that is no solid.
+inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, ElementIndex triangle,
                                           const RelativePose& pose) {
   const geometry::TrianglePoints own = CornersOf(shape, triangle);
   return {pose.ToA(own[0]), pose.ToA(own[1]), pose.ToA(own[2])};
@@ -23,13 +23,13 @@ inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, std::uint32
 
 /// The corners of a posed triangle, and the box around them.
 struct BoxedTriangle {
-  BoxedTriangle(std::uint32_t triangle, const geometry::TrianglePoints& points)
+  BoxedTriangle(ElementIndex triangle, const geometry::TrianglePoints& points)
       : index(triangle),
         corners(points),
         lower(points[0].cwiseMin(points[1]).cwiseMin(points[2])),
         upper(points[0].cwiseMax(points[1]).cwiseMax(points[2])) {}
 
-  std::uint32_t index;  ///< In its mesh.
+  ElementIndex index;
   geometry::TrianglePoints corners;
   Eigen::Vector3d lower, upper;
 };

@@ -28,41 +28,41 @@ PosedHalfSpace Normalised(const shape::ConvexHalfSpace& half_space) {
 // offset_error + matrix_error (|c| + Σ |g_i|); of a hull Σ |g_i| |x_i| <= √3 reach < span. The
 // turning moves points by chord_B of their distance from the reference point; the ball about them
 // moves with them.
-geometry::ConvexSet PosedB(const geometry::ConvexSet& of_B, const RelativePose& pose) {
-  geometry::ConvexSet posed = of_B;
-  posed.generators = pose.R_AB * of_B.generators;
-  posed.centre = pose.R_AB * of_B.centre + pose.p_AB;
+geometry::ConvexSet PosedB(const geometry::ConvexSet& of_b, const RelativePose& pose) {
+  geometry::ConvexSet posed = of_b;
+  posed.generators = pose.R_AB * of_b.generators;
+  posed.centre = pose.R_AB * of_b.centre + pose.p_AB;
   // The error itself is moved along, by a matrix of norm at most 1 + 2^-20. All terms are positive,
   // so that 2^-40 covers the rounding of their sums.
-  const double far = LengthUp(of_B.centre) + of_B.span;
-  const double moved = (1 + 0x1p-20) * of_B.error;
+  const double far = LengthUp(of_b.centre) + of_b.span;
+  const double moved = (1 + 0x1p-20) * of_b.error;
   posed.error =
       (1 + 0x1p-40) * (moved + pose.offset_error + (pose.matrix_error + pose.chord_B) * far);
-  posed.span = (1 + 0x1p-50) * (1 + pose.matrix_error) * of_B.span;
+  posed.span = (1 + 0x1p-50) * (1 + pose.matrix_error) * of_b.span;
   return posed;
 }
 
-geometry::ConvexSet PosedA(const geometry::ConvexSet& of_A, const RelativePose& pose) {
-  if (pose.chord_A == 0) return of_A;
-  geometry::ConvexSet posed = of_A;
-  const double far = numeric::AddUp(LengthUp(of_A.centre), of_A.span);
-  posed.error = numeric::AddUp(of_A.error, numeric::MultiplyUp(pose.chord_A, far));
+geometry::ConvexSet PosedA(const geometry::ConvexSet& of_a, const RelativePose& pose) {
+  if (pose.chord_A == 0) return of_a;
+  geometry::ConvexSet posed = of_a;
+  const double far = numeric::AddUp(LengthUp(of_a.centre), of_a.span);
+  posed.error = numeric::AddUp(of_a.error, numeric::MultiplyUp(pose.chord_A, far));
   return posed;
 }
 
-PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_A, const RelativePose& pose) {
-  PosedHalfSpace posed = Normalised(of_A);
+PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_a, const RelativePose& pose) {
+  PosedHalfSpace posed = Normalised(of_a);
   posed.normal_error = numeric::AddUp(posed.normal_error, pose.chord_A);
-  posed.point_error = numeric::MultiplyUp(pose.chord_A, LengthUp(of_A.point));
+  posed.point_error = numeric::MultiplyUp(pose.chord_A, LengthUp(of_a.point));
   return posed;
 }
 
-PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_B, const RelativePose& pose) {
-  PosedHalfSpace posed = Normalised(of_B);
+PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_b, const RelativePose& pose) {
+  PosedHalfSpace posed = Normalised(of_b);
   const double share = numeric::AddUp(pose.matrix_error, pose.chord_B);
-  const double length = LengthUp(of_B.point);
+  const double length = LengthUp(of_b.point);
   posed.normal = pose.R_AB * posed.normal;
-  posed.point = pose.R_AB * of_B.point + pose.p_AB;
+  posed.point = pose.R_AB * of_b.point + pose.p_AB;
   posed.normal_error = numeric::AddUp(posed.normal_error, numeric::MultiplyUp(1 + 0x1p-40, share));
   posed.point_error = numeric::AddUp(pose.offset_error, numeric::MultiplyUp(share, length));
   return posed;

@@ -8,10 +8,10 @@ namespace collision::narrow_phase {
 
 /// A set of B in A's body frame. What rounding and the turning of B may make of it is counted into
 /// its `error`; `translation` of the pose is not.
-geometry::ConvexSet PosedB(const geometry::ConvexSet& of_B, const RelativePose& pose);
+geometry::ConvexSet PosedB(const geometry::ConvexSet& of_b, const RelativePose& pose);
 
 /// A set of A in its own frame: its turning is counted in, nothing else.
-geometry::ConvexSet PosedA(const geometry::ConvexSet& of_A, const RelativePose& pose);
+geometry::ConvexSet PosedA(const geometry::ConvexSet& of_a, const RelativePose& pose);
 
 /// A half-space of B in A's body frame.
 struct PosedHalfSpace {
@@ -21,7 +21,7 @@ struct PosedHalfSpace {
   /// The exact normal differs by a vector no longer than this.
   double normal_error = 0;
 };
-PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_A, const RelativePose& pose);
-PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_B, const RelativePose& pose);
+PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_a, const RelativePose& pose);
+PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_b, const RelativePose& pose);
 
 }  // namespace collision::narrow_phase

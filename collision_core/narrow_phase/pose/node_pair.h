@@ -2,13 +2,9 @@
 #pragma once
 
 #include "collision_core/narrow_phase/pose/body_tree.h"
+#include "collision_core/narrow_phase/pose/pair_parts.h"
 
 namespace collision::narrow_phase {
-
-/// A node of A's tree and one of B's.
-struct NodePair {
-  std::uint32_t a = 0, b = 0;
-};
 
 /// Replaces a pair of nodes by smaller pairs: the node with the larger ball is opened, A's if both
 /// are equal, and a leaf is never opened. Calls `visit(NodePair)` for each pair in the order of the
@@ -21,11 +17,11 @@ template <typename Visit>
 bool OpenLarger(const BodyTree& tree_a, const BodyTree& tree_b, NodePair pair, Visit visit) {
   const sphere_tree::SphereNode& a = tree_a.node(pair.a);
   const sphere_tree::SphereNode& b = tree_b.node(pair.b);
-  if (a.children == 0 && b.children == 0) return false;
-  if (b.children == 0 || (a.children > 0 && a.radius >= b.radius)) {
-    for (std::uint32_t i = 0; i < a.children; ++i) visit(NodePair{a.first_child + i, pair.b});
+  if (a.is_leaf() && b.is_leaf()) return false;
+  if (b.is_leaf() || (!a.is_leaf() && a.radius >= b.radius)) {
+    for (std::uint32_t i = 0; i < a.children; ++i) visit(NodePair{a.child(i), pair.b});
   } else {
-    for (std::uint32_t i = 0; i < b.children; ++i) visit(NodePair{pair.a, b.first_child + i});
+    for (std::uint32_t i = 0; i < b.children; ++i) visit(NodePair{pair.a, b.child(i)});
   }
   return true;
 }

@@ -73,39 +73,39 @@ BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta)
 }
 
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta) {
-  const numeric::MovingBall& ball_A = a.ball.bounds[choice.of_A];
-  const numeric::MovingBall& ball_B = b.ball.bounds[choice.of_B];
-  const Orientation of_A = OrientationOf(a, choice.of_A, delta);
-  const Orientation of_B = OrientationOf(b, choice.of_B, delta);
+  const numeric::MovingBall& ball_a = a.ball.bounds[choice.of_a];
+  const numeric::MovingBall& ball_b = b.ball.bounds[choice.of_b];
+  const Orientation of_a = OrientationOf(a, choice.of_a, delta);
+  const Orientation of_b = OrientationOf(b, choice.of_b, delta);
   // Positions are subtracted first: far from the origin nothing is lost but what the states lost.
-  const numeric::IntervalVector d = (ball_B.centre() - ball_A.centre()) +
-                                    numeric::Interval(delta) * (ball_B.velocity - ball_A.velocity);
+  const numeric::IntervalVector d = (ball_b.centre() - ball_a.centre()) +
+                                    numeric::Interval(delta) * (ball_b.velocity - ball_a.velocity);
   const Eigen::Vector3d middle = d.middle();
   const double length = numeric::Norm(numeric::IntervalVector(middle)).upper;
 
   RelativePose pose;
-  pose.R_AB = of_A.rotation.matrix.transpose() * of_B.rotation.matrix;
-  pose.p_AB = of_A.rotation.matrix.transpose() * middle;
-  const double errors = numeric::AddUp(of_A.rotation.error, of_B.rotation.error);
+  pose.R_AB = of_a.rotation.matrix.transpose() * of_b.rotation.matrix;
+  pose.p_AB = of_a.rotation.matrix.transpose() * middle;
+  const double errors = numeric::AddUp(of_a.rotation.error, of_b.rotation.error);
   pose.matrix_error = numeric::AddUp(
-      numeric::AddUp(errors, numeric::MultiplyUp(of_A.rotation.error, of_B.rotation.error)),
+      numeric::AddUp(errors, numeric::MultiplyUp(of_a.rotation.error, of_b.rotation.error)),
       kProductRounding + kPosingRounding);
   pose.offset_error = numeric::AddUp(
       Width(d, middle),
-      numeric::MultiplyUp(numeric::AddUp(of_A.rotation.error, kProductRounding + kPosingRounding),
+      numeric::MultiplyUp(numeric::AddUp(of_a.rotation.error, kProductRounding + kPosingRounding),
                           length));
-  pose.translation = std::max(0.0, (ball_A.u.At(delta) + ball_B.u.At(delta)).upper);
-  pose.chord_A = of_A.chord;
-  pose.chord_B = of_B.chord;
+  pose.translation = std::max(0.0, (ball_a.u.At(delta) + ball_b.u.At(delta)).upper);
+  pose.chord_A = of_a.chord;
+  pose.chord_B = of_b.chord;
 
-  const numeric::IntervalVector centre_A = CentreAt(ball_A, delta);
+  const numeric::IntervalVector centre_A = CentreAt(ball_a, delta);
   pose.p_WA = centre_A.middle();
-  pose.R_WA = of_A.rotation.matrix;
+  pose.R_WA = of_a.rotation.matrix;
   const double rounding = numeric::MultiplyUp(
       kPosingRounding, numeric::AddUp(numeric::Norm(centre_A).upper, a.ball.radius + length));
   pose.error_A = numeric::AddUp(
-      numeric::AddUp(ball_A.u.At(delta).upper, Width(centre_A, pose.p_WA)),
-      numeric::AddUp(rounding, numeric::MultiplyUp(of_A.rotation.error, ReachOf(a))));
+      numeric::AddUp(ball_a.u.At(delta).upper, Width(centre_A, pose.p_WA)),
+      numeric::AddUp(rounding, numeric::MultiplyUp(of_a.rotation.error, ReachOf(a))));
   return pose;
 }
 

@@ -15,8 +15,8 @@ namespace collision::narrow_phase {
 /// The bounds of A and of B that leave the least uncertainty at an instant; `certain` is false
 /// where nothing is known of one of them.
 struct BoundChoice {
-  std::size_t of_A = 0;
-  std::size_t of_B = 0;
+  std::size_t of_a = 0;
+  std::size_t of_b = 0;
   bool certain = false;
 };
 BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta);

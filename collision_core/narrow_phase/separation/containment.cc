@@ -13,7 +13,8 @@ bool OffBox(const Eigen::Vector3d& point, const geometry::MeshFacts& facts) {
   return (point.array() > facts.upper.array()).any() || (point.array() < facts.lower.array()).any();
 }
 
-// The solid `of` is closed. Without work nothing is known of what is in its box.
+// On which side of the closed surface of `of` a point is. Without work nothing is known of a point
+// in its box.
 Side SideOf(const Eigen::Vector3d& point, const shape::Shape& of, WorkBudget* work) {
   if (OffBox(point, of.facts())) return Side::kOutside;
   if (work->exhausted()) return Side::kUnknown;
@@ -34,19 +35,19 @@ bool HasPointOff(const shape::Shape& shape, const shape::Shape& other, ToOther t
   });
 }
 
-// The points of `body` that decide: one of each component; of a ball its centre, which is where the
-// reference point is.
-template <typename ToOther, typename Judge>
-void JudgeEach(const BodyTree& body, const shape::Shape& other, ToOther to_other, Judge judge,
-               WorkBudget* work) {
+// Calls `visit(side, point)` for the points of `body` that decide, until it returns false: one of
+// each component; for a ball its centre, which is its reference point.
+template <typename ToOther, typename Visit>
+void VisitSides(const BodyTree& body, const shape::Shape& other, ToOther to_other, Visit visit,
+                WorkBudget* work) {
   if (body.shape() == nullptr) {
     const Eigen::Vector3d centre(0, 0, 0);
-    judge(SideOf(to_other(centre), other, work), centre);
+    visit(SideOf(to_other(centre), other, work), centre);
     return;
   }
   if (HasPointOff(*body.shape(), other, to_other)) return;
   for (const Eigen::Vector3d& point : body.shape()->component_points()) {
-    if (!judge(SideOf(to_other(point), other, work), point)) return;
+    if (!visit(SideOf(to_other(point), other, work), point)) return;
   }
 }
 
@@ -54,8 +55,8 @@ void JudgeEach(const BodyTree& body, const shape::Shape& other, ToOther to_other
 bool AreRootsApart(const PosedPair& pair, double slack) {
   const BodyTree &a = pair.a, &b = pair.b;
   const RelativePose& pose = pair.pose;
-  const sphere_tree::SphereNode& root_a = a.node(0);
-  const sphere_tree::SphereNode& root_b = b.node(0);
+  const sphere_tree::SphereNode& root_a = a.root();
+  const sphere_tree::SphereNode& root_b = b.root();
   const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
   return distance > root_a.radius + root_b.radius + slack;
 }
@@ -79,12 +80,12 @@ Containment TestContainment(const PosedPair& pair, WorkBudget* work) {
     return nesting.neither;
   };
   if (a.shape() && a.shape()->closed()) {
-    JudgeEach(
+    VisitSides(
         b, *a.shape(), [&](const Eigen::Vector3d& x_B) { return pose.ToA(x_B); },
         [&](Side side, const Eigen::Vector3d& x_B) { return judge(side, pose.ToA(x_B)); }, work);
   }
   if (nesting.neither && b.shape() && b.shape()->closed()) {
-    JudgeEach(
+    VisitSides(
         a, *b.shape(), [&](const Eigen::Vector3d& x_A) { return pose.ToB(x_A); }, judge, work);
   }
   return nesting;

@@ -30,6 +30,10 @@ constexpr double kLonger = 1 + 0x1p-15;
 /// the later ones, there is mostly no gap to be found.
 constexpr float kDeep = 0.12f;
 
+/// The square of a first direction that is shorter than this share of the offset's has lost its
+/// digits.
+constexpr float kNoDirection = 0x1p-60f;
+
 struct FloatMatrix {
   explicit FloatMatrix(const Eigen::Matrix3d& m) {
     for (Eigen::Index i = 0; i < 3; ++i) rows[i] = m.row(i).cast<float>();
@@ -129,7 +133,7 @@ class HullPair {
     const Vector3f& d = between_;
     const Vector3f n((c00 * d[0] + c10 * d[1]) + c20 * d[2], (c10 * d[0] + c11 * d[1]) + c21 * d[2],
                      (c20 * d[0] + c21 * d[1]) + c22 * d[2]);
-    return n.squaredNorm() > 0x1p-60f * d.squaredNorm() ? n : d;
+    return n.squaredNorm() > kNoDirection * d.squaredNorm() ? n : d;
   }
 
  private:

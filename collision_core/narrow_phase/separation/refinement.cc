@@ -7,8 +7,13 @@
 namespace collision::narrow_phase {
 namespace {
 
-// A round so long has no bound but the budget's.
+// A pair's units of a round are doubled so often at most; so long a round ends with the budget
+// only.
 constexpr int kDoublingsMax = 40;
+
+// The most units of a pair in a round before they are doubled: still an integer after
+// kDoublingsMax.
+constexpr double kShareMax = 0x1p+20;
 
 // Bodies that overlap are apart by nothing; so is one that is inside the other, however far apart
 // their surfaces are.
@@ -54,7 +59,7 @@ void Refinement::StartRound() {
     entry.round_until = 0.5 * WidthOf(entry.search);
     const double share = std::max(1.0, entry.weight * static_cast<double>(kTurnUnits));
     entry.spent_before = entry.spent;
-    entry.left_of_round = static_cast<std::uint64_t>(std::min(share, 0x1p+20)) << doublings_;
+    entry.left_of_round = static_cast<std::uint64_t>(std::min(share, kShareMax)) << doublings_;
   }
 }
 

@@ -8,33 +8,33 @@
 namespace collision::narrow_phase {
 namespace {
 
-void RecheckLeaves(const BodyTree& a, const BodyTree& b, const ContactWitness& leaves,
+void RecheckLeaves(const BodyTree& a, const BodyTree& b, NodePair leaves,
                    SeparationFindings* findings, WorkBudget* work) {
   if (!a.shape() || !b.shape()) {
     const BodyTree& meshed = a.shape() ? a : b;
     const sphere_tree::SphereNode& leaf = meshed.node(a.shape() ? leaves.a : leaves.b);
-    for (const std::uint32_t t : meshed.shape()->tree().TrianglesOf(leaf)) {
+    for (const ElementIndex t : meshed.shape()->tree().ElementsOf(leaf)) {
       if (work->exhausted()) return;
       findings->MeasureBeside(t, work);
     }
     return;
   }
-  for (const std::uint32_t t : a.shape()->tree().TrianglesOf(a.node(leaves.a))) {
-    for (const std::uint32_t u : b.shape()->tree().TrianglesOf(b.node(leaves.b))) {
+  for (const ElementIndex t : a.shape()->tree().ElementsOf(a.node(leaves.a))) {
+    for (const ElementIndex u : b.shape()->tree().ElementsOf(b.node(leaves.b))) {
       if (work->exhausted()) return;
-      findings->RecheckElements(t, u, work);
+      findings->RecheckElements({t, u}, work);
     }
   }
 }
 
-// Beyond [m], squares might overflow; a search looks at that.
+// Beyond this distance [m] squares might overflow; SeparationSearch handles it.
 constexpr double kSeenAtOnceMax = 1e100;
 
 // Balls about the whole bodies that are apart: so are the bodies, inside and out.
 bool RootsDecide(const PosedPair& pair, SeparationBracket* bracket) {
   const auto& [a, b, pose] = pair;
-  const sphere_tree::SphereNode& root_a = a.node(0);
-  const sphere_tree::SphereNode& root_b = b.node(0);
+  const sphere_tree::SphereNode& root_a = a.root();
+  const sphere_tree::SphereNode& root_b = b.root();
   const double distance = (pose.ToA(root_b.centre) - root_a.centre).norm();
   if (!(distance < kSeenAtOnceMax)) return false;
   double slack = SlackOf(pair);
@@ -67,7 +67,7 @@ SeparationBracket QuerySeparation(const PosedPair& pair, Goal goal, WorkBudget* 
                                   const ContactWitness& hint) {
   SeparationSearch search(pair, goal);
   search.Start(work);
-  if (hint.kind == ContactWitness::Kind::kLeaves) search.Try(hint, work);
+  if (hint.kind == ContactWitness::Kind::kLeaves) search.TryLeaves(hint.nodes, work);
   search.Refine(work);
   return search.Result();
 }
@@ -90,19 +90,19 @@ SeparationBracket RecheckWitness(const PosedPair& pair, const ContactWitness& wi
       break;
     case ContactWitness::Kind::kNodes:
       work->Spend(1);
-      findings.MeasureNodes(witness.a, witness.b);
+      findings.MeasureNodes(witness.nodes);
       break;
-    case ContactWitness::Kind::kTriangles:
+    case ContactWitness::Kind::kElements:
       if (meshes) {
-        findings.RecheckElements(witness.a, witness.b, work);
+        findings.RecheckElements(witness.elements, work);
       } else {
-        findings.MeasureBeside(witness.a, work);
+        findings.MeasureBeside(witness.elements.a, work);
       }
       break;
     case ContactWitness::Kind::kLeaves:
-      RecheckLeaves(a, b, witness, &findings, work);
+      RecheckLeaves(a, b, witness.nodes, &findings, work);
   }
-  return findings.Result(-numeric::kInfinity, false, 0);
+  return findings.Result({});
 }
 
 Decision DecideAt(const PosedPair& pair, WorkBudget* work) {

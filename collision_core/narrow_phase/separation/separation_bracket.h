@@ -5,19 +5,21 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/narrow_phase/pose/pair_parts.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
 
-/// How far a query goes before it ends by itself.
+/// What a query is made for: it ends as soon as its bracket says that much, or when nothing can
+/// make the bracket narrower at this pose.
 enum class Goal {
-  kDecision,  ///< Certainly apart, with at least half of the distance; certainly in contact; or
-              ///< neither can become certain at this pose.
-  kContact,  ///< Likewise, but where contact is certain the look goes on for a while: the wider the
-             ///< margin, the longer contact lasts.
+  /// Certainly apart, with at least half of the distance known; or certainly in contact.
+  kDecision,
+  /// As kDecision, but where contact is certain the query goes on for kMarginUnits: the wider the
+  /// margin, the longer contact certainly lasts.
+  kContact,
   kNearest,  ///< Down to the triangles, so that the shortest way between the two is known.
-  kYesNo     ///< Certainly apart, or certainly in contact, and nothing more; or neither can become
-             ///< certain at this pose.
+  kYesNo     ///< Certainly apart, or certainly in contact; no distance.
 };
 
 /// How narrow a bracket of the distance has to be: the wider of the two.
@@ -33,13 +35,19 @@ inline constexpr std::uint64_t kMarginUnits = 1000;
 struct ContactWitness {
   enum class Kind {
     kNone,
-    kNodes,      ///< Balls within the solids, or about the surface, that overlap.
-    kTriangles,  ///< Two triangles that cross, or one that reaches into a ball.
-    kLeaves      ///< Any triangles of two leaves.
+    kNodes,     ///< Balls within the solids, or about the surface, that overlap.
+    kElements,  ///< Two elements that overlap or cross, or one that reaches into a ball.
+    kLeaves     ///< Any elements of two leaves.
   };
   Kind kind = Kind::kNone;
-  std::uint32_t a = 0;
-  std::uint32_t b = 0;
+  NodePair nodes;        ///< With kNodes and kLeaves.
+  ElementPair elements;  ///< With kElements; beside a ball both name the other body's element.
+
+  static ContactWitness Nodes(NodePair pair) { return {Kind::kNodes, pair, {}}; }
+  static ContactWitness Elements(ElementPair pair) { return {Kind::kElements, {}, pair}; }
+  static ContactWitness Leaves(NodePair pair) { return {Kind::kLeaves, pair, {}}; }
+
+  bool is_none() const { return kind == Kind::kNone; }
 };
 
 /// A way between the two surfaces that may be the shortest one; in A's body frame.

@@ -39,9 +39,9 @@ SeparationFindings::SeparationFindings(const PosedPair& pair, Goal goal,
       narrow_(narrow),
       slack_(SlackOf(pair)) {}
 
-double SeparationFindings::MeasureNodes(std::uint32_t index_a, std::uint32_t index_b) {
-  const sphere_tree::SphereNode& a = a_.node(index_a);
-  const sphere_tree::SphereNode& b = b_.node(index_b);
+double SeparationFindings::MeasureNodes(NodePair nodes) {
+  const sphere_tree::SphereNode& a = a_.node(nodes.a);
+  const sphere_tree::SphereNode& b = b_.node(nodes.b);
   const Eigen::Vector3d c_b = pose_.ToA(b.centre);
   const double distance = (c_b - a.centre).norm();
   if (!(distance < kSquareMax)) return distance > 0 ? kSquareMax / 2 : -numeric::kInfinity;
@@ -49,11 +49,10 @@ double SeparationFindings::MeasureNodes(std::uint32_t index_a, std::uint32_t ind
   if (pose_.chord_A > 0) slack += pose_.chord_A * a.centre.norm();
   if (pose_.chord_B > 0) slack += pose_.chord_B * b.centre.norm();
   const double upper = distance + a.signed_distance + b.signed_distance + slack;
-  const bool is_news =
-      upper < bracket_.upper || bracket_.witness.kind == ContactWitness::Kind::kNone;
+  const bool is_news = upper < bracket_.upper || bracket_.witness.is_none();
   if (upper <= -pose_.translation && is_news) {
     CommonPoint(a, b, c_b, distance, slack);
-    bracket_.witness = {ContactWitness::Kind::kNodes, index_a, index_b};
+    bracket_.witness = ContactWitness::Nodes(nodes);
   }
   LowerUpper(upper);
   return distance - a.radius - b.radius - slack;
@@ -102,35 +101,34 @@ double SeparationFindings::GapAlongDirection(const geometry::TrianglePoints& a,
   return std::min({n.dot(b[0]), n.dot(b[1]), n.dot(b[2])}) - high;
 }
 
-double SeparationFindings::MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross,
+double SeparationFindings::MeasureTriangles(ElementPair triangles, FirstTest first,
                                             WorkBudget* work) {
-  const geometry::TrianglePoints corners_a = CornersOf(*a_.shape(), a);
-  const geometry::TrianglePoints corners_b = CornersOf(*b_.shape(), b, pose_);
+  const geometry::TrianglePoints corners_a = CornersOf(*a_.shape(), triangles.a);
+  const geometry::TrianglePoints corners_b = CornersOf(*b_.shape(), triangles.b, pose_);
   const double slack = slack_ + TurnOfA(corners_a) + TurnOfB(corners_b);
   work->Spend(kBoxPairUnits);
   const double along = GapAlongDirection(corners_a, corners_b) - slack;
   if (along > Limit()) return along;
-  const bool cross_first = likely_to_cross && goal_ == Goal::kYesNo;
+  const bool cross_first = first == FirstTest::kCrossing && goal_ == Goal::kYesNo;
   if (cross_first) {
     work->Spend(kCrossingUnits);
-    Cross(a, corners_a, b, corners_b);
+    Cross(triangles, corners_a, corners_b);
     if (Touching()) return -numeric::kInfinity;
   }
   work->Spend(kTrianglePairUnits);
   const geometry::TriangleDistance found = geometry::DistanceOf(corners_a, corners_b);
-  if (found.distance.lower <= 0 && !cross_first) Cross(a, corners_a, b, corners_b);
+  if (found.distance.lower <= 0 && !cross_first) Cross(triangles, corners_a, corners_b);
   const double lower = found.distance.lower - slack;
   KeepWay({found.a, found.b, lower, found.distance.upper + slack});
   return lower;
 }
 
-double SeparationFindings::MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross,
-                                           WorkBudget* work) {
-  if (AnySolid(a_, a, b_, b)) return MeasureSolids(a, b, work);
-  return MeasureTriangles(a, b, likely_to_cross, work);
+double SeparationFindings::MeasureElements(ElementPair elements, WorkBudget* work) {
+  if (AnySolid(a_, b_, elements)) return MeasureSolids(elements, work);
+  return MeasureTriangles(elements, FirstTest::kDistance, work);
 }
 
-// How narrow the bracket of two elements need be for what is asked of the whole.
+// How narrow the bracket of two elements has to be for the goal of the search.
 ConvexQuestion SeparationFindings::SolidsQuestion() const {
   if (goal_ == Goal::kNearest) return {ConvexGoal::kDepth, 0, 0};
   if (narrow_) return {ConvexGoal::kDepth, narrow_->relative / 4, narrow_->absolute / 4};
@@ -138,10 +136,11 @@ ConvexQuestion SeparationFindings::SolidsQuestion() const {
   return {ConvexGoal::kDepth, kEnoughOfSolids, kEnoughOfSolids * pose_.translation};
 }
 
-// A search of its own, from its beginning to its end, so that it is the same wherever the look
+// A query of its own, from its beginning to its end, so that it is the same wherever the search
 // pauses. Along the shortest way found so far most pairs are seen to be too far apart.
-double SeparationFindings::MeasureSolids(std::uint32_t a, std::uint32_t b, WorkBudget* work) {
-  const geometry::ConvexSet of_a = PosedA(SetOf(a_, a), pose_), of_b = PosedB(SetOf(b_, b), pose_);
+double SeparationFindings::MeasureSolids(ElementPair solids, WorkBudget* work) {
+  const geometry::ConvexSet of_a = PosedA(SetOf(a_, solids.a), pose_);
+  const geometry::ConvexSet of_b = PosedB(SetOf(b_, solids.b), pose_);
   work->Spend(kBoxPairUnits);
   if (direction_ != Eigen::Vector3d::Zero()) {
     const double along = GapAlong(direction_, of_a, of_b);
@@ -154,28 +153,31 @@ double SeparationFindings::MeasureSolids(std::uint32_t a, std::uint32_t b, WorkB
   const double upper = found.separation.upper;
   if (upper <= -pose_.translation && upper < bracket_.upper) {
     KeepPoint(found.a, found.point_error);
-    bracket_.witness = {ContactWitness::Kind::kTriangles, a, b};
+    bracket_.witness = ContactWitness::Elements(solids);
   }
   KeepWay({found.a, found.b, found.separation.lower, upper});
   return found.separation.lower;
 }
 
-double SeparationFindings::MeasureBeside(std::uint32_t element, WorkBudget* work) {
-  if (AnySolid(a_, element, b_, element)) return MeasureSolids(element, element, work);
+double SeparationFindings::MeasureBeside(ElementIndex element, WorkBudget* work) {
+  if (AnySolid(a_, b_, {element, element})) return MeasureSolids({element, element}, work);
   if (a_.shape()) {
     const geometry::TrianglePoints corners = CornersOf(*a_.shape(), element);
     geometry::TriangleDistance found = geometry::DistanceOf(pose_.p_AB, corners);
     std::swap(found.a, found.b);
-    return Count(element, found, b_.reach(), false, slack_ + TurnOfA(corners), work);
+    return MeasureBall(PairMember::kB, element, found, slack_ + TurnOfA(corners), work);
   }
   const geometry::TrianglePoints corners = CornersOf(*b_.shape(), element, pose_);
   const geometry::TriangleDistance found = geometry::DistanceOf(Eigen::Vector3d(0, 0, 0), corners);
-  return Count(element, found, a_.reach(), true, slack_ + TurnOfB(corners), work);
+  return MeasureBall(PairMember::kA, element, found, slack_ + TurnOfB(corners), work);
 }
 
 // A ball and a triangle: the nearest points of its centre and of the triangle are known.
-double SeparationFindings::Count(std::uint32_t triangle, const geometry::TriangleDistance& found,
-                                 double radius, bool ball_is_a, double slack, WorkBudget* work) {
+double SeparationFindings::MeasureBall(PairMember ball, ElementIndex triangle,
+                                       const geometry::TriangleDistance& found, double slack,
+                                       WorkBudget* work) {
+  const bool ball_is_a = ball == PairMember::kA;
+  const double radius = (ball_is_a ? a_ : b_).reach();
   work->Spend(kTrianglePairUnits / 2);
   Eigen::Vector3d a = found.a, b = found.b;
   const double length = (b - a).norm();
@@ -189,23 +191,23 @@ double SeparationFindings::Count(std::uint32_t triangle, const geometry::Triangl
   const double upper = found.distance.upper - radius + slack;
   if (upper <= -pose_.translation && upper < bracket_.upper) {
     KeepPoint(ball_is_a ? found.b : found.a, slack);  // of the surface, within the ball
-    bracket_.witness = {ContactWitness::Kind::kTriangles, triangle, triangle};
+    bracket_.witness = ContactWitness::Elements({triangle, triangle});
   }
   KeepWay({a, b, lower, upper});
   return lower;
 }
 
-void SeparationFindings::RecheckElements(std::uint32_t a, std::uint32_t b, WorkBudget* work) {
-  if (AnySolid(a_, a, b_, b)) {
-    MeasureSolids(a, b, work);
+void SeparationFindings::RecheckElements(ElementPair elements, WorkBudget* work) {
+  if (AnySolid(a_, b_, elements)) {
+    MeasureSolids(elements, work);
     return;
   }
   work->Spend(kCrossingUnits);
-  Cross(a, CornersOf(*a_.shape(), a), b, CornersOf(*b_.shape(), b, pose_));
+  Cross(elements, CornersOf(*a_.shape(), elements.a), CornersOf(*b_.shape(), elements.b, pose_));
 }
 
-void SeparationFindings::Cross(std::uint32_t index_a, const geometry::TrianglePoints& a,
-                               std::uint32_t index_b, const geometry::TrianglePoints& b) {
+void SeparationFindings::Cross(ElementPair triangles, const geometry::TrianglePoints& a,
+                               const geometry::TrianglePoints& b) {
   const double turning = slack_ + std::max(TurnOfA(a), TurnOfB(b));
   const double margin = geometry::CrossingMargin(a, b) - turning;
   if (!(margin > bracket_.crossing_margin)) return;
@@ -215,7 +217,7 @@ void SeparationFindings::Cross(std::uint32_t index_a, const geometry::TrianglePo
     if (!crossing) return;  // the margin was a matter of rounding
     KeepPoint(crossing->point, crossing->error);
     bracket_.upper = std::min(bracket_.upper, -pose_.translation);
-    bracket_.witness = {ContactWitness::Kind::kTriangles, index_a, index_b};
+    bracket_.witness = ContactWitness::Elements(triangles);
   }
   bracket_.crossing_margin = margin;
 }
@@ -252,19 +254,19 @@ void SeparationFindings::PointBetween() {
   bracket_.point_error = std::max(0.0, way_->upper);
 }
 
-SeparationBracket SeparationFindings::Result(double unopened, bool exhausted, std::uint32_t level) {
-  bracket_.lower = unopened;
+SeparationBracket SeparationFindings::Result(const SearchEnd& end) {
+  bracket_.lower = end.unopened;
   if (bracket_.upper < bracket_.lower) {
     // Nearer to each other than their surfaces are: one is inside the other, and as deep at least
     // as the surfaces are apart, since no shorter way takes it out again.
     if (bracket_.lower > 0) bracket_.upper = std::min(bracket_.upper, -bracket_.lower);
     if (bracket_.lower <= 0) bracket_.lower = bracket_.upper;
   }
-  bracket_.exhausted = exhausted;
-  bracket_.level = level;
+  bracket_.exhausted = end.exhausted;
+  bracket_.level = end.level;
   PointBetween();
   DropLonger();
-  if (exhausted || bracket_.ways.size() > kWaysMax) bracket_.ways.clear();
+  if (end.exhausted || bracket_.ways.size() > kWaysMax) bracket_.ways.clear();
   return std::move(bracket_);
 }
 

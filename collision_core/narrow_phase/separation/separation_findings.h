@@ -22,6 +22,17 @@ inline constexpr double kEnoughOfUpper = 0.5;
 /// of the pair stays as wide as it is then.
 inline constexpr std::uint64_t kSolidPairUnits = 192;
 
+/// Which test of two triangles comes first where yes or no is asked for: a crossing decides at
+/// once, but the distance is needed where they do not cross.
+enum class FirstTest { kDistance, kCrossing };
+
+/// How a search ended.
+struct SearchEnd {
+  double unopened = -numeric::kInfinity;  ///< No pair that was not opened is nearer [m].
+  bool exhausted = false;                 ///< The budget ended it.
+  std::uint32_t level = 0;                ///< The deepest level of the trees that was opened.
+};
+
 /// The bracket of a search while it narrows: pairs of balls and of elements are measured in
 /// doubles, and what may matter for the answer is kept.
 class SeparationFindings {
@@ -46,36 +57,35 @@ class SeparationFindings {
   void Resolve(double lower) { resolved_lower_ = std::min(resolved_lower_, lower); }
   double resolved_lower() const { return resolved_lower_; }
 
-  /// Measures two balls, given by their numbers in the sphere trees; returns the lower bound.
-  double MeasureNodes(std::uint32_t a, std::uint32_t b);
+  /// Measures the balls of two nodes; returns the lower bound.
+  double MeasureNodes(NodePair nodes);
   /// Adds an upper bound of the distance, found for some pair of balls.
   void LowerUpper(double upper) { bracket_.upper = std::min(bracket_.upper, upper); }
   /// Measures two triangles that the filter could not separate; returns the lower bound.
-  /// `likely_to_cross`: the test for a crossing comes first.
-  double MeasureTriangles(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
+  double MeasureTriangles(ElementPair triangles, FirstTest first, WorkBudget* work);
   /// If one of the bodies is a ball: measures it beside an element of the other body.
-  double MeasureBeside(std::uint32_t element, WorkBudget* work);
-  /// Measures any two elements; two triangles by MeasureTriangles().
-  double MeasureElements(std::uint32_t a, std::uint32_t b, bool likely_to_cross, WorkBudget* work);
+  double MeasureBeside(ElementIndex element, WorkBudget* work);
+  /// Measures any two elements; two triangles by their distance first.
+  double MeasureElements(ElementPair elements, WorkBudget* work);
   /// Tests only whether two elements are certainly in contact.
-  void RecheckElements(std::uint32_t a, std::uint32_t b, WorkBudget* work);
+  void RecheckElements(ElementPair elements, WorkBudget* work);
 
-  /// The whole answer. `unopened`: a lower bound on the distance of all pairs that were not opened.
-  SeparationBracket Result(double unopened, bool exhausted, std::uint32_t level);
+  /// The whole answer.
+  SeparationBracket Result(const SearchEnd& end);
 
  private:
   ConvexQuestion SolidsQuestion() const;
-  double MeasureSolids(std::uint32_t a, std::uint32_t b, WorkBudget* work);
+  double MeasureSolids(ElementPair solids, WorkBudget* work);
   double TurnOfA(const geometry::TrianglePoints& t) const;
   double TurnOfB(const geometry::TrianglePoints& t) const;
   double GapAlongDirection(const geometry::TrianglePoints& a,
                            const geometry::TrianglePoints& b) const;
   void CommonPoint(const sphere_tree::SphereNode& a, const sphere_tree::SphereNode& b,
                    const Eigen::Vector3d& c_b, double distance, double slack);
-  double Count(std::uint32_t triangle, const geometry::TriangleDistance& found, double radius,
-               bool ball_is_a, double slack, WorkBudget* work);
+  double MeasureBall(PairMember ball, ElementIndex triangle,
+                     const geometry::TriangleDistance& found, double slack, WorkBudget* work);
   void KeepPoint(const Eigen::Vector3d& point, double error);
-  void Cross(std::uint32_t index_a, const geometry::TrianglePoints& a, std::uint32_t index_b,
+  void Cross(ElementPair triangles, const geometry::TrianglePoints& a,
              const geometry::TrianglePoints& b);
   void KeepWay(const NearestWay& way);
   void DropLonger();

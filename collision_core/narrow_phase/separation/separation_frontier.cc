@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "collision_core/base/check.h"
+
 namespace collision::narrow_phase {
 namespace {
 
@@ -16,7 +18,8 @@ bool IsLater(const BallPair& x, const BallPair& y) {
 }  // namespace
 
 BallPair Frontier::Pop() {
-  if (!newest_first_) std::pop_heap(data_, data_ + size_, IsLater);
+  CORE_CHECK(!empty(), "the frontier has a pair");
+  if (order_ == FrontierOrder::kNearestFirst) std::pop_heap(data_, data_ + size_, IsLater);
   return data_[--size_];
 }
 
@@ -26,7 +29,7 @@ BallPair* Frontier::Room(std::size_t count) {
 }
 
 void Frontier::Take(std::size_t count) {
-  if (newest_first_) {
+  if (order_ == FrontierOrder::kNewestFirst) {
     BallPair* const pairs = data_ + size_;
     size_ += count;
     if (count < 2) return;
@@ -50,7 +53,7 @@ void Frontier::Grow() {
 
 double Frontier::Least() const {
   if (empty()) return std::numeric_limits<double>::infinity();
-  if (!newest_first_) return static_cast<double>(data_[0].lower);
+  if (order_ == FrontierOrder::kNearestFirst) return static_cast<double>(data_[0].lower);
   float least = data_[0].lower;
   for (std::size_t i = 1; i < size_; ++i) least = std::min(least, data_[i].lower);
   return static_cast<double>(least);

@@ -14,35 +14,45 @@ struct BallPair {
   std::uint32_t next;  ///< For two leaves: how many pairs of blocks are done.
 };
 
-/// Pairs in the order in which they are opened: those that may be the nearest first, or the newest
-/// first. The first ones are kept in place, so that small searches allocate nothing.
+/// Which pair of a frontier comes next.
+enum class FrontierOrder : std::uint8_t {
+  kNearestFirst,  ///< The pair that may be the nearest.
+  kNewestFirst    ///< Of the pairs pushed last, the one that may be the nearest.
+};
+
+/// Pairs in the order in which they are opened. The first kInPlace of them are kept in place, so
+/// that small searches allocate nothing.
 class Frontier {
  public:
-  explicit Frontier(bool newest_first) : newest_first_(newest_first) {}
+  explicit Frontier(FrontierOrder order) : order_(order) {}
   Frontier(const Frontier&) = delete;
   Frontier& operator=(const Frontier&) = delete;
 
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }
-  bool newest_first() const { return newest_first_; }
-  const BallPair& next() const { return newest_first_ ? data_[size_ - 1] : data_[0]; }
+  FrontierOrder order() const { return order_; }
+  /// Requires a pair.
+  const BallPair& next() const {
+    return order_ == FrontierOrder::kNewestFirst ? data_[size_ - 1] : data_[0];
+  }
+  /// Removes next(). Requires a pair.
   BallPair Pop();
   void Push(const BallPair& pair) {
     *Room(1) = pair;
     Take(1);
   }
-  /// Room for so many to be written, and then taken in; of the newest, the one that may be the
-  /// nearest is to come next.
+  /// Room for `count` pairs to be written to, of which Take() then takes in the first ones.
   BallPair* Room(std::size_t count);
+  /// Takes in the first `count` pairs that were written to Room().
   void Take(std::size_t count);
-  /// No pair may be nearer.
+  /// The least lower bound of all pairs; +infinity if there is none.
   double Least() const;
 
  private:
   static constexpr std::size_t kInPlace = 256;
   void Grow();
 
-  const bool newest_first_;
+  const FrontierOrder order_;
   std::size_t size_ = 0;
   std::size_t room_ = kInPlace;
   BallPair* data_ = in_place_;

@@ -11,14 +11,14 @@ namespace {
 // Of two balls with children both are opened, unless one is larger than this times the other.
 constexpr float kMuchLarger = 4;
 
-// A search looks at the budget before each step, and spends no more than this in one: all triangles
+// A search checks the budget before each step, and spends no more than this in one: all triangles
 // of two blocks measured. Two elements of which one is a solid cost no more (kSolidPairUnits).
 constexpr std::uint64_t kStepUnitsMax =
     kBlockPairUnits + sphere_tree::kBlockTriangles * sphere_tree::kBlockTriangles *
                           (kBoxPairUnits + kCrossingUnits + kTrianglePairUnits);
 static_assert(kStepUnitsMax + kPoseUnits + kPackRowUnits == kBatchUnits);
 
-// Bodies that are farther apart than this [m] are not looked at more closely: their sizes, at most
+// Bodies that are farther apart than this [m] are not examined more closely: their sizes, at most
 // 4e7 m (kMeshReachMax), are nothing beside it, and squares stay within single precision.
 constexpr double kFarApart = 1e15;
 
@@ -29,9 +29,9 @@ Eigen::Vector3f NormalOf(const sphere_tree::TriangleBlock& block) {
   return {block.x[kNormals], block.y[kNormals], block.z[kNormals]};
 }
 
-/// Of a leaf that begins with this block.
-std::uint32_t ElementAt(const sphere_tree::TriangleBlock* leaf, std::uint32_t i) {
-  return leaf[i / sphere_tree::kBlockTriangles].triangle[i % sphere_tree::kBlockTriangles];
+/// Element i of a leaf that begins with this block.
+ElementIndex ElementAt(const sphere_tree::TriangleBlock* leaf, std::uint32_t i) {
+  return leaf[i / sphere_tree::kBlockTriangles].element[i % sphere_tree::kBlockTriangles];
 }
 
 }  // namespace
@@ -49,13 +49,15 @@ SeparationSearch::SeparationSearch(const PosedPair& pair, Goal goal,
       moved_(pair.pose.translation),
       looks_for_margin_(goal == Goal::kContact),
       only_within_(goal == Goal::kYesNo),
-      frontier_(order == SearchOrder::kAsGoal && (goal == Goal::kYesNo || narrow)) {
+      frontier_(order == SearchOrder::kAsGoal && (goal == Goal::kYesNo || narrow)
+                    ? FrontierOrder::kNewestFirst
+                    : FrontierOrder::kNearestFirst) {
   std::fill_n(beyond_, kLanesOver, sphere_tree::kNowhere);
 }
 
 void SeparationSearch::Start(WorkBudget* work) {
   work->Spend(kPackRowUnits);
-  root_lower_ = findings_.MeasureNodes(0, 0);
+  root_lower_ = findings_.MeasureNodes({});
   const Eigen::Map<const Eigen::Vector3f> offset(pose_.offset);
   if (!(offset.cwiseAbs().maxCoeff() < kFarApart)) {
     findings_.Resolve(root_lower_);
@@ -75,7 +77,7 @@ void SeparationSearch::Refine(WorkBudget* work) {
     const double limit = findings_.Limit();
     if (static_cast<double>(frontier_.next().lower) > limit) {
       // Nothing that is left may be nearer; of the newest first that is known of this one only.
-      if (frontier_.newest_first()) {
+      if (frontier_.order() == FrontierOrder::kNewestFirst) {
         findings_.Resolve(static_cast<double>(frontier_.Pop().lower));
       } else {
         done_ = true;
@@ -150,7 +152,7 @@ void SeparationSearch::OpenBalls(const BallPair& pair, Opened opened, float limi
   frontier_.Take(count);
 }
 
-// Where contact becomes certain by it, the pair that tells.
+// Where this bound makes contact certain, finds the pair of balls that gave it, the witness.
 void SeparationSearch::LowerUpper(const Opening& opening, const BallScanTask& task, float upper) {
   if (static_cast<double>(upper) <= -moved_) {
     BallHits hits;
@@ -159,7 +161,7 @@ void SeparationSearch::LowerUpper(const Opening& opening, const BallScanTask& ta
     const float* const nearest =
         std::find(uppers, uppers + task.rows * sphere_tree::kPackBalls, upper);
     const BallPair balls = opening.PairOf(static_cast<std::uint32_t>(nearest - uppers), 0);
-    findings_.MeasureNodes(body_a_.NodeOf(balls.a), body_b_.NodeOf(balls.b));
+    findings_.MeasureNodes({body_a_.NodeOf(balls.a), body_b_.NodeOf(balls.b)});
   }
   findings_.LowerUpper(static_cast<double>(upper));
 }
@@ -172,7 +174,8 @@ void SeparationSearch::OpenLeaves(BallPair pair, float limit, WorkBudget* work) 
       body_a_.tree ? body_a_.tree->blocks() + first_a : nullptr;
   const sphere_tree::TriangleBlock* const b =
       body_b_.tree ? body_b_.tree->blocks() + first_b : nullptr;
-  const bool any_solid = AnySolid(a_, a ? a->triangle[0] : 0, b_, b ? b->triangle[0] : 0);
+  const bool any_solid =
+      AnySolid(a_, b_, {a ? a->element[0] : ElementIndex(), b ? b->element[0] : ElementIndex()});
   const std::uint32_t at_once = any_solid ? 1 : sphere_tree::kBlockTriangles;
   const auto turns_of = [&](const sphere_tree::TriangleBlock* leaf) {
     return leaf ? (leaf->left + at_once - 1) / at_once : 1;
@@ -180,7 +183,9 @@ void SeparationSearch::OpenLeaves(BallPair pair, float limit, WorkBudget* work) 
   const std::uint32_t of_a = turns_of(a), of_b = turns_of(b);
   const std::uint32_t at_a = pair.next / of_b, at_b = pair.next % of_b;
   if (any_solid) {
-    OpenSolids(pair, a ? ElementAt(a, at_a) : 0, b ? ElementAt(b, at_b) : 0, work);
+    OpenSolids(pair,
+               {a ? ElementAt(a, at_a) : ElementIndex(), b ? ElementAt(b, at_b) : ElementIndex()},
+               work);
   } else if (a && b) {
     OpenBlocks(pair, a[at_a], b[at_b], limit, work);
   } else {
@@ -189,13 +194,12 @@ void SeparationSearch::OpenLeaves(BallPair pair, float limit, WorkBudget* work) 
   if (++pair.next < of_a * of_b) frontier_.Push(pair);
 }
 
-void SeparationSearch::OpenSolids(const BallPair& pair, std::uint32_t of_a, std::uint32_t of_b,
-                                  WorkBudget* work) {
-  const double lower = findings_.MeasureElements(of_a, of_b, false, work);
+void SeparationSearch::OpenSolids(const BallPair& pair, ElementPair elements, WorkBudget* work) {
+  const double lower = findings_.MeasureElements(elements, work);
   findings_.Resolve(std::max(lower, static_cast<double>(BoundOf(pair))));
 }
 
-// About a unit vector; where the centres are as good as one, the other direction.
+// From ball to ball, about a unit vector; `other` where the centres nearly coincide.
 Eigen::Vector3f SeparationSearch::DirectionBetween(const BallPair& pair,
                                                    const Eigen::Vector3f& other) const {
   const Eigen::Vector3f c_a = body_a_.CentreOf(pair.a), c_b = body_b_.CentreOf(pair.b);
@@ -229,9 +233,9 @@ void SeparationSearch::OpenBlocks(const BallPair& pair, const sphere_tree::Trian
     const std::uint32_t row = code / sphere_tree::kBlockTriangles,
                         column = code % sphere_tree::kBlockTriangles;
     if (row >= a.left || column >= b.left) continue;
-    const bool likely_to_cross = lowers[code] + slack <= 0;
+    const FirstTest first = lowers[code] + slack <= 0 ? FirstTest::kCrossing : FirstTest::kDistance;
     const double lower =
-        findings_.MeasureTriangles(a.triangle[row], b.triangle[column], likely_to_cross, work);
+        findings_.MeasureTriangles({a.element[row], b.element[column]}, first, work);
     findings_.Resolve(std::max(lower, least));
     if (findings_.Settled()) break;
   }
@@ -242,25 +246,25 @@ void SeparationSearch::OpenBlock(const BallPair& pair, const sphere_tree::Triang
                                  WorkBudget* work) {
   const double least = static_cast<double>(BoundOf(pair));
   for (std::uint32_t i = 0; i < std::min(block.left, sphere_tree::kBlockTriangles); ++i) {
-    findings_.Resolve(std::max(findings_.MeasureBeside(block.triangle[i], work), least));
+    findings_.Resolve(std::max(findings_.MeasureBeside(block.element[i], work), least));
   }
 }
 
-void SeparationSearch::Try(const ContactWitness& leaves, WorkBudget* work) {
+void SeparationSearch::TryLeaves(NodePair leaves, WorkBudget* work) {
   const sphere_tree::SphereNode& a = a_.node(leaves.a);
   const sphere_tree::SphereNode& b = b_.node(leaves.b);
   if (!a_.shape() || !b_.shape()) {
     const sphere_tree::SphereTree& tree = (a_.shape() ? a_ : b_).shape()->tree();
-    for (const std::uint32_t t : tree.TrianglesOf(a_.shape() ? a : b)) {
+    for (const ElementIndex t : tree.ElementsOf(a_.shape() ? a : b)) {
       if (work->exhausted()) return;
       findings_.MeasureBeside(t, work);
     }
     return;
   }
-  for (const std::uint32_t t : a_.shape()->tree().TrianglesOf(a)) {
-    for (const std::uint32_t u : b_.shape()->tree().TrianglesOf(b)) {
+  for (const ElementIndex t : a_.shape()->tree().ElementsOf(a)) {
+    for (const ElementIndex u : b_.shape()->tree().ElementsOf(b)) {
       if (work->exhausted()) return;
-      findings_.MeasureElements(t, u, false, work);
+      findings_.MeasureElements({t, u}, work);
     }
   }
 }
@@ -275,7 +279,7 @@ double SeparationSearch::lower() const {
 SeparationBracket SeparationSearch::Result() {
   const std::uint32_t level = std::max(a_.node(body_a_.NodeOf(deepest_a_)).level,
                                        b_.node(body_b_.NodeOf(deepest_b_)).level);
-  return findings_.Result(lower(), !done_, level);
+  return findings_.Result({.unopened = lower(), .exhausted = !done_, .level = level});
 }
 
 }  // namespace collision::narrow_phase

@@ -27,11 +27,11 @@ namespace collision::narrow_phase {
 inline constexpr std::uint64_t kPackRowUnits = 1;
 inline constexpr std::uint64_t kBlockPairUnits = 3;
 
-/// Which pair is opened next. Of the newest first, the lower end of the bracket rises only when
-/// most is done, but no order has to be kept: where the end is what counts, that is the faster one.
+/// Which pair is opened next. With the newest first the lower end of the bracket rises only when
+/// most is done, but no heap has to be kept: where only the final answer counts, that is faster.
 enum class SearchOrder : std::uint8_t {
-  kAsGoal,   ///< The newest first for Goal::kYesNo and for a bracket of some width.
-  kNearest,  ///< Those that may be the nearest first.
+  kAsGoal,   ///< The newest first for Goal::kYesNo and for a bracket of a fixed width.
+  kNearest,  ///< Always the pair that may be the nearest first.
 };
 
 /// One pair of bodies at a pose. Every step opens one pair of balls (or measures two blocks of
@@ -44,11 +44,11 @@ class SeparationSearch {
                    SearchOrder order = SearchOrder::kAsGoal,
                    const SpherePairKernel& scan = WidestSpherePairKernel());
 
-  /// The two roots: costs one unit, and gives a first bracket.
+  /// Measures the two roots: costs one unit, and gives a first bracket.
   void Start(WorkBudget* work);
-  /// Triangles that are likely to be the nearest.
-  void Try(const ContactWitness& leaves, WorkBudget* work);
-  /// Until nothing is left to do, or the budget is spent.
+  /// Measures all elements of two leaves that are likely to be the nearest.
+  void TryLeaves(NodePair leaves, WorkBudget* work);
+  /// Opens pairs until nothing is left to do, or the budget is spent.
   void Refine(WorkBudget* work);
   bool done() const { return done_; }
 
@@ -68,7 +68,7 @@ class SeparationSearch {
   Eigen::Vector3f DirectionBetween(const BallPair& pair, const Eigen::Vector3f& other) const;
   void OpenBlocks(const BallPair& pair, const sphere_tree::TriangleBlock& a,
                   const sphere_tree::TriangleBlock& b, float limit, WorkBudget* work);
-  void OpenSolids(const BallPair& pair, std::uint32_t of_a, std::uint32_t of_b, WorkBudget* work);
+  void OpenSolids(const BallPair& pair, ElementPair elements, WorkBudget* work);
   void OpenBlock(const BallPair& pair, const sphere_tree::TriangleBlock& block, WorkBudget* work);
   /// The lower bound of a pair; −kNowhere where only the limit counts, because the key is then an
   /// order and no bound.

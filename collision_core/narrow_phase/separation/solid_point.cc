@@ -59,28 +59,28 @@ double SignedDistanceTo(const BodyTree& surface, const Eigen::Vector3d& x, WorkB
 }
 
 SolidPoint PointOfA(const BodyTree& a, const Eigen::Vector3d& x_A, WorkBudget* work) {
-  return {true, x_A, SignedDistanceTo(a, x_A, work)};
+  return {PairMember::kA, x_A, SignedDistanceTo(a, x_A, work)};
 }
 
 SolidPoint PointOfB(const BodyTree& b, const Eigen::Vector3d& x_B, WorkBudget* work) {
-  return {false, x_B, SignedDistanceTo(b, x_B, work)};
+  return {PairMember::kB, x_B, SignedDistanceTo(b, x_B, work)};
 }
 
 double UpperBy(const SolidPoint& point, const PosedPair& pair, WorkBudget* work) {
   const auto& [a, b, pose] = pair;
-  double off = 0, length_A = 0, length_B = 0, other = 0;
-  if (point.of_A) {
+  double off = 0, length_a = 0, length_b = 0, other = 0;
+  if (point.body == PairMember::kA) {
     const Eigen::Vector3d y_B = SeenFromB(point.x, pose, &off);
-    length_A = Length(point.x), length_B = Length(y_B);
+    length_a = Length(point.x), length_b = Length(y_B);
     other = SignedDistanceTo(b, y_B, work);
   } else {
     const Eigen::Vector3d y_A = pose.ToA(point.x);
-    length_A = Length(y_A), length_B = Length(point.x);
-    off = numeric::AddUp(pose.offset_error, numeric::MultiplyUp(pose.matrix_error, length_B));
+    length_a = Length(y_A), length_b = Length(point.x);
+    off = numeric::AddUp(pose.offset_error, numeric::MultiplyUp(pose.matrix_error, length_b));
     other = SignedDistanceTo(a, y_A, work);
   }
   const double turning =
-      numeric::AddUp(TurningOf(a, pose.chord_A, length_A), TurningOf(b, pose.chord_B, length_B));
+      numeric::AddUp(TurningOf(a, pose.chord_A, length_a), TurningOf(b, pose.chord_B, length_b));
   return numeric::AddUp(numeric::AddUp(point.signed_distance, other), numeric::AddUp(off, turning));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collision_core/base/work_budget.h"
+#include "collision_core/narrow_phase/pose/pair_parts.h"
 #include "collision_core/narrow_phase/pose/posed_pair.h"
 
 namespace collision::narrow_phase {
@@ -12,7 +13,7 @@ namespace collision::narrow_phase {
 /// parallel faces, or of edges that coincide: there no edge passes through the inside of a
 /// triangle.
 struct SolidPoint {
-  bool of_A = true;                             ///< Fixed to A; else to B.
+  PairMember body = PairMember::kA;             ///< The body to which it is fixed.
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< In that body's frame.
   double signed_distance = numeric::kInfinity;  ///< To that body's surface, rounded up.
 };

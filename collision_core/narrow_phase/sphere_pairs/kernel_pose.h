@@ -27,7 +27,9 @@ struct PackedBody {
     const std::uint32_t i = which % sphere_tree::kPackBalls;
     return {pack.x[i], pack.y[i], pack.z[i]};
   }
-  std::uint32_t NodeOf(sphere_tree::BallRef which) const { return tree ? tree->NodeOf(which) : 0; }
+  NodeIndex NodeOf(sphere_tree::BallRef which) const {
+    return tree ? tree->NodeOf(which) : sphere_tree::SphereTree::kRoot;
+  }
 
   const sphere_tree::PackedTree* tree;  ///< Null: a ball.
   const sphere_tree::BallPack* packs;

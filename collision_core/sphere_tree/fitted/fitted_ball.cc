@@ -113,13 +113,14 @@ void BallPolish::Run(std::span<const Vector3d> points, int queries, FittedBall* 
   }
 }
 
-void AppendCandidates(const TriangleBoxes& boxes, const Vector3d& from, const Vector3d& normal,
-                      std::uint32_t triangle, bool closed, std::vector<FittedBall>* candidates) {
+void AppendCandidates(const TriangleBoxes& boxes, const SurfacePoint& at, SurfaceKind kind,
+                      std::vector<FittedBall>* candidates) {
+  const auto& [from, normal, triangle] = at;
   FittedBall on_surface;
   on_surface.centre = on_surface.nearest = from;
   on_surface.triangle = triangle;
   candidates->push_back(on_surface);
-  if (!closed) return;
+  if (kind == SurfaceKind::kOpen) return;
   for (const double side : {-1.0, 1.0}) {
     const Vector3d inward = side * normal;
     const RayWalk walk = boxes.Walk(from, inward, triangle);

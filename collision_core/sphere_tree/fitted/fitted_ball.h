@@ -4,6 +4,7 @@
 #include <span>
 
 #include "collision_core/sphere_tree/fitted/fitted_boxes.h"
+#include "collision_core/sphere_tree/tree_options.h"
 
 namespace collision::sphere_tree {
 
@@ -47,11 +48,17 @@ class BallPolish {
   int queries_ = 0;
 };
 
-/// Balls that touch the triangle's surface point `from` from inside (or lie on it), as starts of a
-/// search: the largest that contains no surface, one half-way to the opposite side, the point
-/// itself.
-void AppendCandidates(const TriangleBoxes& boxes, const Eigen::Vector3d& from,
-                      const Eigen::Vector3d& normal, std::uint32_t triangle, bool closed,
+/// A point of a triangle.
+struct SurfacePoint {
+  Eigen::Vector3d point;   ///< [m]
+  Eigen::Vector3d normal;  ///< The triangle's, of length 1; not read of an open surface.
+  std::uint32_t triangle;
+};
+
+/// Appends balls that touch the surface at a point from inside (or lie on it), as starts of a
+/// search: the point itself, and for a closed surface the largest ball that contains no surface and
+/// one half-way to the opposite side.
+void AppendCandidates(const TriangleBoxes& boxes, const SurfacePoint& at, SurfaceKind kind,
                       std::vector<FittedBall>* candidates);
 
 }  // namespace collision::sphere_tree

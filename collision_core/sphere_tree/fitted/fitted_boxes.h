@@ -8,6 +8,8 @@
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/geometry/triangle/point_triangle.h"
+#include "collision_core/geometry/triangle/ray_passage.h"
+#include "collision_core/sphere_tree/underflow.h"
 
 namespace collision::sphere_tree {
 
@@ -45,19 +47,21 @@ class TriangleBoxes {
   ///
   /// The corners of boxes are exact. The computed square of the distance to a box is off by a
   /// relative 5 u at most, u = 2^−53 (one for each difference, twice; one for each square, two for
-  /// the sums), that of the limit by u; 1e-290 covers what underflows.
+  /// the sums), that of the limit by u; kSquareUnderflow covers what underflows.
   template <typename Visit>
   void VisitWithin(const Eigen::Vector3d& point, const double* limit, const Visit& visit) const {
     VisitIf(
         [&](const Node& node) {
-          return SquareTo(node, point) <= *limit * *limit * (1 + 0x1p-48) + 1e-290;
+          return SquareTo(node, point) <= *limit * *limit * (1 + 0x1p-48) + kSquareUnderflow;
         },
         visit);
   }
 
-  /// Calls `visit(triangle)` for every triangle that a ray along +x (or −x) may meet; exact.
+  /// Calls `visit(triangle)` for every triangle that a ray along +x (kForward) or −x (kBackward)
+  /// may meet; exact.
   template <typename Visit>
-  void VisitAlongX(const Eigen::Vector3d& from, bool forward, const Visit& visit) const {
+  void VisitAlongX(const Eigen::Vector3d& from, geometry::Passing side, const Visit& visit) const {
+    const bool forward = side == geometry::Passing::kForward;
     VisitIf(
         [&](const Node& node) {
           const bool is_ahead = forward ? node.upper.x() >= from.x() : node.lower.x() <= from.x();

@@ -57,14 +57,14 @@ struct Pending {
 
 class Builder {
  public:
-  Builder(const geometry::TriangleMesh& mesh, const ShapeOptions& options, bool closed)
+  Builder(const geometry::TriangleMesh& mesh, const ShapeOptions& options, SurfaceKind kind)
       : options_(options),
         boxes_(mesh),
         pieces_(mesh),
         pieces_max_(kPiecesPerTriangle * pieces_.size() + kPiecesMore),
         work_max_(kWorkPerTriangle * pieces_.size() + kWorkMore),
-        search_(boxes_, pieces_, closed, options.triangles_per_leaf),
-        distance_(boxes_, closed) {}
+        search_(boxes_, pieces_, kind, options.triangles_per_leaf),
+        distance_(boxes_, kind) {}
 
   SphereTree Build() {
     for (std::uint32_t i = 0; i < pieces_.size(); ++i) next_list_.push_back(i);
@@ -78,7 +78,7 @@ class Builder {
       ++tree_.levels;
     }
     tree_.nodes.shrink_to_fit();
-    tree_.triangle_indices.shrink_to_fit();
+    tree_.elements.shrink_to_fit();
     return std::move(tree_);
   }
 
@@ -125,9 +125,9 @@ class Builder {
 
   /// Far enough for the exact corner. A computed |d|² is off by a relative 5 u at most, u = 2^−53,
   /// the root by 3.5 u; 2^−50 = 8 u covers them and its own rounding. Squares below 1e-308 lose
-  /// their error, distances below 1e-150 are therefore raised to it.
+  /// their error, distances are therefore raised by kDistanceUnderflow.
   double RadiusTo(std::uint32_t corner, const Vector3d& centre) const {
-    const double d = (pieces_.PointAt(corner) - centre).norm() * (1 + 0x1p-50) + 1e-150;
+    const double d = (pieces_.PointAt(corner) - centre).norm() * (1 + 0x1p-50) + kDistanceUnderflow;
     return numeric::AddUp(d, pieces_.ErrorAt(corner));
   }
 
@@ -139,11 +139,13 @@ class Builder {
     if (pending.cover) return AddChildren(pending, *pending.cover);
     const std::uint32_t spare = SpareLevels(pending);
     const bool fits = pending.ball.overshoot() <= kFits * pending.width;
-    if (fits || spare == 0 || !HasWorkLeft()) return Halve(pending, fits);
+    if (fits || spare == 0 || !HasWorkLeft()) {
+      return Halve(pending, fits ? ChildBalls::kOfParent : ChildBalls::kOwn);
+    }
     HalveLargePieces(pending.width);
     const FittedCover cover =
         search_.Find(part_, kChildren, tree_.nodes.size() < kCarefulNodes ? kCarefulStarts : 1);
-    if (cover.balls.size() < 2) return Halve(pending, false);
+    if (cover.balls.size() < 2) return Halve(pending, ChildBalls::kOwn);
     const bool is_early = tree_.nodes.size() < kGroupedNodes && spare > kGroupedSpare;
     if (is_early && cover.balls.size() > kGroups) return AddGroups(pending, cover);
     AddChildren(pending, cover);
@@ -208,11 +210,14 @@ class Builder {
     }
   }
 
-  /// In equal parts by place, whatever balls that makes. `fits`: the node's serves them all.
-  void Halve(const Pending& pending, bool fits) {
+  /// The balls of a node's children: the node's own, which fits well enough, or one for each.
+  enum class ChildBalls { kOfParent, kOwn };
+
+  /// Divides a part into equal parts by place, whatever balls that makes.
+  void Halve(const Pending& pending, ChildBalls balls) {
     const std::size_t leaves =
         (part_.size() + options_.triangles_per_leaf - 1) / options_.triangles_per_leaf;
-    HalveOrder(pending, fits, part_, std::min<std::size_t>(kChildren, leaves));
+    HalveOrder(pending, balls, part_, std::min<std::size_t>(kChildren, leaves));
   }
 
   FittedBall BallFor(std::span<const std::uint32_t> part, const FittedBall& start) {
@@ -232,12 +237,13 @@ class Builder {
     return pieces_.PointAt(a) + pieces_.PointAt(b) + pieces_.PointAt(c);
   }
 
-  void HalveOrder(const Pending& pending, bool fits, std::span<std::uint32_t> order,
+  void HalveOrder(const Pending& pending, ChildBalls balls, std::span<std::uint32_t> order,
                   std::size_t children) {
     if (children == 1) {
       const std::size_t first = next_list_.size();
       next_list_.insert(next_list_.end(), order.begin(), order.end());
-      return Add(pending, fits ? pending.ball : BallFor(order, pending.ball), first);
+      const bool own = balls == ChildBalls::kOwn;
+      return Add(pending, own ? BallFor(order, pending.ball) : pending.ball, first);
     }
     Vector3d lower = MiddleOf(order[0]), upper = lower;
     for (const std::uint32_t piece : order) {
@@ -252,8 +258,8 @@ class Builder {
                        const double x = MiddleOf(i)[axis], y = MiddleOf(j)[axis];
                        return x != y ? x < y : i < j;
                      });
-    HalveOrder(pending, fits, order.first(half), children / 2);
-    HalveOrder(pending, fits, order.subspan(half), children - children / 2);
+    HalveOrder(pending, balls, order.first(half), children / 2);
+    HalveOrder(pending, balls, order.subspan(half), children - children / 2);
   }
 
   /// Each once, in ascending order.
@@ -267,9 +273,9 @@ class Builder {
 
   void MakeLeaf(std::span<const std::uint32_t> part, SphereNode* node) {
     const auto triangles = TrianglesOf(part);
-    node->first_triangle = static_cast<std::uint32_t>(tree_.triangle_indices.size());
-    node->triangles = static_cast<std::uint32_t>(triangles.size());
-    tree_.triangle_indices.insert(tree_.triangle_indices.end(), triangles.begin(), triangles.end());
+    node->first_element = static_cast<std::uint32_t>(tree_.elements.size());
+    node->elements = static_cast<std::uint32_t>(triangles.size());
+    for (const std::uint32_t triangle : triangles) tree_.elements.emplace_back(triangle);
   }
 
   const ShapeOptions& options_;
@@ -290,8 +296,8 @@ class Builder {
 }  // namespace
 
 SphereTree BuildFitted(const geometry::TriangleMesh& mesh, const ShapeOptions& options,
-                       bool closed) {
-  return Builder(mesh, options, closed).Build();
+                       SurfaceKind kind) {
+  return Builder(mesh, options, kind).Build();
 }
 
 }  // namespace collision::sphere_tree

@@ -7,8 +7,8 @@
 
 namespace collision::sphere_tree {
 
-/// Builds a whole tree with certified radii and signed distances. `closed`: the mesh is closed
-/// (MeshFacts). Deterministic; in time about n log n, 60 to 100 µs a triangle including the signed
+/// Builds a whole tree with certified radii and `kind`: of the mesh.
+/// Deterministic; in time about n log n, 60 to 100 µs a triangle including the signed
 /// distances. Requires a mesh that passed RefusalOf().
 ///
 /// Why balls from inside. A ball may reach beyond the surface by r + s. On a patch of width w, a
@@ -44,6 +44,6 @@ namespace collision::sphere_tree {
 ///   rocker-arm (440)  0.11, 0.21   [0.31, 0.35]
 ///   spot (690)        0.13, 0.09   [0.33, 0.14]
 SphereTree BuildFitted(const geometry::TriangleMesh& mesh, const ShapeOptions& options,
-                       bool closed);
+                       SurfaceKind kind);
 
 }  // namespace collision::sphere_tree

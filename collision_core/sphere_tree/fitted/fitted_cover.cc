@@ -58,8 +58,9 @@ void CoverSearch::AddCandidatesOf(std::uint32_t index, std::uint32_t piece) {
     const Vector3d normal = (points_[b] - points_[a]).cross(points_[c] - points_[a]);
     const double length = normal.norm();
     const Vector3d unit = length > 0 ? Vector3d(normal / length) : Vector3d::Zero();
-    AppendCandidates(boxes_, (points_[a] + points_[b] + points_[c]) / 3, unit,
-                     pieces_[piece].triangle, closed_ && length > 0, &known_);
+    const SurfacePoint middle{(points_[a] + points_[b] + points_[c]) / 3, unit,
+                              pieces_[piece].triangle};
+    AppendCandidates(boxes_, middle, length > 0 ? kind_ : SurfaceKind::kOpen, &known_);
     known.count = static_cast<std::uint32_t>(known_.size()) - known.first;
   }
   const auto first = known_.begin() + known.first;

@@ -29,9 +29,9 @@ struct FittedGroup {
 class CoverSearch {
  public:
   /// `whole`: balls with so few pieces need not be divided.
-  CoverSearch(const TriangleBoxes& boxes, const FittedPieces& pieces, bool closed,
+  CoverSearch(const TriangleBoxes& boxes, const FittedPieces& pieces, SurfaceKind kind,
               std::uint32_t whole)
-      : boxes_(boxes), pieces_(pieces), closed_(closed), whole_(whole), polish_(boxes) {}
+      : boxes_(boxes), pieces_(pieces), kind_(kind), whole_(whole), polish_(boxes) {}
 
   /// At most `count` balls, none without a piece: the best of `starts` searches, 1 to count − 1.
   FittedCover Find(std::span<const std::uint32_t> part, std::uint32_t count, std::uint32_t starts);
@@ -67,7 +67,7 @@ class CoverSearch {
 
   const TriangleBoxes& boxes_;
   const FittedPieces& pieces_;
-  const bool closed_;
+  const SurfaceKind kind_;
   const std::uint32_t whole_;
   BallPolish polish_;
 

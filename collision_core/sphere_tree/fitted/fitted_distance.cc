@@ -10,10 +10,10 @@ namespace {
 using Eigen::Vector3d;
 
 /// Whether a point lies in the ball about a centre that is certainly inside. The computed
-/// length is off by a relative 3.5 u, u = 2^−53, and 1e-150 where squares underflow.
+/// length is off by a relative 3.5 u, u = 2^−53, and kDistanceUnderflow.
 bool IsInBallOf(const CentreFacts& near, const Vector3d& point) {
   return near.inside &&
-         (point - near.centre).norm() * (1 + 0x1p-49) + 1e-150 < -near.signed_distance;
+         (point - near.centre).norm() * (1 + 0x1p-49) + kDistanceUnderflow < -near.signed_distance;
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ std::optional<int> FittedDistance::WindingNumberAt(const Vector3d& point) const 
       forward ? geometry::Passing::kForward : geometry::Passing::kBackward;
   int winding = 0;
   bool known = true;
-  boxes_.VisitAlongX(point, forward, [&](std::uint32_t triangle) {
+  boxes_.VisitAlongX(point, asked, [&](std::uint32_t triangle) {
     const geometry::RayPassage passage = geometry::PassageOf(boxes_.CornersOf(triangle), point);
     known = known && passage.passing != geometry::Passing::kUnknown;
     if (passage.passing == asked) winding += forward ? passage.sign : -passage.sign;
@@ -50,7 +50,8 @@ CentreFacts FittedDistance::Certify(const Vector3d& centre, double slack, const 
   CentreFacts facts;
   facts.centre = centre;
   const NearPoint nearest = boxes_.Nearest(centre, triangle, 0, 0.5 * slack);
-  if (closed_ && (IsInBallOf(near, centre) || WindingNumberAt(centre).value_or(0) != 0)) {
+  if (kind_ == SurfaceKind::kClosed &&
+      (IsInBallOf(near, centre) || WindingNumberAt(centre).value_or(0) != 0)) {
     // Somewhat less than it seems: whatever is near by need not be measured then.
     const double lower = LowerBound(centre, nearest.distance * (1 - 0x1p-40) - 0.5 * slack);
     facts.inside = lower > 0;

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "collision_core/sphere_tree/fitted/fitted_boxes.h"
+#include "collision_core/sphere_tree/tree_options.h"
 
 namespace collision::sphere_tree {
 
@@ -18,7 +19,7 @@ struct CentreFacts {
 /// Asks one surface, through its boxes.
 class FittedDistance {
  public:
-  FittedDistance(const TriangleBoxes& boxes, bool closed) : boxes_(boxes), closed_(closed) {}
+  FittedDistance(const TriangleBoxes& boxes, SurfaceKind kind) : boxes_(boxes), kind_(kind) {}
 
   /// The signed distance, rounded up by `slack` at most where that makes it easier, beside
   /// rounding. `near`: facts of a centre near by, which may save the winding number; `triangle`:
@@ -31,7 +32,7 @@ class FittedDistance {
   std::optional<int> WindingNumberAt(const Eigen::Vector3d& point) const;
 
   const TriangleBoxes& boxes_;
-  const bool closed_;
+  const SurfaceKind kind_;
 };
 
 }  // namespace collision::sphere_tree

@@ -96,9 +96,9 @@ class Builder {
 
   void MakeLeaf(Triangles part, SphereNode* node) {
     std::sort(part.begin(), part.end());
-    node->first_triangle = static_cast<std::uint32_t>(tree_.triangle_indices.size());
-    node->triangles = static_cast<std::uint32_t>(part.size());
-    tree_.triangle_indices.insert(tree_.triangle_indices.end(), part.begin(), part.end());
+    node->first_element = static_cast<std::uint32_t>(tree_.elements.size());
+    node->elements = static_cast<std::uint32_t>(part.size());
+    for (const std::uint32_t triangle : part) tree_.elements.emplace_back(triangle);
   }
 
   const geometry::TriangleMesh& mesh_;

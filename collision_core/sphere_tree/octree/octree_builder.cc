@@ -144,10 +144,13 @@ struct Pending {
   std::size_t first_corner = 0, corners = 0;
 };
 
+/// A node's ball: the octant's circumscribed one, or the smaller of it and one about the part.
+enum class BallKind { kSmaller, kCircumscribed };
+
 class Builder {
  public:
-  Builder(const geometry::TriangleMesh& mesh, const ShapeOptions& options, bool circumscribed)
-      : mesh_(mesh), options_(options), circumscribed_(circumscribed) {}
+  Builder(const geometry::TriangleMesh& mesh, const ShapeOptions& options, BallKind balls)
+      : mesh_(mesh), options_(options), balls_(balls) {}
 
   SphereTree Build() {
     AddRoot();
@@ -160,7 +163,7 @@ class Builder {
       ++tree_.levels;
     }
     tree_.nodes.shrink_to_fit();
-    tree_.triangle_indices.shrink_to_fit();
+    tree_.elements.shrink_to_fit();
     return std::move(tree_);
   }
 
@@ -206,7 +209,7 @@ class Builder {
   /// the corners may be off.
   geometry::EnclosingBall BallOf(const Octant& octant, const Pieces& pieces) const {
     geometry::EnclosingBall ball = CircumscribedBall(octant);
-    if (!circumscribed_) {
+    if (balls_ == BallKind::kSmaller) {
       const geometry::EnclosingBall small = geometry::SmallBallAround(pieces.corners);
       if (!(ball.radius < small.radius)) ball = small;
     }
@@ -302,14 +305,14 @@ class Builder {
   }
 
   void MakeLeaf(SphereNode* node) {
-    node->first_triangle = static_cast<std::uint32_t>(tree_.triangle_indices.size());
-    node->triangles = static_cast<std::uint32_t>(current_.list.size());
-    for (const Piece& piece : current_.list) tree_.triangle_indices.push_back(piece.triangle);
+    node->first_element = static_cast<std::uint32_t>(tree_.elements.size());
+    node->elements = static_cast<std::uint32_t>(current_.list.size());
+    for (const Piece& piece : current_.list) tree_.elements.emplace_back(piece.triangle);
   }
 
   const geometry::TriangleMesh& mesh_;
   const ShapeOptions& options_;
-  const bool circumscribed_;
+  const BallKind balls_;
   double coordinate_max_ = 0;
   SphereTree tree_;
   std::size_t held_ = 0;         ///< Pieces in leaves, and in nodes that are not divided yet.
@@ -325,12 +328,12 @@ class Builder {
 }  // namespace
 
 SphereTree BuildOctree(const geometry::TriangleMesh& mesh, const ShapeOptions& options) {
-  return Builder(mesh, options, false).Build();
+  return Builder(mesh, options, BallKind::kSmaller).Build();
 }
 
 SphereTree BuildCircumscribedOctree(const geometry::TriangleMesh& mesh,
                                     const ShapeOptions& options) {
-  return Builder(mesh, options, true).Build();
+  return Builder(mesh, options, BallKind::kCircumscribed).Build();
 }
 
 }  // namespace collision::sphere_tree

@@ -25,7 +25,7 @@ constexpr sphere_tree::ShapeOptions kFitted{.builder = sphere_tree::TreeBuilder:
 /// The octree of the paper: each ball circumscribes its octant. Ours keeps the smaller of that
 /// one and one about what the octant holds. Signed distances as deep as cuts are compared.
 sphere_tree::SphereTree CircumscribedOctree(const BenchMesh& mesh, const shape::Shape& shape) {
-  sphere_tree::SphereTree tree = BuildCircumscribedOctree(mesh.mesh, {});
+  sphere_tree::SphereTree tree = sphere_tree::BuildCircumscribedOctree(mesh.mesh, {});
   for (sphere_tree::SphereNode& node : tree.nodes) {
     if (node.level > kLevelsMax) break;
     const numeric::Interval distance = shape.DistanceTo(node.centre);

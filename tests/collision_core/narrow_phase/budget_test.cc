@@ -99,11 +99,10 @@ std::vector<std::pair<Body, Body>> Motions(Body a, Body b) {
 
 /// The last leaf of each.
 ContactWitness LastLeaves(const Pair& pair) {
-  const auto last = [](const BodyTree& surface) {
-    return surface.shape() ? static_cast<std::uint32_t>(surface.shape()->tree().nodes.size() - 1)
-                           : 0;
+  const auto last = [](const BodyTree& body) {
+    return body.shape() ? NodeIndex(body.shape()->tree().nodes.size() - 1) : NodeIndex();
   };
-  return {ContactWitness::Kind::kLeaves, last(pair.a), last(pair.b)};
+  return ContactWitness::Leaves({last(pair.a), last(pair.b)});
 }
 
 using Ask = std::function<void(const Pair&, WorkBudget*)>;

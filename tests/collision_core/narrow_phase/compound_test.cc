@@ -38,7 +38,7 @@ std::shared_ptr<const shape::Shape> RandomCompound(Random& random, std::size_t m
   return shape::Shape::Compound(surface, std::move(solids));
 }
 
-std::uint32_t ElementsOf(const shape::Shape& shape) {
+std::uint32_t ElementCountOf(const shape::Shape& shape) {
   return static_cast<std::uint32_t>(shape.mesh().triangles.size() + shape.solids().size());
 }
 
@@ -61,7 +61,7 @@ void ExpectCovered(const sphere_tree::SphereNode& node, const shape::ConvexSolid
 
 void ExpectTree(const shape::Shape& shape) {
   const sphere_tree::SphereTree& tree = shape.tree();
-  std::vector<int> seen(ElementsOf(shape), 0);
+  std::vector<int> seen(ElementCountOf(shape), 0);
   std::uint32_t expected_child = 1;
   for (const sphere_tree::SphereNode& node : tree.nodes) {
     if (node.children > 0) {
@@ -73,10 +73,10 @@ void ExpectTree(const shape::Shape& shape) {
     double distance = numeric::kInfinity;
     for (const sphere_tree::SphereNode& child : tree.ChildrenOf(node))
       EXPECT_EQ(child.level, node.level + 1);
-    for (const std::uint32_t element : tree.TrianglesOf(node)) {
-      ++seen[element];
+    for (const ElementIndex element : tree.ElementsOf(node)) {
+      ++seen[element.value()];
       if (!shape.IsSolid(element)) continue;
-      EXPECT_EQ(node.triangles, 1u);
+      EXPECT_EQ(node.elements, 1u);
       ExpectCovered(node, shape.SolidAt(element));
     }
     // Everything below is within the ball: the leaves' solids are.
@@ -86,7 +86,7 @@ void ExpectTree(const shape::Shape& shape) {
       const sphere_tree::SphereNode& next = *below.back();
       below.pop_back();
       for (const sphere_tree::SphereNode& child : tree.ChildrenOf(next)) below.push_back(&child);
-      for (const std::uint32_t element : tree.TrianglesOf(next)) {
+      for (const ElementIndex element : tree.ElementsOf(next)) {
         if (!shape.IsSolid(element)) continue;
         of_surface = false;
         ExpectCovered(node, shape.SolidAt(element));
@@ -142,15 +142,16 @@ Posed RandomPosed(Random& random, double size, const Vector& p) {
 // All pairs, of which none is left out.
 numeric::Interval LeastOfAll(const BodyTree& a, const BodyTree& b, const RelativePose& pose) {
   numeric::Interval least{numeric::kInfinity, numeric::kInfinity};
-  const std::uint32_t of_a = a.shape() ? ElementsOf(*a.shape()) : 1;
-  const std::uint32_t of_b = b.shape() ? ElementsOf(*b.shape()) : 1;
+  const std::uint32_t of_a = a.shape() ? ElementCountOf(*a.shape()) : 1;
+  const std::uint32_t of_b = b.shape() ? ElementCountOf(*b.shape()) : 1;
   for (std::uint32_t i = 0; i < of_a; ++i) {
     for (std::uint32_t j = 0; j < of_b; ++j) {
       WorkBudget work(10000);
       geometry::GjkHint none;
       const ConvexQuestion question{ConvexGoal::kDistance, 1e-12, 0};
       const numeric::Interval pair =
-          SeparationOf(PosedA(SetOf(a, i), pose), PosedB(SetOf(b, j), pose), question, &none, &work)
+          SeparationOf(PosedA(SetOf(a, ElementIndex(i)), pose),
+                       PosedB(SetOf(b, ElementIndex(j)), pose), question, &none, &work)
               .separation;
       least = {std::min(least.lower, pair.lower), std::min(least.upper, pair.upper)};
     }

@@ -54,7 +54,7 @@ TEST_P(ContainmentTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
     const SegmentResult balls = EvaluateBallSegment(box.ball, wall.ball, 1);
     const ShapeSegmentResult verdict = EvaluateShapeSegment(box, wall, 1, balls, &judging);
     EXPECT_LE(verdict.times.free_until, 0);
-    if (verdict.looked) {
+    if (verdict.examined) {
       EXPECT_LE(verdict.nearest.separation.lower, -depth) << units;
       EXPECT_GE(verdict.nearest.separation.upper, -depth) << units;
     }

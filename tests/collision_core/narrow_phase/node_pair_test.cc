@@ -30,8 +30,8 @@ std::size_t LeavesOf(const BodySegment& body) {
 TEST(OpenLarger, ComesToEveryPairOfLeavesOnce) {
   const BodySegment box = BodyOf(Cube(1)), rod = BodyOf(Cube(0.25));
   const BodyTree a(box), b(rod);
-  std::set<std::pair<std::uint32_t, std::uint32_t>> leaves;
-  std::vector<NodePair> open = {{0, 0}};
+  std::set<NodePair> leaves;
+  std::vector<NodePair> open = {{}};
   while (!open.empty()) {
     const NodePair pair = open.back();
     open.pop_back();
@@ -39,7 +39,7 @@ TEST(OpenLarger, ComesToEveryPairOfLeavesOnce) {
     if (OpenLarger(a, b, pair, keep)) continue;
     EXPECT_EQ(a.node(pair.a).children, 0u);
     EXPECT_EQ(b.node(pair.b).children, 0u);
-    EXPECT_TRUE(leaves.insert({pair.a, pair.b}).second) << pair.a << ", " << pair.b;
+    EXPECT_TRUE(leaves.insert(pair).second) << pair.a.value() << ", " << pair.b.value();
   }
   EXPECT_EQ(leaves.size(), LeavesOf(box) * LeavesOf(rod));
 }
@@ -47,19 +47,20 @@ TEST(OpenLarger, ComesToEveryPairOfLeavesOnce) {
 TEST(OpenLarger, OpensTheLargerNodeInTheOrderOfItsChildren) {
   const BodySegment large = BodyOf(Cube(1)), small = BodyOf(Cube(0.25));
   const BodyTree a(large), b(small);
-  ASSERT_GT(a.node(0).children, 0u);
-  std::vector<std::uint32_t> opened;
-  EXPECT_TRUE(OpenLarger(a, b, {0, 0}, [&](NodePair pair) {
-    EXPECT_EQ(pair.b, 0u);
+  ASSERT_FALSE(a.root().is_leaf());
+  std::vector<NodeIndex> opened;
+  EXPECT_TRUE(OpenLarger(a, b, {}, [&](NodePair pair) {
+    EXPECT_EQ(pair.b, sphere_tree::SphereTree::kRoot);
     opened.push_back(pair.a);
   }));
-  EXPECT_TRUE(OpenLarger(b, a, {0, 0}, [&](NodePair pair) {
-    EXPECT_EQ(pair.a, 0u);
+  EXPECT_TRUE(OpenLarger(b, a, {}, [&](NodePair pair) {
+    EXPECT_EQ(pair.a, sphere_tree::SphereTree::kRoot);
     opened.push_back(pair.b);
   }));
-  const std::uint32_t children = a.node(0).children, first = a.node(0).first_child;
+  const std::uint32_t children = a.root().children;
   ASSERT_EQ(opened.size(), 2 * children);
-  for (std::uint32_t i = 0; i < 2 * children; ++i) EXPECT_EQ(opened[i], first + i % children);
+  for (std::uint32_t i = 0; i < 2 * children; ++i)
+    EXPECT_EQ(opened[i], a.root().child(i % children));
 }
 
 TEST(OpenLarger, ABallIsALeaf) {
@@ -68,14 +69,14 @@ TEST(OpenLarger, ABallIsALeaf) {
   const BodySegment box = BodyOf(Cube(0.25));
   const BodyTree a(ball), b(box);
   std::size_t visits = 0;
-  EXPECT_EQ(OpenLarger(a, b, {0, 0},
+  EXPECT_EQ(OpenLarger(a, b, {},
                        [&](NodePair pair) {
-                         EXPECT_EQ(pair.a, 0u);
+                         EXPECT_EQ(pair.a, sphere_tree::SphereTree::kRoot);
                          ++visits;
                        }),
-            b.node(0).children > 0);
-  EXPECT_EQ(visits, b.node(0).children);
-  EXPECT_FALSE(OpenLarger(a, a, {0, 0}, [&](NodePair) { FAIL(); }));
+            !b.root().is_leaf());
+  EXPECT_EQ(visits, b.root().children);
+  EXPECT_FALSE(OpenLarger(a, a, {}, [&](NodePair) { FAIL(); }));
 }
 
 }  // namespace

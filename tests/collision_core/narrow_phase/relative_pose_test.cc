@@ -164,9 +164,9 @@ TEST(RelativePose, TheLeastUncertainBoundsAreTaken) {
   both.turns.push_back(BackwardRotation(next, kBase));
   const BodySegment first = Forward(a);
   const BoundChoice early = BestBounds(both, first, 0.25), late = BestBounds(first, both, 0.75);
-  EXPECT_EQ(early.of_A, 0u);
-  EXPECT_EQ(late.of_A, 0u);
-  EXPECT_EQ(late.of_B, 1u);
+  EXPECT_EQ(early.of_a, 0u);
+  EXPECT_EQ(late.of_a, 0u);
+  EXPECT_EQ(late.of_b, 1u);
   EXPECT_TRUE(late.certain);
   EXPECT_NEAR(PoseAt(first, both, late, 0.75).translation, 0.5 * (0.75 * 0.75 + 0.25 * 0.25),
               1e-12);

@@ -55,8 +55,8 @@ void ExpectSame(const SeparationBracket& x, const SeparationBracket& y) {
   EXPECT_EQ(x.crossing_margin, y.crossing_margin);
   EXPECT_EQ(x.point, y.point);
   EXPECT_EQ(x.point_error, y.point_error);
-  EXPECT_EQ(x.witness.a, y.witness.a);
-  EXPECT_EQ(x.witness.b, y.witness.b);
+  EXPECT_EQ(x.witness.elements, y.witness.elements);
+  EXPECT_EQ(x.witness.nodes, y.witness.nodes);
   EXPECT_EQ(x.ways.size(), y.ways.size());
   EXPECT_EQ(x.level, y.level);
   EXPECT_EQ(x.exhausted, y.exhausted);

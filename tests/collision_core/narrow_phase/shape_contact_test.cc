@@ -185,7 +185,7 @@ TEST(ShapeContact, SpikeThroughASheet) {
   const ShapeSegmentResult verdict =
       Verdict(sheet, {shape::Shape::Build(spike), {0.1, 0.2, 3}, {0, 0, -4}}, 1.5);
   ExpectContact(verdict.times, 0.5, 1, 1e-3);
-  ASSERT_TRUE(verdict.looked);
+  ASSERT_TRUE(verdict.examined);
   EXPECT_LE(verdict.nearest.separation.upper, 0);
   EXPECT_LT(verdict.nearest.point_error, 1);
 }
@@ -268,7 +268,7 @@ TEST(ShapeContact, SpentBudgetSaysSoAndClaimsNothingWrong) {
       EXPECT_GE(verdict.times.contact_from, best.times.free_until) << units;
       EXPECT_LE(verdict.times.contact_to, best.times.free_from) << units;
     } else {
-      ASSERT_TRUE(verdict.looked);
+      ASSERT_TRUE(verdict.examined);
       EXPECT_EQ(verdict.nearest.limited_by, EventLimit::kBudget) << units;
       some = true;
     }

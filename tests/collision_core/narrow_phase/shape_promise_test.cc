@@ -92,7 +92,7 @@ void CheckVerdict(const Scene& scene, const ShapeSegmentResult& verdict, Random&
     ++count->partly_free;
   else
     ++count->undecided;
-  if (verdict.looked) CheckNearest(scene, verdict, tolerance, count);
+  if (verdict.examined) CheckNearest(scene, verdict, tolerance, count);
 }
 
 Count Judged(std::uint64_t first, int seeds) {

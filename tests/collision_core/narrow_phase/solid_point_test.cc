@@ -89,7 +89,7 @@ double DepthAfter(const BodySegment& a, const BodySegment& b, const Eigen::Matri
   const BodyTree of_a(a), of_b(b);
   WorkBudget work(kPlenty);
   const auto candidates =
-      FindContactCandidates({of_a, of_b, PoseOf(matrix, offset)}, 1e-9, 0, 0, &work);
+      FindContactCandidates({of_a, of_b, PoseOf(matrix, offset)}, 1e-9, {}, &work);
   const RelativePose after = PoseOf(matrix, offset + step);
   double upper = numeric::kInfinity;
   for (const ContactCandidate& candidate : candidates) {
@@ -128,7 +128,7 @@ TEST(FindContactCandidates, PointsWhereFacesEdgesAndCornersOverlapSoon) {
   WorkBudget work(kPlenty);
   EXPECT_TRUE(FindContactCandidates(
                   {BodyTree(a), BodyTree(a), PoseOf(Eigen::Matrix3d::Identity(), {1.1, 0, 0})},
-                  1e-9, 0, 0, &work)
+                  1e-9, {}, &work)
                   .empty());
 }
 

@@ -297,10 +297,11 @@ TEST(SpherePairKernel, TriangleBoundsHoldExactly) {
         if (k / 4 >= a.left || k % 4 >= b.left) continue;
         ExactTriangle t, u;
         for (std::size_t corner = 0; corner < 3; ++corner) {
-          t[corner] = ExactVector(mesh_a.vertices[mesh_a.triangles[a.triangle[k / 4]][corner]]);
+          t[corner] =
+              ExactVector(mesh_a.vertices[mesh_a.triangles[a.element[k / 4].value()][corner]]);
           u[corner] = ExactlyPosed(
               scene.pose,
-              ExactVector(mesh_b.vertices[mesh_b.triangles[b.triangle[k % 4]][corner]]));
+              ExactVector(mesh_b.vertices[mesh_b.triangles[b.element[k % 4].value()][corner]]));
         }
         const Exact square = SquareOfTriangles(t, u), lower = Exact(lowers[k]);
         EXPECT_TRUE(lower <= 0 || lower * lower <= square) << lowers[k];
@@ -368,9 +369,11 @@ TEST(SpherePairKernel, TrianglesBeyondALimitAreCertainlyBeyond) {
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const auto& mesh_a = a.shape()->mesh();
         const auto& mesh_b = b.shape()->mesh();
-        t[corner] = ExactVector(mesh_a.vertices[mesh_a.triangles[task.a->triangle[k / 4]][corner]]);
+        t[corner] =
+            ExactVector(mesh_a.vertices[mesh_a.triangles[task.a->element[k / 4].value()][corner]]);
         u[corner] = ExactlyPosed(
-            pose, ExactVector(mesh_b.vertices[mesh_b.triangles[task.b->triangle[k % 4]][corner]]));
+            pose,
+            ExactVector(mesh_b.vertices[mesh_b.triangles[task.b->element[k % 4].value()][corner]]));
       }
       const Exact square = SquareOfTriangles(t, u);
       ASSERT_LT(lowers[k], sphere_tree::kNowhere);

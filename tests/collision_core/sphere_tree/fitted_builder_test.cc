@@ -18,7 +18,8 @@ namespace {
 using Eigen::Vector3d;
 
 SphereTree Build(const geometry::TriangleMesh& mesh, const ShapeOptions& options = {}) {
-  return BuildFitted(mesh, options, FactsOf(mesh).closed);
+  return BuildFitted(mesh, options,
+                     FactsOf(mesh).closed ? SurfaceKind::kClosed : SurfaceKind::kOpen);
 }
 
 void ExpectProven(const geometry::TriangleMesh& mesh, const SphereTree& tree) {
@@ -42,7 +43,7 @@ TEST(FittedBuilder, SameInputGivesTheSameBits) {
   const geometry::TriangleMesh mesh = Star(3, random);
   const SphereTree a = Build(mesh), b = Build(mesh);
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
-  EXPECT_EQ(a.triangle_indices, b.triangle_indices);
+  EXPECT_EQ(a.elements, b.elements);
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     ASSERT_EQ(a.nodes[i].centre, b.nodes[i].centre);
     ASSERT_EQ(a.nodes[i].radius, b.nodes[i].radius);
@@ -86,12 +87,12 @@ TEST(FittedBuilder, KeepsItsLimits) {
     options.triangles_per_leaf = per_leaf;
     const SphereTree tree = Build(mesh, options);
     EXPECT_LT(tree.levels, options.levels_max + 1);
-    for (const SphereNode& node : tree.nodes) ASSERT_LE(node.triangles, per_leaf);
+    for (const SphereNode& node : tree.nodes) ASSERT_LE(node.elements, per_leaf);
   }
   ShapeOptions flat;
   flat.levels_max = 0;
   EXPECT_EQ(Build(mesh, flat).nodes.size(), 1u);
-  EXPECT_EQ(Build(mesh, flat).root().triangles, mesh.triangles.size());
+  EXPECT_EQ(Build(mesh, flat).root().elements, mesh.triangles.size());
   for (const std::size_t nodes_max : {1u, 8u, 9u, 100u, 1000u}) {
     ShapeOptions few;
     few.nodes_max = nodes_max;
@@ -104,7 +105,7 @@ TEST(FittedBuilder, KeepsItsLimits) {
   shallow.levels_max = 3;
   const SphereTree tree = Build(mesh, shallow);
   // 2,048 triangles in three divisions by eight, no worse shared out than need be.
-  for (const SphereNode& node : tree.nodes) ASSERT_LE(node.triangles, 64u);
+  for (const SphereNode& node : tree.nodes) ASSERT_LE(node.elements, 64u);
   ExpectProven(mesh, tree);
 }
 
@@ -122,8 +123,8 @@ TEST(FittedBuilder, FansAndCopiesEnd) {
   for (const geometry::TriangleMesh& mesh : {fan, copies}) {
     const SphereTree tree = Build(mesh);
     EXPECT_LT(tree.nodes.size(), 6 * mesh.triangles.size());
-    EXPECT_LT(tree.triangle_indices.size(), 4 * mesh.triangles.size() + 1000);
-    for (const SphereNode& node : tree.nodes) ASSERT_LE(node.triangles, 4u);
+    EXPECT_LT(tree.elements.size(), 4 * mesh.triangles.size() + 1000);
+    for (const SphereNode& node : tree.nodes) ASSERT_LE(node.elements, 4u);
     ExpectProven(mesh, tree);
   }
 }
@@ -142,7 +143,7 @@ TEST(FittedBuilder, HalvedTrianglesAreCoveredFarFromTheOrigin) {
                         corner + random.UnitVector(), &mesh);
     }
     const SphereTree tree = Build(mesh);
-    EXPECT_GT(tree.triangle_indices.size(), mesh.triangles.size());
+    EXPECT_GT(tree.elements.size(), mesh.triangles.size());
     ExpectProven(mesh, tree);
   }
 }
@@ -184,7 +185,7 @@ TEST(FittedBuilder, DoesNotDependOnTheScale) {
   for (const double by : {0x1p-18, 0x1p+20}) {
     const SphereTree other = Build(Scaled(mesh, by));
     ASSERT_EQ(other.nodes.size(), tree.nodes.size());
-    EXPECT_EQ(other.triangle_indices, tree.triangle_indices);
+    EXPECT_EQ(other.elements, tree.elements);
     EXPECT_NEAR(WorstLeaf(other) / by, WorstLeaf(tree), 1e-9);
   }
 }

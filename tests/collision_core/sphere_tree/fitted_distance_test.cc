@@ -36,7 +36,7 @@ TEST(FittedDistance, IsAnUpperBoundAndTight) {
     const geometry::TriangleMesh mesh = CubeWithNeedles(random);
     ASSERT_TRUE(FactsOf(mesh).closed);
     const TriangleBoxes boxes(mesh);
-    const FittedDistance distance(boxes, true);
+    const FittedDistance distance(boxes, SurfaceKind::kClosed);
     const DistanceProof proof(mesh);
     for (int k = 0; k < 20; ++k) {
       const Vector3d c = dirt::Point(random, 1.1);
@@ -93,7 +93,7 @@ TEST(TriangleBoxes, VisitsWhatIsWithinTheLimit) {
 TEST(FittedDistance, TakesAnothersWordOnlyInItsBall) {
   const geometry::TriangleMesh mesh = Joined(Cube(1), Moved(Cube(1), {4, 0, 0}));
   const TriangleBoxes boxes(mesh);
-  const FittedDistance distance(boxes, true);
+  const FittedDistance distance(boxes, SurfaceKind::kClosed);
   const CentreFacts middle = distance.Certify({0, 0, 0}, 0, {}, 0);
   ASSERT_TRUE(middle.inside);
   EXPECT_NEAR(middle.signed_distance, -1, 1e-11);
@@ -108,7 +108,7 @@ TEST(FittedDistance, OpenSurfacesHaveNoInside) {
   geometry::TriangleMesh mesh = Cube(1);
   mesh.triangles.pop_back();
   const TriangleBoxes boxes(mesh);
-  const CentreFacts facts = FittedDistance(boxes, false).Certify({0, 0, 0}, 0, {}, 0);
+  const CentreFacts facts = FittedDistance(boxes, SurfaceKind::kOpen).Certify({0, 0, 0}, 0, {}, 0);
   EXPECT_FALSE(facts.inside);
   EXPECT_NEAR(facts.signed_distance, 1, 1e-11);
 }

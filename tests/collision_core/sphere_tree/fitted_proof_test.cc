@@ -77,7 +77,7 @@ TEST(FittedProof, SeesWhatIsWrong) {
     EXPECT_EQ(UnprovenDistances(mesh, deeper), 1u) << "node " << i;
   }
   SphereTree lost = tree;
-  std::swap(lost.triangle_indices.front(), lost.triangle_indices.back());
+  std::swap(lost.elements.front(), lost.elements.back());
   EXPECT_GT(TreeCoverage(mesh, lost).Unproven(30), 0u);
   EXPECT_LT(TreeCoverage(mesh, lost).ProvenShare(30), 1);
   EXPECT_EQ(TreeCoverage(mesh, tree).ProvenShare(), 1);
@@ -92,8 +92,8 @@ TEST(FittedProof, NoLeafIsLargerThanItsTriangles) {
   const SphereTree tree = shape::Shape::Build(mesh, options)->tree();
   for (const SphereNode& node : tree.nodes) {
     double most = 0;
-    for (const std::uint32_t t : tree.TrianglesOf(node)) {
-      for (const std::uint32_t corner : mesh.triangles[t])
+    for (const ElementIndex t : tree.ElementsOf(node)) {
+      for (const std::uint32_t corner : mesh.triangles[t.value()])
         most = std::max(most, (mesh.vertices[corner] - node.centre).norm());
     }
     ASSERT_TRUE(node.children != 0 || node.radius <= most * (1 + 1e-14));

@@ -43,7 +43,7 @@ TEST_P(FittedRealMeshes, AreCoveredAndMeasured) {
   EXPECT_EQ(TreeCoverage(mesh, tree).Unproven(), 0u);
   EXPECT_EQ(TreeCoverage(mesh, tree).ProvenShare(), 1);
   EXPECT_EQ(UnprovenDistances(mesh, tree), 0u);
-  for (const SphereNode& node : tree.nodes) ASSERT_LE(node.triangles, 4u);
+  for (const SphereNode& node : tree.nodes) ASSERT_LE(node.elements, 4u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, FittedRealMeshes,

@@ -68,7 +68,7 @@ TEST(HostileMeshes, TreesOfThemAreBounded) {
          {TreeBuilder::kOctree, TreeBuilder::kFitted, TreeBuilder::kHalved}) {
       const SphereTree tree = shape::Shape::Build(mesh, {.builder = builder})->tree();
       EXPECT_EQ(RefusalOf(tree, mesh), std::nullopt);
-      EXPECT_LE(tree.triangle_indices.size(), PiecesMax(mesh.triangles.size()));
+      EXPECT_LE(tree.elements.size(), PiecesMax(mesh.triangles.size()));
     }
   }
 }
@@ -81,8 +81,8 @@ TEST(HostileMeshes, OctreesGrowUpToTheBound) {
   for (const std::size_t count : {100, 300}) {
     const geometry::TriangleMesh mesh = CrossingTriangles(count, random);
     const SphereTree tree = BuildOctree(mesh, {.triangles_per_leaf = 1});
-    EXPECT_LE(tree.triangle_indices.size(), PiecesMax(count));
-    EXPECT_GE(tree.triangle_indices.size(), PiecesMax(count) / 2);
+    EXPECT_LE(tree.elements.size(), PiecesMax(count));
+    EXPECT_GE(tree.elements.size(), PiecesMax(count) / 2);
     EXPECT_EQ(TreeCoverage(mesh, tree).Unproven(), 0u);
   }
 }

@@ -74,8 +74,8 @@ TEST(HalvedBuilder, LeavesAreFullAndAboutAsDeep) {
     for (int times = 0; times <= 4; ++times) {
       const geometry::TriangleMesh mesh = Star(times, random);
       const SphereTree tree = BuildMedianSplit(mesh, Halved(leaf));
-      EXPECT_EQ(tree.triangle_indices.size(), mesh.triangles.size());
-      std::vector<std::uint32_t> triangles = tree.triangle_indices;
+      EXPECT_EQ(tree.elements.size(), mesh.triangles.size());
+      std::vector<ElementIndex> triangles = tree.elements;
       std::sort(triangles.begin(), triangles.end());
       EXPECT_EQ(std::unique(triangles.begin(), triangles.end()), triangles.end());
       std::size_t leaves = 0;
@@ -83,7 +83,7 @@ TEST(HalvedBuilder, LeavesAreFullAndAboutAsDeep) {
       for (const SphereNode& node : tree.nodes) {
         if (node.children > 0) continue;
         ++leaves;
-        EXPECT_LE(node.triangles, leaf);
+        EXPECT_LE(node.elements, leaf);
         shallowest = std::min(shallowest, node.level);
       }
       EXPECT_LE(leaves, mesh.triangles.size() / leaf + 1 + mesh.triangles.size() / (4 * leaf));
@@ -99,7 +99,7 @@ TEST(HalvedBuilder, CopiesUponEachOther) {
   mesh.triangles.assign(1000, {0, 1, 2});
   const SphereTree tree = BuildMedianSplit(mesh, Halved());
   EXPECT_EQ(RefusalOf(tree, mesh), std::nullopt);
-  EXPECT_EQ(tree.triangle_indices.size(), 1000u);
+  EXPECT_EQ(tree.elements.size(), 1000u);
 }
 
 // Its first balls tell of the inside, as those of other builders do; the others are never said to

@@ -33,8 +33,8 @@ bool IsCovered(const SphereTree& tree, const SphereNode& node, const ExactPoint&
   for (const SphereNode& child : tree.ChildrenOf(node)) {
     if (IsCovered(tree, child, p, triangle)) return true;
   }
-  const auto listed = tree.TrianglesOf(node);
-  return std::find(listed.begin(), listed.end(), triangle) != listed.end();
+  const auto listed = tree.ElementsOf(node);
+  return std::find(listed.begin(), listed.end(), ElementIndex(triangle)) != listed.end();
 }
 
 /// On the triangle, exactly; often on its sides and at its corners.
@@ -55,13 +55,13 @@ void ExpectWellFormed(const SphereTree& tree, const geometry::TriangleMesh& mesh
   for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
     const SphereNode& node = tree.nodes[i];
     ASSERT_TRUE(i == 0 || node.level >= tree.nodes[i - 1].level);
-    ASSERT_EQ(node.children == 0, node.triangles != 0);
+    ASSERT_EQ(node.children == 0, node.elements != 0);
     ASSERT_NE(node.children, 1u);
     ASSERT_TRUE(std::isfinite(node.radius));
     if (node.children == 0) {
-      ASSERT_EQ(node.first_triangle, next_triangle);
-      next_triangle += node.triangles;
-      const auto list = tree.TrianglesOf(node);
+      ASSERT_EQ(node.first_element, next_triangle);
+      next_triangle += node.elements;
+      const auto list = tree.ElementsOf(node);
       ASSERT_EQ(std::set(list.begin(), list.end()).size(), list.size());
     } else {
       ASSERT_EQ(node.first_child, next_child);
@@ -70,8 +70,8 @@ void ExpectWellFormed(const SphereTree& tree, const geometry::TriangleMesh& mesh
     }
   }
   EXPECT_EQ(next_child, tree.nodes.size());
-  EXPECT_EQ(next_triangle, tree.triangle_indices.size());
-  const std::set<std::uint32_t> all(tree.triangle_indices.begin(), tree.triangle_indices.end());
+  EXPECT_EQ(next_triangle, tree.elements.size());
+  const std::set<ElementIndex> all(tree.elements.begin(), tree.elements.end());
   EXPECT_EQ(all.size(), mesh.triangles.size());
 }
 
@@ -157,7 +157,7 @@ TEST(Octree, ACutHasEachWayDownOnce) {
   const SphereTree tree = BuildOctree(Star(3, random), {});
   for (std::uint32_t level = 0; level <= tree.levels; ++level) {
     std::vector<int> in_cut(tree.nodes.size(), 0);
-    for (const std::uint32_t i : tree.Cut(level)) ++in_cut[i];
+    for (const NodeIndex i : tree.Cut(level)) ++in_cut[i.value()];
     // From parents to children: how many of the cut stand on the way down so far.
     for (const SphereNode& node : tree.nodes) {
       const int here = in_cut[static_cast<std::size_t>(&node - tree.nodes.data())];
@@ -165,7 +165,7 @@ TEST(Octree, ACutHasEachWayDownOnce) {
       ASSERT_TRUE(node.children != 0 || here == 1) << "level " << level;
     }
   }
-  EXPECT_EQ(tree.Cut(0), std::vector<std::uint32_t>{0});
+  EXPECT_EQ(tree.Cut(0), std::vector{SphereTree::kRoot});
   std::size_t leaves = 0;
   for (const SphereNode& node : tree.nodes) leaves += node.children == 0;
   EXPECT_EQ(tree.Cut(tree.levels - 1).size(), leaves);
@@ -179,9 +179,9 @@ TEST(Octree, BallsAreSmallAndHalveFromLevelToLevel) {
   for (std::uint32_t level = 0; level < 5; ++level) {
     double sum = 0, most = 0;
     const auto cut = tree.Cut(level);
-    for (const std::uint32_t i : cut) {
-      sum += tree.nodes[i].radius;
-      most = std::max(most, tree.nodes[i].radius);
+    for (const NodeIndex i : cut) {
+      sum += tree.node(i).radius;
+      most = std::max(most, tree.node(i).radius);
     }
     // No larger than the circumscribed ball of its octant, whose edge is 2 / 2^level.
     EXPECT_LE(most, 1.7321 / (1 << level));
@@ -198,12 +198,12 @@ TEST(Octree, LeavesKeepWhatTheOptionsSay) {
     ShapeOptions options;
     options.triangles_per_leaf = per_leaf;
     const SphereTree tree = BuildOctree(mesh, options);
-    for (const SphereNode& node : tree.nodes) EXPECT_LE(node.triangles, kFanFactor * per_leaf + 4);
+    for (const SphereNode& node : tree.nodes) EXPECT_LE(node.elements, kFanFactor * per_leaf + 4);
   }
   ShapeOptions flat;
   flat.levels_max = 0;
   EXPECT_EQ(BuildOctree(mesh, flat).nodes.size(), 1u);
-  EXPECT_EQ(BuildOctree(mesh, flat).root().triangles, mesh.triangles.size());
+  EXPECT_EQ(BuildOctree(mesh, flat).root().elements, mesh.triangles.size());
   Random random(64);
   for (const std::size_t nodes_max : {1u, 8u, 9u, 100u, 1000u}) {
     ShapeOptions few;
@@ -235,7 +235,7 @@ TEST(Octree, SameInputGivesTheSameBits) {
   const geometry::TriangleMesh mesh = Star(3, random);
   const SphereTree a = BuildOctree(mesh, {}), b = BuildOctree(mesh, {});
   ASSERT_EQ(a.nodes.size(), b.nodes.size());
-  EXPECT_EQ(a.triangle_indices, b.triangle_indices);
+  EXPECT_EQ(a.elements, b.elements);
   for (std::size_t i = 0; i < a.nodes.size(); ++i) {
     ASSERT_EQ(a.nodes[i].centre, b.nodes[i].centre);
     ASSERT_EQ(a.nodes[i].radius, b.nodes[i].radius);

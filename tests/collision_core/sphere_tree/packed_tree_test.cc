@@ -52,7 +52,7 @@ struct Walk {
   }
 
   void Visit(BallRef ball) {
-    const std::uint32_t number = packed.NodeOf(ball);
+    const std::uint32_t number = packed.NodeOf(ball).value();
     const SphereNode& node = tree.nodes[number];
     CheckBall(packed.packs()[ball / kPackBalls], ball % kPackBalls, node);
     const std::uint32_t link = packed.LinkOf(ball);
@@ -70,7 +70,7 @@ struct Walk {
         EXPECT_EQ(packed.packs()[BallLink::Index(link)].x[i], kElsewhere);
         continue;
       }
-      const std::uint32_t lane = packed.NodeOf(first + i);
+      const std::uint32_t lane = packed.NodeOf(first + i).value();
       EXPECT_TRUE(IsBelow(lane, number));
       const std::uint32_t children = tree.nodes[lane].children;
       if (lane != number && children > 0) {
@@ -95,12 +95,12 @@ struct Walk {
   }
 
   void CheckLeaf(const TriangleBlock* block, const SphereNode& leaf) {
-    const auto triangles = tree.TrianglesOf(leaf);
+    const auto triangles = tree.ElementsOf(leaf);
     for (std::size_t k = 0; k < triangles.size(); ++k) {
       const auto i = static_cast<std::uint32_t>(k % kBlockTriangles);
       const TriangleBlock& here = block[k / kBlockTriangles];
       EXPECT_EQ(here.left, triangles.size() - (k - i));
-      ASSERT_EQ(here.triangle[i], triangles[k]);
+      ASSERT_EQ(here.element[i], triangles[k]);
       CheckTriangle(here, i);
     }
   }
@@ -111,7 +111,7 @@ struct Walk {
                              Exact(block.z[12 + i]));
     EXPECT_LE(Square(normal), Exact(1) + Exact(0x1p-20));
     for (std::uint32_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3d& vertex = mesh.vertices[mesh.triangles[block.triangle[i]][k]];
+      const Eigen::Vector3d& vertex = mesh.vertices[mesh.triangles[block.element[i].value()][k]];
       const ExactVector at(Exact(block.x[4 * k + i]), Exact(block.y[4 * k + i]),
                            Exact(block.z[4 * k + i]));
       const ExactVector true_at = ExactVector(vertex) - ExactVector(packed.origin());
@@ -153,10 +153,10 @@ TEST(PackedTree, TakesAnyNumberOfChildren) {
     SphereNode node;
     node.radius = 2, node.signed_distance = 1, node.first_child = 1, node.children = children;
     tree.nodes.push_back(node);
-    node.children = node.first_child = 0, node.level = 1, node.triangles = 3;
+    node.children = node.first_child = 0, node.level = 1, node.elements = 3;
     for (std::uint32_t i = 0; i < children; ++i) {
-      node.first_triangle = 3 * i;
-      for (std::uint32_t k = 0; k < 3; ++k) tree.triangle_indices.push_back(3 * i + k);
+      node.first_element = 3 * i;
+      for (std::uint32_t k = 0; k < 3; ++k) tree.elements.emplace_back(3 * i + k);
       tree.nodes.push_back(node);
     }
     const PackedTree packed(mesh, tree);

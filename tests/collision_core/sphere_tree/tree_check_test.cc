@@ -56,16 +56,16 @@ TEST(TreeCheck, RefusesWhatIsNoTreeOfTheMesh) {
       [](SphereTree& t) { t.nodes[0].children = 0; },
       [](SphereTree& t) { t.levels += 1; },
       [](SphereTree& t) { t.levels = 0; },
-      [&](SphereTree& t) { t.nodes[leaf].triangles = 0; },
-      [&](SphereTree& t) { t.nodes[leaf].triangles = 0xffffffff; },
-      [&](SphereTree& t) { t.nodes[leaf].first_triangle = 0xfffffff0; },
+      [&](SphereTree& t) { t.nodes[leaf].elements = 0; },
+      [&](SphereTree& t) { t.nodes[leaf].elements = 0xffffffff; },
+      [&](SphereTree& t) { t.nodes[leaf].first_element = 0xfffffff0; },
       [&](SphereTree& t) { t.nodes[leaf].first_child = 0, t.nodes[leaf].children = 1; },
-      [](SphereTree& t) { t.triangle_indices[0] = 20; },
-      [](SphereTree& t) { std::fill(t.triangle_indices.begin(), t.triangle_indices.end(), 0); },
-      [](SphereTree& t) { t.triangle_indices.pop_back(); },
-      [](SphereTree& t) { t.triangle_indices.push_back(0); },
-      [](SphereTree& t) { t.nodes[0].triangles = 1; },
-      [](SphereTree& t) { t.nodes[0].triangles = t.triangle_indices.size(); },
+      [](SphereTree& t) { t.elements[0] = ElementIndex(20u); },
+      [](SphereTree& t) { std::fill(t.elements.begin(), t.elements.end(), ElementIndex()); },
+      [](SphereTree& t) { t.elements.pop_back(); },
+      [](SphereTree& t) { t.elements.emplace_back(); },
+      [](SphereTree& t) { t.nodes[0].elements = 1; },
+      [](SphereTree& t) { t.nodes[0].elements = t.elements.size(); },
       [&](SphereTree& t) { t.nodes[2].centre.x() = nan; },
       [&](SphereTree& t) { t.nodes[2].centre.y() = -infinity; },
       [&](SphereTree& t) { t.nodes[2].centre.z() = 1e30; },
@@ -95,22 +95,22 @@ TEST(TreeCheck, SiblingsAreFew) {
     tree.levels = 2;
     tree.nodes.push_back({.radius = 2, .first_child = 1, .children = children});
     for (std::uint32_t i = 0; i < children; ++i) {
-      tree.nodes.push_back({.radius = 2, .first_triangle = i, .triangles = 1, .level = 1});
-      tree.triangle_indices.push_back(i);
+      tree.nodes.push_back({.radius = 2, .first_element = i, .elements = 1, .level = 1});
+      tree.elements.emplace_back(i);
     }
     EXPECT_EQ(RefusalOf(tree, mesh).has_value(), children > kNodeChildrenMax);
   }
 }
 
 /// Under a root: leaves that say they begin at `first` and hold `count` triangles each.
-SphereTree TwoLeaves(std::vector<std::uint32_t> triangles, std::uint32_t first,
+SphereTree TwoLeaves(const std::vector<std::uint32_t>& triangles, std::uint32_t first,
                      std::uint32_t count) {
   SphereTree tree;
   tree.levels = 2;
-  tree.triangle_indices = std::move(triangles);
+  for (const std::uint32_t triangle : triangles) tree.elements.emplace_back(triangle);
   tree.nodes.push_back({.radius = 2, .first_child = 1, .children = 2});
-  tree.nodes.push_back({.radius = 2, .triangles = count, .level = 1});
-  tree.nodes.push_back({.radius = 2, .first_triangle = first, .triangles = count, .level = 1});
+  tree.nodes.push_back({.radius = 2, .elements = count, .level = 1});
+  tree.nodes.push_back({.radius = 2, .first_element = first, .elements = count, .level = 1});
   return tree;
 }
 
@@ -142,9 +142,9 @@ SphereTree Comb(std::uint32_t depth, std::uint32_t children, std::uint32_t trian
   }
   for (SphereNode& node : tree.nodes) {
     if (node.children > 0) continue;
-    node.first_triangle = static_cast<std::uint32_t>(tree.triangle_indices.size());
-    node.triangles = triangles;
-    for (std::uint32_t i = 0; i < triangles; ++i) tree.triangle_indices.push_back(i);
+    node.first_element = static_cast<std::uint32_t>(tree.elements.size());
+    node.elements = triangles;
+    for (std::uint32_t i = 0; i < triangles; ++i) tree.elements.emplace_back(i);
   }
   return tree;
 }
@@ -175,16 +175,16 @@ TEST(TreeCheck, WhateverPassesCanBeUsed) {
     SphereTree tree = good;
     for (std::uint64_t n = 1 + random.Below(3); n > 0; --n) {
       SphereNode& node = tree.nodes[random.Below(tree.nodes.size())];
-      std::uint32_t* const words[] = {&node.first_child, &node.children, &node.first_triangle,
-                                      &node.triangles, &node.level};
+      std::uint32_t* const words[] = {&node.first_child, &node.children, &node.first_element,
+                                      &node.elements, &node.level};
       double* const numbers[] = {&node.centre.x(), &node.radius, &node.signed_distance};
       if (random.Chance(0.5)) {
         *words[random.Below(5)] = static_cast<std::uint32_t>(random.Below(24));
       } else if (random.Chance(0.5)) {
         *numbers[random.Below(3)] = std::ldexp(1.0, static_cast<int>(random.Below(2000)) - 1000);
       } else {
-        tree.triangle_indices[random.Below(tree.triangle_indices.size())] =
-            static_cast<std::uint32_t>(random.Below(24));
+        tree.elements[random.Below(tree.elements.size())] =
+            ElementIndex(static_cast<std::uint32_t>(random.Below(24)));
       }
     }
     if (RefusalOf(tree, mesh)) continue;

@@ -43,9 +43,9 @@ const std::string& LargeBytes() {
 bool SameBits(const sphere_tree::SphereTree& a, const sphere_tree::SphereTree& b) {
   const auto same = [](const sphere_tree::SphereNode& x, const sphere_tree::SphereNode& y) {
     return x.centre == y.centre && x.radius == y.radius && x.signed_distance == y.signed_distance &&
-           x.first_child == y.first_child && x.first_triangle == y.first_triangle;
+           x.first_child == y.first_child && x.first_element == y.first_element;
   };
-  return a.triangle_indices == b.triangle_indices &&
+  return a.elements == b.elements &&
          std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same);
 }
 

@@ -73,9 +73,9 @@ bool SameBits(const sphere_tree::SphereTree& a, const sphere_tree::SphereTree& b
   const auto same = [](const sphere_tree::SphereNode& x, const sphere_tree::SphereNode& y) {
     return x.centre == y.centre && x.radius == y.radius && x.signed_distance == y.signed_distance &&
            x.first_child == y.first_child && x.children == y.children &&
-           x.first_triangle == y.first_triangle && x.triangles == y.triangles && x.level == y.level;
+           x.first_element == y.first_element && x.elements == y.elements && x.level == y.level;
   };
-  return a.levels == b.levels && a.triangle_indices == b.triangle_indices &&
+  return a.levels == b.levels && a.elements == b.elements &&
          std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same);
 }
 

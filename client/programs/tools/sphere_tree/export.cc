@@ -51,7 +51,7 @@ geometry::TriangleMesh Divided(geometry::TriangleMesh mesh) {
 }  // namespace
 
 std::string LevelObj(const MeshTree& mesh_tree, std::uint32_t level) {
-  const std::vector<std::uint32_t> cut = mesh_tree.tree().Cut(level);
+  const std::vector<NodeIndex> cut = mesh_tree.tree().Cut(level);
   geometry::TriangleMesh unit = Icosahedron();
   if (cut.size() <= kRoundBallsMax) unit = Divided(std::move(unit));
   std::string text = "# level " + std::to_string(level) + " of the " +
@@ -59,9 +59,9 @@ std::string LevelObj(const MeshTree& mesh_tree, std::uint32_t level) {
                      ", in metres\n";
   char line[128];
   std::size_t before = 1;  // OBJ counts from 1, through all objects.
-  for (const std::uint32_t index : cut) {
-    const sphere_tree::SphereNode& node = mesh_tree.tree().nodes[index];
-    text += "o ball_" + std::to_string(index) + "\n";
+  for (const NodeIndex index : cut) {
+    const sphere_tree::SphereNode& node = mesh_tree.tree().node(index);
+    text += "o ball_" + std::to_string(index.value()) + "\n";
     for (const Eigen::Vector3d& direction : unit.vertices) {
       const Eigen::Vector3d p = node.centre + node.radius * direction;
       std::snprintf(line, sizeof line, "v %.9g %.9g %.9g\n", p.x(), p.y(), p.z());
@@ -81,10 +81,10 @@ std::string LevelJson(const MeshTree& mesh_tree, std::uint32_t level) {
   message.set_file(mesh_tree.file);
   message.set_builder(BuilderName(mesh_tree.options.builder));
   message.set_level(level);
-  for (const std::uint32_t index : mesh_tree.tree().Cut(level)) {
-    const sphere_tree::SphereNode& node = mesh_tree.tree().nodes[index];
+  for (const NodeIndex index : mesh_tree.tree().Cut(level)) {
+    const sphere_tree::SphereNode& node = mesh_tree.tree().node(index);
     v1::TreeBall* ball = message.add_balls();
-    ball->set_node(index);
+    ball->set_node(index.value());
     ball->set_x_m(node.centre.x());
     ball->set_y_m(node.centre.y());
     ball->set_z_m(node.centre.z());

@@ -50,11 +50,11 @@ Eigen::Matrix3d AxesAlongTheShortest(const Vector3d& extent) {
 }
 
 /// Room for the mesh and for the balls.
-View ViewOf(const MeshTree& mesh_tree, const std::vector<std::uint32_t>& cut) {
+View ViewOf(const MeshTree& mesh_tree, const std::vector<NodeIndex>& cut) {
   const geometry::MeshFacts& facts = mesh_tree.shape->facts();
   Vector3d lower = facts.lower, upper = facts.upper;
-  for (const std::uint32_t index : cut) {
-    const sphere_tree::SphereNode& node = mesh_tree.tree().nodes[index];
+  for (const NodeIndex index : cut) {
+    const sphere_tree::SphereNode& node = mesh_tree.tree().node(index);
     lower = lower.cwiseMin(node.centre - Vector3d::Constant(node.radius));
     upper = upper.cwiseMax(node.centre + Vector3d::Constant(node.radius));
   }
@@ -107,20 +107,18 @@ double OvershootOf(const sphere_tree::SphereNode& node) {
 }
 
 /// The farthest first.
-std::string Balls(const sphere_tree::SphereTree& tree, std::vector<std::uint32_t> cut,
-                  const View& view, double overshoot_max) {
-  const auto depth = [&](std::uint32_t index) {
-    return view.axes.row(2).dot(tree.nodes[index].centre);
-  };
+std::string Balls(const sphere_tree::SphereTree& tree, std::vector<NodeIndex> cut, const View& view,
+                  double overshoot_max) {
+  const auto depth = [&](NodeIndex index) { return view.axes.row(2).dot(tree.node(index).centre); };
   std::stable_sort(cut.begin(), cut.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return depth(a) < depth(b); });
+                   [&](NodeIndex a, NodeIndex b) { return depth(a) < depth(b); });
   // Many balls lie over each other: then each covers less.
   const double opacity = std::clamp(3.5 / std::sqrt(static_cast<double>(cut.size())), 0.03, 0.16);
   std::string svg =
       Text("<g fill-opacity=\"%.3f\" stroke-opacity=\"0.75\" stroke-width=\"%.2f\">\n", opacity,
            cut.size() > 200 ? 1.0 : 1.6);
-  for (const std::uint32_t index : cut) {
-    const sphere_tree::SphereNode& node = tree.nodes[index];
+  for (const NodeIndex index : cut) {
+    const sphere_tree::SphereNode& node = tree.node(index);
     const Vector3d at = kUnitsPerCell * view.Cell(node.centre);
     const double share = overshoot_max > 0 ? OvershootOf(node) / overshoot_max : 0;
     const std::string colour = Colour(share);
@@ -166,7 +164,7 @@ std::string Legend(double right, double y, double overshoot_max) {
 }  // namespace
 
 std::string LevelPicture(const MeshTree& mesh_tree, std::uint32_t level) {
-  const std::vector<std::uint32_t> cut = mesh_tree.tree().Cut(level);
+  const std::vector<NodeIndex> cut = mesh_tree.tree().Cut(level);
   const View view = ViewOf(mesh_tree, cut);
   const sphere_tree::Overshoot overshoot =
       collision::sphere_tree::OvershootOf(mesh_tree.tree(), cut);

@@ -58,7 +58,7 @@ class Progress {
   std::thread thread_;
 };
 
-void SetCut(const MeshTree& mesh_tree, const std::vector<std::uint32_t>& cut,
+void SetCut(const MeshTree& mesh_tree, const std::vector<NodeIndex>& cut,
             v1::TreeCutReport* report) {
   const sphere_tree::Overshoot overshoot = OvershootOf(mesh_tree.tree(), cut);
   const double percent = 100 / mesh_tree.diagonal();

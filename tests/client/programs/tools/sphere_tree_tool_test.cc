@@ -114,7 +114,7 @@ TEST_F(SphereTreeTool, ReportsWhatTheTreeIs) {
 TEST_F(SphereTreeTool, ExportsBallsThatOtherProgramsRead) {
   const MeshTree built = Tree("ball.obj", BumpyObj(4, false));
   const std::uint32_t level = 2;
-  const std::vector<std::uint32_t> cut = built.tree().Cut(level);
+  const std::vector<NodeIndex> cut = built.tree().Cut(level);
   std::istringstream lines(LevelObj(built, level));
   std::size_t balls = 0, corners = 0, corners_before = 0, faces = 0;
   const sphere_tree::SphereNode* node = nullptr;
@@ -124,8 +124,8 @@ TEST_F(SphereTreeTool, ExportsBallsThatOtherProgramsRead) {
     words >> word;
     if (word == "o") {
       ASSERT_LT(balls, cut.size());
-      EXPECT_EQ(line, "o ball_" + std::to_string(cut[balls]));
-      node = &built.tree().nodes[cut[balls++]];
+      EXPECT_EQ(line, "o ball_" + std::to_string(cut[balls].value()));
+      node = &built.tree().node(cut[balls++]);
       corners_before = corners;
     } else if (word == "v") {
       Eigen::Vector3d p;
@@ -149,11 +149,11 @@ TEST_F(SphereTreeTool, ExportsMessages) {
   const MeshTree built = Tree("ball.obj", BumpyObj(4, false));
   v1::TreeLevel level;
   ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(LevelJson(built, 1), &level).ok());
-  const std::vector<std::uint32_t> cut = built.tree().Cut(1);
+  const std::vector<NodeIndex> cut = built.tree().Cut(1);
   ASSERT_EQ(static_cast<std::size_t>(level.balls_size()), cut.size());
   for (int i = 0; i < level.balls_size(); ++i) {
-    const sphere_tree::SphereNode& node = built.tree().nodes[cut[i]];
-    EXPECT_EQ(level.balls(i).node(), cut[i]);
+    const sphere_tree::SphereNode& node = built.tree().node(cut[i]);
+    EXPECT_EQ(level.balls(i).node(), cut[i].value());
     EXPECT_EQ(level.balls(i).z_m(), node.centre.z());
     EXPECT_EQ(level.balls(i).radius_m(), node.radius);
     EXPECT_EQ(level.balls(i).signed_distance_m(), node.signed_distance);
