@@ -16,7 +16,7 @@ Filter Widest(Filter widest, Filter wide, Filter plain) {
 
 }  // namespace
 
-PointFilter PlainPointFilter() { return &ScanPoints; }
+PointFilter PlainPointFilter() { return &sphere_filter::plain::ScanPoints; }
 
 PointFilter WidestPointFilter() {
   static const PointFilter widest =
@@ -24,7 +24,7 @@ PointFilter WidestPointFilter() {
   return widest;
 }
 
-SphereFilter PlainSphereFilter() { return &Scan; }
+SphereFilter PlainSphereFilter() { return &sphere_filter::plain::Scan; }
 
 SphereFilter WidestSphereFilter() {
   static const SphereFilter widest =

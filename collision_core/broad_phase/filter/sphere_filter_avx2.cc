@@ -4,16 +4,20 @@
 #include "collision_core/broad_phase/filter/sphere_filter.h"
 #include "collision_core/simd/lanes_avx2.h"
 
-#ifdef COLLISION_LANES
+#ifdef COLLISION_SIMD
 #include "collision_core/broad_phase/filter/sphere_filter_wide.h"
 #endif
 
 namespace collision::broad_phase {
 
-#ifdef COLLISION_LANES
+#ifdef COLLISION_SIMD
 
-SphereFilter Avx2SphereFilter() { return __builtin_cpu_supports("avx2") ? &Scan : nullptr; }
-PointFilter Avx2PointFilter() { return __builtin_cpu_supports("avx2") ? &ScanPoints : nullptr; }
+SphereFilter Avx2SphereFilter() {
+  return simd::avx2::IsSupported() ? &sphere_filter::avx2::Scan : nullptr;
+}
+PointFilter Avx2PointFilter() {
+  return simd::avx2::IsSupported() ? &sphere_filter::avx2::ScanPoints : nullptr;
+}
 
 #else
 

@@ -4,17 +4,19 @@
 #include "collision_core/broad_phase/filter/sphere_filter.h"
 #include "collision_core/simd/lanes_avx512.h"
 
-#ifdef COLLISION_LANES
+#ifdef COLLISION_SIMD
 #include "collision_core/broad_phase/filter/sphere_filter_wide.h"
 #endif
 
 namespace collision::broad_phase {
 
-#ifdef COLLISION_LANES
+#ifdef COLLISION_SIMD
 
-SphereFilter Avx512SphereFilter() { return __builtin_cpu_supports("avx512f") ? &Scan : nullptr; }
+SphereFilter Avx512SphereFilter() {
+  return simd::avx512::IsSupported() ? &sphere_filter::avx512::Scan : nullptr;
+}
 PointFilter Avx512PointFilter() {
-  return __builtin_cpu_supports("avx512f") ? &ScanPoints : nullptr;
+  return simd::avx512::IsSupported() ? &sphere_filter::avx512::ScanPoints : nullptr;
 }
 
 #else

@@ -1,64 +1,48 @@
-// Both filters as kernels, for any lanes: only for sphere_filter*.cc, which include a lanes header
-// (simd/) first. They give the same hits and counts on every processor.
+// Both filters as kernels. After a lanes header (simd/). They give the same hits and counts on
+// every processor.
 #pragma once
 
 #include "collision_core/broad_phase/filter/point_filter.h"
 #include "collision_core/broad_phase/filter/sphere_filter.h"
+#include "collision_core/simd/points_wide.h"
 
-namespace collision::broad_phase {
-namespace {
+namespace collision::broad_phase::sphere_filter::COLLISION_SIMD {
 
-using simd::All;
-using simd::Greater;
-using simd::kWidth;
-using simd::Lanes;
-using simd::Lesser;
-using simd::Load;
-using simd::Lowest;
-using simd::NotAtLeast;
-using simd::NotGreater;
-using simd::NotLess;
+using namespace simd::COLLISION_SIMD;
 
 /// The lanes whose distance is not above the reach.
-WIDE inline unsigned Within(Lanes x, Lanes y, Lanes z, Lanes reach) {
-  return NotGreater((x * x + y * y) + z * z, reach * reach);
+WIDE inline unsigned Within(const Points& d, const Lanes& reach) {
+  return NotGreater(Dot(d, d), reach * reach);
 }
 
-/// Moves the differences x, y, z along vx, vy, vz to where the lines are closest, within
-/// [first, last].
-WIDE inline void ToClosest(Lanes vx, Lanes vy, Lanes vz, Lanes first, Lanes last, Lanes* x,
-                           Lanes* y, Lanes* z) {
-  const Lanes away = (*x * vx + *y * vy) + *z * vz;
-  const Lanes square = (vx * vx + vy * vy) + vz * vz;
-  const Lanes u = Lesser(Greater((All(0) - away) / square, first), last);
-  *x = *x + vx * u;
-  *y = *y + vy * u;
-  *z = *z + vz * u;
+/// The differences d + v u where the lines are closest, with u in [first, last].
+WIDE inline Points Closest(const Points& d, const Points& v, const Lanes& first,
+                           const Lanes& last) {
+  const Lanes u = Lesser(Greater((All(0) - Dot(d, v)) / Dot(v, v), first), last);
+  return {d.x + v.x * u, d.y + v.y * u, d.z + v.z * u};
 }
 
-WIDE std::uint32_t Scan(const FilterView& balls, const FilterQuery& query,
-                        const FilterRange* ranges, std::uint32_t range_count, std::uint32_t* hits) {
-  const Lanes own_vx = All(query.vx), own_vy = All(query.vy), own_vz = All(query.vz);
+WIDE inline std::uint32_t Scan(const FilterView& balls, const FilterQuery& query,
+                               const FilterRange* ranges, std::uint32_t range_count,
+                               std::uint32_t* hits) {
+  const Points own_v = {All(query.vx), All(query.vy), All(query.vz)};
   const Lanes own_speed = All(query.speed), way = All(query.way);
   const Lanes reach = All(query.reach), time = All(query.time);
   const Lanes first = All(query.first), last = All(query.last);
   std::uint32_t count = 0;
   for (std::uint32_t r = 0; r < range_count; ++r) {
     const FilterRange& range = ranges[r];
-    const Lanes at_x = All(range.x), at_y = All(range.y), at_z = All(range.z);
+    const Points at = {All(range.x), All(range.y), All(range.z)};
     for (std::uint32_t k = range.begin; k < range.end; k += kWidth) {
-      Lanes x = Load(balls.x + k) - at_x, y = Load(balls.y + k) - at_y,
-            z = Load(balls.z + k) - at_z;
+      const Points d = LoadPoints(balls.x + k, balls.y + k, balls.z + k) - at;
       const Lanes own =
           Load(balls.s0 + k) + time * (Load(balls.s1 + k) + time * Load(balls.s2 + k));
       const Lanes both = reach + own;
       const Lanes ways = way * (own_speed + Load(balls.speed + k));
-      unsigned mask = Lowest(range.end - k) & Within(x, y, z, both + ways);
+      unsigned mask = Lowest(range.end - k) & Within(d, both + ways);
       if (mask == 0) continue;
-      const Lanes vx = Load(balls.vx + k) - own_vx, vy = Load(balls.vy + k) - own_vy,
-                  vz = Load(balls.vz + k) - own_vz;
-      ToClosest(vx, vy, vz, first, last, &x, &y, &z);
-      mask &= Within(x, y, z, both);
+      const Points v = LoadPoints(balls.vx + k, balls.vy + k, balls.vz + k) - own_v;
+      mask &= Within(Closest(d, v, first, last), both);
       for (; mask != 0; mask &= mask - 1) {
         hits[count++] = k + static_cast<unsigned>(__builtin_ctz(mask));
       }
@@ -91,8 +75,8 @@ WIDE inline ReachingPoints ReachingOf(const PointView& points, const QueryPoints
   return reaching;
 }
 
-WIDE PointCounts ScanPoints(const PointView& points, const QueryPoints& queries,
-                            const PointRow* rows, std::uint32_t row_count, PointHits hits) {
+WIDE inline PointCounts ScanPoints(const PointView& points, const QueryPoints& queries,
+                                   const PointRow* rows, std::uint32_t row_count, PointHits hits) {
   const ReachingPoints reaching = ReachingOf(points, queries);
   PointCounts counts;
   for (const PointRow* row = rows; row != rows + row_count; ++row) {
@@ -105,23 +89,22 @@ WIDE PointCounts ScanPoints(const PointView& points, const QueryPoints& queries,
       if (begin >= row->end) continue;
       counts.tests += row->end - begin;
       ++counts.ranges;
-      const Lanes at_x = All(points.x[query]), at_y = All(points.y[query] - row_y),
-                  at_z = All(points.z[query] - row_z);
+      const Points at = {All(points.x[query]), All(points.y[query] - row_y),
+                         All(points.z[query] - row_z)};
       const Lanes reach = All(points.reach[query]);
       for (std::uint32_t k = begin; k < row->end; k += kWidth) {
-        Lanes dx = Load(points.x + k) - at_x, dy = Load(points.y + k) - at_y,
-              dz = Load(points.z + k) - at_z;
+        const Points d = LoadPoints(points.x + k, points.y + k, points.z + k) - at;
         const Lanes reaches = reach + Load(points.reach + k);
-        unsigned mask = Lowest(row->end - k) & Within(dx, dy, dz, reaches);
+        unsigned mask = Lowest(row->end - k) & Within(d, reaches);
         if (mask != 0 && points.own != nullptr) {
-          const Lanes vx = Load(points.vx + k) - All(points.vx[query]),
-                      vy = Load(points.vy + k) - All(points.vy[query]),
-                      vz = Load(points.vz + k) - All(points.vz[query]);
-          ToClosest(vx, vy, vz, All(-queries.half), All(queries.half), &dx, &dy, &dz);
-          mask &= Within(dx, dy, dz, All(points.own[query]) + Load(points.own + k));
+          const Points own_v = {All(points.vx[query]), All(points.vy[query]),
+                                All(points.vz[query])};
+          const Points v = LoadPoints(points.vx + k, points.vy + k, points.vz + k) - own_v;
+          mask &= Within(Closest(d, v, All(-queries.half), All(queries.half)),
+                         All(points.own[query]) + Load(points.own + k));
         }
-        const std::uint32_t found = simd::StoreSelected(mask, k, hits.other + counts.hits);
-        simd::StoreCopies(query, found, hits.query + counts.hits);
+        const std::uint32_t found = StoreSelected(mask, k, hits.other + counts.hits);
+        StoreCopies(query, found, hits.query + counts.hits);
         counts.hits += found;
       }
     }
@@ -129,5 +112,4 @@ WIDE PointCounts ScanPoints(const PointView& points, const QueryPoints& queries,
   return counts;
 }
 
-}  // namespace
-}  // namespace collision::broad_phase
+}  // namespace collision::broad_phase::sphere_filter::COLLISION_SIMD

@@ -1,22 +1,20 @@
-// Four lanes at once. Nothing that others share is included: this file is built for processors that
-// not every processor has.
+// Four lanes at once. This file is built for processors that not every machine has, so it includes
+// nothing that other files share.
 #include "collision_core/narrow_phase/convex_pair/box_separating_axis.h"
+#include "collision_core/simd/lanes_avx2.h"
 
-#if defined(__x86_64__) && COLLISION_WIDE_BITS >= 256
-#define WIDE __attribute__((target("avx2")))
+#ifdef COLLISION_SIMD
 #include "collision_core/narrow_phase/convex_pair/box_separating_axis_wide.h"
+#endif
 
 namespace collision::narrow_phase {
 
 SeparatingAxisKernel Avx2SeparatingAxisTest() {
-  return __builtin_cpu_supports("avx2") ? &Glance : nullptr;
+#ifdef COLLISION_SIMD
+  return simd::avx2::IsSupported() ? &box_separating_axis::avx2::TestAxes : nullptr;
+#else
+  return nullptr;
+#endif
 }
 
 }  // namespace collision::narrow_phase
-#else
-namespace collision::narrow_phase {
-
-SeparatingAxisKernel Avx2SeparatingAxisTest() { return nullptr; }
-
-}  // namespace collision::narrow_phase
-#endif

@@ -1,5 +1,4 @@
-// The kernel of box_separating_axis.h. Only for box_separating_axis*.cc, which say first: WIDE, the
-// attribute of functions for their processor.
+// The kernel of box_separating_axis.h: three axes at once. After a lanes header (simd/).
 //
 // Everything is seen through x' = Gᵀx, in which A's edges are the columns of GᵀG (nearly diagonal:
 // squares, and `off` beside them), B's are those of C = GᵀM, and the centres' difference is p =
@@ -20,17 +19,11 @@
 #pragma once
 
 #include "collision_core/narrow_phase/convex_pair/box_separating_axis.h"
+#include "collision_core/simd/doubles_wide.h"
 
-namespace collision::narrow_phase {
-namespace {
+namespace collision::narrow_phase::box_separating_axis::COLLISION_SIMD {
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // All of it is inlined.
-using Lanes = double __attribute__((vector_size(32)));
-using LaneMask = long long __attribute__((vector_size(32)));
-
-// The fourth lane is not used. Macros would be the alternative: inlined functions are for the
-// processor of their caller.
-#define BOX_INLINE WIDE inline __attribute__((always_inline))
+using namespace simd::COLLISION_SIMD;
 
 constexpr double kFaceError = 0x1p-49;
 constexpr double kEdgeError = 0x1p-43;
@@ -39,45 +32,35 @@ constexpr double kSquare = 0x1p-46;
 constexpr double kTiny = 0x1p-1000;
 constexpr double kMore = 1 + 0x1p-40;
 
-BOX_INLINE void Rows(const double* m, Lanes* rows) {
-  rows[0] = Lanes{m[0], m[3], m[6], 0};
-  rows[1] = Lanes{m[1], m[4], m[7], 0};
-  rows[2] = Lanes{m[2], m[5], m[8], 0};
+WIDE_INLINE void Rows(const double* m, Doubles* rows) {
+  rows[0] = Doubles{m[0], m[3], m[6], 0};
+  rows[1] = Doubles{m[1], m[4], m[7], 0};
+  rows[2] = Doubles{m[2], m[5], m[8], 0};
 }
 
 /// Σ factors[k] rows[k].
-BOX_INLINE Lanes Along(const double* factors, const Lanes* rows) {
+WIDE_INLINE Doubles Along(const double* factors, const Doubles* rows) {
   return (factors[0] * rows[0] + factors[1] * rows[1]) + factors[2] * rows[2];
 }
 
-BOX_INLINE Lanes Size(Lanes x) {
-  constexpr long long kAllButSign = 0x7fffffffffffffff;
-  return reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(x) & kAllButSign);
-}
-BOX_INLINE Lanes Next(const Lanes& x) { return __builtin_shufflevector(x, x, 1, 2, 0, 3); }
-BOX_INLINE Lanes Last(const Lanes& x) { return __builtin_shufflevector(x, x, 2, 0, 1, 3); }
-BOX_INLINE double Sum(const Lanes& x) { return (x[0] + x[1]) + x[2]; }
-BOX_INLINE double Most(double x, double y) { return x > y ? x : y; }
-BOX_INLINE double Least(double x, double y) { return x < y ? x : y; }
-BOX_INLINE bool Any(const LaneMask& mask) { return (mask[0] | mask[1] | mask[2]) != 0; }
-BOX_INLINE bool All(const LaneMask& mask) { return (mask[0] & mask[1] & mask[2]) != 0; }
-
 /// Edges of one box, lanes: squared lengths, and the products of each with the next one.
 struct Gram {
-  Lanes square, off;
+  Doubles square, off;
 };
-BOX_INLINE Gram GramOf(const Lanes* rows) {
+WIDE_INLINE Gram GramOf(const Doubles* rows) {
   return {(rows[0] * rows[0] + rows[1] * rows[1]) + rows[2] * rows[2],
-          Size((rows[0] * Next(rows[0]) + rows[1] * Next(rows[1])) + rows[2] * Next(rows[2]))};
+          Magnitude((rows[0] * Next(rows[0]) + rows[1] * Next(rows[1])) + rows[2] * Next(rows[2]))};
 }
 
 /// What edges reach along each of themselves.
-BOX_INLINE Lanes OwnReach(const Gram& gram) { return gram.square + (gram.off + Last(gram.off)); }
+WIDE_INLINE Doubles OwnReach(const Gram& gram) {
+  return gram.square + (gram.off + Previous(gram.off));
+}
 
-WIDE BoxSeparation Glance(const BoxPair& pair) {
+WIDE inline BoxSeparation TestAxes(const BoxPair& pair) {
   if (!(pair.size < 1e45)) return BoxSeparation::kUnknown;
   const double* const g = pair.of_a;
-  Lanes a[3], h[3], m[3], c[3];
+  Doubles a[3], h[3], m[3], c[3];
   Rows(g, a);
   Rows(pair.of_b, h);
   for (int i = 0; i < 3; ++i) {
@@ -85,46 +68,48 @@ WIDE BoxSeparation Glance(const BoxPair& pair) {
     m[i] = Along(row, h);
   }
   for (int i = 0; i < 3; ++i) c[i] = Along(g + 3 * i, m);
-  const Lanes p = Along(pair.d, a), q = Along(pair.d, m);
+  const Doubles p = Along(pair.d, a), q = Along(pair.d, m);
   const Gram gram_a = GramOf(a), gram_b = GramOf(m);
-  const Lanes size[3] = {Size(c[0]), Size(c[1]), Size(c[2])};
-  const Lanes reach = {Sum(size[0]), Sum(size[1]), Sum(size[2]), 0};
+  const Doubles size[3] = {Magnitude(c[0]), Magnitude(c[1]), Magnitude(c[2])};
+  const Doubles reach = {SumOfThree(size[0]), SumOfThree(size[1]), SumOfThree(size[2]), 0};
 
   const double need = pair.apart + kFaceError * pair.size;
   const double square = kMore * (need * need);
-  const Lanes beside_a = Size(p) - (OwnReach(gram_a) + reach);
-  const Lanes beside_b = Size(q) - (OwnReach(gram_b) + ((size[0] + size[1]) + size[2]));
-  if (Any((beside_a * Size(beside_a) > square * gram_a.square + kTiny) |
-          (beside_b * Size(beside_b) > square * gram_b.square + kTiny))) {
+  const Doubles beside_a = Magnitude(p) - (OwnReach(gram_a) + reach);
+  const Doubles beside_b = Magnitude(q) - (OwnReach(gram_b) + ((size[0] + size[1]) + size[2]));
+  if (AnyOfThree((beside_a * Magnitude(beside_a) > square * gram_a.square + kTiny) |
+                 (beside_b * Magnitude(beside_b) > square * gram_b.square + kTiny))) {
     return BoxSeparation::kApart;
   }
 
-  const Lanes s = gram_a.square;
-  const double off = Most(Most(gram_a.off[0], gram_a.off[1]), gram_a.off[2]);
-  if (!(off <= kSquare * Least(Least(s[0], s[1]), s[2]))) return BoxSeparation::kUnknown;
+  const Doubles s = gram_a.square;
+  const double off = Greater(Greater(gram_a.off[0], gram_a.off[1]), gram_a.off[2]);
+  if (!(off <= kSquare * Lesser(Lesser(s[0], s[1]), s[2]))) return BoxSeparation::kUnknown;
   const double margin = kEdgeError * pair.size + pair.inside;
-  bool touching = All(-beside_a > margin * pair.span_a);
+  bool touching = AllOfThree(-beside_a > margin * pair.span_a);
   const double faces = pair.span_a * pair.span_a * pair.span_b;
   const double error = kEdgeError * pair.size * faces, edge_margin = margin * faces;
-  Lanes across[3];  // Of edges m_j and m_(j+1).
+  Doubles across[3];  // Of edges m_j and m_(j+1).
   for (int i = 0; i < 3; ++i) {
     const int k = (i + 1) % 3, l = (i + 2) % 3;
     across[i] = c[k] * Next(c[l]) - c[l] * Next(c[k]);
-    const Lanes turned = Size(across[i]);
-    const Lanes beyond = Size(p[l] * c[k] - p[k] * c[l]) -
-                         ((s[k] * size[l] + s[l] * size[k]) + (turned + Last(turned)));
-    const Lanes certain = beyond - error;
-    const Lanes normal = s[k] * (c[l] * c[l]) + s[l] * (c[k] * c[k]);
-    if (Any(certain * Size(certain) > square * normal + kTiny)) return BoxSeparation::kApart;
-    touching = touching && All(-beyond > edge_margin);
+    const Doubles turned = Magnitude(across[i]);
+    const Doubles beyond = Magnitude(p[l] * c[k] - p[k] * c[l]) -
+                           ((s[k] * size[l] + s[l] * size[k]) + (turned + Previous(turned)));
+    const Doubles certain = beyond - error;
+    const Doubles normal = s[k] * (c[l] * c[l]) + s[l] * (c[k] * c[k]);
+    if (AnyOfThree(certain * Magnitude(certain) > square * normal + kTiny))
+      return BoxSeparation::kApart;
+    touching = touching && AllOfThree(-beyond > edge_margin);
   }
-  const Lanes volume = (across[0] * Last(c[0]) + across[1] * Last(c[1])) + across[2] * Last(c[2]);
-  const Lanes along = (p[0] * across[0] + p[1] * across[1]) + p[2] * across[2];
-  const Lanes own = (s[0] * Size(across[0]) + s[1] * Size(across[1])) + s[2] * Size(across[2]);
+  const Doubles volume =
+      (across[0] * Previous(c[0]) + across[1] * Previous(c[1])) + across[2] * Previous(c[2]);
+  const Doubles along = (p[0] * across[0] + p[1] * across[1]) + p[2] * across[2];
+  const Doubles own =
+      (s[0] * Magnitude(across[0]) + s[1] * Magnitude(across[1])) + s[2] * Magnitude(across[2]);
   const double face_margin = margin * (faces * pair.span_a * pair.span_b) * 0.0625;
-  touching = touching && All((own + Size(volume)) - Size(along) > face_margin);
+  touching = touching && AllOfThree((own + Magnitude(volume)) - Magnitude(along) > face_margin);
   return touching ? BoxSeparation::kTouching : BoxSeparation::kUnknown;
 }
 
-}  // namespace
-}  // namespace collision::narrow_phase
+}  // namespace collision::narrow_phase::box_separating_axis::COLLISION_SIMD

@@ -1,41 +1,20 @@
 // Two convex sets: how far apart or how deep in each other, certified.
 //
-// A search proposes (gjk.h), two facts certify. Lower: the gap of the shadows along one
-// direction, which holds for any direction; overlapping shadows give the shift that takes the two
-// apart, so one number with a sign serves distance and depth. Upper: two points that certainly
-// belong to the two, or less the ball that the difference holds. Boxes, capsules, hulls and
-// triangles are known to about 64 · 2^-53 of their size; where a direction is mostly rounding,
-// edges and faces give it. A half-space needs no search. A search may begin where the one before
-// ended: then one step confirms it.
+// A search proposes (convex_search.h), facts certify (convex_bracket.h). Overlapping shadows give
+// the shift that takes the two apart, so one number with a sign serves distance and depth. Boxes,
+// capsules, hulls and triangles are known to about 64 · 2^-53 of their size. A half-space needs no
+// search. A search may begin where an earlier one ended: then one step confirms it.
 #pragma once
 
 #include <numbers>
 
 #include "collision_core/base/work_budget.h"
 #include "collision_core/geometry/convex/gjk.h"
+#include "collision_core/narrow_phase/convex_pair/convex_question.h"
 #include "collision_core/narrow_phase/pose/convex_pose.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
-
-/// Units of work for a step of a search: a pair of support points; in a growing polytope, more.
-inline constexpr std::uint64_t kGjkStepUnits = 1;
-inline constexpr std::uint64_t kEpaStepUnits = 4;
-inline constexpr std::uint64_t kFacesUnits = 4;  ///< All pairs of edges of two boxes.
-
-/// What is asked about two convex sets.
-enum class ConvexGoal {
-  kYesNo,     ///< Certainly apart, or certainly in contact, and nothing more.
-  kDistance,  ///< The distance; if they overlap, only that they do.
-  kDepth      ///< The distance, or how deep they overlap.
-};
-
-/// A question, and how narrow its answer is to be.
-struct ConvexQuestion {
-  ConvexGoal goal = ConvexGoal::kDepth;
-  double relative_tolerance = 0;  ///< Relative tolerance: width of the bracket over its lower end.
-  double absolute_tolerance = 0;  ///< Absolute tolerance [m]. Both 0: as narrow as doubles make it.
-};
 
 /// The certified answer.
 struct ConvexSeparation {

@@ -1,20 +1,20 @@
-// Four lanes at once. Nothing that others share is included: this file is built for processors that
-// not every processor has.
+// Four lanes at once. This file is built for processors that not every machine has, so it includes
+// nothing that other files share.
 #include "collision_core/narrow_phase/convex_pair/gjk_small.h"
+#include "collision_core/simd/lanes_avx2.h"
 
-#if defined(__x86_64__) && COLLISION_WIDE_BITS >= 256
-#define WIDE __attribute__((target("avx2")))
+#ifdef COLLISION_SIMD
 #include "collision_core/narrow_phase/convex_pair/gjk_small_wide.h"
-
-namespace collision::narrow_phase {
-
-SmallGjkKernel Avx2SmallGjk() { return __builtin_cpu_supports("avx2") ? &Find : nullptr; }
-
-}  // namespace collision::narrow_phase
-#else
-namespace collision::narrow_phase {
-
-SmallGjkKernel Avx2SmallGjk() { return nullptr; }
-
-}  // namespace collision::narrow_phase
 #endif
+
+namespace collision::narrow_phase {
+
+SmallGjkKernel Avx2SmallGjk() {
+#ifdef COLLISION_SIMD
+  return simd::avx2::IsSupported() ? &gjk_small::avx2::Find : nullptr;
+#else
+  return nullptr;
+#endif
+}
+
+}  // namespace collision::narrow_phase

@@ -1,5 +1,5 @@
 // The kernel of gjk_small.h, after Gilbert, Johnson and Keerthi as in geometry/convex/gjk.h.
-// Only for gjk_small*.cc, which say first: WIDE, the attribute of functions for their processor.
+// After a lanes header (simd/).
 //
 // Rounding, with u = 2^-53: support points are those of convex_set.h, with no more operations, so
 // that the errors of ConvexPair hold: a gap is known to within 26u S, a weighted sum of points to
@@ -9,15 +9,11 @@
 #include <cmath>
 
 #include "collision_core/narrow_phase/convex_pair/gjk_small.h"
+#include "collision_core/simd/doubles_wide.h"
 
-namespace collision::narrow_phase {
-namespace {
+namespace collision::narrow_phase::gjk_small::COLLISION_SIMD {
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // All of it is inlined.
-using Lanes = double __attribute__((vector_size(32)));
-using LaneMask = long long __attribute__((vector_size(32)));
-
-#define QUICK_INLINE WIDE inline __attribute__((always_inline))
+using namespace simd::COLLISION_SIMD;
 
 constexpr double kUnit = 0x1p-53;
 constexpr double kGapError = 32 * kUnit;
@@ -31,55 +27,48 @@ struct Point {
   double x, y, z;
 
   Point() = default;
-  QUICK_INLINE Point(double p_x, double p_y, double p_z) : x(p_x), y(p_y), z(p_z) {}
-  QUICK_INLINE Point(const Point& p) : x(p.x), y(p.y), z(p.z) {}
-  QUICK_INLINE Point& operator=(const Point& p) {
+  WIDE_INLINE Point(double p_x, double p_y, double p_z) : x(p_x), y(p_y), z(p_z) {}
+  WIDE_INLINE Point(const Point& p) : x(p.x), y(p.y), z(p.z) {}
+  WIDE_INLINE Point& operator=(const Point& p) {
     x = p.x, y = p.y, z = p.z;
     return *this;
   }
 };
 
-QUICK_INLINE Point operator+(const Point& a, const Point& b) {
+WIDE_INLINE Point operator+(const Point& a, const Point& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
 }
-QUICK_INLINE Point operator-(const Point& a, const Point& b) {
+WIDE_INLINE Point operator-(const Point& a, const Point& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-QUICK_INLINE Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
-QUICK_INLINE double Dot(const Point& a, const Point& b) {
+WIDE_INLINE Point operator*(double s, const Point& a) { return {s * a.x, s * a.y, s * a.z}; }
+WIDE_INLINE double Dot(const Point& a, const Point& b) {
   return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
-QUICK_INLINE Point Cross(const Point& a, const Point& b) {
+WIDE_INLINE Point Cross(const Point& a, const Point& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-QUICK_INLINE double Most(double x, double y) { return x > y ? x : y; }
 
-QUICK_INLINE Point Axis(const SmallGjkCore& core, int i) {
+WIDE_INLINE Point Axis(const SmallGjkCore& core, int i) {
   const double* const g = core.axes + 3 * i;
   return {g[0], g[1], g[2]};
 }
 
-QUICK_INLINE Lanes Load(const double* p) {
-  Lanes lanes;
-  __builtin_memcpy(&lanes, p, sizeof(lanes));
-  return lanes;
-}
-
-QUICK_INLINE Lanes AlongOf(const double* p, const Point& n) {
+WIDE_INLINE Doubles AlongOf(const double* p, const Point& n) {
   return (n.x * Load(p) + n.y * Load(p + 4)) + n.z * Load(p + 8);
 }
 
 /// Of the points of a hull one that is furthest.
-QUICK_INLINE Point FurthestOf(const SmallGjkCore& core, const Point& n) {
+WIDE_INLINE Point FurthestOf(const SmallGjkCore& core, const Point& n) {
   const double* p = core.points;
-  Lanes most = AlongOf(p, n), place{0, 1, 2, 3}, best = place;
+  Doubles most = AlongOf(p, n), place{0, 1, 2, 3}, best = place;
   for (int block = 1; block < core.blocks; ++block) {
     p += 12;
     place += 12.0;
-    const Lanes along = AlongOf(p, n);
-    const LaneMask more = along > most;
+    const Doubles along = AlongOf(p, n);
+    const DoublesMask more = along > most;
     // Places only become greater.
-    const Lanes there = reinterpret_cast<Lanes>(reinterpret_cast<LaneMask>(place) & more);
+    const Doubles there = Selected(place, more);
     best = there > best ? there : best;
     most = along > most ? along : most;
   }
@@ -90,7 +79,7 @@ QUICK_INLINE Point FurthestOf(const SmallGjkCore& core, const Point& n) {
   return {found[0], found[4], found[8]};
 }
 
-QUICK_INLINE Point Support(const SmallGjkCore& core, const Point& n) {
+WIDE_INLINE Point Support(const SmallGjkCore& core, const Point& n) {
   const Point g0 = Axis(core, 0), g1 = Axis(core, 1), g2 = Axis(core, 2);
   if (core.is_hull) {
     const Point at = FurthestOf(core, {Dot(n, g0), Dot(n, g1), Dot(n, g2)});
@@ -110,7 +99,7 @@ struct Nearest {
   double square;         ///< Of `sum`.
 
   Nearest() = default;
-  QUICK_INLINE Nearest& operator=(const Nearest& other) {
+  WIDE_INLINE Nearest& operator=(const Nearest& other) {
     corners = other.corners, sum = other.sum;
     direction = other.direction, square = other.square;
     return *this;
@@ -119,9 +108,9 @@ struct Nearest {
 
 class Search {
  public:
-  WIDE explicit Search(const SmallGjkPair& pair) : pair_(pair) {}
+  WIDE_INLINE explicit Search(const SmallGjkPair& pair) : pair_(pair) {}
 
-  WIDE SmallGjkResult Run() {
+  WIDE_INLINE SmallGjkResult Run() {
     const double size = pair_.size;
     const double touching = kTouching * size;
     double lower = -HUGE_VAL;
@@ -140,7 +129,7 @@ class Search {
       if (length < pair_.near) break;
       const Point found = Against(at.direction);
       const double gap = Dot(at.direction, found) / length;
-      lower = Most(lower, gap - kGapError * size);
+      lower = Greater(lower, gap - kGapError * size);
       if (gap > pair_.apart || IsCloseEnough(length, gap) || IsKnown(found)) break;
       corner_[count_] = found;
       ++count_;
@@ -160,7 +149,7 @@ class Search {
  private:
   /// Of two ellipsoids with matrices A and B whose centres are d apart the sum is nearly one with A
   /// + B, which has the normal (A + B)^-1 d where d leaves it. Of the inverse only the adjugate.
-  QUICK_INLINE Point LikelyWay() const {
+  WIDE_INLINE Point LikelyWay() const {
     double q[6] = {};  // xx, xy, xz, yy, yz, zz
     const SmallGjkCore* const cores[] = {&pair_.a, &pair_.b};
     for (const SmallGjkCore* core : cores) {
@@ -179,17 +168,18 @@ class Search {
   }
 
   /// The point of B − A that is furthest against n.
-  QUICK_INLINE Point Against(const Point& n) const {
+  WIDE_INLINE Point Against(const Point& n) const {
     const Point d{pair_.d[0], pair_.d[1], pair_.d[2]};
     return (d + Support(pair_.b, {-n.x, -n.y, -n.z})) - Support(pair_.a, n);
   }
 
-  QUICK_INLINE bool IsCloseEnough(double length, double gap) const {
+  WIDE_INLINE bool IsCloseEnough(double length, double gap) const {
     const double share = gap > 0 ? pair_.relative_tolerance * std::abs(gap - pair_.rounding) : 0;
-    return length - gap <= Most(Most(pair_.absolute_tolerance, share), kTouching * pair_.size);
+    return length - gap <=
+           Greater(Greater(pair_.absolute_tolerance, share), kTouching * pair_.size);
   }
 
-  QUICK_INLINE bool IsKnown(const Point& found) const {
+  WIDE_INLINE bool IsKnown(const Point& found) const {
     bool known = false;
     for (int i = 0; i < count_; ++i) {
       known |= corner_[i].x == found.x && corner_[i].y == found.y && corner_[i].z == found.z;
@@ -197,20 +187,20 @@ class Search {
     return known;
   }
 
-  QUICK_INLINE void Keep(unsigned corners) {
+  WIDE_INLINE void Keep(unsigned corners) {
     count_ = 0;
     for (int i = 0; i < 4; ++i) {
       if (corners >> i & 1) corner_[count_++] = corner_[i];
     }
   }
 
-  QUICK_INLINE void OnCorner(int i, Nearest* at) const {
+  WIDE_INLINE void OnCorner(int i, Nearest* at) const {
     at->corners = 1u << i;
     at->sum = at->direction = corner_[i];
     at->square = Dot(at->sum, at->sum);
   }
 
-  QUICK_INLINE void OnEdge(int i, int j, Nearest* at) const {
+  WIDE_INLINE void OnEdge(int i, int j, Nearest* at) const {
     const Point &a = corner_[i], edge = corner_[j] - a;
     const double along = -Dot(a, edge), square = Dot(edge, edge);
     if (!(along > 0)) return OnCorner(i, at);
@@ -223,7 +213,7 @@ class Search {
   }
 
   /// After Ericson, "Real-time collision detection", 2005, section 5.1.5.
-  QUICK_INLINE void OnTriangle(int i, int j, int k, Nearest* at) const {
+  WIDE_INLINE void OnTriangle(int i, int j, int k, Nearest* at) const {
     const Point &a = corner_[i], &b = corner_[j], &c = corner_[k];
     const Point ab = b - a, ac = c - a;
     const double d1 = -Dot(ab, a), d2 = -Dot(ac, a), d3 = -Dot(ab, b), d4 = -Dot(ac, b);
@@ -241,7 +231,7 @@ class Search {
   }
 
   /// The nearest of the edges that 0 is beyond.
-  QUICK_INLINE void OnRim(int i, int j, int k, double va, double vb, double vc, Nearest* at) const {
+  WIDE_INLINE void OnRim(int i, int j, int k, double va, double vb, double vc, Nearest* at) const {
     at->corners = 0;
     Nearest other;
     const auto take = [&](int from, int to) WIDE {
@@ -254,7 +244,7 @@ class Search {
   }
 
   /// No corners: 0 is inside.
-  QUICK_INLINE void Reduce(Nearest* at) const {
+  WIDE_INLINE void Reduce(Nearest* at) const {
     if (count_ == 2) return OnEdge(0, 1, at);
     if (count_ == 3) return OnTriangle(0, 1, 2, at);
     // Faces of the newest corner, and the corner opposite.
@@ -279,7 +269,7 @@ class Search {
   /// up to S is off by less than 16u S³, and the exact corners by kPointError S: the ball belongs
   /// to their hull if 0 is further than both together from each face. Its normal is off by less
   /// than 16u S², which times the radius is small beside 16u S³.
-  QUICK_INLINE bool HoldsBall() const {
+  WIDE_INLINE bool HoldsBall() const {
     const double size = pair_.size;
     const double radius = (1 + 0x1p-40) * (pair_.inside + kPointError * size);
     const double error = 64 * kUnit * (size * size * size);
@@ -302,7 +292,6 @@ class Search {
   int count_ = 0;
 };
 
-WIDE SmallGjkResult Find(const SmallGjkPair& pair) { return Search(pair).Run(); }
+WIDE inline SmallGjkResult Find(const SmallGjkPair& pair) { return Search(pair).Run(); }
 
-}  // namespace
-}  // namespace collision::narrow_phase
+}  // namespace collision::narrow_phase::gjk_small::COLLISION_SIMD

@@ -1,11 +1,9 @@
-// Whether triangles are apart across their edges, in wide vectors. Only for
-// sphere_pair_kernel_wide.h.
+// Whether triangles are apart across their edges, in wide vectors. For kernel_triangles_wide.h.
 #pragma once
 
-#include "collision_core/narrow_phase/sphere_pairs/kernel_points_wide.h"
+#include "collision_core/narrow_phase/sphere_pairs/kernel_pose_wide.h"
 
-namespace collision::narrow_phase {
-namespace {
+namespace collision::narrow_phase::sphere_pairs::COLLISION_SIMD {
 
 /// Edges of four triangles, edge k of triangle i at 4 k + i, from corner k to the next one.
 struct EdgeBlock {
@@ -28,13 +26,11 @@ WIDE inline void EdgesOf(const float* x, const float* y, const float* z, const f
                          EdgeBlock* edges) {
   CornerCircle circle;
   Close(x, circle.x), Close(y, circle.y), Close(z, circle.z);
-  const WidePoint shift = AllOf(offset);
+  const Points shift = AllOf(offset);
   for (std::uint32_t k = 0; k < 16; k += kWidth) {
-    const WidePoint from = {Load(circle.x + k) + shift.x, Load(circle.y + k) + shift.y,
-                            Load(circle.z + k) + shift.z};
-    const WidePoint to = {Load(circle.x + 4 + k) + shift.x, Load(circle.y + 4 + k) + shift.y,
-                          Load(circle.z + 4 + k) + shift.z};
-    const WidePoint edge = Minus(to, from), moment = Cross(from, edge);
+    const Points from = LoadPoints(circle.x + k, circle.y + k, circle.z + k) + shift;
+    const Points to = LoadPoints(circle.x + 4 + k, circle.y + 4 + k, circle.z + 4 + k) + shift;
+    const Points edge = to - from, moment = Cross(from, edge);
     Store(edges->x + k, edge.x), Store(edges->y + k, edge.y), Store(edges->z + k, edge.z);
     Store(edges->moment_x + k, moment.x), Store(edges->moment_y + k, moment.y);
     Store(edges->moment_z + k, moment.z), Store(edges->square + k, Dot(edge, edge));
@@ -42,11 +38,11 @@ WIDE inline void EdgesOf(const float* x, const float* y, const float* z, const f
 }
 
 struct WideEdges {
-  WidePoint edge[3], moment[3];
+  Points edge[3], moment[3];
   Lanes longest;  ///< No edge is longer, but for rounding.
 };
 
-WIDE inline Lanes LongestOf(Lanes p, Lanes q, Lanes r) {
+WIDE inline Lanes LongestOf(const Lanes& p, const Lanes& q, const Lanes& r) {
   return Root(Greater(Greater(p, q), r) + All(kDistinctMin * kDistinctMin));
 }
 
@@ -54,13 +50,14 @@ WIDE inline WideEdges EdgesOfA(const EdgeBlock& block, std::uint32_t row) {
   WideEdges e;
 #pragma GCC unroll 3
   for (int k = 0; k < 3; ++k) {
-    e.edge[k] = {RowsOfFour(block.x + 4 * k, row), RowsOfFour(block.y + 4 * k, row),
-                 RowsOfFour(block.z + 4 * k, row)};
-    e.moment[k] = {RowsOfFour(block.moment_x + 4 * k, row), RowsOfFour(block.moment_y + 4 * k, row),
-                   RowsOfFour(block.moment_z + 4 * k, row)};
+    e.edge[k] = {SpreadFours(block.x + 4 * k, row), SpreadFours(block.y + 4 * k, row),
+                 SpreadFours(block.z + 4 * k, row)};
+    e.moment[k] = {SpreadFours(block.moment_x + 4 * k, row),
+                   SpreadFours(block.moment_y + 4 * k, row),
+                   SpreadFours(block.moment_z + 4 * k, row)};
   }
-  e.longest = LongestOf(RowsOfFour(block.square, row), RowsOfFour(block.square + 4, row),
-                        RowsOfFour(block.square + 8, row));
+  e.longest = LongestOf(SpreadFours(block.square, row), SpreadFours(block.square + 4, row),
+                        SpreadFours(block.square + 8, row));
   return e;
 }
 
@@ -68,20 +65,22 @@ WIDE inline WideEdges EdgesOfB(const EdgeBlock& block) {
   WideEdges e;
 #pragma GCC unroll 3
   for (int k = 0; k < 3; ++k) {
-    e.edge[k] = {OfFour(block.x + 4 * k), OfFour(block.y + 4 * k), OfFour(block.z + 4 * k)};
-    e.moment[k] = {OfFour(block.moment_x + 4 * k), OfFour(block.moment_y + 4 * k),
-                   OfFour(block.moment_z + 4 * k)};
+    e.edge[k] = {LoadFour(block.x + 4 * k), LoadFour(block.y + 4 * k), LoadFour(block.z + 4 * k)};
+    e.moment[k] = {LoadFour(block.moment_x + 4 * k), LoadFour(block.moment_y + 4 * k),
+                   LoadFour(block.moment_z + 4 * k)};
   }
-  e.longest = LongestOf(OfFour(block.square), OfFour(block.square + 4), OfFour(block.square + 8));
+  e.longest =
+      LongestOf(LoadFour(block.square), LoadFour(block.square + 4), LoadFour(block.square + 8));
   return e;
 }
 
 /// Which pairs no direction across two edges shows to be apart by more than `apart`. Across edges e
 /// and f, from corners p and q, B is beyond A by D = (e × f)·(q − p) = −(e·(q × f) + f·(p × e));
 /// seen from p, A's third corner is at −f·N with its normal N, and seen from q, B's is at e·N.
-WIDE inline unsigned NotApartAcrossEdges(const WideEdges& a, const WideEdges& b, Lanes apart) {
+WIDE inline unsigned NotApartAcrossEdges(const WideEdges& a, const WideEdges& b,
+                                         const Lanes& apart) {
   const Lanes none = All(0);
-  const WidePoint normal_a = Cross(a.edge[0], a.edge[1]), normal_b = Cross(b.edge[0], b.edge[1]);
+  const Points normal_a = Cross(a.edge[0], a.edge[1]), normal_b = Cross(b.edge[0], b.edge[1]);
   Lanes low_a[3], high_a[3], most = All(-sphere_tree::kNowhere), least = All(sphere_tree::kNowhere);
 #pragma GCC unroll 3
   for (int j = 0; j < 3; ++j) {
@@ -103,5 +102,4 @@ WIDE inline unsigned NotApartAcrossEdges(const WideEdges& a, const WideEdges& b,
   return NotGreater(most, wanted) & NotGreater(none - wanted, least);
 }
 
-}  // namespace
-}  // namespace collision::narrow_phase
+}  // namespace collision::narrow_phase::sphere_pairs::COLLISION_SIMD
