@@ -295,7 +295,7 @@ void AddGreedy(Scene* scene) {
   scene->Touch(0, ball, 0, INFINITY);
   const Bouncing bouncing;
   auto chattering = Of(CubeShape(), 4 * bouncing.speed / kStepSeconds);
-  chattering.angular_acceleration_max = 0.01;
+  chattering.limits.angular_acceleration_max = 0.01;
   const auto cube = scene->Add(chattering, [bouncing](Seconds t) {
     motion::MotionState state = bouncing.At(t);
     state.p_WA += Vector3d(8, -8, 0);
