@@ -19,6 +19,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "collision_core/base/check.h"
+
 namespace collision::geometry {
 namespace {
 
@@ -133,6 +135,7 @@ class Faces {
 }  // namespace
 
 FaceSeparation SeparationOfFaces(const ConvexPair& pair, double apart) {
+  CORE_CHECK(IsZonotope(pair.a()) && IsZonotope(pair.b()), "both cores are zonotopes");
   return Faces(pair, apart).Find();
 }
 

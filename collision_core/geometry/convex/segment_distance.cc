@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/convex/gjk.h"
 #include "collision_core/geometry/convex/segment_fractions.h"
 
@@ -22,6 +23,7 @@ void TakeOut(const Vector3d& axis, double fraction, Vector3d* way) {
 }  // namespace
 
 void NearestOfSegments(const ConvexPair& pair, GjkResult* found) {
+  CORE_CHECK(pair.a().IsThin() && pair.b().IsThin(), "both cores are points or segments");
   const Vector3d g = AxisOf(pair.a()), h = AxisOf(pair.b());
   const auto [s, t] = FractionsOf(pair.between(), g, h);
   GjkResult& result = *found;

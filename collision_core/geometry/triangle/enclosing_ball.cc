@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::geometry {
@@ -28,15 +29,17 @@ Farthest FarthestFrom(const Vector3d& centre, std::span<const Vector3d> points) 
 
 /// A computed |d|² is off by a relative 5 u at most, u = 2^−53 (two for each rounded difference,
 /// one for each square, two for the sums), the root by 2.5 u + u; 2^−50 = 8 u covers them and its
-/// own rounding. Squares below 1e-308 lose their error, distances below 1e-150 are therefore raised
+/// own rounding. Squares below 1e-308 lose digits, so distances below kDistanceMin [m] are raised
 /// to it.
-double RadiusOf(double distance2) { return std::sqrt(distance2) * (1 + 0x1p-50) + 1e-150; }
+constexpr double kDistanceMin = 1e-150;
+double RadiusOf(double distance2) { return std::sqrt(distance2) * (1 + 0x1p-50) + kDistanceMin; }
 
 }  // namespace
 
 // Bădoiu and Clarkson, "Smaller core-sets for balls", 2003: step towards the farthest point by
 // 1 / (i + 1). From the middle of the box the first steps may be shorter.
 EnclosingBall SmallBallAround(std::span<const Vector3d> points) {
+  CORE_CHECK(!points.empty(), "a ball is about at least one point");
   Vector3d lower = points[0], upper = points[0];
   for (const Vector3d& p : points) {
     lower = lower.cwiseMin(p);

@@ -154,7 +154,8 @@ bool IsCertainlyFarther(const Vector3d& p, const TriangleCorners& corners, doubl
   const Vector3d n = p - At(corners, best.weights);
   const double length = n.norm();
   // Below, products may underflow; beyond, overflow.
-  if (!(length > 1e-100 && length < 1e100)) return false;
+  constexpr double kLengthMin = 1e-100, kLengthMax = 1e100;
+  if (!(length > kLengthMin && length < kLengthMax)) return false;
   // As LowerAlong(), in plain doubles. A computed n · (p − corner) is off by at most 4.1 u |n| |p −
   // corner| (one rounding of the difference, one of the product, two of the sum), u = 2^−53; the
   // length by 3.1 u, the quotient by u of at most |p − corner|: 16 u of the farthest covers all.

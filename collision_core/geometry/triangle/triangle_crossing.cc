@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/triangle/triangle_pair.h"
 
 namespace collision::geometry {
@@ -205,6 +206,7 @@ Crossing CrossingOf(const RayPassage& passage, const TrianglePoints& edges,
 
 std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TrianglePoints& b,
                                         double uncertainty) {
+  CORE_CHECK(!(uncertainty < 0), "an uncertainty is not below 0", uncertainty);
   const RayPassage passage = WidestPassage(a, b);
   if (!(passage.margin >= 0 && passage.margin >= uncertainty)) return std::nullopt;
   return passage.through_b ? CrossingOf(passage, a, b, uncertainty)

@@ -25,6 +25,8 @@ namespace collision::narrow_phase::box_separating_axis::COLLISION_SIMD {
 
 using namespace simd::COLLISION_SIMD;
 
+/// From here on [m] products of lengths, six and more, might overflow.
+constexpr double kSizeMax = 1e45;
 constexpr double kFaceError = 0x1p-49;
 constexpr double kEdgeError = 0x1p-43;
 constexpr double kSquare = 0x1p-46;
@@ -58,7 +60,7 @@ WIDE_INLINE Doubles OwnReach(const Gram& gram) {
 }
 
 WIDE inline BoxSeparation TestAxes(const BoxPair& pair) {
-  if (!(pair.size < 1e45)) return BoxSeparation::kUnknown;
+  if (!(pair.size < kSizeMax)) return BoxSeparation::kUnknown;
   const double* const g = pair.of_a;
   Doubles a[3], h[3], m[3], c[3];
   Rows(g, a);

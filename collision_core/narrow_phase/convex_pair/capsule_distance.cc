@@ -10,6 +10,7 @@
 
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/convex/segment_fractions.h"
 
 namespace collision::narrow_phase {
@@ -30,11 +31,11 @@ template <int kCount>
 struct Edges {
   Vector3d of[kCount];
 
-  explicit Edges(const geometry::ConvexSet& of_A) {
-    for (int i = 0; i < kCount; ++i) of[i] = of_A.generators.col(i);
+  explicit Edges(const geometry::ConvexSet& a) {
+    for (int i = 0; i < kCount; ++i) of[i] = a.generators.col(i);
   }
-  Edges(const geometry::ConvexSet& of_B, const Matrix3d& matrix) {
-    for (int i = 0; i < kCount; ++i) of[i] = matrix * of_B.generators.col(i);
+  Edges(const geometry::ConvexSet& b, const Matrix3d& matrix) {
+    for (int i = 0; i < kCount; ++i) of[i] = matrix * b.generators.col(i);
   }
   double Reach(const Vector3d& n) const {
     double reach = 0;
@@ -43,8 +44,8 @@ struct Edges {
   }
 };
 
-template <int kOfA, int kOfB>
-numeric::Interval Certified(const Vector3d& y, const Edges<kOfA>& a, const Edges<kOfB>& b,
+template <int kCountA, int kCountB>
+numeric::Interval Certified(const Vector3d& y, const Edges<kCountA>& a, const Edges<kCountB>& b,
                             const PosedCores& cores) {
   const double length = std::sqrt(y.squaredNorm());
   const double error = kWayError * cores.size + geometry::kSupportUnderflow;
@@ -71,31 +72,32 @@ Vector3d WayFromBox(const Vector3d& d, const Edges<3>& box, const Vector3d& axis
 }  // namespace
 
 // As PosedA() and PosedB() (convex_pose.cc).
-PosedCores::PosedCores(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+PosedCores::PosedCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                        const RelativePose& pose)
-    : d((pose.R_AB * of_B.centre + pose.p_AB) - of_A.centre),
-      size((1 + 0x1p-18) * (d.cwiseAbs().sum() + of_A.span + of_B.span)) {
-  const double far_B = LengthUp(of_B.centre) + of_B.span;
-  const double turned_A = pose.chord_A > 0 ? pose.chord_A * (LengthUp(of_A.centre) + of_A.span) : 0;
+    : d((pose.R_AB * b.centre + pose.p_AB) - a.centre),
+      size((1 + 0x1p-18) * (d.cwiseAbs().sum() + a.span + b.span)) {
+  const double far_b = LengthUp(b.centre) + b.span;
+  const double turned_a = pose.chord_A > 0 ? pose.chord_A * (LengthUp(a.centre) + a.span) : 0;
   error =
-      (1 + 0x1p-40) * (((1 + 0x1p-20) * of_B.error + of_A.error) +
-                       (pose.offset_error + (pose.matrix_error + pose.chord_B) * far_B) + turned_A);
+      (1 + 0x1p-40) * (((1 + 0x1p-20) * b.error + a.error) +
+                       (pose.offset_error + (pose.matrix_error + pose.chord_B) * far_b) + turned_a);
 }
 
-numeric::Interval DistanceOfCores(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+numeric::Interval DistanceOfCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                                   const PosedCores& cores, const RelativePose& pose) {
-  if (of_A.core == geometry::ConvexCore::kBox) {
-    const Edges<3> box(of_A);
-    const Edges<1> axis(of_B, pose.R_AB);
+  CORE_CHECK(IsCapsulePair(a, b), "one core is thin, the other thin or a box");
+  if (a.core == geometry::ConvexCore::kBox) {
+    const Edges<3> box(a);
+    const Edges<1> axis(b, pose.R_AB);
     return Certified(WayFromBox(cores.d, box, axis.of[0]), box, axis, cores);
   }
-  const Edges<1> axis(of_A);
-  if (of_B.core == geometry::ConvexCore::kBox) {
-    const Edges<3> box(of_B, pose.R_AB);
+  const Edges<1> axis(a);
+  if (b.core == geometry::ConvexCore::kBox) {
+    const Edges<3> box(b, pose.R_AB);
     const Vector3d way = -WayFromBox(-cores.d, box, axis.of[0]);
     return Certified(way, axis, box, cores);
   }
-  const Edges<1> other(of_B, pose.R_AB);
+  const Edges<1> other(b, pose.R_AB);
   const auto [s, t] = geometry::FractionsOf(cores.d, axis.of[0], other.of[0]);
   return Certified(Vector3d((cores.d + t * other.of[0]) - s * axis.of[0]), axis, other, cores);
 }

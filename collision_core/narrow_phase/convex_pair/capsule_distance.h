@@ -7,10 +7,9 @@
 
 namespace collision::narrow_phase {
 
-/// Two cores at a pose, their centres subtracted first.
+/// Two cores at a pose, their centres subtracted first. Each set is given in its own body's frame.
 struct PosedCores {
-  PosedCores(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
-             const RelativePose& pose);
+  PosedCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b, const RelativePose& pose);
 
   Eigen::Vector3d d;  ///< From A's centre to B's: off by 2^-53 |d| from what is posed.
   double size;        ///< S: at least |d| + span_A + (1 + 2^-20) span_B.
@@ -23,9 +22,9 @@ inline bool IsCapsulePair(const geometry::ConvexSet& a, const geometry::ConvexSe
          (b.IsThin() && a.core == geometry::ConvexCore::kBox);
 }
 
-/// The distance of the two cores, as they are posed; below 0, and wide, where they meet.
-/// Requires IsCapsulePair().
-numeric::Interval DistanceOfCores(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+/// The distance of the two cores, as they are posed; below 0, and wide, where they meet. Each set is
+/// given in its own body's frame. Requires IsCapsulePair(a, b).
+numeric::Interval DistanceOfCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                                   const PosedCores& cores, const RelativePose& pose);
 
 }  // namespace collision::narrow_phase

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "collision_core/base/check.h"
+
 namespace collision::narrow_phase {
 namespace {
 
@@ -24,6 +26,7 @@ double ReachAlong(const geometry::ConvexSet& set, const Vector3d& m) {
 
 MovingFront FrontOf(const geometry::ConvexSet& set, const TangentMotion& motion, const Vector3d& n,
                     const Vector3d& origin, double h) {
+  CORE_CHECK(!(h < 0), "a front is asked for now or later", h);
   const Vector3d place = set.centre - origin, arm = set.centre - motion.about;
   const Vector3d turned = n.cross(motion.spin);
   const double speed = n.dot(motion.velocity) + turned.dot(arm);

@@ -5,16 +5,14 @@
 #include "collision_core/geometry/convex/box_zonotope.h"
 #include "collision_core/narrow_phase/convex_pair/box_separating_axis.h"
 #include "collision_core/narrow_phase/convex_pair/capsule_distance.h"
+#include "collision_core/narrow_phase/convex_pair/convex_bracket.h"
 #include "collision_core/narrow_phase/convex_pair/gjk_small.h"
 
 namespace collision::narrow_phase {
 namespace {
 
-/// A bracket narrower than this share of S is as good as the arithmetic.
-constexpr double kTight = 96 * 0x1p-53;
-
-/// What is known of the cores, of the sets: roundings and errors counted in. The sums are off by
-/// less than 8 · 2^-53 of their terms.
+/// The bracket of the sets, given that of their cores: roundings and errors counted in. The sums are
+/// off by less than 8 · 2^-53 of their terms.
 numeric::Interval OfSets(const numeric::Interval& of_cores, double rounding,
                          const PosedCores& cores) {
   const double slack = cores.error + 0x1p-50 * (cores.size + rounding);
@@ -26,17 +24,17 @@ Verdict VerdictOf(const numeric::Interval& separation, double translation) {
   return separation.upper <= -translation ? Verdict::kTouching : Verdict::kUndecided;
 }
 
-Verdict GlanceAtBoxes(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
-                      const RelativePose& pose) {
-  const PosedCores cores(of_A, of_B, pose);
-  const double rounding = of_A.rounding + of_B.rounding;
+Verdict TestBoxes(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
+                  const RelativePose& pose) {
+  const PosedCores cores(a, b, pose);
+  const double rounding = a.rounding + b.rounding;
   const double uncertain = (1 + 0x1p-50) * (cores.error + pose.translation);
-  const BoxPair pair{of_A.generators.data(),
-                     of_B.generators.data(),
+  const BoxPair pair{a.generators.data(),
+                     b.generators.data(),
                      pose.R_AB.data(),
                      {cores.d.x(), cores.d.y(), cores.d.z()},
-                     of_A.span,
-                     (1 + 0x1p-18) * of_B.span,
+                     a.span,
+                     (1 + 0x1p-18) * b.span,
                      cores.size,
                      (1 + 0x1p-50) * (rounding + uncertain),
                      std::max(0.0, uncertain - (1 - 0x1p-50) * rounding)};
@@ -72,13 +70,13 @@ void SetCore(const geometry::ConvexSet& set, SmallGjkCore* core) {
 constexpr double kSizeMax = 1e40;
 
 /// The cores where they are, nothing asked yet. Requires IsQuick().
-SmallGjkPair QuickPairOf(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+SmallGjkPair QuickPairOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                          const PosedCores& cores, const RelativePose& pose) {
   SmallGjkPair pair;
-  SetCore(of_A, &pair.a);
-  SetCore(of_B, &pair.b);
-  for (int i = 0; i < 9; ++i) pair.a.axes[i] = of_A.generators.data()[i];
-  const double *m = pose.R_AB.data(), *g = of_B.generators.data();
+  SetCore(a, &pair.a);
+  SetCore(b, &pair.b);
+  for (int i = 0; i < 9; ++i) pair.a.axes[i] = a.generators.data()[i];
+  const double *m = pose.R_AB.data(), *g = b.generators.data();
   for (int i = 0; i < 9; ++i) {
     const int row = i % 3, column = 3 * (i / 3);
     pair.b.axes[i] = (m[row] * g[column] + m[3 + row] * g[column + 1]) + m[6 + row] * g[column + 2];
@@ -88,13 +86,13 @@ SmallGjkPair QuickPairOf(const geometry::ConvexSet& of_A, const geometry::Convex
   pair.apart = pair.inside = numeric::kInfinity;
   pair.near = -numeric::kInfinity;
   pair.relative_tolerance = pair.absolute_tolerance = 0;
-  pair.rounding = of_A.rounding + of_B.rounding;
+  pair.rounding = a.rounding + b.rounding;
   return pair;
 }
 
-Verdict SearchForVerdict(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+Verdict SearchForVerdict(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                          const PosedCores& cores, const RelativePose& pose) {
-  SmallGjkPair pair = QuickPairOf(of_A, of_B, cores, pose);
+  SmallGjkPair pair = QuickPairOf(a, b, cores, pose);
   const double uncertain = (1 + 0x1p-50) * (cores.error + pose.translation);
   const double margin = uncertain + 0x1p-46 * (cores.size + pair.rounding);
   pair.apart = pair.rounding + margin;
@@ -105,11 +103,11 @@ Verdict SearchForVerdict(const geometry::ConvexSet& of_A, const geometry::Convex
   return VerdictOf(OfSets({found.lower, found.upper}, pair.rounding, cores), pose.translation);
 }
 
-numeric::Interval SearchForDistance(const geometry::ConvexSet& of_A,
-                                    const geometry::ConvexSet& of_B, const PosedCores& cores,
-                                    const RelativePose& pose, const ConvexQuestion& question) {
+numeric::Interval SearchForDistance(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
+                                    const PosedCores& cores, const RelativePose& pose,
+                                    const ConvexQuestion& question) {
   if (!(cores.size < kSizeMax)) return {-numeric::kInfinity, numeric::kInfinity};
-  SmallGjkPair pair = QuickPairOf(of_A, of_B, cores, pose);
+  SmallGjkPair pair = QuickPairOf(a, b, cores, pose);
   pair.relative_tolerance = question.relative_tolerance / 4;
   pair.absolute_tolerance = question.absolute_tolerance / 4;
   // So large that contact remains when errors and roundings are counted in, see OfSets().
@@ -126,48 +124,47 @@ bool IsGoodEnough(const numeric::Interval& separation, const numeric::Interval& 
   const double least = std::max({0.0, separation.lower, -separation.upper});
   const double width = separation.upper - separation.lower;
   return width <= std::max(question.absolute_tolerance, question.relative_tolerance * least) ||
-         of_cores.upper - of_cores.lower <= kTight * size;
+         of_cores.upper - of_cores.lower <= kTightestWidth * size;
 }
 
 }  // namespace
 
-Verdict DecideConvexPair(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+Verdict DecideConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                          const RelativePose& pose, WorkBudget* work) {
   Verdict verdict = Verdict::kUndecided;
   work->Spend(kSeparatingAxisUnits);
-  const bool any_box =
-      of_A.core == geometry::ConvexCore::kBox || of_B.core == geometry::ConvexCore::kBox;
-  if (any_box && IsZonotope(of_A) && IsZonotope(of_B)) verdict = GlanceAtBoxes(of_A, of_B, pose);
-  if (verdict == Verdict::kUndecided && IsCapsulePair(of_A, of_B)) {
-    const PosedCores cores(of_A, of_B, pose);
-    const numeric::Interval of_cores = DistanceOfCores(of_A, of_B, cores, pose);
-    verdict = VerdictOf(OfSets(of_cores, of_A.rounding + of_B.rounding, cores), pose.translation);
+  const bool any_box = a.core == geometry::ConvexCore::kBox || b.core == geometry::ConvexCore::kBox;
+  if (any_box && IsZonotope(a) && IsZonotope(b)) verdict = TestBoxes(a, b, pose);
+  if (verdict == Verdict::kUndecided && IsCapsulePair(a, b)) {
+    const PosedCores cores(a, b, pose);
+    const numeric::Interval of_cores = DistanceOfCores(a, b, cores, pose);
+    verdict = VerdictOf(OfSets(of_cores, a.rounding + b.rounding, cores), pose.translation);
   }
-  if (verdict == Verdict::kUndecided && IsQuick(of_A) && IsQuick(of_B)) {
+  if (verdict == Verdict::kUndecided && IsQuick(a) && IsQuick(b)) {
     work->Spend(kSmallGjkUnits);
-    const PosedCores cores(of_A, of_B, pose);
-    if (cores.size < kSizeMax) verdict = SearchForVerdict(of_A, of_B, cores, pose);
+    const PosedCores cores(a, b, pose);
+    if (cores.size < kSizeMax) verdict = SearchForVerdict(a, b, cores, pose);
   }
   if (verdict != Verdict::kUndecided) return verdict;
   const ConvexGoal goal = pose.translation > 0 ? ConvexGoal::kDepth : ConvexGoal::kYesNo;
   const numeric::Interval found =
-      IntervalOf(PosedA(of_A, pose), PosedB(of_B, pose), {.goal = goal}, work);
+      IntervalOf(PosedA(a, pose), PosedB(b, pose), {.goal = goal}, work);
   return VerdictOf(found, pose.translation);
 }
 
-numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& of_A,
-                                         const geometry::ConvexSet& of_B, const RelativePose& pose,
-                                         const ConvexQuestion& question, WorkBudget* work) {
-  const bool thin = IsCapsulePair(of_A, of_B);
-  if (thin || (IsQuick(of_A) && IsQuick(of_B))) {
+numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
+                                         const RelativePose& pose, const ConvexQuestion& question,
+                                         WorkBudget* work) {
+  const bool thin = IsCapsulePair(a, b);
+  if (thin || (IsQuick(a) && IsQuick(b))) {
     work->Spend(thin ? kSeparatingAxisUnits : kSmallGjkUnits);
-    const PosedCores cores(of_A, of_B, pose);
-    const numeric::Interval of_cores = thin ? DistanceOfCores(of_A, of_B, cores, pose)
-                                            : SearchForDistance(of_A, of_B, cores, pose, question);
-    const numeric::Interval separation = OfSets(of_cores, of_A.rounding + of_B.rounding, cores);
+    const PosedCores cores(a, b, pose);
+    const numeric::Interval of_cores =
+        thin ? DistanceOfCores(a, b, cores, pose) : SearchForDistance(a, b, cores, pose, question);
+    const numeric::Interval separation = OfSets(of_cores, a.rounding + b.rounding, cores);
     if (IsGoodEnough(separation, of_cores, question, cores.size)) return separation;
   }
-  return IntervalOf(PosedA(of_A, pose), PosedB(of_B, pose), question, work);
+  return IntervalOf(PosedA(a, pose), PosedB(b, pose), question, work);
 }
 
 }  // namespace collision::narrow_phase

@@ -1,14 +1,12 @@
 // Two convex solids at a pose: the fast answers to the most frequent questions.
 //
 // A query for yes or no, or for the distance alone, need not pay for points, normals and features.
-// Each way below proves its answer and, where it cannot, the patient search (convex_distance.h) is
-// asked.
+// Each way below proves its answer; where it cannot, the patient search (convex_search.h) answers.
 //
 // - A ball or capsule beside a ball, capsule or box (capsule_distance.h): the nearest points of two
 //   segments, or of a segment and a box, then the length between them and the gap along it.
-// - Two boxes, or a box and a capsule (box_separating_axis.h): the separating axis test, all
-// fifteen axes in
-//   four lanes at once, seen through A's edges, so that neither box need be exactly square.
+// - Two boxes, or a box and a capsule (box_separating_axis.h): the separating axis test of all
+//   fifteen axes, three at once, seen through A's edges, so that neither box need be exactly square.
 // - Hulls of up to 64 points (gjk_small.h): GJK in plain numbers, all points of a hull at once.
 //   It begins along (A + B)⁻¹ d, the normal where d leaves two ellipsoids about as large as the
 //   two: that alone decides most that are a tenth of their diameter apart. A tetrahedron that holds
@@ -29,14 +27,16 @@ namespace collision::narrow_phase {
 inline constexpr std::uint64_t kSeparatingAxisUnits = 1;
 inline constexpr std::uint64_t kSmallGjkUnits = 8;
 
-/// Whether they touch. Includes all uncertainty of the pose, also that of translation.
-Verdict DecideConvexPair(const geometry::ConvexSet& of_A, const geometry::ConvexSet& of_B,
+/// Whether they touch, each set given in its own body's frame. Includes all uncertainty of the pose,
+/// also that of translation.
+Verdict DecideConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                          const RelativePose& pose, WorkBudget* work);
 
-/// Only ConvexSeparation::separation; translation is not included. With
-/// ConvexGoal::kDistance the lower end says nothing where they overlap.
-numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& of_A,
-                                         const geometry::ConvexSet& of_B, const RelativePose& pose,
-                                         const ConvexQuestion& question, WorkBudget* work);
+/// Only ConvexSeparation::separation, each set given in its own body's frame; the uncertainty of
+/// translation is not included. With ConvexGoal::kDistance the lower end is no bound of the depth
+/// where they overlap.
+numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
+                                         const RelativePose& pose, const ConvexQuestion& question,
+                                         WorkBudget* work);
 
 }  // namespace collision::narrow_phase

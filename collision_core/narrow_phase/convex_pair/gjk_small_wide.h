@@ -219,7 +219,7 @@ class Search {
     const double d1 = -Dot(ab, a), d2 = -Dot(ac, a), d3 = -Dot(ab, b), d4 = -Dot(ac, b);
     const double d5 = -Dot(ab, c), d6 = -Dot(ac, c);
     const double va = d3 * d6 - d5 * d4, vb = d5 * d2 - d1 * d6, vc = d1 * d4 - d3 * d2;
-    if (!(va > 0 && vb > 0 && vc > 0)) return OnRim(i, j, k, va, vb, vc, at);
+    if (!(va > 0 && vb > 0 && vc > 0)) return OnRim(i, j, k, {va > 0, vb > 0, vc > 0}, at);
     const Point normal = Cross(ab, ac);
     const double square = Dot(normal, normal);
     if (!(square > 0)) return OnCorner(i, at);
@@ -230,17 +230,22 @@ class Search {
     at->square = Dot(at->sum, at->sum);
   }
 
+  /// Whether 0 lies on the inner side of the edge opposite a, b and c.
+  struct Sides {
+    bool a, b, c;
+  };
+
   /// The nearest of the edges that 0 is beyond.
-  WIDE_INLINE void OnRim(int i, int j, int k, double va, double vb, double vc, Nearest* at) const {
+  WIDE_INLINE void OnRim(int i, int j, int k, const Sides& inside, Nearest* at) const {
     at->corners = 0;
     Nearest other;
     const auto take = [&](int from, int to) WIDE {
       OnEdge(from, to, &other);
       if (at->corners == 0 || other.square < at->square) *at = other;
     };
-    if (!(vc > 0)) take(i, j);
-    if (!(vb > 0)) take(i, k);
-    if (!(va > 0)) take(j, k);
+    if (!inside.c) take(i, j);
+    if (!inside.b) take(i, k);
+    if (!inside.a) take(j, k);
   }
 
   /// No corners: 0 is inside.

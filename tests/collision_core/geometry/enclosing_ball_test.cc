@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/base/check.h"
 #include "tests/collision_core/geometry/exact_geometry.h"
 #include "tests/support/random.h"
 
@@ -49,6 +50,8 @@ TEST(EnclosingBall, IsNearlyTheSmallest) {
   }
   EXPECT_LT(sum / 500, 1.03);
 }
+
+TEST(EnclosingBall, OfNoPointsIsRefused) { EXPECT_THROW(SmallBallAround({}), CheckFailure); }
 
 }  // namespace
 }  // namespace collision::geometry
