@@ -65,7 +65,9 @@ TEST(TreeCheck, RefusesWhatIsNoTreeOfTheMesh) {
       [](SphereTree& t) { t.triangle_indices.pop_back(); },
       [](SphereTree& t) { t.triangle_indices.push_back(0); },
       [](SphereTree& t) { t.nodes[0].triangles = 1; },
-      [](SphereTree& t) { t.nodes[0].triangles = t.triangle_indices.size(); },
+      [](SphereTree& t) {
+        t.nodes[0].triangles = static_cast<std::uint32_t>(t.triangle_indices.size());
+      },
       [&](SphereTree& t) { t.nodes[2].centre.x() = nan; },
       [&](SphereTree& t) { t.nodes[2].centre.y() = -infinity; },
       [&](SphereTree& t) { t.nodes[2].centre.z() = 1e30; },
