@@ -187,7 +187,7 @@ std::string TimeText(std::int64_t instant_ns, std::int64_t origin_ns, int decima
 }
 
 std::string InstantText(std::int64_t instant_ns, std::int64_t origin_ns, int decimals) {
-  const std::string text = TimeText(instant_ns, origin_ns, decimals);
+  std::string text = TimeText(instant_ns, origin_ns, decimals);
   if (instant_ns == kNever) return text;
   return text + (IsTimeOfDay(instant_ns, origin_ns) ? " UTC" : " s");
 }

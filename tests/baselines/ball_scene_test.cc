@@ -72,7 +72,7 @@ TEST(SweptBox, HoldsTheHornAndTouchesIt) {
 
 double FirstMeeting(const BallScene& scene) {
   broad_phase::AllPairs all;
-  for (std::size_t i = 0; i < scene.size(); ++i) all.Set(i, BoundOf(scene[i]));
+  for (std::uint32_t i = 0; i < scene.size(); ++i) all.Set(i, BoundOf(scene[i]));
   const auto first = all.Earliest(
       {intersection::BoundKind::kHorn, Instant(), numeric::AddRoundedDown(Instant(), 10)});
   return first ? static_cast<double>(first->time.instant().nanoseconds()) * 1e-9 : 10;

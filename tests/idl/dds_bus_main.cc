@@ -14,7 +14,8 @@ int main(int argc, char** argv) {
       "</Domain></CycloneDDS>";
   setenv("CYCLONEDDS_URI", (COLLISION_DDS_LOOPBACK + never).c_str(), 1);
   if (argc == 4) {
-    return collision::server::RunChildSimulator(std::stoul(argv[1]), argv[2], std::stoul(argv[3]));
+    const auto domain = static_cast<std::uint32_t>(std::stoul(argv[1]));
+    return collision::server::RunChildSimulator(domain, argv[2], std::stoul(argv[3]));
   }
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();

@@ -63,9 +63,9 @@ void SimulatedNetwork::Transmit(const WriterKey& key, const std::string& instanc
   }
   arrival = writer.last_arrival_ns = std::max(arrival, writer.last_arrival_ns);
   At(arrival, [this, key, instance, message, version, lost] {
-    const auto writer = writers_.find(key);
-    if (writer == writers_.end()) return;
-    if (lost && writer->second.history[instance].version != version) return;
+    const auto found = writers_.find(key);
+    if (found == writers_.end()) return;
+    if (lost && found->second.history[instance].version != version) return;
     Deliver(message, false);
     if (random_.Chance(options_.duplicate)) {
       At(now_ns_ + options_.resend_ns, [this, message] { Deliver(message, true); });

@@ -1,24 +1,14 @@
-// The options and exit codes that the simulators share.
+// The options that the simulators share.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
-#include <stdexcept>
 
+#include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/pace.h"
 
 namespace collision::client {
-
-/// sysexits(3).
-enum ExitCode {
-  kExitOk = 0,
-  kExitRefused = 1,  ///< The service refused the agents.
-  kExitUsage = 2,
-  kExitBadData = 65,
-  kExitNoInput = 66,
-  kExitUnavailable = 69
-};
 
 /// Adds --world, --simulator, --domain, --lock-step, --real-time, ... to the command line.
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options);
@@ -32,12 +22,6 @@ inline constexpr double kRunSecondsMax = 1e8;
 /// Calls `run`. Prints an exception with the program's name and turns it into an exit code:
 /// RefusedError kExitRefused, BadInput kExitBadData, any other kExitUnavailable.
 int RunProgram(const char* program, const std::function<int()>& run);
-
-/// Thrown for input of the user that cannot be used.
-class BadInput : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Parses the command line. Returns the exit code if the program ends here (0 after --help, 2 for a
 /// wrong option), else nullopt.

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "client/programs/shared/command_line.h"
+#include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/proto_text.h"
 
 namespace collision::client {

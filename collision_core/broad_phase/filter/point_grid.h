@@ -173,7 +173,7 @@ bool PointGrid::LooksCrowded(std::uint32_t count, std::uint32_t present, std::ui
 template <typename At>
 bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
   const std::size_t none = begin_.size() - 3;
-  ReachPoint point;
+  ReachPoint point{};
   for (std::uint32_t k = 0; k < count; ++k) {
     if (!at(k, &point)) {
       cell_of_[k] = static_cast<std::uint32_t>(none);

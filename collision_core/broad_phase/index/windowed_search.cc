@@ -88,9 +88,8 @@ void WindowedSearch::MarkMoved(std::uint32_t agent) {
   if (has_moved_[agent]) return;
   has_moved_[agent] = true;
   moved_.push_back(agent);
-  if (moved_.size() > kMovedMin &&
-      static_cast<double>(moved_.size()) > kMovedShare * static_cast<double>(table_.count()))
-    placed_ = false;
+  const double many = kMovedShare * static_cast<double>(table_.count());
+  if (moved_.size() > kMovedMin && static_cast<double>(moved_.size()) > many) placed_ = false;
 }
 
 void WindowedSearch::StartAnew(const PlacementFrame& frame) {

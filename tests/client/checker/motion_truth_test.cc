@@ -195,7 +195,8 @@ TEST(Orientation, SolvesItsDifferentialEquation) {
 }
 
 std::array<double, 3> Rotated(const Quaternion& q, const Vector& v) {
-  const double w = q[0], x = q[1], y = q[2], z = q[3];
+  const auto w = static_cast<double>(q[0]), x = static_cast<double>(q[1]),
+             y = static_cast<double>(q[2]), z = static_cast<double>(q[3]);
   // v + 2 w (u × v) + 2 u × (u × v), u = (x, y, z)
   const Vector u{x, y, z};
   const Vector uv = Cross(u, v);

@@ -45,7 +45,8 @@ class Scene {
       chosen.Set(agent, bound);
       plain.Set(agent, bound);
     } else {
-      bound.state.p_WA += bound.state.v_WA * (1e-9 * (now_ - bound.state.stamp.nanoseconds()));
+      const auto age_ns = static_cast<double>(now_ - bound.state.stamp.nanoseconds());
+      bound.state.p_WA += bound.state.v_WA * (1e-9 * age_ns);
       bound.state.stamp = Instant::FromNanoseconds(now_);
       chosen.Set(agent, bound);
       plain.Set(agent, bound);

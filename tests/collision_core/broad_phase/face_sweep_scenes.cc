@@ -50,13 +50,15 @@ motion::SpaceTimeBound RandomAgent(SweepLayout layout, Random* random) {
       return bound;
     }
     case SweepLayout::kLattice:
-      return Agent(4 * WholeVector(random, 4), WholeVector(random, 2), 1, random->Below(2));
+      return Agent(4 * WholeVector(random, 4), WholeVector(random, 2), 1,
+                   static_cast<double>(random->Below(2)));
     case SweepLayout::kOnePoint:
       return Agent({1, 2, 3},
                    random->Chance(0.5) ? Eigen::Vector3d::Zero() : WholeVector(random, 3),
                    random->Chance(0.5) ? 0 : 1, M);
     case SweepLayout::kConvoy:
-      return Agent(RandomVector(random, 20), {1000, 2, 0}, 0.5, random->Below(2));
+      return Agent(RandomVector(random, 20), {1000, 2, 0}, 0.5,
+                   static_cast<double>(random->Below(2)));
     case SweepLayout::kToOnePoint: {
       const Eigen::Vector3d p = RandomVector(random, 50);
       return Agent(p, -p, 0.01);

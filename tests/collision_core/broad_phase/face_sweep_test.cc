@@ -89,7 +89,7 @@ TEST(FaceSweep, AgentsSetApartAreAskedAgainstAll) {
     if (far == 1e307) scene.query.bound = intersection::BoundKind::kHorn;
     scene.agents.push_back(Agent({0, 0, 0}, {0, 0, 0}, 1));
     while (scene.agents.size() < 200) {
-      const Eigen::Vector3d above(0, 0, 1e3 + 10.0 * scene.agents.size());
+      const Eigen::Vector3d above(0, 0, 1e3 + 10.0 * static_cast<double>(scene.agents.size()));
       scene.agents.push_back(Agent(above + RandomVector(&random, 1), {0, 0, 0}, 1));
     }
     scene.agents.push_back(Agent({-far, 0, 0}, {far, 0, 0}, 1));
@@ -114,14 +114,14 @@ SweepScene Passing(int count, std::int64_t until, Random* random) {
   return scene;
 }
 
-std::uint64_t Crossings(int count, std::int64_t until) {
+double Crossings(int count, std::int64_t until) {
   Random random(7);
   const SweepScene scene = Passing(count, until, &random);
   const auto filled = Filled(scene);
   FaceSweep& sweep = *filled;
   EXPECT_FALSE(sweep.Earliest(scene.query));
   EXPECT_LE(sweep.queued_max(), 2u * count);
-  return sweep.work().visits;
+  return static_cast<double>(sweep.work().visits);
 }
 
 // Goal:   the sweep's known cost is what it is said to be: crossings grow as N² t.
@@ -182,7 +182,8 @@ TEST(FaceSweep, RemembersNothing) {
     const auto kind = random.Chance(0.5) ? intersection::BoundKind::kHorn
                                          : intersection::BoundKind::kHypertrapezoid;
     const auto layout = static_cast<SweepLayout>(random.Below(kLayouts));
-    for (const motion::SpaceTimeBound& bound : LayOut(layout, 1 + random.Below(20), &random)) {
+    for (const motion::SpaceTimeBound& bound :
+         LayOut(layout, 1 + static_cast<int>(random.Below(20)), &random)) {
       const auto agent = static_cast<std::uint32_t>(random.Below(bounds.size()));
       bounds[agent] = bound;
       sweep.Set(agent, bound);

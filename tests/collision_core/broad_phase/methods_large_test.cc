@@ -156,8 +156,8 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
   EXPECT_LT(told, 2 * (30 * expected + 20'000));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes), [](const auto& info) {
-  std::string name = info.param.name;
+INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes), [](const auto& test) {
+  std::string name = test.param.name;
   for (char& letter : name) letter = std::isalnum(letter) ? letter : '_';
   return name;
 });

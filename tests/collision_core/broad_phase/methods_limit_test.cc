@@ -89,7 +89,7 @@ TEST_P(MethodsAtTheLimit, HypertrapezoidsAHairApart) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, MethodsAtTheLimit, testing::ValuesIn(kMethods),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace collision::broad_phase

@@ -235,7 +235,7 @@ TEST_P(MethodsWithRules, RefuseBeyondTheLimits) {
 const NamedMethod kAll[] = {kMethods[0], kMethods[1], kMethods[2], {"Chosen", &MakeChosen}};
 
 INSTANTIATE_TEST_SUITE_P(All, MethodsWithRules, testing::ValuesIn(kAll),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace collision::broad_phase

@@ -202,7 +202,7 @@ TEST_P(Methods, StayRightThroughLongHistories) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Methods, testing::ValuesIn(kMethods),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace collision::broad_phase

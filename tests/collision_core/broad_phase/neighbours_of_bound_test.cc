@@ -78,7 +78,7 @@ TEST_P(NeighboursOfABound, AreThoseOfTheCanonicalRoutine) {
 INSTANTIATE_TEST_SUITE_P(All, NeighboursOfABound,
                          testing::Values(kMethods[0], kMethods[1], kMethods[2],
                                          NamedMethod{"Adaptive", &MakeMethod<AdaptiveBroadPhase>}),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace collision::broad_phase

@@ -43,7 +43,9 @@ Ship RandomShip(Random& random, const geometry::TriangleMesh& mesh) {
   ship.ticks_per_state = 1 << random.Below(5);
   ship.motion.start.q = RandomTurn(random);
   if (random.Chance(0.7)) ship.motion.start.w = RandomUnit(random);
-  if (random.Chance(0.3)) ship.jumps.insert(ship.ticks_per_state * (1 + random.Below(3)));
+  if (random.Chance(0.3)) {
+    ship.jumps.insert(ship.ticks_per_state * (1 + static_cast<int>(random.Below(3))));
+  }
   ship.aside = 0.3 * random.UnitVector();
   return ship;
 }

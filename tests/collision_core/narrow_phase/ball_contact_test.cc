@@ -35,8 +35,8 @@ struct Motion {
   Eigen::Vector3d p[kPieces + 1], v[kPieces + 1], a[kPieces];
 
   Motion(Random& random, const Eigen::Vector3d& p0, const Eigen::Vector3d& v0,
-         double acceleration_max, double duration)
-      : duration(duration) {
+         double acceleration_max, double length)
+      : duration(length) {
     const double dt = duration / kPieces;
     p[0] = p0, v[0] = v0;
     for (int i = 0; i < kPieces; ++i) {
@@ -98,7 +98,8 @@ TEST(EvaluateBallSegment, ClaimsHoldForRandomMotions) {
     const auto segment = [&](const Motion& m, double radius) {
       const auto ns = static_cast<std::int64_t>(std::ceil(T * 1e9));
       motion::SpaceTimeBound from = Bound(0, m.p[0], m.v[0], radius, M);
-      motion::SpaceTimeBound to = Bound(ns, m.At(ns / 1e9), m.v[Motion::kPieces], radius, M);
+      motion::SpaceTimeBound to =
+          Bound(ns, m.At(static_cast<double>(ns) / 1e9), m.v[Motion::kPieces], radius, M);
       // What this test's own rounding costs, and the last piece runs on for less than a nanosecond.
       for (motion::SpaceTimeBound* bound : {&from, &to}) {
         bound->state.position_error = 1e-12;

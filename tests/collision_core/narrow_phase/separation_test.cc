@@ -55,10 +55,11 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
     // Of one inside the other `upper` speaks of the solids.
     if (nearest.lower <= 0 || SolidDistance(body_a, body_b) == 0) continue;
     ++apart;
-    EXPECT_LE(nearest.upper - nearest.lower,
-              1e-9 * surfaces + 1e-13 * (a.radius + b.radius + b.pose.p.norm()));
-    EXPECT_NEAR(static_cast<double>(surfaces), nearest.upper,
-                1e-9 * surfaces + 1e-13 * (a.radius + b.radius + b.pose.p.norm()));
+    const auto distance = static_cast<double>(surfaces);
+    const auto width_max =
+        static_cast<double>(1e-9 * surfaces + 1e-13 * (a.radius + b.radius + b.pose.p.norm()));
+    EXPECT_LE(nearest.upper - nearest.lower, width_max);
+    EXPECT_NEAR(distance, nearest.upper, width_max);
   }
   EXPECT_GT(apart, 100);
   EXPECT_GT(deep, 20);

@@ -22,8 +22,10 @@ constexpr int kDirtyMeshes = kSanitized ? 4 * kDirtKinds : 24 * kDirtKinds;
 ShapeOptions SomeOptions(TreeBuilder builder, Random& random) {
   ShapeOptions options;
   options.builder = builder;
-  if (random.Chance(0.3)) options.triangles_per_leaf = 1 + random.Below(8);
-  if (random.Chance(0.2)) options.levels_max = random.Below(6);
+  if (random.Chance(0.3)) {
+    options.triangles_per_leaf = 1 + static_cast<std::uint32_t>(random.Below(8));
+  }
+  if (random.Chance(0.2)) options.levels_max = static_cast<std::uint32_t>(random.Below(6));
   // Copies upon each other are taken apart in vain by octants: not too often.
   const bool is_octree = builder == TreeBuilder::kOctree;
   if (is_octree || random.Chance(0.2)) options.nodes_max = 1 + random.Below(400);

@@ -76,8 +76,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Known{"spot.obj", true, 5856}, Known{"stanford-bunny.obj", false, 69451},
                     Known{"suzanne.obj", false, 968}, Known{"teapot.obj", false, 6320},
                     Known{"woody.obj", false, 1267}),
-    [](const auto& info) {
-      std::string name = info.param.name;
+    [](const auto& test) {
+      std::string name = test.param.name;
       name.resize(name.find('.'));
       std::replace(name.begin(), name.end(), '-', '_');
       return name;

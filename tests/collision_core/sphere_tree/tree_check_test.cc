@@ -65,7 +65,7 @@ TEST(TreeCheck, RefusesWhatIsNoTreeOfTheMesh) {
       [](SphereTree& t) { t.elements.pop_back(); },
       [](SphereTree& t) { t.elements.emplace_back(); },
       [](SphereTree& t) { t.nodes[0].elements = 1; },
-      [](SphereTree& t) { t.nodes[0].elements = t.elements.size(); },
+      [](SphereTree& t) { t.nodes[0].elements = static_cast<std::uint32_t>(t.elements.size()); },
       [&](SphereTree& t) { t.nodes[2].centre.x() = nan; },
       [&](SphereTree& t) { t.nodes[2].centre.y() = -infinity; },
       [&](SphereTree& t) { t.nodes[2].centre.z() = 1e30; },

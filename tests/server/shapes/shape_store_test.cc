@@ -31,16 +31,16 @@ class ShapeStoreTest : public testing::Test {
     return refusal->field;
   }
 
-  std::vector<std::string> TakeAll(const std::vector<v1::ShapePart>& parts) {
+  std::vector<std::string> TakeAll(const std::vector<v1::ShapePart>& sent) {
     std::vector<std::string> refused;
-    for (const v1::ShapePart& part : parts) {
+    for (const v1::ShapePart& part : sent) {
       const std::string field = FieldOf(store.Take(part));
       if (!field.empty()) refused.push_back(field);
     }
     return refused;
   }
 
-  bool Ready(const std::string& hash) { return store.MakeVisible({hash}).has_value(); }
+  bool Ready(const std::string& shape) { return store.MakeVisible({shape}).has_value(); }
 
   v1::Config config = CompleteConfig({});
   InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};

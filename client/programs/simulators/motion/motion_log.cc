@@ -3,7 +3,7 @@
 #include <charconv>
 #include <stdexcept>
 
-#include "client/programs/shared/command_line.h"
+#include "client/programs/shared/exit_code.h"
 
 namespace collision::client {
 namespace {

@@ -90,9 +90,9 @@ TEST_F(CollisionctlTest, StatusPage) {
   counter->set_name("rejected_not_finite");
   counter->set_value(2);
   const auto count = [status](const char* name, std::uint64_t value) {
-    v1::Counter* counter = status->add_counters();
-    counter->set_name(name);
-    counter->set_value(value);
+    v1::Counter* added = status->add_counters();
+    added->set_name(name);
+    added->set_value(value);
   };
   count("queries_per_second", 56);
   count("queries", 789);

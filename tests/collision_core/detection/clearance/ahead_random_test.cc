@@ -77,7 +77,9 @@ class History {
   DetectorOptions Options() {
     options_.announce_within = random_.LogUniform(0.1, 1);
     options_.temporal_resolution = options_.announce_within / 64;
-    if (random_.Chance(0.5)) options_.pairs_per_agent_max = 1 + random_.Below(3);
+    if (random_.Chance(0.5)) {
+      options_.pairs_per_agent_max = 1 + static_cast<std::uint32_t>(random_.Below(3));
+    }
     return options_;
   }
 

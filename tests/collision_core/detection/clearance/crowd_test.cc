@@ -15,7 +15,7 @@ namespace collision::detection {
 namespace {
 
 struct Crowd {
-  Crowd(std::uint32_t agents, std::uint32_t pairs_max) : agents(agents) {
+  Crowd(std::uint32_t count, std::uint32_t pairs_max) : agents(count) {
     DetectorOptions options;
     options.agents_max = agents;
     options.pairs_max = pairs_max;
@@ -179,7 +179,7 @@ TEST(ACrowd, ASaturatedAgentCountsHoweverOthersComeAndGo) {
 // Pairs far from each other that overlap at first and go apart, some at once and some in seconds;
 // some agents have new states now and then.
 struct Couples {
-  Couples(std::uint32_t first, std::uint32_t last) : first(first), last(last) {
+  Couples(std::uint32_t begin, std::uint32_t end) : first(begin), last(end) {
     DetectorOptions options;
     options.agents_max = 2 * (last - first);
     detector.emplace(options);
