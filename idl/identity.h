@@ -1,4 +1,4 @@
-// Who a simulator is, from its name.
+// The identity of a simulator, computed from its name.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ inline std::uint64_t Fnv1a(std::string_view bytes) {
   return hash;
 }
 
-/// The id of the simulator called `name`, the same in every program, without asking anybody. Should
+/// The id of the simulator called `name`, the same in every program, without communication. Should
 /// two names collide, the service refuses the later simulator (REJECTED_ID_OWNED).
 inline std::uint64_t SimulatorId(std::string_view name) { return Fnv1a(name); }
 

@@ -34,7 +34,7 @@ struct DescribedAgent {
   std::string shape_hash;        ///< SHA-256 of the shape, 32 bytes; empty: the agent is a ball.
 };
 
-/// "Everything up to `clock_ns` has been sent", said by a simulator.
+/// A simulator's statement that everything up to `clock_ns` has been sent.
 struct SimulatorClock {
   std::uint64_t simulator = 0;
   std::string name;

@@ -11,12 +11,12 @@ template <class Wire>
 struct Fields;
 
 template <class List, class Sequence>
-void PutList(const char* field, std::size_t bound, const List& list, Sequence& to) {
+void SetList(const char* field, std::size_t bound, const List& list, Sequence& to) {
   Allocate(field, list.size(), bound, to);
   for (int i = 0; i < list.size(); ++i) {
     using Element = std::remove_reference_t<decltype(to._buffer[i])>;
     if constexpr (std::is_array_v<Element>) {
-      PutText(field, list[i], to._buffer[i]);
+      SetText(field, list[i], to._buffer[i]);
     } else {
       Fields<Element>::template Copy<true>(to._buffer[i], list[i]);
     }
@@ -57,14 +57,14 @@ void GetList(const Sequence& from, List* list) {
 #define MESSAGE(x)                                                         \
   BOTH(Fields<decltype(wire.x)>::template Copy<true>(wire.x, message.x()), \
        Fields<decltype(wire.x)>::template Copy<false>(wire.x, *message.mutable_##x()))
-#define TEXT(x) BOTH(PutText(#x, message.x(), wire.x), message.set_##x(GetText(wire.x)))
-#define HASH(x) BOTH(PutHash(#x, message.x(), wire.x), message.set_##x(GetHash(wire.x)))
+#define TEXT(x) BOTH(SetText(#x, message.x(), wire.x), message.set_##x(GetText(wire.x)))
+#define HASH(x) BOTH(SetHash(#x, message.x(), wire.x), message.set_##x(GetHash(wire.x)))
 #define OCTETS(x, bound)                                                  \
   BOTH(Allocate(#x, message.x().size(), bound, wire.x);                   \
        std::copy(message.x().begin(), message.x().end(), wire.x._buffer), \
        message.set_##x(wire.x._buffer, wire.x._length))
 #define LIST(x, bound) \
-  BOTH(PutList(#x, bound, message.x(), wire.x), GetList(wire.x, message.mutable_##x()))
+  BOTH(SetList(#x, bound, message.x(), wire.x), GetList(wire.x, message.mutable_##x()))
 
 // clang-format off
 FIELDS(Vector3, VALUE(x) VALUE(y) VALUE(z))

@@ -9,7 +9,7 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 Qos MakeQos() { return {dds_create_qos(), &dds_delete_qos}; }
 
-/// What both ends of a topic say. Reliable is said by readers too: their default is best effort.
+/// The QoS of both ends of a topic. Readers ask for reliability, too: their default is best effort.
 Qos TopicQos(const TopicRow& row, int depth) {
   Qos qos = MakeQos();
   // A keep-last writer overwrites instead of waiting for a slow reader, so there is nothing to wait

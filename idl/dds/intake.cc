@@ -48,7 +48,7 @@ void AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
   input.mutable_liveliness()->set_alive(alive);
 }
 
-/// Of what its writer disposed of. The sample holds the key, and nothing else that counts.
+/// The removal of an instance that its writer disposed of. Only the key of the sample counts.
 void AddRemoval(TopicId topic, const void* sample, std::uint64_t sender,
                 std::vector<v1::Input>* inputs) {
   if (topic == TopicId::kAgentDescription) {
@@ -127,7 +127,7 @@ void Intake::ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sa
   if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
     AddRemoval(row.id, sample, sender.value_or(0), inputs);
   }
-  // Follow() tells of those who are known, and of each on its own.
+  // Follow() reports each known writer by itself.
   if (row.id == TopicId::kSimulatorClock && !sender) {
     AddLiveliness(0, As<collision_v1_SimulatorClock>(sample).simulator_id, false, inputs);
   }

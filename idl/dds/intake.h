@@ -14,15 +14,15 @@ namespace collision::dds {
 /// Takes samples from readers, by loan, and turns them into messages.
 class Intake {
  public:
-  /// `own` names the one simulator whose clearances and rejections are wanted; 0: everybody's.
+  /// `own` names the one simulator whose clearances and rejections are wanted; 0: those of all.
   explicit Intake(std::uint64_t own) : own_(own) {}
 
   /// Takes at most `limit` samples and appends their messages. Returns how many it took.
   std::size_t Take(dds_entity_t reader, const TopicRow& row, std::size_t limit,
                    std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 
-  /// Tells of each program that left, fell silent or is back, for every simulator for which it has
-  /// spoken. After Take(): what somebody wrote comes before the end.
+  /// Reports each program that left, fell silent or is back, for every simulator for which it has
+  /// spoken. Call it after Take(): what a program wrote comes before the report of its end.
   void Follow(const std::vector<WriterChange>& changes, std::vector<v1::Input>* inputs);
 
   std::uint64_t orphaned() const { return orphaned_; }

@@ -8,8 +8,9 @@
 namespace collision::dds {
 namespace {
 
-constexpr std::size_t kWritersMin = 4096;  // so many may be remembered in vain: 1000 programs'
-constexpr std::size_t kSimulatorsPerProgramMax = 64;  // usually one; of more the end is not told
+constexpr std::size_t kWritersMin = 4096;  // remembered before those that left are dropped
+constexpr std::size_t kSimulatorsPerProgramMax =
+    64;  // usually one; the end of more is not reported
 
 using Endpoint =
     std::unique_ptr<dds_builtintopic_endpoint_t, decltype(&dds_builtintopic_free_endpoint)>;
@@ -28,7 +29,7 @@ std::optional<std::uint64_t> Senders::Of(dds_entity_t reader, dds_instance_handl
   if (!endpoint) return std::nullopt;
   const auto* guid = reinterpret_cast<const char*>(endpoint->participant_key.v);
   const std::uint64_t sender = Fnv1a({guid, sizeof endpoint->participant_key.v});
-  if (writers_.size() >= std::max(writers_until_cleaning_, kWritersMin)) ForgetTheGone();
+  if (writers_.size() >= std::max(writers_until_cleaning_, kWritersMin)) DropEnded();
   writers_.emplace(writer, Writer{reader, sender});
   programs_.try_emplace(sender);
   return sender;
@@ -46,8 +47,8 @@ bool Senders::SetAlive(std::uint64_t sender, bool alive) {
   return true;
 }
 
-/// Only of those whose end was told: of the others it could not be told any more.
-void Senders::ForgetTheGone() {
+/// Drops only writers whose end was reported: it could not be reported for the others any more.
+void Senders::DropEnded() {
   std::erase_if(writers_, [this](const auto& entry) {
     const auto& [writer, known] = entry;
     return !programs_.at(known.sender).alive && !Find(known.reader, writer);

@@ -12,16 +12,16 @@
 namespace collision::dds {
 
 /// A sender is a program: the hash of its participant's GUID. Remembers the answers, since a writer
-/// that has gone can no longer be asked for while its last samples still wait. One thread.
+/// that has left can no longer be looked up while its last samples still wait. One thread.
 class Senders {
  public:
-  /// Nothing if the writer went before it was ever asked for.
+  /// nullopt if the writer left before it was looked up for the first time.
   std::optional<std::uint64_t> Of(dds_entity_t reader, dds_instance_handle_t writer);
 
-  /// Notes that a known sender speaks for a simulator. Returns whether that is new.
+  /// Records that a known sender speaks for a simulator. Returns whether that is new.
   bool Note(std::uint64_t sender, std::uint64_t simulator);
 
-  /// Notes that a known sender is alive or not. Returns whether that is new.
+  /// Records whether a known sender is alive. Returns whether that is new.
   bool SetAlive(std::uint64_t sender, bool alive);
 
   /// Of a known sender.
@@ -42,7 +42,7 @@ class Senders {
     bool alive = true;
   };
 
-  void ForgetTheGone();
+  void DropEnded();
 
   std::unordered_map<dds_instance_handle_t, Writer> writers_;
   std::unordered_map<std::uint64_t, Program> programs_;  // of every sender in writers_

@@ -89,7 +89,7 @@ class DdsSession::Implementation {
     const dds_entity_t writer = Writer(dds::TopicId::kShapePart);
     collision_v1_ShapePart key{};
     key.simulator_id = simulator_id;
-    dds::PutHash("content_hash", content_hash, key.content_hash);
+    dds::SetHash("content_hash", content_hash, key.content_hash);
     for (key.part = 0; key.part < parts; ++key.part) {
       if (dds_dispose(writer, &key) != DDS_RETCODE_OK) ++writes_failed_;
     }

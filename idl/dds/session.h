@@ -38,19 +38,19 @@ struct DdsCounters {
   std::uint64_t samples_lost = 0;     ///< The network gave up on them; newer ones came instead.
   std::uint64_t samples_refused = 0;  ///< The reader had no room.
   std::uint64_t samples_orphaned =
-      0;  ///< Their writer was gone before anybody could ask who it was.
+      0;  ///< Their writer had left before its program could be looked up.
   std::uint64_t writes_failed =
       0;  ///< DDS did not take them; the next sample of that key replaces them.
 };
 
 /// A DDS participant with the readers and writers of its role. Writing never waits for a reader,
-/// and nothing is lost for slowness but what a newer sample replaced: every sample is complete. All
-/// members are for one thread at a time, but Wake(). The environment variable CYCLONEDDS_URI
+/// and a slow reader loses only samples that newer ones replaced: every sample is complete. One
+/// thread at a time, except for Wake(). The environment variable CYCLONEDDS_URI
 /// configures the network (config/cyclonedds-*.xml).
 class DdsSession {
  public:
-  /// Throws std::runtime_error, with the cause, if an option is out of range or DDS is not to be
-  /// had.
+  /// Throws std::runtime_error, with the cause, if an option is out of range or DDS is not
+  /// available.
   explicit DdsSession(const DdsSessionOptions& options);
   DdsSession(DdsSession&&) noexcept;
   DdsSession& operator=(DdsSession&&) noexcept;
@@ -92,10 +92,10 @@ class DdsSession {
   /// of one sample, and changes of liveliness come on top.
   ///
   /// Samples of one key come in the order of their writing; there is no order between keys, topics
-  /// or writers. SimulatorLiveliness: its sender, who has described the simulator's agents or told
-  /// its clock, left or its lease ended (false), or is back (true). It comes after what that sender
-  /// wrote; of several senders of one simulator each is told. Sender 0, false: the clock has no
-  /// writer left, and of the last one it is not known who it was.
+  /// or writers. SimulatorLiveliness: its sender, which has described the simulator's agents or
+  /// published its clock, left or its lease ended (false), or is back (true). It comes after what
+  /// that sender wrote; each of several senders of one simulator is reported. Sender 0, false: the
+  /// clock has no writer left, and the last one is not known.
   std::size_t Receive(std::chrono::nanoseconds timeout, std::size_t limit,
                       std::vector<v1::Input>* inputs, std::vector<v1::Output>* outputs);
 

@@ -1,4 +1,4 @@
-// Text from strangers.
+// Text from the network.
 #pragma once
 
 #include <string>

@@ -30,7 +30,7 @@ struct TopicRow {
   const char* name;
   const dds_topic_descriptor_t* type;
   Source source;
-  bool for_late_joiners;  ///< Transient-local: the writer's newest samples reach who comes later.
+  bool for_late_joiners;  ///< Transient-local: its newest samples reach readers that join later.
   int writer_depth;       ///< Keep-last, per key.
   int reader_depth;       ///< Keep-last, per key: how many wait for a reader that is slow.
   bool leased;            ///< Its writer's silence is noticed within the lease.

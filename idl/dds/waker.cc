@@ -32,7 +32,7 @@ Waker::~Waker() {
 void Waker::Wake() noexcept {
   const int caller_errno = errno;
   const std::uint64_t one = 1;
-  // It fails only if interrupted, or if nobody has read 2^64 - 2 calls: then the thread is about to
+  // It fails only if interrupted, or if 2^64 - 2 calls are unread: then the thread is about to
   // wake.
   while (write(event_, &one, sizeof one) < 0 && errno == EINTR) {
   }

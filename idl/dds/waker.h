@@ -8,7 +8,7 @@
 
 namespace collision::dds {
 
-/// Triggers a guard condition on behalf of whoever must not call DDS: signal handlers. An eventfd
+/// Triggers a guard condition on behalf of code that must not call DDS: signal handlers. An eventfd
 /// carries the call to a thread of its own.
 class Waker {
  public:

@@ -20,7 +20,7 @@ inline void CheckBound(const char* field, std::size_t size, std::size_t bound) {
 }
 
 template <std::size_t n>
-void PutText(const char* field, const std::string& text, char (&to)[n]) {
+void SetText(const char* field, const std::string& text, char (&to)[n]) {
   CheckBound(field, text.size(), n - 1);
   std::memcpy(to, text.data(), text.size());
   to[text.size()] = '\0';
@@ -33,7 +33,7 @@ std::string GetText(const char (&from)[n]) {
 
 /// A hash is n octets; none at all stands for all zero.
 template <std::size_t n>
-void PutHash(const char* field, const std::string& bytes, std::uint8_t (&to)[n]) {
+void SetHash(const char* field, const std::string& bytes, std::uint8_t (&to)[n]) {
   if (!bytes.empty() && bytes.size() != n) {
     throw std::length_error(std::string(field) + ": length " + std::to_string(bytes.size()) +
                             ", allowed 0 or " + std::to_string(n));

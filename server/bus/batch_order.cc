@@ -18,8 +18,8 @@ struct Ordered {
   v1::Input input;
 };
 
-/// `reused`: what it removes a later message wrote anew. Otherwise a removal ends what the states
-/// of its batch tell.
+/// `reused`: a later message of the batch writes anew what the removal removes. Otherwise the
+/// removal takes effect after the states of its batch.
 Key KeyOf(const v1::Input& input, bool reused) {
   switch (input.message_case()) {
     case v1::Input::kShapeReady:

@@ -26,7 +26,7 @@
 //   part of a shape               part, parts, total_bytes and the length   BAD_SHAPE
 //                                 of bytes fit together (idl/README.md)
 //
-// Further reasons come from behind the codec: who owns an id (world/world.h), what is missing
+// Further reasons come from behind the codec: the owner of an id (world/world.h), what is missing
 // (intake/agent_registry.h), shapes as a whole (shapes/shape_decoding.h, intake/agent_shapes.h).
 // No errors: a state that is older than its agent's newest, of an ended generation, or repeated.
 #pragma once
@@ -80,7 +80,7 @@ std::optional<Refusal> CheckSlot(const v1::AgentStates& chunk, const v1::AgentSt
 std::optional<Refusal> CheckStamp(const detection::AgentId& agent, Instant stamp,
                                   const StampRules& rules);
 
-/// Which clocks a simulator may tell.
+/// Which clocks a simulator may publish.
 struct ClockRules {
   Instant earliest = Instant::Always();  ///< The newest clock of this run.
   Instant latest = Instant::Never();     ///< The greatest time granted, or now + κ.

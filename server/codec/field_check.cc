@@ -29,7 +29,7 @@ void FieldCheck::Integer(const char* field, std::int64_t value, std::int64_t lea
 }
 
 void FieldCheck::Vector(const char* field, const v1::Vector3& value, double greatest) {
-  // Written so that what is not a number fails; names are built for what is refused only.
+  // NaN fails both comparisons. Names are built only for a refusal.
   const auto within = [greatest](double x) { return x >= -greatest && x <= greatest; };
   if (within(value.x()) && within(value.y()) && within(value.z())) return;
   const std::string name = field;

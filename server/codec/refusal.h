@@ -28,18 +28,18 @@ Refusal At(const v1::AgentStates& wire);
 Refusal At(const v1::AgentStates& chunk, const v1::AgentState& wire);
 Refusal At(const v1::SimulatorClock& wire);
 
-/// Of a state whose agent has no description.
+/// Refuses a state whose agent has no description.
 Refusal NotDescribed(const detection::AgentId& agent, std::string detail);
 
-/// Of a complete agent for which there is no room.
+/// Refuses a complete agent for which there is no room.
 Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max);
 
-/// Of a removal that does not come from the owner.
+/// Refuses a removal that does not come from the owner.
 Refusal NotItsOwn(const v1::AgentRemoval& wire);
 Refusal NotItsOwn(const v1::ShapeRemoval& wire);
 
-/// Of a shape: for an agent that refers to it, or for a simulator that wrote it (`agent` then names
-/// no slot). `detail` is cut to what the wire carries.
+/// Refuses a shape: for an agent that refers to it, or for a simulator that wrote it (`agent` then
+/// names no slot). `detail` is cut to what the wire carries.
 Refusal ShapeRefusal(const detection::AgentId& agent, v1::Topic topic, std::string field,
                      std::string detail);
 

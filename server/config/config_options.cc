@@ -58,7 +58,8 @@ constexpr ConfigOption kOptions[] = {
     {"pairs_max", "pairs", "1", "16777216", "", "65536",
      "Pairs tracked at once; beyond it agents are published as saturated, with a clearance of "
      "now."},
-    {"pairs_per_agent_max", "pairs", "1", "1000000", "", "256", "Likewise, of one agent."},
+    {"pairs_per_agent_max", "pairs", "1", "1000000", "", "256",
+     "Pairs of one agent tracked at once; beyond it the agent is saturated."},
     {"history_max", "states", "2", "4096", "", "64",
      "States kept per agent for evaluating contacts; beyond, the oldest are dropped and brackets "
      "widen."},
@@ -66,7 +67,7 @@ constexpr ConfigOption kOptions[] = {
      "Messages taken from the network in one step; the rest waits for the next."},
     {"undescribed_after_s", "s", "0.1", "3600", "", "5",
      "How long states without a description, and agents whose shape has not arrived, wait until "
-     "their sender is told."},
+     "their sender gets a rejection."},
     {"status_period_s", "s", "0.05", "10", "", "0.5",
      "Time between two samples of the service's status, by the monotonic clock."},
     {"rejections_per_second_max", "messages", "1", "100000", "", "100",

@@ -46,7 +46,7 @@ void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk
   ++counters_.states_received;
   if (const auto refusal = CheckSlot(chunk, wire)) return rejections_.Add(*refusal);
   const StateOrder order =
-      simulator->agents().NoteState(wire.slot(), wire.generation(), wire.sequence());
+      simulator->agents().RecordState(wire.slot(), wire.generation(), wire.sequence());
   if (order == StateOrder::kEnded) ++counters_.states_older;
   if (order == StateOrder::kRepeated) ++counters_.states_repeated;
   if (order != StateOrder::kNew) return;
@@ -59,7 +59,7 @@ void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk
   if (admitted) {
     Update(simulator, wire.slot(), wire.sequence(), state);
   } else {
-    KeepWaiting(simulator, wire.slot(), {wire.generation(), wire.sequence(), state});
+    SetWaiting(simulator, wire.slot(), {wire.generation(), wire.sequence(), state});
   }
 }
 
@@ -85,8 +85,8 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
   }
 }
 
-void AgentRegistry::KeepWaiting(Simulator* simulator, std::uint32_t slot,
-                                const WaitingState& waiting) {
+void AgentRegistry::SetWaiting(Simulator* simulator, std::uint32_t slot,
+                               const WaitingState& waiting) {
   AgentTable& agents = simulator->agents();
   const WaitingState* before = agents.Waiting(slot);
   const bool first = before == nullptr || before->generation != waiting.generation;
@@ -102,7 +102,7 @@ void AgentRegistry::KeepWaiting(Simulator* simulator, std::uint32_t slot,
     }
     undescribed_.Add(world_.monotonic_ns(), id);
   }
-  agents.KeepWaiting(slot, waiting);
+  agents.SetWaiting(slot, waiting);
   AdmitIfComplete(simulator, slot);
 }
 
@@ -120,7 +120,7 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
   if (world_.simulated() && !simulator->time().clock()) return;
   if (detector_.agents() >= agents_max_) {
     const detection::AgentId id = simulator->IdOf(slot, agent->generation());
-    if (!std::exchange(agent->told_no_room, true)) rejections_.Add(NoRoom(id, agents_max_));
+    if (!std::exchange(agent->room_refused, true)) rejections_.Add(NoRoom(id, agents_max_));
     return;
   }
   Admit(simulator, slot, agents.TakeWaiting(slot));

@@ -12,7 +12,7 @@
 
 namespace collision::server {
 
-/// What became of states and agents, since the start.
+/// Counts of states and agents by outcome, since the start.
 struct AgentCounters {
   std::uint64_t states_received = 0;
   std::uint64_t states_accepted = 0;
@@ -27,10 +27,10 @@ struct AgentCounters {
 ///
 /// An agent enters the detector when its description and a state are there and, with a simulated
 /// clock, the first clock of its simulator is in force. A state without a description is kept, the
-/// newest per slot, and its sender is told after `undescribed_after_s`. With no room for another
-/// agent, its owner is told once, and the agent is admitted with its next state when there is room.
-/// A new generation ends the agent of its slot; late states of ended ones count as older. A change
-/// that may lower promises counts from World::EffectiveFrom(). One thread.
+/// newest per slot, and reported to its sender after `undescribed_after_s`. If there is no room for
+/// another agent, its owner gets one rejection; the agent is admitted with its next state once
+/// there is room. A new generation ends the agent of its slot; late states of ended ones count as
+/// older. A change that may lower promises counts from World::EffectiveFrom(). One thread.
 class AgentRegistry {
  public:
   /// Everything passed in outlives this.
@@ -53,10 +53,10 @@ class AgentRegistry {
   /// Removes all agents of a simulator; states that wait for a description stay.
   void RemoveAll(Simulator* simulator);
 
-  /// Tells the senders of states that have not been described in time.
+  /// Reports states whose description has not arrived in time, to their senders.
   void ReportUndescribed();
 
-  /// When ReportUndescribed() may next have something to tell.
+  /// When ReportUndescribed() may next have something to report.
   std::optional<std::int64_t> NextDue() const { return undescribed_.next_ns(); }
 
   const AgentCounters& counters() const { return counters_; }
@@ -66,7 +66,7 @@ class AgentRegistry {
               const detection::AgentDeclaration& declaration);
   void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
               const motion::MotionState& state);
-  void KeepWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
+  void SetWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void AdmitIfComplete(Simulator* simulator, std::uint32_t slot);
   void Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
   void RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent);

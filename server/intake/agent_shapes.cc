@@ -85,13 +85,13 @@ void AgentShapes::TakeReady(const v1::ShapeReady& message) {
   const std::string& hash = message.content_hash();
   const std::optional<ReadyShape> ready = store_.MakeVisible({hash, message.coarse()});
   if (!ready) return;
-  if (!ready->built.shape) return TellRefusal(hash, *ready);
+  if (!ready->built.shape) return ReportRefusal(hash, *ready);
   LogShape(hash, *ready);
   for (const auto& [id, slot] : ready->users) {
     Simulator* simulator = world_.Find(id);
     Agent* agent = simulator != nullptr ? simulator->agents().Find(slot) : nullptr;
     if (agent == nullptr) continue;
-    // The coarse tree did not fit either, and the owner has been told.
+    // The coarse tree did not fit either, so the owner has the rejection already.
     if (ready->refined && !agent->declaration.shape) continue;
     Give(*simulator, slot, agent);
     if (agent->admitted()) {
@@ -101,7 +101,7 @@ void AgentShapes::TakeReady(const v1::ShapeReady& message) {
   }
 }
 
-void AgentShapes::TellRefusal(const std::string& hash, const ReadyShape& ready) {
+void AgentShapes::ReportRefusal(const std::string& hash, const ReadyShape& ready) {
   for (const std::uint64_t owner : ready.owners) {
     const Simulator* simulator = world_.Find(owner);
     const detection::AgentId no_agent{.simulator = owner,

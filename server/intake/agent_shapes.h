@@ -15,8 +15,8 @@ namespace collision::server {
 
 /// Connects agents with the shapes of the ShapeStore: an agent refers to a shape by its hash, and
 /// has it as soon as it is visible and fits into the agent's ball. Until then, and if the shape is
-/// refused, the agent is its ball, and its owner is told: at once what is wrong, after
-/// `undescribed_after_s` what is missing.
+/// refused, the agent is its ball. A rejection informs its owner: at once of a fault, after
+/// `undescribed_after_s` of what is missing.
 ///
 /// A shape that becomes visible only narrows what is known, so it lowers no promise. One thread.
 class AgentShapes {
@@ -29,16 +29,16 @@ class AgentShapes {
   void Refer(Simulator* simulator, std::uint32_t slot, const std::string& hash, Agent* agent);
 
   /// Makes a shape visible, or gives it its wanted tree in place of the coarse one: agents that
-  /// refer to it have it from now on. If it is refused, the simulators that wrote it are told.
+  /// refer to it have it from now on. If it is refused, its writers get a rejection.
   void TakeReady(const v1::ShapeReady& message);
 
-  /// Tells the owners of agents whose shapes have not arrived in time.
+  /// Reports shapes that have not arrived in time, to the owners of their agents.
   void ReportMissing();
 
   /// Frees what simulators that have left had written.
   void ReleaseLeft();
 
-  /// When ReportMissing() may next have something to tell.
+  /// When ReportMissing() may next have something to report.
   std::optional<std::int64_t> NextDue() const { return awaited_.next_ns(); }
 
  private:
@@ -51,7 +51,7 @@ class AgentShapes {
   void Give(const Simulator& simulator, std::uint32_t slot, Agent* agent);
   void Await(const detection::AgentId& id, const std::string& hash);
   void ReportMissing(const Awaited& awaited);
-  void TellRefusal(const std::string& hash, const ReadyShape& ready);
+  void ReportRefusal(const std::string& hash, const ReadyShape& ready);
 
   World& world_;
   detection::Detector& detector_;

@@ -63,7 +63,7 @@ void Intake::TakeDescription(const v1::Input& input) {
   if (const auto refusal = CheckIdentity(wire)) return rejections_.Add(*refusal);
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
-  simulator->time().NoteDescriptions(wire.sequence());
+  simulator->time().RecordDescriptions(wire.sequence());
   const Decoded<detection::AgentDeclaration> decoded = DecodeDescription(wire);
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
   agents_.Describe(simulator, wire, std::get<detection::AgentDeclaration>(decoded));
@@ -75,7 +75,7 @@ void Intake::TakeStates(const v1::Input& input) {
   if (simulator == nullptr) return;
   // Refused or not, they have arrived: a clock that waits for them must not wait for ever.
   for (const v1::AgentState& state : chunk.states()) {
-    simulator->time().NoteStates(state.sequence());
+    simulator->time().RecordStates(state.sequence());
   }
   if (const auto refusal = CheckChunk(chunk)) return rejections_.Add(*refusal);
   for (const v1::AgentState& state : chunk.states()) agents_.TakeState(simulator, chunk, state);
@@ -91,7 +91,7 @@ void Intake::TakeClock(const v1::Input& input) {
   const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) {
     if (wire.lock_step() != world_.simulated() && time.newest() == Instant::Always()) {
-      time.NoteOtherKind();
+      time.SetOtherKind();
       // With a wall clock, agents are admitted before their simulator tells a clock.
       if (!world_.simulated()) agents_.RemoveAll(simulator);
     }

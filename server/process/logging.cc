@@ -63,7 +63,8 @@ void MatterLimiter::Write(Time now, spdlog::level::level_enum level, std::string
     return;
   }
   std::string line = std::string(matter) + ": " + std::string(text);
-  if (known.held_back > 0) line += " (after " + std::to_string(known.held_back) + " held back)";
+  if (known.held_back > 0)
+    line += " (lines suppressed before: " + std::to_string(known.held_back) + ")";
   known = {.written = now};
   sink_(level, line);
 }
@@ -88,7 +89,7 @@ void MatterLimiter::WriteAllCounts() {
 
 void MatterLimiter::WriteCount(const std::string& name, Matter* matter) {
   if (matter->held_back == 0) return;
-  sink_(matter->level, name + ": " + std::to_string(matter->held_back) + " held back");
+  sink_(matter->level, name + ": lines suppressed: " + std::to_string(matter->held_back));
   matter->held_back = 0;
 }
 

@@ -3,7 +3,7 @@
 
 namespace collision::server {
 
-/// As CMakeLists.txt states it: `--version`, the status topic and recordings tell it.
+/// As CMakeLists.txt states it: `--version`, the status topic and recordings contain it.
 inline constexpr char kVersion[] = COLLISION_VERSION;
 
 }  // namespace collision::server

@@ -120,7 +120,7 @@ bool RecordingReader::ReadEntry(v1::RecordingEntry* entry) {
   if (!ReadLength(&length)) return false;
   std::string bytes(length, '\0');
   if (!file_.read(bytes.data(), static_cast<std::streamsize>(length))) return Fail("cut off");
-  const google::protobuf::LogSilencer silent;  // the error below says it
+  const google::protobuf::LogSilencer silent;  // the error below reports it
   if (!entry->ParseFromString(bytes)) return Fail("damaged: no recording entry");
   offset_ = static_cast<std::uint64_t>(file_.tellg());
   return true;

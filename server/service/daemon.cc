@@ -197,8 +197,12 @@ class Daemon::Implementation {
   Rate query_rate_;
   StepCounters steps_;
   std::vector<std::string> waited_for_;  ///< Logged already.
-  NamesLog waits_{"waits for simulator {}: its process has gone"};
-  NamesLog releases_{"time goes on without simulator {}: its process has gone"};
+  NamesLog waits_{
+      "world time waits for simulator {}: its process has ended; start it again (or set "
+      "clock.on_silent_simulator to RELEASE)"};
+  NamesLog releases_{
+      "world time goes on without simulator {}: its process has ended; its agents stay, and "
+      "their bounds grow"};
   std::optional<Instant> advanced_to_;
   std::atomic<bool> stopped_ = false;
 };

@@ -61,7 +61,7 @@ void Define(CLI::App* app, Options* options) {
   auto* config = app->add_option("--config", options->config_file,
                                  "Configuration, protobuf text (default: every default)");
   auto* check = app->add_flag("--check-config", options->check_config,
-                              "Check the configuration, tell every error, and end");
+                              "Check the configuration, print every error, and end");
   auto* print = app->add_flag("--print-config", options->print_config,
                               "Print the configuration in effect, explained, and end");
   auto* calibrate = app->add_flag(

@@ -29,8 +29,10 @@ constexpr std::chrono::milliseconds kStepPatience{700};
 [[noreturn]] void EndInTheStep(RecordingWriter* recorder) {
   std::unique_lock<std::mutex> no_write;
   if (recorder != nullptr) no_write = recorder->HoldWrites();
-  spdlog::warn("ended in the middle of a step that was not over {} ms after the signal",
-               kStepPatience.count());
+  spdlog::warn(
+      "exits without waiting for a step that still ran {} ms after the signal; a "
+      "recording is whole",
+      kStepPatience.count());
   spdlog::default_logger_raw()->flush();
   std::_Exit(kExitOk);
 }

@@ -51,7 +51,7 @@ class ShapeGathering {
   std::string Digest() { return hasher_.Digest(); }
   std::string TakeBytes();
 
-  /// Gives the shape up and frees its bytes. Parts that are still on their way are only noted,
+  /// Gives the shape up and frees its bytes. Parts that are still on their way are only counted,
   /// until one comes for the second time: the simulator writes the shape again.
   void Refuse();
   bool refused() const { return refused_; }

@@ -11,10 +11,10 @@
 namespace collision::server {
 namespace {
 
-/// Of a refused shape with more parts nothing is remembered: each part is refused.
+/// A refused shape with more parts is not remembered: each of its parts is refused.
 constexpr std::uint64_t kRefusedPartsMax = 65536;
 
-/// In a mesh whose triangles share no vertex.
+/// Bytes per triangle of a mesh whose triangles share no vertex.
 constexpr std::uint64_t kBytesPerTriangleMax = 3 * kShapeVertexBytes + kShapeTriangleBytes;
 
 /// Bytes of a shape beside its mesh, which is counted like the bytes that brought it.
@@ -91,7 +91,7 @@ std::optional<Refusal> ShapeStore::TakeUnknown(const v1::ShapePart& part) {
   ShapeGathering& gathering = found->second;
   if (auto refusal = Add(part, &gathering)) {
     Refuse(&gathering);
-    // Noted, so that the same part is taken as another attempt when it comes again.
+    // Counted, so that the same part begins another attempt when it comes again.
     if (gathering.total_bytes() == part.total_bytes()) gathering.Add(part);
     return refusal;
   }

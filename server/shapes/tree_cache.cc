@@ -110,7 +110,7 @@ std::optional<sphere_tree::SphereTree> TreeCache::Read(const std::string& bytes,
                                                        const std::string& content_hash,
                                                        const geometry::TriangleMesh& mesh,
                                                        std::string* fault) const {
-  const google::protobuf::LogSilencer silent;  // The fault says it.
+  const google::protobuf::LogSilencer silent;  // *fault reports it.
   v1::TreeFile file;
   if (!file.ParseFromString(bytes)) {
     *fault = "cut off, or no tree file";

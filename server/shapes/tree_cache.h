@@ -24,8 +24,8 @@ namespace collision::server {
 /// has the structure of a tree of this mesh (collision_core/sphere_tree/tree_check.h). Any other
 /// file is counted, logged, built anew and replaced: it costs the time to build and nothing else.
 ///
-/// What a tree says of distances is believed, since proving it again costs as much as building. The
-/// checksum guards against accidents; against people only the permissions of the folder do.
+/// The distances in a tree are trusted, since proving them again costs as much as building. The
+/// checksum guards against accidents, only the permissions of the folder against attackers.
 ///
 /// Several processes may share a folder: files appear whole (written aside, renamed) and are
 /// replaced only by their like. The size of the folder is bounded (`tree_cache_mb`); the files used

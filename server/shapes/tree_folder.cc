@@ -141,7 +141,7 @@ std::optional<std::string> TreeFolder::Read(const std::string& name, std::string
     *fault = "cannot be read: " + CauseOf(errno);
     return std::nullopt;
   }
-  // Used now. Where that cannot be noted, the file goes sooner than it might.
+  // Marks the file as used now. If that fails, the file is only removed sooner.
   futimens(file.get(), nullptr);
   return content;
 }

@@ -32,8 +32,8 @@ bool AgentTable::HasEnded(std::uint32_t slot, std::uint32_t generation) const {
   return found != slots_.end() && generation < found->second.ended;
 }
 
-StateOrder AgentTable::NoteState(std::uint32_t slot_index, std::uint32_t generation,
-                                 std::uint64_t sequence) {
+StateOrder AgentTable::RecordState(std::uint32_t slot_index, std::uint32_t generation,
+                                   std::uint64_t sequence) {
   Slot& slot = slots_[slot_index];
   if (generation < slot.ended) return StateOrder::kEnded;
   const std::pair<std::uint32_t, std::uint64_t> order(generation, sequence);
@@ -61,7 +61,7 @@ void AgentTable::Revise(std::uint32_t slot, std::uint32_t revision,
   clearances_.MarkChanged(slot);
 }
 
-void AgentTable::KeepWaiting(std::uint32_t slot, const WaitingState& waiting) {
+void AgentTable::SetWaiting(std::uint32_t slot, const WaitingState& waiting) {
   slots_[slot].waiting = waiting;
 }
 

@@ -23,9 +23,9 @@ class Agent {
   Agent(std::uint32_t generation, std::uint32_t revision, const detection::AgentDeclaration& told)
       : declaration(told), generation_(generation), revision_(revision) {}
 
-  detection::AgentDeclaration declaration;  ///< As told; with its shape once that is visible.
-  std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
-  bool told_no_room = false;                ///< Its owner knows that the world is full.
+  detection::AgentDeclaration declaration;  ///< With its shape once that is visible.
+  std::string shape_hash = {};           ///< Of the shape that it refers to; empty: the ball.
+  bool room_refused = false;             ///< Its owner got REJECTED_TOO_MANY_AGENTS.
 
   std::uint32_t generation() const { return generation_; }
   std::uint32_t revision() const { return revision_; }
@@ -78,10 +78,10 @@ class AgentTable {
   /// Whether `generation` of `slot` has been removed or replaced.
   bool HasEnded(std::uint32_t slot, std::uint32_t generation) const;
 
-  /// Notes that a state has arrived, accepted or not.
-  StateOrder NoteState(std::uint32_t slot, std::uint32_t generation, std::uint64_t sequence);
+  /// Records that a state has arrived, accepted or not.
+  StateOrder RecordState(std::uint32_t slot, std::uint32_t generation, std::uint64_t sequence);
 
-  /// Puts an agent into `slot`; generations below its own have ended. Requires that the slot has no
+  /// Adds an agent in `slot`; generations below its own have ended. Requires that the slot has no
   /// agent and that the generation has not ended.
   Agent* Add(std::uint32_t slot, const Agent& agent);
 
@@ -90,7 +90,7 @@ class AgentTable {
               const detection::AgentDeclaration& declaration);
 
   /// Replaces the state that waits in `slot`.
-  void KeepWaiting(std::uint32_t slot, const WaitingState& waiting);
+  void SetWaiting(std::uint32_t slot, const WaitingState& waiting);
 
   /// Hands out the state that waits in `slot`, which then waits no more. Requires one.
   [[nodiscard]] WaitingState TakeWaiting(std::uint32_t slot);

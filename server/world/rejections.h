@@ -35,7 +35,7 @@ class Rejections {
   const std::uint32_t per_second_max_;
   World& world_;
   std::array<std::uint64_t, v1::RejectionReason_ARRAYSIZE> counts_{};
-  std::uint64_t of_unknown_ = 0;  ///< That name a simulator which is not in the world.
+  std::uint64_t of_unknown_ = 0;  ///< Refusals that name a simulator which is not in the world.
   std::uint64_t untold_ = 0;
   std::int64_t second_ = -1;
   std::uint32_t told_in_second_ = 0;

@@ -9,11 +9,11 @@
 
 namespace collision::server {
 
-/// One simulator: who speaks for it, whether its process lives, its time, and its agents.
+/// One simulator: its owner (a process), whether that process lives, its time, and its agents.
 ///
-/// The World owns all simulators and decides who speaks for them; `time()` and `agents()` guard
-/// their own invariants. A higher run starts all of it anew, except the counters, the name, and the
-/// marks of clearance samples that are to be published. One thread.
+/// The World holds all simulators and decides which process owns each; `time()` and `agents()`
+/// guard their own invariants. A higher run starts all of it anew, except the counters, the name,
+/// and the marks of clearance samples that are to be published. One thread.
 class Simulator {
  public:
   /// `sender`: the network's identity of the process that speaks for it.
@@ -23,7 +23,7 @@ class Simulator {
   std::uint64_t id() const { return id_; }
   std::uint64_t sender() const { return sender_; }
   std::uint32_t run() const { return run_; }
-  const std::string& name() const { return name_; }  ///< Empty: nothing has proved it yet.
+  const std::string& name() const { return name_; }  ///< Empty: not proved yet.
 
   /// A description or a clock, whose id is the hash of this name, has come from the sender.
   void SetName(const std::string& name) { name_ = name; }
@@ -35,11 +35,11 @@ class Simulator {
   std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
   void SetAlive(bool alive, std::int64_t monotonic_ns);
 
-  /// Silent for too long: the world's time does not wait for it any more, until it is alive again.
+  /// It was silent for too long: the world's time does not wait for it until it is alive again.
   bool released() const { return released_; }
   void Release() { released_ = true; }
 
-  /// It runs on what it had written while it waited for the id, and has not been heard since.
+  /// All its input so far is what it had written while it waited for the id.
   bool succeeded_unheard() const { return succeeded_unheard_; }
   void SetSucceededUnheard(bool unheard) { succeeded_unheard_ = unheard; }
 

@@ -4,11 +4,11 @@
 
 namespace collision::server {
 
-void SimulatorTime::NoteStates(std::uint64_t sequence) {
+void SimulatorTime::RecordStates(std::uint64_t sequence) {
   states_seen_ = std::max(states_seen_, sequence);
 }
 
-void SimulatorTime::NoteDescriptions(std::uint64_t sequence) {
+void SimulatorTime::RecordDescriptions(std::uint64_t sequence) {
   descriptions_seen_ = std::max(descriptions_seen_, sequence);
 }
 

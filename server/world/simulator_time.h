@@ -29,15 +29,15 @@ inline constexpr std::size_t kPendingClocksMax = 16;
 /// newer one, and refused samples count as arrived, so that no clock waits for ever. One thread.
 class SimulatorTime {
  public:
-  void NoteStates(std::uint64_t sequence);
-  void NoteDescriptions(std::uint64_t sequence);
+  void RecordStates(std::uint64_t sequence);
+  void RecordDescriptions(std::uint64_t sequence);
 
   /// Takes a clock that has arrived; Take() brings it into force.
   void Offer(const PendingClock& offered);
 
   /// The simulator has published a clock of the other kind (simulated or wall) and none of this
   /// world's: its stamps mean nothing here until it offers one.
-  void NoteOtherKind() { other_kind_ = true; }
+  void SetOtherKind() { other_kind_ = true; }
 
   /// Brings the newest clock into force before which everything has arrived. False: there is none.
   bool Take();

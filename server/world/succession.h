@@ -13,7 +13,7 @@ namespace collision::server {
 /// Messages that are held for the successors of one simulator.
 inline constexpr std::size_t kHeldInputsMax = 4096;
 
-/// What successors have written before their time, by simulator, in the order of arrival.
+/// Messages that successors wrote before they took over, by simulator, in the order of arrival.
 ///
 /// A process that is restarted may write before the lease of its predecessor is over. A sample of a
 /// transient-local topic is delivered once, so what it writes is held and applied when the

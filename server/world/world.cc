@@ -175,7 +175,7 @@ void World::UpdateGrants() {
     Instant clear = greatest;
     for (const auto& [slot, clearance] : simulator.agents().clearances().all()) {
       clear = std::min(clear, clearance.clear_until);
-      // The end of a contact is news too: no simulator may run past it unheard.
+      // The end of a contact counts as well: no simulator may run past it before its states are in.
       if (clearance.in_contact) clear = std::min(clear, least);
     }
     if (simulator.time().Grant(std::max(least, clear))) {

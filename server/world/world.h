@@ -51,7 +51,7 @@ class World {
  public:
   explicit World(const v1::Config& config);
 
-  /// `name`: as told in a description or clock, already checked against the id; null for messages
+  /// `name`: as in a description or clock, already checked against the id; null for messages
   /// without one. Only a named message proves ownership: it takes an id from a sender that never
   /// named itself.
   Claim ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,

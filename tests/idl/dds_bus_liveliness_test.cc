@@ -1,4 +1,4 @@
-// Goal:   who leaves, dies, stops or comes back is noticed as what it is, and nobody else suffers.
+// Goal:   a program that leaves, dies, stops or comes back is reported as such; no other is.
 // Method: a second session in this process that is destroyed, and a child process that is killed or
 // stopped.
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ std::vector<std::uint64_t> Gone(const std::vector<v1::Input>& inputs) {
   return all;
 }
 
-/// Who told a clock of this time.
+/// The sender of a clock of this time.
 std::set<std::uint64_t> SendersOfClock(const std::vector<v1::Input>& inputs,
                                        std::int64_t clock_ns) {
   std::set<std::uint64_t> all;
@@ -44,7 +44,7 @@ std::set<std::uint64_t> SendersOfClock(const std::vector<v1::Input>& inputs,
   return all;
 }
 
-/// Whether a simulator's end was told in the name of whoever wrote its clock.
+/// Whether a simulator's end was reported for the sender of its clock.
 bool OneSender(const std::vector<v1::Input>& inputs) {
   std::set<std::uint64_t> senders;
   for (const v1::Input& input : inputs) senders.insert(input.sender());

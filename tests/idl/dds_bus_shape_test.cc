@@ -1,4 +1,4 @@
-// Goal:   shapes cross whole however large, reach who comes late, and their disposal arrives part
+// Goal:   shapes cross whole however large, reach late readers, and their disposal arrives part
 // by
 //         part, before and after it is written anew.
 // Method: real DDS on loopback; waiting loops with a deadline.
@@ -100,7 +100,7 @@ TEST(DdsBusShape, DisposalArrivesPartByPart) {
   EXPECT_EQ(inputs.size(), 40u);
   WriteShape(&simulator, 40, 'q');
   EXPECT_TRUE(ReceiveUntil(bus, &inputs, [&] { return PartsIn(inputs, 'q').size() == 40; }));
-  // Who comes now knows nothing of what was disposed.
+  // A reader that joins now receives nothing that was disposed of.
   simulator.RemoveShape(SimulatorId("a"), kHash, 40);
   simulator.Write(SimulatorTime("a", 1));
   simulator.Flush();

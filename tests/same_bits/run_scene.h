@@ -18,7 +18,7 @@ struct Told {
   friend bool operator==(const Told&, const Told&) = default;
 };
 
-/// Who builds the shapes.
+/// The builder of the shapes.
 enum class Builders {
   kOwn,      ///< The daemon, in its own thread.
   kThreads,  ///< Three threads, waited for in the step where the daemon itself would build.

@@ -17,7 +17,7 @@ struct Scene {
   std::function<void(Scenario*)> fill;  ///< Adds the simulators; from any thread.
 };
 
-/// All of them, in a fixed order. Whoever changes one changes its hash, and nobody depends on that:
+/// All of them, in a fixed order. A change of one changes its hash, on which nothing depends:
 /// builds are compared with each other.
 std::vector<Scene> Scenes();
 

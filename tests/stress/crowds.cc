@@ -112,7 +112,7 @@ void Simultaneous(const Setting& setting, Outcome* outcome) {
 
 std::vector<Case> CrowdCases() {
   return {{"extreme", "one-point",
-           "who is at one point with everybody is in contact, saturated or not clear; each tracked "
+           "an agent at one point with all is in contact, saturated or not clear; each tracked "
            "pair's contact is confirmed, its begin known within 2 ns (all is known when they are "
            "admitted), its distance within 32 units in the last place of the radii and what the "
            "bounds leave open in a nanosecond; at most 65536 pairs, 512 pair queries an agent at "
@@ -120,8 +120,9 @@ std::vector<Case> CrowdCases() {
            OnePoint},
           {"extreme", "simultaneous",
            "of a thousand and more contacts in one instant each is announced before and "
-           "confirmed; begins and ends within 3 ns and M T2/2 over the speed; who could touch "
-           "nobody within 1/60 s is clear for as long, and else until it could with lengths 4 "
+           "confirmed; begins and ends within 3 ns and M T2/2 over the speed; an agent "
+           "that could touch none within 1/60 s is clear for as long, and else until it could with "
+           "lengths 4 "
            "units in the last place off; at most 4 events a pair in a step",
            Simultaneous}};
 }

@@ -51,7 +51,7 @@ class Scene {
   /// All true contacts: pairs that are not named never touch.
   void Touch(std::uint32_t a, std::uint32_t b, Seconds begin, Seconds end, Seconds width = 0);
 
-  /// One step to `now`: everybody whose turn it is tells a state, then the detector advances.
+  /// One step to `now`: every agent whose turn it is sends a state, then the detector advances.
   void StepTo(Instant now);
   void Run(std::int64_t step_ns, int steps);
 

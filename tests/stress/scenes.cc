@@ -179,9 +179,9 @@ const char* const kPromise =
     "no contact is missed, none is told clear before it, brackets contain the truth; finite, "
     "ordered; the queue holds no more than 2 an agent and 1 a pair; distances known within what "
     "the "
-    "bounds leave open since the last states and 32 units in the last place; who could touch "
-    "nobody "
-    "within 1/60 s (announce_within where nobody accelerates) is clear for as long, and else until "
+    "bounds leave open since the last states and 32 units in the last place; an agent "
+    "that could touch no other "
+    "within 1/60 s (announce_within where none accelerates) is clear for as long, and else until "
     "it could with lengths 4 units off; what is not free is longer than the contact by twice the "
     "width that begins and ends have at most: ";
 

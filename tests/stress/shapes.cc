@@ -258,7 +258,7 @@ std::vector<Case> ShapeCases() {
           {"extreme", "one-triangle", kTimes, OneTriangle},
           {"extreme", "million-triangles", kTimes, MillionTriangles},
           {"extreme", "shape-grazing",
-           "who overlaps by a unit in the last place is not free, who is one apart is no contact; "
+           "a pair that overlaps by a unit in the last place is not free, one apart is no contact; "
            "undecided within 128 units at most, and not free for 1e-12 of the time and 128 units "
            "over the speed longer than they graze",
            Grazing},

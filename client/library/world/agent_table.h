@@ -36,7 +36,7 @@ class AgentTable {
   /// Whether TakeDue() or a clock sample would say anything new at this clock.
   bool HasNews(std::int64_t clock_ns) const;
 
-  /// Everything that has been said and still holds, to repeat it.
+  /// All messages that still hold, to repeat them.
   std::vector<v1::AgentDescription> Descriptions() const;
   std::vector<v1::AgentStates> SentStates() const;
 

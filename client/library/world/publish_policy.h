@@ -43,7 +43,7 @@ class OutgoingStates {
   /// The staged state is sent now, as number `sequence` of its simulator.
   void MarkSent(std::uint64_t sequence, std::uint32_t revision);
 
-  /// What the service said at its time `now_ns`; `acknowledged`: the newest sequence it has taken.
+  /// A clearance as of the service's time `now_ns`; `acknowledged`: the newest sequence in force.
   void SetClearance(const Clearance& clearance, std::uint64_t acknowledged, std::int64_t now_ns);
 
   const Clearance& clearance() const { return clearance_; }
@@ -59,7 +59,7 @@ class OutgoingStates {
   std::uint64_t must_sequence_ = 0;  ///< Of the last state that had to be sent, wanted or not.
   std::int64_t period_ns_ = 0;       ///< Between the last two stamps that were set.
   /// Sequence of the last jump until the service has acknowledged it; 0: none. The network keeps
-  /// the newest sample only, so every state until then says that the motion jumped.
+  /// the newest sample only, so every state until then is marked as a jump.
   std::uint64_t jump_sequence_ = 0;
   Clearance clearance_;
   bool wanted_always_ = true;  ///< At every step; so until the service says otherwise.

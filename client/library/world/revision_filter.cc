@@ -15,7 +15,7 @@ bool SameContact(const v1::CollisionEvent& a, const v1::CollisionEvent& b) {
          SameAgent(a.higher(), b.higher());
 }
 
-/// Whether one incarnation of a service said both, `earlier` first.
+/// Whether one incarnation of a service published both, `earlier` first.
 bool SameIncarnation(const v1::ServiceStamp& earlier, const v1::ServiceStamp& later) {
   return earlier.service_id() == later.service_id() && earlier.term() == later.term() &&
          earlier.sequence() <= later.sequence();

@@ -10,7 +10,7 @@ namespace collision::client {
 
 /// Drops samples of former services and revisions of events that were seen before.
 ///
-/// A standby takes over with a higher term, and what a lower term says is void. A restarted service
+/// A standby takes over with a higher term; samples of a lower term are void. A restarted service
 /// begins its sequences anew. Within a term the network keeps the order of each writer, so a
 /// sequence that falls back belongs to a new incarnation of the service, not to an old sample.
 class RevisionFilter {
@@ -19,7 +19,7 @@ class RevisionFilter {
   bool IsCurrent(const v1::ServiceStamp& stamp);
 
   /// False: this revision of the contact, or a later one, has been seen. A new incarnation counts
-  /// revisions anew; of what it says, only a repetition of the known revision is not new.
+  /// revisions anew; only its repetition of the known revision is not new.
   bool IsNew(const v1::CollisionEvent& event);
 
  private:

@@ -94,7 +94,7 @@ class World::Implementation {
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();
   std::optional<bool> simulated_clock_;
   bool clock_published_ = false;
-  /// Since the last Reintroduce() the service said that the name belongs to another sender.
+  /// Since the last Reintroduce() the service refused this sender: another one owns the name.
   bool name_refused_ = false;
 
   std::function<void(const Event&)> on_event_;

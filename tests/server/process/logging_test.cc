@@ -23,7 +23,7 @@ struct Recorded {
       [this](spdlog::level::level_enum, const std::string& line) { lines.push_back(line); }};
 };
 
-// Goal:   one line per matter and period; nothing is held back silently, and matters do not disturb
+// Goal:   one line per matter and period; no line vanishes silently, and matters do not disturb
 // each other.
 TEST(MatterLimiter, TellsHowManyLinesItHeldBack) {
   Recorded log;
@@ -31,7 +31,7 @@ TEST(MatterLimiter, TellsHowManyLinesItHeldBack) {
   log.limiter.Write(At(0.95), kInfo, "late", "x");
   EXPECT_EQ(log.lines, (Lines{"refused: 0", "late: x"}));
   log.limiter.Write(At(1), kInfo, "refused", "10");
-  EXPECT_EQ(log.lines.back(), "refused: 10 (after 9 held back)");
+  EXPECT_EQ(log.lines.back(), "refused: 10 (lines suppressed before: 9)");
   log.limiter.Write(At(2), kInfo, "refused", "11");
   EXPECT_EQ(log.lines.back(), "refused: 11");
 }
@@ -42,12 +42,12 @@ TEST(MatterLimiter, TellsTheLastCount) {
   Recorded log;
   for (int i = 0; i < 3; ++i) log.limiter.Write(At(0), kInfo, "refused", "a");
   log.limiter.Write(At(5), kInfo, "late", "b");
-  EXPECT_EQ(log.lines, (Lines{"refused: a", "refused: 2 held back", "late: b"}));
+  EXPECT_EQ(log.lines, (Lines{"refused: a", "refused: lines suppressed: 2", "late: b"}));
   log.limiter.Write(At(5.5), kInfo, "refused", "c");
   EXPECT_EQ(log.lines.size(), 3u) << "a told count is a line of the matter";
   log.limiter.WriteAllCounts();
   log.limiter.WriteAllCounts();
-  EXPECT_EQ(log.lines.back(), "refused: 1 held back");
+  EXPECT_EQ(log.lines.back(), "refused: lines suppressed: 1");
   EXPECT_EQ(log.lines.size(), 4u);
 }
 
@@ -58,7 +58,7 @@ TEST(MatterLimiter, BoundsTheNumberOfMatters) {
   for (int i = 0; i < 1000; ++i) log.limiter.Write(At(0), kInfo, std::to_string(i), "x");
   EXPECT_EQ(log.lines.size(), 257u);
   log.limiter.WriteAllCounts();
-  EXPECT_EQ(log.lines.back(), "other matters: 743 held back");
+  EXPECT_EQ(log.lines.back(), "other matters: lines suppressed: 743");
 }
 
 // Goal:   the process's log goes to the file, from the level on, and keeps what was there.
@@ -74,7 +74,7 @@ TEST(Logging, WritesToTheFileFromTheLevelOn) {
   text << std::ifstream(path).rdbuf();
   EXPECT_TRUE(text.str().starts_with("before\n"));
   EXPECT_NE(text.str().find(" warning refused: NaN\n"), std::string::npos) << text.str();
-  EXPECT_NE(text.str().find("held back"), std::string::npos);
+  EXPECT_NE(text.str().find("suppressed"), std::string::npos);
   EXPECT_EQ(text.str().find("unheard"), std::string::npos);
   std::remove(path.c_str());
   EXPECT_THROW(StartLogging("info", "/dev/null/log"), spdlog::spdlog_ex);

@@ -118,7 +118,7 @@ TEST(Serve, EndsInTheMiddleOfAStep) {
     BlockingBus bus;
     Serve(config, bus, &recorder);
   };
-  EXPECT_EXIT(serve(), testing::ExitedWithCode(0), "ended in the middle of a step");
+  EXPECT_EXIT(serve(), testing::ExitedWithCode(0), "exits without waiting for a step");
   RecordingReader reader(path);
   EXPECT_TRUE(reader.Next().has_value());
   EXPECT_FALSE(reader.Next().has_value());

@@ -53,8 +53,8 @@ TEST(AgentTable, EachChangeMarksItsChunkAndNoOther) {
 
 TEST(AgentTable, WhatASampleDoesNotSayMarksNothing) {
   AgentTable table = Table();
-  EXPECT_EQ(table.NoteState(70, 3, 12), StateOrder::kNew);
-  table.KeepWaiting(5, {.generation = 1, .sequence = 1, .state = {}});
+  EXPECT_EQ(table.RecordState(70, 3, 12), StateOrder::kNew);
+  table.SetWaiting(5, {.generation = 1, .sequence = 1, .state = {}});
   table.Add(6, Described(1));
   EXPECT_EQ(table.clearances().TakeChanged(), Chunks{});
   table.Validate();
@@ -70,13 +70,13 @@ TEST(AgentTable, AClearanceOfAnAgentThatIsGoneIsIgnored) {
 
 TEST(AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
   AgentTable table = Table();
-  EXPECT_EQ(table.NoteState(70, 3, 5), StateOrder::kNew);
-  EXPECT_EQ(table.NoteState(70, 3, 5), StateOrder::kRepeated);
-  EXPECT_EQ(table.NoteState(70, 3, 4), StateOrder::kRepeated);
-  EXPECT_EQ(table.NoteState(70, 2, 6), StateOrder::kEnded);
-  EXPECT_EQ(table.NoteState(70, 4, 1), StateOrder::kNew);
+  EXPECT_EQ(table.RecordState(70, 3, 5), StateOrder::kNew);
+  EXPECT_EQ(table.RecordState(70, 3, 5), StateOrder::kRepeated);
+  EXPECT_EQ(table.RecordState(70, 3, 4), StateOrder::kRepeated);
+  EXPECT_EQ(table.RecordState(70, 2, 6), StateOrder::kEnded);
+  EXPECT_EQ(table.RecordState(70, 4, 1), StateOrder::kNew);
   table.Remove(70);
-  EXPECT_EQ(table.NoteState(70, 3, 9), StateOrder::kEnded);
+  EXPECT_EQ(table.RecordState(70, 3, 9), StateOrder::kEnded);
   EXPECT_TRUE(table.HasEnded(70, 3));
   EXPECT_FALSE(table.HasEnded(70, 4));
   EXPECT_FALSE(table.HasEnded(71, 0));
@@ -86,13 +86,13 @@ TEST(AgentTable, StatesAreNewOnceAndNeverAfterTheirGeneration) {
 TEST(AgentTable, RemovalEndsWhatWaitsForTheSameGeneration) {
   for (const std::uint32_t generation : {3u, 4u}) {
     AgentTable table = Table();
-    table.KeepWaiting(70, {.generation = generation, .sequence = 1, .state = {}});
+    table.SetWaiting(70, {.generation = generation, .sequence = 1, .state = {}});
     table.Remove(70);
     EXPECT_EQ(table.Waiting(70) != nullptr, generation == 4);
     table.Validate();
   }
   AgentTable table;
-  table.KeepWaiting(1, {.generation = 8, .sequence = 1, .state = {}});
+  table.SetWaiting(1, {.generation = 8, .sequence = 1, .state = {}});
   table.RemoveWaiting(1);
   EXPECT_EQ(table.Waiting(1), nullptr);
   EXPECT_TRUE(table.HasEnded(1, 8));
@@ -100,12 +100,12 @@ TEST(AgentTable, RemovalEndsWhatWaitsForTheSameGeneration) {
 
 TEST(AgentTable, ANewRunMarksEveryUsedSlot) {
   AgentTable table = Table();
-  table.KeepWaiting(200, {.generation = 1, .sequence = 1, .state = {}});
+  table.SetWaiting(200, {.generation = 1, .sequence = 1, .state = {}});
   EXPECT_THROW(table.Clear(), CheckFailure);
   table.Remove(70);
   table.Clear();
   EXPECT_EQ(table.clearances().TakeChanged(), (Chunks{1, 3}));
-  EXPECT_EQ(table.NoteState(70, 1, 1), StateOrder::kNew);
+  EXPECT_EQ(table.RecordState(70, 1, 1), StateOrder::kNew);
   table.Validate();
 }
 

@@ -15,15 +15,15 @@ TEST(SimulatorTime, AClockWaitsForWhatWasWrittenBeforeIt) {
   time.Offer({.clock = At(2), .states_sequence = 2, .descriptions_sequence = 1});
   time.Offer({.clock = At(3), .states_sequence = 5});
   EXPECT_FALSE(time.Take());
-  time.NoteStates(3);
+  time.RecordStates(3);
   EXPECT_TRUE(time.Take());
   EXPECT_EQ(time.clock(), At(1));
-  time.NoteDescriptions(1);
+  time.RecordDescriptions(1);
   EXPECT_TRUE(time.Take());
   EXPECT_EQ(time.clock(), At(2));
   for (int i = 4; i < 100; ++i) time.Offer({.clock = At(i), .states_sequence = 5});
   EXPECT_EQ(time.pending(), kPendingClocksMax);
-  time.NoteStates(5);
+  time.RecordStates(5);
   EXPECT_TRUE(time.Take());
   EXPECT_EQ(time.clock(), At(99));
   EXPECT_EQ(time.first_clock(), At(1));
@@ -32,10 +32,10 @@ TEST(SimulatorTime, AClockWaitsForWhatWasWrittenBeforeIt) {
 // Goal:   sequences may arrive in any order: an older one takes nothing back.
 TEST(SimulatorTime, TheHighestSequenceCounts) {
   SimulatorTime time;
-  time.NoteStates(7);
-  time.NoteStates(2);
-  time.NoteDescriptions(4);
-  time.NoteDescriptions(3);
+  time.RecordStates(7);
+  time.RecordStates(2);
+  time.RecordDescriptions(4);
+  time.RecordDescriptions(3);
   time.Offer({.clock = At(1), .states_sequence = 7, .descriptions_sequence = 4});
   EXPECT_TRUE(time.Take());
 }
@@ -52,7 +52,7 @@ TEST(SimulatorTime, AGrantIsNeverShortened) {
 
 TEST(SimulatorTime, AClockOfTheWorldsKindMendsOneOfTheOther) {
   SimulatorTime time;
-  time.NoteOtherKind();
+  time.SetOtherKind();
   EXPECT_TRUE(time.is_other_kind());
   EXPECT_EQ(time.newest(), Instant::Always());
   time.Offer({.clock = At(3), .lock_step = true});

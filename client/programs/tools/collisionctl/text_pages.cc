@@ -68,7 +68,7 @@ std::uint64_t CounterOf(const v1::ServiceStatus& status, const std::string& name
 }
 
 /// The number of queries to the broad phase, and of events that wait for their time.
-std::string QuestionsText(const v1::ServiceStatus& status) {
+std::string QueriesText(const v1::ServiceStatus& status) {
   return std::to_string(CounterOf(status, "queries_per_second")) + " a second, " +
          std::to_string(CounterOf(status, "queries")) + " so far; " +
          std::to_string(CounterOf(status, "queued")) + " events in the queue";
@@ -161,7 +161,7 @@ std::string StatusPage(const WorldView& view) {
       Line("earliest", EarliestText(view)) +
       Line("broad phase", status.broad_phase() + (status.broad_phase_why().empty() ? "" : ": ") +
                               status.broad_phase_why()) +
-      Line("questions", QuestionsText(status)) + Line("updates", UpdatesText(status));
+      Line("queries", QueriesText(status)) + Line("updates", UpdatesText(status));
   const std::string trees = TreesText(status);
   if (!trees.empty()) page += Line("trees", trees);
   std::string label = "left out";

@@ -128,7 +128,7 @@ TEST_F(CollisionctlTest, StatusPage) {
       "agents       1, 3 pairs tracked\n"
       "earliest     not before 13.000000 s  ball × 0000000000000006:4\n"
       "broad phase  all pairs: 1 agent\n"
-      "questions    56 a second, 789 so far; 12 events in the queue\n"
+      "queries      56 a second, 789 so far; 12 events in the queue\n"
       "updates      199 of 200 cost nothing (99.5 %)\n"
       "left out     rotation: every agent is a ball\n"
       "             a second line\n"

@@ -1,0 +1,121 @@
+// Goal:   samples are numbered without a gap, an answer is published once, and a chunk that holds
+//         the grant leaves after the others.
+// Method: a publisher on a scripted bus, with one simulator that has changed several chunks.
+#include "server/publish/publisher.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/server/scripted_bus.h"
+
+namespace collision::server {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+Instant At(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
+
+v1::Config Config() {
+  v1::Config config;
+  config.set_service_id(7);
+  config.set_term(3);
+  return CompleteConfig(config);
+}
+
+/// The numbers of the chunks published so far, in order.
+std::vector<std::uint32_t> Chunks(const ScriptedBus& bus) {
+  std::vector<std::uint32_t> chunks;
+  for (const v1::Output& output : bus.outputs) {
+    if (output.has_clearance()) chunks.push_back(output.clearance().chunk());
+  }
+  return chunks;
+}
+
+/// A world whose time has begun, with one simulator in lock-step.
+struct OneSimulator {
+  OneSimulator() : world(Config()) {
+    const std::string name = "a";
+    simulator = world.ClaimFor(1, 10, 1, &name).simulator;
+    simulator->time().Offer({.clock = At(0)});
+    EXPECT_TRUE(simulator->time().Take());
+    world.AdvanceNow();
+  }
+
+  World world;
+  Simulator* simulator = nullptr;
+};
+
+TEST(Publisher, EverySampleCarriesServiceTermAndTheNextNumber) {
+  ScriptedBus bus;
+  Publisher publisher(Config(), &bus);
+  publisher.PublishEvents({{}, {}});
+  publisher.PublishRejections({v1::Rejection{}});
+  publisher.PublishStatus({});
+  ASSERT_EQ(bus.outputs.size(), 4u);
+  const v1::ServiceStamp stamps[] = {
+      bus.outputs[0].collision_event().stamp(), bus.outputs[1].collision_event().stamp(),
+      bus.outputs[2].rejection().stamp(), bus.outputs[3].service_status().stamp()};
+  for (std::uint64_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(stamps[i].service_id(), 7u);
+    EXPECT_EQ(stamps[i].term(), 3u);
+    EXPECT_EQ(stamps[i].sequence(), i + 1);
+  }
+  EXPECT_EQ(bus.outputs[3].service_status().service_id(), 7u);
+}
+
+TEST(Publisher, AnEarliestAnswerIsPublishedOnceUntilItChanges) {
+  ScriptedBus bus;
+  Publisher publisher(Config(), &bus);
+  publisher.PublishEarliest({}, At(1));
+  publisher.PublishEarliest({}, At(2));
+  ASSERT_EQ(bus.outputs.size(), 1u);
+  EXPECT_EQ(bus.outputs[0].earliest_intersection().now_ns(), 1);
+  publisher.PublishEarliest({.found = true, .earliest = At(5), .lower = {}, .higher = {}}, At(3));
+  ASSERT_EQ(bus.outputs.size(), 2u);
+  EXPECT_EQ(bus.outputs[1].earliest_intersection().now_ns(), 3);
+  EXPECT_EQ(bus.outputs[1].earliest_intersection().earliest_ns(), 5);
+}
+
+TEST(Publisher, TheEventLogCountsEventsWithoutTheirStamps) {
+  ScriptedBus bus;
+  Publisher one(Config(), &bus), late(Config(), &bus);
+  late.PublishStatus({});  // its later samples have other numbers
+  one.PublishEvents({{}});
+  late.PublishEvents({{}});
+  EXPECT_EQ(one.event_log().count(), 1u);
+  EXPECT_EQ(one.event_log().hash(), late.event_log().hash());
+  detection::CollisionEvent other;
+  other.revision = 2;
+  late.PublishEvents({other});
+  EXPECT_NE(one.event_log().hash(), late.event_log().hash());
+}
+
+TEST(Publisher, TheChunkOfTheGrantLeavesLastAndEachOnce) {
+  OneSimulator one;
+  one.simulator->agents().clearances().TakeChanged();
+  one.simulator->time().Grant(At(kSecond));
+  for (const std::uint32_t slot : {0u, 64u, 200u}) {
+    one.simulator->agents().clearances().MarkChanged(slot);
+  }
+  ScriptedBus bus;
+  Publisher publisher(Config(), &bus);
+  publisher.PublishClearances(&one.world);
+  EXPECT_EQ(Chunks(bus), (std::vector<std::uint32_t>{3, 1, 0}));
+  EXPECT_EQ(bus.outputs.back().clearance().granted_until_ns(), kSecond);
+  publisher.PublishClearances(&one.world);
+  EXPECT_EQ(bus.outputs.size(), 3u);
+}
+
+TEST(Publisher, ASimulatorWithoutAGrantKeepsItsMarks) {
+  OneSimulator one;
+  one.simulator->agents().clearances().MarkChanged(64);
+  ScriptedBus bus;
+  Publisher publisher(Config(), &bus);
+  publisher.PublishClearances(&one.world);
+  EXPECT_EQ(Chunks(bus), std::vector<std::uint32_t>{});
+  one.simulator->time().Grant(At(kSecond));
+  publisher.PublishClearances(&one.world);
+  EXPECT_EQ(Chunks(bus), (std::vector<std::uint32_t>{1}));
+}
+
+}  // namespace
+}  // namespace collision::server
