@@ -33,10 +33,12 @@ class Index {
   std::uint32_t value_ = 0;
 };
 
-using AgentIndex = Index<struct AgentTag>;        ///< An agent in the detector's tables.
-using PairSlot = Index<struct PairTag>;           ///< A tracked pair in the pair table.
-using NodeIndex = Index<struct NodeTag>;          ///< A node of one sphere tree.
-using TriangleIndex = Index<struct TriangleTag>;  ///< A triangle of one mesh.
+using AgentIndex = Index<struct AgentTag>;  ///< An agent in the detector's tables.
+using PairSlot = Index<struct PairTag>;     ///< A tracked pair in the pair table.
+using NodeIndex = Index<struct NodeTag>;    ///< A node of one sphere tree.
+/// An element of one shape. With n triangles in its surface, 0 to n − 1 are these triangles, and
+/// n + k is its convex solid k.
+using ElementIndex = Index<struct ElementTag>;
 
 /// A vector that only its own kind of index reads. `operator[]` does not check; `at()` does.
 template <typename IndexType, typename T>

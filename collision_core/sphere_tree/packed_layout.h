@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "collision_core/sphere_tree/element_index.h"
+#include "collision_core/base/ids.h"
 
 namespace collision::sphere_tree {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "collision_core/sphere_tree/element_index.h"
+#include "collision_core/base/ids.h"
 
 namespace collision::sphere_tree {
 

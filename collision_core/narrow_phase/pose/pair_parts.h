@@ -3,7 +3,7 @@
 
 #include <compare>
 
-#include "collision_core/sphere_tree/element_index.h"
+#include "collision_core/base/ids.h"
 
 namespace collision::narrow_phase {
 

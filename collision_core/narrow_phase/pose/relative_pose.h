@@ -8,8 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "collision_core/base/check.h"
-
 namespace collision::narrow_phase {
 
 /// R_AB x + p_AB, entry by entry three products and three sums, of terms below 1.1 |x| and
@@ -47,8 +45,6 @@ inline constexpr double kMatrixRounding = 0x1p-49;
 /// B's body frame seen from A's, as given: nothing but rounding, and A's frame is the world's.
 /// Requires a matrix that is a rotation to within kMatrixRounding, which is counted.
 inline RelativePose PoseOf(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& p_AB) {
-  const Eigen::Matrix3d off = R_AB * R_AB.transpose() - Eigen::Matrix3d::Identity();
-  CORE_CHECK(off.cwiseAbs().maxCoeff() <= 4 * kMatrixRounding, "the matrix is a rotation");
   RelativePose pose;
   pose.R_AB = R_AB;
   pose.p_AB = p_AB;
