@@ -22,8 +22,8 @@ inline bool IsCapsulePair(const geometry::ConvexSet& a, const geometry::ConvexSe
          (b.IsThin() && a.core == geometry::ConvexCore::kBox);
 }
 
-/// The distance of the two cores, as they are posed; below 0, and wide, where they meet. Each set is
-/// given in its own body's frame. Requires IsCapsulePair(a, b).
+/// The distance of the two cores, as they are posed; below 0, and wide, where they meet. Each set
+/// is given in its own body's frame. Requires IsCapsulePair(a, b).
 numeric::Interval DistanceOfCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                                   const PosedCores& cores, const RelativePose& pose);
 

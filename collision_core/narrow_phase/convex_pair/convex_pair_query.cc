@@ -11,8 +11,8 @@
 namespace collision::narrow_phase {
 namespace {
 
-/// The bracket of the sets, given that of their cores: roundings and errors counted in. The sums are
-/// off by less than 8 · 2^-53 of their terms.
+/// The bracket of the sets, given that of their cores: roundings and errors counted in. The sums
+/// are off by less than 8 · 2^-53 of their terms.
 numeric::Interval OfSets(const numeric::Interval& of_cores, double rounding,
                          const PosedCores& cores) {
   const double slack = cores.error + 0x1p-50 * (cores.size + rounding);

@@ -6,7 +6,7 @@
 // - A ball or capsule beside a ball, capsule or box (capsule_distance.h): the nearest points of two
 //   segments, or of a segment and a box, then the length between them and the gap along it.
 // - Two boxes, or a box and a capsule (box_separating_axis.h): the separating axis test of all
-//   fifteen axes, three at once, seen through A's edges, so that neither box need be exactly square.
+//   fifteen axes, three at once, seen through A's edges: neither box need be exactly square.
 // - Hulls of up to 64 points (gjk_small.h): GJK in plain numbers, all points of a hull at once.
 //   It begins along (A + B)⁻¹ d, the normal where d leaves two ellipsoids about as large as the
 //   two: that alone decides most that are a tenth of their diameter apart. A tetrahedron that holds
@@ -27,8 +27,8 @@ namespace collision::narrow_phase {
 inline constexpr std::uint64_t kSeparatingAxisUnits = 1;
 inline constexpr std::uint64_t kSmallGjkUnits = 8;
 
-/// Whether they touch, each set given in its own body's frame. Includes all uncertainty of the pose,
-/// also that of translation.
+/// Whether they touch, each set given in its own body's frame. Includes all uncertainty of the
+/// pose, also that of translation.
 Verdict DecideConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                          const RelativePose& pose, WorkBudget* work);
 
