@@ -12,7 +12,7 @@ constexpr std::int64_t kLong = (std::int64_t{1} << 60) + 1;
 Instant At(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
 
 detection::AgentId Id(std::uint32_t n) {
-  return {.simulator = 0xf000'0000'0000'0000 + n, .run = n + 1, .slot = n + 2, .generation = n + 3};
+  return {.simulator = 0xf000'0000'0000'0000 + n, .slot = n + 2, .run = n + 1, .generation = n + 3};
 }
 
 void ExpectId(const v1::AgentId& wire, std::uint32_t n) {

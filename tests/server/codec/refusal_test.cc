@@ -10,7 +10,7 @@
 namespace collision::server {
 namespace {
 
-constexpr detection::AgentId kAgent{.simulator = 11, .run = 12, .slot = 13, .generation = 14};
+constexpr detection::AgentId kAgent{.simulator = 11, .slot = 13, .run = 12, .generation = 14};
 
 void ExpectNamesTheAgent(const Refusal& refusal) {
   EXPECT_EQ(refusal.simulator_id, 11u);
