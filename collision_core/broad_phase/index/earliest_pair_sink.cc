@@ -60,8 +60,8 @@ bool MayMeet(const HornTable& table, const HalfSpaces::Entry& entry, std::uint32
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HornTable& table, std::uint32_t a,
                                                       std::uint32_t b) {
-  return EarliestIntersectionOf(query, table.agent_bound(a), table.agent_bound(b),
-                                table.RuleOf(a, b).margin);
+  if (!CanMeet(table.row(a).filter, table.row(b).filter)) return {query.from, numeric::kInfinity};
+  return EarliestIntersectionOf(query, table.bound(a), table.bound(b), table.RuleOf(a, b).margin);
 }
 
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
