@@ -64,6 +64,15 @@ TEST_F(TreeFolderTest, TheFileUsedLeastLatelyMakesRoom) {
   EXPECT_EQ(folder.bytes(), 8u);
 }
 
+TEST_F(TreeFolderTest, AFolderThatIsExactlyFullLosesNothing) {
+  TreeFolder folder(path_, 8);
+  ASSERT_TRUE(folder.Write("a", "1234", &fault_));
+  ASSERT_TRUE(folder.Write("b", "1234", &fault_));
+  EXPECT_EQ(folder.removed(), 0u);
+  EXPECT_EQ(folder.bytes(), 8u);
+  EXPECT_TRUE(folder.Read("a", &fault_));
+}
+
 TEST_F(TreeFolderTest, AFileOfTheWholeSizeFitsAndALargerOneDoesNot) {
   TreeFolder folder(path_, 4);
   EXPECT_TRUE(folder.Write("a", "1234", &fault_));
