@@ -7,7 +7,7 @@
 //   MovingBall   intervals; contains the exact ball. The certified routines compute with it.
 //   QuickBall    doubles; reaches outward as far as its centre and reach may be off. The quick root
 //                finder and the filter of one pair compute with it.
-//   PlacedBall   floats (broad_phase/filter/placed_ball.h); the filter in wide vectors.
+//   PlacedBall   floats (broad_phase/filter/placement_frame.h); the filter in wide vectors.
 //
 // Each conversion stands where the type is made, with the argument for its rounding: ForwardBall()
 // and BackwardBall() in motion/space_time_bound.cc, QuickHornPair() in
