@@ -73,7 +73,7 @@ Refusal NotItsOwn(const v1::ShapeRemoval& wire) {
 }
 
 Refusal ShapeRefusal(const detection::AgentId& agent, v1::Topic topic, std::string field,
-                     std::string detail) {
+                     const std::string& detail) {
   return {.reason = v1::REJECTED_BAD_SHAPE,
           .topic = topic,
           .simulator_id = agent.simulator,

@@ -41,6 +41,6 @@ Refusal NotItsOwn(const v1::ShapeRemoval& wire);
 /// Refuses a shape: for an agent that refers to it, or for a simulator that wrote it (`agent` then
 /// names no slot). `detail` is cut to what the wire carries.
 Refusal ShapeRefusal(const detection::AgentId& agent, v1::Topic topic, std::string field,
-                     std::string detail);
+                     const std::string& detail);
 
 }  // namespace collision::server

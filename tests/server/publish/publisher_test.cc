@@ -91,7 +91,7 @@ TEST(Publisher, TheEventLogCountsEventsWithoutTheirStamps) {
 
 TEST(Publisher, TheChunkOfTheGrantLeavesLastAndEachOnce) {
   OneSimulator one;
-  one.simulator->agents().clearances().TakeChanged();
+  (void)one.simulator->agents().clearances().TakeChanged();
   one.simulator->time().Grant(At(kSecond));
   for (const std::uint32_t slot : {0u, 64u, 200u}) {
     one.simulator->agents().clearances().MarkChanged(slot);
