@@ -53,7 +53,7 @@ TEST_P(Corpus, WhatOnceBrokeSomethingDoesNotAnyMore) { RunAll(root_ / "found" / 
 TEST_P(Corpus, NothingAtAllIsAnInput) { EXPECT_NO_THROW(GetParam().run({})); }
 
 INSTANTIATE_TEST_SUITE_P(Of, Corpus, testing::ValuesIn(kTargets),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
 }  // namespace collision::fuzz

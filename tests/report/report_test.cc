@@ -33,7 +33,7 @@ v1::Results Timed(double seconds, double ratio) {
   experiment->set_name("narrow-phase");
   for (int i = 0; i < 12; ++i) {
     *experiment->add_measurements() =
-        RowOf("m" + std::to_string(i), {{"seconds", seconds * (1 + 0.001 * i)}});
+        RowOf(std::string("m").append(std::to_string(i)), {{"seconds", seconds * (1 + 0.001 * i)}});
   }
   v1::Figure* figure = experiment->add_figures();
   figure->set_name("ratio");
