@@ -1,10 +1,8 @@
 // Which of many points may lie within reach of each other: the filter of PointGrid, in wide
-// vectors.
+// vectors. It shares its kernels, and so its source files, with SphereFilter (sphere_filter*.cc).
 #pragma once
 
 #include <cstdint>
-
-#include "collision_core/broad_phase/filter/sphere_filter.h"
 
 namespace collision::broad_phase {
 
