@@ -71,7 +71,7 @@ class TrackedPairs {
   /// Pairs that were added, evaluated or removed; the reader clears the set.
   IndexSet<PairSlot>* changed() { return &changed_; }
 
-  /// The agent's pairs need none of its states from before this time.
+  /// `otherwise`, or an earlier time: the agent's pairs need none of its states from before it.
   Instant NeededFrom(AgentIndex agent, Instant otherwise) const;
 
   const std::vector<CollisionEvent>& events() const { return announcer_.events(); }
