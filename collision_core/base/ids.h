@@ -40,7 +40,7 @@ using NodeIndex = Index<struct NodeTag>;    ///< A node of one sphere tree.
 /// n + k is its convex solid k.
 using ElementIndex = Index<struct ElementTag>;
 
-/// A vector that only its own kind of index reads. `operator[]` does not check; `at()` does.
+/// A vector that takes only one kind of index. `operator[]` does not check it; `at()` does.
 template <typename IndexType, typename T>
 class IndexedVector {
  public:

@@ -11,7 +11,7 @@ namespace collision::broad_phase {
 namespace {
 
 constexpr double kPairUnits = BroadPhaseWork::kPairUnits;
-/// To place one agent, by method.
+/// The cost of placing one agent, by method.
 double PlaceUnits(BroadPhaseMethod kind) {
   if (kind == BroadPhaseMethod::kSpatialIndex) return BroadPhaseWork::kPlaceUnits;
   return kind == BroadPhaseMethod::kAllPairs ? 8 : 0;
@@ -215,7 +215,7 @@ void AdaptiveBroadPhase::Switch() {
   Settle();
 }
 
-// Starts to count anew after a decision.
+// Resets the counts after a decision.
 void AdaptiveBroadPhase::Settle() {
   questions_ = 0;
   answering_ = {};
@@ -233,7 +233,7 @@ void AdaptiveBroadPhase::Fill() {
 void AdaptiveBroadPhase::Choose() {
   if (requested_ != BroadPhaseMethod::kAuto) return;
   if (next_.phase) {
-    // The reason for it may have gone since.
+    // The reason for the change may no longer hold.
     if (next_.kind == BroadPhaseMethod::kAllPairs && agents_ > kManyAgents) return Drop();
     return Fill();
   }

@@ -17,7 +17,7 @@ namespace collision::broad_phase {
 /// is counted, never timed, so that the same calls choose the same everywhere; and as all methods
 /// give the same answers, only the cost depends on the choice.
 ///
-/// The units of work are in the ratio of what the pieces cost: a filter's test 1, a place looked at
+/// The units of work are in the ratio of what the pieces cost: a filter's test 1, a place examined
 /// 16, a pair query 256, an agent placed anew in the index 64 (BroadPhaseWork). Up to kFewAgents
 /// all pairs answer, beyond that the index; and all pairs again at half that number. Up to three
 /// quarters of kManyAgents, after every kPeriodQuestions questions, the index's work on questions

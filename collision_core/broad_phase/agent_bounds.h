@@ -1,4 +1,5 @@
-// The bounds that a method of the broad phase holds, and the one door for rules and half-spaces.
+// The bounds that a method of the broad phase holds, and the one place where rules and half-spaces
+// enter it.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ namespace collision::broad_phase {
 /// pairs, and half-spaces (floors, walls). It is the common base of NeighbourIndex and
 /// EarliestSweep, which ask questions about the bounds that are held.
 ///
-/// Rules and half-spaces enter a method here and nowhere else. A margin grows an agent's reach
+/// Rules and half-spaces enter a method only here. A margin grows an agent's reach
 /// where its bound is stored (HornTable, AlphaTFaces), so that the filters know nothing of pairs;
 /// an exclusion is applied to the pairs that the filters leave (PairRules has both arguments).
 ///

@@ -11,9 +11,9 @@
 namespace collision::broad_phase {
 
 /// Finds the earliest pair of a set of bounds in one sweep over all of them: set every bound, ask
-/// once. The paper's own question (t_end, the earliest possible intersection of all), which its
-/// collision loop asks before it looks at a single frame; tests/baselines/global_loop.h is that
-/// loop. A service that follows many agents asks a NeighbourIndex instead, agent by agent.
+/// once. It answers the paper's own question (t_end, the earliest possible intersection of all),
+/// which the paper's collision loop (tests/baselines/global_loop.h) asks before it evaluates any
+/// frame. A service that follows many agents asks a NeighbourIndex instead, agent by agent.
 ///
 /// As for NeighbourIndex, methods differ in cost alone: the time is EarliestIntersectionOf() of the
 /// pair, bit for bit. Source: Hubbard, "Collision detection for interactive graphics applications",

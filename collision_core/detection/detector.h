@@ -16,9 +16,9 @@
 
 namespace collision::detection {
 
-/// What became of a state.
+/// How the detector took a state.
 enum class UpdateOutcome {
-  kKept,      ///< Inside what was promised: standing answers stay valid.
+  kKept,      ///< The bound lies inside the last one: standing answers stay valid.
   kJumped,    ///< A declared discontinuity: the agent is queried anew.
   kWidened,   ///< Promises less than before: the agent is queried anew.
   kBreached,  ///< Breaks the last bound: the agent is queried anew, its partners are notified.
@@ -64,8 +64,9 @@ class Detector {
   /// like Admit(), that a shape that is awaited is null.
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
 
-  /// The owner gives the agent up; its open events are withdrawn (ended, where confirmed) once what
-  /// was heard of it has passed. False: unknown agent.
+  /// The owner gives the agent up. Once `now` has reached the time that its owner has reported, its
+  /// confirmed events end and its possible ones become undecided or withdrawn. False: unknown
+  /// agent.
   bool Remove(const AgentId& id);
 
   /// The owner, one run of a simulator, has reported everything about its agents up to `until`:
@@ -77,10 +78,11 @@ class Detector {
   /// now + announce_within is tracked, and events() holds what is new.
   void Advance(Instant now);
 
-  /// New revisions, in the order in which they came about; valid until the next Advance().
+  /// The revisions made by the last Advance(), in their order; valid until the next one.
   const std::vector<CollisionEvent>& events() const;
 
-  /// Agents whose clearance differs from what this call returned for them last time (first: all).
+  /// The clearances that differ from those that this call returned last; the first call returns
+  /// all.
   std::vector<AgentClearance> TakeChangedClearances();
 
   /// The clearance of one agent as of the last Advance(); nullopt: unknown.

@@ -9,9 +9,9 @@ namespace collision::detection {
 
 /// Every limit of the detector, with what happens at it. SI units.
 struct DetectorOptions {
-  double temporal_resolution = 1.0 / 60;  ///< Δt [s]: nearer than this a pair could overlap.
-  double announce_within = 2.0;  ///< A meeting this near [s] is announced; >= temporal_resolution.
-  double skew = 0;               ///< κ [s] between any sender's clock and ours.
+  double temporal_resolution = 1.0 / 60;  ///< Δt [s]: pairs nearer than this in time could overlap.
+  double announce_within = 2.0;  ///< Meetings this near [s] are announced; >= temporal_resolution.
+  double skew = 0;               ///< κ [s]: a sender's clock is off by at most this.
   std::uint32_t agents_max = 1000;          ///< Admit() refuses beyond.
   std::uint32_t pairs_max = 65536;          ///< Tracked at once; beyond, both agents are saturated.
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.

@@ -16,7 +16,7 @@ namespace collision::detection {
 template <typename IndexType>
 class EventQueue {
  public:
-  /// Adds the index, or moves it to its new key. O(1) if the key is the one it has.
+  /// Adds the index, or changes its key. O(1) if the key is the same.
   void Set(IndexType index, Instant key);
   /// Removes the index, if it is there.
   void Remove(IndexType index);

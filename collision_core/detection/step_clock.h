@@ -7,13 +7,15 @@
 
 namespace collision::detection {
 
-/// One object for all components of a detector; Advance() alone changes it.
+/// The time and number of the current step. All components of a detector share one object, which
+/// only Detector::Advance() changes.
 struct StepClock {
   Instant now = Instant::Always();  ///< The time of the last step; Always() before the first.
   std::uint64_t step = 0;           ///< Steps so far.
   double announce_within = 0;       ///< DetectorOptions::announce_within [s].
 
-  /// A pair that may meet by then is tracked; Never() if there is no such instant.
+  /// now + announce_within, rounded down; a pair that may meet by then is tracked. Never() if there
+  /// is no such instant.
   Instant announce_until() const { return numeric::AddRoundedDown(now, announce_within); }
 };
 

@@ -1,4 +1,4 @@
-// Two bounds and the terms on which they meet: what each part of the canonical routine is given.
+// The input of each part of the canonical routine: two bounds, and when they count as meeting.
 #pragma once
 
 #include "collision_core/motion/space_time_bound.h"

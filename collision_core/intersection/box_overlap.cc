@@ -54,8 +54,8 @@ struct Agent {
   }
 };
 
-/// One of the six: the face of one agent has reached that of the other; a convex function of time,
-/// in pieces, that must be >= 0. So it fails on one interval of time at most.
+/// One of the six conditions: the face of one agent has reached that of the other. It is a convex
+/// function of time, in pieces, that must be >= 0; so it fails on one interval of time at most.
 class Condition {
  public:
   /// `along` leads from the agent of `face` to that of `other`, whose normal is the opposite.

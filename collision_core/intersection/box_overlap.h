@@ -5,8 +5,8 @@
 
 namespace collision::intersection {
 
-/// Whether the boxes say more than the balls from the base on: only with a direction or a speed
-/// cap.
+/// Whether the boxes can be apart where the balls overlap, at or after the base: only with a
+/// direction or a speed cap.
 bool BoxesMatter(const BoundPair& pair);
 
 /// The later of `time` and the first overlap of the boxes of the two horns (parabolic faces, made

@@ -44,7 +44,7 @@ IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
       end.is_never() ? numeric::kInfinity : numeric::SecondsBetween(base, end).upper;
   const BoundPair pair{a, b, base, margin};
   IntersectionTime time{base, BallTime(pair, limit)};
-  // The horns' balls say it all unless a direction or a cap is declared.
+  // The horns' balls alone decide unless a direction or a cap is declared.
   if (time.seconds < limit && BoxesMatter(pair)) {
     const auto stands = [&] { return SeemToOverlap(pair, time.seconds); };
     if (!stands()) {

@@ -21,7 +21,7 @@ struct IntersectionTime {
 /// value, bit for bit.
 ///
 /// - Never late: no motion that honours both declarations touches in [base, base + seconds).
-/// - Not idle: early by at most max(1e-9 · seconds, what the inputs' rounding forces).
+/// - Tight: early by at most max(1e-9 · seconds, what the inputs' rounding forces).
 /// - Symmetric: (A, B) and (B, A) give the same bits.
 ///
 /// Boxes are evaluated only where a direction or a speed cap is declared; elsewhere they contain

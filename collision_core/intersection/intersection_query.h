@@ -1,4 +1,4 @@
-// What a broad phase is asked, and the one routine that answers it for a pair.
+// A query to the broad phase, and the one routine that answers it for a pair.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace collision::intersection {
 
-/// Which bound of an agent a question is about.
+/// Which bound of an agent a query is about.
 enum class BoundKind {
   kHorn,            ///< The parabolic horn: the canonical answer.
   kHypertrapezoid,  ///< Its box with flat faces over the window: an earlier, cheaper answer.
 };
 
-/// A question to the broad phase: what may first meet in [from, until]?
+/// A query to the broad phase: which agents may first meet in [from, until]?
 struct BroadQuery {
   BoundKind bound = BoundKind::kHorn;
   Instant from;   ///< For hypertrapezoids: not before any agent's stamp.
@@ -34,7 +34,7 @@ struct IntersectingPair {
   std::uint32_t higher = 0;
   IntersectionTime time;
 
-  /// Of two meetings the earlier one counts (as instants), of equal ones that of the lower indices.
+  /// Orders meetings by their instants, and those of equal instants by the agents' indices.
   friend bool operator<(const IntersectingPair& a, const IntersectingPair& b) {
     const Instant at_a = a.time.instant(), at_b = b.time.instant();
     if (at_a != at_b) return at_a < at_b;

@@ -10,8 +10,8 @@
 
 namespace collision::intersection {
 
-/// A rule of two agents: they never meet, or they meet where they come within `margin` of each
-/// other.
+/// A rule of two agents: they never meet (`excluded`), or they count as meeting where they come
+/// within `margin` of each other.
 struct PairRule {
   bool excluded = false;
   double margin = 0;  ///< [m], >= 0.

@@ -66,7 +66,8 @@ struct Limits {
   numeric::Interval position, velocity;
 };
 
-/// No true motion goes further. Both stamps may be off by κ, in opposite ways; both states err.
+/// The farthest that a true motion can deviate. Both stamps may be off by κ, in opposite ways; both
+/// states have errors.
 Limits LimitsOfMotion(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
   const MotionState& old = before.state;
   const numeric::Interval skew = numeric::Interval(2) * before.skew;
@@ -177,7 +178,7 @@ bool CheckTranslation(const SpaceTimeBound& before, const MotionState& next, num
 // steps Φ <= ½ α h² n (n + 1) = ½ α τ (τ + h). An error of the orientation at the start stays what
 // it is; stamps off by κ each, in opposite ways, add |ω| 2κ and make τ up to s + 2κ.
 
-/// No true motion turns further: the orientation, then the angular velocity.
+/// The farthest that a true motion can turn: of the orientation, then of the angular velocity.
 Limits LimitsOfTurning(const SpaceTimeBound& before, const MotionState& next, numeric::Interval s) {
   const numeric::Interval skew = numeric::Interval(2) * before.skew, sigma = s + skew;
   const numeric::Interval acceleration_max = before.limits.angular_acceleration_max;

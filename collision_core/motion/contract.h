@@ -5,7 +5,7 @@
 
 namespace collision::motion {
 
-/// How a new state stands to the bound of the state before it.
+/// The result of comparing a new state with the bound of the state before it.
 enum class ContractVerdict {
   kKept,      ///< The new horn lies inside the old one, up to the rounding allowance below.
   kWidened,   ///< The new state could follow from the old, but its errors, direction, rotation

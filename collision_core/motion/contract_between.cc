@@ -16,7 +16,7 @@ constexpr int kStepsMax = 60;
 /// A step of a smaller part of the way moves the gap by less than it is rounded.
 constexpr double kProgressMin = 0x1p-40;
 
-/// D and R over x = s / T, in plain doubles: they only choose the instant that is looked at.
+/// D and R over x = s / T, in plain doubles: they only choose the instant that is tested.
 ///   D = from + (to − from) x,   R = r0 + r1 x + r2 x²,   0 <= x <= 1.
 struct Span {
   Vector3d from, to;
@@ -44,8 +44,8 @@ Span SpanOf(const SpaceTimeBound& before, const MotionState& next, double durati
           duration * (old.velocity_error - next.velocity_error) - square, square};
 }
 
-/// Nowhere do the balls come apart: the longest that D is, in a norm that cannot overflow, is not
-/// longer than the least R.
+/// Whether the balls certainly never come apart: the greatest |D|, in a norm that cannot overflow,
+/// is not larger than the least R.
 bool MeetAtAGlance(const Span& span) {
   const double farthest = std::max(span.from.lpNorm<1>(), span.to.lpNorm<1>());
   const double lowest = span.r2 > 0 ? std::clamp(-span.r1 / (2 * span.r2), 0.0, 1.0) : 0;

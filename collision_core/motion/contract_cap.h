@@ -5,7 +5,8 @@
 
 namespace collision::motion {
 
-/// How `next` stands to the speed cap of the bound before it, without any allowance for rounding.
+/// The result of comparing a new state with the speed cap of the bound before it, without any
+/// allowance for rounding.
 struct CapCheck {
   double position_excess = 0;  ///< No motion under the cap leads this far, at least by this [m].
   double velocity_excess = 0;  ///< The speed exceeds the cap, at least by this [m/s].

@@ -1,6 +1,7 @@
 #include "collision_core/motion/hypertrapezoid.h"
 
 #include "collision_core/base/check.h"
+#include "collision_core/motion/horn_box.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::motion {

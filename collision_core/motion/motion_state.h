@@ -13,14 +13,14 @@ namespace collision::motion {
 /// are trusted here: the server's codec refuses bad input with a reason. Requires finite numbers,
 /// errors >= 0, and a quaternion that is not zero.
 struct MotionState {
-  Instant stamp;                                   ///< When it held at its sender.
+  Instant stamp;                                   ///< When the state held, by the sender's clock.
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< Reference point [m].
   Eigen::Vector3d v_WA = Eigen::Vector3d::Zero();  ///< Its velocity [m/s].
-  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();
-  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< Angular velocity [rad/s].
-  double position_error = 0;                       ///< |true − p_WA| is at most this [m].
-  double velocity_error = 0;                       ///< |true − v_WA| is at most this [m/s].
-  double rotation_error = 0;                       ///< Angle between true and q_WB, at most [rad].
+  Eigen::Quaterniond q_WB = Eigen::Quaterniond::Identity();  ///< Orientation, body to world.
+  Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();            ///< Angular velocity, in W [rad/s].
+  double position_error = 0;  ///< |true − p_WA| is at most this [m].
+  double velocity_error = 0;  ///< |true − v_WA| is at most this [m/s].
+  double rotation_error = 0;  ///< Angle between true and q_WB, at most [rad].
   /// Unit vector d with acceleration·d >= 0 until `direction_until`; zero: not declared.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   Instant direction_until = Instant::Never();

@@ -6,18 +6,18 @@
 
 namespace collision::motion {
 
-/// The orientation of an agent as a function of the seconds δ after a base instant. Predicted with
-/// constant angular velocity ω (world frame):
+/// The orientation of an agent as a function of the seconds δ after a base instant. The prediction
+/// has constant angular velocity ω (world frame):
 ///
-///   exp(ω (since + δ)) q,
+///   exp(ω (since + δ)) q.
 ///
-/// and the true orientation is turned against it by an angle of at most
+/// The true orientation is turned against it by an angle of at most
 ///
 ///   θ(δ) = ε_R + |ω| κ + ½ α σ (σ + h) [rad],   σ = |since + δ| + κ,
 ///
-/// or π, which says nothing, if α is not declared. Like the bound on positions (space_time_bound.h)
-/// it holds forward from the stamp to the next discontinuity and backward to the last. It is
-/// evaluated only for agents that have, or will have, a shape.
+/// or at most π, which is no restriction, if α is not declared. Like the bound on positions
+/// (space_time_bound.h) it holds forward from the stamp to the next discontinuity and backward to
+/// the last. It is evaluated only for agents that have, or will have, a shape.
 ///
 /// Derivation. The angle Φ between two orientations is a metric that does not change when one
 /// rotation is applied to both, from either side.

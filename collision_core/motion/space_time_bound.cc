@@ -1,7 +1,6 @@
 #include "collision_core/motion/space_time_bound.h"
 
 #include "collision_core/base/check.h"
-#include "collision_core/motion/speed_cap.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::motion {
@@ -52,12 +51,6 @@ numeric::MovingBall Ball(const SpaceTimeBound& bound, Elapsed elapsed,
 
 bool HasDirection(const MotionState& state) { return !state.direction.isZero(0); }
 
-/// How far a capped face has come from p_WA by t, less the radius; `horn_reach` if the cap has not
-/// taken over before.
-numeric::Interval ReachAt(const CappedFace& face, Instant t, numeric::Interval horn_reach) {
-  return face.from < t ? face.shift + face.UFrom(t).c0 : horn_reach;
-}
-
 }  // namespace
 
 numeric::MovingBall ForwardBall(const SpaceTimeBound& bound, Instant base) {
@@ -94,35 +87,6 @@ double DirectionHoldsFor(const SpaceTimeBound& bound, Instant base) {
   if (!HasDirection(bound.state)) return -numeric::kInfinity;
   if (bound.state.direction_until.is_never()) return numeric::kInfinity;
   return (numeric::SecondsBetween(base, bound.state.direction_until) - bound.skew).lower;
-}
-
-FaceBox BoxAt(const SpaceTimeBound& bound, Instant t) {
-  const bool holds = DirectionHoldsFor(bound, t) >= 0;
-  return BoxAt(bound, t, holds ? DirectionUse::kCounted : DirectionUse::kIgnored);
-}
-
-FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, DirectionUse direction) {
-  const Elapsed elapsed = ForwardFrom(bound, t);
-  const numeric::Interval since = numeric::SecondsBetween(bound.state.stamp, t);
-  const numeric::Interval errors = Errors(bound, elapsed).c0;
-  const numeric::Interval deviation = Deviation(bound.limits, elapsed).c0;
-  const DirectionalReach reach =
-      direction == DirectionUse::kCounted ? ReachOfDirection(bound.state) : DirectionalReach();
-  const bool capped = HasSpeedCap(bound.limits);
-  const numeric::Interval radius = bound.limits.radius;
-  FaceBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const numeric::Interval shift = since * numeric::Interval(bound.state.v_WA[axis]);
-    numeric::Interval down = errors + reach.downward[axis] * deviation - shift;
-    numeric::Interval up = errors + reach.upward[axis] * deviation + shift;
-    if (capped) {
-      down = ReachAt(CapFace(bound, axis, -1, reach.downward[axis]), t, down);
-      up = ReachAt(CapFace(bound, axis, 1, reach.upward[axis]), t, up);
-    }
-    box.lower[axis] = numeric::Interval(bound.state.p_WA[axis]) - (radius + down);
-    box.upper[axis] = numeric::Interval(bound.state.p_WA[axis]) + (radius + up);
-  }
-  return box;
 }
 
 }  // namespace collision::motion

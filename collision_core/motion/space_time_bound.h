@@ -89,20 +89,4 @@ DirectionalReach ReachOfDirection(const MotionState& state);
 /// our clock). Negative if it does not hold at `base`, +infinity if it never ends.
 double DirectionHoldsFor(const SpaceTimeBound& bound, Instant base);
 
-/// An axis-aligned box in W [m]; each face is an interval that contains the exact one.
-struct FaceBox {
-  numeric::Interval lower[3];
-  numeric::Interval upper[3];
-};
-
-/// The box of the forward horn at t: the box of its ball, made smaller by the declared direction
-/// where it holds. Requires t >= state.stamp.
-FaceBox BoxAt(const SpaceTimeBound& bound, Instant t);
-
-/// Whether a declared direction makes a box smaller.
-enum class DirectionUse { kIgnored, kCounted };
-
-/// The same with the direction counted or ignored, whenever it ends.
-FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, DirectionUse direction);
-
 }  // namespace collision::motion

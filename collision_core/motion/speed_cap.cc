@@ -6,12 +6,12 @@
 namespace collision::motion {
 namespace {
 
-/// Within this part of V of the cap a speed counts as at it: rounding must not decide between now
-/// and, with M = 0, never.
+/// A speed within this part of V below the cap counts as at the cap. With M = 0 rounding would
+/// otherwise decide whether the cap takes over at once or never.
 constexpr double kAtTheCap = 0x1p-40;
 
-/// The stamp + the time until slope + rate · σ has grown to the limit, where `room` is what it has
-/// left: the least instant for which that may be.
+/// The earliest instant, after the stamp, at which a slope that grows at `rate` may have used up
+/// `room`, the amount by which it is below the limit at σ = 0.
 Instant TakesOver(const SpaceTimeBound& bound, numeric::Interval room, numeric::Interval rate) {
   if (room.lower <= kAtTheCap * bound.limits.speed_max) return bound.state.stamp;
   if (rate.lower <= 0) return Instant::Never();

@@ -61,12 +61,12 @@ Instant CapTakesOver(const SpaceTimeBound& bound);
 /// `fraction` is how much of ½ M σ (σ + h) counts there.
 Instant FaceCapTakesOver(const SpaceTimeBound& bound, double along, double fraction);
 
-/// The capped ball at t >= from: A is within radius + u + speed · (t − from) of p_WA + shift.
+/// The capped ball at t >= from: A is within radius + u + speed · (t − from) [m] of p_WA + shift.
 struct CappedBall {
-  Instant from;
-  numeric::IntervalVector shift;
-  numeric::Interval u;
-  numeric::Interval speed;
+  Instant from;                   ///< When the cap takes over.
+  numeric::IntervalVector shift;  ///< From p_WA to the centre [m].
+  numeric::Interval u;            ///< The horn's u at `from` [m].
+  numeric::Interval speed;        ///< V' [m/s].
 
   /// u as a quadratic in the seconds after `base`, valid at and after `from`.
   numeric::Quadratic UFrom(Instant base) const;
@@ -93,6 +93,7 @@ struct CappedFace {
   numeric::Interval u;
   numeric::Interval speed;
 
+  /// As CappedBall::UFrom().
   numeric::Quadratic UFrom(Instant base) const;
 };
 

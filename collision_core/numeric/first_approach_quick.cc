@@ -34,7 +34,7 @@ constexpr double kDiscriminantMin = 0x1p-900, kDiscriminantMax = 0x1p+1000;
 /// The answer may be early by this, relative: less than 1e-9.
 constexpr double kAhead = 1 + 0x1p-31;
 
-/// A step below this part of δ has all but arrived: the next one would be some 2^-24.
+/// A step below this part of δ ends the search: the next one would be some 2^-24.
 constexpr double kNearlyThere = 0x1p-12;
 
 /// The approach seen from δ, with its errors.
@@ -69,7 +69,7 @@ struct View {
   bool in_range() const { return distance >= kDistanceMin && distance <= kDistanceMax; }
   double gap_lower() const { return (distance - reach) - error; }
 
-  /// Is the true distance certainly within the true reach?
+  /// Whether the true distance is certainly within the true reach.
   bool overlaps() const {
     const double doubt = 2 * (error + approach.doubt0 + approach.doubt1 * delta);
     return reach <= kDistanceMax && distance + doubt <= reach;

@@ -5,32 +5,32 @@
 
 namespace collision::numeric {
 
-/// The ball of a relative motion, which has grown by doubt0 + doubt1 δ [m] for the rounding of its
-/// numbers: the true ball lies inside it, and reaches twice that less at least.
+/// The ball of a relative motion, rounded outward: its reach includes an allowance of doubt0 +
+/// doubt1 δ [m] for the rounding of its numbers. The true ball lies inside it, and contains the
+/// ball with a reach smaller by twice the allowance.
 struct QuickApproach {
   QuickBall ball;
   double doubt0, doubt1;
 };
 
-/// What the quick root finder knows.
+/// The result of the quick root finder.
 struct QuickAnswer {
-  bool decided;
-  /// Certified: no approach before it, whether decided or not. If decided also not idle, as
-  /// FirstApproach() is; +infinity: never up to the limit.
+  bool decided;  ///< False: FirstApproach() must go on from `delta`.
+  /// Seconds before which there certainly is no approach, whether decided or not. If decided, it is
+  /// as tight as FirstApproach()'s; +infinity: never up to the limit.
   double delta;
 };
 
 /// The least δ in [0, limit] at which the ball contains the origin: |c + v δ| <= s0 + s1 δ + s2 δ².
-/// Undecided where a few units in
-/// the last place decide (grazing, touching), near triple roots, and beyond the magnitudes for
-/// which its errors are proven (1e-140 to 1e140 m): FirstApproach() then goes on from the time
-/// certified so far.
+/// Undecided where a few units in the last place decide (grazing, touching), near triple roots, and
+/// beyond the magnitudes for which its errors are proven (1e-140 to 1e140 m): FirstApproach() then
+/// goes on from the time certified so far.
 ///
 /// Method: as FirstApproach(), Newton's step on a lower bound, with one allowance each for gap and
 /// slope (10 · 2^-53 of the largest terms, derived beside the code) instead of intervals. The
-/// answer stands if the reach is *proved* to exceed the distance 2^-31 δ later. So doubles make no
-/// answer later and none idler, only cheaper; and the bits are the same everywhere, because no
-/// operation depends on the build.
+/// answer stands if the reach is *proved* to exceed the distance 2^-31 δ later. So plain doubles
+/// make no answer later or less tight, only cheaper; and the bits are the same everywhere, because
+/// no operation depends on the build.
 QuickAnswer QuickFirstApproach(const QuickApproach& approach, double limit);
 
 }  // namespace collision::numeric

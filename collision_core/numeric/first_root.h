@@ -7,7 +7,8 @@
 
 namespace collision::numeric {
 
-/// A root computed in a dozen roundings of 2^-53 each, none of them after a cancellation.
+/// Makes a computed root a lower bound: it takes a dozen roundings of 2^-53 each, none of them
+/// after a cancellation.
 inline constexpr double kRootShare = 1 - 0x1p-40;
 
 /// A lower bound on the least x >= 0 with gap − closing x − growth x² <= 0; growth >= 0. 0 if

@@ -145,22 +145,11 @@ std::set<std::string> RoomsOfTheCore() {
   return rooms;
 }
 
-/// Units that still need each other: points are filtered with the tasks of spheres and for them;
-/// a bound narrows itself by its speed cap, which is a function of the bound.
-const std::set<std::string> kStillInCircles = {
-    "collision_core/broad_phase/filter/point_filter",
-    "collision_core/broad_phase/filter/sphere_filter",
-    "collision_core/motion/space_time_bound",
-    "collision_core/motion/speed_cap",
-};
-
 TEST(Circles, NoneInTheRoomsOfTheCore) {
   const std::set<std::string> rooms = RoomsOfTheCore();
   EXPECT_GE(rooms.size(), 11u);
   for (const std::string& room : rooms) {
-    for (const std::string& unit : UnitsInCircles(GraphOf(TextsOf(room)))) {
-      EXPECT_EQ(kStillInCircles.count(unit), 1u) << unit;
-    }
+    EXPECT_EQ(UnitsInCircles(GraphOf(TextsOf(room))), std::set<std::string>{}) << room;
   }
 }
 

@@ -32,7 +32,7 @@ std::uint32_t TickLimit(Instant start, Instant end, Instant time) {
 
 }  // namespace
 
-/// What a question has found so far.
+/// The state of one call of Earliest().
 struct FaceSweep::Search {
   const intersection::BroadQuery& query;
   Instant first;  ///< No pair meets before.

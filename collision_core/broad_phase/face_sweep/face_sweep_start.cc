@@ -73,7 +73,8 @@ void FaceSweepStart::Enter(const Entry& entry, const Found& found) {
 void FaceSweepStart::TestAll(const Entry& entry, std::uint32_t strip, std::vector<Entry>* actives,
                              const Found& found) {
   const std::uint32_t start = places_[along_][2 * entry.slot];
-  // The latest first: where agents lie in descending order, that lowers the ceiling soonest.
+  // The box that entered last comes first: where agents lie in descending order, that lowers the
+  // ceiling soonest.
   for (std::size_t i = actives->size(); i-- > 0;) {
     Entry& active = (*actives)[i];
     const bool is_over = active.end < start;

@@ -20,10 +20,10 @@ struct HornRow {
   numeric::QuickBall ball;  ///< s0 is grown by half of the agent's greatest margin.
   Instant stamp;
   CollisionFilter filter{0, 0};  ///< Group 0: no such agent.
-  std::uint32_t full = 0;        ///< HornTable's own.
+  std::uint32_t full = 0;        ///< Where HornTable keeps the whole bound; kPlain: nowhere.
   bool still = false;            ///< NeverMoves().
   bool unfilterable = false;     ///< Too large or too far for filters: tested directly.
-  bool ruled = false;            ///< PairRules has any for it.
+  bool ruled = false;            ///< PairRules holds a rule of the agent.
 };
 static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache");
 
@@ -44,7 +44,7 @@ class HornTable {
   }
   /// Updates the row of an agent whose rules have changed.
   void UpdateRules(std::uint32_t agent);
-  /// The rule of an agent of the table with another; fastest if `agent` has no rules.
+  /// The rule of an agent of the table with another. Fastest if `agent` has no rules.
   intersection::PairRule RuleOf(std::uint32_t agent, std::uint32_t partner) const {
     return rows_[agent].ruled ? rules_->Of(partner, agent) : intersection::PairRule();
   }

@@ -11,7 +11,7 @@
 namespace collision::broad_phase {
 namespace {
 
-/// Agents looked at to choose frame and window.
+/// The number of agents that are sampled to choose frame and window.
 constexpr std::uint32_t kSampleMax = 1024;
 
 /// Places that come within reach of an agent's own during the first window: as many are looked at
@@ -21,12 +21,12 @@ constexpr double kNearPerAgent = 16;
 /// Where agents are that near already, the window lets reaches grow by this part.
 constexpr double kGrowthMin = 0.25;
 
-/// What agents are like on the average.
+/// The averages over a sample of agents.
 struct Sample {
   double v[3] = {};
   double speed = 0;  ///< As seen from a frame that moves with v.
   double s0 = 0, s1 = 0, s2 = 0;
-  double volume = 0;  ///< Of the box around one, if they filled the box around all.
+  double volume = 0;  ///< The volume of the box around all, divided among them.
 };
 
 Sample TakeSample(const HornTable& table, Instant from) {

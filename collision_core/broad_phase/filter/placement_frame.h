@@ -20,9 +20,9 @@ struct PlacedBall {
   float v[3];
   float speed;  ///< |v|, rounded up.
   float s0, s1, s2;
-  std::uint32_t agent;
+  std::uint32_t agent;  ///< Its index, or kNoAgent.
 
-  /// Of a horn that belongs to no agent: one that a question is asked about.
+  /// The agent of a ball that belongs to none: a query's own.
   static constexpr std::uint32_t kNoAgent = ~0u;
 };
 
@@ -71,8 +71,8 @@ class PlacementFrame {
  public:
   /// Places nothing.
   PlacementFrame() = default;
-  /// For windows of the query up to `seconds_max` [s]; how long the first is, is chosen so that few
-  /// pairs come within reach of each other.
+  /// For windows of the query up to `seconds_max` [s]. Chooses the length of the first window so
+  /// that few pairs come within reach of each other in it.
   PlacementFrame(const HornTable& table, const intersection::BroadQuery& query, double seconds_max);
 
   Instant begin() const { return query_.from; }
@@ -81,7 +81,7 @@ class PlacementFrame {
   intersection::BoundKind bound() const { return query_.bound; }
   /// The time ahead that was chosen [s].
   double window() const { return window_; }
-  /// Looks less far ahead. Requires that no agent was moved to its middle.
+  /// Shortens the window to `seconds`. Requires that no agent was moved to its middle.
   void Shorten(double seconds);
 
   /// A box with about `count` of the agents in it, near each other: where to look for a first

@@ -1,17 +1,16 @@
 // Which of many points may lie within reach of each other: the filter of PointGrid, in wide
-// vectors.
+// vectors. It shares its kernels, and so its source files, with SphereFilter (sphere_filter*.cc).
 #pragma once
 
 #include <cstdint>
 
-#include "collision_core/broad_phase/filter/sphere_filter.h"
-
 namespace collision::broad_phase {
 
-/// Points in arrays, in single precision (ReachPoint): half-way through the window each has its
-/// place x, y, z; all of the window it is within `reach` of there, and within `own` of its place +
-/// u v at u seconds after half-way. x is as seen from a corner near all of them, y and z as seen
-/// from the corner of the point's own row of cells. Without velocities only places are compared.
+/// Points in arrays, in single precision (ReachPoint): half-way through the window each is at its
+/// place x, y, z; during the window it stays within `reach` of its place, and at u seconds after
+/// half-way within `own` of its place + u v. x is as seen from a corner near all of them, y and z
+/// as seen from the corner of the point's own row of cells. Without velocities only places are
+/// compared.
 struct PointView {
   const float *x, *y, *z;
   const float* reach;

@@ -1,5 +1,6 @@
 #include "collision_core/broad_phase/filter/point_grid.h"
 
+#include "collision_core/broad_phase/filter/sphere_filter.h"
 #include "collision_core/numeric/cube_root.h"
 
 namespace collision::broad_phase {

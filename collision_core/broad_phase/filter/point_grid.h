@@ -17,8 +17,8 @@ namespace collision::broad_phase {
 struct ReachPoint {
   double c[3];  ///< Its centre half-way through the window.
   float v[3];   ///< As seen from the placement's frame.
-  float reach;  ///< All of the window the ball lies within this of c,
-  float own;    ///< and at u seconds after half-way within this of c + v u.
+  float reach;  ///< During the window the ball lies within this of c [m].
+  float own;    ///< At u seconds after half-way it lies within this of c + v u [m].
 };
 
 /// The box around points, and the farthest reach.

@@ -44,7 +44,7 @@ struct Within {
   double seconds;
 };
 
-/// Whether the filters leave it open that the two meet within the time. Counts the test, and if so
+/// False if the filters rule out that the two meet within the time. Counts the test and, if true,
 /// also the pair query that the caller then makes.
 bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Within& within,
              BroadPhaseWork* work);

@@ -32,7 +32,7 @@ constexpr double kLeast = 0x1p-1000;
 /// EarliestIntersectionOf() may be that much earlier, relative.
 constexpr double kAhead = 1 + 0x1p-27;
 
-/// Beyond so many seconds every instant is Never().
+/// More seconds than this after any instant give Never().
 constexpr double kForever = 2e10;
 
 }  // namespace

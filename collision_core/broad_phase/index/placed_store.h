@@ -24,7 +24,8 @@ struct PlacedScene {
   const HornTable* table;
   const PlacementFrame* frame;
 
-  /// Whether the agent is too large or too far for filters: it is not placed, but tested directly.
+  /// Whether the agent is too large or too far away for filters: then it is not placed, but tested
+  /// directly.
   bool IsUnfilterable(std::uint32_t agent) const {
     return table->row(agent).unfilterable || frame->blind();
   }

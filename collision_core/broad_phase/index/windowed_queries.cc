@@ -1,4 +1,4 @@
-// The questions of a windowed search.
+// The queries that a windowed search answers (NeighbourIndex, EarliestSweep).
 #include <algorithm>
 
 #include "collision_core/broad_phase/index/windowed_search.h"

@@ -22,7 +22,7 @@ constexpr double kCrowdOfRoot = 1.5;
 /// least every kStrideMax-th.
 constexpr std::uint32_t kSomeMin = 8192, kStrideMax = 16;
 
-/// The questions after a placement that say what a question costs while it is fresh.
+/// The number of questions after a placement whose mean cost is that of a fresh placement.
 constexpr std::uint32_t kFreshQuestions = 64;
 
 /// A sum of two rounded lengths in single precision, rounded up.

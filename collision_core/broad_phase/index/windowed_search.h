@@ -23,12 +23,10 @@ namespace collision::broad_phase {
 /// - PlacementFrame: each agent is placed at the middle of the window, in a frame that moves with
 ///   the average of all, with the reach that its horn has at the window's end. From there its
 ///   centre strays by half its way.
-/// - SphereFilter: the least distance of two centres over the window against the sum of the
-/// reaches,
-///   in single precision, sixteen, eight or one at a time.
-/// - MayMeetBy(): one pair; the closest approach of the two lines, the gap along the first
-/// direction,
-///   then up to six tangent steps in doubles.
+/// - SphereFilter: compares the least distance of two centres over the window with the sum of the
+///   reaches, in single precision, sixteen, eight or one at a time.
+/// - MayMeetBy(): tests one pair in doubles: the closest approach of the two lines, the gap along
+///   the first direction, then up to six tangent steps.
 ///
 /// Agents too large or too far for filters ("unfilterable": reach or distance over 2^60 m, speed
 /// over 2^40 m/s, a century from the begin) are tested directly.

@@ -10,20 +10,21 @@
 
 namespace collision::detection {
 
-/// One run of a simulator, with agents in the table.
+/// One run of a simulator that has agents in the table.
 struct Owner {
-  Instant heard_until =
-      Instant::Always();  ///< It has reported everything about its agents up to here.
-  std::uint32_t agents = 0;
+  /// The owner has reported everything about its agents up to here.
+  Instant heard_until = Instant::Always();
+  std::uint32_t agents = 0;  ///< Its agents that are not removed.
 };
 
 /// One agent. `history` is never empty once the agent is in the table.
 struct AgentRecord {
   AgentId id;
-  /// In force from the next state on, its filter at once; each sample of the history has its own.
+  /// The latest declaration. Its filter is in force at once, the rest from the next state on; each
+  /// sample of the history has the declaration that was in force then.
   AgentDeclaration declaration;
   History history;
-  BoundMargin margin;                          ///< What is left of it since the last renewal.
+  BoundMargin margin;  ///< What later states have left of it since the last renewal.
   Instant admitted_from = Instant::Always();   ///< Nothing is known, or promised, before.
   Instant reported_until = Instant::Always();  ///< The newest stamp; once removed, heard_until().
   const Owner* owner = nullptr;                ///< Null once removed.
@@ -34,7 +35,7 @@ struct AgentRecord {
 
   const motion::SpaceTimeBound& bound() const { return history.newest().bound; }
   Instant stamp() const { return bound().state.stamp; }
-  /// The owner has reported everything about the agent up to here.
+  /// The owner has reported everything about the agent up to here: no state before it will come.
   Instant heard_until() const {
     return owner == nullptr ? reported_until : std::max(reported_until, owner->heard_until);
   }

@@ -51,18 +51,18 @@ class AgentTable {
   /// Appends a state under the agent's declaration to its history. RecordBound() must follow before
   /// the step.
   void Store(AgentIndex agent, const motion::MotionState& state, Link link);
-  /// The newest bound has changed: takes its expiry, and what it means for the scene as a whole.
+  /// The newest bound has changed: records its expiry, and updates extremes() and profile().
   void RecordBound(AgentIndex agent);
-  /// The agent has changed in this step.
+  /// Records that the agent has changed in this step.
   void MarkChanged(AgentIndex agent) { changed_.Insert(agent); }
   const IndexSet<AgentIndex>& changed() const { return changed_; }
 
-  /// The run of the simulator has reported everything about its agents up to `until`. O(1) whatever
-  /// their number. An owner is known while it has agents that are not removed: an earlier call has
-  /// no effect. Never goes back.
+  /// The owner has reported everything about its agents up to `until`. O(log owners), whatever the
+  /// number of agents. Has no effect for an owner without agents in the table, or if `until` is
+  /// earlier than before.
   void SetHeardUntil(const OwnerId& owner, Instant until);
 
-  /// The owner gives the agent up; it expires at heard_until() at the latest.
+  /// The owner gives the agent up. The agent expires at heard_until() at the latest.
   void Remove(AgentIndex agent);
   /// Takes the agents that expire by `now` out of the queue: first the removed ones in the order of
   /// their removal, then the others in the order of their ids.
@@ -72,9 +72,9 @@ class AgentTable {
   void Release(AgentIndex agent);
   std::size_t expiries() const { return expiries_.size(); }
 
-  /// Looks at some of the agents (scene_extremes.h). Once a step.
+  /// Brings extremes() up to date by examining some of the agents (scene_extremes.h). Once a step.
   void UpdateExtremes();
-  /// No narrower than the truth.
+  /// Bounds of all newest states together, never narrower than the truth.
   const SceneExtremes::Bounds& extremes() const { return extremes_.bounds(); }
   const SceneProfile& profile() const { return profile_; }
   double skew() const { return limits_.skew; }

@@ -34,8 +34,8 @@ motion::SpaceTimeBound BoundMargin::Widen(const motion::SpaceTimeBound& bound) c
   wide.state.position_error = numeric::AddDown(bound.state.position_error, position_);
   wide.state.velocity_error = numeric::AddDown(bound.state.velocity_error, velocity_);
   if (bound.state.discontinuity && bound.skew > 0) {
-    // The jump may have come earlier by the skew: where it has been since then belongs to the
-    // bound.
+    // The jump may have come earlier by the skew: the bound includes where the agent may have been
+    // since then.
     const double speed = bound.state.v_WA.norm() + bound.limits.acceleration_max * bound.skew;
     wide.state.position_error += 2 * speed * bound.skew;
   }

@@ -28,7 +28,7 @@ void Reshape(const History::Sample& before, const AgentDeclaration& declaration,
   if (!arrived && (!same || declaration.shape_awaited)) record->shape_redeclared = true;
 }
 
-/// Whatever either allows.
+/// Limits that allow every motion that either of the two allows.
 motion::MotionLimits Wider(const motion::MotionLimits& a, const motion::MotionLimits& b) {
   return {.radius = std::max(a.radius, b.radius),
           .acceleration_max = std::max(a.acceleration_max, b.acceleration_max),

@@ -7,8 +7,8 @@ namespace collision::detection {
 
 /// What a change of a bound means for answers that rely on it.
 enum class BoundChange {
-  kWithin,  ///< All that may be met now could be met before: standing answers stay valid.
-  kWidened  ///< More may be met than before: standing answers must be computed anew.
+  kWithin,  ///< The agent can meet nothing that it could not meet before: answers stay valid.
+  kWidened  ///< The agent may meet more than before: answers must be computed anew.
 };
 
 /// Makes `declaration` the agent's. What is wider than before is in force at once; what is narrower
@@ -18,7 +18,8 @@ enum class BoundChange {
 /// awaited shape is null.
 BoundChange Redeclare(const AgentDeclaration& declaration, AgentRecord* record);
 
-/// Whether an agent that could be met under `before` may not be met under `next`.
+/// Whether `next` promises more than `before` in some respect, so that the agent may be unable to
+/// meet a partner that it could meet before.
 bool IsNarrower(const motion::MotionLimits& before, const motion::MotionLimits& next);
 
 }  // namespace collision::detection

@@ -27,7 +27,7 @@ bool SameDeclaration(const History::Sample& a, const History::Sample& b) {
 
 void History::Push(const Sample& sample, std::size_t capacity) {
   if (samples_.size() >= capacity) Thin();
-  // Where nothing can be spared, the oldest goes, and what it covered becomes unknown.
+  // Where no sample can be spared, the oldest is dropped, and what it covered becomes unknown.
   if (samples_.size() >= capacity) samples_.erase(samples_.begin());
   samples_.push_back(sample);
 }
@@ -38,7 +38,7 @@ void History::ReplaceTree(const std::shared_ptr<const shape::Shape>& shape) {
   }
 }
 
-// Only the older half: what is being judged lies in the newer one.
+// Only samples of the older half are dropped: pairs are still evaluated over the newer half.
 void History::Thin() {
   const auto spared = [this](std::size_t i) {
     return samples_[i].link == Link::kFollows && samples_[i + 1].link == Link::kFollows &&

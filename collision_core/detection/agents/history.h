@@ -18,8 +18,9 @@ enum class Link {
   kBroken    ///< The bound was broken somewhere between the two: nothing is known there.
 };
 
-/// At most `capacity` samples, oldest first. Beyond, every second old sample that its neighbours
-/// imply is dropped; if there is none, the oldest goes, and what it covered becomes unknown.
+/// Holds samples, oldest first. When there are more than the capacity that Push() is given, it
+/// drops every second sample of the older half that its neighbours bound; if there is none, it
+/// drops the oldest, and what that covered becomes unknown.
 class History {
  public:
   /// One state, as a bound, and what was declared beside it.

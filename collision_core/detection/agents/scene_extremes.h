@@ -5,24 +5,25 @@
 
 namespace collision::detection {
 
-/// Kept without a walk over all agents: each new state is included at once, and a round that looks
-/// at a few agents a step forgets what is no longer so. Until a round is over the bounds may be
-/// wider than the truth, never narrower. Stamps of one agent never go back.
+/// Maintains bounds of all newest states without a walk over all agents: each new state is included
+/// at once, and rounds over the agents, a few in each step, drop what no longer holds. Until a
+/// round is complete the bounds may be wider than the truth, never narrower. Requires that the
+/// stamps of one agent never go back.
 class SceneExtremes {
  public:
   /// Bounds of all newest states together.
   struct Bounds {
     Instant oldest = Instant::Never();  ///< No agent's newest state is older.
     Instant newest = Instant::Always();
-    double speed_max = 0;  ///< |v| and its error.
-    double position_error_max = 0;
-    double acceleration_max = 0;
-    double time_step_max = 0;
+    double speed_max = 0;           ///< |v| and its error [m/s].
+    double position_error_max = 0;  ///< [m]
+    double acceleration_max = 0;    ///< [m/s²]
+    double time_step_max = 0;       ///< [s]
 
     void Include(const motion::SpaceTimeBound& bound);
   };
 
-  /// So many agents are looked at in a step, and so many more for each that has changed.
+  /// Agents examined in a step, and further ones for each agent that has changed.
   static constexpr std::size_t kLooks = 64;
   static constexpr std::size_t kLooksPerChange = 4;
 
@@ -33,8 +34,8 @@ class SceneExtremes {
     next_.Include(bound);
   }
 
-  /// Looks at the next agents of `size`, round and round; `bound_of(i)` gives a bound or nullptr.
-  /// At the end of each round what it saw replaces bounds().
+  /// Examines the next agents of the table, whose indices are below `size`, round after round;
+  /// `bound_of(i)` gives a bound or nullptr. At the end of a round its result replaces bounds().
   template <typename BoundOf>
   void Look(std::size_t changed, std::size_t size, const BoundOf& bound_of) {
     std::size_t looks = kLooks + kLooksPerChange * changed;

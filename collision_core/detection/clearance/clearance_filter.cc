@@ -6,7 +6,7 @@
 namespace collision::detection {
 namespace {
 
-/// More than thirty roundings take of their terms.
+/// More than what thirty roundings lose, as a part of their terms.
 constexpr double kRoundings = 0x1p-40;
 /// Several times the nanosecond that a stamp may be off, with room for their sum [s].
 constexpr double kStampRounding = 1e-8;

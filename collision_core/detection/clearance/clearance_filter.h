@@ -13,7 +13,7 @@ namespace collision::detection {
 /// far less than 2^-40 of their terms; a stamp is exact to the nanosecond.
 class ClearanceFilter {
  public:
-  /// `skew` [s], as of all bounds.
+  /// `skew` is κ [s], the same for all bounds.
   explicit ClearanceFilter(double skew) : skew_(skew) {}
 
   /// The bound that keys are computed from: wide, and after a jump with the motion before it.
@@ -28,7 +28,7 @@ class ClearanceFilter {
     Eigen::Vector3d p, v;
     double speed;      ///< |v|.
     double magnitude;  ///< |p| + |v|: rounding takes a part of it.
-    double reach;      ///< Radius and all errors that do not grow; with the skew.
+    double reach;      ///< Radius and all errors that do not grow, those of the skew included [m].
     double velocity_error;
     double acceleration_max;
     double time_step;

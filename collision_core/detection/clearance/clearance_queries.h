@@ -26,7 +26,7 @@ class ClearanceQueries {
   /// Queries all agents that were renewed or are due. Once a step.
   void QueryDueAgents();
 
-  /// Partners looked at beside the broad phase's own tests, since the start.
+  /// Partners examined besides the broad phase's own tests, since the start.
   std::uint64_t looks() const { return group_query_.looks() + lowering_.looks(); }
 
  private:

@@ -10,7 +10,7 @@
 
 namespace collision::detection {
 
-/// From when, and why, the promises made about an agent no longer hold.
+/// A renewal: from when, and why, clearances that rely on an agent's former bound no longer hold.
 struct Renewal {
   Instant from;
   ClearanceCause cause = ClearanceCause::kNone;
@@ -28,7 +28,7 @@ class Clearances {
   void AddAgent(AgentIndex agent);
   /// An agent that had expired is back. Renew() must follow.
   void Readmit(AgentIndex agent) { coverage_[agent].keys.SetAll(Instant::Never()); }
-  /// The newest bound may reach beyond the former one: the agent is queried anew.
+  /// The newest bound may reach beyond the former one: the agent is queried again in the next step.
   void Renew(AgentIndex agent, const Renewal& renewal);
   /// Marks the partners in the agent's tracked pairs: its renewal may lower their clearance.
   void NotifyPartners(AgentIndex agent);

@@ -5,7 +5,7 @@
 namespace collision::detection {
 namespace {
 
-/// With so few keys all are looked at one by one.
+/// Up to this number of keys, all are examined one by one.
 constexpr std::size_t kFewKeys = 32;
 
 /// Costs in units of one filter test, about in proportion to time: a key looked at, a place
@@ -15,7 +15,7 @@ constexpr std::uint64_t kVisitUnits = 16;
 constexpr std::uint64_t kOfferUnits = 32;
 constexpr std::uint64_t kQueryUnits = 256;
 
-/// A query one horizon farther costs about this many times more.
+/// How many times more a query costs if it looks one horizon farther, about.
 constexpr std::uint64_t kFartherCosts = 2;
 
 }  // namespace

@@ -16,8 +16,8 @@ namespace collision::detection {
 /// Keys up to a horizon are found with the broad phase, by where their agents are; each later key
 /// is looked at by itself (ClearanceFilter, some 20 ns). So agents that are clear for long do not
 /// make the query look as far ahead, where the renewed agent would meet every other. By counted
-/// work the horizon goes to where both together cost least: farther where that spares more looks
-/// than it costs, nearer where the question costs more than all looks.
+/// work the horizon moves to where both together cost least: farther where that spares more looks
+/// than it costs, nearer where the query costs more than looking at all keys.
 class KeyLowering {
  public:
   /// All outlive the object.

@@ -23,7 +23,7 @@ Instant MeetsBy(Instant now, Instant bound) {
       bound, kEarliness * numeric::SecondsBetween(now, bound).upper + kInstantRounding);
 }
 
-/// The bound of a pair that is known, at the earliest: Always() stands for one that is not.
+/// The earliest bound that can be known of a pair: Always() stands for a bound that is not known.
 constexpr Instant kEarliestBound = Instant::FromNanoseconds(Instant::Always().nanoseconds() + 1);
 
 }  // namespace
@@ -161,7 +161,7 @@ void EarliestSearch::OfferPair(PairSlot slot, Run* run) {
              shaped ? std::max(answer.canonical, pair.clear_until) : answer.canonical);
 }
 
-// Of all that OfferPair() may offer until the pair is evaluated again.
+// A lower bound of all that OfferPair() may offer until the pair is evaluated again.
 Instant EarliestSearch::LowerBoundOf(const PairRecord& pair) const {
   ++context_.counters->pair_queries;
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];

@@ -26,12 +26,12 @@ namespace collision::detection {
 /// (CoverageTable::voided), covers the pair. Bounds are computed from wide bounds (BoundMargin), so
 /// that they hold for newer states that keep their contracts.
 ///
-/// Between two steps an agent may have been renewed, or have got a state beyond its key: what lies
-/// before its newest state is then looked at as at the next step, and its bound stays unknown.
+/// Between two steps an agent may have been renewed, or may have received a state beyond its key.
+/// Then the search examines what lies before its newest state as the next step will, and the
+/// agent's bound stays unknown.
 ///
 /// What is remembered is a cache of its own: keys, pairs, events and clearances do not depend on
-/// whether the search is ever called. A perfect lattice, in which all pairs tie, costs as much as
-/// it has agents, at each question.
+/// whether the search is ever called. In a perfect lattice all pairs tie, and each call costs O(N).
 class EarliestSearch {
  public:
   /// All outlive the search.

@@ -6,8 +6,9 @@
 
 namespace collision::detection {
 
-/// A slot is reused with a new generation; a simulator that rewinds starts a higher run. The order
-/// decides which agent of a pair is the lower one; normals point from lower to higher.
+/// Names one agent for all time: a slot is reused with a new generation, and a simulator that
+/// rewinds starts a higher run. The order of the ids makes one agent of a pair the lower one;
+/// normals point from the lower to the higher one.
 struct AgentId {
   std::uint64_t simulator = 0;
   std::uint32_t slot = 0;
@@ -17,7 +18,8 @@ struct AgentId {
   friend constexpr auto operator<=>(const AgentId&, const AgentId&) = default;
 };
 
-/// One run of a simulator: what vouches, with its clock, for all of its agents at once.
+/// Names an owner: one run of a simulator, whose clock stamps the states of all its agents and
+/// which reports up to when they are complete (Detector::SetHeardUntil).
 struct OwnerId {
   std::uint64_t simulator = 0;
   std::uint32_t run = 0;

@@ -36,7 +36,7 @@ void TakeBrackets(const ContactEpisode& episode, PublishedEvent* published) {
     const bool same = event.begin.latest <= episode.end.latest;
     const bool adds =
         event.begin.latest < begin.latest || (same && event.continuous && event.end.earliest > end);
-    // Two stretches of certain contact are one where they join.
+    // Two intervals of certain contact that join are one.
     const bool joins =
         event.continuous && event.begin.latest <= end && event.end.earliest >= begin.latest;
     if (adds && !joins) continuous = false;
@@ -153,8 +153,8 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     Emit(subject, EventStatus::kEnded);
   } else if (published.announced && event.status == EventStatus::kConfirmed) {
     if (episode.end.latest <= event.begin.latest) {
-      // Before the confirmed contact lies a doubt, and certain freedom between the two. The event
-      // is about both: its begin bracket still covers the doubt.
+      // A doubt lies before the confirmed contact, and certain freedom between the two. The event
+      // covers both: its begin bracket still contains the doubt.
       published.doubted = true;
       return;
     }

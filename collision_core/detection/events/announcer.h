@@ -21,8 +21,8 @@ struct PairName {
 /// What has been published about a pair.
 struct PublishedEvent {
   CollisionEvent event{};  ///< The last revision.
-  bool announced = false;  ///< `event` is open.
-  /// The event covers a doubt that lies before its contact and apart from it.
+  bool announced = false;  ///< The event is possible or confirmed, not final yet.
+  /// Between the begin of the event and its contact lies a doubt, followed by certified freedom.
   bool doubted = false;
   bool broken = false;     ///< A bound was broken since it was opened: its content may be void.
   std::uint64_t work = 0;  ///< Segments and instants evaluated since the contact got its number.
@@ -35,7 +35,7 @@ class ProximitySource {
   virtual narrow_phase::Proximity At(Instant at) = 0;
 };
 
-/// Whether more will be known about a pair.
+/// Whether this is the last report about a pair.
 enum class Finality {
   kOngoing,  ///< States may still come.
   kLast      ///< One of the two leaves or expires: the past is reported, nothing new announced.
@@ -59,17 +59,18 @@ class Announcer {
   Announcer(const DetectorOptions& options, DetectorCounters* counters)
       : options_(options), counters_(counters) {}
 
-  /// The events of this step begin.
+  /// Starts a step: forgets the events of the one before.
   void Start(Instant now);
-  /// In the order in which they came about; valid until the next Start().
+  /// The revisions of this step, in the order in which they were made; valid until the next
+  /// Start().
   const std::vector<CollisionEvent>& events() const { return events_; }
 
   /// Calls `proximity` only for the instant at which a contact is confirmed.
   PairInterest Report(const PairName& pair, const PairOutlook& outlook, Finality finality,
                       ProximitySource* proximity, PublishedEvent* published);
 
-  /// The pair is not watched any longer: its event is withdrawn; ended where the contact was
-  /// confirmed; undecided where `open`, the pair's open episode (null: free), does not exclude one.
+  /// The pair is no longer watched: gives its event a final status. A confirmed event ends; a
+  /// possible one is undecided if an episode is open (`open`; null: free), else withdrawn.
   void Close(const PairName& pair, const ContactEpisode* open, Departure departure,
              PublishedEvent* published);
 

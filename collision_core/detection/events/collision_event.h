@@ -10,45 +10,58 @@
 
 namespace collision::detection {
 
-/// possible -> confirmed | dismissed | undecided | withdrawn;  confirmed -> ended.
-enum class EventStatus { kPossible, kConfirmed, kDismissed, kUndecided, kWithdrawn, kEnded };
+/// The status of an event. Every event begins as possible; the transitions are
+/// possible -> confirmed | dismissed | undecided | withdrawn, and confirmed -> ended.
+enum class EventStatus {
+  kPossible,   ///< The two may meet within announce_within, or may have met already.
+  kConfirmed,  ///< Contact is certified.
+  kDismissed,  ///< No contact took place, and the two are far apart again.
+  kUndecided,  ///< The interval is over; neither contact nor freedom could be certified in it.
+  kWithdrawn,  ///< An agent was removed or expired, or a mask now excludes the pair; no contact.
+  kEnded       ///< The contact has ended, or its end is unknown: then end.latest is Never().
+};
 
-/// A closed bracket, rounded outward; `latest` is Never() while it is open.
+/// [earliest, latest] contains the true instant, rounded outward to nanoseconds. `latest` is
+/// Never() while no upper end is known.
 struct TimeBracket {
   Instant earliest = Instant::Never();
   Instant latest = Instant::Never();
   friend bool operator==(const TimeBracket&, const TimeBracket&) = default;
 };
 
-/// One revision of one contact of one pair. (lower, higher, contact) names the contact; a higher
-/// revision replaces a lower one.
+/// One revision of the event about one contact of one pair. (lower, higher, contact) names the
+/// event; a higher revision replaces a lower one. World frame W, SI units.
 struct CollisionEvent {
-  AgentId lower;
-  AgentId higher;
+  AgentId lower;                ///< The agent with the lower id.
+  AgentId higher;               ///< The agent with the higher id.
   std::uint32_t pair_slot = 0;  ///< Key on the wire; reused after the pair is no longer tracked.
-  std::uint32_t contact = 1;    ///< Ordinal of the pair's contacts.
-  std::uint32_t revision = 1;
-  Instant now;  ///< The service's time at the revision.
+  std::uint32_t contact = 1;    ///< Number of the contact among the pair's, from 1.
+  std::uint32_t revision = 1;   ///< From 1.
+  Instant now;                  ///< The detector's time at the revision.
   EventStatus status = EventStatus::kPossible;
-  /// Begin lies in [freedom certified continuously up to, first certified contact]. Undecided: the
-  /// whole interval that is not certified free is [begin.earliest, end.latest].
+  /// When the contact began: `earliest` is how far freedom is certified without a gap, `latest` the
+  /// first certified contact. If undecided, [begin.earliest, end.latest] is the whole interval that
+  /// is not certified free.
   TimeBracket begin;
+  /// When it ended: `earliest` is how far contact is certified, `latest` the first certified
+  /// freedom.
   TimeBracket end;
-  bool continuous = true;  ///< No gap in certified contact from begin.latest to end.earliest.
+  bool continuous = true;  ///< Contact is certified without a gap on [begin.latest, end.earliest].
   /// The contact may have begun before one of the two was admitted, jumped or broke its bound.
   bool began_before = false;
-  /// The nanosecond in which the values below hold; Never(): they are not known.
+  /// The instant at which the values below hold, within a nanosecond; Never(): they are not known.
   Instant evaluated_at = Instant::Never();
-  double separation_lower = 0;  ///< Distance of the surfaces [m]; <= 0: in contact.
-  double separation_upper = 0;
-  double depth_lower = 0;  ///< Translational penetration depth is at least this [m].
-  Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();  ///< Contact point [m], within `point_error`.
-  double point_error = 0;
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Unit, from lower to higher.
-  double normal_error = 0;                           ///< Angle [rad].
+  double separation_lower = 0;  ///< The distance of the surfaces is at least this [m].
+  double separation_upper = 0;  ///< It is at most this [m]; <= 0: in contact.
+  double depth_lower = 0;       ///< The translational penetration depth is at least this [m].
+  Eigen::Vector3d p_WC = Eigen::Vector3d::Zero();  ///< Contact point [m].
+  double point_error = 0;  ///< The true contact point lies within this of p_WC [m].
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< Unit vector, from lower to higher.
+  double normal_error = 0;                           ///< Angle to the true normal, at most [rad].
   /// Depth of the sphere trees down to which the pair was examined; 0: balls.
   std::uint32_t level = 0;
   std::uint64_t work = 0;  ///< WorkBudget units spent on this contact.
+  /// What kept the brackets from being narrower.
   narrow_phase::EventLimit limited_by = narrow_phase::EventLimit::kMotion;
 };
 

@@ -11,8 +11,9 @@ namespace collision::detection {
 /// Numbers the contacts of each pair from 1. A pair's numbers go on after it is no longer tracked,
 /// so that an event's name is never used twice. Memory: at most kPartnersMax partners an agent.
 ///
-/// Beyond that the number of the partner longest without a contact is given up; that pair later
-/// goes on above every number given up so far, so that no number is given twice.
+/// Beyond that limit the table drops the number of the partner whose last contact is the oldest. If
+/// the two meet again, their numbers continue above every number dropped so far, so that no number
+/// is used twice.
 class ContactNumbers {
  public:
   /// Partners of one agent whose numbers are kept one by one.

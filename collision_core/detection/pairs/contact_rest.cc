@@ -10,7 +10,7 @@ namespace {
 /// More than the rounding of the thirty operations below takes of their terms.
 constexpr double kMargin = 0x1p-40;
 
-/// Contact that has begun and goes on, of two balls whose newest states lie in the past.
+/// Whether two balls whose newest states lie in the past are in a contact that has not ended.
 bool MayRest(const RestingPair& pair) {
   const ContactTracker &settled = pair.settled, &preview = pair.preview;
   const bool begun = settled.in_contact() ||

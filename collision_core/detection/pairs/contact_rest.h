@@ -11,7 +11,7 @@ struct RestingPair {
   const History::Sample& a;  ///< The newest states.
   const History::Sample& b;
   const ContactTracker& settled;
-  const ContactTracker& preview;  ///< Run ahead of `settled`, up to what was heard.
+  const ContactTracker& preview;  ///< A copy that ran ahead to the end of the heard time.
 };
 
 /// Until when, at most now + `longest` seconds, no evaluation can change what is known about a

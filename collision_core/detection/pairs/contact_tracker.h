@@ -8,10 +8,10 @@
 
 namespace collision::detection {
 
-/// What is known of a pair before the time from which it is certified free.
+/// What is known about a pair before the time at which its tracking begins.
 enum class Past {
-  kKnown,   ///< It was free.
-  kUnknown  ///< They may have touched.
+  kKnown,   ///< The two were free of each other.
+  kUnknown  ///< The two may have touched.
 };
 
 /// Follows one pair through time, segment after segment without a gap. Copyable: a copy that runs
@@ -38,8 +38,9 @@ class ContactTracker {
   /// What happened before free_until() is not known.
   bool began_before() const { return open_ ? episode_.began_before : began_before_; }
 
-  /// While free: freedom is certified further, or (a bound was broken) only up to `until`.
+  /// While free: freedom is certified further, up to `until`.
   void ExtendFree(Instant until);
+  /// While free: freedom is certified only up to `until`, because a bound was broken.
   void RetractFree(Instant until, Past past);
 
   /// Adds the result for [at(), to]; `nearest` is given unless all of it is free, `normal` where

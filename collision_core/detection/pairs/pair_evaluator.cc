@@ -18,7 +18,7 @@ constexpr double kLookAhead = 1.3;
 constexpr double kSettledShare = 0.5;
 constexpr double kHeardShare = 0.8;
 
-// Has half of the freedom that was found at `looked` passed? Then it is time to look again.
+// Whether half of the freedom that was found at `looked` has passed: then it is computed again.
 bool WearsOut(Instant looked, Instant now, Instant free_until) {
   if (looked == Instant::Always() || free_until <= now) return true;
   return free_until.nanoseconds() - now.nanoseconds() <= now.nanoseconds() - looked.nanoseconds();

@@ -9,7 +9,7 @@
 
 namespace collision::detection {
 
-/// The agents of a pair in the order of their ids, and what is kept of it.
+/// The agents of a pair in the order of their ids, and the record of the pair.
 struct PairOfAgents {
   const AgentRecord& lower;
   const AgentRecord& higher;
@@ -52,8 +52,8 @@ class PairEvaluator {
   DetectorCounters* counters_;
 };
 
-/// States may reach beyond `now`: then a contact, or a doubt, is known before it begins. Updates
-/// ahead_from and ahead_until.
+/// Updates ahead_from and ahead_until of the pair. States may lie ahead of `now`; then a contact or
+/// a doubt is known before it begins.
 void RecordContactAhead(const ContactTracker& preview, Instant now, PairRecord* pair);
 
 }  // namespace collision::detection

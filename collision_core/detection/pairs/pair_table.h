@@ -12,32 +12,34 @@
 
 namespace collision::detection {
 
-/// More work than any evaluation may spend.
+/// PairRecord::spent of a pair that wants all the work it can get: more than any evaluation may
+/// spend.
 inline constexpr std::uint64_t kAllWanted = ~std::uint64_t{0};
 
 /// One tracked pair. `lower` and `higher` are in the order of the agents' ids.
 struct PairRecord {
   AgentIndex lower;
   AgentIndex higher;
-  ContactTracker tracker;  ///< Evaluated as far as both owners' states reach: settled.
-  Instant clear_until;     ///< No contact begins before; the past while undecided.
+  ContactTracker tracker;  ///< The settled past: evaluated up to where both agents have states.
+  Instant clear_until;     ///< No contact begins before this; not later than now while undecided.
   /// The canonical earliest intersection from `now` on, as of step `canonical_step`.
   Instant canonical = Instant::Never();
   std::uint64_t canonical_step = 0;
   std::uint64_t evaluated_step = 0;  ///< The step in which it was last evaluated.
-  /// When it was last computed how long the shapes stay apart.
+  /// The last time at which the narrow phase computed how long the shapes stay apart.
   Instant looked_ahead = Instant::Always();
-  /// When the wait ends for a state that could narrow the end of a contact.
+  /// When the evaluator stops waiting for a state that could narrow the end of a contact.
   Instant settles = Instant::Never();
   /// The end of the last contact, or doubt, that has ended but is not settled; Always(): none.
   Instant unsettled_until = Instant::Always();
-  bool in_contact = false;
-  Instant rests_until = Instant::Always();  ///< In contact: without news it goes on until then.
+  bool in_contact = false;  ///< Contact is certified and has not ended.
+  Instant rests_until =
+      Instant::Always();  ///< In contact: it certainly lasts until then without a new state.
   /// A contact, or a doubt, that is known but lies after `now`: [from, until].
   Instant ahead_from = Instant::Never();
   Instant ahead_until = Instant::Never();
-  std::uint64_t spent =
-      kAllWanted;  ///< Work units of the last evaluation; kAllWanted: they were not enough.
+  /// Work units of the last evaluation; kAllWanted: the budget was not enough.
+  std::uint64_t spent = kAllWanted;
   PublishedEvent published{};
 
   AgentIndex PartnerOf(AgentIndex agent) const { return agent == lower ? higher : lower; }
@@ -57,7 +59,8 @@ class PairTable {
   /// The agent of this index has no pairs yet.
   void AddAgent(AgentIndex agent);
 
-  /// None(): `pairs_max` are in use. Requires RoomFor() of both agents, if there is a slot at all.
+  /// Adds a pair and returns its slot; None() if `pairs_max` pairs are tracked. Otherwise requires
+  /// RoomFor() > 0 of both agents.
   PairSlot Add(const PairRecord& pair);
   /// Requires Contains(slot).
   void Remove(PairSlot slot);

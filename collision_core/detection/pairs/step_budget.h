@@ -11,8 +11,8 @@ namespace collision::detection {
 /// Shares out `work_units_per_step` before the first evaluation of a step; what one pair does not
 /// use of its share goes to the next. A pair that claims nothing (two balls, which cost next to
 /// nothing) has no share and no limit but that of one evaluation. The order of evaluations does not
-/// change, so that the order of events does not either. An evaluation finishes what it has begun:
-/// that is the one way to spend more than allowed.
+/// change, and so neither does the order of events. An evaluation finishes the step that it has
+/// begun, so it may overrun its allowance a little (work_budget.h).
 class StepBudget {
  public:
   /// Units for one evaluation, and for a whole step (0: no limit).

@@ -224,7 +224,7 @@ void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
   }
 }
 
-// The two are no longer watched.
+// The two are no longer watched: closes their event and releases the slot.
 void TrackedPairs::Drop(PairSlot slot, Departure departure) {
   PairRecord& pair = table_[slot];
   const ContactEpisode* open = pair.tracker.free() ? nullptr : &pair.tracker.episode();

@@ -49,8 +49,8 @@ class TrackedPairs {
 
   const PairTable& table() const { return table_; }
 
-  /// Tracks two agents that are certified free up to `free_until`. False, and nothing changes:
-  /// there is no room. Requires that they are not tracked.
+  /// Tracks two agents that are certified free up to `free_until`. Returns false, and changes
+  /// nothing, if there is no room. Requires that they are not tracked.
   [[nodiscard]] bool Track(AgentIndex a, AgentIndex b, Instant free_until, Past past);
 
   /// Freedom that was certified for the agent's pairs beyond `from` no longer holds.
@@ -65,12 +65,13 @@ class TrackedPairs {
   /// The agent leaves or expires: evaluates its pairs a last time and tracks them no longer.
   void EvaluateLastTime(AgentIndex agent, Departure departure);
 
-  /// Pairs released since the last call, in the order of their release. The caller lowers keys.
+  /// Pairs released since the last call, in the order of their release. The caller lowers the keys
+  /// of both agents to cover them.
   std::vector<ReleasedPair> TakeReleased();
   /// Pairs that were added, evaluated or removed; the reader clears the set.
   IndexSet<PairSlot>* changed() { return &changed_; }
 
-  /// The agent's states before this are not needed for its pairs.
+  /// `otherwise`, or an earlier time: the agent's pairs need none of its states from before it.
   Instant NeededFrom(AgentIndex agent, Instant otherwise) const;
 
   const std::vector<CollisionEvent>& events() const { return announcer_.events(); }

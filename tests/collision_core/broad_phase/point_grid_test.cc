@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision_core/broad_phase/filter/sphere_filter.h"
 #include "tests/support/random.h"
 #include "tests/support/truth/exact.h"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision_core/motion/horn_box.h"
 #include "tests/support/random.h"
 #include "tests/support/truth/exact_bound.h"
 

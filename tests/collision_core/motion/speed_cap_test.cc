@@ -4,6 +4,7 @@
 
 #include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/motion/contract.h"
+#include "collision_core/motion/horn_box.h"
 #include "collision_core/motion/hypertrapezoid.h"
 #include "tests/support/random.h"
 #include "tests/support/sanitized.h"

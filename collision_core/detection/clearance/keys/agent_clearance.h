@@ -7,24 +7,32 @@
 namespace collision::detection {
 
 /// Why a clearance was lowered.
-enum class ClearanceCause { kNone, kAdmission, kTeleport, kBreach, kWidening, kSkew };
+enum class ClearanceCause {
+  kNone,       ///< Not lowered, or for none of the causes below.
+  kAdmission,  ///< An agent was admitted.
+  kTeleport,   ///< An agent jumped: a declared discontinuity.
+  kBreach,     ///< An agent broke its bound.
+  kWidening,   ///< An agent promises less than before.
+  kSkew        ///< A clock was off by more than the declared skew.
+};
 
-/// The promise to one agent, as of a step.
+/// What is published to one agent, as of a step: until when no new contact can begin.
 struct AgentClearance {
   AgentId agent{};
-  Instant clear_until = Instant::Never();  ///< No new contact begins before.
-  bool not_clear = false;                  ///< clear_until has come: a contact may begin.
+  Instant clear_until = Instant::Never();  ///< No new contact begins before this.
+  bool not_clear = false;                  ///< clear_until is not later than now.
   bool in_contact = false;                 ///< A contact is confirmed and has not ended.
-  bool saturated = false;                  ///< More partners than are tracked for one agent.
-  /// Until then the agent meets no partner but those of announced events; >= clear_until.
+  bool saturated = false;                  ///< More partners qualify than are tracked.
+  /// Before this the agent can meet only partners with which it has an open event; >= clear_until.
   Instant unannounced_until = Instant::Never();
-  /// A contact, or a doubt, has ended by then, and a newer state will narrow it; Always(): none.
+  /// The latest end of a contact or doubt whose bracket newer states will narrow; Always(): none.
   Instant unsettled_until = Instant::Always();
-  Instant effective_from =
-      Instant::Always();  ///< Promises include the latest admission, jump or widening from here.
-  ClearanceCause cause = ClearanceCause::kNone;  ///< Of the last lowering.
-  AgentId cause_agent{};
-  Instant void_from = Instant::Never();  ///< With kBreach: earlier promises are void from here.
+  /// The clearances of other agents take account of this agent's latest admission, jump, breach or
+  /// widening from this instant on.
+  Instant effective_from = Instant::Always();
+  ClearanceCause cause = ClearanceCause::kNone;  ///< Why it was lowered, if it was.
+  AgentId cause_agent{};                 ///< The agent that caused it; meaningful unless kNone.
+  Instant void_from = Instant::Never();  ///< With kBreach: earlier clearances are void from here.
 };
 
 }  // namespace collision::detection

@@ -16,10 +16,11 @@ namespace collision::detection {
 /// earlier one. The keys of a saturated agent promise nothing. O(tiers that have an earlier key).
 class ClearanceKeys {
  public:
-  /// The earliest of all.
+  /// The earliest of all keys.
   Instant earliest() const { return earliest_; }
   /// The key of the comparable partners; no group has a later one.
   Instant comparable() const { return comparable_; }
+  /// The key of one group of partners.
   Instant Of(int group) const {
     for (const TierKey& one : earlier_) {
       if (one.tier == group) return std::min(one.key, comparable_);
@@ -32,14 +33,15 @@ class ClearanceKeys {
     earlier_.clear();
     comparable_ = earliest_ = key;
   }
-  /// The key of a tier that is a group of its own; a later one than comparable() counts as that.
+  /// Sets the key of a tier that is a group of its own; a key later than comparable() counts as
+  /// comparable(). Requires a tier other than kComparable.
   void SetTier(int tier, Instant key) {
     CORE_CHECK(tier != AccelerationTiers::kComparable, "a tier is a group of its own", tier);
     std::erase_if(earlier_, [=](const TierKey& one) { return one.tier == tier; });
     if (key < comparable_) earlier_.push_back({key, tier});
     UpdateEarliest();
   }
-  /// The group's key is not later than `key` from now on.
+  /// Lowers the group's key to `key` if it is later.
   void Lower(int group, Instant key) {
     if (group != AccelerationTiers::kComparable) return SetTier(group, std::min(Of(group), key));
     comparable_ = std::min(comparable_, key);

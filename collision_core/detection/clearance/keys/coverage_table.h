@@ -22,7 +22,7 @@ struct AgentCoverage {
   std::optional<Instant> renewed_from;
   ClearanceCause renewed_cause = ClearanceCause::kNone;
   std::uint64_t queried_step = 0;  ///< The step of the last query, or kNeverQueried.
-  AgentIndex crowded_with;         ///< Saturated: a partner that could not be tracked.
+  AgentIndex crowded_with;         ///< If saturated: a partner that could not be tracked.
 };
 
 /// The clearance keys of all agents, and when each agent is queried again.
@@ -52,7 +52,8 @@ class CoverageTable {
     if (!tiers_.HasGroupsBeside(agent)) return keys.earliest();
     return keys.Of(tiers_.GroupOf(partner, agent));
   }
-  /// The agent may meet the partner at `when`: lowers its key to that, unless it is earlier.
+  /// The agent may meet the partner at `when`: lowers its key for that partner to `when` if it is
+  /// later.
   void LowerKey(AgentIndex agent, AgentIndex partner, Instant when);
   /// The agent's keys have been set: brings the queues up to date.
   void KeysChanged(AgentIndex agent);
@@ -85,9 +86,11 @@ class CoverageTable {
 
   /// Agents by the time at which they must be queried again.
   const EventQueue<AgentIndex>& due() const { return due_; }
-  /// The agent is queried for all partners now: no key of an earlier step is left to be lowered.
+  /// The agent is queried for all partners in this step, so a renewed agent need not lower its
+  /// keys.
   void LeaveSettled(AgentIndex agent) { settled_.Remove(agent); }
-  /// From now on a renewed agent may lower the agent's keys.
+  /// The query is over: from now on the agent's keys are among those that a renewed agent may have
+  /// to lower.
   void Settle(AgentIndex agent);
   bool IsSettled(AgentIndex agent) const { return settled_.Contains(agent); }
   std::size_t settled() const { return settled_.size(); }
@@ -108,7 +111,7 @@ class CoverageTable {
   void Validate() const;
 
  private:
-  /// The order of ~key is that of the keys from the last to the first.
+  /// Turns the order of keys round: the latest key comes first.
   static Instant Reversed(Instant key) { return Instant::FromNanoseconds(~key.nanoseconds()); }
   Instant DueAt(AgentIndex agent) const;
   void ValidateAgent(AgentIndex agent) const;

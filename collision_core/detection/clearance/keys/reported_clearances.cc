@@ -24,7 +24,8 @@ void ReportedClearances::SetEffectiveFrom(AgentIndex agent, Instant effective_fr
   report.effective_from = std::max(report.effective_from, effective_from);
 }
 
-// `cause`, `cause_agent` and `void_from` count.
+// Records `cause`, `cause_agent` and `void_from` of the argument, unless a breach that voids
+// earlier promises is recorded already.
 void ReportedClearances::RecordCause(const AgentClearance& cause, Report* report) const {
   if (cause.void_from > report->void_from) return;
   report->cause = cause.cause;

@@ -14,7 +14,8 @@ namespace collision::detection {
 /// next.
 class PartnerMarks {
  public:
-  /// The agent and the partners that it is tracked with; `agents`: no index is as great.
+  /// Replaces the set by the agent itself and the partners that it is tracked with. `agents` is one
+  /// more than the greatest index.
   void Start(AgentIndex agent, const PairTable& pairs, std::size_t agents) {
     ++mark_;
     if (marks_.size() < agents) marks_.resize(agents, 0);
@@ -33,7 +34,8 @@ class PartnerMarks {
   std::uint64_t mark_ = 0;
 };
 
-/// The group of a question about all partners (else one of AccelerationTiers::GroupOf).
+/// The group of a question about all partners; the other groups are those of
+/// AccelerationTiers::GroupOf().
 inline constexpr int kEveryGroup = -1;
 
 /// Which partners, of those not left out, may `agent` meet at or after `from`? Everything that the
@@ -48,6 +50,7 @@ struct ClearanceQuestion {
   /// The tracked partners, which are left out; those that become tracked are added.
   PartnerMarks* tracked = nullptr;
 
+  /// Whether the question does not ask about this partner: it is tracked, or of another group.
   bool LeavesOut(AgentIndex partner, const AccelerationTiers& tiers) const {
     if (tracked->Contains(partner)) return true;
     return group != kEveryGroup && tiers.GroupOf(partner, agent) != group;

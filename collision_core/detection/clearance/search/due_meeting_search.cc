@@ -4,7 +4,7 @@
 
 namespace collision::detection {
 
-// Of the meetings from `begin` on.
+// Takes the meetings from `begin` on.
 void DueMeetingSearch::Take(const std::vector<broad_phase::Neighbour>& found, std::size_t begin,
                             Room* room) const {
   const Instant until = clock_.announce_until();

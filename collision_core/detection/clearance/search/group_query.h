@@ -23,8 +23,8 @@ struct QueryTargets {
 /// Finds the partners of one group that an agent may meet, and tracks those that it may meet by
 /// announce_until. Without room for one of them it saturates the agent.
 ///
-/// For an agent that has no room for another pair, one partner that should be tracked decides.
-/// Usually it is one that saturated the agent before: one pair query.
+/// If the agent has no room for another pair, one partner that should be tracked is enough to
+/// saturate it. The partner that saturated it before is tested first: usually one pair query.
 class GroupQuery {
  public:
   GroupQuery(const DetectorContext& context, const QueryTargets& targets);
@@ -38,7 +38,7 @@ class GroupQuery {
   /// Whether the agent is tracked with every partner of the group, so that no query is needed.
   bool TracksAll(AgentIndex agent, int group) const;
 
-  /// Partners looked at beside the broad phase's own tests, since the start.
+  /// Partners examined besides the broad phase's own tests, since the start.
   std::uint64_t looks() const { return next_.looks(); }
 
  private:

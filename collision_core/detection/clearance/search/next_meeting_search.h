@@ -25,7 +25,7 @@ class NextMeetingSearch {
   int Begin(const ClearanceQuestion& question) const {
     return horizons_.Begin(tiers_.TierOf(question.agent), question.group);
   }
-  /// The answer was found by other means.
+  /// The answer was found by other means: adapts the horizons to it.
   void Record(const ClearanceQuestion& question, Instant when) {
     horizons_.Record(tiers_.TierOf(question.agent), question.group, when);
   }

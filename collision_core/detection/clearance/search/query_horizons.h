@@ -36,10 +36,10 @@ class QueryHorizons {
     return numeric::AddRoundedUp(clock_.now, ahead);
   }
 
-  /// The first horizon of a query for `group` (kEveryGroup: -1) beside an agent of `tier`.
+  /// The first horizon of a query for `group` (-1 for kEveryGroup) beside an agent of `tier`.
   int Begin(int tier, int group) const { return begins_.at(Row(tier)).at(Row(group)); }
 
-  /// The answer's time: the next query begins a step nearer to it.
+  /// Records the time of an answer: moves the first horizon of later queries one step towards it.
   void Record(int tier, int group, Instant when) {
     int& begin = begins_.at(Row(tier)).at(Row(group));
     if (when > At(begin)) {

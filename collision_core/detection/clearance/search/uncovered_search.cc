@@ -31,7 +31,7 @@ double PathOf(const motion::SpaceTimeBound& bound, double t) {
               bound.limits.time_step, t);
 }
 
-/// [s], with twice the skew: of either clock.
+/// In seconds, with twice the skew: once for each clock.
 double Span(Instant a, Instant b, double skew) {
   return b <= a ? 0 : numeric::SecondsBetween(a, b).upper + 2 * skew;
 }
