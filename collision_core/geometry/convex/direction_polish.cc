@@ -9,8 +9,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of an ellipsoid h(n) = |Gᵀ n| = √(nᵀ A n) with A = G Gᵀ: h'' = (A − s sᵀ) / h, where s = A n / h
-/// is the support point. Nothing of any other core, whose support does not move for small turns.
+/// The second derivative of the support function h. For an ellipsoid h(n) = |Gᵀ n| = √(nᵀ A n) with
+/// A = G Gᵀ, so h'' = (A − s sᵀ) / h, where s = A n / h is the support point. For any other core it
+/// is zero, because a small rotation of n does not move the support point.
 Matrix3d CurvatureOf(const ConvexSet& set, const Vector3d& n) {
   if (set.core != ConvexCore::kEllipsoid) return Matrix3d::Zero();
   const Matrix3d a = set.generators * set.generators.transpose();
@@ -20,7 +21,8 @@ Matrix3d CurvatureOf(const ConvexSet& set, const Vector3d& n) {
   return (a - an * an.transpose() / square) / std::sqrt(square);
 }
 
-/// Two units across n; with an edge only the one across it, and nothing.
+/// Two unit vectors perpendicular to n and to each other; with an edge, one unit vector that is
+/// also perpendicular to the edge, and zero.
 Eigen::Matrix<double, 3, 2> TurnsOf(const Vector3d& n, const Vector3d& edge) {
   Eigen::Matrix<double, 3, 2> turns;
   turns.setZero();
@@ -36,7 +38,7 @@ Eigen::Matrix<double, 3, 2> TurnsOf(const Vector3d& n, const Vector3d& edge) {
 }  // namespace
 
 // Along n + δ the support point is y − H δ, with H the sum of both curvatures. It lies along n + δ
-// itself, as λ (n + δ) with λ = n·y, where (H + λ) δ is the part of y across n.
+// itself, as λ (n + δ) with λ = n·y, where (H + λ) δ is the part of y perpendicular to n.
 Vector3d WidestNear(const ConvexPair& pair, const Vector3d& about, const Vector3d& edge) {
   Vector3d n = about;
   const double edge_square = edge.squaredNorm();
