@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using Triangles = std::span<std::uint32_t>;
 
-/// Into so many children at most.
+/// The largest number of children of a node.
 constexpr int kHalvings = 3;
 
 class Builder {
