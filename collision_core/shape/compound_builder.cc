@@ -19,7 +19,7 @@ constexpr std::size_t kGathered = 8;
 /// differences before it by 2^-53 of what they are made of: that is counted where they are made.
 double LengthUp(const Vector3d& v) { return (1 + 0x1p-50) * v.norm() + 0x1p-500; }
 
-/// A node to be; of a gathering, the range of parts below it.
+/// A node of the tree to be built, with the parts below it if it is a gathering.
 struct Part {
   sphere_tree::SphereNode node;
   enum class Kind { kGathering, kSolid, kSurface } kind = Kind::kGathering;
@@ -27,10 +27,11 @@ struct Part {
   std::vector<Part> children = {};
 };
 
-/// Of a point to a solid, by the ball that is known to be in it: a point d away from that ball's
-/// centre is no further than d − inradius from it, and nearer than that it has so much about it. Of
-/// what has no inside a point of the core is known, to within `error` and the rounding of a
-/// support.
+/// An upper bound of the signed distance of a point to a solid, from the ball that is known to lie
+/// in it: a point d away from that ball's centre is at most d − inradius from the solid, and where
+/// this is negative, the ball of radius inradius − d about the point lies in the solid. For a solid
+/// without such a ball it is the distance to a support point of the core, plus its `error` and the
+/// rounding of a support.
 double DistanceUp(const Vector3d& point, const ConvexSolid& solid) {
   const ConvexFacts& facts = solid.facts();
   const double lost = 0x1p-50 * (point.cwiseAbs().sum() + facts.radius);
@@ -53,13 +54,14 @@ sphere_tree::SphereNode NodeOf(const ConvexSolid& solid) {
   return node;
 }
 
-/// Of two centres, rounded up.
+/// The distance of two centres, rounded up.
 double BetweenUp(const sphere_tree::SphereNode& a, const sphere_tree::SphereNode& b) {
   const double lost = 0x1p-52 * (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
   return numeric::AddUp(LengthUp(a.centre - b.centre), lost);
 }
 
-/// About the balls of its children: from the middle of their box in steps towards the farthest.
+/// Fits a ball around the balls of the children: from the middle of their box in steps towards the
+/// farthest ball.
 void Enclose(Part* parent) {
   Vector3d lower = Vector3d::Constant(numeric::kInfinity), upper = -lower;
   for (const Part& part : parent->children) {
@@ -89,7 +91,7 @@ void Enclose(Part* parent) {
     measure(&node);
     if (node.radius < parent->node.radius) parent->node = node;
   }
-  // What is so near to a child's centre is as near to the whole.
+  // A point near to a child is as near to the whole.
   parent->node.signed_distance = numeric::kInfinity;
   for (const Part& part : parent->children) {
     const double distance =
@@ -98,7 +100,7 @@ void Enclose(Part* parent) {
   }
 }
 
-/// Halved where their centres are spread the widest; ties by their order.
+/// Halves the parts along the axis in which their centres spread the widest; ties by their order.
 std::size_t Halve(std::span<Part> parts) {
   Vector3d lower = parts[0].node.centre, upper = lower;
   for (const Part& part : parts) {
@@ -112,7 +114,7 @@ std::size_t Halve(std::span<Part> parts) {
   return parts.size() / 2;
 }
 
-/// Up to eight groups of near ones, the largest halved first.
+/// Makes up to eight groups of near parts, halving the largest group first.
 std::vector<std::span<Part>> Grouped(std::span<Part> parts) {
   std::vector<std::span<Part>> groups = {parts};
   while (groups.size() < kGathered) {

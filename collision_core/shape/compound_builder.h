@@ -11,9 +11,9 @@ namespace collision::shape {
 
 /// Builds one tree over convex solids and a surface. Every solid is a leaf of its own, whose only
 /// element is `triangles` + its number; the surface's tree (of `triangles` triangles; null: none)
-/// hangs below as it is. Above them up to eight near balls at a time are gathered into one. The
-/// signed distance of a gathering is that of its best child, plus the way between the two centres;
-/// the union is at least as near.
+/// is a subtree, unchanged. Each node above them gathers up to eight near balls. The signed
+/// distance of such a gathering is the least, over its children, of the child's plus the distance
+/// between the two centres: an upper bound, because the union is at least as near as any child.
 ///
 /// O(n log n) for n solids, plus the copy of the surface's tree. Requires a solid.
 sphere_tree::SphereTree BuildCompound(const sphere_tree::SphereTree* surface,

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 double LengthUp(const Vector3d& v) { return numeric::Norm(numeric::IntervalVector(v)).upper; }
 
-/// No rotation stays without error.
+/// The rotation of q; exactly the identity if q has no vector part.
 numeric::Rotation RotationOf(const Eigen::Quaterniond& q) {
   if (q.vec().isZero(0)) return {};
   return RotationOf(numeric::UnitQuaternion(q));

@@ -19,7 +19,7 @@ struct ConvexDescription {
   /// The points of a hull [m], in any order; inner points and duplicates are allowed.
   std::vector<Eigen::Vector3d> points;
   double rounding = 0;  ///< The radius of a ball or capsule; of a box its rounding [m].
-  /// Its axes in B: the rotation q / |q|, for q of any length but zero.
+  /// The orientation of its axes in B: the rotation q / |q|, for q of any length but zero.
   Eigen::Quaterniond q_BS{1, 0, 0, 0};
   Eigen::Vector3d p_BS{0, 0, 0};  ///< Its origin in B [m].
 };
@@ -34,8 +34,8 @@ inline constexpr double kConvexSizeMax = 1e7;
 /// The largest allowed distance of any part from the reference point [m].
 inline constexpr double kConvexReachMax = 1e7;
 
-/// Why it cannot be a part of an agent's shape, as a sentence with field, value and allowed range.
-/// A triangle is described as a hull. nullopt: it can.
+/// Why a solid cannot be a part of an agent's shape, as a sentence with field, value and allowed
+/// range. A triangle is described as a hull. nullopt: it can.
 std::optional<std::string> RefusalOf(const ConvexDescription& description);
 
 /// Certified facts of a solid; body frame, lengths in metres.
@@ -44,8 +44,8 @@ struct ConvexFacts {
   Eigen::Vector3d ball_centre{0, 0, 0};  ///< Centre of a small ball that contains it.
   double ball_radius = 0;
   Eigen::Vector3d lower{0, 0, 0}, upper{0, 0, 0};  ///< A box that contains it.
-  /// The ball of that radius about this point belongs to the solid: its signed distance there is
-  /// −inradius or less. 0: nothing is certain to be inside, or nothing is.
+  /// The ball of radius `inradius` about `inner_point` belongs to the solid, so the signed distance
+  /// there is at most −inradius. inradius = 0: no inner point is certain, or the solid has none.
   Eigen::Vector3d inner_point{0, 0, 0};
   double inradius = 0;
 };
@@ -68,9 +68,9 @@ class ConvexSolid {
   ConvexFacts facts_;
 };
 
-/// All points x with n·(x − p) <= 0, in the body frame. Unbounded, so that only an agent that does
-/// not move can be one, or only for as long as nothing far away counts. (The HalfSpace of
-/// broad_phase/ is fixed in the world.)
+/// All points x with n·(x − p) <= 0, in the body frame. It is unbounded, so it suits only agents
+/// that do not move, or queries in which nothing far away counts. (The HalfSpace of broad_phase/ is
+/// fixed in the world.)
 struct ConvexHalfSpace {
   Eigen::Vector3d normal{0, 0, 1};  ///< n, of any length but zero.
   Eigen::Vector3d point{0, 0, 0};   ///< p, on its boundary [m].
@@ -80,7 +80,8 @@ struct ConvexHalfSpace {
 inline constexpr double kNormalLengthMin = 1e-100;
 inline constexpr double kNormalLengthMax = 1e100;
 
-/// Why it cannot be used: a normal out of range or a number that is not finite. nullopt: it can.
+/// Why a half-space cannot be used: a normal out of range or a number that is not finite. nullopt:
+/// it can.
 std::optional<std::string> RefusalOf(const ConvexHalfSpace& half_space);
 
 }  // namespace collision::shape

@@ -50,7 +50,8 @@ Refusal RefusalOfPoints(const std::vector<Vector3d>& points) {
   return std::nullopt;
 }
 
-/// Of a hull the diagonal of the points' box, of others twice their half measures.
+/// The size that is checked: for a hull the diagonal of the points' box, for other solids twice
+/// their half measures.
 double SizeOf(const ConvexDescription& d) {
   double size = 0;
   if (d.core == geometry::ConvexCore::kSegment) size = 2 * d.half.z();

@@ -7,7 +7,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// All corners of a box, where half the edges are columns.
+/// Adds the corners of a box; the columns of `halves` are its half edges.
 void AddBox(const Vector3d& centre, const Eigen::Matrix3d& halves, std::vector<Vector3d>* points) {
   for (int i = 0; i < 8; ++i) {
     const Vector3d signs(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
@@ -15,7 +15,7 @@ void AddBox(const Vector3d& centre, const Eigen::Matrix3d& halves, std::vector<V
   }
 }
 
-/// Points whose hull contains the core, each off by less than kSupportError of its span.
+/// Adds points whose hull contains the core, each off by less than kSupportError times its span.
 void AddCorners(const geometry::ConvexSet& set, std::vector<Vector3d>* points) {
   switch (set.core) {
     case geometry::ConvexCore::kPoint:
@@ -40,7 +40,7 @@ void AddCorners(const geometry::ConvexSet& set, std::vector<Vector3d>* points) {
   }
 }
 
-/// By how much at most a solid exceeds the corners' hull.
+/// An upper bound of how far a solid reaches beyond the hull of its corners [m].
 double MoreThanCorners(const geometry::ConvexSet& set) {
   const double rounded =
       4 * geometry::kSupportError * set.span + 0x1p-50 * set.centre.cwiseAbs().sum();

@@ -1,4 +1,4 @@
-// The outer hull of all that a shape is made of.
+// The outer hull of a shape's triangles and solids.
 #pragma once
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
@@ -7,9 +7,10 @@
 
 namespace collision::shape {
 
-/// The outer hull of triangles and solids together: of their corners, rounded by what all are
-/// rounded by; a solid that is rounded otherwise counts by its box, an ellipsoid by the box about
-/// its axes. Requires a triangle or a solid.
+/// The outer hull of triangles and solids together. It is the hull of points, rounded by the least
+/// rounding of all parts (0 for triangles). A solid with that rounding contributes the corners of
+/// its core (an ellipsoid those of the box about its axes), a solid with a larger one the corners
+/// of its bounding box. Requires at least one triangle or solid.
 OuterHull HullAround(const geometry::TriangleMesh& mesh, std::span<const ConvexSolid> solids);
 
 }  // namespace collision::shape

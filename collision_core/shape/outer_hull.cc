@@ -8,7 +8,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Few points need no fine cells.
+/// Cells along an edge of the cube for this many points: few points need no fine cells.
 std::uint32_t CellsFor(std::size_t points) { return points <= 16 ? 2 : points <= 128 ? 4 : 8; }
 
 /// No less, and not zero: a cast is off by 2^-24 of itself, or by less than the least normal
@@ -18,7 +18,8 @@ float FloatUp(double x) {
   return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
 }
 
-/// Directions whose greatest coordinate is 1 in lengths of up to 1 + 2^-16.
+/// Scales a bound for directions whose greatest coordinate is 1 to directions of length up to 1 +
+/// 2^-16.
 constexpr double kLonger = 1 + 0x1p-15;
 
 /// Of the extent: casting the points, √3 u at most, along a direction of length √3 (u = 2^-24), and
@@ -64,7 +65,8 @@ struct OuterHull::Patch {
 
 namespace {
 
-/// The farthest along the middle, and what it does not exceed at all four corners.
+/// Returns the point farthest along the patch's middle, and all points that it does not exceed at
+/// all four corners.
 std::vector<Vector3d> Needed(const std::vector<Heights>& heights,
                              const std::vector<Vector3d>& points) {
   const auto along_middle = [](const Heights& h) { return (h[0] + h[1]) + (h[2] + h[3]); };
@@ -79,7 +81,7 @@ std::vector<Vector3d> Needed(const std::vector<Heights>& heights,
   return needed;
 }
 
-/// Again and again the point that exceeds those kept by the most.
+/// Chooses the cell's points one by one: each time the point that exceeds those kept by the most.
 HullCell CellFor(const std::vector<Heights>& heights, const std::vector<Vector3d>& points,
                  double extent) {
   HullCell cell;
@@ -120,7 +122,7 @@ OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
   rounding = (rounding + 0x1p-51 * (size + origin_.cwiseAbs().sum())) * kLonger;
   rounding_ = FloatUp(rounding);
   extent_ = (extent_ + rounding) * (1 + 0x1p-50) + std::numeric_limits<float>::min();
-  // So that plates and needles have some measure across.
+  // The constant keeps the measure of plates and needles away from zero.
   const Vector3d half = 0.5 * upper - 0.5 * lower;
   measure_ = (half / extent_).cwiseAbs2().cast<float>() + Eigen::Vector3f::Constant(0x1p-10f);
   cells_.resize(std::size_t{6} * along_edge_ * along_edge_);
@@ -129,8 +131,9 @@ OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
   }
 }
 
-// A point that is dropped on the way is exceeded all over the patch by one that is not, but for
-// rounding; so it is at most as often as patches are divided, and kStored has room for that.
+// A point that is dropped on the way is exceeded all over the patch, but for rounding, by one that
+// is kept. These roundings add up over at most as many divisions as there are levels of patches,
+// and kStored has room for that.
 void OuterHull::Divide(const Patch& patch, const std::vector<Vector3d>& points) {
   const std::vector<Heights> heights = patch.HeightsOf(points);
   if (patch.width == 1) {

@@ -1,4 +1,4 @@
-// A convex body around a shape, quick to ask: how far does it reach along a direction?
+// A convex body around a shape, with a fast bound of its reach along a direction.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,10 +12,10 @@
 
 namespace collision::shape {
 
-/// Points for one cell of directions: one of them reaches farthest along a direction of the cell,
-/// or by no more than `more` less than the whole body, where the direction's greatest coordinate is
-/// 1. In single precision, seen from the hull's origin; unused places repeat the first point. One
-/// cache line.
+/// The points for one cell of directions. Along a direction of the cell whose greatest coordinate
+/// is 1, the whole body reaches farther than the best of these points by at most `more` [m]. In
+/// single precision, seen from the hull's origin; unused places repeat the first point. One cache
+/// line.
 struct alignas(64) HullCell {
   static constexpr std::uint32_t kPoints = 4;
   float x[kPoints], y[kPoints], z[kPoints];
@@ -23,33 +23,35 @@ struct alignas(64) HullCell {
 };
 
 /// A convex body that contains a shape and is little more than its convex hull; at most 24 kB,
-/// however many triangles there are. In single precision, to be asked how far the shape reaches
-/// along a direction.
+/// however many triangles there are. Stored in single precision. It bounds how far the shape
+/// reaches along a direction.
 ///
 /// Directions are sorted into the cells of a cube, as in convex_points.h, but a cell keeps four
 /// points at most: one line of a cache. On a face of the cube, along (1, u, v), the difference of
-/// two points is linear in u and v and greatest at a corner of the cell, so it is known by how much
-/// a point that was left out may exceed those that were kept (`HullCell::more`). The body exceeds
-/// the convex hull by nothing along half of the directions (homer, spot), by 0.1 % of the diameter
-/// along half of rocker-arm's, by 2 % at most. Making it takes about a microsecond a vertex.
+/// two points is linear in u and v and greatest at a corner of the cell, so the amount by which a
+/// point that was left out may exceed those that were kept is known (`HullCell::more`). The body's
+/// reach equals that of the convex hull along half of the directions for homer and spot; for
+/// rocker-arm its excess is at most 0.1 % of the diameter along half of them; the largest excess is
+/// 2 %. Construction takes about a microsecond a vertex.
 class OuterHull {
  public:
   /// The hull of nothing.
   OuterHull() = default;
-  /// Around everything within `rounding` of the points' convex hull [m]. Requires a point; finite
-  /// coordinates below 1e15 m, whose squares single precision holds.
+  /// The hull of everything within `rounding` [m] of the points' convex hull. Requires a point;
+  /// finite coordinates below 1e15 m, whose squares single precision holds.
   OuterHull(std::span<const Eigen::Vector3d> points, double rounding);
 
   /// How far the hull reaches along a direction, and where.
   struct Support {
-    float height;           ///< n·x is no more for any x of the shape, but for kHullSupportError.
-    Eigen::Vector3f point;  ///< About where.
+    float height;           ///< n·x <= height + kHullSupportError extent() for all x of the shape.
+    Eigen::Vector3f point;  ///< The point there, approximately.
   };
-  /// Along n, seen from origin(). Requires |n| within 2^-16 of 1, and a point.
+  /// The support along n, relative to origin(). Requires |n| within 2^-16 of 1, and a hull that is
+  /// not empty.
   Support Along(const Eigen::Vector3f& n) const;
 
-  /// Along n of any length, so that its length need not be waited for: n·x is no more than
-  /// height + more |n|.
+  /// The support along n of any length, so that the caller may compute the length at the same time:
+  /// n·x <= height + more |n|, but for kHullSupportError as above.
   struct Foremost {
     float height, more;
     Eigen::Vector3f point;
@@ -57,8 +59,11 @@ class OuterHull {
   Foremost ForemostAlong(const Eigen::Vector3f& n) const;
 
   const Eigen::Vector3d& origin() const { return origin_; }  ///< In the body frame.
-  double extent() const { return extent_; }  ///< No point of the shape is farther from the origin.
-  /// Squares of half the extents along the axes, by that of the extent: how long it is which way.
+  double extent() const {
+    return extent_;
+  }  ///< No point of the shape is farther from origin() [m].
+  /// The squares of the box's half edges over the square of extent(), plus 2^-10: the proportions
+  /// of the shape.
   const Eigen::Vector3f& measure() const { return measure_; }
   std::size_t bytes() const { return cells_.capacity() * sizeof(HullCell); }
 
@@ -76,12 +81,13 @@ class OuterHull {
   Eigen::Vector3f measure_ = Eigen::Vector3f::Zero();
 };
 
-/// Of the extent E. With u = 2^-24: three products and two sums are off by 3.1 u E, the sums with
-/// `more` and the rounding by 2.1 u E; a direction that rounding sorts into the next cell is off by
-/// 3 u in each of two coordinates of (1, u, v), there and back 9 u E: in all less than 15 u E.
+/// Error of a support as a share of the extent E. With u = 2^-24: three products and two sums are
+/// off by 3.1 u E, the sums with `more` and the rounding by 2.1 u E; a direction that rounding
+/// sorts into the next cell is off by 3 u in each of two coordinates of (1, u, v), there and back 9
+/// u E: in all less than 15 u E.
 inline constexpr double kHullSupportError = 15 * 0x1p-24;
 
-/// As ConvexPoints::CellOf(): the face is that of the greatest coordinate.
+/// The cell of a direction, as in ConvexPoints::CellOf().
 inline std::uint32_t OuterHull::CellOf(const Eigen::Vector3f& n) const {
   const float x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
   const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);

@@ -26,16 +26,16 @@ double SignedDistanceAt(const sphere_tree::SphereNode& node, sphere_tree::Surfac
   return is_inside ? -distance.lower : distance.upper;
 }
 
-/// Of a quick tree so many balls are measured: enough to tell a deep contact.
+/// Number of balls of a quick tree that are measured: enough to recognise a deep contact.
 constexpr std::size_t kHalvedMeasured = 1024;
 
-/// Nodes and triangles looked at for a ball, on average at most. Meshes as people make them need up
-/// to 240; copies upon each other are all as far from everything, and would all be measured each
-/// time.
+/// The most nodes and triangles examined per ball, on average. Ordinary meshes need up to 240;
+/// coincident copies are all equally far from every point, and without a limit all of them would be
+/// measured for each ball.
 constexpr std::size_t kWorkPerBall = 1024;
 
-/// Of the first `count` nodes, as long as there is work left for them; of the others the radius
-/// stays.
+/// Measures the signed distances of the first `count` nodes while the work suffices; for other
+/// nodes the radius stays.
 void MeasureCentres(const geometry::TriangleMesh& mesh, sphere_tree::SurfaceKind kind,
                     std::size_t count, sphere_tree::SphereTree* tree) {
   sphere_tree::SurfaceQuery query(mesh, *tree);
@@ -46,7 +46,7 @@ void MeasureCentres(const geometry::TriangleMesh& mesh, sphere_tree::SurfaceKind
   }
 }
 
-/// All but the layout for traversals.
+/// Builds the tree, without its packed layout.
 sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
                                   const sphere_tree::ShapeOptions& options,
                                   sphere_tree::SurfaceKind kind) {

@@ -25,13 +25,13 @@ inline constexpr std::size_t kSolidsMax = std::size_t{1} << 16;
 ///
 /// The *elements* of a shape (ElementIndex) are the triangles of the surface, by their numbers, and
 /// then the solids. The body is the union of them all and, if the surface is closed, of its inside.
-/// One numbering serves the tree, a search, and what is remembered of a contact. A solid is a leaf
-/// of its own; up to eight near ones at a time are gathered into a ball, and the surface's tree
-/// (which the cache keeps) hangs among them unchanged. Nothing is inside a solid without touching
-/// it, so winding numbers are asked of the surface only.
+/// One numbering serves the tree, a search, and the witness of a contact. A solid is a leaf of its
+/// own; up to eight near ones at a time are gathered into a ball, and the surface's tree (which the
+/// cache keeps) hangs among them unchanged. What is inside a convex solid touches it, so winding
+/// numbers are needed for the surface only.
 ///
 /// *Twins* are shapes of one body with different trees, for example a coarse tree and the fitted
-/// tree that replaces it. What is known of an agent with the one shape holds with the other.
+/// tree that replaces it. What is certified for an agent with one of them holds for the other.
 class Shape {
  public:
   /// Builds a shape of a surface. Takes about 50 µs a triangle, with the fitted builder 100.
@@ -42,8 +42,9 @@ class Shape {
                                             const sphere_tree::ShapeOptions& options = {},
                                             const Shape* twin = nullptr);
 
-  /// The shape that Build() made of the same mesh, from its tree, without the work. The distances
-  /// in the tree are trusted. Requires that RefusalOf(tree, mesh) is nullopt.
+  /// Makes the shape that Build() would return for the mesh from its stored tree, without building
+  /// it again. The distances in the tree are trusted. Requires that RefusalOf(tree, mesh) is
+  /// nullopt.
   static std::shared_ptr<const Shape> FromTree(geometry::TriangleMesh mesh,
                                                sphere_tree::SphereTree tree);
 
@@ -103,7 +104,7 @@ class Shape {
   sphere_tree::PackedTree packed_;
   OuterHull hull_;
   std::vector<Eigen::Vector3d> component_points_;
-  std::shared_ptr<const char> body_ = std::make_shared<const char>();  ///< One of all twins.
+  std::shared_ptr<const char> body_ = std::make_shared<const char>();  ///< Shared by all twins.
 };
 
 }  // namespace collision::shape

@@ -14,7 +14,7 @@ std::string At(std::size_t node, const std::string& what) {
 
 bool IsWithin(double value) { return std::abs(value) <= kBallReachMax; }
 
-/// Also of what is not a number.
+/// Returns false for NaN as well.
 bool HasBall(const SphereNode& node) {
   return IsWithin(node.centre.x()) && IsWithin(node.centre.y()) && IsWithin(node.centre.z()) &&
          IsWithin(node.radius) && node.radius >= 0 && IsWithin(node.signed_distance);

@@ -128,7 +128,7 @@ void FuzzContact(Bytes bytes) {
   WorkBudget work(allowed);
   const narrow_phase::TimeOfContactResult time =
       TimeOfContact({.last = a->bound, .next = {}, .shape = a->body},
-                    {.last = b->bound, .next = {}, .shape = b->body}, from, to, tolerance, &work);
+                    {.last = b->bound, .next = {}, .shape = b->body}, {from, to}, tolerance, &work);
   const double duration = static_cast<double>(to.nanoseconds() - from.nanoseconds()) / 1e9;
   CheckForm(time, duration * (1 + 1e-15));
   Require(work.spent() <= allowed + kBatchUnits, "spent ", work.spent(), " of ", allowed);

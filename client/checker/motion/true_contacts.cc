@@ -54,6 +54,12 @@ struct Slice {
   Box box;
 };
 
+// One piece of an agent's motion.
+struct AgentPiece {
+  std::size_t agent;
+  const Piece& piece;
+};
+
 // Bodies with a shape are evaluated while their balls, a little enlarged [m, and share of their
 // size], overlap: the shapes decide about contact.
 constexpr long double kSpare = 1e-9L;
@@ -115,7 +121,7 @@ class ContactFinder {
     while (pa != a.end && pb != b.end) {
       const std::int64_t from = std::max({pa->t0_ns, pb->t0_ns, s0});
       const std::int64_t to = std::min({pa->t1_ns, pb->t1_ns, s1});
-      if (from < to) SearchPieces(a.agent, *pa, b.agent, *pb, from, to);
+      if (from < to) SearchPieces({a.agent, *pa}, {b.agent, *pb}, from, to);
       if (pa->t1_ns <= pb->t1_ns) {
         ++pa;
       } else {
@@ -124,18 +130,17 @@ class ContactFinder {
     }
   }
 
-  void SearchPieces(std::size_t a, const Piece& pa, std::size_t b, const Piece& pb,
-                    std::int64_t from, std::int64_t to) {
-    const Body body_a = motions_[a].body();
-    const Body body_b = motions_[b].body();
+  void SearchPieces(const AgentPiece& a, const AgentPiece& b, std::int64_t from, std::int64_t to) {
+    const Body body_a = motions_[a.agent].body();
+    const Body body_b = motions_[b.agent].body();
     const bool balls = body_a.IsBall() && body_b.IsBall();
-    const PairMotion motion(pa, pb, from);
+    const PairMotion motion(a.piece, b.piece, from);
     const long double reach = static_cast<long double>(body_a.reach()) + body_b.reach();
     const long double duration = static_cast<long double>(to - from) * 1e-9L;
     const long double spare = balls ? 0 : kSpare * (1 + reach);
     const auto instant = [&](long double seconds) { return from + seconds * 1e9L; };
     for (const Span& span : SpansWithin(motion.difference(), duration, reach + spare)) {
-      ContactAssembly& pair = pairs_[{a, b}];
+      ContactAssembly& pair = pairs_[{a.agent, b.agent}];
       pair.AddBalls(instant(span.begin), instant(span.end));
       if (balls) {
         pair.Add(Stretch::Kind::kContact, true, instant(span.begin), instant(span.end));

@@ -38,11 +38,19 @@ class Parts {
   std::vector<Part> many_;
 };
 
-// The distance of the cores if it is less than `limit`, else `limit`. Negative where they touch,
-// cross or contain each other: minus the distance that they may be moved and still do. `outside`:
-// neither lies inside the other.
-double CoreGap(const Part& a, const Part& b, const Pose& pose, double limit, bool outside,
-               bool depth, Hint* hint) {
+// One part of each of two bodies, the pose of B in A's axes, and where the last search ended.
+struct PosedParts {
+  const Part& a;
+  const Part& b;
+  const Pose& pose;
+  Hint* hint;
+};
+
+// The distance [m] of the cores if it is less than `limit`, else `limit`. Negative where they touch,
+// cross or contain each other: minus the distance by which they may be moved and still do (with
+// `depth`; else 0 where they touch or cross). `outside`: neither lies inside the other.
+double CoreGap(const PosedParts& parts, double limit, bool outside, bool depth) {
+  const auto& [a, b, pose, hint] = parts;
   if (a.core == nullptr && b.core == nullptr) return Length(pose.p_AB);
   if (a.core == nullptr || b.core == nullptr) {
     const Mesh& mesh = a.core == nullptr ? *b.core : *a.core;
@@ -56,11 +64,11 @@ double CoreGap(const Part& a, const Part& b, const Pose& pose, double limit, boo
   return inside ? -distance : distance;
 }
 
-Standing StandingOf(const Part& a, const Part& b, const Pose& pose, double apart_least,
-                    bool outside, Hint* hint) {
-  const double reach = a.rounding_m + b.rounding_m;
+// `apart_least`: a larger distance [m] need not be exact.
+Standing StandingOf(const PosedParts& parts, double apart_least, bool outside) {
+  const double reach = parts.a.rounding_m + parts.b.rounding_m;
   const double limit = std::max(apart_least, 2 * kTouching) + reach;
-  const double gap = CoreGap(a, b, pose, limit, outside, true, hint);
+  const double gap = CoreGap(parts, limit, outside, true);
   if (gap <= reach + kTouching) return {true, std::max(0.0, reach - gap)};
   return {false, gap - reach};
 }
@@ -121,7 +129,7 @@ Standing StandingOf(const Body& body_a, const Body& body_b, const Pose& pose, Hi
       const double least = of_a.all().size() * of_b.all().size() > 1 ? ApartAtLeast(a, b, pose) : 0;
       if (least > (all.contact ? kTouching : all.margin)) continue;
       Hint* near = HintFor(of_a.all().size(), of_b.all().size(), hint, &fresh);
-      const Standing one = StandingOf(a, b, pose, all.contact ? 0 : all.margin, outside, near);
+      const Standing one = StandingOf({a, b, pose, near}, all.contact ? 0 : all.margin, outside);
       if (one.contact == all.contact) {
         all.margin =
             one.contact ? std::max(all.margin, one.margin) : std::min(all.margin, one.margin);
@@ -141,7 +149,7 @@ bool InContact(const Body& body_a, const Body& body_b, const Pose& pose, Hint* h
       if (ApartAtLeast(a, b, pose) > 2 * kTouching) continue;
       const double reach = a.rounding_m + b.rounding_m;
       Hint* near = HintFor(of_a.all().size(), of_b.all().size(), hint, &fresh);
-      if (CoreGap(a, b, pose, reach + 2 * kTouching, false, false, near) <= reach + kTouching)
+      if (CoreGap({a, b, pose, near}, reach + 2 * kTouching, false, false) <= reach + kTouching)
         return true;
     }
   }

@@ -9,11 +9,11 @@
 // is positive: pairs that are no faces have no less. The generators are exact (convex_set.h), the
 // centres' difference d is off by u S, counted with f(n).
 //
-// Edges that are parallel but for rounding, as those of boxes turned alike, have no normal that
-// could be told. One of the two is taken to be exactly parallel to the other: with σ the sine of
+// Edges that are parallel but for rounding, as those of boxes with equal orientations, have no
+// certain normal. One of the two is taken to be exactly parallel to the other: with σ the sine of
 // the angle, rounded up, that moves it by σ |g|, the zonotope's reach by as much, and the normals
-// of its other pairs by σ |g_i| |g_j|. A third edge parallel to both is not provided for: then
-// nothing is certain.
+// of its other pairs by σ |g_i| |g_j|. A third edge parallel to both is not supported: then nothing
+// is certain.
 #include "collision_core/geometry/convex/box_zonotope.h"
 
 #include <Eigen/Geometry>
@@ -63,7 +63,7 @@ class Faces {
   }
 
  private:
-  /// False: some are parallel to more than one other.
+  /// Returns false if an edge is parallel to more than one other.
   bool FindParallels() {
     std::array<int, 6> partners{};
     for (int i = 0; i < half_.count; ++i) {
@@ -78,7 +78,8 @@ class Faces {
     return true;
   }
 
-  /// Faces of the cores themselves come first: they tell most pairs apart. False: it ended early.
+  /// Tries the faces of the cores themselves first, because they separate most pairs that are
+  /// apart. Returns false if it ended early.
   bool TryPairs() {
     for (const bool within : {true, false}) {
       for (int i = 0; i < half_.count; ++i) {
@@ -116,7 +117,8 @@ class Faces {
     return found_.gap > apart_;
   }
 
-  /// Beyond by clearly more than the least so far, all errors counted: most pairs need no root.
+  /// Whether the reach beyond 0 clearly exceeds the least one so far, all errors included: then no
+  /// root is needed, as for most pairs.
   bool IsNoNearer(double beyond, double square, double squares) const {
     return beyond > 0 && inside_ > 0 && inside_ < numeric::kInfinity && square > 1e-6 * squares &&
            beyond * beyond > 1e-20 * squares * pair_.size() * pair_.size() &&

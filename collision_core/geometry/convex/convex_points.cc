@@ -7,10 +7,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// So few points are looked at one by one.
+/// Up to this many points, a query tests all of them.
 constexpr std::size_t kScanMax = 8;
 
-/// Cells along an edge of the cube; more points want finer ones: then a cell keeps about four.
+/// Cells along an edge of the cube: finer for more points, so that a cell keeps about four.
 std::uint32_t CellsFor(std::size_t points) {
   if (points <= kScanMax) return 0;
   if (points <= 512) return 8;
@@ -83,8 +83,8 @@ void ConvexPoints::Divide(const Patch& patch, std::vector<std::uint32_t> candida
   }
 }
 
-/// Those that the furthest along the patch's middle, which is kept, does not exceed by the margin
-/// at all corners.
+/// Returns the point furthest along the patch's middle, and all points that it does not exceed by
+/// the margin at all corners.
 std::vector<std::uint32_t> ConvexPoints::Needed(
     const Patch& patch, double margin, const std::vector<std::uint32_t>& candidates) const {
   const std::uint32_t u = patch.u + patch.width, v = patch.v + patch.width;

@@ -1,4 +1,4 @@
-// Points as a convex hull sees them: which of them lies furthest along a direction?
+// The support function of a set of points: which of them lies furthest along a direction.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@ namespace collision::geometry {
 /// Directions are sorted into the cells of a cube around the origin, and for each cell those points
 /// are kept that may be furthest along one of its directions. Along the directions (1, u, v) of a
 /// cell on a face of the cube, the difference of two points is linear in u and v: a point that
-/// another one exceeds at all four corners of a cell is never needed there. So a question costs a
-/// handful of products however many points there are, and its error is known.
+/// another one exceeds at all four corners of a cell is never needed there. So a query costs a
+/// handful of products however many points there are, and its error is bounded.
 class ConvexPoints {
  public:
   ConvexPoints() = default;
@@ -27,20 +27,21 @@ class ConvexPoints {
 
   std::size_t size() const { return points_.size(); }
   const Eigen::Vector3d& operator[](std::uint32_t index) const { return points_[index]; }
-  /// No point is longer, rounded up.
+  /// The largest distance of a point from the origin, rounded up.
   double reach() const { return reach_; }
 
-  /// A point x for which n·x, computed in doubles, is greatest; where products tie or rounding
-  /// decides, exactly n·x is within 16 · 2^-53 |n| reach() of the greatest. Requires a point.
+  /// The index of a point x whose n·x, computed in doubles, is greatest. Its exact n·x is within 16
+  /// · 2^-53 |n| reach() of the greatest one. Requires at least one point.
   std::uint32_t Furthest(const Eigen::Vector3d& n) const {
     return cells_ == 0 ? FurthestOf(n, 0, all_) : FurthestInCell(n, CellOf(n));
   }
 
-  /// Few points once more, for wide vectors: x, y and z of four, again and again, the last point
-  /// repeated. Empty where there are more than kBlockPointsMax.
+  /// A copy of the points for wide vectors: for every four points their x, then their y, then their
+  /// z; the last point fills up the last block. Empty if there are more than kBlockPointsMax
+  /// points.
   const std::vector<double>& blocks() const { return blocks_; }
   static constexpr std::size_t kBlockPointsMax = 64;
-  /// The greatest coordinates.
+  /// The greatest magnitude of each coordinate over all points.
   const Eigen::Vector3d& extents() const { return extents_; }
 
   std::size_t bytes() const {
@@ -75,7 +76,8 @@ class ConvexPoints {
     return best;
   }
 
-  /// The face is that of the greatest coordinate.
+  /// The cell of a direction: on the face of the cube that its coordinate of greatest magnitude
+  /// selects.
   std::uint32_t CellOf(const Eigen::Vector3d& n) const {
     const double x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
     const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
@@ -98,9 +100,11 @@ class ConvexPoints {
 
   std::vector<Eigen::Vector3d> points_;
   std::uint32_t all_ = 0;
-  std::uint32_t cells_ = 0;  ///< Along an edge of the cube; 0: all points are looked at.
+  /// Cells along an edge of the cube; 0: no cells, each query tests all points.
+  std::uint32_t cells_ = 0;
   std::vector<std::uint32_t> starts_, kept_;
-  std::vector<std::vector<std::uint32_t>> of_cell_;  ///< While it is built.
+  /// The points kept for each cell; used during construction only.
+  std::vector<std::vector<std::uint32_t>> of_cell_;
   double reach_ = 0;
   std::vector<double> blocks_;
   Eigen::Vector3d extents_{0, 0, 0};

@@ -1,4 +1,4 @@
-// A convex set in some frame, as a search sees it: how far it reaches along a direction.
+// A convex set in some frame, given by its support function.
 #pragma once
 
 #include <cstdint>
@@ -8,26 +8,26 @@
 
 namespace collision::geometry {
 
-/// What is rounded by the radius.
+/// The kinds of cores. A core and all points within a radius of it (its rounding) are a convex set.
 enum class ConvexCore : std::uint8_t {
   kPoint,     ///< Rounded: a ball.
   kSegment,   ///< Rounded: a capsule.
-  kTriangle,  ///< One of a mesh.
+  kTriangle,  ///< A triangle of a mesh.
   kBox,
   kEllipsoid,
   kHull  ///< The convex hull of points.
 };
 
-/// Every point of the core within `rounding`. With generators g_0, g_1, g_2 (columns) the core is,
-/// exactly and seen from `centre`:
+/// All points within `rounding` of a core. Lengths in metres. With generators g_0, g_1, g_2
+/// (columns) the core, seen from `centre`, is exactly:
 ///   kPoint      0
 ///   kSegment    s g_0, |s| <= 1
 ///   kTriangle   the hull of g_0, g_1, g_2
 ///   kBox        s g_0 + t g_1 + u g_2, each factor in [−1, 1] (columns need not be orthogonal)
 ///   kEllipsoid  the same with s² + t² + u² <= 1
 ///   kHull       the hull of G x for all points x
-/// The set that is meant is known to be within `error` of it: each point of either is that near to
-/// a point of the other.
+/// The true set differs from this one by at most `error`: each point of either lies within `error`
+/// of a point of the other.
 struct ConvexSet {
   ConvexCore core = ConvexCore::kPoint;
   Eigen::Matrix3d generators = Eigen::Matrix3d::Zero();
@@ -39,14 +39,15 @@ struct ConvexSet {
   double span = 0;
   const ConvexPoints* points = nullptr;  ///< The points of a hull; must outlive the set.
 
-  /// The core's point furthest along n, as z: PointAt(z) is the point, seen from the centre. It is
-  /// a point of the core whatever the generators, so that it may be used again at another pose.
+  /// The coordinates z of the core's point furthest along n: PointAt(z) is that point, seen from
+  /// `centre`. They give a point of the core whatever the generators, so they may be reused at
+  /// another pose.
   Eigen::Vector3d Support(const Eigen::Vector3d& n) const;
   Eigen::Vector3d PointAt(const Eigen::Vector3d& z) const;
   Eigen::Vector3d SupportPoint(const Eigen::Vector3d& n) const { return PointAt(Support(n)); }
 
   bool IsSmooth() const { return core == ConvexCore::kEllipsoid; }
-  /// A core that is at most a segment.
+  /// Whether the core is a point or a segment.
   bool IsThin() const { return core == ConvexCore::kPoint || core == ConvexCore::kSegment; }
 };
 

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 using Point = ConvexPair::Point;
 
-/// Flatter than this share of S is flat.
+/// A difference whose height is less than this share of S counts as flat.
 constexpr double kFlat = 64 * 0x1p-53;
 
 /// A face is final where the difference reaches beyond it by less than this share of S; where it is
@@ -19,10 +19,11 @@ constexpr double kFlat = 64 * 0x1p-53;
 constexpr double kFinal = 4 * 0x1p-53;
 constexpr double kFinalSmooth = 0x1p-40;
 
-/// After so many steps what is certain so far is put down, in case that the surface degenerates.
+/// After this many steps each the certain radius is recorded, in case the surface degenerates
+/// later.
 constexpr std::uint32_t kCheckEvery = 16;
 
-/// Four points of the difference that are not in one plane, found from the few that a search left.
+/// Finds four points of the difference that are not in one plane, from the simplex that GJK left.
 class Tetrahedron {
  public:
   Tetrahedron(const ConvexPair& pair, const GjkResult& start, Overlap* overlap)
@@ -134,7 +135,7 @@ class Growth {
   PolytopeFaces faces_;
 };
 
-/// Of a flat difference only the direction across is told.
+/// For a flat difference only the direction perpendicular to it is returned.
 void TryAcross(const ConvexPair& pair, const Vector3d& normal, Overlap* overlap) {
   if (!(normal.squaredNorm() > 0)) return;
   const double ahead = normal.dot(pair.Against(normal).y);
@@ -165,7 +166,7 @@ Overlap RunEpa(const ConvexPair& pair, const GjkResult& start, const EpaGoal& go
   return overlap;
 }
 
-// From the middle away from the nearest face, by steps that are halved where they do not help.
+// Moves the centre away from the nearest face, by steps that are halved where they do not help.
 InscribedBall LargeBallInside(const ConvexSet& set) {
   InscribedBall best{MiddleOf(set), 0};
   Vector3d centre = best.centre, away = Vector3d::Zero();

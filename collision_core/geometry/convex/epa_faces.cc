@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The sine of the angle between two edges of a face; less is a needle.
+/// The least sine of the angle between two edges of a face; with a smaller one it is a needle.
 constexpr double kNeedle = 1e-10;
 
 constexpr int kNext[3] = {1, 2, 0};
@@ -60,8 +60,8 @@ int PolytopeFaces::Nearest() const {
 bool PolytopeFaces::Add(int beyond, const Point& point) {
   if (point_count_ == kPointsMax) return false;
   points_[point_count_] = point;
-  // Where the point lies in the plane of a face, that one is taken as hidden first, then as
-  // visible.
+  // A face in whose plane the point lies counts as hidden at first, and as visible in a second
+  // attempt.
   for (const double tolerance : {tolerance_, -tolerance_}) {
     const bool fits = FindHorizon(beyond, point.y, tolerance) && MakeCone() && JoinCone();
     for (int i = 0; i < visible_count_; ++i) faces_[visible_[i]].is_visible = false;
@@ -109,7 +109,7 @@ bool PolytopeFaces::MakeCone() {
 }
 
 /// The horizon must be one loop: then each of its points starts one edge. Neighbours within the
-/// cone are told by their number in it for now.
+/// cone are identified by their number in the cone for now.
 bool PolytopeFaces::JoinCone() {
   for (int i = 0; i < edge_count_; ++i) starts_[horizon_[i].from] = starts_[horizon_[i].to] = -1;
   for (int i = 0; i < edge_count_; ++i) {
@@ -125,8 +125,8 @@ bool PolytopeFaces::JoinCone() {
   return true;
 }
 
-/// The cone's faces take the places of the visible ones, then new places; what places are left over
-/// are filled with the last faces.
+/// The cone's faces take the places of the visible ones, then new places; places left over are
+/// filled with the last faces.
 void PolytopeFaces::Replace() {
   std::array<int, kEpaFacesMax> place;
   for (int i = 0; i < edge_count_; ++i) {
@@ -152,7 +152,7 @@ void PolytopeFaces::Replace() {
 }
 
 // With the corners y_0, y_1, y_2 and edges e_1, e_2 from the first: y_0·(e_1 × e_2) is computed to
-// within 12 · 2^-53 |y_0| |e_1| |e_2|; what is not plain from that is asked exactly.
+// within 12 · 2^-53 |y_0| |e_1| |e_2|; where that does not decide the sign, exact arithmetic does.
 bool PolytopeFaces::IsSeenFromWithin(const Face& face) const {
   const Vector3d& a = points_[face.corners[0]].y;
   const Vector3d &b = points_[face.corners[1]].y, &c = points_[face.corners[2]].y;

@@ -13,23 +13,24 @@ class PolytopeFaces {
  public:
   using Point = ConvexPair::Point;
 
-  /// Four points that are not in one plane. `tolerance`: points beyond a face by less are in it
-  /// [m].
+  /// Starts with the tetrahedron of four points. A point beyond a face by less than `tolerance` [m]
+  /// counts as in its plane. Requires four points that are not in one plane.
   void Start(const std::array<Point, 4>& tetrahedron, double tolerance);
 
-  /// The face whose plane is nearest to 0, or furthest on the wrong side of it, of those that are
-  /// not final; −1: none is left.
+  /// Of the faces that are not final, the one whose plane has the least distance from 0, negative
+  /// where 0 lies on its outer side; −1: all faces are final.
   int Nearest() const;
   double DistanceOf(int face) const { return faces_[face].distance; }
   const Eigen::Vector3d& NormalOf(int face) const { return faces_[face].normal; }
   void SetFinal(int face) { faces_[face].is_final = true; }
 
-  /// Replaces all faces that a point is beyond of, from one of them on. False, and nothing has
-  /// changed: there is no room, or the surface would not stay one of proper triangles.
+  /// Adds a point: replaces all faces that the point lies beyond by the cone from their horizon to
+  /// the point. `beyond`: one of these faces. Returns false, and changes nothing, if there is no
+  /// room or if the cone would have degenerate triangles.
   bool Add(int beyond, const Point& point);
 
-  /// The radius of a ball about 0 that is certainly inside; below 0: none is. Each point may be off
-  /// by `point_error`; `size` bounds their coordinates.
+  /// The radius of a ball about 0 that is certainly inside [m]; below 0: no ball is certain. Each
+  /// point may be off by `point_error`; `size` bounds their coordinates.
   double CertainDistance(double point_error, double size) const;
 
  private:
@@ -39,7 +40,7 @@ class PolytopeFaces {
     std::array<int, 3> corners;     ///< Anticlockwise, seen from outside.
     std::array<int, 3> neighbours;  ///< Across the edge from corner i to the next.
     Eigen::Vector3d normal;         ///< Outward, unit.
-    double distance;                ///< The least of the corners' along the normal.
+    double distance;                ///< The least normal · corner over the three corners.
     bool is_final;
     bool is_visible;
   };
@@ -61,13 +62,14 @@ class PolytopeFaces {
   int face_count_ = 0;
   double tolerance_ = 0;
 
-  // Of the addition under way.
+  // Used by Add() only.
   std::array<int, kEpaFacesMax> visible_;
   int visible_count_ = 0;
   std::array<Edge, kEpaFacesMax> horizon_;
   std::array<Face, kEpaFacesMax> cone_;
   int edge_count_ = 0;
-  std::array<int, kPointsMax> starts_;  ///< The cone's face whose edge starts at a point, or −1.
+  /// For each point the face of the cone whose edge starts there, or −1.
+  std::array<int, kPointsMax> starts_;
 };
 
 }  // namespace collision::geometry

@@ -5,8 +5,10 @@
 
 namespace collision::geometry {
 
-/// The normals of faces, of pairs of edges, and of an edge towards the other core; each turned to
-/// the side of `about`. Empty for cores without few edges.
+/// The directions that the edges of segments, triangles and boxes determine: normals of faces,
+/// cross products of two edges, and for each edge the part of `about` perpendicular to it. Each is
+/// negated where needed, so that its product with `about` is not negative. Other cores contribute
+/// no edges.
 class FeatureDirections {
  public:
   FeatureDirections(const ConvexPair& pair, const Eigen::Vector3d& about);

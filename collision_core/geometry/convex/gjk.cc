@@ -9,15 +9,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Nearer than this share of S the two touch as far as a search in doubles can tell.
+/// Up to this share of S, a distance counts as contact: a search in doubles cannot resolve less.
 constexpr double kTouching = 4 * 0x1p-53;
 
 /// Smooth cores are followed down to this share of S: further down the corners of a simplex are so
 /// near to each other that it has no direction.
 constexpr double kSmooth = 0x1p-44;
 
-/// What is computed of 0 as a sum of corners that enclose it: no more than this share of S, or than
-/// this of the squared distance before.
+/// Largest magnitude that counts as 0 for the weighted sum of corners that enclose 0: this share of
+/// S, or this share of the squared distance before.
 constexpr double kEncloses = 16 * 0x1p-53;
 constexpr double kEnclosesShare = 0x1p-40;
 
@@ -68,7 +68,8 @@ class Search {
     result_.direction = result_.nearest = result_.simplex[0].y;
   }
 
-  /// The old simplex, where it is now; or its first corner, if that is as good.
+  /// Starts from the hint's simplex at the present pose, or from its first corner if that is as
+  /// near.
   void BeginFrom(const GjkHint& start) {
     for (int i = 0; i < start.count; ++i) result_.simplex[i] = pair_.At(start.witnesses[i]);
     BeginAtFirst();
@@ -90,15 +91,15 @@ class Search {
     return false;
   }
 
-  /// False: it did not get nearer, so that doubles cannot tell any more.
+  /// Returns false if the step did not come nearer: doubles cannot resolve any more.
   bool TakeLast() {
     const int count = result_.count + 1;
     const bool nearer = TakeIfNearer(count, count - 1) || TakeIfNearer(count, -1);
     return nearer && !result_.encloses;
   }
 
-  /// Of slivers weights are mostly rounding: what counts is where they lead. A tetrahedron so thin
-  /// that its inside is a matter of rounding does not enclose 0.
+  /// The weights of a sliver are mostly rounding, so the point that they give is computed and
+  /// tested. A tetrahedron so thin that rounding decides about its inside does not enclose 0.
   bool TakeIfNearer(int count, int newest) {
     std::array<const Vector3d*, 4> corners{};
     for (int i = 0; i < count; ++i) corners[i] = &result_.simplex[i].y;

@@ -35,7 +35,7 @@ class ConvexPair {
   Point At(const Witness& witness) const {
     return {(between_ + b_.PointAt(witness.b)) - a_.PointAt(witness.a), witness};
   }
-  /// The point of B − A that is furthest against n.
+  /// Finds the point of B − A with the least n·y, a support point along −n.
   void FindAgainst(const Eigen::Vector3d& n, Point* point) const {
     point->witness.a = a_.Support(n);
     point->witness.b = b_.Support(-n);
@@ -54,13 +54,13 @@ class ConvexPair {
   /// S = |c_B − c_A|₁ + span_A + span_B: what rounding is relative to.
   double size() const { return size_; }
 
-  /// For a unit n (within 2^-20): no n·y is less than n·Against(n).y, computed, less this. The
-  /// supports' kSupportError, the rounding of the centres' and the points' differences (3u S), and
-  /// of the product (3u S).
+  /// For a unit n (to within 2^-20), every point y of B − A has n·y >= (the computed
+  /// n·Against(n).y) − GapError() [m]. It covers the supports' kSupportError, the rounding of the
+  /// differences of centres and of points (3u S), and of the product (3u S).
   double GapError() const { return kGapError * size_ + kSupportUnderflow; }
   /// Any Point, and any Σ w_i y_i with 1 to 4 weights w_i >= 0 whose sum is 1 to within 4u, is off
-  /// from a point of B − A by less than this: the supports' kSupportError, the differences (3u S),
-  /// the weights (4u S), products and sums (5u S).
+  /// from a point of B − A by less than this [m]: the supports' kSupportError, the differences (3u
+  /// S), the weights (4u S), products and sums (5u S).
   double PointError() const { return kPointError * size_ + kSupportUnderflow; }
 
  private:
@@ -80,7 +80,7 @@ inline constexpr std::uint32_t kGjkStepsMax = 64;
 /// Where a search ended. Another search of the same two solids at a similar pose starts there and
 /// takes fewer steps. Only the speed depends on it; a hint that belongs to other solids is ignored.
 struct GjkHint {
-  /// What the witnesses are points of: the kind of core, and of a hull which points.
+  /// The set that the witnesses belong to: the kind of its core and, for a hull, its points.
   struct Owner {
     ConvexCore core = ConvexCore::kPoint;
     const ConvexPoints* points = nullptr;
@@ -100,11 +100,11 @@ struct GjkHint {
 /// without their rounding.
 struct GjkGoal {
   /// Relative tolerance: stop when the lower and the upper bound of the distance differ by at most
-  /// this fraction of how much they differ from `rounding`.
+  /// this fraction of the distance's difference from `rounding`.
   double relative_tolerance = 0;
-  double absolute_tolerance =
-      0;                ///< Absolute tolerance [m]: stop when the bounds differ by at most this.
-  double rounding = 0;  ///< The rounding radii of both sets together [m].
+  /// Absolute tolerance [m]: stop when the bounds differ by at most this.
+  double absolute_tolerance = 0;
+  double rounding = 0;                ///< The rounding radii of both sets together [m].
   double apart = numeric::kInfinity;  ///< Stop when the distance is known to exceed this [m].
   double near = -numeric::kInfinity;  ///< Stop when the distance is known to be below this [m].
   std::uint32_t steps = kGjkStepsMax;
@@ -116,26 +116,26 @@ struct GjkResult {
   std::array<double, 4> weights;  ///< Of the nearest point; >= 0, sum 1 to within 4u.
   int count = 0;
   bool encloses = false;      ///< The simplex of four seems to hold 0.
-  Eigen::Vector3d direction;  ///< Along the shortest way from A to B, about; any length.
-  /// Along `direction`, made a unit vector, all of B − A is at least here, computed (see
-  /// GapError()); where the search did not get to know it, −infinity.
+  Eigen::Vector3d direction;  ///< Approximately along the shortest way from A to B; any length.
+  /// The computed least n·y over B − A [m] for the unit vector n along `direction`, off by at most
+  /// GapError(); −infinity: the search did not compute it.
   double gap = -numeric::kInfinity;
-  Eigen::Vector3d nearest;  ///< Where the simplex is nearest to 0.
-  std::uint32_t steps = 0;  ///< Pairs of support points asked for.
+  Eigen::Vector3d nearest;  ///< The point of the simplex nearest to 0.
+  std::uint32_t steps = 0;  ///< Pairs of support points computed.
 };
 
-/// Searches the point of B − A nearest to 0, until the goal is reached or the steps are used up. It
-/// follows the search down to 2^-44 of the pair's size; 1e-6 of the distance takes some 15 to 40
-/// steps for smooth cores, which would never end by themselves. The result is a proposal:
+/// Searches for the point of B − A nearest to 0, until the goal is reached or the steps are used
+/// up. Smooth cores, for which the search would never end by itself, are followed down to 2^-44 of
+/// the pair's size; 1e-6 of the distance takes some 15 to 40 steps. The result is a proposal:
 /// convex_pair/convex_distance.h certifies it. Source: Gilbert, Johnson and Keerthi, "A fast
 /// procedure for computing the distance between complex objects in three-dimensional space", IEEE
 /// J. Robotics and Automation 4(2), 1988.
 void RunGjk(const ConvexPair& pair, const GjkHint& start, const GjkGoal& goal, GjkResult* result);
 
-/// Keeps where a search of these two ended, for the next one.
+/// Stores in `hint` where a search of these two sets ended, for the next search.
 void KeepGjkHint(const ConvexPair& pair, const GjkResult& result, GjkHint* hint);
 
-/// The same in closed form. Requires two cores that are points or segments.
+/// The result of RunGjk() in closed form. Requires two cores that are points or segments.
 void NearestOfSegments(const ConvexPair& pair, GjkResult* result);
 
 }  // namespace collision::geometry

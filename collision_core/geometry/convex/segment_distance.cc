@@ -14,7 +14,7 @@ Vector3d AxisOf(const ConvexSet& set) {
   return set.core == ConvexCore::kSegment ? Vector3d(set.generators.col(0)) : Vector3d(0, 0, 0);
 }
 
-/// Takes out what rounding left along an axis that the way must be square to.
+/// Removes what rounding left along an axis to which the way must be perpendicular.
 void TakeOut(const Vector3d& axis, double fraction, Vector3d* way) {
   const double square = axis.squaredNorm();
   if (square > 0 && std::abs(fraction) < 1) *way -= way->dot(axis) / square * axis;
@@ -34,7 +34,8 @@ void NearestOfSegments(const ConvexPair& pair, GjkResult* found) {
   result.steps = 1;
   result.nearest = result.direction = point.y;
   if (std::abs(s) < 1 && std::abs(t) < 1) {
-    // Square to both: the way is so short that its own direction may be nothing but rounding.
+    // The direction perpendicular to both axes: the way may be so short that its own direction is
+    // nothing but rounding.
     const Vector3d across = g.cross(h);
     const double square = across.squaredNorm();
     const Vector3d along = square > 0 ? Vector3d(across * (across.dot(point.y) / square)) : point.y;

@@ -7,12 +7,13 @@
 
 namespace collision::geometry {
 
-/// NaN gives 0.
+/// Clamps to [−1, 1]; NaN gives 0.
 inline double ClampToUnit(double t) { return t > -1 ? std::min(t, 1.0) : (t <= -1 ? -1 : 0); }
 
-/// d leads from the middle of one to that of the other; s and t are in [−1, 1] along the half axes
-/// g and h, so that d + t h − s g is shortest. Either axis may be zero. After Ericson, "Real-time
-/// collision detection", 2005, section 5.1.9, with the segments' middles as origins.
+/// The nearest points of two segments: s and t in [−1, 1] that make d + t h − s g shortest, where d
+/// leads from the middle of the first segment to that of the second, and g and h are their half
+/// axes. Either axis may be zero. After Ericson, "Real-time collision detection", 2005, section
+/// 5.1.9, with the segments' middles as origins.
 struct SegmentFractions {
   double s, t;
 };
@@ -28,13 +29,14 @@ inline SegmentFractions FractionsOf(const Eigen::Vector3d& d, const Eigen::Vecto
   return {ClampToUnit((gd + t * gh) / gg), t};
 }
 
-/// A line x + t v, seen in the edges of a box: fractions, of which [−1, 1] is the box, and the
-/// squared lengths of its half edges. The t in [−1, 1] at which it is nearest to the box.
+/// The t in [−1, 1] at which the point x + t v is nearest to a box. x and v are coordinates along
+/// the box's half edges, so that the box is [−1, 1]³; w holds the squared lengths of the half
+/// edges.
 ///
-/// Half of the derivative of the squared distance is Σ w_i v_i e_i, with e_i what x_i + t v_i
-/// exceeds [−1, 1] by: it never falls and is linear between the planes of the faces. Newton's
-/// method ends where a step stays between the same planes; what leaves the interval known is halved
-/// instead.
+/// Half of the derivative of the squared distance is Σ w_i v_i e_i, with e_i the amount by which
+/// x_i + t v_i exceeds [−1, 1]: it never falls and is linear between the planes of the faces.
+/// Newton's method ends where a step stays between the same planes; a step that leaves the known
+/// interval is replaced by a bisection.
 inline double FractionNearBox(const double (&x)[3], const double (&v)[3], const double (&w)[3]) {
   constexpr int kStepsMax = 12;
   double least = -1, most = 1, t = 0;

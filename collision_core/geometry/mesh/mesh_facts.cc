@@ -1,4 +1,4 @@
-// What is known of a mesh as a whole: closed or open, how many pieces, how large.
+// Facts of a whole mesh: closed or open, the number of its components, its size.
 #include <algorithm>
 #include <numeric>
 
@@ -17,7 +17,8 @@ bool LexicographicallyLess(const Vector3d& a, const Vector3d& b) {
   return false;
 }
 
-/// How often an edge is passed from its lower to its higher end, less the other way.
+/// How often an edge is traversed from its lower to its higher end, less the traversals the other
+/// way.
 struct EdgePass {
   std::uint32_t lower, higher;
   std::int32_t passes;
@@ -44,7 +45,7 @@ bool IsClosed(const TriangleMesh& mesh, const std::vector<std::uint32_t>& merged
   for (const Triangle& t : mesh.triangles) {
     for (int i = 0; i < 3; ++i) {
       const std::uint32_t from = merged[t[i]], to = merged[t[(i + 1) % 3]];
-      // An edge from a position to itself is passed both ways at once.
+      // An edge from a position to itself counts both ways at once.
       if (from < to) passes.push_back({from, to, 1});
       if (to < from) passes.push_back({to, from, -1});
     }

@@ -46,7 +46,7 @@ Refusal RefusalOfIndex(const char* list, std::size_t at, std::uint32_t index,
          (vertices == 0 ? "none: there are no vertices" : Text(vertices - 1));
 }
 
-/// Of the box of the vertices that are named: others are not part of the surface.
+/// The box of the vertices that a face uses: others are not part of the surface.
 class Extent {
  public:
   void Add(const Vector3d& p) {
@@ -66,7 +66,7 @@ class Extent {
   Vector3d lower_ = Vector3d::Constant(HUGE_VAL), upper_ = Vector3d::Constant(-HUGE_VAL);
 };
 
-/// The faces add up to the list of corners, and none has too many.
+/// Checks that the sizes of the faces add up to the list of corners, and that no face has too many.
 Refusal RefusalOfFaces(const PolygonMesh& mesh, std::size_t triangles_max) {
   std::size_t corners = 0, triangles = 0;
   for (std::size_t i = 0; i < mesh.sizes.size(); ++i) {

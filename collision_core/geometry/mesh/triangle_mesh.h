@@ -1,4 +1,4 @@
-// Triangles as an agent's surface: what is taken, what is repaired, what is refused.
+// Triangles as an agent's surface: which meshes are accepted, repaired or refused.
 #pragma once
 
 #include <Eigen/Core>
@@ -40,7 +40,7 @@ struct PolygonMesh {
   std::vector<std::uint32_t> sizes;
 };
 
-/// What became of the faces.
+/// What Triangulate() changed.
 struct MeshRepair {
   std::size_t split = 0;    ///< Faces of more than three corners, cut into triangles.
   std::size_t dropped = 0;  ///< Degenerate: a corner twice, no area, or fewer than three corners.
@@ -58,10 +58,10 @@ std::size_t DropDegenerate(TriangleMesh* mesh);
 
 /// Why a mesh cannot be an agent's shape, as a sentence with the value and the allowed range: no
 /// triangles, a number that is not finite, an index out of range, more than `triangles_max`
-/// triangles, size or place out of range. nullopt: it can. Ask again after a repair: no triangle
-/// may be left.
+/// triangles, size or place out of range. nullopt: it can. Test again after a repair, which may
+/// leave no triangle.
 std::optional<std::string> RefusalOf(const TriangleMesh& mesh, std::size_t triangles_max);
-/// The same for polygons; also a face with too many corners is refused.
+/// The same for polygons; a face with more than kPolygonCornersMax corners is refused as well.
 std::optional<std::string> RefusalOf(const PolygonMesh& mesh, std::size_t triangles_max);
 
 /// Facts of a mesh that passed RefusalOf() and has no degenerate triangle.
@@ -79,9 +79,9 @@ std::optional<std::string> RefusalOf(const PolygonMesh& mesh, std::size_t triang
 struct MeshFacts {
   /// The oriented edge chain sums to zero, where vertices at the same position count as one.
   bool closed = false;
-  std::size_t components = 0;    ///< Connected through vertices (by position).
-  double radius = 0;             ///< Of the ball about the origin that contains it, rounded up [m].
-  Eigen::Vector3d lower, upper;  ///< Its box. Vertices without a triangle count nowhere.
+  std::size_t components = 0;    ///< Parts connected through vertices (by position).
+  double radius = 0;             ///< Radius of a ball about the origin that contains the mesh [m].
+  Eigen::Vector3d lower, upper;  ///< Its box [m]. Vertices without a triangle are not counted.
 };
 /// Computes the facts; linear in the mesh but for sorting its edges.
 MeshFacts FactsOf(const TriangleMesh& mesh);

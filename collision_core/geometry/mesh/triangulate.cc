@@ -12,8 +12,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// One face on its way to triangles. Signs are exact in the coordinate plane that the face is
-/// nearest to; dropping a coordinate keeps what is inside what for a flat face.
+/// One face while it is cut into triangles. Signs are exact in the coordinate plane that the face
+/// is most nearly parallel to; for a flat face, dropping a coordinate preserves which points lie
+/// inside which triangles.
 class EarClipper {
  public:
   EarClipper(const std::vector<Vector3d>& vertices, std::vector<std::uint32_t> corners)

@@ -12,7 +12,8 @@ struct EnclosingBall {
   double radius = 0;  ///< Rounded up: every point is certainly inside.
 };
 
-/// Near the smallest: typically within 3 %. Requires a point; coordinates below 1e100.
+/// A ball around the points, typically within 3 % of the smallest one. Requires at least one point
+/// and coordinates of magnitude below 1e100.
 EnclosingBall SmallBallAround(std::span<const Eigen::Vector3d> points);
 
 }  // namespace collision::geometry

@@ -12,7 +12,7 @@ using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 /// The distance of a point to a triangle.
 struct PointTriangleDistance {
   numeric::Interval distance;  ///< Contains the exact distance.
-  Eigen::Vector3d nearest;     ///< About the nearest point of the triangle.
+  Eigen::Vector3d nearest;     ///< The nearest point of the triangle, approximately.
 };
 
 /// The distance of a point to a triangle whose corners are exactly as given. Width: a few units in

@@ -20,7 +20,8 @@ struct MovedSign {
 };
 
 /// The side of the edge ab on which the moved point lies. It is (b − a) × (p − a), linear in p: by
-/// y it grows with a_z − b_z, by z with b_y − a_y. Zero still: the edge is a point here.
+/// y it grows with a_z − b_z, by z with b_y − a_y. If that is zero as well, the edge is a point in
+/// this projection.
 std::optional<MovedSign> SideOf(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
   const auto sign = numeric::OrientationSign(a, b, p);
   if (!sign) return std::nullopt;

@@ -5,14 +5,18 @@
 
 namespace collision::geometry {
 
-/// kUnknown: the point lies on the triangle, or too near to its rim to tell.
+/// Where a line through a point passes a triangle: not at all (kAside), behind the point
+/// (kBackward) or ahead of it (kForward). kUnknown: the point lies on the triangle, or too near to
+/// its rim to tell.
 enum class Passing { kAside, kBackward, kForward, kUnknown };
 
-/// The line through a point along x, moved by infinitely little along +y and by infinitely less
-/// along +z: it meets no edge.
+/// How the line through a point along x passes a triangle. The line is moved by infinitely little
+/// along +y and by infinitely less along +z, so it meets no edge.
 struct RayPassage {
   Passing passing = Passing::kAside;
-  int sign = 0;  ///< 1: along +x it leaves through the triangle's back, into what is outside.
+  /// 1: along +x the line leaves the solid here, from the triangle's back to its front; −1: it
+  /// enters.
+  int sign = 0;
 };
 
 RayPassage PassageOf(const TriangleCorners& triangle, const Eigen::Vector3d& point);

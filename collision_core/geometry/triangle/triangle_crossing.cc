@@ -65,7 +65,7 @@ Volume VolumeOf(const Vector3d& x0, const Vector3d& x1, const Vector3d& x2, cons
           kVolumeRounding * permanent + kVolumeUnderflow};
 }
 
-/// How a volume answers to moving corners.
+/// How much a volume changes when its corners move.
 struct Sensitivity {
   double areas = 0;  ///< Σ|N_i|, rounded up.
   double edge = 0;   ///< ℓ, rounded up.
@@ -120,7 +120,7 @@ struct RayPassage {
   Volume from, to;
 };
 
-/// The margin of one edge, or -1.
+/// The margin of one edge's passage; −1 if it does not certainly pass.
 double MarginOfEdge(const Vector3d& p, const Vector3d& q, const TrianglePoints& triangle,
                     const Volume& from, const Volume& to) {
   if (from.sign() * to.sign() >= 0) return -1;
@@ -146,7 +146,7 @@ void WidenBy(const TrianglePoints& edges, const TrianglePoints& triangle,
   }
 }
 
-/// Boxes that are apart, or coordinates out of range (or NaN).
+/// Whether the boxes are apart, or a coordinate is out of range or NaN.
 bool CertainlyNothing(const TrianglePoints& a, const TrianglePoints& b) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto [a_low, a_high] = std::minmax({a[0][axis], a[1][axis], a[2][axis]});

@@ -1,4 +1,4 @@
-// The directions along which two triangles may be told apart.
+// The directions among which one separates two triangles that are apart.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -7,9 +7,9 @@
 
 namespace collision::geometry {
 
-/// Both normals, across each pair of edges, and across each edge within its triangle's plane: one
-/// of them separates two triangles that are apart, but for rounding. Of any length; zero where
-/// features are parallel.
+/// Calls `attempt(direction)` for both normals, the cross product of each pair of edges, and each
+/// edge's normal within its triangle's plane: one of them separates two triangles that are apart,
+/// but for rounding. Directions have any length; zero where features are parallel.
 template <typename Attempt>
 void ForEachFeatureDirection(const TrianglePoints& a, const TrianglePoints& b, Attempt attempt) {
   const Eigen::Vector3d edges_a[3] = {a[1] - a[0], a[2] - a[1], a[0] - a[2]};

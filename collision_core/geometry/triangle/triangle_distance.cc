@@ -180,7 +180,8 @@ void ProposeIfNearer(const Local& a, const Local& b, const Weights& weights_a,
   if (square < best->square) *best = {square, weights_a, weights_b, -1, -1};
 }
 
-/// The nearest corner of a triangle over the inside of the other. `corners_of_b` says whose.
+/// The corner of one triangle that is nearest to the inside of the other. `corners_of_b`: the
+/// corners are those of b.
 void ProposeFace(const Local& a, const Local& b, const Heights& heights, bool corners_of_b,
                  Proposal* best) {
   const Local& corners = corners_of_b ? b : a;
@@ -190,7 +191,7 @@ void ProposeFace(const Local& a, const Local& b, const Heights& heights, bool co
   ProposeIfNearer(a, b, corners_of_b ? foot : corner, corners_of_b ? corner : foot, best);
 }
 
-/// Where an edge passes through the other triangle. `edges_of_b` says whose.
+/// Where an edge passes through the other triangle. `edges_of_b`: the edges are those of b.
 void ProposeCrossings(const Local& a, const Local& b, const Heights& heights, bool edges_of_b,
                       Proposal* best) {
   const Local& edges = edges_of_b ? b : a;
@@ -233,7 +234,8 @@ double GapAlong(const Vector3d& n, const Local& a, const Local& b) {
   return gap > 0 ? gap / std::sqrt(square) * kShrink : 0;
 }
 
-/// The direction between nearest points a short way apart is uncertain; features tell it exactly.
+/// The direction between nearest points a short way apart is uncertain; the features (edges and
+/// normals) give it exactly.
 double GapAlongFeatures(const Vector3d& d, const Proposal& nearest, const Local& a,
                         const Local& b) {
   double gap = 0;

@@ -19,12 +19,12 @@ using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
 /// The distance of two triangles whose corners are exactly as given. The interval is about
 /// 4e-15 (S_a + S_b) wide, S their greatest coordinates seen from the first corner: the distance
-/// from the origin does not count. Degenerate triangles (segments, points) are taken.
+/// from the origin does not count. Degenerate triangles (segments, points) are accepted.
 struct TriangleDistance {
-  numeric::Interval
-      distance;  ///< Contains the exact distance; [0, small] where they touch or cross.
-  /// About where the two are nearest: on the triangles and distance.upper apart, both but for the
-  /// rounding of the points' own coordinates.
+  /// Contains the exact distance; [0, small] where they touch or cross.
+  numeric::Interval distance;
+  /// Nearest points of the two triangles, approximately: on the triangles and distance.upper apart,
+  /// both but for the rounding of the points' own coordinates.
   Eigen::Vector3d a, b;
 };
 /// The distance of two triangles.
@@ -43,7 +43,7 @@ struct Crossing {
 };
 
 /// A crossing that persists wherever each of the six corners lies within `uncertainty` of where it
-/// is given; nullopt if none is certain. Of several the one that is certain by the widest margin.
+/// is given; nullopt if none is certain. If there are several, the one with the widest margin.
 /// Requires uncertainty >= 0.
 std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TrianglePoints& b,
                                         double uncertainty);

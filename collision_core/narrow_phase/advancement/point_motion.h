@@ -42,7 +42,7 @@ class PointMotion {
   /// The same for any two points of the bodies.
   SweptPose::Growth UsedUp() const { return UsedUp(0, reach_a_, reach_b_); }
 
-  /// No two points of the bodies are faster relative to each other, as predicted [m/s].
+  /// An upper bound of the predicted relative speed of any two points of the bodies [m/s].
   double fastest() const { return fastest_; }
 
  private:

@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A direction from a bracket so narrow loses no more of a gap than this share.
+/// Relative tolerance of the bracket that gives a direction: the direction loses at most this share
+/// of the gap.
 constexpr double kDirectionShare = 0x1p-10;
 
 constexpr int kChords = 40;
@@ -18,13 +19,13 @@ constexpr int kChords = 40;
 /// Beside the zero of a chord, as a share of the way there.
 constexpr double kAside = 0x1p-10;
 
-/// Ends this near to each other are one.
+/// Ends this near to each other count as one.
 constexpr double kOneInstant = 0x1p-46;
 
 /// Each evaluation takes four supports.
 constexpr std::uint64_t kGapUnits = 2;
 
-/// Where the set is later; what a direction is sought for need not be exact.
+/// The set at a later time, approximately: it serves only to find a direction.
 geometry::ConvexSet After(const MovingSet& moving, double h) {
   const TangentMotion& motion = moving.motion;
   geometry::ConvexSet set = moving.set;

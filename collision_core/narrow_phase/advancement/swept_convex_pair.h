@@ -24,9 +24,9 @@ struct SweptConvexPair {
   SweptPose::Growth used;  ///< c2 >= 0.
 };
 
-/// The two are apart at `h` and stay apart for so many seconds more, along the direction between
-/// them there; 0 where they are not certainly apart, +infinity: beyond `duration`, it included. No
-/// speed of the fastest point comes in (head of this file).
+/// Returns for how many seconds from `h` on the two certainly stay apart along the direction
+/// between them at `h`: 0 if they are not certainly apart there, +infinity if they stay apart up to
+/// `duration`, its end included.
 double ApartFor(const SweptConvexPair& solids, double h, double duration, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

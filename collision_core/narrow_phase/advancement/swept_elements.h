@@ -20,7 +20,8 @@ struct CentredBall {
   double radius;
 };
 
-/// Two swept bodies, asked element by element. All answers include all that is uncertain.
+/// Queries of two swept bodies, element by element. All results include the uncertainty of the
+/// pose, of the motion and of rounding.
 class SweptElements {
  public:
   /// What is passed in outlives this. `duration`: no answer need reach beyond it [s].
@@ -32,9 +33,8 @@ class SweptElements {
         duration_(duration),
         work_(*work) {}
 
-  /// For how many seconds two elements stay apart from `h` on, at which they are not known to
-  /// touch; 0 if nothing is certain, +infinity: for the rest of the duration. A body that is a ball
-  /// counts as its own element.
+  /// For how many seconds from `h` on two elements certainly stay apart; 0 if nothing is certain,
+  /// +infinity: for the rest of the duration. A body that is a ball counts as its own element.
   double ApartFor(ElementPair elements, double h) const;
 
   /// The same from the start on for a ball fixed to A and a triangle of B.

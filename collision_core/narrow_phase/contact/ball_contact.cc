@@ -18,7 +18,7 @@ constexpr int kSearchSteps = 80;
 /// Rounds in which the choices of bounds may extend each other's freedom.
 constexpr int kRoundsMax = 16;
 
-/// One choice of a bound of each.
+/// A choice of one bound of each ball.
 struct Choice {
   numeric::IntervalVector d0;  ///< From A's centre to B's, at base.
   numeric::IntervalVector w;
@@ -70,7 +70,7 @@ double Enlarging(const Eigen::Vector3d& v) {
   return largest > 0 ? std::ldexp(1.0, std::min(1000, -std::ilogb(largest))) : 1;
 }
 
-/// When the centres are nearest; about.
+/// The time at which the centres are nearest, approximately.
 double NearestTime(const Choice& choice, double duration) {
   const Eigen::Vector3d d0 = choice.d0.middle(), w = choice.w.middle();
   if (w.isZero(0)) return 0;

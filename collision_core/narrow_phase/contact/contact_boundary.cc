@@ -9,7 +9,7 @@ namespace {
 // Free steps shorter than this share of the tolerance lead no further.
 constexpr double kStallShare = 0.125;
 
-// Nor do steps of a few units in the last place.
+// Steps of a few units in the last place lead no further either.
 constexpr double kStallRounding = 0x1p-51;
 
 // Contact is searched half of the tolerance after the last certain freedom, and so many times
@@ -38,7 +38,7 @@ constexpr std::uint64_t kRevolveUnits = 4096;
 // A contact that begins deepens, so that it lasts about twice as long at each step.
 constexpr int kLastingSteps = 64;
 
-// No two orientations differ by a longer chord.
+// The longest chord by which two orientations can differ [m per m].
 constexpr double kAnyWay = 2;
 
 }  // namespace

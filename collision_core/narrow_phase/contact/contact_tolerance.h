@@ -3,9 +3,9 @@
 
 namespace collision::narrow_phase {
 
-/// How narrow a time is to be: the wider of the two. Rounding and uncertain motion may leave a
-/// wider bracket; then the answer says so. A contact that is shorter than the tolerance is found
-/// all the same.
+/// How narrow the bracket of a time has to be: the larger of the two tolerances counts. Rounding
+/// and uncertain motion may leave a wider bracket; then the answer says so. A contact that is
+/// shorter than the tolerance is found all the same.
 struct ContactTolerance {
   double absolute = 0;      ///< [s]
   double relative = 1e-12;  ///< Of the time itself, counted from the start.

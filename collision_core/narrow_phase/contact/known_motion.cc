@@ -43,11 +43,11 @@ BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from) {
   return {SegmentOf(a, frame, from), SegmentOf(b, frame, from)};
 }
 
-TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, Instant from,
-                                  Instant to, const ContactTolerance& tolerance, WorkBudget* work) {
-  const BodyPair bodies = SegmentsOf(a, b, from);
-  return TimeOfContact(bodies.a, bodies.b, numeric::SecondsBetween(from, to).upper, tolerance,
-                       work);
+TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, const TimeSpan& span,
+                                  const ContactTolerance& tolerance, WorkBudget* work) {
+  const BodyPair bodies = SegmentsOf(a, b, span.from);
+  return TimeOfContact(bodies.a, bodies.b, numeric::SecondsBetween(span.from, span.to).upper,
+                       tolerance, work);
 }
 
 }  // namespace collision::narrow_phase

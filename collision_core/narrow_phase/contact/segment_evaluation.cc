@@ -163,14 +163,14 @@ bool SegmentEvaluation::FollowLeaves(double f, double g, SegmentResult* times) {
   return true;
 }
 
-// Contact is certain at `place`, and on from `from` to there.
+// Records that contact is certain from `from` to `place`, and how much longer it lasts.
 void SegmentEvaluation::TakeContact(double from, double place, double g, SegmentResult* times) {
   times->contact_from = from;
   times->contact_to = Extend(place, TimeDirection::kForward);
   if (times->contact_to < g && g >= duration_) QueryEnd(times);
 }
 
-// Is contact certain at `place`? Then so it is for some time before and after.
+// Tests whether contact is certain at `place`; if so, it is for some time before and after.
 bool SegmentEvaluation::TryContact(double f, double g, double place, SegmentResult* times) {
   if (Exhausted()) return false;
   const TimeDirection side = place != f ? TimeDirection::kBackward : TimeDirection::kForward;

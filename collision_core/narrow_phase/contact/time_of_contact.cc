@@ -66,7 +66,7 @@ class ContactSearch {
     return std::max(tolerance.absolute, tolerance.relative * time) <= kFinest * time;
   }
 
-  // Goes on with what is found. False: they are apart throughout.
+  // Continues the search from what was found. Returns false if the bodies are apart throughout.
   bool Search(const ContactTolerance& tolerance) {
     ContactBoundary forward(motion_, duration_, tolerance, TimeDirection::kForward, &work_);
     ContactBoundary backward(motion_, duration_, tolerance, TimeDirection::kBackward, &work_);

@@ -99,8 +99,13 @@ struct BodyPair {
 /// Makes the segments of two motions from `from` on.
 BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from);
 
-/// The same over [from, to], in seconds after `from`.
-TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, Instant from,
-                                  Instant to, const ContactTolerance& tolerance, WorkBudget* work);
+/// The instants from `from` to `to`, both included. Requires from <= to.
+struct TimeSpan {
+  Instant from, to;
+};
+
+/// The same for two known motions over a span of time. The result is in seconds after `span.from`.
+TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, const TimeSpan& span,
+                                  const ContactTolerance& tolerance, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

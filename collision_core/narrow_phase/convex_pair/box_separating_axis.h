@@ -7,14 +7,14 @@ namespace collision::narrow_phase {
 /// half edges g_i of A and m_j = R h_j of B. Plain numbers: the kernel is built for several
 /// processors. Matrices column by column.
 struct BoxPair {
-  const double* of_a;  ///< g_0, g_1, g_2.
-  const double* of_b;  ///< h_0, h_1, h_2, in B's frame.
-  const double* turn;  ///< R, a rotation to within 2^-20.
-  double d[3];         ///< From A's centre to B's; may be off by 2^-53 |d|.
-  double span_a;       ///< At least the sum of the edges' lengths.
-  double span_b;       ///< The same of B.
-  double size;         ///< At least |d| + span_a + span_b (1 + 2^-19); S below.
-  double apart;        ///< Cores further apart than this do not touch.
+  const double* of_a;      ///< g_0, g_1, g_2.
+  const double* of_b;      ///< h_0, h_1, h_2, in B's frame.
+  const double* rotation;  ///< R, a rotation to within 2^-20.
+  double d[3];             ///< From A's centre to B's; may be off by 2^-53 |d|.
+  double span_a;           ///< At least the sum of the edges' lengths.
+  double span_b;           ///< The same of B.
+  double size;             ///< At least |d| + span_a + span_b (1 + 2^-19); S below.
+  double apart;            ///< Cores further apart than this do not touch.
   double inside;  ///< A difference that holds the ball of this radius about 0 is contact; >= 0.
 };
 

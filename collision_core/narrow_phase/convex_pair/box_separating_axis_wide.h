@@ -66,7 +66,7 @@ WIDE inline BoxSeparation TestAxes(const BoxPair& pair) {
   Rows(g, a);
   Rows(pair.of_b, h);
   for (int i = 0; i < 3; ++i) {
-    const double row[3] = {pair.turn[i], pair.turn[3 + i], pair.turn[6 + i]};
+    const double row[3] = {pair.rotation[i], pair.rotation[3 + i], pair.rotation[6 + i]};
     m[i] = Along(row, h);
   }
   for (int i = 0; i < 3; ++i) c[i] = Along(g + 3 * i, m);

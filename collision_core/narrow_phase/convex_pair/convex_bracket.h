@@ -16,7 +16,8 @@
 
 namespace collision::narrow_phase {
 
-/// A unit vector computed, its length and a product with it: a few roundings of 2^-53 each.
+/// Relative error of a computed unit vector, of its length, and of a product with it: a few
+/// roundings of 2^-53 each.
 inline constexpr double kUnitVectorError = 8 * 0x1p-53;
 
 /// π / 2, rounded up: θ <= (π / 2) sin θ up to a right angle.
@@ -31,20 +32,23 @@ class ConvexBracket {
  public:
   ConvexBracket(const geometry::ConvexSet& a, const geometry::ConvexSet& b);
 
-  /// The gap of the cores' shadows along a direction from A to B, of any length. Zero: nothing.
+  /// Raises the lower bound to the gap of the cores' shadows along a direction from A to B, of any
+  /// length. The zero vector changes nothing.
   void TryDirection(const Eigen::Vector3d& direction);
-  /// Such a gap as it was computed, off by at most the pair's GapError(). n is a unit vector to
-  /// within kUnitVectorError.
+  /// Raises the lower bound to a gap that the caller computed, off by at most the pair's
+  /// GapError(). n is a unit vector to within kUnitVectorError.
   void TakeGap(const Eigen::Vector3d& n, double computed);
-  /// A weighted sum of points of B − A, off by at most the pair's PointError().
+  /// Lowers the upper bound to the length of a weighted sum of points of B − A, off by at most the
+  /// pair's PointError().
   void TakeWay(const Eigen::Vector3d& way);
-  /// The ball of this radius about 0 certainly lies in B − A; nothing if it is not above 0.
+  /// Lowers the upper bound to −radius, for a ball of this radius [m] about 0 that certainly lies
+  /// in B − A. A radius <= 0 changes nothing.
   void TakeBallInside(double radius);
 
-  /// Of the sets: with their rounding radii and their errors.
+  /// Bounds of the distance of the sets [m], with their rounding radii and their errors.
   double separation_lower() const;
   double separation_upper() const;
-  /// Of the cores, −infinity at first.
+  /// The lower bound of the distance of the cores [m]; −infinity at first.
   double lower() const { return lower_; }
   /// The direction that gave lower(): a unit vector; zero at first.
   const Eigen::Vector3d& normal() const { return normal_; }

@@ -33,20 +33,20 @@ struct ConvexSeparation {
   bool exhausted = false;  ///< A limit on steps or on work ended the search.
 };
 
-/// Both in one frame. Rounding is relative to the size S of the pair (gjk.h) and not to
-/// their place: polytopes are known to about 64 · 2^-53 S and what their `error`s are. What is
-/// smooth may use up its steps (kGjkStepsMax, kEpaStepsMax); then the bracket stays wider.
-/// The limits and the work allowed end the search, at whatever bracket it has by then.
+/// The certified distance or depth of two sets given in one frame. Rounding is relative to the size
+/// S of the pair (gjk.h), not to its place: the bracket of two polytopes is about 64 · 2^-53 S
+/// wide, plus their `error`s. Smooth sets may use up their steps (kGjkStepsMax, kEpaStepsMax) or
+/// the work allowed; then the search ends with the bracket that it has.
 ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                               const ConvexQuestion& question, geometry::GjkHint* hint,
                               WorkBudget* work);
 
-/// Only `separation` of the same question; faster.
+/// Only ConvexSeparation::separation of the same query; faster.
 numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                              const ConvexQuestion& question, WorkBudget* work);
 
-/// A convex set and a half-space, exact but for rounding: B is the half-space. To take the two
-/// apart a shift along its normal is the shortest.
+/// The distance or depth of a convex set A and a half-space B, exact but for rounding. The shortest
+/// shift that takes the two apart is along the half-space's normal.
 ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace& b);
 
 }  // namespace collision::narrow_phase

@@ -19,9 +19,8 @@ struct MovingFront {
 };
 
 /// n·(x + h v(x)) = n·x + h n·velocity + h (n × spin)·(x − about): again the reach along one
-/// direction, n + h (n × spin). Requires |n| within 2^-20 of 1 and h >= 0. What must not come
-/// nearer than A's front along n is B's front along −n, turned round: the gap at h is −front_B(−n)
-/// − front_A(n).
+/// direction, n + h (n × spin). Requires |n| within 2^-20 of 1 and h >= 0. For two sets A and B the
+/// gap along n at h is −front_B(−n) − front_A(n).
 MovingFront FrontOf(const geometry::ConvexSet& set, const TangentMotion& motion,
                     const Eigen::Vector3d& n, const Eigen::Vector3d& origin, double h);
 

@@ -1,4 +1,4 @@
-// What may be asked about two convex sets, and what an answer costs.
+// Queries about two convex sets: goal, tolerances and units of work.
 #pragma once
 
 #include <cstdint>
@@ -10,14 +10,15 @@ inline constexpr std::uint64_t kGjkStepUnits = 1;
 inline constexpr std::uint64_t kEpaStepUnits = 4;
 inline constexpr std::uint64_t kFacesUnits = 4;  ///< All pairs of edges of two boxes.
 
-/// What is asked about two convex sets.
+/// The goal of a query about two convex sets.
 enum class ConvexGoal {
   kYesNo,     ///< Certainly apart, or certainly in contact, and nothing more.
   kDistance,  ///< The distance; if they overlap, only that they do.
   kDepth      ///< The distance, or how deep they overlap.
 };
 
-/// A question, and how narrow its answer is to be. Both tolerances 0: as narrow as doubles make it.
+/// The goal of a query, and how narrow its bracket has to be. Both tolerances 0: as narrow as
+/// doubles make it.
 struct ConvexQuestion {
   ConvexGoal goal = ConvexGoal::kDepth;
   double relative_tolerance = 0;  ///< Width of the bracket over its lower end, >= 0.

@@ -16,7 +16,9 @@ struct BodySegment {
   BallSegment ball;
   std::vector<motion::MovingRotation> turns;  ///< Empty for a ball.
   std::shared_ptr<const shape::Shape> shape;  ///< Null: the ball itself, or see `awaited`.
-  bool awaited = false;  ///< Somewhere within the ball: it can exclude contacts, not confirm them.
+  /// The shape is not known yet: the body is somewhere within the ball, which can exclude contacts
+  /// but not confirm them.
+  bool awaited = false;
 
   bool is_ball() const { return !shape && !awaited; }
 };

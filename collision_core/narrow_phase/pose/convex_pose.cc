@@ -12,7 +12,7 @@ double LengthUp(const Vector3d& v) {
   return (1 + 0x1p-50) * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
 }
 
-/// A root of a sum of three products and a division, each rounded.
+/// Relative error of a root of a sum of three products and of a division.
 constexpr double kUnitError = 8 * 0x1p-53;
 
 /// n / |n|.

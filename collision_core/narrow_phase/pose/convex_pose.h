@@ -6,11 +6,11 @@
 
 namespace collision::narrow_phase {
 
-/// A set of B in A's body frame. What rounding and the turning of B may make of it is counted into
-/// its `error`; `translation` of the pose is not.
+/// A set of B in A's body frame. Its `error` includes rounding and the uncertain turning of B, not
+/// the pose's `translation`.
 geometry::ConvexSet PosedB(const geometry::ConvexSet& of_b, const RelativePose& pose);
 
-/// A set of A in its own frame: its turning is counted in, nothing else.
+/// A set of A in its own frame. Its `error` includes the uncertain turning of A and nothing else.
 geometry::ConvexSet PosedA(const geometry::ConvexSet& of_a, const RelativePose& pose);
 
 /// A half-space of B in A's body frame.

@@ -17,7 +17,7 @@ struct Orientation {
   double chord = 0;
 };
 
-// A rotation that is off by more than this is taken for none that is known (kRotationAngleMax).
+// A rotation with a larger error counts as unknown (kRotationAngleMax).
 constexpr double kAnyRotation = 0.5;
 
 // A ball looks the same however it is turned. Of a body that may be turned any way one orientation
@@ -36,7 +36,7 @@ Orientation OrientationOf(const BodySegment& body, std::size_t bound, double del
   return orientation;
 }
 
-// For the choice of a bound; all of them hold.
+// Only chooses among bounds that all hold.
 double TurnedAbout(const motion::MovingRotation& turn, double delta) {
   const double seconds = turn.since.middle() + delta;
   const bool followed = turn.w_WB.squaredNorm() * seconds * seconds <=

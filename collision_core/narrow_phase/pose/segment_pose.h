@@ -1,8 +1,8 @@
 // The relative pose of two bodies at an instant of a segment of time.
 //
-// Of the bounds that hold (forward, backward) the least uncertain one is taken at each instant. B
-// is posed in A's body frame, positions subtracted first, so that far from the origin nothing is
-// lost but what the states lost.
+// At each instant the least uncertain of the bounds that hold (forward, backward) is used. B is
+// posed in A's body frame, positions subtracted first, so that far from the origin nothing is lost
+// but what the states lost.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct BoundChoice {
 };
 BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta);
 
-/// At δ after the segments' base.
+/// The pose at `delta` seconds after the segments' base, from the chosen bounds.
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta);
 
 /// How far any point of the body may be from the reference point [m]; 0 for a ball, which looks

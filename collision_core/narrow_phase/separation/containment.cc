@@ -13,8 +13,8 @@ bool OffBox(const Eigen::Vector3d& point, const geometry::MeshFacts& facts) {
   return (point.array() > facts.upper.array()).any() || (point.array() < facts.lower.array()).any();
 }
 
-// On which side of the closed surface of `of` a point is. Without work nothing is known of a point
-// in its box.
+// On which side of the closed surface of `of` a point lies. If the work is spent, the side of a
+// point in its box is unknown.
 Side SideOf(const Eigen::Vector3d& point, const shape::Shape& of, WorkBudget* work) {
   if (OffBox(point, of.facts())) return Side::kOutside;
   if (work->exhausted()) return Side::kUnknown;
@@ -51,7 +51,7 @@ void VisitSides(const BodyTree& body, const shape::Shape& other, ToOther to_othe
   }
 }
 
-// Balls about the bodies that are apart.
+// Whether the balls around the two bodies are certainly apart.
 bool AreRootsApart(const PosedPair& pair, double slack) {
   const BodyTree &a = pair.a, &b = pair.b;
   const RelativePose& pose = pair.pose;

@@ -23,7 +23,7 @@ constexpr double kFarApart = 1e15, kAtOnePlace = 1e-15;
 /// itself. In all less than 124 u S.
 constexpr double kGapSlack = 0x1p-24 * 128;
 
-/// So much longer than 1 is no direction: a ball's shadow is as much longer.
+/// Directions are at most this much longer than 1, and a ball's shadow with them.
 constexpr double kLonger = 1 + 0x1p-15;
 
 /// Deeper than this share of the extents along the first line, and than half of it each time along
@@ -107,7 +107,7 @@ class HullPair {
     return (between_ + matrix_.Times(along.of_b.point)) - along.of_a.point;
   }
 
-  /// A smaller gap along the first line has no chance.
+  /// The least gap along the first line for which further lines are tried.
   float Hopeless() const { return -kDeep * static_cast<float>(extents_); }
 
   /// About across the plane that is to stand between the two: along S⁻¹ d, of the way d between the

@@ -7,16 +7,16 @@
 namespace collision::narrow_phase {
 namespace {
 
-// A pair's units of a round are doubled so often at most; so long a round ends with the budget
-// only.
+// A pair's units of a round are doubled at most this many times; longer rounds end only with the
+// budget.
 constexpr int kDoublingsMax = 40;
 
 // The most units of a pair in a round before they are doubled: still an integer after
 // kDoublingsMax.
 constexpr double kShareMax = 0x1p+20;
 
-// Bodies that overlap are apart by nothing; so is one that is inside the other, however far apart
-// their surfaces are.
+// The distance of bodies that overlap is 0; so is that of a body inside the other, however far
+// apart their surfaces are.
 double WidthOf(const SeparationSearch& search) {
   return std::max(0.0, std::max(0.0, search.upper()) - std::max(0.0, search.lower()));
 }

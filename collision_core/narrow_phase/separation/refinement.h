@@ -1,4 +1,4 @@
-// Many pairs of bodies, one budget: which bracket is made narrower next.
+// Many pairs of bodies share one budget: the order in which their brackets are refined.
 //
 // Two orders. Level by level, as in Hubbard's paper: every pair in turn until its bracket is half
 // as wide. Largest first: the pair that adds most to the total width for the work it has had. For
@@ -28,18 +28,18 @@ struct RefinedPair {
   bool done;  ///< The goal is reached, or cannot be; else it was left coarse: the budget ended.
 };
 
-/// Searches that share a budget. Each pair has a weight, its importance: so many times more work it
-/// gets for the same width. No pair starves: level by level it has at most weight · kTurnUnits
-/// units in a round, twice as many after a round in which no pair came down a level; largest first
-/// it counts with weight · width / units spent, which falls while it has turns. Deterministic: of
-/// equals the first pair added comes first.
+/// Searches that share a budget. Each pair has a weight, its importance: at the same width, it gets
+/// work in proportion to its weight. No pair starves: level by level it has at most weight ·
+/// kTurnUnits units in a round, twice as many after a round in which no pair came down a level;
+/// largest first it counts with weight · width / units spent, which falls while it has turns.
+/// Deterministic: of equals the first pair added comes first.
 ///
 /// Refine() may overrun the budget by less than kBatchUnits. It may be called again and again: each
 /// bracket only becomes narrower, and with all the work it asks for it is that of a search alone,
 /// bit for bit.
 class Refinement {
  public:
-  /// Units of a turn.
+  /// Units of work that a pair gets at a time.
   static constexpr std::uint64_t kTurnUnits = 64;
 
   explicit Refinement(RefinementOrder order) : order_(order) {}
@@ -49,7 +49,7 @@ class Refinement {
   std::size_t Add(const PosedPair& pair, double weight, Goal goal,
                   std::optional<BracketTolerance> narrow, WorkBudget* work);
 
-  /// Until all pairs are done, or the budget is spent.
+  /// Refines until all pairs are done or the budget is spent.
   void Refine(WorkBudget* work);
 
   std::size_t size() const { return entries_.size(); }

@@ -30,7 +30,7 @@ void RecheckLeaves(const BodyTree& a, const BodyTree& b, NodePair leaves,
 // Beyond this distance [m] squares might overflow; SeparationSearch handles it.
 constexpr double kSeenAtOnceMax = 1e100;
 
-// Balls about the whole bodies that are apart: so are the bodies, inside and out.
+// If the balls around the whole bodies are apart, so are the bodies, their insides included.
 bool RootsDecide(const PosedPair& pair, SeparationBracket* bracket) {
   const auto& [a, b, pose] = pair;
   const sphere_tree::SphereNode& root_a = a.root();
@@ -115,7 +115,7 @@ Decision DecideAt(const PosedPair& pair, WorkBudget* work) {
     decision.verdict = Verdict::kApart;
     return decision;
   }
-  // Convex bodies around them that are apart: so are the bodies, inside and out.
+  // If the convex bodies around them are apart, so are the bodies, their insides included.
   const double gap = HullGapOf(pair, pose.translation, work);
   if (gap > pose.translation) {
     decision.bracket.lower = std::max(decision.bracket.lower, gap);

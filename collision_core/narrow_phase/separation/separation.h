@@ -11,11 +11,11 @@
 // Free needs one point of each component outside the other solid as well (TestContainment). It is
 // asked once for each advance: from there on the surfaces stay apart, so nothing gets in.
 //
-// Yes or no (DecideAt) first asks the two roots: 20 ns for bodies whose balls are apart. Then the
-// convex bodies around both (hull_gap.h): for bodies a tenth of their diameter apart they decide
-// 85, 72 and 99 % of the poses on the first line (homer, spot, rocker-arm), nearly all on the
-// others, in 0.1 µs instead of 0.4 µs; bodies that are deep in each other lose 0.1 µs by it. One
-// inside the other is found at once where a body has an extreme vertex off the other's box. The
+// A yes/no query (DecideAt) first tests the two roots: 20 ns for bodies whose balls are apart. Then
+// the convex bodies around both (hull_gap.h): for bodies a tenth of their diameter apart they
+// decide 85, 72 and 99 % of the poses on the first line (homer, spot, rocker-arm), nearly all on
+// the others, in 0.1 µs instead of 0.4 µs; bodies that are deep in each other lose 0.1 µs by it.
+// One inside the other is found at once where a body has an extreme vertex off the other's box. The
 // search that follows compares squares instead of roots, because only the limit matters, and visits
 // the newest pairs first.
 #pragma once

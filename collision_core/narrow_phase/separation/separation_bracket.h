@@ -10,8 +10,8 @@
 
 namespace collision::narrow_phase {
 
-/// What a query is made for: it ends as soon as its bracket says that much, or when nothing can
-/// make the bracket narrower at this pose.
+/// The goal of a query: it ends as soon as its bracket satisfies the goal, or when nothing can make
+/// the bracket narrower at this pose.
 enum class Goal {
   /// Certainly apart, with at least half of the distance known; or certainly in contact.
   kDecision,

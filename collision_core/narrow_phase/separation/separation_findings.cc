@@ -10,7 +10,7 @@ namespace {
 // Squares of distances beyond this [m] may overflow.
 constexpr double kSquareMax = 1e150;
 
-// Two convex solids need not be known any closer, relative to what they are apart or deep.
+// Relative tolerance for two convex solids, as a share of their distance or depth.
 constexpr double kEnoughOfSolids = 0x1p-10;
 
 double Greatest(const geometry::TrianglePoints& t) {
@@ -58,7 +58,8 @@ double SeparationFindings::MeasureNodes(NodePair nodes) {
   return distance - a.radius - b.radius - slack;
 }
 
-// Where a ball inside a solid, or the surface near a centre, overlaps the other one's.
+// Keeps a point common to a ball inside one solid, or the surface near its centre, and that of the
+// other body.
 void SeparationFindings::CommonPoint(const sphere_tree::SphereNode& a,
                                      const sphere_tree::SphereNode& b, const Eigen::Vector3d& c_b,
                                      double distance, double slack) {

@@ -76,7 +76,7 @@ void SeparationSearch::Refine(WorkBudget* work) {
     if (work->exhausted()) return;
     const double limit = findings_.Limit();
     if (static_cast<double>(frontier_.next().lower) > limit) {
-      // Nothing that is left may be nearer; of the newest first that is known of this one only.
+      // No pair that is left is nearer; with the newest first this holds for the present pair only.
       if (frontier_.order() == FrontierOrder::kNewestFirst) {
         findings_.Resolve(static_cast<double>(frontier_.Pop().lower));
       } else {
@@ -166,7 +166,8 @@ void SeparationSearch::LowerUpper(const Opening& opening, const BallScanTask& ta
   findings_.LowerUpper(static_cast<double>(upper));
 }
 
-// One pair of blocks, or of elements where one is a solid; the others wait for their turn.
+// Measures one pair of blocks, or of elements of which one is a solid, and puts the others back
+// into the frontier.
 void SeparationSearch::OpenLeaves(BallPair pair, float limit, WorkBudget* work) {
   const std::uint32_t first_a = sphere_tree::BallLink::Index(body_a_.LinkOf(pair.a));
   const std::uint32_t first_b = sphere_tree::BallLink::Index(body_b_.LinkOf(pair.b));

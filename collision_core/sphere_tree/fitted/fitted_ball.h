@@ -8,12 +8,12 @@
 
 namespace collision::sphere_tree {
 
-/// A ball in the search: rounded as it comes.
+/// A ball in the search, in plain doubles without an error bound. Lengths in metres.
 struct FittedBall {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Vector3d nearest =
-      Eigen::Vector3d::Zero();  ///< The point of the surface nearest to the centre.
-  double signed_distance = 0;   ///< That of the centre; negative only where `inside`.
+  /// The point of the surface nearest to the centre.
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();
+  double signed_distance = 0;  ///< That of the centre; negative only where `inside`.
   double radius = 0;
   bool inside = false;
   std::uint32_t triangle = 0;  ///< The triangle of `nearest`.
@@ -28,7 +28,7 @@ struct FarPoint {
 };
 FarPoint FarthestFrom(const Eigen::Vector3d& centre, std::span<const Eigen::Vector3d> points);
 
-/// Makes balls small: for one search at a time, it keeps its buffers.
+/// Moves the centres of balls so that they overshoot less. Not thread-safe: it keeps its buffers.
 class BallPolish {
  public:
   explicit BallPolish(const TriangleBoxes& boxes) : boxes_(boxes) {}

@@ -13,21 +13,22 @@
 
 namespace collision::sphere_tree {
 
-/// About the nearest point of a surface. Rounded as it comes: fit for a search, not for a promise.
+/// The nearest point of a surface, approximately: in plain doubles without an error bound, for
+/// searches only.
 struct NearPoint {
   double distance = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::uint32_t triangle = 0;
 };
 
-/// What a ray from a surface meets; rounded likewise.
+/// What a ray from a surface meets; without an error bound as well.
 struct RayWalk {
   double first = 0;  ///< How far the first triangle is; the boxes' diagonal if there is none.
   int winding = 0;   ///< Passages through backs less those through fronts.
 };
 
 /// A tree of boxes, halved at the median until few triangles are left: the same for the same mesh,
-/// whatever the library. The mesh must outlive it. Not for several threads at once: it counts.
+/// whatever the library. The mesh must outlive it. Not thread-safe: it counts its work.
 class TriangleBoxes {
  public:
   /// Requires a mesh that passed RefusalOf().

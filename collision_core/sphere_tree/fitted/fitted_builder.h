@@ -13,14 +13,15 @@ namespace collision::sphere_tree {
 ///
 /// Why balls from inside. A ball may reach beyond the surface by r + s. On a patch of width w, a
 /// ball about the patch itself does so by w / 2; a ball that touches it from inside, with its
-/// centre at depth d, by w² / 8d or less. So centres are sought inside. What a centre c asks for a
-/// point x of the surface is |x − c| + s(c), and a ball's overshoot is the most that its part asks:
-/// a k-centre problem with that cost (CoverSearch). The search starts from the balls that touch the
-/// surface in some pieces and contain no surface (shrinking balls), covers greedily while it
-/// bisects the overshoot, and then by turns gives each piece to the ball that asks least, releases
-/// what another ball holds anyway, moves each centre, and cuts the worst ball in two where balls
-/// are left over. Sharp edges are what remains: a length L of a right-angled edge asks for 0.354 L
-/// whatever the ball. An open surface has balls about the surface itself.
+/// centre at depth d, by w² / 8d or less. So centres are sought inside. A ball at c needs the
+/// overshoot |x − c| + s(c) to contain a point x of the surface, and a ball's overshoot is the
+/// largest that a point of its part needs: a k-centre problem with that cost (CoverSearch). The
+/// search starts from the balls that touch the surface in some pieces and contain no surface
+/// (shrinking balls), covers greedily while it bisects the overshoot, and then by turns gives each
+/// piece to the ball that needs the least overshoot for it, releases what another ball holds
+/// anyway, moves each centre, and cuts the worst ball in two where balls are left over. Sharp edges
+/// are what remains: a length L of a right-angled edge asks for 0.354 L whatever the ball. An open
+/// surface has balls about the surface itself.
 ///
 /// Parts. A node's part is whole triangles and halves of large ones (FittedPieces), each in *one*
 /// child: so a fan round a corner, or copies upon each other, are shared out like anything else.

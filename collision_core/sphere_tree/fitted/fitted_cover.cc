@@ -21,7 +21,7 @@ constexpr int kBisections = 10;
 constexpr int kTurns = 4, kTurnsOfFew = 2;
 constexpr std::size_t kFew = 200;
 
-/// Questions for the nearest surface when a ball is fitted.
+/// Queries for the nearest surface when a ball is fitted.
 constexpr int kQueries = 15;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
@@ -69,7 +69,7 @@ void CoverSearch::AddCandidatesOf(std::uint32_t index, std::uint32_t piece) {
 
 void CoverSearch::FindCandidates(std::span<const std::uint32_t> part) {
   candidates_.clear();
-  // The next start is where the candidates so far ask for the most.
+  // The next start is where the candidates so far need the largest overshoot.
   least_.assign(part.size(), std::numeric_limits<float>::infinity());
   std::uint32_t start = 0;
   for (std::size_t n = 0; n < std::min({kStartsMax, part.size(), kStartsMin + part.size() / 4});

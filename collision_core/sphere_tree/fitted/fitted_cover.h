@@ -22,10 +22,10 @@ struct FittedGroup {
   std::vector<std::uint32_t> members;
 };
 
-/// Searches covers of few balls that overshoot little: what a ball at c asks for a point x is |x −
-/// c| + s(c), so the best centres are those of a k-centre problem with that cost. A greedy cover by
-/// candidates, bisecting the overshoot, is improved by turns: pieces to the ball that asks the
-/// least, centres to where their pieces ask the least.
+/// Searches covers of few balls that overshoot little: the overshoot that a ball at c needs to
+/// contain a point x is |x − c| + s(c), so the best centres are those of a k-centre problem with
+/// that cost. A greedy cover by candidates, bisecting the overshoot, is improved by turns: pieces
+/// to the ball that asks the least, centres to where their pieces ask the least.
 class CoverSearch {
  public:
   /// `whole`: balls with so few pieces need not be divided.
@@ -39,7 +39,7 @@ class CoverSearch {
   /// One ball around everything.
   FittedBall FindOne(std::span<const std::uint32_t> part);
 
-  /// The same, starting from one.
+  /// One ball around everything, fitted from the ball `start`.
   FittedBall FitTo(std::span<const std::uint32_t> part, FittedBall start);
 
   /// The balls of the cover found last in `count` groups, or as many as there are balls: again and

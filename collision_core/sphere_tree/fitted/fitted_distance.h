@@ -8,7 +8,7 @@
 
 namespace collision::sphere_tree {
 
-/// A centre, and what is certain of it.
+/// A centre, and what is certified about it.
 struct CentreFacts {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   double signed_distance = 0;  ///< An upper bound.
@@ -16,7 +16,7 @@ struct CentreFacts {
   bool inside = false;
 };
 
-/// Asks one surface, through its boxes.
+/// Certified queries of one surface, through its boxes.
 class FittedDistance {
  public:
   FittedDistance(const TriangleBoxes& boxes, SurfaceKind kind) : boxes_(boxes), kind_(kind) {}

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Vector3d;
 using Triangles = std::span<std::uint32_t>;
 
-/// Into so many children at most.
+/// The largest number of children of a node.
 constexpr int kHalvings = 3;
 
 class Builder {
@@ -78,8 +78,8 @@ class Builder {
     AddHalves(level, part.subspan(half), halvings - 1);
   }
 
-  /// The `half` lowest along the longest axis to the front. Numbers decide between equal ones, so
-  /// that who goes where is no matter of the library.
+  /// The `half` lowest along the longest axis to the front. Ties are decided by the triangles'
+  /// numbers, so that the result does not depend on the standard library.
   void Halve(Triangles part, std::size_t half) const {
     Vector3d lower = middles_[part[0]], upper = lower;
     for (const std::uint32_t i : part) {

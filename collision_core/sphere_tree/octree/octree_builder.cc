@@ -282,7 +282,7 @@ class Builder {
     return true;
   }
 
-  /// The child that has everything; −1: there are several.
+  /// The only child that has pieces; −1: there are several.
   int OnlyChild() const {
     int only = -1;
     for (int child = 0; child < 8; ++child) {

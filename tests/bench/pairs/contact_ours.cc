@@ -141,8 +141,9 @@ std::shared_ptr<const shape::Shape> ShapeOf(const MovingBody& body) {
 narrow_phase::TimeOfContactResult OurContact(const ContactCase& of, const ContactShapes& shapes,
                                              const narrow_phase::ContactTolerance& tolerance) {
   WorkBudget work(kPlenty);
-  return TimeOfContact(MotionOf(of.a, of, shapes.a), MotionOf(of.b, of, shapes.b), Instant(),
-                       Instant::FromNanoseconds(std::llround(of.duration * 1e9)), tolerance, &work);
+  return TimeOfContact(MotionOf(of.a, of, shapes.a), MotionOf(of.b, of, shapes.b),
+                       {Instant(), Instant::FromNanoseconds(std::llround(of.duration * 1e9))},
+                       tolerance, &work);
 }
 
 ContactMethods OurContactCurves() {

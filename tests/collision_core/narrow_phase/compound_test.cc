@@ -252,7 +252,7 @@ TEST(Compound, MeetWhenAllPairsMeet) {
     of_a.shape = a.shape, of_b.shape = b.shape;
     WorkBudget work(20'000'000);
     const TimeOfContactResult found = TimeOfContact(
-        of_a, of_b, Instant(), Instant::FromNanoseconds(1'000'000'000), {kWidth, 0}, &work);
+        of_a, of_b, {Instant(), Instant::FromNanoseconds(1'000'000'000)}, {kWidth, 0}, &work);
     const auto separation_at = [&](double seconds) {
       const BodySegment at_a = After(a, Vector3d::Zero(), spin_a, seconds).Segment();
       const BodySegment at_b = After(b, v, spin_b, seconds).Segment();

@@ -57,8 +57,9 @@ inline narrow_phase::TimeOfContactResult Find(const Body& a, const Body& b, doub
                                               narrow_phase::ContactTolerance tolerance = {},
                                               std::uint64_t units = kPlenty) {
   WorkBudget work(units);
-  return TimeOfContact(Known(a, duration, told), Known(b, duration, told), Instant(),
-                       Instant::FromNanoseconds(std::llround(duration * 1e9)), tolerance, &work);
+  return TimeOfContact(Known(a, duration, told), Known(b, duration, told),
+                       {Instant(), Instant::FromNanoseconds(std::llround(duration * 1e9))},
+                       tolerance, &work);
 }
 
 // What rounding the states to doubles may have moved the true time by, as a share of it.

@@ -258,7 +258,7 @@ TEST_P(ClosedContact, StatesOfDifferentStamps) {
   of_b.next = b.At(2);
   WorkBudget work(kPlenty);
   const TimeOfContactResult found =
-      TimeOfContact(of_a, of_b, Instant(), Instant::FromNanoseconds(1000000000), {}, &work);
+      TimeOfContact(of_a, of_b, {Instant(), Instant::FromNanoseconds(1000000000)}, {}, &work);
   ExpectContact(found, 0.4L, 0.6L);
 }
 
