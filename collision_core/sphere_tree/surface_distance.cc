@@ -30,8 +30,8 @@ void SurfaceQuery::TryLeaf(const SphereNode& leaf, const Vector3d& point, numeri
     ElementIndex& place = measured_[index.value() % kPlaces];
     if (place == index) continue;
     const geometry::Triangle& t = mesh_.triangles[index.value()];
-    const geometry::TriangleCorners corners = {mesh_.vertices[t[0]], mesh_.vertices[t[1]],
-                                               mesh_.vertices[t[2]]};
+    const geometry::TrianglePoints corners = {mesh_.vertices[t[0]], mesh_.vertices[t[1]],
+                                              mesh_.vertices[t[2]]};
     if (geometry::IsCertainlyFarther(point, corners, best->upper)) continue;
     place = index;
     *best = numeric::Min(*best, geometry::DistanceToTriangle(point, corners).distance);

@@ -19,7 +19,7 @@ struct Weights {
   double s = 0, t = 0;
 };
 
-Vector3d At(const TriangleCorners& corners, const Weights& w) {
+Vector3d At(const TrianglePoints& corners, const Weights& w) {
   const Vector3d& a = corners[w.base];
   return a + w.s * (corners[(w.base + 1) % 3] - a) + w.t * (corners[(w.base + 2) % 3] - a);
 }
@@ -40,7 +40,7 @@ struct Candidate {
   double distance2 = numeric::kInfinity;
 };
 
-void Offer(const Vector3d& p, const TriangleCorners& corners, const std::array<double, 3>& weights,
+void Offer(const Vector3d& p, const TrianglePoints& corners, const std::array<double, 3>& weights,
            Candidate* best) {
   const Weights w = Normalised(weights);
   const double distance2 = (p - At(corners, w)).squaredNorm();
@@ -54,7 +54,7 @@ Vector3d Across(Vector3d n, const Vector3d& edge) {
 }
 
 /// The corner at which the longest edge begins.
-int LongestEdge(const TriangleCorners& corners) {
+int LongestEdge(const TrianglePoints& corners) {
   int longest = 0;
   double most = -1;
   for (int i = 0; i < 3; ++i) {
@@ -67,7 +67,7 @@ int LongestEdge(const TriangleCorners& corners) {
 /// About the nearest point. Any point of the triangle would do for a certified bound: this one
 /// makes it tight. The triangle is measured along its longest edge and across it: the part across
 /// is wrong by a share of a sliver's small height, and the part along makes up for it.
-Candidate Nearest(const Vector3d& p, const TriangleCorners& corners, int longest) {
+Candidate Nearest(const Vector3d& p, const TrianglePoints& corners, int longest) {
   Candidate best;
   const int next = (longest + 1) % 3, last = (longest + 2) % 3;
   const Vector3d edge = corners[next] - corners[longest];
@@ -96,7 +96,7 @@ Candidate Nearest(const Vector3d& p, const TriangleCorners& corners, int longest
   return best;
 }
 
-numeric::Interval UpperOf(const Vector3d& p, const TriangleCorners& corners, const Weights& w) {
+numeric::Interval UpperOf(const Vector3d& p, const TrianglePoints& corners, const Weights& w) {
   const numeric::IntervalVector a(corners[w.base]);
   const numeric::IntervalVector u = numeric::IntervalVector(corners[(w.base + 1) % 3]) - a;
   const numeric::IntervalVector v = numeric::IntervalVector(corners[(w.base + 2) % 3]) - a;
@@ -106,7 +106,7 @@ numeric::Interval UpperOf(const Vector3d& p, const TriangleCorners& corners, con
 
 /// A lower bound of the distance for any n: the triangle lies behind the plane across n through its
 /// foremost corner, so the distance is at least the least n · (p − corner) / |n|.
-double LowerAlong(const Vector3d& n, const Vector3d& p, const TriangleCorners& corners) {
+double LowerAlong(const Vector3d& n, const Vector3d& p, const TrianglePoints& corners) {
   if (!(n.squaredNorm() > 0) || !std::isfinite(n.squaredNorm())) return 0;
   const numeric::IntervalVector direction(n), point(p);
   double least = numeric::kInfinity;
@@ -120,7 +120,7 @@ double LowerAlong(const Vector3d& n, const Vector3d& p, const TriangleCorners& c
 /// Towards the nearest point is the best direction, but close to the triangle it is rounded away;
 /// then the normal is better, or the direction across an edge. The normal of a sliver is rounded,
 /// too: what matters is that it stands across the longest edge.
-double LowerOf(const Vector3d& p, const TriangleCorners& corners, const Vector3d& nearest,
+double LowerOf(const Vector3d& p, const TrianglePoints& corners, const Vector3d& nearest,
                int longest, double upper) {
   constexpr double kGoodEnough = 1 - 1e-14;
   double lower = LowerAlong(p - nearest, p, corners);
@@ -138,7 +138,7 @@ double LowerOf(const Vector3d& p, const TriangleCorners& corners, const Vector3d
 
 }  // namespace
 
-PointTriangleDistance DistanceToTriangle(const Vector3d& p, const TriangleCorners& corners) {
+PointTriangleDistance DistanceToTriangle(const Vector3d& p, const TrianglePoints& corners) {
   const int longest = LongestEdge(corners);
   const Candidate best = Nearest(p, corners, longest);
   PointTriangleDistance result;
@@ -149,7 +149,7 @@ PointTriangleDistance DistanceToTriangle(const Vector3d& p, const TriangleCorner
   return result;
 }
 
-bool IsCertainlyFarther(const Vector3d& p, const TriangleCorners& corners, double distance) {
+bool IsCertainlyFarther(const Vector3d& p, const TrianglePoints& corners, double distance) {
   const Candidate best = Nearest(p, corners, LongestEdge(corners));
   const Vector3d n = p - At(corners, best.weights);
   const double length = n.norm();

@@ -7,7 +7,8 @@
 
 namespace collision::geometry {
 
-using TriangleCorners = std::array<Eigen::Vector3d, 3>;
+/// The three corners of a triangle [m].
+using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
 /// The distance of a point to a triangle.
 struct PointTriangleDistance {
@@ -19,11 +20,11 @@ struct PointTriangleDistance {
 /// the last place of the coordinates, also for slivers; a triangle without area is its longest
 /// side.
 PointTriangleDistance DistanceToTriangle(const Eigen::Vector3d& point,
-                                         const TriangleCorners& corners);
+                                         const TrianglePoints& corners);
 
 /// Whether the triangle is certainly farther than `distance`: a fast test in plain doubles that
 /// returns false where rounding might decide.
-bool IsCertainlyFarther(const Eigen::Vector3d& point, const TriangleCorners& corners,
+bool IsCertainlyFarther(const Eigen::Vector3d& point, const TrianglePoints& corners,
                         double distance);
 
 }  // namespace collision::geometry

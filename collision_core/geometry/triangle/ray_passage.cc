@@ -32,7 +32,7 @@ std::optional<MovedSign> SideOf(const Vector2d& a, const Vector2d& b, const Vect
 
 }  // namespace
 
-RayPassage PassageOf(const TriangleCorners& t, const Vector3d& point) {
+RayPassage PassageOf(const TrianglePoints& t, const Vector3d& point) {
   const std::array<Vector2d, 3> c = {Across(t[0]), Across(t[1]), Across(t[2])};
   const Vector2d p = Across(point);
   const Vector2d lower = c[0].cwiseMin(c[1]).cwiseMin(c[2]);

@@ -19,6 +19,6 @@ struct RayPassage {
   int sign = 0;
 };
 
-RayPassage PassageOf(const TriangleCorners& triangle, const Eigen::Vector3d& point);
+RayPassage PassageOf(const TrianglePoints& triangle, const Eigen::Vector3d& point);
 
 }  // namespace collision::geometry

@@ -8,14 +8,11 @@
 // margin of a crossing 0.03 to 0.23 µs.
 #pragma once
 
-#include <array>
 #include <optional>
 
-#include "collision_core/numeric/interval.h"
+#include "collision_core/geometry/triangle/point_triangle.h"
 
 namespace collision::geometry {
-
-using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
 /// The distance of two triangles whose corners are exactly as given. The interval is about
 /// 4e-15 (S_a + S_b) wide, S their greatest coordinates seen from the first corner: the distance

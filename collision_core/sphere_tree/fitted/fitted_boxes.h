@@ -72,7 +72,7 @@ class TriangleBoxes {
         visit);
   }
 
-  geometry::TriangleCorners CornersOf(std::uint32_t triangle) const {
+  geometry::TrianglePoints CornersOf(std::uint32_t triangle) const {
     const geometry::Triangle& t = mesh_.triangles[triangle];
     return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
   }

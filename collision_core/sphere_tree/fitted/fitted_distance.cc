@@ -22,7 +22,7 @@ bool IsInBallOf(const CentreFacts& near, const Vector3d& point) {
 double FittedDistance::LowerBound(const Vector3d& centre, double from) const {
   double limit = std::max(from, 0.0);
   boxes_.VisitWithin(centre, &limit, [&](std::uint32_t triangle) {
-    const geometry::TriangleCorners corners = boxes_.CornersOf(triangle);
+    const geometry::TrianglePoints corners = boxes_.CornersOf(triangle);
     if (geometry::IsCertainlyFarther(centre, corners, limit)) return;
     limit = std::min(limit, geometry::DistanceToTriangle(centre, corners).distance.lower);
   });

@@ -18,9 +18,9 @@ Vector3d InCube(Random& random) {
 }
 
 /// Fair triangles, slivers of all kinds and far from the origin.
-TriangleCorners AnyTriangle(Random& random) {
+TrianglePoints AnyTriangle(Random& random) {
   const Vector3d origin = random.Chance(0.3) ? Vector3d(1e5 * InCube(random)) : Vector3d::Zero();
-  TriangleCorners t = {InCube(random), InCube(random), InCube(random)};
+  TrianglePoints t = {InCube(random), InCube(random), InCube(random)};
   const double thin = random.LogUniform(1e-16, 1);
   if (random.Chance(0.3)) t[2] = t[0] + thin * (t[2] - t[0]);
   if (random.Chance(0.3)) t[2] = t[0] + random.Uniform(0, 1) * (t[1] - t[0]) + thin * t[2];
@@ -29,7 +29,7 @@ TriangleCorners AnyTriangle(Random& random) {
 }
 
 /// Near, on, above, beside or far away.
-Vector3d AnyPoint(const TriangleCorners& t, Random& random) {
+Vector3d AnyPoint(const TrianglePoints& t, Random& random) {
   const Vector3d on =
       t[0] + random.Uniform(-0.3, 1.3) * (t[1] - t[0]) + random.Uniform(-0.3, 1.3) * (t[2] - t[0]);
   switch (random.Below(4)) {
@@ -42,18 +42,18 @@ Vector3d AnyPoint(const TriangleCorners& t, Random& random) {
   }
 }
 
-double ExtentOf(const TriangleCorners& t, const Vector3d& p) {
+double ExtentOf(const TrianglePoints& t, const Vector3d& p) {
   return std::max({(p - t[0]).norm(), (p - t[1]).norm(), (p - t[2]).norm()});
 }
 
-ExactTriangle ExactCorners(const TriangleCorners& t) {
+ExactTriangle ExactCorners(const TrianglePoints& t) {
   return {ExactOf(t[0]), ExactOf(t[1]), ExactOf(t[2])};
 }
 
 TEST(PointTriangle, ContainsTheExactDistanceAndIsNarrow) {
   Random random(41);
   for (int i = 0; i < 20000; ++i) {
-    const TriangleCorners t = AnyTriangle(random);
+    const TrianglePoints t = AnyTriangle(random);
     const Vector3d p = AnyPoint(t, random);
     const Exact exact = SquaredDistance(ExactOf(p), ExactCorners(t));
     const numeric::Interval d = DistanceToTriangle(p, t).distance;
@@ -68,7 +68,7 @@ TEST(PointTriangle, ContainsTheExactDistanceAndIsNarrow) {
 }
 
 TEST(PointTriangle, KnownDistances) {
-  const TriangleCorners t = {Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(0, 4, 0)};
+  const TrianglePoints t = {Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(0, 4, 0)};
   EXPECT_EQ(DistanceToTriangle({1, 1, 7}, t).distance.upper, 7);
   EXPECT_EQ(DistanceToTriangle({1, 1, 7}, t).distance.lower, 7);
   EXPECT_EQ(DistanceToTriangle({-2, -3, 6}, t).distance.upper, 7);  // 2² + 3² + 6² = 7²
@@ -77,9 +77,9 @@ TEST(PointTriangle, KnownDistances) {
 }
 
 TEST(PointTriangle, WithoutAreaIsItsLongestSide) {
-  const TriangleCorners line = {Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(1, 0, 0)};
+  const TrianglePoints line = {Vector3d(0, 0, 0), Vector3d(4, 0, 0), Vector3d(1, 0, 0)};
   EXPECT_TRUE(DistanceToTriangle({2, 3, 4}, line).distance.Contains(5));
-  const TriangleCorners point = {Vector3d(1, 2, 3), Vector3d(1, 2, 3), Vector3d(1, 2, 3)};
+  const TrianglePoints point = {Vector3d(1, 2, 3), Vector3d(1, 2, 3), Vector3d(1, 2, 3)};
   EXPECT_TRUE(DistanceToTriangle({3, 5, 9}, point).distance.Contains(7));
 }
 
@@ -87,7 +87,7 @@ TEST(PointTriangle, FartherIsNeverWrongAndSeldomUnsure) {
   Random random(42);
   int said = 0, trials = 0;
   for (int i = 0; i < 20000; ++i) {
-    const TriangleCorners t = AnyTriangle(random);
+    const TrianglePoints t = AnyTriangle(random);
     const Vector3d p = AnyPoint(t, random);
     const Exact exact = SquaredDistance(ExactOf(p), ExactCorners(t));
     const double distance = DistanceToTriangle(p, t).distance.upper;

@@ -26,7 +26,7 @@ double Length(const Exact& squared) { return std::sqrt(squared.convert_to<double
 /// intervals.
 Exact BruteForceSquaredDistance(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& p) {
   const auto corners = [&](const geometry::Triangle& t) {
-    return geometry::TriangleCorners{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
+    return geometry::TrianglePoints{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
   };
   double upper = numeric::kInfinity;
   for (const geometry::Triangle& t : mesh.triangles)
