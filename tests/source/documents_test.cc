@@ -72,7 +72,7 @@ bool LooksLikeSource(const std::string& word) {
 std::string Pattern(const std::string& path) {
   std::string pattern = std::regex_replace(path, std::regex(R"(\.)"), R"(\.)");
   pattern = std::regex_replace(pattern, std::regex(R"(\*)"), "[^/]*");
-  return std::regex_replace(pattern, std::regex(R"(\b[A-Z]{2,}\b)"), "[^/]+");
+  return std::regex_replace(pattern, std::regex("[A-Z]{2,}"), "[^/]+");
 }
 
 bool AnyMatches(const std::vector<std::string>& paths, const std::string& pattern) {
