@@ -44,4 +44,17 @@ std::vector<SourceFile> SourceFiles(const std::vector<std::string>& endings) {
   return files;
 }
 
+std::vector<std::string> PathsInRooms() {
+  std::vector<std::string> paths;
+  for (const char* room : kRooms) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(kRoot / room)) {
+      paths.push_back(entry.path().lexically_relative(kRoot).generic_string() +
+                      (entry.is_directory() ? "/" : ""));
+    }
+  }
+  return paths;
+}
+
+bool Exists(const std::string& path) { return std::filesystem::exists(kRoot / path); }
+
 }  // namespace collision::source

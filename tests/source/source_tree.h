@@ -21,4 +21,10 @@ int CountLines(const std::string& text);
 /// by path.
 std::vector<SourceFile> SourceFiles(const std::vector<std::string>& endings);
 
+/// Every file and folder in the rooms of the project, a folder with '/' at its end.
+std::vector<std::string> PathsInRooms();
+
+/// Whether the file or folder `path`, relative to the project's root, exists.
+bool Exists(const std::string& path);
+
 }  // namespace collision::source

@@ -84,8 +84,8 @@ struct Medians {
   std::map<Task, Pair> ours, peers;
 
   void Add(const PairMethod& method, const NarrowRow& row) {
-    if (method.who != Who::kOurs && method.who != Who::kLibrary) return;
-    Pair& best = (method.who == Who::kOurs ? ours : peers)[method.task];
+    if (method.origin != Origin::kOurs && method.origin != Origin::kLibrary) return;
+    Pair& best = (method.origin == Origin::kOurs ? ours : peers)[method.task];
     if (row.warm) best.warm = std::min(best.warm.value_or(*row.warm), *row.warm);
     if (row.cold) best.cold = std::min(best.cold.value_or(*row.cold), *row.cold);
   }
@@ -162,7 +162,7 @@ void Measure(const NarrowSettings& settings, const Cell& cell, const PairMethods
                 Number("warm_max_s", Quantile(times.warm, 1)),
                 Number("wrong", static_cast<double>(judgement.wrong)),
                 Number("undecided", static_cast<double>(judgement.undecided))};
-    const bool counts = methods[m].who != Who::kLibrary ||
+    const bool counts = methods[m].origin != Origin::kLibrary ||
                         static_cast<double>(judgement.wrong) <= kWrongMax * count;
     if (counts) medians.Add(methods[m], row);
     if (!counts) row.remark += "; does not count";

@@ -8,8 +8,8 @@ namespace collision::bench {
 namespace {
 
 PairMethods AllMethods(const BenchMesh& mesh, const std::shared_ptr<const shape::Shape>& shape) {
-  PairMethods methods = OurMesh(shape, mesh.diameter(), "ours", Who::kOurs);
-  Append(OurMesh(shape::Shape::Build(mesh.mesh), mesh.diameter(), "ours, octree", Who::kOther),
+  PairMethods methods = OurMesh(shape, mesh.diameter(), "ours", Origin::kOurs);
+  Append(OurMesh(shape::Shape::Build(mesh.mesh), mesh.diameter(), "ours, octree", Origin::kOther),
          &methods);
   Append(MeshPeers(PlainOf(mesh.mesh)), &methods);
   return methods;

@@ -31,7 +31,7 @@ using ContactQuestion = std::function<ContactReply()>;
 
 struct ContactMethod {
   std::string name, setting = {};
-  Who who = Who::kLibrary;
+  Origin origin = Origin::kLibrary;
   bool certified = false;
   bool naive = false;
   bool may_not_end = false;  ///< Asked in a process of its own.

@@ -70,7 +70,7 @@ ContactMethod Ours(const std::string& name, bool solids, double tolerance) {
   ContactMethod method;
   method.name = name;
   method.setting = SettingText("", tolerance, "s");
-  method.who = Who::kOurs;
+  method.origin = Origin::kOurs;
   method.certified = true;
   method.limited_by = "the tolerance asked for; at last rounding over the closing speed";
   method.make = [solids, tolerance](const ContactCase& of) -> ContactQuestion {
@@ -161,7 +161,7 @@ ContactMethods SteppingMethods() {
     ContactMethod method;
     method.name = "stepping";
     method.setting = SettingText("", rate, "Hz");
-    method.who = Who::kBaseline;
+    method.origin = Origin::kBaseline;
     method.naive = true;
     method.limited_by = "what lies between two frames";
     method.make = [rate](const ContactCase& of) -> ContactQuestion {

@@ -37,7 +37,8 @@ struct Reply {
 };
 inline Reply Plain(double value) { return {value, value}; }
 
-enum class Who {
+/// Where a method comes from, and so where its times count.
+enum class Origin {
   kOurs,     ///< What the service uses.
   kOther,    ///< Another method of ours: printed, in no figure.
   kLibrary,  ///< The best one counts in the figures.
@@ -50,7 +51,7 @@ struct PairMethod {
   std::string name;
   std::string setting = {};  ///< As text, with its unit; empty: it has none.
   Task task = Task::kDistance;
-  Who who = Who::kLibrary;
+  Origin origin = Origin::kLibrary;
   bool certified = false;       ///< Both ends of its answers are proven.
   std::string limited_by = {};  ///< What keeps its answers from being better.
   std::function<Reply(const PlainPose&)> ask = nullptr;  ///< Owns what it needs.

@@ -73,7 +73,7 @@ std::vector<Reply> Together(const narrow_phase::BodySegment& body,
 PairMethod Ours(const std::string& name, const std::string& setting, const char* limited_by) {
   PairMethod method;
   method.name = name, method.setting = setting, method.limited_by = limited_by;
-  method.who = Who::kOurs;
+  method.origin = Origin::kOurs;
   method.certified = true;
   return method;
 }
@@ -108,19 +108,20 @@ void AddRefinement(const narrow_phase::BodySegment& body, PairMethods* methods) 
 numeric::Interval Patiently(const ConvexPair& pair, const PlainPose& at, std::uint64_t units) {
   WorkBudget work(units);
   const narrow_phase::RelativePose pose = PoseOf(at);
-  const numeric::Interval found = IntervalOf(PosedA(pair.a.set(), pose), PosedB(pair.b.set(), pose),
-                                             {.goal = narrow_phase::ConvexGoal::kDistance}, &work);
+  const numeric::Interval found =
+      narrow_phase::IntervalOf(PosedA(pair.a.set(), pose), PosedB(pair.b.set(), pose),
+                               {.goal = narrow_phase::ConvexGoal::kDistance}, &work);
   return {std::max(0.0, found.lower), std::max(0.0, found.upper)};
 }
 
 }  // namespace
 
 PairMethods OurMesh(std::shared_ptr<const shape::Shape> shape, double diameter,
-                    const std::string& name, Who who) {
+                    const std::string& name, Origin origin) {
   const narrow_phase::BodySegment body = BodyOf(std::move(shape));
   const double width = kBracketShare * diameter;
   const auto method = [&](Task task, std::function<Reply(const PlainPose&)> ask) {
-    return PairMethod{.name = name, .task = task, .who = who, .ask = std::move(ask)};
+    return PairMethod{.name = name, .task = task, .origin = origin, .ask = std::move(ask)};
   };
   return {
       method(Task::kDecision, [body](const PlainPose& at) { return Decide(body, at); }),
@@ -136,8 +137,8 @@ PairMethods OurConvex(const ConvexPair& pair) {
   const auto measure = [pair](const PlainPose& at) {
     return Told(pair.DistanceAt(PoseOf(at), kDistanceShare, 0));
   };
-  return {{.name = "ours", .task = Task::kDecision, .who = Who::kOurs, .ask = decide},
-          {.name = "ours", .task = Task::kDistance, .who = Who::kOurs, .ask = measure}};
+  return {{.name = "ours", .task = Task::kDecision, .origin = Origin::kOurs, .ask = decide},
+          {.name = "ours", .task = Task::kDistance, .origin = Origin::kOurs, .ask = measure}};
 }
 
 PairMethods OurMeshCurves(const TwoTrees& trees) {

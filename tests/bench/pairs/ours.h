@@ -15,7 +15,7 @@ inline constexpr double kBracketShare = 0.01;
 
 /// Decision, distance and bracket; from the pose as the caller has it to the certified answer.
 PairMethods OurMesh(std::shared_ptr<const shape::Shape> shape, double diameter,
-                    const std::string& name, Who who);
+                    const std::string& name, Origin origin);
 /// Decision and distance.
 PairMethods OurConvex(const ConvexPair& pair);
 

@@ -28,7 +28,7 @@ PairMethods BspMesh(const PlainMesh& mesh) {
   };
   return {{.name = "BSP trees",
            .task = Task::kDecision,
-           .who = Who::kBaseline,
+           .origin = Origin::kBaseline,
            .limited_by = "plain doubles with a tolerance of 1e-12 of the size",
            .ask = ask}};
 }

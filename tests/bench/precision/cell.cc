@@ -17,7 +17,9 @@ PrecisionRow RowOf(Motion motion, const std::string& mesh, const PairMethod& met
   PrecisionRow row;
   row.part = "precision", row.motion = Name(motion), row.mesh = mesh;
   row.method = method.name, row.setting = method.setting;
-  row.who = method.who == Who::kOurs ? "ours" : method.who == Who::kBaseline ? "baseline" : "peer";
+  row.who = method.origin == Origin::kOurs       ? "ours"
+            : method.origin == Origin::kBaseline ? "baseline"
+                                                 : "peer";
   row.certified = method.certified;
   row.limited_by = method.limited_by;
   return row;

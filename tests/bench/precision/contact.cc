@@ -77,7 +77,7 @@ PrecisionRow RowOf(const ContactFamily& family, const ContactMethod& method) {
   PrecisionRow row;
   row.part = "contact", row.motion = Name(family.motion), row.mesh = family.name;
   row.method = method.name, row.setting = method.setting;
-  row.who = method.who == Who::kOurs ? "ours" : method.naive ? "naive" : "peer";
+  row.who = method.origin == Origin::kOurs ? "ours" : method.naive ? "naive" : "peer";
   row.certified = method.certified;
   row.limited_by = method.limited_by;
   return row;

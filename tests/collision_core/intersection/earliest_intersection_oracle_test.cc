@@ -163,14 +163,14 @@ motion::SpaceTimeBound NearbyAgent(Random& random, const Eigen::Vector3d& offset
 }
 
 // Goal:   never late and not idle, over 24 orders of magnitude of everything.
-TEST(PairTimeOracle, AllMagnitudes) {
+TEST(EarliestIntersectionOracle, AllMagnitudes) {
   JudgeAll(101, Tally::kStated, [](Random& random) {
     return Pair{AnyAgent(random), AnyAgent(random), Instant()};
   });
 }
 
 // Goal:   likewise far from the origin. Method: up to 1e12 m off, 100 m apart.
-TEST(PairTimeOracle, HugeOffsets) {
+TEST(EarliestIntersectionOracle, HugeOffsets) {
   JudgeAll(102, Tally::kStated, [](Random& random) {
     const Eigen::Vector3d offset = AnyOrZero(random) * random.UnitVector();
     return Pair{NearbyAgent(random, offset), NearbyAgent(random, offset),
@@ -181,7 +181,7 @@ TEST(PairTimeOracle, HugeOffsets) {
 // Goal:   grazing at the distance of the radii: exactly, one unit in the last place more or less,
 // and
 //         by 1e-15 to 1e-3. Method: a passage at a right angle, without growth and with.
-TEST(PairTimeOracle, Grazing) {
+TEST(EarliestIntersectionOracle, Grazing) {
   JudgeAll(103, Tally::kForced4, [](Random& random) {
     const double scale = Any(random), miss = scale * random.Uniform(0.1, 2);
     const double speed = Any(random), time = random.LogUniform(1e-3, 1e3);
@@ -209,7 +209,7 @@ TEST(PairTimeOracle, Grazing) {
 
 // Goal:   near triple roots, where distance and reach share value, slope and curvature.
 // Method: |d| = √(1 + (δ − c³)²) and S = r + s2 δ², at δ = c + c³, scaled, off by 1e-16 to 1e-2.
-TEST(PairTimeOracle, NearTripleRoots) {
+TEST(EarliestIntersectionOracle, NearTripleRoots) {
   JudgeAll(104, Tally::kForced4, [](Random& random) {
     const double c = random.Uniform(0.1, 1.4), size = std::sqrt(1 + c * c);
     const double scale = random.LogUniform(1e-6, 1e6), clock = random.LogUniform(1e-3, 1e3);
@@ -226,7 +226,7 @@ TEST(PairTimeOracle, NearTripleRoots) {
 }
 
 // Goal:   identical agents, the same velocity, the same place, no acceleration: all combinations.
-TEST(PairTimeOracle, Degenerate) {
+TEST(EarliestIntersectionOracle, Degenerate) {
   JudgeAll(105, Tally::kStated, [](Random& random) {
     Pair pair{AnyAgent(random), AnyAgent(random), Instant()};
     if (random.Chance(0.5)) pair.b.state.p_WA = pair.a.state.p_WA;
@@ -241,7 +241,7 @@ TEST(PairTimeOracle, Degenerate) {
 }
 
 // Goal:   stamps up to a century apart, and asked long after both.
-TEST(PairTimeOracle, FarApartStamps) {
+TEST(EarliestIntersectionOracle, FarApartStamps) {
   JudgeAll(106, Tally::kForced4, [](Random& random) {
     Pair pair{NearbyAgent(random, {0, 0, 0}), NearbyAgent(random, {0, 0, 0}), Instant()};
     const auto stamp = [&random] {
@@ -264,7 +264,7 @@ TEST(PairTimeOracle, FarApartStamps) {
 }
 
 // Goal:   an expiry just before, at or after the meeting, and within the root's last digits.
-TEST(PairTimeOracle, Expiry) {
+TEST(EarliestIntersectionOracle, Expiry) {
   JudgeAll(107, Tally::kStated, [](Random& random) {
     Pair pair{NearbyAgent(random, {0, 0, 0}), NearbyAgent(random, {0, 0, 0}),
               Instant::FromNanoseconds(kSecond)};
@@ -279,7 +279,7 @@ TEST(PairTimeOracle, Expiry) {
 }
 
 // Goal:   inside, leave, return: asked while they part, they meet again when the horns catch up.
-TEST(PairTimeOracle, InsideLeaveReturn) {
+TEST(EarliestIntersectionOracle, InsideLeaveReturn) {
   JudgeAll(108, Tally::kStated, [](Random& random) {
     const double scale = random.LogUniform(1e-6, 1e6), M = random.LogUniform(1e-6, 1e-1);
     Pair pair{Ball({0, 0, 0}, {0, 0, 0}, scale, M * scale),
@@ -292,7 +292,7 @@ TEST(PairTimeOracle, InsideLeaveReturn) {
 }
 
 // Goal:   overlapping or touching at once: exactly, or by units in the last place.
-TEST(PairTimeOracle, AlreadyThere) {
+TEST(EarliestIntersectionOracle, AlreadyThere) {
   JudgeAll(109, Tally::kForced4, [](Random& random) {
     const double scale = Any(random), radius = scale * random.Uniform(0.1, 1);
     // 2² + 3² + 6² = 7².
@@ -306,7 +306,7 @@ TEST(PairTimeOracle, AlreadyThere) {
 }
 
 // Goal:   skew, errors and steps widen as documented. Method: |v| κ rounded outward at 2^-300.
-TEST(PairTimeOracle, ErrorsSkewAndStep) {
+TEST(EarliestIntersectionOracle, ErrorsSkewAndStep) {
   JudgeAll(110, Tally::kStated, [](Random& random) {
     const auto agent = [&random] {
       motion::SpaceTimeBound bound = NearbyAgent(random, {0, 0, 0});
@@ -329,7 +329,7 @@ void AddDirection(Random& random, motion::SpaceTimeBound* bound) {
 }
 
 // Goal:   directions and their ends: boxes, piece by piece.
-TEST(PairTimeOracle, Directions) {
+TEST(EarliestIntersectionOracle, Directions) {
   JudgeAll(
       111, Tally::kStated,
       [](Random& random) {
@@ -348,7 +348,7 @@ TEST(PairTimeOracle, Directions) {
 }
 
 // Goal:   speed caps: reached before or after the meeting, at once, or never; with all the rest.
-TEST(PairTimeOracle, SpeedCaps) {
+TEST(EarliestIntersectionOracle, SpeedCaps) {
   JudgeAll(
       112, Tally::kStated,
       [](Random& random) {
@@ -371,7 +371,7 @@ TEST(PairTimeOracle, SpeedCaps) {
 }
 
 // Goal:   pairs that never meet are told so. Method: no acceleration, mostly a near miss.
-TEST(PairTimeOracle, NearMisses) {
+TEST(EarliestIntersectionOracle, NearMisses) {
   JudgeAll(113, Tally::kStated, [](Random& random) {
     const double speed = Any(random), miss = random.Uniform(1, 1.5);
     const Eigen::Vector3d along = random.UnitVector();
