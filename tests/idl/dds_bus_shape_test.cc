@@ -1,5 +1,4 @@
-// Goal:   shapes cross whole however large, reach late readers, and their disposal arrives part
-// by
+// Goal:   shapes cross whole however large, reach late readers, and their disposal arrives part by
 //         part, before and after it is written anew.
 // Method: real DDS on loopback; waiting loops with a deadline.
 #include <gtest/gtest.h>
@@ -111,7 +110,7 @@ TEST(DdsBusShape, DisposalArrivesPartByPart) {
   EXPECT_TRUE(PartsIn(heard).empty());
 }
 
-// Goal:   disposed and written again before anybody looked, each part ends as written: its last
+// Goal:   disposed and written again before the bus is read, each part ends as written: its last
 //         message is the data.
 TEST(DdsBusShape, WrittenAgainAtOnceItStays) {
   DdsBus bus(TestWorld(), TestDomain());

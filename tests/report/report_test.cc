@@ -90,8 +90,7 @@ TEST(ReportTable, ACellPastItsCutOffSaysSo) {
 }
 
 // Goal:   what moves with everything else is noise of the machine, what moves alone by more is
-// told,
-//         and counts have no noise.
+//         told, and counts have no noise.
 TEST(ReportCompare, TellsWhatMovedByMoreThanTheNoise) {
   v1::Results before = Timed(1, 2.0), after = Timed(1, 3.0);
   Comparison comparison = Compare(before, after);

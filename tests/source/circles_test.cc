@@ -1,8 +1,8 @@
 // Goal:   within a room of the core no two files need each other, and the sub-rooms of the narrow
 //         phase stand in one order.
 // Method: a unit is x.h with x.cc, its inline functions, its hidden implementation and its sources
-// for wide vectors; the includes of all units make a graph, which is searched for circles. The
-// search is first tried on planted graphs.
+//         for wide vectors; the includes of all units make a graph, which is searched for circles.
+//         The search is first tried on planted graphs.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -220,7 +220,8 @@ void Scene::CheckIdle() {
   }
 }
 
-/// Whether anybody that is not told to touch it could by a nanosecond after `until`.
+/// Whether an agent without a reported contact with it could touch it by a nanosecond after
+/// `until`.
 bool Scene::CouldTouchBy(std::uint32_t agent, Instant until) const {
   const Dyadic by = ExactMeeting::Between(now_, std::max(now_, until)) + Dyadic(1.0);
   const motion::SpaceTimeBound& bound = agents_[agent].told;

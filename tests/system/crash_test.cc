@@ -1,5 +1,5 @@
 // Goal:   a killed process, simulator or daemon, is survived as the configuration says.
-// Method: SIGKILL at a point of the run that the test waits for, then look at who goes on.
+// Method: SIGKILL at a point of the run that the test waits for, then see which processes go on.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -8,7 +8,7 @@
 namespace collision::system_test {
 namespace {
 
-/// Stays at 2 s, in the world: whoever waits for it waits there.
+/// Stays at 2 s, in the world: a simulator that waits for it waits there.
 const Flight kShortLeft{"left", -5, 1, 2};
 
 TEST(Crash, KilledSimulatorIsWaitedFor) {

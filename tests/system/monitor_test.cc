@@ -24,8 +24,8 @@ TEST(Monitor, ShowsALiveWorld) {
   // it.
   ExpectAll(events->out(), {"left × right", "begin [", "end ["});
 
-  // A status is told once a second, and all this may have taken less; on a machine that others use
-  // the first look may also end before everybody was found.
+  // A status is published once a second, and all this may have taken less; on a busy machine the
+  // first query may also end before every simulator was found.
   EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "left-sim"));
   EXPECT_TRUE(world.MonitorComesToSay({"status", "--json"}, "right-sim"));
   EXPECT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));

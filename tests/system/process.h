@@ -15,7 +15,7 @@ namespace collision::system_test {
 /// failed.
 inline constexpr std::chrono::seconds kPatience{240};
 
-/// A running program. Its output is gathered while somebody waits; its process group is killed, by
+/// A running program. Its output is gathered while a caller waits; its process group is killed, by
 /// its id, at the latest in the destructor. Used from one thread.
 class Process {
  public:

@@ -217,8 +217,7 @@ TEST_F(ShapeCheckTest, NormalThatIsNoDirectionIsNoticed) {
 }
 
 // Goal:   at a teleport an event may refer to both places; a claim about a later instant that a
-// jump
-//         has changed is excused.
+//         jump has changed is excused.
 TEST_F(ShapeCheckTest, JumpsAreTakenIntoAccount) {
   for (std::size_t i = 8; i < 20; ++i) motions_[1].pieces[i].p_WA[1][0] = 50;
   motions_[1].jumps_ns = {8'000'000'000};
@@ -231,8 +230,7 @@ TEST_F(ShapeCheckTest, JumpsAreTakenIntoAccount) {
 }
 
 // Goal:   between the end of a contact and the end of its bracket, the two may touch again: one
-// event
-//         covers both.
+//         event covers both.
 // Method: b stands 2 cm beyond a from 11 s on, but for a tenth of a second, in which it is back.
 TEST_F(ShapeCheckTest, TouchingAgainWithinTheEndBracketIsCovered) {
   for (std::size_t i = 11; i < 20; ++i) motions_[1].pieces[i].p_WA[0] = {11.02, 0, 0, 0};

@@ -1,8 +1,7 @@
 // Goal:   on demand the promises are those of a stream: nothing late, every contact announced and
 //         bracketed as narrowly, while agents join and jump; for a fraction of the states.
 // Method: the client library against a daemon in the same thread; a crowd under random forces,
-// flown
-//         once as a stream and once on demand, in lock-step and on the wall clock with late
+//         flown once as a stream and once on demand, in lock-step and on the wall clock with late
 //         answers; the independent checker judges both with the exact motion.
 #include <gtest/gtest.h>
 

@@ -60,10 +60,9 @@ TEST(ChosenBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
 }
 
 // Goal:   what changes while the next method is filled counts after the change: rules of agents
-// that
-//         are in it already, half-spaces of indices that are not yet.
+//         that are in it already, half-spaces of indices that are not yet.
 // Method: four agents far from all others, which only rules make meet or not, and half-spaces in
-//         which everybody lies; the next method is being filled when 139 agents are there.
+//         which all agents lie; the next method is being filled when 139 agents are there.
 TEST(ChosenBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
   AdaptiveBroadPhase chosen;
   Random random(5);

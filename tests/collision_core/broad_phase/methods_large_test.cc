@@ -2,9 +2,8 @@
 //         hashed rows) changes no answer either; and no pair that may meet is missing among those
 //         that are told as near.
 // Method: hundreds and thousands of agents evenly, in clusters, of all sizes, speeds and stamps;
-// the
-//         oracle asks the canonical routine for every pair. Work counters show that the pass over a
-//         grid was taken where it should.
+//         the oracle asks the canonical routine for every pair. Work counters show that the pass
+//         over a grid was taken where it should.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -237,8 +236,8 @@ TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
   }
 }
 
-// With a half-space there, and of one who is unfilterable.
-TEST(LargeMethods, WhoIsNotThereMeetsNobodyAndWhoIsWildIsAskedOnce) {
+// With a half-space held, and for an unfilterable agent.
+TEST(LargeMethods, AbsentAgentsMeetNoneAndUnfilterableOnesAreTestedOnce) {
   constexpr std::uint32_t kCount = 500;
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
                                        numeric::AddRoundedUp(kMethodStart, 1e6)};

@@ -1,10 +1,8 @@
-// Goal:   a pair whose canonical time is the query's last instant is found, and told as near,
-// though
-//         that time is early and the exact one lies beyond: filters know how early an answer may
-//         be, and what the faces of hypertrapezoids lose by rounding.
+// Goal:   a pair whose canonical time is the query's last instant is found, and reported as near,
+//         though that time is early and the exact one lies beyond: filters know how early an answer
+//         may be, and what the faces of hypertrapezoids lose by rounding.
 // Method: two that graze each other after minutes, or fly side by side a hair apart, among sixty
-// who
-//         are far away, so that the grid is taken; each method beside the canonical routine.
+//         that are far away, so that the grid is taken; each method beside the canonical routine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +16,7 @@ namespace {
 
 class MethodsAtTheLimit : public testing::TestWithParam<NamedMethod> {
  protected:
-  /// Agents 0 and 1, and others who meet nobody.
+  /// Agents 0 and 1, and others that meet no agent.
   void ExpectFound(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b,
                    const intersection::BroadQuery& query) {
     const auto method = GetParam().make();

@@ -26,7 +26,8 @@ std::vector<std::string> Texts(const std::vector<Neighbour>& meetings) {
   return texts;
 }
 
-/// Questions of one, and of all if asked for: those place everybody anew, the others do not.
+/// Queries about one agent and, with `of_all`, about all: those place all agents anew, the others
+/// do not.
 void ExpectAlike(const RulesTable& table, SweepingIndex& method, Instant now, bool of_all,
                  Random* random) {
   const auto one = static_cast<std::uint32_t>(random->Below(table.end()));
@@ -152,8 +153,8 @@ void ExpectSameWork(const BroadPhaseWork& a, const BroadPhaseWork& b) {
   EXPECT_EQ(a.rebuilds, b.rebuilds);
 }
 
-// Goal:   rules that are gone, or of agents that are not there, cost no counted work, nor do
-//         half-spaces that nobody's mask names a single test.
+// Goal:   rules that are removed, or of agents that are not held, cost no counted work, and
+//         half-spaces that no agent's mask names cost no test.
 TEST_P(MethodsWithRules, CostNothingWhereUnused) {
   constexpr std::uint32_t kAgents = 300;
   const auto plain = GetParam().make(), ruled = GetParam().make();

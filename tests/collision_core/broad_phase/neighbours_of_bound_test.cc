@@ -1,8 +1,7 @@
 // Goal:   every method answers a question about a bound that it does not hold as the canonical
 //         routine does, pair by pair, and is left as it was.
 // Method: all scenes of the methods; one agent's bound is not set but asked about; the next
-// question
-//         about a held agent is answered as before.
+//         question about a held agent is answered as before.
 #include <gtest/gtest.h>
 
 #include "collision_core/broad_phase/adaptive_broad_phase.h"

@@ -145,10 +145,10 @@ TEST(PointGrid, RefusesCrowds) {
   EXPECT_LT(PairsOf(&grid).size(), 300u);  // A wide row costs digits.
 }
 
-// Some of a scene: those who are not there tell nothing, and whoever lies beyond those that were
-// looked at, or reaches farther, is found as well.
-TEST(PointGrid, FindsWhoLiesBeyondTheSampleAndNobodyWhoIsAbsent) {
-  constexpr std::uint32_t kCount = 9000;  // Every third is looked at.
+// Part of a scene: absent agents give no pairs, and an agent beyond the sampled ones, or with a
+// larger reach, is found as well.
+TEST(PointGrid, FindsAgentsBeyondTheSampleAndNoAbsentOnes) {
+  constexpr std::uint32_t kCount = 9000;  // Every third is sampled.
   constexpr double kSides[] = {40, 40, 40};
   for (const double odd_one : {0.0, 30.0, -30.0, 1e4}) {
     Random random(7);
@@ -256,7 +256,7 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
     const PointView& view = trial % 2 == 0 ? places : lines;
     // One to eight queries; rows of any length in any place.
     const auto first = static_cast<std::uint32_t>(random.Below(30));
-    const QueryPoints who{first,
+    const QueryPoints asked{first,
                           first + 1 + static_cast<std::uint32_t>(trial / 2 % kQueryPointsMax), 0.7f,
                           0.5f, 0.4f};
     std::vector<PointRow> rows;
@@ -267,7 +267,7 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
     }
     const auto hits_of = [&](PointFilter scan) {
       std::vector<std::uint32_t> queries(kQueryPointsMax * 5 * kCount + kLanesMax), others(queries);
-      const PointCounts counts = scan(view, who, rows.data(), 5, {queries.data(), others.data()});
+      const PointCounts counts = scan(view, asked, rows.data(), 5, {queries.data(), others.data()});
       std::vector<Pair> hits = {{counts.tests, counts.ranges}};
       for (std::uint32_t k = 0; k < counts.hits; ++k) hits.push_back({queries[k], others[k]});
       return hits;

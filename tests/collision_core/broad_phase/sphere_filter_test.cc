@@ -1,5 +1,5 @@
-// Goal:   the filter of all methods loses nobody who may come near, on any processor, and does not
-//         let through everybody either.
+// Goal:   the filter of all methods loses no agent that may come near, on any processor, and does
+//         not let all agents through either.
 // Method: random balls of all scales, placed so that many just touch; the truth in exact rational
 //         arithmetic; each width of vectors beside the plain loop.
 #include "collision_core/broad_phase/filter/sphere_filter.h"

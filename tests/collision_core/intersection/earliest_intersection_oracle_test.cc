@@ -179,8 +179,7 @@ TEST(EarliestIntersectionOracle, HugeOffsets) {
 }
 
 // Goal:   grazing at the distance of the radii: exactly, one unit in the last place more or less,
-// and
-//         by 1e-15 to 1e-3. Method: a passage at a right angle, without growth and with.
+//         and by 1e-15 to 1e-3. Method: a passage at a right angle, without growth and with.
 TEST(EarliestIntersectionOracle, Grazing) {
   JudgeAll(103, Tally::kForced4, [](Random& random) {
     const double scale = Any(random), miss = scale * random.Uniform(0.1, 2);

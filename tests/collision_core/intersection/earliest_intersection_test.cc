@@ -175,8 +175,8 @@ TEST(EarliestIntersection, Grazing) {
 
 // Goal:   near triple roots, where a tangent alone creeps, the answer is still not idle.
 // Method: |d| = √(1 + (δ − c³)²) and S = r + s2 δ² share value, slope and curvature at δ = c + c³
-// for
-//         s2 = ½ (1 + c²)^(−3/2) and r = (1 − c²/2) √(1 + c²); scaled, and off by 1e-16 to 1e-2.
+//         for s2 = ½ (1 + c²)^(−3/2) and r = (1 − c²/2) √(1 + c²); scaled, and off by 1e-16 to
+//         1e-2.
 TEST(EarliestIntersection, NearTripleRoots) {
   Random random(64);
   for (int i = 0; i < kPairs; ++i) {
@@ -236,10 +236,9 @@ TEST(EarliestIntersection, PlainCases) {
 }
 
 // Goal:   a direction postpones the meeting while it holds, exactly as far as the box says, and not
-// after. Method: A thrusts only away from B (d = −x, M = 2, ½Mτ² = τ²), B rests 16 m off along +x:
-// never, while it
-//         holds; until 4 s: at 4 s, when the balls already overlap; until 2 s: at 4 s, the balls'
-//         time.
+//         after. Method: A thrusts only away from B (d = −x, M = 2, ½Mτ² = τ²), B rests 16 m off
+//         along +x: never, while it holds; until 4 s: at 4 s, when the balls already overlap; until
+//         2 s: at 4 s, the balls' time.
 TEST(EarliestIntersection, Directions) {
   motion::SpaceTimeBound a = Ball({0, 0, 0}, {0, 0, 0}, 0, 2), b = Ball({16, 0, 0}, {0, 0, 0}, 0);
   const auto seconds = [&] {

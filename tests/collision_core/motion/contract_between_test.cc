@@ -68,8 +68,7 @@ Flight RandomFlight(Random* random, int pieces_max) {
 }
 
 // Goal:   full thrust, whatever way it turns, is no breach; under 1 % less it is one, where it
-// turns
-//         once and on a line: then both balls touch just at the turn.
+//         turns once and on a line: then both balls touch just at the turn.
 TEST(ContractBetween, FullThrustIsKeptAndMoreIsNot) {
   Random random(611);
   int turns = 0;
@@ -119,8 +118,9 @@ TEST(ContractBetween, ErrorsOfTheTellerAreNoBreach) {
   }
 }
 
-// Goal:   Euler's steps at full thrust, place first or velocity first, turning once, are kept; who
-//         moves the place first and thrusts all the way needs the step declared, for the way back.
+// Goal:   Euler's steps at full thrust, place first or velocity first, turning once, are kept; a
+//         sender that moves the place first and thrusts all the way has to declare the step, for
+//         the way back.
 TEST(ContractBetween, StepsOfEulerAreKept) {
   Random random(613);
   for (int i = 0; i < 4000; ++i) {
@@ -198,11 +198,9 @@ double RoomOf(const Pair& pair) {
 }
 
 // Goal:   exactly what is contradictory in exact arithmetic is a breach, but for rounding; the
-// excess
-//         told is no greater than the true one, and not less either.
+//         excess told is no greater than the true one, and not less either.
 // Method: pairs that keep the contract of position and of velocity, so that nothing else tells
-// them;
-//         M made such that many are at the edge, on both sides of it.
+//         them; M made such that many are at the edge, on both sides of it.
 TEST(ContractBetween, ContradictionsAreFoundFromBothSides) {
   Random random(614);
   int between = 0;
@@ -232,9 +230,9 @@ TEST(ContractBetween, ContradictionsAreFoundFromBothSides) {
   EXPECT_GT(between, 3000);
 }
 
-// Goal:   who is back where it rested 2 s before, under 1 m/s², comes with 2√2 − 2 m/s at most
-// (away
-//         for 2 − √2 s, then back), though 2 m/s could be reached, and the place too.
+// Goal:   an agent that is back where it rested 2 s before, under 1 m/s², comes with 2√2 − 2 m/s
+//         at most (away for 2 − √2 s, then back), though 2 m/s alone could be reached, and the
+//         place alone too.
 TEST(ContractBetween, BackAtTheSamePlaceNotAtAnySpeed) {
   Pair pair;
   pair.before.limits.acceleration_max = 1;

@@ -1,7 +1,7 @@
 // Goal:   an orientation is never further from the predicted one than said, forward and backward,
-// and may be as far. Method: turning about a fixed axis with the greatest acceleration, in closed
-// form and long double; random motions
-//         otherwise. A clock that is off, an integrator's step and an undeclared bound.
+//         and may be as far. Method: turning about a fixed axis with the greatest acceleration, in
+//         closed form and long double; random motions otherwise. A clock that is off, an
+//         integrator's step and an undeclared bound.
 #include "collision_core/motion/moving_rotation.h"
 
 #include <gtest/gtest.h>

@@ -89,7 +89,7 @@ TEST(SpaceTimeBound, StepOfSemiImplicitEuler) {
 // Goal:   while the direction holds the box contains every motion with a·d >= 0, is smaller than
 //         the ball's where the direction says so, and is the ball's box from its end on.
 // Method: random piecewise constant accelerations in the half space; extents known by hand for d =
-// (0.6, 0.8, 0).
+//         (0.6, 0.8, 0).
 TEST(SpaceTimeBound, BoxWithDirection) {
   SpaceTimeBound bound;
   bound.limits.acceleration_max = 2;

@@ -116,8 +116,7 @@ TEST(SpeedCap, Extremes) {
 }
 
 // Goal:   no honest motion leaves the capped ball, the capped box or its hypertrapezoid, and
-// straight
-//         ahead it comes as far as they say. Method: seeded motions; full thrust along x.
+//         straight ahead it comes as far as they say. Method: seeded motions; full thrust along x.
 TEST(SpeedCap, ContainsHonestMotions) {
   Random random(22);
   for (int i = 0; i < kMotions; ++i) {
@@ -154,11 +153,10 @@ TEST(SpeedCap, ContainsHonestMotions) {
 }
 
 // Goal:   what an honest agent reports is kept, and takes no answer back: neither its ball nor its
-// box
-//         grows beyond the old one, nor does a meeting come earlier by more than the drift
+//         box grows beyond the old one, nor does a meeting come earlier by more than the drift
 //         explains.
 // Method: reports at random times up to 5 s, also long after the cap took over; another agent
-// waits.
+//         waits.
 TEST(SpeedCap, HonestReportsAreKeptAndTakeNothingBack) {
   Random random(23);
   int postponed = 0;
@@ -220,8 +218,7 @@ TEST(SpeedCap, Breaches) {
 }
 
 // Goal:   a report that skew explains, but whose ball leaves the old capped ball, widens; one just
-// inside
-//         is kept. Method: along a diagonal, where the box has room; by 1 µm either way.
+//         inside is kept. Method: along a diagonal, where the box has room; by 1 µm either way.
 TEST(SpeedCap, OutsideTheCappedBallIsWidened) {
   SpaceTimeBound before = Capped({0, 0, 0}, {0, 0, 0}, 2, 5);
   before.skew = 0.1;
@@ -256,8 +253,7 @@ TEST(SpeedCap, TakingOverEarlyIsDrift) {
 }
 
 // Goal:   the pair's answer under a cap, by hand. Method: from rest to 2 m/s in 1 s and 1 m, then 9
-// m;
-//         at the cap towards a resting agent along (2, 3, 6) / 7: the distance by the speed.
+//         m; at the cap towards a resting agent along (2, 3, 6) / 7: the distance by the speed.
 TEST(SpeedCap, MeetingsByHand) {
   SpaceTimeBound a = Capped({0, 0, 0}, {0, 0, 0}, 2, 2), b = Capped({11, 0, 0}, {0, 0, 0}, 0, 0);
   const auto seconds = [&] { return intersection::EarliestIntersection(a, b, Instant()).seconds; };

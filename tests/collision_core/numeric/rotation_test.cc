@@ -189,7 +189,7 @@ TEST(Rotation, TurnsAreRightHandedInTheWorldFrame) {
 // Goal:   the angle between two orientations is contained, and narrowly so, from none to half a
 //         turn; q and −q are the same orientation.
 // Method: turn by a known angle about a random axis; the oracle takes it from the exact
-// quaternions.
+//         quaternions.
 TEST(Rotation, AnglesBetweenOrientations) {
   Random random(105);
   const double half_turn = 0x1.921fb54442d18p+1;

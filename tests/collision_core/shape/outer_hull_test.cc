@@ -143,8 +143,7 @@ ConvexDescription RandomSolid(Random& random) {
 }
 
 // Goal:   around solids of all kinds, alike and unlike rounded, alone and with a mesh; and not
-// twice
-//         as large.
+//         twice as large.
 // Method: the foremost point of each solid, known to kSupportError.
 TEST(HullAround, SolidsAndTriangles) {
   Random random(404);

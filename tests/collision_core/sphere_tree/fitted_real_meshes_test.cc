@@ -1,4 +1,4 @@
-// Goal:   on meshes nobody wrote for us the fitted tree is proven, and tighter by far than octants.
+// Goal:   on meshes made elsewhere the fitted tree is proven, and tighter by far than octants.
 // Method: every triangle, every node: tree_coverage.h, tree_distances.h; overshoot r + s of cuts at
 // the octree's own counts, as ratios.
 #include <gtest/gtest.h>

@@ -1,8 +1,7 @@
 // Goal:   no mesh makes a tree grow, or its building last, beyond what its number of triangles
-// allows; the tree is
-//         one of its mesh all the same, and covers it.
+//         allows; the tree is one of its mesh all the same, and covers it.
 // Method: thousands of triangles that are in each other's way, through every builder; counts, no
-// clocks.
+//         clocks.
 #include <gtest/gtest.h>
 
 #include "collision_core/shape/shape.h"

@@ -1,10 +1,8 @@
 // Goal:   the quick builder's trees are what sphere_tree.h says, like those of the others, on any
-// mesh; each
-//         triangle stands in one leaf, leaves are full and about as deep, and the first balls are
-//         measured.
+//         mesh; each triangle stands in one leaf, leaves are full and about as deep, and the first
+//         balls are measured.
 // Method: proofs by exact arithmetic that share no code with the builder (tree_coverage.h,
-// tree_distances.h);
-//         counts.
+//         tree_distances.h); counts.
 #include "collision_core/sphere_tree/median_split/median_split_builder.h"
 
 #include <gtest/gtest.h>

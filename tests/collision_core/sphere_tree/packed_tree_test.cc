@@ -1,7 +1,6 @@
 // Goal:   the packed tree says the same as the sphere tree, and nothing that is not certain.
 // Method: exact rational arithmetic, ball by ball and corner by corner, for surfaces of all sizes
-// and far from their
-//         reference points; trees with many children by hand.
+//         and far from their reference points; trees with many children by hand.
 #include "collision_core/sphere_tree/packed_tree.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Goal:   meshes nobody wrote for us become shapes, closed or open as they are known to be, with
+// Goal:   meshes made elsewhere become shapes, closed or open as they are known to be, with
 // bounds that hold on both sides.
 // Method: distances to all triangles in long double, and the sum of solid angles, at some nodes.
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // Goal:   a shape contains the given mesh, is checked as the service checks it, and two equal
-// meshes
-//         are one shape.
+//         meshes are one shape.
 // Method: a tetrahedron and damaged variants; bytes and hash against idl/shape_bytes.h.
 #include "client/api/shape.h"
 

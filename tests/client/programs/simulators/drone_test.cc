@@ -19,8 +19,7 @@ Exact Square(const Vector3& v) {
 
 // Goal:   the declared M holds without any tolerance, and is used to the full.
 // Method: 100 s of flight; |Δv|² <= (M h)² and the deviation from the straight line squared <= (½ M
-// h²)², both
-//         in rationals; some step comes within 1 % of M.
+//         h²)², both in rationals; some step comes within 1 % of M.
 TEST(Drone, KeepsItsBoundExactly) {
   const DroneLimits limits;
   const Exact bound(limits.acceleration_max_m_s2);
