@@ -257,8 +257,8 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
     // One to eight queries; rows of any length in any place.
     const auto first = static_cast<std::uint32_t>(random.Below(30));
     const QueryPoints asked{first,
-                          first + 1 + static_cast<std::uint32_t>(trial / 2 % kQueryPointsMax), 0.7f,
-                          0.5f, 0.4f};
+                            first + 1 + static_cast<std::uint32_t>(trial / 2 % kQueryPointsMax),
+                            0.7f, 0.5f, 0.4f};
     std::vector<PointRow> rows;
     for (int row = 0; row < 5; ++row) {
       const auto begin = static_cast<std::uint32_t>(random.Below(kCount - 1));
