@@ -1,6 +1,7 @@
 // The rules by which the checker judges a run.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace collision::checker {
 /// One sentence per violation, with the pair or agent, the times and the broken rule; empty: the
 /// run satisfies the checker.
 using Violations = std::vector<std::string>;
+
+/// Once a rule has found this many violations it is judged no further: samples repeat them.
+inline constexpr std::size_t kRepeatsMax = 20;
 
 /// Every true contact has an event that brackets its begin, and the pair was announced by then; an
 /// ended event brackets its end; no confirmed event lacks a true contact. Excused are contacts that

@@ -17,10 +17,6 @@ bool InBlind(const TrueContact& contact, const v1::TimeBracket& bracket) {
   });
 }
 
-bool Confirmed(const v1::CollisionEvent& event) {
-  return event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
-}
-
 bool BeginsIn(const TrueContact& contact, std::int64_t earliest_ns, std::int64_t latest_ns) {
   return In(contact.begin_ns, contact.begin_tolerance_ns, earliest_ns, latest_ns);
 }
@@ -28,9 +24,9 @@ bool BeginsIn(const TrueContact& contact, std::int64_t earliest_ns, std::int64_t
 // Whether this revision says that the contact begins where it does.
 bool Brackets(const v1::CollisionEvent& event, const TrueContact& contact) {
   const bool whole = event.status() == v1::EVENT_UNDECIDED ||
-                     (Confirmed(event) && (!event.continuous() || event.began_before()));
+                     (IsConfirmed(event) && (!event.continuous() || event.began_before()));
   if (whole && BeginsIn(contact, event.begin().earliest_ns(), event.end().latest_ns())) return true;
-  return Confirmed(event) &&
+  return IsConfirmed(event) &&
          BeginsIn(contact, event.begin().earliest_ns(), event.begin().latest_ns());
 }
 
@@ -38,7 +34,7 @@ bool Brackets(const v1::CollisionEvent& event, const TrueContact& contact) {
 // touch again where the end is still sought; and a possible contact stays open while the agents'
 // balls overlap.
 bool Covers(const Evidence& evidence, const v1::CollisionEvent& event, const TrueContact& contact) {
-  if (Confirmed(event)) {
+  if (IsConfirmed(event)) {
     return BeginsIn(contact, event.end().earliest_ns(), event.end().latest_ns()) &&
            contact.end_ns <= event.end().latest_ns() + contact.end_tolerance_ns;
   }
@@ -215,7 +211,7 @@ void CheckConfirmed(const Evidence& evidence, const EventHistory& history, Viola
   const auto& motions = evidence.motions();
   const std::int64_t logged = std::min(motions[history.a].end_ns(), motions[history.b].end_ns());
   for (const v1::CollisionEvent& event : history.revisions) {
-    if (!Confirmed(event) || event.begin().latest_ns() > logged) continue;
+    if (!IsConfirmed(event) || event.begin().latest_ns() > logged) continue;
     if (IsTrue(evidence, history, event)) continue;
     violations->push_back(evidence.PairName(history.a, history.b) + ": confirmed with begin " +
                           Bracket(evidence, event.begin()) + ", but no true contact begins there");

@@ -34,6 +34,10 @@ bool IsFinal(v1::EventStatus status) {
 
 }  // namespace
 
+bool IsConfirmed(const v1::CollisionEvent& event) {
+  return event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
+}
+
 bool Moment::IsAfter(const Moment& other) const {
   const bool same_service = stamp.sequence() > 0 && stamp.service_id() == other.stamp.service_id();
   if (!same_service || other.stamp.sequence() == 0) return now_ns > other.now_ns;
@@ -87,7 +91,7 @@ void Evidence::Sort(const v1::CollisionEvent& event) {
   EventHistory& history = histories_[index];
   if (!history.revisions.empty() && event.revision() <= history.last().revision()) return;
   if (history.announced.IsAfter(moment)) history.announced = moment;
-  const bool confirmed = event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
+  const bool confirmed = IsConfirmed(event);
   if (confirmed && !history.confirmed) history.confirmed = moment;
   if (IsFinal(event.status()) && !history.closed) history.closed = moment;
   history.revisions.push_back(event);

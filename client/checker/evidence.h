@@ -45,6 +45,9 @@ struct Moment {
   bool IsAfter(const Moment& other) const;
 };
 
+/// Whether an event says that its contact has taken place or certainly will.
+bool IsConfirmed(const v1::CollisionEvent& event);
+
 /// All revisions of one contact as published.
 struct EventHistory {
   std::size_t a = 0;  ///< Indices of the motions, a < b.

@@ -6,10 +6,6 @@
 namespace collision::checker {
 namespace {
 
-bool Confirmed(const v1::CollisionEvent& event) {
-  return event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
-}
-
 class ExpectationCheck {
  public:
   ExpectationCheck(const Evidence& evidence, const v1::SceneExpectation& expectation)
@@ -51,7 +47,7 @@ class ExpectationCheck {
   void CheckContact(const v1::ExpectedContact& expected) {
     for (const EventHistory& history : evidence_.histories()) {
       const v1::CollisionEvent& event = history.last();
-      if (!IsPair(history, expected) || !Confirmed(event)) continue;
+      if (!IsPair(history, expected) || !IsConfirmed(event)) continue;
       if (!Meets(event.begin(), expected.begin_s(), expected.tolerance_s())) continue;
       if (!Meets(event.end(), expected.end_s(), expected.tolerance_s())) continue;
       matched_.insert(&history);

@@ -13,7 +13,6 @@ namespace {
 constexpr double kLengthTolerance = 1e-6;  // [m] states and logs are rounded differently
 constexpr double kUnitTolerance = 1e-9;
 constexpr double kNoDirection = 3.1415926;  // [rad] a normal with this error says nothing
-constexpr std::size_t kRepeatsMax = 20;
 
 // The pieces that contain an instant. Where one ends and the next begins there are two, and an
 // event may refer to either if the agent jumps there.

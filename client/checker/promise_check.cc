@@ -6,9 +6,6 @@
 namespace collision::checker {
 namespace {
 
-// Every sample that repeats a broken promise breaks it again; the first few are enough.
-constexpr std::size_t kRepeatsMax = 20;
-
 constexpr long double kForEver = std::numeric_limits<long double>::infinity();
 
 v1::AgentId IdOf(const v1::Clearance& sample, const v1::AgentClearance& agent) {

@@ -16,7 +16,7 @@ namespace {
 using google::protobuf::Struct;
 using google::protobuf::Value;
 
-constexpr std::uint64_t kNodeDepthMax = 256;    ///< Assimp recurses once per level.
+constexpr std::uint64_t kGltfDepthMax = 256;    ///< Assimp recurses once per level.
 constexpr double kCountMax = 9007199254740992;  ///< 2^53: JSON's numbers are doubles.
 constexpr std::string_view kBase64 = ";base64,";
 
@@ -232,8 +232,8 @@ class GltfScan {
   static void RequireShallow(const std::vector<std::size_t>& parents, std::size_t node) {
     std::uint64_t depth = 0;
     for (std::size_t at = node; parents[at] != parents.size(); at = parents[at]) {
-      if (++depth > kNodeDepthMax) {
-        Fail(Named("node", node) + " is deeper than " + std::to_string(kNodeDepthMax) +
+      if (++depth > kGltfDepthMax) {
+        Fail(Named("node", node) + " is deeper than " + std::to_string(kGltfDepthMax) +
              " nodes, or its own parent");
       }
     }

@@ -51,11 +51,10 @@ void StopSignalWatcher::Watch() {
 
 /// Whether the destructor's signal comes; those of others change nothing.
 bool StopSignalWatcher::EndsInTime() const {
-  using Clock = std::chrono::steady_clock;
   const sigset_t set = StopSignalSet();
-  const Clock::time_point end = Clock::now() + patience_;
+  const auto end = std::chrono::steady_clock::now() + patience_;
   while (!ending_) {
-    const auto left = std::chrono::nanoseconds(end - Clock::now()).count();
+    const auto left = std::chrono::nanoseconds(end - std::chrono::steady_clock::now()).count();
     if (left <= 0) return false;
     constexpr std::int64_t kSecond = 1'000'000'000;
     const timespec wait{.tv_sec = left / kSecond, .tv_nsec = left % kSecond};

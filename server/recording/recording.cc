@@ -8,15 +8,15 @@
 
 #include <cerrno>
 #include <stdexcept>
-#include <system_error>
 
 #include "server/config/config.h"
 #include "server/process/version.h"
+#include "server/process/write_all.h"
 
 namespace collision::server {
 namespace {
 
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kRecordingFormat = 1;
 
 /// A state is some 250 bytes, so that all states of 100,000 agents are below this; a length beyond
 /// it is something else read as one.
@@ -25,26 +25,13 @@ constexpr std::uint64_t kEntryBytesMax = 64 << 20;
 /// A varint of a length that may be: at most 7 bits each.
 constexpr int kLengthBytesMax = 5;
 
-std::string CauseOf(int error_number) { return std::generic_category().message(error_number); }
-
-/// Returns 0 or the errno.
-int WriteAll(int file, const std::string& bytes) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t written = write(file, bytes.data() + done, bytes.size() - done);
-    if (written < 0 && errno != EINTR) return errno;
-    if (written > 0) done += static_cast<std::size_t>(written);
-  }
-  return 0;
-}
-
 }  // namespace
 
 RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& config) : path_(path) {
   file_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file_ < 0) throw std::runtime_error(path + ": cannot be written: " + CauseOf(errno));
   v1::RecordingEntry entry;
-  entry.mutable_header()->set_format(kFormat);
+  entry.mutable_header()->set_format(kRecordingFormat);
   entry.mutable_header()->set_version(kVersion);
   *entry.mutable_header()->mutable_config() = config;
   if (Write(entry)) return;
@@ -89,9 +76,9 @@ RecordingReader::RecordingReader(const std::string& path)
     throw std::runtime_error(error_.empty() ? path + ": byte 0: empty: no recording" : error_);
   }
   if (!entry.has_header()) throw std::runtime_error(path + ": byte 0: no recording: no header");
-  if (const std::uint32_t format = entry.header().format(); format != kFormat) {
+  if (const std::uint32_t format = entry.header().format(); format != kRecordingFormat) {
     throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
-                             "; this program reads format " + std::to_string(kFormat));
+                             "; this program reads format " + std::to_string(kRecordingFormat));
   }
   if (!entry.header().has_config()) {
     throw std::runtime_error(path + ": byte 0: its configuration: missing");

@@ -13,7 +13,8 @@
 namespace collision::server {
 namespace {
 
-using Refusal = std::optional<std::string>;
+/// Why a shape is refused; nullopt: it is not.
+using Reason = std::optional<std::string>;
 
 static_assert(shape::kSolidsMax == wire::kShapeSolidsMax,
               "the core takes as many solids as the wire");
@@ -64,7 +65,7 @@ shape::ConvexDescription DescriptionOf(const SolidContent& solid, const Kind& ki
 
 /// A number that its kind does not use was most likely meant for something: the radius of a capsule
 /// given as a half extent would make the solid too thin, and contacts would be missed.
-Refusal RefusalOfUnused(const SolidContent& solid, const Kind& kind) {
+Reason RefusalOfUnused(const SolidContent& solid, const Kind& kind) {
   for (int i = 0; i < 3; ++i) {
     if (kind.uses_half[i] || solid.half_extents[i] == 0) continue;
     return fmt::format("half_extents[{}] is {}; allowed is 0: a {} has none along {}", i,
@@ -77,7 +78,7 @@ Refusal RefusalOfUnused(const SolidContent& solid, const Kind& kind) {
 
 /// The other numbers are checked with their ranges by the core; of a quaternion it checks the
 /// length.
-Refusal RefusalOfOrientation(const SolidContent& solid) {
+Reason RefusalOfOrientation(const SolidContent& solid) {
   for (std::size_t i = 0; i < 4; ++i) {
     if (std::isfinite(solid.orientation[i])) continue;
     return fmt::format("orientation.{} is {}; allowed are finite values", "wxyz"[i],
@@ -100,7 +101,7 @@ std::string InWords(std::string sentence) {
   return sentence;
 }
 
-Refusal RefusalOfSolid(const SolidContent& solid) {
+Reason RefusalOfSolid(const SolidContent& solid) {
   const Kind* kind = FindKind(solid.kind);
   if (kind == nullptr) {
     return fmt::format(
@@ -120,7 +121,7 @@ std::string NameOf(const ShapeContent& content, std::size_t i) {
                      kind ? fmt::format(" ({})", kind->name) : "");
 }
 
-Refusal RefusalOfSolids(const ShapeContent& content) {
+Reason RefusalOfSolids(const ShapeContent& content) {
   if (content.solids.size() > shape::kSolidsMax) {
     return fmt::format("{} convex solids; allowed: 0 to {}", content.solids.size(),
                        shape::kSolidsMax);
@@ -140,7 +141,7 @@ Refusal RefusalOfSolids(const ShapeContent& content) {
 }
 
 /// The surface, repaired and taken away; none at all is allowed beside solids.
-Refusal TakeMesh(ShapeContent* content, std::size_t triangles_max, DecodedShape* decoded) {
+Reason TakeMesh(ShapeContent* content, std::size_t triangles_max, DecodedShape* decoded) {
   geometry::TriangleMesh mesh = MeshOf(*content);
   content->vertices = {};
   content->triangles = {};
@@ -165,7 +166,7 @@ std::optional<DecodedShape> DecodeAndCheck(std::string bytes, std::size_t triang
   if (!content) return std::nullopt;
   std::string().swap(bytes);
   DecodedShape decoded;
-  Refusal found = RefusalOfSolids(*content);
+  Reason found = RefusalOfSolids(*content);
   if (!found) found = TakeMesh(&*content, triangles_max, &decoded);
   if (found) {
     *refusal = std::move(*found);

@@ -14,7 +14,7 @@
 namespace collision::server {
 namespace {
 
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kTreeFormat = 1;
 
 /// Of the recipe's hash, in a file's name: two recipes never share a name but by their first 64
 /// bits, and then the file says which it is.
@@ -82,7 +82,7 @@ TreeCache::TreeCache(const std::string& folder, std::uint64_t bytes_max,
 }
 
 std::string TreeCache::NameOf(const std::string& content_hash) const {
-  const std::string recipe = Sha256(std::to_string(kFormat) + recipe_bytes_);
+  const std::string recipe = Sha256(std::to_string(kTreeFormat) + recipe_bytes_);
   return HexText(content_hash) + "-" + HexText(recipe.substr(0, kRecipeBytesInName));
 }
 
@@ -114,8 +114,8 @@ std::optional<sphere_tree::SphereTree> TreeCache::Read(const std::string& bytes,
   v1::TreeFile file;
   if (!file.ParseFromString(bytes)) {
     *fault = "cut off, or no tree file";
-  } else if (file.format() != kFormat) {
-    *fault = fmt::format("format {}; allowed: {}", file.format(), kFormat);
+  } else if (file.format() != kTreeFormat) {
+    *fault = fmt::format("format {}; allowed: {}", file.format(), kTreeFormat);
   } else if (file.content_hash() != content_hash) {
     *fault = "the tree of another shape";
   } else if (file.recipe().SerializeAsString() != recipe_bytes_) {
@@ -135,7 +135,7 @@ std::optional<sphere_tree::SphereTree> TreeCache::Read(const std::string& bytes,
 
 void TreeCache::Store(const std::string& content_hash, const sphere_tree::SphereTree& tree) {
   v1::TreeFile file;
-  file.set_format(kFormat);
+  file.set_format(kTreeFormat);
   file.set_content_hash(content_hash);
   *file.mutable_recipe() = recipe_;
   file.set_tree(ToMessage(tree).SerializeAsString());

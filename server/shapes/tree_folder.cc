@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/process/write_all.h"
+
 namespace collision::server {
 namespace {
 
@@ -23,8 +25,6 @@ constexpr const char* kAsideEnding = ".aside";
 
 /// Writing a file takes seconds at most: an older one was left behind by a process that died.
 constexpr std::chrono::hours kAsideAgeMax{1};
-
-std::string CauseOf(int error_number) { return std::generic_category().message(error_number); }
 
 /// Closes what it holds.
 class File {
@@ -51,16 +51,6 @@ bool ReadAll(int file, std::string* bytes) {
     const ssize_t more = read(file, bytes->data() + done, bytes->size() - done);
     if (more == 0) errno = EIO;
     if (more == 0 || (more < 0 && errno != EINTR)) return false;
-    if (more > 0) done += static_cast<std::size_t>(more);
-  }
-  return true;
-}
-
-bool WriteAll(int file, const std::string& bytes) {
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t more = write(file, bytes.data() + done, bytes.size() - done);
-    if (more < 0 && errno != EINTR) return false;
     if (more > 0) done += static_cast<std::size_t>(more);
   }
   return true;
@@ -157,7 +147,7 @@ bool TreeFolder::Write(const std::string& name, const std::string& bytes, std::s
   const std::string aside = path_ + "/." + name + "." + std::to_string(getpid()) + "." +
                             std::to_string(++written_) + kEnding + kAsideEnding;
   File file(open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0640));
-  const bool is_placed = file.is_open() && WriteAll(file.get(), bytes) && file.Close() &&
+  const bool is_placed = file.is_open() && WriteAll(file.get(), bytes) == 0 && file.Close() &&
                          rename(aside.c_str(), path.c_str()) == 0;
   if (is_placed) {
     bytes_ += bytes.size();

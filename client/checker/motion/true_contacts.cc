@@ -62,7 +62,7 @@ struct AgentPiece {
 
 // Bodies with a shape are evaluated while their balls, a little enlarged [m, and share of their
 // size], overlap: the shapes decide about contact.
-constexpr long double kSpare = 1e-9L;
+constexpr long double kBallSpare = 1e-9L;
 
 class ContactFinder {
  public:
@@ -137,7 +137,7 @@ class ContactFinder {
     const PairMotion motion(a.piece, b.piece, from);
     const long double reach = static_cast<long double>(body_a.reach()) + body_b.reach();
     const long double duration = static_cast<long double>(to - from) * 1e-9L;
-    const long double spare = balls ? 0 : kSpare * (1 + reach);
+    const long double spare = balls ? 0 : kBallSpare * (1 + reach);
     const auto instant = [&](long double seconds) { return from + seconds * 1e9L; };
     for (const Span& span : SpansWithin(motion.difference(), duration, reach + spare)) {
       ContactAssembly& pair = pairs_[{a.agent, b.agent}];

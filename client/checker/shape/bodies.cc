@@ -20,9 +20,9 @@ struct Part {
 };
 
 // The parts of a body, without an allocation if there is only one: it is requested often.
-class Parts {
+class BodyParts {
  public:
-  explicit Parts(const Body& body) : one_{{body.mesh, 0}} {
+  explicit BodyParts(const Body& body) : one_{{body.mesh, 0}} {
     if (body.IsBall()) one_[0].rounding_m = body.radius_m;
     if (body.solids == nullptr || body.solids->empty()) return;
     if (body.mesh != nullptr) many_.push_back(one_[0]);
@@ -90,7 +90,7 @@ struct Extent {
 
 Extent ExtentOf(const Body& body, const Vector& direction) {
   Extent extent;
-  const Parts parts(body);
+  const BodyParts parts(body);
   for (const Part& part : parts.all()) {
     if (part.core == nullptr) extent.Include(0, part.rounding_m);
     if (part.core == nullptr) continue;
@@ -121,7 +121,7 @@ double Body::reach() const {
 // nearest two parts could touch.
 Standing StandingOf(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint,
                     bool outside) {
-  const Parts of_a(body_a), of_b(body_b);
+  const BodyParts of_a(body_a), of_b(body_b);
   Standing all{false, INFINITY};
   Hint fresh;
   for (const Part& a : of_a.all()) {
@@ -142,7 +142,7 @@ Standing StandingOf(const Body& body_a, const Body& body_b, const Pose& pose, Hi
 }
 
 bool InContact(const Body& body_a, const Body& body_b, const Pose& pose, Hint* hint) {
-  const Parts of_a(body_a), of_b(body_b);
+  const BodyParts of_a(body_a), of_b(body_b);
   Hint fresh;
   for (const Part& a : of_a.all()) {
     for (const Part& b : of_b.all()) {
@@ -180,7 +180,7 @@ double DistanceOf(const Body& a, const Body& b, const Pose& pose) {
 
 double DistanceTo(const Body& body, const Vector& point) {
   double least = INFINITY;
-  const Parts parts(body);
+  const BodyParts parts(body);
   for (const Part& part : parts.all()) {
     double distance = part.core != nullptr ? SurfaceDistance(*part.core, point) : Length(point);
     if (part.core != nullptr && part.core->Contains(point)) distance = 0;

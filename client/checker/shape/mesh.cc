@@ -14,9 +14,11 @@ constexpr std::uint32_t kLeafTriangles = 4;
 Vector Centroid(const Triangle& t) { return (1.0 / 3) * (t[0] + t[1] + t[2]); }
 
 // The connected part that each vertex belongs to; edges join parts.
-class Parts {
+class ConnectedParts {
  public:
-  explicit Parts(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit ConnectedParts(std::size_t n) : parent_(n) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
 
   std::uint32_t Of(std::uint32_t i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -73,7 +75,7 @@ void Mesh::FindEdges(const std::vector<std::array<std::uint32_t, 3>>& indices) {
     const Vector& v = vertices_[i];
     place[i] = places.try_emplace({v.x, v.y, v.z}, i).first->second;
   }
-  Parts parts(vertices_.size());
+  ConnectedParts parts(vertices_.size());
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> passes;
   for (const auto& face : indices) {
     for (int k = 0; k < 3; ++k) {

@@ -37,7 +37,7 @@ double SquaredGap(const Triangle& a, const Triangle& b) {
 Triangle Seen(const Pose& pose, const Triangle& t) { return {pose(t[0]), pose(t[1]), pose(t[2])}; }
 
 // Boxes are compared with an allowance for rounding.
-constexpr double kSpare = 1e-13;
+constexpr double kBoxSpare = 1e-13;
 
 // Visits the pairs of leaves whose boxes are nearer than `reach`, nearer pairs first.
 template <typename Reach, typename Visit>
@@ -58,7 +58,7 @@ void ForNearLeaves(const Mesh& a, const Mesh& b, const Pose& pose, const Reach& 
   while (!open.empty()) {
     const Entry next = open.back();
     open.pop_back();
-    const double limit = reach() + kSpare;
+    const double limit = reach() + kBoxSpare;
     if (next.squared > limit * limit) continue;
     const Node& node_a = a.nodes()[next.a];
     const Node& node_b = b.nodes()[next.b];
@@ -129,7 +129,7 @@ double SurfaceDistance(const Mesh& mesh, const Vector& point) {
     const std::uint32_t i = open.back();
     open.pop_back();
     const Node& node = mesh.nodes()[i];
-    if (gap(i) > (best + kSpare) * (best + kSpare)) continue;
+    if (gap(i) > (best + kBoxSpare) * (best + kBoxSpare)) continue;
     if (node.triangles == 0) {
       const bool second_nearer = gap(node.child + 1) < gap(node.child);
       open.push_back(second_nearer ? node.child : node.child + 1);

@@ -11,13 +11,13 @@ void Set(const Vector3& from, v1::Vector3* to) {
   to->set_z(from[2]);
 }
 
-Vector3 FromMessage(const v1::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+Vector3 VectorOf(const v1::Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-TimeBracket FromMessage(const v1::TimeBracket& bracket) {
+TimeBracket BracketOf(const v1::TimeBracket& bracket) {
   return {bracket.earliest_ns(), bracket.latest_ns()};
 }
 
-SimulatorStatus FromMessage(const v1::SimulatorStatus& message) {
+SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   SimulatorStatus status;
   status.simulator = message.simulator_id();
   status.name = message.name();
@@ -75,15 +75,15 @@ AgentId FromMessage(const v1::AgentId& id) {
 State FromMessage(const v1::AgentState& message) {
   State state;
   state.stamp_ns = message.stamp_ns();
-  state.position_m = FromMessage(message.position_m());
-  state.velocity_m_s = FromMessage(message.velocity_m_s());
+  state.position_m = VectorOf(message.position_m());
+  state.velocity_m_s = VectorOf(message.velocity_m_s());
   const v1::Quaternion& orientation = message.orientation();
   state.orientation = {orientation.w(), orientation.x(), orientation.y(), orientation.z()};
-  state.angular_velocity_rad_s = FromMessage(message.angular_velocity_rad_s());
+  state.angular_velocity_rad_s = VectorOf(message.angular_velocity_rad_s());
   state.position_error_m = message.position_error_m();
   state.velocity_error_m_s = message.velocity_error_m_s();
   state.rotation_error_rad = message.rotation_error_rad();
-  state.thrust_direction = FromMessage(message.thrust_direction());
+  state.thrust_direction = VectorOf(message.thrust_direction());
   state.direction_until_ns = message.direction_until_ns();
   state.expiry_ns = message.expiry_ns();
   state.discontinuity = message.discontinuity();
@@ -120,17 +120,17 @@ Event FromMessage(const v1::CollisionEvent& message) {
   event.revision = message.revision();
   event.now_ns = message.now_ns();
   event.status = static_cast<EventStatus>(message.status());
-  event.begin = FromMessage(message.begin());
-  event.end = FromMessage(message.end());
+  event.begin = BracketOf(message.begin());
+  event.end = BracketOf(message.end());
   event.continuous = message.continuous();
   event.began_before = message.began_before();
   if (message.has_separation_m()) event.evaluated_at_ns = message.evaluated_at_ns();
   event.separation_lower_m = message.separation_m().lower();
   event.separation_upper_m = message.separation_m().upper();
   event.depth_lower_m = message.depth_lower_m();
-  event.point_m = FromMessage(message.point_m());
+  event.point_m = VectorOf(message.point_m());
   event.point_error_m = message.point_error_m();
-  event.normal = FromMessage(message.normal());
+  event.normal = VectorOf(message.normal());
   event.normal_error_rad = message.normal_error_rad();
   event.level = message.level();
   event.work_units = message.work_units();
@@ -179,7 +179,7 @@ ServiceStatus FromMessage(const v1::ServiceStatus& message) {
   status.agents = message.agents();
   status.pairs_tracked = message.pairs_tracked();
   for (const v1::SimulatorStatus& simulator : message.simulators()) {
-    status.simulators.push_back(FromMessage(simulator));
+    status.simulators.push_back(SimulatorStatusOf(simulator));
   }
   for (const v1::Counter& counter : message.counters()) {
     status.counters[counter.name()] = counter.value();

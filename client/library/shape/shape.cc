@@ -46,7 +46,7 @@ Triangles Compact(const geometry::TriangleMesh& mesh) {
   return compact;
 }
 
-void RequireFit(const geometry::TriangleMesh& mesh) {
+void RequireFitMesh(const geometry::TriangleMesh& mesh) {
   if (const auto refusal = RefusalOf(mesh, kShapeTrianglesMax)) {
     throw std::invalid_argument(*refusal);
   }
@@ -55,7 +55,7 @@ void RequireFit(const geometry::TriangleMesh& mesh) {
 /// The triangles with an area; throws if there is none.
 geometry::TriangleMesh Repaired(const Triangles& triangles, std::size_t* dropped) {
   geometry::TriangleMesh mesh = ToCore(triangles);
-  RequireFit(mesh);
+  RequireFitMesh(mesh);
   *dropped = DropDegenerate(&mesh);
   if (!mesh.triangles.empty()) return mesh;
   throw std::invalid_argument("triangles: all " + std::to_string(*dropped) +
@@ -76,7 +76,7 @@ std::shared_ptr<const Shape> Shape::Make(Geometry geometry) {
   if (geometry.solids.empty() || !given.vertices_m.empty() || !given.indices.empty()) {
     shape->geometry_.triangles = Compact(Repaired(given, &shape->dropped_));
     const geometry::TriangleMesh mesh = ToCore(shape->geometry_.triangles);
-    RequireFit(mesh);  // Without its unused vertices the mesh may be too small.
+    RequireFitMesh(mesh);  // Without its unused vertices the mesh may be too small.
     const geometry::MeshFacts facts = FactsOf(mesh);
     shape->radius_m_ = facts.radius;
     shape->closed_ = facts.closed;

@@ -119,7 +119,7 @@ std::string InCallersWords(std::string text) {
   return text;
 }
 
-void RequireFit(const Solid& solid, std::size_t number) {
+void RequireFitSolid(const Solid& solid, std::size_t number) {
   auto refusal = RefusalOfUnused(solid);
   if (!refusal) refusal = RefusalOf(DescriptionOf(solid));
   if (!refusal) return;
@@ -142,7 +142,7 @@ std::vector<Solid> Canonical(std::vector<Solid> solids) {
   }
   for (std::size_t i = 0; i < solids.size(); ++i) {
     MakeCanonical(&solids[i]);
-    RequireFit(solids[i], i);
+    RequireFitSolid(solids[i], i);
   }
   return solids;
 }

@@ -19,7 +19,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kGrace{2};  // between SIGTERM and SIGKILL
 constexpr std::chrono::milliseconds kReapPeriod{5};
 constexpr int kCannotExecute = 127;
 

@@ -16,7 +16,10 @@ enum class Streams {
   kTerminal  ///< Input and output are this program's own; errors go to the file.
 };
 
-/// The destructor ends the child: SIGTERM, and SIGKILL after 2 s. The child also gets SIGTERM if
+/// Between SIGTERM and SIGKILL.
+inline constexpr std::chrono::seconds kGrace{2};
+
+/// The destructor ends the child: SIGTERM, and SIGKILL after kGrace. The child also gets SIGTERM if
 /// this program dies. It has a process group of its own, so that Ctrl-C reaches only this program,
 /// which then ends it in order; a child with the terminal stays in this group, or it could not
 /// read.

@@ -23,7 +23,6 @@ namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kGrace{2};   // between SIGTERM and SIGKILL
 constexpr std::chrono::seconds kStuck{30};  // without any progress of the service's time
 constexpr std::chrono::nanoseconds kRealTimeLead{
     3'000'000'000};                             // until all programs have discovered each other

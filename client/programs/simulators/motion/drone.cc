@@ -11,10 +11,10 @@ namespace {
 
 // Forces stay inside M by this factor. Then rounding p and v (below 1 km and 1 km/s, half an ulp is
 // 6e-14) never makes a step of 1 ms or longer break the bound: M h² 1e-6 / 2 >= 2.5e-12 for M = 5.
-constexpr double kInside = 1 - 1e-6;
+constexpr double kForceInside = 1 - 1e-6;
 
 constexpr int kAttemptsPerDrone = 10000;
-constexpr double kReached = 10;          // a target is reached within this many metres
+constexpr double kDroneReached = 10;     // a target is reached within this many metres
 constexpr double kGustShare = 0.5;       // of M; the rest pulls to the target
 constexpr int kThinkSteps[] = {20, 80};  // between two choices of gust and target
 
@@ -38,15 +38,15 @@ Drone::Drone(const DroneLimits& limits, const Vector3& position_m, std::uint64_t
     : limits_(limits), random_(seed), position_m_(position_m) {}
 
 Vector3 Drone::Force(double step) {
-  const double force_max = limits_.acceleration_max_m_s2 * kInside;
+  const double force_max = limits_.acceleration_max_m_s2 * kForceInside;
   Vector3 away{};
   for (int axis = 0; axis < 3; ++axis) away[axis] = target_m_[axis] - position_m_[axis];
-  if (steps_left_-- <= 0 || Norm(away) < kReached) {
+  if (steps_left_-- <= 0 || Norm(away) < kDroneReached) {
     steps_left_ = static_cast<int>(random_.Uniform(kThinkSteps[0], kThinkSteps[1]));
     gust_ = Scaled(random_.InUnitBall(), kGustShare * force_max);
     target_m_ = Target(limits_, random_.Next());
   }
-  const double distance = std::max(Norm(away), kReached);
+  const double distance = std::max(Norm(away), kDroneReached);
   Vector3 force;
   for (int axis = 0; axis < 3; ++axis) {
     force[axis] = gust_[axis] + away[axis] / distance * force_max * (1 - kGustShare);
@@ -66,7 +66,7 @@ Vector3 Drone::Force(double step) {
     force = Scaled(velocity_m_s_, -force_max / speed);
   }
   const double rounded = Norm(force);
-  return rounded > force_max ? Scaled(force, force_max / rounded * kInside) : force;
+  return rounded > force_max ? Scaled(force, force_max / rounded * kForceInside) : force;
 }
 
 MotionPiece Drone::Step(std::int64_t t0_ns, std::int64_t t1_ns) {

@@ -12,7 +12,7 @@ constexpr int kTerms = 26;
 
 // Changes stay inside α by this factor. Then rounding ω (below 10 rad/s, half an ulp is 9e-16)
 // never makes a step of 1 ms or longer break the bound: α h 1e-6 >= 1e-10 for α = 0.1.
-constexpr double kInside = 1 - 1e-6;
+constexpr double kTurnInside = 1 - 1e-6;
 
 // A little less than π/2, with room for the declared rotation error and the heading's rounding.
 constexpr double kQuarter = 1.5707963 - 1e-6;
@@ -82,7 +82,7 @@ TurnPiece TurnTowards(const RigidState& state, const Vector3& angular_velocity_w
   const Vector3& w = state.angular_velocity_rad_s;
   // Both ends of the change lie in the ball of allowed ω, so the whole change does.
   const Vector3 wanted = AtMost(angular_velocity_wanted_rad_s, limits.angular_speed_max_rad_s);
-  const double change_max = limits.angular_acceleration_max_rad_s2 * kInside * step;
+  const double change_max = limits.angular_acceleration_max_rad_s2 * kTurnInside * step;
   const Vector3 change = AtMost(Difference(wanted, w), change_max);
   return {t0_ns, t1_ns, state.orientation, w, Scaled(change, step > 0 ? 1 / step : 0)};
 }

@@ -8,7 +8,7 @@ namespace collision::client {
 namespace {
 
 // The engine stays inside M by this factor, to allow for rounding; see drone.cc.
-constexpr double kInside = 1 - 1e-6;
+constexpr double kThrustInside = 1 - 1e-6;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::int64_t Ship::HeadingHoldsFor() const {
 // slow down.
 double Ship::ThrustWithinSpeed(double thrust, double step) const {
   const Vector3& v = state_.velocity_m_s;
-  const Vector3 gain = Scaled(heading(), limits_.acceleration_max_m_s2 * kInside * step);
+  const Vector3 gain = Scaled(heading(), limits_.acceleration_max_m_s2 * kThrustInside * step);
   const double a = Dot(gain, gain), b = Dot(v, gain);
   const double cap = std::max(limits_.speed_max_m_s, Norm(v));
   const double c = Dot(v, v) - cap * cap;
@@ -39,7 +39,8 @@ double Ship::ThrustWithinSpeed(double thrust, double step) const {
 RigidStep Ship::Step(const ShipCommand& command, std::int64_t t0_ns, std::int64_t t1_ns) {
   const double step = static_cast<double>(t1_ns - t0_ns) * 1e-9;
   const double share = ThrustWithinSpeed(command.thrust, step);
-  const Vector3 acceleration = Scaled(heading(), limits_.acceleration_max_m_s2 * kInside * share);
+  const Vector3 acceleration =
+      Scaled(heading(), limits_.acceleration_max_m_s2 * kThrustInside * share);
   RigidStep result;
   result.piece = {t0_ns, t1_ns, {}};
   for (int axis = 0; axis < 3; ++axis) {
