@@ -135,7 +135,7 @@ ThreadedShapeBuilder::~ThreadedShapeBuilder() {
   for (std::thread& worker : workers_) ended ? worker.join() : worker.detach();
 }
 
-void ThreadedShapeBuilder::Work(std::shared_ptr<Shared> shared, const Limits& limits) {
+void ThreadedShapeBuilder::Work(const std::shared_ptr<Shared>& shared, const Limits& limits) {
   try {
     BuildUntilStopped(shared.get(), limits);
   } catch (...) {

@@ -42,7 +42,7 @@ class ThreadedShapeBuilder final : public ShapeBuilder {
   /// What a worker takes.
   struct Limits;
 
-  static void Work(std::shared_ptr<Shared> shared, const Limits& limits);
+  static void Work(const std::shared_ptr<Shared>& shared, const Limits& limits);
   static void BuildUntilStopped(Shared* shared, const Limits& limits);
 
   const std::shared_ptr<Shared> shared_;  ///< Shared with the workers, which may outlive this.
