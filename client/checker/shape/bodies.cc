@@ -46,9 +46,9 @@ struct PosedParts {
   Hint* hint;
 };
 
-// The distance [m] of the cores if it is less than `limit`, else `limit`. Negative where they touch,
-// cross or contain each other: minus the distance by which they may be moved and still do (with
-// `depth`; else 0 where they touch or cross). `outside`: neither lies inside the other.
+// The distance [m] of the cores if it is less than `limit`, else `limit`. Negative where they
+// touch, cross or contain each other: minus the distance by which they may be moved and still do
+// (with `depth`; else 0 where they touch or cross). `outside`: neither lies inside the other.
 double CoreGap(const PosedParts& parts, double limit, bool outside, bool depth) {
   const auto& [a, b, pose, hint] = parts;
   if (a.core == nullptr && b.core == nullptr) return Length(pose.p_AB);

@@ -52,6 +52,7 @@ ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& arg
                            const std::string& output_path, Streams streams)
     : name_(std::move(name)), output_path_(output_path) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   const int output = open(output_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);

@@ -37,12 +37,13 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
 
 std::vector<AgentView> WorldView::Agents() const {
   std::vector<AgentView> agents;
-  for (const auto& [key, description] : descriptions_) {
+  for (const auto& entry : descriptions_) {
+    const auto& description = entry.second;
     AgentView& agent = agents.emplace_back();
     agent.description = description;
     // A sample of an earlier run, or of an earlier agent in this slot, belongs to another agent.
     const auto take = [&](const auto& samples, auto* to) {
-      const auto found = samples.find(key);
+      const auto found = samples.find(entry.first);
       if (found == samples.end() || found->second.first != description.run()) return;
       if (found->second.second.generation() == description.generation()) *to = found->second.second;
     };

@@ -9,8 +9,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Height of a corner above the opposite face, as a share of its largest possible value, up to which
-/// a tetrahedron counts as flat: doubles cannot tell its inside.
+/// Height of a corner above the opposite face, as a share of its largest possible value, up to
+/// which a tetrahedron counts as flat: doubles cannot tell its inside.
 constexpr double kFlat = 1e-14;
 
 /// A corner of the simplex: its place among the corners, and its position.
@@ -28,8 +28,9 @@ void OnCorner(const Corner& a, SimplexPoint* point) {
   point->encloses = false;
 }
 
-/// The nearest point is a + t (b − a). Requires t in (0, 1). The part of `nearest` along the edge is
-/// taken out twice: after the first time, what rounding leaves of it may be large beside the result.
+/// The nearest point is a + t (b − a). Requires t in (0, 1). The part of `nearest` along the edge
+/// is taken out twice: after the first time, what rounding leaves of it may be large beside the
+/// result.
 void OnEdge(const Corner& a, const Corner& b, double t, SimplexPoint* point) {
   const Vector3d edge = b.p - a.p;
   const double edge_square = edge.squaredNorm();
@@ -81,8 +82,8 @@ void NearestOfTriangle(const Corner& a, const Corner& b, const Corner& c, Simple
   point->encloses = false;
 }
 
-/// Whether the origin is not on the same side of the face (a, b, c) as the opposite corner. True for
-/// a flat tetrahedron, which has no inside.
+/// Whether the origin is not on the same side of the face (a, b, c) as the opposite corner. True
+/// for a flat tetrahedron, which has no inside.
 bool IsBeyond(const Vector3d& a, const Vector3d& b, const Vector3d& c, const Vector3d& opposite) {
   const Vector3d normal = (b - a).cross(c - a);
   const Vector3d edge = opposite - a;
