@@ -122,7 +122,7 @@ FilePolygons ReadPolygons(const std::string& path, MeshFormat format, const std:
           : importer.ReadFileFromMemory(text.data(), text.size(), 0, Ending(format));
   if (scene == nullptr || scene->mRootNode == nullptr) {
     // For example std::bad_alloc.
-    if (const std::exception_ptr cause = importer.GetException()) std::rethrow_exception(cause);
+    if (const std::exception_ptr& cause = importer.GetException()) std::rethrow_exception(cause);
     throw std::runtime_error(importer.GetErrorString());
   }
   RequireAll(*scene, scan);

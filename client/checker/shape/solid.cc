@@ -131,6 +131,7 @@ Mesh HullOf(const std::vector<Vector>& given) {
 
 std::vector<Vector> BoxCorners(const Vector& half) {
   std::vector<Vector> corners;
+  corners.reserve(8);
   for (int i = 0; i < 8; ++i)
     corners.push_back(
         {(i & 1) ? half.x : -half.x, (i & 2) ? half.y : -half.y, (i & 4) ? half.z : -half.z});

@@ -264,7 +264,7 @@ bool World::Implementation::IsOwn(const v1::AgentId& id) const {
 
 void World::Implementation::Deliver() {
   while (on_event_ && !closed_ && !events_.empty()) {
-    const Event event = std::move(events_.front());
+    const Event event = events_.front();
     events_.pop_front();
     const auto callback = on_event_;  // It may replace itself.
     const Raised raised(&in_callback_);
