@@ -25,6 +25,7 @@ template <typename Property>
 std::vector<double> Gather(const std::vector<const motion::SpaceTimeBound*>& sample,
                            Property property) {
   std::vector<double> values;
+  values.reserve(sample.size());
   for (const motion::SpaceTimeBound* bound : sample) values.push_back(property(*bound));
   return values;
 }
