@@ -9,10 +9,12 @@
 //                finder and the filter of one pair compute with it.
 //   PlacedBall   floats (broad_phase/filter/placement_frame.h); the filter in wide vectors.
 //
-// Each conversion stands where the type is made, with the argument for its rounding: ForwardBall()
-// and BackwardBall() in motion/space_time_bound.cc, QuickHornPair() in
-// intersection/quick_horn_pair.cc, HornTable::At() in broad_phase/filter/horn_table.h, and
-// PlacementFrame in broad_phase/filter/placement_frame.h.
+// Each is made where its reader is, with the argument for its rounding. Intervals and doubles come
+// from the bound itself: ForwardBall() and BackwardBall() in motion/space_time_bound.cc;
+// QuickHornPair() in intersection/quick_horn_pair.cc, and HornTable, whose rows are kept
+// (broad_phase/filter/horn_table.cc) and moved to an instant (HornTable::At()). Floats come from
+// doubles: PlacementFrame in broad_phase/filter/placement_frame.h; what positions lose there is
+// added in broad_phase/filter/placed_balls.h and by the stores that fill it.
 #pragma once
 
 #include "collision_core/numeric/interval.h"

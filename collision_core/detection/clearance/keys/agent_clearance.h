@@ -13,7 +13,7 @@ enum class ClearanceCause {
   kTeleport,   ///< An agent jumped: a declared discontinuity.
   kBreach,     ///< An agent broke its bound.
   kWidening,   ///< An agent promises less than before.
-  kSkew        ///< A clock was off by more than the declared skew.
+  kSkew        ///< Reserved: no clearance is published with it.
 };
 
 /// What is published to one agent, as of a step: until when no new contact can begin.
