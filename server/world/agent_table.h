@@ -24,8 +24,8 @@ class Agent {
       : declaration(told), generation_(generation), revision_(revision) {}
 
   detection::AgentDeclaration declaration;  ///< With its shape once that is visible.
-  std::string shape_hash = {};           ///< Of the shape that it refers to; empty: the ball.
-  bool room_refused = false;             ///< Its owner got REJECTED_TOO_MANY_AGENTS.
+  std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
+  bool room_refused = false;                ///< Its owner got REJECTED_TOO_MANY_AGENTS.
 
   std::uint32_t generation() const { return generation_; }
   std::uint32_t revision() const { return revision_; }
