@@ -13,8 +13,8 @@ namespace collision::client {
 ///     Solid::Box({0.5, 0.3, 0.1}).Rounded(0.02)
 ///     Solid::Capsule(0.1, 0.4).At({0.5, 0.3, 0}, {0.5, 0.5, 0.5, 0.5})
 ///
-/// Allowed: lengths from 0 to 10,000 km, a diameter from a micrometre to 10,000 km, no point
-/// further than 10,000 km from the reference point, 1 to 65,536 points per hull.
+/// Allowed: lengths from 0 to 10,000 km, a diameter from a micrometre to 10,000 km, each
+/// coordinate of a point and of a position within ±10,000 km, 1 to 65,536 points per hull.
 struct Solid {
   enum class Kind { kBall, kCapsule, kBox, kEllipsoid, kHull };
 
@@ -24,7 +24,7 @@ struct Solid {
   double rounding_m = 0;               ///< Ball and capsule: the radius.
   std::vector<Vector3> points_m = {};  ///< Hull: in any order; inner points are allowed.
   Vector3 position_m{};                ///< Of the solid's frame, in the body frame.
-  /// Rotates the solid's axes to the body's: q / |q|, of any length but 0.
+  /// Rotates the solid's axes to the body's: q / |q|, for |q| from 1e-100 to 1e100.
   Quaternion orientation{1, 0, 0, 0};
 
   /// About the origin of its frame.

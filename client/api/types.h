@@ -137,7 +137,9 @@ struct Clearance {
   bool saturated = false;  ///< It has more partners at hand than the service tracks.
   /// From when on promises count its latest admission, jump or widened declaration.
   std::int64_t effective_from_ns = std::numeric_limits<std::int64_t>::min();
-  std::string cause;  ///< Why it was lowered, as in the IDL (CAUSE_...); empty: it was not.
+  /// What changed it, as in the IDL (CAUSE_...); empty: none of those. It may be lower even then,
+  /// where a contact ended or the agent became saturated.
+  std::string cause;
   AgentId cause_agent;
   std::int64_t void_from_ns = kNever;  ///< A broken declaration voids the promise from then on.
   /// When the service next needs a state of the agent: not later than its own time: at every step;

@@ -17,7 +17,7 @@ double PlaceUnits(BroadPhaseMethod kind) {
   return kind == BroadPhaseMethod::kAllPairs ? 8 : 0;
 }
 
-/// Questions until the index is tried again; doubled after each try.
+/// Queries until the index is tried again; doubled after each try.
 constexpr std::uint64_t kPatience = 2048;
 constexpr std::uint64_t kPatienceMax = 1 << 20;
 
@@ -143,7 +143,7 @@ std::optional<intersection::IntersectingPair> AdaptiveBroadPhase::EarliestOf(
     std::uint32_t agent, const intersection::BroadQuery& query) {
   const BroadPhaseWork before = method_.phase->work();
   const auto answer = method_.phase->EarliestOf(agent, query);
-  EndQuestion(before);
+  EndQuery(before);
   return answer;
 }
 
@@ -151,14 +151,14 @@ void AdaptiveBroadPhase::FindNeighbours(std::uint32_t agent, const NeighbourWind
                                         const Skip& skip, std::vector<Neighbour>* neighbours) {
   const BroadPhaseWork before = method_.phase->work();
   method_.phase->FindNeighbours(agent, window, skip, neighbours);
-  EndQuestion(before);
+  EndQuery(before);
 }
 
 void AdaptiveBroadPhase::FindNeighbours(const AgentBound& bound, Instant from, Instant until,
                                         const Skip& skip, std::vector<Neighbour>* neighbours) {
   const BroadPhaseWork before = method_.phase->work();
   method_.phase->FindNeighbours(bound, from, until, skip, neighbours);
-  EndQuestion(before);
+  EndQuery(before);
 }
 
 void AdaptiveBroadPhase::FindNearPairs(const intersection::BroadQuery& query,
@@ -217,7 +217,7 @@ void AdaptiveBroadPhase::Switch() {
 
 // Resets the counts after a decision.
 void AdaptiveBroadPhase::Settle() {
-  questions_ = 0;
+  queries_ = 0;
   answering_ = {};
   decided_with_ = agents_;
 }
@@ -247,10 +247,10 @@ void AdaptiveBroadPhase::Choose() {
 void AdaptiveBroadPhase::ChooseFromAllPairs() {
   if (agents_ <= kFewAgents) return;
   const bool grown = 2 * agents_ > 3 * decided_with_;
-  if (agents_ > kManyAgents || grown || questions_ >= patience_) {
-    units_before_try_ = grown || questions_ < kPeriodQuestions
+  if (agents_ > kManyAgents || grown || queries_ >= patience_) {
+    units_before_try_ = grown || queries_ < kPeriodQueries
                             ? numeric::kInfinity
-                            : Units(method_.kind, answering_) / static_cast<double>(questions_);
+                            : Units(method_.kind, answering_) / static_cast<double>(queries_);
     Start(BroadPhaseMethod::kSpatialIndex);
   }
 }
@@ -261,11 +261,11 @@ void AdaptiveBroadPhase::ChooseFromIndex() {
     units_ = 0;
     return Start(BroadPhaseMethod::kAllPairs);
   }
-  if (agents_ > kManyAgents - kManyAgents / 4 || questions_ < kPeriodQuestions) return;
-  const auto questions = static_cast<double>(questions_);
-  units_ = Units(method_.kind, answering_) / questions;
-  units_of_other_ = std::min(UnitsByAllPairs(answering_) / questions, units_before_try_);
-  excess_ = std::max(0.0, excess_ + questions * (units_ - units_of_other_));
+  if (agents_ > kManyAgents - kManyAgents / 4 || queries_ < kPeriodQueries) return;
+  const auto queries = static_cast<double>(queries_);
+  units_ = Units(method_.kind, answering_) / queries;
+  units_of_other_ = std::min(UnitsByAllPairs(answering_) / queries, units_before_try_);
+  excess_ = std::max(0.0, excess_ + queries * (units_ - units_of_other_));
   if (excess_ > kExcessUnits * static_cast<double>(agents_)) {
     std::swap(units_, units_of_other_);
     patience_ = std::min(2 * patience_, kPatienceMax);
@@ -274,8 +274,8 @@ void AdaptiveBroadPhase::ChooseFromIndex() {
   Settle();
 }
 
-void AdaptiveBroadPhase::EndQuestion(const BroadPhaseWork& before) {
-  ++questions_;
+void AdaptiveBroadPhase::EndQuery(const BroadPhaseWork& before) {
+  ++queries_;
   answering_ = answering_ + (method_.phase->work() - before);
   Choose();
 }
@@ -290,7 +290,7 @@ std::string AdaptiveBroadPhase::why() const {
   if (agents_ > kManyAgents || units_ == 0) {
     return agents + ": beyond " + std::to_string(kFewAgents) + " it costs least, as a rule";
   }
-  return agents + ": " + Whole(units_) + " units of work a question with " +
+  return agents + ": " + Whole(units_) + " units of work a query with " +
          std::to_string(decided_with_) + ", " + (all_pairs ? "the index " : "all pairs ") +
          Whole(units_of_other_);
 }

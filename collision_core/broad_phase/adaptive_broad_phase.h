@@ -20,13 +20,13 @@ namespace collision::broad_phase {
 /// The units of work are in the ratio of what the pieces cost: a filter's test 1, a place examined
 /// 16, a pair query 256, an agent placed anew in the index 64 (BroadPhaseWork). Up to kFewAgents
 /// all pairs answer, beyond that the index; and all pairs again at half that number. Up to three
-/// quarters of kManyAgents, after every kPeriodQuestions questions, the index's work on questions
+/// quarters of kManyAgents, after every kPeriodQueries queries, the index's work on queries
 /// about one agent is compared with what all pairs would have done: the same pairs and neighbours,
-/// and N tests a search. That follows from the index's counts, so that no question is repeated. If
+/// and N tests a search. That follows from the index's counts, so that no query is repeated. If
 /// all pairs cost less just before the index was tried again, it is compared with that. The excess
 /// adds up; all pairs take over when the sum exceeds kExcessUnits per agent. A lower threshold
 /// would react to start-up cost and to the ordinary ageing of a placement. The index is then tried
-/// again after a number of questions that doubles each time, or with half as many agents more, or
+/// again after a number of queries that doubles each time, or with half as many agents more, or
 /// with kManyAgents.
 ///
 /// A new method is filled with kMoves agents a call beside the old one, which answers until the new
@@ -35,7 +35,7 @@ class AdaptiveBroadPhase : public SweepingIndex {
  public:
   static constexpr std::size_t kFewAgents = 128;
   static constexpr std::size_t kManyAgents = 768;
-  static constexpr std::uint64_t kPeriodQuestions = 256;
+  static constexpr std::uint64_t kPeriodQueries = 256;
   static constexpr double kExcessUnits = 480;  ///< 7½ placements of all; fitted to scenes.
   static constexpr std::uint32_t kMoves = 8;
 
@@ -88,7 +88,7 @@ class AdaptiveBroadPhase : public SweepingIndex {
   void Choose();
   void ChooseFromAllPairs();
   void ChooseFromIndex();
-  void EndQuestion(const BroadPhaseWork& before);
+  void EndQuery(const BroadPhaseWork& before);
   void Settle();
 
   const BroadPhaseMethod requested_;
@@ -100,14 +100,14 @@ class AdaptiveBroadPhase : public SweepingIndex {
   BroadPhaseWork before_{};   ///< The work of methods that were replaced.
   double units_before_ = 0;   ///< Likewise.
 
-  std::uint64_t questions_ = 0;   ///< Questions of one agent since the last decision.
+  std::uint64_t queries_ = 0;     ///< Queries of one agent since the last decision.
   BroadPhaseWork answering_{};    ///< Work on them.
-  std::uint64_t patience_ = 0;    ///< Questions until the index is tried again.
+  std::uint64_t patience_ = 0;    ///< Queries until the index is tried again.
   std::size_t decided_with_ = 0;  ///< Agents at the last decision.
   double units_before_try_ =
-      numeric::kInfinity;      ///< Cost of a question by all pairs before the index's try.
+      numeric::kInfinity;      ///< Cost of a query by all pairs before the index's try.
   double excess_ = 0;          ///< Excess of the index over all pairs since it answers [units].
-  double units_ = 0;           ///< Cost of a question at the last decision.
+  double units_ = 0;           ///< Cost of a query at the last decision.
   double units_of_other_ = 0;  ///< The same of the other method.
   std::uint64_t changes_ = 0;
 };

@@ -14,13 +14,13 @@ namespace collision::broad_phase {
 
 /// The bounds of all agents by index, with what is agreed beside them: excluded pairs, margins of
 /// pairs, and half-spaces (floors, walls). It is the common base of NeighbourIndex and
-/// EarliestSweep, which ask questions about the bounds that are held.
+/// EarliestSweep, which query the bounds that are held.
 ///
 /// Rules and half-spaces enter a method only here. A margin grows an agent's reach
 /// where its bound is stored (HornTable, AlphaTFaces), so that the filters know nothing of pairs;
 /// an exclusion is applied to the pairs that the filters leave (PairRules has both arguments).
 ///
-/// A change takes effect at once; structures are brought up to date by the next question. Indices
+/// A change takes effect at once; structures are brought up to date by the next query. Indices
 /// are small whole numbers that the caller chooses; memory is in proportion to the greatest.
 /// Single-threaded.
 class AgentBounds {
@@ -40,7 +40,7 @@ class AgentBounds {
   virtual bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) = 0;
   const HalfSpaces& half_spaces() const { return half_spaces_; }
 
-  /// Replaces the rule of a pair; PairRule() takes it away. It counts from the next question on,
+  /// Replaces the rule of a pair; PairRule() takes it away. It counts from the next query on,
   /// also for agents that are set later, until one of the two is removed. Returns false, and
   /// changes nothing, if PairRules refuses it.
   bool SetRule(std::uint32_t a, std::uint32_t b, intersection::PairRule rule) {

@@ -4,7 +4,7 @@
 namespace collision::broad_phase {
 
 /// How a neighbour index finds candidate pairs. All methods give the same answers, bit for bit;
-/// they differ in cost alone. The face sweep is not among them: it answers one question about a
+/// they differ in cost alone. The face sweep is not among them: it answers one query about a
 /// whole set of bounds (face_sweep/face_sweep.h) and has no incremental form.
 enum class BroadPhaseMethod {
   kAuto,          ///< All pairs or the spatial index, by counted work.

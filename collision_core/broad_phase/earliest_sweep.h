@@ -11,7 +11,7 @@
 namespace collision::broad_phase {
 
 /// Finds the earliest pair of a set of bounds in one sweep over all of them: set every bound, ask
-/// once. It answers the paper's own question (t_end, the earliest possible intersection of all),
+/// once. It answers the paper's own query (t_end, the earliest possible intersection of all),
 /// which the paper's collision loop (tests/baselines/global_loop.h) asks before it evaluates any
 /// frame. A service that follows many agents asks a NeighbourIndex instead, agent by agent.
 ///
@@ -28,7 +28,7 @@ class EarliestSweep : public virtual AgentBounds {
   virtual BroadPhaseWork work() const = 0;
 };
 
-/// A method that answers both kinds of questions about the bounds it holds.
+/// A method that answers both kinds of queries about the bounds it holds.
 class SweepingIndex : public NeighbourIndex, public EarliestSweep {
  public:
   BroadPhaseWork work() const override = 0;

@@ -8,8 +8,8 @@ namespace collision::motion {
 /// The result of comparing a new state with the bound of the state before it.
 enum class ContractVerdict {
   kKept,      ///< The new horn lies inside the old one, up to the rounding allowance below.
-  kWidened,   ///< The new state could follow from the old, but its errors, direction, rotation
-              ///< error or expiry promise less.
+  kWidened,   ///< The new state could follow from the old, but its errors, direction or
+              ///< expiry promise less.
   kBreached,  ///< No motion under the declared bound leads from the old state to the new.
 };
 
@@ -40,7 +40,7 @@ enum class Orientation { kMatters, kIgnored };
 
 /// Compares `next` with the bound of the state before it. With s = next.stamp − before.state.stamp:
 ///
-///   |p' − c(t0')| <= ½ M s (s + h) + errors   and   |v' − v| <= M s + errors.
+///   |p' − p − v s| <= ½ M s (s + h) + errors   and   |v' − v| <= M s + errors.
 ///
 /// A check of the position alone would accept any velocity, and both together still accept a
 /// velocity with which the agent cannot have come from there. So at every instant between the two
@@ -75,8 +75,8 @@ enum class Orientation { kMatters, kIgnored };
 /// States with ε_p > 0 are often *widened*: a new estimate may be off the old centre by both
 /// errors.
 ///
-/// Rounding allowance. The sums of an honest integrator are off by up to half a unit in the last
-/// place of p for each addition; over at most 1000 steps between two states that is 1000 · 2^-52
+/// Rounding allowance. The sums of an honest integrator are off by up to a unit in the last place
+/// of p a step, which rounds twice; over at most 1000 steps between two states that is 1000 · 2^-52
 /// |p|, likewise for v, and the error of v moves p for s. A stamp in whole nanoseconds is off by
 /// half of one, so s by up to 1 ns: |v| · 1 ns and M · 1 ns. For the angle it is 1000 · 2^-49 rad
 /// (the exponential and the product of each step), the error of ω for s, and |ω| · 1 ns. What is

@@ -31,7 +31,7 @@ inline constexpr std::size_t kHullPointsMax = std::size_t{1} << 16;
 inline constexpr double kConvexSizeMin = 1e-6;
 inline constexpr double kConvexSizeMax = 1e7;
 
-/// The largest allowed distance of any part from the reference point [m].
+/// The largest allowed magnitude of a coordinate of a point or a position [m].
 inline constexpr double kConvexReachMax = 1e7;
 
 /// Why a solid cannot be a part of an agent's shape, as a sentence with field, value and allowed

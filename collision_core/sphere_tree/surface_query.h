@@ -1,4 +1,4 @@
-// Questions to a whole surface, answered through its tree.
+// Queries to a whole surface, answered through its tree.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace collision::sphere_tree {
 
-/// Answers questions about one surface through its tree. The mesh and the tree must outlive it. Not
+/// Answers queries about one surface through its tree. The mesh and the tree must outlive it. Not
 /// for use by several threads at once: it keeps its buffers.
 ///
 /// Distance. Best first through the tree. A triangle that a bound in plain doubles puts beyond the
@@ -43,7 +43,7 @@ class SurfaceQuery {
   /// where tiny coordinates (below about 1e-95) underflow.
   std::optional<int> WindingNumberAt(const Eigen::Vector3d& point);
 
-  /// Nodes and triangles examined so far, in all questions.
+  /// Nodes and triangles examined so far, in all queries.
   std::uint64_t work() const { return work_; }
 
  private:
@@ -55,7 +55,7 @@ class SurfaceQuery {
 
   void TryLeaf(const SphereNode& leaf, const Eigen::Vector3d& point, numeric::Interval* best);
 
-  /// Places for the triangles that a question measured. A later triangle takes an earlier one's
+  /// Places for the triangles that a query measured. A later triangle takes an earlier one's
   /// place, and a triangle that lost its place is measured again, so the cost of a look-up does not
   /// depend on how many there are.
   static constexpr std::size_t kPlaces = 256;

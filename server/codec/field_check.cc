@@ -38,11 +38,10 @@ void FieldCheck::Vector(const char* field, const v1::Vector3& value, double grea
   Number((name + ".z").c_str(), value.z(), -greatest, greatest);
 }
 
-void FieldCheck::Text(const char* field, const std::string& value, std::size_t characters_max) {
-  if (value.size() <= characters_max) return;
+void FieldCheck::Text(const char* field, const std::string& value, std::size_t bytes_max) {
+  if (value.size() <= bytes_max) return;
   Refuse(v1::REJECTED_OUT_OF_RANGE, field,
-         std::to_string(value.size()) + " characters; allowed: 0 to " +
-             std::to_string(characters_max));
+         std::to_string(value.size()) + " bytes; allowed: 0 to " + std::to_string(bytes_max));
 }
 
 void FieldCheck::Refuse(v1::RejectionReason reason, const char* field, std::string detail) {

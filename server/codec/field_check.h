@@ -25,8 +25,8 @@ class FieldCheck {
   /// Every component finite and at most `greatest` in magnitude.
   void Vector(const char* field, const v1::Vector3& value, double greatest);
 
-  /// At most `characters_max` bytes.
-  void Text(const char* field, const std::string& value, std::size_t characters_max);
+  /// At most `bytes_max` bytes of UTF-8.
+  void Text(const char* field, const std::string& value, std::size_t bytes_max);
 
   void Refuse(v1::RejectionReason reason, const char* field, std::string detail);
 

@@ -11,7 +11,7 @@
 
 namespace collision::server {
 
-/// As many as one simulator has slots, so that no order of arrival after a restart loses one.
+/// As many as one simulator has slots, so that no simulator alone can fill the queue.
 inline constexpr std::size_t kOverdueMax = std::size_t{wire::kSlotMax} + 1;
 
 /// A bounded queue in which every item falls due after the same time, so that the first one in is

@@ -61,9 +61,9 @@ struct ShapeCounters {
 /// begun a new run or left, or while an agent refers to it. Then mesh and tree are freed, and a
 /// build that runs is forgotten.
 ///
-/// **Memory.** `shape_bytes_max` bounds the bytes of parts and meshes: some 25 MB each for a
-/// million triangles. Trees come on top, some hundred MB for a million triangles: a tree has at
-/// most 2^20 balls, beyond that its leaves have more triangles. One thread.
+/// **Memory.** `shape_bytes_max` bounds the bytes of parts and meshes: for a million triangles some
+/// 25 MB of parts and 25 MB of mesh. Trees come on top, some hundred MB for a million triangles: a
+/// tree has at most 2^20 balls, beyond that its leaves have more triangles. One thread.
 class ShapeStore {
  public:
   /// `builder` outlives this.

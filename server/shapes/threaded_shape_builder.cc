@@ -102,7 +102,8 @@ struct ThreadedShapeBuilder::Shared {
     if (on_finished) on_finished();
   }
 
-  /// Carries what a worker threw to the daemon's thread, which Rethrow()s it.
+  /// Carries what a worker threw to the daemon's thread, where RethrowFailure() throws it
+  /// again.
   void Fail(std::exception_ptr thrown) {
     const std::lock_guard lock(mutex);
     if (!failure) failure = std::move(thrown);

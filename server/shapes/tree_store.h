@@ -31,7 +31,7 @@ class TreeStore {
   virtual std::optional<sphere_tree::SphereTree> Load(const std::string& content_hash,
                                                       const geometry::TriangleMesh& mesh) = 0;
 
-  /// Keeps a tree for Load(). It never fails: what cannot be kept is counted and logged.
+  /// Keeps a tree for Load(). It does not throw: what cannot be kept is counted and logged.
   virtual void Store(const std::string& content_hash, const sphere_tree::SphereTree& tree) = 0;
 
   virtual TreeCacheCounters counters() const = 0;

@@ -12,7 +12,7 @@ namespace collision::server {
 
 /// Counts every refusal, per reason and per simulator, and keeps the messages to the senders: at
 /// most `per_second_max` in one second of the monotonic clock, so that a broken simulator cannot
-/// flood the network. The log has at most one line per second. One thread.
+/// flood the network. The log has at most one line about refusals per second. One thread.
 class Rejections {
  public:
   /// `world` outlives this: it knows the simulators and the time.

@@ -39,7 +39,7 @@ class SimulatorTime {
   /// world's: its stamps mean nothing here until it offers one.
   void SetOtherKind() { other_kind_ = true; }
 
-  /// Brings the newest clock into force before which everything has arrived. False: there is none.
+  /// Brings into force the newest clock before which everything has arrived. False: there is none.
   bool Take();
 
   /// Extends the grant to `until`; a grant is never shortened. True if it has changed.

@@ -13,7 +13,7 @@ namespace collision::baselines {
 struct LoopWork {
   std::uint64_t pair_tests = 0;  ///< Of two cubes in one frame.
   std::uint64_t rebuilds = 0;    ///< Of one agent's bound, or its place in a grid.
-  std::uint64_t questions = 0;   ///< To the broad phase.
+  std::uint64_t queries = 0;     ///< To the broad phase.
 };
 
 /// Looks at every frame in turn, the first one included.

@@ -22,14 +22,14 @@ std::optional<CubePair> GlobalLoop::Look(const MovingCubes& cubes) {
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, now,
                                        InstantOf(cubes, kHorizonFrames)};
   const auto earliest = sweep_->Earliest(query);
-  ++work_.questions;
+  ++work_.queries;
   t_end_ = earliest ? earliest->time.instant() : query.until;
   const Instant next_frame = InstantOf(cubes, 1);
   if (t_end_ > next_frame) return std::nullopt;
   t_end_ = next_frame;
   could_overlap_.clear();
   AllNeighbours(&near_, cubes.count(), now, now, &could_overlap_);
-  work_.questions += cubes.count();
+  work_.queries += cubes.count();
   std::optional<CubePair> first;
   for (const intersection::IntersectingPair& meeting : could_overlap_) {
     Test(cubes, meeting.lower, meeting.higher, &first);

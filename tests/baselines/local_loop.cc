@@ -53,7 +53,7 @@ void LocalLoop::Ask(const MovingCubes& cubes, std::uint32_t cube) {
   for (;;) {
     meetings_.clear();
     phase_->FindNeighbours(cube, {now, soon, horizon}, is_close, &meetings_);
-    ++work_.questions;
+    ++work_.queries;
     // A partner whose bound is old only seems near: renew it before it counts.
     bool renewed = false;
     Instant next = horizon;

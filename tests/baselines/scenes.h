@@ -24,7 +24,7 @@ struct UniformOptions {
 /// The first meeting of a large scene comes just after `clear_until`: what meets there is common.
 BallScene UniformScene(const UniformOptions& options);
 
-/// The horizon of every question about these scenes [s].
+/// The horizon of every query about these scenes [s].
 constexpr double kHorizon = 1;
 
 /// When the first meeting comes.

@@ -60,7 +60,7 @@ void WindowLoop::MakeList(const MovingCubes& cubes) {
   if (!ListInOnePass(cubes)) ListByPhase(cubes);
   covered_ = cubes.frame() + frames_;
   work_.rebuilds += cubes.count();
-  ++work_.questions;
+  ++work_.queries;
   const double tests = static_cast<double>(list_.size()) * static_cast<double>(frames_);
   const double most = kTestsPerCube * cubes.count();
   if (kGrowth * tests < most) frames_ = std::min(kFramesMax, 2 * frames_);

@@ -264,7 +264,7 @@ Section Stepping(const v1::Results& results) {
   return section;
 }
 
-/// From here on the fixed costs of a question are not felt.
+/// From here on the fixed costs of a query are not felt.
 constexpr double kGrowthFrom = 1000;
 
 /// The exponent of a least-squares line through the logarithms is put behind the series' name.
@@ -292,7 +292,7 @@ Section BroadPhase(const v1::Results& results) {
     Chart chart;
     chart.id = std::string("scratch-") + hit;
     chart.title = std::string("From scratch, first hit: ") + hit;
-    chart.x_label = "agents", chart.y_label = "time of a question [s]";
+    chart.x_label = "agents", chart.y_label = "time of a query [s]";
     AddChart(ChartOf(chart,
                      Select(results, "broad-phase",
                             {{"part", "scratch"}, {"scene", std::string("uniform ") + hit}}),

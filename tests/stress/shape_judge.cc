@@ -54,7 +54,7 @@ void JudgeForm(const narrow_phase::TimeOfContactResult& found, double duration, 
   outcome->Expect(found.within >= 0, what + ": no distance");
   outcome->Expect(found.work <= units + kBatchUnits, what + ": more work than allowed");
   outcome->Greatest("work_max", static_cast<double>(found.work));
-  outcome->Add("questions", 1);
+  outcome->Add("queries", 1);
 }
 
 void JudgeTimes(const Body& a, const Body& b, double duration, long double begin, long double end,
@@ -91,7 +91,7 @@ void JudgeStay(const narrow_phase::TimeOfContactResult& found, long double begin
 }
 
 void SayTimes(Outcome* outcome) {
-  outcome->Say(Show(outcome->Get("questions")) + " questions, the widest bracket " +
+  outcome->Say(Show(outcome->Get("queries")) + " queries, the widest bracket " +
                Show(outcome->Get("width_units")) + " units, " + Show(outcome->Get("work_max")) +
                " units of work at most");
 }

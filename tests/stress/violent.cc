@@ -6,7 +6,7 @@
 #include <set>
 #include <tuple>
 
-#include "tests/stress/question_log.h"
+#include "tests/stress/query_log.h"
 #include "tests/stress/scene.h"
 #include "tests/support/random.h"
 
@@ -50,7 +50,7 @@ constexpr Wild kWild[] = {
 /// Everything that was told and asked of calm agents among themselves.
 struct Told {
   std::vector<detection::CollisionEvent> events;
-  QuestionLog::Questions of[kQuestions];
+  QueryLog::Queries of[kQueries];
   std::uint64_t queries = 0;
 };
 
@@ -79,7 +79,7 @@ Told RunAmong(const Wild& wild, bool violent, broad_phase::BroadPhaseMethod meth
   detection::DetectorOptions options;
   options.announce_within = wild.announce_within;
   options.broad_phase = method;
-  QuestionLog log;
+  QueryLog log;
   Scene scene(options, Instant(), outcome);
   Random random(301);
   // Most tell something in every second to fifth step only: in between their pairs are judged, and
@@ -101,8 +101,8 @@ Told RunAmong(const Wild& wild, bool violent, broad_phase::BroadPhaseMethod meth
   for (const detection::CollisionEvent& event : scene.events()) {
     if (event.higher.slot < kCalm) told.events.push_back(event);
   }
-  for (int q = 0; q < kQuestions; ++q) {
-    for (const auto& [pair, asked] : log.of(static_cast<Question>(q))) {
+  for (int q = 0; q < kQueries; ++q) {
+    for (const auto& [pair, asked] : log.of(static_cast<Query>(q))) {
       if (pair.first >= kCalmRadius) told.of[q][pair] = asked;
     }
   }
@@ -116,21 +116,20 @@ auto BitsOf(const detection::CollisionEvent& e) {
                     e.separation_upper, e.depth_lower, e.work, e.limited_by);
 }
 
-const QuestionLog::Questions& Of(const Told& told, Question question) {
-  return told.of[static_cast<int>(question)];
+const QueryLog::Queries& Of(const Told& told, Query query) {
+  return told.of[static_cast<int>(query)];
 }
 
-std::size_t CountOf(const QuestionLog::Questions& questions) {
+std::size_t CountOf(const QueryLog::Queries& queries) {
   std::size_t count = 0;
-  for (const auto& [pair, asked] : questions) count += asked.size();
+  for (const auto& [pair, asked] : queries) count += asked.size();
   return count;
 }
 
 /// The pairs that were asked, and the steps in which they were.
-std::set<std::tuple<double, double, std::int64_t>> TimesOf(
-    const QuestionLog::Questions& questions) {
+std::set<std::tuple<double, double, std::int64_t>> TimesOf(const QueryLog::Queries& queries) {
   std::set<std::tuple<double, double, std::int64_t>> times;
-  for (const auto& [pair, asked] : questions) {
+  for (const auto& [pair, asked] : queries) {
     for (const Asked& one : asked) times.insert({pair.first, pair.second, one.now});
   }
   return times;
@@ -143,23 +142,23 @@ void JudgeSame(const Told& alone, const Told& among, const std::string& where, O
                    return BitsOf(a) == BitsOf(b);
                  });
   outcome->Expect(same_events, where + "other events of calm ones");
-  outcome->Expect(Of(alone, Question::kJudged) == Of(among, Question::kJudged),
+  outcome->Expect(Of(alone, Query::kJudged) == Of(among, Query::kJudged),
                   where + "calm pairs are judged more often, or at other times");
-  outcome->Expect(Of(alone, Question::kAsked) == Of(among, Question::kAsked),
+  outcome->Expect(Of(alone, Query::kAsked) == Of(among, Query::kAsked),
                   where + "calm pairs are asked again more often, at other times, or otherwise");
 }
 
 // The reference is exhaustive: it has no filter, so that it asks the canonical routine about
-// every possible partner of an agent. How many of these questions the other methods spare depends
+// every possible partner of an agent. How many of these queries the other methods spare depends
 // on where all agents are, also on the violent one: with and without it they may ask about a pair
 // less often, but never at a time at which the reference asks nothing.
 void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told& alone,
               const Told& among, const Told& swept, Outcome* outcome) {
   const std::string where = std::string(Name(method)) + ", " + wild.name + ": ";
   JudgeSame(alone, among, where, outcome);
-  const auto all = TimesOf(Of(swept, Question::kMet));
-  const auto times = TimesOf(Of(among, Question::kMet));
-  const auto without = TimesOf(Of(alone, Question::kMet));
+  const auto all = TimesOf(Of(swept, Query::kMet));
+  const auto times = TimesOf(Of(among, Query::kMet));
+  const auto without = TimesOf(Of(alone, Query::kMet));
   if (method == broad_phase::BroadPhaseMethod::kExhaustive) {
     outcome->Expect(times == all && without == all,
                     where + "calm ones are asked about each other at other times");
@@ -169,11 +168,11 @@ void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told
                     where + "calm ones are asked about each other at a time of its own");
   }
   outcome->Add("calm_revisions", static_cast<double>(among.events.size()));
-  outcome->Add("judged", static_cast<double>(CountOf(Of(among, Question::kJudged))));
-  outcome->Add("asked", static_cast<double>(CountOf(Of(among, Question::kAsked))));
+  outcome->Add("judged", static_cast<double>(CountOf(Of(among, Query::kJudged))));
+  outcome->Add("asked", static_cast<double>(CountOf(Of(among, Query::kAsked))));
   outcome->Add("met", static_cast<double>(times.size()));
-  outcome->Add("questions_without", static_cast<double>(alone.queries));
-  outcome->Add("questions_with", static_cast<double>(among.queries));
+  outcome->Add("queries_without", static_cast<double>(alone.queries));
+  outcome->Add("queries_with", static_cast<double>(among.queries));
 }
 
 void Violent(const Setting& setting, Outcome* outcome) {
@@ -181,8 +180,7 @@ void Violent(const Setting& setting, Outcome* outcome) {
   for (const Wild& wild : kWild) {
     const Told swept =
         RunAmong(wild, false, broad_phase::BroadPhaseMethod::kExhaustive, steps, outcome);
-    outcome->Expect(CountOf(Of(swept, Question::kMet)) > kCalm * kCalm,
-                    "no question was taken down");
+    outcome->Expect(CountOf(Of(swept, Query::kMet)) > kCalm * kCalm, "no query was taken down");
     for (const auto method :
          {broad_phase::BroadPhaseMethod::kExhaustive, broad_phase::BroadPhaseMethod::kAllPairs,
           broad_phase::BroadPhaseMethod::kSpatialIndex, broad_phase::BroadPhaseMethod::kAuto}) {
@@ -198,8 +196,8 @@ void Violent(const Setting& setting, Outcome* outcome) {
   outcome->Say(show("calm_revisions") + " revisions between calm ones; tracked ones judged " +
                show("judged") + " and asked again " + show("asked") +
                " times, the others asked about each other in " + show("met") +
-               " steps, counted by pairs; questions of all agents " + show("questions_without") +
-               " without and " + show("questions_with") + " with the violent ones");
+               " steps, counted by pairs; queries of all agents " + show("queries_without") +
+               " without and " + show("queries_with") + " with the violent ones");
 }
 
 }  // namespace

@@ -21,8 +21,8 @@
 // 4. It ends. Only a face with the higher end passes another, and never comes back: at most F (F −
 // 1) / 2 crossings of F faces. Many at one point change places one by one within one tick. Only
 // neighbours are queued, at most F − 1 = 2 N − 1 events an axis, and only those due in the present
-// stretch of the window, so the queue fits into the cache; a stretch that proves empty is followed
-// by one eight times as long.
+// stretch of the window, so the queue fits into the cache. After a stretch with few crossings the
+// next one is two or eight times as long, after one with many half as long.
 //
 // Windows double (FirstWindow() gives the first). An agent whose stamp lies inside a window has
 // faces that count from there on, prolonged back. Agents with infinite faces, and up to 32 agents
@@ -31,10 +31,11 @@
 // are tested first: a crowd in which all agents meet costs O(N).
 //
 // Cost. Crossings = 6 N² t · mean |Δv| / L for N agents in a cube of side L, |Δv| along one axis:
-// two faces each on three axes, whatever their size;
+// N²/2 pairs, and four pairs of faces on each of three axes, whatever the boxes' size.
 // FaceSweepCost.CrossingsGrowAsSquareOfAgentsTimesTime holds the count to 5 % of it. Each costs
-// 0.17 to 0.26 µs of a loaded core. Most events queued at once: 0.38 N. About 0.5 kB an agent
-// beside its bound, kept from question to question. It loses where N² t is large, and where
+// 0.17 to 0.26 µs of a loaded core. At most 0.38 N
+// events were queued at once in those scenes. About 0.5 kB an agent
+// beside its bound, kept from query to query. It loses where N² t is large, and where
 // everything crosses at one point; a crowd in which all boxes overlap but no pair meets costs all
 // its pairs, as for any method.
 #pragma once
@@ -68,10 +69,10 @@ namespace collision::broad_phase {
 /// soon or N is small: the crossings of one axis grow as N² t.
 ///
 /// A library call, not a method of the service: set all bounds, ask once. It has no incremental
-/// form, since a sweep has no use for a question about one agent. Callers: the paper's collision
-/// loop (tests/baselines/global_loop.h) and the benchmark of the broad phase
-/// (tests/bench/broad_phase/methods.h).
-/// Source: Hubbard, IEEE TVCG 1(3), 1995, section 4.
+/// form, since a sweep has no use for a query about one agent. Callers, none of them in the
+/// service: the paper's collision loop (tests/baselines/global_loop.h) and the benchmark of the
+/// broad phase (tests/bench/broad_phase/methods.h). Source: Hubbard, IEEE TVCG 1(3), 1995, section
+/// 4.
 class FaceSweep : public EarliestSweep {
  public:
   void Set(std::uint32_t agent, const AgentBound& bound) override;
@@ -82,7 +83,7 @@ class FaceSweep : public EarliestSweep {
   /// visits: crossings. filter_tests: tests of two boxes. rebuilds: windows.
   BroadPhaseWork work() const override { return work_; }
 
-  /// The most crossings queued at once, of all axes and questions: below 2 N for N agents.
+  /// The most crossings that one axis has had queued at once, in any query: below 2 N for N agents.
   std::size_t queued_max() const { return queued_max_; }
 
  private:

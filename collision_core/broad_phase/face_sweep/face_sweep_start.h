@@ -17,7 +17,8 @@ namespace collision::broad_phase {
 /// It sweeps along the axis on which the fewest pairs overlap, in strips across the axis with the
 /// second fewest. A strip is as many faces wide as a box spans on average, so that a box lies in
 /// two strips on average, whatever the scene. The box of an agent above its own speed cap may be
-/// inside out: it overlaps the boxes that reach from its lower face to its upper one.
+/// inverted, its lower face above its upper one: it overlaps the boxes that reach from its lower
+/// face to its upper one.
 class FaceSweepStart {
  public:
   /// Receives a pair of slots, lower < higher. Returns the *ceiling*: pairs whose lower slot is

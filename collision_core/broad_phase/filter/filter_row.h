@@ -24,7 +24,8 @@ class FilterRow {
   void Set(std::uint32_t k, const PlacedBall& horn);
   void Vacate(std::uint32_t k) { lanes_.Vacate(k); }
 
-  /// Offers all pairs that come within reach of each other during the window, and others.
+  /// Offers all pairs that come within reach of each other during the window, and possibly
+  /// others.
   void Join(const PlacementFrame& frame, TimeWindow window, BroadPhaseWork* work, PairSink* sink);
 
   /// Appends all agents that come within reach of `horn`.

@@ -27,9 +27,9 @@ struct HornRow {
 };
 static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache");
 
-/// Outward for a sum or product of fewer than sixteen terms of one sign, which rounding takes less
-/// than 16 · 2^-53 of; likewise, what a sum of terms of either sign loses is less than
-/// kLineRounding of their magnitudes. All reaches below are rounded outward by these two.
+/// A factor that rounds outward a sum or product of fewer than sixteen terms of one sign: rounding
+/// loses less than 16 · 2^-53 of it. What a sum of terms of either sign loses is less than
+/// kLineRounding times the sum of their magnitudes. All reaches below are rounded outward so.
 inline constexpr double kOutward = 1 + 0x1p-48, kLineRounding = 0x1p-48;
 
 /// All bounds by index. For an agent that declares no more than radius and acceleration the row of
@@ -57,7 +57,7 @@ class HornTable {
   std::uint32_t count() const { return count_; }
   std::uint32_t still_count() const { return still_count_; }
   std::uint32_t unfilterable_count() const { return unfilterable_count_; }
-  /// Whether two agents may be unable to meet: any agent never moves, or has a mask.
+  /// Whether some pairs can be excluded: an agent never moves, or has a mask.
   bool has_collision_filters() const { return still_count_ + filtered_count_ > 0; }
   bool contains(std::uint32_t agent) const {
     return agent < size() && rows_[agent].filter.group != 0;
@@ -110,7 +110,7 @@ class HornTable {
   const intersection::PairRules* rules_ = nullptr;
   std::vector<HornRow> rows_;                 ///< By agent.
   std::vector<motion::SpaceTimeBound> full_;  ///< At HornRow::full − 1.
-  std::vector<std::uint32_t> free_;           ///< Places of full_, one more than each.
+  std::vector<std::uint32_t> free_;  ///< Free places of full_, plus one as in HornRow::full.
   std::uint32_t count_ = 0, still_count_ = 0, unfilterable_count_ = 0, filtered_count_ = 0;
 };
 

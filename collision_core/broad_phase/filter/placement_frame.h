@@ -61,7 +61,8 @@ struct Region {
 inline constexpr double kWindowMin = 1e-9;
 inline constexpr double kWindowMax = 2e10;
 
-/// Up, by more than a conversion to single precision and a product there take (2^-24 each).
+/// A factor that rounds up by more than a conversion to single precision and a product there can
+/// lose (2^-24 each).
 inline constexpr double kFloatUp = 1 + 0x1p-22;
 
 /// Where filters put agents for a window of time: as seen from a frame that moves with the average

@@ -51,9 +51,9 @@ struct PointExtent {
   }
 };
 
-/// A grid for one question about all agents at once, where they have similar reaches and are evenly
+/// A grid for one query about all agents at once, where they have similar reaches and are evenly
 /// spread. Half-way through the window each agent is a point with a reach: sixteen bytes in the
-/// order of the cells, thirty-two where lines are compared. Nothing is kept for a later question.
+/// order of the cells, thirty-two where lines are compared. Nothing is kept for a later query.
 ///
 /// A sample of the points determines how wide the grid is, and whether it suits the scene; if a
 /// point lies beyond the sampled extent the grid is built again. PointFilter takes up to eight
@@ -63,10 +63,11 @@ struct PointExtent {
 class PointGrid {
  public:
   /// Builds the grid of up to `count` points. `at(k, &point)` writes the k-th one, or returns false
-  /// if there is none; about `present` exist. It is called twice for a sample of the points, or for
-  /// all of them if some lie well beyond the sample. `half`: half of the window [s], to compare
-  /// lines as well where many places come near each other; 0: never compare lines. Returns false if
-  /// the points do not suit a grid: they crowd in few of its cells, or its rows would be too long.
+  /// if there is none; about `present` exist. It is called once for every point and up to twice
+  /// more for those of a sample; all are read again if some lie well beyond the sample. `half`:
+  /// half of the window [s], to compare lines as well where many places come near each other; 0:
+  /// never compare lines. Returns false if the points do not suit a grid: they crowd in few of its
+  /// cells, or its rows would be too long.
   template <typename At>
   bool Build(std::uint32_t count, std::uint32_t present, double half, At at);
 
@@ -86,8 +87,8 @@ class PointGrid {
  private:
   /// A cell's own row, and the rows beside it that come later.
   static constexpr int kRowsMax = 5;
-  /// The least number of points that are sampled for the extent, and the part by which the extent
-  /// is then widened for the points that are not.
+  /// The most points that are sampled for the extent (at least half as many are, if they exist),
+  /// and the part by which the extent is then widened for the points that are not.
   static constexpr std::uint32_t kSample = 4096;
   static constexpr double kBeyondSample = 1.0 / 32;
   /// The most points that a point may find in its own cell, on the average, for a grid to be used.
@@ -106,7 +107,8 @@ class PointGrid {
   template <typename At>
   static PointExtent Measure(std::uint32_t count, std::uint32_t stride, At at);
   bool IsDense(std::uint32_t present, const PointExtent& extent) const;
-  /// Whether every stride-th share cells as if all of them were crowded.
+  /// Whether the sample, every stride-th point, shares so many cells that all points must be
+  /// crowded.
   template <typename At>
   bool LooksCrowded(std::uint32_t count, std::uint32_t present, std::uint32_t stride,
                     const PointExtent& extent, At at);

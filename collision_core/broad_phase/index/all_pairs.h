@@ -6,7 +6,7 @@
 namespace collision::broad_phase {
 
 /// Compares every agent with every other, in wide vectors: O(1) to change an agent, O(N) for a
-/// question about one, O(N²) about all. The fastest method for small scenes.
+/// query about one, O(N²) about all. The fastest method for small scenes.
 class AllPairs : public WindowedSearch {
  public:
   AllPairs();

@@ -90,7 +90,7 @@ void EarliestPairSink::Offer(std::uint32_t a, std::uint32_t b) {
 }
 
 // A pair that is later than the best, or as late and of higher indices, needs no exact answer. The
-// window of a hypertrapezoid is part of the question and stays.
+// window of a hypertrapezoid is part of the query and stays.
 intersection::BroadQuery EarliestPairSink::Narrowed(std::uint32_t lower,
                                                     std::uint32_t higher) const {
   intersection::BroadQuery narrowed = query_;

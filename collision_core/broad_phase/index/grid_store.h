@@ -18,11 +18,11 @@ namespace collision::broad_phase {
 /// the grid of the other, whichever way is less work. The farthest-reaching levels come first,
 /// because what they meet shortens the window for the rest.
 ///
-/// An agent that is placed later goes to a list, which every question scans. Those tests, and tests
+/// An agent that is placed later goes to a list, which every query scans. Those tests, and tests
 /// in windows after the placement's, count as wasted (SearchCost), which makes the search place all
 /// agents anew.
 ///
-/// A question about all agents at once is one pass over a grid of points (point_grid.h) where the
+/// A query about all agents at once is one pass over a grid of points (point_grid.h) where the
 /// scene suits one grid; scenes with crowds, with very different reaches, or that mostly stand
 /// still use the levels.
 class GridStore : public PlacedStore {
@@ -75,7 +75,7 @@ class GridStore : public PlacedStore {
   std::vector<PlacedBall> sorted_;  ///< In the order of levels and, within one, of agents.
   std::vector<Spot> places_;        ///< By agent.
   FilterRow unplaced_;
-  PointGrid points_;        ///< Instead of levels, for one question about all agents.
+  PointGrid points_;        ///< Instead of levels, for one query about all agents.
   double points_last_ = 0;  ///< When points_ ends, after the begin [s]; 0: not in use.
 
   std::vector<float> reaches_;  ///< Of the horns given, like the keys of their levels.

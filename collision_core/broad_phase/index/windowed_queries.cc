@@ -133,7 +133,7 @@ void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& 
   const Instant from = window.from, until = window.until, horizon = window.horizon;
   Refresh(from);
   const BroadPhaseWork before = cost_.work;
-  ++question_;
+  ++query_;
   if (reported_in_.size() < table_.size()) reported_in_.resize(table_.size(), 0);
   const std::size_t first_new = neighbours->size();
   EarliestPairSink next(table_, {intersection::BoundKind::kHorn, from, horizon}, &cost_.work);
@@ -152,9 +152,9 @@ void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& 
   for (double seconds = std::min(first, kWindowMax); table_.contains(agent);) {
     FindNear(agent, from, seconds);
     for (const std::uint32_t other : near_) {
-      if (reported_in_[other] == question_ || other == agent || skip(other)) continue;
+      if (reported_in_[other] == query_ || other == agent || skip(other)) continue;
       if (seconds <= first && AppendIfMeeting(agent, other, {from, first}, until, neighbours)) {
-        reported_in_[other] = question_;
+        reported_in_[other] = query_;
       } else {
         next.Offer(agent, other);
       }

@@ -22,8 +22,8 @@ constexpr double kCrowdOfRoot = 1.5;
 /// least every kStrideMax-th.
 constexpr std::uint32_t kSomeMin = 8192, kStrideMax = 16;
 
-/// The number of questions after a placement whose mean cost is that of a fresh placement.
-constexpr std::uint32_t kFreshQuestions = 64;
+/// The number of queries after a placement whose mean cost is that of a fresh placement.
+constexpr std::uint32_t kFreshQueries = 64;
 
 /// A sum of two rounded lengths in single precision, rounded up.
 constexpr double kUpToFloat = 1 + 0x1p-20;
@@ -82,7 +82,7 @@ void WindowedSearch::UpdateRules(std::uint32_t agent) {
     MarkMoved(agent);
 }
 
-// The next question places the agent, or all of them if too many have moved.
+// The next query places the agent, or all of them if too many have moved.
 void WindowedSearch::MarkMoved(std::uint32_t agent) {
   if (has_moved_.size() <= agent) has_moved_.resize(table_.size());
   if (has_moved_[agent]) return;
@@ -160,7 +160,7 @@ void WindowedSearch::OfferCrowd(PairSink* sink) {
   frame_.Shorten(sink->limit());
 }
 
-// Brings the placement up to date for questions about horns from `from` on.
+// Brings the placement up to date for queries about horns from `from` on.
 void WindowedSearch::Refresh(Instant from) {
   const bool usable = placed_ && frame_.bound() == intersection::BoundKind::kHorn &&
                       !(frame_.blind() && HornTable::Near(from));
@@ -173,14 +173,14 @@ void WindowedSearch::Refresh(Instant from) {
   PlaceEveryAgent();
 }
 
-// Called after each question.
+// Called after each query.
 void WindowedSearch::RecordCost(const BroadPhaseWork& before) {
   const double units = cost_.work.search_units() - before.search_units();
-  if (fresh_ < kFreshQuestions) {
+  if (fresh_ < kFreshQueries) {
     ++fresh_;
     fresh_units_ += units;
   } else {
-    excess_units_ = std::max(0.0, excess_units_ + units - fresh_units_ / kFreshQuestions);
+    excess_units_ = std::max(0.0, excess_units_ + units - fresh_units_ / kFreshQueries);
   }
 }
 
@@ -202,7 +202,7 @@ void WindowedSearch::Join(TimeWindow window, PairSink* sink) {
   CORE_CHECK(joined, "a store joins after it has placed all agents");
 }
 
-// Whether a question about the agent tests all others at once, in the first window.
+// Whether a query about the agent tests all others at once, in the first window.
 bool WindowedSearch::TestsAll(std::uint32_t agent, Instant from) const {
   return scene().IsUnfilterable(agent) || !HornTable::Near(from);
 }
@@ -228,7 +228,7 @@ void WindowedSearch::FindAllBut(std::uint32_t agent) {
   }
 }
 
-// Placed balls have SphereFilter's slack for the way to the middle and from there on. A question
+// Placed balls have SphereFilter's slack for the way to the middle and from there on. A query
 // from before the begin looks farther back, which takes more slack.
 void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
   const TimeWindow window = frame_.After(from, seconds);

@@ -16,7 +16,7 @@ namespace collision::broad_phase {
 
 /// Places every agent once, with the reach that its horn and its way give it from then on, and
 /// keeps it in a store. A bound inside the old one leaves the placement valid, so a tightened bound
-/// costs nothing here. A question searches time windows, each four times as long as the one before,
+/// costs nothing here. A query searches time windows, each four times as long as the one before,
 /// until the next answer must lie beyond, and asks the canonical routine only about pairs that
 /// three filters leave open. Each filter is certified and of a fixed price; none decides a value.
 ///
@@ -31,8 +31,8 @@ namespace collision::broad_phase {
 /// Agents too large or too far for filters ("unfilterable": reach or distance over 2^60 m, speed
 /// over 2^40 m/s, a century from the begin) are tested directly.
 ///
-/// A placement ages: reaches grow and agents stray, so questions cost ever more. All agents are
-/// placed anew once the excess over the cost of the first 64 questions adds up to the cost of
+/// A placement ages: reaches grow and agents stray, so queries cost ever more. All agents are
+/// placed anew once the excess over the cost of the first 64 queries adds up to the cost of
 /// placement (the best moment where the excess grows evenly), or once as many tests as there are
 /// agents were plainly wasted. No answer depends on when that happens.
 ///
@@ -101,12 +101,12 @@ class WindowedSearch : public SweepingIndex {
   std::vector<std::uint32_t> unfilterable_;
   float fastest_ = 0;  ///< No horn that is placed has a greater speed.
 
-  /// The first questions since the last placement and what they cost, and the excess of later ones.
+  /// The first queries since the last placement and what they cost, and the excess of later ones.
   std::uint32_t fresh_ = 0;
   double fresh_units_ = 0, excess_units_ = 0;
 
-  std::vector<std::uint64_t> reported_in_;  ///< By agent: the last question that reported it.
-  std::uint64_t question_ = 0;
+  std::vector<std::uint64_t> reported_in_;  ///< By agent: the last query that reported it.
+  std::uint64_t query_ = 0;
   FilterRow crowd_;                  ///< Scratch, like the next two.
   std::vector<PlacedBall> horns_;    ///< To be placed.
   std::vector<std::uint32_t> near_;  ///< Agents found by the last search.

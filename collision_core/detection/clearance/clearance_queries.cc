@@ -137,8 +137,7 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   record.renewed_cause = ClearanceCause::kNone;
 }
 
-ClearanceQuestion ClearanceQueries::QuestionAbout(AgentIndex agent, int group,
-                                                  const Promised& promised) {
+ClearanceQuery ClearanceQueries::QueryFor(AgentIndex agent, int group, const Promised& promised) {
   const bool own_key = !promised.renewed && !promised.was_saturated && group != kEveryGroup;
   const Instant covered = own_key ? promised.keys.Of(group) : promised.covered;
   return {.agent = agent,
@@ -157,11 +156,11 @@ NextMeeting ClearanceQueries::QueryGroups(AgentIndex agent, const Promised& prom
   groups_.clear();
   coverage_.tiers().GroupsBeside(agent, &groups_);
   const int comparable = groups_.empty() ? kEveryGroup : AccelerationTiers::kComparable;
-  NextMeeting next = group_query_.Find(QuestionAbout(agent, comparable, promised));
+  NextMeeting next = group_query_.Find(QueryFor(agent, comparable, promised));
   if (!coverage_.IsSaturated(agent)) record.keys.SetAll(next.when);
   for (const int group : groups_) {
     if (coverage_.IsSaturated(agent) || group_query_.TracksAll(agent, group)) continue;
-    const NextMeeting first = group_query_.Find(QuestionAbout(agent, group, promised));
+    const NextMeeting first = group_query_.Find(QueryFor(agent, group, promised));
     if (coverage_.IsSaturated(agent)) continue;
     record.keys.SetTier(group, first.when);
     if (first.when < next.when) next = first;

@@ -37,7 +37,7 @@ class ClearanceQueries {
   struct Promised {
     const ClearanceKeys& keys;
     Instant covered;              // certified clear of all untracked partners up to here
-    bool renewed, was_saturated;  // as of ClearanceQuestion
+    bool renewed, was_saturated;  // as of ClearanceQuery
   };
 
   void Query(AgentIndex agent, Renewals renewals);
@@ -45,7 +45,7 @@ class ClearanceQueries {
   void QueryTiers(AgentIndex agent);
   void QueryAll(AgentIndex agent, Renewals renewals);
   NextMeeting QueryGroups(AgentIndex agent, const Promised& promised);
-  ClearanceQuestion QuestionAbout(AgentIndex agent, int group, const Promised& promised);
+  ClearanceQuery QueryFor(AgentIndex agent, int group, const Promised& promised);
   Instant DueUntil(AgentIndex agent) const;
   void QueryFarKeysAnew();
   void NotifyIfLowered(AgentIndex agent, Instant before);

@@ -76,7 +76,7 @@ EarliestAnswer EarliestSearch::Find() {
   return run.best;
 }
 
-// Nothing is known of pairs and agents that have changed since the last question.
+// Nothing is known of pairs and agents that have changed since the last query.
 void EarliestSearch::TakeChanges() {
   for (const PairSlot slot : *pairs_changed_) {
     if (!pair_answers_.contains(slot)) pair_answers_.resize(slot.value() + 1);

@@ -21,7 +21,7 @@ namespace collision::detection {
 /// computed anew from now on, which usually is enough for many steps.
 ///
 /// An agent's bound is its earliest clearance key, or the agent's next meeting as found by a
-/// question of the search's own. Both hold for each untracked partner as long as neither bound
+/// query of the search's own. Both hold for each untracked partner as long as neither bound
 /// widens. Where a partner is renewed later, the bound of that partner, which is void from then on
 /// (CoverageTable::voided), covers the pair. Bounds are computed from wide bounds (BoundMargin), so
 /// that they hold for newer states that keep their contracts.
@@ -85,7 +85,7 @@ class EarliestSearch {
   EventQueue<PairSlot> pair_bounds_;     // likewise; of pairs that are not in contact
   IndexedVector<AgentIndex, AgentBound> agents_;
   IndexedVector<PairSlot, PairBound> pair_answers_;
-  // Scratch of one question, kept for its memory.
+  // Scratch of one query, kept for its memory.
   PartnerMarks tracked_;
   std::vector<broad_phase::Neighbour> found_;
 };

@@ -16,7 +16,7 @@ struct WorkClaim {
 /// Shares of `total`, one for each claim. No claim gets more than it wants; one that wants more
 /// than its share by weight gets at least that share, plus a part of what smaller claims leave. So
 /// no pair starves, however much others want. The sum of the shares is at most `total`; if more is
-/// wanted, it is `total` up to rounding down. Exact and deterministic; O(n log n).
+/// wanted, it is `total` less what rounding down loses. Exact and deterministic; O(n log n).
 class WorkShares {
  public:
   static constexpr std::uint64_t kTotalMax = std::uint64_t{1} << 40;

@@ -35,8 +35,8 @@ inline SegmentFractions FractionsOf(const Eigen::Vector3d& d, const Eigen::Vecto
 ///
 /// Half of the derivative of the squared distance is Σ w_i v_i e_i, with e_i the amount by which
 /// x_i + t v_i exceeds [−1, 1]: it never falls and is linear between the planes of the faces.
-/// Newton's method ends where a step stays between the same planes; a step that leaves the known
-/// interval is replaced by a bisection.
+/// Newton's method ends where a step stays between the same planes, or after kStepsMax steps; a
+/// step that leaves the known interval is replaced by a bisection.
 inline double FractionNearBox(const double (&x)[3], const double (&v)[3], const double (&w)[3]) {
   constexpr int kStepsMax = 12;
   double least = -1, most = 1, t = 0;

@@ -92,8 +92,8 @@ double LastGap(const GapAlong& gap, double from, double to) {
 double ApartFor(const SweptConvexPair& solids, double h, double duration, WorkBudget* work) {
   const geometry::ConvexSet a = After(solids.a, h), b = After(solids.b, h);
   geometry::GjkHint none;
-  const ConvexQuestion question{ConvexGoal::kDistance, kDirectionShare, 0};
-  const ConvexSeparation found = SeparationOf(a, b, question, &none, work);
+  const ConvexQuery query{ConvexGoal::kDistance, kDirectionShare, 0};
+  const ConvexSeparation found = SeparationOf(a, b, query, &none, work);
   if (!(found.separation.lower > 0)) return 0;
   const double last = LastGap(GapAlong(solids, found.normal, work), h, duration);
   return last == numeric::kInfinity ? numeric::kInfinity : last - h;

@@ -17,12 +17,12 @@ struct ContactCandidate {
 
 /// Proposes points of either body at which the two are within `within` [m] of each other at this
 /// pose: in the middle of faces that lie on each other, of edges that coincide, and at corners; and
-/// all pairs of elements that are so near and of which one is a convex solid. The proposals are
-/// made in plain doubles; UpperBy() certifies them, so that a bad one does no harm.
+/// pairs of elements, 64 at most, that are so near and of which one is a convex solid. The
+/// proposals are made in plain doubles; UpperBy() certifies them, so that a bad one does no harm.
 ///
-/// Returns a few points of each kind, the widest first. The search begins at `first` if
-/// both are leaves. If one of the bodies is a ball there are no candidates, because a ball and an
-/// element are measured exactly.
+/// Returns a few points of each kind, in the order of the kinds; within one, those of the largest
+/// area or length first. The search begins at `first` if both are leaves. If one of the bodies is a
+/// ball there are no candidates, because a ball and an element are measured exactly.
 std::vector<ContactCandidate> FindContactCandidates(const PosedPair& pair, double within,
                                                     NodePair first, WorkBudget* work);
 

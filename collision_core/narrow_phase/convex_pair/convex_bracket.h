@@ -11,7 +11,7 @@
 #include <cmath>
 
 #include "collision_core/geometry/convex/gjk.h"
-#include "collision_core/narrow_phase/convex_pair/convex_question.h"
+#include "collision_core/narrow_phase/convex_pair/convex_query.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
@@ -56,8 +56,8 @@ class ConvexBracket {
   /// known.
   double NormalError() const;
 
-  /// Whether the question needs no narrower bracket, or doubles give none.
-  bool IsGoodEnough(const ConvexQuestion& question) const;
+  /// Whether the query needs no narrower bracket, or doubles give none.
+  bool IsGoodEnough(const ConvexQuery& query) const;
 
   const geometry::ConvexPair& pair() const { return pair_; }
   double rounding() const { return rounding_; }  ///< The radii of both sets together [m].
@@ -105,15 +105,15 @@ inline void ConvexBracket::TakeWay(const Eigen::Vector3d& way) {
                                            pair_.PointError()));
 }
 
-inline bool ConvexBracket::IsGoodEnough(const ConvexQuestion& question) const {
+inline bool ConvexBracket::IsGoodEnough(const ConvexQuery& query) const {
   const double lower = separation_lower();
-  if (question.goal == ConvexGoal::kYesNo && lower > 0) return true;
+  if (query.goal == ConvexGoal::kYesNo && lower > 0) return true;
   const double upper = separation_upper();
-  if (question.goal == ConvexGoal::kYesNo && upper <= 0) return true;
+  if (query.goal == ConvexGoal::kYesNo && upper <= 0) return true;
   const double least = std::max({0.0, lower, -upper});
-  const double share = question.relative_tolerance * least;
+  const double share = query.relative_tolerance * least;
   return upper_ - lower_ <=
-         std::max({question.absolute_tolerance, share, kTightestWidth * pair_.size()});
+         std::max({query.absolute_tolerance, share, kTightestWidth * pair_.size()});
 }
 
 }  // namespace collision::narrow_phase

@@ -64,10 +64,9 @@ void SetPoints(const ConvexBracket& bracket, const geometry::GjkResult& found,
 }  // namespace
 
 ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
-                              const ConvexQuestion& question, geometry::GjkHint* hint,
-                              WorkBudget* work) {
+                              const ConvexQuery& query, geometry::GjkHint* hint, WorkBudget* work) {
   ConvexBracket bracket(a, b);
-  ConvexSearch search(question, &bracket, work);
+  ConvexSearch search(query, &bracket, work);
   search.Run(hint);
   ConvexSeparation result;
   result.separation = {bracket.separation_lower(), bracket.separation_upper()};
@@ -79,9 +78,9 @@ ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const geometry::Conv
 }
 
 numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
-                             const ConvexQuestion& question, WorkBudget* work) {
+                             const ConvexQuery& query, WorkBudget* work) {
   ConvexBracket bracket(a, b);
-  ConvexSearch(question, &bracket, work).Run(nullptr);
+  ConvexSearch(query, &bracket, work).Run(nullptr);
   return {bracket.separation_lower(), bracket.separation_upper()};
 }
 

@@ -1,16 +1,16 @@
 // Two convex sets: how far apart or how deep in each other, certified.
 //
-// A search proposes (convex_search.h), facts certify (convex_bracket.h). Overlapping shadows give
-// the shift that takes the two apart, so one number with a sign serves distance and depth. Boxes,
-// capsules, hulls and triangles are known to about 64 · 2^-53 of their size. A half-space needs no
-// search. A search may begin where an earlier one ended: then one step confirms it.
+// A search proposes (convex_search.h), facts certify (convex_bracket.h). Overlapping projections
+// give the shift that takes the two apart, so one number with a sign serves distance and depth.
+// Boxes, capsules, hulls and triangles are known to about 64 · 2^-53 of their size. A half-space
+// needs no search. A search may begin where an earlier one ended: then one step confirms it.
 #pragma once
 
 #include <numbers>
 
 #include "collision_core/base/work_budget.h"
 #include "collision_core/geometry/convex/gjk.h"
-#include "collision_core/narrow_phase/convex_pair/convex_question.h"
+#include "collision_core/narrow_phase/convex_pair/convex_query.h"
 #include "collision_core/narrow_phase/pose/convex_pose.h"
 #include "collision_core/numeric/interval.h"
 
@@ -27,7 +27,8 @@ struct ConvexSeparation {
   Eigen::Vector3d a{0, 0, 0}, b{0, 0, 0};
   double point_error = numeric::kInfinity;
   /// Unit, from A to B: along the shortest way between them, or of the cores if their roundings
-  /// overlap; within `normal_error` [rad]. π: the shortest shift that is known takes B that way.
+  /// overlap; within `normal_error` [rad]. π: not certified; the normal of the
+  /// shortest shift that was found.
   Eigen::Vector3d normal{0, 0, 0};
   double normal_error = std::numbers::pi;
   bool exhausted = false;  ///< A limit on steps or on work ended the search.
@@ -38,12 +39,11 @@ struct ConvexSeparation {
 /// wide, plus their `error`s. Smooth sets may use up their steps (kGjkStepsMax, kEpaStepsMax) or
 /// the work allowed; then the search ends with the bracket that it has.
 ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
-                              const ConvexQuestion& question, geometry::GjkHint* hint,
-                              WorkBudget* work);
+                              const ConvexQuery& query, geometry::GjkHint* hint, WorkBudget* work);
 
 /// Only ConvexSeparation::separation of the same query; faster.
 numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
-                             const ConvexQuestion& question, WorkBudget* work);
+                             const ConvexQuery& query, WorkBudget* work);
 
 /// The distance or depth of a convex set A and a half-space B, exact but for rounding. The shortest
 /// shift that takes the two apart is along the half-space's normal.

@@ -105,25 +105,25 @@ Verdict SearchForVerdict(const geometry::ConvexSet& a, const geometry::ConvexSet
 
 numeric::Interval SearchForDistance(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                                     const PosedCores& cores, const RelativePose& pose,
-                                    const ConvexQuestion& question) {
+                                    const ConvexQuery& query) {
   if (!(cores.size < kSizeMax)) return {-numeric::kInfinity, numeric::kInfinity};
   SmallGjkPair pair = QuickPairOf(a, b, cores, pose);
-  pair.relative_tolerance = question.relative_tolerance / 4;
-  pair.absolute_tolerance = question.absolute_tolerance / 4;
+  pair.relative_tolerance = query.relative_tolerance / 4;
+  pair.absolute_tolerance = query.absolute_tolerance / 4;
   // So large that contact remains when errors and roundings are counted in, see OfSets().
   const double inside = 2 * cores.error + 0x1p-48 * (cores.size + pair.rounding);
-  if (question.goal == ConvexGoal::kDistance) pair.inside = inside;
+  if (query.goal == ConvexGoal::kDistance) pair.inside = inside;
   const SmallGjkResult found = RunSmallGjk(pair);
   if (found.inside) return {-numeric::kInfinity, -inside};
   return {found.lower, found.upper};
 }
 
 bool IsGoodEnough(const numeric::Interval& separation, const numeric::Interval& of_cores,
-                  const ConvexQuestion& question, double size) {
-  if (question.goal == ConvexGoal::kDistance && separation.upper <= 0) return true;
+                  const ConvexQuery& query, double size) {
+  if (query.goal == ConvexGoal::kDistance && separation.upper <= 0) return true;
   const double least = std::max({0.0, separation.lower, -separation.upper});
   const double width = separation.upper - separation.lower;
-  return width <= std::max(question.absolute_tolerance, question.relative_tolerance * least) ||
+  return width <= std::max(query.absolute_tolerance, query.relative_tolerance * least) ||
          of_cores.upper - of_cores.lower <= kTightestWidth * size;
 }
 
@@ -153,18 +153,18 @@ Verdict DecideConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet
 }
 
 numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
-                                         const RelativePose& pose, const ConvexQuestion& question,
+                                         const RelativePose& pose, const ConvexQuery& query,
                                          WorkBudget* work) {
   const bool thin = IsCapsulePair(a, b);
   if (thin || (IsQuick(a) && IsQuick(b))) {
     work->Spend(thin ? kSeparatingAxisUnits : kSmallGjkUnits);
     const PosedCores cores(a, b, pose);
     const numeric::Interval of_cores =
-        thin ? DistanceOfCores(a, b, cores, pose) : SearchForDistance(a, b, cores, pose, question);
+        thin ? DistanceOfCores(a, b, cores, pose) : SearchForDistance(a, b, cores, pose, query);
     const numeric::Interval separation = OfSets(of_cores, a.rounding + b.rounding, cores);
-    if (IsGoodEnough(separation, of_cores, question, cores.size)) return separation;
+    if (IsGoodEnough(separation, of_cores, query, cores.size)) return separation;
   }
-  return IntervalOf(PosedA(a, pose), PosedB(b, pose), question, work);
+  return IntervalOf(PosedA(a, pose), PosedB(b, pose), query, work);
 }
 
 }  // namespace collision::narrow_phase

@@ -1,4 +1,4 @@
-// Two convex solids at a pose: the fast answers to the most frequent questions.
+// Two convex solids at a pose: the fast answers to the most frequent queries.
 //
 // A query for yes or no, or for the distance alone, need not pay for points, normals and features.
 // Each way below proves its answer; where it cannot, the patient search (convex_search.h) answers.
@@ -36,7 +36,7 @@ Verdict DecideConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet
 /// translation is not included. With ConvexGoal::kDistance the lower end is no bound of the depth
 /// where they overlap.
 numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
-                                         const RelativePose& pose, const ConvexQuestion& question,
+                                         const RelativePose& pose, const ConvexQuery& query,
                                          WorkBudget* work);
 
 }  // namespace collision::narrow_phase

@@ -13,11 +13,11 @@ namespace collision::narrow_phase {
 
 using Eigen::Vector3d;
 
-ConvexSearch::ConvexSearch(const ConvexQuestion& question, ConvexBracket* bracket, WorkBudget* work)
-    : question_(question), bracket_(*bracket), pair_(bracket->pair()), work_(*work) {}
+ConvexSearch::ConvexSearch(const ConvexQuery& query, ConvexBracket* bracket, WorkBudget* work)
+    : query_(query), bracket_(*bracket), pair_(bracket->pair()), work_(*work) {}
 
 void ConvexSearch::Run(geometry::GjkHint* hint) {
-  if (question_.goal == ConvexGoal::kYesNo && DecideByFaces()) return;
+  if (query_.goal == ConvexGoal::kYesNo && DecideByFaces()) return;
   const geometry::GjkHint none;
   FindNearest(hint ? *hint : none);
   if (!found_.encloses && !IsGoodEnough()) TryFeatures();
@@ -32,12 +32,11 @@ bool ConvexSearch::AreZonotopes() const {
 }
 
 // The search for nearest points gets a quarter of the tolerances: certifying them costs the rest.
-geometry::GjkGoal ConvexSearch::GjkGoalOfQuestion() const {
+geometry::GjkGoal ConvexSearch::GjkGoalOfQuery() const {
   const double rounding = bracket_.rounding();
-  geometry::GjkGoal goal{question_.relative_tolerance / 4, question_.absolute_tolerance / 4,
-                         rounding};
+  geometry::GjkGoal goal{query_.relative_tolerance / 4, query_.absolute_tolerance / 4, rounding};
   goal.steps = StepsWithin(kGjkStepUnits, geometry::kGjkStepsMax);
-  if (question_.goal != ConvexGoal::kYesNo) return goal;
+  if (query_.goal != ConvexGoal::kYesNo) return goal;
   const double margin = 2 * (pair_.GapError() + pair_.PointError() + bracket_.error());
   goal.apart = rounding + margin;
   if (rounding > margin) goal.near = rounding - margin;
@@ -52,7 +51,7 @@ std::uint32_t ConvexSearch::StepsWithin(std::uint64_t units, std::uint32_t most)
 /// that the centres belong to the cores.
 bool ConvexSearch::DecideByFaces() {
   if (!AreZonotopes()) return false;
-  TestFaces(GjkGoalOfQuestion().apart);
+  TestFaces(GjkGoalOfQuery().apart);
   if (!(bracket_.separation_lower() > 0 || bracket_.separation_upper() <= 0)) return false;
   found_.simplex[0] = pair_.At({Vector3d::Zero(), Vector3d::Zero()});
   found_.weights[0] = 1;
@@ -64,7 +63,7 @@ bool ConvexSearch::DecideByFaces() {
 
 void ConvexSearch::TestFaces(double apart) {
   const geometry::FaceSeparation faces = SeparationOfFaces(pair_, apart);
-  work_.Spend(kFacesUnits);
+  work_.Spend(kBoxAxesUnits);
   bracket_.TakeGap(faces.direction, faces.gap);
   bracket_.TakeBallInside(faces.inside);
 }
@@ -73,7 +72,7 @@ void ConvexSearch::FindNearest(const geometry::GjkHint& hint) {
   if (pair_.a().IsThin() && pair_.b().IsThin()) {
     NearestOfSegments(pair_, &found_);
   } else {
-    RunGjk(pair_, hint, GjkGoalOfQuestion(), &found_);
+    RunGjk(pair_, hint, GjkGoalOfQuery(), &found_);
   }
   work_.Spend(kGjkStepUnits * found_.steps);
   exhausted_ = found_.steps >= geometry::kGjkStepsMax || work_.exhausted();
@@ -177,14 +176,14 @@ void ConvexSearch::Deepen() {
   if (AreZonotopes()) {
     TestFaces(numeric::kInfinity);
     if (IsGoodEnough()) return;
-    if (question_.goal != ConvexGoal::kDepth && bracket_.separation_upper() <= 0) return;
+    if (query_.goal != ConvexGoal::kDepth && bracket_.separation_upper() <= 0) return;
   }
   GrowPolytope();
 }
 
 void ConvexSearch::GrowPolytope() {
-  geometry::EpaGoal goal{question_.relative_tolerance, question_.absolute_tolerance};
-  if (question_.goal != ConvexGoal::kDepth) {
+  geometry::EpaGoal goal{query_.relative_tolerance, query_.absolute_tolerance};
+  if (query_.goal != ConvexGoal::kDepth) {
     goal.inside = std::max(0.0, 2 * bracket_.error() - bracket_.rounding());
   }
   goal.steps = StepsWithin(kEpaStepUnits, geometry::kEpaStepsMax);

@@ -3,7 +3,7 @@
 // Segments and boxes have closed forms. Otherwise GJK proposes nearest points and a direction;
 // where these are mostly rounding, the directions that edges and faces determine come next, and
 // beside a smooth core Newton's method on its support function. Cores that may overlap are followed
-// by EPA, boxes first by the separating axis test, as far as the question needs it.
+// by EPA, boxes first by the separating axis test, as far as the query needs it.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace collision::narrow_phase {
 class ConvexSearch {
  public:
   /// Narrows `bracket`; requires a bracket that nothing has narrowed yet.
-  ConvexSearch(const ConvexQuestion& question, ConvexBracket* bracket, WorkBudget* work);
+  ConvexSearch(const ConvexQuery& query, ConvexBracket* bracket, WorkBudget* work);
 
   /// Searches until the bracket is good enough, or a limit on steps or the work allowed ends the
   /// search. `hint` (or null): where an earlier search of the same sets ended; set to where this
@@ -30,10 +30,10 @@ class ConvexSearch {
   bool exhausted() const { return exhausted_ && !IsGoodEnough(); }
 
  private:
-  bool IsGoodEnough() const { return bracket_.IsGoodEnough(question_); }
+  bool IsGoodEnough() const { return bracket_.IsGoodEnough(query_); }
   bool MayOverlap() const { return !(bracket_.lower() > 0) && !IsGoodEnough(); }
   bool AreZonotopes() const;
-  geometry::GjkGoal GjkGoalOfQuestion() const;
+  geometry::GjkGoal GjkGoalOfQuery() const;
   std::uint32_t StepsWithin(std::uint64_t units, std::uint32_t most) const;
 
   bool DecideByFaces();
@@ -48,7 +48,7 @@ class ConvexSearch {
   void Deepen();
   void GrowPolytope();
 
-  const ConvexQuestion& question_;
+  const ConvexQuery& query_;
   ConvexBracket& bracket_;
   const geometry::ConvexPair& pair_;  // the bracket's
   WorkBudget& work_;

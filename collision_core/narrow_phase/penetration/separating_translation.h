@@ -4,9 +4,9 @@
 // their reference points along it, is such a shift. The directions that are tried are the way
 // between the reference points, the axes of both bodies, and the normals of the witness of contact,
 // so that bodies that rest on a face are measured exactly. On a wide terrain that reach is its
-// highest summit, however far away (11 m for a drone that grazes a slope); so each way is tried
-// once more with what is near only (local_separating_translation.h). The depth from below comes
-// from balls within the solids, points, and for convex solids their difference.
+// highest summit, however far away; so each way is tried once more with what is near only
+// (local_separating_translation.h). The depth from below comes from balls within the solids,
+// points, and for convex solids their difference.
 #pragma once
 
 #include "collision_core/base/work_budget.h"

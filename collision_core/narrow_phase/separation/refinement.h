@@ -71,7 +71,7 @@ class Refinement {
     SeparationSearch search;
     std::uint64_t spent = 0;
     std::uint64_t left_of_round = 0;
-    std::uint64_t spent_before = 0;  ///< The round.
+    std::uint64_t spent_before = 0;  ///< Before this round.
     double round_until = 0;          ///< At this width its part of the round is done.
   };
 

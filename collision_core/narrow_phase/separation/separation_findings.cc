@@ -130,7 +130,7 @@ double SeparationFindings::MeasureElements(ElementPair elements, WorkBudget* wor
 }
 
 // How narrow the bracket of two elements has to be for the goal of the search.
-ConvexQuestion SeparationFindings::SolidsQuestion() const {
+ConvexQuery SeparationFindings::SolidsQuery() const {
   if (goal_ == Goal::kNearest) return {ConvexGoal::kDepth, 0, 0};
   if (narrow_) return {ConvexGoal::kDepth, narrow_->relative / 4, narrow_->absolute / 4};
   if (goal_ == Goal::kYesNo && pose_.translation == 0) return {ConvexGoal::kYesNo, 0, 0};
@@ -149,7 +149,7 @@ double SeparationFindings::MeasureSolids(ElementPair solids, WorkBudget* work) {
   }
   WorkBudget own(kSolidPairUnits);
   geometry::GjkHint none;
-  const ConvexSeparation found = SeparationOf(of_a, of_b, SolidsQuestion(), &none, &own);
+  const ConvexSeparation found = SeparationOf(of_a, of_b, SolidsQuery(), &none, &own);
   work->Spend(own.spent());
   const double upper = found.separation.upper;
   if (upper <= -pose_.translation && upper < bracket_.upper) {

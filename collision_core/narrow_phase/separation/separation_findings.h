@@ -74,7 +74,7 @@ class SeparationFindings {
   SeparationBracket Result(const SearchEnd& end);
 
  private:
-  ConvexQuestion SolidsQuestion() const;
+  ConvexQuery SolidsQuery() const;
   double MeasureSolids(ElementPair solids, WorkBudget* work);
   double TurnOfA(const geometry::TrianglePoints& t) const;
   double TurnOfB(const geometry::TrianglePoints& t) const;

@@ -80,7 +80,7 @@ class TriangleBoxes {
   const Eigen::Vector3d& upper() const { return nodes_[0].upper; }
   double diagonal() const { return (upper() - lower()).norm(); }
 
-  /// Boxes and triangles examined so far, in all questions.
+  /// Boxes and triangles examined so far, in all queries.
   std::uint64_t work() const { return work_; }
 
  private:

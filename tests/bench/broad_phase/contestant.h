@@ -11,7 +11,7 @@
 
 namespace collision::bench {
 
-/// A question from scratch, in its two parts [s].
+/// A query from scratch, in its two parts [s].
 struct Timed {
   Answer answer;
   double fill = 0;  ///< Until the contestant has the caller's data; libraries read them in place.
@@ -24,7 +24,7 @@ class Contestant {
  public:
   virtual ~Contestant() = default;
 
-  /// From the caller's small records to the answer. Nothing known from an earlier question may be
+  /// From the caller's small records to the answer. Nothing known from an earlier query may be
   /// used, memory may.
   virtual Timed Ask(const baselines::BallScene& scene, double horizon) = 0;
 };

@@ -158,7 +158,7 @@ void IncrementalPart(const Settings& settings, Report* report) {
       return row;
     };
     for (const Method& method : OurMethods()) {
-      if (!method.make) continue;  // A sweep answers no question about one agent.
+      if (!method.make) continue;  // A sweep answers no query about one agent.
       const Row row = measure(method.name, true, [&method](const UpdateStream& s) {
         return std::make_unique<UpdatedMethod>(s, method);
       });

@@ -21,7 +21,7 @@ Method MethodOf(const char* name) {
   return {name, make, make};
 }
 
-/// One object, as of the libraries: for each question every bound is put anew.
+/// One object, as of the libraries: for each query every bound is put anew.
 class MethodContestant : public Contestant {
  public:
   explicit MethodContestant(const Method& method) : method_(method.make_sweep()) {}

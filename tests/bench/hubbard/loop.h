@@ -21,7 +21,7 @@ class ShipBroadPhase {
 /// Turk's uniform grid in a hash table, made anew each frame, as baselines/turk_hash.h for balls.
 std::unique_ptr<ShipBroadPhase> MakeTurk(double cell);
 
-/// Pairs that may meet within a window, in one question; each of them is looked at again when it
+/// Pairs that may meet within a window, in one query; each of them is looked at again when it
 /// may meet first, computed from its newest states. A ship that bounced is asked about anew.
 std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::NeighbourIndex> phase);
 

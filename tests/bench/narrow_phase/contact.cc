@@ -68,7 +68,7 @@ void ContactCasesPart(const NarrowSettings& settings, NarrowReport* report) {
     for (const ContactMethod& library : ContactPeers()) {
       row = RowOf(of, library.name);
       if (!settings.Wants(row.path())) continue;
-      const ContactQuestion ask = library.make(of);
+      const ContactQuery ask = library.make(of);
       if (!ask) continue;
       std::optional<double> told;
       row.warm = LeastSeconds(5, [&] { told = ask().begin(); });

@@ -55,7 +55,7 @@ struct Told {
 };
 
 Told Tell(const ContactMethod& library, const ContactCase& of) {
-  const ContactQuestion ask = library.make(of);
+  const ContactQuery ask = library.make(of);
   const ApartResult result = RunApart(kCutOff, [&] {
     const CpuStopwatch watch;
     const auto begin = ask().begin();

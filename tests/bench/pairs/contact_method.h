@@ -27,7 +27,7 @@ inline ContactReply Plainly(const std::optional<double>& begin) {
   return {ContactReply::Verdict::kContact, *begin, *begin};
 }
 
-using ContactQuestion = std::function<ContactReply()>;
+using ContactQuery = std::function<ContactReply()>;
 
 struct ContactMethod {
   std::string name, setting = {};
@@ -37,7 +37,7 @@ struct ContactMethod {
   bool may_not_end = false;  ///< Asked in a process of its own.
   std::string limited_by = {};
   /// Builds what it needs for a case; null where it does not take such bodies.
-  std::function<ContactQuestion(const ContactCase&)> make = nullptr;
+  std::function<ContactQuery(const ContactCase&)> make = nullptr;
 };
 using ContactMethods = std::vector<ContactMethod>;
 

@@ -73,7 +73,7 @@ ContactMethod Ours(const std::string& name, bool solids, double tolerance) {
   method.origin = Origin::kOurs;
   method.certified = true;
   method.limited_by = "the tolerance asked for; at last rounding over the closing speed";
-  method.make = [solids, tolerance](const ContactCase& of) -> ContactQuestion {
+  method.make = [solids, tolerance](const ContactCase& of) -> ContactQuery {
     ContactShapes shapes{solids ? SolidShapeOf(of.a) : ShapeOf(of.a),
                          solids ? SolidShapeOf(of.b) : ShapeOf(of.b)};
     // Two balls are the same either way.
@@ -164,7 +164,7 @@ ContactMethods SteppingMethods() {
     method.origin = Origin::kBaseline;
     method.naive = true;
     method.limited_by = "what lies between two frames";
-    method.make = [rate](const ContactCase& of) -> ContactQuestion {
+    method.make = [rate](const ContactCase& of) -> ContactQuery {
       return [of, a = SegmentOf(of.a), b = SegmentOf(of.b), rate] {
         return Plainly(Step(of, a, b, rate));
       };

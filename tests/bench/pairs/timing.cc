@@ -38,7 +38,7 @@ double Warm(const PairMethod& method, const PlainPose& pose, Reply* reply) {
   return watch.seconds() / times;
 }
 
-/// One walk before all questions of one task: no two of these share any data.
+/// One walk before all queries of one task: no two of these share any data.
 void TimeCold(const PairMethods& methods, const std::vector<PlainPose>& poses,
               const TimingPlan& plan, std::vector<MethodTimes>* all) {
   CacheFlush flush;

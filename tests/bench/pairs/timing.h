@@ -1,4 +1,4 @@
-// How long single questions take: warm and cold, one by one.
+// How long single queries take: warm and cold, one by one.
 #pragma once
 
 #include <vector>
@@ -19,7 +19,7 @@ struct MethodTimes {
   std::vector<Reply> replies;
 };
 
-/// All methods on all poses. Warm: the same question again, at least 4 µs' worth of it, best of the
+/// All methods on all poses. Warm: the same query again, at least 4 µs' worth of it, best of the
 /// passes. Cold: once, after a walk over 64 MB.
 std::vector<MethodTimes> TimeMethods(const PairMethods& methods,
                                      const std::vector<PlainPose>& poses, const TimingPlan& plan);

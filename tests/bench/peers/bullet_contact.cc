@@ -50,7 +50,7 @@ void Add(const std::string& name, Cast cast, const Setting& setting, const std::
   method.limited_by = cast == Cast::kContinuous
                           ? "single precision, 1 mm of distance and 64 iterations"
                           : "single precision and its iterations; translation only";
-  method.make = [cast, setting](const ContactCase& of) -> ContactQuestion {
+  method.make = [cast, setting](const ContactCase& of) -> ContactQuery {
     const auto a = BulletShape(of.a), b = BulletShape(of.b);
     if (!a || !b) return nullptr;
     const bool turns = of.a.w != std::array<double, 3>{} || of.b.w != std::array<double, 3>{};

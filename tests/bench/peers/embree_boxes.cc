@@ -1,5 +1,5 @@
 // Embree: a scene of user geometry whose bounds are the swept boxes, committed anew for each
-// question, and rtcCollide() of the scene with itself.
+// query, and rtcCollide() of the scene with itself.
 #include <embree3/rtcore.h>
 
 #include <stdexcept>

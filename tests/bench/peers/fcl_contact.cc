@@ -40,7 +40,7 @@ FclGeometry SolidOf(const MovingBody& body) {
   return nullptr;
 }
 
-/// A mesh is built once, and kept for all questions about it.
+/// A mesh is built once, and kept for all queries about it.
 FclGeometry BodyOf(const MovingBody& body) {
   if (body.kind != MovingBody::Kind::kMesh) return SolidOf(body);
   static std::map<std::shared_ptr<const PlainMesh>, FclGeometry> known;
@@ -94,12 +94,11 @@ ContactMethod Method(const std::string& name, double tolerance, const char* limi
 using BuildBody = FclGeometry (*)(const MovingBody&);
 
 /// Bodies that turn and move evenly between two poses, the shorter way round.
-std::function<ContactQuestion(const ContactCase&)> Evenly(std::size_t iterations, double error,
-                                                          fcl::GJKSolverType solver,
-                                                          fcl::CCDSolverType kind,
-                                                          BuildBody build) {
+std::function<ContactQuery(const ContactCase&)> Evenly(std::size_t iterations, double error,
+                                                       fcl::GJKSolverType solver,
+                                                       fcl::CCDSolverType kind, BuildBody build) {
   const fcl::ContinuousCollisionRequestd request(iterations, error, fcl::CCDM_LINEAR, solver, kind);
-  return [request, build](const ContactCase& of) -> ContactQuestion {
+  return [request, build](const ContactCase& of) -> ContactQuery {
     const FclGeometry a = build(of.a), b = build(of.b);
     if (!a || !b) return nullptr;
     return [of, a, b, request] { return Tell(of, a, b, request); };
@@ -130,13 +129,13 @@ void AddAdvancement(const std::string& name, fcl::GJKSolverType solver, BuildBod
   }
 }
 
-/// It reads vertices and not poses, and moves its models' vertices for good: each question needs
+/// It reads vertices and not poses, and moves its models' vertices for good: each query needs
 /// models of its own, made where the bodies start; these are counted in.
 void AddPolynomial(ContactMethods* methods) {
   ContactMethod method;
   method.name = "FCL polynomial";
   method.limited_by = "plain doubles without a bound; translation of meshes only";
-  method.make = [](const ContactCase& of) -> ContactQuestion {
+  method.make = [](const ContactCase& of) -> ContactQuery {
     if (Turns(of) || of.a.kind != MovingBody::Kind::kBox || of.b.kind != MovingBody::Kind::kBox) {
       return nullptr;
     }
@@ -156,7 +155,7 @@ void AddRayShooting(ContactMethods* methods) {
   ContactMethod method;
   method.name = "FCL ray shooting";
   method.limited_by = "not written in version 0.7: always no";
-  method.make = [](const ContactCase& of) -> ContactQuestion {
+  method.make = [](const ContactCase& of) -> ContactQuery {
     if (Turns(of)) return nullptr;
     const fcl::ContinuousCollisionRequestd request(1000, 1e-8, fcl::CCDM_TRANS, fcl::GST_LIBCCD,
                                                    fcl::CCDC_RAY_SHOOTING);

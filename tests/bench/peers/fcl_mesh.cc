@@ -1,4 +1,4 @@
-// FCL: two trees of one mesh, asked with each kind of bounding volume that serves the question.
+// FCL: two trees of one mesh, asked with each kind of bounding volume that serves the query.
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 

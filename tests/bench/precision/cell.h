@@ -18,7 +18,7 @@ struct PrecisionSettings : CommonOptions {
   TimingPlan plan() const { return quick ? TimingPlan{1, 0.05, 0} : TimingPlan{3, 0.5, 0}; }
   std::size_t contacts() const { return quick ? 6 : 24; }
   int passes() const { return quick ? 1 : 3; }
-  /// A question that takes longer is given up [s], and after so many of them the method.
+  /// A query that takes longer is given up [s], and after so many of them the method.
   double contact_cut_off() const { return quick ? 0.05 : 1; }
   std::size_t endless_max() const { return quick ? 0 : 2; }
 };

@@ -20,7 +20,7 @@ struct Asked {
 };
 
 /// The least of a few times.
-Asked AskHere(const ContactQuestion& ask, int passes) {
+Asked AskHere(const ContactQuery& ask, int passes) {
   Asked asked;
   asked.ended = true;
   asked.seconds = std::numeric_limits<double>::infinity();
@@ -36,7 +36,7 @@ Asked AskHere(const ContactQuestion& ask, int passes) {
   return asked;
 }
 
-Asked AskApart(const ContactQuestion& ask, int passes, double cut_off) {
+Asked AskApart(const ContactQuery& ask, int passes, double cut_off) {
   const ApartResult result = RunApart(cut_off, [&] {
     // The first one of a process pays for its memory.
     const Asked asked = AskHere(ask, passes + 1);

@@ -118,7 +118,7 @@ TEST(AdaptiveBroadPhase, DecidesByCountedWorkAndKeepsToIt) {
   scene.Resize(500);
   for (int i = 0; i < 20000; ++i) scene.Step();
   EXPECT_LE(scene.chosen.changes(), 7u) << "1, and 2 with each try";
-  EXPECT_NE(scene.chosen.why().find(" units of work a question with 500, "), std::string::npos)
+  EXPECT_NE(scene.chosen.why().find(" units of work a query with 500, "), std::string::npos)
       << scene.chosen.why();
   scene.ExpectSameEarliest();
 }

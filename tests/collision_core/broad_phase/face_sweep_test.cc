@@ -172,8 +172,8 @@ TEST(FaceSweepCost, EverythingAtOnePoint) {
   }
 }
 
-// Goal:   nothing of an earlier question stays behind: the answer is that of the present bounds.
-// Method: one sweep through changes, removals and questions of both kinds; one made anew beside it.
+// Goal:   nothing of an earlier query stays behind: the answer is that of the present bounds.
+// Method: one sweep through changes, removals and queries of both kinds; one made anew beside it.
 TEST(FaceSweep, RemembersNothing) {
   Random random(8);
   FaceSweep sweep;

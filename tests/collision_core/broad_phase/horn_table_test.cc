@@ -1,6 +1,6 @@
 // Goal:   the filter between two horns never rules out what the canonical routine answers, and
 //         rules out most of what comes later.
-// Method: pairs of all scales, stamps before and after the question's begin; beside the canonical
+// Method: pairs of all scales, stamps before and after the query's begin; beside the canonical
 //         answer, whose own error is at most a relative 1e-9.
 #include "collision_core/broad_phase/filter/horn_table.h"
 

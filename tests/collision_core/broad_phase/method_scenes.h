@@ -26,7 +26,7 @@ std::unique_ptr<SweepingIndex> MakeMethod() {
   return std::make_unique<Method>();
 }
 
-/// A face sweep answers one question about all agents; an exhaustive index beside it, over the same
+/// A face sweep answers one query about all agents; an exhaustive index beside it, over the same
 /// bounds, rules and half-spaces, answers the others.
 class SweepBesideIndex : public SweepingIndex {
  public:

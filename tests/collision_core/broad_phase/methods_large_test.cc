@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes), [](
 });
 
 // Four fast ones fly through a crowd at rest. Placed long after, they have a long way back.
-TEST(LargeMethods, AQuestionFromLongBeforeTheLastOneLosesNobody) {
+TEST(LargeMethods, AQueryFromLongBeforeTheLastOneLosesNobody) {
   constexpr int kFast = 4;
   for (int seed = 0; seed < 10; ++seed) {
     for (const double back : {1e2, 1e3, 1e4, 3e4, 1e5}) {

@@ -123,8 +123,8 @@ TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
   }
 }
 
-/// `count` agents in a cube, asked about in turn; the work that the questions took.
-BroadPhaseWork WorkOfQuestions(SweepingIndex* method, std::uint32_t count) {
+/// `count` agents in a cube, asked about in turn; the work that the queries took.
+BroadPhaseWork WorkOfQueries(SweepingIndex* method, std::uint32_t count) {
   const BroadPhaseWork before = method->work();
   for (std::uint32_t agent = 0; agent < count; agent += 7) {
     const Instant from = numeric::AddRoundedUp(kMethodStart, 1e-3 * agent);
@@ -168,7 +168,7 @@ TEST_P(MethodsWithRules, CostNothingWhereUnused) {
   ASSERT_TRUE(ruled->SetHalfSpace(kAgents, {{0, 0, 1}, 1, 1, 2}));
   ASSERT_TRUE(ruled->SetHalfSpace(kAgents + 1, {{0, 0, 1}, 1}));
   ruled->Remove(kAgents + 1);
-  ExpectSameWork(WorkOfQuestions(ruled.get(), kAgents), WorkOfQuestions(plain.get(), kAgents));
+  ExpectSameWork(WorkOfQueries(ruled.get(), kAgents), WorkOfQueries(plain.get(), kAgents));
 }
 
 // Goal:   an excluded pair is not asked. Method: where all are, no pair at all.
@@ -176,11 +176,11 @@ TEST_P(MethodsWithRules, DoNotAskExcludedPairs) {
   constexpr std::uint32_t kAgents = 60;
   const auto method = GetParam().make();
   Fill(method.get(), kAgents, 1);
-  EXPECT_GT(WorkOfQuestions(method.get(), kAgents).pair_queries, 0u);
+  EXPECT_GT(WorkOfQueries(method.get(), kAgents).pair_queries, 0u);
   for (std::uint32_t a = 0; a < kAgents; ++a) {
     for (std::uint32_t b = 0; b < a; ++b) ASSERT_TRUE(method->Exclude(a, b));
   }
-  EXPECT_EQ(WorkOfQuestions(method.get(), kAgents).pair_queries, 0u);
+  EXPECT_EQ(WorkOfQueries(method.get(), kAgents).pair_queries, 0u);
   EXPECT_FALSE(
       method->Earliest({intersection::BoundKind::kHypertrapezoid, kMethodStart, kMethodStart}));
   std::vector<NearPair> pairs;

@@ -1,4 +1,4 @@
-// Goal:   every method gives the same answer to the same question: same pair, same bits.
+// Goal:   every method gives the same answer to the same query: same pair, same bits.
 // Method: thousands of seeded scenes, ordinary and adversarial, and long histories of admissions,
 //         removals, teleports, widenings and kept states; the oracle asks the canonical routine for
 //         every pair.
@@ -125,7 +125,7 @@ TEST_P(Methods, TellTheSameMeetingsOfOneAgent) {
       const Agents agents = scene.make(&random);
       const auto method = GetParam().make();
       for (std::uint32_t a = 0; a < agents.size(); ++a) method->Set(a, *agents[a]);
-      for (int question = 0; question < 4; ++question) {
+      for (int query = 0; query < 4; ++query) {
         const auto agent = static_cast<std::uint32_t>(random.Below(agents.size()));
         const Instant from = numeric::AddRoundedUp(kMethodStart, random.Uniform(-0.5, 1));
         const Instant until = numeric::AddRoundedUp(from, random.LogUniform(1e-3, 10));

@@ -1,7 +1,7 @@
-// Goal:   every method answers a question about a bound that it does not hold as the canonical
+// Goal:   every method answers a query about a bound that it does not hold as the canonical
 //         routine does, pair by pair, and is left as it was.
 // Method: all scenes of the methods; one agent's bound is not set but asked about; the next
-//         question about a held agent is answered as before.
+//         query about a held agent is answered as before.
 #include <gtest/gtest.h>
 
 #include "collision_core/broad_phase/adaptive_broad_phase.h"
@@ -61,7 +61,7 @@ TEST_P(NeighboursOfABound, AreThoseOfTheCanonicalRoutine) {
         if (a != guest) method->Set(a, *agents[a]);
       }
       const auto held = guest == 0 ? 1u : 0u;
-      for (int question = 0; question < 3; ++question) {
+      for (int query = 0; query < 3; ++query) {
         const Instant from = numeric::AddRoundedUp(kMethodStart, random.Uniform(-0.5, 1));
         const Instant until = numeric::AddRoundedUp(from, random.LogUniform(1e-3, 10));
         const Answer before = AskedOfHeld(method.get(), held, from, until);

@@ -34,7 +34,7 @@ struct Balls {
   }
 };
 
-struct Question {
+struct Query {
   FilterQuery query;
   FilterRange range;
   Ball query_ball;
@@ -81,30 +81,30 @@ class LaneScanTest : public testing::Test {
     const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
     for (auto& array : balls_.arrays) array.assign(kBalls + kLanesMax, 0);
     balls_.truth.clear();
-    Ball& query_ball = question_.query_ball;
+    Ball& query_ball = query_.query_ball;
     for (int i = 0; i < 3; ++i) {
       query_ball.p[i] = single(random.Uniform(-size, size));
       query_ball.v[i] = single(random.Uniform(-speed, speed));
     }
     query_ball.reach = single(size * random.Uniform(0, 0.5));
-    question_.query.first = static_cast<float>(first);
-    question_.query.last = static_cast<float>(last);
-    question_.query.time = static_cast<float>(last);
-    first_ = static_cast<double>(question_.query.first);
-    last_ = static_cast<double>(question_.query.last);
+    query_.query.first = static_cast<float>(first);
+    query_.query.last = static_cast<float>(last);
+    query_.query.time = static_cast<float>(last);
+    first_ = static_cast<double>(query_.query.first);
+    last_ = static_cast<double>(query_.query.last);
     const double reach_time = std::max(std::abs(first_), std::abs(last_));
     const auto speed_of = [](const Ball& ball) {
       return std::sqrt(ball.v[0] * ball.v[0] + ball.v[1] * ball.v[1] + ball.v[2] * ball.v[2]);
     };
     const auto way = [&](const Ball& ball) { return reach_time * speed_of(ball); };
-    question_.query.vx = static_cast<float>(query_ball.v[0]);
-    question_.query.vy = static_cast<float>(query_ball.v[1]);
-    question_.query.vz = static_cast<float>(query_ball.v[2]);
-    question_.query.reach = WithSlack(query_ball.reach, way(query_ball));
-    question_.query.speed = WithSlack(speed_of(query_ball), 0);
-    question_.query.way = static_cast<float>(reach_time);
-    question_.range = {0, kBalls, static_cast<float>(query_ball.p[0]),
-                       static_cast<float>(query_ball.p[1]), static_cast<float>(query_ball.p[2])};
+    query_.query.vx = static_cast<float>(query_ball.v[0]);
+    query_.query.vy = static_cast<float>(query_ball.v[1]);
+    query_.query.vz = static_cast<float>(query_ball.v[2]);
+    query_.query.reach = WithSlack(query_ball.reach, way(query_ball));
+    query_.query.speed = WithSlack(speed_of(query_ball), 0);
+    query_.query.way = static_cast<float>(reach_time);
+    query_.range = {0, kBalls, static_cast<float>(query_ball.p[0]),
+                    static_cast<float>(query_ball.p[1]), static_cast<float>(query_ball.p[2])};
     for (int k = 0; k < kBalls; ++k) {
       Ball ball;
       for (int i = 0; i < 3; ++i) {
@@ -131,15 +131,14 @@ class LaneScanTest : public testing::Test {
 
   std::vector<std::uint32_t> Hits(SphereFilter scan) const {
     std::vector<std::uint32_t> hits(kBalls + kLanesMax);
-    const FilterRange ranges[] = {
-        {0, 5, question_.range.x, question_.range.y, question_.range.z},
-        {5, kBalls, question_.range.x, question_.range.y, question_.range.z}};
-    hits.resize(scan(balls_.view(), question_.query, ranges, 2, hits.data()));
+    const FilterRange ranges[] = {{0, 5, query_.range.x, query_.range.y, query_.range.z},
+                                  {5, kBalls, query_.range.x, query_.range.y, query_.range.z}};
+    hits.resize(scan(balls_.view(), query_.query, ranges, 2, hits.data()));
     return hits;
   }
 
   Balls balls_;
-  Question question_;
+  Query query_;
   double first_ = 0, last_ = 0;
 };
 
@@ -151,8 +150,8 @@ TEST_F(LaneScanTest, LosesNobodyAndRulesOutMost) {
     for (const std::uint32_t k : Hits(PlainSphereFilter())) hit[k] = true;
     for (int k = 0; k < kBalls; ++k) {
       const Exact square =
-          LeastSquare(question_.query_ball, balls_.truth[k], Exact(first_), Exact(last_));
-      const Exact reach = Exact(question_.query_ball.reach) + Exact(balls_.truth[k].reach);
+          LeastSquare(query_.query_ball, balls_.truth[k], Exact(first_), Exact(last_));
+      const Exact reach = Exact(query_.query_ball.reach) + Exact(balls_.truth[k].reach);
       if (square <= reach * reach) {
         ++near;
         ASSERT_TRUE(hit[k]) << "seed " << seed << ", ball " << k;

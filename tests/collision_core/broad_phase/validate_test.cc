@@ -1,6 +1,6 @@
 // Goal:   the structures of the index are whole after every step of a history, and a walk of them
 //         tells a broken one; what a constructor requires is checked.
-// Method: agents of all sizes come, move and go in random order, with questions in between; each
+// Method: agents of all sizes come, move and go in random order, with queries in between; each
 //         structure is walked after each step. A row is broken on purpose.
 #include <gtest/gtest.h>
 

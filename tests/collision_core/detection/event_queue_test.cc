@@ -62,7 +62,7 @@ TEST(EventQueue, UpToGivesAllThatAreNotLater) {
   }
 }
 
-// Goal:   a question about the head of an empty queue, or an absent index, is refused, not
+// Goal:   a query about the head of an empty queue, or an absent index, is refused, not
 //         undefined.
 TEST(EventQueue, RefusesToNameAHeadThatItDoesNotHave) {
   EventQueue<AgentIndex> queue;

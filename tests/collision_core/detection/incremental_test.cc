@@ -91,7 +91,7 @@ TEST(Incremental, AStepCostsWhatIsDue) {
 }
 
 // The output of 10,000 agents at one point is: each is saturated. Asking about every pair would be
-// 50 million questions; tracked are no more pairs than there is room for, and asking goes no
+// 50 million queries; tracked are no more pairs than there is room for, and asking goes no
 // further.
 TEST(Incremental, ACrowdAtOnePointCostsWhatIsPublished) {
   const std::uint32_t agents = kSanitized ? 1000 : 10000;

@@ -107,7 +107,7 @@ ContactWitness LastLeaves(const Pair& pair) {
 
 using Ask = std::function<void(const Pair&, WorkBudget*)>;
 
-std::vector<std::pair<const char*, Ask>> Questions() {
+std::vector<std::pair<const char*, Ask>> Queries() {
   std::vector<std::pair<const char*, Ask>> asks;
   for (const Goal goal : {Goal::kDecision, Goal::kContact, Goal::kNearest, Goal::kYesNo}) {
     asks.emplace_back("QuerySeparation", [goal](const Pair& pair, WorkBudget* work) {
@@ -186,7 +186,7 @@ TEST(Budget, IsOverrunByABatchAtMost) {
       int number = 0;
       for (const auto& [a, b] : Motions(bodies[i].second, bodies[j].second)) {
         const Pair pair(a, b, number++ % 2 == 0 ? Result::kAtStart : Result::kAtBoth);
-        for (const auto& [what, ask] : Questions()) {
+        for (const auto& [what, ask] : Queries()) {
           ExpectWithinBatch(what, pair, ask);
         }
       }

@@ -148,10 +148,10 @@ numeric::Interval LeastOfAll(const BodyTree& a, const BodyTree& b, const Relativ
     for (std::uint32_t j = 0; j < of_b; ++j) {
       WorkBudget work(10000);
       geometry::GjkHint none;
-      const ConvexQuestion question{ConvexGoal::kDistance, 1e-12, 0};
+      const ConvexQuery query{ConvexGoal::kDistance, 1e-12, 0};
       const numeric::Interval pair =
           SeparationOf(PosedA(SetOf(a, ElementIndex(i)), pose),
-                       PosedB(SetOf(b, ElementIndex(j)), pose), question, &none, &work)
+                       PosedB(SetOf(b, ElementIndex(j)), pose), query, &none, &work)
               .separation;
       least = {std::min(least.lower, pair.lower), std::min(least.upper, pair.upper)};
     }

@@ -101,7 +101,7 @@ TEST(ConvexBracket, RadiiShiftItAndErrorsWidenIt) {
   EXPECT_GE(bracket.separation_upper(), 3 - 0.75 + 0.1875);
 }
 
-TEST(ConvexBracket, IsGoodEnoughAtTheTolerancesOfTheQuestion) {
+TEST(ConvexBracket, IsGoodEnoughAtTheTolerancesOfTheQuery) {
   const geometry::ConvexSet a = CubeAt({0, 0, 0}), b = CubeAt({5, 0, 0});
   ConvexBracket bracket(a, b);
   bracket.TryDirection({1, 0, 0});
@@ -118,12 +118,12 @@ TEST(ConvexSearch, AnswersYesOrNoOfBoxesByTheirFacesAlone) {
   for (const double x : {1.5, 5.0}) {
     const geometry::ConvexSet a = CubeAt({0, 0, 0}), b = CubeAt({x, 0.25, 0});
     ConvexBracket bracket(a, b);
-    const ConvexQuestion question{.goal = ConvexGoal::kYesNo};
+    const ConvexQuery query{.goal = ConvexGoal::kYesNo};
     WorkBudget work(100);
     geometry::GjkHint hint;
-    ConvexSearch search(question, &bracket, &work);
+    ConvexSearch search(query, &bracket, &work);
     search.Run(&hint);
-    EXPECT_EQ(work.left(), 100 - kFacesUnits);
+    EXPECT_EQ(work.left(), 100 - kBoxAxesUnits);
     EXPECT_EQ(x > 2, bracket.separation_lower() > 0);
     EXPECT_EQ(x < 2, bracket.separation_upper() <= 0);
     EXPECT_EQ(hint.count, 0);
@@ -133,11 +133,11 @@ TEST(ConvexSearch, AnswersYesOrNoOfBoxesByTheirFacesAlone) {
 
 TEST(ConvexSearch, ContainsTheDistanceHoweverLittleWorkIsAllowed) {
   const geometry::ConvexSet a = CubeAt({0, 0, 0}), b = CubeAt({5, 1, 0});
-  const ConvexQuestion question;
+  const ConvexQuery query;
   for (const std::uint64_t units : {0, 1, 2, 100}) {
     ConvexBracket bracket(a, b);
     WorkBudget work(units);
-    ConvexSearch search(question, &bracket, &work);
+    ConvexSearch search(query, &bracket, &work);
     search.Run(nullptr);
     EXPECT_LE(bracket.separation_lower(), 3);
     EXPECT_GE(bracket.separation_upper(), 3);
@@ -151,11 +151,11 @@ TEST(ConvexSearch, SaysThatALimitEndedIt) {
   geometry::ConvexSet a = CubeAt({0, 0, 0}), b = CubeAt({0.5, 0.25, 0.125});
   a.core = b.core = geometry::ConvexCore::kEllipsoid;
   b.generators.diagonal() = Vector3d(0.25, 1, 0.5);
-  const ConvexQuestion question{.relative_tolerance = 1e-2};
+  const ConvexQuery query{.relative_tolerance = 1e-2};
   for (const std::uint64_t units : {1, 1000}) {
     ConvexBracket bracket(a, b);
     WorkBudget work(units);
-    ConvexSearch search(question, &bracket, &work);
+    ConvexSearch search(query, &bracket, &work);
     search.Run(nullptr);
     EXPECT_EQ(search.exhausted(), units == 1);
     EXPECT_LE(bracket.separation_lower(), bracket.separation_upper());

@@ -98,10 +98,10 @@ class ConvexCase {
     return Placed(ExactCorners(description_b_), PlacementOf(pose_.R_AB, pose_.p_AB));
   }
 
-  narrow_phase::ConvexSeparation Ask(const narrow_phase::ConvexQuestion& question = {}) const {
+  narrow_phase::ConvexSeparation Ask(const narrow_phase::ConvexQuery& query = {}) const {
     WorkBudget work(1000000);
     geometry::GjkHint hint;
-    return SeparationOf(SetA(), SetB(), question, &hint, &work);
+    return SeparationOf(SetA(), SetB(), query, &hint, &work);
   }
 
   double Size() const {
@@ -122,7 +122,7 @@ class ConvexCase {
     }
     EXPECT_TRUE(IsAtMost(found.separation.lower, square, rounding)) << found.separation.lower;
     if (square > 0) CheckNormal(found, nearest);
-    narrow_phase::ConvexQuestion coarse;
+    narrow_phase::ConvexQuery coarse;
     coarse.relative_tolerance = 0.05;
     if (square > 0) CheckNormal(Ask(coarse), nearest);
     return square;

@@ -59,12 +59,12 @@ SquareBracket ToSurface(const shape::ConvexDescription& d, const Vector3d& point
 }
 
 ConvexSeparation Ask(const shape::ConvexDescription& a, const shape::ConvexDescription& b,
-                     const ConvexQuestion& question) {
+                     const ConvexQuery& query) {
   const shape::ConvexSolid solid_a = shape::ConvexSolid::Build(a),
                            solid_b = shape::ConvexSolid::Build(b);
   geometry::GjkHint hint;
   WorkBudget work(1000000);
-  return SeparationOf(solid_a.set(), solid_b.set(), question, &hint, &work);
+  return SeparationOf(solid_a.set(), solid_b.set(), query, &hint, &work);
 }
 
 // Goal:   the distance of a ball to an ellipsoid, and how deep it is in it, are contained and known
@@ -78,9 +78,9 @@ TEST(ConvexEllipsoid, BallsOutsideAndInside) {
     shape::ConvexDescription b;
     b.rounding = random.Uniform(0.01, 1);
     b.p_BS = random.Uniform(0, 2) * random.UnitVector();
-    ConvexQuestion question;
-    question.relative_tolerance = 1e-6;
-    const ConvexSeparation found = Ask(a, b, question);
+    ConvexQuery query;
+    query.relative_tolerance = 1e-6;
+    const ConvexSeparation found = Ask(a, b, query);
     bool inside = false;
     const SquareBracket square = ToSurface(a, b.p_BS, &inside);
     const Exact rounding = b.rounding;
@@ -199,9 +199,9 @@ TEST(ConvexEllipsoid, EllipsoidsAndBoxes) {
     const shape::ConvexDescription a = RandomEllipsoid(random, i % 2 ? 0.3 : 0.1);
     shape::ConvexDescription b = i % 3 ? RandomEllipsoid(random, 0.3) : RandomBox(random, 1);
     b.p_BS = random.Uniform(1.2, 4) * random.UnitVector();
-    ConvexQuestion question;
-    question.relative_tolerance = 1e-6;
-    const ConvexSeparation found = Ask(a, b, question);
+    ConvexQuery query;
+    query.relative_tolerance = 1e-6;
+    const ConvexSeparation found = Ask(a, b, query);
     if (!(found.separation.lower > 0.01)) continue;
     const Wide distance = ByProjections(WideSolid(a), WideSolid(b));
     if (distance < 0) continue;

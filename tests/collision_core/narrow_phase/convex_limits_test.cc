@@ -92,12 +92,12 @@ TEST(ConvexLimits, YesOrNo) {
   for (int i = 0; i < 2000; ++i) {
     const Solids s = RandomSolids(random, 3);
     const numeric::Interval best = Best(s).separation;
-    ConvexQuestion question;
-    question.goal = ConvexGoal::kYesNo;
+    ConvexQuery query;
+    query.goal = ConvexGoal::kYesNo;
     geometry::GjkHint hint;
     WorkBudget work(1000000);
     const numeric::Interval found =
-        SeparationOf(s.a.set(), s.b.set(), question, &hint, &work).separation;
+        SeparationOf(s.a.set(), s.b.set(), query, &hint, &work).separation;
     ExpectMeet(found, best);
     no += best.lower > 1e-9;
     yes += best.upper < -1e-9;
@@ -119,16 +119,16 @@ TEST(ConvexLimits, WidthAskedFor) {
   for (int i = 0; i < 500; ++i) {
     const Solids s = RandomSolids(random, 6);
     for (const double width : {1e-1, 1e-3, 1e-6}) {
-      ConvexQuestion question;
-      question.absolute_tolerance = i % 2 ? width : 0;
-      question.relative_tolerance = i % 2 ? 0 : width;
+      ConvexQuery query;
+      query.absolute_tolerance = i % 2 ? width : 0;
+      query.relative_tolerance = i % 2 ? 0 : width;
       geometry::GjkHint hint;
       WorkBudget work(1000000);
-      const ConvexSeparation found = SeparationOf(s.a.set(), s.b.set(), question, &hint, &work);
+      const ConvexSeparation found = SeparationOf(s.a.set(), s.b.set(), query, &hint, &work);
       const numeric::Interval at = found.separation;
       if (!(at.lower > 1e-3)) continue;
       EXPECT_LE(at.width(),
-                std::max(question.absolute_tolerance, question.relative_tolerance * at.lower));
+                std::max(query.absolute_tolerance, query.relative_tolerance * at.lower));
       if (width == 1e-1) coarse += work.spent();
       if (width == 1e-6) fine += work.spent();
     }
@@ -136,7 +136,7 @@ TEST(ConvexLimits, WidthAskedFor) {
   EXPECT_LT(coarse, fine);
 }
 
-// Goal:   the same question has the same bits for an answer.
+// Goal:   the same query has the same bits for an answer.
 TEST(ConvexLimits, Deterministic) {
   Random random(325);
   for (int i = 0; i < 100; ++i) {

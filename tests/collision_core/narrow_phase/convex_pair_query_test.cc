@@ -1,4 +1,4 @@
-// The questions asked most, by whichever way they are answered: at a glance, in closed form, by the
+// The queries asked most, by whichever way they are answered: at a glance, in closed form, by the
 // quick search or by the patient one.
 #include "collision_core/narrow_phase/convex_pair/convex_pair_query.h"
 
@@ -36,14 +36,14 @@ bool VerdictIsTrue(const ConvexCase& c, const RelativePose& pose, const Exact& s
   return verdict != Verdict::kUndecided;
 }
 
-numeric::Interval SeparationOf(const ConvexCase& c, const ConvexQuestion& question) {
+numeric::Interval SeparationOf(const ConvexCase& c, const ConvexQuery& query) {
   WorkBudget work(1000000);
-  return SeparationOfConvexPair(c.OfA(), c.OfB(), c.pose(), question, &work);
+  return SeparationOfConvexPair(c.OfA(), c.OfB(), c.pose(), query, &work);
 }
 
 /// The exact separation of the cores, less rounding, is contained; depths by their sign only.
-void CheckContained(const ConvexCase& c, const ConvexQuestion& question, const Exact& square) {
-  const numeric::Interval found = SeparationOf(c, question);
+void CheckContained(const ConvexCase& c, const ConvexQuery& query, const Exact& square) {
+  const numeric::Interval found = SeparationOf(c, query);
   EXPECT_LE(found.lower, found.upper);
   EXPECT_TRUE(IsAtMost(found.lower, square, c.Rounding())) << found.lower;
   if (square > 0 || found.upper >= 0) {
@@ -58,13 +58,13 @@ void CheckAll(const ConvexCase& c, double gap_known) {
   EXPECT_TRUE(said || gap_known <= 1e-11 * c.Size()) << gap_known;
   for (const double share : {0.0, 1e-6, 0.05}) {
     for (const ConvexGoal goal : {ConvexGoal::kDistance, ConvexGoal::kDepth}) {
-      const ConvexQuestion question{goal, share, 0};
-      CheckContained(c, question, square);
-      const numeric::Interval found = SeparationOf(c, question);
+      const ConvexQuery query{goal, share, 0};
+      CheckContained(c, query, square);
+      const numeric::Interval found = SeparationOf(c, query);
       const double least = std::max({0.0, found.lower, -found.upper});
       const double enough = std::max(2.5e-14 * c.Size(), share * least);
       if (goal == ConvexGoal::kDistance && found.upper <= 0) continue;
-      EXPECT_LE(found.width(), std::max(enough, c.Ask(question).separation.width()));
+      EXPECT_LE(found.width(), std::max(enough, c.Ask(query).separation.width()));
     }
   }
   if (testing::Test::HasFailure()) FAIL();
@@ -276,9 +276,9 @@ TEST(ConvexPairQuery, SetsAsTheyAreWritten) {
       const Verdict verdict = DecideConvexPair(solid_a.set(), solid_b.set(), pose, &work);
       ASSERT_FALSE(verdict == Verdict::kApart && square == 0) << i;
       ASSERT_FALSE(verdict == Verdict::kTouching && square > 0) << i;
-      const ConvexQuestion question{ConvexGoal::kDepth, 0, 0};
+      const ConvexQuery query{ConvexGoal::kDepth, 0, 0};
       const numeric::Interval found =
-          SeparationOfConvexPair(solid_a.set(), solid_b.set(), pose, question, &work);
+          SeparationOfConvexPair(solid_a.set(), solid_b.set(), pose, query, &work);
       ASSERT_TRUE(IsAtMost(found.lower, square, 0)) << i;
       ASSERT_TRUE(square == 0 || IsAtLeast(found.upper, square, 0)) << i;
       geometry::GjkHint hint;

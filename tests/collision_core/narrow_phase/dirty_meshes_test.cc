@@ -1,4 +1,4 @@
-// Goal:   whatever a mesh looks like, it gets a tree, and every question about it an answer that
+// Goal:   whatever a mesh looks like, it gets a tree, and every query about it an answer that
 //         holds, within the work allowed: brackets contain the true distance, what is said to be
 //         free is, what is said to touch does.
 // Method: dirty meshes by the thousand, built either way, in pairs and beside balls, at rest and in

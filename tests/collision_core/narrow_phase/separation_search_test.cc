@@ -68,7 +68,7 @@ struct Asked {
   SearchOrder order = SearchOrder::kAsGoal;
 };
 
-std::vector<Asked> Questions(double size) {
+std::vector<Asked> Queries(double size) {
   return {{Goal::kDecision, {}},
           {Goal::kContact, {}},
           {Goal::kNearest, {}},
@@ -83,7 +83,7 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const Pair pair = RandomPair(seed);
-    for (const Asked& asked : Questions(pair.size())) {
+    for (const Asked& asked : Queries(pair.size())) {
       const auto search = [&] {
         return std::make_unique<SeparationSearch>(
             PosedPair{pair.surface_a, pair.surface_b, pair.pose}, asked.goal, asked.narrow,
@@ -119,7 +119,7 @@ TEST(SeparationSearch, SameBitsForEveryWidthOfVectors) {
     SCOPED_TRACE(seed);
     Pair pair = RandomPair(seed);
     if (seed % 3 == 0) pair.pose.chord_A = 1e-3, pair.pose.chord_B = 0.1;
-    for (const Asked& asked : Questions(pair.size())) {
+    for (const Asked& asked : Queries(pair.size())) {
       const auto look_with = [&](const SpherePairKernel& scan, std::uint64_t* spent) {
         SeparationSearch search({pair.surface_a, pair.surface_b, pair.pose}, asked.goal,
                                 asked.narrow, asked.order, scan);

@@ -24,16 +24,16 @@ class SweptElementsTest : public testing::Test {
     swept_.velocity = {-2, 0, 0};
   }
 
-  /// The least time over all elements, by one question for each.
-  using Question = std::function<double(const SweptElements&, ElementIndex)>;
-  double Least(const BodySegment& a, const BodySegment& b, const Question& question) {
+  /// The least time over all elements, by one query for each.
+  using Query = std::function<double(const SweptElements&, ElementIndex)>;
+  double Least(const BodySegment& a, const BodySegment& b, const Query& query) {
     const BodyTree tree_a(a), tree_b(b);
     const SweptPair pair{tree_a, tree_b, swept_};
     const PointMotion motion(pair);
     const SweptElements elements(pair, motion, kDuration, &work_);
     double least = numeric::kInfinity;
     for (std::uint32_t i = 0; i < kTriangles; ++i) {
-      least = std::min(least, question(elements, ElementIndex(i)));
+      least = std::min(least, query(elements, ElementIndex(i)));
     }
     return least;
   }

@@ -163,7 +163,7 @@ TEST(TreeCheck, TreesAreBoundedByTheirMesh) {
   EXPECT_NE(RefusalOf(Comb(levels + 1, 8, 32), mesh), std::nullopt);
 }
 
-// Goal:   whatever passes can be walked: every question about it ends, within its arrays.
+// Goal:   whatever passes can be walked: every query about it ends, within its arrays.
 // Method: 5,000 trees with words overwritten at random; those that pass are asked (the sanitizers
 //         watch), and some do pass.
 TEST(TreeCheck, WhateverPassesCanBeUsed) {

@@ -80,7 +80,7 @@ TEST(FieldCheck, TextCountsBytes) {
   EXPECT_TRUE(check.passed());
   check.Text("name", "\xc3\xa4\x62", 2);
   ASSERT_FALSE(check.passed());
-  EXPECT_EQ(check.refusal()->detail, "3 characters; allowed: 0 to 2");
+  EXPECT_EQ(check.refusal()->detail, "3 bytes; allowed: 0 to 2");
 }
 
 TEST(FieldCheck, TheFirstFaultStaysAndKeepsItsPlace) {

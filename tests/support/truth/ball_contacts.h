@@ -13,7 +13,7 @@ struct BallContact {
   std::int64_t begin_ns = 0;
   std::int64_t end_ns = 0;
   double depth = 0;              ///< Greatest overlap [m].
-  bool begins_in_motion = true;  ///< Not at the start of the question and not by a jump.
+  bool begins_in_motion = true;  ///< Not at the start of the query and not by a jump.
   bool ends_in_motion = true;    ///< Not at its end and not by a jump.
 };
 

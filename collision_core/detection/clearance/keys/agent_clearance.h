@@ -30,7 +30,9 @@ struct AgentClearance {
   /// The clearances of other agents take account of this agent's latest admission, jump, breach or
   /// widening from this instant on.
   Instant effective_from = Instant::Always();
-  ClearanceCause cause = ClearanceCause::kNone;  ///< Why it was lowered, if it was.
+  /// What changed it. It may be lower with kNone, where a contact ended or the agent became
+  /// saturated.
+  ClearanceCause cause = ClearanceCause::kNone;
   AgentId cause_agent{};                 ///< The agent that caused it; meaningful unless kNone.
   Instant void_from = Instant::Never();  ///< With kBreach: earlier clearances are void from here.
 };

@@ -29,7 +29,7 @@ class ReportedClearances {
   void SetEffectiveFrom(AgentIndex agent, Instant effective_from);
   /// The agent broke its bound: promises are void from `from` on.
   void RecordBreach(AgentIndex agent, Instant from);
-  /// The agent's own renewal, unless it was a breach.
+  /// The agent's own renewal is the cause, unless that was a breach, which RecordBreach() records.
   void RecordRenewal(AgentIndex agent);
   /// The agent's clearance may be lowered because of the renewal of `cause`.
   void NotifyPartner(AgentIndex agent, AgentIndex cause);

@@ -24,10 +24,10 @@ void DueMeetingSearch::Take(const std::vector<broad_phase::Neighbour>& found, st
   }
 }
 
-AgentIndex DueMeetingSearch::Find(const ClearanceQuestion& question, Instant horizon,
+AgentIndex DueMeetingSearch::Find(const ClearanceQuery& query, Instant horizon,
                                   std::vector<broad_phase::Neighbour>* found) {
   const Instant until = clock_.announce_until();
-  const std::size_t pairs = pairs_.RoomFor(question.agent);
+  const std::size_t pairs = pairs_.RoomFor(query.agent);
   Room seen{.pairs = pairs, .first = &first_};
   std::size_t taken = 0;
   found->clear();
@@ -36,12 +36,11 @@ AgentIndex DueMeetingSearch::Find(const ClearanceQuestion& question, Instant hor
     const AgentIndex partner(index);
     Take(*found, taken, &seen);
     taken = found->size();
-    if (question.LeavesOut(partner, tiers_)) return true;
+    if (query.LeavesOut(partner, tiers_)) return true;
     if (pairs_.IsFull(partner)) return partner > seen.first_full;
     return first_.size() > pairs && partner > first_.front();
   };
-  broad_phase_->FindNeighbours(question.agent.value(), {question.from, until, horizon}, skip,
-                               found);
+  broad_phase_->FindNeighbours(query.agent.value(), {query.from, until, horizon}, skip, found);
   // The neighbours have been sorted since: the order in which they were taken is lost.
   first_.clear();
   Room all{.pairs = pairs, .first = &first_};

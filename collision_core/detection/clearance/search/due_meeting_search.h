@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/neighbour_index.h"
-#include "collision_core/detection/clearance/search/clearance_question.h"
+#include "collision_core/detection/clearance/search/clearance_query.h"
 #include "collision_core/detection/pairs/pair_table.h"
 #include "collision_core/detection/step_clock.h"
 
@@ -24,7 +24,7 @@ class DueMeetingSearch {
   /// Replaces *found by the meetings by announce_until, and the earliest of the others up to
   /// `horizon`, in the order of partners. Returns the first partner for which there is no room:
   /// None() if the agent is not saturated.
-  AgentIndex Find(const ClearanceQuestion& question, Instant horizon,
+  AgentIndex Find(const ClearanceQuery& query, Instant horizon,
                   std::vector<broad_phase::Neighbour>* found);
 
  private:
@@ -41,7 +41,7 @@ class DueMeetingSearch {
   const AccelerationTiers& tiers_;
   const PairTable& pairs_;
   const StepClock& clock_;
-  std::vector<AgentIndex> first_;  // scratch of one question, kept for its memory
+  std::vector<AgentIndex> first_;  // scratch of one query, kept for its memory
 };
 
 }  // namespace collision::detection

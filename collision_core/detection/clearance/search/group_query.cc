@@ -5,7 +5,7 @@
 namespace collision::detection {
 namespace {
 
-/// A question that begins beyond this horizon looks for the next meeting separately.
+/// A query that begins beyond this horizon looks for the next meeting separately.
 constexpr int kHorizonNear = 4;
 
 }  // namespace
@@ -19,13 +19,13 @@ GroupQuery::GroupQuery(const DetectorContext& context, const QueryTargets& targe
       due_(targets.broad_phase, coverage_.tiers(), pairs_.table(), context.clock),
       next_(targets.broad_phase, coverage_.tiers(), context.clock) {}
 
-NextMeeting GroupQuery::Find(const ClearanceQuestion& question) {
-  TrackUncovered(question);
-  if (IsCrowded(question)) {
+NextMeeting GroupQuery::Find(const ClearanceQuery& query) {
+  TrackUncovered(query);
+  if (IsCrowded(query)) {
     in_crowd_ = true;
     return {};
   }
-  return QueryBroadPhase(question);
+  return QueryBroadPhase(query);
 }
 
 bool GroupQuery::TracksAll(AgentIndex agent, int group) const {
@@ -37,32 +37,32 @@ bool GroupQuery::TracksAll(AgentIndex agent, int group) const {
   return tracked == coverage_.tiers().Count(group);
 }
 
-void GroupQuery::TrackUncovered(const ClearanceQuestion& question) {
-  for (const UncoveredPartner& partner : uncovered_.Find(question)) {
-    TrackOrSaturate(question, partner, question.renewed ? Past::kUnknown : Past::kKnown);
+void GroupQuery::TrackUncovered(const ClearanceQuery& query) {
+  for (const UncoveredPartner& partner : uncovered_.Find(query)) {
+    TrackOrSaturate(query, partner, query.renewed ? Past::kUnknown : Past::kKnown);
   }
 }
 
 // An agent without room for another pair is saturated if there is a partner that should be tracked.
 // In a crowd that usually is the partner that saturated it before, or the one that saturated the
 // last such agent; so a crowd costs one pair query an agent, not one a pair.
-bool GroupQuery::IsCrowded(const ClearanceQuestion& question) {
+bool GroupQuery::IsCrowded(const ClearanceQuery& query) {
   const AgentTable& agents = context_.agents;
-  const AgentIndex agent = question.agent;
+  const AgentIndex agent = query.agent;
   if (pairs_.table().RoomFor(agent) > 0) return false;
   const AgentRecord& record = agents[agent];
   const broad_phase::AgentBound bound = record.wide_bound();
   const AgentIndex before =
-      question.was_saturated ? coverage_[agent].crowded_with : AgentIndex::None();
+      query.was_saturated ? coverage_[agent].crowded_with : AgentIndex::None();
   for (const AgentIndex partner :
        {before, coverage_.last_saturated(), coverage_.last_untracked()}) {
     if (partner == agent || !agents.Contains(partner)) continue;
     const AgentRecord& other = agents[partner];
-    if (other.expired || question.tracked->Contains(partner)) continue;
+    if (other.expired || query.tracked->Contains(partner)) continue;
     if (!CanMeet(record.declaration.filter, other.declaration.filter)) continue;
     ++context_.counters->pair_queries;
     const intersection::IntersectionTime time =
-        EarliestIntersection(bound, other.wide_bound(), question.from);
+        EarliestIntersection(bound, other.wide_bound(), query.from);
     if (time.instant() > context_.clock.announce_until()) continue;
     coverage_.Saturate(agent, partner);
     return true;
@@ -70,26 +70,26 @@ bool GroupQuery::IsCrowded(const ClearanceQuestion& question) {
   return false;
 }
 
-NextMeeting GroupQuery::QueryBroadPhase(const ClearanceQuestion& question) {
-  const AgentIndex agent = question.agent;
+NextMeeting GroupQuery::QueryBroadPhase(const ClearanceQuery& query) {
+  const AgentIndex agent = query.agent;
   // In a crowd most agents are saturated, and need no key.
-  const bool crowd = in_crowd_ || question.was_saturated;
-  const int begin = next_.Begin(question);
+  const bool crowd = in_crowd_ || query.was_saturated;
+  const int begin = next_.Begin(query);
   const bool only_near = crowd || begin > kHorizonNear;
   const Instant until = only_near ? context_.clock.announce_until() : next_.horizons().At(begin);
-  const AgentIndex no_room = due_.Find(question, until, &found_);
+  const AgentIndex no_room = due_.Find(query, until, &found_);
   if (!no_room.is_none()) coverage_.Saturate(agent, no_room);
   in_crowd_ = coverage_.IsSaturated(agent);
-  TrackDue(question);
+  TrackDue(query);
   if (coverage_.IsSaturated(agent)) return {};
-  const NextMeeting next = NextMeetingSearch::EarliestOf(found_, *question.tracked);
-  if (next.when.is_never()) return next_.Find(question, until);
-  next_.Record(question, next.when);
+  const NextMeeting next = NextMeetingSearch::EarliestOf(found_, *query.tracked);
+  if (next.when.is_never()) return next_.Find(query, until);
+  next_.Record(query, next.when);
   return next;
 }
 
-void GroupQuery::TrackDue(const ClearanceQuestion& question) {
-  const AgentRecord& record = context_.agents[question.agent];
+void GroupQuery::TrackDue(const ClearanceQuery& query) {
+  const AgentRecord& record = context_.agents[query.agent];
   const Instant until = context_.clock.announce_until();
   for (const broad_phase::Neighbour& meeting : found_) {
     Instant when = meeting.time.instant();
@@ -97,24 +97,24 @@ void GroupQuery::TrackDue(const ClearanceQuestion& question) {
     const AgentIndex partner(meeting.partner);
     const bool overlap = meeting.time.seconds <= 0;
     // They may have met before, at any time that is not covered and at which both were there.
-    if (overlap && question.renewed) {
-      when = std::min(when, UncoveredFrom(record, context_.agents[partner], question.covered));
+    if (overlap && query.renewed) {
+      when = std::min(when, UncoveredFrom(record, context_.agents[partner], query.covered));
     }
     const bool unknown_before =
-        question.renewed || question.was_saturated || coverage_.IsSaturated(partner);
-    TrackOrSaturate(question, {partner, when},
+        query.renewed || query.was_saturated || coverage_.IsSaturated(partner);
+    TrackOrSaturate(query, {partner, when},
                     overlap && unknown_before ? Past::kUnknown : Past::kKnown);
-    if (question.renewed) reported_.NotifyPartner(partner, question.agent);
+    if (query.renewed) reported_.NotifyPartner(partner, query.agent);
   }
 }
 
-void GroupQuery::TrackOrSaturate(const ClearanceQuestion& question, const UncoveredPartner& partner,
+void GroupQuery::TrackOrSaturate(const ClearanceQuery& query, const UncoveredPartner& partner,
                                  Past past) {
-  if (!pairs_.Track(question.agent, partner.partner, partner.free_until, past)) {
-    coverage_.Saturate(question.agent, partner.partner);
-    coverage_.Saturate(partner.partner, question.agent);
+  if (!pairs_.Track(query.agent, partner.partner, partner.free_until, past)) {
+    coverage_.Saturate(query.agent, partner.partner);
+    coverage_.Saturate(partner.partner, query.agent);
   }
-  question.tracked->Add(partner.partner);
+  query.tracked->Add(partner.partner);
 }
 
 }  // namespace collision::detection

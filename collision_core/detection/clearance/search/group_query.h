@@ -1,4 +1,4 @@
-// The question about one group of an agent's partners.
+// The query about one group of an agent's partners.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@
 
 namespace collision::detection {
 
-/// What the questions read and change beside the DetectorContext. All outlive them.
+/// What the queries read and change beside the DetectorContext. All outlive them.
 struct QueryTargets {
   CoverageTable* coverage;
   ReportedClearances* reported;
@@ -31,9 +31,9 @@ class GroupQuery {
 
   const QueryHorizons& horizons() const { return next_.horizons(); }
 
-  /// Tracks the partners that may be met soon, and marks them in `question.tracked`. Returns the
+  /// Tracks the partners that may be met soon, and marks them in `query.tracked`. Returns the
   /// first meeting with one of the others; none if the agent is saturated afterwards.
-  NextMeeting Find(const ClearanceQuestion& question);
+  NextMeeting Find(const ClearanceQuery& query);
 
   /// Whether the agent is tracked with every partner of the group, so that no query is needed.
   bool TracksAll(AgentIndex agent, int group) const;
@@ -42,12 +42,11 @@ class GroupQuery {
   std::uint64_t looks() const { return next_.looks(); }
 
  private:
-  void TrackUncovered(const ClearanceQuestion& question);
-  bool IsCrowded(const ClearanceQuestion& question);
-  NextMeeting QueryBroadPhase(const ClearanceQuestion& question);
-  void TrackDue(const ClearanceQuestion& question);
-  void TrackOrSaturate(const ClearanceQuestion& question, const UncoveredPartner& partner,
-                       Past past);
+  void TrackUncovered(const ClearanceQuery& query);
+  bool IsCrowded(const ClearanceQuery& query);
+  NextMeeting QueryBroadPhase(const ClearanceQuery& query);
+  void TrackDue(const ClearanceQuery& query);
+  void TrackOrSaturate(const ClearanceQuery& query, const UncoveredPartner& partner, Past past);
 
   const DetectorContext context_;
   CoverageTable& coverage_;
@@ -56,8 +55,8 @@ class GroupQuery {
   UncoveredSearch uncovered_;
   DueMeetingSearch due_;
   NextMeetingSearch next_;
-  bool in_crowd_ = false;                      // the last question left its agent saturated
-  std::vector<broad_phase::Neighbour> found_;  // scratch of one question, kept for its memory
+  bool in_crowd_ = false;                      // the last query left its agent saturated
+  std::vector<broad_phase::Neighbour> found_;  // scratch of one query, kept for its memory
 };
 
 }  // namespace collision::detection

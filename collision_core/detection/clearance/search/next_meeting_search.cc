@@ -25,43 +25,42 @@ NextMeeting NextMeetingSearch::EarliestOf(const std::vector<broad_phase::Neighbo
   return next;
 }
 
-NextMeeting NextMeetingSearch::Find(const ClearanceQuestion& question, Instant known) {
+NextMeeting NextMeetingSearch::Find(const ClearanceQuery& query, Instant known) {
   NextMeeting next;
   int stride = 0;
-  for (int step = Begin(question); next.when.is_never() && !known.is_never(); step += stride) {
+  for (int step = Begin(query); next.when.is_never() && !known.is_never(); step += stride) {
     stride = std::min(stride + 1, kStrideMax);
     const Instant until = horizons_.At(step);
     if (until <= known) continue;
-    FindUpTo(question, known, until);
-    next = EarliestOf(found_, *question.tracked);
+    FindUpTo(query, known, until);
+    next = EarliestOf(found_, *query.tracked);
     known = until;
   }
-  Record(question, next.when);
+  Record(query, next.when);
   return next;
 }
 
-void NextMeetingSearch::FindUpTo(const ClearanceQuestion& question, Instant known,
-                                 Instant horizon) {
-  const std::uint32_t agent = question.agent.value();
+void NextMeetingSearch::FindUpTo(const ClearanceQuery& query, Instant known, Instant horizon) {
+  const std::uint32_t agent = query.agent.value();
   std::size_t offered = 0, left_out = 0;
   const auto sample = [&](std::uint32_t partner) {
-    if (question.LeavesOut(AgentIndex(partner), tiers_)) return true;
+    if (query.LeavesOut(AgentIndex(partner), tiers_)) return true;
     if (++offered <= kAllAsked || offered % kSampleShare == 0) return false;
     ++left_out;
     return true;
   };
   found_.clear();
-  broad_phase_->FindNeighbours(agent, {question.from, known, horizon}, sample, &found_);
+  broad_phase_->FindNeighbours(agent, {query.from, known, horizon}, sample, &found_);
   looks_ += offered - left_out;
   if (left_out == 0) return;
   if (!found_.empty()) horizon = found_.front().time.instant();
   const auto all = [&](std::uint32_t partner) {
-    if (question.LeavesOut(AgentIndex(partner), tiers_)) return true;
+    if (query.LeavesOut(AgentIndex(partner), tiers_)) return true;
     ++looks_;
     return false;
   };
   found_.clear();
-  broad_phase_->FindNeighbours(agent, {question.from, known, horizon}, all, &found_);
+  broad_phase_->FindNeighbours(agent, {query.from, known, horizon}, all, &found_);
 }
 
 }  // namespace collision::detection

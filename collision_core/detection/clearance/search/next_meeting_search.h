@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/neighbour_index.h"
-#include "collision_core/detection/clearance/search/clearance_question.h"
+#include "collision_core/detection/clearance/search/clearance_query.h"
 #include "collision_core/detection/clearance/search/query_horizons.h"
 
 namespace collision::detection {
@@ -22,16 +22,16 @@ class NextMeetingSearch {
 
   const QueryHorizons& horizons() const { return horizons_; }
   /// The horizon with which the search begins.
-  int Begin(const ClearanceQuestion& question) const {
-    return horizons_.Begin(tiers_.TierOf(question.agent), question.group);
+  int Begin(const ClearanceQuery& query) const {
+    return horizons_.Begin(tiers_.TierOf(query.agent), query.group);
   }
   /// The answer was found by other means: adapts the horizons to it.
-  void Record(const ClearanceQuestion& question, Instant when) {
-    horizons_.Record(tiers_.TierOf(question.agent), question.group, when);
+  void Record(const ClearanceQuery& query, Instant when) {
+    horizons_.Record(tiers_.TierOf(query.agent), query.group, when);
   }
 
   /// The first meeting with a partner that is not left out. Requires that there is none by `known`.
-  NextMeeting Find(const ClearanceQuestion& question, Instant known);
+  NextMeeting Find(const ClearanceQuery& query, Instant known);
 
   /// The earliest of `meetings` whose partner is not tracked.
   static NextMeeting EarliestOf(const std::vector<broad_phase::Neighbour>& meetings,
@@ -41,13 +41,13 @@ class NextMeetingSearch {
   std::uint64_t looks() const { return looks_; }
 
  private:
-  void FindUpTo(const ClearanceQuestion& question, Instant known, Instant horizon);
+  void FindUpTo(const ClearanceQuery& query, Instant known, Instant horizon);
 
   broad_phase::NeighbourIndex* broad_phase_;
   const AccelerationTiers& tiers_;
   QueryHorizons horizons_;
   std::uint64_t looks_ = 0;
-  std::vector<broad_phase::Neighbour> found_;  // scratch of one question, kept for its memory
+  std::vector<broad_phase::Neighbour> found_;  // scratch of one query, kept for its memory
 };
 
 }  // namespace collision::detection

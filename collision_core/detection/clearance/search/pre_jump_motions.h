@@ -45,7 +45,7 @@ class PreJumpMotions {
   std::deque<Motion> motions_;      // in the order of Record()
   std::vector<AgentIndex> agents_;  // by place
   std::vector<std::uint32_t> free_;
-  std::vector<broad_phase::Neighbour> found_;  // scratch of one question, kept for its memory
+  std::vector<broad_phase::Neighbour> found_;  // scratch of one query, kept for its memory
 };
 
 }  // namespace collision::detection

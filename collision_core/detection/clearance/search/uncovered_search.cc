@@ -53,32 +53,32 @@ Instant UncoveredFrom(const AgentRecord& a, const AgentRecord& b, Instant covere
   return std::max({covered, a.admitted_from, b.admitted_from});
 }
 
-const std::vector<UncoveredPartner>& UncoveredSearch::Find(const ClearanceQuestion& question) {
+const std::vector<UncoveredPartner>& UncoveredSearch::Find(const ClearanceQuery& query) {
   uncovered_.clear();
-  const AgentRecord& record = context_.agents[question.agent];
-  const Instant covered = question.covered;
+  const AgentRecord& record = context_.agents[query.agent];
+  const Instant covered = query.covered;
   // Otherwise every agent is covered beyond its own newest state: one whose state lies beyond its
   // key is renewed or queried first of all, unless it is saturated.
   const bool none_saturated = coverage_.saturated().empty();
-  if (!question.renewed && record.stamp() <= covered && none_saturated) return uncovered_;
-  FindCandidates(question, question.renewed ? std::max(covered, record.admitted_from) : covered);
-  for (const AgentIndex partner : candidates_) Check(question, partner);
+  if (!query.renewed && record.stamp() <= covered && none_saturated) return uncovered_;
+  FindCandidates(query, query.renewed ? std::max(covered, record.admitted_from) : covered);
+  for (const AgentIndex partner : candidates_) Check(query, partner);
   return uncovered_;
 }
 
-void UncoveredSearch::FindCandidates(const ClearanceQuestion& question, Instant from) {
+void UncoveredSearch::FindCandidates(const ClearanceQuery& query, Instant from) {
   candidates_.clear();
   if (context_.agents.extremes().newest <= from) return;
-  const History& history = context_.agents[question.agent].history;
+  const History& history = context_.agents[query.agent].history;
   history.ForEachMotion(
-      from, [&](const motion::SpaceTimeBound& motion) { FindAround(question, motion, from); });
+      from, [&](const motion::SpaceTimeBound& motion) { FindAround(query, motion, from); });
   std::sort(candidates_.begin(), candidates_.end());
   candidates_.erase(std::unique(candidates_.begin(), candidates_.end()), candidates_.end());
 }
 
 // Adds the agents that may have met this motion between `from` and the newest states.
-void UncoveredSearch::FindAround(const ClearanceQuestion& question,
-                                 const motion::SpaceTimeBound& motion, Instant from) {
+void UncoveredSearch::FindAround(const ClearanceQuery& query, const motion::SpaceTimeBound& motion,
+                                 Instant from) {
   const AgentTable& agents = context_.agents;
   const SceneExtremes::Bounds& scene = agents.extremes();
   const double others_time = Span(from, scene.newest, agents.skew());
@@ -91,10 +91,10 @@ void UncoveredSearch::FindAround(const ClearanceQuestion& question,
   around.state.position_error = std::min(own + others, kReachMax);
   around.limits.radius = motion.limits.radius;
   around.limits.acceleration_max = kNotAtRest;
-  const broad_phase::AgentBound guest{around, agents[question.agent].declaration.filter};
+  const broad_phase::AgentBound guest{around, agents[query.agent].declaration.filter};
   const auto skip = [&](std::uint32_t index) {
     const AgentIndex partner(index);
-    return partner == question.agent || question.LeavesOut(partner, coverage_.tiers());
+    return partner == query.agent || query.LeavesOut(partner, coverage_.tiers());
   };
   found_.clear();
   broad_phase_->FindNeighbours(guest, from, scene.newest, skip, &found_);
@@ -116,18 +116,17 @@ double UncoveredSearch::OwnReach(const motion::SpaceTimeBound& motion, Instant f
   return motion.state.position_error + PathOf(motion, time);
 }
 
-void UncoveredSearch::Check(const ClearanceQuestion& question, AgentIndex partner) {
+void UncoveredSearch::Check(const ClearanceQuery& query, AgentIndex partner) {
   const AgentTable& agents = context_.agents;
-  if (partner == question.agent || !agents.Contains(partner)) return;
-  const AgentRecord &record = agents[question.agent], &other = agents[partner];
-  if (other.expired || question.LeavesOut(partner, coverage_.tiers()) ||
+  if (partner == query.agent || !agents.Contains(partner)) return;
+  const AgentRecord &record = agents[query.agent], &other = agents[partner];
+  if (other.expired || query.LeavesOut(partner, coverage_.tiers()) ||
       !CanMeet(record.declaration.filter, other.declaration.filter)) {
     return;
   }
-  Instant free_until =
-      question.renewed ? UncoveredFrom(record, other, question.covered) : question.covered;
-  if (!question.renewed && !coverage_.IsSaturated(partner)) {
-    free_until = std::max(free_until, coverage_.KeyOf(partner, question.agent));
+  Instant free_until = query.renewed ? UncoveredFrom(record, other, query.covered) : query.covered;
+  if (!query.renewed && !coverage_.IsSaturated(partner)) {
+    free_until = std::max(free_until, coverage_.KeyOf(partner, query.agent));
   }
   const Instant known_from = std::max(record.stamp(), other.stamp());
   if (free_until >= known_from || FreeOver(record, other, free_until, known_from)) return;

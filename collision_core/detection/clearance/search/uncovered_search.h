@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "collision_core/detection/clearance/keys/coverage_table.h"
-#include "collision_core/detection/clearance/search/clearance_question.h"
+#include "collision_core/detection/clearance/search/clearance_query.h"
 #include "collision_core/detection/clearance/search/pre_jump_motions.h"
 
 namespace collision::detection {
@@ -33,13 +33,12 @@ class UncoveredSearch {
       : context_(context), coverage_(coverage), broad_phase_(broad_phase), former_(former) {}
 
   /// The partners to be tracked, in the order of their indices; valid until the next call.
-  const std::vector<UncoveredPartner>& Find(const ClearanceQuestion& question);
+  const std::vector<UncoveredPartner>& Find(const ClearanceQuery& query);
 
  private:
-  void FindCandidates(const ClearanceQuestion& question, Instant from);
-  void FindAround(const ClearanceQuestion& question, const motion::SpaceTimeBound& motion,
-                  Instant from);
-  void Check(const ClearanceQuestion& question, AgentIndex partner);
+  void FindCandidates(const ClearanceQuery& query, Instant from);
+  void FindAround(const ClearanceQuery& query, const motion::SpaceTimeBound& motion, Instant from);
+  void Check(const ClearanceQuery& query, AgentIndex partner);
   double OwnReach(const motion::SpaceTimeBound& motion, Instant from) const;
   bool FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from, Instant to) const;
 
@@ -47,7 +46,7 @@ class UncoveredSearch {
   const CoverageTable& coverage_;
   broad_phase::NeighbourIndex* broad_phase_;
   PreJumpMotions* former_;
-  // Scratch of one question, kept for its memory.
+  // Scratch of one query, kept for its memory.
   std::vector<broad_phase::Neighbour> found_;
   std::vector<AgentIndex> candidates_;
   std::vector<UncoveredPartner> uncovered_;

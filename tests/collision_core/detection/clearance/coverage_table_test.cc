@@ -22,7 +22,7 @@ class CoverageTest : public testing::Test {
     clock_.step = 1;
   }
 
-  /// As a question leaves the agent: with one key for all.
+  /// As a query leaves the agent: with one key for all.
   void SetKey(AgentIndex agent, double key) {
     AgentCoverage& record = coverage_[agent];
     record.renewed_from.reset();
@@ -85,6 +85,17 @@ TEST_F(CoverageTest, AStateAheadOfItsKeyIsQueriedAtOnce) {
   SetKey(b_, 30);
   agents_.Store(a_, State(6, {0, 0, 0}, {0, 0, 0}), Link::kFollows);
   coverage_.StateAdvanced(a_);
+  EXPECT_EQ(coverage_.due().top(), a_);
+  EXPECT_EQ(coverage_.due().top_key(), Instant::Always());
+}
+
+// Also after a query in the same step, and when one of its keys is lowered after that.
+TEST_F(CoverageTest, AStateAheadIsQueriedAtOnceThoughItsKeyIsLowered) {
+  SetKey(a_, 5);
+  SetKey(b_, 30);
+  agents_.Store(a_, State(6, {0, 0, 0}, {0, 0, 0}), Link::kFollows);
+  coverage_.StateAdvanced(a_);
+  coverage_.LowerKey(a_, b_, At(4));
   EXPECT_EQ(coverage_.due().top(), a_);
   EXPECT_EQ(coverage_.due().top_key(), Instant::Always());
 }

@@ -1,4 +1,4 @@
-// A question about the clearance of one agent.
+// A query about the clearance of one agent.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace collision::detection {
 
-/// A set of partners of one agent, emptied in O(1); kept for its memory from one question to the
+/// A set of partners of one agent, emptied in O(1); kept for its memory from one query to the
 /// next.
 class PartnerMarks {
  public:
@@ -34,13 +34,13 @@ class PartnerMarks {
   std::uint64_t mark_ = 0;
 };
 
-/// The group of a question about all partners; the other groups are those of
+/// The group of a query about all partners; the other groups are those of
 /// AccelerationTiers::GroupOf().
 inline constexpr int kEveryGroup = -1;
 
 /// Which partners, of those not left out, may `agent` meet at or after `from`? Everything that the
 /// answer depends on, besides the bounds themselves.
-struct ClearanceQuestion {
+struct ClearanceQuery {
   AgentIndex agent;
   int group = kEveryGroup;
   Instant from;     ///< min(now, covered)
@@ -50,7 +50,7 @@ struct ClearanceQuestion {
   /// The tracked partners, which are left out; those that become tracked are added.
   PartnerMarks* tracked = nullptr;
 
-  /// Whether the question does not ask about this partner: it is tracked, or of another group.
+  /// Whether the query does not ask about this partner: it is tracked, or of another group.
   bool LeavesOut(AgentIndex partner, const AccelerationTiers& tiers) const {
     if (tracked->Contains(partner)) return true;
     return group != kEveryGroup && tiers.GroupOf(partner, agent) != group;

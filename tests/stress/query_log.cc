@@ -1,4 +1,4 @@
-#include "tests/stress/question_log.h"
+#include "tests/stress/query_log.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@
 namespace collision::stress {
 namespace {
 
-thread_local QuestionLog* log = nullptr;
+thread_local QueryLog* log = nullptr;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instan
   const intersection::IntersectionTime time = RealAsk(a, b, from);
   if (log != nullptr) {
     log->Note(
-        Question::kAsked, a.limits.radius, b.limits.radius,
+        Query::kAsked, a.limits.radius, b.limits.radius,
         {.from = from.nanoseconds(), .answer = time.seconds, .base = time.base.nanoseconds()});
   }
   return time;
@@ -49,7 +49,7 @@ intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instan
 intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Instant from,
                                            Instant until, double margin) {
   if (log != nullptr) {
-    log->Note(Question::kMet, a.limits.radius, b.limits.radius, {.from = from.nanoseconds()});
+    log->Note(Query::kMet, a.limits.radius, b.limits.radius, {.from = from.nanoseconds()});
   }
   return RealMeet(a, b, from, until, margin);
 }
@@ -58,20 +58,20 @@ detection::SegmentCount WrappedJudge(const detection::History& a, const detectio
                                      Instant until, WorkBudget* work,
                                      detection::ContactTracker* tracker) {
   if (log != nullptr) {
-    log->Note(Question::kJudged, a.newest().bound.limits.radius, b.newest().bound.limits.radius,
+    log->Note(Query::kJudged, a.newest().bound.limits.radius, b.newest().bound.limits.radius,
               {.from = until.nanoseconds()});
   }
   return RealJudge(a, b, until, work, tracker);
 }
 
-QuestionLog::QuestionLog() { log = this; }
+QueryLog::QueryLog() { log = this; }
 
-QuestionLog::~QuestionLog() { log = nullptr; }
+QueryLog::~QueryLog() { log = nullptr; }
 
-void QuestionLog::Note(Question question, double radius, double other, Asked asked) {
+void QueryLog::Note(Query query, double radius, double other, Asked asked) {
   const auto [lesser, greater] = std::minmax(radius, other);
   asked.now = now_;
-  of_[static_cast<int>(question)][{lesser, greater}].push_back(asked);
+  of_[static_cast<int>(query)][{lesser, greater}].push_back(asked);
 }
 
 }  // namespace collision::stress

@@ -12,14 +12,14 @@
 
 namespace collision::stress {
 
-enum class Question {
+enum class Query {
   kJudged,  ///< EvaluateSegments(): what is known of a tracked pair, over an interval of time.
   kAsked,   ///< EarliestIntersection() from a time on: a tracked pair's, asked again.
   kMet      ///< The same up to some time: by the broad phase, of one agent and its partners.
 };
-inline constexpr int kQuestions = 3;
+inline constexpr int kQueries = 3;
 
-/// One question as it was put. Equal ones are the same bits.
+/// One query as it was put. Equal ones are the same bits.
 struct Asked {
   std::int64_t now = 0;   ///< Of the step [ns].
   std::int64_t from = 0;  ///< Where the answer begins; of kJudged where it ends [ns].
@@ -29,27 +29,27 @@ struct Asked {
   friend bool operator==(const Asked&, const Asked&) = default;
 };
 
-/// While one of these is there it takes down every question to the core, in this thread. Agents are
+/// While one of these is there it takes down every query to the core, in this thread. Agents are
 /// known by the radii they declare: each has one of its own.
-class QuestionLog {
+class QueryLog {
  public:
   /// The two radii, the lesser first.
   using Pair = std::pair<double, double>;
-  using Questions = std::map<Pair, std::vector<Asked>>;
+  using Queries = std::map<Pair, std::vector<Asked>>;
 
-  QuestionLog();
-  ~QuestionLog();
-  QuestionLog(const QuestionLog&) = delete;
-  QuestionLog& operator=(const QuestionLog&) = delete;
+  QueryLog();
+  ~QueryLog();
+  QueryLog(const QueryLog&) = delete;
+  QueryLog& operator=(const QueryLog&) = delete;
 
   void SetNow(Instant now) { now_ = now.nanoseconds(); }
-  void Note(Question question, double radius, double other, Asked asked);
+  void Note(Query query, double radius, double other, Asked asked);
 
-  const Questions& of(Question question) const { return of_[static_cast<int>(question)]; }
+  const Queries& of(Query query) const { return of_[static_cast<int>(query)]; }
 
  private:
   std::int64_t now_ = 0;
-  Questions of_[kQuestions];
+  Queries of_[kQueries];
 };
 
 }  // namespace collision::stress

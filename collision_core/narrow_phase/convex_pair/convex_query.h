@@ -8,7 +8,7 @@ namespace collision::narrow_phase {
 /// Units of work for a step of a search: a pair of support points; in a growing polytope, more.
 inline constexpr std::uint64_t kGjkStepUnits = 1;
 inline constexpr std::uint64_t kEpaStepUnits = 4;
-inline constexpr std::uint64_t kFacesUnits = 4;  ///< All pairs of edges of two boxes.
+inline constexpr std::uint64_t kBoxAxesUnits = 4;  ///< The separating axis test of two boxes.
 
 /// The goal of a query about two convex sets.
 enum class ConvexGoal {
@@ -19,7 +19,7 @@ enum class ConvexGoal {
 
 /// The goal of a query, and how narrow its bracket has to be. Both tolerances 0: as narrow as
 /// doubles make it.
-struct ConvexQuestion {
+struct ConvexQuery {
   ConvexGoal goal = ConvexGoal::kDepth;
   double relative_tolerance = 0;  ///< Width of the bracket over its lower end, >= 0.
   double absolute_tolerance = 0;  ///< Width of the bracket [m], >= 0.
