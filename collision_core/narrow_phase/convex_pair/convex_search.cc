@@ -1,5 +1,6 @@
 #include "collision_core/narrow_phase/convex_pair/convex_search.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
