@@ -15,7 +15,8 @@
 
 namespace collision::narrow_phase {
 
-/// Normalising leaves a length that is off by 2.5 · 2^-53, and its norm is computed as well as that.
+/// Normalising leaves a length that is off by 2.5 · 2^-53, and its norm is computed as well as
+/// that.
 inline constexpr double kUnitLengthError = 0x1p-50;
 
 /// Whether n has length 1 to within kUnitLengthError.
