@@ -13,7 +13,8 @@ struct DetectorOptions {
   double announce_within = 2.0;  ///< Meetings this near [s] are announced; >= temporal_resolution.
   double skew = 0;               ///< κ [s]: a sender's clock is off by at most this.
   std::uint32_t agents_max = 1000;  ///< Admit() refuses beyond.
-  /// Tracked at once; beyond, both agents are saturated and queried again after announce_within / 8.
+  /// Tracked at once; beyond, both agents are saturated and queried again after
+  /// announce_within / 8.
   std::uint32_t pairs_max = 65536;
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
   /// States of one agent that are kept; beyond, every second old state is dropped and brackets
