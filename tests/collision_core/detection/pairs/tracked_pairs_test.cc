@@ -69,9 +69,19 @@ TEST_F(TrackedPairsTest, ANewPairIsQueuedAndItsAgentsClearancesMayHaveChanged) {
   EXPECT_FALSE(dirty_.Contains(c_));
 }
 
+// Two agents that rest 98 m apart.
+TEST_F(TrackedPairsTest, ANewPairIsDueWhenItsFreedomIsAsNearAsWhatIsAnnounced) {
+  ASSERT_TRUE(pairs_.Track(a_, b_, At(10), Past::kKnown));
+  Step(7.999);
+  EXPECT_FALSE(WasEvaluated(a_));
+  Step(8);
+  EXPECT_EQ(pairs_.table().size(), 0u) << "they do not meet, so the pair is released";
+}
+
 TEST_F(TrackedPairsTest, APairWithoutRoomIsNotTracked) {
   ASSERT_TRUE(pairs_.Track(a_, b_, At(10), Past::kKnown));
   EXPECT_FALSE(pairs_.Track(a_, c_, At(10), Past::kKnown));
+  EXPECT_FALSE(pairs_.Track(c_, a_, At(10), Past::kKnown));
   EXPECT_EQ(pairs_.table().size(), 1u);
   EXPECT_EQ(pairs_.queued(), 1u);
   EXPECT_FALSE(dirty_.Contains(c_));
@@ -120,7 +130,17 @@ TEST_F(TrackedPairsTest, APairIsEvaluatedWhenOneOfItsAgentsHasChanged) {
   EXPECT_TRUE(WasEvaluated(a_));
 }
 
-// Few pairs are tracked, so a contact does not rest: it touches from 0.25 s to 0.75 s.
+TEST_F(TrackedPairsTest, WhereFewPairsAreTrackedAContactDoesNotRest) {
+  Place(b_, 1, 0);
+  ASSERT_TRUE(pairs_.Track(a_, b_, At(0), Past::kUnknown));
+  for (const double now : {0.5, 0.5625, 0.625}) {
+    Step(now);
+    EXPECT_TRUE(WasEvaluated(a_)) << now;
+    EXPECT_TRUE(PairOf(a_).in_contact) << now;
+  }
+}
+
+// They touch from 0.25 s to 0.75 s.
 TEST_F(TrackedPairsTest, AContactIsEvaluatedAtEachStepUntilItHasEnded) {
   Place(b_, 4, -8);
   ASSERT_TRUE(pairs_.Track(a_, b_, At(0), Past::kKnown));
@@ -151,10 +171,9 @@ TEST_F(TrackedPairsTest, APairThatIsFarApartIsReleasedOnceWithAKeyBeforeItsMeeti
   EXPECT_TRUE(pairs_.TakeReleased().empty());
 }
 
-// A state ahead of what a key could promise: the pair stays tracked.
-TEST_F(TrackedPairsTest, APairWhoseKeyWouldLieBeforeAStateIsNotReleased) {
+// No key may lie before a state of its agent: A has reported more than the time of the meeting.
+TEST_F(TrackedPairsTest, APairThatMeetsBeforeAStateStaysTracked) {
   Place(b_, 10, -1);
-  agents_.Store(c_, State(9, {100, 0, 0}, {0, 0, 0}), Link::kFollows);
   agents_.Store(a_, State(9, {0, 0, 0}, {0, 0, 0}), Link::kFollows);
   ASSERT_TRUE(pairs_.Track(a_, b_, At(0), Past::kKnown));
   Step(0);
