@@ -33,9 +33,12 @@ class Index {
   std::uint32_t value_ = 0;
 };
 
-using AgentIndex = Index<struct AgentTag>;  ///< An agent in the detector's tables.
-using PairSlot = Index<struct PairTag>;     ///< A tracked pair in the pair table.
-using NodeIndex = Index<struct NodeTag>;    ///< A node of one sphere tree.
+/// An agent in the detector's tables. The broad phase and the rules of pairs count plain integers
+/// (`value()`): they are a library over dense indices that the caller chooses, half-spaces
+/// included, and their wide vectors hold 32-bit integers.
+using AgentIndex = Index<struct AgentTag>;
+using PairSlot = Index<struct PairTag>;   ///< A tracked pair in the pair table.
+using NodeIndex = Index<struct NodeTag>;  ///< A node of one sphere tree.
 /// An element of one shape. With n triangles in its surface, 0 to n − 1 are these triangles, and
 /// n + k is its convex solid k.
 using ElementIndex = Index<struct ElementTag>;
