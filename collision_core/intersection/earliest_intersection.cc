@@ -12,6 +12,10 @@
 namespace collision::intersection {
 namespace {
 
+/// Beyond `until`, a meeting within whose nanosecond rounds down to it, the search goes on for this
+/// long: that nanosecond, and another for the rounding of seconds [s].
+constexpr double kBeyondUntil = 2 * numeric::kNanosecond;
+
 /// The first overlap of the two horns' balls: decided in plain doubles, or with intervals from
 /// where they gave up.
 double BallTime(const BoundPair& pair, double limit) {
@@ -37,9 +41,8 @@ IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
   const IntersectionTime never{base, numeric::kInfinity};
   if (expiry <= base || base > until) return never;
   if (NeverMoves(a) && NeverMoves(b)) return never;
-  // A meeting within the nanosecond of `until` rounds down to it.
   const Instant end =
-      until.is_never() ? expiry : std::min(expiry, numeric::AddRoundedUp(until, 2e-9));
+      until.is_never() ? expiry : std::min(expiry, numeric::AddRoundedUp(until, kBeyondUntil));
   const double limit =
       end.is_never() ? numeric::kInfinity : numeric::SecondsBetween(base, end).upper;
   const BoundPair pair{a, b, base, margin};

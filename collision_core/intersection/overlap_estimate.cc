@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/numeric/seconds.h"
+
 namespace collision::intersection {
 namespace {
 
 double Seconds(Instant from, Instant to) {
-  return (static_cast<double>(to.nanoseconds()) - static_cast<double>(from.nanoseconds())) * 1e-9;
+  return (static_cast<double>(to.nanoseconds()) - static_cast<double>(from.nanoseconds())) *
+         numeric::kNanosecond;
 }
 
 double Square(double x) { return x * x; }

@@ -4,6 +4,7 @@
 
 #include "collision_core/base/check.h"
 #include "collision_core/numeric/rounding.h"
+#include "collision_core/numeric/seconds.h"
 
 namespace collision::intersection {
 namespace {
@@ -16,7 +17,7 @@ double Seconds(Instant from, Instant to) {
   std::int64_t nanoseconds;
   if (__builtin_sub_overflow(to.nanoseconds(), from.nanoseconds(), &nanoseconds))
     return numeric::kInfinity;
-  return static_cast<double>(nanoseconds) / 1e9;
+  return static_cast<double>(nanoseconds) / numeric::kNanosecondsPerSecond;
 }
 
 /// The horn's ball from `base` on, as seen from p_WA and less its radius r, rounded to nearest. The

@@ -83,13 +83,14 @@ SinCos PointSinCos(double x) {
 Interval ArcTangent(double t) {
   constexpr int kTerms = 13;
   constexpr double kError = 10 * kEpsilon;
+  // Far more than the few units of 2^-1074 that angles lose which underflow.
+  constexpr double kAngleUnderflow = 0x1p-1060;
   for (int halving = 0; halving < 2; ++halving) t = t / (1 + std::sqrt(1 + t * t));
   const double z = t * t;
   double sum = 1.0 / (2 * kTerms - 1);
   for (int k = kTerms - 2; k >= 0; --k) sum = 1.0 / (2 * k + 1) - z * sum;
-  // The last term is for angles that underflow.
   const Interval angle = Interval(4 * (t * sum)) * Interval(1 - kError, 1 + kError);
-  return Max(0, angle + PlusMinus(0x1p-1060));
+  return Max(0, angle + PlusMinus(kAngleUnderflow));
 }
 
 const Interval kHalfPi(0x1.921fb54442d18p+0, 0x1.921fb54442d19p+0);
@@ -107,14 +108,15 @@ using Four = std::array<Interval, 4>;
 
 /// x / |x|; scaled first by powers of two, so that no square overflows or underflows.
 Four Unit(Four x) {
+  constexpr double kLargest = 0x1p+400, kSmallest = 0x1p-400;
   double greatest = 0;
   for (const Interval& c : x) greatest = std::max(greatest, Abs(c).upper);
   const auto scale = [&x, &greatest](double by) {
     for (Interval& c : x) c = Interval(by) * c;
     greatest *= by;
   };
-  while (greatest > 0x1p+400) scale(0x1p-400);
-  while (greatest > 0 && greatest < 0x1p-400) scale(0x1p+400);
+  while (greatest > kLargest) scale(kSmallest);
+  while (greatest > 0 && greatest < kSmallest) scale(kLargest);
   Interval square = 0;
   for (const Interval& c : x) square = square + Square(c);
   const Interval length = Sqrt(square);

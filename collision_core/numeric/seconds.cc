@@ -5,8 +5,6 @@
 namespace collision::numeric {
 namespace {
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-
 /// More seconds than lie between any two instants.
 constexpr double kSecondsMax = 2e10;
 

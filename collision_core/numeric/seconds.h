@@ -6,6 +6,12 @@
 
 namespace collision::numeric {
 
+inline constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+
+/// A nanosecond [s], to the nearest double: for times that need no certain rounding, or where the
+/// relative 2^-52 of a product with it is counted.
+inline constexpr double kNanosecond = 1e-9;
+
 /// The seconds from `from` to `to`, as an interval that contains the exact quotient ns / 1e9.
 /// Neither may be `Never()` or `Always()`.
 Interval SecondsBetween(Instant from, Instant to);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::shape {
@@ -15,9 +16,18 @@ using Eigen::Vector3d;
 /// Siblings, as the packs of a traversal hold them.
 constexpr std::size_t kGathered = 8;
 
+/// Of the sizes of a point and a solid: a distance is made of differences (two roundings in three
+/// coordinates) and sums, below 8 · 2^-53 of them.
+constexpr double kDistanceRounding = 0x1p-50;
+
+/// Of the coordinates' magnitudes: each of their differences is off by 2^-53 of them; twice that.
+constexpr double kDifferenceRounding = 0x1p-52;
+
 /// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow; the
 /// differences before it by 2^-53 of what they are made of: that is counted where they are made.
-double LengthUp(const Vector3d& v) { return (1 + 0x1p-50) * v.norm() + 0x1p-500; }
+double LengthUp(const Vector3d& v) {
+  return numeric::kFewRoundingsUp * v.norm() + geometry::kSupportUnderflow;
+}
 
 /// A node of the tree to be built, with the parts below it if it is a gathering.
 struct Part {
@@ -34,7 +44,7 @@ struct Part {
 /// rounding of a support.
 double DistanceUp(const Vector3d& point, const ConvexSolid& solid) {
   const ConvexFacts& facts = solid.facts();
-  const double lost = 0x1p-50 * (point.cwiseAbs().sum() + facts.radius);
+  const double lost = kDistanceRounding * (point.cwiseAbs().sum() + facts.radius);
   if (facts.inradius > 0) {
     return numeric::AddUp(numeric::AddUp(LengthUp(point - facts.inner_point), lost),
                           -facts.inradius);
@@ -56,7 +66,7 @@ sphere_tree::SphereNode NodeOf(const ConvexSolid& solid) {
 
 /// The distance of two centres, rounded up.
 double BetweenUp(const sphere_tree::SphereNode& a, const sphere_tree::SphereNode& b) {
-  const double lost = 0x1p-52 * (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
+  const double lost = kDifferenceRounding * (a.centre.cwiseAbs().sum() + b.centre.cwiseAbs().sum());
   return numeric::AddUp(LengthUp(a.centre - b.centre), lost);
 }
 

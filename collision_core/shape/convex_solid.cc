@@ -118,10 +118,14 @@ std::vector<Vector3d> CornersOf(const geometry::ConvexSet& set) {
   return corners;
 }
 
+/// Of |c| and the span: the last sum of a computed corner is off by 2^-53 of each coordinate; twice
+/// that. What comes before is within kSupportError.
+constexpr double kCornerRounding = 0x1p-52;
+
 /// What any computed corner, seen from the origin, may be off by.
 double CornerError(const geometry::ConvexSet& set) {
   const double rounding =
-      numeric::MultiplyUp(0x1p-52, numeric::AddUp(LengthUp(set.centre), set.span));
+      numeric::MultiplyUp(kCornerRounding, numeric::AddUp(LengthUp(set.centre), set.span));
   return numeric::AddUp(
       numeric::AddUp(rounding, numeric::MultiplyUp(geometry::kSupportError, set.span)), set.error);
 }

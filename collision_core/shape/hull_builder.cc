@@ -1,6 +1,7 @@
 #include "collision_core/shape/hull_builder.h"
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::shape {
 namespace {
@@ -40,11 +41,15 @@ void AddCorners(const geometry::ConvexSet& set, std::vector<Vector3d>* points) {
   }
 }
 
+/// Of the coordinates' magnitudes: a corner is a sum of centre and halves, itself halved sums; less
+/// than 8 · 2^-53 of them.
+constexpr double kCornerRounding = 0x1p-50;
+
 /// An upper bound of how far a solid reaches beyond the hull of its corners [m].
 double MoreThanCorners(const geometry::ConvexSet& set) {
   const double rounded =
-      4 * geometry::kSupportError * set.span + 0x1p-50 * set.centre.cwiseAbs().sum();
-  return (set.rounding + set.error + rounded) * (1 + 0x1p-50);
+      4 * geometry::kSupportError * set.span + kCornerRounding * set.centre.cwiseAbs().sum();
+  return (set.rounding + set.error + rounded) * numeric::kFewRoundingsUp;
 }
 
 void AddVertices(const geometry::TriangleMesh& mesh, std::vector<Vector3d>* points) {
@@ -74,8 +79,8 @@ OuterHull HullAround(const geometry::TriangleMesh& mesh, std::span<const ConvexS
       const ConvexFacts& facts = solid.facts();
       const Vector3d middle = 0.5 * facts.lower + 0.5 * facts.upper;
       AddBox(middle, (0.5 * facts.upper - 0.5 * facts.lower).asDiagonal(), &points);
-      rounding =
-          std::max(rounding, 0x1p-50 * (facts.lower.cwiseAbs() + facts.upper.cwiseAbs()).sum());
+      rounding = std::max(
+          rounding, kCornerRounding * (facts.lower.cwiseAbs() + facts.upper.cwiseAbs()).sum());
     }
   }
   return {points, rounding};

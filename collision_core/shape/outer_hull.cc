@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "collision_core/numeric/allowances.h"
+
 namespace collision::shape {
 namespace {
 
@@ -15,7 +17,7 @@ std::uint32_t CellsFor(std::size_t points) { return points <= 16 ? 2 : points <=
 /// number.
 float FloatUp(double x) {
   const auto rounded = static_cast<float>(x);
-  return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
+  return rounded + (std::abs(rounded) * numeric::kCastRounding + std::numeric_limits<float>::min());
 }
 
 /// Scales a bound for directions whose greatest coordinate is 1 to directions of length up to 1 +
@@ -25,6 +27,13 @@ constexpr double kLonger = 1 + 0x1p-15;
 /// Of the extent: casting the points, √3 u at most, along a direction of length √3 (u = 2^-24), and
 /// twice what three products and two sums of doubles lose.
 constexpr double kStored = 4 * 0x1p-24;
+
+/// A difference of points is off by 2^-53 of each coordinate, less than this share of the sum of
+/// both lengths.
+constexpr double kDifferenceRounding = 0x1p-51;
+
+/// Of a measure, which is 1 at most: keeps that of plates and needles away from zero.
+constexpr float kMeasureMin = 0x1p-10f;
 
 /// A point along the four corners of a patch.
 using Heights = std::array<double, 4>;
@@ -118,13 +127,11 @@ OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
     size = std::max(size, p.cwiseAbs().sum());
     extent_ = std::max(extent_, seen.back().norm());
   }
-  // A difference is off by 2^-53 of each coordinate, less than 2^-51 of both lengths' sum.
-  rounding = (rounding + 0x1p-51 * (size + origin_.cwiseAbs().sum())) * kLonger;
+  rounding = (rounding + kDifferenceRounding * (size + origin_.cwiseAbs().sum())) * kLonger;
   rounding_ = FloatUp(rounding);
-  extent_ = (extent_ + rounding) * (1 + 0x1p-50) + std::numeric_limits<float>::min();
-  // The constant keeps the measure of plates and needles away from zero.
+  extent_ = (extent_ + rounding) * numeric::kFewRoundingsUp + std::numeric_limits<float>::min();
   const Vector3d half = 0.5 * upper - 0.5 * lower;
-  measure_ = (half / extent_).cwiseAbs2().cast<float>() + Eigen::Vector3f::Constant(0x1p-10f);
+  measure_ = (half / extent_).cwiseAbs2().cast<float>() + Eigen::Vector3f::Constant(kMeasureMin);
   cells_.resize(std::size_t{6} * along_edge_ * along_edge_);
   for (std::uint32_t face = 0; face < 6; ++face) {
     Divide({face, 0, 0, along_edge_, along_edge_}, seen);

@@ -87,6 +87,10 @@ class OuterHull {
 /// u E: in all less than 15 u E.
 inline constexpr double kHullSupportError = 15 * 0x1p-24;
 
+/// Of the square of a direction's length, which a cast leaves off by a few units of 2^-24: what is
+/// off by more is no unit vector.
+inline constexpr float kUnitSquareError = 0x1p-14f;
+
 /// The cell of a direction, as in ConvexPoints::CellOf().
 inline std::uint32_t OuterHull::CellOf(const Eigen::Vector3f& n) const {
   const float x = std::abs(n.x()), y = std::abs(n.y()), z = std::abs(n.z());
@@ -118,7 +122,8 @@ inline OuterHull::Foremost OuterHull::ForemostAlong(const Eigen::Vector3f& n) co
 }
 
 inline OuterHull::Support OuterHull::Along(const Eigen::Vector3f& n) const {
-  CORE_CHECK(std::abs(n.squaredNorm() - 1) < 0x1p-14f, "the direction has length 1", n.norm());
+  CORE_CHECK(std::abs(n.squaredNorm() - 1) < kUnitSquareError, "the direction has length 1",
+             n.norm());
   const Foremost foremost = ForemostAlong(n);
   return {foremost.height + foremost.more, foremost.point};
 }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::sphere_tree {
 namespace {
@@ -18,6 +19,14 @@ float FloatUp(double x) {
 }
 
 constexpr Eigen::Index kAxes = 3;
+
+/// Of the lengths of a centre and of the origin: their difference is off by 2^-53 of each
+/// coordinate; four times that.
+constexpr double kDifferenceRounding = 0x1p-51;
+
+/// A sum of two doubles is off by 2^-53 of itself; of the larger term, or of the sum of both
+/// magnitudes, twice that.
+constexpr double kSumRounding = 0x1p-52;
 
 BallPack EmptyPack() {
   BallPack pack;
@@ -128,15 +137,15 @@ void PackedTree::SetBall(const SphereNode& node, BallRef ball) {
   const std::uint32_t i = ball % kPackBalls;
   const Eigen::Vector3d seen = node.centre - origin_;
   const Eigen::Vector3f centre = seen.cast<float>();
-  const double rounding = 0x1p-51 * (node.centre.norm() + origin_.norm());
-  const double moved = (seen - centre.cast<double>()).norm() * (1 + 0x1p-50) + rounding;
+  const double rounding = kDifferenceRounding * (node.centre.norm() + origin_.norm());
+  const double moved = (seen - centre.cast<double>()).norm() * numeric::kFewRoundingsUp + rounding;
   pack.x[i] = centre.x(), pack.y[i] = centre.y(), pack.z[i] = centre.z();
-  // Sums of two doubles: 2^-52 of the larger covers them.
   const double radius = node.radius + moved, distance = node.signed_distance + moved;
-  pack.radius[i] = FloatUp(radius + 0x1p-52 * radius);
-  pack.signed_distance[i] = FloatUp(distance + 0x1p-52 * (std::abs(node.signed_distance) + moved));
+  pack.radius[i] = FloatUp(radius + kSumRounding * radius);
+  pack.signed_distance[i] =
+      FloatUp(distance + kSumRounding * (std::abs(node.signed_distance) + moved));
   const double widest = std::max<double>(pack.radius[i], std::abs(pack.signed_distance[i]));
-  extent_ = std::max(extent_, (seen.norm() + moved + widest) * (1 + 0x1p-50));
+  extent_ = std::max(extent_, (seen.norm() + moved + widest) * numeric::kFewRoundingsUp);
 }
 
 std::uint32_t PackedTree::AddLeaf(const geometry::TriangleMesh& mesh, const SphereTree& tree,
@@ -161,9 +170,9 @@ void PackedTree::SetElement(const geometry::TriangleMesh& mesh, ElementIndex ele
   const bool is_solid = element.value() >= mesh.triangles.size();
   for (std::size_t k = 0; k < 3 && !is_solid; ++k) {
     const Eigen::Vector3d& vertex = mesh.vertices[mesh.triangles[element.value()][k]];
-    block->reach = std::max(block->reach, FloatUp(vertex.norm() * (1 + 0x1p-50)));
+    block->reach = std::max(block->reach, FloatUp(vertex.norm() * numeric::kFewRoundingsUp));
     corners[k] = vertex - origin_;
-    extent_ = std::max(extent_, corners[k].norm() * (1 + 0x1p-50));
+    extent_ = std::max(extent_, corners[k].norm() * numeric::kFewRoundingsUp);
   }
   const Eigen::Vector3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   const double length = across.norm();

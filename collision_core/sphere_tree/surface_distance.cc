@@ -15,11 +15,14 @@ using Eigen::Vector3d;
 /// would overflow, and its radius is less than the rounding.
 constexpr double kFar = 1e100;
 
-/// No point of the node's part is nearer. A computed |d| is off by a relative 3.5 u, u = 2^−53, but
-/// for kDistanceUnderflow; subtracting rounds by another u of the difference.
+/// Of |d| and the radius: a computed |d| is off by a relative 3.5 u, u = 2^−53, but for
+/// kDistanceUnderflow; subtracting rounds by another u of the difference. 8 u.
+constexpr double kBoundRounding = 0x1p-50;
+
+/// No point of the node's part is nearer.
 double LowerBound(const SphereNode& node, const Vector3d& point) {
   const double d = (point - node.centre).norm();
-  return (d - node.radius) - 0x1p-50 * (d + node.radius) - kDistanceUnderflow;
+  return (d - node.radius) - kBoundRounding * (d + node.radius) - kDistanceUnderflow;
 }
 
 }  // namespace

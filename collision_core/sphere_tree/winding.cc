@@ -4,6 +4,7 @@
 
 #include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/geometry/triangle/ray_passage.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 #include "collision_core/sphere_tree/surface_query.h"
 #include "collision_core/sphere_tree/underflow.h"
@@ -19,7 +20,7 @@ using Eigen::Vector3d;
 bool RayMayMeet(const SphereNode& node, const Vector3d& point, geometry::Passing side) {
   const double dy = point.y() - node.centre.y(), dz = point.z() - node.centre.z();
   const double r = node.radius;
-  if (dy * dy + dz * dz > r * r * (1 + 0x1p-48) + kSquareUnderflow) return false;
+  if (dy * dy + dz * dz > r * r * numeric::kSomeRoundingsUp + kSquareUnderflow) return false;
   return side == geometry::Passing::kForward ? node.centre.x() + r >= point.x()
                                              : node.centre.x() - r <= point.x();
 }

@@ -6,6 +6,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/source/source_tree.h"
 
@@ -34,6 +35,27 @@ void ExpectNowhere(const std::string& pattern, const std::vector<SourceFile>& fi
       ADD_FAILURE() << file.path << ":" << CountLines(match.prefix()) + 1 << ": " << match.str();
     }
   }
+}
+
+/// The code of a line: what stands before a comment.
+std::string CodeOf(const std::string& line) { return line.substr(0, line.find("//")); }
+
+/// The lines, counted from 1, that have a negative power of two or of ten outside a statement that
+/// declares a constant.
+std::vector<int> UnnamedEpsilons(const std::string& text) {
+  static const std::regex epsilon("\\b0[xX][0-9a-fA-F.]+p-[0-9]|\\b[0-9][0-9.]*e-[0-9]");
+  static const std::regex end("[;{}]\\s*$");
+  std::vector<int> found;
+  std::istringstream lines(text);
+  std::string line, statement;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::string code = CodeOf(line);
+    statement += code;
+    const bool declares = statement.find("constexpr ") != std::string::npos;
+    if (!declares && std::regex_search(code, epsilon)) found.push_back(number);
+    if (std::regex_search(code, end)) statement.clear();
+  }
+  return found;
 }
 
 /// Characters of a line of UTF-8: all bytes but those that go on with a character.
@@ -93,6 +115,10 @@ TEST(Style, TheFindingsFind) {
   EXPECT_TRUE(Finds(kMachinePaths, std::string("open(\"/ho") + "me/me/data.csv\")"));
   EXPECT_FALSE(Finds(kMachinePaths, std::string("the frame") + "work/ of home/"));
   EXPECT_TRUE(Finds(kWeakTests, std::string("std::this_thread::sleep_") + "for(1s)"));
+  const std::string named = "constexpr double kA = 1e-9,\n    kB = 0x1p-50;  // 0x1p-53\n// 1e-3\n";
+  EXPECT_TRUE(UnnamedEpsilons(named).empty());
+  EXPECT_EQ(UnnamedEpsilons(named + "x *= 1 +\n    0x1p-50f;\nif (y > 2.5e-3 * z) {\n"),
+            (std::vector<int>{5, 6}));
   EXPECT_EQ(CountLines("a\nb\n"), 2);
   EXPECT_EQ(CountColumns("½ τ² ≥ x"), 8);
 }
@@ -116,6 +142,14 @@ TEST(Style, FilesAreOfReadableLength) {
 TEST(Style, LinesAreAtMostOneHundredColumnsWide) {
   for (const SourceFile& file : FilesWithColumns()) {
     for (const int number : WideLines(file.text)) ADD_FAILURE() << file.path << ":" << number;
+  }
+}
+
+// A margin is a named constant, with what it covers beside it.
+TEST(Style, NoEpsilonOfTheCoreIsUnnamed) {
+  for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
+    if (file.path.rfind("collision_core/", 0) != 0) continue;
+    for (const int line : UnnamedEpsilons(file.text)) ADD_FAILURE() << file.path << ":" << line;
   }
 }
 

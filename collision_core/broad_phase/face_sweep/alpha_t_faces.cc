@@ -5,6 +5,7 @@
 
 #include "collision_core/motion/hypertrapezoid.h"
 #include "collision_core/motion/speed_cap.h"
+#include "collision_core/numeric/seconds.h"
 
 namespace collision::broad_phase {
 namespace {
@@ -44,7 +45,8 @@ FaceLines LinesOfBall(const motion::SpaceTimeBound& bound, Instant start, Instan
       limits.radius + state.position_error + (bound.skew > 0 ? state.v_WA.norm() : 0) * bound.skew;
   FaceLines lines;
   const auto at = [&](Instant t, std::array<double, 6>* faces) {
-    const double elapsed = 1e-9 * Nanoseconds(state.stamp, t), worked = elapsed + bound.skew;
+    const double elapsed = numeric::kNanosecond * Nanoseconds(state.stamp, t),
+                 worked = elapsed + bound.skew;
     const double reach = errors + (state.velocity_error +
                                    0.5 * limits.acceleration_max * (worked + limits.time_step)) *
                                       worked;
@@ -93,7 +95,7 @@ std::optional<FaceLines> FaceLinesOf(const motion::SpaceTimeBound& bound, Instan
   const bool is_late = state.stamp > start;
   FaceLines lines = LinesFrom(bound, is_late ? state.stamp : start, end);
   if (is_late) ProlongToStart(start, state.stamp, end, &lines);
-  const double elapsed = 1e-9 * Nanoseconds(state.stamp, end);
+  const double elapsed = numeric::kNanosecond * Nanoseconds(state.stamp, end);
   double magnitude = 0;
   for (int axis = 0; axis < 3; ++axis) {
     magnitude += std::abs(state.p_WA[axis]) + std::abs(state.v_WA[axis]) * elapsed;

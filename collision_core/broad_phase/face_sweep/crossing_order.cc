@@ -13,6 +13,10 @@ namespace {
 /// crossings takes five passes.
 constexpr std::uint32_t kFirstStretch = CrossingOrder::kTicks >> 10;
 
+/// Nearer than this to a whole number the quotient of a crossing, in ticks, is computed exactly:
+/// four times what it is off by in doubles.
+constexpr double kTicksUncertain = 0x1p-20;
+
 bool StartsBelow(const AlphaTFace& a, const AlphaTFace& b) {
   if (a.start != b.start) return a.start < b.start;
   return a.end != b.end ? a.end < b.end : a.face < b.face;
@@ -29,7 +33,7 @@ std::uint32_t CrossingTick(const AlphaTFace& below, const AlphaTFace& above) {
       static_cast<double>(at_start) / static_cast<double>(closing) * CrossingOrder::kTicks;
   const auto whole = static_cast<std::uint32_t>(ticks);
   const double rest = ticks - whole;
-  if (rest > 0x1p-20 && rest < 1 - 0x1p-20) return whole + 1;
+  if (rest > kTicksUncertain && rest < 1 - kTicksUncertain) return whole + 1;
   return static_cast<std::uint32_t>((static_cast<__int128>(at_start) << CrossingOrder::kTickBits) /
                                     closing) +
          1;

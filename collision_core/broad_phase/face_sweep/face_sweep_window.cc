@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/numeric/seconds.h"
+
 namespace collision::broad_phase {
 namespace {
 
@@ -72,7 +74,7 @@ std::int64_t FirstWindow(const BoundList& bounds, const std::vector<std::uint32_
   // Infinite, or not a number, if nothing moves or has a length: any window will do then.
   const double seconds = std::min(std::sqrt(length / Quantile(&accelerations, 7, 8)),
                                   kTicksPerLength * length / Speed(sample));
-  const double nanoseconds = 1e9 * seconds;
+  const double nanoseconds = numeric::kNanosecondsPerSecond * seconds;
   if (!(nanoseconds < kWindowMax)) return static_cast<std::int64_t>(kWindowMax);
   return std::max<std::int64_t>(static_cast<std::int64_t>(nanoseconds), 1);
 }

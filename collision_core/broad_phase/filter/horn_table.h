@@ -11,6 +11,7 @@
 #include "collision_core/broad_phase/filter/pair_filter.h"
 #include "collision_core/intersection/intersection_query.h"
 #include "collision_core/intersection/pair_rules.h"
+#include "collision_core/numeric/seconds.h"
 
 namespace collision::broad_phase {
 
@@ -118,7 +119,8 @@ class HornTable {
 // the reach.
 inline numeric::QuickBall HornTable::At(const HornRow& row, Instant instant) {
   const numeric::QuickBall& from = row.ball;
-  const double line = static_cast<double>(instant.nanoseconds() - row.stamp.nanoseconds()) * 1e-9;
+  const double line =
+      static_cast<double>(instant.nanoseconds() - row.stamp.nanoseconds()) * numeric::kNanosecond;
   const double tau = std::max(line, 0.0);
   numeric::QuickBall at;
   double lost = 0;

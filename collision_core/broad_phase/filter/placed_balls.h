@@ -5,12 +5,13 @@
 
 #include "collision_core/broad_phase/filter/placement_frame.h"
 #include "collision_core/broad_phase/filter/sphere_filter.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::broad_phase {
 
 /// A reach at a time, rounded up by more than the operations take.
 inline float ReachAt(float time, float s0, float s1, float s2) {
-  return (s0 + time * (s1 + time * s2)) * (1 + 0x1p-21f);
+  return (s0 + time * (s1 + time * s2)) * numeric::kFewFloatRoundingsUp;
 }
 
 /// Placed balls as arrays of floats, seen from a corner near them.
@@ -85,7 +86,7 @@ FilterQuery QueryOf(const PlacedBall& horn, const PlacementFrame& frame, TimeWin
 
 /// How far the query's ball comes from its place.
 inline float WayOf(const FilterQuery& query) {
-  return (query.reach + query.way * query.speed) * (1 + 0x1p-21f);
+  return (query.reach + query.way * query.speed) * numeric::kFewFloatRoundingsUp;
 }
 
 /// Appends the agents that a scan of the ranges finds; `hits` is scratch.

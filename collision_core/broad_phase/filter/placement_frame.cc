@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/cube_root.h"
 #include "collision_core/numeric/seconds.h"
 
@@ -73,7 +74,10 @@ Sample TakeSample(const HornTable& table, Instant from) {
 /// ball of (4/3) π (2 R)³. The way counts half, as the middle is what it is measured from.
 double WindowOf(const Sample& sample) {
   constexpr double kBall = 33.5;
-  const double reach = numeric::CubeRoot(std::max(kNearPerAgent / kBall * sample.volume, 1e-300));
+  // In place of a volume that underflows, so that a root can be taken [m³].
+  constexpr double kVolumeLeast = 1e-300;
+  const double reach =
+      numeric::CubeRoot(std::max(kNearPerAgent / kBall * sample.volume, kVolumeLeast));
   const double growth = std::max(reach - sample.s0, kGrowthMin * sample.s0);
   const double rate = sample.s1 + 0.5 * sample.speed;
   if (!(rate > 0) && !(sample.s2 > 0)) return kWindowMax;
@@ -104,8 +108,8 @@ PlacementFrame::PlacementFrame(const HornTable& table, const intersection::Broad
 void PlacementFrame::Shorten(double seconds) {
   window_ = std::clamp(seconds, kWindowMin, window_);
   middle_ = 0.5 * window_;
-  slack_ = static_cast<float>(middle_) * kFilterSlack * (1 + 0x1p-20f);
-  least_ = static_cast<float>(middle_) * kReachLeast * (1 + 0x1p-20f);
+  slack_ = static_cast<float>(middle_) * kFilterSlack * numeric::kSomeFloatRoundingsUp;
+  least_ = static_cast<float>(middle_) * kReachLeast * numeric::kSomeFloatRoundingsUp;
 }
 
 // Of the sample, the middle part along x; of these the middle part along y, and along z.

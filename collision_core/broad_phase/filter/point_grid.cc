@@ -21,11 +21,25 @@ constexpr double kDense = 0.05;
 /// Up to this number all points share one cell.
 constexpr std::uint32_t kFewPoints = 32;
 
+/// Squares beyond this length [m] might overflow in single precision.
+constexpr double kLengthMax = 0x1p60;
+
+/// Of a row's length: positions lose at most 2^-24 of it on each axis, for both points of a pair,
+/// and reaches and the ranges' bounds as much. Squares lose digits to underflow below kReachLeast.
+constexpr double kRowLoss = 0x1p-20;
+
+/// What cells have to hold beside the reach, as a share of it and of the box: four times kRowLoss,
+/// and of the factors that raise reaches.
+constexpr double kReachSlack = 0x1p-18;
+
+/// Cells are wider than two reaches by far more than the quotients by them are rounded.
+constexpr double kCellUp = 1 + 0x1p-10;
+
+/// No less than what raises the reach of each entry, and one product.
+constexpr float kReachMostUp = 1 + 0x1p-19f;
+
 }  // namespace
 
-// Positions lose at most 2^-24 of a row's length on each axis, for both points of a pair, and
-// reaches and the ranges' bounds as much: together less than 2^-20 of it. Squares lose digits to
-// underflow below kReachLeast.
 bool PointGrid::ChooseCells(std::uint32_t present, const PointExtent& extent) {
   double widest = 0, volume = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,14 +47,14 @@ bool PointGrid::ChooseCells(std::uint32_t present, const PointExtent& extent) {
     origin_[axis] = extent.low[axis];
     widest = std::max(widest, extent.high[axis] - extent.low[axis]);
   }
-  if (!(widest < 0x1p60) || !(extent.reach < 0x1p60f)) return false;
+  if (!(widest < kLengthMax) || !(static_cast<double>(extent.reach) < kLengthMax)) return false;
   constexpr double kLeast = kReachLeast;
   const double reach =
-      static_cast<double>(extent.reach) * (1 + 0x1p-18) + 0x1p-18 * widest + 2 * kLeast;
+      static_cast<double>(extent.reach) * (1 + kReachSlack) + kReachSlack * widest + 2 * kLeast;
   for (int axis = 0; axis < 3; ++axis) {
     volume *= std::max(extent.high[axis] - extent.low[axis], 2 * reach);
   }
-  cell_ = std::max(2 * reach * (1 + 0x1p-10), numeric::CubeRoot(volume * kPerCell / present));
+  cell_ = std::max(2 * reach * kCellUp, numeric::CubeRoot(volume * kPerCell / present));
   if (present <= kFewPoints) cell_ = 2 * (widest + reach);
   per_cell_ = 1 / cell_;
   double total = 1, cells[3];
@@ -51,8 +65,8 @@ bool PointGrid::ChooseCells(std::uint32_t present, const PointExtent& extent) {
   if (!(total <= kCellsPerPoint * present + 64) || cells[0] > kRowCellsMax) return false;
   if (total < 2 && present > kFewPoints) return false;
   for (int axis = 0; axis < 3; ++axis) cells_[axis] = static_cast<std::int32_t>(cells[axis]);
-  lost_ = static_cast<float>(0x1p-20 * cell_ * cells_[0]) + kReachLeast;
-  reach_most_ = extent.reach * (1 + 0x1p-19f) + lost_;
+  lost_ = static_cast<float>(kRowLoss * cell_ * cells_[0]) + kReachLeast;
+  reach_most_ = extent.reach * kReachMostUp + lost_;
   begin_.assign(static_cast<std::size_t>(total) + 3, 0);
   return true;
 }

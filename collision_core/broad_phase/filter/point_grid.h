@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/filter/point_filter.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::broad_phase {
@@ -188,9 +189,10 @@ bool PointGrid::Fill(std::uint32_t count, const PointExtent& extent, At at) {
     entries_[k] = {static_cast<float>(point.c[0] - origin_[0]),
                    static_cast<float>(point.c[1] - (origin_[1] + y * cell_)),
                    static_cast<float>(point.c[2] - (origin_[2] + z * cell_)),
-                   point.reach * (1 + 0x1p-20f) + lost_};
+                   point.reach * numeric::kSomeFloatRoundingsUp + lost_};
     if (half_ > 0) {
-      motions_[k] = {point.v[0], point.v[1], point.v[2], point.own * (1 + 0x1p-20f) + lost_};
+      motions_[k] = {point.v[0], point.v[1], point.v[2],
+                     point.own * numeric::kSomeFloatRoundingsUp + lost_};
     }
     cell_of_[k] = CellAt(point);
     ++begin_[cell_of_[k] + 2];
@@ -204,7 +206,7 @@ bool PointGrid::Build(std::uint32_t count, std::uint32_t present, double half, A
   PointExtent extent = Measure(count, stride, at);
   if (stride > 1 && extent.reach == 0) stride = 1, extent = Measure(count, 1, at);
   if (stride > 1) extent.Widen(kBeyondSample);
-  half_ = IsDense(present, extent) ? static_cast<float>(half) * (1 + 0x1p-22f) : 0;
+  half_ = IsDense(present, extent) ? static_cast<float>(half) * numeric::kCastRoundingUp : 0;
   Reserve(count);
   if (!ChooseCells(present, extent)) return false;
   if (stride > 1 && LooksCrowded(count, present, stride, extent, at)) return false;

@@ -14,11 +14,11 @@ EarliestPairSink::EarliestPairSink(const HornTable& table, const intersection::B
 
 // Rounded up; meetings are compared as instants, which are up to a nanosecond early.
 void EarliestPairSink::Limit(Instant until) {
-  constexpr double kNanosecond = 1e-9;
-  limit_ = until.is_never() ? numeric::kInfinity
-           : until <= query_.from
-               ? kNanosecond
-               : numeric::AddUp(numeric::SecondsBetween(query_.from, until).upper, kNanosecond);
+  limit_ =
+      until.is_never() ? numeric::kInfinity
+      : until <= query_.from
+          ? numeric::kNanosecond
+          : numeric::AddUp(numeric::SecondsBetween(query_.from, until).upper, numeric::kNanosecond);
 }
 
 bool MayMeet(const HornTable& table, std::uint32_t a, std::uint32_t b, const Within& within,

@@ -7,6 +7,7 @@
 
 #include "collision_core/base/check.h"
 #include "collision_core/broad_phase/filter/placed_balls.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::broad_phase {
 
@@ -87,11 +88,12 @@ class GridLevel {
   PlacedBalls lanes_;
 };
 
-/// Single precision is enough: the search reaches farther by a part of a cell that exceeds what it
-/// loses.
+/// Single precision is enough: the search reaches farther by kBeyond of a cell, which exceeds what
+/// it loses.
 template <typename Visit>
 void GridLevel::ForEachPlace(TimeWindow window, Visit visit) const {
   CORE_CHECK(in_rows(), "the rows of a grid are those of a box");
+  constexpr float kBeyond = 0x1p-9f;
   std::vector<FilterRange> ranges;
   const auto cell = static_cast<float>(cell_), per_cell = static_cast<float>(per_cell_);
   const float last_x = static_cast<float>(cells_[0] - 1);
@@ -100,7 +102,7 @@ void GridLevel::ForEachPlace(TimeWindow window, Visit visit) const {
   float most;
   const auto set_window = [&] {
     times = TimesOf(*frame_, window);
-    most = static_cast<float>(ReachMax(window)) * (1 + 0x1p-20f) + cell * 0x1p-9f;
+    most = static_cast<float>(ReachMax(window)) * numeric::kSomeFloatRoundingsUp + cell * kBeyond;
   };
   set_window();
   std::uint32_t place = 0;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "collision_core/numeric/seconds.h"
+
 namespace collision::detection {
 namespace {
 
@@ -19,7 +21,7 @@ double Seconds(Instant from, Instant to) {
   if (__builtin_sub_overflow(to.nanoseconds(), from.nanoseconds(), &ns)) {
     return std::numeric_limits<double>::quiet_NaN();
   }
-  return 1e-9 * static_cast<double>(ns);
+  return numeric::kNanosecond * static_cast<double>(ns);
 }
 
 }  // namespace

@@ -46,6 +46,15 @@ struct HalfEdges {
 /// The squared sine of the angle between edges that are taken as parallel.
 constexpr double kParallel = 1e-28;
 
+/// On σ, a root, a quotient and products of positive terms: a few roundings, and the second order.
+constexpr double kSineUp = 1.01;
+
+/// IsNoNearer() leaves aside normals with a squared sine below kClearSquare, and reaches beyond 0
+/// below 1e-10 |g_i| |g_j| S. With σ < 1.1e-14 a reach is off by less than 1.3e-14 |g_i| |g_j| S:
+/// 1.3e-4 of it, and 2.6e-4 of its square; |n| is off by 1.3e-11 of itself. kSquareUp covers both
+/// nearly four times.
+constexpr double kClearSquare = 1e-6, kClearReachSquare = 1e-20, kSquareUp = 1.001;
+
 class Faces {
  public:
   Faces(const ConvexPair& pair, double apart) : pair_(pair), apart_(apart) {
@@ -58,7 +67,7 @@ class Faces {
     inside_ = numeric::kInfinity;
     const bool all = FindParallels() && TryPairs();
     if (all && inside_ < numeric::kInfinity)
-      found_.inside = inside_ - 1.01 * parallel_ * pair_.size();
+      found_.inside = inside_ - kSineUp * parallel_ * pair_.size();
     return found_;
   }
 
@@ -72,7 +81,7 @@ class Faces {
         const double square = half_.edges[i].cross(half_.edges[j]).squaredNorm();
         if (!(squares > 0) || square > kParallel * squares) continue;
         if (++partners[i] > 1 || ++partners[j] > 1) return false;
-        parallel_ = std::max(parallel_, 1.01 * std::sqrt(square / squares) + 5 * kUnit);
+        parallel_ = std::max(parallel_, kSineUp * std::sqrt(square / squares) + 5 * kUnit);
       }
     }
     return true;
@@ -106,7 +115,7 @@ class Faces {
     const double beyond = reach - std::abs(along);
     if (IsNoNearer(beyond, square, squares)) return false;
     const double length = std::sqrt(square), lengths = std::sqrt(squares);
-    const double off = (5 * kUnit + 1.01 * parallel_) * lengths;
+    const double off = (5 * kUnit + kSineUp * parallel_) * lengths;
     const double error = (12 * kUnit * length + off) * pair_.size();
     const double most = (1 + 5 * kUnit) * length + off;
     inside_ = std::min(inside_, (beyond - error) / most * (1 - 4 * kUnit));
@@ -120,9 +129,10 @@ class Faces {
   /// Whether the reach beyond 0 clearly exceeds the least one so far, all errors included: then no
   /// root is needed, as for most pairs.
   bool IsNoNearer(double beyond, double square, double squares) const {
-    return beyond > 0 && inside_ > 0 && inside_ < numeric::kInfinity && square > 1e-6 * squares &&
-           beyond * beyond > 1e-20 * squares * pair_.size() * pair_.size() &&
-           beyond * beyond > 1.001 * inside_ * inside_ * square;
+    return beyond > 0 && inside_ > 0 && inside_ < numeric::kInfinity &&
+           square > kClearSquare * squares &&
+           beyond * beyond > kClearReachSquare * squares * pair_.size() * pair_.size() &&
+           beyond * beyond > kSquareUp * inside_ * inside_ * square;
   }
 
   const ConvexPair& pair_;

@@ -15,11 +15,16 @@
 // 13.5u span in all, of a hull 15.8u; 18u leave room for the product n·point itself (3u |point|).
 #include "collision_core/geometry/convex/convex_set.h"
 
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::geometry {
 
 using Eigen::Vector3d;
+
+/// Of the span: each difference of corners is off by 2^-53 of itself, a weighted sum of two of them
+/// by no more than the longer one; twice that.
+constexpr double kDifferenceError = 0x1p-52;
 
 ConvexSet TriangleSet(const std::array<Vector3d, 3>& corners) {
   ConvexSet set;
@@ -28,11 +33,11 @@ ConvexSet TriangleSet(const std::array<Vector3d, 3>& corners) {
   set.generators.col(0).setZero();
   set.generators.col(1) = corners[1] - corners[0];
   set.generators.col(2) = corners[2] - corners[0];
-  // Each difference is off by 2^-53 of itself, a root of rounded squares by 2.5 times that.
+  // A root of rounded squares is off by 2.5 · 2^-53 of itself.
   const double longest =
       std::sqrt(std::max(set.generators.col(1).squaredNorm(), set.generators.col(2).squaredNorm()));
-  set.span = (1 + 0x1p-50) * longest + kSupportUnderflow;
-  set.error = 0x1p-52 * set.span;
+  set.span = numeric::kFewRoundingsUp * longest + kSupportUnderflow;
+  set.error = kDifferenceError * set.span;
   return set;
 }
 

@@ -19,6 +19,10 @@ constexpr double kFlat = 64 * 0x1p-53;
 constexpr double kFinal = 4 * 0x1p-53;
 constexpr double kFinalSmooth = 0x1p-40;
 
+/// A point that is beyond a face of the first tetrahedron by less than this share of S counts as in
+/// its plane: differences, products with its normal and their sums, a rounding each.
+constexpr double kInPlane = 8 * 0x1p-53;
+
 /// After this many steps each the certain radius is recorded, in case the surface degenerates
 /// later.
 constexpr std::uint32_t kCheckEvery = 16;
@@ -98,7 +102,7 @@ class Growth {
         final_((pair.IsSmooth() ? kFinalSmooth : kFinal) * pair.size()) {}
 
   void Run(const std::array<Point, 4>& tetrahedron) {
-    faces_.Start(tetrahedron, 8 * 0x1p-53 * pair_.size());
+    faces_.Start(tetrahedron, kInPlane * pair_.size());
     while (overlap_.steps < goal_.steps) {
       const int nearest = faces_.Nearest();
       if (nearest < 0 || IsGoodEnough(faces_.DistanceOf(nearest))) break;

@@ -14,6 +14,14 @@ using Eigen::Vector3d;
 /// The least sine of the angle between two edges of a face; with a smaller one it is a needle.
 constexpr double kNeedle = 1e-10;
 
+/// Of |y_0| |e_1| |e_2|: more than twice what a computed y_0·(e_1 × e_2) is off by, 12u
+/// (IsSeenFromWithin).
+constexpr double kTripleError = 32 * 0x1p-53;
+
+/// Of S: n·y is off by 3u |y| <= 3u √3 S, and |n| by 4u, which counts of the distance, at most S;
+/// below 9.2u, rounded up.
+constexpr double kDistanceError = 12 * 0x1p-53;
+
 constexpr int kNext[3] = {1, 2, 0};
 
 }  // namespace
@@ -158,11 +166,10 @@ bool PolytopeFaces::IsSeenFromWithin(const Face& face) const {
   const Vector3d &b = points_[face.corners[1]].y, &c = points_[face.corners[2]].y;
   const Vector3d ab = b - a, ac = c - a;
   const double bound = a.cwiseAbs().sum() * ab.cwiseAbs().sum() * ac.cwiseAbs().sum();
-  if (a.dot(ab.cross(ac)) > 32 * 0x1p-53 * bound + kSupportUnderflow) return true;
+  if (a.dot(ab.cross(ac)) > kTripleError * bound + kSupportUnderflow) return true;
   return numeric::OrientationSign(a, b, c, Vector3d::Zero()) == -1;
 }
 
-// n·y is off by 3u |y| <= 3u √3 size, and |n| by 4u: of the distance, at most size.
 double PolytopeFaces::CertainDistance(double point_error, double size) const {
   if (face_count_ < 4) return -numeric::kInfinity;
   double least = numeric::kInfinity;
@@ -173,7 +180,7 @@ double PolytopeFaces::CertainDistance(double point_error, double size) const {
   for (int i = 0; i < face_count_; ++i) {
     if (!IsSeenFromWithin(faces_[i])) return -numeric::kInfinity;
   }
-  return numeric::AddDown(least, -numeric::AddUp(point_error, 12 * 0x1p-53 * size));
+  return numeric::AddDown(least, -numeric::AddUp(point_error, kDistanceError * size));
 }
 
 }  // namespace collision::geometry

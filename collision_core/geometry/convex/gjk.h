@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "collision_core/geometry/convex/convex_set.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::geometry {
 
@@ -19,7 +20,7 @@ namespace collision::geometry {
 class ConvexPair {
  public:
   ConvexPair(const ConvexSet& a, const ConvexSet& b) : a_(a), b_(b), between_(b.centre - a.centre) {
-    size_ = (1 + 0x1p-50) * (between_.cwiseAbs().sum() + a.span + b.span);
+    size_ = numeric::kFewRoundingsUp * (between_.cwiseAbs().sum() + a.span + b.span);
   }
 
   /// Points of the two cores, as ConvexSet::PointAt() takes them: valid at any pose.

@@ -39,6 +39,7 @@ inline SegmentFractions FractionsOf(const Eigen::Vector3d& d, const Eigen::Vecto
 /// step that leaves the known interval is replaced by a bisection.
 inline double FractionNearBox(const double (&x)[3], const double (&v)[3], const double (&w)[3]) {
   constexpr int kStepsMax = 12;
+  constexpr double kSameFraction = 0x1p-52;  // A unit in the last place of 1: no step is shorter.
   double least = -1, most = 1, t = 0;
   for (int step = 0; step < kStepsMax; ++step) {
     double rise = 0, slope = 0;
@@ -55,7 +56,7 @@ inline double FractionNearBox(const double (&x)[3], const double (&v)[3], const 
     double next = t - rise / slope;
     if (next <= least) next = rise > 0 && least > -1 ? 0.5 * (least + most) : least;
     if (next >= most) next = rise < 0 && most < 1 ? 0.5 * (least + most) : most;
-    if (std::abs(next - t) <= 0x1p-52) return next;
+    if (std::abs(next - t) <= kSameFraction) return next;
     t = next;
   }
   return t;

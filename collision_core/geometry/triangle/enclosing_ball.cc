@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::geometry {
@@ -28,11 +29,13 @@ Farthest FarthestFrom(const Vector3d& centre, std::span<const Vector3d> points) 
 }
 
 /// A computed |d|² is off by a relative 5 u at most, u = 2^−53 (two for each rounded difference,
-/// one for each square, two for the sums), the root by 2.5 u + u; 2^−50 = 8 u covers them and its
-/// own rounding. Squares below 1e-308 lose digits, so distances below kDistanceMin [m] are raised
-/// to it.
+/// one for each square, two for the sums), the root by 2.5 u + u: kFewRoundingsUp covers them and
+/// its own rounding. Squares below 1e-308 lose digits, so distances below kDistanceMin [m] are
+/// raised to it.
 constexpr double kDistanceMin = 1e-150;
-double RadiusOf(double distance2) { return std::sqrt(distance2) * (1 + 0x1p-50) + kDistanceMin; }
+double RadiusOf(double distance2) {
+  return std::sqrt(distance2) * numeric::kFewRoundingsUp + kDistanceMin;
+}
 
 }  // namespace
 

@@ -159,13 +159,14 @@ bool IsCertainlyFarther(const Vector3d& p, const TrianglePoints& corners, double
   // As LowerAlong(), in plain doubles. A computed n · (p − corner) is off by at most 4.1 u |n| |p −
   // corner| (one rounding of the difference, one of the product, two of the sum), u = 2^−53; the
   // length by 3.1 u, the quotient by u of at most |p − corner|: 16 u of the farthest covers all.
+  constexpr double kQuotientError = 0x1p-49;
   double least = numeric::kInfinity, farthest2 = 0;
   for (const Vector3d& corner : corners) {
     const Vector3d d = p - corner;
     least = std::min(least, n.dot(d));
     farthest2 = std::max(farthest2, d.squaredNorm());
   }
-  return least / length - 0x1p-49 * std::sqrt(farthest2) > distance;
+  return least / length - kQuotientError * std::sqrt(farthest2) > distance;
 }
 
 }  // namespace collision::geometry

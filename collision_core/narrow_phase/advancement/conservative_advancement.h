@@ -24,12 +24,15 @@
 
 namespace collision::narrow_phase {
 
+/// Steps shorter than this share of the duration gain too little, unless the caller asks for more.
+inline constexpr double kSweepStepWorth = 1e-3;
+
 /// How far a search refines a time before it returns it.
 struct SweepDetail {
   /// Spheres are opened while they are larger than this share of what is not known of the motion.
   double fine_enough = 0.25;
   /// A step shorter than this share of the duration ends the search.
-  double step_worth = 1e-3;
+  double step_worth = kSweepStepWorth;
 };
 
 /// A lower bound on the time at which the two may touch, and where.

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -50,8 +51,8 @@ class GapAlong {
     const SweptPose::Growth& used = solids_.used;
     const double front_a = FrontOf(a.set, a.motion, n_, origin_, t).front;
     const double front_b = FrontOf(b.set, b.motion, -n_, origin_, t).front;
-    // Sums and products of positive terms: 2^-50 of them covers their rounding.
-    const double lost = (1 + 0x1p-50) * (used.c0 + t * (used.c1 + t * used.c2));
+    // Four sums and products of positive terms.
+    const double lost = numeric::kFewRoundingsUp * (used.c0 + t * (used.c1 + t * used.c2));
     return numeric::AddDown(-numeric::AddUp(front_a, front_b), -lost);
   }
 

@@ -33,6 +33,14 @@ constexpr double kStepWorth = 1e-4;
 // A few roundings, upward.
 constexpr double kGrow = 1 + 0x1p-40;
 
+/// A corner of a box, of |c| and the span: three products and three sums, 2^-53 of these each, in
+/// three coordinates; below 11 · 2^-53.
+constexpr double kCornerRounding = 0x1p-49;
+
+/// Of reaches, offset and way: four times the share that PointMotion takes for tangents, since
+/// heights and radii about the axis are sums of products with its coordinates, rounded as well.
+constexpr double kRingRounding = 0x1p-46;
+
 /// The hull of some points, one to eight, rounded by `radius`: a ball, a triangle, or what holds a
 /// convex solid; seen from its body's reference point.
 struct Part {
@@ -70,14 +78,14 @@ Part Around(const shape::ConvexSolid& solid) {
     }
     return part;
   }
-  // Ellipsoids lie in the box of their axes. Three products and three sums, of at most the span.
+  // Ellipsoids lie in the box of their axes.
   const int corners = set.core == geometry::ConvexCore::kSegment ? 2 : 8;
   for (int i = 0; i < corners; ++i) {
     part.Add(set.centre +
              set.PointAt({i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0}));
   }
   const double rounding =
-      numeric::MultiplyUp(0x1p-49, numeric::AddUp(set.span, set.centre.cwiseAbs().sum()));
+      numeric::MultiplyUp(kCornerRounding, numeric::AddUp(set.span, set.centre.cwiseAbs().sum()));
   part.radius = numeric::AddUp(numeric::AddUp(set.rounding, set.error), rounding);
   return part;
 }
@@ -182,9 +190,9 @@ class Search {
     const RelativePose& pose = swept.pose;
     const double reach = a.reach() + b.reach();
     speed_ = swept.velocity.norm() * kGrow + swept.velocity_error;
-    // As for tangents (conservative_advancement.cc); and the axes are off by what turned them.
+    // As for tangents (point_motion.cc); and the axes are off by what turned them.
     slack_ = numeric::AddUp(
-        numeric::MultiplyUp(0x1p-46, reach + pose.p_AB.cwiseAbs().sum() + duration * speed_),
+        numeric::MultiplyUp(kRingRounding, reach + pose.p_AB.cwiseAbs().sum() + duration * speed_),
         numeric::AddUp(pose.offset_error, numeric::MultiplyUp(3 * pose.matrix_error, reach)));
   }
 

@@ -7,6 +7,7 @@
 #include "collision_core/narrow_phase/penetration/separating_translation.h"
 #include "collision_core/narrow_phase/separation/containment.h"
 #include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 
@@ -69,6 +70,10 @@ constexpr double kFineBend = 1e-6;
 
 // Within so small a turn [rad] a tangent leaves its circle by 3 % of the radius.
 constexpr double kTurnOfSweep = 0.25;
+
+// Of a velocity that a matrix turns: three products and two sums of 2^-53 each in three
+// coordinates, for each of three vectors; below 27 · 2^-53, and as much again.
+constexpr double kTurnRounding = 0x1p-47;
 
 // Over more than this turn [rad] it is worth asking what a body sweeps in all its turns.
 constexpr double kTurnToRevolve = 6;
@@ -172,7 +177,8 @@ SweptPose ShapeMotion::SweptFrom(const Departure& from, BoundChoice choice) cons
   const numeric::Interval fastest = numeric::Norm(velocity) +
                                     TurningOf(a_, choice.of_a, from.at, from.direction).spin +
                                     TurningOf(b_, choice.of_b, from.at, from.direction).spin;
-  swept.velocity_error = numeric::MultiplyUp(2 * swept.pose.matrix_error + 0x1p-47, fastest.upper);
+  swept.velocity_error =
+      numeric::MultiplyUp(2 * swept.pose.matrix_error + kTurnRounding, fastest.upper);
   const numeric::Quadratic u = From(ball_a.u + ball_b.u, from.at, from.direction);
   swept.translation = {u.c0.upper, u.c1.upper, std::max(0.0, u.c2.upper)};
   if (a_.shape) swept.turning_A = GrowthOf(a_.turns[choice.of_a], from, swept.pose.chord_A);
@@ -238,7 +244,7 @@ double ShapeMotion::RevolvedFree(double at, double left, TimeDirection direction
   const double slow = std::min(of_a, of_b), fast = std::max(of_a, of_b);
   if (free < span && slow > 0 && kMuchSlower * slow < fast) {
     (of_a < of_b ? swept.spin_A : swept.spin_B).setZero();
-    (of_a < of_b ? swept.turning_A : swept.turning_B).c1 += slow * (1 + 0x1p-40);
+    (of_a < of_b ? swept.turning_A : swept.turning_B).c1 += slow * numeric::kManyRoundingsUp;
     const double some = std::min(span, kTurnOfSweep / slow);
     free = std::max(free,
                     std::min(some, SweptRingBound({surface_a_, surface_b_, swept}, some, &work_)));

@@ -12,6 +12,7 @@
 
 #include "collision_core/base/check.h"
 #include "collision_core/geometry/convex/segment_fractions.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -23,7 +24,7 @@ constexpr double kWayError = 0x1p-49;
 
 /// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow.
 double LengthUp(const Vector3d& v) {
-  return (1 + 0x1p-50) * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
+  return numeric::kFewRoundingsUp * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
 }
 
 /// The half edges of a core: of A as they are, of B posed.
@@ -75,12 +76,12 @@ Vector3d WayFromBox(const Vector3d& d, const Edges<3>& box, const Vector3d& axis
 PosedCores::PosedCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                        const RelativePose& pose)
     : d((pose.R_AB * b.centre + pose.p_AB) - a.centre),
-      size((1 + 0x1p-18) * (d.cwiseAbs().sum() + a.span + b.span)) {
+      size(kPosedSumUp * (d.cwiseAbs().sum() + a.span + b.span)) {
   const double far_b = LengthUp(b.centre) + b.span;
   const double turned_a = pose.chord_A > 0 ? pose.chord_A * (LengthUp(a.centre) + a.span) : 0;
-  error =
-      (1 + 0x1p-40) * (((1 + 0x1p-20) * b.error + a.error) +
-                       (pose.offset_error + (pose.matrix_error + pose.chord_B) * far_b) + turned_a);
+  error = numeric::kManyRoundingsUp *
+          ((kPosedLengthUp * b.error + a.error) +
+           (pose.offset_error + (pose.matrix_error + pose.chord_B) * far_b) + turned_a);
 }
 
 numeric::Interval DistanceOfCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b,

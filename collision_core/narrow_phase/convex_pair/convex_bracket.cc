@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision_core/numeric/allowances.h"
+
 namespace collision::narrow_phase {
 
 using Eigen::Vector3d;
@@ -17,7 +19,8 @@ double ConvexBracket::NormalError() const {
   const double lower = numeric::AddDown(lower_, -error_), upper = numeric::AddUp(upper_, error_);
   if (!(lower > 0) || !(lower <= upper)) return std::numbers::pi;
   const double sine = std::sqrt((upper - lower) * (upper + lower)) / upper;
-  return std::min(std::numbers::pi, (1 + 0x1p-40) * kHalfPiUp * sine + kUnitVectorError);
+  return std::min(std::numbers::pi,
+                  numeric::kManyRoundingsUp * kHalfPiUp * sine + kUnitVectorError);
 }
 
 }  // namespace collision::narrow_phase

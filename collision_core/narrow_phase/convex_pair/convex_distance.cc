@@ -4,16 +4,21 @@
 #include <cmath>
 
 #include "collision_core/narrow_phase/convex_pair/convex_search.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
 
 using Eigen::Vector3d;
 
+/// Of the lengths that a point is the sum of: a rounding of 2^-53 for each of two sums, in three
+/// coordinates; below 3.5 · 2^-53.
+constexpr double kPointRounding = 0x1p-51;
+
 /// What sums of a centre and a point, both in doubles, are off by.
 double CentreError(const ConvexBracket& bracket) {
   const geometry::ConvexPair& pair = bracket.pair();
-  return 0x1p-51 * (pair.a().centre.cwiseAbs().sum() + pair.size() + bracket.rounding());
+  return kPointRounding * (pair.a().centre.cwiseAbs().sum() + pair.size() + bracket.rounding());
 }
 
 /// Points a of A and b of B that are ρ apart. The difference holds the ball of the certain depth
@@ -25,7 +30,7 @@ double DistanceToCommonPoint(const ConvexBracket& bracket, double length, double
   const geometry::ConvexPair& pair = bracket.pair();
   const double apart = std::max(0.0, length - bracket.rounding()) + 2 * certain;
   const double diameter = 2 * (std::min(pair.a().span, pair.b().span) + bracket.rounding());
-  return (1 + 0x1p-40) * (0.5 * apart + diameter * (apart / (apart + depth)));
+  return numeric::kManyRoundingsUp * (0.5 * apart + diameter * (apart / (apart + depth)));
 }
 
 /// Sets the points of the result, of which all else is set.
@@ -88,11 +93,13 @@ numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::Conve
 // off by |n − exact| |x − p|, by the point's error, and by rounding relative to
 // S = |c − p|₁ + span (as GapError() of a pair).
 ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace& b) {
+  // On the error of n: |x − p| is computed, and exceeds S by its rounding at most.
+  constexpr double kSizeShare = 0x1p-40;
   const geometry::ConvexSet boundary = geometry::BallSet(b.point, 0);
   const geometry::ConvexPair pair(boundary, a);
   const geometry::ConvexPair::Point lowest = pair.Against(b.normal);
   const double height = b.normal.dot(lowest.y);
-  const double turned = numeric::AddUp(b.normal_error, 0x1p-40 * b.normal_error);
+  const double turned = numeric::AddUp(b.normal_error, kSizeShare * b.normal_error);
   const double error = numeric::AddUp(
       numeric::AddUp(pair.GapError(), numeric::MultiplyUp(kUnitVectorError, std::abs(height))),
       numeric::AddUp(numeric::MultiplyUp(turned, pair.size()),
@@ -106,7 +113,7 @@ ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace
   result.a = foot - a.rounding * b.normal;
   result.b = foot - height * b.normal;
   result.point_error =
-      numeric::AddUp(error, 0x1p-51 * (b.point.cwiseAbs().sum() + pair.size() + a.rounding));
+      numeric::AddUp(error, kPointRounding * (b.point.cwiseAbs().sum() + pair.size() + a.rounding));
   if (result.separation.upper <= 0) result.b = result.a;
   return result;
 }

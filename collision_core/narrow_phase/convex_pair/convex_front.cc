@@ -15,6 +15,9 @@ using Eigen::Vector3d;
 /// the length times the rounding 4u. √3 for cross products by components.
 constexpr double kFrontError = 48 * 0x1p-53;
 
+/// n is longer than 1 by less than 2^-20; 2^-10 covers that and the bounds' own rounding.
+constexpr double kBoundsUp = 1 + 0x1p-10;
+
 double Length(const Vector3d& v) { return std::sqrt(v.squaredNorm()); }
 
 /// The reach along m of what lies about the centre.
@@ -34,13 +37,12 @@ MovingFront FrontOf(const geometry::ConvexSet& set, const TangentMotion& motion,
   const double about = set.span + set.rounding;
   const double speeds = motion.velocity.cwiseAbs().sum() + spin * (arm.cwiseAbs().sum() + about);
   const double places = place.cwiseAbs().sum() + about;
-  // n is longer than 1 by less than 2^-20; 2^-10 covers that and the bounds' own rounding.
-  const double more = 1 + 0x1p-10;
   MovingFront front;
   front.fastest = speed + ReachAlong(set, turned) +
-                  more * (kFrontError * speeds + set.error * spin) + geometry::kSupportUnderflow;
+                  kBoundsUp * (kFrontError * speeds + set.error * spin) +
+                  geometry::kSupportUnderflow;
   front.front = n.dot(place) + h * speed + ReachAlong(set, n + h * turned) +
-                more * (kFrontError * (places + h * speeds) + set.error * (1 + h * spin)) +
+                kBoundsUp * (kFrontError * (places + h * speeds) + set.error * (1 + h * spin)) +
                 geometry::kSupportUnderflow;
   return front;
 }

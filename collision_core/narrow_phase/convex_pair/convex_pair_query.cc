@@ -7,15 +7,26 @@
 #include "collision_core/narrow_phase/convex_pair/capsule_distance.h"
 #include "collision_core/narrow_phase/convex_pair/convex_bracket.h"
 #include "collision_core/narrow_phase/convex_pair/gjk_small.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
 
-/// The bracket of the sets, given that of their cores: roundings and errors counted in. The sums
-/// are off by less than 8 · 2^-53 of their terms.
+/// Sums of a core's distance, the rounding and the errors: off by less than this share of the
+/// pair's size and the rounding.
+constexpr double kSumRounding = 8 * 0x1p-53;
+
+/// Of the same: what a search leaves of an answer, 32 · 2^-53 (kGapError in gjk_small_wide.h), and
+/// kSumRounding, more than three times.
+constexpr double kVerdictMargin = 128 * 0x1p-53;
+
+/// Of the same: four times kSumRounding, so that contact remains when OfSets() has counted it in.
+constexpr double kInsideMargin = 32 * 0x1p-53;
+
+/// The bracket of the sets, given that of their cores: roundings and errors counted in.
 numeric::Interval OfSets(const numeric::Interval& of_cores, double rounding,
                          const PosedCores& cores) {
-  const double slack = cores.error + 0x1p-50 * (cores.size + rounding);
+  const double slack = cores.error + kSumRounding * (cores.size + rounding);
   return {(of_cores.lower - rounding) - slack, (of_cores.upper - rounding) + slack};
 }
 
@@ -28,16 +39,16 @@ Verdict TestBoxes(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                   const RelativePose& pose) {
   const PosedCores cores(a, b, pose);
   const double rounding = a.rounding + b.rounding;
-  const double uncertain = (1 + 0x1p-50) * (cores.error + pose.translation);
+  const double uncertain = numeric::kFewRoundingsUp * (cores.error + pose.translation);
   const BoxPair pair{a.generators.data(),
                      b.generators.data(),
                      pose.R_AB.data(),
                      {cores.d.x(), cores.d.y(), cores.d.z()},
                      a.span,
-                     (1 + 0x1p-18) * b.span,
+                     kPosedSumUp * b.span,
                      cores.size,
-                     (1 + 0x1p-50) * (rounding + uncertain),
-                     std::max(0.0, uncertain - (1 - 0x1p-50) * rounding)};
+                     numeric::kFewRoundingsUp * (rounding + uncertain),
+                     std::max(0.0, uncertain - numeric::kFewRoundingsDown * rounding)};
   switch (TestSeparatingAxes(pair)) {
     case BoxSeparation::kApart:
       return Verdict::kApart;
@@ -93,8 +104,8 @@ SmallGjkPair QuickPairOf(const geometry::ConvexSet& a, const geometry::ConvexSet
 Verdict SearchForVerdict(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                          const PosedCores& cores, const RelativePose& pose) {
   SmallGjkPair pair = QuickPairOf(a, b, cores, pose);
-  const double uncertain = (1 + 0x1p-50) * (cores.error + pose.translation);
-  const double margin = uncertain + 0x1p-46 * (cores.size + pair.rounding);
+  const double uncertain = numeric::kFewRoundingsUp * (cores.error + pose.translation);
+  const double margin = uncertain + kVerdictMargin * (cores.size + pair.rounding);
   pair.apart = pair.rounding + margin;
   if (pair.rounding > margin) pair.near = pair.rounding - margin;
   pair.inside = margin;
@@ -111,7 +122,7 @@ numeric::Interval SearchForDistance(const geometry::ConvexSet& a, const geometry
   pair.relative_tolerance = query.relative_tolerance / 4;
   pair.absolute_tolerance = query.absolute_tolerance / 4;
   // So large that contact remains when errors and roundings are counted in, see OfSets().
-  const double inside = 2 * cores.error + 0x1p-48 * (cores.size + pair.rounding);
+  const double inside = 2 * cores.error + kInsideMargin * (cores.size + pair.rounding);
   if (query.goal == ConvexGoal::kDistance) pair.inside = inside;
   const SmallGjkResult found = RunSmallGjk(pair);
   if (found.inside) return {-numeric::kInfinity, -inside};

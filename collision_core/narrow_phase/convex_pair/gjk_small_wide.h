@@ -266,9 +266,13 @@ class Search {
     }
   }
 
-  /// Factor on a square of a length: covers the roundings of both squares that are compared, which
-  /// are below 2^-49 of them, with plenty to spare.
+  /// On a square that is compared with another. The two take three and six roundings after the
+  /// subtraction of `error`, 9u: 1 + 2^-49 would do. More does no harm: a ball that is within 5e-5
+  /// of its radius of being held costs the search further steps.
   static constexpr double kSquareMargin = 1.0001;
+
+  /// On the radius: a product and a sum of positive terms, and the product with this.
+  static constexpr double kRadiusUp = 1 + 0x1p-40;
 
   /// 0 and four corners: the volumes with each face all have one sign. A triple product of vectors
   /// up to S is off by less than 16u S³, and the exact corners by kPointError S: the ball belongs
@@ -276,7 +280,7 @@ class Search {
   /// than 16u S², which times the radius is small beside 16u S³.
   WIDE_INLINE bool HoldsBall() const {
     const double size = pair_.size;
-    const double radius = (1 + 0x1p-40) * (pair_.inside + kPointError * size);
+    const double radius = kRadiusUp * (pair_.inside + kPointError * size);
     const double error = 64 * kUnit * (size * size * size);
     constexpr int kFaces[4][4] = {{1, 2, 3, 0}, {0, 3, 2, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
     bool positive = true, negative = true;

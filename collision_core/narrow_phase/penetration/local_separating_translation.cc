@@ -5,6 +5,7 @@
 
 #include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/separation/separation.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -36,8 +37,8 @@ class TranslationSearch {
     while (apart - touching > std::max(kNearEnough * apart, kFirstPlace * known) &&
            !work_.exhausted()) {
       const double spare = IsContactShown(shift) || work_.exhausted() ? -1 : Spare(shift);
-      // 2^-40: the length of n, and the difference.
-      if (spare >= 0) apart = std::min(apart, (shift - spare) * (1 + 0x1p-40));
+      // Upwards: the length of n, and the difference.
+      if (spare >= 0) apart = std::min(apart, (shift - spare) * numeric::kManyRoundingsUp);
       if (spare < 0) touching = shift;
       if (touching >= most) return known;
       shift = apart < known ? touching + (apart - touching) / 2 : std::min(4 * shift, most);
@@ -52,8 +53,9 @@ class TranslationSearch {
     RelativePose shifted = pose_;
     shifted.p_AB += shift * n_;
     const double size = numeric::AddUp(pose_.p_AB.cwiseAbs().sum(), shift);
-    shifted.offset_error = numeric::AddUp(
-        pose_.offset_error, numeric::MultiplyUp(2 * kPosingRounding * (1 + 0x1p-40), size));
+    shifted.offset_error =
+        numeric::AddUp(pose_.offset_error,
+                       numeric::MultiplyUp(2 * kPosingRounding * numeric::kManyRoundingsUp, size));
     shifted.translation = 0;
     return shifted;
   }

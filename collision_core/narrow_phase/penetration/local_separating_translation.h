@@ -15,8 +15,11 @@
 
 namespace collision::narrow_phase {
 
-/// Whether n has length 1 to within 2^-50; normalising leaves an error of 2.5 · 2^-53.
-inline bool IsUnit(const Eigen::Vector3d& n) { return std::abs(n.norm() - 1) <= 0x1p-50; }
+/// Normalising leaves a length that is off by 2.5 · 2^-53, and its norm is computed as well as that.
+inline constexpr double kUnitLengthError = 0x1p-50;
+
+/// Whether n has length 1 to within kUnitLengthError.
+inline bool IsUnit(const Eigen::Vector3d& n) { return std::abs(n.norm() - 1) <= kUnitLengthError; }
 
 /// Units for all directions of one pose: where they are spent what is known by then is the answer.
 inline constexpr std::uint64_t kPastUnits = 3000;

@@ -7,6 +7,7 @@
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
 #include "collision_core/narrow_phase/penetration/local_separating_translation.h"
 #include "collision_core/narrow_phase/separation/element.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -21,6 +22,17 @@ constexpr std::uint64_t kNodesMax = 64;
 /// Directions of other lengths are not tried: their squares may have lost digits.
 constexpr double kLengthMin = 0x1p-500, kLengthMax = 0x1p+500;
 
+/// What a direction as floats is off by, of its length: √3 · 2^-24 is less.
+constexpr double kFloatDirectionError = 0x1p-23;
+
+/// Of the shift along n, of length 1 to within 2^-50: twice that.
+constexpr double kLengthShare = 0x1p-49;
+
+/// Of reaches and offset. Supports are off by less than kSupportError (18 · 2^-53) of the spans, and
+/// these are at most thrice the reach: 54 · 2^-53, sums and products less than as much again, and
+/// more than twice all that.
+constexpr double kReachRounding = 0x1p-45;
+
 /// How far a body reaches along n, in its own frame: best first down its tree, so that few nodes
 /// are examined. What rounding makes of the result, relative to the reach, the caller adds.
 class ReachQuery {
@@ -34,8 +46,8 @@ class ReachQuery {
     if (nodes_ <= kNodesMax) return work_.exhausted() ? numeric::kInfinity : farthest_;
     const shape::OuterHull& hull = body_.shape()->hull();
     const double height = static_cast<double>(hull.Along(n_.cast<float>()).height);
-    // n as a float is off by less than 2 · 2^-24.
-    return n_.dot(hull.origin()) + height + (shape::kHullSupportError + 0x1p-23) * hull.extent();
+    return n_.dot(hull.origin()) + height +
+           (shape::kHullSupportError + kFloatDirectionError) * hull.extent();
   }
 
  private:
@@ -92,9 +104,7 @@ Vector3d NormalOf(const BodyTree& surface, ElementIndex element) {
 }  // namespace
 
 // Along n, of length 1 to within 2^-50: A reaches up to reach_a, B from offset − reach_b on; so
-// moved by the sum less what lies between they do not overlap. Supports are off by less than
-// kSupportError of the spans, spans at most thrice the reach, sums and products by less than as
-// much again.
+// moved by the sum less what lies between they do not overlap.
 double SeparatingTranslationAlong(const PosedPair& pair, const Vector3d& n, WorkBudget* work) {
   CORE_CHECK(IsUnit(n), "the direction has length 1", n.norm());
   const BodyTree &a = pair.a, &b = pair.b;
@@ -104,8 +114,8 @@ double SeparatingTranslationAlong(const PosedPair& pair, const Vector3d& n, Work
   const double size = a.reach() + b.reach() + pose.p_AB.cwiseAbs().sum();
   const double turning = pose.chord_A * a.turning_reach() + pose.chord_B * b.turning_reach();
   const double shift = reach_a + reach_b - n.dot(pose.p_AB);
-  return shift + 0x1p-49 * std::abs(shift) + 0x1p-45 * size + 2 * SlackOf(pair) +
-         turning * (1 + 0x1p-40);
+  return shift + kLengthShare * std::abs(shift) + kReachRounding * size + 2 * SlackOf(pair) +
+         turning * numeric::kManyRoundingsUp;
 }
 
 double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witness,

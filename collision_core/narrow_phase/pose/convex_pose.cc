@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "collision_core/numeric/allowances.h"
+
 namespace collision::narrow_phase {
 namespace {
 
@@ -9,7 +11,7 @@ using Eigen::Vector3d;
 
 /// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow.
 double LengthUp(const Vector3d& v) {
-  return (1 + 0x1p-50) * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
+  return numeric::kFewRoundingsUp * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
 }
 
 /// Relative error of a root of a sum of three products and of a division.
@@ -32,13 +34,12 @@ geometry::ConvexSet PosedB(const geometry::ConvexSet& of_b, const RelativePose& 
   geometry::ConvexSet posed = of_b;
   posed.generators = pose.R_AB * of_b.generators;
   posed.centre = pose.R_AB * of_b.centre + pose.p_AB;
-  // The error itself is moved along, by a matrix of norm at most 1 + 2^-20. All terms are positive,
-  // so that 2^-40 covers the rounding of their sums.
+  // The error itself is moved along, by the matrix. All terms are positive.
   const double far = LengthUp(of_b.centre) + of_b.span;
-  const double moved = (1 + 0x1p-20) * of_b.error;
-  posed.error =
-      (1 + 0x1p-40) * (moved + pose.offset_error + (pose.matrix_error + pose.chord_B) * far);
-  posed.span = (1 + 0x1p-50) * (1 + pose.matrix_error) * of_b.span;
+  const double moved = kPosedLengthUp * of_b.error;
+  posed.error = numeric::kManyRoundingsUp *
+                (moved + pose.offset_error + (pose.matrix_error + pose.chord_B) * far);
+  posed.span = numeric::kFewRoundingsUp * (1 + pose.matrix_error) * of_b.span;
   return posed;
 }
 
@@ -63,7 +64,8 @@ PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_b, const RelativePose& po
   const double length = LengthUp(of_b.point);
   posed.normal = pose.R_AB * posed.normal;
   posed.point = pose.R_AB * of_b.point + pose.p_AB;
-  posed.normal_error = numeric::AddUp(posed.normal_error, numeric::MultiplyUp(1 + 0x1p-40, share));
+  posed.normal_error =
+      numeric::AddUp(posed.normal_error, numeric::MultiplyUp(numeric::kManyRoundingsUp, share));
   posed.point_error = numeric::AddUp(pose.offset_error, numeric::MultiplyUp(share, length));
   return posed;
 }

@@ -8,11 +8,18 @@
 
 #include <Eigen/Core>
 
+#include "collision_core/numeric/allowances.h"
+
 namespace collision::narrow_phase {
 
 /// R_AB x + p_AB, entry by entry three products and three sums, of terms below 1.1 |x| and
 /// |offset|: less than 8 units of |x| + |offset| on each axis, and √3 times that in length.
 inline constexpr double kPosingRounding = 16 * 0x1p-53;
+
+/// R_AB lengthens no vector by more: it is a rotation to within 2^-20.
+inline constexpr double kPosedLengthUp = 1 + 0x1p-20;
+/// Likewise of a sum of some lengths, posed ones among them: with room for its rounding.
+inline constexpr double kPosedSumUp = 1 + 0x1p-18;
 
 /// The pose that the chosen bounds predict, and how far the true one may be from it.
 ///
@@ -49,8 +56,8 @@ inline RelativePose PoseOf(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& p
   pose.R_AB = R_AB;
   pose.p_AB = p_AB;
   pose.matrix_error = kPosingRounding + kMatrixRounding;
-  // The sum of the coordinates is no less than the length; 2^-50 for its own rounding.
-  pose.offset_error = kPosingRounding * (1 + 0x1p-50) * p_AB.cwiseAbs().sum();
+  // The sum of the coordinates is no less than the length.
+  pose.offset_error = kPosingRounding * numeric::kFewRoundingsUp * p_AB.cwiseAbs().sum();
   return pose;
 }
 

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "collision_core/narrow_phase/sphere_pairs/kernel_pose.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -80,7 +81,8 @@ class HullPair {
     const double distance = offset.cwiseAbs().sum();
     known_ = distance < kFarApart && extents_ < kFarApart && distance > kAtOnePlace;
     const double turning = pose.chord_A * a.turning_reach() + pose.chord_B * b.turning_reach();
-    slack_ = (2 * SlackOf(pair) + turning + kGapSlack * (extents_ + distance)) * (1 + 0x1p-50);
+    slack_ = (2 * SlackOf(pair) + turning + kGapSlack * (extents_ + distance)) *
+             numeric::kFewRoundingsUp;
     between_ = offset.cast<float>();
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision_core/narrow_phase/separation/element.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -24,7 +25,7 @@ double GapAlong(const Eigen::Vector3d& n, const geometry::ConvexSet& a,
   const Eigen::Vector3d between = b.centre - a.centre;
   const double size = between.cwiseAbs().sum() + a.span + b.span + a.rounding + b.rounding;
   const double gap = n.dot(between) + n.dot(b.SupportPoint(-n)) - n.dot(a.SupportPoint(n));
-  return gap - (a.rounding + b.rounding + a.error + b.error) * (1 + 0x1p-50) -
+  return gap - (a.rounding + b.rounding + a.error + b.error) * numeric::kFewRoundingsUp -
          2 * geometry::kSupportError * size - 2 * geometry::kSupportUnderflow;
 }
 

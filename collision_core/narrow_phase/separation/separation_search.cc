@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision_core/narrow_phase/separation/element.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -224,7 +225,7 @@ void SeparationSearch::OpenBlocks(const BallPair& pair, const sphere_tree::Trian
   std::copy_n(direction.data(), 3, pose_.direction);
   // Sums and products of floats, up by more than they are rounded.
   const float turning = pose_.turn_a * a.reach + pose_.turn_b * b.reach;
-  const float slack = (pose_.triangle_slack + turning) * (1 + 0x1p-20f);
+  const float slack = (pose_.triangle_slack + turning) * numeric::kSomeFloatRoundingsUp;
   float lowers[sphere_tree::kBlockTriangles * sphere_tree::kBlockTriangles];
   unsigned within =
       scan_.triangles(pose_, {&a, &b, slack, BoundOf(pair), limit, only_within_}, beyond_, lowers);

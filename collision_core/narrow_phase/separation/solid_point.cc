@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -22,7 +23,7 @@ Eigen::Vector3d SeenFromB(const Eigen::Vector3d& x_A, const RelativePose& pose, 
   const double back = Length(pose.ToA(y_B) - x_A);
   // The difference itself is rounded by less than 2^-53 of its length on each axis.
   *off = numeric::AddUp(
-      numeric::MultiplyUp(1 + 0x1p-50, back),
+      numeric::MultiplyUp(numeric::kFewRoundingsUp, back),
       numeric::AddUp(pose.offset_error, numeric::MultiplyUp(pose.matrix_error, Length(y_B))));
   return y_B;
 }

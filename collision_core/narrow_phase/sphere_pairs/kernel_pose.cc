@@ -7,10 +7,13 @@ void Store(const Eigen::Vector3d& from, float* to) {
   for (Eigen::Index i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
 }
 
-// What turning adds to the slack: an arm of (2 + 2.5) u more, its product with the chord, and sums
-// of it.
+// Of the chord times the farthest a point may be: 16 · 2^-24 cover an arm that is off by (2 + 2.5)
+// of these more, its product with the chord, and sums of it.
+constexpr double kTurningRounding = 0x1p-20;
+
+// What turning adds to the slack.
 double TurningSlack(double chord, const PackedBody& body) {
-  return chord > 0 ? 0x1p-20 * chord * (body.origin.norm() + body.extent) : 0;
+  return chord > 0 ? kTurningRounding * chord * (body.origin.norm() + body.extent) : 0;
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "collision_core/narrow_phase/pose/body_tree.h"
 #include "collision_core/narrow_phase/pose/relative_pose.h"
 #include "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 
@@ -42,7 +43,7 @@ struct PackedBody {
 /// less than the least normal number.
 inline float FloatUp(double x) {
   const auto rounded = static_cast<float>(x);
-  return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
+  return rounded + (std::abs(rounded) * numeric::kCastRounding + std::numeric_limits<float>::min());
 }
 
 /// `slack`: what rounding may have made of a distance computed in doubles. Requires an offset far

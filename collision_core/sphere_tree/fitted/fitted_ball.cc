@@ -22,6 +22,10 @@ constexpr double kMuchOfHalfWay = 0.7;
 /// How exact distances are in the search, as a share of the overshoot.
 constexpr double kSlack = 0.01;
 
+/// The shrinking ball ends where this share of it is free, and shrinks by this factor at least;
+/// distances are looked for to kShrinkingSlack of its radius.
+constexpr double kShrinking = 0.98, kShrinkingSlack = 0.01;
+
 Vector3d Direction(const Vector3d& v) {
   const double length = v.norm();
   return length > 0 ? Vector3d(v / length) : Vector3d::Zero();
@@ -37,14 +41,14 @@ FittedBall ShrinkingBall(const TriangleBoxes& boxes, const Vector3d& from, const
   ball.triangle = triangle;
   for (int i = 0; i < kShrinkings; ++i) {
     ball.centre = from + radius * inward;
-    const NearPoint near = boxes.Nearest(ball.centre, ball.triangle, 0, 0.01 * radius);
+    const NearPoint near = boxes.Nearest(ball.centre, ball.triangle, 0, kShrinkingSlack * radius);
     ball.signed_distance = -near.distance;
     ball.nearest = near.point;
     ball.triangle = near.triangle;
     const Vector3d chord = ball.nearest - from;
     const double along = chord.dot(inward);
-    if (near.distance >= 0.98 * radius || !(along > 0)) break;
-    radius = std::min(0.5 * chord.squaredNorm() / along, 0.98 * radius);
+    if (near.distance >= kShrinking * radius || !(along > 0)) break;
+    radius = std::min(0.5 * chord.squaredNorm() / along, kShrinking * radius);
   }
   return ball;
 }

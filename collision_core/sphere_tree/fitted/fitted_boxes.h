@@ -9,6 +9,7 @@
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/geometry/triangle/ray_passage.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/sphere_tree/underflow.h"
 
 namespace collision::sphere_tree {
@@ -53,7 +54,8 @@ class TriangleBoxes {
   void VisitWithin(const Eigen::Vector3d& point, const double* limit, const Visit& visit) const {
     VisitIf(
         [&](const Node& node) {
-          return SquareTo(node, point) <= *limit * *limit * (1 + 0x1p-48) + kSquareUnderflow;
+          return SquareTo(node, point) <=
+                 *limit * *limit * numeric::kSomeRoundingsUp + kSquareUnderflow;
         },
         visit);
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "collision_core/geometry/triangle/enclosing_ball.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/interval.h"
 #include "collision_core/sphere_tree/fitted/fitted_cover.h"
 #include "collision_core/sphere_tree/fitted/fitted_distance.h"
@@ -124,10 +125,11 @@ class Builder {
   bool HasWorkLeft() const { return boxes_.work() < work_max_; }
 
   /// Far enough for the exact corner. A computed |d|² is off by a relative 5 u at most, u = 2^−53,
-  /// the root by 3.5 u; 2^−50 = 8 u covers them and its own rounding. Squares below 1e-308 lose
+  /// the root by 3.5 u: kFewRoundingsUp covers them. Squares below 1e-308 lose
   /// their error, distances are therefore raised by kDistanceUnderflow.
   double RadiusTo(std::uint32_t corner, const Vector3d& centre) const {
-    const double d = (pieces_.PointAt(corner) - centre).norm() * (1 + 0x1p-50) + kDistanceUnderflow;
+    const double d =
+        (pieces_.PointAt(corner) - centre).norm() * numeric::kFewRoundingsUp + kDistanceUnderflow;
     return numeric::AddUp(d, pieces_.ErrorAt(corner));
   }
 

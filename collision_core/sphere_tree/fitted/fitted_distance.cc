@@ -9,11 +9,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Whether a point lies in the ball about a centre that is certainly inside. The computed
-/// length is off by a relative 3.5 u, u = 2^−53, and kDistanceUnderflow.
+/// A computed length is off by a relative 3.5 u, u = 2^−53, and kDistanceUnderflow; 16 u.
+constexpr double kLengthUp = 1 + 0x1p-49;
+
+/// Somewhat less than a distance seems: what is near by need not be measured then.
+constexpr double kSomewhatLess = 1 - 0x1p-40;
+
+/// Whether a point lies in the ball about a centre that is certainly inside.
 bool IsInBallOf(const CentreFacts& near, const Vector3d& point) {
   return near.inside &&
-         (point - near.centre).norm() * (1 + 0x1p-49) + kDistanceUnderflow < -near.signed_distance;
+         (point - near.centre).norm() * kLengthUp + kDistanceUnderflow < -near.signed_distance;
 }
 
 }  // namespace
@@ -52,8 +57,7 @@ CentreFacts FittedDistance::Certify(const Vector3d& centre, double slack, const 
   const NearPoint nearest = boxes_.Nearest(centre, triangle, 0, 0.5 * slack);
   if (kind_ == SurfaceKind::kClosed &&
       (IsInBallOf(near, centre) || WindingNumberAt(centre).value_or(0) != 0)) {
-    // Somewhat less than it seems: whatever is near by need not be measured then.
-    const double lower = LowerBound(centre, nearest.distance * (1 - 0x1p-40) - 0.5 * slack);
+    const double lower = LowerBound(centre, nearest.distance * kSomewhatLess - 0.5 * slack);
     facts.inside = lower > 0;
     if (facts.inside) {
       facts.signed_distance = -lower;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::sphere_tree {
@@ -20,7 +21,8 @@ double FittedPieces::ErrorAt(std::uint32_t point) const {
   // The product of two small whole numbers and a power of two is exact, the last one rounds.
   return halvings_[point] == 0
              ? 0
-             : numeric::MultiplyUp(kHalvingError * halvings_[point] * 0x1p-53, coordinate_max_);
+             : numeric::MultiplyUp(kHalvingError * halvings_[point] * numeric::kUnitRoundoff,
+                                   coordinate_max_);
 }
 
 int FittedPieces::LongestEdge(const FittedPiece& piece) const {

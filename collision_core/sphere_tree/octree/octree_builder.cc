@@ -5,6 +5,7 @@
 #include <span>
 
 #include "collision_core/geometry/triangle/enclosing_ball.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::sphere_tree {
@@ -215,8 +216,9 @@ class Builder {
     }
     const double cuts = kCutsPerLevel * octant.depth;
     // The product of two small whole numbers and a power of two is exact, the last one rounds.
-    ball.radius = numeric::AddUp(ball.radius,
-                                 numeric::MultiplyUp(kCutError * cuts * 0x1p-53, coordinate_max_));
+    ball.radius = numeric::AddUp(
+        ball.radius,
+        numeric::MultiplyUp(kCutError * cuts * numeric::kUnitRoundoff, coordinate_max_));
     return ball;
   }
 

@@ -8,8 +8,9 @@
 namespace collision::detection {
 namespace {
 
-/// Room for the rounding of some twenty operations on paths and reaches: 2^-53 each would do with
-/// 1 + 2^-48, and a wider ball costs nothing but tests.
+/// On paths and sums of reaches. From the state to the sum they take up to 20 operations on terms of
+/// one sign, of 2^-53 each: 1 + 2^-48 would do. A millionth is far beyond that; a ball that is wider
+/// by so little meets hardly another agent, and each one costs a test only.
 constexpr double kPathSlack = 1.000001;
 /// Room for the rounding of places, as a part of their distance from the origin.
 constexpr double kPlaceSlack = 1e-12;
