@@ -1,5 +1,4 @@
 // Why a convex solid cannot be an agent's shape.
-#include <cmath>
 
 #include "collision_core/base/number_text.h"
 #include "collision_core/shape/convex_solid.h"

@@ -1,10 +1,7 @@
 // How often a closed surface winds about a point.
 #include <algorithm>
-#include <cmath>
 
-#include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/geometry/triangle/ray_passage.h"
-#include "collision_core/numeric/rounding.h"
 #include "collision_core/sphere_tree/surface_query.h"
 #include "collision_core/sphere_tree/underflow.h"
 

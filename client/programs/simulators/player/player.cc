@@ -1,6 +1,5 @@
 #include "client/programs/simulators/player/player.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>

@@ -1,6 +1,5 @@
 #include "client/programs/tools/sphere_tree/command.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
