@@ -113,4 +113,11 @@ inline double SqrtUp(double a) {
   return ErrorIsExact(a) && RootResidue(a, root) <= 0 ? root : NextUp(root);
 }
 
+/// A float, not the least one, that is no less than x and never zero. A cast is off by 2^-24 of
+/// itself, or by less than the least normal number.
+inline float FloatUp(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
+}
+
 }  // namespace collision::numeric

@@ -3,6 +3,8 @@
 #include <array>
 #include <limits>
 
+#include "collision_core/numeric/rounding.h"
+
 namespace collision::shape {
 namespace {
 
@@ -10,13 +12,6 @@ using Eigen::Vector3d;
 
 /// Cells along an edge of the cube for this many points: few points need no fine cells.
 std::uint32_t CellsFor(std::size_t points) { return points <= 16 ? 2 : points <= 128 ? 4 : 8; }
-
-/// No less, and not zero: a cast is off by 2^-24 of itself, or by less than the least normal
-/// number.
-float FloatUp(double x) {
-  const auto rounded = static_cast<float>(x);
-  return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
-}
 
 /// Scales a bound for directions whose greatest coordinate is 1 to directions of length up to 1 +
 /// 2^-16.
@@ -98,7 +93,7 @@ HullCell CellFor(const std::vector<Heights>& heights, const std::vector<Vector3d
     left_out = std::max(0.0, *most);
     next = left_out > 0 ? static_cast<std::size_t>(most - excess.begin()) : 0;
   }
-  cell.more = FloatUp((left_out + kStored * extent) * kLonger);
+  cell.more = numeric::FloatUp((left_out + kStored * extent) * kLonger);
   return cell;
 }
 
@@ -120,7 +115,7 @@ OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
   }
   // A difference is off by 2^-53 of each coordinate, less than 2^-51 of both lengths' sum.
   rounding = (rounding + 0x1p-51 * (size + origin_.cwiseAbs().sum())) * kLonger;
-  rounding_ = FloatUp(rounding);
+  rounding_ = numeric::FloatUp(rounding);
   extent_ = (extent_ + rounding) * (1 + 0x1p-50) + std::numeric_limits<float>::min();
   // The constant keeps the measure of plates and needles away from zero.
   const Vector3d half = 0.5 * upper - 0.5 * lower;

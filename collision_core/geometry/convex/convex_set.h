@@ -1,6 +1,7 @@
 // A convex set in some frame, given by its support function.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include "collision_core/geometry/convex/convex_points.h"
@@ -63,6 +64,12 @@ ConvexSet BallSet(const Eigen::Vector3d& centre, double radius);
 /// Where all products underflow, kSupportUnderflow is added.
 inline constexpr double kSupportError = 18 * 0x1p-53;
 inline constexpr double kSupportUnderflow = 0x1p-500;
+
+/// At least |v|: a root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for
+/// underflow.
+inline double LengthUp(const Eigen::Vector3d& v) {
+  return (1 + 0x1p-50) * std::sqrt(v.squaredNorm()) + kSupportUnderflow;
+}
 
 inline Eigen::Vector3d ConvexSet::PointAt(const Eigen::Vector3d& z) const {
   return z.x() * generators.col(0) + z.y() * generators.col(1) + z.z() * generators.col(2);
