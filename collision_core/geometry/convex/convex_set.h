@@ -1,6 +1,7 @@
 // A convex set in some frame, given by its support function.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 

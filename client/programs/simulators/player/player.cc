@@ -1,6 +1,7 @@
 #include "client/programs/simulators/player/player.h"
 
 #include <cmath>
+#include <map>
 #include <optional>
 #include <stdexcept>
 
