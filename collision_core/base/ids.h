@@ -64,10 +64,8 @@ class IndexedVector {
   bool contains(IndexType index) const { return index.value() < values_.size(); }
   IndexType end_index() const { return IndexType(values_.size()); }
   std::size_t size() const { return values_.size(); }
-  bool empty() const { return values_.empty(); }
   void resize(std::size_t size, const T& value = T()) { values_.resize(size, value); }
   void push_back(T value) { values_.push_back(std::move(value)); }
-  void clear() { values_.clear(); }
   auto begin() { return values_.begin(); }
   auto end() { return values_.end(); }
   auto begin() const { return values_.begin(); }

@@ -1,7 +1,6 @@
 #include "collision_core/shape/convex_solid.h"
 
 #include <algorithm>
-#include <span>
 
 #include "collision_core/geometry/convex/epa.h"
 #include "collision_core/geometry/triangle/enclosing_ball.h"

@@ -31,7 +31,6 @@
 // No errors: a state that is older than its agent's newest, of an ended generation, or repeated.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>

@@ -1,5 +1,7 @@
 #include "collision_core/geometry/convex/convex_points.h"
 
+#include <array>
+
 #include "collision_core/numeric/interval.h"
 
 namespace collision::geometry {

@@ -1,7 +1,6 @@
 // Polygons become triangles: ear clipping with exact signs.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/numeric/exact_sign.h"

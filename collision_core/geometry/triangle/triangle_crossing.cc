@@ -113,7 +113,7 @@ bool OnOneSide(const std::array<Volume, 3>& volumes) {
 }
 
 /// An edge that passes through the inside of a triangle.
-struct RayPassage {
+struct EdgePassage {
   double margin = -1;  ///< Below 0: no such edge for certain.
   bool through_b = true;
   int edge = 0;  ///< Of the other triangle.
@@ -138,7 +138,7 @@ double MarginOfEdge(const Vector3d& p, const Vector3d& q, const TrianglePoints& 
 }
 
 void WidenBy(const TrianglePoints& edges, const TrianglePoints& triangle,
-             const std::array<Volume, 3>& volumes, bool through_b, RayPassage* widest) {
+             const std::array<Volume, 3>& volumes, bool through_b, EdgePassage* widest) {
   for (int i = 0; i < 3; ++i) {
     const int j = kNext[i];
     const double margin = MarginOfEdge(edges[i], edges[j], triangle, volumes[i], volumes[j]);
@@ -159,8 +159,8 @@ bool CertainlyNothing(const TrianglePoints& a, const TrianglePoints& b) {
 }
 
 /// The passage with the widest margin.
-RayPassage WidestPassage(const TrianglePoints& a, const TrianglePoints& b) {
-  RayPassage widest;
+EdgePassage WidestPassage(const TrianglePoints& a, const TrianglePoints& b) {
+  EdgePassage widest;
   if (CertainlyNothing(a, b)) return widest;
   const std::array<Volume, 3> a_over_b = VolumesOver(b, a);
   if (OnOneSide(a_over_b)) return widest;
@@ -175,7 +175,7 @@ RayPassage WidestPassage(const TrianglePoints& a, const TrianglePoints& b) {
 /// at the fraction t = |V_p| / (|V_p| + |V_q|); it grows with V_p and falls with V_q, so the ends
 /// of both bound it. The edge itself moves by δ at most. The point also stays within the moved
 /// triangle, which is the better bound where a long edge pierces a small one.
-Crossing CrossingOf(const RayPassage& passage, const TrianglePoints& edges,
+Crossing CrossingOf(const EdgePassage& passage, const TrianglePoints& edges,
                     const TrianglePoints& triangle, double uncertainty) {
   const Vector3d &p = edges[passage.edge], &q = edges[kNext[passage.edge]];
   const auto change = [&](const Vector3d& corner) {
@@ -207,7 +207,7 @@ Crossing CrossingOf(const RayPassage& passage, const TrianglePoints& edges,
 std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TrianglePoints& b,
                                         double uncertainty) {
   CORE_CHECK(!(uncertainty < 0), "an uncertainty is not below 0", uncertainty);
-  const RayPassage passage = WidestPassage(a, b);
+  const EdgePassage passage = WidestPassage(a, b);
   if (!(passage.margin >= 0 && passage.margin >= uncertainty)) return std::nullopt;
   return passage.through_b ? CrossingOf(passage, a, b, uncertainty)
                            : CrossingOf(passage, b, a, uncertainty);

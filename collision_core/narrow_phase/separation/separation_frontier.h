@@ -29,7 +29,6 @@ class Frontier {
   Frontier& operator=(const Frontier&) = delete;
 
   bool empty() const { return size_ == 0; }
-  std::size_t size() const { return size_; }
   FrontierOrder order() const { return order_; }
   /// Requires a pair.
   const BallPair& next() const {
