@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
@@ -17,6 +18,9 @@ std::uint32_t CellsFor(std::size_t points) { return points <= 16 ? 2 : points <=
 /// Scales a bound for directions whose greatest coordinate is 1 to directions of length up to 1 +
 /// 2^-16.
 constexpr double kLonger = 1 + 0x1p-15;
+
+/// Coordinates are below it [m]: single precision holds their squares and sums of these.
+constexpr double kCoordinateMax = 1e15;
 
 /// Of the extent: casting the points, √3 u at most, along a direction of length √3 (u = 2^-24), and
 /// twice what three products and two sums of doubles lose.
@@ -111,7 +115,11 @@ OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
     : along_edge_(CellsFor(points.size())) {
   CORE_CHECK(!points.empty(), "a hull is around a point");
   Vector3d lower = points[0], upper = points[0];
-  for (const Vector3d& p : points) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  for (const Vector3d& p : points) {
+    CORE_CHECK((p.array().abs() < kCoordinateMax).all(),
+               "single precision holds the squares of coordinates", p.x(), p.y(), p.z());
+    lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  }
   origin_ = 0.5 * lower + 0.5 * upper;
   std::vector<Vector3d> seen;
   seen.reserve(points.size());

@@ -112,10 +112,13 @@ bool OnOneSide(const std::array<Volume, 3>& volumes) {
   return sign != 0 && volumes[1].sign() == sign && volumes[2].sign() == sign;
 }
 
+/// Of the two triangles, the one that an edge of the other passes through.
+enum class Pierced { kA, kB };
+
 /// An edge that passes through the inside of a triangle.
 struct EdgePassage {
   double margin = -1;  ///< Below 0: no such edge for certain.
-  bool through_b = true;
+  Pierced pierced = Pierced::kB;
   int edge = 0;  ///< Of the other triangle.
   Volume from, to;
 };
@@ -138,11 +141,11 @@ double MarginOfEdge(const Vector3d& p, const Vector3d& q, const TrianglePoints& 
 }
 
 void WidenBy(const TrianglePoints& edges, const TrianglePoints& triangle,
-             const std::array<Volume, 3>& volumes, bool through_b, EdgePassage* widest) {
+             const std::array<Volume, 3>& volumes, Pierced pierced, EdgePassage* widest) {
   for (int i = 0; i < 3; ++i) {
     const int j = kNext[i];
     const double margin = MarginOfEdge(edges[i], edges[j], triangle, volumes[i], volumes[j]);
-    if (margin > widest->margin) *widest = {margin, through_b, i, volumes[i], volumes[j]};
+    if (margin > widest->margin) *widest = {margin, pierced, i, volumes[i], volumes[j]};
   }
 }
 
@@ -166,8 +169,8 @@ EdgePassage WidestPassage(const TrianglePoints& a, const TrianglePoints& b) {
   if (OnOneSide(a_over_b)) return widest;
   const std::array<Volume, 3> b_over_a = VolumesOver(a, b);
   if (OnOneSide(b_over_a)) return widest;
-  WidenBy(a, b, a_over_b, true, &widest);
-  WidenBy(b, a, b_over_a, false, &widest);
+  WidenBy(a, b, a_over_b, Pierced::kB, &widest);
+  WidenBy(b, a, b_over_a, Pierced::kA, &widest);
   return widest;
 }
 
@@ -198,7 +201,7 @@ Crossing CrossingOf(const EdgePassage& passage, const TrianglePoints& edges,
   const double along = std::max(t_high - t, t - t_low) * length;
   crossing.error = (uncertainty + std::min(along, reach) + rounding) * kGrow;
   crossing.normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
-  crossing.through_b = passage.through_b;
+  crossing.through_b = passage.pierced == Pierced::kB;
   return crossing;
 }
 
@@ -209,8 +212,8 @@ std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TriangleP
   CORE_CHECK(!(uncertainty < 0), "an uncertainty is not below 0", uncertainty);
   const EdgePassage passage = WidestPassage(a, b);
   if (!(passage.margin >= 0 && passage.margin >= uncertainty)) return std::nullopt;
-  return passage.through_b ? CrossingOf(passage, a, b, uncertainty)
-                           : CrossingOf(passage, b, a, uncertainty);
+  return passage.pierced == Pierced::kB ? CrossingOf(passage, a, b, uncertainty)
+                                        : CrossingOf(passage, b, a, uncertainty);
 }
 
 double CrossingMargin(const TrianglePoints& a, const TrianglePoints& b) {
