@@ -33,7 +33,7 @@ std::string Padded(std::string text, std::size_t columns);
 ///   599.734 s  confirmed  iridium-33 × cosmos-2251  #1 r3  begin [599.734236, 599.734370]  end
 ///   open  gap ≤ -0.12 m
 /// Times are seconds since `origin_ns` (0 in lock-step), or times of day as in TimeText(); brackets
-/// and gap are rounded outward. client/README.md explains each part ("How to read an event").
+/// and gap are rounded outward. client/EVENTS.md explains each part.
 std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t origin_ns);
 
 }  // namespace collision::client

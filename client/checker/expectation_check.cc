@@ -1,4 +1,3 @@
-#include <cmath>
 #include <set>
 
 #include "client/checker/check.h"

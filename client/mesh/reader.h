@@ -1,7 +1,6 @@
 // The polygons of a mesh file, as a library reads them.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>

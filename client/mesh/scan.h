@@ -2,7 +2,6 @@
 // has an invalid index, and may read beyond the end.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>

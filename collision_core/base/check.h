@@ -1,7 +1,6 @@
 // Checks of preconditions and invariants that stay on in every build.
 #pragma once
 
-#include <cstddef>
 #include <span>
 #include <stdexcept>
 

@@ -33,9 +33,12 @@ class Index {
   std::uint32_t value_ = 0;
 };
 
-using AgentIndex = Index<struct AgentTag>;  ///< An agent in the detector's tables.
-using PairSlot = Index<struct PairTag>;     ///< A tracked pair in the pair table.
-using NodeIndex = Index<struct NodeTag>;    ///< A node of one sphere tree.
+/// An agent in the detector's tables. The broad phase and the rules of pairs count plain integers
+/// (`value()`): they are a library over dense indices that the caller chooses, half-spaces
+/// included, and their wide vectors hold 32-bit integers.
+using AgentIndex = Index<struct AgentTag>;
+using PairSlot = Index<struct PairTag>;   ///< A tracked pair in the pair table.
+using NodeIndex = Index<struct NodeTag>;  ///< A node of one sphere tree.
 /// An element of one shape. With n triangles in its surface, 0 to n − 1 are these triangles, and
 /// n + k is its convex solid k.
 using ElementIndex = Index<struct ElementTag>;
@@ -61,10 +64,8 @@ class IndexedVector {
   bool contains(IndexType index) const { return index.value() < values_.size(); }
   IndexType end_index() const { return IndexType(values_.size()); }
   std::size_t size() const { return values_.size(); }
-  bool empty() const { return values_.empty(); }
   void resize(std::size_t size, const T& value = T()) { values_.resize(size, value); }
   void push_back(T value) { values_.push_back(std::move(value)); }
-  void clear() { values_.clear(); }
   auto begin() { return values_.begin(); }
   auto end() { return values_.end(); }
   auto begin() const { return values_.begin(); }

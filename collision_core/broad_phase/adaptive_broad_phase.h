@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "collision_core/broad_phase/broad_phase_method.h"
-#include "collision_core/broad_phase/earliest_sweep.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
+#include "collision_core/broad_phase/sweeping_index.h"
 
 namespace collision::broad_phase {
 
@@ -31,6 +31,10 @@ namespace collision::broad_phase {
 ///
 /// A new method is filled with kMoves agents a call beside the old one, which answers until the new
 /// one is full: no call takes longer than the others.
+///
+/// The service calls the queries of NeighbourIndex only. The one-shot queries are forwarded so that
+/// tests and benchmarks measure the method that the service runs, the choice between methods
+/// included (callers: sweeping_index.h).
 class AdaptiveBroadPhase : public SweepingIndex {
  public:
   static constexpr std::size_t kFewAgents = 128;

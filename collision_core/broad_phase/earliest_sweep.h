@@ -5,7 +5,6 @@
 
 #include "collision_core/broad_phase/agent_bounds.h"
 #include "collision_core/broad_phase/broad_phase_work.h"
-#include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/intersection/intersection_query.h"
 
 namespace collision::broad_phase {
@@ -26,12 +25,6 @@ class EarliestSweep : public virtual AgentBounds {
       const intersection::BroadQuery& query) = 0;
 
   virtual BroadPhaseWork work() const = 0;
-};
-
-/// A method that answers both kinds of queries about the bounds it holds.
-class SweepingIndex : public NeighbourIndex, public EarliestSweep {
- public:
-  BroadPhaseWork work() const override = 0;
 };
 
 }  // namespace collision::broad_phase

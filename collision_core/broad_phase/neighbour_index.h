@@ -2,10 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <compare>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "collision_core/broad_phase/agent_bounds.h"
@@ -18,13 +16,6 @@ namespace collision::broad_phase {
 struct Neighbour {
   std::uint32_t partner;
   intersection::IntersectionTime time;
-};
-
-/// Two agents that may meet, lower < higher.
-struct NearPair {
-  std::uint32_t lower, higher;
-
-  friend auto operator<=>(const NearPair&, const NearPair&) = default;
 };
 
 /// When neighbours are looked for: all in [from, until], and the earliest in (until, horizon].
@@ -57,17 +48,6 @@ class NeighbourIndex : public virtual AgentBounds {
   /// order. `bound` is of no agent that is held, so no rule applies to it.
   virtual void FindNeighbours(const AgentBound& bound, Instant from, Instant until,
                               const Skip& skip, std::vector<Neighbour>* neighbours) = 0;
-
-  /// The earliest possible intersection of one agent with any other within the query's window; of
-  /// equal ones that of the lower indices. nullopt: none.
-  virtual std::optional<intersection::IntersectingPair> EarliestOf(
-      std::uint32_t agent, const intersection::BroadQuery& query) = 0;
-
-  /// Appends every pair that may first meet within the query's window, and others that are near,
-  /// each once; pairs that cannot meet at all are left out. Much cheaper than FindNeighbours() of
-  /// every agent.
-  virtual void FindNearPairs(const intersection::BroadQuery& query,
-                             std::vector<NearPair>* pairs) = 0;
 
   virtual BroadPhaseWork work() const = 0;
 };

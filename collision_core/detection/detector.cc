@@ -35,7 +35,6 @@ std::optional<AgentClearance> Detector::ClearanceOf(const AgentId& id) const {
   return implementation_->ClearanceOf(id);
 }
 EarliestAnswer Detector::Earliest() const { return implementation_->Earliest(); }
-Instant Detector::now() const { return implementation_->clock().now; }
 std::size_t Detector::agents() const { return implementation_->agents().size(); }
 std::size_t Detector::pairs_tracked() const { return implementation_->pairs().table().size(); }
 std::size_t Detector::queued() const { return implementation_->queued(); }

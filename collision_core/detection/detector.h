@@ -93,7 +93,6 @@ class Detector {
   /// the same time either.
   EarliestAnswer Earliest() const;
 
-  Instant now() const;
   std::size_t agents() const;
   std::size_t pairs_tracked() const;
   /// Entries that wait for their time: agents to be queried again, pairs to be evaluated, expiries.

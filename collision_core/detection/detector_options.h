@@ -12,10 +12,13 @@ struct DetectorOptions {
   double temporal_resolution = 1.0 / 60;  ///< Δt [s]: pairs nearer than this in time could overlap.
   double announce_within = 2.0;  ///< Meetings this near [s] are announced; >= temporal_resolution.
   double skew = 0;               ///< κ [s]: a sender's clock is off by at most this.
-  std::uint32_t agents_max = 1000;          ///< Admit() refuses beyond.
-  std::uint32_t pairs_max = 65536;          ///< Tracked at once; beyond, both agents are saturated.
+  std::uint32_t agents_max = 1000;  ///< Admit() refuses beyond.
+  /// Tracked at once; beyond, both agents are saturated and queried again after
+  /// announce_within / 8.
+  std::uint32_t pairs_max = 65536;
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.
-  /// States of one agent that are kept; beyond, the oldest are dropped and brackets widen. >= 1.
+  /// States of one agent that are kept; beyond, every second old state is dropped and brackets
+  /// widen. >= 1.
   std::uint32_t history_max = 64;
   /// Work units that the narrow phase may spend on a pair of shapes in one evaluation
   /// (base/work_budget.h); beyond, brackets stay wider and are marked as limited by the budget.

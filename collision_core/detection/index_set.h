@@ -46,7 +46,6 @@ class IndexSet {
   }
   bool empty() const { return indices_.empty(); }
   std::size_t size() const { return indices_.size(); }
-  const std::vector<IndexType>& indices() const { return indices_; }
   auto begin() const { return indices_.begin(); }
   auto end() const { return indices_.end(); }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision_core/base/check.h"
 #include "collision_core/intersection/box_overlap.h"
 #include "collision_core/intersection/capped_balls.h"
 #include "collision_core/intersection/overlap_estimate.h"
@@ -36,6 +37,8 @@ IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
 IntersectionTime EarliestIntersection(const motion::SpaceTimeBound& a,
                                       const motion::SpaceTimeBound& b, Instant from, Instant until,
                                       double margin) {
+  CORE_CHECK(margin >= 0 && margin < numeric::kInfinity, "a margin is finite and not below 0",
+             margin);
   const Instant base = std::max({from, a.state.stamp, b.state.stamp});
   const Instant expiry = std::min(a.state.expiry, b.state.expiry);
   const IntersectionTime never{base, numeric::kInfinity};

@@ -7,7 +7,9 @@
 
 namespace collision::intersection {
 
-/// Which bound of an agent a query is about.
+/// Which bound of an agent a query is about. The service and the benchmarks ask about horns alone;
+/// hypertrapezoids, the bounds that the paper sweeps, are kept so that tests compare the face sweep
+/// and every index with them too (methods_test, face_sweep_test, pair_margin_test).
 enum class BoundKind {
   kHorn,            ///< The parabolic horn: the canonical answer.
   kHypertrapezoid,  ///< Its box with flat faces over the window: an earlier, cheaper answer.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::motion {
@@ -104,6 +105,8 @@ double FarthestOf(const Span& span) {
 // instants lie within κ of their stamps, and both horns hold for it at every instant.
 double GapBetween(const SpaceTimeBound& before, const MotionState& next) {
   const Instant base = before.state.stamp;
+  CORE_CHECK(next.stamp >= base, "a state follows the one before", next.stamp.nanoseconds(),
+             base.nanoseconds());
   const numeric::Interval duration = numeric::SecondsBetween(base, next.stamp);
   const Span span = SpanOf(before, next, duration.middle());
   if (MeetAtAGlance(span)) return 0;

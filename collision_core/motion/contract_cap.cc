@@ -1,5 +1,6 @@
 #include "collision_core/motion/contract_cap.h"
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::motion {
@@ -104,6 +105,9 @@ class Comparison {
 }  // namespace
 
 CapCheck CheckCap(const SpaceTimeBound& before, const MotionState& next) {
+  CORE_CHECK(HasSpeedCap(before.limits), "a cap is checked where one is declared");
+  CORE_CHECK(next.stamp >= before.state.stamp, "a state follows the one before",
+             next.stamp.nanoseconds(), before.state.stamp.nanoseconds());
   return Comparison(before, next).Result();
 }
 

@@ -63,17 +63,4 @@ double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b) {
   return numeric::MultiplyDown(overlap.entry, std::min(a.duration, b.duration));
 }
 
-Hypertrapezoid Unite(const Hypertrapezoid& a, const Hypertrapezoid& b) {
-  CORE_CHECK(a.start == b.start && a.duration == b.duration, "both have the same window",
-             a.duration, b.duration);
-  Hypertrapezoid h = a;
-  for (int axis = 0; axis < 3; ++axis) {
-    h.lower_start[axis] = std::min(a.lower_start[axis], b.lower_start[axis]);
-    h.lower_end[axis] = std::min(a.lower_end[axis], b.lower_end[axis]);
-    h.upper_start[axis] = std::max(a.upper_start[axis], b.upper_start[axis]);
-    h.upper_end[axis] = std::max(a.upper_end[axis], b.upper_end[axis]);
-  }
-  return h;
-}
-
 }  // namespace collision::motion

@@ -27,8 +27,4 @@ Hypertrapezoid MakeHypertrapezoid(const SpaceTimeBound& bound, Instant start, In
 /// the same window for both.
 double FirstOverlap(const Hypertrapezoid& a, const Hypertrapezoid& b);
 
-/// One hypertrapezoid that contains both. The union of two boxes has convex upper faces, so the
-/// chord over the same window contains it. Requires the same window for both.
-Hypertrapezoid Unite(const Hypertrapezoid& a, const Hypertrapezoid& b);
-
 }  // namespace collision::motion

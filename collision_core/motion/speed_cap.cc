@@ -27,11 +27,13 @@ numeric::Quadratic Growing(numeric::Interval u, numeric::Interval speed, Instant
 }  // namespace
 
 numeric::Interval CappedSpeed(const MotionLimits& limits) {
+  CORE_CHECK(HasSpeedCap(limits), "a capped speed has a cap");
   return numeric::Interval(limits.speed_max) +
          numeric::Interval(0.5) * limits.acceleration_max * numeric::Interval(limits.time_step);
 }
 
 Instant CapTakesOver(const SpaceTimeBound& bound) {
+  CORE_CHECK(HasSpeedCap(bound.limits), "only a cap takes over");
   const numeric::Interval room = numeric::Interval(bound.limits.speed_max) -
                                  numeric::Norm(numeric::IntervalVector(bound.state.v_WA)) -
                                  bound.state.velocity_error;
@@ -39,6 +41,7 @@ Instant CapTakesOver(const SpaceTimeBound& bound) {
 }
 
 Instant FaceCapTakesOver(const SpaceTimeBound& bound, double along, double fraction) {
+  CORE_CHECK(HasSpeedCap(bound.limits), "only a cap takes over", along, fraction);
   const MotionLimits& limits = bound.limits;
   const numeric::Interval rate = numeric::Interval(fraction) * limits.acceleration_max;
   const numeric::Interval step_room = numeric::Interval(0.5) * limits.time_step *

@@ -15,6 +15,17 @@
 // (broad_phase/filter/horn_table.cc) and moved to an instant (HornTable::At()). Floats come from
 // doubles: PlacementFrame in broad_phase/filter/placement_frame.h; what positions lose there is
 // added in broad_phase/filter/placed_balls.h and by the stores that fill it.
+//
+// Three plainer forms exist beside these, each for one reader:
+//
+//   ReachPoint            a PlacedBall for one window, with its reach at the window's end: the grid
+//                         compares numbers, not functions. PlacementFrame::HalfWay() makes it, by
+//                         the same argument as a PlacedBall (broad_phase/filter/placement_frame.h).
+//   ClearanceFilter::Row  the terms of a bound as declared: its reader adds one allowance for both
+//                         agents (detection/clearance/clearance_filter.h).
+//   Estimate              the capped balls and boxes of a bound at one time, with no allowance: a
+//                         wrong estimate costs work, never an answer
+//                         (intersection/overlap_estimate.cc).
 #pragma once
 
 #include "collision_core/numeric/interval.h"

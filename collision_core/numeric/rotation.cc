@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "collision_core/base/check.h"
+
 namespace collision::numeric {
 namespace {
 
@@ -144,6 +146,8 @@ SinCos SinCosOf(Interval x) {
 }
 
 IntervalQuaternion UnitQuaternion(const Eigen::Quaterniond& q) {
+  CORE_CHECK(q.coeffs().allFinite() && !q.coeffs().isZero(0), "a quaternion names a rotation",
+             q.w(), q.x(), q.y(), q.z());
   const Four unit = Unit({q.w(), q.x(), q.y(), q.z()});
   return {unit[0], unit[1], unit[2], unit[3]};
 }

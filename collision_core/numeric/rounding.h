@@ -23,6 +23,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "collision_core/numeric/allowances.h"
+
 namespace collision::numeric {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -111,6 +113,13 @@ inline double SqrtUp(double a) {
   if (a <= 0) return 0;
   const double root = std::sqrt(a);
   return ErrorIsExact(a) && RootResidue(a, root) <= 0 ? root : NextUp(root);
+}
+
+/// A float, not the least one, that is no less than x and never zero. A cast is off by 2^-24 of
+/// itself, or by less than the least normal number.
+inline float FloatUp(double x) {
+  const auto rounded = static_cast<float>(x);
+  return rounded + (std::abs(rounded) * kCastRounding + std::numeric_limits<float>::min());
 }
 
 }  // namespace collision::numeric

@@ -1,7 +1,6 @@
 #include "collision_core/shape/compound_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <vector>
 
 #include "collision_core/base/check.h"

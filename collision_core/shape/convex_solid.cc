@@ -1,8 +1,8 @@
 #include "collision_core/shape/convex_solid.h"
 
 #include <algorithm>
-#include <span>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/convex/epa.h"
 #include "collision_core/geometry/triangle/enclosing_ball.h"
 #include "collision_core/numeric/interval.h"
@@ -177,6 +177,7 @@ void SetInside(const ConvexDescription& d, const geometry::ConvexSet& set, Conve
 }  // namespace
 
 ConvexSolid ConvexSolid::Build(const ConvexDescription& d) {
+  CORE_CHECK(!RefusalOf(d), "a solid has a description that is not refused");
   ConvexSolid solid;
   const numeric::Rotation rotation = RotationOf(d.q_BS);
   geometry::ConvexSet& set = solid.set_;

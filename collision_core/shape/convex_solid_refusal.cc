@@ -1,5 +1,4 @@
 // Why a convex solid cannot be an agent's shape.
-#include <cmath>
 
 #include "collision_core/base/number_text.h"
 #include "collision_core/shape/convex_solid.h"
@@ -10,22 +9,20 @@ namespace {
 using Eigen::Vector3d;
 using Refusal = std::optional<std::string>;
 
-std::string Text(double x) { return NumberText(x); }
-
 bool IsIn(double x, double lower, double upper) { return x >= lower && x <= upper; }
 
 std::string Axis(int axis) { return std::string(".") + "xyz"[axis]; }
 
 Refusal RefusalOfLength(const std::string& field, double x) {
   if (IsIn(x, 0, kConvexSizeMax)) return std::nullopt;
-  return field + " is " + Text(x) + "; allowed are 0 to " + Text(kConvexSizeMax) + " m";
+  return field + " is " + NumberText(x) + "; allowed are 0 to " + NumberText(kConvexSizeMax) + " m";
 }
 
 Refusal RefusalOfPlace(const std::string& field, const Vector3d& p) {
   for (int i = 0; i < 3; ++i) {
     if (IsIn(p[i], -kConvexReachMax, kConvexReachMax)) continue;
-    return field + Axis(i) + " is " + Text(p[i]) + "; allowed are finite values within ±" +
-           Text(kConvexReachMax) + " m";
+    return field + Axis(i) + " is " + NumberText(p[i]) + "; allowed are finite values within ±" +
+           NumberText(kConvexReachMax) + " m";
   }
   return std::nullopt;
 }
@@ -34,8 +31,8 @@ Refusal RefusalOfPlace(const std::string& field, const Vector3d& p) {
 Refusal RefusalOfTurn(const Eigen::Quaterniond& q) {
   const double length = q.coeffs().stableNorm();
   if (IsIn(length, kNormalLengthMin, kNormalLengthMax)) return std::nullopt;
-  return "convex.q_BS has the length " + Text(length) + "; allowed are " + Text(kNormalLengthMin) +
-         " to " + Text(kNormalLengthMax);
+  return "convex.q_BS has the length " + NumberText(length) + "; allowed are " +
+         NumberText(kNormalLengthMin) + " to " + NumberText(kNormalLengthMax);
 }
 
 Refusal RefusalOfPoints(const std::vector<Vector3d>& points) {
@@ -88,15 +85,16 @@ Refusal RefusalOf(const ConvexDescription& d) {
   if (auto refusal = RefusalOfPlace("convex.p_BS", d.p_BS)) return refusal;
   const double size = SizeOf(d);
   if (IsIn(size, kConvexSizeMin, kConvexSizeMax)) return std::nullopt;
-  return "convex: its size is " + Text(size) + " m; allowed are " + Text(kConvexSizeMin) + " to " +
-         Text(kConvexSizeMax) + " m (most likely the unit is not the one meant)";
+  return "convex: its size is " + NumberText(size) + " m; allowed are " +
+         NumberText(kConvexSizeMin) + " to " + NumberText(kConvexSizeMax) +
+         " m (most likely the unit is not the one meant)";
 }
 
 Refusal RefusalOf(const ConvexHalfSpace& half_space) {
   const double length = half_space.normal.stableNorm();
   if (!IsIn(length, kNormalLengthMin, kNormalLengthMax)) {
-    return "half_space.normal has the length " + Text(length) + "; allowed are " +
-           Text(kNormalLengthMin) + " to " + Text(kNormalLengthMax);
+    return "half_space.normal has the length " + NumberText(length) + "; allowed are " +
+           NumberText(kNormalLengthMin) + " to " + NumberText(kNormalLengthMax);
   }
   return RefusalOfPlace("half_space.point", half_space.point);
 }

@@ -3,7 +3,9 @@
 #include <array>
 #include <limits>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/allowances.h"
+#include "collision_core/numeric/rounding.h"
 
 namespace collision::shape {
 namespace {
@@ -13,16 +15,12 @@ using Eigen::Vector3d;
 /// Cells along an edge of the cube for this many points: few points need no fine cells.
 std::uint32_t CellsFor(std::size_t points) { return points <= 16 ? 2 : points <= 128 ? 4 : 8; }
 
-/// No less, and not zero: a cast is off by 2^-24 of itself, or by less than the least normal
-/// number.
-float FloatUp(double x) {
-  const auto rounded = static_cast<float>(x);
-  return rounded + (std::abs(rounded) * numeric::kCastRounding + std::numeric_limits<float>::min());
-}
-
 /// Scales a bound for directions whose greatest coordinate is 1 to directions of length up to 1 +
 /// 2^-16.
 constexpr double kLonger = 1 + 0x1p-15;
+
+/// Coordinates are below it [m]: single precision holds their squares and sums of these.
+constexpr double kCoordinateMax = 1e15;
 
 /// Of the extent: casting the points, √3 u at most, along a direction of length √3 (u = 2^-24), and
 /// twice what three products and two sums of doubles lose.
@@ -107,7 +105,7 @@ HullCell CellFor(const std::vector<Heights>& heights, const std::vector<Vector3d
     left_out = std::max(0.0, *most);
     next = left_out > 0 ? static_cast<std::size_t>(most - excess.begin()) : 0;
   }
-  cell.more = FloatUp((left_out + kStored * extent) * kLonger);
+  cell.more = numeric::FloatUp((left_out + kStored * extent) * kLonger);
   return cell;
 }
 
@@ -117,7 +115,11 @@ OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
     : along_edge_(CellsFor(points.size())) {
   CORE_CHECK(!points.empty(), "a hull is around a point");
   Vector3d lower = points[0], upper = points[0];
-  for (const Vector3d& p : points) lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  for (const Vector3d& p : points) {
+    CORE_CHECK((p.array().abs() < kCoordinateMax).all(),
+               "single precision holds the squares of coordinates", p.x(), p.y(), p.z());
+    lower = lower.cwiseMin(p), upper = upper.cwiseMax(p);
+  }
   origin_ = 0.5 * lower + 0.5 * upper;
   std::vector<Vector3d> seen;
   seen.reserve(points.size());
@@ -128,7 +130,7 @@ OuterHull::OuterHull(std::span<const Vector3d> points, double rounding)
     extent_ = std::max(extent_, seen.back().norm());
   }
   rounding = (rounding + kDifferenceRounding * (size + origin_.cwiseAbs().sum())) * kLonger;
-  rounding_ = FloatUp(rounding);
+  rounding_ = numeric::FloatUp(rounding);
   extent_ = (extent_ + rounding) * numeric::kFewRoundingsUp + std::numeric_limits<float>::min();
   const Vector3d half = 0.5 * upper - 0.5 * lower;
   measure_ = (half / extent_).cwiseAbs2().cast<float>() + Eigen::Vector3f::Constant(kMeasureMin);

@@ -63,7 +63,8 @@ sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
 std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
                                           const sphere_tree::ShapeOptions& options,
                                           const Shape* twin) {
-  CORE_CHECK(!mesh.triangles.empty(), "a surface has a triangle");
+  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()), "a surface has a mesh that is not refused",
+             mesh.triangles.size());
   std::shared_ptr<Shape> shape(new Shape());
   if (twin) shape->body_ = twin->body_;
   shape->facts_ = FactsOf(mesh);
@@ -94,6 +95,7 @@ std::shared_ptr<const Shape> Shape::Compound(std::shared_ptr<const Shape> surfac
                                              std::vector<ConvexSolid> solids, const Shape* twin) {
   CORE_CHECK(!solids.empty() && solids.size() <= kSolidsMax,
              "a compound has 1 to kSolidsMax solids", solids.size());
+  CORE_CHECK(!surface || surface->solids().empty(), "the surface of a compound has no solids");
   std::shared_ptr<Shape> shape(new Shape());
   if (twin) shape->body_ = twin->body_;
   if (surface) {

@@ -1,6 +1,5 @@
 // How far a point is from a surface.
 #include <algorithm>
-#include <cmath>
 
 #include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/sphere_tree/surface_query.h"

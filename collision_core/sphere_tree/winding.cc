@@ -1,8 +1,6 @@
 // How often a closed surface winds about a point.
 #include <algorithm>
-#include <cmath>
 
-#include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/geometry/triangle/ray_passage.h"
 #include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"

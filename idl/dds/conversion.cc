@@ -1,5 +1,7 @@
 #include "idl/dds/conversion.h"
 
+#include <type_traits>
+
 #include "idl/dds/wire_values.h"
 
 namespace collision::dds {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 
 #include "idl/dds/entity.h"
 #include "idl/dds/session.h"

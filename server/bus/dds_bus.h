@@ -11,8 +11,9 @@
 
 namespace collision::server {
 
-/// The service's end of one world. Topics, QoS and what the network promises: idl/README.md. The
-/// only code of the server that knows DDS, by way of idl/dds.
+/// The service's end of one world. Topics and order: idl/README.md; QoS and what
+/// the network promises: idl/PROTOCOL.md. The only code of the server that knows DDS, by way of
+/// idl/dds.
 class DdsBus final : public Bus {
  public:
   /// `lease`: how long this service may be silent before its clients count it as gone; each

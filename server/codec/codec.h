@@ -24,14 +24,13 @@
 //   chunk                         64 states, slots 0 to 65535               CHUNK_TOO_LARGE,
 //                                                                           OUT_OF_RANGE
 //   part of a shape               part, parts, total_bytes and the length   BAD_SHAPE
-//                                 of bytes fit together (idl/README.md)
+//                                 of bytes fit together (idl/PROTOCOL.md)
 //
 // Further reasons come from behind the codec: the owner of an id (world/world.h), what is missing
 // (intake/agent_registry.h), shapes as a whole (shapes/shape_decoding.h, intake/agent_shapes.h).
 // No errors: a state that is older than its agent's newest, of an ended generation, or repeated.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>

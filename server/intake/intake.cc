@@ -1,7 +1,6 @@
 #include "server/intake/intake.h"
 
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 namespace collision::server {

@@ -14,11 +14,6 @@ void Clearances::Forget(std::uint32_t slot) {
   MarkChanged(slot);
 }
 
-const detection::AgentClearance* Clearances::Find(std::uint32_t slot) const {
-  const auto found = clearances_.find(slot);
-  return found == clearances_.end() ? nullptr : &found->second;
-}
-
 std::set<std::uint32_t> Clearances::TakeChanged() { return std::exchange(changed_, {}); }
 
 }  // namespace collision::server

@@ -35,13 +35,8 @@ class Clearances {
   /// The agent in `slot` is gone, with its clearance; marks its chunk.
   void Forget(std::uint32_t slot);
 
-  /// Null: the detector has not given one since the agent was admitted.
-  const detection::AgentClearance* Find(std::uint32_t slot) const;
-
   /// By slot.
   const std::map<std::uint32_t, detection::AgentClearance>& all() const { return clearances_; }
-
-  const std::set<std::uint32_t>& changed() const { return changed_; }
 
   /// The chunks marked since the last call, in ascending order; none is marked afterwards.
   [[nodiscard]] std::set<std::uint32_t> TakeChanged();

@@ -11,16 +11,10 @@
 #include "collision_core/numeric/seconds.h"
 #include "tests/baselines/ball_bound.h"
 #include "tests/baselines/scenes.h"
-#include "tests/support/random.h"
+#include "tests/support/random_points.h"
 
 namespace collision::baselines {
 namespace {
-
-Eigen::Vector3d InCube(Random& random, double half) {
-  const double x = random.Uniform(-half, half), y = random.Uniform(-half, half),
-               z = random.Uniform(-half, half);
-  return {x, y, z};
-}
 
 BallAgent Draw(Random& random) {
   // Whole nanoseconds, so that the bound's stamp is the same.

@@ -10,7 +10,8 @@
 namespace collision::baselines {
 
 /// A closed solid, cut by the planes of its own faces until every cell is inside or outside. In
-/// plain doubles, not certified: what is nearer to a plane than `tolerance()` counts as on it.
+/// plain doubles, not certified: a point within 1e-12 of the largest coordinate counts as on the
+/// plane.
 /// Source: Thibault and Naylor, "Set operations on polyhedra using binary space partitioning
 /// trees", SIGGRAPH 1987, named by Hubbard for the exact comparison of two objects.
 class BspTree {
@@ -23,9 +24,6 @@ class BspTree {
   /// cross its planes, until a piece arrives inside; and A's down B's. x_A = rotation x_B + offset.
   static bool Intersect(const BspTree& a, const BspTree& b, const Eigen::Matrix3d& rotation,
                         const Eigen::Vector3d& offset);
-
-  std::size_t nodes() const { return nodes_.size(); }
-  double tolerance() const { return tolerance_; }
 
  private:
   using Polygon = std::vector<Eigen::Vector3d>;  ///< Convex.

@@ -3,16 +3,10 @@
 #include <cmath>
 
 #include "tests/baselines/cells.h"
-#include "tests/support/random.h"
+#include "tests/support/random_points.h"
 
 namespace collision::baselines {
 namespace {
-
-Eigen::Vector3d InCube(Random& random, double half) {
-  const double x = random.Uniform(-half, half), y = random.Uniform(-half, half),
-               z = random.Uniform(-half, half);
-  return {x, y, z};
-}
 
 /// The force on a cube in a frame is the same for every method.
 Random ForceOf(std::uint64_t seed, std::uint32_t cube, std::int64_t frame) {

@@ -42,7 +42,6 @@ class MovingCubes {
 
   const Eigen::Vector3d& position(std::uint32_t cube) const { return p_WA_[cube]; }
   const Eigen::Vector3d& velocity(std::uint32_t cube) const { return v_WA_[cube]; }
-  const std::vector<Eigen::Vector3d>& positions() const { return p_WA_; }
 
   /// The ball around a cube with its motion, as of the present frame.
   BallAgent Ball(std::uint32_t cube) const;

@@ -3,19 +3,13 @@
 #include <cmath>
 
 #include "tests/baselines/cells.h"
-#include "tests/support/random.h"
+#include "tests/support/random_points.h"
 
 namespace collision::baselines {
 namespace {
 
 /// Draws are given up after this many failures in a row: the region is full.
 constexpr int kDrawsMax = 10000;
-
-Eigen::Vector3d InCube(Random& random, double half) {
-  const double x = random.Uniform(-half, half), y = random.Uniform(-half, half),
-               z = random.Uniform(-half, half);
-  return {x, y, z};
-}
 
 }  // namespace
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/filter/point_grid.h"
-#include "collision_core/broad_phase/neighbour_index.h"
+#include "collision_core/broad_phase/sweeping_index.h"
 #include "tests/baselines/collision_loop.h"
 
 namespace collision::baselines {
@@ -19,7 +19,7 @@ namespace collision::baselines {
 /// given.
 class WindowLoop : public CollisionLoop {
  public:
-  explicit WindowLoop(std::unique_ptr<broad_phase::NeighbourIndex> phase)
+  explicit WindowLoop(std::unique_ptr<broad_phase::SweepingIndex> phase)
       : phase_(std::move(phase)) {}
 
   std::optional<CubePair> Look(const MovingCubes& cubes) override;
@@ -30,7 +30,7 @@ class WindowLoop : public CollisionLoop {
   bool ListInOnePass(const MovingCubes& cubes);
   void ListByPhase(const MovingCubes& cubes);
 
-  std::unique_ptr<broad_phase::NeighbourIndex> phase_;
+  std::unique_ptr<broad_phase::SweepingIndex> phase_;
   std::int64_t frames_ = 2;    ///< The window's length.
   std::int64_t covered_ = -1;  ///< The last frame of which the list knows.
   broad_phase::PointGrid grid_;

@@ -68,8 +68,6 @@ class FuzzedData {
     return Taken(std::min({length_max, wanted, bytes_.size()}));
   }
 
-  std::string Rest() { return Taken(bytes_.size()); }
-
  private:
   static double Held(double value, double greatest) {
     if (std::isnan(value)) return 0;

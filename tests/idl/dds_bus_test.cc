@@ -1,4 +1,4 @@
-// Goal:   what one program writes reaches the others as idl/README.md says: complete, from
+// Goal:   what one program writes reaches the others as idl/PROTOCOL.md says: complete, from
 //         a known sender, to those of its world only.
 // Method: real DDS on loopback, several participants in one process, each test in a domain and
 //         world of its own; waiting loops with a deadline.

@@ -403,11 +403,11 @@ std::vector<Section> SectionsOf(const v1::Results& results) {
 }
 
 std::vector<MeasuredPlot> MeasuredPlots() {
-  return {{"distance-translation-homer-500",
-           "Error against run time: the width of our certified bracket, and the true error of the "
-           "libraries, over the time of a query"},
-          {"budget-begin", "The service: the budget of a pair's turn against the begin bracket"},
-          {"scratch-half", "Broad phase: the earliest meeting of all from scratch"}};
+  return {
+      {"distance-translation-homer-500",
+       "Error against run time: the width of our certified brackets, the error of the libraries"},
+      {"budget-begin", "The service: the budget of a pair's turn against the begin bracket"},
+      {"scratch-half", "Broad phase: the earliest meeting of all from scratch"}};
 }
 
 }  // namespace collision::report

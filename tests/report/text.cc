@@ -89,12 +89,6 @@ std::string Base64(const std::string& bytes) {
   return text;
 }
 
-std::string Join(const std::vector<std::string>& texts, const std::string& between) {
-  std::string joined;
-  for (const std::string& text : texts) joined += (joined.empty() ? "" : between) + text;
-  return joined;
-}
-
 std::string ReadFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error(path + ": cannot be read");

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 namespace collision::report {
 
@@ -15,8 +14,6 @@ std::string EscapeHtml(const std::string& text);
 /// Between quotes where commas or quotes ask for it.
 std::string CsvCell(const std::string& text);
 std::string Base64(const std::string& bytes);
-
-std::string Join(const std::vector<std::string>& texts, const std::string& between);
 
 /// Throw std::runtime_error that names the file.
 std::string ReadFile(const std::string& path);

@@ -25,7 +25,4 @@ std::vector<Scene> BallScenes();
 std::vector<Scene> CrowdedScenes();
 std::vector<Scene> ShapeScenes();
 
-/// Loses, repeats and reorders.
-NetworkOptions Lossy(std::uint64_t seed);
-
 }  // namespace collision::server

@@ -40,6 +40,13 @@ class ScriptedBus final : public Bus, public Clock {
   bool woken = false;
 };
 
+/// The default configuration with a simulated clock.
+inline v1::Config Simulated() {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  return config;
+}
+
 /// A daemon on a scripted bus.
 class ScriptedDaemon {
  public:

@@ -206,6 +206,12 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
   return result;
 }
 
+std::string ViolationsOf(const CheckerResult& result) {
+  std::string text;
+  for (const std::string& violation : result.violations) text += violation + "\n";
+  return text;
+}
+
 std::vector<int> CountStatuses(const std::vector<v1::Output>& published) {
   std::vector<int> counts(v1::EventStatus_ARRAYSIZE, 0);
   std::map<std::tuple<detection::AgentId, detection::AgentId, std::uint32_t>, v1::EventStatus> last;

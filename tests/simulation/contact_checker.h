@@ -32,6 +32,9 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
                             const std::vector<v1::Output>& published, std::int64_t end_ns,
                             const CheckerOptions& options = {});
 
+/// The violations, one a line.
+std::string ViolationsOf(const CheckerResult& result);
+
 /// How many events were published with each status, by v1::EventStatus; each change of status
 /// counts once.
 std::vector<int> CountStatuses(const std::vector<v1::Output>& published);

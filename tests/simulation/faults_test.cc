@@ -17,12 +17,6 @@ SimulatedAgent At(double x, double v = 0) {
   return {.radius = 1, .acceleration_max = 1, .motion = Straight({x, 0, 0}, {v, 0, 0}, kEnd)};
 }
 
-std::string Join(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
 /// The last event of the only pair in contact; it must exist.
 v1::CollisionEvent LastEvent(const Scenario& scenario) {
   const auto events = scenario.events();
@@ -79,7 +73,7 @@ TEST(Faults, ATeleportIsNoBreach) {
   EXPECT_EQ(scenario.counter("discontinuities"), 1u);
   EXPECT_TRUE(Named(scenario, alpha.AgentAt(0), v1::CAUSE_TELEPORT));
   const CheckerResult result = CheckContacts(scenario.simulators(), scenario.published(), kEnd);
-  EXPECT_TRUE(result.violations.empty()) << Join(result.violations);
+  EXPECT_TRUE(result.violations.empty()) << ViolationsOf(result);
   EXPECT_EQ(result.contacts, 1u);
   EXPECT_EQ(result.confirmed, 1u);
 }
@@ -100,7 +94,7 @@ TEST(Faults, ALateAdmissionTakesEffectAtTheGreatestGrant) {
   EXPECT_FALSE(alpha.grant_withdrawn());
   EXPECT_TRUE(Named(scenario, alpha.AgentAt(0), v1::CAUSE_ADMISSION));
   const CheckerResult result = CheckContacts(scenario.simulators(), scenario.published(), kEnd);
-  EXPECT_TRUE(result.violations.empty()) << Join(result.violations);
+  EXPECT_TRUE(result.violations.empty()) << ViolationsOf(result);
   EXPECT_EQ(result.contacts, 1u);
 }
 
@@ -197,7 +191,7 @@ TEST(Faults, ANewServiceRecoversFromTheNetworkAlone) {
   EXPECT_TRUE(alpha.rejections().empty());
   EXPECT_EQ(scenario.counter("breaches"), 0u);
   const CheckerResult result = CheckContacts(scenario.simulators(), scenario.published(), kEnd);
-  EXPECT_TRUE(result.violations.empty()) << Join(result.violations);
+  EXPECT_TRUE(result.violations.empty()) << ViolationsOf(result);
   EXPECT_EQ(result.contacts, 1u);
   EXPECT_EQ(result.confirmed, 1u);
 }

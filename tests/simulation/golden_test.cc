@@ -29,10 +29,6 @@ void RunGolden(Scenario* scenario, BatchSink* recorder) {
   scenario->Run();
 }
 
-NetworkOptions Lossy(std::uint64_t seed) {
-  return {.seed = seed, .loss = 0.05, .duplicate = 0.05, .delay_max_ns = 3'000'000};
-}
-
 // Goal:   the event log has at least twenty events of each kind, is true, and is the same, bit
 //         for bit, in every build type, in a second run, and when its recording is replayed.
 TEST(Golden, TheEventLogIsTheSameEverywhere) {

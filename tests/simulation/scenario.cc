@@ -29,6 +29,10 @@ std::vector<SimulatedAgent> Crowd(int count, std::int64_t end_ns, Random* random
   return agents;
 }
 
+NetworkOptions Lossy(std::uint64_t seed) {
+  return {.seed = seed, .loss = 0.05, .duplicate = 0.05, .delay_max_ns = 3'000'000};
+}
+
 Scenario::Scenario(const v1::Config& config, const NetworkOptions& network)
     : config_(config), network_(network), clock_(&network_) {}
 

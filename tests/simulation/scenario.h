@@ -17,6 +17,9 @@ inline constexpr std::int64_t kSecond = 1'000'000'000;
 /// The default configuration with a simulated clock that waits for `simulators`.
 v1::Config ConfigFor(std::size_t simulators);
 
+/// Loses, repeats and reorders.
+NetworkOptions Lossy(std::uint64_t seed);
+
 /// Balls that wander. Every third comes late or leaves early; every other knows its position to 30
 /// cm only, so that what grazes stays undecided.
 std::vector<SimulatedAgent> Crowd(int count, std::int64_t end_ns, Random* random);

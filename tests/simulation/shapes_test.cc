@@ -172,10 +172,6 @@ void AddTwo(std::uint64_t seed, Scenario* scenario) {
       Wanderers(8, &random));
 }
 
-NetworkOptions Lossy(std::uint64_t seed) {
-  return {.seed = seed, .loss = 0.05, .duplicate = 0.05, .delay_max_ns = 3'000'000};
-}
-
 TEST(SimulatedShapes, NeverLateAndTheSameEverywhere) {
   for (const auto& [builder, golden] : kGolden) {
     std::uint64_t hash = 0;

@@ -54,7 +54,6 @@ class SimulatedSimulator {
   std::uint64_t id() const { return id_; }
   detection::AgentId AgentAt(std::uint32_t slot) const { return {id_, slot, options_.run, 1}; }
   std::int64_t clock_ns() const { return clock_ns_; }
-  std::int64_t granted_ns() const { return granted_ns_; }
   bool finished() const { return finished_; }
   const std::vector<SimulatedAgent>& agents() const { return agents_; }
   const std::vector<v1::Rejection>& rejections() const { return rejections_; }

@@ -38,12 +38,6 @@ void AddThree(double jumps_per_piece, Scenario* scenario) {
   scenario->StartSimulators();
 }
 
-std::string Join(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += line + "\n";
-  return text;
-}
-
 // Goal:   no contact comes unannounced, every bracket holds its truth, nothing is confirmed that
 //         is not true, on a good network and on bad ones; and the answers are of use: most
 //         contacts are confirmed, narrowly.
@@ -64,7 +58,7 @@ TEST(Simulation, IsNeverLateOnAnyNetwork) {
       EXPECT_FALSE(simulator->grant_withdrawn());
     }
     const CheckerResult result = CheckContacts(scenario.simulators(), scenario.published(), kEnd);
-    EXPECT_TRUE(result.violations.empty()) << "seed " << seed << ":\n" << Join(result.violations);
+    EXPECT_TRUE(result.violations.empty()) << "seed " << seed << ":\n" << ViolationsOf(result);
     EXPECT_GE(result.contacts, 40u);
     EXPECT_GE(result.confirmed, result.contacts * 8 / 10);
     EXPECT_GE(result.promises, 100u);

@@ -63,7 +63,7 @@ std::map<std::string, std::string> ComposeBlocks() {
 
 // The package list has one rule, and two readers of it.
 TEST(Image, InstallsByTheRuleOfRun) {
-  const std::string rule = "awk -v command=\\S+ '([^']+)'\\s+\"?\\S*docker/packages.txt";
+  const std::string rule = "awk -v command=\\S+ '([^']+)'[\\s\\\\]+\"?\\S*docker/packages.txt";
   const auto of_run = All(ReadFile("run"), rule);
   const auto of_image = All(ReadFile(kDockerfile), rule);
   ASSERT_EQ(of_run.size(), 1u);

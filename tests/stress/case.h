@@ -34,7 +34,6 @@ class Outcome {
 
   bool passed() const { return failures_ == 0 && checks_ > 0; }
   std::uint64_t checks() const { return checks_; }
-  std::uint64_t failures() const { return failures_; }
   /// The sentence; where a check failed that one first.
   std::string Measured() const;
   const std::vector<std::pair<std::string, double>>& numbers() const { return numbers_; }

@@ -53,10 +53,6 @@ const std::vector<std::string> kNoNetwork = {
     "CYCLONEDDS_URI=<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface "
     "name=\"no-such-one\"/></Interfaces></General></Domain></CycloneDDS>"};
 
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(CommandLine, TellsItsVersion) {
   const Outcome outcome = Collisiond({"--version"});
   EXPECT_EQ(outcome.status, 0);

@@ -59,10 +59,6 @@ class Container {
   std::vector<std::string> variables_;
 };
 
-bool Contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 TEST(Container, TakesWorldAndDomainFromTheEnvironmentAndTheRestFromItsFile) {
   const Outcome outcome = Container("lab", "72").Serve("--print-config");
   EXPECT_EQ(outcome.status, 0) << outcome.err;

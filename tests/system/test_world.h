@@ -16,6 +16,10 @@ std::string Program(const std::string& name);
 /// The path of a file of the project's config folder.
 std::string ConfigFile(const std::string& name);
 
+inline bool Contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// A folder for the files of one test, empty at first; removed, with what is in it, at the end.
 class Folder {
  public:

@@ -1,7 +1,6 @@
 #include "client/library/network/dds_transport.h"
 
 #include <map>
-#include <utility>
 
 #include "idl/dds/session.h"
 

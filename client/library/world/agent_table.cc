@@ -11,7 +11,7 @@
 namespace collision::client {
 namespace {
 
-/// Bytes on the wire, as idl/README.md has them.
+/// Bytes on the wire, as idl/PROTOCOL.md has them.
 constexpr std::uint64_t kSampleBytes = 20, kStateBytes = 200;
 
 }  // namespace

@@ -115,7 +115,7 @@ void FillShapes(const checker::Evidence& evidence, v1::RunReport* report) {
 
 // In each step, a stream at the simulators' rate sends complete chunks of 64 for all agents.
 void AddStream(const v1::SimulatorTraffic& traffic, std::uint64_t agents, v1::RunReport* report) {
-  constexpr std::uint64_t kChunk = 64, kSampleBytes = 20, kStateBytes = 200;  // idl/README.md
+  constexpr std::uint64_t kChunk = 64, kSampleBytes = 20, kStateBytes = 200;  // idl/PROTOCOL.md
   if (agents == 0) return;
   const std::uint64_t steps = (traffic.states_set() + agents - 1) / agents;
   const std::uint64_t samples = steps * ((agents + kChunk - 1) / kChunk);

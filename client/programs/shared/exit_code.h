@@ -12,7 +12,8 @@ enum ExitCode {
   kExitUsage = 2,
   kExitBadData = 65,
   kExitNoInput = 66,
-  kExitUnavailable = 69
+  kExitUnavailable = 69,
+  kExitOutputFailed = 74
 };
 
 /// Thrown for input of the user that cannot be used. RunProgram() turns it into kExitBadData.

@@ -4,13 +4,11 @@
 #include <exception>
 
 #include "client/api/mesh_file.h"
+#include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/mesh_option.h"
 
 namespace collision::client {
 namespace {
-
-constexpr int kUsage = 2;
-constexpr int kBadData = 65;  // EX_DATAERR of sysexits.h.
 
 constexpr const char* kFooter = R"(
 Examples:
@@ -47,7 +45,7 @@ int Main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsage;
+    return app.exit(error) == 0 ? kExitOk : kExitUsage;
   }
   try {
     MeshFileReport report;
@@ -57,7 +55,7 @@ int Main(int argc, char** argv) {
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "mesh-info: %s\n", error.what());
-    return kBadData;
+    return kExitBadData;
   }
 }
 

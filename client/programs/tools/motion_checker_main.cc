@@ -10,19 +10,16 @@
 #include <iterator>
 
 #include "client/checker/check.h"
+#include "client/programs/shared/exit_code.h"
 
 namespace collision::checker {
 namespace {
-
-constexpr int kUsage = 2;
-constexpr int kBadData = 65;
-constexpr int kNoInput = 66;
 
 std::ifstream Open(const std::string& path) {
   std::ifstream file(path);
   if (!file) {
     std::fprintf(stderr, "motion-checker: %s: cannot be read\n", path.c_str());
-    std::exit(kNoInput);
+    std::exit(client::kExitNoInput);
   }
   return file;
 }
@@ -88,13 +85,13 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsage;
+    return app.exit(error) == 0 ? collision::client::kExitOk : collision::client::kExitUsage;
   }
   facts.leaving_ns = std::llround(leaving * 1e9);
   try {
     return Run(report, logs, facts);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "motion-checker: %s\n", error.what());
-    return kBadData;
+    return collision::client::kExitBadData;
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/motion/hypertrapezoid.h"
 #include "collision_core/motion/speed_cap.h"
 #include "collision_core/numeric/seconds.h"
@@ -92,6 +93,9 @@ void ProlongToStart(Instant start, Instant stamp, Instant end, FaceLines* lines)
 std::optional<FaceLines> FaceLinesOf(const motion::SpaceTimeBound& bound, Instant start,
                                      Instant end) {
   const motion::MotionState& state = bound.state;
+  CORE_CHECK(state.stamp <= end && start <= end,
+             "a window ends after its begin and after the stamp", state.stamp.nanoseconds(),
+             start.nanoseconds(), end.nanoseconds());
   const bool is_late = state.stamp > start;
   FaceLines lines = LinesFrom(bound, is_late ? state.stamp : start, end);
   if (is_late) ProlongToStart(start, state.stamp, end, &lines);

@@ -28,6 +28,8 @@ std::uint32_t CrossingTick(const AlphaTFace& below, const AlphaTFace& above) {
   // The gap is at_start (1 − x) + at_end x at the fraction x: negative beyond at_start / closing.
   const std::int64_t at_start = above.start - below.start;
   const std::int64_t closing = at_start - (above.end - below.end);
+  CORE_CHECK(at_start >= 0 && closing > at_start, "the lower face ends above the other",
+             static_cast<double>(at_start), static_cast<double>(closing));
   // Both are below 2^53, hence doubles; the quotient's error is below 2^−22 ticks.
   const double ticks =
       static_cast<double>(at_start) / static_cast<double>(closing) * CrossingOrder::kTicks;

@@ -1,7 +1,6 @@
 // The first window of a face sweep.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "collision_core/broad_phase/agent_bound.h"

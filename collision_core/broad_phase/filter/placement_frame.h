@@ -76,7 +76,6 @@ class PlacementFrame {
   /// that few pairs come within reach of each other in it.
   PlacementFrame(const HornTable& table, const intersection::BroadQuery& query, double seconds_max);
 
-  Instant begin() const { return query_.from; }
   /// The begin is too far away for filters: all pairs are given to the canonical routine.
   bool blind() const { return !HornTable::Near(query_.from); }
   intersection::BoundKind bound() const { return query_.bound; }

@@ -1,5 +1,7 @@
 #include "collision_core/broad_phase/filter/point_grid.h"
 
+#include <cmath>
+
 #include "collision_core/broad_phase/filter/sphere_filter.h"
 #include "collision_core/numeric/cube_root.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -14,7 +13,8 @@ namespace collision::broad_phase {
 
 /// A moving ball for one window of time, seen from half-way through it. PlacedBall's reach grows
 /// with time; here it is taken at the window's end, once for a centre that stays and once for one
-/// that moves along its line. Both are rounded up, with SphereFilter's slack.
+/// that moves along its line. Both are rounded up, with SphereFilter's slack. Made by
+/// PlacementFrame::HalfWay(), whose rounding argument is that of PlacedBall.
 struct ReachPoint {
   double c[3];  ///< Its centre half-way through the window.
   float v[3];   ///< As seen from the placement's frame.

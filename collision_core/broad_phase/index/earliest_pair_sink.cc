@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::broad_phase {
@@ -61,14 +62,17 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
                                                       const HornTable& table, std::uint32_t a,
                                                       std::uint32_t b) {
   if (!CanMeet(table.row(a).filter, table.row(b).filter)) return {query.from, numeric::kInfinity};
-  return EarliestIntersectionOf(query, table.bound(a), table.bound(b), table.RuleOf(a, b).margin);
+  const intersection::PairRule rule = table.RuleOf(a, b);
+  CORE_CHECK(!rule.excluded, "an excluded pair has no time", a, b);
+  return EarliestIntersectionOf(query, table.bound(a), table.bound(b), rule.margin);
 }
 
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HalfSpaces::Entry& entry,
                                                       const HornTable& table, std::uint32_t agent) {
-  return EarliestIntersectionOf(query, entry.half_space, table.agent_bound(agent),
-                                table.RuleOf(agent, entry.agent).margin);
+  const intersection::PairRule rule = table.RuleOf(agent, entry.agent);
+  CORE_CHECK(!rule.excluded, "an excluded pair has no time", entry.agent, agent);
+  return EarliestIntersectionOf(query, entry.half_space, table.agent_bound(agent), rule.margin);
 }
 
 bool EarliestPairSink::Betters(std::uint32_t lower, std::uint32_t higher) const {

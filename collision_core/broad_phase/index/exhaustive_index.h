@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/broad_phase/earliest_sweep.h"
+#include "collision_core/broad_phase/sweeping_index.h"
 
 namespace collision::broad_phase {
 

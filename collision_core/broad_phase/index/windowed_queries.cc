@@ -1,4 +1,4 @@
-// The queries that a windowed search answers (NeighbourIndex, EarliestSweep).
+// The queries that a windowed search answers (SweepingIndex).
 #include <algorithm>
 
 #include "collision_core/broad_phase/index/windowed_search.h"

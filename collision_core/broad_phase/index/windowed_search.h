@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/broad_phase/earliest_sweep.h"
 #include "collision_core/broad_phase/filter/filter_row.h"
 #include "collision_core/broad_phase/filter/placement_frame.h"
 #include "collision_core/broad_phase/index/earliest_pair_sink.h"
 #include "collision_core/broad_phase/index/placed_store.h"
+#include "collision_core/broad_phase/sweeping_index.h"
 
 namespace collision::broad_phase {
 

@@ -24,6 +24,9 @@ class ClearanceFilter {
   bool CertainlyLater(AgentIndex agent, AgentIndex partner, Instant until) const;
 
  private:
+  /// The terms of a bound, rounded to nearest. A QuickBall rounds each coefficient outward when it
+  /// is made; here one allowance for both agents covers every rounding, those of the row included,
+  /// and other roundings would spare other partners and change the counted work.
   struct Row {
     Eigen::Vector3d p, v;
     double speed;      ///< |v|.

@@ -1,7 +1,6 @@
 // When agents may meet: the clearance keys of all agents, and the clearances published to them.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "collision_core/broad_phase/adaptive_broad_phase.h"

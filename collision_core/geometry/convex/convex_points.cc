@@ -1,5 +1,8 @@
 #include "collision_core/geometry/convex/convex_points.h"
 
+#include <array>
+
+#include "collision_core/base/check.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::geometry {
@@ -22,14 +25,20 @@ std::uint32_t CellsFor(std::size_t points) {
 /// certainly exceeded: on the way to the finest cells, so that nothing adds up.
 constexpr double kCertain = 0x1p-48;
 
+/// Coordinates are below it [m], so that their squares and sums of these stay finite.
+constexpr double kCoordinateMax = 1e100;
+
 }  // namespace
 
 ConvexPoints::ConvexPoints(std::span<const Vector3d> points)
     : points_(points.begin(), points.end()),
       all_(static_cast<std::uint32_t>(points.size())),
       cells_(CellsFor(points.size())) {
-  for (const Vector3d& p : points_)
+  for (const Vector3d& p : points_) {
+    CORE_CHECK((p.array().abs() < kCoordinateMax).all(), "the squares of coordinates are finite",
+               p.x(), p.y(), p.z());
     reach_ = std::max(reach_, numeric::Norm(numeric::IntervalVector(p)).upper);
+  }
   SetBlocks();
   if (cells_ == 0) return;
   std::vector<std::uint32_t> candidates(points_.size());

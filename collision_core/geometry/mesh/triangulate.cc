@@ -1,8 +1,9 @@
 // Polygons become triangles: ear clipping with exact signs.
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/numeric/exact_sign.h"
 
@@ -98,6 +99,8 @@ std::vector<std::uint32_t> DistinctCorners(const PolygonMesh& polygons, std::siz
 }  // namespace
 
 TriangleMesh Triangulate(const PolygonMesh& polygons, MeshRepair* repair) {
+  CORE_CHECK(!RefusalOf(polygons, std::numeric_limits<std::size_t>::max()),
+             "polygons that are cut were not refused", polygons.sizes.size());
   TriangleMesh mesh;
   mesh.vertices = polygons.vertices;
   std::size_t first = 0;

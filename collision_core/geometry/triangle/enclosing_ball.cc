@@ -14,6 +14,9 @@ using Eigen::Vector3d;
 /// Steps towards the farthest point; more make the ball smaller by less than a hundredth.
 constexpr int kSteps = 24;
 
+/// Coordinates are below it [m], so that their squares and sums of these stay finite.
+constexpr double kCoordinateMax = 1e100;
+
 struct Farthest {
   std::size_t index = 0;
   double distance2 = 0;
@@ -48,6 +51,8 @@ EnclosingBall SmallBallAround(std::span<const Vector3d> points) {
     lower = lower.cwiseMin(p);
     upper = upper.cwiseMax(p);
   }
+  CORE_CHECK(lower.minCoeff() > -kCoordinateMax && upper.maxCoeff() < kCoordinateMax,
+             "the squares of coordinates are finite", lower.minCoeff(), upper.maxCoeff());
   Vector3d centre = lower + 0.5 * (upper - lower), best_centre = centre;
   double best = numeric::kInfinity;
   for (int i = 0; i <= kSteps; ++i) {

@@ -112,10 +112,13 @@ bool OnOneSide(const std::array<Volume, 3>& volumes) {
   return sign != 0 && volumes[1].sign() == sign && volumes[2].sign() == sign;
 }
 
+/// Of the two triangles, the one that an edge of the other passes through.
+enum class Pierced { kA, kB };
+
 /// An edge that passes through the inside of a triangle.
-struct RayPassage {
+struct EdgePassage {
   double margin = -1;  ///< Below 0: no such edge for certain.
-  bool through_b = true;
+  Pierced pierced = Pierced::kB;
   int edge = 0;  ///< Of the other triangle.
   Volume from, to;
 };
@@ -138,11 +141,11 @@ double MarginOfEdge(const Vector3d& p, const Vector3d& q, const TrianglePoints& 
 }
 
 void WidenBy(const TrianglePoints& edges, const TrianglePoints& triangle,
-             const std::array<Volume, 3>& volumes, bool through_b, RayPassage* widest) {
+             const std::array<Volume, 3>& volumes, Pierced pierced, EdgePassage* widest) {
   for (int i = 0; i < 3; ++i) {
     const int j = kNext[i];
     const double margin = MarginOfEdge(edges[i], edges[j], triangle, volumes[i], volumes[j]);
-    if (margin > widest->margin) *widest = {margin, through_b, i, volumes[i], volumes[j]};
+    if (margin > widest->margin) *widest = {margin, pierced, i, volumes[i], volumes[j]};
   }
 }
 
@@ -159,15 +162,15 @@ bool CertainlyNothing(const TrianglePoints& a, const TrianglePoints& b) {
 }
 
 /// The passage with the widest margin.
-RayPassage WidestPassage(const TrianglePoints& a, const TrianglePoints& b) {
-  RayPassage widest;
+EdgePassage WidestPassage(const TrianglePoints& a, const TrianglePoints& b) {
+  EdgePassage widest;
   if (CertainlyNothing(a, b)) return widest;
   const std::array<Volume, 3> a_over_b = VolumesOver(b, a);
   if (OnOneSide(a_over_b)) return widest;
   const std::array<Volume, 3> b_over_a = VolumesOver(a, b);
   if (OnOneSide(b_over_a)) return widest;
-  WidenBy(a, b, a_over_b, true, &widest);
-  WidenBy(b, a, b_over_a, false, &widest);
+  WidenBy(a, b, a_over_b, Pierced::kB, &widest);
+  WidenBy(b, a, b_over_a, Pierced::kA, &widest);
   return widest;
 }
 
@@ -175,7 +178,7 @@ RayPassage WidestPassage(const TrianglePoints& a, const TrianglePoints& b) {
 /// at the fraction t = |V_p| / (|V_p| + |V_q|); it grows with V_p and falls with V_q, so the ends
 /// of both bound it. The edge itself moves by δ at most. The point also stays within the moved
 /// triangle, which is the better bound where a long edge pierces a small one.
-Crossing CrossingOf(const RayPassage& passage, const TrianglePoints& edges,
+Crossing CrossingOf(const EdgePassage& passage, const TrianglePoints& edges,
                     const TrianglePoints& triangle, double uncertainty) {
   const Vector3d &p = edges[passage.edge], &q = edges[kNext[passage.edge]];
   const auto change = [&](const Vector3d& corner) {
@@ -198,7 +201,7 @@ Crossing CrossingOf(const RayPassage& passage, const TrianglePoints& edges,
   const double along = std::max(t_high - t, t - t_low) * length;
   crossing.error = (uncertainty + std::min(along, reach) + rounding) * kGrow;
   crossing.normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
-  crossing.through_b = passage.through_b;
+  crossing.through_b = passage.pierced == Pierced::kB;
   return crossing;
 }
 
@@ -207,10 +210,10 @@ Crossing CrossingOf(const RayPassage& passage, const TrianglePoints& edges,
 std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TrianglePoints& b,
                                         double uncertainty) {
   CORE_CHECK(!(uncertainty < 0), "an uncertainty is not below 0", uncertainty);
-  const RayPassage passage = WidestPassage(a, b);
+  const EdgePassage passage = WidestPassage(a, b);
   if (!(passage.margin >= 0 && passage.margin >= uncertainty)) return std::nullopt;
-  return passage.through_b ? CrossingOf(passage, a, b, uncertainty)
-                           : CrossingOf(passage, b, a, uncertainty);
+  return passage.pierced == Pierced::kB ? CrossingOf(passage, a, b, uncertainty)
+                                        : CrossingOf(passage, b, a, uncertainty);
 }
 
 double CrossingMargin(const TrianglePoints& a, const TrianglePoints& b) {

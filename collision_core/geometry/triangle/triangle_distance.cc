@@ -180,10 +180,13 @@ void ProposeIfNearer(const Local& a, const Local& b, const Weights& weights_a,
   if (square < best->square) *best = {square, weights_a, weights_b, -1, -1};
 }
 
-/// The corner of one triangle that is nearest to the inside of the other. `corners_of_b`: the
-/// corners are those of b.
-void ProposeFace(const Local& a, const Local& b, const Heights& heights, bool corners_of_b,
+/// One of the two triangles.
+enum class Owner { kA, kB };
+
+/// The corner of one triangle, the owner, that is nearest to the inside of the other.
+void ProposeFace(const Local& a, const Local& b, const Heights& heights, Owner owner,
                  Proposal* best) {
+  const bool corners_of_b = owner == Owner::kB;
   const Local& corners = corners_of_b ? b : a;
   Weights corner{{0, 0, 0}}, foot;
   corner.w[heights.nearest] = 1;
@@ -191,9 +194,10 @@ void ProposeFace(const Local& a, const Local& b, const Heights& heights, bool co
   ProposeIfNearer(a, b, corners_of_b ? foot : corner, corners_of_b ? corner : foot, best);
 }
 
-/// Where an edge passes through the other triangle. `edges_of_b`: the edges are those of b.
-void ProposeCrossings(const Local& a, const Local& b, const Heights& heights, bool edges_of_b,
+/// Where an edge of one triangle, the owner, passes through the other.
+void ProposeCrossings(const Local& a, const Local& b, const Heights& heights, Owner owner,
                       Proposal* best) {
+  const bool edges_of_b = owner == Owner::kB;
   const Local& edges = edges_of_b ? b : a;
   for (int i = 0; i < 3; ++i) {
     const double from = heights.height[i], to = heights.height[kNext[i]];
@@ -211,14 +215,14 @@ Proposal Propose(const Local& a, const Local& b) {
   const Heights b_over_a = HeightsOver(a, b), a_over_b = HeightsOver(b, a);
   // An edge may pass through although the other plane is not straddled: that of a segment is none.
   if (b_over_a.straddles) {
-    ProposeCrossings(a, b, b_over_a, true, &best);
+    ProposeCrossings(a, b, b_over_a, Owner::kB, &best);
   } else {
-    ProposeFace(a, b, b_over_a, true, &best);
+    ProposeFace(a, b, b_over_a, Owner::kB, &best);
   }
   if (a_over_b.straddles) {
-    ProposeCrossings(a, b, a_over_b, false, &best);
+    ProposeCrossings(a, b, a_over_b, Owner::kA, &best);
   } else {
-    ProposeFace(a, b, a_over_b, false, &best);
+    ProposeFace(a, b, a_over_b, Owner::kA, &best);
   }
   return best;
 }

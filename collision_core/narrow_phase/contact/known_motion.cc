@@ -1,4 +1,5 @@
 // Segments of two bodies from their states, in a frame that moves along with one of them.
+#include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "collision_core/numeric/seconds.h"
 
@@ -45,6 +46,8 @@ BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from) {
 
 TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, const TimeSpan& span,
                                   const ContactTolerance& tolerance, WorkBudget* work) {
+  CORE_CHECK(span.from <= span.to, "a span of time does not end before it begins",
+             span.from.nanoseconds(), span.to.nanoseconds());
   const BodyPair bodies = SegmentsOf(a, b, span.from);
   return TimeOfContact(bodies.a, bodies.b, numeric::SecondsBetween(span.from, span.to).upper,
                        tolerance, work);

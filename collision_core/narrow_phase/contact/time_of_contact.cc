@@ -1,7 +1,6 @@
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/contact/ball_contact.h"

@@ -80,6 +80,11 @@ struct TimeOfContactResult {
 /// work is spent: then the brackets are what they are by then. No other limit cuts it short.
 /// Turning is followed by at most a quarter of a radian a sweep, so that the work grows with the
 /// turns between two states during which the two may meet. Requires that neither is awaited.
+///
+/// A library call: the service brackets contacts segment by segment (shape_contact.h), and this is
+/// kept as the certified time of contact of two known motions, which is measured beside the peers.
+/// Callers: `./run bench precision` (tests/bench/pairs/contact_ours.cc), tests/stress, tests/fuzz
+/// and tests.
 TimeOfContactResult TimeOfContact(const BodySegment& a, const BodySegment& b, double duration,
                                   const ContactTolerance& tolerance, WorkBudget* work);
 

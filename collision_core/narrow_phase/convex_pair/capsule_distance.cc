@@ -22,11 +22,6 @@ using Eigen::Vector3d;
 
 constexpr double kWayError = 0x1p-49;
 
-/// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow.
-double LengthUp(const Vector3d& v) {
-  return numeric::kFewRoundingsUp * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
-}
-
 /// The half edges of a core: of A as they are, of B posed.
 template <int kCount>
 struct Edges {
@@ -77,8 +72,9 @@ PosedCores::PosedCores(const geometry::ConvexSet& a, const geometry::ConvexSet& 
                        const RelativePose& pose)
     : d((pose.R_AB * b.centre + pose.p_AB) - a.centre),
       size(kPosedSumUp * (d.cwiseAbs().sum() + a.span + b.span)) {
-  const double far_b = LengthUp(b.centre) + b.span;
-  const double turned_a = pose.chord_A > 0 ? pose.chord_A * (LengthUp(a.centre) + a.span) : 0;
+  const double far_b = geometry::LengthUp(b.centre) + b.span;
+  const double turned_a =
+      pose.chord_A > 0 ? pose.chord_A * (geometry::LengthUp(a.centre) + a.span) : 0;
   error = numeric::kManyRoundingsUp *
           ((kPosedLengthUp * b.error + a.error) +
            (pose.offset_error + (pose.matrix_error + pose.chord_B) * far_b) + turned_a);

@@ -47,6 +47,10 @@ numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::Conve
 
 /// The distance or depth of a convex set A and a half-space B, exact but for rounding. The shortest
 /// shift that takes the two apart is along the half-space's normal.
+///
+/// A library call: no shape of the service holds a half-space, and this is kept as the narrow
+/// phase's door for floors and walls, which the broad phase can hold (broad_phase/index/
+/// half_space.h). Caller: convex_pose_test.
 ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace& b);
 
 }  // namespace collision::narrow_phase

@@ -30,6 +30,7 @@ double ReachAlong(const geometry::ConvexSet& set, const Vector3d& m) {
 MovingFront FrontOf(const geometry::ConvexSet& set, const TangentMotion& motion, const Vector3d& n,
                     const Vector3d& origin, double h) {
   CORE_CHECK(!(h < 0), "a front is asked for now or later", h);
+  CORE_CHECK(std::abs(n.squaredNorm() - 1) < 0x1p-18, "the direction has length 1", n.norm());
   const Vector3d place = set.centre - origin, arm = set.centre - motion.about;
   const Vector3d turned = n.cross(motion.spin);
   const double speed = n.dot(motion.velocity) + turned.dot(arm);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/convex/box_zonotope.h"
 #include "collision_core/geometry/convex/direction_polish.h"
 #include "collision_core/geometry/convex/epa.h"
@@ -15,7 +16,10 @@ namespace collision::narrow_phase {
 using Eigen::Vector3d;
 
 ConvexSearch::ConvexSearch(const ConvexQuery& query, ConvexBracket* bracket, WorkBudget* work)
-    : query_(query), bracket_(*bracket), pair_(bracket->pair()), work_(*work) {}
+    : query_(query), bracket_(*bracket), pair_(bracket->pair()), work_(*work) {
+  CORE_CHECK(!(bracket->lower() > -numeric::kInfinity), "a search begins with nothing known",
+             bracket->lower());
+}
 
 void ConvexSearch::Run(geometry::GjkHint* hint) {
   if (query_.goal == ConvexGoal::kYesNo && DecideByFaces()) return;

@@ -9,11 +9,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow.
-double LengthUp(const Vector3d& v) {
-  return numeric::kFewRoundingsUp * std::sqrt(v.squaredNorm()) + geometry::kSupportUnderflow;
-}
-
 /// Relative error of a root of a sum of three products and of a division.
 constexpr double kUnitError = 8 * 0x1p-53;
 
@@ -35,7 +30,7 @@ geometry::ConvexSet PosedB(const geometry::ConvexSet& of_b, const RelativePose& 
   posed.generators = pose.R_AB * of_b.generators;
   posed.centre = pose.R_AB * of_b.centre + pose.p_AB;
   // The error itself is moved along, by the matrix. All terms are positive.
-  const double far = LengthUp(of_b.centre) + of_b.span;
+  const double far = geometry::LengthUp(of_b.centre) + of_b.span;
   const double moved = kPosedLengthUp * of_b.error;
   posed.error = numeric::kManyRoundingsUp *
                 (moved + pose.offset_error + (pose.matrix_error + pose.chord_B) * far);
@@ -46,7 +41,7 @@ geometry::ConvexSet PosedB(const geometry::ConvexSet& of_b, const RelativePose& 
 geometry::ConvexSet PosedA(const geometry::ConvexSet& of_a, const RelativePose& pose) {
   if (pose.chord_A == 0) return of_a;
   geometry::ConvexSet posed = of_a;
-  const double far = numeric::AddUp(LengthUp(of_a.centre), of_a.span);
+  const double far = numeric::AddUp(geometry::LengthUp(of_a.centre), of_a.span);
   posed.error = numeric::AddUp(of_a.error, numeric::MultiplyUp(pose.chord_A, far));
   return posed;
 }
@@ -54,14 +49,14 @@ geometry::ConvexSet PosedA(const geometry::ConvexSet& of_a, const RelativePose& 
 PosedHalfSpace PosedA(const shape::ConvexHalfSpace& of_a, const RelativePose& pose) {
   PosedHalfSpace posed = Normalised(of_a);
   posed.normal_error = numeric::AddUp(posed.normal_error, pose.chord_A);
-  posed.point_error = numeric::MultiplyUp(pose.chord_A, LengthUp(of_a.point));
+  posed.point_error = numeric::MultiplyUp(pose.chord_A, geometry::LengthUp(of_a.point));
   return posed;
 }
 
 PosedHalfSpace PosedB(const shape::ConvexHalfSpace& of_b, const RelativePose& pose) {
   PosedHalfSpace posed = Normalised(of_b);
   const double share = numeric::AddUp(pose.matrix_error, pose.chord_B);
-  const double length = LengthUp(of_b.point);
+  const double length = geometry::LengthUp(of_b.point);
   posed.normal = pose.R_AB * posed.normal;
   posed.point = pose.R_AB * of_b.point + pose.p_AB;
   posed.normal_error =

@@ -1,9 +1,11 @@
 #include "collision_core/narrow_phase/separation/hull_gap.h"
 
+#include <cmath>
 #include <limits>
 
 #include "collision_core/narrow_phase/sphere_pairs/kernel_pose.h"
 #include "collision_core/numeric/allowances.h"
+#include "collision_core/numeric/rounding.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -54,7 +56,7 @@ struct HullSide {
       : hull(body.shape() ? &body.shape()->hull() : nullptr),
         origin(hull ? hull->origin() : Vector3d(0, 0, 0)),
         extent(hull ? hull->extent() : body.reach()),
-        radius(hull ? 0 : FloatUp(body.reach() * kLonger)),
+        radius(hull ? 0 : numeric::FloatUp(body.reach() * kLonger)),
         measure(hull ? hull->measure() : Vector3f(1, 1, 1)) {}
 
   /// `scale`: makes a unit vector of n.

@@ -37,6 +37,11 @@ struct RefinedPair {
 /// Refine() may overrun the budget by less than kBatchUnits. It may be called again and again: each
 /// bracket only becomes narrower, and with all the work it asks for it is that of a search alone,
 /// bit for bit.
+///
+/// A library call: the service gives each pair a budget of its own (detection/pairs/step_budget.h),
+/// and this class is kept for callers that refine several pairs at one instant, as in Hubbard's
+/// time-critical loop. Callers: `./run bench narrow-phase` (tests/bench/narrow_phase/refinement.cc,
+/// tests/bench/pairs/ours.cc) and tests.
 class Refinement {
  public:
   /// Units of work that a pair gets at a time.

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "collision_core/base/check.h"
 #include "collision_core/sphere_tree/packed_tree.h"
 
 namespace collision::narrow_phase {
@@ -29,10 +30,10 @@ class Frontier {
   Frontier& operator=(const Frontier&) = delete;
 
   bool empty() const { return size_ == 0; }
-  std::size_t size() const { return size_; }
   FrontierOrder order() const { return order_; }
   /// Requires a pair.
   const BallPair& next() const {
+    CORE_CHECK(!empty(), "the frontier has a pair");
     return order_ == FrontierOrder::kNewestFirst ? data_[size_ - 1] : data_[0];
   }
   /// Removes next(). Requires a pair.

@@ -5,6 +5,7 @@
 
 #include "collision_core/narrow_phase/separation/element.h"
 #include "collision_core/numeric/allowances.h"
+#include "collision_core/numeric/rounding.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -23,7 +24,7 @@ static_assert(kStepUnitsMax + kPoseUnits + kPackRowUnits == kBatchUnits);
 // 4e7 m (kMeshReachMax), are nothing beside it, and squares stay within single precision.
 constexpr double kFarApart = 1e15;
 
-float FloatDown(double x) { return -FloatUp(-x); }
+float FloatDown(double x) { return -numeric::FloatUp(-x); }
 
 Eigen::Vector3f NormalOf(const sphere_tree::TriangleBlock& block) {
   constexpr std::uint32_t kNormals = 3 * sphere_tree::kBlockTriangles;
@@ -86,7 +87,7 @@ void SeparationSearch::Refine(WorkBudget* work) {
       continue;
     }
     const std::uint64_t before = work->spent();
-    Open(frontier_.Pop(), FloatUp(limit), work);
+    Open(frontier_.Pop(), numeric::FloatUp(limit), work);
     if (looks_for_margin_ && findings_.Touching()) {
       margin_units_ += work->spent() - before;
       done_ = margin_units_ > kMarginUnits;
@@ -133,7 +134,7 @@ void SeparationSearch::OpenBalls(const BallPair& pair, Opened opened, float limi
   task.rows = opened == Opened::kBoth ? sphere_tree::BallLink::Count(link_a) : 1;
   task.parent = BoundOf(pair);
   task.limit = limit;
-  task.upper = FloatUp(only_within_ ? std::min(upper(), -moved_) : upper());
+  task.upper = numeric::FloatUp(only_within_ ? std::min(upper(), -moved_) : upper());
   task.only_within = only_within_;
   const Opening opening =
       opened == Opened::kA   ? Opening{inner_a * sphere_tree::kPackBalls, pair.b, kAll, 0, 0}

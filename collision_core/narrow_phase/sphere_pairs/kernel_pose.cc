@@ -1,5 +1,7 @@
 #include "collision_core/narrow_phase/sphere_pairs/kernel_pose.h"
 
+#include "collision_core/numeric/rounding.h"
+
 namespace collision::narrow_phase {
 namespace {
 
@@ -38,10 +40,10 @@ KernelPose KernelPoseOf(const PackedBody& a, const PackedBody& b, const Relative
   Store(offset, scan.offset);
   const double extent = a.extent + b.extent + offset.norm();
   const double more = slack + TurningSlack(pose.chord_A, a) + TurningSlack(pose.chord_B, b);
-  scan.slack = FloatUp(kBallSlack * extent + more);
-  scan.triangle_slack = FloatUp(kTriangleSlack * extent + more);
-  scan.turn_a = pose.chord_A > 0 ? FloatUp(pose.chord_A) : 0;
-  scan.turn_b = pose.chord_B > 0 ? FloatUp(pose.chord_B) : 0;
+  scan.slack = numeric::FloatUp(kBallSlack * extent + more);
+  scan.triangle_slack = numeric::FloatUp(kTriangleSlack * extent + more);
+  scan.turn_a = pose.chord_A > 0 ? numeric::FloatUp(pose.chord_A) : 0;
+  scan.turn_b = pose.chord_B > 0 ? numeric::FloatUp(pose.chord_B) : 0;
   Store(a.origin, scan.from_a);
   Store(b.origin, scan.from_b);
   Store(Eigen::Vector3d::Zero(), scan.direction);

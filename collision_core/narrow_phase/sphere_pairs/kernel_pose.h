@@ -1,9 +1,6 @@
 // Two posed bodies as the kernels of sphere_pair_kernel.h see them.
 #pragma once
 
-#include <cmath>
-#include <limits>
-
 #include "collision_core/narrow_phase/pose/body_tree.h"
 #include "collision_core/narrow_phase/pose/relative_pose.h"
 #include "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h"
@@ -38,13 +35,6 @@ struct PackedBody {
   double extent;
   sphere_tree::BallPack ball;
 };
-
-/// Single precision, no less than x; of zero nearly zero. A cast is off by 2^-24 of itself, or by
-/// less than the least normal number.
-inline float FloatUp(double x) {
-  const auto rounded = static_cast<float>(x);
-  return rounded + (std::abs(rounded) * numeric::kCastRounding + std::numeric_limits<float>::min());
-}
 
 /// `slack`: what rounding may have made of a distance computed in doubles. Requires an offset far
 /// below 1e19 m, whose square single precision holds.

@@ -1,7 +1,6 @@
 #include "collision_core/sphere_tree/fitted/fitted_ball.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace collision::sphere_tree {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/triangle/enclosing_ball.h"
 #include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/interval.h"
@@ -299,6 +300,8 @@ class Builder {
 
 SphereTree BuildFitted(const geometry::TriangleMesh& mesh, const ShapeOptions& options,
                        SurfaceKind kind) {
+  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
+             "a tree is built of a mesh that is not refused", mesh.triangles.size());
   return Builder(mesh, options, kind).Build();
 }
 

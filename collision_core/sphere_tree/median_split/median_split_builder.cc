@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/triangle/enclosing_ball.h"
 
 namespace collision::sphere_tree {
@@ -114,6 +115,8 @@ class Builder {
 }  // namespace
 
 SphereTree BuildMedianSplit(const geometry::TriangleMesh& mesh, const ShapeOptions& options) {
+  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
+             "a tree is built of a mesh that is not refused", mesh.triangles.size());
   return Builder(mesh, options).Build();
 }
 

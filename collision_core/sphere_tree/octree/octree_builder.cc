@@ -4,6 +4,7 @@
 #include <array>
 #include <span>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/triangle/enclosing_ball.h"
 #include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/interval.h"
@@ -330,11 +331,15 @@ class Builder {
 }  // namespace
 
 SphereTree BuildOctree(const geometry::TriangleMesh& mesh, const ShapeOptions& options) {
+  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
+             "a tree is built of a mesh that is not refused", mesh.triangles.size());
   return Builder(mesh, options, BallKind::kSmaller).Build();
 }
 
 SphereTree BuildCircumscribedOctree(const geometry::TriangleMesh& mesh,
                                     const ShapeOptions& options) {
+  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
+             "a tree is built of a mesh that is not refused", mesh.triangles.size());
   return Builder(mesh, options, BallKind::kCircumscribed).Build();
 }
 

@@ -52,7 +52,7 @@ class UpdatedMethod : public Updated, private baselines::AgentAsker {
                                    meeting->time.instant()};
   }
 
-  std::unique_ptr<broad_phase::NeighbourIndex> method_;
+  std::unique_ptr<broad_phase::SweepingIndex> method_;
   Instant now_;
   baselines::LazyEarliest earliest_;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "collision_core/broad_phase/earliest_sweep.h"
+#include "collision_core/broad_phase/sweeping_index.h"
 
 namespace collision::bench {
 

@@ -14,7 +14,6 @@ class PairSink {
   PairSink(const baselines::BallScene& scene, double horizon) : scene_(scene), limit_(horizon) {}
 
   void Offer(std::uint32_t a, std::uint32_t b) {
-    ++pairs_;
     const double time = baselines::PlainMeetingTime(scene_[a], scene_[b], limit_);
     if (time > limit_) return;
     if (a > b) std::swap(a, b);
@@ -24,7 +23,6 @@ class PairSink {
 
   bool found() const { return found_; }
   double time() const { return limit_; }
-  std::uint64_t pairs() const { return pairs_; }
   Answer answer() const {
     if (!found_) return {};
     return {true, lower_, higher_, static_cast<std::int64_t>(limit_ * 1e9)};
@@ -35,7 +33,6 @@ class PairSink {
   double limit_;
   bool found_ = false;
   std::uint32_t lower_ = 0, higher_ = 0;
-  std::uint64_t pairs_ = 0;
 };
 
 /// A library that finds the pairs whose swept boxes overlap.

@@ -74,7 +74,7 @@ class TurkShips : public ShipBroadPhase {
 
 class HornShips : public ShipBroadPhase {
  public:
-  explicit HornShips(std::unique_ptr<broad_phase::NeighbourIndex> phase)
+  explicit HornShips(std::unique_ptr<broad_phase::SweepingIndex> phase)
       : phase_(std::move(phase)) {}
 
   void Look(const Flight& flight, std::int64_t frame, std::vector<ShipPair>* near) override {
@@ -143,7 +143,7 @@ class HornShips : public ShipBroadPhase {
     return std::min(until_, frame + std::max<std::int64_t>(1, frames));
   }
 
-  std::unique_ptr<broad_phase::NeighbourIndex> phase_;
+  std::unique_ptr<broad_phase::SweepingIndex> phase_;
   std::int64_t until_ = -1;  ///< The list knows of the frames before this one.
   std::vector<Listed> list_;
   std::vector<broad_phase::NearPair> found_;
@@ -154,7 +154,7 @@ class HornShips : public ShipBroadPhase {
 
 std::unique_ptr<ShipBroadPhase> MakeTurk(double cell) { return std::make_unique<TurkShips>(cell); }
 
-std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::NeighbourIndex> phase) {
+std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::SweepingIndex> phase) {
   return std::make_unique<HornShips>(std::move(phase));
 }
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision_core/broad_phase/neighbour_index.h"
+#include "collision_core/broad_phase/sweeping_index.h"
 #include "tests/baselines/bsp_tree.h"
 #include "tests/bench/hubbard/flight.h"
 
@@ -23,7 +23,7 @@ std::unique_ptr<ShipBroadPhase> MakeTurk(double cell);
 
 /// Pairs that may meet within a window, in one query; each of them is looked at again when it
 /// may meet first, computed from its newest states. A ship that bounced is asked about anew.
-std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::NeighbourIndex> phase);
+std::unique_ptr<ShipBroadPhase> MakeHorns(std::unique_ptr<broad_phase::SweepingIndex> phase);
 
 /// Whether two ships touch in a frame.
 using ShipComparison = std::function<bool(const Flight&, std::int64_t, const ShipPair&)>;

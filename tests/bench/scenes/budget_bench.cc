@@ -1,4 +1,8 @@
 // ./run report: what the service may spend on a pair in a turn, against how exact its answers are.
+//
+// The scene runs with one budget after the other, of a pair's turn and of a step of all pairs:
+// widths, undecided events, work. The program fails if a run fails, or if its checker is not
+// satisfied.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 

@@ -6,6 +6,7 @@
 
 #include "idl/identity.h"
 #include "tests/bench/harness/measure.h"
+#include "tests/bench/service/process.h"
 
 namespace collision::bench {
 namespace {
@@ -18,12 +19,6 @@ constexpr std::uint32_t kRow = 100;       // agents
 // Hardly any: they stand still for minutes, and no other agent comes near.
 constexpr double kAccelerationMax = 1e-3;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-
-std::int64_t WallNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
 
 v1::AgentDescription DescriptionOf(std::uint32_t slot) {
   v1::AgentDescription wire;

@@ -39,12 +39,6 @@ void ServeOurs(const std::string& world, std::uint32_t domain) {
   }
 }
 
-std::int64_t WallNs() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::system_clock::now().time_since_epoch())
-      .count();
-}
-
 v1::Output ClearanceFor(const v1::AgentStates& chunk) {
   v1::Output output;
   v1::Clearance& clearance = *output.mutable_clearance();
@@ -100,6 +94,12 @@ void ServeAtOnce(const std::string& world, std::uint32_t domain) {
 }
 
 }  // namespace
+
+std::int64_t WallNs() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
 
 int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain) {
   spdlog::set_level(spdlog::level::off);

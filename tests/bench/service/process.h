@@ -12,6 +12,9 @@ namespace collision::bench {
 /// a clearance that acknowledges it, and each jump by an event.
 inline constexpr const char* kContestants[] = {"network", "ours"};
 
+/// The system's clock, with which messages are stamped [ns since 1970].
+std::int64_t WallNs();
+
 /// The child's side: serves until it is ended. Returns the exit code.
 int Serve(const std::string& contestant, const std::string& world, std::uint32_t domain);
 

@@ -1,4 +1,20 @@
 // ./run bench service: latency, throughput and messages of the whole service.
+//
+// - latency: from writing a state that jumps to a place half a second before a meeting, until its
+//   event arrives; 100, 1000 and 10,000 agents, p50 and p99. Then updates per second: all agents
+//   send their states in chunks of 64, again as soon as all are acknowledged.
+// - messages: states that a swarm sends on demand, as a ratio of those of a 60 Hz stream; M,
+//   distance and speed each varied by itself. Client library and daemon run in one process, answers
+//   come at once, and the first second does not count.
+// - "network" is a process with the same DdsBus and no detector: it answers each chunk at once with
+//   a clearance and each jump with an event. "ours" is the daemon on the wall clock. The same
+//   simulator measures one after the other in the same run, over DDS on loopback, with the same
+//   topics, in a world of its own; it uses DdsSession without the client library. All share the
+//   processors of the machine.
+// - `limited by` names the larger share of a round: what "network" takes too, or the rest. For
+//   messages it names what makes states wanted soon, estimated from spacing, speed and M, not
+//   measured.
+// - Every service is a process that is ended by its id, and ends with the benchmark.
 #include <CLI/CLI.hpp>
 
 #include "tests/bench/service/parts.h"

@@ -163,7 +163,7 @@ TEST(Detector, BeyondItsPairsAnAgentIsSaturatedNotSilent) {
     saturated += clearance.saturated;
     if (clearance.saturated) {
       EXPECT_TRUE(clearance.not_clear);
-      EXPECT_LE(clearance.clear_until, line.detector.now());
+      EXPECT_LE(clearance.clear_until, At(line.now));
     }
   }
   EXPECT_GT(saturated, 0u);

@@ -38,7 +38,8 @@ TEST(IndexSet, HoldsWhatWasInsertedAndNotErased) {
 TEST(IndexSet, KeepsTheOrderOfInsertion) {
   IndexSet<AgentIndex> set;
   for (const int k : {5, 2, 9, 2, 5, 0}) set.Insert(Agent(static_cast<std::uint64_t>(k)));
-  EXPECT_EQ(set.indices(), (std::vector{Agent(5), Agent(2), Agent(9), Agent(0)}));
+  EXPECT_EQ(std::vector(set.begin(), set.end()),
+            (std::vector{Agent(5), Agent(2), Agent(9), Agent(0)}));
   EXPECT_THROW(set.Insert(AgentIndex::None()), CheckFailure);
 }
 

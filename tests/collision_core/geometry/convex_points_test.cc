@@ -4,27 +4,13 @@
 
 #include "collision_core/geometry/convex/convex_set.h"
 #include "collision_core/geometry/convex/gjk.h"
-#include "tests/support/random.h"
+#include "tests/support/random_points.h"
 #include "tests/support/truth/exact_convex.h"
 
 namespace collision::geometry {
 namespace {
 
 using Eigen::Vector3d;
-
-std::vector<Vector3d> RandomPoints(Random& random, std::size_t count, int kind) {
-  std::vector<Vector3d> points;
-  const Vector3d stretch(1, random.LogUniform(1e-6, 1), random.Uniform(0, 1));
-  for (std::size_t i = 0; i < count; ++i) {
-    Vector3d p = random.UnitVector();
-    if (kind == 1) p = random.Uniform(0, 1) * p;
-    if (kind == 2) p = stretch.cwiseProduct(p);
-    if (kind == 3) p = Vector3d(static_cast<double>(random.Below(4)), p.y(), 0);
-    if (kind == 4) p = Vector3d(static_cast<double>(random.Below(3)), 0, 0);
-    points.push_back(p);
-  }
-  return points;
-}
 
 // Goal:   no point lies further along than the one found, but for rounding: on spheres, in balls,
 //         on needles, in planes, on lines, among many doubles.

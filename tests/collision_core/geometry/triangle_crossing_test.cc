@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "collision_core/geometry/triangle/triangle_pair.h"
-#include "tests/support/random.h"
+#include "tests/support/random_points.h"
 #include "tests/support/truth/exact_triangle.h"
 
 namespace collision::geometry {
@@ -17,12 +17,6 @@ const TrianglePoints kFlat = {Vector3d(4, 0, 0), Vector3d(-2, 4, 0), Vector3d(-2
 /// A triangle whose first edge stands upright at (x, y), from z = `low` to z = `high`.
 TrianglePoints Upright(double x, double y, double low, double high) {
   return {Vector3d(x, y, low), Vector3d(x, y, high), Vector3d(x + 100, y, 0.5 * (low + high))};
-}
-
-TrianglePoints RandomTriangle(Random& random, const Vector3d& centre, double size) {
-  TrianglePoints t;
-  for (Vector3d& corner : t) corner = centre + size * random.UnitVector();
-  return t;
 }
 
 Vector3d NormalOf(const TrianglePoints& t) { return (t[1] - t[0]).cross(t[2] - t[0]).normalized(); }

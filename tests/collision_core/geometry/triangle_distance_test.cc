@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "collision_core/geometry/triangle/triangle_pair.h"
-#include "tests/support/random.h"
+#include "tests/support/random_points.h"
 #include "tests/support/truth/exact_triangle.h"
 
 namespace collision::geometry {
@@ -34,12 +34,6 @@ void Check(const TrianglePoints& a, const TrianglePoints& b, double width) {
   const TriangleDistance found = DistanceOf(a, b);
   ExpectContains(found.distance, SquareOfTriangles(Exactly(a), Exactly(b)));
   ASSERT_LE(found.distance.width(), width * SizeOf(a, b)) << found.distance.lower;
-}
-
-TrianglePoints RandomTriangle(Random& random, const Vector3d& centre, double size) {
-  TrianglePoints t;
-  for (Vector3d& corner : t) corner = centre + size * random.UnitVector();
-  return t;
 }
 
 /// Small whole numbers: parallel edges, shared corners, coplanar and degenerate triangles abound,

@@ -36,16 +36,15 @@ std::pair<Exact, Exact> Faces(const SpaceTimeBound& bound, Instant t, int axis) 
 }
 
 // Goal:   the hypertrapezoid contains the horn's exact box at every instant of the window and fits
-// at its ends. Method: exact faces at random nanoseconds; unions of two likewise.
+// at its ends. Method: exact faces at random nanoseconds.
 TEST(Hypertrapezoid, ContainsTheBoxAndFitsAtTheEnds) {
   Random random(41);
   for (int i = 0; i < 2000; ++i) {
-    const SpaceTimeBound bound = AnyBound(random, 1e9), other = AnyBound(random, 1e9);
+    const SpaceTimeBound bound = AnyBound(random, 1e9);
     const Instant start = Instant::FromNanoseconds(kSecond + random.Below(9 * kSecond));
     const std::int64_t length = 1 + static_cast<std::int64_t>(random.Below(5 * kSecond));
     const Instant end = Instant::FromNanoseconds(start.nanoseconds() + length);
     const Hypertrapezoid h = MakeHypertrapezoid(bound, start, end);
-    const Hypertrapezoid both = Unite(h, MakeHypertrapezoid(other, start, end));
     for (int sample = 0; sample <= 4; ++sample) {
       const std::int64_t after = sample == 0 ? 0 : sample == 1 ? length : random.Below(length);
       const Instant t = Instant::FromNanoseconds(start.nanoseconds() + after);
@@ -54,11 +53,6 @@ TEST(Hypertrapezoid, ContainsTheBoxAndFitsAtTheEnds) {
         const auto [lower, upper] = Faces(bound, t, axis);
         ASSERT_LE(Chord(h.lower_start[axis], h.lower_end[axis], fraction), lower);
         ASSERT_GE(Chord(h.upper_start[axis], h.upper_end[axis], fraction), upper);
-        for (const SpaceTimeBound& part : {bound, other}) {
-          const auto [part_lower, part_upper] = Faces(part, t, axis);
-          ASSERT_LE(Chord(both.lower_start[axis], both.lower_end[axis], fraction), part_lower);
-          ASSERT_GE(Chord(both.upper_start[axis], both.upper_end[axis], fraction), part_upper);
-        }
         if (sample > 1) continue;
         const double scale = bound.state.p_WA.norm() + 1e4;
         const Exact slack(8 * 0x1p-52 * scale);

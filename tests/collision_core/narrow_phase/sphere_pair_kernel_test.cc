@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "collision_core/narrow_phase/separation/separation_findings.h"

@@ -41,7 +41,8 @@ double AnyOf(const Interval& interval, Random& random) {
 
 Exact ExactOf(double x) { return Exact(x); }
 
-/// Each end of the result for points is the exact value, or within `ulps` of it.
+/// Each end of the result for points is the exact value or the double next to it; near denormals
+/// at most two doubles away.
 void ExpectTight(const Interval& result, const Exact& exact, bool is_near_denormals) {
   double above = NextUp(result.lower), below = NextDown(result.upper);
   if (is_near_denormals) above = NextUp(above), below = NextDown(below);

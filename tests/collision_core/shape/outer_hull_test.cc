@@ -5,7 +5,7 @@
 #include "collision_core/shape/hull_builder.h"
 #include "collision_core/shape/shape.h"
 #include "tests/collision_core/sphere_tree/meshes.h"
-#include "tests/support/random.h"
+#include "tests/support/random_points.h"
 #include "tests/support/truth/exact_convex.h"
 
 namespace collision::shape {
@@ -13,20 +13,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
-
-std::vector<Vector3d> RandomPoints(Random& random, std::size_t count, int kind) {
-  std::vector<Vector3d> points;
-  const Vector3d stretch(1, random.LogUniform(1e-6, 1), random.Uniform(0, 1));
-  for (std::size_t i = 0; i < count; ++i) {
-    Vector3d p = random.UnitVector();
-    if (kind == 1) p = random.Uniform(0, 1) * p;
-    if (kind == 2) p = stretch.cwiseProduct(p);
-    if (kind == 3) p = Vector3d(static_cast<double>(random.Below(4)), p.y(), 0);
-    if (kind == 4) p = Vector3d(static_cast<double>(random.Below(3)), 0, 0);
-    points.push_back(p);
-  }
-  return points;
-}
 
 /// Any direction, an axis, or one at the border of cells.
 Vector3f RandomDirection(Random& random) {

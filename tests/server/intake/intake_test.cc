@@ -16,12 +16,6 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::uint64_t kAlpha = 10, kBeta = 20;  // senders
 
-v1::Config Simulated() {
-  v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
-  return config;
-}
-
 struct BadInput {
   v1::RejectionReason reason;
   const char* simulator;

@@ -10,17 +10,16 @@
 namespace collision::server {
 namespace {
 
-v1::Config Simulated() {
-  v1::Config config;
+v1::Config Harbour() {
+  v1::Config config = Simulated();
   config.set_world("harbour");
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
   return config;
 }
 
 // Goal:   a status names the world, its simulators, what was counted, the method and the event
 //         log, each counter once, within the bounds of collision.idl.
 TEST(Status, TellsWhatTheServiceKnows) {
-  ScriptedDaemon daemon(Simulated());
+  ScriptedDaemon daemon(Harbour());
   daemon.Step({From(1, Description("alpha", 0)), From(1, State(0, 0, 1), "alpha"),
                From(1, ClockOf("alpha", 0))});
   const v1::ServiceStatus status = daemon.status();
@@ -82,7 +81,7 @@ TEST(Status, TellsWhatTheServiceKnows) {
 
 // Goal:   what the network did not deliver stands among the counters, as the bus tells it.
 TEST(Status, TellsTheNetworksCounters) {
-  ScriptedDaemon daemon(Simulated());
+  ScriptedDaemon daemon(Harbour());
   v1::Counter& lost = daemon.bus().counters.emplace_back();
   lost.set_name("network_samples_lost");
   for (const std::uint64_t value : {3, 4}) {
@@ -99,7 +98,7 @@ TEST(Status, TellsTheMethodAndWhatItCost) {
       {v1::Config::ALL_PAIRS, "all pairs"},
       {v1::Config::SPATIAL_INDEX, "spatial index"}};
   for (const auto& [method, name] : methods) {
-    v1::Config config = Simulated();
+    v1::Config config = Harbour();
     config.set_broad_phase(method);
     ScriptedDaemon daemon(config);
     daemon.Step({From(1, Description("alpha", 0)), From(1, State(0, 0, 1), "alpha"),
@@ -125,7 +124,7 @@ TEST(Status, ARateIsPerSecondSinceTheLastCall) {
 
 // Goal:   of more simulators than a status can list, those left out are counted.
 TEST(Status, CountsTheSimulatorsItCannotList) {
-  v1::Config config = Simulated();
+  v1::Config config = Harbour();
   config.set_simulators_max(100);
   ScriptedDaemon daemon(config);
   for (std::uint64_t i = 1; i <= 67; ++i) {
@@ -140,7 +139,7 @@ TEST(Status, CountsTheSimulatorsItCannotList) {
 
 // Goal:   a status comes at once when a simulator comes or goes, else once per period.
 TEST(Status, ComesWhenSomethingChangesAndOncePerPeriod) {
-  ScriptedDaemon daemon(Simulated());
+  ScriptedDaemon daemon(Harbour());
   const auto count = [&daemon] {
     int statuses = 0;
     for (const v1::Output& output : daemon.bus().outputs) statuses += output.has_service_status();

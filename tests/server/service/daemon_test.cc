@@ -18,12 +18,6 @@ namespace {
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::uint64_t kAlpha = 10;  // a sender
 
-v1::Config Simulated() {
-  v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
-  return config;
-}
-
 v1::Config Wall() {
   v1::Config config;
   config.mutable_clock()->set_kind(v1::Clock::WALL);

@@ -13,7 +13,6 @@
 #include <set>
 
 #include "server/recording/recording.h"
-#include "server/recording/replay.h"
 #include "server/shapes/threaded_shape_builder.h"
 #include "server/shapes/tree_cache.h"
 #include "tests/server/shapes/bell.h"
@@ -275,14 +274,7 @@ TEST(CoarseTree, AReplayUsesTheSameTrees) {
       count = run.daemon().daemon().event_log().count();
       EXPECT_EQ(LastEvent(run.daemon()).status(), v1::EVENT_CONFIRMED);
     }
-    RecordingReader reader(path);
-    ReplaySource source(reader);
-    Daemon replayed(reader.config(), source, source, nullptr);
-    while (replayed.Step()) {
-    }
-    EXPECT_EQ(reader.error(), "");
-    EXPECT_EQ(replayed.event_log().hash(), hash);
-    EXPECT_EQ(replayed.event_log().count(), count);
+    ExpectSameReplay(path, hash, count);
     EXPECT_GT(count, 1u);
   }
   std::remove(path.c_str());
@@ -291,7 +283,7 @@ TEST(CoarseTree, AReplayUsesTheSameTrees) {
 // Goal:   the same with threads, which finish when they like.
 TEST(CoarseTree, AReplayFollowsTheThreads) {
   const std::string path = testing::TempDir() + "coarse_tree_test." + std::to_string(getpid());
-  std::uint64_t hash = 0;
+  std::uint64_t hash = 0, count = 0;
   {
     const v1::Config config = CompleteConfig(Simulated());
     RecordingWriter writer(path, config);
@@ -306,13 +298,9 @@ TEST(CoarseTree, AReplayFollowsTheThreads) {
     EXPECT_EQ(daemon.counter("trees_coarse"), 0u);
     EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_CONFIRMED);
     hash = daemon.daemon().event_log().hash();
+    count = daemon.daemon().event_log().count();
   }
-  RecordingReader reader(path);
-  ReplaySource source(reader);
-  Daemon replayed(reader.config(), source, source, nullptr);
-  while (replayed.Step()) {
-  }
-  EXPECT_EQ(replayed.event_log().hash(), hash);
+  ExpectSameReplay(path, hash, count);
   std::remove(path.c_str());
 }
 

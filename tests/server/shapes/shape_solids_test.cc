@@ -13,7 +13,6 @@
 
 #include "idl/limits.h"
 #include "server/recording/recording.h"
-#include "server/recording/replay.h"
 #include "server/shapes/shape_decoding.h"
 #include "tests/server/shapes/two_cubes.h"
 #include "tests/support/random.h"
@@ -304,13 +303,7 @@ TEST(ShapeSolids, AReplayGivesTheSameEvents) {
     count = daemon.daemon().event_log().count();
     EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_CONFIRMED);
   }
-  RecordingReader reader(path);
-  ReplaySource source(reader);
-  Daemon replayed(reader.config(), source, source, nullptr);
-  while (replayed.Step()) {
-  }
-  EXPECT_EQ(replayed.event_log().hash(), hash);
-  EXPECT_EQ(replayed.event_log().count(), count);
+  ExpectSameReplay(path, hash, count);
   EXPECT_GT(count, 1u);
   std::remove(path.c_str());
 }

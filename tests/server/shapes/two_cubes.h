@@ -1,11 +1,15 @@
 // Two agents with the same shape, for tests of the whole service.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "server/recording/recording.h"
+#include "server/recording/replay.h"
 #include "tests/server/scripted_bus.h"
 #include "tests/server/shapes/shapes.h"
 
@@ -13,12 +17,6 @@ namespace collision::server {
 
 inline constexpr std::int64_t kSecond = 1'000'000'000;
 inline constexpr std::uint64_t kAlpha = 10, kBeta = 20;  // senders
-
-inline v1::Config Simulated() {
-  v1::Config config;
-  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
-  return config;
-}
 
 inline const std::string& CubeBytes() {
   static const std::string bytes = EncodeShape(Cube(1, UnusedFor(2)));
@@ -73,6 +71,18 @@ inline v1::CollisionEvent LastEvent(ScriptedDaemon& daemon) {
     if (output.has_collision_event()) last = output.collision_event();
   }
   return last;
+}
+
+/// Replays the recording at `path`: its event log is to have this hash and number of events.
+inline void ExpectSameReplay(const std::string& path, std::uint64_t hash, std::uint64_t count) {
+  RecordingReader reader(path);
+  ReplaySource source(reader);
+  Daemon replayed(reader.config(), source, source, nullptr);
+  while (replayed.Step()) {
+  }
+  EXPECT_EQ(reader.error(), "");
+  EXPECT_EQ(replayed.event_log().hash(), hash);
+  EXPECT_EQ(replayed.event_log().count(), count);
 }
 
 inline void Fly(ScriptedDaemon* daemon, TwoCubes* cubes, int ticks) {

@@ -65,7 +65,7 @@ TEST(World, ALowerRunIsOldAndAHigherOneStartsAnew) {
   EXPECT_EQ(higher.simulator->agents().Waiting(70), nullptr);
   EXPECT_EQ(higher.simulator->run(), 6u);
   EXPECT_EQ(higher.simulator->name(), "a");
-  EXPECT_TRUE(higher.simulator->agents().clearances().changed().contains(1));
+  EXPECT_TRUE(higher.simulator->agents().clearances().TakeChanged().contains(1));
 }
 
 // Goal:   a sender of states alone has proved nothing: a named message takes the id from it.
@@ -148,13 +148,14 @@ TEST(World, GrantsWhatIsClear) {
   world.UpdateSimulatedTime();
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4 * kSecond));
-  EXPECT_TRUE(a.agents().clearances().changed().contains(0));
+  EXPECT_TRUE(a.agents().clearances().TakeChanged().contains(0));
   EXPECT_EQ(world.EffectiveFrom(At(1)), At(4 * kSecond));
 
   clear_until(At(0));
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4 * kSecond));
-  EXPECT_TRUE(a.agents().clearances().changed().empty()) << "a grant that stays is not told again";
+  EXPECT_TRUE(a.agents().clearances().TakeChanged().empty())
+      << "a grant that stays is not told again";
 
   a.time().Offer({.clock = At(4 * kSecond)});
   EXPECT_TRUE(a.time().Take());

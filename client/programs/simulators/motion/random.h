@@ -1,7 +1,6 @@
 // The simulators' seeded random numbers.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include "client/api/types.h"

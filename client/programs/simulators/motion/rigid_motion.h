@@ -51,13 +51,13 @@ struct TurnLimits {
   double angular_speed_max_rad_s = 2;  ///< Never exceeded; at most kTurnSpeedMax.
 };
 
-/// A step that comes as near to `angular_velocity_wanted` as the limits allow: |Δω| <= α h also in
-/// exact arithmetic.
+/// A step that comes as near to `angular_velocity_wanted_rad_s` as the limits allow: |Δω| <= α h
+/// also in exact arithmetic.
 TurnPiece TurnTowards(const RigidState& state, const Vector3& angular_velocity_wanted_rad_s,
                       const TurnLimits& limits, std::int64_t t0_ns, std::int64_t t1_ns);
 
-/// The time [s] in which a body that turns at `angular_speed` now, and changes that by at most
-/// `angular_acceleration_max`, certainly turns by less than a quarter: the root of
+/// The time [s] in which a body that turns at `angular_speed_rad_s` now, and changes that by at most
+/// `angular_acceleration_max_rad_s2`, certainly turns by less than a quarter: the root of
 /// |ω| τ + ½ α τ² = π/2, rounded down. Infinite if it does not turn.
 double QuarterTurnSeconds(double angular_speed_rad_s, double angular_acceleration_max_rad_s2);
 

@@ -1,7 +1,7 @@
 #include "client/programs/simulators/player/player.h"
 
-#include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <stdexcept>
 

@@ -1,7 +1,6 @@
 // Plays trajectories into a world.
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>

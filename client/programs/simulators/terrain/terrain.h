@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "client/api/shape.h"
 #include "client/programs/shared/pace.h"

@@ -1,7 +1,5 @@
 // terrain: a simulator of ground that never moves, with a mesh of any size.
 
-#include <cstdio>
-
 #include "client/library/validation.h"
 #include "client/programs/shared/command_line.h"
 #include "client/programs/shared/stop_signal.h"

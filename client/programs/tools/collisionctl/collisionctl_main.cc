@@ -10,6 +10,7 @@
 #include "client/library/deadline.h"
 #include "client/library/network/conversion.h"
 #include "client/library/validation.h"
+#include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
 #include "client/programs/tools/sphere_tree/command.h"
@@ -19,9 +20,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr int kUsage = 2;
-constexpr int kUnavailable = 69;          // EX_UNAVAILABLE of sysexits.h.
-constexpr int kOutputFailed = 74;         // EX_IOERR of sysexits.h.
 constexpr milliseconds kQuiet{150};       // Nothing new for this long: the picture is complete.
 constexpr milliseconds kFollowWait{250};  // Longest time to notice Ctrl-C.
 constexpr int kPollsMax = 8;  // Then the picture counts as complete in a world that is never quiet.
@@ -121,7 +119,7 @@ int Run(const std::string& command, const Options& options) {
     if (stopped != 0) return 0;
     std::cerr << "collisionctl: no service in world \"" << options.monitor.world << "\" on domain "
               << options.monitor.domain << " within " << options.timeout_s << " s\n";
-    return kUnavailable;
+    return kExitUnavailable;
   }
   Gather(&monitor, deadline, [&view] { return view.knows_all_agents(); });
   if (options.follow) {
@@ -132,7 +130,7 @@ int Run(const std::string& command, const Options& options) {
   std::cout.flush();
   if (std::cout) return 0;
   std::cerr << "collisionctl: the output cannot be written\n";
-  return kOutputFailed;
+  return kExitOutputFailed;
 }
 
 constexpr const char* kExamples = R"(
@@ -173,7 +171,7 @@ int Main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : kUsage;
+    return app.exit(error) == 0 ? kExitOk : kExitUsage;
   }
   if (sphere_tree->parsed()) {
     if (options.json) tree.report = "json";
@@ -181,13 +179,13 @@ int Main(int argc, char** argv) {
   }
   if (!std::isfinite(options.timeout_s)) {  // CLI::Range lets NaN pass.
     std::cerr << "collisionctl: --timeout: " << options.timeout_s << ", allowed: 0 to 1e6\n";
-    return kUsage;
+    return kExitUsage;
   }
   try {
     ValidateWorld(options.monitor.world, options.monitor.domain);
   } catch (const std::runtime_error& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
-    return kUsage;
+    return kExitUsage;
   }
   const auto stop = [](int) { stopped = 1; };
   std::signal(SIGINT, stop);
@@ -196,7 +194,7 @@ int Main(int argc, char** argv) {
     return Run(app.get_subcommands().front()->get_name(), options);
   } catch (const std::runtime_error& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
-    return kUnavailable;
+    return kExitUnavailable;
   }
 }
 

@@ -19,12 +19,6 @@ std::string Line(const std::string& label, const std::string& text) {
   return Padded(label, kLabelColumns) + text + "\n";
 }
 
-std::string NumberText(double value, const char* format) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 /// A grant or clearance that was never given is the least instant.
 std::string SinceText(std::int64_t instant_ns) {
   if (instant_ns == std::numeric_limits<std::int64_t>::min()) return "-";
@@ -146,6 +140,12 @@ std::vector<std::string> AgentRow(const AgentView& agent) {
 }
 
 }  // namespace
+
+std::string NumberText(double value, const char* format) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
 
 std::string StatusPage(const WorldView& view) {
   const v1::ServiceStatus& status = *view.status();

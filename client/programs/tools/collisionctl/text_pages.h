@@ -21,6 +21,9 @@ std::string ShapesPage(const WorldView& view);
 /// The pair that can touch first, and before when it certainly does not.
 std::string EarliestPage(const WorldView& view);
 
+/// The value in a printf() `format` for one double, of at most 63 characters.
+std::string NumberText(double value, const char* format);
+
 /// Rows in aligned columns, the first row being the heading. All rows have the same number of
 /// cells.
 std::string Table(const std::vector<std::vector<std::string>>& rows);

@@ -1,6 +1,5 @@
 #include "client/programs/tools/sphere_tree/command.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "client/programs/shared/exit_code.h"
 #include "client/programs/shared/mesh_option.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
 #include "client/programs/tools/sphere_tree/export.h"
@@ -17,10 +17,6 @@
 
 namespace collision::client {
 namespace {
-
-constexpr int kUsage = 2;
-constexpr int kBadData = 65;       // EX_DATAERR of sysexits.h.
-constexpr int kOutputFailed = 74;  // EX_IOERR of sysexits.h.
 
 /// More balls cannot be told apart in a picture.
 constexpr std::size_t kPictureBallsMax = 600;
@@ -193,19 +189,19 @@ int RunSphereTree(const SphereTreeOptions& options) {
     return 0;
   } catch (const UsageError& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
-    return kUsage;
+    return kExitUsage;
   } catch (const OutputError& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
-    return kOutputFailed;
+    return kExitOutputFailed;
   } catch (const std::bad_alloc&) {
     std::cerr << "collisionctl: " << options.mesh << ": " << kNoMemoryText << '\n';
-    return kBadData;
+    return kExitBadData;
   } catch (const std::length_error&) {
     std::cerr << "collisionctl: " << options.mesh << ": " << kNoMemoryText << '\n';
-    return kBadData;
+    return kExitBadData;
   } catch (const std::exception& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
-    return kBadData;
+    return kExitBadData;
   }
 }
 

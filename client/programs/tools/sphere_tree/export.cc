@@ -1,6 +1,5 @@
 #include "client/programs/tools/sphere_tree/export.h"
 
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>

@@ -19,12 +19,6 @@ namespace {
 
 constexpr std::uint32_t kCuts[] = {8, 64, 512};
 
-std::string NumberText(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
 /// Prints a line of progress every second on a terminal; silent otherwise.
 class Progress {
  public:
@@ -72,10 +66,10 @@ void SetCut(const MeshTree& mesh_tree, const std::vector<NodeIndex>& cut,
 std::vector<std::string> Row(std::string first, const v1::TreeCutReport& cut) {
   return {std::move(first),
           std::to_string(cut.balls()),
-          NumberText("%.4g", cut.overshoot_max_m()),
-          NumberText("%.3g", cut.overshoot_max_percent()),
-          NumberText("%.4g", cut.overshoot_mean_m()),
-          NumberText("%.3g", cut.overshoot_mean_percent())};
+          NumberText(cut.overshoot_max_m(), "%.4g"),
+          NumberText(cut.overshoot_max_percent(), "%.3g"),
+          NumberText(cut.overshoot_mean_m(), "%.4g"),
+          NumberText(cut.overshoot_mean_percent(), "%.3g")};
 }
 
 std::string TableOf(const std::string& heading,
@@ -147,11 +141,11 @@ std::string ReportText(const MeshTree& mesh_tree, const v1::TreeReport& report) 
   text += report.closed() ? kClosedText : kOpenText;
   text += report.builder() + ": " + std::to_string(report.balls()) + " balls in " +
           std::to_string(report.levels_size()) + " levels, " +
-          NumberText("%.3g MB", report.bytes() / 1e6) + ", built in " +
-          NumberText("%.3g s", report.build_seconds()) +
-          NumberText(" (%.3g us a triangle)\n", 1e6 * report.build_seconds() / report.triangles());
+          NumberText(report.bytes() / 1e6, "%.3g MB") + ", built in " +
+          NumberText(report.build_seconds(), "%.3g s") +
+          NumberText(1e6 * report.build_seconds() / report.triangles(), " (%.3g us a triangle)\n");
   text += "overshoot: how far a ball may reach beyond the surface, certified; % of the diagonal, " +
-          NumberText("%.6g m\n\n", report.diagonal_m());
+          NumberText(report.diagonal_m(), "%.6g m\n\n");
   text += TableOf("LEVEL", report.levels());
   return text + "\n" + TableOf("AT MOST", report.cuts());
 }

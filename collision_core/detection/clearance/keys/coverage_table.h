@@ -6,7 +6,6 @@
 #include "collision_core/base/ids.h"
 #include "collision_core/detection/clearance/keys/agent_clearance.h"
 #include "collision_core/detection/clearance/keys/clearance_keys.h"
-#include "collision_core/detection/detector_counters.h"
 #include "collision_core/detection/pairs/tracked_pairs.h"
 
 namespace collision::detection {
