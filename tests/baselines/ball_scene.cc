@@ -77,7 +77,7 @@ double FirstRoot(const Approaching& pair, double limit) {
 
 }  // namespace
 
-double PlainMeetingTime(const BallAgent& a, const BallAgent& b, double limit) {
+double ReferenceIntersectionTime(const BallAgent& a, const BallAgent& b, double limit) {
   const double base = std::max(a.stamp, b.stamp), left = limit - base;
   const Approaching pair = Between(a, b, base);
   if (CannotMeet(pair, left)) return kNever;

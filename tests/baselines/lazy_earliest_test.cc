@@ -29,7 +29,7 @@ class AllPairsAsker : public AgentAsker {
   broad_phase::AllPairs phase;
 };
 
-TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
+TEST(LazyEarliest, IsTheEarliestOfAllAgents) {
   int found_count = 0;
   std::uint64_t asked = 0, updates = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {

@@ -34,7 +34,7 @@ BallScene UniformScene(const UniformOptions& options) {
     BallAgent agent{InCube(random, half), InCube(random, options.speed_max), radius,
                     options.acceleration_max, 0};
     const bool meets = cells.AnyNear(
-        agent.p_WA, [&](int other) { return PlainMeetingTime(agent, scene[other], time) <= time; });
+        agent.p_WA, [&](int other) { return ReferenceIntersectionTime(agent, scene[other], time) <= time; });
     if (meets) continue;
     cells.Add(agent.p_WA);
     scene.push_back(agent);

@@ -44,7 +44,7 @@ bool Named(const Scenario& scenario, const detection::AgentId& agent, v1::Cleara
 // Goal:   a state that breaks its own bound is the new truth, is counted, and its partners are
 // told. Method: a resting agent appears moved by 80 m without a discontinuity, near enough that the
 // partner's clearance must be lowered.
-TEST(Faults, ABreachIsTheNewTruthAndIsTold) {
+TEST(Faults, ABreachIsTheNewTruthAndIsReported) {
   Scenario scenario(ConfigFor(1), {});
   SimulatedAgent mover = At(100);
   mover.motion.pieces = {{.start_ns = 0, .end_ns = 3 * kSecond, .p = {100, 0, 0}},

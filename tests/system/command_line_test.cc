@@ -146,7 +146,7 @@ TEST(CommandLine, AFileThatCannotBeWrittenIsOneClearLine) {
   EXPECT_EQ(cache.err, "collisiond: tree_cache_dir: /dev/null/trees: Not a directory\n");
 }
 
-TEST(CommandLine, AskedToStopItEndsCleanly) {
+TEST(CommandLine, EndsCleanlyOnAStopSignal) {
   const TestWorld world(60);
   for (const int signal : {SIGTERM, SIGINT}) {
     ServiceManager manager(world.folder().Path("manager-" + std::to_string(signal)));

@@ -69,7 +69,7 @@ TEST(Scenes, AStreamSendsEverything) {
   EXPECT_EQ(NumberIn(text.str(), "message_ratio"), 1);
 }
 
-TEST(Scenes, InterruptedRunLeavesNobodyBehind) {
+TEST(Scenes, AnInterruptedRunLeavesNoProcessBehind) {
   // Orphans of our children become ours, so that they can be seen.
   ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
   for (const int signal : {SIGINT, SIGTERM}) {

@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes), [](
 });
 
 // Four fast ones fly through a crowd at rest. Placed long after, they have a long way back.
-TEST(LargeMethods, AQueryFromLongBeforeTheLastOneLosesNobody) {
+TEST(LargeMethods, AQueryFromLongBeforeTheLastOneLosesNoNeighbour) {
   constexpr int kFast = 4;
   for (int seed = 0; seed < 10; ++seed) {
     for (const double back : {1e2, 1e3, 1e4, 3e4, 1e5}) {
@@ -215,7 +215,7 @@ TEST(LargeMethods, AQueryFromLongBeforeTheLastOneLosesNobody) {
 }
 
 // One far away: the rest crowd in one of the cells that suit all.
-TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
+TEST(LargeMethods, NearPairsAreFoundOnceInAnyWindow) {
   Random random(1);
   SpatialIndex index;
   for (int i = 0; i < 200; ++i) {

@@ -73,7 +73,7 @@ std::vector<Pair> PairsOf(PointGrid* grid) {
   return pairs;
 }
 
-TEST(PointGrid, FindsAllWhoTouchOnceAndFewOthers) {
+TEST(PointGrid, FindsEachTouchingPairOnceAndFewOthers) {
   constexpr double kShapes[][3] = {
       {40, 40, 40}, {400, 6, 6},  {6, 400, 6}, {6, 6, 400}, {90, 90, 0},
       {0, 0, 2000}, {2000, 0, 0}, {3, 3, 3},   {0, 0, 0},

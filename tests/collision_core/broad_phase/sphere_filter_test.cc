@@ -69,7 +69,7 @@ float WithSlack(double reach, double way) {
   return static_cast<float>((reach + kSlack * (reach + way)) * (1 + 0x1p-22)) + kReachLeast;
 }
 
-class LaneScanTest : public testing::Test {
+class SphereFilterTest : public testing::Test {
  protected:
   /// Distances, speeds and times of one scale each; every second ball just touches the query_ball,
   /// or just does not, at some time.
@@ -142,7 +142,7 @@ class LaneScanTest : public testing::Test {
   double first_ = 0, last_ = 0;
 };
 
-TEST_F(LaneScanTest, LosesNobodyAndRulesOutMost) {
+TEST_F(SphereFilterTest, LosesNoNeighbourAndRulesOutMost) {
   int near = 0, let_through = 0, far = 0;
   for (int seed = 0; seed < kScenes; ++seed) {
     Draw(seed);
@@ -166,7 +166,7 @@ TEST_F(LaneScanTest, LosesNobodyAndRulesOutMost) {
   EXPECT_LT(let_through, far / 50);  // A long way costs digits.
 }
 
-TEST_F(LaneScanTest, EveryWidthGivesTheSame) {
+TEST_F(SphereFilterTest, EveryWidthGivesTheSame) {
   for (int seed = 0; seed < kScenes; ++seed) {
     Draw(seed);
     const std::vector<std::uint32_t> plain = Hits(PlainSphereFilter());
@@ -179,7 +179,7 @@ TEST_F(LaneScanTest, EveryWidthGivesTheSame) {
   }
 }
 
-TEST_F(LaneScanTest, WhatIsNotANumberIsAHit) {
+TEST_F(SphereFilterTest, WhatIsNotANumberIsAHit) {
   Draw(1);
   for (const float value : {INFINITY, -INFINITY, NAN}) {
     balls_.arrays[0].assign(kBalls + kLanesMax, value);

@@ -116,7 +116,7 @@ TEST(LocalSeparatingTranslation, NothingIsLeftInside) {
   EXPECT_LE(hole.Past(back, 20), 0.25 * kNear);
 }
 
-TEST(LocalSeparatingTranslation, WhatIsToldTakesTheTwoApart) {
+TEST(LocalSeparatingTranslation, TheTranslationSeparatesTheBodies) {
   int shorter = 0, told = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     SCOPED_TRACE(seed);

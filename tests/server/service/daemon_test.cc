@@ -184,7 +184,7 @@ TEST(Daemon, RecordsWhatItAppliesAndEndsIfItCannot) {
   EXPECT_EQ(daemon.bus().flushes, flushes);
 }
 
-TEST(Daemon, StopsWhenToldOrWhenTheBusEnds) {
+TEST(Daemon, StopsOnRequestOrWhenTheBusEnds) {
   ScriptedDaemon stopped(Simulated());
   stopped.daemon().Stop();
   EXPECT_TRUE(stopped.bus().woken);
