@@ -22,8 +22,8 @@ float FloatUp(double x) {
 /// 2^-16.
 constexpr double kLonger = 1 + 0x1p-15;
 
-/// Of the extent: casting the points, √3 u at most, along a direction of length √3 (u = 2^-24), and
-/// twice what three products and two sums of doubles lose.
+/// The share of the extent lost by casting the points, √3 u at most, along a direction of length √3
+/// (u = 2^-24), and twice what three products and two sums of doubles lose.
 constexpr double kStored = 4 * 0x1p-24;
 
 /// A point along the four corners of a patch.

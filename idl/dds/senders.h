@@ -19,12 +19,12 @@ class Senders {
   std::optional<std::uint64_t> Of(dds_entity_t reader, dds_instance_handle_t writer);
 
   /// Records that a known sender speaks for a simulator. Returns whether that is new.
-  bool Note(std::uint64_t sender, std::uint64_t simulator);
+  bool AddSimulator(std::uint64_t sender, std::uint64_t simulator);
 
   /// Records whether a known sender is alive. Returns whether that is new.
   bool SetAlive(std::uint64_t sender, bool alive);
 
-  /// Of a known sender.
+  /// Whether a known sender is alive, as last recorded.
   bool alive(std::uint64_t sender) const { return programs_.at(sender).alive; }
 
   /// The simulators for which a known sender has spoken.

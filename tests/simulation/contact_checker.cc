@@ -13,7 +13,7 @@ namespace {
 
 using PairKey = std::tuple<detection::AgentId, detection::AgentId>;
 
-/// One contact as the service told it: the first time it spoke of it, and its last word.
+/// One contact as the service published it: when it first did, and the last revision.
 struct Story {
   std::int64_t first_now_ns = 0;
   v1::CollisionEvent last;
@@ -108,9 +108,9 @@ void CheckPromises(const Body& a, const Body& b, const BallContact& contact, con
   const std::int64_t known_from =
       std::max(LastSurprise(a, contact.begin_ns), LastSurprise(b, contact.begin_ns));
   for (const detection::AgentId& id : {a.id, b.id}) {
-    const auto told = promises.find(id);
-    if (told == promises.end()) continue;
-    for (const Promise& promise : told->second) {
+    const auto known = promises.find(id);
+    if (known == promises.end()) continue;
+    for (const Promise& promise : known->second) {
       const bool binds = promise.now_ns > known_from && promise.now_ns < contact.begin_ns &&
                          promise.now_ns < announced;
       if (!binds) continue;
@@ -195,12 +195,12 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
       const std::vector<BallContact> contacts_true = BallContacts(
           a.agent->motion, b.agent->motion, a.agent->radius + b.agent->radius, from, to);
       const auto found = stories.find({a.id, b.id});
-      const auto& told = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
+      const auto& known = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
       for (const BallContact& contact : contacts_true) {
         if (contact.depth < options.grazing) continue;
-        CheckContact(a, b, contact, told, promises, options, &result);
+        CheckContact(a, b, contact, known, promises, options, &result);
       }
-      CheckConfirmed(a, b, contacts_true, told, &result);
+      CheckConfirmed(a, b, contacts_true, known, &result);
     }
   }
   return result;

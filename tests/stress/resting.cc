@@ -206,7 +206,7 @@ void Rolling(const Setting& setting, Outcome* outcome) {
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
   const auto round = shape::Shape::Build(Sphere(2));
   const double speed = 1;
-  // Of triangles it touches the slab with its corners only, if at all.
+  // A sphere of triangles touches the slab only with its corners, if at all.
   const auto ball = scene.Add(Of(round, 0.01), Roll({-8, 0, 1}, speed));
   const auto smooth = scene.Add(BallOf(1, 0.01), Straight({-8, 4, 1}, {speed, 0, 0}));
   scene.Touch(0, ball, 0, INFINITY);
@@ -304,9 +304,9 @@ void AddGreedy(Scene* scene) {
   TouchAtBounces(bouncing, cube, false, scene);
 }
 
-// Cubes that meet, at their own time, beside all that: with a budget that is ever smaller. Of the
-// smallest a fair share is 240 units of work, little more than one look at two cubes: then they are
-// told while they touch.
+// Cubes that meet at their own time beside all that, with smaller and smaller budgets. A fair share
+// of the smallest is 240 units of work, little more than one query of two cubes: then their contact
+// is reported while they touch.
 void Starving(const Setting& setting, Outcome* outcome) {
   const int steps = setting.Many(256, 1024);
   for (const std::uint64_t units : {16'000, 8'000, 4'000}) {

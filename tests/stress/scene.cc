@@ -253,7 +253,7 @@ const detection::CollisionEvent* Scene::Covering(const Meeting& meeting) const {
   const Seconds slack = kTruthShare * std::fabs(meeting.begin);
   for (const auto& [contact, index] : of_pair->second) {
     const detection::CollisionEvent& event = events_[index];
-    // Of touches that last no time one event may cover several.
+    // One event may cover several contacts that last no time.
     const bool whole =
         event.status == detection::EventStatus::kUndecided || meeting.end <= meeting.begin;
     if (!IsContact(event) && event.status != detection::EventStatus::kUndecided && !IsOpen(event))

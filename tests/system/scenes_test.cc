@@ -39,7 +39,7 @@ TEST(Scenes, Swarm100) { ExpectSceneSucceeds({"swarm-100", "--seconds", "5"}); }
 // Convex solids, against each other and against triangles.
 TEST(Scenes, DroneArms) { ExpectSceneSucceeds({"drone-arms", "--seconds", "6"}); }
 
-/// Of a report, as --json writes it; -1: it is not there.
+/// A number of a report, as --json writes it; -1: it is not there.
 double NumberIn(const std::string& json, const std::string& field) {
   const std::string key = "\"" + field + "\": ";
   const std::size_t at = json.find(key);

@@ -104,7 +104,7 @@ std::vector<intersection::IntersectingPair> AllMeetings(const std::vector<AgentB
 
 TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
   const LargeScene& scene = GetParam();
-  std::size_t told = 0, expected = 0;
+  std::size_t reported = 0, expected = 0;
   for (const int count : kSizes) {
     Random random(count);
     std::vector<AgentBound> bounds;
@@ -146,13 +146,13 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
         for (const intersection::IntersectingPair& meeting : meetings) {
           ASSERT_TRUE(pairs.contains({meeting.lower, meeting.higher})) << what << ": missing";
         }
-        told += near.size();
+        reported += near.size();
       }
     }
   }
-  // Of both methods; a filter, but one that rules out nearly all of millions.
+  // For both methods together: a filter may pass more, but rules out nearly all of millions.
   EXPECT_GT(expected, 5u);
-  EXPECT_LT(told, 2 * (30 * expected + 20'000));
+  EXPECT_LT(reported, 2 * (30 * expected + 20'000));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes), [](const auto& test) {
@@ -228,11 +228,11 @@ TEST(LargeMethods, NearPairsAreFoundOnceInAnyWindow) {
     index.FindNearPairs(
         {intersection::BoundKind::kHorn, kMethodStart, numeric::AddRoundedUp(kMethodStart, window)},
         &pairs);
-    const std::size_t told = pairs.size();
-    EXPECT_GT(told, 0u);
+    const std::size_t reported = pairs.size();
+    EXPECT_GT(reported, 0u);
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    EXPECT_EQ(pairs.size(), told) << window;
+    EXPECT_EQ(pairs.size(), reported) << window;
   }
 }
 

@@ -57,15 +57,16 @@ void ExpectAllNear(const RulesTable& table, SweepingIndex& method,
                    const intersection::BroadQuery& query) {
   std::vector<NearPair> pairs;
   method.FindNearPairs(query, &pairs);
-  std::set<std::pair<std::uint32_t, std::uint32_t>> told;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> reported;
   for (const NearPair& pair : pairs) {
-    ASSERT_TRUE(told.insert({pair.lower, pair.higher}).second) << pair.lower << " " << pair.higher;
+    ASSERT_TRUE(reported.insert({pair.lower, pair.higher}).second)
+        << pair.lower << " " << pair.higher;
     ASSERT_EQ(method.rules().Of(pair.lower, pair.higher).excluded, false);
   }
   for (std::uint32_t a = 0; a < table.end(); ++a) {
     for (std::uint32_t b = a + 1; b < table.end(); ++b) {
       if (table.TimeOf(query, a, b).instant().is_never()) continue;
-      ASSERT_TRUE(told.count({a, b})) << a << " x " << b;
+      ASSERT_TRUE(reported.count({a, b})) << a << " x " << b;
     }
   }
 }

@@ -120,7 +120,7 @@ class SphereFilterTest : public testing::Test {
         balls_.arrays[i][k] = static_cast<float>(ball.p[i]);
         balls_.arrays[3 + i][k] = static_cast<float>(ball.v[i]);
       }
-      // Of reach and growth in any proportion.
+      // The reach is split between radius and growth in any proportion.
       const double share = last_ > 0 ? random.Uniform(0, 1) : 0;
       balls_.arrays[6][k] = WithSlack(ball.reach * (1 - share), way(ball));
       balls_.arrays[9][k] = WithSlack(speed_of(ball), 0);

@@ -21,7 +21,7 @@
 namespace collision::intersection {
 namespace {
 
-/// Of all pairs, how many 46ths a distribution has: boxes take longer to judge.
+/// How many 46ths of all pairs a distribution has: boxes take longer to judge.
 constexpr int kParts = 46, kPartsOfBalls = 4, kPartsOfBoxes = 1;
 
 constexpr std::int64_t kSecond = 1'000'000'000;

@@ -71,7 +71,7 @@ Real Seconds(Instant from, Instant to) {
   return Real(to.nanoseconds() - from.nanoseconds()) / kSecond;
 }
 
-/// Of the bound on the orientation, the part that differs between two states of an agent.
+/// The part of the bound on the orientation that differs between two states of an agent.
 Real TurnBound(const SpaceTimeBound& bound, Instant t) {
   const Real sigma = Seconds(bound.state.stamp, t);
   return Real(bound.state.rotation_error) + Real(bound.limits.angular_acceleration_max) / 2 *

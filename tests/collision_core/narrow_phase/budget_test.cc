@@ -161,9 +161,9 @@ std::vector<std::pair<const char*, Ask>> Queries() {
   asks.emplace_back("ShapeProximity", [](const Pair& pair, WorkBudget* work) {
     ShapeProximity(pair.bodies.a, pair.bodies.b, 0.4, work);
   });
-  asks.emplace_back("RevolvedFree", [](const Pair& pair, WorkBudget* work) {
+  asks.emplace_back("RingFreedom", [](const Pair& pair, WorkBudget* work) {
     ShapeMotion(pair.bodies.a, pair.bodies.b, work)
-        .RevolvedFree(0, 1, TimeDirection::kForward, 1, work->left());
+        .RingFreedom(0, 1, TimeDirection::kForward, 1, work->left());
   });
   return asks;
 }
@@ -224,7 +224,7 @@ TEST(Budget, WhatItEndsStillHolds) {
   EXPECT_GT(contacts, 100);
 }
 
-/// Of what is apart by less than nothing the depth does not count.
+/// The bracket of the distance: an overlap counts as 0.
 numeric::Interval DistanceIn(const SeparationBracket& bracket) {
   return {std::max(0.0, bracket.lower), std::max(0.0, bracket.upper)};
 }

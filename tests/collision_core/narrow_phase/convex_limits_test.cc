@@ -66,7 +66,7 @@ TEST(ConvexLimits, AnyBudget) {
 TEST(ConvexLimits, AnyHint) {
   Random random(322);
   std::uint64_t cold = 0, warm = 0;
-  geometry::GjkHint other;  // Of the last pair.
+  geometry::GjkHint other;  // From the last pair.
   for (int i = 0; i < 600; ++i) {
     const Solids s = RandomSolids(random, 4);
     WorkBudget first(1000000), second(1000000), third(1000000);

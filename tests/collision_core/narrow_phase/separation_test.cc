@@ -52,7 +52,7 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
     }
     WorkBudget unlimited(100000000);
     const SeparationBracket nearest = LookOf(a, b, Goal::kNearest, &unlimited);
-    // Of one inside the other `upper` speaks of the solids.
+    // If one is inside the other, `upper` is about the solids.
     if (nearest.lower <= 0 || SolidDistance(body_a, body_b) == 0) continue;
     ++apart;
     const auto distance = static_cast<double>(surfaces);

@@ -44,7 +44,7 @@ struct Body {
     return bound;
   }
 
-  // Of the states at 0 and at `next`, those that are there.
+  // A segment from the states at 0 and at `next`, as far as they exist.
   BodySegment Segment(std::optional<double> next, bool last = true) const {
     BodySegment segment;
     segment.ball.radius = BoundAt(0).limits.radius;

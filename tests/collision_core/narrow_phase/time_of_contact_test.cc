@@ -176,7 +176,7 @@ TEST_P(ClosedContact, RestingAndSlidingContactsStayUndecided) {
     const Body a{first_}, b{second_, 0, {0.125, 0.25, 1}, v};
     const TimeOfContactResult found = Find(a, b, 1);
     ASSERT_EQ(found.status, ContactStatus::kUndecided);
-    // Of solids: 64 · 2^-53 of the size of the pair.
+    // Solids: 64 · 2^-53 of the size of the pair.
     const bool triangles = GetParam().first == Made::kTriangles;
     EXPECT_LE(found.within, triangles ? 1e-14 : 4e-14);
     EXPECT_EQ(found.begin.lower, 0);

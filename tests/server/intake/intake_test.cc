@@ -311,8 +311,8 @@ TEST(Intake, RefusesClocksOfTheOtherKind) {
   }
 }
 
-// Goal:   what an instance says without a sender counts: a description removed, a clock without a
-// writer. Of an owner that has told no clock, the clock says nothing.
+// Goal:   a change of an instance without a sender counts: a removed description, a clock without a
+// writer. A clock says nothing about an owner that has sent none.
 TEST(Intake, WhatHasNoSenderCounts) {
   ScriptedDaemon daemon(Simulated());
   daemon.Step(AlphaJoins(kAlpha));

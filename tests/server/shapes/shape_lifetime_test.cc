@@ -104,11 +104,11 @@ TEST(ShapeLifetime, OneOfTwoLies) {
   lies[0].mutable_bytes()->back() ^= 1;
   daemon.Step(From(kBeta, lies));
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.topic(), v1::TOPIC_SHAPE);
-  EXPECT_EQ(told.simulator_id(), SimulatorId("beta"));
-  EXPECT_EQ(told.field(), "content_hash");
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.topic(), v1::TOPIC_SHAPE);
+  EXPECT_EQ(rejection.simulator_id(), SimulatorId("beta"));
+  EXPECT_EQ(rejection.field(), "content_hash");
   TwoCubes cubes(1.9);
   daemon.Step(cubes.Descriptions());
   daemon.Step(cubes.Parts());
@@ -130,11 +130,11 @@ TEST(ShapeLifetime, BadContentIsReportedToItsSender) {
   daemon.Step(cubes.Parts());
   Fly(&daemon, &cubes, 10);
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.simulator_id(), SimulatorId("alpha"));
-  EXPECT_EQ(told.run(), 1u);
-  EXPECT_NE(told.detail().find("99"), std::string::npos) << told.detail();
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.simulator_id(), SimulatorId("alpha"));
+  EXPECT_EQ(rejection.run(), 1u);
+  EXPECT_NE(rejection.detail().find("99"), std::string::npos) << rejection.detail();
   EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_POSSIBLE);
   EXPECT_EQ(daemon.counter("shapes"), 0u);
 }
@@ -151,11 +151,11 @@ TEST(ShapeLifetime, AShapeMustFitIntoItsBall) {
   daemon.Step({From(kAlpha, small)});
   daemon.Step({From(kAlpha, small)}, 10);
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.topic(), v1::TOPIC_AGENT_DESCRIPTION);
-  EXPECT_EQ(told.field(), "radius_m");
-  EXPECT_EQ(told.slot(), 1u);
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.topic(), v1::TOPIC_AGENT_DESCRIPTION);
+  EXPECT_EQ(rejection.field(), "radius_m");
+  EXPECT_EQ(rejection.slot(), 1u);
   small.set_revision(2);
   small.set_radius_m(2);
   daemon.Step({From(kAlpha, small)});
@@ -180,12 +180,12 @@ TEST(ShapeLifetime, ReportsThatPartsAreMissing) {
       continue;
     }
     ASSERT_EQ(daemon.rejections().size(), 1u);
-    const v1::Rejection told = daemon.rejections()[0];
-    EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-    EXPECT_EQ(told.slot(), 4u);
-    EXPECT_NE(told.detail().find(arrived == 0 ? "no part" : "2 of 3 parts have arrived"),
+    const v1::Rejection rejection = daemon.rejections()[0];
+    EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+    EXPECT_EQ(rejection.slot(), 4u);
+    EXPECT_NE(rejection.detail().find(arrived == 0 ? "no part" : "2 of 3 parts have arrived"),
               std::string::npos)
-        << told.detail();
+        << rejection.detail();
     daemon.Step(From(kAlpha, parts));
     EXPECT_EQ(daemon.counter("shapes"), 1u);
   }

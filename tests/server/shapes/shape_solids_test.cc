@@ -263,13 +263,13 @@ TEST(ShapeSolids, ABadOneIsReportedToItsOwnerAlone) {
   daemon.Step(pair.Parts());
   Fly(&daemon, &pair, 10);
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.topic(), v1::TOPIC_SHAPE);
-  EXPECT_EQ(told.simulator_id(), SimulatorId("beta"));
-  EXPECT_NE(told.detail().find("solids[1] of 2 (box): orientation has the length 0"),
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.topic(), v1::TOPIC_SHAPE);
+  EXPECT_EQ(rejection.simulator_id(), SimulatorId("beta"));
+  EXPECT_NE(rejection.detail().find("solids[1] of 2 (box): orientation has the length 0"),
             std::string::npos)
-      << told.detail();
+      << rejection.detail();
   EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_CONFIRMED);
   EXPECT_EQ(daemon.counter("shapes"), 1u);
   EXPECT_EQ(daemon.counter("shapes_refused"), 1u);

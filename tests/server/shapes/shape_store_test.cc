@@ -153,7 +153,7 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
   Random random(2);
   std::vector<v1::ShapePart> lies = PartsOf("b", bytes);
   lies[1].mutable_bytes()->front() ^= 1;
-  int told = 0;
+  int refusals = 0;
   for (int round = 0; round < 100; ++round) {
     ShapeStore fresh(config, &builder);
     std::size_t true_parts = 0, false_parts = 0;
@@ -162,7 +162,7 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
           true_parts == parts.size() || (false_parts < lies.size() && random.Chance(0.5));
       const auto refusal = fresh.Take(lie ? lies[false_parts++] : parts[true_parts++]);
       if (!refusal) continue;
-      ++told;
+      ++refusals;
       EXPECT_TRUE(lie);
       EXPECT_EQ(refusal->simulator_id, kB);
     }
@@ -172,8 +172,8 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
     EXPECT_EQ(fresh.counters().gathering, 0u);
     EXPECT_EQ(fresh.counters().bytes, bytes.size());
   }
-  EXPECT_GT(told, 20);
-  EXPECT_LT(told, 80);
+  EXPECT_GT(refusals, 20);
+  EXPECT_LT(refusals, 80);
 }
 
 // Goal:   equal shapes are one, and stay until the last simulator that wrote it, or agent that
