@@ -24,7 +24,7 @@ std::vector<bool> Livelinesses(const std::vector<v1::Input>& inputs, const std::
   return all;
 }
 
-/// The senders whose end was told.
+/// The senders whose end was reported.
 std::vector<std::uint64_t> Gone(const std::vector<v1::Input>& inputs) {
   std::vector<std::uint64_t> all;
   for (const v1::Input& input : inputs) {
@@ -217,7 +217,7 @@ TEST(DdsBusLiveliness, AnEndEndsAReceiveThatWaits) {
   EXPECT_EQ(std::set<std::uint64_t>{Gone(inputs)[0]}, SendersOfClock(inputs, 2));
 }
 
-// A process that stands still acknowledges nothing: unless told otherwise, Cyclone DDS makes the
+// A process that stands still acknowledges nothing: by default, Cyclone DDS makes the
 // writer wait.
 TEST(DdsBusLiveliness, AStoppedProcessDelaysNoOtherAndCatchesUp) {
   constexpr std::size_t kEvents = 4000;

@@ -78,7 +78,7 @@ motion::MotionState StateOf(int pair, int which, std::int64_t ns) {
 struct Stretch {
   double widest = 0;        ///< Of the brackets [s].
   double widest_share = 0;  ///< Of what they may be wide.
-  double clear_sum = 0;     ///< How far ahead agents were clear, all told [s].
+  double clear_sum = 0;     ///< How far ahead agents were clear, in all [s].
   std::uint64_t steps = 0, contacts = 0;
   std::int64_t live_bytes = 0;
   std::size_t queued = 0;
@@ -150,9 +150,9 @@ class LongRun {
       if (!outcome_->Expect(clearance.has_value(), "no clearance")) continue;
       const long double until = clearance->clear_until.nanoseconds() / 1e9L;
       stretch->clear_sum += std::max(0.0, static_cast<double>(until - now_ / 1e9L));
-      // Two that are told to touch begin no new contact until that has ended.
+      // Two that are reported to touch begin no new contact until that has ended.
       if (touching_[pair]) continue;
-      outcome_->Expect(until <= begin, "told clear beyond a contact");
+      outcome_->Expect(until <= begin, "clear beyond a contact");
     }
   }
 

@@ -1,7 +1,7 @@
 // Judges the two queries about balls against exact arithmetic: when two horns may first meet, and
 // when two balls touch.
 //
-// The condition of either query is told by its inputs: an answer counts as narrow where it is
+// The condition of either query follows from its inputs: an answer counts as narrow where it is
 // the exact answer of a problem whose lengths are off by K units in the last place of what they are
 // compared with (|Δp|, |v τ|, r, u). So a grazing pair may be answered less narrowly than one head
 // on, by just as much as its inputs force.

@@ -190,7 +190,7 @@ void Scene::CheckDistance(const detection::CollisionEvent& event) {
       Named("a wide distance", event.lower.slot, event.higher.slot, Since(event.evaluated_at)));
 }
 
-// Never late: an agent that is told to be clear begins no new contact before. Two that are told to
+// Never late: an agent that is clear begins no new contact before. Two that are reported to
 // touch begin none until that has ended.
 void Scene::CheckClearances() {
   for (const Meeting& meeting : meetings_) {
@@ -200,7 +200,7 @@ void Scene::CheckClearances() {
       if (!outcome_->Expect(clearance.has_value(), "no clearance")) continue;
       outcome_->Expect(!clearance->clear_until.is_never() &&
                            Since(clearance->clear_until) <= meeting.begin * (1 + kTruthShare),
-                       Named("told clear beyond a contact", meeting.a, meeting.b, meeting.begin));
+                       Named("clear beyond a contact", meeting.a, meeting.b, meeting.begin));
     }
   }
 }

@@ -47,7 +47,7 @@ double NumberIn(const std::string& json, const std::string& field) {
 }
 
 // As dense as the swarm of 10,000. Drones start at rest, so that the first seconds are its
-// quietest: what counts here is that both figures are told and that nothing was late.
+// quietest: what counts here is that both figures are reported and that nothing was late.
 TEST(Scenes, SwarmSendsWhatIsNeeded) {
   const std::string path = testing::TempDir() + "swarm." + std::to_string(getpid()) + ".json";
   ExpectSceneSucceeds({"swarm-1000", "--seconds", "3", "--json", path});

@@ -125,7 +125,7 @@ void RunLibrary(const std::vector<ContactCase>& cases, const ContactMethod& libr
   row.contestant = library.name;
   if (!all.empty()) row.warm = Median(all);
   row.remark = "right in " + std::to_string(theirs.size()) + " of " + std::to_string(cases.size()) +
-               " steps; misses " + std::to_string(missed) + " contacts, tells " +
+               " steps; misses " + std::to_string(missed) + " contacts, reports " +
                std::to_string(other) + " at a wrong time, does not end in " +
                std::to_string(endless) + Format(" within %g s", kCutOff);
   if (!theirs.empty()) {

@@ -89,7 +89,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> ReportedPairs(const AlphaTF
   return reported;
 }
 
-// Goal:   exactly the pairs that overlap at the start are told, each once.
+// Goal:   exactly the pairs that overlap at the start are reported, each once.
 // Method: against all pairs, in metres with room for the padding, over every layout: boxes in many
 //         strips, all in one, some across all.
 TEST(FaceSweepStart, TellsEachOverlapOnce) {
@@ -117,7 +117,7 @@ TEST(FaceSweepStart, TellsEachOverlapOnce) {
         EXPECT_TRUE(std::binary_search(reported.begin(), reported.end(), std::pair(a, b)));
       }
     }
-    // What touches within the grid's unit is told as well.
+    // Pairs that touch within the grid's unit are reported as well.
     EXPECT_TRUE(layout != static_cast<int>(SweepLayout::kUniform) || expected == reported.size());
     EXPECT_GT(expected, 0u);
   }
@@ -139,7 +139,7 @@ TEST(FirstWindow, FitsTheScene) {
 }
 
 // Goal:   the sweep goes on for as long as a canonical time may be early: 1e-9 of the way.
-// Method: the least instant that may still be told as `time`, from nanoseconds to centuries.
+// Method: the least instant that may still be reported as `time`, from nanoseconds to centuries.
 TEST(WithEarliness, CoversTheCanonicalTolerance) {
   Random random(6);
   for (int i = 0; i < kBounds; ++i) {

@@ -80,7 +80,7 @@ Crossings SweepAll(const std::vector<AlphaTFace>& faces, std::uint32_t step) {
   return crossings;
 }
 
-// Goal:   every pair of faces that changes places is told once, at the right tick and in the order
+// Goal:   a pair of faces that changes places is reported once, at the right tick and in the order
 //         of time; the faces are in order after every tick; no more is queued than neighbours.
 // Method: against bisection from the definition. A range of 3 units makes faces coincide, start,
 //         end and cross together; one of 2^50 needs exact products.

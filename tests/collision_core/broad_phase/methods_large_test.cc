@@ -1,6 +1,6 @@
 // Goal:   what methods do only for many agents (grids of many cells, a crowd asked first, levels,
 //         hashed rows) changes no answer either; and no pair that may meet is missing among those
-//         that are told as near.
+//         that are reported as near.
 // Method: hundreds and thousands of agents evenly, in clusters, of all sizes, speeds and stamps;
 //         the oracle asks the canonical routine for every pair. Work counters show that the pass
 //         over a grid was taken where it should.

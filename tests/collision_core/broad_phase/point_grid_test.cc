@@ -182,7 +182,7 @@ TEST(PointGrid, FindsAgentsBeyondTheSampleAndNoAbsentOnes) {
   }
 }
 
-// Two that pass each other within `own`, at any time within the half, are told; of those whose
+// Two that pass each other within `own`, at any time within the half, are found; of those whose
 // places are near, but whose lines are not, few.
 TEST(PointGrid, ComparesLinesWhereAsked) {
   Random random(8);

@@ -369,7 +369,7 @@ TEST(EarliestIntersectionOracle, SpeedCaps) {
       kPartsOfBoxes);
 }
 
-// Goal:   pairs that never meet are told so. Method: no acceleration, mostly a near miss.
+// Goal:   pairs that never meet are recognized. Method: no acceleration, mostly a near miss.
 TEST(EarliestIntersectionOracle, NearMisses) {
   JudgeAll(113, Tally::kStated, [](Random& random) {
     const double speed = Any(random), miss = random.Uniform(1, 1.5);

@@ -78,7 +78,7 @@ Real TurnBound(const SpaceTimeBound& bound, Instant t) {
                                                 sigma * (sigma + Real(bound.limits.time_step));
 }
 
-// Goal:   an integrator that honours α exactly in double arithmetic is never told it breached.
+// Goal:   an integrator that honours α exactly in double arithmetic never breaches.
 // Method: full angular acceleration, steadily about one axis (any) or in a new direction every
 //         step, 1 to 1000 steps of semi-implicit Euler; slow and fast turning. The excess is
 //         reported as drift, and the new bound lies inside the old one grown by it.

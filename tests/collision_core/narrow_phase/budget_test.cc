@@ -70,8 +70,8 @@ struct Pair {
   BodyTree a{bodies.a}, b{bodies.b};
   RelativePose pose = PoseAt(bodies.a, bodies.b, BestBounds(bodies.a, bodies.b, 0.4), 0.4);
 
-  Pair(const Body& first, const Body& second, Result told)
-      : bodies(SegmentsOf(Known(first, 1, told), Known(second, 1, told), Instant())) {}
+  Pair(const Body& first, const Body& second, Result states_at)
+      : bodies(SegmentsOf(Known(first, 1, states_at), Known(second, 1, states_at), Instant())) {}
 
   SegmentResult Balls() const { return EvaluateBallSegment(bodies.a.ball, bodies.b.ball, 1); }
 };

@@ -1,4 +1,4 @@
-// Goal:   what is told of one solid inside another holds whatever the budget is, and the budget
+// Goal:   the answer for one solid inside another holds whatever the budget is, and the budget
 //         holds.
 // Method: a small box in the wall of a hollow cube, where the surfaces are apart and the solids
 //         overlap as deep as is known in closed form; a cloud of 1,000 parts in a cavity.

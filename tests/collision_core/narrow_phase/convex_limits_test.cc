@@ -38,7 +38,7 @@ void ExpectMeet(const numeric::Interval& x, const numeric::Interval& y) {
 }
 
 // Goal:   any work allowed, down to none, gives a bracket that holds the answer; what is left out
-//         is told; and what is spent is no more than a step and the directions tried at the end
+//         is reported; and what is spent is no more than a step and the directions tried at the end
 //         beyond it.
 TEST(ConvexLimits, AnyBudget) {
   Random random(321);

@@ -331,7 +331,7 @@ TEST(ConvexPairQuery, UncertainPoses) {
   EXPECT_GT(said, 40);
 }
 
-// Goal:   a budget that is spent is noticed, and what is told at once costs little.
+// Goal:   a spent budget is noticed, and a pair that is decided at once costs little.
 TEST(ConvexPairQuery, WorkBudget) {
   Random random(407);
   ConvexCase c(RandomBox(random, 1), RandomBox(random, 1));

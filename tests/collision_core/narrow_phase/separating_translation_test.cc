@@ -1,4 +1,4 @@
-// Goal:   shifted by what is told, two bodies do not overlap; by noticeably less along the same way
+// Goal:   shifted by the answer, two bodies do not overlap; by noticeably less along the same way
 //         they would.
 // Method: random bodies in each other, against all vertices in long double; cubes that rest in each
 //         other.

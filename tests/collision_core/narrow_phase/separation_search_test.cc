@@ -231,7 +231,7 @@ TEST(SeparationSearch, DecisionsCountUncertaintyIn) {
   EXPECT_GT(decided, 100);
 }
 
-// At most one unit each: bodies far from each other are told apart by their roots.
+// At most one unit each: bodies far from each other are separated by their roots.
 TEST(SeparationSearch, FarApartIsSeenAtOnce) {
   const Pair near = RandomPair(3);
   for (const double away : {1e3, 1e9, 1e14, 1e16, 1e30, 1e200}) {

@@ -64,7 +64,7 @@ TEST(StateDemand, FreshBeforeOthersAreAnnounced) {
   EXPECT_EQ(wanted(10, 11.75, 12.125), At(10.25)) << "still fresh when it asks";
 }
 
-// A contact that is over is told better by a state newer than its end, and by no more than one.
+// One state newer than the end of a contact narrows its event; more states do not.
 TEST(StateDemand, OnceAfterAContact) {
   const detection::AgentClearance clearance{.clear_until = At(100), .unsettled_until = At(9.5)};
   EXPECT_EQ(Demand().WantedAt(clearance, At(9.25), At(10)), At(10));

@@ -349,7 +349,7 @@ TEST(CoarseTree, GoesInBetween) {
   EXPECT_TRUE(daemon.rejections().empty());
 }
 
-// Goal:   an agent whose ball is too small for the shape is told once, not with each tree.
+// Goal:   an agent whose ball is too small for the shape is reported once, not with each tree.
 TEST(CoarseTree, WhatDoesNotFitIsReportedOnce) {
   std::vector<ReadyTree> finished;
   ScriptedDaemon daemon(Simulated(), nullptr, std::make_unique<StagedShapeBuilder>(&finished));

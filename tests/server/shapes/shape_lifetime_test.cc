@@ -97,7 +97,7 @@ TEST(ShapeLifetime, AStrangersDisposalIsRefused) {
 }
 
 // Goal:   two simulators with one shape, one of them with other bytes under its hash: that one is
-//         told, and both fly the true shape.
+//         rejected, and both fly the true shape.
 TEST(ShapeLifetime, OneOfTwoLies) {
   ScriptedDaemon daemon(Simulated());
   std::vector<v1::ShapePart> lies = PartsOf("beta", CubeBytes());
@@ -119,7 +119,7 @@ TEST(ShapeLifetime, OneOfTwoLies) {
   EXPECT_EQ(daemon.rejections().size(), 1u);
 }
 
-// Goal:   content that is no mesh is told to its sender by name, and its agents stay balls.
+// Goal:   content that is no mesh is reported to its sender by name, and its agents stay balls.
 TEST(ShapeLifetime, BadContentIsReportedToItsSender) {
   ShapeContent content = Cube(1);
   content.triangles[4][0] = 99;
@@ -139,7 +139,7 @@ TEST(ShapeLifetime, BadContentIsReportedToItsSender) {
   EXPECT_EQ(daemon.counter("shapes"), 0u);
 }
 
-// Goal:   a shape that reaches out of its agent's ball is told once for each description, and never
+// Goal:   a shape that reaches out of its agent's ball is reported once per description, and never
 //         confirmed; a description with room for it mends it. At the radius itself it fits.
 TEST(ShapeLifetime, AShapeMustFitIntoItsBall) {
   ScriptedDaemon daemon(Simulated());
@@ -162,7 +162,7 @@ TEST(ShapeLifetime, AShapeMustFitIntoItsBall) {
   EXPECT_EQ(daemon.rejections().size(), 1u);
 }
 
-// Goal:   parts that do not come are told once, after undescribed_after_s, with how many are there.
+// Goal:   missing parts are reported once, after undescribed_after_s, with how many are there.
 TEST(ShapeLifetime, ReportsThatPartsAreMissing) {
   const std::vector<v1::ShapePart> parts = PartsOf("alpha", CubeBytes());
   for (const std::size_t arrived : {0, 2, 3}) {

@@ -101,7 +101,7 @@ TEST(ShapeSolids, AreWhatTheBytesDescribe) {
   EXPECT_NEAR(capsule.shape->facts().upper.z(), 0.25, 1e-9);
 }
 
-// Goal:   the turn is told w first and takes the solid's frame to the body's, and the place is
+// Goal:   the rotation is sent w first and takes the solid's frame to the body's, and the place is
 //         where it is.
 // Method: a thorn along x, turned by a quarter about z, so that it points along y; raised by 5 m.
 TEST(ShapeSolids, StandWhereAndAsTheBytesSay) {
