@@ -34,7 +34,7 @@ class Senders {
 
  private:
   struct Writer {
-    dds_entity_t reader;  // whose writer it is
+    dds_entity_t reader;  // the reader that received the writer's samples
     std::uint64_t sender;
   };
   struct Program {
@@ -45,7 +45,7 @@ class Senders {
   void DropEnded();
 
   std::unordered_map<dds_instance_handle_t, Writer> writers_;
-  std::unordered_map<std::uint64_t, Program> programs_;  // of every sender in writers_
+  std::unordered_map<std::uint64_t, Program> programs_;  // one for every sender in writers_
   std::size_t writers_until_cleaning_ = 0;
 };
 

@@ -65,7 +65,7 @@ TEST(LazyEarliest, IsTheEarliestOfAllAgents) {
       ++found_count;
       EXPECT_EQ(std::min(found->agent, found->partner), expected->lower) << step;
       EXPECT_EQ(std::max(found->agent, found->partner), expected->higher) << step;
-      // Asked from another instant on, the same time may round to another nanosecond.
+      // In a query from another instant, the same time may round to another nanosecond.
       EXPECT_NEAR(static_cast<double>(found->when.nanoseconds()),
                   static_cast<double>(expected->time.instant().nanoseconds()), 2)
           << step;

@@ -72,7 +72,7 @@ void OnePoint(const Setting& setting, Outcome* outcome) {
   }
   outcome->Expect(silent == 0, "agents at one point are reported clear");
   outcome->Expect(detector.pairs_tracked() <= options.pairs_max, "too many pairs");
-  // Each may fill its own room once, and is asked some times a second after that.
+  // Each may fill its own room once, and is queried some times a second after that.
   const double admission_max = 2.0 * agents * options.pairs_per_agent_max;
   outcome->Expect(static_cast<double>(admission) <= admission_max, "work at the admission");
   const double later = static_cast<double>(detector.counters().pair_queries - admission);

@@ -57,7 +57,7 @@ inline constexpr double kContactResolution = 1.01e-13;
 void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, double duration,
                   Outcome* outcome);
 
-/// The sentence for both: how many were asked, and how wide the widest was.
+/// The sentence for both: the number of queries, and the width of the widest answer.
 void SayJudged(Outcome* outcome);
 
 }  // namespace collision::stress

@@ -205,7 +205,7 @@ void Scene::CheckClearances() {
   }
 }
 
-// Pairs are asked anew with every state that comes nearer than Δt; where no agent accelerates the
+// Pairs are queried anew with every state that comes nearer than Δt; where no agent accelerates the
 // first answer stays.
 void Scene::CheckIdle() {
   const double asked_again =

@@ -1,8 +1,8 @@
-// Goal:   what methods do only for many agents (grids of many cells, a crowd asked first, levels,
+// Goal:   what methods do only for many agents (grids of many cells, a crowd queried first, levels,
 //         hashed rows) changes no answer either; and no pair that may meet is missing among those
 //         that are reported as near.
 // Method: hundreds and thousands of agents evenly, in clusters, of all sizes, speeds and stamps;
-//         the oracle asks the canonical routine for every pair. Work counters show that the pass
+//         the oracle calls the canonical routine for every pair. Work counters show that the pass
 //         over a grid was taken where it should.
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ constexpr int kSizes[] = {140, 600, kSanitized ? 1200 : 2300};
 
 constexpr double kWindow = 1;
 
-/// To ask every pair for the meeting of two hypertrapezoids takes long.
+/// The intersection of hypertrapezoids takes long to compute for every pair.
 constexpr int kHypertrapezoidsMax = 600;
 
 struct LargeScene {
@@ -268,7 +268,7 @@ TEST(LargeMethods, AbsentAgentsMeetNoneAndUnfilterableOnesAreTestedOnce) {
   EXPECT_LE(index.work().pair_queries - before, kCount);
 }
 
-// Asked first where agents are close together, a few bound the answer for all.
+// Queries start where agents are close together: few of them bound the answer for all.
 TEST(LargeMethods, ACrowdMakesTheWindowShort) {
   Random random(1);
   SpatialIndex index;

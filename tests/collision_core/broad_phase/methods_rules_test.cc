@@ -124,7 +124,7 @@ TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
   }
 }
 
-/// `count` agents in a cube, asked about in turn; the work that the queries took.
+/// Queries `count` agents in a cube in turn; returns the work that the queries took.
 BroadPhaseWork WorkOfQueries(SweepingIndex* method, std::uint32_t count) {
   const BroadPhaseWork before = method->work();
   for (std::uint32_t agent = 0; agent < count; agent += 7) {
@@ -172,7 +172,7 @@ TEST_P(MethodsWithRules, CostNothingWhereUnused) {
   ExpectSameWork(WorkOfQueries(ruled.get(), kAgents), WorkOfQueries(plain.get(), kAgents));
 }
 
-// Goal:   an excluded pair is not asked. Method: where all are, no pair at all.
+// Goal:   an excluded pair is not tested. Method: all pairs are excluded; none is tested.
 TEST_P(MethodsWithRules, DoNotAskExcludedPairs) {
   constexpr std::uint32_t kAgents = 60;
   const auto method = GetParam().make();

@@ -1,6 +1,6 @@
 // Goal:   every method answers a query about a bound that it does not hold as the canonical
 //         routine does, pair by pair, and is left as it was.
-// Method: all scenes of the methods; one agent's bound is not set but asked about; the next
+// Method: all scenes of the methods; one agent's bound is not set but queried; the next
 //         query about a held agent is answered as before.
 #include <gtest/gtest.h>
 

@@ -63,7 +63,7 @@ Exact LeastSquare(const Ball& a, const Ball& b, const Exact& first, const Exact&
   return sum;
 }
 
-/// Reaches larger by what the filter's users are asked to add: of themselves and of the way.
+/// Enlarges a reach as the filter requires: by a share of itself and of the way.
 float WithSlack(double reach, double way) {
   constexpr double kSlack = kFilterSlack;
   return static_cast<float>((reach + kSlack * (reach + way)) * (1 + 0x1p-22)) + kReachLeast;

@@ -239,7 +239,7 @@ TEST(EarliestIntersectionOracle, Degenerate) {
   });
 }
 
-// Goal:   stamps up to a century apart, and asked long after both.
+// Goal:   stamps up to a century apart, and queries long after both.
 TEST(EarliestIntersectionOracle, FarApartStamps) {
   JudgeAll(106, Tally::kForced4, [](Random& random) {
     Pair pair{NearbyAgent(random, {0, 0, 0}), NearbyAgent(random, {0, 0, 0}), Instant()};
@@ -250,7 +250,7 @@ TEST(EarliestIntersectionOracle, FarApartStamps) {
     pair.b.state.stamp = stamp();
     pair.from = stamp();
     if (random.Chance(0.7)) {
-      // Back to where they are near at the time asked.
+      // Back to where they are near at the time of the query.
       const Instant base = std::max({pair.from, pair.a.state.stamp, pair.b.state.stamp});
       for (motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
         bound->limits.acceleration_max = 0;

@@ -258,7 +258,7 @@ TEST(ContractRotation, FasterRotationUnderSkewWidens) {
   EXPECT_EQ(verdict(0.275 * (1 + 1e-6), 1.4), ContractVerdict::kWidened);
 }
 
-// Goal:   of a ball, and where nothing is declared, the rotation is not looked at.
+// Goal:   the rotation does not count for a ball, or where nothing is declared.
 TEST(ContractRotation, OnlyOfShapesThatDeclareIt) {
   SpaceTimeBound before = Turning(0);
   MotionState next = AfterAndTurned(before, kSecond, {0, 0, 1});

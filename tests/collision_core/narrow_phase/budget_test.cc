@@ -1,7 +1,7 @@
 // Goal:   whatever takes a budget overruns it by one batch at most, and the bracket of a look only
 //         becomes narrower with the budget.
 // Method: meshes, solids, compounds, open and nested bodies, leaves of very many triangles, at rest
-//         and in motion, each asked with budgets from 0 up to what it would spend.
+//         and in motion, each query with budgets from 0 up to what it would spend.
 #include <functional>
 
 #include "collision_core/narrow_phase/advancement/swept_ring.h"

@@ -72,7 +72,7 @@ TEST_P(ContainmentTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
   EXPECT_LE(refinement.TotalWidth(), 1e-12);
 }
 
-// Each part would have to be asked whether it is in the wall: at 100 units, beyond the budget.
+// Testing for each part whether it is in the wall would cost 100 units: beyond the budget.
 // Two parts of one body, far apart: one in the wall, where no spheres tell, one beyond the box.
 TEST_P(ContainmentTest, APartInsideIsFoundThoughAnotherIsFarOutside) {
   const Vector3d half(0.05, 0.006, 0.003), away(0, 5, 0);

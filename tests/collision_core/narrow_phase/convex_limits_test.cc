@@ -1,4 +1,4 @@
-// What is asked, hinted and allowed changes how wide the answer is, never whether it is right.
+// Query, hint and budget change how wide the answer is, never whether it is right.
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"

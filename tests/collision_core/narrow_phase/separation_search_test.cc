@@ -260,7 +260,7 @@ TEST(SeparationSearch, WhatIsNotANumberIsUndecided) {
   EXPECT_LT(work.spent(), 1000u);
 }
 
-// Goal:   every triangle of a leaf is looked at, in whichever block it stands, of either body.
+// Goal:   every triangle of a leaf is tested, in whichever block of either body it stands.
 // Method: eleven triangles in a row in one leaf, three blocks; a single one above each in turn, and
 //         beside it another row, all of it too high to matter but for one.
 TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {

@@ -190,7 +190,7 @@ TEST(ShapeMotion, WhatTheBallsExcludeFromOneSideOnly) {
   SegmentResult balls;
   balls.free_until = 0.5;
   balls.free_from = -numeric::kInfinity;
-  WorkBudget work(0);  // nothing may be looked at
+  WorkBudget work(0);  // nothing may be tested
   const SegmentResult times =
       EvaluateShapeSegment(a.Segment({}), b.Segment({}), 1, balls, &work).times;
   EXPECT_EQ(times.free_until, numeric::kInfinity);

@@ -1,4 +1,4 @@
-// Goal:   a state is asked for when it can still make an answer better, and never after the moment
+// Goal:   a state is requested when it can still make an answer better, and never after the moment
 //         at which the answer would be given without it.
 // Method: one clearance, moved along the time axis; a century; the published sample.
 #include "server/publish/state_demand.h"
@@ -84,7 +84,7 @@ TEST(StateDemand, ExtremesAreDecided) {
 }
 
 // In the sample as published: two agents 100 m apart with M = 2 m/s² meet after 7.07 s less their
-// radii; the service asks again at clear_until less announce_within.
+// radii; the service queries again at clear_until less announce_within.
 TEST(StateDemand, IsPublishedWithTheClearance) {
   v1::Config config;
   config.set_announce_within_s(1.5);

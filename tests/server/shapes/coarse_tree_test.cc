@@ -120,7 +120,7 @@ TEST(CoarseTree, FirstTreesComeBeforeRefinements) {
   EXPECT_EQ(builder.counters().building, 0u);
 }
 
-// Goal:   forgotten at any moment, between the two trees as well, it is not heard of again; the
+// Goal:   forgotten at any moment, between the two trees as well, it does not appear again; the
 //         builder ends at any moment.
 TEST(CoarseTree, ForgottenOrEndedInBetween) {
   Random random(6);
