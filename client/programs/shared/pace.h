@@ -56,8 +56,8 @@ class Pace {
 
   /// The loop of a simulator that steps `rate_hz` times a second. `step` computes the motion from
   /// t0 to t1 and, if `with_states` (at every `state_every`-th step and at the end), sets the
-  /// states at t1. Returns at the end of the run, when `step` returns false, or when the program is asked
-  /// to stop.
+  /// states at t1. Returns at the end of the run, when `step` returns false, or when the program is
+  /// asked to stop.
   void Fly(double rate_hz, std::size_t state_every,
            const std::function<bool(const PaceStep&)>& step);
 
