@@ -29,7 +29,7 @@ class Sha256Hasher {
   std::uint64_t length_ = 0;                     // of everything so far, in bytes
 };
 
-/// Of all bytes at once.
+/// The digest of all bytes at once.
 std::string Sha256(const std::string& bytes);
 
 }  // namespace collision

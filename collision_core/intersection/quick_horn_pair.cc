@@ -38,14 +38,14 @@ numeric::QuickBall Rounded(const motion::SpaceTimeBound& bound, Instant base) {
   return ball;
 }
 
-/// Of the reach's terms: the 13ε of each ball, and the sums of five terms.
+/// The error of the reach's terms: the 13ε of each ball, and the sums of five terms.
 constexpr double kErrorOfReach = 20 * kEpsilon;
 
-/// Of the centre, relative to the sum of the magnitudes of its terms p_B − p_A, v_B τ_B and v_A
-/// τ_A: each is off by 3ε at most, and two more sums make it 5ε.
+/// The error of the centre, relative to the sum of the magnitudes of its terms p_B − p_A, v_B τ_B
+/// and v_A τ_A: each is off by 3ε at most, and two more sums make it 5ε.
 constexpr double kErrorOfDistance = 6 * kEpsilon;
 
-/// Of the velocity v_B − v_A: ε, and what summing the magnitudes costs.
+/// The error of the velocity v_B − v_A: ε, and what summing the magnitudes costs.
 constexpr double kErrorOfVelocity = 2 * kEpsilon;
 
 }  // namespace

@@ -13,7 +13,7 @@ constexpr int kStepsMax = 24;
 /// ε: the most that one rounding costs, relative.
 constexpr double kEpsilon = 0x1p-53;
 
-/// Of an evaluation, relative to the greatest terms; derived at View.
+/// The error of an evaluation, relative to the greatest terms; derived at View.
 constexpr double kErrorOfGap = 10 * kEpsilon;
 constexpr double kErrorOfSlope = 10 * kEpsilon;
 

@@ -53,10 +53,10 @@ Interval Series(double x, int first) {
   return Interval(sum) + PlusMinus(kSeriesError);
 }
 
-/// Of one number, |x| <= 0.8.
+/// Sine and cosine of one number, |x| <= 0.8.
 SinCos ReducedSinCos(double x) { return {Interval(x) * Series(x, 2), Series(x, 1)}; }
 
-/// Of one number. x = n π/2 + r with |r| <= π/4, or barely more.
+/// Sine and cosine of one number: x = n π/2 + r with |r| <= π/4, or barely more.
 SinCos PointSinCos(double x) {
   const double n = (x * kQuartersPerRadian + kRound) - kRound;
   const Interval r = Interval(x) - n * kFirst - n * kSecond - Interval(n) * kThird;

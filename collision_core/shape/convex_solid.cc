@@ -43,7 +43,7 @@ Rounded Placed(const numeric::Rotation& rotation, const Vector3d& x, const Vecto
   return placed;
 }
 
-/// Of the core's own axes: a segment lies along z, which becomes its first generator.
+/// Half a generator along the core's own axes: a segment lies along z, its first generator.
 Vector3d HalfOf(const ConvexDescription& d, int generator) {
   if (d.core == geometry::ConvexCore::kSegment) {
     return generator == 0 ? Vector3d(0, 0, d.half.z()) : Vector3d(0, 0, 0);

@@ -22,8 +22,8 @@ constexpr double kLonger = 1 + 0x1p-15;
 /// Coordinates are below it [m]: single precision holds their squares and sums of these.
 constexpr double kCoordinateMax = 1e15;
 
-/// Of the extent: casting the points, √3 u at most, along a direction of length √3 (u = 2^-24), and
-/// twice what three products and two sums of doubles lose.
+/// The share of the extent lost by casting the points, √3 u at most, along a direction of length √3
+/// (u = 2^-24), and twice what three products and two sums of doubles lose.
 constexpr double kStored = 4 * 0x1p-24;
 
 /// A difference of points is off by 2^-53 of each coordinate, less than this share of the sum of

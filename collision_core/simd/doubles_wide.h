@@ -9,7 +9,7 @@ namespace collision::simd::COLLISION_SIMD {
 
 /// With the operators of double, lane by lane; doubles[i] is lane i.
 using Doubles = double __attribute__((vector_size(32)));
-/// Of a comparison: all bits of a lane are one, or none.
+/// The result of a comparison: all bits of a lane are one, or none.
 using DoublesMask = long long __attribute__((vector_size(32)));
 
 WIDE_INLINE Doubles Load(const double* values) {
@@ -38,7 +38,7 @@ WIDE_INLINE double SumOfThree(const Doubles& x) { return (x[0] + x[1]) + x[2]; }
 WIDE_INLINE bool AnyOfThree(const DoublesMask& mask) { return (mask[0] | mask[1] | mask[2]) != 0; }
 WIDE_INLINE bool AllOfThree(const DoublesMask& mask) { return (mask[0] & mask[1] & mask[2]) != 0; }
 
-/// Of two doubles the greater (lesser) one; the second where they do not compare.
+/// The greater (lesser) of two doubles; the second one where they do not compare.
 WIDE_INLINE double Greater(double x, double y) { return x > y ? x : y; }
 WIDE_INLINE double Lesser(double x, double y) { return x < y ? x : y; }
 

@@ -95,9 +95,9 @@ PackedTree::PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tre
   FindExtremes(mesh);
 }
 
-// Of the nodes in a pack the one that overshoots its surface the most makes way for its children,
-// as long as there is room for them: a step opens a whole pack, whether it is full or not. More
-// nodes than a pack holds are shared out among lanes with the parent's own ball.
+// Replaces the node of the pack that overshoots its surface the most by its children, as long as
+// there is room for them: a step opens a whole pack, whether it is full or not. If there are more
+// nodes than a pack holds, they are shared out among lanes with the parent's own ball.
 PackedTree::Lanes PackedTree::LanesOf(const SphereTree& tree, const Lane& parent) {
   Lanes lanes;
   if (parent.count > kPackBalls) {

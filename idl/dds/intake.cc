@@ -116,7 +116,7 @@ void Intake::ReceiveData(dds_entity_t reader, const TopicRow& row, const void* s
   FromWire(row.id, sample, &input);
   const std::optional<std::uint64_t> simulator = ClaimedBy(row.id, sample);
   // Samples may outlast their writer in the reader: its end comes after them.
-  if (simulator && senders_.Note(*sender, *simulator) && !senders_.alive(*sender)) {
+  if (simulator && senders_.AddSimulator(*sender, *simulator) && !senders_.alive(*sender)) {
     AddLiveliness(*sender, *simulator, false, inputs);
   }
 }

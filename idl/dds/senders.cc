@@ -35,7 +35,7 @@ std::optional<std::uint64_t> Senders::Of(dds_entity_t reader, dds_instance_handl
   return sender;
 }
 
-bool Senders::Note(std::uint64_t sender, std::uint64_t simulator) {
+bool Senders::AddSimulator(std::uint64_t sender, std::uint64_t simulator) {
   std::set<std::uint64_t>& simulators = programs_.at(sender).simulators;
   return simulators.size() < kSimulatorsPerProgramMax && simulators.insert(simulator).second;
 }

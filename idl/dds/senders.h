@@ -19,12 +19,12 @@ class Senders {
   std::optional<std::uint64_t> Of(dds_entity_t reader, dds_instance_handle_t writer);
 
   /// Records that a known sender speaks for a simulator. Returns whether that is new.
-  bool Note(std::uint64_t sender, std::uint64_t simulator);
+  bool AddSimulator(std::uint64_t sender, std::uint64_t simulator);
 
   /// Records whether a known sender is alive. Returns whether that is new.
   bool SetAlive(std::uint64_t sender, bool alive);
 
-  /// Of a known sender.
+  /// Whether a known sender is alive, as last recorded.
   bool alive(std::uint64_t sender) const { return programs_.at(sender).alive; }
 
   /// The simulators for which a known sender has spoken.
@@ -34,7 +34,7 @@ class Senders {
 
  private:
   struct Writer {
-    dds_entity_t reader;  // whose writer it is
+    dds_entity_t reader;  // the reader that received the writer's samples
     std::uint64_t sender;
   };
   struct Program {
@@ -45,7 +45,7 @@ class Senders {
   void DropEnded();
 
   std::unordered_map<dds_instance_handle_t, Writer> writers_;
-  std::unordered_map<std::uint64_t, Program> programs_;  // of every sender in writers_
+  std::unordered_map<std::uint64_t, Program> programs_;  // one for every sender in writers_
   std::size_t writers_until_cleaning_ = 0;
 };
 

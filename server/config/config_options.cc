@@ -158,8 +158,8 @@ bool IsAllowedText(std::string_view path, const std::string& text) {
   return text.size() <= 4096 && std::ranges::all_of(text, printable);
 }
 
-/// Of numbers; what is not a number is in no range. Text to double is exact for every limit in the
-/// table but 2^64 - 1, which no value can exceed.
+/// Whether a number lies in the option's range; text that is no number lies in none. Text to double
+/// is exact for every limit in the table but 2^64 - 1, which no value can exceed.
 bool IsInRange(const std::string& value, const ConfigOption& option) {
   const double number = std::strtod(value.c_str(), nullptr);
   return number >= std::strtod(option.least.data(), nullptr) &&

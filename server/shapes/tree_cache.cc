@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::uint32_t kTreeFormat = 1;
 
-/// Of the recipe's hash, in a file's name: two recipes never share a name but by their first 64
-/// bits, and then the file says which it is.
+/// How much of the recipe's hash a file's name holds. Two recipes share a name only if their first
+/// 64 bits are equal; the file then says which recipe it is.
 constexpr std::size_t kRecipeBytesInName = 8;
 
 constexpr std::uint32_t kProbeCells =

@@ -24,7 +24,7 @@ class TreeFolder {
   /// *fault: it is not in place; a file of this name from before is, unless it had to make room.
   bool Write(const std::string& name, const std::string& bytes, std::string* fault);
 
-  /// Of all files, when they were last counted.
+  /// The size of all files when they were last counted.
   std::uint64_t bytes() const { return bytes_; }
 
   /// Files removed to make room.

@@ -28,7 +28,7 @@ Approaching Between(const BallAgent& a, const BallAgent& b, double base) {
           2 * (half_a * since_a + half_b * since_b), half_a + half_b};
 }
 
-/// True only if they cannot meet by `limit`, told without a root. Either along the first direction
+/// True only if they cannot meet by `limit`, shown without a root. Either along the first direction
 /// between them the gap, concave in time, is open at both ends; or the way passes farther from the
 /// other than the greatest reach.
 bool CannotMeet(const Approaching& pair, double limit) {
@@ -77,7 +77,7 @@ double FirstRoot(const Approaching& pair, double limit) {
 
 }  // namespace
 
-double PlainMeetingTime(const BallAgent& a, const BallAgent& b, double limit) {
+double ReferenceIntersectionTime(const BallAgent& a, const BallAgent& b, double limit) {
   const double base = std::max(a.stamp, b.stamp), left = limit - base;
   const Approaching pair = Between(a, b, base);
   if (CannotMeet(pair, left)) return kNever;

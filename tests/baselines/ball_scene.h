@@ -18,9 +18,9 @@ struct BallAgent {
 using BallScene = std::vector<BallAgent>;
 
 /// When two agents first meet, seconds after the start, from the later of their stamps to `limit`;
-/// +infinity: not by then. Plain double, no rounding allowance: what the users of other libraries
-/// write, and made fast for them: most pairs are told apart without a root.
-double PlainMeetingTime(const BallAgent& a, const BallAgent& b, double limit);
+/// +infinity: not by then. Plain double without a rounding allowance, as users of other libraries
+/// write it, and fast: most pairs are ruled out without a root.
+double ReferenceIntersectionTime(const BallAgent& a, const BallAgent& b, double limit);
 
 /// A box that contains an agent over a window.
 struct SweptBox {

@@ -24,7 +24,7 @@ BallAgent Draw(Random& random) {
 }
 
 // The canonical time is certified: plain double may differ by rounding, and by nothing else.
-TEST(PlainMeetingTime, AgreesWithTheCanonicalRoutine) {
+TEST(ReferenceIntersectionTime, AgreesWithTheCanonicalRoutine) {
   Random random(1);
   int meetings = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -33,7 +33,7 @@ TEST(PlainMeetingTime, AgreesWithTheCanonicalRoutine) {
     const intersection::IntersectionTime exact =
         intersection::EarliestIntersection(BoundOf(a), BoundOf(b), Instant());
     const double expected = std::max(a.stamp, b.stamp) + exact.seconds;
-    const double plain = PlainMeetingTime(a, b, limit);
+    const double plain = ReferenceIntersectionTime(a, b, limit);
     if (std::abs(expected - limit) < 1e-6) continue;
     if (expected > limit) {
       EXPECT_GT(plain, limit) << i;
@@ -90,7 +90,7 @@ TEST(Scenes, TheFirstHitComesWhenItsNameSays) {
 
 class NamedScenes : public testing::TestWithParam<std::string> {};
 
-TEST_P(NamedScenes, AreTheSameAgainAndNobodyOverlaps) {
+TEST_P(NamedScenes, AreReproducibleAndWithoutOverlap) {
   const BallScene scene = MakeScene(GetParam(), 500, 3), again = MakeScene(GetParam(), 500, 3);
   ASSERT_EQ(scene.size(), again.size());
   EXPECT_GT(scene.size(), 400u);

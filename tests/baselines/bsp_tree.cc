@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::int32_t kInside = -1, kOutside = -2;
 
-/// Of the mesh's largest coordinate.
+/// A share of the mesh's largest coordinate.
 constexpr double kToleranceShare = 1e-12;
 
 /// Faces tried for a cut, and what a split face costs beside one too many on one side.

@@ -16,8 +16,8 @@ namespace collision::baselines {
 /// trees", SIGGRAPH 1987, named by Hubbard for the exact comparison of two objects.
 class BspTree {
  public:
-  /// Requires closed, outward triangles that do not cross each other. Of a few candidates for each
-  /// cut the one that splits few faces and leaves as many on one side as on the other.
+  /// Requires closed, outward triangles that do not cross each other. Each cut is the best of a few
+  /// candidates: it splits few faces and leaves as many on one side as on the other.
   explicit BspTree(const geometry::TriangleMesh& mesh);
 
   /// Whether the two solids have a point in common. B's faces go down A's tree, split where they

@@ -23,7 +23,7 @@ std::optional<LazyEarliest::Found> LazyEarliest::Earliest(Instant now) {
                        entry.renewed == renewed_[agent] &&
                        entry.partner_renewed == renewed_[entry.partner];
     if (fresh) return Found{agent, entry.partner, queue_.top_key()};
-    // Asked just now, and nothing: its key is `until`, so are all keys behind it, or later.
+    // A query just found no partner: its key is `until`; all keys behind it are as late or later.
     if (entry.partner == agent && queue_.top_key() == until) return std::nullopt;
     Ask(agent, now);
   }

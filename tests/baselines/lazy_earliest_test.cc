@@ -29,7 +29,7 @@ class AllPairsAsker : public AgentAsker {
   broad_phase::AllPairs phase;
 };
 
-TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
+TEST(LazyEarliest, IsTheEarliestOfAllAgents) {
   int found_count = 0;
   std::uint64_t asked = 0, updates = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -65,7 +65,7 @@ TEST(LazyEarliest, IsWhatAskingEverybodyGives) {
       ++found_count;
       EXPECT_EQ(std::min(found->agent, found->partner), expected->lower) << step;
       EXPECT_EQ(std::max(found->agent, found->partner), expected->higher) << step;
-      // Asked from another instant on, the same time may round to another nanosecond.
+      // In a query from another instant, the same time may round to another nanosecond.
       EXPECT_NEAR(static_cast<double>(found->when.nanoseconds()),
                   static_cast<double>(expected->time.instant().nanoseconds()), 2)
           << step;

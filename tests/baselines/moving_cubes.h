@@ -37,7 +37,7 @@ class MovingCubes {
 
   std::uint32_t count() const { return static_cast<std::uint32_t>(p_WA_.size()); }
   std::int64_t frame() const { return frame_; }
-  /// Of the present frame, after the start [s].
+  /// The time of the present frame, after the start [s].
   double time() const { return static_cast<double>(frame_) * kFrame; }
 
   const Eigen::Vector3d& position(std::uint32_t cube) const { return p_WA_[cube]; }

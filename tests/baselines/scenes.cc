@@ -27,8 +27,9 @@ BallScene UniformScene(const UniformOptions& options) {
   for (int draws = 0; scene.size() < options.count && draws < kDrawsMax; ++draws) {
     BallAgent agent{InCube(random, half), InCube(random, options.speed_max), radius,
                     options.acceleration_max, 0};
-    const bool meets = cells.AnyNear(
-        agent.p_WA, [&](int other) { return PlainMeetingTime(agent, scene[other], time) <= time; });
+    const bool meets = cells.AnyNear(agent.p_WA, [&](int other) {
+      return ReferenceIntersectionTime(agent, scene[other], time) <= time;
+    });
     if (meets) continue;
     cells.Add(agent.p_WA);
     scene.push_back(agent);

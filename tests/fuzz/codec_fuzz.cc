@@ -45,8 +45,8 @@ v1::Config FuzzedWorld(FuzzedData* data) {
   return config;
 }
 
-/// Everything that was refused is told or counted as untold.
-void CheckRefusals(const v1::ServiceStatus& status, std::uint64_t told) {
+/// Every refusal is reported or counted as untold.
+void CheckRefusals(const v1::ServiceStatus& status, std::uint64_t reported) {
   std::uint64_t refused = 0, untold = 0;
   for (const v1::Counter& counter : status.counters()) {
     if (counter.name() == "rejections_untold") {
@@ -55,7 +55,8 @@ void CheckRefusals(const v1::ServiceStatus& status, std::uint64_t told) {
       refused += counter.value();
     }
   }
-  Require(refused == told + untold, refused, " refused; told ", told, ", untold ", untold);
+  Require(refused == reported + untold, refused, " refused; reported ", reported, ", untold ",
+          untold);
 }
 
 /// A daemon, and what it has said so far.
@@ -76,13 +77,13 @@ class Session {
 
   void End() {
     Step({}, 1);
-    if (status_) CheckRefusals(*status_, told_);
+    if (status_) CheckRefusals(*status_, reported_);
   }
 
  private:
   void Take(const v1::Output& output) {
     CheckOutput(output);
-    if (output.has_rejection()) ++told_;
+    if (output.has_rejection()) ++reported_;
     if (output.has_service_status()) status_ = output.service_status();
     if (!output.has_clearance()) return;
     const v1::Clearance& clearance = output.clearance();
@@ -100,7 +101,7 @@ class Session {
   const bool simulated_;
   server::ScriptedDaemon daemon_;
   std::int64_t now_ns_ = 0;
-  std::uint64_t told_ = 0;
+  std::uint64_t reported_ = 0;
   std::optional<v1::ServiceStatus> status_;
   std::map<std::pair<std::uint64_t, std::uint32_t>, std::int64_t> granted_;
 };

@@ -58,12 +58,12 @@ std::optional<Flier> FuzzedFlier(Instant from, FuzzedData* data) {
     double& radius = flier.bound.limits.radius;
     radius = std::max(radius, shape->facts().radius);
   }
-  const motion::MotionState& told = flier.bound.state;
-  flier.motion.start = {.p = told.p_WA.cast<Real>(),
-                        .v = told.v_WA.cast<Real>(),
-                        .w = told.w_WB.cast<Real>(),
-                        .q = told.q_WB.cast<Real>().normalized()};
-  flier.from = static_cast<Real>(from.nanoseconds() - told.stamp.nanoseconds()) / 1e9L;
+  const motion::MotionState& start = flier.bound.state;
+  flier.motion.start = {.p = start.p_WA.cast<Real>(),
+                        .v = start.v_WA.cast<Real>(),
+                        .w = start.w_WB.cast<Real>(),
+                        .q = start.q_WB.cast<Real>().normalized()};
+  flier.from = static_cast<Real>(from.nanoseconds() - start.stamp.nanoseconds()) / 1e9L;
   return flier;
 }
 
@@ -105,7 +105,7 @@ void CheckTruth(const Flier& a, const Flier& b, const narrow_phase::TimeOfContac
     const double t = std::min(duration * i / kSamples, duration);
     const bool free = time.status == narrow_phase::ContactStatus::kFree || t < time.begin.lower ||
                       t > time.end.upper;
-    if (free) Require(!CertainlyTouch(a, b, t), "they touch at ", t, ", told to be free");
+    if (free) Require(!CertainlyTouch(a, b, t), "they touch at ", t, ", reported free");
   }
   if (time.status != narrow_phase::ContactStatus::kContact) return;
   Require(!CertainlyApart(a, b, time.begin.upper), "apart at ", time.begin.upper, " = begin.upper");

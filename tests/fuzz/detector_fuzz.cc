@@ -47,8 +47,8 @@ bool Same(const detection::AgentClearance& a, const detection::AgentClearance& b
          a.unannounced_until == b.unannounced_until;
 }
 
-/// What is known of an agent apart from the detector.
-struct Told {
+/// What the fuzzer knows of an agent, independently of the detector.
+struct KnownAgent {
   Ballistic ball;
   detection::AgentDeclaration declaration;
   bool contradicts = false;  ///< Faster than its own cap: no motion is allowed at all.
@@ -146,13 +146,13 @@ class Session {
         return true;
       case 2:
         detectors_.All("Remove", [&](detection::Detector& d) { return d.Remove(IdOf(slot)); });
-        if (told_.erase(slot) != 0) ++generations_[slot];
+        if (known_.erase(slot) != 0) ++generations_[slot];
         return true;
       case 3:
       case 4:
       case 5:
       case 6:
-        Tell(slot, data);
+        SendState(slot, data);
         return true;
       case 7:
         detectors_.All("SetHeardUntil", [&](detection::Detector& d) {
@@ -200,26 +200,26 @@ class Session {
     return std::get<motion::MotionState>(decoded);
   }
 
-  void Note(std::uint32_t slot, const motion::MotionState& state,
-            const detection::AgentDeclaration& declaration) {
-    Told& told = told_[slot];
-    told = {.ball = {.state = state, .radius = declaration.limits.radius},
-            .declaration = declaration};
-    told.contradicts = !(state.v_WA.norm() <= declaration.limits.speed_max);
+  void Record(std::uint32_t slot, const motion::MotionState& state,
+              const detection::AgentDeclaration& declaration) {
+    KnownAgent& known_agent = known_[slot];
+    known_agent = {.ball = {.state = state, .radius = declaration.limits.radius},
+                   .declaration = declaration};
+    known_agent.contradicts = !(state.v_WA.norm() <= declaration.limits.speed_max);
   }
 
-  void Tell(std::uint32_t slot, FuzzedData* data) {
+  void SendState(std::uint32_t slot, FuzzedData* data) {
     const std::optional<motion::MotionState> state = State(data);
     if (!state) return;
     const Instant from = std::max(now_, state->stamp);
-    const auto known = told_.find(slot);
-    if (known == told_.end()) {
+    const auto known = known_.find(slot);
+    if (known == known_.end()) {
       const auto declaration = Declaration(data);
       if (!declaration) return;
       if (detectors_.All("Admit", [&](detection::Detector& d) {
             return d.Admit(IdOf(slot), *declaration, *state, from);
           })) {
-        Note(slot, *state, *declaration);
+        Record(slot, *state, *declaration);
       }
       return;
     }
@@ -227,7 +227,7 @@ class Session {
         "Update", [&](detection::Detector& d) { return d.Update(IdOf(slot), *state, from); });
     if (outcome == detection::UpdateOutcome::kOlder) return;
     Require(outcome != detection::UpdateOutcome::kUnknown, "an agent that was admitted is unknown");
-    Note(slot, *state, known->second.declaration);
+    Record(slot, *state, known->second.declaration);
   }
 
   void Redeclare(std::uint32_t slot, FuzzedData* data) {
@@ -236,8 +236,8 @@ class Session {
     const bool known = detectors_.All("Redeclare", [&](detection::Detector& d) {
       return d.Redeclare(IdOf(slot), *declaration, now_);
     });
-    Require(known == told_.contains(slot), "Redeclare() of ", slot);
-    if (known) Note(slot, told_[slot].ball.state, *declaration);
+    Require(known == known_.contains(slot), "Redeclare() of ", slot);
+    if (known) Record(slot, known_[slot].ball.state, *declaration);
   }
 
   void Step(FuzzedData* data) {
@@ -248,7 +248,7 @@ class Session {
     detectors_.Advance(now_);
     for (const detection::CollisionEvent& event : detectors_.first().events()) {
       CheckEvent(server::Encode(event));
-      Require(event.now <= now_, "told for later than now");
+      Require(event.now <= now_, "an event lies later than now");
       status_[{event.lower, event.higher}] = event.status;
     }
     if (data->Flag()) detectors_.CompareEarliest();
@@ -259,16 +259,17 @@ class Session {
   /// Two agents that keep their last velocities do not touch before the clearance of both has
   /// ended, unless their contact was announced.
   void CheckPromises() const {
-    for (auto a = told_.begin(); a != told_.end(); ++a) {
-      for (auto b = std::next(a); b != told_.end(); ++b)
+    for (auto a = known_.begin(); a != known_.end(); ++a) {
+      for (auto b = std::next(a); b != known_.end(); ++b)
         CheckPair(a->first, a->second, b->first, b->second);
     }
   }
 
-  void CheckPair(std::uint32_t slot_a, const Told& a, std::uint32_t slot_b, const Told& b) const {
+  void CheckPair(std::uint32_t slot_a, const KnownAgent& a, std::uint32_t slot_b,
+                 const KnownAgent& b) const {
     if (a.contradicts || b.contradicts || !CanMeet(a.declaration.filter, b.declaration.filter))
       return;
-    for (const Told* agent : {&a, &b}) {
+    for (const KnownAgent* agent : {&a, &b}) {
       if (agent->declaration.shape || agent->declaration.shape_awaited) return;
     }
     const auto status =
@@ -297,7 +298,7 @@ class Session {
   Detectors detectors_;
   Instant now_;
   int steps_ = 0;
-  std::map<std::uint32_t, Told> told_;
+  std::map<std::uint32_t, KnownAgent> known_;
   std::uint32_t generations_[kAgents] = {};
   std::map<std::pair<detection::AgentId, detection::AgentId>, detection::EventStatus> status_;
 };

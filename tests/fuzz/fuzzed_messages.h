@@ -8,8 +8,8 @@
 
 namespace collision::fuzz {
 
-/// Of one of four simulators with few agents, so that messages meet. `now_ns`: the world's time,
-/// which stamps and clocks are near.
+/// A message of one of four simulators with few agents, so that messages concern the same agents.
+/// `now_ns`: the world's time, near which stamps and clocks lie.
 v1::Input FuzzedInput(std::int64_t now_ns, FuzzedData* data);
 
 /// Fields of a description or a state alone, of one of four agents; likewise spoilt.

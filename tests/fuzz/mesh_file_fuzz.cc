@@ -22,7 +22,7 @@ void CheckTaken(const client::Shape& shape) {
   Require(built.shape != nullptr, "the service refuses what the client made: ", built.refusal);
   Require(built.dropped == 0, "the client left degenerate triangles");
   Require(built.shape->facts().radius <= shape.radius_m() * (1 + 1e-9), "reaches as far as ",
-          built.shape->facts().radius, ", told as ", shape.radius_m());
+          built.shape->facts().radius, ", reported as ", shape.radius_m());
   Require(built.shape->closed() == shape.closed(), "closed to one only");
 }
 

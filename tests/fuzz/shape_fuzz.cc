@@ -101,7 +101,7 @@ void FromClient(FuzzedData* data) {
   const server::BuiltShape built = Built(made->bytes(), data);
   Require(built.shape != nullptr, "the service refuses what the client made: ", built.refusal);
   Require(built.shape->facts().radius <= made->radius_m() * (1 + 1e-9), "reaches as far as ",
-          built.shape->facts().radius, ", told as ", made->radius_m());
+          built.shape->facts().radius, ", reported as ", made->radius_m());
   Require(built.shape->closed() == made->closed(), "closed to one only");
   LookWith(built.shape, data);
   CheckTree(built.shape, data);

@@ -24,7 +24,7 @@ std::vector<bool> Livelinesses(const std::vector<v1::Input>& inputs, const std::
   return all;
 }
 
-/// The senders whose end was told.
+/// The senders whose end was reported.
 std::vector<std::uint64_t> Gone(const std::vector<v1::Input>& inputs) {
   std::vector<std::uint64_t> all;
   for (const v1::Input& input : inputs) {
@@ -77,7 +77,7 @@ TEST(DdsBusLiveliness, ADisposedAgentArrivesAsRemoval) {
   EXPECT_EQ(inputs[0].agent_removal().slot(), 3u);
 }
 
-TEST(DdsBusLiveliness, ARemovalBeforeAnybodyReadComesAfterTheDescription) {
+TEST(DdsBusLiveliness, ARemovalBeforeTheFirstReadComesAfterTheDescription) {
   DdsBus bus(TestWorld(), TestDomain());
   DdsSession simulator(SimulatorOptions("a"));
   simulator.Write(Description("a", 3));
@@ -90,7 +90,7 @@ TEST(DdsBusLiveliness, ARemovalBeforeAnybodyReadComesAfterTheDescription) {
   EXPECT_EQ(inputs.back().agent_removal().slot(), 3u);
 }
 
-TEST(DdsBusLiveliness, EachProgramThatLeavesIsToldOnceAndItsAgentsStay) {
+TEST(DdsBusLiveliness, EachProgramThatLeavesIsReportedOnceAndItsAgentsStay) {
   DdsBus bus(TestWorld(), TestDomain());
   std::vector<v1::Input> inputs;
   for (std::size_t visit = 1; visit <= 2; ++visit) {
@@ -114,7 +114,7 @@ TEST(DdsBusLiveliness, EachProgramThatLeavesIsToldOnceAndItsAgentsStay) {
   EXPECT_EQ(Count(inputs, v1::Input::kAgentRemoval), 0u);
 }
 
-TEST(DdsBusLiveliness, WhoOnlyDescribedAgentsIsToldToo) {
+TEST(DdsBusLiveliness, TheEndOfASenderOfDescriptionsIsReported) {
   DdsBus bus(TestWorld(), TestDomain());
   std::vector<v1::Input> inputs;
   {
@@ -127,7 +127,7 @@ TEST(DdsBusLiveliness, WhoOnlyDescribedAgentsIsToldToo) {
   EXPECT_TRUE(OneSender(inputs));
 }
 
-TEST(DdsBusLiveliness, AClockWhoseWriterNobodyKnewIsToldWithoutASender) {
+TEST(DdsBusLiveliness, AClockOfAnUnknownWriterIsReportedWithoutASender) {
   DdsBus bus(TestWorld(), TestDomain());
   {
     DdsSession simulator(SimulatorOptions("a"));
@@ -158,7 +158,7 @@ TEST(DdsBusLiveliness, AKilledSimulatorIsGoneAfterItsLeaseAndItsAgentsStay) {
 // The clock never lacks a writer here: only the dead one's own end says that it is gone. Two end
 // before the bus looks, since a status tells the last of several changes only; the witness sees
 // when.
-TEST(DdsBusLiveliness, KilledSimulatorsAreToldThoughTheirSuccessorsAreThere) {
+TEST(DdsBusLiveliness, KilledSimulatorsAreReportedWhileTheirSuccessorsLive) {
   DdsBus bus(TestWorld(), TestDomain());
   DdsBus witness(TestWorld(), TestDomain());
   PublishStatus(bus);
@@ -217,9 +217,9 @@ TEST(DdsBusLiveliness, AnEndEndsAReceiveThatWaits) {
   EXPECT_EQ(std::set<std::uint64_t>{Gone(inputs)[0]}, SendersOfClock(inputs, 2));
 }
 
-// A process that stands still acknowledges nothing: unless told otherwise, Cyclone DDS makes the
+// A process that stands still acknowledges nothing: by default, Cyclone DDS makes the
 // writer wait.
-TEST(DdsBusLiveliness, AStoppedProcessHoldsUpNobodyAndCatchesUp) {
+TEST(DdsBusLiveliness, AStoppedProcessDelaysNoOtherAndCatchesUp) {
   constexpr std::size_t kEvents = 4000;
   DdsBus bus(TestWorld(), TestDomain());
   PublishStatus(bus);

@@ -7,7 +7,7 @@
 #include "tests/idl/dds_bus_support.h"
 
 int main(int argc, char** argv) {
-  // A participant's own lease (10 s unless told) must not be what notices a death: only a writer's
+  // A participant's own lease (10 s by default) must not be what notices a death: only a writer's
   // may.
   const std::string never =
       ",<CycloneDDS><Domain><Discovery><LeaseDuration>1 hr</LeaseDuration></Discovery>"

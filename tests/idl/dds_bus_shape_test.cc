@@ -78,7 +78,7 @@ TEST(DdsBusShape, ALargeShapeArrivesWholeInBoundedSteps) {
   EXPECT_EQ(inputs.size(), kManyParts);
 }
 
-TEST(DdsBusShape, WhoComesLateGetsTheWholeShape) {
+TEST(DdsBusShape, ALateReaderReceivesTheWholeShape) {
   DdsSession simulator(SimulatorOptions("a"));
   WriteShape(&simulator, kManyParts);
   DdsBus bus(TestWorld(), TestDomain());

@@ -161,7 +161,7 @@ TEST(DdsBus, AMonitorMaySeeTheSimulatorsToo) {
   EXPECT_EQ(inputs[0].agent_description().slot(), 7u);
 }
 
-TEST(DdsBus, WhoComesLateHearsTheNewestOfEverything) {
+TEST(DdsBus, ALateReaderReceivesTheNewestSamples) {
   DdsSession simulator(SimulatorOptions("a"));
   for (std::uint64_t sequence = 1; sequence <= 3; ++sequence)
     simulator.Write(States("a", sequence));
@@ -228,7 +228,7 @@ TEST(DdsBus, ReceiveTakesNoMoreThanItsLimitAndKeepsTheRest) {
   EXPECT_EQ(inputs.size(), 10u);
 }
 
-TEST(DdsBus, AReaderThatNeverReadsHoldsUpNobody) {
+TEST(DdsBus, AReaderThatNeverReadsDelaysNoOther) {
   DdsBus bus(TestWorld(), TestDomain());
   DdsSession sleeper(MonitorOptions(false));
   DdsSession reader(MonitorOptions(false));

@@ -16,7 +16,7 @@ namespace {
 /// Eight colours that the colour-blind tell apart (Okabe and Ito), the lightest left out.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                     "#e69f00", "#56b4e9", "#000000", "#7f7f7f"};
-/// Of gnuplot: filled circle, square, triangle, and so on.
+/// Gnuplot's numbers of marks: filled circle, square, triangle, and so on.
 constexpr int kMarks[] = {7, 5, 9, 13, 11, 6, 4, 8};
 constexpr int kCross = 2;
 /// Above the highest point, where infinity is drawn: a share of the axis.

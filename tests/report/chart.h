@@ -34,7 +34,7 @@ struct Chart {
 /// One line for each point: series, x, y ("inf" at infinity), note.
 std::string Csv(const Chart& chart);
 
-/// What gnuplot is told; it writes an SVG to `svg_path`.
+/// The script for gnuplot; it writes an SVG to `svg_path`.
 std::string GnuplotScript(const Chart& chart, const std::string& svg_path);
 
 /// Runs gnuplot, found on the path, and returns the SVG, which scales to the width it is given.

@@ -90,7 +90,7 @@ TEST(ReportTable, ACellPastItsCutOffSaysSo) {
 }
 
 // Goal:   what moves with everything else is noise of the machine, what moves alone by more is
-//         told, and counts have no noise.
+//         shown, and counts have no noise.
 TEST(ReportCompare, TellsWhatMovedByMoreThanTheNoise) {
   v1::Results before = Timed(1, 2.0), after = Timed(1, 3.0);
   Comparison comparison = Compare(before, after);
@@ -178,7 +178,7 @@ TEST(ReportPage, ReplacesThePlotsBetweenTheMarks) {
 }
 
 // A count above its bound breaks a promise, and so does one that was not measured; an experiment
-// that is not there promises nothing, one that failed is told.
+// that is not there promises nothing, one that failed is shown.
 TEST(ReportPromises, AreBrokenByCountsAndByFailures) {
   v1::Results results;
   EXPECT_TRUE(BrokenIn(results).empty());

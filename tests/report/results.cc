@@ -80,7 +80,7 @@ void TakeExperimentFact(const std::string& name, const std::string& value,
   }
 }
 
-// Of a file that is not there, nothing: the experiment failed.
+// Reads nothing if the file does not exist: the experiment failed.
 void ReadMeasurements(const std::string& path, v1::Experiment* experiment) {
   if (!std::ifstream(path)) return;
   Struct file;

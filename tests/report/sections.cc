@@ -127,15 +127,15 @@ Chart SeriesChart(Chart chart, const std::vector<const Row*>& rows, const std::s
 
 /// Without the second loop of ours; whatever its cell, Turk's hash is one contestant.
 std::vector<Row> ByTurkOrOurs(const std::vector<const Row*>& rows) {
-  std::vector<Row> told;
+  std::vector<Row> shown;
   for (const Row* row : rows) {
     const std::string who = TextOf(*row, "contestant");
     if (who.starts_with("local loop")) continue;
-    told.push_back(*row);
-    (*told.back().mutable_fields())["contestant"].set_string_value(
+    shown.push_back(*row);
+    (*shown.back().mutable_fields())["contestant"].set_string_value(
         who.starts_with("Turk") ? "Turk's hash" : "ours");
   }
-  return told;
+  return shown;
 }
 
 /// A curve for each density.
@@ -183,9 +183,9 @@ Section Hubbard(const v1::Results& results) {
     chart.x_label = "cubes", chart.y_label = "time of all frames [s]";
     chart.caption =
         "Turk's hash in its best cell; density is the share of the volume that is full.";
-    const std::vector<Row> told = ByTurkOrOurs(Select(results, "turk", {{"scene", density}}));
+    const std::vector<Row> shown = ByTurkOrOurs(Select(results, "turk", {{"scene", density}}));
     std::vector<const Row*> of_density;
-    for (const Row& row : told) of_density.push_back(&row);
+    for (const Row& row : shown) of_density.push_back(&row);
     AddChart(ChartOf(chart, of_density, {{"contestant"}, "agents", "seconds", 1, 1, kOurs}),
              &section);
   }

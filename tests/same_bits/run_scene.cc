@@ -11,7 +11,7 @@
 namespace collision::server {
 namespace {
 
-/// Of outputs in their order.
+/// A hash of outputs in their order.
 class OutputHash {
  public:
   void Add(const v1::Output& output) {
@@ -62,13 +62,13 @@ std::unique_ptr<ShapeBuilder> Make(Builders builders, const v1::Config& config) 
   return nullptr;
 }
 
-Told ToldBy(const Daemon& daemon, std::uint64_t outputs) {
+RunHashes HashesOf(const Daemon& daemon, std::uint64_t outputs) {
   return {daemon.event_log().count(), daemon.event_log().hash(), outputs};
 }
 
 }  // namespace
 
-Told RunScene(const Scene& scene, Builders builders, const std::string& recording) {
+RunHashes RunScene(const Scene& scene, Builders builders, const std::string& recording) {
   std::optional<RecordingWriter> recorder;
   if (!recording.empty()) recorder.emplace(recording, scene.config);
   Scenario scenario(scene.config, scene.network);
@@ -81,10 +81,10 @@ Told RunScene(const Scene& scene, Builders builders, const std::string& recordin
   }
   OutputHash outputs;
   for (const v1::Output& output : scenario.published()) outputs.Add(output);
-  return ToldBy(scenario.daemon(), outputs.value());
+  return HashesOf(scenario.daemon(), outputs.value());
 }
 
-Told Replay(const std::string& recording) {
+RunHashes Replay(const std::string& recording) {
   OutputHash outputs;
   RecordingReader reader(recording);
   ReplaySource source(reader, [&outputs](const v1::Output& output) { outputs.Add(output); });
@@ -92,7 +92,7 @@ Told Replay(const std::string& recording) {
   while (daemon.Step()) {
   }
   if (!reader.error().empty()) throw std::runtime_error(reader.error());
-  return ToldBy(daemon, outputs.value());
+  return HashesOf(daemon, outputs.value());
 }
 
 }  // namespace collision::server

@@ -8,14 +8,14 @@
 
 namespace collision::server {
 
-/// What a run told.
-struct Told {
+/// Hashes of what a run published.
+struct RunHashes {
   std::uint64_t events = 0;  ///< How many.
   std::uint64_t log = 0;     ///< The hash of the event log.
   /// A hash of every output but the status: clearances, grants, earliest intersections, rejections.
   std::uint64_t outputs = 0;
 
-  friend bool operator==(const Told&, const Told&) = default;
+  friend bool operator==(const RunHashes&, const RunHashes&) = default;
 };
 
 /// The builder of the shapes.
@@ -27,9 +27,9 @@ enum class Builders {
 
 /// `recording`: a file to be written; empty: none. Throws std::runtime_error if time stands still
 /// before the scene's end.
-Told RunScene(const Scene& scene, Builders builders, const std::string& recording = {});
+RunHashes RunScene(const Scene& scene, Builders builders, const std::string& recording = {});
 
 /// Throws std::runtime_error if the recording is damaged.
-Told Replay(const std::string& recording);
+RunHashes Replay(const std::string& recording);
 
 }  // namespace collision::server

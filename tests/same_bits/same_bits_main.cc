@@ -25,20 +25,20 @@ struct Arguments {
 /// What became of one scene.
 struct Row {
   std::string name;
-  Told told;
-  bool replayed = false;      ///< Its recording tells the same.
-  bool built_beside = false;  ///< So it does with shapes that are built on threads.
-  bool by_chance = false;  ///< Where threads are done when they are, its recording tells the same.
-  bool side_by_side = false;  ///< So it does while all scenes run at once, each in a thread.
+  RunHashes hashes;
+  bool replayed = false;      ///< A replay of its recording gives the same hashes.
+  bool built_beside = false;  ///< A run with shapes that are built on threads does.
+  bool by_chance = false;     ///< Threads finish at any time: a replay of that run equals the run.
+  bool side_by_side = false;  ///< A run while all scenes run at once, each in a thread, does.
 
   bool same() const { return replayed && built_beside && by_chance && side_by_side; }
 };
 
 Row RunAlone(const Scene& scene, const std::string& file) {
-  Row row{.name = scene.name, .told = RunScene(scene, Builders::kOwn, file)};
-  row.replayed = Replay(file) == row.told;
-  row.built_beside = RunScene(scene, Builders::kThreads) == row.told;
-  const Told chance = RunScene(scene, Builders::kChance, file);
+  Row row{.name = scene.name, .hashes = RunScene(scene, Builders::kOwn, file)};
+  row.replayed = Replay(file) == row.hashes;
+  row.built_beside = RunScene(scene, Builders::kThreads) == row.hashes;
+  const RunHashes chance = RunScene(scene, Builders::kChance, file);
   row.by_chance = Replay(file) == chance;
   return row;
 }
@@ -48,7 +48,7 @@ void RunTogether(const std::vector<Scene>& scenes, std::vector<Row>* rows) {
   std::vector<std::thread> threads;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     threads.emplace_back([&scene = scenes[i], &row = (*rows)[i]] {
-      row.side_by_side = RunScene(scene, Builders::kOwn) == row.told;
+      row.side_by_side = RunScene(scene, Builders::kOwn) == row.hashes;
     });
   }
   for (std::thread& thread : threads) thread.join();
@@ -67,8 +67,8 @@ void Print(const std::vector<Row>& rows) {
               "all_outputs", "replay", "threads", "chance", "at_once");
   for (const Row& row : rows) {
     std::printf("%-14s %7llu  %s  %s  %-7s  %-7s  %-7s  %s\n", row.name.c_str(),
-                static_cast<unsigned long long>(row.told.events), Hex(row.told.log).c_str(),
-                Hex(row.told.outputs).c_str(), YesOrNo(row.replayed), YesOrNo(row.built_beside),
+                static_cast<unsigned long long>(row.hashes.events), Hex(row.hashes.log).c_str(),
+                Hex(row.hashes.outputs).c_str(), YesOrNo(row.replayed), YesOrNo(row.built_beside),
                 YesOrNo(row.by_chance), YesOrNo(row.side_by_side));
   }
 }
@@ -81,8 +81,8 @@ void WriteJson(const std::vector<Row>& rows, const std::string& path) {
     same += row.same();
     measurements.push_back(bench::Object(
         {bench::Text("part", "same-bits"), bench::Text("scene", row.name),
-         bench::Number("events", row.told.events), bench::Text("event_log", Hex(row.told.log)),
-         bench::Text("all_outputs", Hex(row.told.outputs)),
+         bench::Number("events", row.hashes.events), bench::Text("event_log", Hex(row.hashes.log)),
+         bench::Text("all_outputs", Hex(row.hashes.outputs)),
          bench::Text("replay", YesOrNo(row.replayed)),
          bench::Text("threads", YesOrNo(row.built_beside)),
          bench::Text("chance", YesOrNo(row.by_chance)),

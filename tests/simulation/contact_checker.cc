@@ -13,7 +13,7 @@ namespace {
 
 using PairKey = std::tuple<detection::AgentId, detection::AgentId>;
 
-/// One contact as the service told it: the first time it spoke of it, and its last word.
+/// One contact as the service published it: when it first did, and the last revision.
 struct Story {
   std::int64_t first_now_ns = 0;
   v1::CollisionEvent last;
@@ -92,7 +92,7 @@ Promises PromisesOf(const std::vector<v1::Output>& published) {
   return promises;
 }
 
-/// Up to this instant neither was new in any way that a promise could not have known.
+/// The last admission or jump of the agent up to `before_ns`: no earlier promise can know of it.
 std::int64_t LastSurprise(const Body& body, std::int64_t before_ns) {
   std::int64_t last = body.agent->from_ns;
   for (const std::int64_t jump : body.agent->motion.jumps_ns) {
@@ -101,18 +101,25 @@ std::int64_t LastSurprise(const Body& body, std::int64_t before_ns) {
   return last;
 }
 
-void CheckPromises(const Body& a, const Body& b, const BallContact& contact, const Story* story,
-                   const Promises& promises, CheckerResult* result) {
-  const std::int64_t announced =
-      story == nullptr ? std::numeric_limits<std::int64_t>::max() : story->first_now_ns;
+/// One true contact of a pair.
+struct PairContact {
+  const Body& a;
+  const Body& b;
+  const BallContact& contact;
+};
+
+/// `announced_ns`: when the service first announced the contact.
+void CheckPromises(const PairContact& pair, std::int64_t announced_ns, const Promises& promises,
+                   CheckerResult* result) {
+  const auto& [a, b, contact] = pair;
   const std::int64_t known_from =
       std::max(LastSurprise(a, contact.begin_ns), LastSurprise(b, contact.begin_ns));
   for (const detection::AgentId& id : {a.id, b.id}) {
-    const auto told = promises.find(id);
-    if (told == promises.end()) continue;
-    for (const Promise& promise : told->second) {
+    const auto known = promises.find(id);
+    if (known == promises.end()) continue;
+    for (const Promise& promise : known->second) {
       const bool binds = promise.now_ns > known_from && promise.now_ns < contact.begin_ns &&
-                         promise.now_ns < announced;
+                         promise.now_ns < announced_ns;
       if (!binds) continue;
       ++result->promises;
       if (promise.clear_until_ns <= contact.begin_ns) continue;
@@ -124,15 +131,19 @@ void CheckPromises(const Body& a, const Body& b, const BallContact& contact, con
   }
 }
 
-void CheckContact(const Body& a, const Body& b, const BallContact& contact,
-                  const std::map<std::uint32_t, Story>& stories, const Promises& promises,
-                  const CheckerOptions& options, CheckerResult* result) {
+void CheckContact(const PairContact& pair, const std::map<std::uint32_t, Story>& stories,
+                  const Promises& promises, const CheckerOptions& options, CheckerResult* result) {
+  const BallContact& contact = pair.contact;
   const auto violate = [&](const std::string& what) {
-    result->violations.push_back(Show(a, b, contact) + ": " + what);
+    result->violations.push_back(Show(pair.a, pair.b, contact) + ": " + what);
   };
   ++result->contacts;
   const Story* story = Find(stories, contact, options.time_tolerance_ns);
-  if (contact.begins_in_motion) CheckPromises(a, b, contact, story, promises, result);
+  if (contact.begins_in_motion) {
+    const std::int64_t announced_ns =
+        story == nullptr ? std::numeric_limits<std::int64_t>::max() : story->first_now_ns;
+    CheckPromises(pair, announced_ns, promises, result);
+  }
   if (story == nullptr) {
     // What began by a jump or an admission begins for the service when it saw it.
     if (contact.begins_in_motion) violate("no event holds its begin");
@@ -195,12 +206,12 @@ CheckerResult CheckContacts(const std::vector<const SimulatedSimulator*>& simula
       const std::vector<BallContact> contacts_true = BallContacts(
           a.agent->motion, b.agent->motion, a.agent->radius + b.agent->radius, from, to);
       const auto found = stories.find({a.id, b.id});
-      const auto& told = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
+      const auto& known = found == stories.end() ? std::map<std::uint32_t, Story>() : found->second;
       for (const BallContact& contact : contacts_true) {
         if (contact.depth < options.grazing) continue;
-        CheckContact(a, b, contact, told, promises, options, &result);
+        CheckContact({a, b, contact}, known, promises, options, &result);
       }
-      CheckConfirmed(a, b, contacts_true, told, &result);
+      CheckConfirmed(a, b, contacts_true, known, &result);
     }
   }
   return result;

@@ -36,9 +36,9 @@ bool Named(const Scenario& scenario, const detection::AgentId& agent, v1::Cleara
 }
 
 // Goal:   a state that breaks its own bound is the new truth, is counted, and its partners are
-// told. Method: a resting agent appears moved by 80 m without a discontinuity, near enough that the
+// informed. Method: a resting agent appears moved by 80 m without a discontinuity, so near that the
 // partner's clearance must be lowered.
-TEST(Faults, ABreachIsTheNewTruthAndIsTold) {
+TEST(Faults, ABreachIsTheNewTruthAndIsReported) {
   Scenario scenario(ConfigFor(1), {});
   SimulatedAgent mover = At(100);
   mover.motion.pieces = {{.start_ns = 0, .end_ns = 3 * kSecond, .p = {100, 0, 0}},
@@ -53,7 +53,7 @@ TEST(Faults, ABreachIsTheNewTruthAndIsTold) {
   EXPECT_TRUE(alpha.finished());
 }
 
-// Goal:   a declared jump is no breach, its partners are told, and the meeting it leads to is
+// Goal:   a declared jump is no breach, its partners are informed, and the contact it leads to is
 // found. Method: the agent jumps from 1 km to 20 m and closes in at 10 m/s: contact 1.8 s after the
 // jump.
 TEST(Faults, ATeleportIsNoBreach) {

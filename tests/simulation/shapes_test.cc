@@ -100,31 +100,32 @@ bool IsOf(const v1::AgentId& wire, const detection::AgentId& id) {
   return wire.simulator_id() == id.simulator && wire.slot() == id.slot;
 }
 
-// When an event first spoke of the pair, and whether the last word of any of them holds the
-// instant.
-struct Told {
+// When an event of the pair first appeared, and whether the last revision of any of them contains
+// the instant.
+struct PairReport {
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max();
   bool holds = false;
 };
 
-Told WhatWasTold(const Scenario& scenario, const Player& a, const Player& b, std::int64_t t_ns) {
-  Told told;
+PairReport PairReportOf(const Scenario& scenario, const Player& a, const Player& b,
+                        std::int64_t t_ns) {
+  PairReport report;
   for (const v1::CollisionEvent& event : scenario.events()) {
     const bool of_pair = (IsOf(event.lower(), a.id) && IsOf(event.higher(), b.id)) ||
                          (IsOf(event.lower(), b.id) && IsOf(event.higher(), a.id));
     if (!of_pair) continue;
-    told.first_ns = std::min(told.first_ns, event.now_ns());
+    report.first_ns = std::min(report.first_ns, event.now_ns());
     const bool confirmed =
         event.status() == v1::EVENT_CONFIRMED || event.status() == v1::EVENT_ENDED;
     const std::int64_t latest = confirmed ? event.begin().latest_ns() : event.end().latest_ns();
-    told.holds |= event.begin().earliest_ns() <= t_ns && t_ns - 200'000 <= latest;
+    report.holds |= event.begin().earliest_ns() <= t_ns && t_ns - 200'000 <= latest;
     // What is certain is true.
     if (confirmed) {
       const std::int64_t at = event.begin().latest_ns();
       EXPECT_LE(static_cast<double>(SolidDistance(a.At(at), b.At(at))), 1e-7) << at;
     }
   }
-  return told;
+  return report;
 }
 
 int CheckNeverLate(const Scenario& scenario) {
@@ -141,9 +142,9 @@ int CheckNeverLate(const Scenario& scenario) {
       }
       if (touch == 0 || touch >= kEnd) continue;
       ++contacts;
-      const Told told = WhatWasTold(scenario, a, b, touch);
-      EXPECT_LE(told.first_ns, touch) << a.id.slot << " and " << b.id.slot;
-      EXPECT_TRUE(told.holds) << a.id.slot << " and " << b.id.slot << " at " << touch;
+      const PairReport report = PairReportOf(scenario, a, b, touch);
+      EXPECT_LE(report.first_ns, touch) << a.id.slot << " and " << b.id.slot;
+      EXPECT_TRUE(report.holds) << a.id.slot << " and " << b.id.slot << " at " << touch;
     }
   }
   for (const v1::Output& output : scenario.published()) {

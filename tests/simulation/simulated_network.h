@@ -52,7 +52,7 @@ class SimulatedNetwork {
   // ---- the service's side ----
 
   /// Connects a service: everything the living writers hold is delivered to it.
-  /// `reader` also hears whether a sample is a late duplicate.
+  /// `reader` also learns whether a sample is a late duplicate.
   void Attach(std::function<void(const v1::Input&, bool duplicate)> reader);
   void Detach() { reader_ = nullptr; }
 

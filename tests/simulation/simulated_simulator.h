@@ -32,7 +32,7 @@ struct SimulatorOptions {
   std::uint32_t run = 1;
   std::uint64_t sender = 1;
   std::int64_t start_ns = 0;             ///< Of its clock, in this run.
-  std::int64_t period_ns = 100'000'000;  ///< States are told at its multiples.
+  std::int64_t period_ns = 100'000'000;  ///< States are sent at its multiples.
   std::int64_t end_ns = 10'000'000'000;
   std::uint32_t chunk_size = 64;
   bool removes_at_end = true;  ///< Else its agents stay and its clock stops there.

@@ -23,7 +23,7 @@ std::vector<SimulatedAgent> Wanderers(int count, double jumps_per_piece, Random*
   return agents;
 }
 
-/// Three simulators with ten agents each, told at different rates, some in small chunks.
+/// Three simulators with ten agents each, with states at different rates, some in small chunks.
 void AddThree(double jumps_per_piece, Scenario* scenario) {
   Random random(7);
   scenario->Add({.name = "alpha", .sender = 11, .period_ns = 100'000'000, .end_ns = kEnd},

@@ -160,7 +160,7 @@ TEST(Compose, GivesNoServiceMorePrivilegeThanAnother) {
 }
 
 // All containers look for the service where it is.
-TEST(Compose, EverybodyIsInTheSameWorldAndDomain) {
+TEST(Compose, AllServicesShareOneWorldAndDomain) {
   const auto blocks = ComposeBlocks();
   for (const char* service : {"collisiond", "spaceship", "drones", "pilot", "monitor"}) {
     for (const char* variable : {"${COLLISION_WORLD:-default}", "${COLLISION_DOMAIN:-0}"}) {

@@ -109,10 +109,12 @@ void JudgeBracket(const narrow_phase::BodySegment& first, const narrow_phase::Bo
   const bool nested = Nested(a, b, pose);
   if (square == 0 || nested) {
     outcome->Add("touching", 1);
-    outcome->Expect(decision.verdict != narrow_phase::Verdict::kApart, "contact is told as apart");
+    outcome->Expect(decision.verdict != narrow_phase::Verdict::kApart,
+                    "contact is reported as apart");
     return;
   }
-  outcome->Expect(decision.verdict != narrow_phase::Verdict::kTouching, "apart is told as contact");
+  outcome->Expect(decision.verdict != narrow_phase::Verdict::kTouching,
+                  "apart is reported as contact");
   outcome->Expect(IsAtLeast(look.upper, square, 0), "the distance's upper end is below the truth");
   const double unit = 0x1p-52 * (pose.p_AB.norm() + a.reach() + b.reach());
   const double width = (look.upper - std::max(0.0, look.lower)) / unit;

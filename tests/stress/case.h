@@ -19,7 +19,7 @@ struct Setting {
 /// What came out of a case: checks that hold or do not, and numbers.
 class Outcome {
  public:
-  /// Counts a check; the first one that fails is told. Returns `holds`.
+  /// Counts a check; the first one that fails is reported. Returns `holds`.
   bool Expect(bool holds, const std::string& what);
 
   /// A number for the report, finite.

@@ -58,7 +58,7 @@ void JudgeState(const motion::SpaceTimeBound& before, const motion::MotionState&
   outcome->Add(breached ? "breaches" : "states_kept", 1);
   const bool apart = BallsComeApart(before, next);
   if (position.Within(0) && velocity.Within(0) && !apart) {
-    outcome->Expect(!breached, "an honest state is told to be a breach");
+    outcome->Expect(!breached, "an honest state is reported as a breach");
   }
   const bool beyond = !position.Within(more_p) || !velocity.Within(more_v);
   const bool contradicts = apart && !beyond && BallsComeApart(before, next, 1, more_p + more_v * s);

@@ -32,7 +32,8 @@ void JudgePairs(const Scene& scene, Outcome* outcome) {
   for (const detection::CollisionEvent& event : scene.events()) {
     newest[{event.lower.slot, event.higher.slot}] = &event;
   }
-  outcome->Expect(newest.size() == scene.detector().pairs_tracked(), "a tracked pair is not told");
+  outcome->Expect(newest.size() == scene.detector().pairs_tracked(),
+                  "a tracked pair is not reported");
   for (const auto& [pair, event] : newest) {
     const double truth = -RadiusOf(pair.first) - RadiusOf(pair.second);
     outcome->Expect(event->status == detection::EventStatus::kConfirmed,
@@ -48,7 +49,7 @@ void JudgePairs(const Scene& scene, Outcome* outcome) {
   }
 }
 
-// All at the same point: in contact, or told as saturated, and never silent.
+// All at the same point: in contact or saturated, and never silent.
 void OnePoint(const Setting& setting, Outcome* outcome) {
   const auto agents = static_cast<std::uint32_t>(setting.Many(400, 6000));
   const int steps = setting.Many(32, 128);
@@ -69,9 +70,9 @@ void OnePoint(const Setting& setting, Outcome* outcome) {
                                     clearance->clear_until <= scene.now());
     silent += told ? 0 : 1;
   }
-  outcome->Expect(silent == 0, "agents at one point are told to be clear");
+  outcome->Expect(silent == 0, "agents at one point are reported clear");
   outcome->Expect(detector.pairs_tracked() <= options.pairs_max, "too many pairs");
-  // Each may fill its own room once, and is asked some times a second after that.
+  // Each may fill its own room once, and is queried some times a second after that.
   const double admission_max = 2.0 * agents * options.pairs_per_agent_max;
   outcome->Expect(static_cast<double>(admission) <= admission_max, "work at the admission");
   const double later = static_cast<double>(detector.counters().pair_queries - admission);

@@ -78,7 +78,7 @@ motion::MotionState StateOf(int pair, int which, std::int64_t ns) {
 struct Stretch {
   double widest = 0;        ///< Of the brackets [s].
   double widest_share = 0;  ///< Of what they may be wide.
-  double clear_sum = 0;     ///< How far ahead agents were clear, all told [s].
+  double clear_sum = 0;     ///< How far ahead agents were clear, in all [s].
   std::uint64_t steps = 0, contacts = 0;
   std::int64_t live_bytes = 0;
   std::size_t queued = 0;
@@ -108,14 +108,14 @@ class LongRun {
     return stretch;
   }
 
-  /// Contacts of the closed form that ended more than 2 s ago and were not told.
+  /// Contacts of the closed form that ended more than 2 s ago and were not reported.
   std::int64_t Missing() const {
     std::int64_t missing = 0;
     for (int pair = 0; pair < kPairs; ++pair) {
       const auto period = static_cast<std::int64_t>(2 * SwingOf(pair).half_period * kSecond);
       const std::int64_t whole = (now_ - 2 * kSecond) / period;
-      const auto told = told_.find(pair);
-      missing += whole - (told == told_.end() ? 0 : std::min(whole, told->second));
+      const auto reported = reported_.find(pair);
+      missing += whole - (reported == reported_.end() ? 0 : std::min(whole, reported->second));
     }
     return missing;
   }
@@ -125,8 +125,10 @@ class LongRun {
     for (int pair = 0; pair < kPairs; ++pair) {
       for (const int which : {0, 1}) {
         const motion::MotionState state = StateOf(pair, which, now_);
-        const detection::UpdateOutcome told = detector_.Update(Id(pair, which), state, state.stamp);
-        outcome_->Expect(told == detection::UpdateOutcome::kKept, "an honest state is not kept");
+        const detection::UpdateOutcome reported =
+            detector_.Update(Id(pair, which), state, state.stamp);
+        outcome_->Expect(reported == detection::UpdateOutcome::kKept,
+                         "an honest state is not kept");
         detector_.SetHeardUntil(OwnerOf(Id(pair, which)), state.stamp);
       }
     }
@@ -148,9 +150,9 @@ class LongRun {
       if (!outcome_->Expect(clearance.has_value(), "no clearance")) continue;
       const long double until = clearance->clear_until.nanoseconds() / 1e9L;
       stretch->clear_sum += std::max(0.0, static_cast<double>(until - now_ / 1e9L));
-      // Two that are told to touch begin no new contact until that has ended.
+      // Two that are reported to touch begin no new contact until that has ended.
       if (touching_[pair]) continue;
-      outcome_->Expect(until <= begin, "told clear beyond a contact");
+      outcome_->Expect(until <= begin, "clear beyond a contact");
     }
   }
 
@@ -161,7 +163,7 @@ class LongRun {
     if (event.status != detection::EventStatus::kEnded) return;
     // The contacts of a pair come one after the other; the next is the one of its number.
     long double begin, end;
-    const std::int64_t number = told_[pair]++;
+    const std::int64_t number = reported_[pair]++;
     SwingOf(pair).Contact(number, &begin, &end);
     const auto contains = [&](const detection::TimeBracket& bracket, long double truth) {
       const long double slack = 0x1p-58L * truth;
@@ -185,7 +187,7 @@ class LongRun {
   detection::Detector detector_;
   Outcome* outcome_;
   std::int64_t now_ = 0;
-  std::map<int, std::int64_t> told_;
+  std::map<int, std::int64_t> reported_;
   bool touching_[kPairs] = {};
 };
 

@@ -99,11 +99,11 @@ void JudgeWidth(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b
   const bool found = verdict.contact_from <= verdict.contact_to;
   const double first = found ? std::max(0.0, verdict.contact_from - resolution) : duration;
   outcome->Expect(smaller.SmallerApartOn(share, Dyadic(), Dyadic(first), Dyadic(duration)),
-                  Named("contact is told late,", a, b, first));
+                  Named("contact is late,", a, b, first));
   const double last = verdict.contact_to + resolution;
   if (!found || last >= duration) return;
   outcome->Expect(smaller.SmallerApartOn(share, Dyadic(last), Dyadic(duration), Dyadic(duration)),
-                  Named("contact is told to end early,", a, b, last));
+                  Named("contact ends early,", a, b, last));
 }
 
 bool IsOrdered(const narrow_phase::SegmentResult& v, double duration) {

@@ -1,7 +1,7 @@
 // Judges the two queries about balls against exact arithmetic: when two horns may first meet, and
 // when two balls touch.
 //
-// The condition of either query is told by its inputs: an answer counts as narrow where it is
+// The condition of either query follows from its inputs: an answer counts as narrow where it is
 // the exact answer of a problem whose lengths are off by K units in the last place of what they are
 // compared with (|Δp|, |v τ|, r, u). So a grazing pair may be answered less narrowly than one head
 // on, by just as much as its inputs force.
@@ -57,7 +57,7 @@ inline constexpr double kContactResolution = 1.01e-13;
 void JudgeContact(const motion::SpaceTimeBound& a, const motion::SpaceTimeBound& b, double duration,
                   Outcome* outcome);
 
-/// The sentence for both: how many were asked, and how wide the widest was.
+/// The sentence for both: the number of queries, and the width of the widest answer.
 void SayJudged(Outcome* outcome);
 
 }  // namespace collision::stress

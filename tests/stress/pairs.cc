@@ -126,7 +126,7 @@ void Accelerations(const Setting& setting, Outcome* outcome) {
              });
 }
 
-// A century before and after the epoch; asked 1 ns to years after the states.
+// A century before and after the epoch; queries 1 ns to years after the states.
 void Stamps(const Setting& setting, Outcome* outcome) {
   Random random(207);
   for (int i = 0; i < setting.Many(1600, 80000); ++i) {

@@ -39,7 +39,7 @@ detection::SegmentCount WrappedJudge(
 intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instant from) {
   const intersection::IntersectionTime time = RealAsk(a, b, from);
   if (log != nullptr) {
-    log->Note(
+    log->Record(
         Query::kAsked, a.limits.radius, b.limits.radius,
         {.from = from.nanoseconds(), .answer = time.seconds, .base = time.base.nanoseconds()});
   }
@@ -49,7 +49,7 @@ intersection::IntersectionTime WrappedAsk(const Bound& a, const Bound& b, Instan
 intersection::IntersectionTime WrappedMeet(const Bound& a, const Bound& b, Instant from,
                                            Instant until, double margin) {
   if (log != nullptr) {
-    log->Note(Query::kMet, a.limits.radius, b.limits.radius, {.from = from.nanoseconds()});
+    log->Record(Query::kMet, a.limits.radius, b.limits.radius, {.from = from.nanoseconds()});
   }
   return RealMeet(a, b, from, until, margin);
 }
@@ -58,8 +58,8 @@ detection::SegmentCount WrappedJudge(const detection::History& a, const detectio
                                      Instant until, WorkBudget* work,
                                      detection::ContactTracker* tracker) {
   if (log != nullptr) {
-    log->Note(Query::kJudged, a.newest().bound.limits.radius, b.newest().bound.limits.radius,
-              {.from = until.nanoseconds()});
+    log->Record(Query::kJudged, a.newest().bound.limits.radius, b.newest().bound.limits.radius,
+                {.from = until.nanoseconds()});
   }
   return RealJudge(a, b, until, work, tracker);
 }
@@ -68,10 +68,10 @@ QueryLog::QueryLog() { log = this; }
 
 QueryLog::~QueryLog() { log = nullptr; }
 
-void QueryLog::Note(Query query, double radius, double other, Asked asked) {
+void QueryLog::Record(Query query, double radius, double other, LoggedQuery logged) {
   const auto [lesser, greater] = std::minmax(radius, other);
-  asked.now = now_;
-  of_[static_cast<int>(query)][{lesser, greater}].push_back(asked);
+  logged.now = now_;
+  of_[static_cast<int>(query)][{lesser, greater}].push_back(logged);
 }
 
 }  // namespace collision::stress

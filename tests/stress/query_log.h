@@ -1,5 +1,5 @@
-// What the core asks about each pair, and when: seen at the linker, so that the core knows nothing
-// of it and no place that asks can be forgotten.
+// The queries of the core about each pair, and their times. They are intercepted at the linker: the
+// core does not know of it, and no caller can be forgotten.
 #pragma once
 
 #include <compare>
@@ -13,29 +13,29 @@
 namespace collision::stress {
 
 enum class Query {
-  kJudged,  ///< EvaluateSegments(): what is known of a tracked pair, over an interval of time.
-  kAsked,   ///< EarliestIntersection() from a time on: a tracked pair's, asked again.
-  kMet      ///< The same up to some time: by the broad phase, of one agent and its partners.
+  kJudged,  ///< EvaluateSegments(): a tracked pair over an interval of time.
+  kAsked,   ///< EarliestIntersection() of a tracked pair from a time on.
+  kMet      ///< The same up to some time: by the broad phase, for one agent and its partners.
 };
 inline constexpr int kQueries = 3;
 
-/// One query as it was put. Equal ones are the same bits.
-struct Asked {
-  std::int64_t now = 0;   ///< Of the step [ns].
-  std::int64_t from = 0;  ///< Where the answer begins; of kJudged where it ends [ns].
-  double answer = 0;      ///< [s] after `base`; of kMet, which looks no farther than it must, 0.
+/// One query. Equal ones have the same bits.
+struct LoggedQuery {
+  std::int64_t now = 0;   ///< The time of the step [ns].
+  std::int64_t from = 0;  ///< Where the interval begins; for kJudged, where it ends [ns].
+  double answer = 0;      ///< [s] after `base`; 0 for kMet, which searches no further than needed.
   std::int64_t base = 0;  ///< [ns]
 
-  friend bool operator==(const Asked&, const Asked&) = default;
+  friend bool operator==(const LoggedQuery&, const LoggedQuery&) = default;
 };
 
-/// While one of these is there it takes down every query to the core, in this thread. Agents are
-/// known by the radii they declare: each has one of its own.
+/// Records every query to the core in this thread, as long as it exists. The declared radius
+/// identifies an agent: each has one of its own.
 class QueryLog {
  public:
   /// The two radii, the lesser first.
   using Pair = std::pair<double, double>;
-  using Queries = std::map<Pair, std::vector<Asked>>;
+  using Queries = std::map<Pair, std::vector<LoggedQuery>>;
 
   QueryLog();
   ~QueryLog();
@@ -43,7 +43,7 @@ class QueryLog {
   QueryLog& operator=(const QueryLog&) = delete;
 
   void SetNow(Instant now) { now_ = now.nanoseconds(); }
-  void Note(Query query, double radius, double other, Asked asked);
+  void Record(Query query, double radius, double other, LoggedQuery logged);
 
   const Queries& of(Query query) const { return of_[static_cast<int>(query)]; }
 

@@ -88,7 +88,7 @@ std::uint32_t AddBystanders(Scene* scene) {
   return AddPair(scene, Of(CubeShape(), 0.01), {8192, 0, 0}, kBystanders);
 }
 
-/// How soon cubes that meet are told to, and how closely, also while others want all the work there
+/// How soon and how closely cubes that meet are reported, also while others want all the work there
 /// is.
 struct Service {
   double after = 4 * kStepSeconds, width = 1e-3;  ///< At most [s].
@@ -106,7 +106,7 @@ void ExpectServed(const Scene& scene, std::uint32_t cube, double begin, const Se
       numeric::SecondsBetween(confirmed->begin.earliest, confirmed->begin.latest).upper;
   outcome->Greatest("cubes_told_after_s", after);
   outcome->Greatest("cubes_width_s", found);
-  outcome->Expect(after <= service.after, "a pair of cubes is starved: told late");
+  outcome->Expect(after <= service.after, "a pair of cubes is starved: reported late");
   outcome->Expect(found <= service.width, "a pair of cubes is starved: a wide bracket");
 }
 
@@ -206,7 +206,7 @@ void Rolling(const Setting& setting, Outcome* outcome) {
   scene.Add(Of(SlabShape(), 0), Straight({0, 0, 0}, {0, 0, 0}));
   const auto round = shape::Shape::Build(Sphere(2));
   const double speed = 1;
-  // Of triangles it touches the slab with its corners only, if at all.
+  // A sphere of triangles touches the slab only with its corners, if at all.
   const auto ball = scene.Add(Of(round, 0.01), Roll({-8, 0, 1}, speed));
   const auto smooth = scene.Add(BallOf(1, 0.01), Straight({-8, 4, 1}, {speed, 0, 0}));
   scene.Touch(0, ball, 0, INFINITY);
@@ -304,9 +304,9 @@ void AddGreedy(Scene* scene) {
   TouchAtBounces(bouncing, cube, false, scene);
 }
 
-// Cubes that meet, at their own time, beside all that: with a budget that is ever smaller. Of the
-// smallest a fair share is 240 units of work, little more than one look at two cubes: then they are
-// told while they touch.
+// Cubes that meet at their own time beside all that, with smaller and smaller budgets. A fair share
+// of the smallest is 240 units of work, little more than one query of two cubes: then their contact
+// is reported while they touch.
 void Starving(const Setting& setting, Outcome* outcome) {
   const int steps = setting.Many(256, 1024);
   for (const std::uint64_t units : {16'000, 8'000, 4'000}) {
@@ -337,7 +337,7 @@ void Starving(const Setting& setting, Outcome* outcome) {
 }
 
 const char* const kSteady =
-    "no contact is missed or told late; another pair of balls, and one of cubes, is not starved, "
+    "no contact is missed or late; another pair of balls, and one of cubes, is not starved, "
     "its "
     "begins and ends within 3 ns and M T2/2 over the speed, M that of any point; at most 4 events "
     "an "
@@ -348,7 +348,7 @@ const char* const kSteady =
 std::vector<Case> RestingCases() {
   const std::string steady = kSteady;
   return {{"extreme", "shape-scenes",
-           "cubes of 2^-20 to 2^20 m: contact is never missed or told late, and confirmed; begins, "
+           "cubes of 2^-20 to 2^20 m: contact is never missed or late, and confirmed; begins, "
            "ends and clearances within 3 ns",
            ShapeScenes},
           {"stiff", "resting", steady, Resting},

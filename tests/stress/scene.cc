@@ -190,7 +190,7 @@ void Scene::CheckDistance(const detection::CollisionEvent& event) {
       Named("a wide distance", event.lower.slot, event.higher.slot, Since(event.evaluated_at)));
 }
 
-// Never late: an agent that is told to be clear begins no new contact before. Two that are told to
+// Never late: an agent that is clear begins no new contact before. Two that are reported to
 // touch begin none until that has ended.
 void Scene::CheckClearances() {
   for (const Meeting& meeting : meetings_) {
@@ -200,12 +200,12 @@ void Scene::CheckClearances() {
       if (!outcome_->Expect(clearance.has_value(), "no clearance")) continue;
       outcome_->Expect(!clearance->clear_until.is_never() &&
                            Since(clearance->clear_until) <= meeting.begin * (1 + kTruthShare),
-                       Named("told clear beyond a contact", meeting.a, meeting.b, meeting.begin));
+                       Named("clear beyond a contact", meeting.a, meeting.b, meeting.begin));
     }
   }
 }
 
-// Pairs are asked anew with every state that comes nearer than Δt; where no agent accelerates the
+// Pairs are queried anew with every state that comes nearer than Δt; where no agent accelerates the
 // first answer stays.
 void Scene::CheckIdle() {
   const double asked_again =
@@ -253,7 +253,7 @@ const detection::CollisionEvent* Scene::Covering(const Meeting& meeting) const {
   const Seconds slack = kTruthShare * std::fabs(meeting.begin);
   for (const auto& [contact, index] : of_pair->second) {
     const detection::CollisionEvent& event = events_[index];
-    // Of touches that last no time one event may cover several.
+    // One event may cover several contacts that last no time.
     const bool whole =
         event.status == detection::EventStatus::kUndecided || meeting.end <= meeting.begin;
     if (!IsContact(event) && event.status != detection::EventStatus::kUndecided && !IsOpen(event))

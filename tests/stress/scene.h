@@ -1,4 +1,4 @@
-// Agents whose motion is known in closed form, told to a detector step by step; what the detector
+// Agents whose motion is known in closed form, sent to a detector step by step; what the detector
 // says is judged against the truth.
 #pragma once
 
@@ -45,7 +45,7 @@ class Scene {
  public:
   Scene(const detection::DetectorOptions& options, Instant start, Outcome* outcome);
 
-  /// At rest at the start of the scene or later; told every `every` steps.
+  /// At rest at the start of the scene or later; sends a state every `every` steps.
   std::uint32_t Add(const detection::AgentDeclaration& declaration, Motion motion, int every = 1);
 
   /// All true contacts: pairs that are not named never touch.
@@ -61,7 +61,7 @@ class Scene {
   /// a nanosecond. By exact arithmetic.
   void ForbidIdle() { idle_forbidden_ = true; }
 
-  /// Whether every contact was told, with brackets that contain the truth; no other pair touches.
+  /// Whether each contact is reported, with brackets that contain the truth; no other pair touches.
   /// Begin and end brackets are at most `width` wide where contact is confirmed; `confirmed` says
   /// that all must be. What is not certified free is longer than the contact by 2 `width` at most,
   /// whether it is confirmed or in doubt. `end_width`, if it is not 0: of end brackets, where

@@ -70,7 +70,7 @@ void TimeScales(const Setting&, Outcome* outcome) {
   for (double ns = 500; ns < 1100e9; ns *= 1.25) {
     scene.StepTo(Instant::FromNanoseconds(static_cast<std::int64_t>(ns)));
   }
-  // Positions are told to a unit in the last place, times to the nanosecond.
+  // Positions are sent to a unit in the last place, times to the nanosecond.
   scene.Judge(3e-9, true);
   SayScene(scene, outcome);
 }
@@ -134,7 +134,7 @@ void LightSpeed(const Setting&, Outcome* outcome) {
   SayScene(scene, outcome);
 }
 
-// M from 0 to 1e18: a ball that may be anywhere soon is announced, and none is told clear.
+// M from 0 to 1e18: a ball that may be anywhere soon is announced, and none is reported clear.
 void AccelerationBounds(const Setting&, Outcome* outcome) {
   for (int decade = -1; decade <= 18; ++decade) {
     const double M = decade < 0 ? 0 : std::pow(10.0, decade);
@@ -176,7 +176,7 @@ void StampScenes(const Setting&, Outcome* outcome) {
 }
 
 const char* const kPromise =
-    "no contact is missed, none is told clear before it, brackets contain the truth; finite, "
+    "no contact is missed, none is clear before it, brackets contain the truth; finite, "
     "ordered; the queue holds no more than 2 an agent and 1 a pair; distances known within what "
     "the "
     "bounds leave open since the last states and 32 units in the last place; an agent "

@@ -1,5 +1,5 @@
-// A violent agent among calm ones: what the calm ones are asked about each other, and when, does
-// not depend on it.
+// A violent agent among calm ones: the queries about pairs of calm agents, and their times, do not
+// depend on it.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,26 +18,26 @@ using Eigen::Vector3d;
 constexpr std::int64_t kStep = 1'000'000'000 / 64;
 constexpr std::uint32_t kCalm = 40;
 
-/// The radius of the first violent one; each agent has one of its own, those of calm ones are
-/// greater than all of theirs.
+/// The radii of the first violent and the first calm agent. Each agent has a radius of its own;
+/// calm agents have greater ones than violent agents.
 constexpr double kViolentRadius = 0.25, kCalmRadius = 0.5, kRadiusStep = 0x1p-20;
 
-/// Scenes in which the violent ones stand differently to the calm ones.
+/// Scenes that differ in how the violent agents reach the calm ones.
 struct Wild {
   const char* name;
-  double spread;           ///< Of the calm ones [m].
+  double spread;           ///< How far the calm agents are spread [m].
   double announce_within;  ///< [s]
-  std::uint32_t violent;   ///< How many.
-  int jumps_every;         ///< They jump every so many steps; 0: never.
-  /// What the calm ones declare, in turns [m/s²].
+  std::uint32_t violent;   ///< The number of violent agents.
+  int jumps_every;         ///< The violent agents jump every so many steps; 0: never.
+  /// What the calm agents declare, in turns [m/s²].
   std::array<double, 3> accelerations = {0.5, 0.5, 0.5};
 };
 
 constexpr Wild kWild[] = {
-    // It may reach all others within announce_within, so that it is tracked with all of them.
+    // The violent agent may reach all others within announce_within: all its pairs are tracked.
     {"within reach of all", 24, 2, 1, 0},
     {"within reach of all, jumping", 24, 2, 1, 7},
-    // It may reach most of them next, over and over, but not yet.
+    // The violent agent is the next partner of most others, over and over, but not tracked yet.
     {"the next of many", 200, 0.125, 1, 0},
     {"the next of many, jumping", 200, 0.125, 1, 7},
     {"three of them", 200, 0.125, 3, 5},
@@ -47,14 +47,14 @@ constexpr Wild kWild[] = {
     {"likewise, within reach of all", 24, 2, 2, 7, {0, 0.5, 50}},
 };
 
-/// Everything that was told and asked of calm agents among themselves.
-struct Told {
+/// All events of pairs of calm agents, and all queries about them.
+struct CalmLog {
   std::vector<detection::CollisionEvent> events;
   QueryLog::Queries of[kQueries];
   std::uint64_t queries = 0;
 };
 
-// Round and round among them, at 200 m/s and 4000 m/s², half of what it might.
+// Circles among the calm agents at 200 m/s and 4000 m/s², half of the declared acceleration.
 Motion Round(std::uint32_t which, int jumps_every) {
   return [=, steps = 0](Seconds t) mutable {
     motion::MotionState state;
@@ -74,16 +74,16 @@ detection::AgentDeclaration Ball(double radius, double acceleration_max) {
   return declaration;
 }
 
-Told RunAmong(const Wild& wild, bool violent, broad_phase::BroadPhaseMethod method, int steps,
-              Outcome* outcome) {
+CalmLog RunAmong(const Wild& wild, bool violent, broad_phase::BroadPhaseMethod method, int steps,
+                 Outcome* outcome) {
   detection::DetectorOptions options;
   options.announce_within = wild.announce_within;
   options.broad_phase = method;
   QueryLog log;
   Scene scene(options, Instant(), outcome);
   Random random(301);
-  // Most tell something in every second to fifth step only: in between their pairs are judged, and
-  // asked again, where time has come for it.
+  // Most agents send states in every second to fifth step only: in between, the detector evaluates
+  // and queries their pairs when they are due.
   for (std::uint32_t k = 0; k < kCalm; ++k) {
     const Vector3d p = wild.spread * random.Uniform(0.1, 1) * random.UnitVector();
     scene.Add(Ball(kCalmRadius + k * kRadiusStep, wild.accelerations[k % 3]),
@@ -97,17 +97,17 @@ Told RunAmong(const Wild& wild, bool violent, broad_phase::BroadPhaseMethod meth
     log.SetNow(now);
     scene.StepTo(now);
   }
-  Told told;
+  CalmLog log_of_calm;
   for (const detection::CollisionEvent& event : scene.events()) {
-    if (event.higher.slot < kCalm) told.events.push_back(event);
+    if (event.higher.slot < kCalm) log_of_calm.events.push_back(event);
   }
   for (int q = 0; q < kQueries; ++q) {
     for (const auto& [pair, asked] : log.of(static_cast<Query>(q))) {
-      if (pair.first >= kCalmRadius) told.of[q][pair] = asked;
+      if (pair.first >= kCalmRadius) log_of_calm.of[q][pair] = asked;
     }
   }
-  told.queries = scene.detector().counters().queries;
-  return told;
+  log_of_calm.queries = scene.detector().counters().queries;
+  return log_of_calm;
 }
 
 auto BitsOf(const detection::CollisionEvent& e) {
@@ -116,8 +116,8 @@ auto BitsOf(const detection::CollisionEvent& e) {
                     e.separation_upper, e.depth_lower, e.work, e.limited_by);
 }
 
-const QueryLog::Queries& Of(const Told& told, Query query) {
-  return told.of[static_cast<int>(query)];
+const QueryLog::Queries& Of(const CalmLog& log_of_calm, Query query) {
+  return log_of_calm.of[static_cast<int>(query)];
 }
 
 std::size_t CountOf(const QueryLog::Queries& queries) {
@@ -126,16 +126,17 @@ std::size_t CountOf(const QueryLog::Queries& queries) {
   return count;
 }
 
-/// The pairs that were asked, and the steps in which they were.
+/// The pairs of the queries, and the steps in which these were put.
 std::set<std::tuple<double, double, std::int64_t>> TimesOf(const QueryLog::Queries& queries) {
   std::set<std::tuple<double, double, std::int64_t>> times;
   for (const auto& [pair, asked] : queries) {
-    for (const Asked& one : asked) times.insert({pair.first, pair.second, one.now});
+    for (const LoggedQuery& one : asked) times.insert({pair.first, pair.second, one.now});
   }
   return times;
 }
 
-void JudgeSame(const Told& alone, const Told& among, const std::string& where, Outcome* outcome) {
+void JudgeSame(const CalmLog& alone, const CalmLog& among, const std::string& where,
+               Outcome* outcome) {
   const bool same_events =
       std::equal(alone.events.begin(), alone.events.end(), among.events.begin(), among.events.end(),
                  [](const detection::CollisionEvent& a, const detection::CollisionEvent& b) {
@@ -148,12 +149,12 @@ void JudgeSame(const Told& alone, const Told& among, const std::string& where, O
                   where + "calm pairs are asked again more often, at other times, or otherwise");
 }
 
-// The reference is exhaustive: it has no filter, so that it asks the canonical routine about
-// every possible partner of an agent. How many of these queries the other methods spare depends
-// on where all agents are, also on the violent one: with and without it they may ask about a pair
-// less often, but never at a time at which the reference asks nothing.
-void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told& alone,
-              const Told& among, const Told& swept, Outcome* outcome) {
+// The reference is exhaustive: it has no filter, so it queries the canonical routine for every
+// possible partner of an agent. How many of these queries other methods spare depends on where all
+// agents are, the violent one included: with and without it they may query a pair less often, but
+// never at a time at which the reference does not.
+void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const CalmLog& alone,
+              const CalmLog& among, const CalmLog& swept, Outcome* outcome) {
   const std::string where = std::string(Name(method)) + ", " + wild.name + ": ";
   JudgeSame(alone, among, where, outcome);
   const auto all = TimesOf(Of(swept, Query::kMet));
@@ -178,14 +179,14 @@ void JudgeMet(const Wild& wild, broad_phase::BroadPhaseMethod method, const Told
 void Violent(const Setting& setting, Outcome* outcome) {
   const int steps = setting.Many(640, 6400);
   for (const Wild& wild : kWild) {
-    const Told swept =
+    const CalmLog swept =
         RunAmong(wild, false, broad_phase::BroadPhaseMethod::kExhaustive, steps, outcome);
     outcome->Expect(CountOf(Of(swept, Query::kMet)) > kCalm * kCalm, "no query was taken down");
     for (const auto method :
          {broad_phase::BroadPhaseMethod::kExhaustive, broad_phase::BroadPhaseMethod::kAllPairs,
           broad_phase::BroadPhaseMethod::kSpatialIndex, broad_phase::BroadPhaseMethod::kAuto}) {
-      const Told alone = RunAmong(wild, false, method, steps, outcome);
-      const Told among = RunAmong(wild, true, method, steps, outcome);
+      const CalmLog alone = RunAmong(wild, false, method, steps, outcome);
+      const CalmLog among = RunAmong(wild, true, method, steps, outcome);
       JudgeMet(wild, method, alone, among, swept, outcome);
     }
   }

@@ -89,7 +89,7 @@ TEST(CommandLine, PrintedConfigurationCanBeReadAgain) {
 TEST(CommandLine, BadConfigurationNamesFileLineFieldAndRange) {
   struct Mistake {
     std::string text;
-    std::vector<std::string> told;
+    std::vector<std::string> expected;
   };
   const Mistake mistakes[] = {
       {"world: \"a\"\n\nagents_max: 0\n", {":3: agents_max:", "1 to "}},
@@ -105,8 +105,8 @@ TEST(CommandLine, BadConfigurationNamesFileLineFieldAndRange) {
     const std::string file = folder.Write("bad.textproto", mistake.text);
     const Outcome outcome = Collisiond({"--config", file, "--check-config"});
     EXPECT_EQ(outcome.status, 78) << mistake.text;
-    for (const std::string& told : mistake.told)
-      EXPECT_TRUE(Contains(outcome.err, told)) << outcome.err;
+    for (const std::string& expected : mistake.expected)
+      EXPECT_TRUE(Contains(outcome.err, expected)) << outcome.err;
     EXPECT_TRUE(Contains(outcome.err, file)) << outcome.err;
     EXPECT_EQ(Collisiond({"--config", file}).status, 78) << "served with " << mistake.text;
     EXPECT_EQ(Collisiond({"--config", file, "--print-config"}).status, 78) << mistake.text;
@@ -142,7 +142,7 @@ TEST(CommandLine, AFileThatCannotBeWrittenIsOneClearLine) {
   EXPECT_EQ(cache.err, "collisiond: tree_cache_dir: /dev/null/trees: Not a directory\n");
 }
 
-TEST(CommandLine, AskedToStopItEndsCleanly) {
+TEST(CommandLine, EndsCleanlyOnAStopSignal) {
   const TestWorld world(60);
   for (const int signal : {SIGTERM, SIGINT}) {
     ServiceManager manager(world.folder().Path("manager-" + std::to_string(signal)));

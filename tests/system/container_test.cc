@@ -1,4 +1,4 @@
-// Goal:   what the image runs does as it is told, as far as it can be seen without an engine: the
+// Goal:   programs of the image obey their options, as far as can be seen without an engine: the
 //         start, the health check, the end.
 // Method: docker/serve with the settings of the image, and the very command of HEALTHCHECK, with
 //         the programs of this build, on this machine alone.

@@ -20,8 +20,7 @@ TEST(Monitor, ShowsALiveWorld) {
   const auto left = world.StartSimulator(kLeft, {"--linger"});
   const auto right = world.StartSimulator(kRight, {"--linger"});
   ASSERT_TRUE(events->WaitForOutput("ended")) << events->out() << events->err();
-  // Of a contact that was over before the follower was there, only the last revision is kept for
-  // it.
+  // If a contact was over before the follower started, only its last revision is kept for it.
   ExpectAll(events->out(), {"left × right", "begin [", "end ["});
 
   // A status is published once a second, and all this may have taken less; on a busy machine the

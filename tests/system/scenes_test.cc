@@ -39,7 +39,7 @@ TEST(Scenes, Swarm100) { ExpectSceneSucceeds({"swarm-100", "--seconds", "5"}); }
 // Convex solids, against each other and against triangles.
 TEST(Scenes, DroneArms) { ExpectSceneSucceeds({"drone-arms", "--seconds", "6"}); }
 
-/// Of a report, as --json writes it; -1: it is not there.
+/// A number of a report, as --json writes it; -1: it is not there.
 double NumberIn(const std::string& json, const std::string& field) {
   const std::string key = "\"" + field + "\": ";
   const std::size_t at = json.find(key);
@@ -47,7 +47,7 @@ double NumberIn(const std::string& json, const std::string& field) {
 }
 
 // As dense as the swarm of 10,000. Drones start at rest, so that the first seconds are its
-// quietest: what counts here is that both figures are told and that nothing was late.
+// quietest: what counts here is that both figures are reported and that nothing was late.
 TEST(Scenes, SwarmSendsWhatIsNeeded) {
   const std::string path = testing::TempDir() + "swarm." + std::to_string(getpid()) + ".json";
   ExpectSceneSucceeds({"swarm-1000", "--seconds", "3", "--json", path});
@@ -69,7 +69,7 @@ TEST(Scenes, AStreamSendsEverything) {
   EXPECT_EQ(NumberIn(text.str(), "message_ratio"), 1);
 }
 
-TEST(Scenes, InterruptedRunLeavesNobodyBehind) {
+TEST(Scenes, AnInterruptedRunLeavesNoProcessBehind) {
   // Orphans of our children become ours, so that they can be seen.
   ASSERT_EQ(prctl(PR_SET_CHILD_SUBREAPER, 1), 0);
   for (const int signal : {SIGINT, SIGTERM}) {

@@ -24,7 +24,7 @@ TEST(TwoHosts, SimulatorsElsewhereCollideAllTheSame) {
   EXPECT_EQ(right->WaitForExit(), 0) << right->err();
 }
 
-TEST(TwoHosts, AnUnpluggedCableIsMissedByNobody) {
+TEST(TwoHosts, AnUnpluggedCableEndsNoProgramAndLosesNoEvent) {
   const TwoHosts hosts;
   TestWorld world(68);
   world.MoveTo(hosts, 0);

@@ -160,12 +160,12 @@ void Pace::CheckRefusals() {
 }
 
 void Pace::Fly(double rate_hz, std::size_t state_every,
-               const std::function<bool(std::int64_t, std::int64_t, bool)>& step) {
+               const std::function<bool(const PaceStep&)>& step) {
   std::int64_t t0_ns = start_ns();
   for (std::size_t i = 1; AdvanceTo(t0_ns) && t0_ns < end_ns(); ++i) {
     const std::int64_t elapsed_ns = std::llround(static_cast<double>(i) * 1e9 / rate_hz);
     const std::int64_t t1_ns = std::min(end_ns(), start_ns() + elapsed_ns);
-    if (!step(t0_ns, t1_ns, i % state_every == 0 || t1_ns == end_ns())) return;
+    if (!step({t0_ns, t1_ns, i % state_every == 0 || t1_ns == end_ns()})) return;
     t0_ns = t1_ns;
   }
 }

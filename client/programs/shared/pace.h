@@ -27,6 +27,13 @@ struct SimulatorOptions {
   std::string traffic;  ///< File for the numbers of states set and sent; empty: none.
 };
 
+/// One step of a simulator's loop.
+struct PaceStep {
+  std::int64_t t0_ns = 0;
+  std::int64_t t1_ns = 0;
+  bool with_states = false;  ///< The states at t1 are to be set.
+};
+
 class Pace {
  public:
   /// Connects and waits for the service, at most 20 s; prints a notice while it waits. Throws
@@ -47,12 +54,12 @@ class Pace {
   /// is of the other kind.
   bool AdvanceTo(std::int64_t clock_ns);
 
-  /// The loop of a simulator that steps `rate_hz` times a second. `step(t0, t1, with_states)`
-  /// computes the motion from t0 to t1 and, if `with_states` (at every `state_every`-th step and at
-  /// the end), sets the states at t1. Returns at the end of the run, when `step` returns false, or
-  /// when the program is asked to stop.
+  /// The loop of a simulator that steps `rate_hz` times a second. `step` computes the motion from
+  /// t0 to t1 and, if `with_states` (at every `state_every`-th step and at the end), sets the
+  /// states at t1. Returns at the end of the run, when `step` returns false, or when the program is
+  /// asked to stop.
   void Fly(double rate_hz, std::size_t state_every,
-           const std::function<bool(std::int64_t, std::int64_t, bool)>& step);
+           const std::function<bool(const PaceStep&)>& step);
 
   /// With SimulatorOptions::linger keeps receiving until the program is asked to stop.
   void Linger();

@@ -114,7 +114,7 @@ void CrossingOrder::Extend() {
   crossings_in_stretch_ = 0;
   due_ = std::min(due_ + stretch_, kTicks);
   // A cheap filter, rarely true: it passes every pair whose tick is up to due_, with a margin of
-  // one tick for its rounding. Of pairs that draw apart it passes only those that coincide.
+  // one tick for its rounding. Among pairs that draw apart it passes only those that coincide.
   // Schedule() decides.
   const double fraction = static_cast<double>(due_ + 1) / kTicks;
   for (std::uint32_t place = 0; place + 1 < faces_.size(); ++place) {

@@ -112,7 +112,7 @@ void PlacementFrame::Shorten(double seconds) {
   least_ = static_cast<float>(middle_) * kReachLeast * numeric::kSomeFloatRoundingsUp;
 }
 
-// Of the sample, the middle part along x; of these the middle part along y, and along z.
+// The middle part of the sample along x; of that the middle part along y, and then along z.
 Region PlacementFrame::Crowd(const HornTable& table, std::size_t count) const {
   struct Point {
     double c[3];

@@ -13,8 +13,8 @@ namespace {
 // announcer takes for "far apart again".
 constexpr double kLookAhead = 1.3;
 
-// Of the work that is left in an evaluation: for what is settled, then for what is heard; the rest
-// is for what is promised.
+// Shares of the work that is left in an evaluation: for the settled time, then for the heard time;
+// the rest is for the promised time.
 constexpr double kSettledShare = 0.5;
 constexpr double kHeardShare = 0.8;
 

@@ -23,8 +23,8 @@ struct Overlap {
   /// The ball of this radius [m] about 0 certainly belongs to the difference B − A of the cores,
   /// all rounding included: no shorter shift takes them apart. Below 0: nothing is certain.
   double inside = -numeric::kInfinity;
-  /// Of the unit vectors that were tried, from A to B, the one along which the cores overlap the
-  /// least; zero: none was tried.
+  /// The unit vector, from A to B, along which the cores overlap the least among those that were
+  /// tried; zero: none was tried.
   Eigen::Vector3d direction{0, 0, 0};
   std::uint32_t steps = 0;
 };

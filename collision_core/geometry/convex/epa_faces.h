@@ -17,7 +17,7 @@ class PolytopeFaces {
   /// counts as in its plane. Requires four points that are not in one plane.
   void Start(const std::array<Point, 4>& tetrahedron, double tolerance);
 
-  /// Of the faces that are not final, the one whose plane has the least distance from 0, negative
+  /// The face, among those that are not final, whose plane has the least distance from 0, negative
   /// where 0 lies on its outer side; −1: all faces are final.
   int Nearest() const;
   double DistanceOf(int face) const { return faces_[face].distance; }

@@ -38,7 +38,7 @@ constexpr double kLowerSlack = 6 * kEpsilon;   ///< Of |n|₁ (S_a + S_b).
 constexpr double kShrink = 1 - 16 * kEpsilon;
 /// Squares of lengths below 2^-530 underflow; they may count as zero, so the upper end adds more.
 constexpr double kUnderflow = 0x1p-500;
-/// Of n². Shorter directions are not used: their products would underflow.
+/// The least n² of a direction in use: products of shorter ones would underflow.
 constexpr double kDirectionMin = 0x1p-700;
 /// A bracket narrower than this times S_a + S_b is as good as the arithmetic: no other direction is
 /// tried.

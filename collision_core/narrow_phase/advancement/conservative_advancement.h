@@ -4,7 +4,7 @@
 // counts as uncertainty, so that one sweep covers a quarter of a radian at most. Pairs of nodes are
 // opened in the order of the times at which their moving balls may touch first, two leaves by their
 // triangles. Each pair is convex, so its own direction may be used: bodies that pass by each other
-// cost little. Of equal times the pair that was opened the farthest comes first; balls within the
+// cost little. At equal times the pair that was opened the farthest comes first; balls within the
 // solids that overlap at the start end a sweep at once.
 //
 // A leaf of a few large triangles (the floor below a landscape) has a ball that holds nearly

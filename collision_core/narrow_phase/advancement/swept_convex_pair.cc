@@ -63,9 +63,9 @@ class GapAlong {
   WorkBudget& work_;
 };
 
-/// The last instant known to have a gap. Of a concave function a chord between a gap and none meets
-/// zero too early. Of one that is nearly linear the two instants about there enclose zero a
-/// thousand times closer; of others they double the way, or halve what is left.
+/// The last instant known to have a gap. A chord of a concave function between a gap and none meets
+/// zero too early. If the function is nearly linear, the two instants about that zero enclose the
+/// true one a thousand times closer; otherwise they double the way, or halve what is left.
 double LastGap(const GapAlong& gap, double from, double to) {
   double free = from, free_gap = gap.At(from);
   if (!(free_gap > 0)) return from;

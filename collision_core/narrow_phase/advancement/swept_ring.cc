@@ -7,8 +7,8 @@
 // Both bodies' rings give such a bound, and neither changes faster than the reference points move
 // relative to each other.
 //
-// Of a part that stays in a ring about another axis m, at the angle φ to n, with the middle c, half
-// of its height h and the outer radius R, the heights along n are n·c ± (h |cos φ| + R sin φ), and
+// A part may stay in a ring about another axis m, at the angle φ to n, with the middle c, half the
+// height h and the outer radius R. Its heights along n are then n·c ± (h |cos φ| + R sin φ), and
 // across n it reaches no farther than h sin φ + R from c.
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
 
@@ -92,7 +92,7 @@ Part Around(const shape::ConvexSolid& solid) {
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Of the origin to a triangle in the plane.
+/// The distance of the origin to a triangle in the plane.
 double DistanceToOrigin(const std::array<Vector2d, 3>& t) {
   double least = numeric::kInfinity;
   int left = 0, right = 0;
@@ -144,7 +144,7 @@ class Axis {
 
   bool turns() const { return turns_; }
 
-  /// Of a part moved by `by`, seen from the axis' body.
+  /// The ring of a part moved by `by`, seen from the axis' body.
   Ring RingOf(const Part& part, const Vector3d& by) const {
     Ring ring;
     std::array<Vector2d, 8> across;
@@ -160,7 +160,7 @@ class Axis {
     return ring;
   }
 
-  /// Of what stays in a ring about another axis, whose body is at `by`.
+  /// The ring that contains a ring about another axis, whose body is at `by`.
   Ring RingOf(const Axis& axis, const Ring& of_part, const Vector3d& by) const {
     const double half = 0.5 * (of_part.high - of_part.low);
     const Vector3d middle = by + (of_part.low + half) * axis.n_;

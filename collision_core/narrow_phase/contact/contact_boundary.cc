@@ -62,10 +62,10 @@ bool ContactBoundary::Exhausted() {
 }
 
 // Queried after one sweep, and if it leads no further than a sweep does, after two more, four, …
-double ContactBoundary::RevolvedFrom(double at, double left, double span, Turns* turns) const {
+double ContactBoundary::RingFreedomFrom(double at, double left, double span, Turns* turns) const {
   if (++turns->sweeps < turns->wait) return 0;
   const std::uint64_t units = std::max(kRevolveUnits, work_.spent() - turns->spent);
-  const double free = motion_.RevolvedFree(at, left, direction_, duration_, units);
+  const double free = motion_.RingFreedom(at, left, direction_, duration_, units);
   const bool farther = free > span;
   turns->wait = farther ? 1 : 2 * turns->wait;
   turns->sweeps = 0;
@@ -80,7 +80,7 @@ double ContactBoundary::FreeFrom(double at) {
   while (!Exhausted()) {
     const double left = is_backward() ? at : numeric::AddUp(duration_, -at);
     const double span = motion_.SpanFrom(at, left, direction_, duration_);
-    const double revolved = asked_inside ? RevolvedFrom(at, left, span, &turns) : 0;
+    const double revolved = asked_inside ? RingFreedomFrom(at, left, span, &turns) : 0;
     if (revolved == numeric::kInfinity)
       return is_backward() ? -numeric::kInfinity : numeric::kInfinity;
     if (revolved > 0) {

@@ -81,7 +81,7 @@ class ContactBoundary {
   };
 
   bool is_backward() const { return direction_ == TimeDirection::kBackward; }
-  double RevolvedFrom(double at, double left, double span, Turns* turns) const;
+  double RingFreedomFrom(double at, double left, double span, Turns* turns) const;
   double Moved(double at, double seconds) const;
   double ToleranceAt(double at) const;
   double StallAt(double at) const;

@@ -228,8 +228,8 @@ double ShapeMotion::FastestTurn() const {
   return rate;
 }
 
-double ShapeMotion::RevolvedFree(double at, double left, TimeDirection direction, double duration,
-                                 std::uint64_t units) const {
+double ShapeMotion::RingFreedom(double at, double left, TimeDirection direction, double duration,
+                                std::uint64_t units) const {
   const double span = ToMiddle(at, left, direction, duration);
   if (!(FastestTurn() * span > kTurnToRevolve)) return 0;
   const BoundChoice choice = ChoiceFor(at, span, direction);

@@ -67,11 +67,12 @@ class ShapeMotion {
   /// and other bounds may be narrower.
   double SpanFrom(double at, double left, TimeDirection direction, double duration) const;
 
-  /// How many of the `left` seconds from `at` on the two stay apart however far each has turned by
-  /// then; 0 if neither turns much. +infinity: all of them, the end included. With it the work does
-  /// not grow with turns that do not matter. Does not test containment. Spends about `units`.
-  double RevolvedFree(double at, double left, TimeDirection direction, double duration,
-                      std::uint64_t units) const;
+  /// How many of the `left` seconds from `at` on the surfaces stay apart by SweptRingBound(), which
+  /// holds however far each body turns; 0 if neither turns much; +infinity: all of them, the end
+  /// included. The work does not grow with turns that do not matter. Does not test containment.
+  /// Spends about `units`.
+  double RingFreedom(double at, double left, TimeDirection direction, double duration,
+                     std::uint64_t units) const;
 
   /// Whether certainly neither body is inside the other. Requires surfaces that are apart.
   bool NeitherInside(const RelativePose& pose) const;

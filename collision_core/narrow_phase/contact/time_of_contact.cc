@@ -11,8 +11,8 @@
 namespace collision::narrow_phase {
 namespace {
 
-// Of the work that is left: for how long the two are free from the start, then from the end, then
-// for the begin of contact; the rest is for its end.
+// Shares of the work that is left: for the free time from the start, then for that from the end,
+// then for the begin of contact; the rest is for its end.
 constexpr double kForwardShare = 0.5;
 constexpr double kBackwardShare = 0.4;
 constexpr double kBeginShare = 0.6;

@@ -58,7 +58,7 @@ WIDE_INLINE Doubles AlongOf(const double* p, const Point& n) {
   return (n.x * Load(p) + n.y * Load(p + 4)) + n.z * Load(p + 8);
 }
 
-/// Of the points of a hull one that is furthest.
+/// A point of the hull that is furthest along n.
 WIDE_INLINE Point FurthestOf(const SmallGjkCore& core, const Point& n) {
   const double* p = core.points;
   Doubles most = AlongOf(p, n), place{0, 1, 2, 3}, best = place;
@@ -147,8 +147,9 @@ class Search {
   }
 
  private:
-  /// Of two ellipsoids with matrices A and B whose centres are d apart the sum is nearly one with A
-  /// + B, which has the normal (A + B)^-1 d where d leaves it. Of the inverse only the adjugate.
+  /// The sum of two ellipsoids with matrices A and B whose centres are d apart is nearly the one
+  /// with A + B, which has the normal (A + B)^-1 d where d leaves it. Computes only the adjugate of
+  /// A + B: the length does not matter.
   WIDE_INLINE Point LikelyWay() const {
     double q[6] = {};  // xx, xy, xz, yy, yz, zz
     const SmallGjkCore* const cores[] = {&pair_.a, &pair_.b};

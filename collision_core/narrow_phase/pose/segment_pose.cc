@@ -20,8 +20,8 @@ struct Orientation {
 // A rotation with a larger error counts as unknown (kRotationAngleMax).
 constexpr double kAnyRotation = 0.5;
 
-// A ball looks the same however it is turned. Of a body that may be turned any way one orientation
-// is as good as another, if only it is exact.
+// A ball looks the same however it is turned. For a body that may be turned any way, every exact
+// orientation is as good as another.
 Orientation OrientationOf(const BodySegment& body, std::size_t bound, double delta) {
   if (!body.shape) return {};
   const motion::MovingRotation& turn = body.turns[bound];

@@ -10,7 +10,7 @@
 namespace collision::narrow_phase {
 namespace {
 
-// Of two balls with children both are opened, unless one is larger than this times the other.
+// If two balls have children, both are opened, unless one is larger than this times the other.
 constexpr float kMuchLarger = 4;
 
 // A search checks the budget before each step, and spends no more than this in one: all triangles
@@ -109,7 +109,7 @@ void SeparationSearch::Open(const BallPair& pair, float limit, WorkBudget* work)
   OpenBalls(pair, much_a ? Opened::kA : much_b ? Opened::kB : Opened::kBoth, limit, work);
 }
 
-/// Of a step: the balls of pair 0, and by which part of its number, lane or row, others differ.
+/// One step: the balls of pair 0, and by which part of its number, lane or row, others differ.
 struct SeparationSearch::Opening {
   sphere_tree::BallRef a, b;
   std::uint32_t lanes_of_a, lanes_of_b, rows_of_a;  ///< Masks.

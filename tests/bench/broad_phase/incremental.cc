@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kScene = "swinging";
 
-/// Ours: the method is told, and the queue asks again where it must.
+/// Ours: the method is updated, and the queue repeats a query where it must.
 class UpdatedMethod : public Updated, private baselines::AgentAsker {
  public:
   UpdatedMethod(const UpdateStream& stream, const Method& method)

@@ -14,7 +14,7 @@ class PairSink {
   PairSink(const baselines::BallScene& scene, double horizon) : scene_(scene), limit_(horizon) {}
 
   void Offer(std::uint32_t a, std::uint32_t b) {
-    const double time = baselines::PlainMeetingTime(scene_[a], scene_[b], limit_);
+    const double time = baselines::ReferenceIntersectionTime(scene_[a], scene_[b], limit_);
     if (time > limit_) return;
     if (a > b) std::swap(a, b);
     if (found_ && time == limit_ && std::pair(lower_, higher_) < std::pair(a, b)) return;

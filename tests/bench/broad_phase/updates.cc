@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRate = 20, kWarmUp = 0.5;
 constexpr double kAccelerationMax = 1;
-/// Of the swing, along one direction; a little below M, so that rounding breaks no bound.
+/// The acceleration of the swing along one direction; below M, so that rounding breaks no bound.
 constexpr double kAcceleration = 0.9 * kAccelerationMax;
 /// How far it takes an agent from its home [m].
 constexpr double kReach = 0.5;

@@ -22,7 +22,7 @@ Field Text(const std::string& name, const std::string& value);
 /// Throws std::logic_error where two have one name: no reader takes that.
 std::string Object(const std::vector<Field>& fields);
 
-/// Of printf, for one number.
+/// One number in a format of printf.
 std::string Format(const char* format, double value);
 /// At least one space behind it.
 std::string Padded(const std::string& text, std::size_t width);

@@ -11,7 +11,7 @@
 
 namespace collision::bench {
 
-/// Appends every pair whose balls overlap in the frame, in any order. Frames are told one by one.
+/// Appends every pair whose balls overlap in the frame, in any order. Frames come one by one.
 class ShipBroadPhase {
  public:
   virtual ~ShipBroadPhase() = default;

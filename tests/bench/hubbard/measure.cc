@@ -19,7 +19,7 @@ constexpr double kCells[] = {1.5, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48};
 
 constexpr double kStandardVolume = 2000;
 
-/// Of a figure that is shown for two sizes at the demo's density.
+/// Whether a figure shows the scene: two sizes at the demo's density.
 bool IsStandard(const HubbardScene& scene) {
   return scene.options.volume == kStandardVolume &&
          (scene.options.drones == 20 || scene.options.drones == 100);

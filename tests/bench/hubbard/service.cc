@@ -26,7 +26,7 @@ motion::MotionState StateOf(const Flight& flight, std::int64_t frame, std::uint3
   return state;
 }
 
-/// One contact, as its last revision told it.
+/// One contact, as of its last revision.
 using ContactKey = std::pair<ShipPair, std::uint32_t>;
 struct Run {
   std::vector<double> frames;  ///< The processor's time [s].

@@ -19,7 +19,7 @@ constexpr double kWrongMax = 0.05;
 /// Below this a distance's error is that of its coordinates, which are about 1 m [m].
 constexpr double kDistanceFloor = 1e-14;
 
-struct Judgement {
+struct Accuracy {
   std::size_t wrong = 0;
   std::size_t undecided = 0;
   double error_max = 0;  ///< Of distances, relative.
@@ -42,30 +42,30 @@ double ErrorOf(Task task, const Cell& cell, const Reply& reply, const Reply& cer
   return wide || missed ? std::max(off, reply.upper - reply.lower) / certain.upper : 0;
 }
 
-Judgement Judge(Task task, const Cell& cell, const std::vector<Reply>& replies) {
-  Judgement judgement;
+Accuracy AccuracyOf(Task task, const Cell& cell, const std::vector<Reply>& replies) {
+  Accuracy accuracy;
   for (std::size_t i = 0; i < replies.size(); ++i) {
     if (task == Task::kDecision) {
       const bool undecided = replies[i].lower != replies[i].upper;
-      judgement.undecided += undecided;
-      judgement.wrong += !undecided && (replies[i].lower > 0.5) != cell.gap.overlap;
+      accuracy.undecided += undecided;
+      accuracy.wrong += !undecided && (replies[i].lower > 0.5) != cell.gap.overlap;
       continue;
     }
     const double error = ErrorOf(task, cell, replies[i], cell.distances[i]);
-    judgement.wrong += error > 0;
-    judgement.error_max = std::max(judgement.error_max, error);
+    accuracy.wrong += error > 0;
+    accuracy.error_max = std::max(accuracy.error_max, error);
   }
-  return judgement;
+  return accuracy;
 }
 
-std::string RemarkOn(Task task, const Judgement& judgement, std::size_t count) {
+std::string RemarkOn(Task task, const Accuracy& accuracy, std::size_t count) {
   std::string remark;
-  if (judgement.wrong > 0) {
-    remark = "ANSWERS DIFFER: " + std::to_string(judgement.wrong) + " of " + std::to_string(count);
-    if (task != Task::kDecision) remark += Format(", by up to %.2g of it", judgement.error_max);
+  if (accuracy.wrong > 0) {
+    remark = "ANSWERS DIFFER: " + std::to_string(accuracy.wrong) + " of " + std::to_string(count);
+    if (task != Task::kDecision) remark += Format(", by up to %.2g of it", accuracy.error_max);
   }
-  if (judgement.undecided > 0) {
-    remark += (remark.empty() ? "" : "; ") + std::to_string(judgement.undecided) + " undecided";
+  if (accuracy.undecided > 0) {
+    remark += (remark.empty() ? "" : "; ") + std::to_string(accuracy.undecided) + " undecided";
   }
   return remark;
 }
@@ -153,17 +153,17 @@ void Measure(const NarrowSettings& settings, const Cell& cell, const PairMethods
     NarrowRow row = RowOf(cell, methods[m]);
     row.warm = Median(times.warm), row.cold = Median(times.cold);
     row.hash = HashOf(times.replies);
-    const Judgement judgement = Judge(methods[m].task, cell, times.replies);
+    const Accuracy accuracy = AccuracyOf(methods[m].task, cell, times.replies);
     const auto count = static_cast<double>(times.replies.size());
-    row.remark = RemarkOn(methods[m].task, judgement, times.replies.size());
+    row.remark = RemarkOn(methods[m].task, accuracy, times.replies.size());
     row.more = {Number("poses", count),
                 Number("redrawn", static_cast<double>(cell.sample.redrawn)),
                 Number("warm_p90_s", Quantile(times.warm, 0.9)),
                 Number("warm_max_s", Quantile(times.warm, 1)),
-                Number("wrong", static_cast<double>(judgement.wrong)),
-                Number("undecided", static_cast<double>(judgement.undecided))};
+                Number("wrong", static_cast<double>(accuracy.wrong)),
+                Number("undecided", static_cast<double>(accuracy.undecided))};
     const bool counts = methods[m].origin != Origin::kLibrary ||
-                        static_cast<double>(judgement.wrong) <= kWrongMax * count;
+                        static_cast<double>(accuracy.wrong) <= kWrongMax * count;
     if (counts) medians.Add(methods[m], row);
     if (!counts) row.remark += "; does not count";
     report->Add(std::move(row));

@@ -47,14 +47,14 @@ ContactCase MeshCase(const std::shared_ptr<const PlainMesh>& mesh, double diamet
   return of;
 }
 
-/// What the library says of one step, in a process of its own.
-struct Told {
+/// The result of a library for one step, run in a process of its own.
+struct LibraryStep {
   bool ended = false;
   double seconds = 0;
   std::optional<double> begin;
 };
 
-Told Tell(const ContactMethod& library, const ContactCase& of) {
+LibraryStep StepOf(const ContactMethod& library, const ContactCase& of) {
   const ContactQuery ask = library.make(of);
   const ApartResult result = RunApart(kCutOff, [&] {
     const CpuStopwatch watch;
@@ -62,9 +62,9 @@ Told Tell(const ContactMethod& library, const ContactCase& of) {
     return std::vector<double>{watch.seconds(), begin ? 1.0 : 0.0, begin.value_or(0)};
   });
   if (result.status != ApartStatus::kDone) return {};
-  Told told{true, result.values[0], std::nullopt};
-  if (result.values[1] != 0) told.begin = result.values[2];
-  return told;
+  LibraryStep reply{true, result.values[0], std::nullopt};
+  if (result.values[1] != 0) reply.begin = result.values[2];
+  return reply;
 }
 
 /// All steps, ours.
@@ -86,7 +86,7 @@ struct OurSteps {
   }
 };
 
-OurSteps AskOurs(const std::vector<ContactCase>& cases, const ContactShapes& shapes) {
+OurSteps RunOurs(const std::vector<ContactCase>& cases, const ContactShapes& shapes) {
   OurSteps steps;
   for (const ContactCase& of : cases) {
     double least = std::numeric_limits<double>::infinity();
@@ -103,29 +103,29 @@ OurSteps AskOurs(const std::vector<ContactCase>& cases, const ContactShapes& sha
   return steps;
 }
 
-/// Those steps count in which both say the same.
-void AskLibrary(const std::vector<ContactCase>& cases, const ContactMethod& library,
+/// Only steps count in which both give the same answer.
+void RunLibrary(const std::vector<ContactCase>& cases, const ContactMethod& library,
                 const OurSteps& ours, NarrowRow row, NarrowReport* report) {
   std::vector<double> all, theirs, own;
   std::size_t missed = 0, endless = 0, other = 0;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const narrow_phase::TimeOfContactResult& found = ours.found[i];
-    const Told told = Tell(library, cases[i]);
-    endless += !told.ended;
-    if (!told.ended) continue;
-    all.push_back(told.seconds);
+    const LibraryStep reply = StepOf(library, cases[i]);
+    endless += !reply.ended;
+    if (!reply.ended) continue;
+    all.push_back(reply.seconds);
     std::optional<double> begin;
     if (found.status == narrow_phase::ContactStatus::kContact) begin = found.begin.upper;
     const bool right = found.status != narrow_phase::ContactStatus::kUndecided &&
-                       IsRight(told.begin, begin, cases[i].duration);
-    missed += !right && begin && !told.begin;
-    other += !right && told.begin;
-    if (right) theirs.push_back(told.seconds), own.push_back(ours.seconds[i]);
+                       IsRight(reply.begin, begin, cases[i].duration);
+    missed += !right && begin && !reply.begin;
+    other += !right && reply.begin;
+    if (right) theirs.push_back(reply.seconds), own.push_back(ours.seconds[i]);
   }
   row.contestant = library.name;
   if (!all.empty()) row.warm = Median(all);
   row.remark = "right in " + std::to_string(theirs.size()) + " of " + std::to_string(cases.size()) +
-               " steps; misses " + std::to_string(missed) + " contacts, tells " +
+               " steps; misses " + std::to_string(missed) + " contacts, reports " +
                std::to_string(other) + " at a wrong time, does not end in " +
                std::to_string(endless) + Format(" within %g s", kCutOff);
   if (!theirs.empty()) {
@@ -149,13 +149,13 @@ void ContactPart(const NarrowSettings& settings, NarrowReport* report) {
     cases.push_back(MeshCase(plain, mesh.diameter(), random));
   }
   const auto shape = ShapeOf(cases.front().a);
-  const OurSteps ours = AskOurs(cases, {shape, shape});
+  const OurSteps ours = RunOurs(cases, {shape, shape});
   row.warm = Median(ours.seconds);
   row.remark = ours.Text();
   report->Add(row);
   report->Figure("contact_work_max", Quantile(ours.work, 1));
   for (const ContactMethod& library : ContactPeers()) {
-    if (library.make(cases.front())) AskLibrary(cases, library, ours, row, report);
+    if (library.make(cases.front())) RunLibrary(cases, library, ours, row, report);
   }
 }
 

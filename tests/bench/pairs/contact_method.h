@@ -16,7 +16,7 @@ struct ContactReply {
   Verdict verdict = Verdict::kFree;
   double lower = 0, upper = 0;  ///< Of the begin.
 
-  /// Of a method that answers one number: when contact begins, if it does.
+  /// For a method that answers one number: when contact begins, if it does.
   std::optional<double> begin() const {
     return verdict == Verdict::kContact ? std::optional(lower) : std::nullopt;
   }

@@ -16,7 +16,7 @@ struct ContactShapes {
 /// Null for a ball.
 std::shared_ptr<const shape::Shape> ShapeOf(const MovingBody& body);
 
-/// Both bodies told by their states, which are exact and change by nothing but what they say.
+/// Both bodies, given by exact states: the motion between states is the predicted one.
 narrow_phase::TimeOfContactResult OurContact(const ContactCase& of, const ContactShapes& shapes,
                                              const narrow_phase::ContactTolerance& tolerance);
 

@@ -16,14 +16,14 @@ const char kByBudget[] = "work units a pair; at last the rounding of the pose";
 const char kByWidth[] = "the width asked for; at last the rounding of the pose";
 const char kByRounding[] = "the rounding of the pose";
 
-Reply Told(const narrow_phase::SeparationBracket& look) {
+Reply ReplyOf(const narrow_phase::SeparationBracket& look) {
   if (look.upper <= 0 || look.crossing_margin >= 0) return Plain(0);
   return {std::max(0.0, look.lower), look.upper};
 }
 
-Reply Told(const numeric::Interval& distance) { return {distance.lower, distance.upper}; }
+Reply ReplyOf(const numeric::Interval& distance) { return {distance.lower, distance.upper}; }
 
-Reply Told(narrow_phase::Verdict verdict) {
+Reply ReplyOf(narrow_phase::Verdict verdict) {
   if (verdict == narrow_phase::Verdict::kUndecided) return {0, 1};
   return Plain(verdict == narrow_phase::Verdict::kTouching);
 }
@@ -37,7 +37,7 @@ Reply ByBudget(const narrow_phase::BodySegment& body, const PlainPose& at, std::
                                         kAsNarrowAsCanBe, narrow_phase::SearchOrder::kNearest);
   search.Start(&work);
   search.Refine(&work);
-  return Told(search.Result());
+  return ReplyOf(search.Result());
 }
 
 /// Until the bracket is narrower than `width` [m] or than `share` of its lower end.
@@ -45,13 +45,13 @@ Reply Bracket(const narrow_phase::BodySegment& body, const PlainPose& at, double
               double share = 0) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  return Told(narrow_phase::BracketSeparation({a, b, PoseOf(at)}, {width, share}, &work));
+  return ReplyOf(narrow_phase::BracketSeparation({a, b, PoseOf(at)}, {width, share}, &work));
 }
 
 Reply Decide(const narrow_phase::BodySegment& body, const PlainPose& at) {
   const narrow_phase::BodyTree a(body), b(body);
   WorkBudget work(kUnlimited);
-  return Told(narrow_phase::DecideAt({a, b, PoseOf(at)}, &work).verdict);
+  return ReplyOf(narrow_phase::DecideAt({a, b, PoseOf(at)}, &work).verdict);
 }
 
 std::vector<Reply> Together(const narrow_phase::BodySegment& body,
@@ -66,7 +66,7 @@ std::vector<Reply> Together(const narrow_phase::BodySegment& body,
   }
   refinement.Refine(&work);
   std::vector<Reply> replies;
-  for (std::size_t i = 0; i < poses.size(); ++i) replies.push_back(Told(refinement.Result(i)));
+  for (std::size_t i = 0; i < poses.size(); ++i) replies.push_back(ReplyOf(refinement.Result(i)));
   return replies;
 }
 
@@ -133,9 +133,9 @@ PairMethods OurMesh(std::shared_ptr<const shape::Shape> shape, double diameter,
 }
 
 PairMethods OurConvex(const ConvexPair& pair) {
-  const auto decide = [pair](const PlainPose& at) { return Told(pair.VerdictAt(PoseOf(at))); };
+  const auto decide = [pair](const PlainPose& at) { return ReplyOf(pair.VerdictAt(PoseOf(at))); };
   const auto measure = [pair](const PlainPose& at) {
-    return Told(pair.DistanceAt(PoseOf(at), kDistanceShare, 0));
+    return ReplyOf(pair.DistanceAt(PoseOf(at), kDistanceShare, 0));
   };
   return {{.name = "ours", .task = Task::kDecision, .origin = Origin::kOurs, .ask = decide},
           {.name = "ours", .task = Task::kDistance, .origin = Origin::kOurs, .ask = measure}};
@@ -160,22 +160,22 @@ PairMethods OurConvexCurves(const ConvexPair& pair) {
   for (const double width : kWidths) {
     methods.push_back(Ours("convex routine, by width", SettingText("", width, "m"), kByWidth));
     methods.back().ask = [pair, width](const PlainPose& at) {
-      return Told(pair.DistanceAt(PoseOf(at), 0, width));
+      return ReplyOf(pair.DistanceAt(PoseOf(at), 0, width));
     };
   }
   methods.push_back(Ours("convex routine, by width", "0 m", kByRounding));
   methods.back().ask = [pair](const PlainPose& at) {
-    return Told(pair.DistanceAt(PoseOf(at), 0, 0));
+    return ReplyOf(pair.DistanceAt(PoseOf(at), 0, 0));
   };
   for (const std::uint64_t units : {1, 2, 3, 4, 6, 8, 12, 16, 32, 64}) {
     methods.push_back(Ours("patient search, by budget", Units(units), kByBudget));
     methods.back().ask = [pair, units](const PlainPose& at) {
-      return Told(Patiently(pair, at, units));
+      return ReplyOf(Patiently(pair, at, units));
     };
   }
   methods.push_back(Ours("yes or no at a glance", "", kByRounding));
   methods.back().task = Task::kDecision;
-  methods.back().ask = [pair](const PlainPose& at) { return Told(pair.VerdictAt(PoseOf(at))); };
+  methods.back().ask = [pair](const PlainPose& at) { return ReplyOf(pair.VerdictAt(PoseOf(at))); };
   return methods;
 }
 

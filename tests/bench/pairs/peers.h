@@ -1,6 +1,6 @@
 // The libraries, each behind the same few functions: those that were found when this was built.
 //
-// Of each query there are two lists: `...Peers` asks every library as a careful user would, for
+// Each query has two lists: `...Peers` asks every library as a careful user would, for
 // the contest; `...PeerCurves` asks it over all its settings, for error against time.
 //
 // The files of the libraries are compiled with other options of Eigen than ours. So this header and

@@ -33,7 +33,7 @@ struct PairOracle {
   std::function<numeric::Interval(const narrow_phase::RelativePose&, double width)> distance;
 };
 
-/// Of two bodies of one shape.
+/// The oracle of two bodies of one shape.
 PairOracle OracleOf(std::shared_ptr<const shape::Shape> shape);
 
 /// B's rotation, and the direction along which it is moved from where the centres coincide.

@@ -61,7 +61,8 @@ class UpdatedBullet : public Updated, private baselines::AgentAsker, private btD
   void Process(const btDbvtNode* leaf) override {
     const std::uint32_t other = AgentOf(leaf);
     if (other == asking_) return;
-    const double time = baselines::PlainMeetingTime(agents_[asking_], agents_[other], first_);
+    const double time =
+        baselines::ReferenceIntersectionTime(agents_[asking_], agents_[other], first_);
     if (time <= first_) first_ = time, partner_ = other;
   }
 

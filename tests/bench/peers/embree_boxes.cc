@@ -14,7 +14,7 @@ namespace {
 class Embree : public BoxPairs {
  public:
   Embree() : device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
-    // Of the qualities and flags, what is fastest in total when every box is new: Morton codes.
+    // The quality and flag that are fastest in total when every box is new: Morton codes.
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
   }

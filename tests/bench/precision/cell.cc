@@ -8,7 +8,7 @@
 namespace collision::bench {
 namespace {
 
-struct Asked {
+struct TimedReplies {
   std::vector<Reply> replies;
   double seconds = 0;
 };
@@ -26,100 +26,100 @@ PrecisionRow RowOf(Motion motion, const std::string& mesh, const PairMethod& met
 }
 
 /// The least of the passes, shared among the poses.
-Asked AskTogether(const PairMethod& method, const std::vector<PlainPose>& poses,
-                  const TimingPlan& plan) {
-  Asked asked;
+TimedReplies RunTogether(const PairMethod& method, const std::vector<PlainPose>& poses,
+                         const TimingPlan& plan) {
+  TimedReplies timed;
   double least = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < plan.passes + 1; ++pass) {
     const Stopwatch watch;
-    asked.replies = method.ask_all(poses);
+    timed.replies = method.ask_all(poses);
     least = std::min(least, watch.seconds());
   }
-  asked.seconds = least / static_cast<double>(poses.size());
-  return asked;
+  timed.seconds = least / static_cast<double>(poses.size());
+  return timed;
 }
 
-Asked Ask(const PairMethod& method, const std::vector<PlainPose>& poses, const TimingPlan& plan) {
-  if (method.ask_all) return AskTogether(method, poses, plan);
+TimedReplies RunAll(const PairMethod& method, const std::vector<PlainPose>& poses,
+                    const TimingPlan& plan) {
+  if (method.ask_all) return RunTogether(method, poses, plan);
   MethodTimes times = TimeMethods({method}, poses, plan)[0];
   return {std::move(times.replies), Median(times.warm)};
 }
 
-struct Judgement {
+struct Accuracy {
   std::size_t misses = 0, false_alarms = 0, undecided = 0, without_truth = 0;
   std::vector<double> widths, errors;
   double wrong_at = 0;   ///< The widest gap or overlap of which the wrong is said [m].
   double right_at = -1;  ///< The smallest of which the right is said [m]; < 0: none.
 };
 
-void JudgeDecision(const JudgedPose& at, const Reply& reply, double diameter,
-                   Judgement* judgement) {
+void JudgeDecision(const JudgedPose& at, const Reply& reply, double diameter, Accuracy* accuracy) {
   const double by = at.share * diameter;
   if (reply.lower != reply.upper) {
-    ++judgement->undecided;
+    ++accuracy->undecided;
     return;
   }
   const bool yes = reply.lower > 0.5;
-  judgement->misses += at.overlap && !yes;
-  judgement->false_alarms += !at.overlap && yes;
+  accuracy->misses += at.overlap && !yes;
+  accuracy->false_alarms += !at.overlap && yes;
   if (yes != at.overlap) {
-    judgement->wrong_at = std::max(judgement->wrong_at, by);
-  } else if (judgement->right_at < 0 || by < judgement->right_at) {
-    judgement->right_at = by;
+    accuracy->wrong_at = std::max(accuracy->wrong_at, by);
+  } else if (accuracy->right_at < 0 || by < accuracy->right_at) {
+    accuracy->right_at = by;
   }
 }
 
 /// A distance above 0 says no, one of 0 or less yes; of brackets both ends must say it.
-void JudgeDistance(const JudgedPose& at, const Reply& reply, bool certified, Judgement* judgement) {
+void JudgeDistance(const JudgedPose& at, const Reply& reply, bool certified, Accuracy* accuracy) {
   const double by = at.overlap ? 0 : at.distance;
-  judgement->misses += at.overlap && reply.lower > 0;
-  judgement->false_alarms += !at.overlap && reply.upper <= 0;
-  judgement->undecided += reply.lower <= 0 && reply.upper > 0;
+  accuracy->misses += at.overlap && reply.lower > 0;
+  accuracy->false_alarms += !at.overlap && reply.upper <= 0;
+  accuracy->undecided += reply.lower <= 0 && reply.upper > 0;
   if (certified) {
-    judgement->without_truth += !(reply.lower <= by && by <= reply.upper);
-    if (!at.overlap) judgement->widths.push_back(reply.upper - reply.lower);
+    accuracy->without_truth += !(reply.lower <= by && by <= reply.upper);
+    if (!at.overlap) accuracy->widths.push_back(reply.upper - reply.lower);
   }
   // Bodies that overlap have no distance to be off by. A library that answers below 0 says that
   // they overlap.
-  if (!at.overlap) judgement->errors.push_back(std::abs(std::max(0.0, reply.middle()) - by));
+  if (!at.overlap) accuracy->errors.push_back(std::abs(std::max(0.0, reply.middle()) - by));
 }
 
-Judgement Judge(const PairMethod& method, const PrecisionCell& cell,
-                const std::vector<Reply>& replies) {
-  Judgement judgement;
+Accuracy AccuracyOf(const PairMethod& method, const PrecisionCell& cell,
+                    const std::vector<Reply>& replies) {
+  Accuracy accuracy;
   for (std::size_t i = 0; i < replies.size(); ++i) {
     if (method.task == Task::kDecision) {
-      JudgeDecision(cell.poses[i], replies[i], cell.diameter, &judgement);
+      JudgeDecision(cell.poses[i], replies[i], cell.diameter, &accuracy);
     } else {
-      JudgeDistance(cell.poses[i], replies[i], method.certified, &judgement);
+      JudgeDistance(cell.poses[i], replies[i], method.certified, &accuracy);
     }
   }
-  return judgement;
+  return accuracy;
 }
 
-void Fill(const PairMethod& method, const PrecisionCell& cell, const Asked& asked,
+void Fill(const PairMethod& method, const PrecisionCell& cell, const TimedReplies& timed,
           PrecisionRow* row, PrecisionReport* report) {
-  const Judgement judgement = Judge(method, cell, asked.replies);
+  const Accuracy accuracy = AccuracyOf(method, cell, timed.replies);
   NumberHash hash;
-  for (const Reply& reply : asked.replies) hash.Add(reply.lower), hash.Add(reply.upper);
+  for (const Reply& reply : timed.replies) hash.Add(reply.lower), hash.Add(reply.upper);
   row->hash = hash.text();
-  row->seconds = asked.seconds;
-  row->queries = asked.replies.size();
-  row->misses = judgement.misses, row->false_alarms = judgement.false_alarms;
-  row->width = QuantileOf(judgement.widths, 0.5);
-  row->error = QuantileOf(judgement.errors, 0.5);
-  const bool wrong = judgement.wrong_at > 0;
-  row->more = {Number("width_p90", QuantileOf(judgement.widths, 0.9)),
-               Number("error_p90", QuantileOf(judgement.errors, 0.9)),
-               Number("error_max", QuantileOf(judgement.errors, 1)),
-               Number("undecided", static_cast<double>(judgement.undecided)),
-               Number("without_truth", static_cast<double>(judgement.without_truth)),
-               Number("wrong_at_m", wrong ? std::optional(judgement.wrong_at) : std::nullopt),
+  row->seconds = timed.seconds;
+  row->queries = timed.replies.size();
+  row->misses = accuracy.misses, row->false_alarms = accuracy.false_alarms;
+  row->width = QuantileOf(accuracy.widths, 0.5);
+  row->error = QuantileOf(accuracy.errors, 0.5);
+  const bool wrong = accuracy.wrong_at > 0;
+  row->more = {Number("width_p90", QuantileOf(accuracy.widths, 0.9)),
+               Number("error_p90", QuantileOf(accuracy.errors, 0.9)),
+               Number("error_max", QuantileOf(accuracy.errors, 1)),
+               Number("undecided", static_cast<double>(accuracy.undecided)),
+               Number("without_truth", static_cast<double>(accuracy.without_truth)),
+               Number("wrong_at_m", wrong ? std::optional(accuracy.wrong_at) : std::nullopt),
                Number("diameter_m", cell.diameter)};
-  if (judgement.right_at >= 0) row->more.push_back(Number("right_at_m", judgement.right_at));
+  if (accuracy.right_at >= 0) row->more.push_back(Number("right_at_m", accuracy.right_at));
   if (row->who == "ours") {
     report->FigureSum("ours_brackets_without_the_truth",
-                      static_cast<double>(judgement.without_truth));
+                      static_cast<double>(accuracy.without_truth));
   }
 }
 
@@ -133,7 +133,7 @@ void MeasureCell(const PrecisionSettings& settings, const PrecisionCell& cell,
   for (const PairMethod& method : methods) {
     PrecisionRow row = RowOf(cell.motion, cell.mesh, method);
     if (!settings.Wants(row.path())) continue;
-    Fill(method, cell, Ask(method, poses, settings.plan()), &row, report);
+    Fill(method, cell, RunAll(method, poses, settings.plan()), &row, report);
     report->Add(std::move(row));
   }
 }

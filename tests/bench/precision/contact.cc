@@ -13,35 +13,35 @@ namespace {
 /// Shorter than this the clock's own time would count [s].
 constexpr double kMeasuredMin = 4e-6;
 
-struct Asked {
+struct TimedReply {
   bool ended = false;
   double seconds = 0;
   ContactReply reply;
 };
 
 /// The least of a few times.
-Asked AskHere(const ContactQuery& ask, int passes) {
-  Asked asked;
-  asked.ended = true;
-  asked.seconds = std::numeric_limits<double>::infinity();
+TimedReply RunHere(const ContactQuery& ask, int passes) {
+  TimedReply timed;
+  timed.ended = true;
+  timed.seconds = std::numeric_limits<double>::infinity();
   for (int pass = 0; pass < passes; ++pass) {
     const Stopwatch watch;
     int times = 0;
     do {
-      asked.reply = ask();
+      timed.reply = ask();
       ++times;
     } while (watch.seconds() < kMeasuredMin);
-    asked.seconds = std::min(asked.seconds, watch.seconds() / times);
+    timed.seconds = std::min(timed.seconds, watch.seconds() / times);
   }
-  return asked;
+  return timed;
 }
 
-Asked AskApart(const ContactQuery& ask, int passes, double cut_off) {
+TimedReply RunInChild(const ContactQuery& ask, int passes, double cut_off) {
   const ApartResult result = RunApart(cut_off, [&] {
     // The first one of a process pays for its memory.
-    const Asked asked = AskHere(ask, passes + 1);
-    return std::vector<double>{asked.seconds, static_cast<double>(asked.reply.verdict),
-                               asked.reply.lower, asked.reply.upper};
+    const TimedReply timed = RunHere(ask, passes + 1);
+    return std::vector<double>{timed.seconds, static_cast<double>(timed.reply.verdict),
+                               timed.reply.lower, timed.reply.upper};
   });
   if (result.status != ApartStatus::kDone) return {};
   const auto& v = result.values;
@@ -54,14 +54,14 @@ struct Sums {
   std::vector<double> seconds, widths, errors;
   NumberHash hash;
 
-  void Count(const ContactCase& of, const Asked& asked, double slack, bool certified) {
+  void Count(const ContactCase& of, const TimedReply& timed, double slack, bool certified) {
     using Verdict = ContactReply::Verdict;
     ++queries;
-    endless += !asked.ended;
-    if (!asked.ended) return;
-    const ContactReply& reply = asked.reply;
+    endless += !timed.ended;
+    if (!timed.ended) return;
+    const ContactReply& reply = timed.reply;
     hash.Add(static_cast<double>(reply.verdict)), hash.Add(reply.lower), hash.Add(reply.upper);
-    seconds.push_back(asked.seconds);
+    seconds.push_back(timed.seconds);
     undecided += reply.verdict == Verdict::kUndecided;
     misses += of.begin && reply.verdict == Verdict::kFree;
     false_alarms += !of.begin && reply.verdict == Verdict::kContact;
@@ -123,9 +123,9 @@ void ContactTimesPart(const PrecisionSettings& settings, PrecisionReport* report
       for (std::size_t i = 0; i < family.cases.size(); ++i) {
         const auto ask = method.make(family.cases[i]);
         if (!ask) break;
-        const Asked asked = method.may_not_end ? AskApart(ask, settings.passes(), cut_off)
-                                               : AskHere(ask, settings.passes());
-        sums.Count(family.cases[i], asked, family.slack[i], method.certified);
+        const TimedReply timed = method.may_not_end ? RunInChild(ask, settings.passes(), cut_off)
+                                                    : RunHere(ask, settings.passes());
+        sums.Count(family.cases[i], timed, family.slack[i], method.certified);
         // One of its kind is enough to know: it would take the others' time.
         if (sums.endless > settings.endless_max()) break;
       }

@@ -14,12 +14,12 @@
 namespace collision::bench {
 namespace {
 
-/// Of the greatest acceleration, so that rounding cannot pass it.
+/// The share of the greatest acceleration in use, so that rounding cannot pass it.
 constexpr double kForce = 0.99;
 
 detection::AgentId IdOf(std::size_t agent) { return {1, static_cast<std::uint32_t>(agent), 1, 1}; }
 
-DetectorScene Told(const std::string& name, const baselines::BallScene& balls, int steps) {
+DetectorScene SceneOf(const std::string& name, const baselines::BallScene& balls, int steps) {
   DetectorScene scene;
   scene.name = name;
   scene.steps = steps;
@@ -60,8 +60,8 @@ std::vector<DetectorScene> DetectorScenes(bool few, int steps) {
   std::vector<DetectorScene> scenes;
   for (const std::uint32_t count : {100u, 300u, 600u, 1500u, 4000u}) {
     if (few && count > 600) continue;
-    scenes.push_back(Told("uniform-" + std::to_string(count),
-                          baselines::FirstHitScene(count, baselines::FirstHit::kAtOnce), steps));
+    scenes.push_back(SceneOf("uniform-" + std::to_string(count),
+                             baselines::FirstHitScene(count, baselines::FirstHit::kAtOnce), steps));
   }
   struct Special {
     const char* name;
@@ -73,8 +73,8 @@ std::vector<DetectorScene> DetectorScenes(bool few, int steps) {
         Special{"falling-pile", 400}, Special{"convoy", 500}, Special{"one-cell", 200},
         Special{"one-fast", 600}}) {
     if (few && special.count > 600) continue;
-    scenes.push_back(Told(special.name + ("-" + std::to_string(special.count)),
-                          baselines::MakeScene(special.name, special.count, 1), steps));
+    scenes.push_back(SceneOf(special.name + ("-" + std::to_string(special.count)),
+                             baselines::MakeScene(special.name, special.count, 1), steps));
   }
   return scenes;
 }

@@ -1,4 +1,4 @@
-// A scene of balls that move under forces, told to a detector step by step: what it costs.
+// A scene of balls that move under forces, sent to a detector step by step: what it costs.
 #pragma once
 
 #include <cstdint>

@@ -68,7 +68,7 @@ std::optional<TrueScene> Observe(const SceneFolders& folders, SceneRequest reque
   return scene;
 }
 
-/// What the service looked at itself, as far as its last status told.
+/// The pairs that the service queried or filtered, as of its last status.
 std::optional<double> PairsLookedAt(const v1::RunReport& report) {
   double sum = 0;
   for (const v1::Counter& counter : report.counters()) {
@@ -207,8 +207,8 @@ void Shrink(const SceneOptions& options, std::vector<std::string>* rows, Sums* s
     const double lasts = 1e-9 * static_cast<double>(contact.end_ns - contact.begin_ns);
     const SteppingResult stepped = StepThrough(scene->motions, scene->contacts, kRate);
     const bool seen = stepped.missed == 0;
-    // Told ahead, and never taken back. Where states come once a second, less overlap than the
-    // bounds leave open cannot be confirmed: then it is told as undecided, with its distance.
+    // Announced ahead, and never dismissed. Where states come once a second, an overlap smaller
+    // than the uncertainty of the bounds cannot be confirmed: it is reported as undecided.
     const bool ours = scene->report.contacts_unannounced() == 0 &&
                       scene->report.events_possible() > 0 && scene->report.events_dismissed() == 0;
     const bool confirmed = scene->report.events_confirmed() > 0;
@@ -217,7 +217,7 @@ void Shrink(const SceneOptions& options, std::vector<std::string>* rows, Sums* s
                  SecondsText(lasts).c_str(), seen ? "seen" : "missed",
                  !ours       ? "missed"
                  : confirmed ? "confirmed"
-                             : "told as undecided");
+                             : "reported as undecided");
     if (seen) sums->shortest_seen = std::min(sums->shortest_seen.value_or(lasts), lasts);
     if (!seen) sums->longest_missed = std::max(sums->longest_missed.value_or(lasts), lasts);
     sums->missed_ours += ours ? 0 : 1;

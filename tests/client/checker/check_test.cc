@@ -33,9 +33,9 @@ class CheckTest : public testing::Test {
       name.set_agent(std::string(1, static_cast<char>('a' + slot)));
       observations_.names.push_back(name);
     }
-    Add(1, 7 * kSecond, v1::EVENT_POSSIBLE, 8.9, -1, -1, -1);
-    Add(2, 10 * kSecond, v1::EVENT_CONFIRMED, 8.999, 9.001, -1, -1);
-    Add(3, 12 * kSecond, v1::EVENT_ENDED, 8.999, 9.001, 10.999, 11.001);
+    Add(1, 7 * kSecond, v1::EVENT_POSSIBLE, {8.9, -1}, {-1, -1});
+    Add(2, 10 * kSecond, v1::EVENT_CONFIRMED, {8.999, 9.001}, {-1, -1});
+    Add(3, 12 * kSecond, v1::EVENT_ENDED, {8.999, 9.001}, {10.999, 11.001});
   }
 
   static v1::AgentId Id(std::uint32_t slot) {
@@ -51,8 +51,13 @@ class CheckTest : public testing::Test {
     return seconds < 0 ? kOpen : static_cast<std::int64_t>(seconds * 1e9);
   }
 
+  /// A bracket in seconds; an end that is negative is open.
+  struct Bracket {
+    double earliest, latest;
+  };
+
   void Add(std::uint32_t revision, std::int64_t now_ns, v1::EventStatus status,
-           double begin_earliest, double begin_latest, double end_earliest, double end_latest) {
+           const Bracket& begin, const Bracket& end) {
     v1::CollisionEvent event;
     *event.mutable_lower() = Id(0);
     *event.mutable_higher() = Id(1);
@@ -62,10 +67,10 @@ class CheckTest : public testing::Test {
     event.set_status(status);
     event.set_continuous(true);
     event.set_evaluated_at_ns(kOpen);
-    event.mutable_begin()->set_earliest_ns(Instant(begin_earliest));
-    event.mutable_begin()->set_latest_ns(Instant(begin_latest));
-    event.mutable_end()->set_earliest_ns(Instant(end_earliest));
-    event.mutable_end()->set_latest_ns(Instant(end_latest));
+    event.mutable_begin()->set_earliest_ns(Instant(begin.earliest));
+    event.mutable_begin()->set_latest_ns(Instant(begin.latest));
+    event.mutable_end()->set_earliest_ns(Instant(end.earliest));
+    event.mutable_end()->set_latest_ns(Instant(end.latest));
     observations_.events.push_back(event);
   }
 
@@ -129,7 +134,7 @@ TEST_F(CheckTest, MissingEventIsNoticed) {
 
 TEST_F(CheckTest, DismissedContactIsNoticed) {
   observations_.events.resize(1);
-  Add(2, 12 * kSecond, v1::EVENT_DISMISSED, 8.9, -1, -1, -1);
+  Add(2, 12 * kSecond, v1::EVENT_DISMISSED, {8.9, -1}, {-1, -1});
   EXPECT_NE(Verdict().find("no event brackets its begin"), std::string::npos);
 }
 
@@ -206,12 +211,12 @@ TEST_F(CheckTest, EventThatNeverEndsIsNoticed) {
 // Goal:   a contact inside an undecided event, or in a gap of a confirmed one, counts as announced.
 TEST_F(CheckTest, UndecidedAndGapsCover) {
   observations_.events.resize(1);
-  Add(2, 12 * kSecond, v1::EVENT_UNDECIDED, 8.9, 11.1, 8.9, 11.1);
+  Add(2, 12 * kSecond, v1::EVENT_UNDECIDED, {8.9, 11.1}, {8.9, 11.1});
   EXPECT_EQ(Verdict(), "");
   observations_.events.back().mutable_end()->set_latest_ns(Instant(8.99));
   EXPECT_NE(Verdict(), "");
   observations_.events.resize(1);
-  Add(2, 12 * kSecond, v1::EVENT_ENDED, 5, 6, 10, 11.1);
+  Add(2, 12 * kSecond, v1::EVENT_ENDED, {5, 6}, {10, 11.1});
   EXPECT_NE(Verdict(), "");
   observations_.events.back().set_continuous(false);
   EXPECT_EQ(Verdict(), "");
@@ -265,8 +270,8 @@ TEST_F(CheckTest, LateEarliestIsNoticed) {
 TEST_F(CheckTest, TheStampsOrderSamplesOfEqualTime) {
   const std::string late = "the earliest intersection was none";
   observations_.events.clear();
-  Add(1, 7 * kSecond, v1::EVENT_CONFIRMED, 6.5, 6.75, 6.75, -1);
-  Add(2, 8 * kSecond, v1::EVENT_ENDED, 6.5, 6.75, 7.5, 7.75);
+  Add(1, 7 * kSecond, v1::EVENT_CONFIRMED, {6.5, 6.75}, {6.75, -1});
+  Add(2, 8 * kSecond, v1::EVENT_ENDED, {6.5, 6.75}, {7.5, 7.75});
   AddEarliest(8 * kSecond, false, kOpen);
   EXPECT_NE(Verdict().find(late), std::string::npos);
   for (const std::uint64_t sequence : {3, 4, 6}) {

@@ -147,7 +147,7 @@ TEST(Solids, ClosedCases) {
 TEST(Solids, AgreeWithBallsAndMeshes) {
   Random random(5);
   const std::vector<Solid> ball = {Ball(0.7)}, box = {Box({1, 0.5, 0.25})};
-  // Of a firm crossing the margin depends on where the faces are cut in two: the same here.
+  // The margin of a deep crossing depends on where the faces are cut in two: the same here.
   const Mesh mesh = HullOf(BoxCorners({1, 0.5, 0.25}));
   int touching = 0;
   for (int run = 0; run < 300; ++run) {
@@ -210,7 +210,7 @@ TEST(Solids, ABodyIsTheUnionOfItsParts) {
     const Standing got = StandingOf(whole_a, Of(b), pose, &hint);
     EXPECT_EQ(got.contact, expected.contact) << run;
     EXPECT_LE(got.margin, expected.margin + 1e-14) << run;
-    // Of parts within each other only so much is known as was looked for.
+    // The margin of parts inside each other is known only as far as the search went.
     EXPECT_GE(got.margin, got.contact ? 0 : expected.margin - 1e-14) << run;
     EXPECT_EQ(InContact(whole_a, Of(b), pose, &hint), expected.contact) << run;
     EXPECT_NEAR(DistanceTo(whole_a, point), outside_a, 1e-14) << run;

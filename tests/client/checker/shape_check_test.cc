@@ -252,7 +252,7 @@ TEST_F(ShapeCheckTest, TouchingAgainWithinTheEndBracketIsCovered) {
   *observations_.events[2].mutable_end() = BracketOf({11.29, 11.31});
   EXPECT_TRUE(Complains("true contact 9.000000000 s to 11.000000000 s: its end is not"));
 
-  // Two events: the second may be told later than it begins only while the first is open.
+  // Two events: the second may be announced after it begins only while the first is open.
   *observations_.events[2].mutable_end() = BracketOf({10.999, 11.01});
   observations_.events[2].set_now_ns(11'250'000'000);
   Add(v1::EVENT_ENDED, 11.35, {11.19, 11.21}, {11.29, 11.31});

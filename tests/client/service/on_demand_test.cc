@@ -235,7 +235,7 @@ void ExpectAsGood(const Outcome& on_demand, const Outcome& stream) {
   }
   EXPECT_EQ(on_demand.contacts, stream.contacts) << "they fly the same";
   EXPECT_GT(stream.contacts, 10u);
-  // Of the two that join later, the first state gives way to the next one before the clock moves.
+  // The first states of the two late agents are replaced by the next ones before the clock moves.
   EXPECT_EQ(stream.traffic.states_sent + 2, stream.traffic.states_set);
   EXPECT_EQ(on_demand.traffic.states_set, stream.traffic.states_set);
   EXPECT_LT(on_demand.traffic.states_sent, on_demand.traffic.states_set / 2);

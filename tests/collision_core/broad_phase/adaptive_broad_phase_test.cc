@@ -1,6 +1,6 @@
 // Goal:   the method follows the scene by counted work, with hysteresis, without a pause, and never
 //         shows in an answer.
-// Method: scenes that grow, shrink, sway and change, asked beside all pairs.
+// Method: scenes that grow, shrink, sway and change, compared with all pairs.
 #include "collision_core/broad_phase/adaptive_broad_phase.h"
 
 #include <gtest/gtest.h>
@@ -35,7 +35,7 @@ class Scene {
     }
   }
 
-  /// A state in the middle of the bound, or elsewhere; then one agent is asked.
+  /// Sets a state in the middle of the bound, or elsewhere; then queries one agent.
   void Step() {
     ++now_;
     const auto agent = static_cast<std::uint32_t>(random_.Below(agents_));
@@ -134,7 +134,7 @@ TEST(AdaptiveBroadPhase, SwayingAboutALimitDoesNotChangeIt) {
   EXPECT_EQ(scene.chosen.changes(), 1u);
 }
 
-// A change of method is spread over many calls: none asks, or is filled, more than a little.
+// A change of method is spread over many calls: each queries and fills only a little.
 TEST(AdaptiveBroadPhase, NoCallTakesAllTheWork) {
   Scene scene(4);
   scene.Resize(600);

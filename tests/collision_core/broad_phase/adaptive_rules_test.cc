@@ -11,7 +11,7 @@ namespace {
 
 // Goal:   a change of method, with rules and half-spaces that come and go while the next one is
 //         filled, never shows. Method: beside all pairs alone, from a few agents to many and back.
-TEST(ChosenBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
+TEST(AdaptiveBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
   AdaptiveBroadPhase chosen;
   AllPairs plain;
   Random random(77);
@@ -63,7 +63,7 @@ TEST(ChosenBroadPhaseWithRules, ChangesOfMethodDoNotShow) {
 //         that are in it already, half-spaces of indices that are not yet.
 // Method: four agents far from all others, which only rules make meet or not, and half-spaces in
 //         which all agents lie; the next method is being filled when 139 agents are there.
-TEST(ChosenBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
+TEST(AdaptiveBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
   AdaptiveBroadPhase chosen;
   Random random(5);
   for (std::uint32_t agent = 0; agent < 4; ++agent) {

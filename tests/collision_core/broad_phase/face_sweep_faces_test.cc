@@ -76,20 +76,20 @@ TEST(FaceLines, NotFiniteIsNone) {
 }
 
 /// All pairs of slots that FaceSweepStart tells, with a ceiling that never comes down.
-std::vector<std::pair<std::uint32_t, std::uint32_t>> Told(const AlphaTFaces& faces) {
+std::vector<std::pair<std::uint32_t, std::uint32_t>> ReportedPairs(const AlphaTFaces& faces) {
   std::array<CrossingOrder, 3> orders;
   for (int axis = 0; axis < 3; ++axis) orders[axis].Start(faces.faces(axis));
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> told;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> reported;
   FaceSweepStart().ForEach({&orders[0].faces(), &orders[1].faces(), &orders[2].faces()}, ~0u,
                            [&](std::uint32_t lower, std::uint32_t higher) {
-                             told.emplace_back(lower, higher);
+                             reported.emplace_back(lower, higher);
                              return ~0u;
                            });
-  std::sort(told.begin(), told.end());
-  return told;
+  std::sort(reported.begin(), reported.end());
+  return reported;
 }
 
-// Goal:   exactly the pairs that overlap at the start are told, each once.
+// Goal:   exactly the pairs that overlap at the start are reported, each once.
 // Method: against all pairs, in metres with room for the padding, over every layout: boxes in many
 //         strips, all in one, some across all.
 TEST(FaceSweepStart, TellsEachOverlapOnce) {
@@ -103,8 +103,8 @@ TEST(FaceSweepStart, TellsEachOverlapOnce) {
     }
     AlphaTFaces faces;
     faces.Build(bounds, agents, At(0), At(kSecond));
-    const auto told = Told(faces);
-    EXPECT_EQ(told.end(), std::adjacent_find(told.begin(), told.end()));
+    const auto reported = ReportedPairs(faces);
+    EXPECT_EQ(reported.end(), std::adjacent_find(reported.begin(), reported.end()));
     std::size_t expected = 0;
     for (std::uint32_t a = 0; a < faces.agents().size(); ++a) {
       for (std::uint32_t b = a + 1; b < faces.agents().size(); ++b) {
@@ -114,11 +114,11 @@ TEST(FaceSweepStart, TellsEachOverlapOnce) {
             MakeHypertrapezoid(bounds[faces.agents()[b]]->bound, At(0), At(0));
         if (FirstOverlap(h_A, h_B) > 0) continue;
         ++expected;
-        EXPECT_TRUE(std::binary_search(told.begin(), told.end(), std::pair(a, b)));
+        EXPECT_TRUE(std::binary_search(reported.begin(), reported.end(), std::pair(a, b)));
       }
     }
-    // What touches within the grid's unit is told as well.
-    EXPECT_TRUE(layout != static_cast<int>(SweepLayout::kUniform) || expected == told.size());
+    // Pairs that touch within the grid's unit are reported as well.
+    EXPECT_TRUE(layout != static_cast<int>(SweepLayout::kUniform) || expected == reported.size());
     EXPECT_GT(expected, 0u);
   }
 }
@@ -139,7 +139,7 @@ TEST(FirstWindow, FitsTheScene) {
 }
 
 // Goal:   the sweep goes on for as long as a canonical time may be early: 1e-9 of the way.
-// Method: the least instant that may still be told as `time`, from nanoseconds to centuries.
+// Method: the least instant that may still be reported as `time`, from nanoseconds to centuries.
 TEST(WithEarliness, CoversTheCanonicalTolerance) {
   Random random(6);
   for (int i = 0; i < kBounds; ++i) {

@@ -80,13 +80,13 @@ Crossings SweepAll(const std::vector<AlphaTFace>& faces, std::uint32_t step) {
   return crossings;
 }
 
-// Goal:   every pair of faces that changes places is told once, at the right tick and in the order
+// Goal:   a pair of faces that changes places is reported once, at the right tick and in the order
 //         of time; the faces are in order after every tick; no more is queued than neighbours.
 // Method: against bisection from the definition. A range of 3 units makes faces coincide, start,
 //         end and cross together; one of 2^50 needs exact products.
 TEST(CrossingOrder, TellsEveryCrossingOnceAndInOrder) {
   Random random(1);
-  std::size_t told = 0;
+  std::size_t reported = 0;
   for (int round = 0; round < kRounds; ++round) {
     const std::int64_t extents[] = {1, 3, 100, 1'000'000'000, std::int64_t{1} << 50};
     const int count = static_cast<int>(random.Below(40));
@@ -94,9 +94,9 @@ TEST(CrossingOrder, TellsEveryCrossingOnceAndInOrder) {
     const Crossings crossings =
         SweepAll(faces, static_cast<std::uint32_t>(CrossingOrder::kTicks / (1 + random.Below(5))));
     EXPECT_EQ(AllCrossings(faces), crossings) << "round " << round;
-    told += crossings.size();
+    reported += crossings.size();
   }
-  EXPECT_GT(told, kRounds * 100u);
+  EXPECT_GT(reported, kRounds * 100u);
 }
 
 /// The x in [0, odd) with 2^30 x = 1 modulo `odd`: 2 is inverted thirty times.

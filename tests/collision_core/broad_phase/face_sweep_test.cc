@@ -78,7 +78,7 @@ TEST(FaceSweep, TiesAreBrokenByIndexNotByCrossing) {
   }
 }
 
-// Goal:   agents with no place on the grid are asked against all, once, and do not coarsen it.
+// Goal:   agents with no place on the grid are tested against all, once, and do not coarsen it.
 // Method: 200 slow agents of which one lies in the path of another that comes from very far: from
 //         1e15 m, or so fast that its faces are infinite by the window's end.
 TEST(FaceSweep, AgentsSetApartAreAskedAgainstAll) {
@@ -133,7 +133,7 @@ TEST(FaceSweepCost, CrossingsGrowAsSquareOfAgentsTimesTime) {
   EXPECT_GT(once, 1000);
 }
 
-// Goal:   it stops at the answer, and asks few pairs on the way.
+// Goal:   the sweep stops at the answer, and tests few pairs on the way.
 // Method: the same agents, with M, and with one pair that meets after a hundredth of the window.
 TEST(FaceSweepCost, StopsAtTheFirstMeeting) {
   Random random(7);

@@ -64,7 +64,7 @@ TEST(HornTable, TheFilterIsNeverLaterThanTheCanonicalAnswer) {
   EXPECT_GT(tight, found * 3 / 5);
 }
 
-TEST(HornTable, CountsWhoIsThere) {
+TEST(HornTable, CountsItsHorns) {
   HornTable table;
   motion::SpaceTimeBound bound;
   table.Set(3, bound);

@@ -1,8 +1,8 @@
-// Goal:   what methods do only for many agents (grids of many cells, a crowd asked first, levels,
+// Goal:   what methods do only for many agents (grids of many cells, a crowd queried first, levels,
 //         hashed rows) changes no answer either; and no pair that may meet is missing among those
-//         that are told as near.
+//         that are reported as near.
 // Method: hundreds and thousands of agents evenly, in clusters, of all sizes, speeds and stamps;
-//         the oracle asks the canonical routine for every pair. Work counters show that the pass
+//         the oracle calls the canonical routine for every pair. Work counters show that the pass
 //         over a grid was taken where it should.
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ constexpr int kSizes[] = {140, 600, kSanitized ? 1200 : 2300};
 
 constexpr double kWindow = 1;
 
-/// To ask every pair for the meeting of two hypertrapezoids takes long.
+/// The intersection of hypertrapezoids takes long to compute for every pair.
 constexpr int kHypertrapezoidsMax = 600;
 
 struct LargeScene {
@@ -104,7 +104,7 @@ std::vector<intersection::IntersectingPair> AllMeetings(const std::vector<AgentB
 
 TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
   const LargeScene& scene = GetParam();
-  std::size_t told = 0, expected = 0;
+  std::size_t reported = 0, expected = 0;
   for (const int count : kSizes) {
     Random random(count);
     std::vector<AgentBound> bounds;
@@ -146,13 +146,13 @@ TEST_P(LargeMethods, FindTheFirstMeetingAndEveryNearPair) {
         for (const intersection::IntersectingPair& meeting : meetings) {
           ASSERT_TRUE(pairs.contains({meeting.lower, meeting.higher})) << what << ": missing";
         }
-        told += near.size();
+        reported += near.size();
       }
     }
   }
-  // Of both methods; a filter, but one that rules out nearly all of millions.
+  // For both methods together: a filter may pass more, but rules out nearly all of millions.
   EXPECT_GT(expected, 5u);
-  EXPECT_LT(told, 2 * (30 * expected + 20'000));
+  EXPECT_LT(reported, 2 * (30 * expected + 20'000));
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes), [](const auto& test) {
@@ -162,7 +162,7 @@ INSTANTIATE_TEST_SUITE_P(All, LargeMethods, testing::ValuesIn(kLargeScenes), [](
 });
 
 // Four fast ones fly through a crowd at rest. Placed long after, they have a long way back.
-TEST(LargeMethods, AQueryFromLongBeforeTheLastOneLosesNobody) {
+TEST(LargeMethods, AQueryFromLongBeforeTheLastOneLosesNoNeighbour) {
   constexpr int kFast = 4;
   for (int seed = 0; seed < 10; ++seed) {
     for (const double back : {1e2, 1e3, 1e4, 3e4, 1e5}) {
@@ -215,7 +215,7 @@ TEST(LargeMethods, AQueryFromLongBeforeTheLastOneLosesNobody) {
 }
 
 // One far away: the rest crowd in one of the cells that suit all.
-TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
+TEST(LargeMethods, NearPairsAreFoundOnceInAnyWindow) {
   Random random(1);
   SpatialIndex index;
   for (int i = 0; i < 200; ++i) {
@@ -228,11 +228,11 @@ TEST(LargeMethods, NearPairsAreToldOnceWhateverTheWindow) {
     index.FindNearPairs(
         {intersection::BoundKind::kHorn, kMethodStart, numeric::AddRoundedUp(kMethodStart, window)},
         &pairs);
-    const std::size_t told = pairs.size();
-    EXPECT_GT(told, 0u);
+    const std::size_t reported = pairs.size();
+    EXPECT_GT(reported, 0u);
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-    EXPECT_EQ(pairs.size(), told) << window;
+    EXPECT_EQ(pairs.size(), reported) << window;
   }
 }
 
@@ -268,7 +268,7 @@ TEST(LargeMethods, AbsentAgentsMeetNoneAndUnfilterableOnesAreTestedOnce) {
   EXPECT_LE(index.work().pair_queries - before, kCount);
 }
 
-// Asked first where agents are close together, a few bound the answer for all.
+// Queries start where agents are close together: few of them bound the answer for all.
 TEST(LargeMethods, ACrowdMakesTheWindowShort) {
   Random random(1);
   SpatialIndex index;

@@ -57,15 +57,16 @@ void ExpectAllNear(const RulesTable& table, SweepingIndex& method,
                    const intersection::BroadQuery& query) {
   std::vector<NearPair> pairs;
   method.FindNearPairs(query, &pairs);
-  std::set<std::pair<std::uint32_t, std::uint32_t>> told;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> reported;
   for (const NearPair& pair : pairs) {
-    ASSERT_TRUE(told.insert({pair.lower, pair.higher}).second) << pair.lower << " " << pair.higher;
+    ASSERT_TRUE(reported.insert({pair.lower, pair.higher}).second)
+        << pair.lower << " " << pair.higher;
     ASSERT_EQ(method.rules().Of(pair.lower, pair.higher).excluded, false);
   }
   for (std::uint32_t a = 0; a < table.end(); ++a) {
     for (std::uint32_t b = a + 1; b < table.end(); ++b) {
       if (table.TimeOf(query, a, b).instant().is_never()) continue;
-      ASSERT_TRUE(told.count({a, b})) << a << " x " << b;
+      ASSERT_TRUE(reported.count({a, b})) << a << " x " << b;
     }
   }
 }
@@ -123,7 +124,7 @@ TEST_P(MethodsWithRules, AgreeThroughLongHistories) {
   }
 }
 
-/// `count` agents in a cube, asked about in turn; the work that the queries took.
+/// Queries `count` agents in a cube in turn; returns the work that the queries took.
 BroadPhaseWork WorkOfQueries(SweepingIndex* method, std::uint32_t count) {
   const BroadPhaseWork before = method->work();
   for (std::uint32_t agent = 0; agent < count; agent += 7) {
@@ -171,7 +172,7 @@ TEST_P(MethodsWithRules, CostNothingWhereUnused) {
   ExpectSameWork(WorkOfQueries(ruled.get(), kAgents), WorkOfQueries(plain.get(), kAgents));
 }
 
-// Goal:   an excluded pair is not asked. Method: where all are, no pair at all.
+// Goal:   an excluded pair is not tested. Method: all pairs are excluded; none is tested.
 TEST_P(MethodsWithRules, DoNotAskExcludedPairs) {
   constexpr std::uint32_t kAgents = 60;
   const auto method = GetParam().make();

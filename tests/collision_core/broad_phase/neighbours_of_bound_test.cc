@@ -1,6 +1,6 @@
 // Goal:   every method answers a query about a bound that it does not hold as the canonical
 //         routine does, pair by pair, and is left as it was.
-// Method: all scenes of the methods; one agent's bound is not set but asked about; the next
+// Method: all scenes of the methods; one agent's bound is not set but queried; the next
 //         query about a held agent is answered as before.
 #include <gtest/gtest.h>
 
@@ -34,14 +34,14 @@ Answer Expected(const SceneAgents& agents, std::uint32_t guest, Instant from, In
   return answer;
 }
 
-Answer Asked(SweepingIndex* method, const AgentBound& bound, Instant from, Instant until) {
+Answer AnswerFor(SweepingIndex* method, const AgentBound& bound, Instant from, Instant until) {
   std::vector<Neighbour> neighbours;
   const auto skip = [](std::uint32_t other) { return other % 5 == 3; };
   method->FindNeighbours(bound, from, until, skip, &neighbours);
   return AnswerOf(neighbours);
 }
 
-Answer AskedOfHeld(SweepingIndex* method, std::uint32_t agent, Instant from, Instant until) {
+Answer AnswerForHeld(SweepingIndex* method, std::uint32_t agent, Instant from, Instant until) {
   std::vector<Neighbour> neighbours;
   const auto none = [](std::uint32_t) { return false; };
   method->FindNeighbours(agent, {from, until, until}, none, &neighbours);
@@ -64,11 +64,11 @@ TEST_P(NeighboursOfABound, AreThoseOfTheCanonicalRoutine) {
       for (int query = 0; query < 3; ++query) {
         const Instant from = numeric::AddRoundedUp(kMethodStart, random.Uniform(-0.5, 1));
         const Instant until = numeric::AddRoundedUp(from, random.LogUniform(1e-3, 10));
-        const Answer before = AskedOfHeld(method.get(), held, from, until);
-        ASSERT_EQ(Asked(method.get(), *agents[guest], from, until),
+        const Answer before = AnswerForHeld(method.get(), held, from, until);
+        ASSERT_EQ(AnswerFor(method.get(), *agents[guest], from, until),
                   Expected(agents, guest, from, until))
             << scene.name << ", seed " << seed << ", bound of " << guest;
-        ASSERT_EQ(AskedOfHeld(method.get(), held, from, until), before) << scene.name;
+        ASSERT_EQ(AnswerForHeld(method.get(), held, from, until), before) << scene.name;
       }
     }
   }

@@ -74,7 +74,7 @@ std::vector<Pair> PairsOf(PointGrid* grid) {
   return pairs;
 }
 
-TEST(PointGrid, FindsAllWhoTouchOnceAndFewOthers) {
+TEST(PointGrid, FindsEachTouchingPairOnceAndFewOthers) {
   constexpr double kShapes[][3] = {
       {40, 40, 40}, {400, 6, 6},  {6, 400, 6}, {6, 6, 400}, {90, 90, 0},
       {0, 0, 2000}, {2000, 0, 0}, {3, 3, 3},   {0, 0, 0},
@@ -183,7 +183,7 @@ TEST(PointGrid, FindsAgentsBeyondTheSampleAndNoAbsentOnes) {
   }
 }
 
-// Two that pass each other within `own`, at any time within the half, are told; of those whose
+// Two that pass each other within `own`, at any time within the half, are found; of those whose
 // places are near, but whose lines are not, few.
 TEST(PointGrid, ComparesLinesWhereAsked) {
   Random random(8);
@@ -208,9 +208,9 @@ TEST(PointGrid, ComparesLinesWhereAsked) {
   PointGrid places, lines;
   ASSERT_TRUE(places.Build(4000, 4000, 0, at));
   ASSERT_TRUE(lines.Build(4000, 4000, kHalf, at));
-  const std::vector<Pair> told = PairsOf(&lines);
-  const std::set<Pair> found(told.begin(), told.end());
-  ASSERT_EQ(found.size(), told.size());
+  const std::vector<Pair> reported = PairsOf(&lines);
+  const std::set<Pair> found(reported.begin(), reported.end());
+  ASSERT_EQ(found.size(), reported.size());
   std::size_t meet = 0;
   for (std::uint32_t k = 0; k < 4000; ++k) {
     for (std::uint32_t l = k + 1; l < 4000; ++l) {
@@ -239,7 +239,7 @@ TEST(PointGrid, ComparesLinesWhereAsked) {
 TEST(PointGrid, EveryWidthGivesTheSame) {
   Random random(9);
   constexpr std::uint32_t kCount = 61;
-  std::size_t told = 0, tested = 0;
+  std::size_t reported = 0, tested = 0;
   std::vector<float> arrays[8];
   for (auto& array : arrays) {
     array.resize(kCount + kLanesMax);
@@ -274,15 +274,15 @@ TEST(PointGrid, EveryWidthGivesTheSame) {
       return hits;
     };
     const auto plain = hits_of(PlainPointFilter());
-    told += plain.size() - 1, tested += plain[0].first;
+    reported += plain.size() - 1, tested += plain[0].first;
     for (const PointFilter scan : {Avx2PointFilter(), Avx512PointFilter(), WidestPointFilter()}) {
       if (scan != nullptr) {
         ASSERT_EQ(hits_of(scan), plain) << "trial " << trial;
       }
     }
   }
-  EXPECT_GT(told, 1000u);
-  EXPECT_LT(told, tested / 2);
+  EXPECT_GT(reported, 1000u);
+  EXPECT_LT(reported, tested / 2);
 }
 
 }  // namespace

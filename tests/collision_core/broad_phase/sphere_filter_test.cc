@@ -63,13 +63,13 @@ Exact LeastSquare(const Ball& a, const Ball& b, const Exact& first, const Exact&
   return sum;
 }
 
-/// Reaches larger by what the filter's users are asked to add: of themselves and of the way.
+/// Enlarges a reach as the filter requires: by a share of itself and of the way.
 float WithSlack(double reach, double way) {
   constexpr double kSlack = kFilterSlack;
   return static_cast<float>((reach + kSlack * (reach + way)) * (1 + 0x1p-22)) + kReachLeast;
 }
 
-class LaneScanTest : public testing::Test {
+class SphereFilterTest : public testing::Test {
  protected:
   /// Distances, speeds and times of one scale each; every second ball just touches the query_ball,
   /// or just does not, at some time.
@@ -120,7 +120,7 @@ class LaneScanTest : public testing::Test {
         balls_.arrays[i][k] = static_cast<float>(ball.p[i]);
         balls_.arrays[3 + i][k] = static_cast<float>(ball.v[i]);
       }
-      // Of reach and growth in any proportion.
+      // The reach is split between radius and growth in any proportion.
       const double share = last_ > 0 ? random.Uniform(0, 1) : 0;
       balls_.arrays[6][k] = WithSlack(ball.reach * (1 - share), way(ball));
       balls_.arrays[9][k] = WithSlack(speed_of(ball), 0);
@@ -142,7 +142,7 @@ class LaneScanTest : public testing::Test {
   double first_ = 0, last_ = 0;
 };
 
-TEST_F(LaneScanTest, LosesNobodyAndRulesOutMost) {
+TEST_F(SphereFilterTest, LosesNoNeighbourAndRulesOutMost) {
   int near = 0, let_through = 0, far = 0;
   for (int seed = 0; seed < kScenes; ++seed) {
     Draw(seed);
@@ -166,7 +166,7 @@ TEST_F(LaneScanTest, LosesNobodyAndRulesOutMost) {
   EXPECT_LT(let_through, far / 50);  // A long way costs digits.
 }
 
-TEST_F(LaneScanTest, EveryWidthGivesTheSame) {
+TEST_F(SphereFilterTest, EveryWidthGivesTheSame) {
   for (int seed = 0; seed < kScenes; ++seed) {
     Draw(seed);
     const std::vector<std::uint32_t> plain = Hits(PlainSphereFilter());
@@ -179,7 +179,7 @@ TEST_F(LaneScanTest, EveryWidthGivesTheSame) {
   }
 }
 
-TEST_F(LaneScanTest, WhatIsNotANumberIsAHit) {
+TEST_F(SphereFilterTest, WhatIsNotANumberIsAHit) {
   Draw(1);
   for (const float value : {INFINITY, -INFINITY, NAN}) {
     balls_.arrays[0].assign(kBalls + kLanesMax, value);

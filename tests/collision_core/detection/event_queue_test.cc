@@ -51,13 +51,13 @@ TEST(EventQueue, UpToGivesAllThatAreNotLater) {
       sorted.emplace_back(key, index);
     }
     for (std::int64_t last = -1; last <= 20; ++last) {
-      std::vector<AgentIndex> told, wanted;
-      queue.UpTo(Instant::FromNanoseconds(last), &told);
+      std::vector<AgentIndex> found, wanted;
+      queue.UpTo(Instant::FromNanoseconds(last), &found);
       for (const auto& [key, index] : sorted) {
         if (key.nanoseconds() <= last) wanted.push_back(AgentIndex(index));
       }
-      std::sort(told.begin(), told.end());
-      ASSERT_TRUE(told == wanted) << size << " up to " << last;
+      std::sort(found.begin(), found.end());
+      ASSERT_TRUE(found == wanted) << size << " up to " << last;
     }
   }
 }

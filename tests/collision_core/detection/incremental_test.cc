@@ -113,7 +113,7 @@ TEST(Incremental, ACrowdAtOnePointCostsWhatIsPublished) {
     EXPECT_LE(clearance.clear_until, At(0));
   }
   EXPECT_LE(detector.pairs_tracked(), 1000u);
-  // Of few agents the tracked pairs are a larger part; all pairs would be half the square.
+  // With few agents the tracked pairs are a larger part; all pairs would be half the square.
   const std::uint64_t most = (kSanitized ? 200u : 40u) * agents;
   EXPECT_LT(detector.counters().pair_queries, most);
   EXPECT_EQ(detector.Earliest().earliest, At(0));
@@ -146,8 +146,8 @@ TEST(Incremental, TheEarliestCountsSaturatedAgents) {
   EXPECT_EQ(earliest.higher, Id(3));
 }
 
-// Of equal meetings the one of the lowest ids is the earliest, though neither of its two has the
-// other as the partner that its key names.
+// Among intersections at equal times, the pair with the lowest ids is the earliest, even though
+// neither of its agents is the partner that the other one's key names.
 TEST(Incremental, EqualMeetingsGoByTheIds) {
   Detector detector{DetectorOptions{}};
   const std::pair<std::uint32_t, double> places[] = {{8, 0}, {9, 300}, {1, 100}, {2, 200}};

@@ -15,7 +15,7 @@ inline Instant At(double seconds) {
   return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * 1e9));
 }
 
-// Each agent has a simulator of its own, so that what is heard of one says nothing of another.
+// Each agent has a simulator of its own: time heard of one holds for no other.
 inline detection::AgentId Id(std::uint32_t slot) { return {1 + std::uint64_t{slot}, slot, 1, 1}; }
 
 inline motion::MotionState State(double t, const Vector3d& p, const Vector3d& v) {
@@ -26,7 +26,7 @@ inline motion::MotionState State(double t, const Vector3d& p, const Vector3d& v)
   return state;
 }
 
-// Agents that move on lines under a declared bound of 1 m/s², in a detector that hears of them 16
+// Agents that move on lines under a declared bound of 1 m/s², in a detector that receives states 16
 // times a second.
 class Line {
  public:

@@ -104,7 +104,7 @@ struct Encounter {
     return speed;
   }
 
-  // Of the first contact: apart up to `free`, together at `touching`; infinity: there is none.
+  // The first contact: apart up to `free`, together at `touching`; infinity: there is none.
   struct First {
     double free = numeric::kInfinity, touching = numeric::kInfinity;
   };
@@ -149,9 +149,9 @@ struct Outcome {
 void CheckEvents(const std::vector<CollisionEvent>& events, const Encounter& met,
                  const Encounter::First& first, Outcome* outcome) {
   for (const CollisionEvent& event : events) {
-    const bool told =
+    const bool reported =
         event.status == EventStatus::kConfirmed || event.status == EventStatus::kEnded;
-    if (!told || event.contact != 1 || event.began_before) continue;
+    if (!reported || event.contact != 1 || event.began_before) continue;
     ++outcome->confirmed;
     EXPECT_GE(event.begin.latest, At(first.free));
     // The separating direction of a contact that was just approached: along it the two are apart,
@@ -269,13 +269,13 @@ struct Coming {
   // Contact cannot be approached by a direction: none is known of how the cube turns, or of its
   // shape.
   void ExpectNoDirection() const {
-    int told = 0;
+    int reported = 0;
     for (const CollisionEvent& event : events) {
       if (event.evaluated_at.is_never()) continue;
-      ++told;
+      ++reported;
       EXPECT_EQ(event.normal_error, std::numbers::pi) << "at " << event.now.nanoseconds();
     }
-    EXPECT_GT(told, 0);
+    EXPECT_GT(reported, 0);
   }
 
   Detector detector{{}};

@@ -35,7 +35,7 @@ AgentDeclaration Awaited(double radius) {
   return declaration;
 }
 
-// Agents on lines that do not turn; the detector hears of them 64 times a second.
+// Agents on lines that do not turn; the detector receives states 64 times a second.
 class Scene : public Line {
  public:
   explicit Scene(std::uint64_t units = kUnits) : Line(WithBudget(units)) {}

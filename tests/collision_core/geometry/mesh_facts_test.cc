@@ -1,4 +1,4 @@
-// Goal:   closed is told from open, pieces are counted, sizes are known.
+// Goal:   closed and open meshes are distinguished, pieces are counted, sizes are known.
 // Method: surfaces that differ in one triangle, one index or the sign of a zero.
 #include <gtest/gtest.h>
 

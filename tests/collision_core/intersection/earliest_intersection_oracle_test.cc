@@ -21,7 +21,7 @@
 namespace collision::intersection {
 namespace {
 
-/// Of all pairs, how many 46ths a distribution has: boxes take longer to judge.
+/// How many 46ths of all pairs a distribution has: boxes take longer to judge.
 constexpr int kParts = 46, kPartsOfBalls = 4, kPartsOfBoxes = 1;
 
 constexpr std::int64_t kSecond = 1'000'000'000;
@@ -239,7 +239,7 @@ TEST(EarliestIntersectionOracle, Degenerate) {
   });
 }
 
-// Goal:   stamps up to a century apart, and asked long after both.
+// Goal:   stamps up to a century apart, and queries long after both.
 TEST(EarliestIntersectionOracle, FarApartStamps) {
   JudgeAll(106, Tally::kForced4, [](Random& random) {
     Pair pair{NearbyAgent(random, {0, 0, 0}), NearbyAgent(random, {0, 0, 0}), Instant()};
@@ -250,7 +250,7 @@ TEST(EarliestIntersectionOracle, FarApartStamps) {
     pair.b.state.stamp = stamp();
     pair.from = stamp();
     if (random.Chance(0.7)) {
-      // Back to where they are near at the time asked.
+      // Back to where they are near at the time of the query.
       const Instant base = std::max({pair.from, pair.a.state.stamp, pair.b.state.stamp});
       for (motion::SpaceTimeBound* bound : {&pair.a, &pair.b}) {
         bound->limits.acceleration_max = 0;
@@ -369,7 +369,7 @@ TEST(EarliestIntersectionOracle, SpeedCaps) {
       kPartsOfBoxes);
 }
 
-// Goal:   pairs that never meet are told so. Method: no acceleration, mostly a near miss.
+// Goal:   pairs that never meet are recognized. Method: no acceleration, mostly a near miss.
 TEST(EarliestIntersectionOracle, NearMisses) {
   JudgeAll(113, Tally::kStated, [](Random& random) {
     const double speed = Any(random), miss = random.Uniform(1, 1.5);

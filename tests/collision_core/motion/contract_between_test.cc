@@ -90,7 +90,7 @@ TEST(ContractBetween, FullThrustIsKeptAndMoreIsNot) {
 
 // Goal:   errors of the states, a clock that is off both ways, an integrator's step: no true motion
 //         is taken for a breach.
-// Method: flights as above, told with the full errors that are declared.
+// Method: flights as above, reported with the full declared errors.
 TEST(ContractBetween, ErrorsOfTheTellerAreNoBreach) {
   Random random(612);
   for (int i = 0; i < 20000; ++i) {
@@ -198,7 +198,7 @@ double RoomOf(const Pair& pair) {
 }
 
 // Goal:   exactly what is contradictory in exact arithmetic is a breach, but for rounding; the
-//         excess told is no greater than the true one, and not less either.
+//         reported excess is no greater than the true one, and not less either.
 // Method: pairs that keep the contract of position and of velocity, so that nothing else tells
 //         them; M made such that many are at the edge, on both sides of it.
 TEST(ContractBetween, ContradictionsAreFoundFromBothSides) {

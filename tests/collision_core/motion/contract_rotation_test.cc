@@ -71,14 +71,14 @@ Real Seconds(Instant from, Instant to) {
   return Real(to.nanoseconds() - from.nanoseconds()) / kSecond;
 }
 
-/// Of the bound on the orientation, the part that differs between two states of an agent.
+/// The part of the bound on the orientation that differs between two states of an agent.
 Real TurnBound(const SpaceTimeBound& bound, Instant t) {
   const Real sigma = Seconds(bound.state.stamp, t);
   return Real(bound.state.rotation_error) + Real(bound.limits.angular_acceleration_max) / 2 *
                                                 sigma * (sigma + Real(bound.limits.time_step));
 }
 
-// Goal:   an integrator that honours α exactly in double arithmetic is never told it breached.
+// Goal:   an integrator that honours α exactly in double arithmetic never breaches.
 // Method: full angular acceleration, steadily about one axis (any) or in a new direction every
 //         step, 1 to 1000 steps of semi-implicit Euler; slow and fast turning. The excess is
 //         reported as drift, and the new bound lies inside the old one grown by it.
@@ -258,7 +258,7 @@ TEST(ContractRotation, FasterRotationUnderSkewWidens) {
   EXPECT_EQ(verdict(0.275 * (1 + 1e-6), 1.4), ContractVerdict::kWidened);
 }
 
-// Goal:   of a ball, and where nothing is declared, the rotation is not looked at.
+// Goal:   the rotation does not count for a ball, or where nothing is declared.
 TEST(ContractRotation, OnlyOfShapesThatDeclareIt) {
   SpaceTimeBound before = Turning(0);
   MotionState next = AfterAndTurned(before, kSecond, {0, 0, 1});

@@ -25,7 +25,7 @@ MotionState After(const SpaceTimeBound& before, std::int64_t ns) {
   return next;
 }
 
-// Goal:   an integrator that honours M exactly in double arithmetic is never told it breached.
+// Goal:   an integrator that honours M exactly in double arithmetic never breaches.
 // Method: full thrust, the worst case, in one to 1000 steps of any length, near and far from the
 //         origin; the excess is reported as drift, and the new horn lies inside the old one grown
 //         by it (exactly).

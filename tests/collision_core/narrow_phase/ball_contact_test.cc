@@ -215,12 +215,12 @@ TEST(EvaluateBallSegment, InstantAndUnknown) {
 }
 
 // Goal:   what a glance tells is what EvaluateBallSegment() tells, bit for bit, and bodies that
-//         rest in each other are told at a glance.
+//         rest in each other are decided at a glance.
 // Method: random pairs near each other, from hard touching to far apart, with one bound of each or
 //         two, true to each other or not; scales from 1e-12 to 1e12, offsets of 1e9 sizes.
 TEST(QuickBallContact, IsWhatTheFullRoutineTells) {
   Random random(5);
-  int told = 0, deep = 0;
+  int decided = 0, deep = 0;
   for (int i = 0; i < 100000; ++i) {
     const double size = random.LogUniform(1e-12, 1e12), T = random.LogUniform(1e-9, 10);
     const Eigen::Vector3d offset = random.Chance(0.3)
@@ -253,7 +253,7 @@ TEST(QuickBallContact, IsWhatTheFullRoutineTells) {
     deep += full.free_until == 0 && full.free_from == duration && full.contact_from == 0 &&
             full.contact_to == duration && full.contact_continuous;
     if (!glance) continue;
-    ++told;
+    ++decided;
     const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x); };
     ASSERT_EQ(bits(glance->free_until), bits(full.free_until)) << i;
     ASSERT_EQ(bits(glance->contact_from), bits(full.contact_from)) << i;
@@ -261,9 +261,9 @@ TEST(QuickBallContact, IsWhatTheFullRoutineTells) {
     ASSERT_EQ(bits(glance->free_from), bits(full.free_from)) << i;
     ASSERT_EQ(glance->contact_continuous, full.contact_continuous) << i;
   }
-  EXPECT_GT(told, 20000);
+  EXPECT_GT(decided, 20000);
   // The others touch by a hair, or one of their bounds is far from the other.
-  EXPECT_GT(told, 0.8 * deep);
+  EXPECT_GT(decided, 0.8 * deep);
 }
 
 // Goal:   the separation at an instant is the best that all bounds together allow.

@@ -1,7 +1,7 @@
 // Goal:   whatever takes a budget overruns it by one batch at most, and the bracket of a look only
 //         becomes narrower with the budget.
 // Method: meshes, solids, compounds, open and nested bodies, leaves of very many triangles, at rest
-//         and in motion, each asked with budgets from 0 up to what it would spend.
+//         and in motion, each query with budgets from 0 up to what it would spend.
 #include <functional>
 
 #include "collision_core/narrow_phase/advancement/swept_ring.h"
@@ -70,8 +70,8 @@ struct Pair {
   BodyTree a{bodies.a}, b{bodies.b};
   RelativePose pose = PoseAt(bodies.a, bodies.b, BestBounds(bodies.a, bodies.b, 0.4), 0.4);
 
-  Pair(const Body& first, const Body& second, Result told)
-      : bodies(SegmentsOf(Known(first, 1, told), Known(second, 1, told), Instant())) {}
+  Pair(const Body& first, const Body& second, Result states_at)
+      : bodies(SegmentsOf(Known(first, 1, states_at), Known(second, 1, states_at), Instant())) {}
 
   SegmentResult Balls() const { return EvaluateBallSegment(bodies.a.ball, bodies.b.ball, 1); }
 };
@@ -161,9 +161,9 @@ std::vector<std::pair<const char*, Ask>> Queries() {
   asks.emplace_back("ShapeProximity", [](const Pair& pair, WorkBudget* work) {
     ShapeProximity(pair.bodies.a, pair.bodies.b, 0.4, work);
   });
-  asks.emplace_back("RevolvedFree", [](const Pair& pair, WorkBudget* work) {
+  asks.emplace_back("RingFreedom", [](const Pair& pair, WorkBudget* work) {
     ShapeMotion(pair.bodies.a, pair.bodies.b, work)
-        .RevolvedFree(0, 1, TimeDirection::kForward, 1, work->left());
+        .RingFreedom(0, 1, TimeDirection::kForward, 1, work->left());
   });
   return asks;
 }
@@ -224,7 +224,7 @@ TEST(Budget, WhatItEndsStillHolds) {
   EXPECT_GT(contacts, 100);
 }
 
-/// Of what is apart by less than nothing the depth does not count.
+/// The bracket of the distance: an overlap counts as 0.
 numeric::Interval DistanceIn(const SeparationBracket& bracket) {
   return {std::max(0.0, bracket.lower), std::max(0.0, bracket.upper)};
 }

@@ -279,7 +279,7 @@ TEST(Compound, MeetWhenAllPairsMeet) {
   EXPECT_GT(free, 20);
 }
 
-// Of one in the other: never told apart, and by the smallest of looks.
+// One body inside the other is never reported as apart, and the cheapest query finds the contact.
 TEST(Compound, InsideASolidIsContact) {
   const auto big = shape::Shape::Compound(nullptr, {shape::ConvexSolid::Build(RandomBox(
                                                        *[] {

@@ -1,7 +1,7 @@
 // Goal:   a sweep never says a time later than the first touch of any motion within the bounds, and
 //         says it exactly where nothing is uncertain and nothing turns.
 // Method: two bodies that move and turn with constant velocities, disturbed by as much as the sweep
-//         was told, in long double; the distance of the surfaces just before the time that was
+//         was given, in long double; the distance of the surfaces just before the time that was
 //         said, and at many times before it.
 #include "collision_core/narrow_phase/advancement/conservative_advancement.h"
 
@@ -43,7 +43,7 @@ std::shared_ptr<const shape::Shape> RandomShape(Random& random, double size) {
   }
 }
 
-// What a sweep is told, and the motions that it must hold for.
+// The inputs of a sweep, and the motions for which its answer must hold.
 struct Case {
   BodySegment a, b;
   SweptPose swept;

@@ -18,11 +18,11 @@ void ExpectAsAsked(numeric::Interval bracket, Real truth, const ContactTolerance
 
 // Both ends contain the truth and are as narrow as asked for, at every tolerance.
 void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real end) {
-  for (const Result told : {Result::kAtStart, Result::kAtEnd, Result::kAtBoth}) {
+  for (const Result states_at : {Result::kAtStart, Result::kAtEnd, Result::kAtBoth}) {
     for (const ContactTolerance& tolerance : kTolerances) {
       for (const bool swapped : {false, true}) {
-        const TimeOfContactResult found =
-            swapped ? Find(b, a, duration, told, tolerance) : Find(a, b, duration, told, tolerance);
+        const TimeOfContactResult found = swapped ? Find(b, a, duration, states_at, tolerance)
+                                                  : Find(a, b, duration, states_at, tolerance);
         SCOPED_TRACE(testing::Message() << tolerance.absolute << ' ' << tolerance.relative);
         ASSERT_EQ(found.status, ContactStatus::kContact);
         EXPECT_EQ(found.limited_by, EventLimit::kNone);

@@ -1,4 +1,4 @@
-// Bodies that move with constant velocities, told by states at either end: for tests of when they
+// Bodies that move with constant velocities, given by states at either end: for tests of when they
 // touch.
 #pragma once
 
@@ -44,20 +44,20 @@ struct Body {
 
 enum class Result { kAtStart, kAtEnd, kAtBoth };
 
-inline narrow_phase::KnownMotion Known(const Body& body, double duration, Result told) {
+inline narrow_phase::KnownMotion Known(const Body& body, double duration, Result states_at) {
   narrow_phase::KnownMotion known;
   known.shape = body.shape;
-  if (told != Result::kAtEnd) known.last = body.At(0);
-  if (told != Result::kAtStart) known.next = body.At(duration);
+  if (states_at != Result::kAtEnd) known.last = body.At(0);
+  if (states_at != Result::kAtStart) known.next = body.At(duration);
   return known;
 }
 
 inline narrow_phase::TimeOfContactResult Find(const Body& a, const Body& b, double duration,
-                                              Result told = Result::kAtStart,
+                                              Result states_at = Result::kAtStart,
                                               narrow_phase::ContactTolerance tolerance = {},
                                               std::uint64_t units = kPlenty) {
   WorkBudget work(units);
-  return TimeOfContact(Known(a, duration, told), Known(b, duration, told),
+  return TimeOfContact(Known(a, duration, states_at), Known(b, duration, states_at),
                        {Instant(), Instant::FromNanoseconds(std::llround(duration * 1e9))},
                        tolerance, &work);
 }

@@ -29,8 +29,8 @@ TEST(ContactLimits, AsNarrowAsTheMotionAllows) {
     a.acceleration_max = b.acceleration_max = M;
     const Real first = (std::sqrt(25 + 4 * Real(M)) - 5) / M;
     const Real sure = (5 - std::sqrt(25 - 4 * Real(M))) / M;
-    for (const Result told : {Result::kAtStart, Result::kAtBoth}) {
-      const TimeOfContactResult found = Find(a, b, 1, told);
+    for (const Result states_at : {Result::kAtStart, Result::kAtBoth}) {
+      const TimeOfContactResult found = Find(a, b, 1, states_at);
       ASSERT_EQ(found.status, ContactStatus::kContact);
       EXPECT_EQ(found.limited_by, EventLimit::kMotion);
       EXPECT_LE(found.begin.lower, first * (1 + kStated));
@@ -127,8 +127,8 @@ TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
       EXPECT_EQ(least.limited_by, EventLimit::kMotion);
       for (const double rate : {10 * numeric::kRotationAngleMax, 1e9, 1e15, 1e150}) {
         bar.w = {0, 0, rate};
-        for (const Result told : {Result::kAtStart, Result::kAtBoth}) {
-          const TimeOfContactResult found = Find(bar, other, 1, told, {}, units);
+        for (const Result states_at : {Result::kAtStart, Result::kAtBoth}) {
+          const TimeOfContactResult found = Find(bar, other, 1, states_at, {}, units);
           EXPECT_NE(found.status, ContactStatus::kFree);
           EXPECT_EQ(found.limited_by, EventLimit::kMotion) << rate;
           EXPECT_GE(found.begin.lower, least.begin.lower - 1e-12);

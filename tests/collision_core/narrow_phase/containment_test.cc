@@ -1,4 +1,4 @@
-// Goal:   what is told of one solid inside another holds whatever the budget is, and the budget
+// Goal:   the answer for one solid inside another holds whatever the budget is, and the budget
 //         holds.
 // Method: a small box in the wall of a hollow cube, where the surfaces are apart and the solids
 //         overlap as deep as is known in closed form; a cloud of 1,000 parts in a cavity.
@@ -72,7 +72,7 @@ TEST_P(ContainmentTest, InAWallTheBracketIsInOrderAndHoldsTheDepth) {
   EXPECT_LE(refinement.TotalWidth(), 1e-12);
 }
 
-// Each part would have to be asked whether it is in the wall: at 100 units, beyond the budget.
+// Testing for each part whether it is in the wall would cost 100 units: beyond the budget.
 // Two parts of one body, far apart: one in the wall, where no spheres tell, one beyond the box.
 TEST_P(ContainmentTest, APartInsideIsFoundThoughAnotherIsFarOutside) {
   const Vector3d half(0.05, 0.006, 0.003), away(0, 5, 0);

@@ -136,7 +136,7 @@ class ConvexCase {
     EXPECT_FALSE(found.exhausted);
     EXPECT_LT(found.point_error, numeric::kInfinity);
     CheckPoints(found);
-    // Less is asked: the points are known less well, and that is told.
+    // A coarser query: the points are less exact, and the answer says so.
     for (const narrow_phase::ConvexGoal goal :
          {narrow_phase::ConvexGoal::kYesNo, narrow_phase::ConvexGoal::kDistance}) {
       CheckPoints(Ask({goal, 0, 0}));

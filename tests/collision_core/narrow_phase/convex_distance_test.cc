@@ -11,7 +11,7 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// Of the pair's size: the rounding floor of polytopes.
+/// The rounding floor of polytopes, as a share of the pair's size.
 constexpr double kFloor = 2.5e-14;
 
 // Goal:   the distance of boxes, capsules, balls and hulls is contained, and known to rounding,

@@ -1,4 +1,4 @@
-// What is asked, hinted and allowed changes how wide the answer is, never whether it is right.
+// Query, hint and budget change how wide the answer is, never whether it is right.
 #include <gtest/gtest.h>
 
 #include "collision_core/narrow_phase/convex_pair/convex_distance.h"
@@ -38,7 +38,7 @@ void ExpectMeet(const numeric::Interval& x, const numeric::Interval& y) {
 }
 
 // Goal:   any work allowed, down to none, gives a bracket that holds the answer; what is left out
-//         is told; and what is spent is no more than a step and the directions tried at the end
+//         is reported; and what is spent is no more than a step and the directions tried at the end
 //         beyond it.
 TEST(ConvexLimits, AnyBudget) {
   Random random(321);
@@ -66,7 +66,7 @@ TEST(ConvexLimits, AnyBudget) {
 TEST(ConvexLimits, AnyHint) {
   Random random(322);
   std::uint64_t cold = 0, warm = 0;
-  geometry::GjkHint other;  // Of the last pair.
+  geometry::GjkHint other;  // From the last pair.
   for (int i = 0; i < 600; ++i) {
     const Solids s = RandomSolids(random, 4);
     WorkBudget first(1000000), second(1000000), third(1000000);

@@ -1,4 +1,4 @@
-// The queries asked most, by whichever way they are answered: at a glance, in closed form, by the
+// The most frequent queries, whichever way they are answered: at a glance, in closed form, by the
 // quick search or by the patient one.
 #include "collision_core/narrow_phase/convex_pair/convex_pair_query.h"
 
@@ -292,7 +292,7 @@ TEST(ConvexPairQuery, SetsAsTheyAreWritten) {
 }
 
 // Goal:   what the pose is uncertain by, in place and turn of either body, is counted in.
-// Method: asked at one pose with its uncertainty, held against the exact answer at another pose
+// Method: queries at one pose with its uncertainty, held against the exact answer at another pose
 //         within it; near to touching, where that matters.
 TEST(ConvexPairQuery, UncertainPoses) {
   Random random(406);
@@ -331,7 +331,7 @@ TEST(ConvexPairQuery, UncertainPoses) {
   EXPECT_GT(said, 40);
 }
 
-// Goal:   a budget that is spent is noticed, and what is told at once costs little.
+// Goal:   a spent budget is noticed, and a pair that is decided at once costs little.
 TEST(ConvexPairQuery, WorkBudget) {
   Random random(407);
   ConvexCase c(RandomBox(random, 1), RandomBox(random, 1));

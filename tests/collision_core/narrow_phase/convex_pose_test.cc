@@ -12,7 +12,7 @@ namespace {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// Of the set, exactly as its numbers say, seen from the frame's origin: corners.
+/// The corners of the set, exactly as its numbers say, seen from the frame's origin.
 ExactPoints CornersOf(const geometry::ConvexSet& set) {
   const ExactPlacement placement = PlacementOf(set.generators, set.centre);
   ExactPoints corners;

@@ -88,7 +88,7 @@ TEST(HullGap, NotIdle) {
 }
 
 // Goal:   what either body may be turned by is counted: however it really is turned, the distance
-//         is no less than was told.
+//         is no less than the reported one.
 // Method: rods side by side, B turned by some of the angle that was allowed.
 TEST(HullGap, HoldsForTurnedBodies) {
   Random random(412);

@@ -1,4 +1,4 @@
-// Goal:   shifted by what is told, or by more, a body meets nothing of the other; a little before
+// Goal:   shifted by the answer, or by more, a body meets nothing of the other; a little before
 //         it does.
 // Method: closed cases of ground with a far summit; random bodies against their distance at the
 //         shifted pose.
@@ -63,7 +63,7 @@ Body GroundWithSummit() {
   return {shape::Shape::Build(mesh)};
 }
 
-/// What is told is less than so many times what is true.
+/// The answer is less than so many times the true translation.
 constexpr double kNear = 4.0 / 3 + 1e-9;
 
 TEST(LocalSeparatingTranslation, SummitsAsideDoNotCount) {
@@ -116,8 +116,8 @@ TEST(LocalSeparatingTranslation, NothingIsLeftInside) {
   EXPECT_LE(hole.Past(back, 20), 0.25 * kNear);
 }
 
-TEST(LocalSeparatingTranslation, WhatIsToldTakesTheTwoApart) {
-  int shorter = 0, told = 0;
+TEST(LocalSeparatingTranslation, TheTranslationSeparatesTheBodies) {
+  int shorter = 0, found = 0;
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -129,11 +129,11 @@ TEST(LocalSeparatingTranslation, WhatIsToldTakesTheTwoApart) {
     const double along = pair.Along(n), past = pair.Past(n, along, pair.Touching().witness);
     EXPECT_LE(past, along);
     if (past == along) continue;
-    ++told;
+    ++found;
     shorter += past < 0.5 * along;
     EXPECT_EQ(pair.ShiftedBy(past * (1 + 1e-9) * n), Verdict::kApart);
   }
-  EXPECT_GE(told, 150);
+  EXPECT_GE(found, 150);
   EXPECT_GE(shorter, 50);
 }
 

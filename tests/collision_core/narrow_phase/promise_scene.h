@@ -1,4 +1,4 @@
-// Two random bodies that nearly touch at some instant, and what is told of them: for tests of
+// Two random bodies that nearly touch at some instant, and the states that they send: for tests of
 // promises.
 #pragma once
 

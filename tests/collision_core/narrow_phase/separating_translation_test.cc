@@ -1,4 +1,4 @@
-// Goal:   shifted by what is told, two bodies do not overlap; by noticeably less along the same way
+// Goal:   shifted by the answer, two bodies do not overlap; by noticeably less along the same way
 //         they would.
 // Method: random bodies in each other, against all vertices in long double; cubes that rest in each
 //         other.
@@ -86,7 +86,7 @@ double DepthOf(const Body& a, const Body& b) {
   return SeparatingTranslation({surface_a, surface_b, pose}, bracket.witness, &work);
 }
 
-TEST(SeparatingTranslation, BodiesThatRestOnFacesAreToldExactly) {
+TEST(SeparatingTranslation, IsExactForBodiesThatRestOnFaces) {
   for (const Made made : {Made::kTriangles, Made::kSolid, Made::kHull, Made::kMixed}) {
     for (const double deep : {1e-9, 1e-3, 0.2}) {
       Body a{CubeOf(made)}, b{CubeOf(Made::kTriangles), 0, {0.25, 1 - deep, 0.125}};

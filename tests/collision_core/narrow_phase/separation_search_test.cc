@@ -62,13 +62,13 @@ void ExpectSame(const SeparationBracket& x, const SeparationBracket& y) {
   EXPECT_EQ(x.exhausted, y.exhausted);
 }
 
-struct Asked {
+struct SearchQuery {
   Goal goal;
   std::optional<BracketTolerance> narrow;
   SearchOrder order = SearchOrder::kAsGoal;
 };
 
-std::vector<Asked> Queries(double size) {
+std::vector<SearchQuery> Queries(double size) {
   return {{Goal::kDecision, {}},
           {Goal::kContact, {}},
           {Goal::kNearest, {}},
@@ -83,11 +83,11 @@ TEST(SeparationSearch, PausesChangeNothingAndOverrunsAreBounded) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
     const Pair pair = RandomPair(seed);
-    for (const Asked& asked : Queries(pair.size())) {
+    for (const SearchQuery& query : Queries(pair.size())) {
       const auto search = [&] {
         return std::make_unique<SeparationSearch>(
-            PosedPair{pair.surface_a, pair.surface_b, pair.pose}, asked.goal, asked.narrow,
-            asked.order);
+            PosedPair{pair.surface_a, pair.surface_b, pair.pose}, query.goal, query.narrow,
+            query.order);
       };
       const auto at_once = search(), in_steps = search();
       WorkBudget unlimited(kUnlimited), first(1);
@@ -119,10 +119,10 @@ TEST(SeparationSearch, SameBitsForEveryWidthOfVectors) {
     SCOPED_TRACE(seed);
     Pair pair = RandomPair(seed);
     if (seed % 3 == 0) pair.pose.chord_A = 1e-3, pair.pose.chord_B = 0.1;
-    for (const Asked& asked : Queries(pair.size())) {
+    for (const SearchQuery& query : Queries(pair.size())) {
       const auto look_with = [&](const SpherePairKernel& scan, std::uint64_t* spent) {
-        SeparationSearch search({pair.surface_a, pair.surface_b, pair.pose}, asked.goal,
-                                asked.narrow, asked.order, scan);
+        SeparationSearch search({pair.surface_a, pair.surface_b, pair.pose}, query.goal,
+                                query.narrow, query.order, scan);
         WorkBudget work(kUnlimited);
         search.Start(&work);
         search.Refine(&work);
@@ -231,7 +231,7 @@ TEST(SeparationSearch, DecisionsCountUncertaintyIn) {
   EXPECT_GT(decided, 100);
 }
 
-// At most one unit each: bodies far from each other are told apart by their roots.
+// At most one unit each: bodies far from each other are separated by their roots.
 TEST(SeparationSearch, FarApartIsSeenAtOnce) {
   const Pair near = RandomPair(3);
   for (const double away : {1e3, 1e9, 1e14, 1e16, 1e30, 1e200}) {
@@ -260,7 +260,7 @@ TEST(SeparationSearch, WhatIsNotANumberIsUndecided) {
   EXPECT_LT(work.spent(), 1000u);
 }
 
-// Goal:   every triangle of a leaf is looked at, in whichever block it stands, of either body.
+// Goal:   every triangle of a leaf is tested, in whichever block of either body it stands.
 // Method: eleven triangles in a row in one leaf, three blocks; a single one above each in turn, and
 //         beside it another row, all of it too high to matter but for one.
 TEST(SeparationSearch, EveryBlockOfALeafIsLookedAt) {

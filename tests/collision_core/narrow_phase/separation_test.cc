@@ -1,5 +1,5 @@
 // Goal:   the bracket contains the true distance at every budget, only narrows with more of it, and
-//         closes where the two are apart; what is inside what is told right.
+//         closes where the two are apart; containment is decided correctly.
 // Method: random poses of convex, hollow, open and spiky surfaces of sizes from 1e-6 to 1e6 m,
 //         against brute force over all pairs of triangles in long double.
 #include "collision_core/narrow_phase/separation/separation.h"
@@ -52,7 +52,7 @@ TEST(Separation, BracketContainsTheTrueDistanceAtEveryBudget) {
     }
     WorkBudget unlimited(100000000);
     const SeparationBracket nearest = LookOf(a, b, Goal::kNearest, &unlimited);
-    // Of one inside the other `upper` speaks of the solids.
+    // If one is inside the other, `upper` is about the solids.
     if (nearest.lower <= 0 || SolidDistance(body_a, body_b) == 0) continue;
     ++apart;
     const auto distance = static_cast<double>(surfaces);

@@ -1,6 +1,6 @@
 // Goal:   times, points and directions of contacts between shapes are right and narrow, and what is
 //         too short to see between two states is seen.
-// Method: motions whose contacts are known in closed form, told without uncertainty; then with it,
+// Method: motions whose contacts are known in closed form, without uncertainty; then with it,
 //         as between two states of a simulator.
 #include "collision_core/narrow_phase/contact/shape_contact.h"
 

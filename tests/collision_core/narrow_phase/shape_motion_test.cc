@@ -44,7 +44,7 @@ struct Body {
     return bound;
   }
 
-  // Of the states at 0 and at `next`, those that are there.
+  // A segment from the states at 0 and at `next`, as far as they exist.
   BodySegment Segment(std::optional<double> next, bool last = true) const {
     BodySegment segment;
     segment.ball.radius = BoundAt(0).limits.radius;
@@ -190,7 +190,7 @@ TEST(ShapeMotion, WhatTheBallsExcludeFromOneSideOnly) {
   SegmentResult balls;
   balls.free_until = 0.5;
   balls.free_from = -numeric::kInfinity;
-  WorkBudget work(0);  // nothing may be looked at
+  WorkBudget work(0);  // nothing may be tested
   const SegmentResult times =
       EvaluateShapeSegment(a.Segment({}), b.Segment({}), 1, balls, &work).times;
   EXPECT_EQ(times.free_until, numeric::kInfinity);

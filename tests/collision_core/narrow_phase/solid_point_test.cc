@@ -132,8 +132,8 @@ TEST(FindContactCandidates, PointsWhereFacesEdgesAndCornersOverlapSoon) {
                   .empty());
 }
 
-// Of very many solids no more are looked at than the budget allows; what is told is an upper bound
-// still.
+// With very many solids the search visits no more than the budget allows; its answer is still an
+// upper bound.
 TEST(SolidPoint, ManySolidsStayWithinTheBudget) {
   std::vector<shape::ConvexSolid> solids;
   for (int i = 0; i < 1000; ++i) {

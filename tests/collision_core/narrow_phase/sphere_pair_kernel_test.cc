@@ -121,14 +121,14 @@ void Turn(Scene* scene) {
 }
 
 TEST(SpherePairKernel, BallsAreTheSameBitsForEveryWidth) {
-  int told = 0, news = 0;
+  int certain = 0, news = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     Scene scene(seed);
     for (int i = 0; i < 40; ++i) {
       if (i == 20) Turn(&scene);
       const BallScanTask task = scene.RandomTask();
       const Answer plain(*PlainSpherePairKernel(), scene.scan, task);
-      told += __builtin_popcountll(plain.hits.within);
+      certain += __builtin_popcountll(plain.hits.within);
       news += plain.hits.upper < sphere_tree::kNowhere;
       for (const SpherePairKernel* scan : WideScans()) {
         const Answer wide(*scan, scene.scan, task);
@@ -141,7 +141,7 @@ TEST(SpherePairKernel, BallsAreTheSameBitsForEveryWidth) {
       }
     }
   }
-  EXPECT_GT(told, 1000);
+  EXPECT_GT(certain, 1000);
   EXPECT_GT(news, 100);
 }
 
@@ -335,7 +335,7 @@ geometry::TriangleMesh Soup(Random& random, double scale) {
 
 /// Triangles that lie in each other like straws: many are apart across two edges only.
 TEST(SpherePairKernel, TrianglesBeyondALimitAreCertainlyBeyond) {
-  int apart = 0, told = 0, touching = 0;
+  int apart = 0, certain = 0, touching = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
@@ -387,12 +387,12 @@ TEST(SpherePairKernel, TrianglesBeyondALimitAreCertainlyBeyond) {
       const Exact clear = Exact(4 * double{limit} + 1e-2 * scale);
       touching += square == 0;
       apart += square > clear * clear;
-      told += square > clear * clear && is_beyond;
+      certain += square > clear * clear && is_beyond;
     }
   }
   EXPECT_GT(touching, 300);
   EXPECT_GT(apart, 1000);
-  EXPECT_GT(told, 0.99 * apart);
+  EXPECT_GT(certain, 0.99 * apart);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // Goal:   where a contact has a closed answer, the bracket contains it and is as narrow as asked
 //         for: 1e-12 of it.
 // Method: cubes, bars and balls whose motion is known exactly, about every axis, at every size,
-//         swapped, far from the origin, told by states at either end; the answers in long double.
+//         swapped, far from the origin, given by states at either end; the answers in long double.
 #include "tests/collision_core/narrow_phase/contact_cases.h"
 
 namespace collision::narrow_phase {
@@ -45,9 +45,9 @@ std::vector<Quaterniond> Turns() {
 TEST_P(ClosedContact, CubesHeadOn) {
   const Body a{first_}, b{second_, 0, {5, 0, 0}, {-10, 0, 0}};
   for (const Quaterniond& turn : Turns()) {
-    for (const Result told : {Result::kAtStart, Result::kAtEnd, Result::kAtBoth}) {
-      ExpectContact(Find(Turned(a, turn), Turned(b, turn), 1, told), 0.4L, 0.6L);
-      ExpectContact(Find(Turned(b, turn), Turned(a, turn), 1, told), 0.4L, 0.6L);
+    for (const Result states_at : {Result::kAtStart, Result::kAtEnd, Result::kAtBoth}) {
+      ExpectContact(Find(Turned(a, turn), Turned(b, turn), 1, states_at), 0.4L, 0.6L);
+      ExpectContact(Find(Turned(b, turn), Turned(a, turn), 1, states_at), 0.4L, 0.6L);
     }
   }
 }
@@ -109,14 +109,14 @@ TEST_P(ClosedContact, EdgesAndCorners) {
 TEST_P(ClosedContact, FarFromTheOriginAndFast) {
   const Vector3d far(1e6, -1e6, 1e6), fast(1e4, 1e4, -1e4);
   const Real root = std::sqrt(Real(0.5));
-  for (const Result told : {Result::kAtStart, Result::kAtBoth}) {
+  for (const Result states_at : {Result::kAtStart, Result::kAtBoth}) {
     const Body a{first_, 0, far, fast};
     Body b{second_, 0, far + Vector3d(5, 0, 0), fast + Vector3d(-10, 0, 0)};
-    ExpectContact(Find(a, b, 1, told), 0.4L, 0.6L);
-    ExpectContact(Find(b, a, 1, told), 0.4L, 0.6L);
+    ExpectContact(Find(a, b, 1, states_at), 0.4L, 0.6L);
+    ExpectContact(Find(b, a, 1, states_at), 0.4L, 0.6L);
     b.q = Turn(45, {0, 0, 1});
-    ExpectContact(Find(a, b, 1, told), (4.5L - root) / 10, (5.5L + root) / 10);
-    ExpectContact(Find(b, a, 1, told), (4.5L - root) / 10, (5.5L + root) / 10);
+    ExpectContact(Find(a, b, 1, states_at), (4.5L - root) / 10, (5.5L + root) / 10);
+    ExpectContact(Find(b, a, 1, states_at), (4.5L - root) / 10, (5.5L + root) / 10);
   }
 }
 
@@ -176,7 +176,7 @@ TEST_P(ClosedContact, RestingAndSlidingContactsStayUndecided) {
     const Body a{first_}, b{second_, 0, {0.125, 0.25, 1}, v};
     const TimeOfContactResult found = Find(a, b, 1);
     ASSERT_EQ(found.status, ContactStatus::kUndecided);
-    // Of solids: 64 · 2^-53 of the size of the pair.
+    // Solids: 64 · 2^-53 of the size of the pair.
     const bool triangles = GetParam().first == Made::kTriangles;
     EXPECT_LE(found.within, triangles ? 1e-14 : 4e-14);
     EXPECT_EQ(found.begin.lower, 0);

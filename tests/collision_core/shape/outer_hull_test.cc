@@ -33,7 +33,7 @@ double MostAlong(const Vector3d& n, const std::vector<Vector3d>& points) {
   return most;
 }
 
-// Goal:   no point, with all that is within the rounding of it, lies further along than is told; of
+// Goal:   no point, with all that is within the rounding of it, lies beyond what Along() says; of
 //         spheres, balls, needles, planes, lines, doubles; from 1e-42 m to a planet's size, at the
 //         reference point and far from it.
 // Method: all points in turn, exactly.
@@ -59,7 +59,7 @@ TEST(OuterHull, NothingReachesFurther) {
   }
 }
 
-// Goal:   what single precision cuts off a point when it is stored is told. Along an axis nothing
+// Goal:   what storing a point in single precision loses is counted in. Along an axis nothing
 // else is lost.
 TEST(OuterHull, StoredPointsLoseNothing) {
   const double beyond = 1 + 0x1p-25;  // rounded to 1
@@ -97,15 +97,15 @@ TEST(OuterHull, ReachesLittleFurther) {
   }
 }
 
-// Goal:   the point that is told is one of the foremost.
+// Goal:   the point that Along() returns is one of the foremost.
 TEST(OuterHull, TellsThePoint) {
   Random random(403);
   const auto points = RandomPoints(random, 500, 0);
   const OuterHull hull(points, 0);
   for (int k = 0; k < 500; ++k) {
     const Vector3f n = RandomDirection(random);
-    const auto told = hull.Along(n);
-    EXPECT_NEAR(n.dot(told.point), told.height, 0.05 * hull.extent());
+    const auto answer = hull.Along(n);
+    EXPECT_NEAR(n.dot(answer.point), answer.height, 0.05 * hull.extent());
   }
 }
 
@@ -152,9 +152,9 @@ TEST(HullAround, SolidsAndTriangles) {
         const Vector3d foremost = set.centre + set.SupportPoint(n);
         most = std::max(most, n.dot(foremost) + set.rounding * n.norm());
       }
-      const double told = hull.Along(direction).height + n.dot(hull.origin());
-      EXPECT_LE(most, told + kHullSupportError * hull.extent() + 1e-14);
-      EXPECT_LE(told, most + hull.extent());
+      const double answer = hull.Along(direction).height + n.dot(hull.origin());
+      EXPECT_LE(most, answer + kHullSupportError * hull.extent() + 1e-14);
+      EXPECT_LE(answer, most + hull.extent());
     }
   }
 }

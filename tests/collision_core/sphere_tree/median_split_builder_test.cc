@@ -41,7 +41,7 @@ SphereTree WithoutCentresOnEdges(SphereTree tree, const geometry::TriangleMesh& 
   return tree;
 }
 
-TEST(HalvedBuilder, DirtyMeshesAreCoveredAndMeasured) {
+TEST(MedianSplitBuilder, DirtyMeshesAreCoveredAndMeasured) {
   DyadicPool::Install();
   Random random(601);
   int seen = 0;
@@ -66,7 +66,7 @@ TEST(HalvedBuilder, DirtyMeshesAreCoveredAndMeasured) {
   EXPECT_LT(on_edges, nodes / 100);
 }
 
-TEST(HalvedBuilder, LeavesAreFullAndAboutAsDeep) {
+TEST(MedianSplitBuilder, LeavesAreFullAndAboutAsDeep) {
   Random random(602);
   for (const std::uint32_t leaf : {1u, 4u, 7u}) {
     for (int times = 0; times <= 4; ++times) {
@@ -91,7 +91,7 @@ TEST(HalvedBuilder, LeavesAreFullAndAboutAsDeep) {
 }
 
 // All at one place: there is nothing to divide by, and yet it ends.
-TEST(HalvedBuilder, CopiesUponEachOther) {
+TEST(MedianSplitBuilder, CopiesUponEachOther) {
   geometry::TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   mesh.triangles.assign(1000, {0, 1, 2});
@@ -102,7 +102,7 @@ TEST(HalvedBuilder, CopiesUponEachOther) {
 
 // Its first balls tell of the inside, as those of other builders do; the others are never said to
 // be nearer than they may be.
-TEST(HalvedBuilder, TheFirstBallsAreMeasured) {
+TEST(MedianSplitBuilder, TheFirstBallsAreMeasured) {
   Random random(603);
   const geometry::TriangleMesh mesh = Star(4, random);
   const auto shape = shape::Shape::Build(mesh, Halved(1));

@@ -29,7 +29,7 @@ TEST(BatchOrder, SortsByWhatItStates) {
   }
 }
 
-// Goal:   an agent's end comes after the last that its simulator told, and before the description
+// Goal:   an agent's end comes after the last message of its simulator, and before the description
 //         that reuses its slot; its simulator's end comes last.
 TEST(BatchOrder, AnAgentEndsAfterItsLastState) {
   const std::vector<v1::Input> arrived = {

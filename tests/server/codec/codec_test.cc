@@ -161,7 +161,7 @@ TEST(Codec, NormalisesTheThrustDirection) {
   EXPECT_EQ(decoded.direction_until, Instant::FromNanoseconds(7));
 }
 
-// Goal:   stamps beyond what is granted and jumps before the clock told are refused, each for its
+// Goal:   stamps beyond what is granted and jumps before the sent clock are refused, each for its
 //         reason; the last allowed nanosecond passes.
 TEST(Codec, ChecksStamps) {
   const StampRules rules{.latest = Instant::FromNanoseconds(100),

@@ -175,7 +175,7 @@ TEST(Config, WordsAreChecked) {
   }
 }
 
-// Goal:   all errors of a file are told, each at its line, whatever kind they are of.
+// Goal:   all errors of a file are reported, each with its line, of whatever kind.
 TEST(Config, TellsAllErrorsWithTheirLines) {
   const std::string text =
       "world: \"bad world\"\n"

@@ -78,7 +78,7 @@ std::vector<BadInput> BadInputs() {
   return cases;
 }
 
-// Goal:   every bad input is refused for its reason, told to its sender, counted, and disturbs
+// Goal:   every bad input is refused for its reason, reported to its sender, counted, and disturbs
 //         nothing: agents present stay, a good state in the same batch is taken, time goes on.
 // Method: each bad input in a world of its own, in one batch with a good state.
 TEST(Intake, RefusesBadInputAndNothingElse) {
@@ -117,7 +117,7 @@ TEST(Intake, RefusesBadInputAndNothingElse) {
   }
 }
 
-// Goal:   a bad state in a chunk costs that slot only, and its repetitions are not told again.
+// Goal:   a bad state in a chunk costs that slot only, and its repetitions are not reported.
 TEST(Intake, ABadStateInAChunkCostsItsSlotOnly) {
   ScriptedDaemon daemon(Simulated());
   daemon.Step(AlphaJoins(kAlpha));
@@ -202,7 +202,7 @@ TEST(Intake, TheLastStateOfAnAgentCounts) {
   EXPECT_EQ(daemon.counter("states_older"), 0u);
 }
 
-// Goal:   a successor that comes before its predecessor's death is noticed is told so, and takes
+// Goal:   a successor that comes before its predecessor's death is noticed is notified, and takes
 //         over then: its samples were written once and will not come again.
 TEST(Intake, ASuccessorWaitsForItsPredecessorsEnd) {
   ScriptedDaemon daemon(Simulated());
@@ -254,7 +254,7 @@ TEST(Intake, NothingOfASuccessorThatDiesWaitingIsAdmitted) {
   }
 }
 
-// Goal:   a successor whose own death is told only after it has taken over from an owner that left
+// Goal:   a successor whose end is reported only after it has taken over from an owner that left
 //         holds no simulator up: its agents go. One that has been heard since is waited for.
 TEST(Intake, ADeadSuccessorHoldsNoSimulatorUp) {
   for (const bool spoke : {false, true}) {
@@ -305,8 +305,8 @@ TEST(Intake, RefusesClocksOfTheOtherKind) {
   }
 }
 
-// Goal:   what an instance says without a sender counts: a description removed, a clock without a
-// writer. Of an owner that has told no clock, the clock says nothing.
+// Goal:   a change of an instance without a sender counts: a removed description, a clock without a
+// writer. A clock says nothing about an owner that has sent none.
 TEST(Intake, WhatHasNoSenderCounts) {
   ScriptedDaemon daemon(Simulated());
   daemon.Step(AlphaJoins(kAlpha));
@@ -321,7 +321,7 @@ TEST(Intake, WhatHasNoSenderCounts) {
   }
 }
 
-// Goal:   a flood of bad input is counted whole and told only up to the limit per second.
+// Goal:   a flood of bad input is counted whole and reported only up to the limit per second.
 TEST(Intake, TellsABoundedNumberOfRejections) {
   v1::Config config = Simulated();
   config.set_rejections_per_second_max(5);

@@ -36,7 +36,7 @@ TEST(MatterLimiter, TellsHowManyLinesItHeldBack) {
   EXPECT_EQ(log.lines.back(), "refused: 11");
 }
 
-// Goal:   the count of a matter that has ended is told too: with the next line of any other, or at
+// Goal:   the count of an ended matter is logged too: with the next line of any other, or at
 // the end.
 TEST(MatterLimiter, TellsTheLastCount) {
   Recorded log;
@@ -44,7 +44,7 @@ TEST(MatterLimiter, TellsTheLastCount) {
   log.limiter.Write(At(5), kInfo, "late", "b");
   EXPECT_EQ(log.lines, (Lines{"refused: a", "refused: lines suppressed: 2", "late: b"}));
   log.limiter.Write(At(5.5), kInfo, "refused", "c");
-  EXPECT_EQ(log.lines.size(), 3u) << "a told count is a line of the matter";
+  EXPECT_EQ(log.lines.size(), 3u) << "a logged count is a line of the matter";
   log.limiter.WriteAllCounts();
   log.limiter.WriteAllCounts();
   EXPECT_EQ(log.lines.back(), "refused: lines suppressed: 1");

@@ -1,4 +1,4 @@
-// Goal:   a state is asked for when it can still make an answer better, and never after the moment
+// Goal:   a state is requested when it can still make an answer better, and never after the moment
 //         at which the answer would be given without it.
 // Method: one clearance, moved along the time axis; a century; the published sample.
 #include "server/publish/state_demand.h"
@@ -64,7 +64,7 @@ TEST(StateDemand, FreshBeforeOthersAreAnnounced) {
   EXPECT_EQ(wanted(10, 11.75, 12.125), At(10.25)) << "still fresh when it asks";
 }
 
-// A contact that is over is told better by a state newer than its end, and by no more than one.
+// One state newer than the end of a contact narrows its event; more states do not.
 TEST(StateDemand, OnceAfterAContact) {
   const detection::AgentClearance clearance{.clear_until = At(100), .unsettled_until = At(9.5)};
   EXPECT_EQ(Demand().WantedAt(clearance, At(9.25), At(10)), At(10));
@@ -84,7 +84,7 @@ TEST(StateDemand, ExtremesAreDecided) {
 }
 
 // In the sample as published: two agents 100 m apart with M = 2 m/s² meet after 7.07 s less their
-// radii; the service asks again at clear_until less announce_within.
+// radii; the service queries again at clear_until less announce_within.
 TEST(StateDemand, IsPublishedWithTheClearance) {
   v1::Config config;
   config.set_announce_within_s(1.5);

@@ -91,7 +91,7 @@ TEST(Status, TellsTheNetworksCounters) {
 }
 
 // Goal:   the method is the one that the configuration asks for, and says so; AUTO says why by the
-//         number of agents. What was asked, what waits and what cost nothing is counted.
+//         number of agents. Queries, queued agents and kept updates are counted.
 TEST(Status, TellsTheMethodAndWhatItCost) {
   const std::pair<v1::Config::BroadPhase, const char*> methods[] = {
       {v1::Config::AUTO, "all pairs"},

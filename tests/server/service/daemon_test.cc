@@ -26,7 +26,7 @@ v1::Config Wall() {
 }
 
 // Goal:   with a wall clock a contact is announced before it begins and confirmed after it.
-// Method: two agents 32 m apart close in at 6 m/s, told at 10 Hz; they touch after 5 s. With M =
+// Method: two agents 32 m apart close in at 6 m/s, states at 10 Hz; they touch after 5 s. With M =
 //         2 each, 20 m may be bridged in 2 s: the announcement is due after 1.67 s.
 TEST(Daemon, WallClockFindsAContact) {
   ScriptedDaemon daemon(Wall());
@@ -178,7 +178,7 @@ TEST(Daemon, RecordsWhatItAppliesAndEndsIfItCannot) {
   EXPECT_EQ(daemon.bus().flushes, flushes);
 }
 
-TEST(Daemon, StopsWhenToldOrWhenTheBusEnds) {
+TEST(Daemon, StopsOnRequestOrWhenTheBusEnds) {
   ScriptedDaemon stopped(Simulated());
   stopped.daemon().Stop();
   EXPECT_TRUE(stopped.bus().woken);

@@ -66,7 +66,7 @@ struct Answer {
   v1::CollisionEvent event;  ///< As it was first confirmed, else the last.
   std::uint64_t work = 0;
 
-  /// Of the time at which they begin to touch [s]; infinite while there is no certain contact.
+  /// Width of the begin bracket [s]; infinite while there is no certain contact.
   double width() const {
     if (event.status() != v1::EVENT_CONFIRMED) return INFINITY;
     return 1e-9 * static_cast<double>(event.begin().latest_ns() - event.begin().earliest_ns());

@@ -119,7 +119,7 @@ TEST(CoarseTree, FirstTreesComeBeforeRefinements) {
   EXPECT_EQ(builder.counters().building, 0u);
 }
 
-// Goal:   forgotten at any moment, between the two trees as well, it is not heard of again; the
+// Goal:   forgotten at any moment, between the two trees as well, it does not appear again; the
 //         builder ends at any moment.
 TEST(CoarseTree, ForgottenOrEndedInBetween) {
   Random random(6);
@@ -337,7 +337,7 @@ TEST(CoarseTree, GoesInBetween) {
   EXPECT_TRUE(daemon.rejections().empty());
 }
 
-// Goal:   an agent whose ball is too small for the shape is told once, not with each tree.
+// Goal:   an agent whose ball is too small for the shape is reported once, not with each tree.
 TEST(CoarseTree, WhatDoesNotFitIsReportedOnce) {
   std::vector<ReadyTree> finished;
   ScriptedDaemon daemon(Simulated(), nullptr, std::make_unique<StagedShapeBuilder>(&finished));

@@ -97,18 +97,18 @@ TEST(ShapeLifetime, AStrangersDisposalIsRefused) {
 }
 
 // Goal:   two simulators with one shape, one of them with other bytes under its hash: that one is
-//         told, and both fly the true shape.
+//         rejected, and both fly the true shape.
 TEST(ShapeLifetime, OneOfTwoLies) {
   ScriptedDaemon daemon(Simulated());
   std::vector<v1::ShapePart> lies = PartsOf("beta", CubeBytes());
   lies[0].mutable_bytes()->back() ^= 1;
   daemon.Step(From(kBeta, lies));
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.topic(), v1::TOPIC_SHAPE);
-  EXPECT_EQ(told.simulator_id(), SimulatorId("beta"));
-  EXPECT_EQ(told.field(), "content_hash");
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.topic(), v1::TOPIC_SHAPE);
+  EXPECT_EQ(rejection.simulator_id(), SimulatorId("beta"));
+  EXPECT_EQ(rejection.field(), "content_hash");
   TwoCubes cubes(1.9);
   daemon.Step(cubes.Descriptions());
   daemon.Step(cubes.Parts());
@@ -119,7 +119,7 @@ TEST(ShapeLifetime, OneOfTwoLies) {
   EXPECT_EQ(daemon.rejections().size(), 1u);
 }
 
-// Goal:   content that is no mesh is told to its sender by name, and its agents stay balls.
+// Goal:   content that is no mesh is reported to its sender by name, and its agents stay balls.
 TEST(ShapeLifetime, BadContentIsReportedToItsSender) {
   ShapeContent content = Cube(1);
   content.triangles[4][0] = 99;
@@ -130,16 +130,16 @@ TEST(ShapeLifetime, BadContentIsReportedToItsSender) {
   daemon.Step(cubes.Parts());
   Fly(&daemon, &cubes, 10);
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.simulator_id(), SimulatorId("alpha"));
-  EXPECT_EQ(told.run(), 1u);
-  EXPECT_NE(told.detail().find("99"), std::string::npos) << told.detail();
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.simulator_id(), SimulatorId("alpha"));
+  EXPECT_EQ(rejection.run(), 1u);
+  EXPECT_NE(rejection.detail().find("99"), std::string::npos) << rejection.detail();
   EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_POSSIBLE);
   EXPECT_EQ(daemon.counter("shapes"), 0u);
 }
 
-// Goal:   a shape that reaches out of its agent's ball is told once for each description, and never
+// Goal:   a shape that reaches out of its agent's ball is reported once per description, and never
 //         confirmed; a description with room for it mends it. At the radius itself it fits.
 TEST(ShapeLifetime, AShapeMustFitIntoItsBall) {
   ScriptedDaemon daemon(Simulated());
@@ -151,18 +151,18 @@ TEST(ShapeLifetime, AShapeMustFitIntoItsBall) {
   daemon.Step({From(kAlpha, small)});
   daemon.Step({From(kAlpha, small)}, 10);
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.topic(), v1::TOPIC_AGENT_DESCRIPTION);
-  EXPECT_EQ(told.field(), "radius_m");
-  EXPECT_EQ(told.slot(), 1u);
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.topic(), v1::TOPIC_AGENT_DESCRIPTION);
+  EXPECT_EQ(rejection.field(), "radius_m");
+  EXPECT_EQ(rejection.slot(), 1u);
   small.set_revision(2);
   small.set_radius_m(2);
   daemon.Step({From(kAlpha, small)});
   EXPECT_EQ(daemon.rejections().size(), 1u);
 }
 
-// Goal:   parts that do not come are told once, after undescribed_after_s, with how many are there.
+// Goal:   missing parts are reported once, after undescribed_after_s, with how many are there.
 TEST(ShapeLifetime, ReportsThatPartsAreMissing) {
   const std::vector<v1::ShapePart> parts = PartsOf("alpha", CubeBytes());
   for (const std::size_t arrived : {0, 2, 3}) {
@@ -180,12 +180,12 @@ TEST(ShapeLifetime, ReportsThatPartsAreMissing) {
       continue;
     }
     ASSERT_EQ(daemon.rejections().size(), 1u);
-    const v1::Rejection told = daemon.rejections()[0];
-    EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-    EXPECT_EQ(told.slot(), 4u);
-    EXPECT_NE(told.detail().find(arrived == 0 ? "no part" : "2 of 3 parts have arrived"),
+    const v1::Rejection rejection = daemon.rejections()[0];
+    EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+    EXPECT_EQ(rejection.slot(), 4u);
+    EXPECT_NE(rejection.detail().find(arrived == 0 ? "no part" : "2 of 3 parts have arrived"),
               std::string::npos)
-        << told.detail();
+        << rejection.detail();
     daemon.Step(From(kAlpha, parts));
     EXPECT_EQ(daemon.counter("shapes"), 1u);
   }

@@ -98,7 +98,7 @@ class MemorySink final : public BatchSink {
   std::vector<v1::RecordedBatch> batches;
 };
 
-/// Finishes only when told to.
+/// Finishes only on request.
 class LateShapeBuilder final : public ShapeBuilder {
  public:
   explicit LateShapeBuilder(const bool* late) : late_(*late) {}

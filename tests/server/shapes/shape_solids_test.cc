@@ -100,7 +100,7 @@ TEST(ShapeSolids, AreWhatTheBytesDescribe) {
   EXPECT_NEAR(capsule.shape->facts().upper.z(), 0.25, 1e-9);
 }
 
-// Goal:   the turn is told w first and takes the solid's frame to the body's, and the place is
+// Goal:   the rotation is sent w first and takes the solid's frame to the body's, and the place is
 //         where it is.
 // Method: a thorn along x, turned by a quarter about z, so that it points along y; raised by 5 m.
 TEST(ShapeSolids, StandWhereAndAsTheBytesSay) {
@@ -262,13 +262,13 @@ TEST(ShapeSolids, ABadOneIsReportedToItsOwnerAlone) {
   daemon.Step(pair.Parts());
   Fly(&daemon, &pair, 10);
   ASSERT_EQ(daemon.rejections().size(), 1u);
-  const v1::Rejection told = daemon.rejections()[0];
-  EXPECT_EQ(told.reason(), v1::REJECTED_BAD_SHAPE);
-  EXPECT_EQ(told.topic(), v1::TOPIC_SHAPE);
-  EXPECT_EQ(told.simulator_id(), SimulatorId("beta"));
-  EXPECT_NE(told.detail().find("solids[1] of 2 (box): orientation has the length 0"),
+  const v1::Rejection rejection = daemon.rejections()[0];
+  EXPECT_EQ(rejection.reason(), v1::REJECTED_BAD_SHAPE);
+  EXPECT_EQ(rejection.topic(), v1::TOPIC_SHAPE);
+  EXPECT_EQ(rejection.simulator_id(), SimulatorId("beta"));
+  EXPECT_NE(rejection.detail().find("solids[1] of 2 (box): orientation has the length 0"),
             std::string::npos)
-      << told.detail();
+      << rejection.detail();
   EXPECT_EQ(LastEvent(daemon).status(), v1::EVENT_CONFIRMED);
   EXPECT_EQ(daemon.counter("shapes"), 1u);
   EXPECT_EQ(daemon.counter("shapes_refused"), 1u);

@@ -101,7 +101,7 @@ TEST_F(ShapeStoreTest, WithOnePartMissingItIsNotWhole) {
   }
 }
 
-// Goal:   a changed byte anywhere is noticed with the last part, told once, and the shape may be
+// Goal:   a changed byte is noticed with the last part, reported once, and the shape may be
 //         sent again.
 TEST_F(ShapeStoreTest, AWrongHashIsRefusedAndMayBeSentAgain) {
   for (std::size_t spoilt = 0; spoilt < parts.size(); ++spoilt) {
@@ -126,7 +126,7 @@ TEST_F(ShapeStoreTest, PartsThatContradictAreRefused) {
   other.set_content_hash(hash);
   EXPECT_EQ(FieldOf(store.Take(other)), "total_bytes");
   EXPECT_EQ(store.counters().bytes, 0u);
-  // What is still on its way is not told one by one.
+  // Parts that are still on their way are not refused one by one.
   EXPECT_EQ(TakeAll({parts[2], parts[3]}), None());
   // Sent again, from its first part on.
   EXPECT_EQ(TakeAll(parts), None());
@@ -153,7 +153,7 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
   Random random(2);
   std::vector<v1::ShapePart> lies = PartsOf("b", bytes);
   lies[1].mutable_bytes()->front() ^= 1;
-  int told = 0;
+  int refusals = 0;
   for (int round = 0; round < 100; ++round) {
     ShapeStore fresh(config, &builder);
     std::size_t true_parts = 0, false_parts = 0;
@@ -162,7 +162,7 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
           true_parts == parts.size() || (false_parts < lies.size() && random.Chance(0.5));
       const auto refusal = fresh.Take(lie ? lies[false_parts++] : parts[true_parts++]);
       if (!refusal) continue;
-      ++told;
+      ++refusals;
       EXPECT_TRUE(lie);
       EXPECT_EQ(refusal->simulator_id, kB);
     }
@@ -172,8 +172,8 @@ TEST_F(ShapeStoreTest, ALiarSpoilsNothing) {
     EXPECT_EQ(fresh.counters().gathering, 0u);
     EXPECT_EQ(fresh.counters().bytes, bytes.size());
   }
-  EXPECT_GT(told, 20);
-  EXPECT_LT(told, 80);
+  EXPECT_GT(refusals, 20);
+  EXPECT_LT(refusals, 80);
 }
 
 // Goal:   equal shapes are one, and stay until the last simulator that wrote it, or agent that
@@ -288,7 +288,7 @@ TEST_F(ShapeStoreTest, BadPartsAreRefusedByField) {
   EXPECT_EQ(store.counters().bytes, kShapePartBytes);
 }
 
-// Goal:   limits hold, are told once for a shape, and free what they refuse.
+// Goal:   limits hold, are reported once for a shape, and free what they refuse.
 TEST(ShapeStoreLimits, AreKept) {
   v1::Config config;
   config.set_shapes_max(2);
@@ -307,7 +307,7 @@ TEST(ShapeStoreLimits, AreKept) {
   using Refused = std::vector<std::string>;
   const std::string large = EncodeShape(Cube(1, UnusedFor(3)));
   EXPECT_EQ(take(PartsOf("a", large)), Refused{"total_bytes"});
-  EXPECT_EQ(take(PartsOf("a", large)), Refused{"total_bytes"}) << "sent again, told again";
+  EXPECT_EQ(take(PartsOf("a", large)), Refused{"total_bytes"}) << "sent again, refused again";
   store.Release(kA);
 
   const std::string two = EncodeShape(Cube(1, UnusedFor(1)));

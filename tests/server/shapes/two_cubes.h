@@ -24,7 +24,7 @@ inline const std::string& CubeBytes() {
 }
 
 /// Two agents at rest with next to no acceleration (two that cannot move never meet), `gap` m
-/// apart, both with the cube; told anew at each clock.
+/// apart, both with the cube; with new states at each clock.
 class TwoCubes {
  public:
   explicit TwoCubes(double distance, std::string bytes = CubeBytes())

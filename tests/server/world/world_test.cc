@@ -91,7 +91,7 @@ TEST(World, HoldsNoMoreSimulatorsThanAllowedAndForgetsThoseThatLeft) {
   EXPECT_EQ(world.Find(2), nullptr);
 }
 
-// Goal:   now is the least clock once all that are awaited have spoken, and never goes back.
+// Goal:   now is the least clock once all awaited simulators have sent one, and never goes back.
 TEST(World, SimulatedTimeIsTheLeastClock) {
   World world(Simulated(2));
   Simulator& a = Join(&world, 1, 10, 5);

@@ -10,7 +10,7 @@
 
 namespace collision {
 
-/// Of degree 4 at most; the constant first.
+/// A polynomial of degree 4 at most; the constant first.
 class DyadicPolynomial {
  public:
   DyadicPolynomial() = default;
@@ -201,7 +201,8 @@ inline int SignWithRoot(const Dyadic& a, const Dyadic& b, const Dyadic& d) {
 struct QuadraticRoot {
   Dyadic a, b, d, c;
 
-  /// Of q there, of degree 2 at most: c² q = c² q0 + c q1 (a + b√d) + q2 (a² + b²d + 2ab√d).
+  /// The sign of q there, of degree 2 at most:
+  /// c² q = c² q0 + c q1 (a + b√d) + q2 (a² + b²d + 2ab√d).
   int SignOf(const DyadicPolynomial& q) const {
     const Dyadic rational = c * c * q[0] + c * q[1] * a + q[2] * (a * a + b * b * d);
     return SignWithRoot(rational, c * q[1] * b + Dyadic::Integer(2) * q[2] * a * b, d);

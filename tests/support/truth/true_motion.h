@@ -78,7 +78,7 @@ inline Quaternion RandomTurn(Random& random) {
   return Exponential(random.Uniform(0, 3.14159) * RandomUnit(random));
 }
 
-/// An agent that moves so, as told by a state at `stamp` seconds, with what rounding to doubles
+/// An agent that moves so, as given by a state at `stamp` seconds, with what rounding to doubles
 /// costs declared.
 inline motion::SpaceTimeBound BoundAt(const TrueMotion& motion, double stamp,
                                       const motion::MotionLimits& limits) {

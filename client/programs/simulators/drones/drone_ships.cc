@@ -83,11 +83,10 @@ void DroneShips::Fly() {
   for (Member& member : members_) {
     member.agent.SetState(member.ship.state(), pace_->start_ns(), false, {});
   }
-  pace_->Fly(options_.rate_hz, options_.state_every,
-             [this](std::int64_t t0_ns, std::int64_t t1_ns, bool with_states) {
-               StepTo(t0_ns, t1_ns, with_states);
-               return true;
-             });
+  pace_->Fly(options_.rate_hz, options_.state_every, [this](const PaceStep& step) {
+    StepTo(step.t0_ns, step.t1_ns, step.with_states);
+    return true;
+  });
   pace_->Linger();
 }
 

@@ -93,12 +93,11 @@ void Swarm::StepTo(std::int64_t t0_ns, std::int64_t t1_ns, bool states) {
 void Swarm::Fly() {
   for (Member& member : members_) Add(&member);
   std::int64_t flown_ns = pace_->start_ns();
-  pace_->Fly(options_.rate_hz, options_.state_every,
-             [&](std::int64_t t0_ns, std::int64_t t1_ns, bool with_states) {
-               StepTo(t0_ns, t1_ns, with_states);
-               flown_ns = t1_ns;
-               return true;
-             });
+  pace_->Fly(options_.rate_hz, options_.state_every, [&](const PaceStep& step) {
+    StepTo(step.t0_ns, step.t1_ns, step.with_states);
+    flown_ns = step.t1_ns;
+    return true;
+  });
   // A run that is stopped early ends within the last force.
   for (Member& member : members_) {
     if (member.piece.t1_ns <= flown_ns) continue;

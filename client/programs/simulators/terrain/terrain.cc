@@ -171,8 +171,8 @@ void ServeTerrain(const TerrainOptions& options, const SimulatorOptions& simulat
   log->Agent(description.name, description.radius_m, description.shape);
   MotionPiece piece{pace->start_ns(), pace->start_ns(), {}};
   for (int axis = 0; axis < 3; ++axis) piece.coefficients[axis][0] = state.position_m[axis];
-  pace->Fly(kRate, 1, [&](std::int64_t, std::int64_t t1_ns, bool) {
-    piece.t1_ns = t1_ns;
+  pace->Fly(kRate, 1, [&](const PaceStep& step) {
+    piece.t1_ns = step.t1_ns;
     return true;
   });
   if (piece.t1_ns > piece.t0_ns) log->Piece(description.name, piece);

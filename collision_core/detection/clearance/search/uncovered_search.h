@@ -22,9 +22,9 @@ struct UncoveredPartner {
 /// Each of the agent's motions since that time (a jump or a breach begins a new one) is replaced by
 /// a ball at rest that contains it and is wider by as far as any agent of the scene may move in
 /// that time. So a partner that met the agent overlaps that ball with its newest bound, or with the
-/// motion it had before a jump. Of the partners found by their newest bounds, only those that may
-/// have moved far enough are candidates: one very fast agent does not make all others candidates of
-/// each other.
+/// motion it had before a jump. Among the partners found by their newest bounds, only those that
+/// may have moved far enough are candidates: one very fast agent does not make all others
+/// candidates of each other.
 class UncoveredSearch {
  public:
   /// All outlive the search.

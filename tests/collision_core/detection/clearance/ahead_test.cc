@@ -31,7 +31,7 @@ void ExpectClearUntil(double earliest, double latest, std::uint32_t slot,
   EXPECT_LE(clear, At(latest)) << slot;
 }
 
-// It stands where the other one, which has not spoken since, comes by from 1.9 to 2.1 s.
+// It stands where the other one, which has sent no state since, comes by from 1.9 to 2.1 s.
 TEST(StateAhead, OneWhoseStateIsOlderStillCounts) {
   Detector detector(Options());
   detector.Admit(Id(0), kSlow, State(0, {0, 0, 0}, {0, 0, 0}), At(0));

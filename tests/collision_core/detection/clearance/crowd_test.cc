@@ -163,7 +163,7 @@ TEST(ACrowd, ASaturatedAgentCountsHoweverOthersComeAndGo) {
     const EarliestAnswer earliest = detector.Earliest();
     if (now_saturated > 0) {
       ASSERT_EQ(earliest.earliest, At(now));
-      // Of equal ones that of the lowest ids.
+      // Equal times: the pair with the lowest ids.
       ASSERT_LE(earliest.lower.slot, lowest);
     } else if (!any_not_clear) {
       ASSERT_GT(earliest.earliest, At(now));

@@ -55,12 +55,12 @@ class Swarm {
   }
 
   std::vector<Instant> Clearances() const {
-    std::vector<Instant> told;
+    std::vector<Instant> changed;
     for (std::uint32_t slot = 0; slot < states_.size(); ++slot) {
       const AgentClearance clearance = *detector->ClearanceOf(Id(slot));
-      told.push_back(clearance.clear_until);
+      changed.push_back(clearance.clear_until);
     }
-    return told;
+    return changed;
   }
 
   std::uint64_t tests() const { return detector->counters().filter_tests; }
@@ -109,16 +109,16 @@ TEST(ManyChanges, VeryManyHaveTheEffectOfOneByOne) {
   EXPECT_EQ(at_once.detector->Earliest().earliest, one_by_one.detector->Earliest().earliest);
   // A lowered clearance names the cause and its agent.
   std::uint32_t others = 0;
-  for (const AgentClearance& told : at_once.detector->TakeChangedClearances()) {
-    EXPECT_EQ(told.cause, ClearanceCause::kWidening) << told.agent.slot;
-    EXPECT_LT(told.cause_agent.slot, kDrones);
-    others += told.agent.slot >= kDrones;
+  for (const AgentClearance& changed : at_once.detector->TakeChangedClearances()) {
+    EXPECT_EQ(changed.cause, ClearanceCause::kWidening) << changed.agent.slot;
+    EXPECT_LT(changed.cause_agent.slot, kDrones);
+    others += changed.agent.slot >= kDrones;
   }
   EXPECT_EQ(others, kOthers);
   // The next change finds nothing left of this one.
   at_once.Widen(kDrones, false);
-  for (const AgentClearance& told : at_once.detector->TakeChangedClearances()) {
-    EXPECT_EQ(told.cause_agent.slot, 0u);
+  for (const AgentClearance& changed : at_once.detector->TakeChangedClearances()) {
+    EXPECT_EQ(changed.cause_agent.slot, 0u);
   }
 }
 

@@ -28,21 +28,21 @@ AgentId IdOf(std::uint32_t slot, std::uint32_t generation) {
   return id;
 }
 
-std::vector<std::int64_t> ToldBy(Detector* detector) {
-  std::vector<std::int64_t> told;
+std::vector<std::int64_t> OutputOf(Detector* detector) {
+  std::vector<std::int64_t> output;
   for (const CollisionEvent& event : detector->events()) {
-    told.insert(told.end(),
-                {static_cast<std::int64_t>(event.status), event.lower.slot, event.higher.slot,
-                 event.contact, event.revision, event.begin.earliest.nanoseconds(),
-                 event.begin.latest.nanoseconds(), event.end.latest.nanoseconds(),
-                 static_cast<std::int64_t>(event.work)});
+    output.insert(output.end(),
+                  {static_cast<std::int64_t>(event.status), event.lower.slot, event.higher.slot,
+                   event.contact, event.revision, event.begin.earliest.nanoseconds(),
+                   event.begin.latest.nanoseconds(), event.end.latest.nanoseconds(),
+                   static_cast<std::int64_t>(event.work)});
   }
   for (const AgentClearance& clearance : detector->TakeChangedClearances()) {
-    told.insert(told.end(), {clearance.agent.slot, clearance.clear_until.nanoseconds(),
-                             clearance.unannounced_until.nanoseconds(), clearance.saturated,
-                             clearance.void_from.nanoseconds()});
+    output.insert(output.end(), {clearance.agent.slot, clearance.clear_until.nanoseconds(),
+                                 clearance.unannounced_until.nanoseconds(), clearance.saturated,
+                                 clearance.void_from.nanoseconds()});
   }
-  return told;
+  return output;
 }
 
 class Scene {
@@ -59,9 +59,9 @@ class Scene {
     }
     found_ += asked_.Earliest().found;
     ASSERT_NO_THROW(asked_.Validate());
-    const std::vector<std::int64_t> told = ToldBy(&asked_);
+    const std::vector<std::int64_t> output = OutputOf(&asked_);
     events_ += asked_.events().size();
-    ASSERT_EQ(told, ToldBy(&unasked_)) << "at " << now_;
+    ASSERT_EQ(output, OutputOf(&unasked_)) << "at " << now_;
   }
 
   int found() const { return found_; }
