@@ -56,8 +56,8 @@ struct TurnLimits {
 TurnPiece TurnTowards(const RigidState& state, const Vector3& angular_velocity_wanted_rad_s,
                       const TurnLimits& limits, std::int64_t t0_ns, std::int64_t t1_ns);
 
-/// The time [s] in which a body that turns at `angular_speed_rad_s` now, and changes that by at most
-/// `angular_acceleration_max_rad_s2`, certainly turns by less than a quarter: the root of
+/// The time [s] in which a body that turns at `angular_speed_rad_s` now, and changes that by at
+/// most `angular_acceleration_max_rad_s2`, certainly turns by less than a quarter: the root of
 /// |ω| τ + ½ α τ² = π/2, rounded down. Infinite if it does not turn.
 double QuarterTurnSeconds(double angular_speed_rad_s, double angular_acceleration_max_rad_s2);
 
