@@ -10,6 +10,7 @@
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::geometry {
+
 /// The kinds of cores. A core and all points within a radius of it (its rounding) are a convex set.
 enum class ConvexCore : std::uint8_t {
   kPoint,     ///< Rounded: a ball.
