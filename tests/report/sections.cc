@@ -50,9 +50,15 @@ std::string IdOf(const std::string& text) {
   return id;
 }
 
+/// The plots of one part of the benchmark of precision.
+struct PrecisionPlots {
+  std::string part, id, what, y_label;
+};
+
 /// A plot for each motion and pair of bodies.
-void AddPrecision(const v1::Results& results, const std::string& part, const std::string& id,
-                  const std::string& what, const std::string& y_label, Section* section) {
+void AddPrecision(const v1::Results& results, const PrecisionPlots& plots, Section* section) {
+  const std::string &part = plots.part, &id = plots.id, &what = plots.what,
+                    &y_label = plots.y_label;
   const auto rows = Select(results, "precision", {{"part", part}});
   for (const std::string& motion : TextsOf(rows, "motion")) {
     for (const std::string& mesh :
@@ -78,8 +84,8 @@ Section Precision(const v1::Results& results) {
       "How wide the certified bracket is (ours), or how far from the truth the answer is (theirs), "
       "over the time of one query. A cross on the upper edge: answers that say no where the truth "
       "is yes, or yes where it is no; no time makes up for that."};
-  AddPrecision(results, "precision", "distance", "Distance", "width or error [m]", &section);
-  AddPrecision(results, "contact", "contact", "Time of contact", "width or error [s]", &section);
+  AddPrecision(results, {"precision", "distance", "Distance", "width or error [m]"}, &section);
+  AddPrecision(results, {"contact", "contact", "Time of contact", "width or error [s]"}, &section);
   AddWhole(results, "precision", &section);
   return section;
 }

@@ -30,7 +30,7 @@ class DistanceProof {
 
   /// Exactly: does some triangle come within `distance` (or nearer than it, if `strictly`)?
   bool ComesWithin(const Eigen::Vector3d& p, double distance, bool strictly) const {
-    return Search(p, distance, strictly, 1, 0, order_.size());
+    return Search({p, distance, strictly}, 1, 0, order_.size());
   }
 
   /// The winding number of a closed surface about a point off it, by a ray along +z; exact where
@@ -79,15 +79,21 @@ class DistanceProof {
     return 1e-12 * (size_ + p.cwiseAbs().maxCoeff());
   }
 
-  bool Search(const Eigen::Vector3d& p, double distance, bool strictly, std::size_t box,
-              std::size_t first, std::size_t last) const {
+  /// What ComesWithin() is called with.
+  struct Goal {
+    const Eigen::Vector3d& p;
+    double distance;
+    bool strictly;
+  };
+
+  bool Search(const Goal& goal, std::size_t box, std::size_t first, std::size_t last) const {
+    const auto& [p, distance, strictly] = goal;
     const Box& b = boxes_[box];
     const double away = (b.lower - p).cwiseMax(p - b.upper).cwiseMax(0.0).norm();
     if (away > distance + Margin(p)) return false;
     if (last - first > 1) {
       const std::size_t half = (first + last) / 2;
-      return Search(p, distance, strictly, 2 * box, first, half) ||
-             Search(p, distance, strictly, 2 * box + 1, half, last);
+      return Search(goal, 2 * box, first, half) || Search(goal, 2 * box + 1, half, last);
     }
     const auto corners = Corners(order_[first]);
     if (LowerBound(p, corners) > distance + Margin(p)) return false;

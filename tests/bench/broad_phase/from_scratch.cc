@@ -54,8 +54,10 @@ bool WantsAny(const Settings& settings, const std::string& part, const std::stri
   return false;
 }
 
-Row AskFromScratch(const Settings& settings, const std::string& part, const std::string& name,
-                   const baselines::BallScene& scene, const Entrant& entrant, Report* report) {
+Row MeasureFromScratch(const Settings& settings, const NamedScene& named, const Entrant& entrant,
+                       Report* report) {
+  const std::string &part = named.part, &name = named.name;
+  const baselines::BallScene& scene = named.balls;
   Row row;
   row.part = part, row.scene = name, row.agents = scene.size(), row.contestant = entrant.name;
   row.cut_off = settings.cut_off();
@@ -95,12 +97,11 @@ Row AskFromScratch(const Settings& settings, const std::string& part, const std:
   return row;
 }
 
-std::vector<Row> AskAll(const Settings& settings, const std::string& part, const std::string& name,
-                        const baselines::BallScene& scene, Report* report) {
+std::vector<Row> MeasureAll(const Settings& settings, const NamedScene& scene, Report* report) {
   std::vector<Row> rows;
   std::optional<Answer> reference;
   for (const Entrant& entrant : Entrants()) {
-    Row row = AskFromScratch(settings, part, name, scene, entrant, report);
+    Row row = MeasureFromScratch(settings, scene, entrant, report);
     if (row.answer && !reference) reference = row.answer;
     const bool same =
         !row.answer || (entrant.ours ? *row.answer == *reference : Agree(*row.answer, *reference));
@@ -141,7 +142,7 @@ void ScratchPart(const Settings& settings, Report* report) {
       const std::string name = std::string("uniform ") + baselines::Name(hit);
       if (!WantsAny(settings, "scratch", name, count)) continue;
       const auto rows =
-          AskAll(settings, "scratch", name, baselines::FirstHitScene(count, hit), report);
+          MeasureAll(settings, {"scratch", name, baselines::FirstHitScene(count, hit)}, report);
       for (const Row& row : rows) {
         // Below a thousand it is all pairs in any case.
         if (count >= 1000 && row.contestant == OurChoice().name && row.seconds) {
@@ -167,7 +168,7 @@ void ScenesPart(const Settings& settings, Report* report) {
     for (const std::uint32_t count : {10'000u, 100'000u}) {
       if (settings.quick && count > 10'000) continue;
       const auto rows =
-          AskAll(settings, "scenes", name, baselines::MakeScene(name, count, 3), report);
+          MeasureAll(settings, {"scenes", name, baselines::MakeScene(name, count, 3)}, report);
       std::optional<double> ours, other;
       for (const Row& row : rows) {
         if (!row.seconds) continue;

@@ -23,13 +23,18 @@ struct Settings : CommonOptions {
 bool WantsAny(const Settings& settings, const std::string& part, const std::string& scene,
               std::size_t agents);
 
+/// A scene, its name, and the part of the benchmark to which its rows belong.
+struct NamedScene {
+  std::string part, name;
+  baselines::BallScene balls;
+};
+
 /// One contestant on one scene from scratch, repeated; adds the row, and returns it.
-Row AskFromScratch(const Settings& settings, const std::string& part, const std::string& name,
-                   const baselines::BallScene& scene, const Entrant& entrant, Report* report);
+Row MeasureFromScratch(const Settings& settings, const NamedScene& scene, const Entrant& entrant,
+                       Report* report);
 
 /// Every entrant on one scene; marks answers that do not agree.
-std::vector<Row> AskAll(const Settings& settings, const std::string& part, const std::string& name,
-                        const baselines::BallScene& scene, Report* report);
+std::vector<Row> MeasureAll(const Settings& settings, const NamedScene& scene, Report* report);
 
 /// The least time of the libraries over the time of what the service would pick; nullopt if either
 /// is missing.
