@@ -45,8 +45,9 @@ inline float FloatUp(double x) {
   return rounded + (std::abs(rounded) * 0x1p-22f + std::numeric_limits<float>::min());
 }
 
-/// `slack`: what rounding may have made of a distance computed in doubles. Requires an offset far
-/// below 1e19 m, whose square single precision holds.
+/// `slack`: what rounding may have made of a distance computed in doubles. The result counts only
+/// for an offset far below 1e19 m, whose square single precision holds: SeparationSearch discards
+/// it beyond.
 KernelPose KernelPoseOf(const PackedBody& a, const PackedBody& b, const RelativePose& pose,
                         double slack);
 
