@@ -36,6 +36,10 @@ template <typename... Numbers>
 /// must hold; numbers after it are printed with it:
 ///   CORE_CHECK(node < size, "a node index lies within its tree", node, size);
 /// Costs one predictable branch. Not for the inner loops of SIMD kernels: check before them.
+///
+/// In the headers of the core "Requires" names a precondition that is checked in every build, and
+/// "Unchecked" one that is the caller's duty, because a check would cost more than the work or the
+/// function cannot know.
 #define CORE_CHECK(condition, message, ...)                     \
   (__builtin_expect(static_cast<bool>(condition), 1)            \
        ? static_cast<void>(0)                                   \

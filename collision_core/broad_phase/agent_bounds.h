@@ -56,8 +56,9 @@ class AgentBounds {
   void ClearRule(std::uint32_t a, std::uint32_t b) { SetRule(a, b, {}); }
   const intersection::PairRules& rules() const { return *rules_; }
 
-  /// Shares one object between methods that work together. Requires that no agent is held. The
-  /// caller that changes a rule calls UpdateRules() of each method.
+  /// Shares one object between methods that work together. The caller that changes a rule calls
+  /// UpdateRules() of each method. Requires that no agent is held: WindowedSearch, which stores
+  /// reaches grown by margins, checks it; other methods look rules up when they are asked.
   virtual void ShareRules(std::shared_ptr<intersection::PairRules> rules) {
     rules_ = std::move(rules);
   }

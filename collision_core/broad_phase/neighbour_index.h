@@ -33,7 +33,7 @@ class NeighbourIndex : public virtual AgentBounds {
  public:
   using Skip = std::function<bool(std::uint32_t)>;
 
-  /// Replaces the bound of an agent by one that lies inside it; cheaper than Set(). Requires that
+  /// Replaces the bound of an agent by one that lies inside it; cheaper than Set(). Unchecked:
   /// it does lie inside.
   virtual void Tighten(std::uint32_t agent, const AgentBound& bound) { Set(agent, bound); }
 

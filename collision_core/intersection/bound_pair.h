@@ -6,8 +6,8 @@
 namespace collision::intersection {
 
 /// Two bounds as seen from `base`, from which seconds are counted. They meet where they come within
-/// `margin` of each other. Requires a base not before either stamp, and a margin that is finite and
-/// >= 0. The bounds outlive the pair.
+/// `margin` of each other. The base is not before either stamp (QuickHornPair() checks it); the
+/// margin is finite and >= 0 (EarliestIntersection() checks it). The bounds outlive the pair.
 struct BoundPair {
   const motion::SpaceTimeBound &a, &b;
   Instant base;

@@ -51,7 +51,7 @@ enum class Orientation { kMatters, kIgnored };
 ///
 ///   Φ(q', exp(ω s) q) <= ½ α s (s + h) + errors   and   |ω' − ω| <= α s + errors.
 ///
-/// Requires the same limits for both states and next.stamp >= before.state.stamp. O(1),
+/// Requires next.stamp >= before.state.stamp. Unchecked: before.limits hold for both states. O(1),
 /// allocates nothing.
 ///
 /// Why this keeps standing answers valid. The new horn is inside the old one if for all τ' >= 0,

@@ -26,8 +26,9 @@ namespace collision::motion {
 /// Which s is tested comes from plain doubles; that the balls are apart there is proved in
 /// intervals, beyond the rounding allowance of p' and, for T, of v' (contract.h).
 ///
-/// Requires the same limits, skew and order of stamps as CheckContract(). Honest states are
-/// mostly decided by a quick test in plain doubles. Allocates nothing.
+/// Requires next.stamp >= before.state.stamp. Unchecked: before.limits and before.skew hold for
+/// both states. Honest states are mostly decided by a quick test in plain doubles. Allocates
+/// nothing.
 double GapBetween(const SpaceTimeBound& before, const MotionState& next);
 
 }  // namespace collision::motion

@@ -10,8 +10,8 @@
 namespace collision::motion {
 
 /// An agent's last state, as its owner reported it. World frame W, body frame B, SI units. Values
-/// are trusted here: the server's codec refuses bad input with a reason. Requires finite numbers,
-/// errors >= 0, and a quaternion that is not zero.
+/// are trusted here: the server's codec refuses bad input with a reason. Unchecked: numbers are
+/// finite, errors >= 0, and the quaternion is not zero.
 struct MotionState {
   Instant stamp;                                   ///< When the state held, by the sender's clock.
   Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< Reference point [m].

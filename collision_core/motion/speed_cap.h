@@ -58,7 +58,7 @@ numeric::Interval CappedSpeed(const MotionLimits& limits);
 Instant CapTakesOver(const SpaceTimeBound& bound);
 
 /// The same for one face: `along` is the component of v along the face's outward normal [m/s], and
-/// `fraction` is how much of ½ M σ (σ + h) counts there.
+/// `fraction` is how much of ½ M σ (σ + h) counts there. Requires a cap.
 Instant FaceCapTakesOver(const SpaceTimeBound& bound, double along, double fraction);
 
 /// The capped ball at t >= from: A is within radius + u + speed · (t − from) [m] of p_WA + shift.

@@ -83,7 +83,7 @@ inline double MultiplyDown(double a, double b) {
 
 inline double MultiplyUp(double a, double b) { return -MultiplyDown(-a, b); }
 
-/// Requires b != 0.
+/// Unchecked: b != 0.
 inline double DivideDown(double a, double b) {
   if (a == 0) return 0;
   const double quotient = a / b;

@@ -46,8 +46,8 @@ class OuterHull {
     float height;           ///< n·x <= height + kHullSupportError extent() for all x of the shape.
     Eigen::Vector3f point;  ///< The point there, approximately.
   };
-  /// The support along n, relative to origin(). Requires |n| within 2^-16 of 1, and a hull that is
-  /// not empty.
+  /// The support along n, relative to origin(). Requires |n| within 2^-16 of 1. Unchecked: the
+  /// hull is not empty.
   Support Along(const Eigen::Vector3f& n) const;
 
   /// The support along n of any length, so that the caller may compute the length at the same time:

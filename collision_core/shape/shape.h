@@ -37,7 +37,7 @@ class Shape {
   /// Builds a shape of a surface. Takes about 50 µs a triangle, with the fitted builder 100.
   /// Deterministic: the same mesh and options give the same bits. `twin`, here and below: a shape
   /// of the same mesh and solids with another tree; null: none. Requires a mesh that passed
-  /// RefusalOf() and has no degenerate triangles.
+  /// RefusalOf(). Unchecked: it has no degenerate triangles.
   static std::shared_ptr<const Shape> Build(geometry::TriangleMesh mesh,
                                             const sphere_tree::ShapeOptions& options = {},
                                             const Shape* twin = nullptr);
@@ -48,8 +48,8 @@ class Shape {
   static std::shared_ptr<const Shape> FromTree(geometry::TriangleMesh mesh,
                                                sphere_tree::SphereTree tree);
 
-  /// A surface and solids as one body. `surface`: made by Build() or FromTree(), or null. Requires
-  /// one to kSolidsMax solids.
+  /// A surface and solids as one body. Requires a `surface` made by Build() or FromTree(), or null,
+  /// and one to kSolidsMax solids.
   static std::shared_ptr<const Shape> Compound(std::shared_ptr<const Shape> surface,
                                                std::vector<ConvexSolid> solids,
                                                const Shape* twin = nullptr);

@@ -41,7 +41,7 @@ using BallRef = std::uint32_t;
 class PackedTree {
  public:
   PackedTree() = default;
-  /// Requires a tree of this mesh as sphere_tree.h states it.
+  /// Requires a tree with a root. Unchecked: it is a tree of this mesh as sphere_tree.h states it.
   PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tree);
 
   const BallPack* packs() const { return packs_.data(); }

@@ -44,7 +44,7 @@ struct SphereNode {
   std::uint32_t level = 0;          ///< The root's is 0.
 
   bool is_leaf() const { return children == 0; }
-  /// Child `i`, counted from 0. Requires i < children.
+  /// Child `i`, counted from 0. Unchecked: i < children.
   NodeIndex child(std::uint32_t i) const { return NodeIndex(first_child + i); }
 };
 

@@ -35,7 +35,8 @@ struct FaceLines {
 /// If the stamp lies in the first half, each face is the chord from the stamp to the end, prolonged
 /// back to the start (and there not inside the face at the stamp, so that no box is turned inside
 /// out). Else a prolonged chord would lead far outside; the face is then constant, the outer one of
-/// its values at stamp and end. A convex face lies inside both. Requires stamp <= end.
+/// its values at stamp and end. A convex face lies inside both. Requires start <= end and
+/// stamp <= end.
 std::optional<FaceLines> FaceLinesOf(const motion::SpaceTimeBound& bound, Instant start,
                                      Instant end);
 

@@ -67,8 +67,8 @@ class CrossingOrder {
   std::size_t queued_max_ = 0;
 };
 
-/// The first tick at which `below`, not above `above` at the start, is above it. Requires below.end
-/// > above.end.
+/// The first tick at which `below` is above `above`. Requires below.start <= above.start and
+/// below.end > above.end.
 std::uint32_t CrossingTick(const AlphaTFace& below, const AlphaTFace& above);
 
 }  // namespace collision::broad_phase

@@ -86,8 +86,8 @@ class HornTable {
   }
 
   /// The ball of a row as seen from an instant on. Before the row's stamp its line goes on
-  /// backward, and its reach stays what it is at the stamp. Requires a row that is not
-  /// unfilterable, and an instant that is Near().
+  /// backward, and its reach stays what it is at the stamp. Unchecked: the row is not
+  /// unfilterable, and the instant is Near().
   numeric::QuickBall At(std::uint32_t agent, Instant instant) const {
     return At(rows_[agent], instant);
   }

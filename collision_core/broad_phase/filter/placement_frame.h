@@ -81,7 +81,7 @@ class PlacementFrame {
   intersection::BoundKind bound() const { return query_.bound; }
   /// The time ahead that was chosen [s].
   double window() const { return window_; }
-  /// Shortens the window to `seconds`. Requires that no agent was moved to its middle.
+  /// Shortens the window to `seconds`. Unchecked: no agent was moved to its middle.
   void Shorten(double seconds);
 
   /// A box with about `count` of the agents in it, near each other: where to look for a first

@@ -59,7 +59,7 @@ bool MayMeet(const HornRow& row, const HornTable& table, std::uint32_t agent, co
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HornTable& table, std::uint32_t a,
                                                       std::uint32_t b);
-/// The same for a half-space and an agent of the table.
+/// The same for a half-space and an agent of the table. Requires likewise.
 intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQuery& query,
                                                       const HalfSpaces::Entry& entry,
                                                       const HornTable& table, std::uint32_t agent);

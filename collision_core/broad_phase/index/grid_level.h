@@ -19,7 +19,7 @@ namespace collision::broad_phase {
 /// collision of the hash cost one test, never an answer.
 class GridLevel {
  public:
-  /// Builds the grid for the frame's window. Requires at least one agent, and finite numbers.
+  /// Builds the grid for the frame's window. Requires an agent. Unchecked: numbers are finite.
   void Build(const PlacementFrame& frame, const PlacedBall* placed, std::uint32_t count,
              const PlacedExtent& extent);
 

@@ -40,8 +40,8 @@ class PlacedStore {
   /// Replaces everything by `horns`: all agents of the scene that are not unfilterable, ascending.
   /// May swap the vector's memory with its own.
   virtual void PlaceAll(const PlacedScene& scene, std::vector<PlacedBall>* horns) = 0;
-  /// Prepares for Join() alone, of a window up to `last` at first; FindNear() must not follow.
-  /// Returns false if that would be no cheaper than PlaceAll().
+  /// Prepares for Join() alone, of a window up to `last` at first. Unchecked: FindNear() does
+  /// not follow. Returns false if that would be no cheaper than PlaceAll().
   virtual bool PlaceForJoin(const PlacedScene& /*scene*/, double /*last*/) { return false; }
   /// Adds an agent that is not placed.
   virtual void Place(const PlacedBall& horn) = 0;

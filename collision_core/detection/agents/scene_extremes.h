@@ -7,7 +7,7 @@ namespace collision::detection {
 
 /// Maintains bounds of all newest states without a walk over all agents: each new state is included
 /// at once, and rounds over the agents, a few in each step, drop what no longer holds. Until a
-/// round is complete the bounds may be wider than the truth, never narrower. Requires that the
+/// round is complete the bounds may be wider than the truth, never narrower. Unchecked: the
 /// stamps of one agent never go back.
 class SceneExtremes {
  public:

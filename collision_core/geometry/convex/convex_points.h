@@ -30,7 +30,7 @@ class ConvexPoints {
   double reach() const { return reach_; }
 
   /// The index of a point x whose n·x, computed in doubles, is greatest. Its exact n·x is within 16
-  /// · 2^-53 |n| reach() of the greatest one. Requires at least one point.
+  /// · 2^-53 |n| reach() of the greatest one. Unchecked: there is a point.
   std::uint32_t Furthest(const Eigen::Vector3d& n) const {
     return cells_ == 0 ? FurthestOf(n, 0, all_) : FurthestInCell(n, CellOf(n));
   }

@@ -14,7 +14,8 @@ class PolytopeFaces {
   using Point = ConvexPair::Point;
 
   /// Starts with the tetrahedron of four points. A point beyond a face by less than `tolerance` [m]
-  /// counts as in its plane. Requires four points that are not in one plane.
+  /// counts as in its plane. Unchecked: the points are not in one plane. If three of them are on a
+  /// line, there are no faces.
   void Start(const std::array<Point, 4>& tetrahedron, double tolerance);
 
   /// The face, among those that are not final, whose plane has the least distance from 0, negative

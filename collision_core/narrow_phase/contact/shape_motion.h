@@ -74,7 +74,7 @@ class ShapeMotion {
   double RingFreedom(double at, double left, TimeDirection direction, double duration,
                      std::uint64_t units) const;
 
-  /// Whether certainly neither body is inside the other. Requires surfaces that are apart.
+  /// Whether certainly neither body is inside the other. Unchecked: the surfaces are apart.
   bool NeitherInside(const RelativePose& pose) const;
 
   /// Tests containment if the query found the surfaces apart: one solid inside the other is

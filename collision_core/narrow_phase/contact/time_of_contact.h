@@ -104,12 +104,13 @@ struct BodyPair {
 /// Makes the segments of two motions from `from` on.
 BodyPair SegmentsOf(const KnownMotion& a, const KnownMotion& b, Instant from);
 
-/// The instants from `from` to `to`, both included. Requires from <= to.
+/// The instants from `from` to `to`, both included.
 struct TimeSpan {
   Instant from, to;
 };
 
 /// The same for two known motions over a span of time. The result is in seconds after `span.from`.
+/// Requires span.from <= span.to.
 TimeOfContactResult TimeOfContact(const KnownMotion& a, const KnownMotion& b, const TimeSpan& span,
                                   const ContactTolerance& tolerance, WorkBudget* work);
 

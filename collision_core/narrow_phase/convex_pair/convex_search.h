@@ -16,7 +16,7 @@ namespace collision::narrow_phase {
 /// One search. What it is given outlives it. Not thread-safe.
 class ConvexSearch {
  public:
-  /// Narrows `bracket`; requires a bracket that nothing has narrowed yet.
+  /// Narrows `bracket`. Requires a bracket whose lower bound nothing has raised yet.
   ConvexSearch(const ConvexQuery& query, ConvexBracket* bracket, WorkBudget* work);
 
   /// Searches until the bracket is good enough, or a limit on steps or the work allowed ends the

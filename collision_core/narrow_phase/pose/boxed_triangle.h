@@ -7,14 +7,14 @@
 
 namespace collision::narrow_phase {
 
-/// The corners of a triangle in its own body frame. Requires an element that is no solid.
+/// The corners of a triangle in its own body frame. Unchecked: the element is no solid.
 inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, ElementIndex triangle) {
   const geometry::TriangleMesh& mesh = shape.mesh();
   const geometry::Triangle& t = mesh.triangles[triangle.value()];
   return {mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
 }
 
-/// The corners of a triangle of B, in A's body frame. Requires an element that is no solid.
+/// The corners of a triangle of B, in A's body frame. Unchecked: the element is no solid.
 inline geometry::TrianglePoints CornersOf(const shape::Shape& shape, ElementIndex triangle,
                                           const RelativePose& pose) {
   const geometry::TrianglePoints own = CornersOf(shape, triangle);

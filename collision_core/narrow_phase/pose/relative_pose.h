@@ -50,7 +50,7 @@ struct RelativePose {
 inline constexpr double kMatrixRounding = 0x1p-49;
 
 /// B's body frame seen from A's, as given: nothing but rounding, and A's frame is the world's.
-/// Requires a matrix that is a rotation to within kMatrixRounding, which is counted.
+/// Unchecked: the matrix is a rotation to within kMatrixRounding, which is counted.
 inline RelativePose PoseOf(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& p_AB) {
   RelativePose pose;
   pose.R_AB = R_AB;

@@ -18,8 +18,8 @@ struct Containment {
 
   bool certain() const { return point_error < numeric::kInfinity; }
 };
-/// The containment test. Requires surfaces that are certainly apart. An open surface has no inside,
-/// so nothing is inside it; a ball is solid.
+/// The containment test. Unchecked: the surfaces are certainly apart. An open surface has no
+/// inside, so nothing is inside it; a ball is solid.
 Containment TestContainment(const PosedPair& pair, WorkBudget* work);
 
 }  // namespace collision::narrow_phase

@@ -36,8 +36,9 @@ struct PackedBody {
   sphere_tree::BallPack ball;
 };
 
-/// `slack`: what rounding may have made of a distance computed in doubles. Requires an offset far
-/// below 1e19 m, whose square single precision holds.
+/// `slack`: what rounding may have made of a distance computed in doubles. The result counts only
+/// for an offset far below 1e19 m, whose square single precision holds: SeparationSearch discards
+/// it beyond.
 KernelPose KernelPoseOf(const PackedBody& a, const PackedBody& b, const RelativePose& pose,
                         double slack);
 

@@ -30,7 +30,7 @@ class NextMeetingSearch {
     horizons_.Record(tiers_.TierOf(query.agent), query.group, when);
   }
 
-  /// The first meeting with a partner that is not left out. Requires that there is none by `known`.
+  /// The first meeting with a partner that is not left out. Unchecked: there is none by `known`.
   NextMeeting Find(const ClearanceQuery& query, Instant known);
 
   /// The earliest of `meetings` whose partner is not tracked.

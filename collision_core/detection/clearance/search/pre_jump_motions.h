@@ -15,7 +15,7 @@ namespace collision::detection {
 /// motions that ended with a jump, by time. Empty, and free of cost, in a scene without jumps.
 class PreJumpMotions {
  public:
-  /// Keeps at most `motions_max`; beyond, it drops the oldest. Requires an empty `method`.
+  /// Keeps at most `motions_max`; beyond, it drops the oldest. Unchecked: `method` is empty.
   PreJumpMotions(std::unique_ptr<broad_phase::NeighbourIndex> method, std::size_t motions_max)
       : method_(std::move(method)), motions_max_(motions_max) {}
 

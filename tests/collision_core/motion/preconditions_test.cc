@@ -1,0 +1,35 @@
+// Goal:   a stated precondition that does not hold throws, and leaves no wrong bound behind.
+// Method: each call is made once with what it does not accept.
+#include <gtest/gtest.h>
+
+#include "collision_core/base/check.h"
+#include "collision_core/motion/contract.h"
+#include "collision_core/motion/contract_between.h"
+#include "collision_core/motion/contract_cap.h"
+#include "collision_core/motion/speed_cap.h"
+
+namespace collision::motion {
+namespace {
+
+TEST(MotionPreconditions, ABoundWithoutACapHasNoCappedBall) {
+  const SpaceTimeBound bound;
+  EXPECT_THROW(CappedSpeed(bound.limits), CheckFailure);
+  EXPECT_THROW(CapTakesOver(bound), CheckFailure);
+  EXPECT_THROW(FaceCapTakesOver(bound, 0, 1), CheckFailure);
+  EXPECT_THROW(CapBall(bound), CheckFailure);
+  EXPECT_THROW(CapFace(bound, 0, 1, 1), CheckFailure);
+  EXPECT_THROW(CheckCap(bound, bound.state), CheckFailure);
+}
+
+TEST(MotionPreconditions, AStateIsNotComparedWithALaterOne) {
+  SpaceTimeBound before;
+  before.limits.speed_max = 1;
+  MotionState next = before.state;
+  next.stamp = Instant::FromNanoseconds(before.state.stamp.nanoseconds() - 1);
+  EXPECT_THROW(CheckContract(before, next, Orientation::kIgnored), CheckFailure);
+  EXPECT_THROW(CheckCap(before, next), CheckFailure);
+  EXPECT_THROW(GapBetween(before, next), CheckFailure);
+}
+
+}  // namespace
+}  // namespace collision::motion

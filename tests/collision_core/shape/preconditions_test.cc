@@ -1,0 +1,50 @@
+// Goal:   a body that would be refused is not built.
+// Method: each call is made once with what it does not accept.
+#include <gtest/gtest.h>
+
+#include "collision_core/base/check.h"
+#include "collision_core/shape/outer_hull.h"
+#include "collision_core/shape/shape.h"
+
+namespace collision::shape {
+namespace {
+
+geometry::TriangleMesh OneTriangle() {
+  geometry::TriangleMesh mesh;
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}};
+  return mesh;
+}
+
+TEST(ShapePreconditions, ARefusedMeshMakesNoSurface) {
+  EXPECT_NO_THROW(Shape::Build(OneTriangle()));
+  EXPECT_THROW(Shape::Build({}), CheckFailure);
+  geometry::TriangleMesh mesh = OneTriangle();
+  mesh.triangles[0][2] = 3;
+  EXPECT_THROW(Shape::Build(mesh), CheckFailure);
+}
+
+TEST(ShapePreconditions, ARefusedDescriptionMakesNoSolid) {
+  ConvexDescription description;
+  EXPECT_THROW(ConvexSolid::Build(description), CheckFailure) << "a ball of no size";
+  description.core = geometry::ConvexCore::kHull;
+  description.rounding = 1;
+  EXPECT_THROW(ConvexSolid::Build(description), CheckFailure) << "a hull of no points";
+}
+
+TEST(ShapePreconditions, ACompoundIsOfASurfaceAndSolids) {
+  ConvexDescription description;
+  description.rounding = 1;
+  const ConvexSolid ball = ConvexSolid::Build(description);
+  EXPECT_THROW(Shape::Compound(Shape::Build(OneTriangle()), {}), CheckFailure);
+  EXPECT_THROW(Shape::Compound(Shape::Compound(nullptr, {ball}), {ball}), CheckFailure);
+}
+
+TEST(ShapePreconditions, AHullIsAroundPointsWithinSinglePrecision) {
+  const std::vector<Eigen::Vector3d> far = {{0, 0, 0}, {0, 1e15, 0}};
+  EXPECT_THROW(OuterHull(far, 0), CheckFailure);
+  EXPECT_THROW(OuterHull({}, 0), CheckFailure);
+}
+
+}  // namespace
+}  // namespace collision::shape
