@@ -43,10 +43,10 @@ TEST(AgentTable, EachChangeMarksItsChunkAndNoOther) {
   EXPECT_EQ(table.Find(70)->revision(), 2u);
   table.SetClearance(ClearanceOf(70, 3, At(9)));
   EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
-  EXPECT_EQ(table.clearances().Find(70)->clear_until, At(9));
+  EXPECT_EQ(table.clearances().all().at(70).clear_until, At(9));
   table.Remove(70);
   EXPECT_EQ(table.clearances().TakeChanged(), Chunks{1});
-  EXPECT_EQ(table.clearances().Find(70), nullptr);
+  EXPECT_TRUE(table.clearances().all().empty());
   EXPECT_EQ(table.clearances().TakeChanged(), Chunks{});
   table.Validate();
 }
