@@ -63,7 +63,7 @@ sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
 std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
                                           const sphere_tree::ShapeOptions& options,
                                           const Shape* twin) {
-  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()), "a surface has a mesh that is not refused",
+  CORE_CHECK(geometry::IsWellFormed(mesh), "a surface has a well-formed mesh",
              mesh.triangles.size());
   std::shared_ptr<Shape> shape(new Shape());
   if (twin) shape->body_ = twin->body_;

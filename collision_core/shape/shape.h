@@ -36,8 +36,8 @@ class Shape {
  public:
   /// Builds a shape of a surface. Takes about 50 µs a triangle, with the fitted builder 100.
   /// Deterministic: the same mesh and options give the same bits. `twin`, here and below: a shape
-  /// of the same mesh and solids with another tree; null: none. Requires a mesh that passed
-  /// RefusalOf(). Unchecked: it has no degenerate triangles.
+  /// of the same mesh and solids with another tree; null: none. Requires IsWellFormed(mesh).
+  /// Unchecked: it has no degenerate triangles.
   static std::shared_ptr<const Shape> Build(geometry::TriangleMesh mesh,
                                             const sphere_tree::ShapeOptions& options = {},
                                             const Shape* twin = nullptr);

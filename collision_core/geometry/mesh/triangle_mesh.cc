@@ -1,5 +1,6 @@
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -104,6 +105,13 @@ Refusal RefusalOf(const TriangleMesh& mesh, std::size_t triangles_max) {
     }
   }
   return extent.refusal();
+}
+
+bool IsWellFormed(const TriangleMesh& mesh) {
+  return !mesh.triangles.empty() &&
+         std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& triangle) {
+           return *std::max_element(triangle.begin(), triangle.end()) < mesh.vertices.size();
+         });
 }
 
 Refusal RefusalOf(const PolygonMesh& mesh, std::size_t triangles_max) {

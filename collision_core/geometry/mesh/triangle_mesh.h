@@ -61,6 +61,9 @@ std::size_t DropDegenerate(TriangleMesh* mesh);
 /// triangles, size or place out of range. nullopt: it can. Test again after a repair, which may
 /// leave no triangle.
 std::optional<std::string> RefusalOf(const TriangleMesh& mesh, std::size_t triangles_max);
+/// At least one triangle, and all corners are vertices of the mesh: what every function of a mesh
+/// needs. RefusalOf() is narrower, for meshes that others send.
+bool IsWellFormed(const TriangleMesh& mesh);
 /// The same for polygons; a face with more than kPolygonCornersMax corners is refused as well.
 std::optional<std::string> RefusalOf(const PolygonMesh& mesh, std::size_t triangles_max);
 

@@ -32,7 +32,7 @@ struct RayWalk {
 /// whatever the library. The mesh must outlive it. Not thread-safe: it counts its work.
 class TriangleBoxes {
  public:
-  /// Unchecked: the mesh passed RefusalOf(). BuildFitted() checks it.
+  /// Unchecked: IsWellFormed(mesh). BuildFitted() checks it.
   explicit TriangleBoxes(const geometry::TriangleMesh& mesh);
 
   /// `hint`: a triangle that is perhaps near. Ends as soon as something is no farther than

@@ -300,8 +300,8 @@ class Builder {
 
 SphereTree BuildFitted(const geometry::TriangleMesh& mesh, const ShapeOptions& options,
                        SurfaceKind kind) {
-  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
-             "a tree is built of a mesh that is not refused", mesh.triangles.size());
+  CORE_CHECK(geometry::IsWellFormed(mesh), "a tree is built of a well-formed mesh",
+             mesh.triangles.size());
   return Builder(mesh, options, kind).Build();
 }
 

@@ -9,7 +9,7 @@ namespace collision::sphere_tree {
 
 /// Builds a whole tree with certified radii and `kind`: of the mesh.
 /// Deterministic; in time about n log n, 60 to 100 µs a triangle including the signed
-/// distances. Requires a mesh that passed RefusalOf().
+/// distances. Requires IsWellFormed(mesh).
 ///
 /// Why balls from inside. A ball may reach beyond the surface by r + s. On a patch of width w, a
 /// ball about the patch itself does so by w / 2; a ball that touches it from inside, with its

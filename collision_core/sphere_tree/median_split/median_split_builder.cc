@@ -115,8 +115,8 @@ class Builder {
 }  // namespace
 
 SphereTree BuildMedianSplit(const geometry::TriangleMesh& mesh, const ShapeOptions& options) {
-  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
-             "a tree is built of a mesh that is not refused", mesh.triangles.size());
+  CORE_CHECK(geometry::IsWellFormed(mesh), "a tree is built of a well-formed mesh",
+             mesh.triangles.size());
   return Builder(mesh, options).Build();
 }
 

@@ -12,7 +12,7 @@ namespace collision::sphere_tree {
 /// about as deep. Every signed_distance is left at the radius, which is an upper bound of the
 /// distance (the ball contains some of the surface); the caller measures the first 1024 balls.
 /// Deterministic: the same mesh gives the same bits with every standard library. O(n log n), 2 µs a
-/// triangle. Requires a mesh that passed RefusalOf().
+/// triangle. Requires IsWellFormed(mesh).
 SphereTree BuildMedianSplit(const geometry::TriangleMesh& mesh, const ShapeOptions& options);
 
 }  // namespace collision::sphere_tree

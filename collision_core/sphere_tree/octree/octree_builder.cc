@@ -331,15 +331,15 @@ class Builder {
 }  // namespace
 
 SphereTree BuildOctree(const geometry::TriangleMesh& mesh, const ShapeOptions& options) {
-  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
-             "a tree is built of a mesh that is not refused", mesh.triangles.size());
+  CORE_CHECK(geometry::IsWellFormed(mesh), "a tree is built of a well-formed mesh",
+             mesh.triangles.size());
   return Builder(mesh, options, BallKind::kSmaller).Build();
 }
 
 SphereTree BuildCircumscribedOctree(const geometry::TriangleMesh& mesh,
                                     const ShapeOptions& options) {
-  CORE_CHECK(!RefusalOf(mesh, mesh.triangles.size()),
-             "a tree is built of a mesh that is not refused", mesh.triangles.size());
+  CORE_CHECK(geometry::IsWellFormed(mesh), "a tree is built of a well-formed mesh",
+             mesh.triangles.size());
   return Builder(mesh, options, BallKind::kCircumscribed).Build();
 }
 

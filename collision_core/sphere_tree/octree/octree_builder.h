@@ -15,8 +15,8 @@ inline constexpr std::uint32_t kFanFactor = 4;
 
 /// Builds the reference tree: each node is an octant of its parent's cube, with a ball about the
 /// part of the surface in it. Every signed_distance is left at the radius, which is an upper bound
-/// of the distance (the ball contains some of the surface). Requires a mesh that passed
-/// RefusalOf().
+/// of the distance (the ball contains some of the surface). Requires
+/// IsWellFormed(mesh).
 ///
 /// Cutting without error. A node's part is what of the surface lies in its octant. The cut of an
 /// edge ab at an octant's face is *defined* as a + t (b − a) with the rounded t, which lies on the

@@ -16,7 +16,7 @@ geometry::TriangleMesh OneTriangle() {
   return mesh;
 }
 
-TEST(ShapePreconditions, ARefusedMeshMakesNoSurface) {
+TEST(ShapePreconditions, AnIllFormedMeshMakesNoSurface) {
   EXPECT_NO_THROW(Shape::Build(OneTriangle()));
   EXPECT_THROW(Shape::Build({}), CheckFailure);
   geometry::TriangleMesh mesh = OneTriangle();

@@ -1,4 +1,4 @@
-// Goal:   no builder makes a tree of a mesh that would be refused.
+// Goal:   no builder makes a tree of a mesh that is not well formed.
 // Method: a mesh whose triangle names a vertex that is not there, and one without a triangle.
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace collision::sphere_tree {
 namespace {
 
-TEST(SphereTreePreconditions, ARefusedMeshHasNoTree) {
+TEST(SphereTreePreconditions, AnIllFormedMeshHasNoTree) {
   geometry::TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   for (const geometry::Triangle& triangle : {geometry::Triangle{0, 1, 3}, {0, 1, 2}}) {
