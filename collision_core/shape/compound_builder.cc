@@ -15,11 +15,12 @@ using Eigen::Vector3d;
 /// Siblings, as the packs of a traversal hold them.
 constexpr std::size_t kGathered = 8;
 
-/// Of the sizes of a point and a solid: a distance is made of differences (two roundings in three
-/// coordinates) and sums, below 8 · 2^-53 of them.
+/// Relative to the sizes of a point and a solid: a distance is made of differences (two roundings
+/// in three coordinates) and sums, below 8 · 2^-53 of them.
 constexpr double kDistanceRounding = 0x1p-50;
 
-/// Of the coordinates' magnitudes: each of their differences is off by 2^-53 of them; twice that.
+/// Relative to the coordinates' magnitudes: each of their differences is off by 2^-53 of them;
+/// twice that.
 constexpr double kDifferenceRounding = 0x1p-52;
 
 /// A root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for underflow; the

@@ -118,8 +118,8 @@ std::vector<Vector3d> CornersOf(const geometry::ConvexSet& set) {
   return corners;
 }
 
-/// Of |c| and the span: the last sum of a computed corner is off by 2^-53 of each coordinate; twice
-/// that. What comes before is within kSupportError.
+/// Relative to |c| and the span: the last sum of a computed corner is off by 2^-53 of each
+/// coordinate; twice that. What comes before is within kSupportError.
 constexpr double kCornerRounding = 0x1p-52;
 
 /// What any computed corner, seen from the origin, may be off by.

@@ -41,8 +41,8 @@ void AddCorners(const geometry::ConvexSet& set, std::vector<Vector3d>* points) {
   }
 }
 
-/// Of the coordinates' magnitudes: a corner is a sum of centre and halves, itself halved sums; less
-/// than 8 · 2^-53 of them.
+/// Relative to the coordinates' magnitudes: a corner is a sum of centre and halves, itself halved
+/// sums; less than 8 · 2^-53 of them.
 constexpr double kCornerRounding = 0x1p-50;
 
 /// An upper bound of how far a solid reaches beyond the hull of its corners [m].

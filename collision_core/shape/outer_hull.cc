@@ -30,7 +30,7 @@ constexpr double kStored = 4 * 0x1p-24;
 /// both lengths.
 constexpr double kDifferenceRounding = 0x1p-51;
 
-/// Of a measure, which is 1 at most: keeps that of plates and needles away from zero.
+/// Added to a measure, which is 1 at most: keeps that of plates and needles away from zero.
 constexpr float kMeasureMin = 0x1p-10f;
 
 /// A point along the four corners of a patch.

@@ -87,8 +87,8 @@ class OuterHull {
 /// u E: in all less than 15 u E.
 inline constexpr double kHullSupportError = 15 * 0x1p-24;
 
-/// Of the square of a direction's length, which a cast leaves off by a few units of 2^-24: what is
-/// off by more is no unit vector.
+/// Relative to the square of a direction's length, which a cast leaves off by a few units of 2^-24:
+/// what is off by more is no unit vector.
 inline constexpr float kUnitSquareError = 0x1p-14f;
 
 /// The cell of a direction, as in ConvexPoints::CellOf().

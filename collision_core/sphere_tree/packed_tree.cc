@@ -20,7 +20,7 @@ float FloatUp(double x) {
 
 constexpr Eigen::Index kAxes = 3;
 
-/// Of the lengths of a centre and of the origin: their difference is off by 2^-53 of each
+/// Relative to the lengths of a centre and of the origin: their difference is off by 2^-53 of each
 /// coordinate; four times that.
 constexpr double kDifferenceRounding = 0x1p-51;
 

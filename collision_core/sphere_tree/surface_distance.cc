@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 /// would overflow, and its radius is less than the rounding.
 constexpr double kFar = 1e100;
 
-/// Of |d| and the radius: a computed |d| is off by a relative 3.5 u, u = 2^−53, but for
+/// Relative to |d| and the radius: a computed |d| is off by a relative 3.5 u, u = 2^−53, but for
 /// kDistanceUnderflow; subtracting rounds by another u of the difference. 8 u.
 constexpr double kBoundRounding = 0x1p-50;
 

@@ -8,8 +8,8 @@
 namespace collision::broad_phase {
 namespace {
 
-/// Of the sum of an offset's coordinates: casts take 2^-24 of each, and the sum and its own cast
-/// are rounded by less than as much again; twice that.
+/// Relative to the sum of an offset's coordinates: casts take 2^-24 of each, and the sum and its
+/// own cast are rounded by less than as much again; twice that.
 constexpr double kOffsetLoss = 0x1p-22;
 
 /// What a position as seen from a corner loses in single precision; `offset` leads there.

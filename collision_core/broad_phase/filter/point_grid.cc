@@ -26,8 +26,9 @@ constexpr std::uint32_t kFewPoints = 32;
 /// Squares beyond this length [m] might overflow in single precision.
 constexpr double kLengthMax = 0x1p60;
 
-/// Of a row's length: positions lose at most 2^-24 of it on each axis, for both points of a pair,
-/// and reaches and the ranges' bounds as much. Squares lose digits to underflow below kReachLeast.
+/// Relative to a row's length: positions lose at most 2^-24 of it on each axis, for both points of
+/// a pair, and reaches and the ranges' bounds as much. Squares lose digits to underflow below
+/// kReachLeast.
 constexpr double kRowLoss = 0x1p-20;
 
 /// What cells have to hold beside the reach, as a share of it and of the box: four times kRowLoss,

@@ -22,8 +22,8 @@ namespace collision::geometry {
 
 using Eigen::Vector3d;
 
-/// Of the span: each difference of corners is off by 2^-53 of itself, a weighted sum of two of them
-/// by no more than the longer one; twice that.
+/// Relative to the span: each difference of corners is off by 2^-53 of itself, a weighted sum of
+/// two of them by no more than the longer one; twice that.
 constexpr double kDifferenceError = 0x1p-52;
 
 ConvexSet TriangleSet(const std::array<Vector3d, 3>& corners) {

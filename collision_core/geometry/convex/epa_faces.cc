@@ -14,12 +14,12 @@ using Eigen::Vector3d;
 /// The least sine of the angle between two edges of a face; with a smaller one it is a needle.
 constexpr double kNeedle = 1e-10;
 
-/// Of |y_0| |e_1| |e_2|: more than twice what a computed y_0·(e_1 × e_2) is off by, 12u
+/// Relative to |y_0| |e_1| |e_2|: more than twice what a computed y_0·(e_1 × e_2) is off by, 12u
 /// (IsSeenFromWithin).
 constexpr double kTripleError = 32 * 0x1p-53;
 
-/// Of S: n·y is off by 3u |y| <= 3u √3 S, and |n| by 4u, which counts of the distance, at most S;
-/// below 9.2u, rounded up.
+/// Relative to S: n·y is off by 3u |y| <= 3u √3 S, and |n| by 4u, which counts of the distance, at
+/// most S; below 9.2u, rounded up.
 constexpr double kDistanceError = 12 * 0x1p-53;
 
 constexpr int kNext[3] = {1, 2, 0};

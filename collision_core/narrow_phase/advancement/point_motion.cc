@@ -6,8 +6,8 @@
 namespace collision::narrow_phase {
 namespace {
 
-/// Of the lengths, and for each second of the speeds, that a distance is made of: less than two
-/// dozen operations on terms below their sum, of 2^-53 each.
+/// Relative to the lengths, and for each second of the speeds, that a distance is made of: less
+/// than two dozen operations on terms below their sum, of 2^-53 each.
 constexpr double kDistanceRounding = 0x1p-48;
 
 }  // namespace

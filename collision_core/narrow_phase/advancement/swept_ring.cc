@@ -37,8 +37,9 @@ constexpr double kGrow = 1 + 0x1p-40;
 /// three coordinates; below 11 · 2^-53.
 constexpr double kCornerRounding = 0x1p-49;
 
-/// Of reaches, offset and way: four times the share that PointMotion takes for tangents, since
-/// heights and radii about the axis are sums of products with its coordinates, rounded as well.
+/// Relative to reaches, offset and way: four times the share that PointMotion takes for tangents,
+/// since heights and radii about the axis are sums of products with its coordinates, rounded as
+/// well.
 constexpr double kRingRounding = 0x1p-46;
 
 /// The hull of some points, one to eight, rounded by `radius`: a ball, a triangle, or what holds a

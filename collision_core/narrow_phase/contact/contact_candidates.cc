@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kPairsMax = 64;
 constexpr std::size_t kMeasuredMax = 1024;
 
-// Of each kind, for either body.
+// So many of each kind are kept, for either body.
 constexpr std::size_t kKept = 2;
 
 // Corners of a face that are so near to the least height are as low, as a share of the size.

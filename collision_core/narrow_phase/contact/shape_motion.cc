@@ -71,7 +71,7 @@ constexpr double kFineBend = 1e-6;
 // Within so small a turn [rad] a tangent leaves its circle by 3 % of the radius.
 constexpr double kTurnOfSweep = 0.25;
 
-// Of a velocity that a matrix turns: three products and two sums of 2^-53 each in three
+// Relative to a velocity that a matrix turns: three products and two sums of 2^-53 each in three
 // coordinates, for each of three vectors; below 27 · 2^-53, and as much again.
 constexpr double kTurnRounding = 0x1p-47;
 
@@ -84,8 +84,8 @@ constexpr double kMuchSlower = 8;
 // Nearer to the middle of a segment than this share of it is the middle.
 constexpr double kNearMiddle = 1e-6;
 
-// Of two bodies that nearly touch, these parts may touch first: nearer than this share of their
-// size, and so many times what is not known of the motion.
+// Parts of two bodies that nearly touch may touch first where they are nearer to each other than
+// this share of the bodies' size plus so many times the uncertainty of the motion.
 constexpr double kPatchReach = 1e-9;
 constexpr double kPatchBeyond = 2;
 

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Of the lengths that a point is the sum of: a rounding of 2^-53 for each of two sums, in three
-/// coordinates; below 3.5 · 2^-53.
+/// Relative to the lengths that a point is the sum of: a rounding of 2^-53 for each of two sums, in
+/// three coordinates; below 3.5 · 2^-53.
 constexpr double kPointRounding = 0x1p-51;
 
 /// What sums of a centre and a point, both in doubles, are off by.

@@ -18,7 +18,7 @@ constexpr double kFrontError = 48 * 0x1p-53;
 /// n is longer than 1 by less than 2^-20; 2^-10 covers that and the bounds' own rounding.
 constexpr double kBoundsUp = 1 + 0x1p-10;
 
-/// Of the square of a length within 2^-20 of 1: twice that, and as much again.
+/// The square of a length within 2^-20 of 1 is within 2^-19 of 1; twice that.
 constexpr double kUnitSquareError = 0x1p-18;
 
 double Length(const Vector3d& v) { return std::sqrt(v.squaredNorm()); }
@@ -32,7 +32,7 @@ double ReachAlong(const geometry::ConvexSet& set, const Vector3d& m) {
 
 MovingFront FrontOf(const geometry::ConvexSet& set, const TangentMotion& motion, const Vector3d& n,
                     const Vector3d& origin, double h) {
-  CORE_CHECK(!(h < 0), "a front is asked for now or later", h);
+  CORE_CHECK(!(h < 0), "a front is that of a time that has come", h);
   CORE_CHECK(std::abs(n.squaredNorm() - 1) < kUnitSquareError, "the direction has length 1",
              n.norm());
   const Vector3d place = set.centre - origin, arm = set.centre - motion.about;

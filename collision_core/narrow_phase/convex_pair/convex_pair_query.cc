@@ -16,11 +16,12 @@ namespace {
 /// pair's size and the rounding.
 constexpr double kSumRounding = 8 * 0x1p-53;
 
-/// Of the same: what a search leaves of an answer, 32 · 2^-53 (kGapError in gjk_small_wide.h), and
-/// kSumRounding, more than three times.
+/// Relative to the same: what a search leaves of an answer, 32 · 2^-53 (kGapError in
+/// gjk_small_wide.h), and kSumRounding, more than three times.
 constexpr double kVerdictMargin = 128 * 0x1p-53;
 
-/// Of the same: four times kSumRounding, so that contact remains when OfSets() has counted it in.
+/// Relative to the same: four times kSumRounding, so that contact remains when OfSets() has counted
+/// it in.
 constexpr double kInsideMargin = 32 * 0x1p-53;
 
 /// The bracket of the sets, given that of their cores: roundings and errors counted in.

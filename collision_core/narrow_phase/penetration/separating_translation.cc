@@ -25,12 +25,12 @@ constexpr double kLengthMin = 0x1p-500, kLengthMax = 0x1p+500;
 /// What a direction as floats is off by, of its length: √3 · 2^-24 is less.
 constexpr double kFloatDirectionError = 0x1p-23;
 
-/// Of the shift along n, of length 1 to within 2^-50: twice that.
+/// Relative to the shift along n, of length 1 to within 2^-50: twice that.
 constexpr double kLengthShare = 0x1p-49;
 
-/// Of reaches and offset. Supports are off by less than kSupportError (18 · 2^-53) of the spans,
-/// and these are at most thrice the reach: 54 · 2^-53, sums and products less than as much again,
-/// and more than twice all that.
+/// Relative to reaches and offset. Supports are off by less than kSupportError (18 · 2^-53) of the
+/// spans, and these are at most thrice the reach: 54 · 2^-53, sums and products less than as much
+/// again, and more than twice all that.
 constexpr double kReachRounding = 0x1p-45;
 
 /// How far a body reaches along n, in its own frame: best first down its tree, so that few nodes

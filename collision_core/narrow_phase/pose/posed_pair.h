@@ -14,8 +14,8 @@ struct PosedPair {
   const RelativePose& pose;
 };
 
-/// Of the sum of the bodies' reaches and the offset: less than a dozen operations on terms below
-/// it, of 2^-53 each.
+/// Relative to the sum of the bodies' reaches and the offset: less than a dozen operations on terms
+/// below it, of 2^-53 each.
 inline constexpr double kPosedDistanceRounding = 0x1p-49;
 
 /// An upper bound of what rounding may have made of a distance at this pose [m], computed in

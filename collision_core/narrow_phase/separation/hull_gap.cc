@@ -17,13 +17,13 @@ using Eigen::Vector3f;
 /// single precision.
 constexpr double kFarApart = 1e15, kAtOnePlace = 1e-15;
 
-/// Of S, the sum of both extents and of the offset between the origins. With u = 2^-24: supports
-/// are off by kHullSupportError, 15 u, of the extents; B's direction is turned with an error of √3
-/// times 4 u, 7 u of its extent; the offset is cast (u) and multiplied (3.1 u); two differences
-/// make 2 u S. A gap is made one along a unit vector to within 6 u, and each of four times that a
-/// direction is mirrored it loses less than 22 u of its length (2 n·w / w² takes 9 u, of a vector
-/// of length 2 at most, and the difference 3 u): a gap, less than S, is off by these 94 u of
-/// itself. In all less than 124 u S.
+/// Relative to S, the sum of both extents and of the offset between the origins. With u = 2^-24:
+/// supports are off by kHullSupportError, 15 u, of the extents; B's direction is turned with an
+/// error of √3 times 4 u, 7 u of its extent; the offset is cast (u) and multiplied (3.1 u); two
+/// differences make 2 u S. A gap is made one along a unit vector to within 6 u, and each of four
+/// times that a direction is mirrored it loses less than 22 u of its length (2 n·w / w² takes 9 u,
+/// of a vector of length 2 at most, and the difference 3 u): a gap, less than S, is off by these 94
+/// u of itself. In all less than 124 u S.
 constexpr double kGapSlack = 0x1p-24 * 128;
 
 /// Directions are at most this much longer than 1, and a ball's shadow with them.

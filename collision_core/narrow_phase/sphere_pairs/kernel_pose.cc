@@ -9,8 +9,8 @@ void Store(const Eigen::Vector3d& from, float* to) {
   for (Eigen::Index i = 0; i < 3; ++i) to[i] = static_cast<float>(from[i]);
 }
 
-// Of the chord times the farthest a point may be: 16 · 2^-24 cover an arm that is off by (2 + 2.5)
-// of these more, its product with the chord, and sums of it.
+// Relative to the chord times the farthest a point may be: 16 · 2^-24 cover an arm that is off by
+// (2 + 2.5) of these more, its product with the chord, and sums of it.
 constexpr double kTurningRounding = 0x1p-20;
 
 // What turning adds to the slack.
