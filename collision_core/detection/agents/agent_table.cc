@@ -147,7 +147,8 @@ void AgentTable::Validate() const {
     ++held;
     const AgentRecord& record = (*this)[agent];
     CORE_CHECK(!record.history.empty(), "an agent has a state", k);
-    CORE_CHECK(record.stamp() <= record.heard_until(), "a state is heard of", k);
+    CORE_CHECK(record.stamp() <= record.heard_until(),
+               "no state is newer than what its owner has reported", k);
     if (record.removal != 0) {
       CORE_CHECK(record.owner == nullptr && Find(record.id) != agent,
                  "a removed agent has no name and no owner", k);
