@@ -92,6 +92,15 @@ std::string WrappableLines(const std::string& markdown) {
   return wrappable;
 }
 
+/// The programs in the rooms that are text: they have no ending and begin with "#!".
+std::vector<SourceFile> Scripts() {
+  std::vector<SourceFile> scripts;
+  for (SourceFile& file : SourceFiles({""})) {
+    if (file.text.rfind("#!", 0) == 0) scripts.push_back(std::move(file));
+  }
+  return scripts;
+}
+
 /// Every text that is written by hand and can be wrapped.
 std::vector<SourceFile> FilesWithColumns() {
   std::vector<SourceFile> files =
@@ -99,6 +108,7 @@ std::vector<SourceFile> FilesWithColumns() {
   for (SourceFile& file : SourceFiles({".txt"})) {
     if (file.path.find("CMakeLists") != std::string::npos) files.push_back(std::move(file));
   }
+  for (SourceFile& script : Scripts()) files.push_back(std::move(script));
   for (const char* path : {"README.md", "CHANGELOG.md", "CMakeLists.txt", "run", ".ci/run"}) {
     files.push_back({path, ReadFile(path)});
   }
@@ -136,6 +146,12 @@ TEST(Style, FilesAreOfReadableLength) {
   for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
     EXPECT_LT(CountLines(file.text), kLinesMax) << file.path;
   }
+}
+
+TEST(Style, ScriptsAreFound) {
+  std::vector<std::string> paths;
+  for (const SourceFile& script : Scripts()) paths.push_back(script.path);
+  EXPECT_NE(std::find(paths.begin(), paths.end(), "tests/mutants/mutants"), paths.end());
 }
 
 // clang-format breaks code at this column, but leaves comments as they are.
