@@ -139,7 +139,7 @@ int Run(const Options& options) {
 }  // namespace
 
 int RunProgram(const Options& options) {
-  return EndOnFailedCheck([&options] { return Run(options); });
+  return EndOnFailure([&options] { return Run(options); });
 }
 
 }  // namespace collision::server

@@ -5,8 +5,8 @@
 
 namespace collision::server {
 
-/// Does what the command line asks for, to its end. Returns the exit code, kExitSoftware after a
-/// failed check. To be called once, from main, before any thread is made.
+/// Does what the command line asks for, to its end. Returns the exit code, also after a failure
+/// (EndOnFailure()). To be called once, from main, before any thread is made.
 int RunProgram(const Options& options);
 
 }  // namespace collision::server

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <memory>
 #include <mutex>
@@ -35,6 +36,13 @@ constexpr std::chrono::milliseconds kStepPatience{700};
       kStepPatience.count());
   spdlog::default_logger_raw()->flush();
   std::_Exit(kExitOk);
+}
+
+int EndWith(ExitCode code, const char* what, const std::exception& failure) {
+  EndLogging();
+  spdlog::critical("{}: {}", what, failure.what());
+  spdlog::default_logger_raw()->flush();
+  return Fail(code, std::string(what) + ": " + failure.what());
 }
 
 int ServeUntilStopped(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
@@ -74,21 +82,19 @@ void LogFingerprint(const EventLog& log) {
   spdlog::set_level(level);
 }
 
-int EndOnFailedCheck(const std::function<int()>& run) {
+int EndOnFailure(const std::function<int()>& run) {
   try {
     return run();
   } catch (const std::logic_error& failure) {
-    EndLogging();
-    spdlog::critical("a check has failed, which is a bug in collisiond: {}", failure.what());
-    spdlog::default_logger_raw()->flush();
-    return Fail(kExitSoftware, std::string("a check has failed: ") + failure.what());
+    return EndWith(kExitSoftware, "a check has failed, which is a bug in collisiond", failure);
+  } catch (const std::exception& failure) {
+    return EndWith(kExitSystem, "the system lacks what collisiond needs", failure);
   }
 }
 
 int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
           std::shared_ptr<TreeStore> trees) {
-  return EndOnFailedCheck(
-      [&] { return ServeUntilStopped(config, bus, recorder, std::move(trees)); });
+  return EndOnFailure([&] { return ServeUntilStopped(config, bus, recorder, std::move(trees)); });
 }
 
 }  // namespace collision::server

@@ -15,7 +15,7 @@
 namespace collision::server {
 
 /// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, or
-/// a failed check (EndOnFailedCheck()). Returns the exit code. PrepareSignals() was called.
+/// a failure (EndOnFailure()). Returns the exit code. PrepareSignals() was called.
 ///
 /// A step that is not over 0.7 s after the signal is not waited for: what is recorded stays whole,
 /// and the process ends with 0 from another thread, so Serve() does not return. `recorder` may be
@@ -24,14 +24,16 @@ int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
           std::shared_ptr<TreeStore> trees = nullptr);
 
 /// Returns what `run` returns. If a CheckFailure, or another std::logic_error, leaves it, there is
-/// a bug in this program: logs what failed as critical, and returns kExitSoftware.
+/// a bug in this program: logs what failed as critical, and returns kExitSoftware. If any other
+/// exception leaves it, the system lacks what the program cannot do without, for example memory:
+/// logs that too, and returns kExitSystem.
 ///
 /// By then the stack of `run` is unwound and the daemon destroyed; nothing more is published, and
 /// the fingerprint of the events is not logged. The recording is whole: each batch was handed to
 /// the operating system before it was applied. If the check failed within a step, the batch of that
 /// step is the last one, and a replay fails in the same check. If it failed on a thread that builds
-/// shapes, the recording holds the bytes of the shape. Any other exception passes.
-int EndOnFailedCheck(const std::function<int()>& run);
+/// shapes, the recording holds the bytes of the shape.
+int EndOnFailure(const std::function<int()>& run);
 
 /// Logs number and hash of all events, whatever the log level: two runs are compared by this line.
 void LogFingerprint(const EventLog& log);

@@ -16,7 +16,7 @@ std::string Json(const google::protobuf::Message& message);
 std::string AgentsJson(const WorldView& view);
 
 /// {"shapes": [{"hash": hexadecimal, "simulator": name, "agents": n, "triangles": n or null,
-/// "bytes": n, "parts": n, "parts_seen": n}, ...]}
+/// "solids": n or null, "bytes": n, "parts": n, "parts_seen": n}, ...]}
 std::string ShapesJson(const WorldView& view);
 
 }  // namespace collision::client
