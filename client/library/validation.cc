@@ -130,7 +130,7 @@ void Validate(const WorldOptions& options) {
   RequireIdentifier("simulator", options.simulator);
   if (options.chunk_size > kChunkSizeMax) {
     throw std::runtime_error("chunk_size: " + std::to_string(options.chunk_size) +
-                             ", allowed: 1 to 64, or 0");
+                             ", allowed: 1 to " + std::to_string(kChunkSizeMax) + ", or 0");
   }
   if (options.lead >= std::chrono::nanoseconds(0) && options.lead <= kLeadMax) return;
   throw std::runtime_error("lead: " + std::to_string(options.lead.count()) +
@@ -140,7 +140,8 @@ void Validate(const WorldOptions& options) {
 void ValidateWorld(const std::string& world, std::uint32_t domain) {
   RequireIdentifier("world", world);
   if (domain <= kDomainMax) return;
-  throw std::runtime_error("domain: " + std::to_string(domain) + ", allowed: 0 to 230");
+  throw std::runtime_error("domain: " + std::to_string(domain) + ", allowed: 0 to " +
+                           std::to_string(kDomainMax));
 }
 
 }  // namespace collision::client

@@ -39,8 +39,11 @@ BroadPhaseWork operator-(const BroadPhaseWork& a, const BroadPhaseWork& b) {
           a.neighbours - b.neighbours};
 }
 
+/// The most units of work that a text says; fits in 64 bits.
+constexpr double kToldMax = 1e18;
+
 std::string Whole(double x) {
-  return std::to_string(static_cast<std::uint64_t>(std::min(x, 1e18)));
+  return std::to_string(static_cast<std::uint64_t>(std::min(x, kToldMax)));
 }
 
 }  // namespace
@@ -62,28 +65,30 @@ const char* Name(BroadPhaseMethod method) {
 AdaptiveBroadPhase::Method AdaptiveBroadPhase::Make(BroadPhaseMethod kind) const {
   Method method;
   if (kind == BroadPhaseMethod::kExhaustive) {
-    method = {kind, std::make_unique<ExhaustiveIndex>()};
+    method = {kind, std::make_unique<ExhaustiveIndex>(shared_rules())};
   } else {
     const bool grids = kind == BroadPhaseMethod::kSpatialIndex;
     std::unique_ptr<WindowedSearch> search;
     if (grids) {
-      search = std::make_unique<SpatialIndex>();
+      search = std::make_unique<SpatialIndex>(shared_rules());
     } else {
-      search = std::make_unique<AllPairs>();
+      search = std::make_unique<AllPairs>(shared_rules());
     }
     method.kind = grids ? BroadPhaseMethod::kSpatialIndex : BroadPhaseMethod::kAllPairs;
     method.table = &search->table();
     method.phase = std::move(search);
   }
-  method.phase->ShareRules(shared_rules());
   for (const HalfSpaces::Entry& entry : half_spaces()) {
     method.phase->SetHalfSpace(entry.agent, entry.half_space);
   }
   return method;
 }
 
-AdaptiveBroadPhase::AdaptiveBroadPhase(BroadPhaseMethod requested)
-    : requested_(requested), method_(Make(requested)), patience_(kPatience) {}
+AdaptiveBroadPhase::AdaptiveBroadPhase(BroadPhaseMethod requested, SharedRules rules)
+    : AgentBounds(std::move(rules)),
+      requested_(requested),
+      method_(Make(requested)),
+      patience_(kPatience) {}
 
 AdaptiveBroadPhase::~AdaptiveBroadPhase() = default;
 

@@ -43,7 +43,8 @@ class AdaptiveBroadPhase : public SweepingIndex {
   static constexpr double kExcessUnits = 480;  ///< 7½ placements of all; fitted to scenes.
   static constexpr std::uint32_t kMoves = 8;
 
-  explicit AdaptiveBroadPhase(BroadPhaseMethod requested = BroadPhaseMethod::kAuto);
+  explicit AdaptiveBroadPhase(BroadPhaseMethod requested = BroadPhaseMethod::kAuto,
+                              SharedRules rules = NoRules());
   ~AdaptiveBroadPhase() override;
 
   void Set(std::uint32_t agent, const AgentBound& bound) override;

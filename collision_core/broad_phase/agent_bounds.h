@@ -1,13 +1,14 @@
-// The bounds that a method of the broad phase holds, and the one place where rules and half-spaces
-// enter it.
+// The bounds that a method of the broad phase holds, and the one place of this room where rules and
+// half-spaces enter.
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <utility>
 
+#include "collision_core/base/check.h"
 #include "collision_core/broad_phase/agent_bound.h"
-#include "collision_core/broad_phase/index/half_space.h"
+#include "collision_core/broad_phase/half_space.h"
 #include "collision_core/intersection/pair_rules.h"
 
 namespace collision::broad_phase {
@@ -25,7 +26,13 @@ namespace collision::broad_phase {
 /// Single-threaded.
 class AgentBounds {
  public:
-  AgentBounds() = default;
+  using SharedRules = std::shared_ptr<intersection::PairRules>;
+
+  /// Methods that work together share one object: who changes a rule of it by other means than
+  /// SetRule() calls UpdateRules() of each of them. Requires an object.
+  explicit AgentBounds(SharedRules rules = NoRules()) : rules_(std::move(rules)) {
+    CORE_CHECK(rules_ != nullptr, "there is an object for rules, which may be empty");
+  }
   AgentBounds(const AgentBounds&) = delete;
   AgentBounds& operator=(const AgentBounds&) = delete;
   virtual ~AgentBounds() = default;
@@ -56,12 +63,6 @@ class AgentBounds {
   void ClearRule(std::uint32_t a, std::uint32_t b) { SetRule(a, b, {}); }
   const intersection::PairRules& rules() const { return *rules_; }
 
-  /// Shares one object between methods that work together. The caller that changes a rule calls
-  /// UpdateRules() of each method. Requires that no agent is held: WindowedSearch, which stores
-  /// reaches grown by margins, checks it; other methods look rules up when they are asked.
-  virtual void ShareRules(std::shared_ptr<intersection::PairRules> rules) {
-    rules_ = std::move(rules);
-  }
   /// The rules of the agent have changed: stored reaches that depend on them are updated.
   virtual void UpdateRules(std::uint32_t /*agent*/) {}
 
@@ -71,11 +72,12 @@ class AgentBounds {
     for (const std::uint32_t partner : rules_->Forget(agent)) UpdateRules(partner);
   }
 
-  std::shared_ptr<intersection::PairRules> shared_rules() const { return rules_; }
+  static SharedRules NoRules() { return std::make_shared<intersection::PairRules>(); }
+  const SharedRules& shared_rules() const { return rules_; }
   HalfSpaces& mutable_half_spaces() { return half_spaces_; }
 
  private:
-  std::shared_ptr<intersection::PairRules> rules_ = std::make_shared<intersection::PairRules>();
+  const SharedRules rules_;
   HalfSpaces half_spaces_;
 };
 

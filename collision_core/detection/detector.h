@@ -8,10 +8,10 @@
 
 #include "collision_core/detection/agents/agent_declaration.h"
 #include "collision_core/detection/clearance/keys/agent_clearance.h"
-#include "collision_core/detection/detector_counters.h"
-#include "collision_core/detection/detector_options.h"
 #include "collision_core/detection/earliest/earliest_answer.h"
 #include "collision_core/detection/events/collision_event.h"
+#include "collision_core/detection/step/detector_counters.h"
+#include "collision_core/detection/step/detector_options.h"
 #include "collision_core/motion/contract.h"
 
 namespace collision::detection {

@@ -43,8 +43,8 @@ UpdateOutcome Detector::Implementation::Update(const AgentId& id, const motion::
   const NextState next{agent, state, effective_from};
   if (record.expired) return Return(next);
   if (state.discontinuity) return Jump(next);
-  const auto orientation = record.history.newest().has_shape() ? motion::Orientation::kMatters
-                                                               : motion::Orientation::kIgnored;
+  const auto orientation = record.history.newest().has_shape() ? motion::OrientationUse::kMatters
+                                                               : motion::OrientationUse::kIgnored;
   const motion::ContractCheck check = CheckContract(record.bound(), state, orientation);
   switch (check.verdict) {
     case motion::ContractVerdict::kKept:

@@ -8,7 +8,7 @@
 #include "collision_core/detection/detector.h"
 #include "collision_core/detection/earliest/earliest_search.h"
 #include "collision_core/detection/pairs/tracked_pairs.h"
-#include "collision_core/detection/step_clock.h"
+#include "collision_core/detection/step/step_clock.h"
 
 namespace collision::detection {
 

@@ -13,8 +13,8 @@
 namespace collision::intersection {
 namespace {
 
-/// Beyond `until`, a meeting within whose nanosecond rounds down to it, the search goes on for this
-/// long: that nanosecond, and another for the rounding of seconds [s].
+/// Beyond `until`, an intersection within whose nanosecond rounds down to it, the search goes on
+/// for this long: that nanosecond, and another for the rounding of seconds [s].
 constexpr double kBeyondUntil = 2 * numeric::kNanosecond;
 
 /// The first overlap of the two horns' balls: decided in plain doubles, or with intervals from

@@ -36,7 +36,7 @@ struct IntersectingPair {
   std::uint32_t higher = 0;
   IntersectionTime time;
 
-  /// Orders meetings by their instants, and those of equal instants by the agents' indices.
+  /// Orders intersections by their instants, and those of equal instants by the agents' indices.
   friend bool operator<(const IntersectingPair& a, const IntersectingPair& b) {
     const Instant at_a = a.time.instant(), at_b = b.time.instant();
     if (at_a != at_b) return at_a < at_b;

@@ -234,13 +234,13 @@ bool CheckRotation(const SpaceTimeBound& before, const MotionState& next, numeri
 }  // namespace
 
 ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next,
-                            Orientation orientation) {
+                            OrientationUse orientation) {
   CORE_CHECK(next.stamp >= before.state.stamp, "a state follows the one before",
              next.stamp.nanoseconds(), before.state.stamp.nanoseconds());
   const numeric::Interval s = numeric::SecondsBetween(before.state.stamp, next.stamp);
   ContractCheck check;
   bool is_inside = CheckTranslation(before, next, s, &check);
-  if (orientation == Orientation::kMatters && before.limits.angular_acceleration_max >= 0) {
+  if (orientation == OrientationUse::kMatters && before.limits.angular_acceleration_max >= 0) {
     is_inside = CheckRotation(before, next, s, &check) && is_inside;
   }
   if (check.position_excess > 0 || check.velocity_excess > 0 || check.rotation_excess > 0 ||

@@ -35,8 +35,8 @@ struct ContractCheck {
   double angular_velocity_drift = 0;
 };
 
-/// Whether an agent's orientation matters; that of a plain ball does not.
-enum class Orientation { kMatters, kIgnored };
+/// Whether a contract check looks at an agent's orientation: that of a plain ball does not matter.
+enum class OrientationUse { kMatters, kIgnored };
 
 /// Compares `next` with the bound of the state before it. With s = next.stamp − before.state.stamp:
 ///
@@ -82,6 +82,6 @@ enum class Orientation { kMatters, kIgnored };
 /// (the exponential and the product of each step), the error of ω for s, and |ω| · 1 ns. What is
 /// actually used is returned as drift: the published bounds must leave that much room.
 ContractCheck CheckContract(const SpaceTimeBound& before, const MotionState& next,
-                            Orientation orientation = Orientation::kMatters);
+                            OrientationUse orientation = OrientationUse::kMatters);
 
 }  // namespace collision::motion

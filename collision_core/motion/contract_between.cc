@@ -47,7 +47,7 @@ Span SpanOf(const SpaceTimeBound& before, const MotionState& next, double durati
 
 /// Whether the balls certainly never come apart: the greatest |D|, in a norm that cannot overflow,
 /// is not larger than the least R.
-bool MeetAtAGlance(const Span& span) {
+bool NeverComeApart(const Span& span) {
   const double farthest = std::max(span.from.lpNorm<1>(), span.to.lpNorm<1>());
   const double lowest = span.r2 > 0 ? std::clamp(-span.r1 / (2 * span.r2), 0.0, 1.0) : 0;
   return farthest <= std::min(span.RadiiAt(lowest), span.RadiiAt(1));
@@ -109,7 +109,7 @@ double GapBetween(const SpaceTimeBound& before, const MotionState& next) {
              base.nanoseconds());
   const numeric::Interval duration = numeric::SecondsBetween(base, next.stamp);
   const Span span = SpanOf(before, next, duration.middle());
-  if (MeetAtAGlance(span)) return 0;
+  if (NeverComeApart(span)) return 0;
   const double share = FarthestOf(span.Scaled(Enlarging(span)));
   if (share < 0) return 0;
 

@@ -11,10 +11,10 @@
 //
 // Each is made where its reader is, with the argument for its rounding. Intervals and doubles come
 // from the bound itself: ForwardBall() and BackwardBall() in motion/space_time_bound.cc;
-// QuickHornPair() in intersection/quick_horn_pair.cc, and HornTable in
-// broad_phase/filter/horn_table.cc, which makes and keeps rows (Fill()) and moves them to an instant
-// (At()). Floats come from doubles: PlacementFrame in broad_phase/filter/placement_frame.h; what
-// positions lose there is added in broad_phase/filter/placed_balls.h and by the stores that fill it.
+// QuickHornPair() in intersection/quick_horn_pair.cc, and HornTable, which makes and keeps rows
+// (Fill() in broad_phase/filter/horn_table.cc) and moves them to an instant (At()). Floats come
+// from doubles: PlacementFrame in broad_phase/filter/placement_frame.h; what positions lose there
+// is added in broad_phase/filter/placed_balls.h and by the stores that fill it.
 //
 // Three plainer forms exist beside these, each for one reader:
 //

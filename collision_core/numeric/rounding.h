@@ -68,7 +68,9 @@ inline bool ErrorIsExact(double x) {
   return std::abs(x) >= kErrorIsExact && std::abs(x) <= std::numeric_limits<double>::max();
 }
 
-/// NextDown of a finite number other than zero, if asked for, without a branch.
+/// NextDown of a finite number other than zero, if asked for. A parameter and not a condition at
+/// the call: whether a rounding went up is as good as random, so a branch on it is often predicted
+/// wrongly, and this arithmetic has none.
 inline double NextDownIf(bool asked, double x) {
   const auto bits = std::bit_cast<std::int64_t>(x);
   return std::bit_cast<double>(bits - ((1 | (bits >> 63)) & -static_cast<std::int64_t>(asked)));

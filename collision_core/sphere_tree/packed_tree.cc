@@ -53,16 +53,16 @@ Eigen::Vector3d MiddleOf(const SphereTree& tree) {
 
 /// A ball, by its number, and the nodes that it holds: its children, or a part of them where they
 /// are too many for a pack. None: a leaf.
-struct PackedTree::Lane {
+struct PackedTree::PackSlot {
   NodeIndex node;
   std::uint32_t first, count;
 };
 
-struct PackedTree::Lanes {
-  std::array<Lane, kPackBalls> lane;
+struct PackedTree::PackSlots {
+  std::array<PackSlot, kPackBalls> slot;
   std::uint32_t count = 0;
 
-  void Add(const Lane& more) { lane[count++] = more; }
+  void Add(const PackSlot& more) { slot[count++] = more; }
   void Add(const SphereTree& tree, NodeIndex node) {
     Add({node, tree.node(node).first_child, tree.node(node).children});
   }
@@ -70,23 +70,23 @@ struct PackedTree::Lanes {
 
 PackedTree::PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tree)
     : origin_(MiddleOf(tree)) {
-  Lanes root;
+  PackSlots root;
   root.Add(tree, SphereTree::kRoot);
-  std::vector<Lanes> packs = {root};
+  std::vector<PackSlots> packs = {root};
   for (std::uint32_t next = 0; next < packs.size(); ++next) {
-    const Lanes lanes = packs[next];
+    const PackSlots slots = packs[next];
     packs_.push_back(EmptyPack());
     nodes_.resize(packs_.size() * kPackBalls);
-    for (std::uint32_t i = 0; i < lanes.count; ++i) {
-      const Lane& lane = lanes.lane[i];
-      const SphereNode& node = tree.node(lane.node);
-      nodes_[next * kPackBalls + i] = lane.node;
+    for (std::uint32_t i = 0; i < slots.count; ++i) {
+      const PackSlot& slot = slots.slot[i];
+      const SphereNode& node = tree.node(slot.node);
+      nodes_[next * kPackBalls + i] = slot.node;
       SetBall(node, next * kPackBalls + i);
-      if (lane.count == 0) {
+      if (slot.count == 0) {
         packs_[next].link[i] = AddLeaf(mesh, tree, node);
         continue;
       }
-      const Lanes inner = LanesOf(tree, lane);
+      const PackSlots inner = SlotsOf(tree, slot);
       packs_[next].link[i] = static_cast<std::uint32_t>(packs.size()) | (inner.count - 1)
                                                                             << BallLink::kIndexBits;
       packs.push_back(inner);
@@ -97,34 +97,34 @@ PackedTree::PackedTree(const geometry::TriangleMesh& mesh, const SphereTree& tre
 
 // Replaces the node of the pack that overshoots its surface the most by its children, as long as
 // there is room for them: a step opens a whole pack, whether it is full or not. If there are more
-// nodes than a pack holds, they are shared out among lanes with the parent's own ball.
-PackedTree::Lanes PackedTree::LanesOf(const SphereTree& tree, const Lane& parent) {
-  Lanes lanes;
+// nodes than a pack holds, they are shared out among slots with the parent's own ball.
+PackedTree::PackSlots PackedTree::SlotsOf(const SphereTree& tree, const PackSlot& parent) {
+  PackSlots slots;
   if (parent.count > kPackBalls) {
     const std::uint32_t wanted = std::min(kPackBalls, (parent.count + kPackBalls - 1) / kPackBalls);
-    for (std::uint32_t first = 0; lanes.count < wanted;) {
-      const std::uint32_t left = wanted - lanes.count;
+    for (std::uint32_t first = 0; slots.count < wanted;) {
+      const std::uint32_t left = wanted - slots.count;
       const std::uint32_t count = (parent.count - first + left - 1) / left;
-      lanes.Add({parent.node, parent.first + first, count});
+      slots.Add({parent.node, parent.first + first, count});
       first += count;
     }
-    return lanes;
+    return slots;
   }
-  for (std::uint32_t i = 0; i < parent.count; ++i) lanes.Add(tree, NodeIndex(parent.first + i));
-  const auto overshoot = [&](const Lane& lane) {
-    return tree.node(lane.node).radius + tree.node(lane.node).signed_distance;
+  for (std::uint32_t i = 0; i < parent.count; ++i) slots.Add(tree, NodeIndex(parent.first + i));
+  const auto overshoot = [&](const PackSlot& slot) {
+    return tree.node(slot.node).radius + tree.node(slot.node).signed_distance;
   };
   for (;;) {
-    Lane* widest = nullptr;
-    for (std::uint32_t i = 0; i < lanes.count; ++i) {
-      Lane& lane = lanes.lane[i];
-      if (lane.count == 0 || lanes.count - 1 + lane.count > kPackBalls) continue;
-      if (widest == nullptr || overshoot(lane) > overshoot(*widest)) widest = &lane;
+    PackSlot* widest = nullptr;
+    for (std::uint32_t i = 0; i < slots.count; ++i) {
+      PackSlot& slot = slots.slot[i];
+      if (slot.count == 0 || slots.count - 1 + slot.count > kPackBalls) continue;
+      if (widest == nullptr || overshoot(slot) > overshoot(*widest)) widest = &slot;
     }
-    if (widest == nullptr) return lanes;
-    const Lane opened = *widest;
-    *widest = lanes.lane[--lanes.count];
-    for (std::uint32_t i = 0; i < opened.count; ++i) lanes.Add(tree, NodeIndex(opened.first + i));
+    if (widest == nullptr) return slots;
+    const PackSlot opened = *widest;
+    *widest = slots.slot[--slots.count];
+    for (std::uint32_t i = 0; i < opened.count; ++i) slots.Add(tree, NodeIndex(opened.first + i));
   }
 }
 

@@ -65,10 +65,10 @@ class PackedTree {
   std::size_t bytes() const;
 
  private:
-  struct Lane;
-  struct Lanes;
+  struct PackSlot;
+  struct PackSlots;
 
-  static Lanes LanesOf(const SphereTree& tree, const Lane& parent);
+  static PackSlots SlotsOf(const SphereTree& tree, const PackSlot& parent);
   std::uint32_t AddLeaf(const geometry::TriangleMesh& mesh, const SphereTree& tree,
                         const SphereNode& leaf);
   void SetBall(const SphereNode& node, BallRef ball);

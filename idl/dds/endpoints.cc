@@ -31,8 +31,8 @@ Qos WriterQos(const TopicRow& row, dds_duration_t lease) {
 
 class Builder {
  public:
-  Builder(dds_entity_t participant, const DdsSessionOptions& options)
-      : participant_(participant), options_(options) {}
+  Builder(dds_entity_t participant, dds_duration_t lease)
+      : participant_(participant), lease_(lease) {}
 
   void Read(Source source, const std::string& partition, const dds_listener_t* listener) {
     Qos qos = MakeQos();
@@ -56,8 +56,7 @@ class Builder {
     for (const TopicRow& row : Topics()) {
       if (row.source != source) continue;
       endpoints_.writers[Index(row)] =
-          Check(dds_create_writer(publisher, Topic(row),
-                                  WriterQos(row, options_.lease.count()).get(), nullptr),
+          Check(dds_create_writer(publisher, Topic(row), WriterQos(row, lease_).get(), nullptr),
                 std::string("DDS writer of ") + row.name);
     }
   }
@@ -73,24 +72,20 @@ class Builder {
   }
 
   const dds_entity_t participant_;
-  const DdsSessionOptions& options_;
+  const dds_duration_t lease_;
   Endpoints endpoints_;
 };
 
 }  // namespace
 
-Endpoints MakeEndpoints(dds_entity_t participant, const DdsSessionOptions& options,
-                        const dds_listener_t* listener) {
-  Builder builder(participant, options);
-  const bool monitor = options.role == DdsRole::kMonitor;
-  const bool service = options.role == DdsRole::kService;
-  const bool simulator = options.role == DdsRole::kSimulator;
-  if (service || (monitor && options.reads_simulators))
-    builder.Read(Source::kSimulators, options.world + ".*", listener);
-  if (simulator || (monitor && options.reads_service))
-    builder.Read(Source::kService, options.world, nullptr);
-  if (service) builder.Write(Source::kService, options.world);
-  if (simulator) builder.Write(Source::kSimulators, options.world + "." + options.simulator);
+Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
+                        dds_duration_t lease, const dds_listener_t* listener) {
+  Builder builder(participant, lease);
+  const auto& [of_simulators, of_service, as_simulator, as_service] = partitions;
+  if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener);
+  if (of_service) builder.Read(Source::kService, *of_service, nullptr);
+  if (as_service) builder.Write(Source::kService, *as_service);
+  if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
   return builder.endpoints();
 }
 

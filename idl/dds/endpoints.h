@@ -1,23 +1,30 @@
-// The readers and writers of one role.
+// The readers and writers of one program.
 #pragma once
 
 #include <array>
+#include <optional>
+#include <string>
 
 #include "idl/dds/entity.h"
-#include "idl/dds/session.h"
 #include "idl/dds/topics.h"
 
 namespace collision::dds {
 
-/// All live inside `participant` and end with it. 0: this role does not have it.
+/// Which sides of the topics a program reads and writes, and in which partition; none: not at all.
+struct Partitions {
+  std::optional<std::string> read_of_simulators, read_of_service;
+  std::optional<std::string> write_as_simulator, write_as_service;
+};
+
+/// All live inside the participant and end with it. 0: the program does not have it.
 struct Endpoints {
   std::array<dds_entity_t, kTopics> readers{};
   std::array<dds_entity_t, kTopics> writers{};
 };
 
-/// Makes what `options.role` reads and writes, in its partitions; `listener` is that of the readers
-/// of what simulators write. Throws std::runtime_error.
-Endpoints MakeEndpoints(dds_entity_t participant, const DdsSessionOptions& options,
-                        const dds_listener_t* listener);
+/// Makes them; `lease` is that of leased writers (topics.h), and `listener` that of the readers of
+/// what simulators write. Throws std::runtime_error.
+Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
+                        dds_duration_t lease, const dds_listener_t* listener);
 
 }  // namespace collision::dds

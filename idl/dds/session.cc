@@ -36,10 +36,23 @@ const DdsSessionOptions& Checked(const DdsSessionOptions& options) {
   if (options.role == DdsRole::kSimulator) CheckName("simulator", options.simulator);
   if (options.domain > wire::kDomainMax) {
     throw std::runtime_error("DDS domain " + std::to_string(options.domain) +
-                             ": allowed are 0 to 230");
+                             ": allowed are 0 to " + std::to_string(wire::kDomainMax));
   }
   if (options.lease.count() <= 0) throw std::runtime_error("lease: must be longer than 0");
   return options;
+}
+
+dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
+  const bool monitor = options.role == DdsRole::kMonitor;
+  const bool service = options.role == DdsRole::kService;
+  const bool simulator = options.role == DdsRole::kSimulator;
+  dds::Partitions partitions;
+  if (service || (monitor && options.reads_simulators))
+    partitions.read_of_simulators = options.world + ".*";
+  if (simulator || (monitor && options.reads_service)) partitions.read_of_service = options.world;
+  if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;
+  if (service) partitions.write_as_service = options.world;
+  return partitions;
 }
 
 dds_entity_t CreateParticipant(std::uint32_t domain) {
@@ -57,7 +70,8 @@ class DdsSession::Implementation {
   explicit Implementation(const DdsSessionOptions& options)
       : participant_(CreateParticipant(Checked(options).domain)),
         guard_(Check(dds_create_guardcondition(participant_.get()), "DDS guard condition")),
-        endpoints_(dds::MakeEndpoints(participant_.get(), options, watch_.Listen(guard_))),
+        endpoints_(dds::MakeEndpoints(participant_.get(), PartitionsOf(options),
+                                      options.lease.count(), watch_.Listen(guard_))),
         waitset_(Check(dds_create_waitset(participant_.get()), "DDS waitset")),
         intake_(options.role == DdsRole::kSimulator ? SimulatorId(options.simulator) : 0) {
     Check(dds_waitset_attach(waitset_, guard_, 0), "DDS waitset");

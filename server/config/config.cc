@@ -221,7 +221,7 @@ v1::Config CompleteConfig(v1::Config config) {
   return config;
 }
 
-std::uint64_t WorkUnitsPerTurn(const v1::Config& complete) {
+std::uint64_t WorkUnitsPerEvaluation(const v1::Config& complete) {
   return static_cast<std::uint64_t>(
       std::llround(complete.time_budget_us() * complete.work_units_per_us()));
 }

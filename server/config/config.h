@@ -37,10 +37,11 @@ std::vector<ConfigError> CheckConfig(const v1::Config& complete);
 /// What the narrow phase may spend on one pair in one evaluation: `time_budget_us` ·
 /// `work_units_per_us`. A budget in work units and not a deadline, so that it ends at the same
 /// place on every machine; `--calibrate` measures the rate.
-std::uint64_t WorkUnitsPerTurn(const v1::Config& complete);
+std::uint64_t WorkUnitsPerEvaluation(const v1::Config& complete);
 
 /// What it may spend on all pairs in one step, from `step_budget_us`; 0: no limit. The detector
-/// shares it among the pairs, and `turns_cut_short` in the status counts those that had too little.
+/// shares it among the pairs, and `evaluations_cut_short` in the status counts those that had too
+/// little.
 std::uint64_t WorkUnitsPerStep(const v1::Config& complete);
 
 /// A complete configuration as protobuf text that explains itself; ParseConfig() reads back the

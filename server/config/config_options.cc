@@ -4,6 +4,8 @@
 #include <google/protobuf/text_format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <cstdlib>
 
 #include "idl/limits.h"
@@ -14,10 +16,30 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 
+/// A limit as the text of the table, with a zero behind it.
+template <std::uint64_t limit>
+struct Digits {
+  static constexpr std::size_t kCount = [] {
+    std::size_t count = 1;
+    for (std::uint64_t rest = limit; rest >= 10; rest /= 10) ++count;
+    return count;
+  }();
+  static constexpr std::array<char, kCount + 1> kText = [] {
+    std::array<char, kCount + 1> text{};
+    std::uint64_t rest = limit;
+    for (std::size_t at = kCount; at > 0; rest /= 10) {
+      text[--at] = static_cast<char>('0' + rest % 10);
+    }
+    return text;
+  }();
+};
+template <std::uint64_t limit>
+constexpr std::string_view kDigits{Digits<limit>::kText.data()};
+
 constexpr ConfigOption kOptions[] = {
     {"world", "none", "", "", "1 to 64 of A-Z a-z 0-9 _ -", "\"default\"",
      "Which world this service serves. Worlds do not see each other."},
-    {"domain", "none", "0", "230", "", "0",
+    {"domain", "none", "0", kDigits<wire::kDomainMax>, "", "0",
      "DDS domain. Simulators and monitors must use the same."},
     {"service_id", "none", "1", "18446744073709551615", "", "1",
      "Stands in everything this instance publishes; no two services of a world share it."},
@@ -82,7 +104,7 @@ constexpr ConfigOption kOptions[] = {
     {"work_units_per_us", "work units", "1", "1000000", "", "20",
      "Turns time_budget_us and step_budget_us into work units. collisiond --calibrate measures it "
      "on this machine."},
-    {"shape_triangles_max", "triangles", "1", "5000000", "", "2000000",
+    {"shape_triangles_max", "triangles", "1", kDigits<wire::kShapeTrianglesMax>, "", "2000000",
      "Triangles of one shape; a shape of more is refused."},
     {"shapes_max", "shapes", "1", "65536", "", "1024",
      "Different shapes in the world, including those that are still arriving; another one is "

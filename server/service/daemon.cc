@@ -39,7 +39,7 @@ detection::DetectorOptions OptionsOf(const v1::Config& config) {
           .pairs_max = config.pairs_max(),
           .pairs_per_agent_max = config.pairs_per_agent_max(),
           .history_max = config.history_max(),
-          .work_units_per_turn = WorkUnitsPerTurn(config),
+          .work_units_per_evaluation = WorkUnitsPerEvaluation(config),
           .work_units_per_step = WorkUnitsPerStep(config),
           .broad_phase = MethodOf(config.broad_phase())};
 }

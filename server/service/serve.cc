@@ -57,8 +57,8 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, RecordingWriter* recor
   ServiceNotifier service_manager;
   spdlog::info("collisiond {} serves world \"{}\" on domain {}", kVersion, config.world(),
                config.domain());
-  spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and turn",
-               config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerTurn(config));
+  spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
+               config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
   service_manager.Ready();
   while (daemon.Step()) service_manager.Alive(std::chrono::steady_clock::now());
   service_manager.Stopping();

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/detection/event_queue.h"
+#include "collision_core/detection/step/event_queue.h"
 
 namespace collision::baselines {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision_core/broad_phase/neighbour_index.h"
-#include "collision_core/detection/event_queue.h"
+#include "collision_core/detection/step/event_queue.h"
 #include "tests/baselines/collision_loop.h"
 
 namespace collision::baselines {

@@ -15,7 +15,8 @@ void FuzzConfig(Bytes bytes) {
   }
   if (!read.ok()) return;
   Require(server::CheckConfig(read.config).empty(), "accepted, and not valid");
-  Require(server::WorkUnitsPerTurn(read.config) <= std::uint64_t{1} << 60, "work per turn");
+  Require(server::WorkUnitsPerEvaluation(read.config) <= std::uint64_t{1} << 60,
+          "work per evaluation");
   Require(server::WorkUnitsPerStep(read.config) <= std::uint64_t{1} << 60, "work per step");
   const std::string printed = server::PrintConfig(read.config);
   const server::ConfigResult again = server::ParseConfig(printed, "printed");

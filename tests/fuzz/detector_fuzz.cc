@@ -35,7 +35,7 @@ detection::DetectorOptions FuzzedOptions(FuzzedData* data) {
   options.pairs_max = static_cast<std::uint32_t>(1 + data->Below(12));
   options.pairs_per_agent_max = static_cast<std::uint32_t>(1 + data->Below(4));
   options.history_max = static_cast<std::uint32_t>(2 + data->Below(8));
-  options.work_units_per_turn = data->Bits(2) % 4000;
+  options.work_units_per_evaluation = data->Bits(2) % 4000;
   options.work_units_per_step = data->Flag() ? data->Bits(2) % 8000 : 0;
   return options;
 }

@@ -19,8 +19,8 @@ constexpr int kStepsMax = 32;
 /// So that no input takes long: these cost time and memory as configured, not as used.
 bool IsSmall(const v1::Config& config) {
   return config.agents_max() <= 1000 && config.pairs_max() <= 65536 && config.history_max() <= 64 &&
-         server::WorkUnitsPerTurn(config) <= 40000 && config.temporal_resolution_s() >= 0.001 &&
-         config.shape_triangles_max() <= 2000000;
+         server::WorkUnitsPerEvaluation(config) <= 40000 &&
+         config.temporal_resolution_s() >= 0.001 && config.shape_triangles_max() <= 2000000;
 }
 
 }  // namespace

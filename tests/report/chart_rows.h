@@ -6,7 +6,7 @@
 
 #include "tests/report/chart.h"
 #include "tests/report/rows.h"
-#include "tests/report/sections.h"
+#include "tests/report/table.h"
 
 namespace collision::report {
 

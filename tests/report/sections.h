@@ -6,15 +6,9 @@
 
 #include "idl/report.pb.h"
 #include "tests/report/chart.h"
+#include "tests/report/table.h"
 
 namespace collision::report {
-
-struct Table {
-  std::string title;
-  std::vector<std::string> columns;
-  std::vector<std::vector<std::string>> rows;
-  bool folded = false;  ///< Shown when it is asked for.
-};
 
 struct Section {
   std::string id;  ///< For links within the page.

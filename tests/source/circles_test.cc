@@ -1,5 +1,5 @@
-// Goal:   within a room of the core no two files need each other, and the sub-rooms of the narrow
-//         phase stand in one order.
+// Goal:   no two files need each other, nor two folders outside the core, and the sub-rooms of the
+//         core stand in one order.
 // Method: a unit is x.h with x.cc, its inline functions, its hidden implementation and its sources
 //         for wide vectors; the includes of all units make a graph, which is searched for circles.
 //         The search is first tried on planted graphs.
@@ -50,6 +50,19 @@ Graph GraphOf(const Texts& texts) {
   return graph;
 }
 
+/// The same for folders: one includes another if a unit in it does.
+Graph FoldersOf(const Graph& units) {
+  const auto folder_of = [](const std::string& unit) { return unit.substr(0, unit.rfind('/')); };
+  Graph folders;
+  for (const auto& [unit, included] : units) {
+    auto& others = folders[folder_of(unit)];
+    for (const std::string& other : included) {
+      if (folder_of(other) != folder_of(unit)) others.insert(folder_of(other));
+    }
+  }
+  return folders;
+}
+
 /// The units that depend on themselves: units without a dependency that is left are taken away
 /// until none is, then those on which nothing that is left depends.
 std::set<std::string> UnitsInCircles(const Graph& graph) {
@@ -87,16 +100,18 @@ Texts TextsOf(const std::string& room) {
   return texts;
 }
 
-/// Includes that go from one sub-room of `room` to a later one.
-std::vector<std::string> IncludesOfLater(const std::string& room,
+/// Includes that go from one part of `room` to a later one. A part is a sub-room, or a unit that
+/// stands in the room itself. What has no place in the order is named, too.
+std::vector<std::string> IncludesOfLater(const Texts& texts, const std::string& room,
                                          const std::vector<std::string>& order) {
   const auto place = [&](const std::string& path) {
-    const auto name = path.substr(room.size(), path.find('/', room.size()) - room.size());
-    return std::find(order.begin(), order.end(), name) - order.begin();
+    const std::string inside = UnitOf(path).substr(room.size());
+    return std::find(order.begin(), order.end(), inside.substr(0, inside.find('/')));
   };
   std::vector<std::string> found;
-  for (const auto& [path, text] : TextsOf(room)) {
-    if (path.substr(room.size()).find('/') == std::string::npos) continue;
+  for (const auto& [path, text] : texts) {
+    if (path.rfind(room, 0) != 0) continue;
+    if (place(path) == order.end()) found.push_back(path + " has no place in " + room);
     for (const Include& include : Includes(text)) {
       if (include.name.rfind(room, 0) != 0 || place(include.name) <= place(path)) continue;
       found.push_back(path + " includes " + include.name);
@@ -133,6 +148,16 @@ TEST(Circles, AUnitAndItsImplementationAreNoCircle) {
   EXPECT_EQ(UnitsInCircles(GraphOf(texts)), std::set<std::string>{});
 }
 
+TEST(Circles, PlantedCirclesOfFoldersAreFound) {
+  const Graph units = GraphOf({{"a/x.h", Line("b/x.h")},
+                               {"a/y.h", ""},
+                               {"b/x.h", ""},
+                               {"b/y.h", Line("a/y.h")},
+                               {"c/x.h", Line("a/x.h")}});
+  EXPECT_EQ(UnitsInCircles(units), std::set<std::string>{});
+  EXPECT_EQ(UnitsInCircles(FoldersOf(units)), (std::set<std::string>{"a", "b"}));
+}
+
 /// "collision_core/motion/" and the like, from the files that there are.
 std::set<std::string> RoomsOfTheCore() {
   const std::string core = "collision_core/";
@@ -153,10 +178,60 @@ TEST(Circles, NoneInTheRoomsOfTheCore) {
   }
 }
 
-TEST(SubRooms, OfTheNarrowPhaseDependInOneOrder) {
-  const std::vector<std::string> order = {
-      "pose", "convex_pair", "sphere_pairs", "separation", "advancement", "penetration", "contact"};
-  EXPECT_EQ(IncludesOfLater("collision_core/narrow_phase/", order), std::vector<std::string>{});
+// In a folder of the core a façade may stand beside the sub-rooms that it is made of: their order
+// is tested below.
+TEST(Circles, NoneInServerClientAndIdl) {
+  for (const std::string room : {"server/", "client/", "idl/"}) {
+    const Graph units = GraphOf(TextsOf(room));
+    EXPECT_GE(units.size(), 10u) << room;
+    EXPECT_EQ(UnitsInCircles(units), std::set<std::string>{});
+    EXPECT_EQ(UnitsInCircles(FoldersOf(units)), std::set<std::string>{});
+  }
+}
+
+TEST(Circles, NoneAmongTheFilesOfTests) {
+  EXPECT_EQ(UnitsInCircles(GraphOf(TextsOf("tests/"))), std::set<std::string>{});
+}
+
+TEST(SubRooms, PlantedIncludesOfALaterOneAreFound) {
+  const Texts texts = {{"r/low/a.h", Line("r/top.h")},
+                       {"r/low/b.h", Line("elsewhere/c.h")},
+                       {"r/top.h", Line("r/low/a.h") + Line("r/high/a.h")},
+                       {"r/top_implementation.cc", Line("r/low/b.h") + Line("r/top.h")},
+                       {"r/high/a.h", Line("r/low/b.h")},
+                       {"r/new/a.h", Line("r/low/b.h")}};
+  EXPECT_EQ(IncludesOfLater(texts, "r/", {"low", "top", "high"}),
+            (std::vector<std::string>{"r/low/a.h includes r/top.h", "r/new/a.h has no place in r/",
+                                      "r/top.h includes r/high/a.h"}));
+}
+
+struct Order {
+  std::string room;
+  std::vector<std::string> parts;  ///< Each includes itself and those before it.
+};
+
+TEST(SubRooms, DependInOneOrder) {
+  const Order orders[] = {
+      {"geometry/", {"triangle", "convex", "mesh"}},
+      {"sphere_tree/",
+       {"tree_options", "underflow", "sphere_tree", "packed_layout", "packed_tree", "surface_query",
+        "surface_distance", "winding", "tree_check", "tree_cut", "median_split", "octree",
+        "fitted"}},
+      // Interfaces of the broad phase come first, and what chooses among its methods last.
+      {"broad_phase/",
+       {"agent_bound", "half_space", "agent_bounds", "broad_phase_work", "broad_phase_method",
+        "neighbour_index", "earliest_sweep", "sweeping_index", "filter", "index", "face_sweep",
+        "adaptive_broad_phase"}},
+      {"narrow_phase/",
+       {"pose", "convex_pair", "sphere_pairs", "separation", "advancement", "penetration",
+        "contact"}},
+      {"detection/", {"step", "events", "agents", "pairs", "clearance", "earliest", "detector"}},
+      {"detection/clearance/",
+       {"keys", "search", "clearance_filter", "key_lowering", "clearance_queries", "clearances"}}};
+  for (const Order& order : orders) {
+    const std::string room = "collision_core/" + order.room;
+    EXPECT_EQ(IncludesOfLater(TextsOf(room), room, order.parts), std::vector<std::string>{});
+  }
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ Names CoreRooms(const std::string& rooms) {
   return folders;
 }
 
+/// A file that none of these fits is refused.
 const std::vector<Layer>& Layers() {
   static const std::string core = "collision_core/", api = "client/api/",
                            library = "client/library/", checker = "client/checker/",
@@ -42,7 +43,8 @@ const std::vector<Layer>& Layers() {
       {core + "broad_phase/", CoreRooms("base numeric simd motion intersection broad_phase")},
       {core + "narrow_phase/",
        CoreRooms("base numeric simd geometry sphere_tree shape motion narrow_phase")},
-      {core, {core}},
+      {core + "detection/",
+       CoreRooms("base numeric shape motion intersection broad_phase narrow_phase detection")},
       // A tree at rest is made of the core's own data; daemon and tools write the same.
       {"idl/tree_message", {"idl/", core + "sphere_tree/", core + "shape/"}},
       {"idl/", {"idl/"}},
@@ -156,7 +158,21 @@ bool IsForWide(const std::string& name) {
 
 bool IsPublicClientHeader(const std::string& path) { return StartsWith(path, "client/api/"); }
 
+/// Null: the file belongs to no layer.
+const Layer* LayerOf(const std::string& path) {
+  for (const Layer& layer : Layers()) {
+    if (StartsWith(path, layer.folder)) return &layer;
+  }
+  return nullptr;
+}
+
+std::string FolderOf(const std::string& path) { return path.substr(0, path.rfind('/') + 1); }
+
 std::string Complaint(const std::string& path, const Include& include) {
+  const Layer* layer = LayerOf(path);
+  if (layer == nullptr) {
+    return "the rules (tests/source/include_rules.cc) have no entry for " + FolderOf(path);
+  }
   if (IsDds(include.name)) {
     return StartsWithAny(path, {"idl/dds/", "tests/idl/"}) ? "" : "only idl/dds knows DDS";
   }
@@ -175,11 +191,7 @@ std::string Complaint(const std::string& path, const Include& include) {
     }
     return "";
   }
-  for (const Layer& layer : Layers()) {
-    if (!StartsWith(path, layer.folder)) continue;
-    return StartsWithAny(include.name, layer.ours) ? "" : "not from " + layer.folder;
-  }
-  return "belongs to no layer";
+  return StartsWithAny(include.name, layer->ours) ? "" : "not from " + layer->folder;
 }
 
 }  // namespace

@@ -17,9 +17,10 @@ struct Include {
 std::vector<Include> Includes(const std::string& text);
 
 /// One sentence, "path:line: ...", for each include of the file `path` (relative to the project's
-/// root, with '/') that breaks the layers of DESIGN, section 4:
-///   numeric <- motion, shape <- broad_phase <- narrow_phase <- detection <- server, and client
-///   -> idl <- server.
+/// root, with '/') that breaks the layers: each file includes only what its folder may stand on.
+/// The rooms of the core are drawn in collision_core/README.md, "The layers"; the daemon stands on
+/// core and idl/, the client on idl/ and almost nothing of the core, and the core on no other
+/// folder. In a folder without an entry every include is refused.
 std::vector<std::string> Violations(const std::string& path, const std::string& text);
 
 }  // namespace collision::source

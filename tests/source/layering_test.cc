@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <regex>
 
 #include "tests/source/include_rules.h"
 #include "tests/source/source_tree.h"
@@ -28,6 +29,7 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
       {"collision_core/shape/a.cc", "\"collision_core/narrow_phase/pose/verdict.h\""},
       {"collision_core/broad_phase/a.cc", "\"collision_core/narrow_phase/a.h\""},
       {"collision_core/narrow_phase/a.cc", "\"collision_core/detection/a.h\""},
+      {"collision_core/detection/a.h", "\"collision_core/sphere_tree/a.h\""},
       {"collision_core/detection/a.h", "\"idl/messages.pb.h\""},
       {"collision_core/detection/a.h", "\"server/clock.h\""},
       {"collision_core/detection/a.cc", "<thread>"},
@@ -72,6 +74,15 @@ TEST(Layering, BadIncludesAreFoundWithTheirLine) {
     const auto violations = ViolationsOf(planted);
     ASSERT_EQ(violations.size(), 1u) << planted.path << " may include " << planted.include;
     EXPECT_EQ(violations[0].rfind(planted.path + ":4: ", 0), 0u) << violations[0];
+  }
+}
+
+TEST(Layering, ARoomWithoutAnEntryIsRefusedByName) {
+  for (const char* include : {"\"collision_core/base/instant.h\"", "<vector>"}) {
+    const auto violations = ViolationsOf({"collision_core/zzz/a.h", include});
+    ASSERT_EQ(violations.size(), 1u) << include;
+    EXPECT_NE(violations[0].find("no entry for collision_core/zzz/"), std::string::npos)
+        << violations[0];
   }
 }
 
@@ -145,14 +156,31 @@ TEST(Layering, PublicClientHeadersLeadToNothingButTheStandardLibrary) {
   EXPECT_GE(headers, 8);
 }
 
+/// Headers and sources together.
+constexpr int kFilesMax = 21;
+
 // A folder is read at a glance.
-TEST(Layering, FoldersOfTheClientHaveAtMostTwentyFiles) {
+TEST(Layering, FoldersOfTheProductHaveFewFiles) {
   std::map<std::string, int> files;
   for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
-    if (file.path.rfind("client/", 0) == 0) ++files[file.path.substr(0, file.path.rfind('/'))];
+    if (file.path.rfind("tests/", 0) != 0) ++files[file.path.substr(0, file.path.rfind('/'))];
   }
-  ASSERT_GT(files.size(), 10u);
-  for (const auto& [folder, count] : files) EXPECT_LE(count, 20) << folder;
+  EXPECT_GE(files.size(), 40u);
+  for (const auto& [folder, count] : files) EXPECT_LE(count, kFilesMax) << folder;
+}
+
+// Pair rules have one door in the detector beside the neighbour index (pair_queries.h).
+TEST(Layering, OnlyPairQueriesDecideAboutPairsInTheDetector) {
+  const std::regex decides("\\b(EarliestIntersection|EarliestIntersectionOf|CanMeet)\\(");
+  int deciding = 0;
+  for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
+    if (file.path.rfind("collision_core/detection/", 0) != 0) continue;
+    const bool is_door = file.path.find("/pair_queries.") != std::string::npos;
+    const bool found = std::regex_search(file.text, decides);
+    EXPECT_TRUE(is_door || !found) << file.path;
+    deciding += found;
+  }
+  EXPECT_EQ(deciding, 1);
 }
 
 TEST(Layering, MainOnlyParsesLoadsAndRuns) {

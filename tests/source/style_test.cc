@@ -40,10 +40,13 @@ void ExpectNowhere(const std::string& pattern, const std::vector<SourceFile>& fi
 /// The code of a line: what stands before a comment.
 std::string CodeOf(const std::string& line) { return line.substr(0, line.find("//")); }
 
-/// The lines, counted from 1, that have a negative power of two or of ten outside a statement that
-/// declares a constant.
+/// The lines, counted from 1, that have outside a statement that declares a constant: a negative
+/// power of two or of ten, or one of two digits; a number a little above 1 or below it; a fraction
+/// that begins with two zeros.
 std::vector<int> UnnamedEpsilons(const std::string& text) {
-  static const std::regex epsilon("\\b0[xX][0-9a-fA-F.]+p-[0-9]|\\b[0-9][0-9.]*e-[0-9]");
+  static const std::regex epsilon(
+      "\\b0[xX][0-9a-fA-F.]+p(-[0-9]|\\+?[0-9]{2})|\\b[0-9][0-9.]*e(-[0-9]|\\+?[0-9]{2})|"
+      "\\b1\\.0{2,}[0-9]*[1-9]|(^|[^0-9])(0?\\.9{3,}|0?\\.0{2,}[0-9]*[1-9])");
   static const std::regex end("[;{}]\\s*$");
   std::vector<int> found;
   std::istringstream lines(text);
@@ -129,6 +132,15 @@ TEST(Style, TheFindingsFind) {
   EXPECT_TRUE(UnnamedEpsilons(named).empty());
   EXPECT_EQ(UnnamedEpsilons(named + "x *= 1 +\n    0x1p-50f;\nif (y > 2.5e-3 * z) {\n"),
             (std::vector<int>{5, 6}));
+  for (const char* number : {"1e-9", "0x1p-30", "1.001", "1.0000001", "0.999", ".9999", "0.001",
+                             "0.005", ".0005", "1e18", "2.5e+30", "0x1p+60", "0x1p100"}) {
+    EXPECT_EQ(UnnamedEpsilons(std::string("x *= ") + number + ";\n"), std::vector<int>{1})
+        << number;
+  }
+  for (const char* number :
+       {"0.5", "0.98", "1.05", "1.0", "0.0", "1e3", "0x1p+3", "100", "20.001"}) {
+    EXPECT_TRUE(UnnamedEpsilons(std::string("x *= ") + number + ";\n").empty()) << number;
+  }
   EXPECT_EQ(CountLines("a\nb\n"), 2);
   EXPECT_EQ(CountColumns("½ τ² ≥ x"), 8);
 }

@@ -59,7 +59,7 @@ detection::AgentDeclaration BallOf(double radius, double acceleration_max) {
 /// What the work of a step is limited to here.
 detection::DetectorOptions Limited() {
   detection::DetectorOptions options;
-  options.work_units_per_turn = 20'000;
+  options.work_units_per_evaluation = 20'000;
   options.work_units_per_step = 60'000;
   return options;
 }
@@ -311,7 +311,7 @@ void Starving(const Setting& setting, Outcome* outcome) {
   const int steps = setting.Many(256, 1024);
   for (const std::uint64_t units : {16'000, 8'000, 4'000}) {
     detection::DetectorOptions options;
-    options.work_units_per_turn = units;
+    options.work_units_per_evaluation = units;
     options.work_units_per_step = units;
     Scene scene(options, Instant(), outcome);
     AddGreedy(&scene);
@@ -327,13 +327,14 @@ void Starving(const Setting& setting, Outcome* outcome) {
           units > 4'000 ? Service{4 * kStepSeconds, 2 * kStepSeconds} : Service{1, 1};
       ExpectServed(scene, cubes[k], kFirst + k * kNext, service, outcome);
     }
-    outcome->Add("turns_cut_short",
-                 static_cast<double>(scene.detector().counters().turns_cut_short));
+    outcome->Add("evaluations_cut_short",
+                 static_cast<double>(scene.detector().counters().evaluations_cut_short));
   }
-  outcome->Expect(outcome->Get("turns_cut_short") > 256, "the budgets are hardly used up");
+  outcome->Expect(outcome->Get("evaluations_cut_short") > 256, "the budgets are hardly used up");
   outcome->Say("cubes that meet are told " + Show(outcome->Get("cubes_told_after_s")) +
                " s later at most, and known within " + Show(outcome->Get("cubes_width_s")) +
-               " s, while " + Show(outcome->Get("turns_cut_short")) + " turns were cut short");
+               " s, while " + Show(outcome->Get("evaluations_cut_short")) +
+               " evaluations were cut short");
 }
 
 const char* const kSteady =

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "client/checker/motion/advancement.h"
-#include "client/checker/motion/true_contacts.h"
+#include "client/checker/motion/true_contact.h"
 
 namespace collision::checker {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "client/library/network/conversion.h"
@@ -160,7 +161,8 @@ Clearance AgentTable::clearance(const AgentId& id) const {
 std::uint32_t AgentTable::FreeSlot() {
   if (free_slots_.empty()) {
     if (slots_.size() == kAgentsMax)
-      throw std::length_error("agents: 65536 are there, no more allowed");
+      throw std::length_error("agents: " + std::to_string(kAgentsMax) +
+                              " are there, no more allowed");
     slots_.emplace_back();
     return static_cast<std::uint32_t>(slots_.size() - 1);
   }

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--bin", options.folders.bin, "Folder of the programs")->capture_default_str();
   app.add_option("--domain", options.domain, "DDS domain; default: depends on the process id")
-      ->check(CLI::Range(0, 230));
+      ->check(DomainRange());
   if (const auto code = ParseCommandLine(&app, argc, argv)) return *code;
   if (!options.json.empty() && !IsWritable(options.json)) {
     std::fprintf(stderr, "scene-runner: --json: %s cannot be written\n", options.json.c_str());

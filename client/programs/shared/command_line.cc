@@ -2,14 +2,18 @@
 
 #include <cstdio>
 
+#include "idl/limits.h"
+
 namespace collision::client {
+
+CLI::Range DomainRange() { return {0, int{wire::kDomainMax}}; }
 
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
   app->add_option("--world", options->world, "World to join")->capture_default_str();
   app->add_option("--simulator", options->simulator, "Name of this simulator, unique in the world")
       ->required();
   app->add_option("--domain", options->domain, "DDS domain")
-      ->check(CLI::Range(0, 230))
+      ->check(DomainRange())
       ->capture_default_str();
   auto* real_time = app->add_flag("--real-time", options->real_time, "Stamps of the wall clock");
   app->add_flag_callback(

@@ -10,6 +10,9 @@
 
 namespace collision::client {
 
+/// The DDS domains that there are (idl/limits.h).
+CLI::Range DomainRange();
+
 /// Adds --world, --simulator, --domain, --lock-step, --real-time, ... to the command line.
 void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options);
 

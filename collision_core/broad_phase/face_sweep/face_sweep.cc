@@ -191,10 +191,10 @@ void FaceSweep::TestCrossings(Instant start, Instant end, Search* search) {
 void FaceSweep::Test(std::uint32_t agent, std::uint32_t partner, Search* search) {
   const auto [lower, higher] = std::minmax(agent, partner);
   if (!search->IsOpen(lower, higher)) return;
-  const intersection::IntersectingPair meeting{
+  const intersection::IntersectingPair pair{
       lower, higher, PairTimeOf(search->query, *this, bounds_, {lower, higher}, &work_)};
-  if (meeting.time.instant().is_never()) return;
-  if (!search->best || meeting < *search->best) search->best = meeting;
+  if (pair.time.instant().is_never()) return;
+  if (!search->best || pair < *search->best) search->best = pair;
 }
 
 }  // namespace collision::broad_phase

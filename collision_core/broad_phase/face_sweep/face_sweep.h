@@ -42,6 +42,7 @@
 
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "collision_core/broad_phase/earliest_sweep.h"
@@ -75,6 +76,8 @@ namespace collision::broad_phase {
 /// 4.
 class FaceSweep : public EarliestSweep {
  public:
+  explicit FaceSweep(SharedRules rules = NoRules()) : AgentBounds(std::move(rules)) {}
+
   void Set(std::uint32_t agent, const AgentBound& bound) override;
   void Remove(std::uint32_t agent) override;
   bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;

@@ -11,8 +11,8 @@ namespace {
 constexpr double kPositionMax = 0x1p+60;
 constexpr double kRateMax = 0x1p+40;
 
-/// Whether a meeting depends on radius and acceleration alone, so that the row says everything. The
-/// row holds half of the acceleration, which has to be exact.
+/// Whether an intersection depends on radius and acceleration alone, so that the row says
+/// everything. The row holds half of the acceleration, which has to be exact.
 bool IsPlain(const motion::SpaceTimeBound& bound) {
   const motion::MotionState& state = bound.state;
   const motion::MotionLimits& limits = bound.limits;
@@ -59,10 +59,11 @@ void HornTable::Fill(const AgentBound& agent, double half_margin, HornRow* fille
   if (half_margin != 0 || !IsPlain(bound)) {
     const double skew = bound.skew, step = limits.time_step;
     const double given = limits.radius + half_margin + state.position_error;
-    ball.s0 = kOutward * (given + Length(ball.v) * skew + state.velocity_error * skew +
-                          half * skew * (skew + step));
-    ball.s1 = kOutward * (state.velocity_error + half * (2 * skew + step));
-    ball.s2 = kOutward * half;
+    ball.s0 =
+        numeric::kSomeRoundingsUp *
+        (given + Length(ball.v) * skew + state.velocity_error * skew + half * skew * (skew + step));
+    ball.s1 = numeric::kSomeRoundingsUp * (state.velocity_error + half * (2 * skew + step));
+    ball.s2 = numeric::kSomeRoundingsUp * half;
   }
   row.still = NeverMoves(bound);
   const auto largest = [](const double* v) {
@@ -154,7 +155,7 @@ void HornTable::Validate() const {
 }
 
 numeric::QuickBall BoxReach(numeric::QuickBall horn, double duration) {
-  constexpr double kCorner = kOutward * std::numbers::sqrt3;
+  constexpr double kCorner = numeric::kSomeRoundingsUp * std::numbers::sqrt3;
   double way = 0;
   for (const double v : horn.v) way += std::abs(v) * duration;
   horn.s0 = kCorner * (horn.s0 + kLineRounding * way);

@@ -11,6 +11,7 @@
 #include "collision_core/broad_phase/filter/pair_filter.h"
 #include "collision_core/intersection/intersection_query.h"
 #include "collision_core/intersection/pair_rules.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::broad_phase {
@@ -28,10 +29,10 @@ struct HornRow {
 };
 static_assert(sizeof(HornRow) == 96, "a row is one and a half lines of the cache");
 
-/// A factor that rounds outward a sum or product of fewer than sixteen terms of one sign: rounding
-/// loses less than 16 · 2^-53 of it. What a sum of terms of either sign loses is less than
-/// kLineRounding times the sum of their magnitudes. All reaches below are rounded outward so.
-inline constexpr double kOutward = 1 + 0x1p-48, kLineRounding = 0x1p-48;
+/// A reach below is a sum or product of fewer than sixteen terms of one sign: kSomeRoundingsUp
+/// rounds it outward. What a sum of terms of either sign loses is less than this times the sum of
+/// their magnitudes: 16 · 2^-53 of them, and as much again.
+inline constexpr double kLineRounding = 0x1p-48;
 
 /// All bounds by index. For an agent that declares no more than radius and acceleration the row of
 /// 96 bytes is everything that is kept: the bound itself is made again from it, bit for bit, for
@@ -71,7 +72,7 @@ class HornTable {
   }
   /// The row of a bound that is in no table and has no rules.
   static HornRow RowOf(const AgentBound& bound);
-  /// The bound as it was set, perhaps without its orientation, on which no meeting depends.
+  /// The bound as it was set, perhaps without its orientation, on which no intersection depends.
   motion::SpaceTimeBound bound(std::uint32_t agent) const;
   AgentBound agent_bound(std::uint32_t agent) const { return {bound(agent), rows_[agent].filter}; }
 
@@ -129,8 +130,9 @@ inline numeric::QuickBall HornTable::At(const HornRow& row, Instant instant) {
     at.c[axis] = from.c[axis] + from.v[axis] * line;
     lost += std::abs(from.c[axis]) + std::abs(from.v[axis] * line);
   }
-  at.s0 = kOutward * (from.s0 + tau * (from.s1 + tau * from.s2)) + kLineRounding * lost;
-  at.s1 = kOutward * (from.s1 + 2 * tau * from.s2);
+  at.s0 = numeric::kSomeRoundingsUp * (from.s0 + tau * (from.s1 + tau * from.s2)) +
+          kLineRounding * lost;
+  at.s1 = numeric::kSomeRoundingsUp * (from.s1 + 2 * tau * from.s2);
   at.s2 = from.s2;
   return at;
 }

@@ -22,7 +22,7 @@ struct PlacedBall {
   float s0, s1, s2;
   std::uint32_t agent;  ///< Its index, or kNoAgent.
 
-  /// The agent of a ball that belongs to none: a query's own.
+  /// In place of an agent's index: the ball of a query about a bound that the table does not hold.
   static constexpr std::uint32_t kNoAgent = ~0u;
 };
 
@@ -99,7 +99,7 @@ class PlacementFrame {
     horn.agent = agent;
     return horn;
   }
-  /// The horn of a row that is in no table, as Place(); of no agent (PlacedBall::kNoAgent).
+  /// Likewise for a row that is in no table; its agent is PlacedBall::kNoAgent.
   PlacedBall Place(const HornRow& row) const {
     PlacedBall horn = AtBegin(BallAt(row));
     ToMiddle(&horn);

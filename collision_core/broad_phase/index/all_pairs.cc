@@ -1,5 +1,7 @@
 #include "collision_core/broad_phase/index/all_pairs.h"
 
+#include <utility>
+
 #include "collision_core/base/check.h"
 #include "collision_core/broad_phase/filter/filter_row.h"
 
@@ -47,6 +49,7 @@ class RowStore : public PlacedStore {
 
 }  // namespace
 
-AllPairs::AllPairs() : WindowedSearch(std::make_unique<RowStore>()) {}
+AllPairs::AllPairs(SharedRules rules)
+    : AgentBounds(std::move(rules)), WindowedSearch(std::make_unique<RowStore>()) {}
 
 }  // namespace collision::broad_phase

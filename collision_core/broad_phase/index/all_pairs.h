@@ -9,7 +9,7 @@ namespace collision::broad_phase {
 /// query about one, O(N²) about all. The fastest method for small scenes.
 class AllPairs : public WindowedSearch {
  public:
-  AllPairs();
+  explicit AllPairs(SharedRules rules = NoRules());
 };
 
 }  // namespace collision::broad_phase

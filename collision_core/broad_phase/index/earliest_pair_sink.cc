@@ -13,7 +13,7 @@ EarliestPairSink::EarliestPairSink(const HornTable& table, const intersection::B
   Limit(query.until);
 }
 
-// Rounded up; meetings are compared as instants, which are up to a nanosecond early.
+// Rounded up; intersections are compared as instants, which are up to a nanosecond early.
 void EarliestPairSink::Limit(Instant until) {
   limit_ =
       until.is_never() ? numeric::kInfinity
@@ -111,11 +111,11 @@ void EarliestPairSink::OfferHalfSpace(const HalfSpaces::Entry& entry, std::uint3
   Take({lower, higher, EarliestIntersectionOf(query_, entry, table_, agent)});
 }
 
-void EarliestPairSink::Take(const intersection::IntersectingPair& meeting) {
-  if (meeting.time.instant().is_never() || (best_ && !(meeting < *best_))) return;
-  best_ = meeting;
-  when_ = meeting.time.instant();
-  Limit(meeting.time.instant());
+void EarliestPairSink::Take(const intersection::IntersectingPair& pair) {
+  if (pair.time.instant().is_never() || (best_ && !(pair < *best_))) return;
+  best_ = pair;
+  when_ = pair.time.instant();
+  Limit(pair.time.instant());
 }
 
 }  // namespace collision::broad_phase

@@ -6,7 +6,7 @@
 #include "collision_core/broad_phase/broad_phase_work.h"
 #include "collision_core/broad_phase/filter/horn_table.h"
 #include "collision_core/broad_phase/filter/pair_sink.h"
-#include "collision_core/broad_phase/index/half_space.h"
+#include "collision_core/broad_phase/half_space.h"
 
 namespace collision::broad_phase {
 
@@ -27,7 +27,7 @@ class EarliestPairSink final : public PairSink {
 
  private:
   bool Betters(std::uint32_t lower, std::uint32_t higher) const;
-  void Take(const intersection::IntersectingPair& meeting);
+  void Take(const intersection::IntersectingPair& pair);
   intersection::BroadQuery Narrowed(std::uint32_t lower, std::uint32_t higher) const;
   void Limit(Instant until);
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "collision_core/broad_phase/sweeping_index.h"
@@ -13,6 +14,8 @@ namespace collision::broad_phase {
 /// for one agent, O(N²) for all. Too slow to serve; no setting of the service selects it.
 class ExhaustiveIndex : public SweepingIndex {
  public:
+  explicit ExhaustiveIndex(SharedRules rules = NoRules()) : AgentBounds(std::move(rules)) {}
+
   void Set(std::uint32_t agent, const AgentBound& bound) override;
   void Remove(std::uint32_t agent) override;
   bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;

@@ -116,8 +116,9 @@ std::optional<intersection::IntersectingPair> WindowedSearch::EarliestOf(
 }
 
 // Appends the pair if the filters leave it open and it meets by `until`.
-bool WindowedSearch::AppendIfMeeting(std::uint32_t agent, std::uint32_t other, const Within& within,
-                                     Instant until, std::vector<Neighbour>* neighbours) {
+bool WindowedSearch::AppendIfIntersecting(std::uint32_t agent, std::uint32_t other,
+                                          const Within& within, Instant until,
+                                          std::vector<Neighbour>* neighbours) {
   if (!MayMeet(table_, agent, other, within, &cost_.work)) return false;
   const std::size_t before = neighbours->size();
   AppendIfBy(until,
@@ -153,7 +154,8 @@ void WindowedSearch::FindNeighbours(std::uint32_t agent, const NeighbourWindow& 
     FindNear(agent, from, seconds);
     for (const std::uint32_t other : near_) {
       if (reported_in_[other] == query_ || other == agent || skip(other)) continue;
-      if (seconds <= first && AppendIfMeeting(agent, other, {from, first}, until, neighbours)) {
+      if (seconds <= first &&
+          AppendIfIntersecting(agent, other, {from, first}, until, neighbours)) {
         reported_in_[other] = query_;
       } else {
         next.Offer(agent, other);

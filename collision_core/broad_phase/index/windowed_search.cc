@@ -66,12 +66,6 @@ bool WindowedSearch::SetHalfSpace(std::uint32_t agent, const HalfSpace& half_spa
   return true;
 }
 
-void WindowedSearch::ShareRules(std::shared_ptr<intersection::PairRules> rules) {
-  CORE_CHECK(table_.count() == 0, "rules are shared before agents are set", table_.count());
-  AgentBounds::ShareRules(std::move(rules));
-  table_.UseRules(shared_rules().get());
-}
-
 // A smaller margin leaves the placement valid.
 void WindowedSearch::UpdateRules(std::uint32_t agent) {
   if (!table_.contains(agent)) return;

@@ -47,7 +47,6 @@ class WindowedSearch : public SweepingIndex {
   void Tighten(std::uint32_t agent, const AgentBound& bound) override;
   void Remove(std::uint32_t agent) override;
   bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) override;
-  void ShareRules(std::shared_ptr<intersection::PairRules> rules) override;
   void UpdateRules(std::uint32_t agent) override;
   void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
                       std::vector<Neighbour>* neighbours) override;
@@ -88,8 +87,8 @@ class WindowedSearch : public SweepingIndex {
   void ForEachHalfSpace(std::uint32_t asked, Each each) const;
   void AppendHalfSpaces(const AgentBound& bound, Instant from, Instant until, const Skip& skip,
                         std::vector<Neighbour>* neighbours);
-  bool AppendIfMeeting(std::uint32_t agent, std::uint32_t other, const Within& within,
-                       Instant until, std::vector<Neighbour>* neighbours);
+  bool AppendIfIntersecting(std::uint32_t agent, std::uint32_t other, const Within& within,
+                            Instant until, std::vector<Neighbour>* neighbours);
 
   HornTable table_;
   PlacementFrame frame_;

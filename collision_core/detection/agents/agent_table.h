@@ -9,8 +9,8 @@
 #include "collision_core/base/ids.h"
 #include "collision_core/detection/agents/agent_record.h"
 #include "collision_core/detection/agents/scene_extremes.h"
-#include "collision_core/detection/event_queue.h"
-#include "collision_core/detection/index_set.h"
+#include "collision_core/detection/step/event_queue.h"
+#include "collision_core/detection/step/index_set.h"
 
 namespace collision::detection {
 

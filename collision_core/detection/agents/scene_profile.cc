@@ -63,7 +63,7 @@ std::vector<std::string> SceneProfile::LeftOut() const {
   leave_out(counts_[kShaped] == 0, "sphere trees and rotation: every agent is a ball");
   leave_out(counts_[kShaped] > 0 && counts_[kTurning] == 0,
             "rotation of sphere trees: no agent with a shape turns");
-  leave_out(counts_[kMoving] == 0, "meetings: no agent can move");
+  leave_out(counts_[kMoving] == 0, "intersections: no agent can move");
   return left_out;
 }
 

@@ -20,7 +20,7 @@ ClearanceQueries::ClearanceQueries(const DetectorContext& context, const QueryTa
       coverage_(*targets.coverage),
       reported_(*targets.reported),
       pairs_(targets.pairs->table()),
-      group_query_(context, targets),
+      band_query_(context, targets),
       lowering_(context, targets, filter) {}
 
 void ClearanceQueries::QueryDueAgents() {
@@ -68,11 +68,11 @@ void ClearanceQueries::Query(AgentIndex agent, Renewals renewals) {
 bool ClearanceQueries::NeedsTiersOnly(AgentIndex agent, Renewals renewals) const {
   const AgentCoverage& record = coverage_[agent];
   return !record.renewed_from && !coverage_.IsSaturated(agent) && renewals == Renewals::kFew &&
-         pairs_.RoomFor(agent) > 0 && coverage_.tiers().HasGroupsBeside(agent) &&
+         pairs_.RoomFor(agent) > 0 && coverage_.tiers().HasBandsBeside(agent) &&
          record.keys.comparable() > DueUntil(agent);
 }
 
-// A query covers the groups whose keys are not later than this.
+// A query covers the bands whose keys are not later than this.
 Instant ClearanceQueries::DueUntil(AgentIndex agent) const {
   return std::max({context_.clock.announce_until(), coverage_[agent].keys.earliest(),
                    context_.agents[agent].stamp()});
@@ -81,20 +81,20 @@ Instant ClearanceQueries::DueUntil(AgentIndex agent) const {
 // The agent stays settled: the query leaves out comparable agents that are renewed in this step.
 void ClearanceQueries::QueryTiers(AgentIndex agent) {
   AgentCoverage& record = coverage_[agent];
-  groups_.clear();
-  record.keys.TiersUpTo(DueUntil(agent), &groups_);
-  for (const int group : groups_) {
-    NextMeeting next;
-    if (!group_query_.TracksAll(agent, group)) {
-      const Instant covered = record.keys.Of(group);
-      next = group_query_.Find({.agent = agent,
-                                .group = group,
-                                .from = std::min(context_.clock.now, covered),
-                                .covered = covered,
-                                .tracked = &tracked_});
+  bands_.clear();
+  record.keys.TiersUpTo(DueUntil(agent), &bands_);
+  for (const int band : bands_) {
+    NextNeighbour next;
+    if (!band_query_.TracksAll(agent, band)) {
+      const Instant covered = record.keys.Of(band);
+      next = band_query_.Find({.agent = agent,
+                               .band = band,
+                               .from = std::min(context_.clock.now, covered),
+                               .covered = covered,
+                               .tracked = &tracked_});
     }
     if (coverage_.IsSaturated(agent)) return;
-    record.keys.SetTier(group, next.when);
+    record.keys.SetTier(band, next.when);
     if (!next.when.is_never() && next.when <= record.keys.earliest()) {
       record.next_partner = next.partner;
     }
@@ -121,7 +121,7 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   const bool early =
       many && !renewed && !was_saturated && covered > context_.clock.announce_until();
   const AgentIndex next_before = record.next_partner;
-  const NextMeeting next = QueryGroups(agent, promised);
+  const NextNeighbour next = QueryBands(agent, promised);
   if (!coverage_.IsSaturated(agent)) {
     if (!next.when.is_never()) record.next_partner = next.partner;
     if (early && next.when > covered) {
@@ -137,11 +137,11 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   record.renewed_cause = ClearanceCause::kNone;
 }
 
-ClearanceQuery ClearanceQueries::QueryFor(AgentIndex agent, int group, const Promised& promised) {
-  const bool own_key = !promised.renewed && !promised.was_saturated && group != kEveryGroup;
-  const Instant covered = own_key ? promised.keys.Of(group) : promised.covered;
+ClearanceQuery ClearanceQueries::QueryFor(AgentIndex agent, int band, const Promised& promised) {
+  const bool own_key = !promised.renewed && !promised.was_saturated && band != kEveryBand;
+  const Instant covered = own_key ? promised.keys.Of(band) : promised.covered;
   return {.agent = agent,
-          .group = group,
+          .band = band,
           .from = std::min(context_.clock.now, covered),
           .covered = covered,
           .renewed = promised.renewed,
@@ -149,20 +149,20 @@ ClearanceQuery ClearanceQueries::QueryFor(AgentIndex agent, int group, const Pro
           .tracked = &tracked_};
 }
 
-// Sets the keys of all groups beside the agent, unless it becomes saturated. Returns the earliest
-// meeting of all.
-NextMeeting ClearanceQueries::QueryGroups(AgentIndex agent, const Promised& promised) {
+// Sets the keys of all bands beside the agent, unless it becomes saturated. Returns the earliest
+// intersection of all.
+NextNeighbour ClearanceQueries::QueryBands(AgentIndex agent, const Promised& promised) {
   AgentCoverage& record = coverage_[agent];
-  groups_.clear();
-  coverage_.tiers().GroupsBeside(agent, &groups_);
-  const int comparable = groups_.empty() ? kEveryGroup : AccelerationTiers::kComparable;
-  NextMeeting next = group_query_.Find(QueryFor(agent, comparable, promised));
+  bands_.clear();
+  coverage_.tiers().BandsBeside(agent, &bands_);
+  const int comparable = bands_.empty() ? kEveryBand : AccelerationTiers::kComparable;
+  NextNeighbour next = band_query_.Find(QueryFor(agent, comparable, promised));
   if (!coverage_.IsSaturated(agent)) record.keys.SetAll(next.when);
-  for (const int group : groups_) {
-    if (coverage_.IsSaturated(agent) || group_query_.TracksAll(agent, group)) continue;
-    const NextMeeting first = group_query_.Find(QueryFor(agent, group, promised));
+  for (const int band : bands_) {
+    if (coverage_.IsSaturated(agent) || band_query_.TracksAll(agent, band)) continue;
+    const NextNeighbour first = band_query_.Find(QueryFor(agent, band, promised));
     if (coverage_.IsSaturated(agent)) continue;
-    record.keys.SetTier(group, first.when);
+    record.keys.SetTier(band, first.when);
     if (first.when < next.when) next = first;
   }
   return next;
@@ -173,7 +173,7 @@ NextMeeting ClearanceQueries::QueryGroups(AgentIndex agent, const Promised& prom
 // so the farther ahead it lies.
 void ClearanceQueries::QueryFarKeysAnew() {
   far_.clear();
-  coverage_.AppendSettledFrom(group_query_.horizons().At(kFarHorizon), &far_);
+  coverage_.AppendSettledFrom(band_query_.horizons().At(kFarHorizon), &far_);
   for (const AgentIndex agent : far_) {
     coverage_.LeaveSettled(agent);
     coverage_.QueryAtOnce(agent);

@@ -69,7 +69,7 @@ void Clearances::UpdateCounters() {
   const broad_phase::BroadPhaseWork work = broad_phase_.work();
   DetectorCounters& counters = *context_.counters;
   counters.pair_queries += work.pair_queries - pair_queries_seen_;
-  counters.filter_tests = work.filter_tests + queries_.looks();
+  counters.filter_tests = work.filter_tests + queries_.examined();
   counters.broad_units = static_cast<std::uint64_t>(broad_phase_.units());
   counters.method_changes = broad_phase_.changes();
   pair_queries_seen_ = work.pair_queries;

@@ -5,7 +5,7 @@
 
 #include "collision_core/broad_phase/adaptive_broad_phase.h"
 #include "collision_core/detection/clearance/clearance_queries.h"
-#include "collision_core/detection/detector_options.h"
+#include "collision_core/detection/step/detector_options.h"
 
 namespace collision::detection {
 

@@ -44,7 +44,7 @@ void KeyLowering::Lower(AgentIndex agent, Instant from, const PartnerMarks& trac
 std::uint64_t KeyLowering::LowerFar(const Renewed& renewed, Instant next,
                                     std::vector<AgentIndex>* far) {
   std::uint64_t sooner = 0;
-  looks_ += far->size();
+  examined_ += far->size();
   std::erase_if(*far, [&](AgentIndex partner) {
     const Instant key = coverage_->KeyOf(partner, renewed.agent);
     sooner += key <= next;
@@ -54,10 +54,9 @@ std::uint64_t KeyLowering::LowerFar(const Renewed& renewed, Instant next,
   std::sort(far->begin(), far->end());
   const broad_phase::AgentBound bound = context_.agents[renewed.agent].wide_bound();
   for (const AgentIndex partner : *far) {
-    ++context_.counters->pair_queries;
     const broad_phase::AgentBound of_partner = context_.agents[partner].wide_bound();
     LowerOne(partner, renewed.agent,
-             EarliestIntersection(bound, of_partner, renewed.from).instant());
+             queries_.EarliestUnder({renewed.agent, bound}, {partner, of_partner}, renewed.from));
   }
   return sooner;
 }
@@ -76,10 +75,10 @@ std::uint64_t KeyLowering::LowerNear(const Renewed& renewed, Instant horizon) {
   broad_phase_->FindNeighbours(renewed.agent.value(), {renewed.from, horizon, horizon}, skip,
                                &found_);
   const broad_phase::BroadPhaseWork after = broad_phase_->work();
-  looks_ += offers;
+  examined_ += offers;
   SortByPartner(0, &found_);
-  for (const broad_phase::Neighbour& meeting : found_) {
-    LowerOne(AgentIndex(meeting.partner), renewed.agent, meeting.time.instant());
+  for (const broad_phase::Neighbour& neighbour : found_) {
+    LowerOne(AgentIndex(neighbour.partner), renewed.agent, neighbour.time.instant());
   }
   return after.filter_tests - before.filter_tests + kVisitUnits * (after.visits - before.visits) +
          kQueryUnits * (after.pair_queries - before.pair_queries) + kOfferUnits * offers;

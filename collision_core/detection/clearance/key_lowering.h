@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "collision_core/detection/clearance/clearance_filter.h"
-#include "collision_core/detection/clearance/search/group_query.h"
+#include "collision_core/detection/clearance/search/band_query.h"
 
 namespace collision::detection {
 
-/// After a renewal, every partner whose key is later than its meeting with the renewed agent gets
-/// the earlier one. Only keys of earlier steps need it (CoverageTable::IsSettled): a query in the
-/// same step sees the new bound.
+/// After a renewal, every partner whose key is later than its intersection with the renewed agent
+/// gets the earlier one. Only keys of earlier steps need it (CoverageTable::IsSettled): a query in
+/// the same step sees the new bound.
 ///
 /// Keys up to a horizon are found with the broad phase, by where their agents are; each later key
 /// is looked at by itself (ClearanceFilter, some 20 ns). So agents that are clear for long do not
@@ -24,18 +24,19 @@ class KeyLowering {
   KeyLowering(const DetectorContext& context, const QueryTargets& targets,
               const ClearanceFilter& filter)
       : context_(context),
+        queries_(context),
         coverage_(targets.coverage),
         reported_(targets.reported),
         broad_phase_(targets.broad_phase),
         filter_(filter),
         horizons_(context.clock) {}
 
-  /// Lowers the keys of all partners of `agent` but those in `tracked`, for meetings from `from`
-  /// on.
+  /// Lowers the keys of all partners of `agent` but those in `tracked`, for intersections from
+  /// `from` on.
   void Lower(AgentIndex agent, Instant from, const PartnerMarks& tracked);
 
   /// Partners examined besides the broad phase's own tests, since the start.
-  std::uint64_t looks() const { return looks_; }
+  std::uint64_t examined() const { return examined_; }
 
  private:
   struct Renewed {
@@ -49,13 +50,14 @@ class KeyLowering {
   void LowerOne(AgentIndex partner, AgentIndex agent, Instant when);
 
   const DetectorContext context_;
+  const PairQueries queries_;
   CoverageTable* coverage_;
   ReportedClearances* reported_;
   broad_phase::NeighbourIndex* broad_phase_;
   const ClearanceFilter& filter_;
   const QueryHorizons horizons_;
   int split_ = 4;  // keys beyond this horizon are lowered one by one
-  std::uint64_t looks_ = 0;
+  std::uint64_t examined_ = 0;
   // Scratch of one renewal, kept for its memory.
   std::vector<broad_phase::Neighbour> found_;
   std::vector<AgentIndex> far_;

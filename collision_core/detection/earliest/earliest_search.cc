@@ -57,6 +57,7 @@ struct EarliestSearch::Run {
 EarliestSearch::EarliestSearch(const DetectorContext& context, TrackedPairs* pairs,
                                Clearances* clearances)
     : context_(context),
+      queries_(context),
       pairs_(pairs->table()),
       coverage_(clearances->coverage()),
       pairs_changed_(pairs->changed()),
@@ -97,15 +98,6 @@ void EarliestSearch::TakeChanges() {
     }
   }
   agents_voided_->Clear();
-}
-
-Instant EarliestSearch::Canonical(AgentIndex a, AgentIndex b) const {
-  ++context_.counters->pair_queries;
-  const AgentTable& agents = context_.agents;
-  const AgentRecord &of_a = agents[a], &of_b = agents[b];
-  if (!CanMeet(of_a.declaration.filter, of_b.declaration.filter)) return Instant::Never();
-  return intersection::EarliestIntersection(of_a.bound(), of_b.bound(), context_.clock.now)
-      .instant();
 }
 
 // A saturated agent may touch at any time.
@@ -163,12 +155,13 @@ void EarliestSearch::OfferPair(PairSlot slot, Run* run) {
 
 // A lower bound of all that OfferPair() may offer until the pair is evaluated again.
 Instant EarliestSearch::LowerBoundOf(const PairRecord& pair) const {
-  ++context_.counters->pair_queries;
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
   const auto wide = [](const AgentRecord& agent) -> broad_phase::AgentBound {
     return {BoundMargin(agent.bound()).Widen(agent.bound()), agent.declaration.filter};
   };
-  Instant bound = EarliestIntersection(wide(a), wide(b), context_.clock.now).instant();
+  const broad_phase::AgentBound of_a = wide(a), of_b = wide(b);
+  Instant bound =
+      queries_.EarliestUnder({pair.lower, of_a}, {pair.higher, of_b}, context_.clock.now);
   if (pair.clear_until < std::max(a.stamp(), b.stamp())) bound = std::min(bound, pair.clear_until);
   return std::max(kEarliestBound, std::min(bound, pair.ahead_from));
 }
@@ -227,7 +220,7 @@ void EarliestSearch::ComputeBound(AgentIndex agent) {
   ++context_.counters->queries;
   tracked_.Start(agent, pairs_, context_.agents.index_end());
   const Instant now = context_.clock.now;
-  const NextMeeting next =
+  const NextNeighbour next =
       next_.Find({.agent = agent, .from = now, .covered = now, .tracked = &tracked_},
                  context_.clock.announce_until());
   agents_[agent] = {context_.clock.step, next.partner};
@@ -244,18 +237,18 @@ void EarliestSearch::OfferPartners(AgentIndex agent, Instant bound, Run* run) {
   tracked_.Start(agent, pairs_, context_.agents.index_end());
   const AgentIndex next = agents_[agent].next_partner;
   if (IsUntrackedPartner(agent, next)) run->Offer(agent, next, Canonical(agent, next));
-  if (!run->best.found) OfferMeetings(agent, bound, Instant::Never(), run);
-  OfferMeetings(agent, run->Limit(), run->Limit(), run);
+  if (!run->best.found) OfferNeighbours(agent, bound, Instant::Never(), run);
+  OfferNeighbours(agent, run->Limit(), run->Limit(), run);
 }
 
-void EarliestSearch::OfferMeetings(AgentIndex agent, Instant until, Instant horizon, Run* run) {
+void EarliestSearch::OfferNeighbours(AgentIndex agent, Instant until, Instant horizon, Run* run) {
   found_.clear();
   const auto skip = [this](std::uint32_t partner) {
     return tracked_.Contains(AgentIndex(partner));
   };
   broad_phase_->FindNeighbours(agent.value(), {run->now, until, horizon}, skip, &found_);
-  for (const broad_phase::Neighbour& meeting : found_) {
-    const AgentIndex partner(meeting.partner);
+  for (const broad_phase::Neighbour& neighbour : found_) {
+    const AgentIndex partner(neighbour.partner);
     run->Offer(agent, partner, Canonical(agent, partner));
   }
 }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "collision_core/detection/clearance/clearances.h"
-#include "collision_core/detection/clearance/search/next_meeting_search.h"
+#include "collision_core/detection/clearance/search/next_neighbour_search.h"
 #include "collision_core/detection/clearance/search/uncovered_search.h"
 #include "collision_core/detection/earliest/earliest_answer.h"
 #include "collision_core/detection/pairs/tracked_pairs.h"
@@ -20,7 +20,7 @@ namespace collision::detection {
 /// until no bound is early enough to better the best answer. A bound that is early enough is first
 /// computed anew from now on, which usually is enough for many steps.
 ///
-/// An agent's bound is its earliest clearance key, or the agent's next meeting as found by a
+/// An agent's bound is its earliest clearance key, or the agent's next intersection as found by a
 /// query of the search's own. Both hold for each untracked partner as long as neither bound
 /// widens. Where a partner is renewed later, the bound of that partner, which is void from then on
 /// (CoverageTable::voided), covers the pair. Bounds are computed from wide bounds (BoundMargin), so
@@ -69,17 +69,20 @@ class EarliestSearch {
   void OfferUncovered(AgentIndex agent, Run* run);
   void ComputeBound(AgentIndex agent);
   void OfferPartners(AgentIndex agent, Instant bound, Run* run);
-  void OfferMeetings(AgentIndex agent, Instant until, Instant horizon, Run* run);
+  void OfferNeighbours(AgentIndex agent, Instant until, Instant horizon, Run* run);
   bool IsUntrackedPartner(AgentIndex agent, AgentIndex partner) const;
-  Instant Canonical(AgentIndex a, AgentIndex b) const;
+  Instant Canonical(AgentIndex a, AgentIndex b) const {
+    return queries_.EarliestOf(a, b, context_.clock.now);
+  }
 
   const DetectorContext context_;
+  const PairQueries queries_;
   const PairTable& pairs_;
   const CoverageTable& coverage_;
   IndexSet<PairSlot>* pairs_changed_;
   IndexSet<AgentIndex>* agents_voided_;
   broad_phase::NeighbourIndex* broad_phase_;
-  NextMeetingSearch next_;
+  NextNeighbourSearch next_;
   UncoveredSearch uncovered_;
   EventQueue<AgentIndex> agent_bounds_;  // Always(): not known
   EventQueue<PairSlot> pair_bounds_;     // likewise; of pairs that are not in contact

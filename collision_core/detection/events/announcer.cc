@@ -53,7 +53,7 @@ void TakeBrackets(const ContactEpisode& episode, PublishedEvent* published) {
 
 // Point, normal, separation and depth at one instant. Bodies that overlap have no shortest way
 // between them: the direction in which they approached may be known better.
-void TakeProximity(const Nearest& nearest, const narrow_phase::ContactNormal& normal,
+void TakeProximity(const NearestInstant& nearest, const narrow_phase::ContactNormal& normal,
                    CollisionEvent* event) {
   if (nearest.at.is_never()) return;
   const narrow_phase::Proximity& found = nearest.found;

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "collision_core/base/ids.h"
-#include "collision_core/detection/detector_counters.h"
-#include "collision_core/detection/detector_options.h"
 #include "collision_core/detection/events/contact_episode.h"
 #include "collision_core/detection/events/contact_numbers.h"
+#include "collision_core/detection/step/detector_counters.h"
+#include "collision_core/detection/step/detector_options.h"
 
 namespace collision::detection {
 

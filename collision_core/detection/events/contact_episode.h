@@ -9,7 +9,7 @@
 namespace collision::detection {
 
 /// The instant of an episode at which the two agents are nearest, and how near they are there.
-struct Nearest {
+struct NearestInstant {
   Instant at = Instant::Never();  ///< Never(): none was evaluated.
   narrow_phase::Proximity found;  ///< Separation, point and normal at `at`.
   bool exhausted = false;         ///< The work budget ended the search early.
@@ -21,10 +21,10 @@ struct ContactEpisode {
   bool contact = false;  ///< Contact is certified at some instant; false: undecided.
   TimeBracket begin;     ///< As CollisionEvent::begin.
   TimeBracket end;       ///< As CollisionEvent::end; `latest` is Never() while the episode is open.
-  bool continuous = true;     ///< As CollisionEvent::continuous.
-  bool began_before = false;  ///< It may have begun before the pair's known past.
-  bool exhausted = false;     ///< The work budget ended some search early.
-  Nearest nearest;  ///< The instant, of those evaluated, with the least upper bound of separation.
+  bool continuous = true;              ///< As CollisionEvent::continuous.
+  bool began_before = false;           ///< It may have begun before the pair's known past.
+  bool exhausted = false;              ///< The work budget ended some search early.
+  NearestInstant nearest;              ///< Of those evaluated.
   narrow_phase::ContactNormal normal;  ///< For shapes: the direction in which they approached.
 };
 

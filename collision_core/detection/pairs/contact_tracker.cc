@@ -91,7 +91,8 @@ void ContactTracker::AddContact(const narrow_phase::SegmentResult& result, Insta
 }
 
 void ContactTracker::Apply(const narrow_phase::SegmentResult& given, Instant to,
-                           const Nearest& nearest, const narrow_phase::ContactNormal& normal) {
+                           const NearestInstant& nearest,
+                           const narrow_phase::ContactNormal& normal) {
   CORE_CHECK(to >= at_, "segments follow each other", at_.nanoseconds(), to.nanoseconds());
   const narrow_phase::SegmentResult result = WithoutContradiction(given);
   const Instant from = at_;

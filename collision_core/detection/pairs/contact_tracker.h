@@ -45,7 +45,7 @@ class ContactTracker {
 
   /// Adds the result for [at(), to]; `nearest` is given unless all of it is free, `normal` where
   /// shapes approached each other. Requires to >= at().
-  void Apply(const narrow_phase::SegmentResult& given, Instant to, const Nearest& nearest,
+  void Apply(const narrow_phase::SegmentResult& given, Instant to, const NearestInstant& nearest,
              const narrow_phase::ContactNormal& normal);
 
   /// Episodes that have ended since the last call.

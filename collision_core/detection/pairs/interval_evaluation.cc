@@ -11,9 +11,9 @@ namespace {
 
 // The instant at which two balls are certified nearest, of both ends and of the one at which the
 // centres' lines are nearest.
-Nearest NearestOf(const narrow_phase::BallSegment& a, const narrow_phase::BallSegment& b,
-                  Instant from, double duration) {
-  Nearest nearest;
+NearestInstant NearestOf(const narrow_phase::BallSegment& a, const narrow_phase::BallSegment& b,
+                         Instant from, double duration) {
+  NearestInstant nearest;
   if (a.bounds.empty() || b.bounds.empty()) return nearest;
   const Eigen::Vector3d d = (b.bounds[0].centre() - a.bounds[0].centre()).middle();
   const Eigen::Vector3d w = (b.bounds[0].velocity - a.bounds[0].velocity).middle();
@@ -30,7 +30,7 @@ Nearest NearestOf(const narrow_phase::BallSegment& a, const narrow_phase::BallSe
 
 // Only the ball of an awaited shape is known: it can exclude a contact, but it neither confirms one
 // nor bounds the separation from above.
-Nearest AwaitedNearest(Nearest nearest) {
+NearestInstant AwaitedNearest(NearestInstant nearest) {
   nearest.found.separation.upper = numeric::kInfinity;
   nearest.found.depth_lower = 0;
   nearest.found.point_error = numeric::kInfinity;
@@ -68,7 +68,7 @@ bool EvaluateOne(const History& history_a, const History& history_b, Instant to,
     }
   }
   narrow_phase::SegmentResult times = EvaluateBallSegment(a.ball, b.ball, duration);
-  Nearest nearest;
+  NearestInstant nearest;
   narrow_phase::ContactNormal normal;
   if (times.free_until < duration) {
     if (a.awaited || b.awaited) {
@@ -106,7 +106,7 @@ SegmentCount EvaluateSegments(const History& a, const History& b, Instant until,
   while (tracker->at() < until) {
     const Instant from = tracker->at();
     const Instant to = std::min({until, a.NextCutAfter(from), b.NextCutAfter(from)});
-    count.at_a_glance += EvaluateOne(a, b, to, work, tracker);
+    count.quick += EvaluateOne(a, b, to, work, tracker);
     ++count.segments;
   }
   return count;

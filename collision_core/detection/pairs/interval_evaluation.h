@@ -10,7 +10,7 @@ namespace collision::detection {
 /// How many segments an evaluation took.
 struct SegmentCount {
   std::uint64_t segments = 0;
-  std::uint64_t at_a_glance = 0;  ///< Of these, decided by QuickBallContact() for two balls.
+  std::uint64_t quick = 0;  ///< Of these, decided by QuickBallContact() for two balls.
 };
 
 /// Evaluates everything from tracker->at() to `until`, segment by segment between the cuts of the

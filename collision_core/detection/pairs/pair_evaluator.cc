@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "collision_core/detection/pairs/interval_evaluation.h"
-#include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
@@ -30,13 +29,14 @@ Instant ExpiryOf(const PairOfAgents& agents) {
 
 }  // namespace
 
-double PairEvaluator::PatienceOf(const AgentRecord& agent) const {
+double PairEvaluator::LongestWaitFor(const AgentRecord& agent) const {
   return std::max(clock_.announce_within, 2 * agent.history.LastInterval());
 }
 
 Instant PairEvaluator::SettledUntil(const AgentRecord& agent) const {
-  return std::max(agent.stamp(), std::min(agent.heard_until(),
-                                          numeric::AddRoundedDown(clock_.now, -PatienceOf(agent))));
+  return std::max(
+      agent.stamp(),
+      std::min(agent.heard_until(), numeric::AddRoundedDown(clock_.now, -LongestWaitFor(agent))));
 }
 
 void PairEvaluator::EvaluateUntil(const PairOfAgents& agents, Instant until, WorkBudget* work,
@@ -44,13 +44,13 @@ void PairEvaluator::EvaluateUntil(const PairOfAgents& agents, Instant until, Wor
   const SegmentCount count =
       EvaluateSegments(agents.lower.history, agents.higher.history, until, work, tracker);
   counters_->segments += count.segments;
-  counters_->glances += count.at_a_glance;
+  counters_->quick_segments += count.quick;
 }
 
 ContactTracker PairEvaluator::Evaluate(const PairOfAgents& agents, Finality finality,
                                        WorkBudget* work) const {
   const AgentRecord &a = agents.lower, &b = agents.higher;
-  CORE_CHECK(CanMeet(a.declaration.filter, b.declaration.filter), "only agents that can meet");
+  CORE_CHECK(queries_.MayMeet(agents.pair.lower, agents.pair.higher), "only agents that can meet");
   const bool last = finality == Finality::kLast;
   const Instant there = ExpiryOf(agents);
   const Instant heard = std::min({a.heard_until(), b.heard_until(), clock_.now, there});
@@ -78,8 +78,7 @@ void PairEvaluator::ExtendPromise(const PairOfAgents& agents, WorkBudget* work,
   EvaluateUntil(agents, std::min(std::max(a.stamp(), b.stamp()), there), work, &outlook);
   if (!outlook.free() || outlook.finished().size() != preview->finished().size()) return;
   const Instant from = std::min(clock_.now, outlook.at());
-  const Instant earliest = intersection::EarliestIntersection(a.bound(), b.bound(), from).instant();
-  ++counters_->pair_queries;
+  const Instant earliest = queries_.EarliestOf(pair.lower, pair.higher, from);
   if (from == clock_.now) {
     pair.canonical = earliest;
     pair.canonical_step = clock_.step;

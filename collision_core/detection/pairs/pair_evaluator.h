@@ -2,10 +2,8 @@
 #pragma once
 
 #include "collision_core/base/work_budget.h"
-#include "collision_core/detection/agents/agent_record.h"
-#include "collision_core/detection/detector_counters.h"
+#include "collision_core/detection/agents/pair_queries.h"
 #include "collision_core/detection/pairs/pair_table.h"
-#include "collision_core/detection/step_clock.h"
 
 namespace collision::detection {
 
@@ -18,8 +16,8 @@ struct PairOfAgents {
 
 /// Evaluates a pair up to three horizons:
 ///  1. Settled, up to the older of the two newest states: horns of both directions hold, the
-///     result is final. The evaluator waits for an agent's next state no longer than PatienceOf();
-///     then the time heard is final with the forward horn alone.
+///     result is final. The evaluator waits for an agent's next state no longer than
+///     LongestWaitFor(); then the time heard is final with the forward horn alone.
 ///  2. Heard, up to the time that both owners have reported: forward horns only, but no unknown
 ///     jump lies before. Contacts are confirmed up to here, and narrowed once settled.
 ///  3. Promised, beyond: freedom as long as both keep their newest bounds. Only freedom is claimed
@@ -29,9 +27,8 @@ struct PairOfAgents {
 /// announced.
 class PairEvaluator {
  public:
-  /// Both outlive the evaluator.
-  PairEvaluator(const StepClock& clock, DetectorCounters* counters)
-      : clock_(clock), counters_(counters) {}
+  explicit PairEvaluator(const DetectorContext& context)
+      : clock_(context.clock), counters_(context.counters), queries_(context) {}
 
   /// Brings pair.tracker up to what is settled and returns a copy of it that runs ahead to the last
   /// horizon that holds. Requires that the two can meet. With Finality::kLast all that was heard is
@@ -40,7 +37,7 @@ class PairEvaluator {
 
   /// How long to wait for the agent's next state [s]: announce_within, or twice its last interval
   /// if that is longer.
-  double PatienceOf(const AgentRecord& agent) const;
+  double LongestWaitFor(const AgentRecord& agent) const;
 
  private:
   Instant SettledUntil(const AgentRecord& agent) const;
@@ -50,6 +47,7 @@ class PairEvaluator {
 
   const StepClock& clock_;
   DetectorCounters* counters_;
+  const PairQueries queries_;
 };
 
 /// Updates ahead_from and ahead_until of the pair. States may lie ahead of `now`; then a contact or

@@ -55,9 +55,10 @@ class CountedProximity final : public ProximitySource {
 TrackedPairs::TrackedPairs(const DetectorOptions& options, const DetectorContext& context)
     : options_(options),
       context_(context),
+      queries_(context),
       table_(options.pairs_max, options.pairs_per_agent_max),
-      evaluator_(context.clock, context.counters),
-      budget_(options.work_units_per_turn, options.work_units_per_step),
+      evaluator_(context),
+      budget_(options.work_units_per_evaluation, options.work_units_per_step),
       announcer_(options, context.counters) {}
 
 void TrackedPairs::ForgetAgent(AgentIndex agent) {
@@ -103,7 +104,7 @@ void TrackedPairs::EvaluateDuePairs() {
   slots.erase(std::unique(slots.begin(), slots.end()), slots.end());
   if (budget_.is_limited()) return EvaluateShared(slots);
   for (const PairSlot slot : slots) {
-    Evaluate(slot, options_.work_units_per_turn, Finality::kOngoing);
+    Evaluate(slot, options_.work_units_per_evaluation, Finality::kOngoing);
   }
 }
 
@@ -124,7 +125,7 @@ WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
   if (!HaveShapes(context_.agents[pair.lower].history, context_.agents[pair.higher].history)) {
     return claim;
   }
-  claim.wanted = options_.work_units_per_turn;
+  claim.wanted = options_.work_units_per_evaluation;
   if (pair.spent < claim.wanted / kClaimAll) {
     claim.wanted = 2 * pair.spent + claim.wanted / kClaimMore;
   }
@@ -135,24 +136,22 @@ WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
 void TrackedPairs::Evaluate(PairSlot slot, std::uint64_t allowed, Finality finality) {
   PairRecord& pair = table_[slot];
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
-  if (!CanMeet(a.declaration.filter, b.declaration.filter)) {
-    return Drop(slot, Departure::kUnwatched);
-  }
+  if (!queries_.MayMeet(pair.lower, pair.higher)) return Drop(slot, Departure::kUnwatched);
   // One budget for all horizons, what is settled first.
   WorkBudget work(allowed);
   const ContactTracker preview = evaluator_.Evaluate({a, b, pair}, finality, &work);
   pair.published.work += work.spent();
   pair.spent = work.exhausted() ? kAllWanted : work.spent();
   context_.counters->work_units += work.spent();
-  context_.counters->turns_cut_short += work.exhausted();
+  context_.counters->evaluations_cut_short += work.exhausted();
   RecordContactAhead(preview, context_.clock.now, &pair);
   pair.in_contact = preview.in_contact();
   pair.clear_until = preview.free_until();
   const std::vector<ContactEpisode>& heard = preview.finished();
   pair.settles = heard.empty() ? Instant::Never()
-                               : numeric::AddRoundedUp(
-                                     heard.front().end.latest,
-                                     std::max(evaluator_.PatienceOf(a), evaluator_.PatienceOf(b)));
+                               : numeric::AddRoundedUp(heard.front().end.latest,
+                                                       std::max(evaluator_.LongestWaitFor(a),
+                                                                evaluator_.LongestWaitFor(b)));
   pair.unsettled_until = heard.empty() ? Instant::Always() : heard.back().end.latest;
   pair.evaluated_step = context_.clock.step;
   MarkChanged(slot);
@@ -205,10 +204,7 @@ bool TrackedPairs::Release(PairSlot slot) {
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
   Instant key = pair.clear_until;
   if (!HaveShapes(a.history, b.history)) {
-    ++context_.counters->pair_queries;
-    const intersection::IntersectionTime wide =
-        EarliestIntersection(a.wide_bound(), b.wide_bound(), context_.clock.now);
-    key = std::min(key, wide.instant());
+    key = std::min(key, queries_.EarliestOfWide(pair.lower, pair.higher, context_.clock.now));
   }
   if (key <= context_.clock.announce_until() || key < std::max(a.stamp(), b.stamp())) return false;
   released_.push_back({pair.lower, pair.higher, key});
@@ -219,7 +215,7 @@ bool TrackedPairs::Release(PairSlot slot) {
 void TrackedPairs::EvaluateLastTime(AgentIndex agent, Departure departure) {
   const std::vector<PairSlot> slots = table_.Of(agent);
   for (const PairSlot slot : slots) {
-    Evaluate(slot, options_.work_units_per_turn, Finality::kLast);
+    Evaluate(slot, options_.work_units_per_evaluation, Finality::kLast);
     if (table_.Contains(slot)) Drop(slot, departure);
   }
 }

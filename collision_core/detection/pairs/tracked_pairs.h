@@ -4,12 +4,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision_core/detection/agents/agent_table.h"
-#include "collision_core/detection/detector_options.h"
+#include "collision_core/detection/agents/detector_context.h"
+#include "collision_core/detection/agents/pair_queries.h"
 #include "collision_core/detection/events/announcer.h"
 #include "collision_core/detection/pairs/pair_evaluator.h"
 #include "collision_core/detection/pairs/pair_table.h"
 #include "collision_core/detection/pairs/step_budget.h"
+#include "collision_core/detection/step/detector_options.h"
 
 namespace collision::detection {
 
@@ -18,14 +19,6 @@ namespace collision::detection {
 struct ReleasedPair {
   AgentIndex lower, higher;
   Instant clear_until;
-};
-
-/// What the detector's components share. All outlive them.
-struct DetectorContext {
-  const StepClock& clock;
-  const AgentTable& agents;
-  DetectorCounters* counters;
-  IndexSet<AgentIndex>* clearances_dirty;  ///< Agents whose clearance may have changed.
 };
 
 /// Tracks pairs, evaluates each when one of its agents has changed or when it is due, and reports
@@ -96,6 +89,7 @@ class TrackedPairs {
 
   const DetectorOptions options_;
   const DetectorContext context_;
+  const PairQueries queries_;
   PairTable table_;
   PairEvaluator evaluator_;
   StepBudget budget_;

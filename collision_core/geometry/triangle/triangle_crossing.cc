@@ -18,6 +18,7 @@
 
 #include "collision_core/base/check.h"
 #include "collision_core/geometry/triangle/triangle_pair.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::geometry {
 namespace {
@@ -38,9 +39,9 @@ constexpr double kVolumeUnderflow = 0x1p-900;
 /// The four cross products are off by at most 7.1ε ℓ² each.
 constexpr double kAreaRounding = 32 * kEpsilon;
 
-/// Sums, products, quotients and roots of positive numbers, at most a dozen one after the other, up
-/// and down.
-constexpr double kGrow = 1 + 0x1p-48, kShrink = 1 - 0x1p-48;
+/// Sums, products, quotients and roots of positive numbers, at most a dozen one after the other:
+/// kSomeRoundingsUp rounds them up, and this down.
+constexpr double kSomeRoundingsDown = 1 - 0x1p-48;
 
 constexpr int kNext[3] = {1, 2, 0};
 
@@ -71,26 +72,26 @@ struct Sensitivity {
   double edge = 0;   ///< ℓ, rounded up.
 
   double Change(double moved) const {
-    return (moved * areas + 16 * moved * moved * (edge + moved)) * kGrow;
+    return (moved * areas + 16 * moved * moved * (edge + moved)) * numeric::kSomeRoundingsUp;
   }
 };
 
 Sensitivity SensitivityOf(const Vector3d& x0, const Vector3d& x1, const Vector3d& x2,
                           const Vector3d& x3) {
   const Vector3d a = x1 - x0, b = x2 - x0, c = x3 - x0, d = x2 - x1, e = x3 - x1, f = x3 - x2;
-  const double edge =
-      kGrow * std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm(),
-                                  d.squaredNorm(), e.squaredNorm(), f.squaredNorm()}));
+  const double edge = numeric::kSomeRoundingsUp *
+                      std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), c.squaredNorm(),
+                                          d.squaredNorm(), e.squaredNorm(), f.squaredNorm()}));
   const double areas =
       a.cross(b).norm() + b.cross(c).norm() + c.cross(a).norm() + d.cross(e).norm();
-  return {(areas + kAreaRounding * edge * edge) * kGrow, edge};
+  return {(areas + kAreaRounding * edge * edge) * numeric::kSomeRoundingsUp, edge};
 }
 
 /// The margin of a volume whose sign is certain.
 double MarginOf(const Volume& volume, const Sensitivity& sensitivity) {
-  const double least = (volume.magnitude() - volume.error) * kShrink;
-  const double most = least / sensitivity.areas * kGrow;
-  return least / (sensitivity.areas + 16 * most * (sensitivity.edge + most)) * kShrink;
+  const double least = (volume.magnitude() - volume.error) * kSomeRoundingsDown;
+  const double most = least / sensitivity.areas * numeric::kSomeRoundingsUp;
+  return least / (sensitivity.areas + 16 * most * (sensitivity.edge + most)) * kSomeRoundingsDown;
 }
 
 double MarginOf(const Volume& volume, const Vector3d& x0, const Vector3d& x1, const Vector3d& x2,
@@ -188,8 +189,9 @@ Crossing CrossingOf(const EdgePassage& passage, const TrianglePoints& edges,
   const double to = passage.to.magnitude(), to_off = passage.to.error + change(q);
   const double from_low = std::max(0.0, from - from_off), to_low = std::max(0.0, to - to_off);
   const double t = from / (from + to);
-  const double t_low = from_low / (from_low + (to + to_off)) * kShrink;
-  const double t_high = std::min(1.0, (from + from_off) / (from + from_off + to_low) * kGrow);
+  const double t_low = from_low / (from_low + (to + to_off)) * kSomeRoundingsDown;
+  const double t_high =
+      std::min(1.0, (from + from_off) / (from + from_off + to_low) * numeric::kSomeRoundingsUp);
 
   Crossing crossing;
   crossing.point = p + t * (q - p);
@@ -199,7 +201,7 @@ Crossing CrossingOf(const EdgePassage& passage, const TrianglePoints& edges,
   // Per coordinate the difference, the product and the sum are off by 3ε of the largest.
   const double rounding = 8 * kEpsilon * (length + crossing.point.norm());
   const double along = std::max(t_high - t, t - t_low) * length;
-  crossing.error = (uncertainty + std::min(along, reach) + rounding) * kGrow;
+  crossing.error = (uncertainty + std::min(along, reach) + rounding) * numeric::kSomeRoundingsUp;
   crossing.normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();
   crossing.through_b = passage.pierced == Pierced::kB;
   return crossing;

@@ -17,6 +17,7 @@
 
 #include "collision_core/narrow_phase/pose/boxed_triangle.h"
 #include "collision_core/narrow_phase/pose/node_pair.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/first_root.h"
 
 namespace collision::narrow_phase {
@@ -30,8 +31,6 @@ constexpr int kSteps = 8;
 
 // Steps shorter than this share of the duration are not worth another.
 constexpr double kStepWorth = 1e-4;
-// A few roundings, upward.
-constexpr double kGrow = 1 + 0x1p-40;
 
 /// A corner of a box, of |c| and the span: three products and three sums, 2^-53 of these each, in
 /// three coordinates; below 11 · 2^-53.
@@ -190,7 +189,7 @@ class Search {
     const auto& [a, b, swept] = pair;
     const RelativePose& pose = swept.pose;
     const double reach = a.reach() + b.reach();
-    speed_ = swept.velocity.norm() * kGrow + swept.velocity_error;
+    speed_ = swept.velocity.norm() * numeric::kManyRoundingsUp + swept.velocity_error;
     // As for tangents (point_motion.cc); and the axes are off by what turned them.
     slack_ = numeric::AddUp(
         numeric::MultiplyUp(kRingRounding, reach + pose.p_AB.cwiseAbs().sum() + duration * speed_),
@@ -306,7 +305,8 @@ class Search {
     const Ring ring_a = axis_a_.RingOf(a, Vector3d::Zero());
     const Ring ring_b = axis_b_.RingOf(b, Vector3d::Zero());
     const auto &u = swept_.translation, &ta = swept_.turning_A, &tb = swept_.turning_B;
-    const double far_a = a.far() * kGrow, far_b = b.far() * kGrow;
+    const double far_a = a.far() * numeric::kManyRoundingsUp,
+                 far_b = b.far() * numeric::kManyRoundingsUp;
     const double c0 = slack_ + u.c0 + ta.c0 * far_a + tb.c0 * far_b;
     const double c1 = u.c1 + ta.c1 * far_a + tb.c1 * far_b;
     const double c2 = std::max(0.0, u.c2 + ta.c2 * far_a + tb.c2 * far_b);

@@ -110,23 +110,23 @@ double ContactBoundary::FreeFrom(double at) {
 }
 
 // Records a query; returns whether it shows contact.
-bool ContactBoundary::Record(const ShapeMotion::PoseQuery& instance) {
-  if (!instance.choice.certain) return false;
-  nearest_ = std::min(
-      nearest_, std::max(0.0, numeric::AddUp(instance.bracket.upper, instance.pose.translation)));
-  return instance.touching();
+bool ContactBoundary::Record(const ShapeMotion::PoseQuery& query) {
+  if (!query.choice.certain) return false;
+  nearest_ = std::min(nearest_,
+                      std::max(0.0, numeric::AddUp(query.bracket.upper, query.pose.translation)));
+  return query.touching();
 }
 
 bool ContactBoundary::TouchesByCandidates(double at) {
   std::vector<std::pair<double, std::size_t>> by_depth;
   for (std::size_t i = 0; i < candidates_.size() && !Exhausted(); ++i) {
-    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, candidates_[i]);
-    if (Record(instance)) {
+    const ShapeMotion::PoseQuery query = motion_.QuerySeparation(at, candidates_[i]);
+    if (Record(query)) {
       std::rotate(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(i),
                   candidates_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       return true;
     }
-    by_depth.emplace_back(instance.bracket.upper, i);
+    by_depth.emplace_back(query.bracket.upper, i);
   }
   if (candidates_.size() > kCandidatesKept && by_depth.size() == candidates_.size()) {
     std::sort(by_depth.begin(), by_depth.end());
@@ -147,15 +147,15 @@ bool ContactBoundary::Touches(double at, Scope scope) {
     if (Record(motion_.RecheckWitness(at, witness))) return true;
   }
   if (scope == Scope::kLikely || Exhausted()) return false;
-  ShapeMotion::PoseQuery instance =
+  ShapeMotion::PoseQuery query =
       motion_.QuerySeparation(at, Goal::kYesNo, touch_.resolved ? leaves : ContactWitness{});
-  if (nested_) motion_.CheckContainment(&instance);
-  exhausted_ = exhausted_ || instance.bracket.exhausted;
-  if (Record(instance)) {
-    if (!instance.bracket.witness.is_none()) witness_ = instance.bracket.witness;
+  if (nested_) motion_.CheckContainment(&query);
+  exhausted_ = exhausted_ || query.bracket.exhausted;
+  if (Record(query)) {
+    if (!query.bracket.witness.is_none()) witness_ = query.bracket.witness;
     return true;
   }
-  apart_ = !nested_ && instance.apart();
+  apart_ = !nested_ && query.apart();
   return false;
 }
 
@@ -234,8 +234,8 @@ std::optional<double> ContactBoundary::ContactByCandidates(double free, double u
 double ContactBoundary::LastsFrom(double touching, double until) const {
   double at = touching;
   for (int step = 0; step < kLastingSteps && !candidates_.empty() && !work_.exhausted(); ++step) {
-    const ShapeMotion::PoseQuery instance = motion_.QuerySeparation(at, candidates_.front());
-    const double lasts = instance.touching() ? motion_.ContactStep(instance, direction_) : 0;
+    const ShapeMotion::PoseQuery query = motion_.QuerySeparation(at, candidates_.front());
+    const double lasts = query.touching() ? motion_.ContactStep(query, direction_) : 0;
     at = Moved(at, lasts);
     const bool beyond = is_backward() ? at <= until : at >= until;
     if (beyond) return until;

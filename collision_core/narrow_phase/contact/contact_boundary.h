@@ -88,7 +88,7 @@ class ContactBoundary {
   bool Exhausted();
   bool Touches(double at, Scope scope);
   bool TouchesByCandidates(double at);
-  bool Record(const ShapeMotion::PoseQuery& instance);
+  bool Record(const ShapeMotion::PoseQuery& query);
   double Narrow(double apart, double touching, double free, Scope scope);
   void Prepare(double free);
   double FirstStep(double free, double until) const;

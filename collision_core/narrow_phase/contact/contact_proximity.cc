@@ -39,9 +39,9 @@ double DeviationOf(const NearestWay& way, double translation) {
   return std::sqrt((upper - lower) * (upper + lower)) + u + 2 * std::sqrt(u * (upper + u));
 }
 
-EventLimit LimitOf(const PoseQuery& instance, double size) {
-  if (instance.bracket.exhausted) return EventLimit::kBudget;
-  return instance.uncertainty > kExactMotion * size ? EventLimit::kMotion : EventLimit::kGeometry;
+EventLimit LimitOf(const PoseQuery& query, double size) {
+  if (query.bracket.exhausted) return EventLimit::kBudget;
+  return query.uncertainty > kExactMotion * size ? EventLimit::kMotion : EventLimit::kGeometry;
 }
 
 // Moved by so much along the line of their reference points, two bodies within balls of radii that
@@ -54,9 +54,9 @@ double DepthMax(const RelativePose& pose, double size) {
 }  // namespace
 
 // One of the ways is the shortest: how far may it point away from the one taken?
-ContactNormal NormalOf(const PoseQuery& instance) {
+ContactNormal NormalOf(const PoseQuery& query) {
   ContactNormal normal;
-  const std::vector<NearestWay>& ways = instance.bracket.ways;
+  const std::vector<NearestWay>& ways = query.bracket.ways;
   if (ways.empty()) return normal;
   const auto shortest = std::min_element(
       ways.begin(), ways.end(), [](const auto& x, const auto& y) { return x.upper < y.upper; });
@@ -68,26 +68,24 @@ ContactNormal NormalOf(const PoseQuery& instance) {
     if (!(length > 0)) return normal;
     const double half_chord = (v / length - taken).norm() / 2;
     const double apart = 2 * AngleOfSine(half_chord);
-    error =
-        std::max(error, apart + AngleOfSine(DeviationOf(way, instance.pose.translation) / length));
+    error = std::max(error, apart + AngleOfSine(DeviationOf(way, query.pose.translation) / length));
   }
   normal.known = true;
-  normal.normal = instance.pose.R_WA * taken;
-  normal.error =
-      std::min(std::numbers::pi, error + instance.pose.matrix_error + kDirectionRounding);
+  normal.normal = query.pose.R_WA * taken;
+  normal.error = std::min(std::numbers::pi, error + query.pose.matrix_error + kDirectionRounding);
   return normal;
 }
 
-Proximity ProximityFrom(const PoseQuery& instance, const ShapeMotion& motion, double size) {
+Proximity ProximityFrom(const PoseQuery& query, const ShapeMotion& motion, double size) {
   Proximity proximity;
-  if (!instance.choice.certain) return proximity;
-  const RelativePose& pose = instance.pose;
-  const SeparationBracket& bracket = instance.bracket;
+  if (!query.choice.certain) return proximity;
+  const RelativePose& pose = query.pose;
+  const SeparationBracket& bracket = query.bracket;
   proximity.separation = {numeric::AddDown(bracket.lower, -pose.translation),
                           numeric::AddUp(bracket.upper, pose.translation)};
-  if (instance.touching()) proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
-  if (!instance.apart() || !instance.neither_inside) {
-    const double depth = std::min(DepthMax(pose, size), motion.DepthAtMost(instance));
+  if (query.touching()) proximity.separation.upper = std::min(proximity.separation.upper, 0.0);
+  if (!query.apart() || !query.neither_inside) {
+    const double depth = std::min(DepthMax(pose, size), motion.DepthAtMost(query));
     proximity.separation.lower = std::min(proximity.separation.upper, -depth);
   }
   proximity.depth_lower = std::max(0.0, -proximity.separation.upper);
@@ -101,7 +99,7 @@ Proximity ProximityFrom(const PoseQuery& instance, const ShapeMotion& motion, do
   const Eigen::Vector3d between = pose.R_WA * pose.p_AB;
   if (between.norm() > 0) proximity.normal = between.normalized();
   proximity.level = bracket.level;
-  proximity.limited_by = LimitOf(instance, size);
+  proximity.limited_by = LimitOf(query, size);
   return proximity;
 }
 

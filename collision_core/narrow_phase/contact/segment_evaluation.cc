@@ -19,7 +19,7 @@ constexpr double kShortestStep = 1e-10;
 // The direction is taken where the gap is this many times what is uncertain, if there is such an
 // instant: nearer it is not known, farther it is that of another time. DeviationOf() makes it 0.19
 // rad.
-constexpr double kTellingGap = 128;
+constexpr double kDirectionGap = 128;
 
 // At least so long before the first possible touch, as a share of the segment.
 constexpr double kNormalBefore = 1e-3;
@@ -91,7 +91,7 @@ ContactNormal SegmentEvaluation::Normal() {
   if (start.choice.certain && kMuchBetter * start.uncertainty <= end.uncertainty) {
     return NormalOf(motion_.QuerySeparation(approach_->from, Goal::kNearest, leaves_));
   }
-  const double gap = kTellingGap * end.uncertainty;
+  const double gap = kDirectionGap * end.uncertainty;
   const double back = std::max(kNormalBefore * duration_, gap / motion_.SpeedAt(end));
   const double before = std::max(approach_->from, approach_->to - back);
   const ContactNormal near = NormalOf(motion_.QuerySeparation(before, Goal::kNearest, leaves_));
@@ -114,9 +114,9 @@ Proximity SegmentEvaluation::NearestProximity() {
 void SegmentEvaluation::SharpenEnd(double free, double until, TimeDirection direction,
                                    SegmentResult* times) {
   if (std::abs(until - free) <= kLateShare * duration_ || Exhausted()) return;
-  const PoseQuery instance = motion_.RecheckWitness(free, {});
-  if (!instance.choice.certain) return;
-  const double late = kLate * instance.uncertainty / motion_.SpeedAt(instance);
+  const PoseQuery query = motion_.RecheckWitness(free, {});
+  if (!query.choice.certain) return;
+  const double late = kLate * query.uncertainty / motion_.SpeedAt(query);
   if (!(std::abs(until - free) > late)) return;
   ContactBoundary edge(motion_, duration_, {kFineShare * duration_, 0}, direction, &work_);
   const std::optional<double> touching = edge.ContactByCandidates(free, until);
@@ -140,9 +140,9 @@ bool SegmentEvaluation::FollowLeaves(double f, double g, SegmentResult* times) {
   if (leaves_.is_none() || Exhausted()) return false;
   witness_ = {};
   const auto touches = [&](double place) {
-    const PoseQuery instance = motion_.RecheckWitness(place, leaves_);
-    if (instance.touching()) witness_ = instance.bracket.witness;
-    return instance.touching();
+    const PoseQuery query = motion_.RecheckWitness(place, leaves_);
+    if (query.touching()) witness_ = query.bracket.witness;
+    return query.touching();
   };
   double before = f, at = f;
   bool found = touches(f);
@@ -174,9 +174,9 @@ void SegmentEvaluation::TakeContact(double from, double place, double g, Segment
 bool SegmentEvaluation::TryContact(double f, double g, double place, SegmentResult* times) {
   if (Exhausted()) return false;
   const TimeDirection side = place != f ? TimeDirection::kBackward : TimeDirection::kForward;
-  const PoseQuery instance = QueryAt(place, side);
-  if (!instance.touching()) return false;
-  witness_ = instance.bracket.witness;
+  const PoseQuery query = QueryAt(place, side);
+  if (!query.touching()) return false;
+  witness_ = query.bracket.witness;
   TakeContact(Extend(place, TimeDirection::kBackward), place, g, times);
   return true;
 }
@@ -200,15 +200,15 @@ double SegmentEvaluation::Extend(double at, TimeDirection direction) {
   ContactWitness witness = witness_;
   double longest = 0;
   while (!Exhausted()) {
-    PoseQuery instance = motion_.RecheckWitness(at, witness);
-    double lasts = instance.touching() ? motion_.ContactStep(instance, direction) : 0;
+    PoseQuery query = motion_.RecheckWitness(at, witness);
+    double lasts = query.touching() ? motion_.ContactStep(query, direction) : 0;
     if (lasts <= kFallenShort * longest || lasts == 0) {
-      instance = motion_.QuerySeparation(at, Goal::kContact);
-      if (nested_) motion_.CheckContainment(&instance);
-      RememberNearest(instance);
-      if (!instance.touching()) break;
-      witness = instance.bracket.witness;
-      const double other = motion_.ContactStep(instance, direction);
+      query = motion_.QuerySeparation(at, Goal::kContact);
+      if (nested_) motion_.CheckContainment(&query);
+      RememberNearest(query);
+      if (!query.touching()) break;
+      witness = query.bracket.witness;
+      const double other = motion_.ContactStep(query, direction);
       // Nothing else lasts longer: where contact ends.
       if (other <= lasts && other <= kResolution * duration_) break;
       lasts = std::max(lasts, other);
@@ -224,9 +224,9 @@ double SegmentEvaluation::Extend(double at, TimeDirection direction) {
   return at;
 }
 
-void SegmentEvaluation::RememberNearest(const PoseQuery& instance) {
-  if (instance.choice.certain && (!nearest_ || instance.bracket.upper < nearest_->bracket.upper)) {
-    nearest_ = instance;
+void SegmentEvaluation::RememberNearest(const PoseQuery& query) {
+  if (query.choice.certain && (!nearest_ || query.bracket.upper < nearest_->bracket.upper)) {
+    nearest_ = query;
   }
 }
 

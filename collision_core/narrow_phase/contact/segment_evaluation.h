@@ -59,7 +59,7 @@ class SegmentEvaluation {
   bool TryContact(double f, double g, double place, SegmentResult* times);
   PoseQuery& QueryAt(double at, TimeDirection direction);
   double Extend(double at, TimeDirection direction);
-  void RememberNearest(const PoseQuery& instance);
+  void RememberNearest(const PoseQuery& query);
   bool Exhausted();
   void QueryEnd(SegmentResult* times);
 

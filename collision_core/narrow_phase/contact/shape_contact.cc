@@ -95,9 +95,9 @@ ContactNormal NormalAt(const BodySegment& a, const BodySegment& b, double delta,
 Proximity ShapeProximity(const BodySegment& a, const BodySegment& b, double delta,
                          WorkBudget* work) {
   const ShapeMotion motion(a, b, work);
-  PoseQuery instance = motion.QuerySeparation(delta, Goal::kContact);
-  motion.CheckContainment(&instance);
-  return ProximityFrom(instance, motion, a.ball.radius + b.ball.radius);
+  PoseQuery query = motion.QuerySeparation(delta, Goal::kContact);
+  motion.CheckContainment(&query);
+  return ProximityFrom(query, motion, a.ball.radius + b.ball.radius);
 }
 
 }  // namespace collision::narrow_phase

@@ -97,59 +97,57 @@ ShapeMotion::ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget*
 }
 
 ShapeMotion::PoseQuery ShapeMotion::PoseQueryAt(double at) const {
-  PoseQuery instance;
-  instance.at = at;
-  instance.choice = BestBounds(a_, b_, at);
-  if (!instance.choice.certain) return instance;
+  PoseQuery query;
+  query.at = at;
+  query.choice = BestBounds(a_, b_, at);
+  if (!query.choice.certain) return query;
   work_.Spend(kPoseUnits);
-  instance.pose = PoseAt(a_, b_, instance.choice, at);
-  instance.uncertainty = numeric::AddUp(
-      instance.pose.translation,
-      numeric::AddUp(numeric::MultiplyUp(instance.pose.chord_A, surface_a_.turning_reach()),
-                     numeric::MultiplyUp(instance.pose.chord_B, surface_b_.turning_reach())));
-  return instance;
+  query.pose = PoseAt(a_, b_, query.choice, at);
+  query.uncertainty = numeric::AddUp(
+      query.pose.translation,
+      numeric::AddUp(numeric::MultiplyUp(query.pose.chord_A, surface_a_.turning_reach()),
+                     numeric::MultiplyUp(query.pose.chord_B, surface_b_.turning_reach())));
+  return query;
 }
 
 ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at, Goal goal,
                                                     const ContactWitness& hint) const {
-  PoseQuery instance = PoseQueryAt(at);
-  if (!instance.choice.certain) return instance;
-  instance.bracket = collision::narrow_phase::QuerySeparation(
-      {surface_a_, surface_b_, instance.pose}, goal, &work_, hint);
-  return instance;
+  PoseQuery query = PoseQueryAt(at);
+  if (!query.choice.certain) return query;
+  query.bracket = collision::narrow_phase::QuerySeparation({surface_a_, surface_b_, query.pose},
+                                                           goal, &work_, hint);
+  return query;
 }
 
 ShapeMotion::PoseQuery ShapeMotion::RecheckWitness(double at, const ContactWitness& witness) const {
-  PoseQuery instance = PoseQueryAt(at);
-  if (!instance.choice.certain) return instance;
-  instance.bracket = collision::narrow_phase::RecheckWitness(
-      {surface_a_, surface_b_, instance.pose}, witness, &work_);
-  return instance;
+  PoseQuery query = PoseQueryAt(at);
+  if (!query.choice.certain) return query;
+  query.bracket = collision::narrow_phase::RecheckWitness({surface_a_, surface_b_, query.pose},
+                                                          witness, &work_);
+  return query;
 }
 
 ShapeMotion::PoseQuery ShapeMotion::QuerySeparation(double at,
                                                     const ContactCandidate& candidate) const {
   if (candidate.is_pair()) return RecheckWitness(at, candidate.pair);
-  PoseQuery instance = PoseQueryAt(at);
-  if (!instance.choice.certain) return instance;
-  instance.bracket.upper =
-      UpperBy(candidate.point, {surface_a_, surface_b_, instance.pose}, &work_);
-  return instance;
+  PoseQuery query = PoseQueryAt(at);
+  if (!query.choice.certain) return query;
+  query.bracket.upper = UpperBy(candidate.point, {surface_a_, surface_b_, query.pose}, &work_);
+  return query;
 }
 
 std::vector<ContactCandidate> ShapeMotion::CandidatesAt(double at, const ImpactBound& touch) const {
-  const PoseQuery instance = PoseQueryAt(at);
-  if (!instance.choice.certain) return {};
+  const PoseQuery query = PoseQueryAt(at);
+  if (!query.choice.certain) return {};
   const double size = surface_a_.reach() + surface_b_.reach();
-  const double within = kPatchReach * size + kPatchBeyond * instance.uncertainty;
-  return FindContactCandidates({surface_a_, surface_b_, instance.pose}, within, touch.leaves,
-                               &work_);
+  const double within = kPatchReach * size + kPatchBeyond * query.uncertainty;
+  return FindContactCandidates({surface_a_, surface_b_, query.pose}, within, touch.leaves, &work_);
 }
 
-double ShapeMotion::DepthAtMost(const PoseQuery& instance) const {
-  const double shift = SeparatingTranslation({surface_a_, surface_b_, instance.pose},
-                                             instance.bracket.witness, &work_);
-  return numeric::AddUp(shift, instance.pose.translation);
+double ShapeMotion::DepthAtMost(const PoseQuery& query) const {
+  const double shift =
+      SeparatingTranslation({surface_a_, surface_b_, query.pose}, query.bracket.witness, &work_);
+  return numeric::AddUp(shift, query.pose.translation);
 }
 
 // The bounds that are the least uncertain half-way are taken for all of the span.
@@ -253,11 +251,11 @@ double ShapeMotion::RingFreedom(double at, double left, TimeDirection direction,
   return std::min(free, span);
 }
 
-void ShapeMotion::CheckContainment(PoseQuery* instance) const {
-  SeparationBracket& bracket = instance->bracket;
-  if (!instance->apart()) return;
-  const Containment nesting = TestContainment({surface_a_, surface_b_, instance->pose}, &work_);
-  instance->neither_inside = nesting.neither;
+void ShapeMotion::CheckContainment(PoseQuery* query) const {
+  SeparationBracket& bracket = query->bracket;
+  if (!query->apart()) return;
+  const Containment nesting = TestContainment({surface_a_, surface_b_, query->pose}, &work_);
+  query->neither_inside = nesting.neither;
   if (!nesting.certain() || bracket.upper <= -bracket.lower) return;
   bracket.upper = -bracket.lower;
   bracket.point = nesting.point;
@@ -268,17 +266,16 @@ bool ShapeMotion::NeitherInside(const RelativePose& pose) const {
   return TestContainment({surface_a_, surface_b_, pose}, &work_).neither;
 }
 
-ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance,
-                                          TimeDirection direction) const {
-  const numeric::MovingBall& ball_a = a_.ball.bounds[instance.choice.of_a];
-  const numeric::MovingBall& ball_b = b_.ball.bounds[instance.choice.of_b];
-  const Turning of_a = TurningOf(a_, instance.choice.of_a, instance.at, direction);
-  const Turning of_b = TurningOf(b_, instance.choice.of_b, instance.at, direction);
+ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& query, TimeDirection direction) const {
+  const numeric::MovingBall& ball_a = a_.ball.bounds[query.choice.of_a];
+  const numeric::MovingBall& ball_b = b_.ball.bounds[query.choice.of_b];
+  const Turning of_a = TurningOf(a_, query.choice.of_a, query.at, direction);
+  const Turning of_b = TurningOf(b_, query.choice.of_b, query.at, direction);
   Drift drift;
   drift.along = numeric::Norm(ball_b.velocity - ball_a.velocity);
   drift.spin_sum = of_a.spin + of_b.spin;
   drift.spin_most = numeric::Max(of_a.spin, of_b.spin);
-  drift.translation = From(ball_a.u + ball_b.u, instance.at, direction);
+  drift.translation = From(ball_a.u + ball_b.u, query.at, direction);
   drift.turned1_sum = of_a.turned1 + of_b.turned1;
   drift.turned2_sum = of_a.turned2 + of_b.turned2;
   drift.turned1_most = numeric::Max(of_a.turned1, of_b.turned1);
@@ -289,20 +286,20 @@ ShapeMotion::Drift ShapeMotion::DriftFrom(const PoseQuery& instance,
 // Balls within the solids that overlap by −upper do so until that is used up. Crossing triangles
 // cross while no corner moves further than the margin: seen from half-way between the two bodies
 // each corner moves by half of what translation does, and by the turning of its own body.
-double ShapeMotion::ContactStep(const PoseQuery& instance, TimeDirection direction) const {
-  CORE_CHECK(instance.touching(), "contact is certain at the instant", instance.at);
-  const Drift d = DriftFrom(instance, direction);
+double ShapeMotion::ContactStep(const PoseQuery& query, TimeDirection direction) const {
+  CORE_CHECK(query.touching(), "contact is certain at the instant", query.at);
+  const Drift d = DriftFrom(query, direction);
   double step = 0;
-  if (instance.bracket.CertainlyOverlapping(instance.pose.translation)) {
-    const numeric::Interval gap = numeric::Interval(-instance.bracket.upper) - d.translation.c0;
+  if (query.bracket.CertainlyOverlapping(query.pose.translation)) {
+    const numeric::Interval gap = numeric::Interval(-query.bracket.upper) - d.translation.c0;
     const numeric::Interval closing = d.along + d.spin_sum + d.translation.c1 + d.turned1_sum;
     const numeric::Interval growth = d.translation.c2 + d.turned2_sum;
     step = numeric::FirstZero(gap.lower, closing.upper, std::max(0.0, growth.upper));
   }
-  if (instance.bracket.CertainlyCrossing(instance.pose.translation)) {
+  if (query.bracket.CertainlyCrossing(query.pose.translation)) {
     const numeric::Interval half = 0.5;
     const numeric::Interval gap =
-        numeric::Interval(instance.bracket.crossing_margin) - half * d.translation.c0;
+        numeric::Interval(query.bracket.crossing_margin) - half * d.translation.c0;
     const numeric::Interval closing =
         half * (d.along + d.translation.c1) + d.spin_most + d.turned1_most;
     const numeric::Interval growth = half * d.translation.c2 + d.turned2_most;
@@ -312,8 +309,8 @@ double ShapeMotion::ContactStep(const PoseQuery& instance, TimeDirection directi
   return step;
 }
 
-double ShapeMotion::SpeedAt(const PoseQuery& instance) const {
-  const Drift drift = DriftFrom(instance, TimeDirection::kForward);
+double ShapeMotion::SpeedAt(const PoseQuery& query) const {
+  const Drift drift = DriftFrom(query, TimeDirection::kForward);
   return (drift.along + drift.spin_sum).upper;
 }
 

@@ -20,7 +20,7 @@ class ShapeMotion {
   /// Everything passed in outlives this. Requires that neither body is awaited.
   ShapeMotion(const BodySegment& a, const BodySegment& b, WorkBudget* work);
 
-  /// Where and in which direction a sweep begins; of this class and its source.
+  /// Where a sweep begins, and in which direction of time it goes. Defined in the source.
   struct Departure;
 
   /// What is found at one pose of the two bodies.
@@ -79,24 +79,24 @@ class ShapeMotion {
 
   /// Tests containment if the query found the surfaces apart: one solid inside the other is
   /// contact, as deep as the surfaces are apart, because no shorter way takes it out again.
-  void CheckContainment(PoseQuery* instance) const;
+  void CheckContainment(PoseQuery* query) const;
 
   /// An upper bound of the penetration depth at an instant, for all motions within the bounds [m].
-  double DepthAtMost(const PoseQuery& instance) const;
+  double DepthAtMost(const PoseQuery& query) const;
 
-  /// For how many seconds contact certainly lasts from `instance` on, towards later or earlier
+  /// For how many seconds contact certainly lasts from `query` on, towards later or earlier
   /// times; +infinity: for ever. Requires touching().
-  double ContactStep(const PoseQuery& instance, TimeDirection direction) const;
+  double ContactStep(const PoseQuery& query, TimeDirection direction) const;
 
   double size() const { return surface_a_.reach() + surface_b_.reach(); }
 
   /// An upper bound of the relative speed of any two points of the bodies, as predicted [m/s].
-  double SpeedAt(const PoseQuery& instance) const;
+  double SpeedAt(const PoseQuery& query) const;
 
  private:
   struct Drift;
   PoseQuery PoseQueryAt(double at) const;
-  Drift DriftFrom(const PoseQuery& instance, TimeDirection direction) const;
+  Drift DriftFrom(const PoseQuery& query, TimeDirection direction) const;
   BoundChoice ChoiceFor(double at, double span, TimeDirection direction) const;
   SweptPose SweptFrom(const Departure& from, BoundChoice choice) const;
   double ToMiddle(double at, double left, TimeDirection direction, double duration) const;

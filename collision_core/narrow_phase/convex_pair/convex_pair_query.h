@@ -1,7 +1,7 @@
 // Two convex solids at a pose: the fast answers to the most frequent queries.
 //
 // A query for yes or no, or for the distance alone, need not pay for points, normals and features.
-// Each way below proves its answer; where it cannot, the patient search (convex_search.h) answers.
+// Each way below proves its answer; where it cannot, the full search (convex_search.h) answers.
 //
 // - A ball or capsule beside a ball, capsule or box (capsule_distance.h): the nearest points of two
 //   segments, or of a segment and a box, then the length between them and the gap along it.
@@ -14,7 +14,7 @@
 //
 // The same bits with AVX2 and without. `./run bench narrow-phase --only 'convex '` measures: boxes
 // a tenth of their diameter apart in 40 ns, overlapping by a thousandth in 65 ns; a capsule beside
-// a box 37 and 130 ns; two capsules 34 ns; two hulls of 18 points 110 and 640 ns. The patient
+// a box 37 and 130 ns; two capsules 34 ns; two hulls of 18 points 110 and 640 ns. The full
 // search takes one and a half to six times as long.
 #pragma once
 

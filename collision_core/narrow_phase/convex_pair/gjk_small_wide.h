@@ -92,14 +92,14 @@ WIDE_INLINE Point Support(const SmallGjkCore& core, const Point& n) {
 }
 
 /// What a simplex is nearest to 0 with.
-struct Nearest {
+struct SimplexNearest {
   unsigned corners = 0;  ///< One bit each; 0: it seems to be inside.
   Point sum;             ///< A weighted sum of corners,
   Point direction;       ///< and along it, more exactly.
   double square;         ///< Of `sum`.
 
-  Nearest() = default;
-  WIDE_INLINE Nearest& operator=(const Nearest& other) {
+  SimplexNearest() = default;
+  WIDE_INLINE SimplexNearest& operator=(const SimplexNearest& other) {
     corners = other.corners, sum = other.sum;
     direction = other.direction, square = other.square;
     return *this;
@@ -118,7 +118,7 @@ class Search {
     if (!(Dot(n, n) > 0)) n = {1, 0, 0};
     corner_[0] = Against(n);
     count_ = 1;
-    Nearest at;
+    SimplexNearest at;
     OnCorner(0, &at);
     const double ahead = Dot(n, corner_[0]) / std::sqrt(Dot(n, n));
     if (ahead > pair_.apart) return {ahead - kGapError * size, HUGE_VAL, false};
@@ -133,7 +133,7 @@ class Search {
       if (gap > pair_.apart || IsCloseEnough(length, gap) || IsKnown(found)) break;
       corner_[count_] = found;
       ++count_;
-      Nearest next;
+      SimplexNearest next;
       Reduce(&next);
       if (next.corners == 0) {
         if (HoldsBall()) return {lower, HUGE_VAL, true};
@@ -195,13 +195,13 @@ class Search {
     }
   }
 
-  WIDE_INLINE void OnCorner(int i, Nearest* at) const {
+  WIDE_INLINE void OnCorner(int i, SimplexNearest* at) const {
     at->corners = 1u << i;
     at->sum = at->direction = corner_[i];
     at->square = Dot(at->sum, at->sum);
   }
 
-  WIDE_INLINE void OnEdge(int i, int j, Nearest* at) const {
+  WIDE_INLINE void OnEdge(int i, int j, SimplexNearest* at) const {
     const Point &a = corner_[i], edge = corner_[j] - a;
     const double along = -Dot(a, edge), square = Dot(edge, edge);
     if (!(along > 0)) return OnCorner(i, at);
@@ -214,7 +214,7 @@ class Search {
   }
 
   /// After Ericson, "Real-time collision detection", 2005, section 5.1.5.
-  WIDE_INLINE void OnTriangle(int i, int j, int k, Nearest* at) const {
+  WIDE_INLINE void OnTriangle(int i, int j, int k, SimplexNearest* at) const {
     const Point &a = corner_[i], &b = corner_[j], &c = corner_[k];
     const Point ab = b - a, ac = c - a;
     const double d1 = -Dot(ab, a), d2 = -Dot(ac, a), d3 = -Dot(ab, b), d4 = -Dot(ac, b);
@@ -237,9 +237,9 @@ class Search {
   };
 
   /// The nearest of the edges that 0 is beyond.
-  WIDE_INLINE void OnRim(int i, int j, int k, const Sides& inside, Nearest* at) const {
+  WIDE_INLINE void OnRim(int i, int j, int k, const Sides& inside, SimplexNearest* at) const {
     at->corners = 0;
-    Nearest other;
+    SimplexNearest other;
     const auto take = [&](int from, int to) WIDE {
       OnEdge(from, to, &other);
       if (at->corners == 0 || other.square < at->square) *at = other;
@@ -250,13 +250,13 @@ class Search {
   }
 
   /// No corners: 0 is inside.
-  WIDE_INLINE void Reduce(Nearest* at) const {
+  WIDE_INLINE void Reduce(SimplexNearest* at) const {
     if (count_ == 2) return OnEdge(0, 1, at);
     if (count_ == 3) return OnTriangle(0, 1, 2, at);
     // Faces of the newest corner, and the corner opposite.
     constexpr int kFaces[3][3] = {{0, 1, 2}, {0, 2, 1}, {1, 2, 0}};
     at->corners = 0;
-    Nearest other;
+    SimplexNearest other;
     for (const auto& f : kFaces) {
       const Point &a = corner_[f[0]], &b = corner_[f[1]], &c = corner_[3];
       const Point normal = Cross(a - c, b - c);

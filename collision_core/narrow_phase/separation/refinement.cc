@@ -44,11 +44,11 @@ void Refinement::Refine(WorkBudget* work) {
   order_ == RefinementOrder::kLevelByLevel ? RefineByLevel(work) : RefineLargest(work);
 }
 
-void Refinement::Turn(Entry* entry, std::uint64_t units, WorkBudget* work) {
-  WorkBudget turn(std::min(units, work->left()));
-  entry->search.Refine(&turn);
-  entry->spent += turn.spent();
-  work->Spend(turn.spent());
+void Refinement::RefineOne(Entry* entry, std::uint64_t units, WorkBudget* work) {
+  WorkBudget slice(std::min(units, work->left()));
+  entry->search.Refine(&slice);
+  entry->spent += slice.spent();
+  work->Spend(slice.spent());
 }
 
 void Refinement::StartRound() {
@@ -57,7 +57,7 @@ void Refinement::StartRound() {
   is_stuck_ = true;
   for (Entry& entry : entries_) {
     entry.round_until = 0.5 * WidthOf(entry.search);
-    const double share = std::max(1.0, entry.weight * static_cast<double>(kTurnUnits));
+    const double share = std::max(1.0, entry.weight * static_cast<double>(kSliceUnits));
     entry.spent_before = entry.spent;
     entry.left_of_round = static_cast<std::uint64_t>(std::min(share, kShareMax)) << doublings_;
   }
@@ -80,7 +80,7 @@ void Refinement::RefineByLevel(WorkBudget* work) {
       continue;
     }
     const std::uint64_t before = entry.spent;
-    Turn(&entry, std::min(kTurnUnits, entry.left_of_round), work);
+    RefineOne(&entry, std::min(kSliceUnits, entry.left_of_round), work);
     const std::uint64_t used = entry.spent - before;
     entry.left_of_round -= std::min(entry.left_of_round, used);
   }
@@ -107,7 +107,7 @@ void Refinement::RefineLargest(WorkBudget* work) {
     std::pop_heap(claims.begin(), claims.end());
     const std::size_t pair = claims.back().pair;
     claims.pop_back();
-    Turn(&entries_[pair], kTurnUnits, work);
+    RefineOne(&entries_[pair], kSliceUnits, work);
     claim(pair);
   }
 }

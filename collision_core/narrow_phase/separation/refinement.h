@@ -30,9 +30,9 @@ struct RefinedPair {
 
 /// Searches that share a budget. Each pair has a weight, its importance: at the same width, it gets
 /// work in proportion to its weight. No pair starves: level by level it has at most weight ·
-/// kTurnUnits units in a round, twice as many after a round in which no pair came down a level;
-/// largest first it counts with weight · width / units spent, which falls while it has turns.
-/// Deterministic: of equals the first pair added comes first.
+/// kSliceUnits units in a round, twice as many after a round in which no pair came down a level;
+/// largest first it counts with weight · width / units spent, which falls with each slice of work
+/// that it gets. Deterministic: of equals the first pair added comes first.
 ///
 /// Refine() may overrun the budget by less than kBatchUnits. It may be called again and again: each
 /// bracket only becomes narrower, and with all the work it asks for it is that of a search alone,
@@ -45,7 +45,7 @@ struct RefinedPair {
 class Refinement {
  public:
   /// Units of work that a pair gets at a time.
-  static constexpr std::uint64_t kTurnUnits = 64;
+  static constexpr std::uint64_t kSliceUnits = 64;
 
   explicit Refinement(RefinementOrder order) : order_(order) {}
 
@@ -83,7 +83,7 @@ class Refinement {
   void RefineByLevel(WorkBudget* work);
   void RefineLargest(WorkBudget* work);
   void StartRound();
-  void Turn(Entry* entry, std::uint64_t units, WorkBudget* work);
+  void RefineOne(Entry* entry, std::uint64_t units, WorkBudget* work);
 
   const RefinementOrder order_;
   std::deque<Entry> entries_;  // searches do not move

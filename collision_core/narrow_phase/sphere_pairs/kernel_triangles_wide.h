@@ -88,7 +88,8 @@ WIDE inline Lanes GapAcrossEdges(const WideTriangles& a, const WideTriangles& b,
     for (int j = 0; j < 3; ++j) {
       const Points n = Cross(edge_a, b.corner[(j + 1) % 3] - b.corner[j]);
       const Lanes along = Gap(RangeAlong(n, a.corner), RangeAlong(n, b.corner));
-      // Squares may underflow: a direction that is as good as none tells as good as no gap.
+      // The square may underflow. For a direction that short, the added term makes the gap about 0,
+      // which claims nothing.
       gap = Greater(along / Root(Dot(n, n) + All(kShortSquare)), gap);
     }
   }

@@ -33,8 +33,8 @@ struct BallScanTask {
   float parent;        ///< A lower bound for all of them.
   float limit;         ///< Pairs with a greater lower bound are not reported.
   float upper;         ///< Only a lesser upper bound is news.
-  /// Only which pairs are within the limit matters: `beyond` is the limit then, and what is told of
-  /// a pair is no bound, but mostly the less the nearer it is, and not above 0.
+  /// Reports only which pairs are within the limit. `beyond` is the limit then, and the value that
+  /// is reported for a pair is no bound: it is 0 at most, and mostly less the nearer the two are.
   bool only_within = false;
 };
 

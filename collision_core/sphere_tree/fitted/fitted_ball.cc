@@ -18,6 +18,9 @@ constexpr double kFirstStep = 0.25, kLastStep = 0.01;
 /// A ball this large beside the way to the opposite side is nearly the one half-way.
 constexpr double kMuchOfHalfWay = 0.7;
 
+/// How exact the distance of the ball half-way is, as a share of the way.
+constexpr double kHalfWaySlack = 0.005;
+
 /// How exact distances are in the search, as a share of the overshoot.
 constexpr double kSlack = 0.01;
 
@@ -134,7 +137,7 @@ void AppendCandidates(const TriangleBoxes& boxes, const SurfacePoint& at, Surfac
     half_way.inside = true;
     half_way.triangle = triangle;
     half_way.centre = from + 0.5 * walk.first * inward;
-    const NearPoint near = boxes.Nearest(half_way.centre, triangle, 0, 0.005 * walk.first);
+    const NearPoint near = boxes.Nearest(half_way.centre, triangle, 0, kHalfWaySlack * walk.first);
     half_way.signed_distance = -near.distance;
     half_way.nearest = near.point;
     half_way.triangle = near.triangle;

@@ -24,8 +24,9 @@ struct FittedGroup {
 
 /// Searches covers of few balls that overshoot little: the overshoot that a ball at c needs to
 /// contain a point x is |x − c| + s(c), so the best centres are those of a k-centre problem with
-/// that cost. A greedy cover by candidates, bisecting the overshoot, is improved by turns: pieces
-/// to the ball that asks the least, centres to where their pieces ask the least.
+/// that cost. A greedy cover by candidates, found by bisecting the overshoot, is improved by two
+/// alternating steps: each piece goes to the ball that needs the least overshoot to contain it, and
+/// each centre to the place from which its pieces need the least.
 class CoverSearch {
  public:
   /// `whole`: balls with so few pieces need not be divided.
@@ -42,8 +43,9 @@ class CoverSearch {
   /// One ball around everything, fitted from the ball `start`.
   FittedBall FitTo(std::span<const std::uint32_t> part, FittedBall start);
 
-  /// The balls of the cover found last in `count` groups, or as many as there are balls: again and
-  /// again the two groups are made one whose ball then seems to overshoot the least.
+  /// Merges the balls of the cover found last into `count` groups, or leaves one group a ball if
+  /// there are fewer. Greedy: each step merges the two groups whose common ball has the least
+  /// estimated overshoot.
   std::vector<FittedGroup> Merge(const FittedCover& cover, std::size_t count);
 
  private:

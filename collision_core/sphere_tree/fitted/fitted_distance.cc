@@ -12,8 +12,9 @@ using Eigen::Vector3d;
 /// A computed length is off by a relative 3.5 u, u = 2^−53, and kDistanceUnderflow; 16 u.
 constexpr double kLengthUp = 1 + 0x1p-49;
 
-/// Somewhat less than a distance seems: what is near by need not be measured then.
-constexpr double kSomewhatLess = 1 - 0x1p-40;
+/// Lowers a computed distance by more than it may be off, so that what is as near need not be
+/// measured again.
+constexpr double kLessThanSeen = 1 - 0x1p-40;
 
 /// Whether a point lies in the ball about a centre that is certainly inside.
 bool IsInBallOf(const CentreFacts& near, const Vector3d& point) {
@@ -57,7 +58,7 @@ CentreFacts FittedDistance::Certify(const Vector3d& centre, double slack, const 
   const NearPoint nearest = boxes_.Nearest(centre, triangle, 0, 0.5 * slack);
   if (kind_ == SurfaceKind::kClosed &&
       (IsInBallOf(near, centre) || WindingNumberAt(centre).value_or(0) != 0)) {
-    const double lower = LowerBound(centre, nearest.distance * kSomewhatLess - 0.5 * slack);
+    const double lower = LowerBound(centre, nearest.distance * kLessThanSeen - 0.5 * slack);
     facts.inside = lower > 0;
     if (facts.inside) {
       facts.signed_distance = -lower;

@@ -105,7 +105,7 @@ void AddRefinement(const narrow_phase::BodySegment& body, PairMethods* methods) 
   }
 }
 
-numeric::Interval Patiently(const ConvexPair& pair, const PlainPose& at, std::uint64_t units) {
+numeric::Interval ByFullSearch(const ConvexPair& pair, const PlainPose& at, std::uint64_t units) {
   WorkBudget work(units);
   const narrow_phase::RelativePose pose = PoseOf(at);
   const numeric::Interval found =
@@ -168,9 +168,9 @@ PairMethods OurConvexCurves(const ConvexPair& pair) {
     return ReplyOf(pair.DistanceAt(PoseOf(at), 0, 0));
   };
   for (const std::uint64_t units : {1, 2, 3, 4, 6, 8, 12, 16, 32, 64}) {
-    methods.push_back(Ours("patient search, by budget", Units(units), kByBudget));
+    methods.push_back(Ours("full search, by budget", Units(units), kByBudget));
     methods.back().ask = [pair, units](const PlainPose& at) {
-      return ReplyOf(Patiently(pair, at, units));
+      return ReplyOf(ByFullSearch(pair, at, units));
     };
   }
   methods.push_back(Ours("yes or no at a glance", "", kByRounding));

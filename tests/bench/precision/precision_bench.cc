@@ -23,7 +23,7 @@
 //   that it got right. `limited_by` says what keeps a curve from going lower.
 // - Ours: by budget and by requested width, of the fitted tree and of the octree; both orders of
 //   refinement, one budget for all poses; down to the triangles; yes or no; for solids the quick
-//   routine and the patient search. The time of contact by its tolerance: ours certifies begin and
+//   routine and the full search. The time of contact by its tolerance: ours certifies begin and
 //   end, libraries give the begin.
 // - Figures `..._at_best` take for each library the setting that is wrong least often. FCL 0.7
 //   ignores the errors allowed for the distance of meshes and the tolerances of its advancement;

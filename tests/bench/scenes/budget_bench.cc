@@ -67,7 +67,8 @@ std::string RowOf(const Budget& of, double budget, const v1::RunReport& report) 
        Number("separation_width_p50_m", width(report.separation_width_m())),
        Number("normal_error_p50_rad", width(report.normal_error_rad())),
        Number("work_units", static_cast<double>(CounterOf(report, "work_units"))),
-       Number("turns_cut_short", static_cast<double>(CounterOf(report, "turns_cut_short"))),
+       Number("evaluations_cut_short",
+              static_cast<double>(CounterOf(report, "evaluations_cut_short"))),
        Number("cpu_seconds_per_simulated_second", report.cpu_seconds_per_simulated_second()),
        Text("limited_by", of.limited_by)});
 }

@@ -2,6 +2,7 @@
 // Method: scenes that grow and shrink past the limits, beside all pairs alone or by hand.
 #include <gtest/gtest.h>
 
+#include "collision_core/base/check.h"
 #include "collision_core/broad_phase/adaptive_broad_phase.h"
 #include "collision_core/numeric/seconds.h"
 #include "tests/collision_core/broad_phase/rules_table.h"
@@ -96,6 +97,49 @@ TEST(AdaptiveBroadPhaseWithRules, WhatChangesDuringTheFillingCounts) {
   ASSERT_EQ(chosen.method(), BroadPhaseMethod::kSpatialIndex);
   EXPECT_EQ(Text(chosen.EarliestOf(0, query)), "none");
   EXPECT_EQ(Text(chosen.EarliestOf(3, query)).substr(0, 5), "2 x 3");
+}
+
+// Goal:   rules that are shared from outside count for every method, before and after they change.
+// Method: two agents that meet at 8 s, at 5 s with a margin of 3 m, and never once excluded.
+TEST(SharedRules, CountForEveryMethod) {
+  const auto check = [](auto make, const char* name) {
+    const auto rules = std::make_shared<intersection::PairRules>();
+    const auto method = make(rules);
+    AgentBound bound;
+    bound.bound.state.stamp = kMethodStart;
+    bound.bound.limits.radius = 1;
+    bound.bound.state.v_WA = {1, 0, 0};
+    method->Set(0, bound);
+    bound.bound.state.p_WA = {10, 0, 0};
+    bound.bound.state.v_WA = {0, 0, 0};
+    bound.bound.limits.acceleration_max = 1e-12;
+    method->Set(1, bound);
+    const intersection::BroadQuery query{intersection::BoundKind::kHorn, kMethodStart,
+                                         numeric::AddRoundedUp(kMethodStart, 100)};
+    const auto change = [&](intersection::PairRule rule) {
+      EXPECT_TRUE(rules->Set(0, 1, rule));
+      method->UpdateRules(0);
+      method->UpdateRules(1);
+    };
+    ASSERT_TRUE(method->Earliest(query)) << name;
+    EXPECT_NEAR(method->Earliest(query)->time.seconds, 8, 1e-6) << name;
+    change({.margin = 3});
+    ASSERT_TRUE(method->Earliest(query)) << name;
+    EXPECT_NEAR(method->Earliest(query)->time.seconds, 5, 1e-6) << name;
+    change({.excluded = true});
+    EXPECT_FALSE(method->Earliest(query)) << name;
+  };
+  using Rules = std::shared_ptr<intersection::PairRules>;
+  check([](Rules rules) { return std::make_unique<AllPairs>(rules); }, "all pairs");
+  check([](Rules rules) { return std::make_unique<SpatialIndex>(rules); }, "spatial index");
+  check([](Rules rules) { return std::make_unique<ExhaustiveIndex>(rules); }, "exhaustive");
+  check([](Rules rules) { return std::make_unique<FaceSweep>(rules); }, "face sweep");
+  for (const BroadPhaseMethod kind :
+       {BroadPhaseMethod::kAuto, BroadPhaseMethod::kSpatialIndex, BroadPhaseMethod::kExhaustive}) {
+    check([kind](Rules rules) { return std::make_unique<AdaptiveBroadPhase>(kind, rules); },
+          Name(kind));
+  }
+  EXPECT_THROW(AllPairs(nullptr), CheckFailure);
 }
 
 }  // namespace

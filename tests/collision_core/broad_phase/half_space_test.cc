@@ -3,10 +3,11 @@
 // Method: exact rational arithmetic. The distance to the plane, n·c − offset − |n| (ρ + margin), is
 //         concave in time, so that it is positive between two times where it is so at both; its
 //         sign is that of squares, as |n| is irrational.
-#include "collision_core/broad_phase/index/half_space.h"
+#include "collision_core/broad_phase/half_space.h"
 
 #include <gtest/gtest.h>
 
+#include "collision_core/broad_phase/filter/horn_table.h"
 #include "collision_core/motion/speed_cap.h"
 #include "collision_core/numeric/seconds.h"
 #include "tests/support/random.h"

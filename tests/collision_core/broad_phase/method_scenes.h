@@ -30,10 +30,6 @@ std::unique_ptr<SweepingIndex> MakeMethod() {
 /// bounds, rules and half-spaces, answers the others.
 class SweepBesideIndex : public SweepingIndex {
  public:
-  SweepBesideIndex() {
-    sweep_.ShareRules(shared_rules());
-    index_.ShareRules(shared_rules());
-  }
   void Set(std::uint32_t agent, const AgentBound& bound) override {
     mutable_half_spaces().Remove(agent);
     sweep_.Set(agent, bound);
@@ -75,8 +71,8 @@ class SweepBesideIndex : public SweepingIndex {
   }
 
  private:
-  FaceSweep sweep_;
-  ExhaustiveIndex index_;
+  FaceSweep sweep_{shared_rules()};
+  ExhaustiveIndex index_{shared_rules()};
 };
 
 inline const NamedMethod kMethods[] = {{"AllPairs", &MakeMethod<AllPairs>},

@@ -176,7 +176,7 @@ void CheckEncounter(std::uint64_t seed, bool of_solids, Outcome* outcome) {
   const Encounter::First first = met.FirstContact();
   outcome->contacts += first.touching < numeric::kInfinity;
   DetectorOptions options;
-  if (random.Chance(0.4)) options.work_units_per_turn = random.Below(4000);
+  if (random.Chance(0.4)) options.work_units_per_evaluation = random.Below(4000);
   Detector detector(options);
   std::vector<CollisionEvent> events;
   for (int tick = 0; tick <= 64 * kEnd; ++tick) {

@@ -62,7 +62,7 @@ Outputs Fly(const std::vector<Ship>& ships, const std::set<int>& redeclared, dou
             const Next& next) {
   DetectorOptions options;
   options.skew = skew;
-  options.work_units_per_turn = 60'000;
+  options.work_units_per_evaluation = 60'000;
   Detector detector(options);
   Outputs outputs;
   std::vector<AgentDeclaration> declarations;

@@ -42,7 +42,7 @@ class Scene : public Line {
 
   static DetectorOptions WithBudget(std::uint64_t units) {
     DetectorOptions options;
-    options.work_units_per_turn = units;
+    options.work_units_per_evaluation = units;
     return options;
   }
 

@@ -264,7 +264,7 @@ TEST(ContractRotation, OnlyOfShapesThatDeclareIt) {
   MotionState next = AfterAndTurned(before, kSecond, {0, 0, 1});
   next.w_WB = {9, 9, 9};
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kBreached);
-  EXPECT_EQ(CheckContract(before, next, Orientation::kIgnored).verdict, ContractVerdict::kKept);
+  EXPECT_EQ(CheckContract(before, next, OrientationUse::kIgnored).verdict, ContractVerdict::kKept);
   before = Turning(-1);
   EXPECT_EQ(CheckContract(before, next).verdict, ContractVerdict::kKept);
 }

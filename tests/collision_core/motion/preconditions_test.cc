@@ -26,7 +26,7 @@ TEST(MotionPreconditions, AStateIsNotComparedWithALaterOne) {
   before.limits.speed_max = 1;
   MotionState next = before.state;
   next.stamp = Instant::FromNanoseconds(before.state.stamp.nanoseconds() - 1);
-  EXPECT_THROW(CheckContract(before, next, Orientation::kIgnored), CheckFailure);
+  EXPECT_THROW(CheckContract(before, next, OrientationUse::kIgnored), CheckFailure);
   EXPECT_THROW(CheckCap(before, next), CheckFailure);
   EXPECT_THROW(GapBetween(before, next), CheckFailure);
 }

@@ -23,14 +23,14 @@ TEST(Calibrate, MeasuresARateThatCanBeConfigured) {
 //         at the ends of both ranges.
 TEST(Calibrate, ABudgetBecomesWorkUnits) {
   v1::Config config = CompleteConfig({});
-  EXPECT_EQ(WorkUnitsPerTurn(config), 40'000u);
+  EXPECT_EQ(WorkUnitsPerEvaluation(config), 40'000u);
   config.set_time_budget_us(0);
-  EXPECT_EQ(WorkUnitsPerTurn(config), 0u);
+  EXPECT_EQ(WorkUnitsPerEvaluation(config), 0u);
   config.set_time_budget_us(0.08);
-  EXPECT_EQ(WorkUnitsPerTurn(config), 2u);
+  EXPECT_EQ(WorkUnitsPerEvaluation(config), 2u);
   config.set_time_budget_us(1e6);
   config.set_work_units_per_us(1e6);
-  EXPECT_EQ(WorkUnitsPerTurn(config), 1'000'000'000'000u);
+  EXPECT_EQ(WorkUnitsPerEvaluation(config), 1'000'000'000'000u);
   EXPECT_EQ(WorkUnitsPerStep(config), 0u) << "no limit";
   config.set_step_budget_us(1e6);
   EXPECT_EQ(WorkUnitsPerStep(config), 1'000'000'000'000u);

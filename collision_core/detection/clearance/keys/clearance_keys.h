@@ -11,39 +11,39 @@
 namespace collision::detection {
 
 /// The clearance keys of one agent. A *clearance key* is the time until which the agent is
-/// certified clear of all partners that are not tracked: one for each group of partners beside it
-/// (AccelerationTiers::GroupOf). The key of the comparable partners holds for each tier that has no
+/// certified clear of all partners that are not tracked: one for each band of partners beside it
+/// (AccelerationTiers::BandOf). The key of the comparable partners holds for each tier that has no
 /// earlier one. The keys of a saturated agent promise nothing. O(tiers that have an earlier key).
 class ClearanceKeys {
  public:
   /// The earliest of all keys.
   Instant earliest() const { return earliest_; }
-  /// The key of the comparable partners; no group has a later one.
+  /// The key of the comparable partners; no band has a later one.
   Instant comparable() const { return comparable_; }
-  /// The key of one group of partners.
-  Instant Of(int group) const {
+  /// The key of one band of partners.
+  Instant Of(int band) const {
     for (const TierKey& one : earlier_) {
-      if (one.tier == group) return std::min(one.key, comparable_);
+      if (one.tier == band) return std::min(one.key, comparable_);
     }
     return comparable_;
   }
 
-  /// One key for all groups.
+  /// One key for all bands.
   void SetAll(Instant key) {
     earlier_.clear();
     comparable_ = earliest_ = key;
   }
-  /// Sets the key of a tier that is a group of its own; a key later than comparable() counts as
+  /// Sets the key of a tier that is a band of its own; a key later than comparable() counts as
   /// comparable(). Requires a tier other than kComparable.
   void SetTier(int tier, Instant key) {
-    CORE_CHECK(tier != AccelerationTiers::kComparable, "a tier is a group of its own", tier);
+    CORE_CHECK(tier != AccelerationTiers::kComparable, "a tier is a band of its own", tier);
     std::erase_if(earlier_, [=](const TierKey& one) { return one.tier == tier; });
     if (key < comparable_) earlier_.push_back({key, tier});
     UpdateEarliest();
   }
-  /// Lowers the group's key to `key` if it is later.
-  void Lower(int group, Instant key) {
-    if (group != AccelerationTiers::kComparable) return SetTier(group, std::min(Of(group), key));
+  /// Lowers the band's key to `key` if it is later.
+  void Lower(int band, Instant key) {
+    if (band != AccelerationTiers::kComparable) return SetTier(band, std::min(Of(band), key));
     comparable_ = std::min(comparable_, key);
     UpdateEarliest();
   }

@@ -41,7 +41,7 @@ void CoverageTable::KeysChanged(AgentIndex agent) {
 }
 
 void CoverageTable::LowerKey(AgentIndex agent, AgentIndex partner, Instant when) {
-  if (!IsSaturated(agent)) (*this)[agent].keys.Lower(tiers_.GroupOf(partner, agent), when);
+  if (!IsSaturated(agent)) (*this)[agent].keys.Lower(tiers_.BandOf(partner, agent), when);
   KeysChanged(agent);
 }
 

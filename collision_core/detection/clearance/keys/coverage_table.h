@@ -48,8 +48,8 @@ class CoverageTable {
   /// Up to when the agent is certified clear of the partner, if the two are not tracked.
   Instant KeyOf(AgentIndex agent, AgentIndex partner) const {
     const ClearanceKeys& keys = (*this)[agent].keys;
-    if (!tiers_.HasGroupsBeside(agent)) return keys.earliest();
-    return keys.Of(tiers_.GroupOf(partner, agent));
+    if (!tiers_.HasBandsBeside(agent)) return keys.earliest();
+    return keys.Of(tiers_.BandOf(partner, agent));
   }
   /// The agent may meet the partner at `when`: lowers its key for that partner to `when` if it is
   /// later.
@@ -100,8 +100,8 @@ class CoverageTable {
     settled_.UpTo(Reversed(from), agents);
   }
 
-  /// Agents whose earlier lower bounds of a meeting are void (earliest/); the reader clears the
-  /// set.
+  /// Agents whose earlier lower bounds of an intersection are void (earliest/); the reader clears
+  /// the set.
   IndexSet<AgentIndex>* voided() { return &voided_; }
 
   /// Walks queues, sets, keys and tiers. Each agent that has not expired is queued for its next

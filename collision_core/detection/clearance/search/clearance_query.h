@@ -34,31 +34,31 @@ class PartnerMarks {
   std::uint64_t mark_ = 0;
 };
 
-/// The group of a query about all partners; the other groups are those of
-/// AccelerationTiers::GroupOf().
-inline constexpr int kEveryGroup = -1;
+/// The band of a query about all partners; the other bands are those of
+/// AccelerationTiers::BandOf().
+inline constexpr int kEveryBand = -1;
 
 /// Which partners, of those not left out, may `agent` meet at or after `from`? Everything that the
 /// answer depends on, besides the bounds themselves.
 struct ClearanceQuery {
   AgentIndex agent;
-  int group = kEveryGroup;
+  int band = kEveryBand;
   Instant from;     ///< min(now, covered)
-  Instant covered;  ///< Up to here the agent is certified clear of the group's untracked partners.
+  Instant covered;  ///< Up to here the agent is certified clear of the band's untracked partners.
   bool renewed = false;        ///< Promises made from `covered` on are void.
   bool was_saturated = false;  ///< Nothing was promised up to now.
   /// The tracked partners, which are left out; those that become tracked are added.
   PartnerMarks* tracked = nullptr;
 
-  /// Whether the query does not ask about this partner: it is tracked, or of another group.
+  /// Whether the query does not ask about this partner: it is tracked, or of another band.
   bool LeavesOut(AgentIndex partner, const AccelerationTiers& tiers) const {
     if (tracked->Contains(partner)) return true;
-    return group != kEveryGroup && tiers.GroupOf(partner, agent) != group;
+    return band != kEveryBand && tiers.BandOf(partner, agent) != band;
   }
 };
 
-/// The first meeting with a partner that is not tracked.
-struct NextMeeting {
+/// The first intersection with a partner that is not tracked.
+struct NextNeighbour {
   Instant when = Instant::Never();  ///< Never(): none.
   AgentIndex partner;
 };

@@ -36,7 +36,8 @@ void PreJumpMotions::Find(const broad_phase::AgentBound& around, Instant from, I
   found_.clear();
   const auto none = [](std::uint32_t) { return false; };
   method_->FindNeighbours(around, from, until, none, &found_);
-  for (const broad_phase::Neighbour& meeting : found_) agents->push_back(agents_[meeting.partner]);
+  for (const broad_phase::Neighbour& neighbour : found_)
+    agents->push_back(agents_[neighbour.partner]);
 }
 
 }  // namespace collision::detection

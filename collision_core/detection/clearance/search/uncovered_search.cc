@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "collision_core/intersection/earliest_intersection.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
@@ -99,11 +98,11 @@ void UncoveredSearch::FindAround(const ClearanceQuery& query, const motion::Spac
   };
   found_.clear();
   broad_phase_->FindNeighbours(guest, from, scene.newest, skip, &found_);
-  for (const broad_phase::Neighbour& meeting : found_) {
-    const AgentRecord& partner = agents[AgentIndex(meeting.partner)];
+  for (const broad_phase::Neighbour& neighbour : found_) {
+    const AgentRecord& partner = agents[AgentIndex(neighbour.partner)];
     const double time = Span(partner.stamp(), scene.newest, agents.skew());
     if (GetsInto(around, own, partner.wide_bound().bound, std::max(others_time, time))) {
-      candidates_.push_back(AgentIndex(meeting.partner));
+      candidates_.push_back(AgentIndex(neighbour.partner));
     }
   }
   former_->Find(guest, from, scene.newest, &candidates_);
@@ -122,7 +121,7 @@ void UncoveredSearch::Check(const ClearanceQuery& query, AgentIndex partner) {
   if (partner == query.agent || !agents.Contains(partner)) return;
   const AgentRecord &record = agents[query.agent], &other = agents[partner];
   if (other.expired || query.LeavesOut(partner, coverage_.tiers()) ||
-      !CanMeet(record.declaration.filter, other.declaration.filter)) {
+      !queries_.MayMeet(query.agent, partner)) {
     return;
   }
   Instant free_until = query.renewed ? UncoveredFrom(record, other, query.covered) : query.covered;
@@ -130,18 +129,16 @@ void UncoveredSearch::Check(const ClearanceQuery& query, AgentIndex partner) {
     free_until = std::max(free_until, coverage_.KeyOf(partner, query.agent));
   }
   const Instant known_from = std::max(record.stamp(), other.stamp());
-  if (free_until >= known_from || FreeOver(record, other, free_until, known_from)) return;
+  if (free_until >= known_from || FreeOver(query.agent, partner, free_until, known_from)) return;
   uncovered_.push_back({partner, free_until});
 }
 
-bool UncoveredSearch::FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from,
-                               Instant to) const {
-  const History::Sample* of_a = a.history.Uninterrupted(from);
-  const History::Sample* of_b = b.history.Uninterrupted(from);
+bool UncoveredSearch::FreeOver(AgentIndex a, AgentIndex b, Instant from, Instant to) const {
+  const History::Sample* of_a = context_.agents[a].history.Uninterrupted(from);
+  const History::Sample* of_b = context_.agents[b].history.Uninterrupted(from);
   if (of_a == nullptr || of_b == nullptr) return false;
-  ++context_.counters->pair_queries;
-  return !CanMeet(of_a->filter, of_b->filter) ||
-         intersection::EarliestIntersection(of_a->bound, of_b->bound, from).instant() >= to;
+  return queries_.EarliestUnder({a, of_a->bound, of_a->filter}, {b, of_b->bound, of_b->filter},
+                                from) >= to;
 }
 
 }  // namespace collision::detection

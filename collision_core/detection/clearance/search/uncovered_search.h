@@ -1,4 +1,4 @@
-// Meetings that lie before the newest states of two agents.
+// Intersections that lie before the newest states of two agents.
 #pragma once
 
 #include <vector>
@@ -30,7 +30,11 @@ class UncoveredSearch {
   /// All outlive the search.
   UncoveredSearch(const DetectorContext& context, const CoverageTable& coverage,
                   broad_phase::NeighbourIndex* broad_phase, PreJumpMotions* former)
-      : context_(context), coverage_(coverage), broad_phase_(broad_phase), former_(former) {}
+      : context_(context),
+        queries_(context),
+        coverage_(coverage),
+        broad_phase_(broad_phase),
+        former_(former) {}
 
   /// The partners to be tracked, in the order of their indices; valid until the next call.
   const std::vector<UncoveredPartner>& Find(const ClearanceQuery& query);
@@ -40,9 +44,10 @@ class UncoveredSearch {
   void FindAround(const ClearanceQuery& query, const motion::SpaceTimeBound& motion, Instant from);
   void Check(const ClearanceQuery& query, AgentIndex partner);
   double OwnReach(const motion::SpaceTimeBound& motion, Instant from) const;
-  bool FreeOver(const AgentRecord& a, const AgentRecord& b, Instant from, Instant to) const;
+  bool FreeOver(AgentIndex a, AgentIndex b, Instant from, Instant to) const;
 
   const DetectorContext context_;
+  const PairQueries queries_;
   const CoverageTable& coverage_;
   broad_phase::NeighbourIndex* broad_phase_;
   PreJumpMotions* former_;

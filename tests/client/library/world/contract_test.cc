@@ -44,7 +44,7 @@ motion::ContractVerdict ServiceSays(const MotionBounds& bounds, const State& sen
   before.limits.time_step = bounds.time_step_s;
   before.limits.angular_acceleration_max = bounds.angular_acceleration_max_rad_s2;
   const auto orientation =
-      bounds.turns ? motion::Orientation::kMatters : motion::Orientation::kIgnored;
+      bounds.turns ? motion::OrientationUse::kMatters : motion::OrientationUse::kIgnored;
   return CheckContract(before, ToCore(next), orientation).verdict;
 }
 

@@ -1,4 +1,4 @@
-// Goal:   whether a partner is in a group of its own beside an agent depends on the declared
+// Goal:   whether a partner is in a band of its own beside an agent depends on the declared
 //         accelerations of the two alone: never within 8 times, always from 64 times; and the
 //         agents of each tier are counted.
 // Method: random bounds of all magnitudes against their ratio; agents come, change and leave,
@@ -19,33 +19,33 @@ constexpr int kComparable = AccelerationTiers::kComparable;
 bool HasOwnGroup(const AccelerationTiers& scene, std::uint32_t partner_index,
                  std::uint32_t beside_index) {
   const AgentIndex partner(partner_index), beside(beside_index);
-  const int group = scene.GroupOf(partner, beside);
-  EXPECT_TRUE(group == kComparable || group == scene.TierOf(partner));
-  return group != kComparable;
+  const int band = scene.BandOf(partner, beside);
+  EXPECT_TRUE(band == kComparable || band == scene.TierOf(partner));
+  return band != kComparable;
 }
 
-std::vector<int> GroupsBeside(const AccelerationTiers& scene, std::uint32_t agent) {
+std::vector<int> BandsBeside(const AccelerationTiers& scene, std::uint32_t agent) {
   std::vector<int> tiers;
-  scene.GroupsBeside(AgentIndex(agent), &tiers);
+  scene.BandsBeside(AgentIndex(agent), &tiers);
   return tiers;
 }
 
 TEST(AccelerationTiers, GoesByTheRatioOfTheAccelerations) {
   Random random(1);
-  int own_groups = 0;
+  int own_bands = 0;
   for (int i = 0; i < 10000; ++i) {
     const double calm = random.LogUniform(1e-9, 1e9), ratio = random.LogUniform(1e-3, 1e6);
     AccelerationTiers scene;
     scene.Set(AgentIndex(0u), calm);
     scene.Set(AgentIndex(1u), calm * ratio);
     const bool is_own = HasOwnGroup(scene, 1, 0);
-    own_groups += is_own;
+    own_bands += is_own;
     EXPECT_FALSE(HasOwnGroup(scene, 0, 0));
     EXPECT_FALSE(ratio < 8 && is_own) << calm << " " << ratio;
     EXPECT_FALSE(ratio >= 64.0001 && !is_own) << calm << " " << ratio;
-    EXPECT_EQ(GroupsBeside(scene, 0).size(), is_own ? 1u : 0u);
+    EXPECT_EQ(BandsBeside(scene, 0).size(), is_own ? 1u : 0u);
   }
-  EXPECT_GT(own_groups, 1000);
+  EXPECT_GT(own_bands, 1000);
 }
 
 TEST(AccelerationTiers, ExtremesAreClassesToo) {
@@ -74,15 +74,15 @@ TEST(AccelerationTiers, NotWhereManyDeclareNone) {
   scene.Set(AgentIndex(1u), 1e3);
   for (std::uint32_t k = 0; k < kMost; ++k) {
     scene.Set(AgentIndex(2 + k), 0);
-    EXPECT_TRUE(scene.HasGroupsBeside(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
+    EXPECT_TRUE(scene.HasBandsBeside(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
   }
   scene.Set(AgentIndex(2 + kMost), 0);
-  EXPECT_FALSE(scene.HasGroupsBeside(AgentIndex(2u)) || HasOwnGroup(scene, 0, 2) ||
+  EXPECT_FALSE(scene.HasBandsBeside(AgentIndex(2u)) || HasOwnGroup(scene, 0, 2) ||
                HasOwnGroup(scene, 1, 2));
-  EXPECT_TRUE(GroupsBeside(scene, 2).empty());
-  EXPECT_TRUE(scene.HasGroupsBeside(AgentIndex(0u)) && HasOwnGroup(scene, 1, 0));
+  EXPECT_TRUE(BandsBeside(scene, 2).empty());
+  EXPECT_TRUE(scene.HasBandsBeside(AgentIndex(0u)) && HasOwnGroup(scene, 1, 0));
   scene.Remove(AgentIndex(5u));
-  EXPECT_TRUE(scene.HasGroupsBeside(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
+  EXPECT_TRUE(scene.HasBandsBeside(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
   EXPECT_EQ(scene.Count(0), kMost);
 }
 
@@ -105,10 +105,10 @@ TEST(AccelerationTiers, KnowsWhichAgentsAreThere) {
       }
       std::sort(tiers.begin(), tiers.end());
       std::uint32_t counted = 0;
-      for (const int tier : GroupsBeside(scene, beside)) counted += scene.Count(tier);
+      for (const int tier : BandsBeside(scene, beside)) counted += scene.Count(tier);
       ASSERT_EQ(counted, tiers.size());
       tiers.erase(std::unique(tiers.begin(), tiers.end()), tiers.end());
-      ASSERT_EQ(GroupsBeside(scene, beside), tiers);
+      ASSERT_EQ(BandsBeside(scene, beside), tiers);
     }
   }
   EXPECT_EQ(scene.Count(AccelerationTiers::kAbsent), 0u);

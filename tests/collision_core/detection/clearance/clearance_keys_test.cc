@@ -1,4 +1,4 @@
-// Goal:   each group has the key it was given, never a later one than the comparable partners, and
+// Goal:   each band has the key it was given, never a later one than the comparable partners, and
 //         the earliest of all is known.
 // Method: random changes, beside a key for each tier in a plain array.
 #include "collision_core/detection/clearance/keys/clearance_keys.h"
@@ -20,28 +20,28 @@ Instant Draw(Random* random) {
 }
 
 TEST(ClearanceKeys, AreThoseOfEachTier) {
-  constexpr int kGroups = 6;
+  constexpr int kBands = 6;
   Random random(5);
   ClearanceKeys keys;
-  std::array<Instant, kGroups> expected;
+  std::array<Instant, kBands> expected;
   expected.fill(Instant::Always());
   for (int i = 0; i < 20000; ++i) {
-    const int group = static_cast<int>(random.Below(kGroups));
+    const int band = static_cast<int>(random.Below(kBands));
     const Instant key = Draw(&random);
     if (random.Chance(0.1)) {
       keys.SetAll(key);
       expected.fill(key);
-    } else if (group != kComparable && random.Chance(0.5)) {
-      keys.SetTier(group, key);
-      expected[group] = key;
+    } else if (band != kComparable && random.Chance(0.5)) {
+      keys.SetTier(band, key);
+      expected[band] = key;
     } else {
-      keys.Lower(group, key);
-      expected[group] = std::min(expected[group], key);
+      keys.Lower(band, key);
+      expected[band] = std::min(expected[band], key);
     }
     for (Instant& one : expected) one = std::min(one, expected[kComparable]);
     std::vector<int> due, due_expected;
     const Instant until = Draw(&random);
-    for (int g = 0; g < kGroups; ++g) {
+    for (int g = 0; g < kBands; ++g) {
       ASSERT_EQ(keys.Of(g), expected[g]) << i;
       if (g != kComparable && expected[g] < expected[kComparable] && expected[g] <= until) {
         due_expected.push_back(g);

@@ -81,7 +81,7 @@ TEST(ACrowd, ANewStateHasItsContactsEvaluatedAtAGlance) {
   const DetectorCounters& after = crowd.detector->counters();
   const std::uint64_t segments = after.segments - before.segments;
   EXPECT_LT(segments, 64 * kPairs);
-  EXPECT_GT(after.glances - before.glances, 0.95 * static_cast<double>(segments));
+  EXPECT_GT(after.quick_segments - before.quick_segments, 0.95 * static_cast<double>(segments));
 }
 
 // Eight times in a second each agent without room is queried again. A query of the broad phase

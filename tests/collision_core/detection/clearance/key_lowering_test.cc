@@ -99,7 +99,7 @@ class KeyLoweringTest : public testing::Test {
 
 TEST_F(KeyLoweringTest, OfFewAgentsEachKeyIsLookedAt) {
   ExpectCanonicalKeys(30);
-  EXPECT_EQ(lowering_.looks(), 29u) << "all but the one that is not settled";
+  EXPECT_EQ(lowering_.examined(), 29u) << "all but the one that is not settled";
 }
 
 TEST_F(KeyLoweringTest, OfManyAgentsTheBroadPhaseFindsTheNearOnes) { ExpectCanonicalKeys(400); }

@@ -35,7 +35,7 @@ class AnnouncerTest : public testing::Test {
   /// An evaluation of [0, 1] with this result.
   static ContactTracker Look(const narrow_phase::SegmentResult& verdict) {
     ContactTracker tracker(At(0), Past::kKnown);
-    tracker.Apply(verdict, At(1), Nearest{}, narrow_phase::ContactNormal{});
+    tracker.Apply(verdict, At(1), NearestInstant{}, narrow_phase::ContactNormal{});
     return tracker;
   }
 

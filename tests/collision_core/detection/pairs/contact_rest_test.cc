@@ -24,13 +24,13 @@ History::Sample Ball(double x, double speed) {
 /// A tracker of [0, 1] with this result.
 ContactTracker Tracked(const narrow_phase::SegmentResult& first) {
   ContactTracker tracker(At(0), Past::kKnown);
-  tracker.Apply(first, At(1), Nearest{}, narrow_phase::ContactNormal{});
+  tracker.Apply(first, At(1), NearestInstant{}, narrow_phase::ContactNormal{});
   return tracker;
 }
 
 /// A copy that ran ahead to 2 s.
 ContactTracker Ahead(ContactTracker tracker, const narrow_phase::SegmentResult& next) {
-  tracker.Apply(next, At(2), Nearest{}, narrow_phase::ContactNormal{});
+  tracker.Apply(next, At(2), NearestInstant{}, narrow_phase::ContactNormal{});
   return tracker;
 }
 

@@ -21,7 +21,7 @@ narrow_phase::SegmentResult Undecided() { return {0, 1, 0, true, 1}; }
 narrow_phase::SegmentResult Touching() { return {0, 0, 1, true, 1}; }
 
 void Apply(ContactTracker* tracker, const narrow_phase::SegmentResult& verdict) {
-  tracker->Apply(verdict, numeric::AddRoundedDown(tracker->at(), 1), Nearest{},
+  tracker->Apply(verdict, numeric::AddRoundedDown(tracker->at(), 1), NearestInstant{},
                  narrow_phase::ContactNormal{});
 }
 

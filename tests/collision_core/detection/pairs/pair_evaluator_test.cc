@@ -50,17 +50,18 @@ class PairEvaluatorTest : public testing::Test {
   StepClock clock_{.now = At(0), .step = 7, .announce_within = 2};
   AgentTable agents_{{}};
   DetectorCounters counters_;
-  PairEvaluator evaluator_{clock_, &counters_};
+  IndexSet<AgentIndex> dirty_;
+  PairEvaluator evaluator_{{clock_, agents_, &counters_, &dirty_}};
   PairRecord pair_{
       .lower = a_, .higher = b_, .tracker = ContactTracker(At(0), Past::kKnown), .clear_until = {}};
 };
 
 TEST_F(PairEvaluatorTest, WaitsForAStateAsLongAsEventsAreAnnouncedOrTwiceTheLastInterval) {
-  EXPECT_EQ(evaluator_.PatienceOf(agents_[a_]), 2);
+  EXPECT_EQ(evaluator_.LongestWaitFor(agents_[a_]), 2);
   StoreAt(a_, 3);
-  EXPECT_EQ(evaluator_.PatienceOf(agents_[a_]), 6);
+  EXPECT_EQ(evaluator_.LongestWaitFor(agents_[a_]), 6);
   StoreAt(a_, 3.5);
-  EXPECT_EQ(evaluator_.PatienceOf(agents_[a_]), 2);
+  EXPECT_EQ(evaluator_.LongestWaitFor(agents_[a_]), 2);
 }
 
 TEST_F(PairEvaluatorTest, AContactIsHeardBeforeItIsSettled) {

@@ -53,7 +53,7 @@ class Meetings : public Line {
  private:
   static DetectorOptions Options(std::uint64_t per_step) {
     DetectorOptions options;
-    options.work_units_per_turn = kPerTurn;
+    options.work_units_per_evaluation = kPerTurn;
     options.work_units_per_step = per_step;
     return options;
   }
@@ -74,7 +74,7 @@ TEST(StepBudget, IsKept) {
     Meetings meetings(budget);
     meetings.Run(7);
     EXPECT_LE(meetings.most, budget + kPairs * kOverrunOfTurn) << budget;
-    EXPECT_GT(meetings.detector.counters().turns_cut_short, 0u) << budget;
+    EXPECT_GT(meetings.detector.counters().evaluations_cut_short, 0u) << budget;
   }
 }
 

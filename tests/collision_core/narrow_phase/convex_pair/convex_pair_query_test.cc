@@ -1,5 +1,5 @@
-// The most frequent queries, whichever way they are answered: at a glance, in closed form, by the
-// quick search or by the patient one.
+// The most frequent queries, whichever way they are answered: by the separating axis test, in
+// closed form, by the quick search or by the full one.
 #include "collision_core/narrow_phase/convex_pair/convex_pair_query.h"
 
 #include <gtest/gtest.h>
@@ -51,7 +51,7 @@ void CheckContained(const ConvexCase& c, const ConvexQuery& query, const Exact& 
   }
 }
 
-/// All of it, and brackets as narrow as asked for, or as the patient search makes them.
+/// All of it, and brackets as narrow as asked for, or as the full search makes them.
 void CheckAll(const ConvexCase& c, double gap_known) {
   const Exact square = SquareOf(c);
   const bool said = VerdictIsTrue(c, c.pose(), square);

@@ -10,8 +10,9 @@ namespace collision::detection {
 /// Every limit of the detector, with what happens at it. SI units.
 struct DetectorOptions {
   double temporal_resolution = 1.0 / 60;  ///< Δt [s]: pairs nearer than this in time could overlap.
-  double announce_within = 2.0;  ///< Meetings this near [s] are announced; >= temporal_resolution.
-  double skew = 0;               ///< κ [s]: a sender's clock is off by at most this.
+  /// [s] before a possible contact it is announced; >= temporal_resolution.
+  double announce_within = 2.0;
+  double skew = 0;                  ///< κ [s]: a sender's clock is off by at most this.
   std::uint32_t agents_max = 1000;  ///< Admit() refuses beyond.
   /// Tracked at once; beyond, both agents are saturated and queried again after
   /// announce_within / 8.
@@ -22,7 +23,7 @@ struct DetectorOptions {
   std::uint32_t history_max = 64;
   /// Work units that the narrow phase may spend on a pair of shapes in one evaluation
   /// (base/work_budget.h); beyond, brackets stay wider and are marked as limited by the budget.
-  std::uint64_t work_units_per_turn = 40000;
+  std::uint64_t work_units_per_evaluation = 40000;
   /// Likewise in one step on all pairs of shapes, shared out among those that are evaluated
   /// (pairs/work_shares.h). Units that one pair leaves go to the next. The last evaluation of a
   /// pair of which an agent leaves or expires does not count. 0: no limit but each evaluation's.

@@ -1,4 +1,4 @@
-// The next meeting of an agent, however far ahead.
+// The next intersection of an agent, however far ahead.
 #pragma once
 
 #include <cstdint>
@@ -10,35 +10,36 @@
 
 namespace collision::detection {
 
-/// Finds the next meeting with the broad phase, horizon by horizon. Far ahead a whole swarm may
-/// come near at about the same time: then one partner in 32 is queried first, and the earliest of
-/// these answers spares nearly all other pair queries.
-class NextMeetingSearch {
+/// Finds the next intersection with the broad phase, horizon by horizon. Far ahead a whole swarm
+/// may come near at about the same time: then one partner in 32 is queried first, and the earliest
+/// of these answers spares nearly all other pair queries.
+class NextNeighbourSearch {
  public:
   /// All outlive the search. `broad_phase` holds the wide bounds of all agents.
-  NextMeetingSearch(broad_phase::NeighbourIndex* broad_phase, const AccelerationTiers& tiers,
-                    const StepClock& clock)
+  NextNeighbourSearch(broad_phase::NeighbourIndex* broad_phase, const AccelerationTiers& tiers,
+                      const StepClock& clock)
       : broad_phase_(broad_phase), tiers_(tiers), horizons_(clock) {}
 
   const QueryHorizons& horizons() const { return horizons_; }
   /// The horizon with which the search begins.
   int Begin(const ClearanceQuery& query) const {
-    return horizons_.Begin(tiers_.TierOf(query.agent), query.group);
+    return horizons_.Begin(tiers_.TierOf(query.agent), query.band);
   }
   /// The answer was found by other means: adapts the horizons to it.
   void Record(const ClearanceQuery& query, Instant when) {
-    horizons_.Record(tiers_.TierOf(query.agent), query.group, when);
+    horizons_.Record(tiers_.TierOf(query.agent), query.band, when);
   }
 
-  /// The first meeting with a partner that is not left out. Unchecked: there is none by `known`.
-  NextMeeting Find(const ClearanceQuery& query, Instant known);
+  /// The first intersection with a partner that is not left out. Unchecked: there is none by
+  /// `known`.
+  NextNeighbour Find(const ClearanceQuery& query, Instant known);
 
-  /// The earliest of `meetings` whose partner is not tracked.
-  static NextMeeting EarliestOf(const std::vector<broad_phase::Neighbour>& meetings,
-                                const PartnerMarks& tracked);
+  /// The earliest of `neighbours` whose partner is not tracked.
+  static NextNeighbour EarliestOf(const std::vector<broad_phase::Neighbour>& neighbours,
+                                  const PartnerMarks& tracked);
 
   /// Partners examined besides the broad phase's own tests, since the start.
-  std::uint64_t looks() const { return looks_; }
+  std::uint64_t examined() const { return examined_; }
 
  private:
   void FindUpTo(const ClearanceQuery& query, Instant known, Instant horizon);
@@ -46,7 +47,7 @@ class NextMeetingSearch {
   broad_phase::NeighbourIndex* broad_phase_;
   const AccelerationTiers& tiers_;
   QueryHorizons horizons_;
-  std::uint64_t looks_ = 0;
+  std::uint64_t examined_ = 0;
   std::vector<broad_phase::Neighbour> found_;  // scratch of one query, kept for its memory
 };
 

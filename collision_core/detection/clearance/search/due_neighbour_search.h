@@ -6,7 +6,7 @@
 #include "collision_core/broad_phase/neighbour_index.h"
 #include "collision_core/detection/clearance/search/clearance_query.h"
 #include "collision_core/detection/pairs/pair_table.h"
-#include "collision_core/detection/step_clock.h"
+#include "collision_core/detection/step/step_clock.h"
 
 namespace collision::detection {
 
@@ -14,14 +14,14 @@ namespace collision::detection {
 /// If more partners qualify than fit, the agent is saturated: it takes those with the lowest
 /// indices and leaves out partners that are full. The result does not depend on the order in which
 /// the broad phase offers partners, and the search makes no pair query that it does not need.
-class DueMeetingSearch {
+class DueNeighbourSearch {
  public:
   /// All outlive the search.
-  DueMeetingSearch(broad_phase::NeighbourIndex* broad_phase, const AccelerationTiers& tiers,
-                   const PairTable& pairs, const StepClock& clock)
+  DueNeighbourSearch(broad_phase::NeighbourIndex* broad_phase, const AccelerationTiers& tiers,
+                     const PairTable& pairs, const StepClock& clock)
       : broad_phase_(broad_phase), tiers_(tiers), pairs_(pairs), clock_(clock) {}
 
-  /// Replaces *found by the meetings by announce_until, and the earliest of the others up to
+  /// Replaces *found by the intersections by announce_until, and the earliest of the others up to
   /// `horizon`, in the order of partners. Returns the first partner for which there is no room:
   /// None() if the agent is not saturated.
   AgentIndex Find(const ClearanceQuery& query, Instant horizon,

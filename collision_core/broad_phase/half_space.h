@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "collision_core/broad_phase/agent_bound.h"
-#include "collision_core/broad_phase/filter/horn_table.h"
 #include "collision_core/intersection/intersection_query.h"
+#include "collision_core/numeric/moving_ball.h"
 
 namespace collision::broad_phase {
 

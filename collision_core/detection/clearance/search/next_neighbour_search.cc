@@ -1,4 +1,4 @@
-#include "collision_core/detection/clearance/search/next_meeting_search.h"
+#include "collision_core/detection/clearance/search/next_neighbour_search.h"
 
 #include <algorithm>
 
@@ -14,19 +14,19 @@ constexpr int kStrideMax = 2;
 
 }  // namespace
 
-NextMeeting NextMeetingSearch::EarliestOf(const std::vector<broad_phase::Neighbour>& meetings,
-                                          const PartnerMarks& tracked) {
-  NextMeeting next;
-  for (const broad_phase::Neighbour& meeting : meetings) {
-    const AgentIndex partner(meeting.partner);
-    if (tracked.Contains(partner) || meeting.time.instant() >= next.when) continue;
-    next = {meeting.time.instant(), partner};
+NextNeighbour NextNeighbourSearch::EarliestOf(const std::vector<broad_phase::Neighbour>& neighbours,
+                                              const PartnerMarks& tracked) {
+  NextNeighbour next;
+  for (const broad_phase::Neighbour& neighbour : neighbours) {
+    const AgentIndex partner(neighbour.partner);
+    if (tracked.Contains(partner) || neighbour.time.instant() >= next.when) continue;
+    next = {neighbour.time.instant(), partner};
   }
   return next;
 }
 
-NextMeeting NextMeetingSearch::Find(const ClearanceQuery& query, Instant known) {
-  NextMeeting next;
+NextNeighbour NextNeighbourSearch::Find(const ClearanceQuery& query, Instant known) {
+  NextNeighbour next;
   int stride = 0;
   for (int step = Begin(query); next.when.is_never() && !known.is_never(); step += stride) {
     stride = std::min(stride + 1, kStrideMax);
@@ -40,7 +40,7 @@ NextMeeting NextMeetingSearch::Find(const ClearanceQuery& query, Instant known) 
   return next;
 }
 
-void NextMeetingSearch::FindUpTo(const ClearanceQuery& query, Instant known, Instant horizon) {
+void NextNeighbourSearch::FindUpTo(const ClearanceQuery& query, Instant known, Instant horizon) {
   const std::uint32_t agent = query.agent.value();
   std::size_t offered = 0, left_out = 0;
   const auto sample = [&](std::uint32_t partner) {
@@ -51,12 +51,12 @@ void NextMeetingSearch::FindUpTo(const ClearanceQuery& query, Instant known, Ins
   };
   found_.clear();
   broad_phase_->FindNeighbours(agent, {query.from, known, horizon}, sample, &found_);
-  looks_ += offered - left_out;
+  examined_ += offered - left_out;
   if (left_out == 0) return;
   if (!found_.empty()) horizon = found_.front().time.instant();
   const auto all = [&](std::uint32_t partner) {
     if (query.LeavesOut(AgentIndex(partner), tiers_)) return true;
-    ++looks_;
+    ++examined_;
     return false;
   };
   found_.clear();

@@ -1,12 +1,12 @@
-#include "collision_core/detection/clearance/search/due_meeting_search.h"
+#include "collision_core/detection/clearance/search/due_neighbour_search.h"
 
 #include <algorithm>
 
 namespace collision::detection {
 
-// Takes the meetings from `begin` on.
-void DueMeetingSearch::Take(const std::vector<broad_phase::Neighbour>& found, std::size_t begin,
-                            Room* room) const {
+// Takes the intersections from `begin` on.
+void DueNeighbourSearch::Take(const std::vector<broad_phase::Neighbour>& found, std::size_t begin,
+                              Room* room) const {
   const Instant until = clock_.announce_until();
   std::vector<AgentIndex>& first = *room->first;
   for (std::size_t k = begin; k < found.size(); ++k) {
@@ -24,8 +24,8 @@ void DueMeetingSearch::Take(const std::vector<broad_phase::Neighbour>& found, st
   }
 }
 
-AgentIndex DueMeetingSearch::Find(const ClearanceQuery& query, Instant horizon,
-                                  std::vector<broad_phase::Neighbour>* found) {
+AgentIndex DueNeighbourSearch::Find(const ClearanceQuery& query, Instant horizon,
+                                    std::vector<broad_phase::Neighbour>* found) {
   const Instant until = clock_.announce_until();
   const std::size_t pairs = pairs_.RoomFor(query.agent);
   Room seen{.pairs = pairs, .first = &first_};
@@ -48,9 +48,9 @@ AgentIndex DueMeetingSearch::Find(const ClearanceQuery& query, Instant horizon,
   const bool overflows = first_.size() > pairs;
   if (overflows) all.first_full = std::min(all.first_full, first_.front());
   const AgentIndex end = overflows ? first_.front() : AgentIndex::None();
-  std::erase_if(*found, [&](const broad_phase::Neighbour& meeting) {
-    const AgentIndex partner(meeting.partner);
-    return meeting.time.instant() <= until && (pairs_.IsFull(partner) || partner >= end);
+  std::erase_if(*found, [&](const broad_phase::Neighbour& neighbour) {
+    const AgentIndex partner(neighbour.partner);
+    return neighbour.time.instant() <= until && (pairs_.IsFull(partner) || partner >= end);
   });
   SortByPartner(0, found);
   return all.first_full;

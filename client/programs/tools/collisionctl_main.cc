@@ -152,7 +152,9 @@ int Main(int argc, char** argv) {
   CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
   Options options;
   app.add_option("--world", options.monitor.world, "World to look at")->capture_default_str();
-  app.add_option("--domain", options.monitor.domain, "DDS domain, 0 to 230")->capture_default_str();
+  app.add_option("--domain", options.monitor.domain,
+                 "DDS domain, 0 to " + std::to_string(kDomainMax))
+      ->capture_default_str();
   app.add_option("--timeout", options.timeout_s, "Seconds to wait for a service, 0 to 1e6")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();

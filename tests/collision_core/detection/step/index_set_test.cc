@@ -1,7 +1,7 @@
 // Goal:   the set holds what was inserted and not erased, once, in the order of insertion as long
 //         as nothing is erased.
 // Method: random changes beside a sorted set.
-#include "collision_core/detection/index_set.h"
+#include "collision_core/detection/step/index_set.h"
 
 #include <gtest/gtest.h>
 

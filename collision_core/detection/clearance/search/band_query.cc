@@ -1,17 +1,18 @@
-#include "collision_core/detection/clearance/search/group_query.h"
+#include "collision_core/detection/clearance/search/band_query.h"
 
 #include <algorithm>
 
 namespace collision::detection {
 namespace {
 
-/// A query that begins beyond this horizon looks for the next meeting separately.
+/// A query that begins beyond this horizon looks for the next intersection separately.
 constexpr int kHorizonNear = 4;
 
 }  // namespace
 
-GroupQuery::GroupQuery(const DetectorContext& context, const QueryTargets& targets)
+BandQuery::BandQuery(const DetectorContext& context, const QueryTargets& targets)
     : context_(context),
+      queries_(context),
       coverage_(*targets.coverage),
       reported_(*targets.reported),
       pairs_(*targets.pairs),
@@ -19,7 +20,7 @@ GroupQuery::GroupQuery(const DetectorContext& context, const QueryTargets& targe
       due_(targets.broad_phase, coverage_.tiers(), pairs_.table(), context.clock),
       next_(targets.broad_phase, coverage_.tiers(), context.clock) {}
 
-NextMeeting GroupQuery::Find(const ClearanceQuery& query) {
+NextNeighbour BandQuery::Find(const ClearanceQuery& query) {
   TrackUncovered(query);
   if (IsCrowded(query)) {
     in_crowd_ = true;
@@ -28,16 +29,16 @@ NextMeeting GroupQuery::Find(const ClearanceQuery& query) {
   return QueryBroadPhase(query);
 }
 
-bool GroupQuery::TracksAll(AgentIndex agent, int group) const {
+bool BandQuery::TracksAll(AgentIndex agent, int band) const {
   std::uint32_t tracked = 0;
   for (const PairSlot slot : pairs_.table().Of(agent)) {
     const AgentIndex partner = pairs_.table()[slot].PartnerOf(agent);
-    tracked += coverage_.tiers().GroupOf(partner, agent) == group;
+    tracked += coverage_.tiers().BandOf(partner, agent) == band;
   }
-  return tracked == coverage_.tiers().Count(group);
+  return tracked == coverage_.tiers().Count(band);
 }
 
-void GroupQuery::TrackUncovered(const ClearanceQuery& query) {
+void BandQuery::TrackUncovered(const ClearanceQuery& query) {
   for (const UncoveredPartner& partner : uncovered_.Find(query)) {
     TrackOrSaturate(query, partner, query.renewed ? Past::kUnknown : Past::kKnown);
   }
@@ -46,31 +47,26 @@ void GroupQuery::TrackUncovered(const ClearanceQuery& query) {
 // An agent without room for another pair is saturated if there is a partner that should be tracked.
 // In a crowd that usually is the partner that saturated it before, or the one that saturated the
 // last such agent; so a crowd costs one pair query an agent, not one a pair.
-bool GroupQuery::IsCrowded(const ClearanceQuery& query) {
+bool BandQuery::IsCrowded(const ClearanceQuery& query) {
   const AgentTable& agents = context_.agents;
   const AgentIndex agent = query.agent;
   if (pairs_.table().RoomFor(agent) > 0) return false;
-  const AgentRecord& record = agents[agent];
-  const broad_phase::AgentBound bound = record.wide_bound();
   const AgentIndex before =
       query.was_saturated ? coverage_[agent].crowded_with : AgentIndex::None();
   for (const AgentIndex partner :
        {before, coverage_.last_saturated(), coverage_.last_untracked()}) {
     if (partner == agent || !agents.Contains(partner)) continue;
-    const AgentRecord& other = agents[partner];
-    if (other.expired || query.tracked->Contains(partner)) continue;
-    if (!CanMeet(record.declaration.filter, other.declaration.filter)) continue;
-    ++context_.counters->pair_queries;
-    const intersection::IntersectionTime time =
-        EarliestIntersection(bound, other.wide_bound(), query.from);
-    if (time.instant() > context_.clock.announce_until()) continue;
+    if (agents[partner].expired || query.tracked->Contains(partner)) continue;
+    if (!queries_.MayMeet(agent, partner)) continue;
+    const Instant when = queries_.EarliestOfWide(agent, partner, query.from);
+    if (when > context_.clock.announce_until()) continue;
     coverage_.Saturate(agent, partner);
     return true;
   }
   return false;
 }
 
-NextMeeting GroupQuery::QueryBroadPhase(const ClearanceQuery& query) {
+NextNeighbour BandQuery::QueryBroadPhase(const ClearanceQuery& query) {
   const AgentIndex agent = query.agent;
   // In a crowd most agents are saturated, and need no key.
   const bool crowd = in_crowd_ || query.was_saturated;
@@ -82,20 +78,20 @@ NextMeeting GroupQuery::QueryBroadPhase(const ClearanceQuery& query) {
   in_crowd_ = coverage_.IsSaturated(agent);
   TrackDue(query);
   if (coverage_.IsSaturated(agent)) return {};
-  const NextMeeting next = NextMeetingSearch::EarliestOf(found_, *query.tracked);
+  const NextNeighbour next = NextNeighbourSearch::EarliestOf(found_, *query.tracked);
   if (next.when.is_never()) return next_.Find(query, until);
   next_.Record(query, next.when);
   return next;
 }
 
-void GroupQuery::TrackDue(const ClearanceQuery& query) {
+void BandQuery::TrackDue(const ClearanceQuery& query) {
   const AgentRecord& record = context_.agents[query.agent];
   const Instant until = context_.clock.announce_until();
-  for (const broad_phase::Neighbour& meeting : found_) {
-    Instant when = meeting.time.instant();
+  for (const broad_phase::Neighbour& neighbour : found_) {
+    Instant when = neighbour.time.instant();
     if (when > until) continue;
-    const AgentIndex partner(meeting.partner);
-    const bool overlap = meeting.time.seconds <= 0;
+    const AgentIndex partner(neighbour.partner);
+    const bool overlap = neighbour.time.seconds <= 0;
     // They may have met before, at any time that is not covered and at which both were there.
     if (overlap && query.renewed) {
       when = std::min(when, UncoveredFrom(record, context_.agents[partner], query.covered));
@@ -108,8 +104,8 @@ void GroupQuery::TrackDue(const ClearanceQuery& query) {
   }
 }
 
-void GroupQuery::TrackOrSaturate(const ClearanceQuery& query, const UncoveredPartner& partner,
-                                 Past past) {
+void BandQuery::TrackOrSaturate(const ClearanceQuery& query, const UncoveredPartner& partner,
+                                Past past) {
   if (!pairs_.Track(query.agent, partner.partner, partner.free_until, past)) {
     coverage_.Saturate(query.agent, partner.partner);
     coverage_.Saturate(partner.partner, query.agent);

@@ -1,6 +1,6 @@
 // Goal:   the queue's head is always the least (key, agent), whatever changed before.
 // Method: thousands of random changes, compared with a sorted map after each.
-#include "collision_core/detection/event_queue.h"
+#include "collision_core/detection/step/event_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,12 @@
-#include "collision_core/broad_phase/index/half_space.h"
+#include "collision_core/broad_phase/half_space.h"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "collision_core/motion/speed_cap.h"
+#include "collision_core/numeric/quadratic.h"
+#include "collision_core/numeric/rounding.h"
 
 namespace collision::broad_phase {
 namespace {
