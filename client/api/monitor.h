@@ -53,11 +53,12 @@ struct SimulatorStatus {
   std::int64_t clock_ns = 0;
   std::int64_t granted_until_ns = 0;  ///< INT64_MIN: no time granted yet.
   std::uint32_t agents = 0;
-  std::uint64_t states = 0;    ///< Received so far.
+  std::uint64_t states = 0;    ///< Accepted so far, in all runs.
   std::uint64_t rejected = 0;  ///< Samples refused so far.
 };
 
-/// Health and counters of the service, published every second or so.
+/// Health and counters of the service, published every `status_period_s` (0.5 s by default) and when
+/// simulators come or go.
 struct ServiceStatus {
   std::uint64_t service = 0;  ///< Identity of the service instance.
   std::uint32_t term = 0;     ///< Grows when another instance takes over.

@@ -32,8 +32,8 @@ struct WorldOptions {
   /// way there and back on a busy local network (10 ms each for 99 of 100 samples) and a step of
   /// the service in between. In lock-step the world's time waits for both. At most 1 h.
   std::chrono::nanoseconds lead{50'000'000};
-  /// States per sample, 1 to 64: 1 for rare updates, 8 on lossy links, 64 at full speed. 0: 1 on
-  /// demand, else 64.
+  /// States per sample, 1 to 64: 1 for rare updates, 6 on lossy links (one Ethernet frame), 64 at
+  /// full speed. 0: 1 on demand, else 64.
   std::uint32_t chunk_size = 0;
 };
 
@@ -53,7 +53,7 @@ class Transport;
 /// with Agent::SetState(), AdvanceTo(t).
 ///
 /// An Agent's destructor removes the agent. A World that is destroyed first leaves its agents with
-/// the service, where their bounds grow until the service's policy removes them.
+/// the service; their bounds grow until another program takes over the simulator's name.
 class World {
  public:
   /// Throws std::runtime_error if an option is out of range or DDS is not available.
@@ -143,7 +143,7 @@ class Agent {
   /// from clearance().effective_from_ns on. Throws std::invalid_argument as AddAgent() does.
   void SetDescription(const AgentDescription& description);
 
-  /// The newest clearance received; without a promise before the first.
+  /// The newest clearance received; before the first one, a clearance that promises nothing.
   Clearance clearance() const;
 
  private:

@@ -190,7 +190,7 @@ void ScanFace(const Element& element, std::uint64_t vertices, Body* body, MeshSc
   std::uint64_t corners = 0;
   for (const Property& property : element.properties) {
     const double values = property.is_list ? body->Value(property.count) : 1;
-    if (!(values >= 0)) throw std::runtime_error(body->Where() + ": a list of less than nothing");
+    if (!(values >= 0)) throw std::runtime_error(body->Where() + ": a list of negative length");
     const bool indices = element.name == "face" && IsIndices(property);
     for (double i = 0; i < values; ++i) {
       const double value = body->Value(property.value);

@@ -1,4 +1,4 @@
-// The one table of topics: names, types and QoS. Why each is as it is: ../README.md.
+// The one table of topics: names, types and QoS. The reason of each setting: ../PROTOCOL.md.
 #pragma once
 
 #include <array>

@@ -205,7 +205,7 @@ std::optional<Refusal> CheckShapePart(const v1::ShapePart& part) {
   if (part.content_hash().size() != kShapeHashBytes) {
     refuse("content_hash",
            std::to_string(part.content_hash().size()) +
-               " bytes that are not all zero; allowed: " + std::to_string(kShapeHashBytes));
+               " bytes; allowed: " + std::to_string(kShapeHashBytes) + ", not all zero");
   }
   const std::uint64_t total = part.total_bytes();
   if (total < kShapeHeaderBytes) {

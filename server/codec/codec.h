@@ -13,8 +13,9 @@
 //                                                                           NOT_UNIT
 //   thrust direction              zero, or length 1 within 1e-3             NOT_UNIT
 //   simulator id                  the hash of the name                      ID_MISMATCH
-//   stamp                         simulated clock: the time granted,        FUTURE_STAMP
-//                                 without lock-step now + grant_ahead_max_s;
+//   stamp                         simulated clock: the time granted;        FUTURE_STAMP
+//                                 before the first grant now, or its first
+//                                 clock, + grant_ahead_max_s;
 //                                 wall clock: now + skew_max_s
 //   discontinuity                 not before its simulator's clock          STALE
 //   clock                         not before the last one of its run,       CLOCK_BACKWARD,
@@ -58,7 +59,7 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
 
 /// Which times a state may carry.
 struct StampRules {
-  Instant latest = Instant::Never();  ///< The greatest time granted, or now + κ.
+  Instant latest = Instant::Never();  ///< See the table above.
   Instant discontinuity_from =
       Instant::Always();  ///< The simulator's clock: a jump before it comes too late.
 };
@@ -82,7 +83,7 @@ std::optional<Refusal> CheckStamp(const detection::AgentId& agent, Instant stamp
 /// Which clocks a simulator may publish.
 struct ClockRules {
   Instant earliest = Instant::Always();  ///< The newest clock of this run.
-  Instant latest = Instant::Never();     ///< The greatest time granted, or now + κ.
+  Instant latest = Instant::Never();     ///< As for a stamp.
   bool lock_step = true;                 ///< The world's time is simulated.
 };
 

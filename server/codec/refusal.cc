@@ -52,7 +52,8 @@ Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max) {
       .slot = agent.slot,
       .generation = agent.generation,
       .field = "slot",
-      .detail = "all places are taken; allowed: 0 to " + std::to_string(agents_max) + " agents"};
+      .detail = "the world has no room for another agent; allowed: at most " +
+                std::to_string(agents_max)};
 }
 
 Refusal NotItsOwn(const v1::AgentRemoval& wire) {

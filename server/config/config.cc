@@ -163,7 +163,7 @@ int LineOf(TextFormat::ParseInfoTree* tree, const std::string& path) {
 void CheckAgainst(const v1::Config& config, std::vector<ConfigError>* errors) {
   const v1::Clock& clock = config.clock();
   const double resolution = config.temporal_resolution_s();
-  const std::string not_below = "must not be less than temporal_resolution_s; both are s";
+  const std::string not_below = "must not be less than temporal_resolution_s (both in seconds)";
   if (config.announce_within_s() < resolution) errors->push_back({"announce_within_s", not_below});
   if (clock.grant_ahead_max_s() < resolution) {
     errors->push_back({"clock.grant_ahead_max_s", not_below});

@@ -42,9 +42,9 @@ constexpr ConfigOption kOptions[] = {
     {"domain", "none", "0", kDigits<wire::kDomainMax>, "", "0",
      "DDS domain. Simulators and monitors must use the same."},
     {"service_id", "none", "1", "18446744073709551615", "", "1",
-     "Stands in everything this instance publishes; no two services of a world share it."},
+     "Identifies this instance in everything that it publishes; must be unique in the world."},
     {"term", "none", "1", "4294967295", "", "1",
-     "Grows when another instance takes over; clients drop samples of a lower term."},
+     "Must be higher for an instance that takes over; clients drop samples of a lower term."},
     {"clock.kind", "none", "", "", "SIMULATED or WALL", "SIMULATED",
      "SIMULATED: now is the least clock of the live simulators. WALL: now is the time since 1970, "
      "advanced by the monotonic clock."},
@@ -95,11 +95,12 @@ constexpr ConfigOption kOptions[] = {
     {"rejections_per_second_max", "messages", "1", "100000", "", "100",
      "Rejections published per second; further ones are only counted in the status."},
     {"time_budget_us", "us", "0", "1000000", "", "2000",
-     "What the narrow phase may spend on two agents of which one has a shape, in one turn; beyond, "
-     "brackets stay wider and say so. 0: their sphere trees are not refined at all. It is counted "
-     "in work units, so that a replay stops where the recorded run did, on any machine."},
+     "Budget of the narrow phase for one pair in one evaluation, where at least one agent has a "
+     "shape. A pair that runs out of it gets wider brackets; its events say limited by budget. 0: "
+     "sphere trees are not refined. It is counted in work units, so that a replay stops where the "
+     "recorded run did, on any machine."},
     {"step_budget_us", "us", "0", "1000000", "", "0",
-     "Likewise in one step on all pairs together, shared so that no pair starves: pairs that are "
+     "Budget for all pairs together in one step, shared so that no pair starves: pairs that are "
      "announced and undecided get more. 0: no limit but time_budget_us for each pair."},
     {"work_units_per_us", "work units", "1", "1000000", "", "20",
      "Turns time_budget_us and step_budget_us into work units. collisiond --calibrate measures it "
@@ -110,8 +111,8 @@ constexpr ConfigOption kOptions[] = {
      "Different shapes in the world, including those that are still arriving; another one is "
      "refused."},
     {"shape_bytes_max", "bytes", "1048576", "1099511627776", "", "268435456",
-     "Of all shapes together: parts that have arrived, and meshes. A part that does not fit is "
-     "refused. Trees come on top (tree_bytes in the status)."},
+     "Maximum memory for the arrived parts and the meshes of all shapes together. A part that does "
+     "not fit is refused. Trees come on top (tree_bytes in the status)."},
     {"broad_phase", "none", "", "", "AUTO, ALL_PAIRS or SPATIAL_INDEX", "AUTO",
      "How candidate pairs are found. All methods give the same answers and differ in cost. AUTO "
      "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and in between the one that does "
@@ -127,8 +128,8 @@ constexpr ConfigOption kOptions[] = {
      "damaged or of another version is replaced. Empty: the folder that systemd names "
      "(CacheDirectory=), else none."},
     {"tree_cache_mb", "MB", "1", "1048576", "", "1024",
-     "Of all files in tree_cache_dir together, in millions of bytes; the files used least lately "
-     "are removed first. A shape of a million triangles takes about 100."},
+     "Maximum size of all files in tree_cache_dir together, in millions of bytes; the least "
+     "recently used are removed first. A shape of a million triangles takes about 100."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

@@ -21,7 +21,7 @@ class OverdueQueue {
  public:
   explicit OverdueQueue(std::int64_t due_after_ns) : due_after_ns_(due_after_ns) {}
 
-  /// Beyond, the caller reports at once.
+  /// If it is full, the caller reports the item at once.
   bool full() const { return items_.size() >= kOverdueMax; }
 
   void Add(std::int64_t now_ns, Item item) {

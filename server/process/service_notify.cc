@@ -9,6 +9,7 @@
 #include <cstring>
 
 #include "server/process/logging.h"
+#include "server/process/write_all.h"
 
 namespace collision::server {
 namespace {
@@ -48,7 +49,10 @@ void ServiceNotifier::Send(std::string_view message) {
   // Never waits: a service manager that does not listen must not hold up the world.
   const ssize_t sent = sendto(socket_, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT,
                               reinterpret_cast<const sockaddr*>(&address), length);
-  if (sent < 0) Log(spdlog::level::warn, "service manager not notified", message);
+  if (sent < 0) {
+    Log(spdlog::level::warn, "service manager not notified",
+        fmt::format("{}: {}", message, CauseOf(errno)));
+  }
 }
 
 }  // namespace collision::server

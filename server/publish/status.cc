@@ -38,8 +38,8 @@ void AddSimulators(const World& world, v1::ServiceStatus* status) {
     wire.set_run(simulator.run());
     wire.set_name(simulator.name());
     wire.set_alive(simulator.alive());
-    wire.set_clock_ns(simulator.time().clock().value_or(Instant()).nanoseconds());
-    wire.set_granted_until_ns(simulator.time().granted().value_or(Instant()).nanoseconds());
+    wire.set_clock_ns(simulator.time().clock().value_or(Instant::Always()).nanoseconds());
+    wire.set_granted_until_ns(simulator.time().granted().value_or(Instant::Always()).nanoseconds());
     wire.set_agents(static_cast<std::uint32_t>(simulator.agents().size()));
     wire.set_states(simulator.states());
     wire.set_rejected(simulator.refusals());
@@ -64,7 +64,7 @@ void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
     const auto value = static_cast<v1::RejectionReason>(reason);
     Count(LowerCase(v1::RejectionReason_Name(value)), sources.rejections.count(value), status);
   }
-  Count("rejections_untold", sources.rejections.untold(), status);
+  Count("rejections_suppressed", sources.rejections.suppressed(), status);
 }
 
 void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {

@@ -73,18 +73,20 @@ RecordingReader::RecordingReader(const std::string& path)
   if (!file_) throw std::runtime_error(path + ": cannot be read: " + CauseOf(errno));
   v1::RecordingEntry entry;
   if (!ReadEntry(&entry)) {
-    throw std::runtime_error(error_.empty() ? path + ": byte 0: empty: no recording" : error_);
+    throw std::runtime_error(error_.empty() ? path + ": byte 0: empty, not a recording" : error_);
   }
-  if (!entry.has_header()) throw std::runtime_error(path + ": byte 0: no recording: no header");
+  if (!entry.has_header()) throw std::runtime_error(path + ": byte 0: not a recording: it has no header");
   if (const std::uint32_t format = entry.header().format(); format != kRecordingFormat) {
     throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
                              "; this program reads format " + std::to_string(kRecordingFormat));
   }
   if (!entry.header().has_config()) {
-    throw std::runtime_error(path + ": byte 0: its configuration: missing");
+    throw std::runtime_error(path + ": byte 0: the configuration is missing");
   }
-  // What an older version did not know yet has its default; but it built its trees as it could.
+  // A field that an older version did not know has its default, but for the builder that it had. A
+  // method that is no longer there (FACE_SWEEP) changed the cost only.
   config_ = std::move(*entry.mutable_header()->mutable_config());
+  if (!v1::Config::BroadPhase_IsValid(config_.broad_phase())) config_.clear_broad_phase();
   if (!config_.has_tree_builder()) config_.set_tree_builder(v1::Config::OCTREE);
   config_ = CompleteConfig(std::move(config_));
 }
@@ -95,7 +97,7 @@ std::optional<v1::RecordedBatch> RecordingReader::Next() {
   if (!error_.empty() || !ReadEntry(&entry)) return {};
   if (!entry.has_batch()) {
     offset_ = begin;
-    Fail("damaged: no batch");
+    Fail("damaged: not a batch");
     return {};
   }
   return std::move(*entry.mutable_batch());
@@ -108,7 +110,7 @@ bool RecordingReader::ReadEntry(v1::RecordingEntry* entry) {
   std::string bytes(length, '\0');
   if (!file_.read(bytes.data(), static_cast<std::streamsize>(length))) return Fail("cut off");
   const google::protobuf::LogSilencer silent;  // the error below reports it
-  if (!entry->ParseFromString(bytes)) return Fail("damaged: no recording entry");
+  if (!entry->ParseFromString(bytes)) return Fail("damaged: not a recording entry");
   offset_ = static_cast<std::uint64_t>(file_.tellg());
   return true;
 }
@@ -123,7 +125,7 @@ bool RecordingReader::ReadLength(std::uint64_t* length) {
              Fail("damaged: an entry of " + std::to_string(*length) + " bytes");
     }
   }
-  return Fail("damaged: no length of an entry");
+  return Fail("damaged: not a valid entry length");
 }
 
 bool RecordingReader::Fail(const std::string& what) {

@@ -9,7 +9,7 @@ enum ExitCode {
   kExitUsage = 2,           ///< The command line is wrong.
   kExitUnavailable = 69,    ///< DDS is not available.
   kExitSoftware = 70,       ///< A fault of this program: a check has failed.
-  kExitSystem = 71,         ///< Memory, or another thing of the system, is exhausted.
+  kExitSystem = 71,         ///< Memory, or another resource of the system, is exhausted.
   kExitRecording = 74,      ///< A recording cannot be written, or not be read to its end.
   kExitConfiguration = 78,  ///< The configuration is wrong.
 };

@@ -13,8 +13,8 @@ namespace collision::server {
 namespace {
 
 constexpr char kDescription[] =
-    "collisiond - tells simulators that know nothing of each other, ahead of time, what could hit "
-    "what";
+    "collisiond - a collision detection service: tells independent simulators in advance which of "
+    "their agents could touch";
 
 constexpr char kFooter[] = R"(
 Examples:
@@ -32,6 +32,7 @@ Exit codes:
    2  wrong command line
   69  DDS is not available
   70  a check has failed: a bug in collisiond, which the log describes
+  71  memory, or another resource of the system, is exhausted
   74  a recording cannot be written, or not be read to its end
   78  bad configuration)";
 
@@ -45,7 +46,7 @@ CLI::Validator AllowedBy(const char* field) {
                  is_number ? text : '"' + google::protobuf::CEscape(text) + '"')) {
       return CheckValue(config, *option);
     }
-    return text + " is no value; allowed: " + AllowedRange(*option);
+    return text + " is not a valid value; allowed: " + AllowedRange(*option);
   };
   return CLI::Validator(check, AllowedRange(*option));
 }
@@ -59,7 +60,7 @@ CLI::Validator NotEmpty() {
 
 void Define(CLI::App* app, Options* options) {
   auto* config = app->add_option("--config", options->config_file,
-                                 "Configuration, protobuf text (default: every default)");
+                                 "Configuration file, protobuf text; without it every field has its default");
   auto* check = app->add_flag("--check-config", options->check_config,
                               "Check the configuration, print every error, and end");
   auto* print = app->add_flag("--print-config", options->print_config,

@@ -31,8 +31,8 @@ constexpr std::chrono::milliseconds kStepPatience{700};
   std::unique_lock<std::mutex> no_write;
   if (recorder != nullptr) no_write = recorder->HoldWrites();
   spdlog::warn(
-      "exits without waiting for a step that still ran {} ms after the signal; a "
-      "recording is whole",
+      "a step is still running {} ms after the stop signal: collisiond exits without "
+      "waiting for it; the recording, if any, is complete",
       kStepPatience.count());
   spdlog::default_logger_raw()->flush();
   std::_Exit(kExitOk);
@@ -88,7 +88,7 @@ int EndOnFailure(const std::function<int()>& run) {
   } catch (const std::logic_error& failure) {
     return EndWith(kExitSoftware, "a check has failed, which is a bug in collisiond", failure);
   } catch (const std::exception& failure) {
-    return EndWith(kExitSystem, "the system lacks what collisiond needs", failure);
+    return EndWith(kExitSystem, "memory or another system resource is exhausted", failure);
   }
 }
 

@@ -7,7 +7,8 @@
 // visible. A replay adds no such message of its own and waits where the recorded run had one.
 //
 // Coarse first: a surface of more than kCoarseFirstTriangles that is not in the cache gets a coarse
-// tree first, in a tenth of the time: what is said with it is certain too, only wider or dearer.
+// tree first, in a tenth of the time: answers computed with it are certain too, only wider or more
+// expensive.
 // The wanted tree takes its place when it is ready (`shape_ready` says which of the two). To the
 // detector both are one body (Shape::IsSameBodyAs): no bound widens, no promise is withdrawn. If
 // the wanted tree is ready before the coarse one was used, the coarse one is dropped. Measured on
@@ -68,7 +69,7 @@ BuiltShape BuildFirst(const std::string& hash, std::string bytes, const BuildOpt
 /// What BuildShape() makes of the same bytes, as a twin of what BuildFirst() made of them.
 BuiltShape Refine(const std::string& hash, const shape::Shape& coarse, const BuildOptions& options);
 
-/// One of the two trees of a shape: that is built, or is used from now on.
+/// One of a shape's two trees, which has been built or is used from now on.
 struct ReadyTree {
   std::string hash;
   bool coarse = false;  ///< The coarse one: the wanted one follows.

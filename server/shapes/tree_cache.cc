@@ -113,20 +113,20 @@ std::optional<sphere_tree::SphereTree> TreeCache::Read(const std::string& bytes,
   const google::protobuf::LogSilencer silent;  // *fault reports it.
   v1::TreeFile file;
   if (!file.ParseFromString(bytes)) {
-    *fault = "cut off, or no tree file";
+    *fault = "cut off, or not a tree file";
   } else if (file.format() != kTreeFormat) {
     *fault = fmt::format("format {}; allowed: {}", file.format(), kTreeFormat);
   } else if (file.content_hash() != content_hash) {
-    *fault = "the tree of another shape";
+    *fault = "it holds the tree of another shape";
   } else if (file.recipe().SerializeAsString() != recipe_bytes_) {
-    *fault = "built in another way";
+    *fault = "another builder or other options made it";
   } else if (file.checksum() != Checksum(content_hash, recipe_bytes_, file.tree())) {
-    *fault = "damaged: its checksum is another";
+    *fault = "damaged: wrong checksum";
   } else {
     v1::SphereTree message;
     std::optional<sphere_tree::SphereTree> tree;
     if (message.ParseFromString(file.tree())) tree = FromMessage(message);
-    const auto refusal = tree ? RefusalOf(*tree, mesh) : std::optional<std::string>("no tree");
+    const auto refusal = tree ? RefusalOf(*tree, mesh) : std::optional<std::string>("not a tree");
     if (!refusal) return tree;
     *fault = "damaged: " + *refusal;
   }

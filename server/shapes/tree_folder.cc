@@ -123,7 +123,7 @@ std::optional<std::string> TreeFolder::Read(const std::string& name, std::string
   if (!S_ISREG(status.st_mode) || bytes > bytes_max_) {
     *fault = S_ISREG(status.st_mode) ? std::to_string(bytes) + " bytes; allowed: up to " +
                                            std::to_string(bytes_max_) + " (tree_cache_mb)"
-                                     : "no regular file";
+                                     : "not a regular file";
     return std::nullopt;
   }
   std::string content(bytes, '\0');

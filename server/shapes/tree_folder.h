@@ -20,8 +20,9 @@ class TreeFolder {
   /// cannot be read, and *fault says why.
   std::optional<std::string> Read(const std::string& name, std::string* fault) const;
 
-  /// Makes room for a file and puts it in place, at once as a whole. False, with the cause in
-  /// *fault: it is not in place; a file of this name from before is, unless it had to make room.
+  /// Makes room for a file and puts it in place atomically. False, with the cause in *fault: the
+  /// file was not written; an earlier file of this name is still there, unless it was removed to
+  /// make room.
   bool Write(const std::string& name, const std::string& bytes, std::string* fault);
 
   /// The size of all files when they were last counted.

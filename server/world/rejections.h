@@ -29,14 +29,14 @@ class Rejections {
   }
 
   /// Refusals beyond `per_second_max`.
-  std::uint64_t untold() const { return untold_; }
+  std::uint64_t suppressed() const { return suppressed_; }
 
  private:
   const std::uint32_t per_second_max_;
   World& world_;
   std::array<std::uint64_t, v1::RejectionReason_ARRAYSIZE> counts_{};
   std::uint64_t of_unknown_ = 0;  ///< Refusals that name a simulator which is not in the world.
-  std::uint64_t untold_ = 0;
+  std::uint64_t suppressed_ = 0;
   std::int64_t second_ = -1;
   std::uint32_t told_in_second_ = 0;
   std::vector<v1::Rejection> pending_;

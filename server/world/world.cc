@@ -45,8 +45,8 @@ Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
   if (claim.simulator == nullptr) claim.simulator = Add(id, sender, run);
   if (claim.simulator == nullptr) {
     claim.reason = v1::REJECTED_TOO_MANY_SIMULATORS;
-    claim.detail = std::to_string(simulators_.size()) + " are there; allowed: 1 to " +
-                   std::to_string(simulators_max_);
+    claim.detail = "the world has " + std::to_string(simulators_.size()) +
+                   " simulators; allowed: at most " + std::to_string(simulators_max_);
     return claim;
   }
   Simulator& simulator = *claim.simulator;

@@ -44,9 +44,8 @@ struct Claim {
 /// **Grants** (simulated clock). A simulator may run until the least `clear_until` of its agents,
 /// at least to now + `temporal_resolution_s`, at most to now + `grant_ahead_max_s`; a grant is
 /// never withdrawn. A simulator whose first clock is not the start of a run was granted time by a
-/// service before this one: it is believed up to that clock + `grant_ahead_max_s`. A simulator that
-/// does not step in lock-step may be ahead of now by `grant_ahead_max_s`; before there is a now,
-/// ahead of its first clock.
+/// service before this one: it is believed up to that clock + `grant_ahead_max_s`. Before its
+/// first grant a simulator may be ahead of now, or of its first clock, by `grant_ahead_max_s`.
 class World {
  public:
   explicit World(const v1::Config& config);

@@ -45,18 +45,18 @@ v1::Config FuzzedWorld(FuzzedData* data) {
   return config;
 }
 
-/// Every refusal is reported or counted as untold.
+/// Every refusal is reported, or counted as suppressed.
 void CheckRefusals(const v1::ServiceStatus& status, std::uint64_t reported) {
-  std::uint64_t refused = 0, untold = 0;
+  std::uint64_t refused = 0, suppressed = 0;
   for (const v1::Counter& counter : status.counters()) {
-    if (counter.name() == "rejections_untold") {
-      untold = counter.value();
+    if (counter.name() == "rejections_suppressed") {
+      suppressed = counter.value();
     } else if (counter.name().starts_with("rejected_")) {
       refused += counter.value();
     }
   }
-  Require(refused == reported + untold, refused, " refused; reported ", reported, ", untold ",
-          untold);
+  Require(refused == reported + suppressed, refused, " refused; reported ", reported, ", suppressed ",
+          suppressed);
 }
 
 /// A daemon, and what it has said so far.

@@ -13,10 +13,10 @@ struct Promise {
 
 constexpr Promise kPromises[] = {
     {"no contact is missed", "precision", "ours_misses", 0},
-    {"no contact is told that is none", "precision", "ours_false_alarms", 0},
+    {"no contact is reported where there is none", "precision", "ours_false_alarms", 0},
     {"each bracket holds the exact distance", "precision", "ours_brackets_without_the_truth", 0},
     {"no time of contact is missed", "precision", "contact_ours_misses", 0},
-    {"no time of contact is told where there is none", "precision", "contact_ours_false_alarms", 0},
+    {"no time of contact is reported where there is none", "precision", "contact_ours_false_alarms", 0},
     {"each bracket holds the exact time", "precision", "contact_ours_brackets_without_the_truth",
      0},
     {"whatever the budget, no contact comes unannounced", "budget", "unannounced_misses", 0},

@@ -31,12 +31,12 @@ std::shared_ptr<const Shape> LoadMesh(const MeshOptions& options, bool quiet) {
 
 void AddMeshFrameOptions(CLI::App* app, const std::string& unit, const std::string& up,
                          const std::string& centre, MeshFileOptions* options) {
-  app->add_option(unit, options->unit_m, "One unit of the mesh file in metres; never guessed")
+  app->add_option(unit, options->unit_m, "One unit of the mesh file in metres")
       ->check(Finite(kUnitMax, false));
   const auto set = [options](const std::string& axis) {
     options->up = axis == "x" ? UpAxis::kX : axis == "y" ? UpAxis::kY : UpAxis::kZ;
   };
-  app->add_option_function<std::string>(up, set, "The file's axis that points up; never guessed")
+  app->add_option_function<std::string>(up, set, "The file's axis that points up")
       ->check(CLI::IsMember({"x", "y", "z"}));
   app->add_flag(centre, options->centre,
                 "The reference point is the centre of the mesh's box, not the file's origin");

@@ -332,7 +332,7 @@ TEST(Intake, TellsABoundedNumberOfRejections) {
   daemon.Step(flood);
   EXPECT_EQ(daemon.rejections().size(), 5u);
   EXPECT_EQ(daemon.counter("rejected_id_owned"), 50u);
-  EXPECT_EQ(daemon.counter("rejections_untold"), 45u);
+  EXPECT_EQ(daemon.counter("rejections_suppressed"), 45u);
   daemon.Step({From(kBeta, State(0, 0, 9), "alpha")}, 1);
   EXPECT_EQ(daemon.rejections().size(), 6u);
   EXPECT_EQ(daemon.rejections()[5].count(), 51u);
