@@ -5,12 +5,15 @@
 // polynomial of a pair reaches the fourth power of a distance) and far from magnitudes at which
 // doubles are coarse. Each one is generous against anything that exists.
 //
-// A client refuses a value beyond its limit before it is sent (client/library/validation.h); the
-// service refuses it again and tells the sender (server/codec/codec.h).
+// A client refuses a value beyond its limit before it is sent (client/library/validation.h, of
+// shapes client/library/shape/shape.cc); the service refuses it again and tells the sender
+// (server/codec/codec.h, of shapes server/shapes/shape_decoding.cc). A service may allow less
+// (config/README.md, Limits).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace collision::wire {
 
@@ -53,11 +56,31 @@ inline constexpr std::size_t kNameMax = 64;             ///< Of worlds, simulato
 inline constexpr std::size_t kRefusedFieldMax = 64;     ///< Rejection::field.
 inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
 inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.
+inline constexpr int kDescriptionExtensionsMax = 16;    ///< AgentDescription::extensions.
+inline constexpr int kEventExtensionsMax = 8;           ///< CollisionEvent::extensions.
+inline constexpr int kStatusExtensionsMax = 32;         ///< ServiceStatus::extensions.
 inline constexpr int kStatusSimulatorsMax = 64;         ///< ServiceStatus::simulators.
 inline constexpr int kStatusCountersMax = 96;           ///< ServiceStatus::counters.
 inline constexpr int kStatusLeftOutMax = 32;            ///< ServiceStatus::left_out.
 inline constexpr std::size_t kStatusLeftOutTextMax = 160;
 inline constexpr std::size_t kStatusBroadPhaseMax = 64;
 inline constexpr std::size_t kStatusBroadPhaseWhyMax = 256;
+
+/// Bytes of a part of a shape; the last part may be shorter, none is empty.
+inline constexpr std::uint64_t kShapePartBytes = 49152;
+
+/// What a name of a world or simulator may be, for error texts.
+inline constexpr char kNameText[] = "1 to 64 of A-Z a-z 0-9 _ -";
+static_assert(kNameMax == 64, "the text says so");
+
+/// Whether a text may name a world or simulator. Names are parts of DDS partitions, in which '.'
+/// separates and '*' and '?' are wildcards.
+constexpr bool IsName(std::string_view text) {
+  for (const char c : text) {
+    const bool is_letter = ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z');
+    if (!is_letter && !('0' <= c && c <= '9') && c != '_' && c != '-') return false;
+  }
+  return !text.empty() && text.size() <= kNameMax;
+}
 
 }  // namespace collision::wire

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "idl/limits.h"
 #include "idl/sha256.h"
 
 namespace collision {
@@ -44,13 +45,9 @@ inline constexpr std::uint64_t kShapeVertexBytes = 24;    ///< Each.
 inline constexpr std::uint64_t kShapeTriangleBytes = 12;  ///< Each.
 inline constexpr std::uint64_t kShapeHashBytes = 32;
 
-/// A shape travels in parts of so many bytes; the last one may be shorter, none is empty. As
-/// SHAPE_PART_BYTES_MAX in collision.idl.
-inline constexpr std::uint64_t kShapePartBytes = 49152;
-
 /// How many parts `total_bytes` make.
 constexpr std::uint64_t ShapeParts(std::uint64_t total_bytes) {
-  return total_bytes / kShapePartBytes + (total_bytes % kShapePartBytes != 0);
+  return total_bytes / wire::kShapePartBytes + (total_bytes % wire::kShapePartBytes != 0);
 }
 
 /// Little-endian, without padding: the eight bytes "CSHAPE\0\1", u32 vertices, u32 triangles, then

@@ -73,18 +73,9 @@ void CheckHolds(double radius, const Shape& shape) {
   Refuse("radius_m", value, text);
 }
 
-bool IsIdentifier(const std::string& name) {
-  const auto allowed = [](unsigned char c) {
-    return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_' ||
-           c == '-';
-  };
-  return !name.empty() && name.size() <= kNameMax && std::all_of(name.begin(), name.end(), allowed);
-}
-
 void RequireIdentifier(const char* field, const std::string& name) {
-  if (IsIdentifier(name)) return;
-  throw std::runtime_error(std::string(field) + ": \"" + name +
-                           "\", allowed: 1 to 64 of A-Z a-z 0-9 _ -");
+  if (wire::IsName(name)) return;
+  throw std::runtime_error(std::string(field) + ": \"" + name + "\", allowed: " + wire::kNameText);
 }
 
 }  // namespace

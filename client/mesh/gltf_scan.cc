@@ -224,7 +224,8 @@ class GltfScan {
     if (Count(document_, "scene", 0) >= scenes.size()) Fail("it has no scene to show");
     for (const Value* scene : scenes) {
       for (const Value* value : List(ObjectOf(*scene, "a scene"), "nodes")) {
-        if (CountOf(*value, "a scene's node") >= nodes.size()) Fail("a scene names a node that is not there");
+        if (CountOf(*value, "a scene's node") >= nodes.size())
+          Fail("a scene names a node that is not there");
       }
     }
   }

@@ -33,9 +33,9 @@ class Index {
   std::uint32_t value_ = 0;
 };
 
-/// An agent in the detector's tables. The broad phase and the rules of pairs count plain integers
-/// (`value()`): they are a library over dense indices that the caller chooses, half-spaces
-/// included, and their wide vectors hold 32-bit integers.
+/// An agent in the detector's tables. The broad phase and PairRules use plain integers (`value()`):
+/// their callers choose the indices, also for half-spaces, and wide vectors hold them as 32-bit
+/// integers.
 using AgentIndex = Index<struct AgentTag>;
 using PairSlot = Index<struct PairTag>;   ///< A tracked pair in the pair table.
 using NodeIndex = Index<struct NodeTag>;  ///< A node of one sphere tree.

@@ -9,7 +9,7 @@ namespace collision {
 
 /// A point in time: whole nanoseconds since the epoch of the world's clock (1970 for a wall clock,
 /// the start of the run for a simulated one). `Never()` is later than every other instant. Instants
-/// are exact; only conversions to and from seconds round, in the direction that their names state.
+/// are exact. The conversions to and from seconds (numeric/seconds.h) state their rounding.
 class Instant {
  public:
   constexpr Instant() = default;

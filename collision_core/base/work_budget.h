@@ -21,9 +21,9 @@ inline constexpr std::uint64_t kCrossingUnits = 4;   ///< Whether two triangles 
 inline constexpr std::uint64_t kWindingUnits = 100;  ///< One winding number.
 inline constexpr std::uint64_t kPoseUnits = 50;      ///< Posing two bodies at an instant.
 
-/// The most by which a budget is overrun, less one unit: a step costs 243 units at most (all
-/// triangles of two blocks measured, separation_search.cc), and every query evaluates at
-/// least one instant: a pose, and a pair of balls.
+/// A budget is overrun by less than this. A step costs at most 243 units (all triangles of two
+/// blocks measured, separation_search.cc), and every query evaluates at least one instant, which
+/// costs a pose and a pair of balls.
 inline constexpr std::uint64_t kBatchUnits = 243 + kPoseUnits + 1;
 
 /// Counts work against a limit. A step that has begun is finished, so the work spent exceeds the

@@ -217,11 +217,11 @@ void AdaptiveBroadPhase::Switch() {
   method_ = std::exchange(next_, Method());
   excess_ = 0;
   ++changes_;
-  Settle();
+  ResetCounts();
 }
 
 // Resets the counts after a decision.
-void AdaptiveBroadPhase::Settle() {
+void AdaptiveBroadPhase::ResetCounts() {
   queries_ = 0;
   answering_ = {};
   decided_with_ = agents_;
@@ -276,7 +276,7 @@ void AdaptiveBroadPhase::ChooseFromIndex() {
     patience_ = std::min(2 * patience_, kPatienceMax);
     Start(BroadPhaseMethod::kAllPairs);
   }
-  Settle();
+  ResetCounts();
 }
 
 void AdaptiveBroadPhase::EndQuery(const BroadPhaseWork& before) {

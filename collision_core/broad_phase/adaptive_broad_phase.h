@@ -18,19 +18,19 @@ namespace collision::broad_phase {
 /// give the same answers, only the cost depends on the choice.
 ///
 /// The units of work are in the ratio of what the pieces cost: a filter's test 1, a place examined
-/// 16, a pair query 256, an agent placed anew in the index 64 (BroadPhaseWork). Up to kFewAgents
-/// all pairs answer, beyond that the index; and all pairs again at half that number. Up to three
-/// quarters of kManyAgents, after every kPeriodQueries queries, the index's work on queries
-/// about one agent is compared with what all pairs would have done: the same pairs and neighbours,
-/// and N tests a search. That follows from the index's counts, so that no query is repeated. If
-/// all pairs cost less just before the index was tried again, it is compared with that. The excess
-/// adds up; all pairs take over when the sum exceeds kExcessUnits per agent. A lower threshold
-/// would react to start-up cost and to the ordinary ageing of a placement. The index is then tried
-/// again after a number of queries that doubles each time, or with half as many agents more, or
-/// with kManyAgents.
+/// 16, a pair query 256, an agent placed anew in the index 64 (BroadPhaseWork). All pairs answer up
+/// to kFewAgents agents, the index beyond; the index gives way at half that number. Up to ¾
+/// kManyAgents agents, every kPeriodQueries queries about one agent, the work of the index is
+/// compared with what all pairs would have done, computed from the index's own counts (the same
+/// pair queries and neighbours, N tests per search), or with the measured cost of all pairs just
+/// before the index took over, if that is less. The excess accumulates; above kExcessUnits per
+/// agent all pairs take over. A lower threshold would react to start-up cost and to the ordinary
+/// ageing of a placement. The index is then tried again after a number of queries that doubles each
+/// time, or with half as many agents more, or with kManyAgents.
 ///
-/// A new method is filled with kMoves agents a call beside the old one, which answers until the new
-/// one is full: no call takes longer than the others.
+/// A new method receives kMoves agents per call, while the old one answers, until it holds all of
+/// them. This spreads the transfer over many calls; the first query of a new index still places
+/// every agent.
 ///
 /// The service calls the queries of NeighbourIndex only. The one-shot queries are forwarded so that
 /// tests and benchmarks measure the method that the service runs, the choice between methods
@@ -94,7 +94,7 @@ class AdaptiveBroadPhase : public SweepingIndex {
   void ChooseFromAllPairs();
   void ChooseFromIndex();
   void EndQuery(const BroadPhaseWork& before);
-  void Settle();
+  void ResetCounts();
 
   const BroadPhaseMethod requested_;
   Method method_;

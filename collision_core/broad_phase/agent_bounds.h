@@ -28,8 +28,8 @@ class AgentBounds {
  public:
   using SharedRules = std::shared_ptr<intersection::PairRules>;
 
-  /// Methods that work together share one object: who changes a rule of it by other means than
-  /// SetRule() calls UpdateRules() of each of them. Requires an object.
+  /// Methods that work together share one PairRules. A caller that changes a rule without SetRule()
+  /// calls UpdateRules() of each method. Requires `rules` not null.
   explicit AgentBounds(SharedRules rules = NoRules()) : rules_(std::move(rules)) {
     CORE_CHECK(rules_ != nullptr, "there is an object for rules, which may be empty");
   }

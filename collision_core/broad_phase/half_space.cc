@@ -56,7 +56,7 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
                                       FirstReach(half_space, ForwardBall(bound, base), margin)};
   if (time.seconds == numeric::kInfinity) return never;
   // The capped ball is the horn's until it starts, and from then on only ever grows.
-  const std::optional<motion::LateBall> cap = CappedBallFrom(bound, base);
+  const std::optional<motion::BallFromTime> cap = CappedBallFrom(bound, base);
   if (cap && time.seconds > cap->start) {
     time.seconds = std::max(time.seconds, FirstReach(half_space, cap->ball, margin));
   }

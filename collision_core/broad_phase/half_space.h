@@ -37,8 +37,9 @@ intersection::IntersectionTime EarliestIntersectionOf(const intersection::BroadQ
                                                       const HalfSpace& half_space,
                                                       const AgentBound& bound, double margin = 0);
 
-/// Half-spaces by their own indices. They are few, so each is asked about all agents that move: one
-/// test (some 25 ns) an agent and half-space for all agents, one a half-space for one agent.
+/// Half-spaces by their own indices. They are few, so each is asked about all agents that move: a
+/// query about one agent costs one test (about 25 ns) per half-space, a query about all agents one
+/// per agent and half-space.
 class HalfSpaces {
  public:
   /// The most half-spaces; Set() refuses more.

@@ -37,10 +37,10 @@ class NeighbourIndex : public virtual AgentBounds {
   /// it does lie inside.
   virtual void Tighten(std::uint32_t agent, const AgentBound& bound) { Set(agent, bound); }
 
-  /// Appends each partner that `agent` (or half-space) may first meet (horns) within
-  /// [window.from, window.until]; of the later ones only the earliest, if it is not later than
-  /// window.horizon. In the order of partners, without those for which `skip` holds. Appends
-  /// nothing for an index that is not held.
+  /// Appends each partner whose earliest possible intersection with `agent` (an agent or a
+  /// half-space; by horns) lies in [window.from, window.until], and of the others the earliest up
+  /// to window.horizon. Sorted by partner; partners for which `skip` holds are left out. Appends
+  /// nothing if no agent or half-space has this index.
   virtual void FindNeighbours(std::uint32_t agent, const NeighbourWindow& window, const Skip& skip,
                               std::vector<Neighbour>* neighbours) = 0;
 

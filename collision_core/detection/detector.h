@@ -19,10 +19,10 @@ namespace collision::detection {
 /// How the detector took a state.
 enum class UpdateOutcome {
   kKept,      ///< The bound lies inside the last one: standing answers stay valid.
-  kJumped,    ///< A declared discontinuity: the agent is queried anew.
+  kJumped,    ///< A declared discontinuity, or the return after an expiry: queried anew.
   kWidened,   ///< Promises less than before: the agent is queried anew.
   kBreached,  ///< Breaks the last bound: the agent is queried anew, its partners are notified.
-  kOlder,     ///< Not newer than the newest known: dropped.
+  kOlder,     ///< Stamped before the newest known state: dropped.
   kUnknown    ///< No such agent: dropped.
 };
 
@@ -51,17 +51,18 @@ class Detector {
 
   /// False if `agents_max` is reached or the id is present. An agent that comes after Remove() has
   /// another id (a new generation): the former one is evaluated a last time beside it.
-  /// `effective_from`: the greatest time granted to any agent it can meet (simulated clock), else
-  /// the state's stamp.
+  /// `effective_from`: the instant from which the clearances of other agents take account of this
+  /// one. With a simulated clock it is the greatest time granted so far to any agent that this one
+  /// can meet, otherwise the state's stamp.
   bool Admit(const AgentId& id, const AgentDeclaration& declaration,
              const motion::MotionState& state, Instant effective_from);
 
   /// `effective_from` is used where the state jumps, widens or breaches.
   UpdateOutcome Update(const AgentId& id, const motion::MotionState& state, Instant effective_from);
 
-  /// A new declaration. What widens counts at once (clearances report it as effective from
-  /// `effective_from`); what narrows counts from the next state on. False: unknown agent. Requires,
-  /// like Admit(), that a shape that is awaited is null.
+  /// A new declaration. The filter and everything wider than before are in force at once
+  /// (clearances report it as effective from `effective_from`); narrower limits from the next state
+  /// on. False: unknown agent. Requires, like Admit(), that a shape that is awaited is null.
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
 
   /// The owner gives the agent up. Once `now` has reached the time that its owner has reported, its

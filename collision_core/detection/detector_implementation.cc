@@ -119,7 +119,7 @@ bool Detector::Implementation::Redeclare(const AgentId& id, const AgentDeclarati
   const AgentIndex agent = agents_.Find(id);
   if (agent.is_none()) return false;
   AgentRecord& record = agents_[agent];
-  const BoundChange change = collision::detection::Redeclare(declaration, &record);
+  const BoundChange change = ApplyDeclaration(declaration, &record);
   agents_.MarkChanged(agent);
   if (record.expired) return true;
   if (change == BoundChange::kWidened) {

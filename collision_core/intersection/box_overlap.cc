@@ -47,7 +47,7 @@ struct Agent {
     face.horn = {0, since * velocity, velocity, errors + fraction * deviation};
     face.cap.start = numeric::kInfinity;
     if (!HasSpeedCap(bound.limits)) return face;
-    const motion::CappedFace cap = CapFace(bound, axis, sign, fraction);
+    const motion::CappedFace cap = CappedFaceOf(bound, axis, sign, fraction);
     if (cap.from.is_never()) return face;
     face.cap = {numeric::SecondsBetween(base, cap.from).lower, cap.shift, 0, cap.UFrom(base)};
     return face;

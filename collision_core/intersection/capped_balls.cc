@@ -16,7 +16,7 @@ struct Timeline {
 
   Timeline(const motion::SpaceTimeBound& bound, Instant base)
       : horn(ForwardBall(bound, base)), cap(horn) {
-    const std::optional<motion::LateBall> capped = CappedBallFrom(bound, base);
+    const std::optional<motion::BallFromTime> capped = CappedBallFrom(bound, base);
     if (!capped) return;
     start = capped->start;
     cap = capped->ball;

@@ -7,10 +7,10 @@
 namespace collision::intersection {
 
 /// The relative motion of two forward horns as an exact problem in doubles, with the sum of the
-/// radii larger by the pair's margin. What rounding may have cost centre and velocity is added to
-/// the reach: 6 · 2^-53 of the terms of the centre and 2 · 2^-53 of the velocity. Symmetric: (A, B)
-/// and (B, A) give the same bits, or the negated ones. If a difference of times overflows, all
-/// reaches are infinite and so decide nothing.
+/// radii larger by the pair's margin. What rounding may have cost is added to the reach: 6 · 2^-53
+/// of the magnitudes of the centre's terms, 2 · 2^-53 of the velocity's, and 20 · 2^-53 of each
+/// coefficient of the reach itself. Symmetric: (A, B) and (B, A) give the same bits, or the negated
+/// ones. If a difference of times overflows, all reaches are infinite and so decide nothing.
 numeric::QuickApproach QuickHornPair(const BoundPair& pair);
 
 }  // namespace collision::intersection

@@ -7,9 +7,11 @@ namespace collision::motion {
 
 /// The result of comparing a new state with the bound of the state before it.
 enum class ContractVerdict {
-  kKept,      ///< The new horn lies inside the old one, up to the rounding allowance below.
-  kWidened,   ///< The new state could follow from the old, but its errors, direction or
-              ///< expiry promise less.
+  /// The new horn lies inside the old one grown by the returned drifts, each at most twice the
+  /// rounding allowance below.
+  kKept,
+  /// The new state could follow from the old, but its errors, direction or expiry promise less.
+  kWidened,
   kBreached,  ///< No motion under the declared bound leads from the old state to the new.
 };
 
@@ -22,8 +24,9 @@ struct ContractCheck {
   double velocity_excess = 0;          ///< The same for the velocity [m/s].
   double rotation_excess = 0;          ///< The same for the orientation, an angle [rad].
   double angular_velocity_excess = 0;  ///< The same for the angular velocity [rad/s].
-  /// How far apart the old state's forward ball and the new one's backward ball are at some instant
-  /// between the two, at least [m]; 0 unless breached.
+  /// A lower bound on how far apart, at some instant between the two states, the old state's
+  /// forward ball and the new state's backward ball of the reference point are [m] (GapBetween());
+  /// 0 unless breached.
   double between_excess = 0;
   /// What rounding may have cost: the new horn lies inside the old one grown by
   /// `position_drift + velocity_drift * τ'` with τ' counted from the new stamp. 0 where it is
@@ -44,10 +47,11 @@ enum class OrientationUse { kMatters, kIgnored };
 ///
 /// A check of the position alone would accept any velocity, and both together still accept a
 /// velocity with which the agent cannot have come from there. So at every instant between the two
-/// states the forward ball of the one and the backward ball of the other must have a point in
-/// common (contract_between.h). Under a speed cap V also |v'| <= V, and p' must lie in the old
-/// capped ball and box (speed_cap.h). Where the orientation matters and α is declared, the
-/// rotation is checked too, with Φ the angle between two orientations:
+/// states the forward ball of the one and the backward ball of the other, both about the reference
+/// point and without the agent's radius, must have a point in common (contract_between.h). Under a
+/// speed cap V also |v'| <= V, and p' must lie in the old capped ball and box (speed_cap.h). Where
+/// the orientation matters and α is declared, the rotation is checked too, with Φ the angle between
+/// two orientations:
 ///
 ///   Φ(q', exp(ω s) q) <= ½ α s (s + h) + errors   and   |ω' − ω| <= α s + errors.
 ///

@@ -5,11 +5,12 @@
 
 namespace collision::motion {
 
-/// How far apart the forward ball of `before` and the backward ball of `next` are at some instant
-/// between the two states, at least [m]; 0 unless they are proved to be apart there. An agent that
-/// moved under its declaration from the one state to the other is in both balls all the while, so
-/// anything above 0, beyond the sender's rounding, is a breach. With T = next.stamp −
-/// before.state.stamp:
+/// A lower bound [m] on how far apart two balls of the *reference point* are at some instant
+/// between the two states: the forward one of `before`, of radius u(s), and the backward one of
+/// `next`, of radius u(T − s). Neither includes the agent's radius. 0 unless they are proved to be
+/// apart. The reference point of an agent that honours its declaration lies in both, so anything
+/// above 0, beyond the sender's rounding, is a breach. With T = next.stamp − before.state.stamp, it
+/// bounds
 ///
 ///   max over s in [0, T] of |D(s)| − R(s),   D(s) = p + v s − p' + v' (T − s),
 ///   R(s) = u(s) + u'(T − s), without errors ½ M s² + ½ M (T − s)².

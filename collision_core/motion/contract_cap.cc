@@ -39,8 +39,8 @@ class Comparison {
  private:
   /// The new ball at its stamp, in the old one.
   void CompareBalls() {
-    const CappedBall cap = CapBall(before_);
-    const double early = TakenOverEarly(cap.from, CapTakesOver(after_));
+    const CappedBall cap = CappedBallOf(before_);
+    const double early = TakenOverEarly(cap.from, CapStartOf(after_));
     const double speed = numeric::Norm(numeric::IntervalVector(before_.state.v_WA)).upper;
     Drift(EarlyGrowth(numeric::Interval(2) * speed, early));
     if (cap.from >= after_.state.stamp) return;
@@ -51,9 +51,9 @@ class Comparison {
 
   /// Likewise one face.
   void CompareFaces(int axis, int sign, numeric::Interval fraction) {
-    const CappedFace cap = CapFace(before_, axis, sign, fraction);
+    const CappedFace cap = CappedFaceOf(before_, axis, sign, fraction);
     const double along = sign * after_.state.v_WA[axis];
-    const double early = TakenOverEarly(cap.from, FaceCapTakesOver(after_, along, fraction.upper));
+    const double early = TakenOverEarly(cap.from, FaceCapStartOf(after_, along, fraction.upper));
     Drift(EarlyGrowth(0, early));
     if (cap.from >= after_.state.stamp) return;
     const numeric::Interval step = axis == 0 ? step_.x : axis == 1 ? step_.y : step_.z;

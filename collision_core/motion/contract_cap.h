@@ -8,7 +8,8 @@ namespace collision::motion {
 /// The result of comparing a new state with the speed cap of the bound before it, without any
 /// allowance for rounding.
 struct CapCheck {
-  double position_excess = 0;  ///< No motion under the cap leads this far, at least by this [m].
+  double position_excess =
+      0;  ///< A lower bound on how far the position lies beyond what the cap allows [m].
   double velocity_excess = 0;  ///< The speed exceeds the cap, at least by this [m/s].
   /// The new capped ball and box lie inside the old ones grown by this [m].
   double position_drift = 0;

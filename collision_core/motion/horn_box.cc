@@ -33,8 +33,8 @@ FaceBox BoxAt(const SpaceTimeBound& bound, Instant t, DirectionUse direction) {
     numeric::Interval down = errors + reach.downward[axis] * deviation - shift;
     numeric::Interval up = errors + reach.upward[axis] * deviation + shift;
     if (capped) {
-      down = ReachAt(CapFace(bound, axis, -1, reach.downward[axis]), t, down);
-      up = ReachAt(CapFace(bound, axis, 1, reach.upward[axis]), t, up);
+      down = ReachAt(CappedFaceOf(bound, axis, -1, reach.downward[axis]), t, down);
+      up = ReachAt(CappedFaceOf(bound, axis, 1, reach.upward[axis]), t, up);
     }
     box.lower[axis] = numeric::Interval(bound.state.p_WA[axis]) - (radius + down);
     box.upper[axis] = numeric::Interval(bound.state.p_WA[axis]) + (radius + up);

@@ -36,7 +36,7 @@ struct MotionLimits {
   double acceleration_max = 0;  ///< M [m/s²], >= 0.
   double time_step = 0;         ///< h of an Euler integrator, of either kind [s]; 0: continuous.
   /// V: |velocity| of the reference point never exceeds it [m/s], >= 0; +infinity: not declared.
-  /// What it changes in the bound, and why to raise it is a widening: speed_cap.h.
+  /// speed_cap.h says how it changes the bound, and why any change of a declared cap is a widening.
   double speed_max = numeric::kInfinity;
   /// α >= |angular acceleration| [rad/s²], gyroscopic terms included; < 0: not declared, then
   /// nothing is known of the orientation between two states. Counts for shapes only.

@@ -53,7 +53,8 @@ struct SpaceTimeBound {
 };
 
 /// Whether the agent certainly stays where it is: it is at rest, and it cannot accelerate or its
-/// speed cap is zero. Its position need not be known exactly. Two such agents never meet.
+/// speed cap is zero. Its position need not be known exactly. For two such agents no intersection
+/// is reported, even if they overlap.
 inline bool NeverMoves(const SpaceTimeBound& bound) {
   return bound.state.v_WA.isZero(0) && bound.state.velocity_error == 0 &&
          (bound.limits.acceleration_max == 0 || bound.limits.speed_max == 0);

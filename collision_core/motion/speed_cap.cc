@@ -32,7 +32,7 @@ numeric::Interval CappedSpeed(const MotionLimits& limits) {
          numeric::Interval(0.5) * limits.acceleration_max * numeric::Interval(limits.time_step);
 }
 
-Instant CapTakesOver(const SpaceTimeBound& bound) {
+Instant CapStartOf(const SpaceTimeBound& bound) {
   CORE_CHECK(HasSpeedCap(bound.limits), "only a cap takes over");
   const numeric::Interval room = numeric::Interval(bound.limits.speed_max) -
                                  numeric::Norm(numeric::IntervalVector(bound.state.v_WA)) -
@@ -40,7 +40,7 @@ Instant CapTakesOver(const SpaceTimeBound& bound) {
   return TakesOver(bound, room, bound.limits.acceleration_max);
 }
 
-Instant FaceCapTakesOver(const SpaceTimeBound& bound, double along, double fraction) {
+Instant FaceCapStartOf(const SpaceTimeBound& bound, double along, double fraction) {
   CORE_CHECK(HasSpeedCap(bound.limits), "only a cap takes over", along, fraction);
   const MotionLimits& limits = bound.limits;
   const numeric::Interval rate = numeric::Interval(fraction) * limits.acceleration_max;
@@ -55,10 +55,10 @@ numeric::Quadratic CappedBall::UFrom(Instant base) const { return Growing(u, spe
 
 numeric::Quadratic CappedFace::UFrom(Instant base) const { return Growing(u, speed, from, base); }
 
-CappedBall CapBall(const SpaceTimeBound& bound) {
+CappedBall CappedBallOf(const SpaceTimeBound& bound) {
   CORE_CHECK(HasSpeedCap(bound.limits), "a capped ball has a cap");
   CappedBall cap;
-  cap.from = CapTakesOver(bound);
+  cap.from = CapStartOf(bound);
   if (cap.from.is_never()) return cap;
   cap.shift = numeric::SecondsBetween(bound.state.stamp, cap.from) *
               numeric::IntervalVector(bound.state.v_WA);
@@ -67,20 +67,21 @@ CappedBall CapBall(const SpaceTimeBound& bound) {
   return cap;
 }
 
-std::optional<LateBall> CappedBallFrom(const SpaceTimeBound& bound, Instant base) {
+std::optional<BallFromTime> CappedBallFrom(const SpaceTimeBound& bound, Instant base) {
   if (!HasSpeedCap(bound.limits)) return std::nullopt;
-  const CappedBall cap = CapBall(bound);
+  const CappedBall cap = CappedBallOf(bound);
   if (cap.from.is_never()) return std::nullopt;
-  return LateBall{numeric::SecondsBetween(base, cap.from).lower,
-                  {numeric::IntervalVector(bound.state.p_WA), cap.shift,
-                   numeric::IntervalVector(0, 0, 0), bound.limits.radius, cap.UFrom(base)}};
+  return BallFromTime{numeric::SecondsBetween(base, cap.from).lower,
+                      {numeric::IntervalVector(bound.state.p_WA), cap.shift,
+                       numeric::IntervalVector(0, 0, 0), bound.limits.radius, cap.UFrom(base)}};
 }
 
-CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval fraction) {
+CappedFace CappedFaceOf(const SpaceTimeBound& bound, int axis, int sign,
+                        numeric::Interval fraction) {
   CORE_CHECK(HasSpeedCap(bound.limits), "a capped face has a cap", axis, sign);
   const double along = sign * bound.state.v_WA[axis];
   CappedFace cap;
-  cap.from = FaceCapTakesOver(bound, along, fraction.upper);
+  cap.from = FaceCapStartOf(bound, along, fraction.upper);
   if (cap.from.is_never()) return cap;
   cap.shift = numeric::SecondsBetween(bound.state.stamp, cap.from) * numeric::Interval(along);
   cap.u = ForwardErrors(bound, cap.from).c0 + fraction * ForwardDeviation(bound, cap.from).c0;

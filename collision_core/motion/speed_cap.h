@@ -16,9 +16,9 @@ namespace collision::motion {
 /// beside the horn; of everything that separates two agents the latest counts, as for balls and
 /// boxes:
 ///
-/// - The *capped ball* is the horn's ball until |v| + ε_v + M σ = V. From then on it keeps the
-///   centre's line, and its radius grows by V'. Before, every velocity of the horn is below V;
-///   after, every velocity is allowed.
+/// - The *capped ball* is the horn's ball until |v| + ε_v + M σ = V. From that instant on, its
+///   centre stays where the horn's centre then is, and its radius grows at the rate V'. Before it,
+///   every velocity of the horn is below V; after it, the ball allows every velocity up to V'.
 /// - The *capped box*: each face with normal x follows the horn until v_x + ε_v + f M σ + ½ f M h =
 ///   V', then has the slope V' (f is the fraction that a declared direction leaves). That is
 ///   min(v_x + M τ, V) integrated, not the lesser of two positions, so its slopes never fall: faces
@@ -31,8 +31,8 @@ namespace collision::motion {
 /// *nested*: its velocities finally fill the ball of radius V + |v| about v, and after a turn,
 /// about v', another one; every honest turn would be a widening. A ball that contains the balls of
 /// all later states needs the velocities |·| <= V as soon as |v| may be V: the capped ball. It is
-/// loose for short times, where the horn is tight, so both are used. Head-on it is exact: |v| τ + ½
-/// M τ² up to V, and V from there on.
+/// loose for short times, where the horn is tight, so both are used. Head-on, the bound is exact:
+/// the reach grows like |v| τ + ½ M τ² until the speed is V, and at the rate V from then on.
 ///
 /// Nesting. Let T be the time at which the old ball changes, |v| + ε_v + M (T + κ) = V. With |e_v|
 /// <= ε_v − ε_v' + M s the new one changes at T' >= T − s, which is later. While both are horns,
@@ -55,11 +55,11 @@ numeric::Interval CappedSpeed(const MotionLimits& limits);
 
 /// When the capped ball leaves the horn: not before the state's stamp; Never() if it never does.
 /// Rounded down to the nanosecond; any instant would be sound. Requires a cap.
-Instant CapTakesOver(const SpaceTimeBound& bound);
+Instant CapStartOf(const SpaceTimeBound& bound);
 
 /// The same for one face: `along` is the component of v along the face's outward normal [m/s], and
 /// `fraction` is how much of ½ M σ (σ + h) counts there. Requires a cap.
-Instant FaceCapTakesOver(const SpaceTimeBound& bound, double along, double fraction);
+Instant FaceCapStartOf(const SpaceTimeBound& bound, double along, double fraction);
 
 /// The capped ball at t >= from: A is within radius + u + speed · (t − from) [m] of p_WA + shift.
 struct CappedBall {
@@ -73,17 +73,17 @@ struct CappedBall {
 };
 
 /// The capped ball of a bound. Requires a cap. `from` may be Never(); then only `from` is set.
-CappedBall CapBall(const SpaceTimeBound& bound);
+CappedBall CappedBallOf(const SpaceTimeBound& bound);
 
 /// A ball that counts from `start` seconds after its base on; they may be negative.
-struct LateBall {
+struct BallFromTime {
   double start;  ///< [s], rounded down.
   numeric::MovingBall ball;
 };
 
 /// The capped ball as seen from `base`, anchored at p_WA; it counts beside the horn's. nullopt: no
 /// cap is declared, or it never takes over.
-std::optional<LateBall> CappedBallFrom(const SpaceTimeBound& bound, Instant base);
+std::optional<BallFromTime> CappedBallFrom(const SpaceTimeBound& bound, Instant base);
 
 /// One face under the cap at t >= from: A reaches up to radius + u + speed · (t − from) from
 /// p_WA + shift along the face's normal.
@@ -99,6 +99,7 @@ struct CappedFace {
 
 /// The capped face whose outward normal is `sign` (1 or −1) times the axis. `fraction` is how much
 /// of ½ M σ (σ + h) counts there (DirectionalReach). Requires a cap.
-CappedFace CapFace(const SpaceTimeBound& bound, int axis, int sign, numeric::Interval fraction);
+CappedFace CappedFaceOf(const SpaceTimeBound& bound, int axis, int sign,
+                        numeric::Interval fraction);
 
 }  // namespace collision::motion

@@ -1,11 +1,11 @@
 // Allowances for rounding that several rooms share: each states how many operations it covers.
 //
-// With u the unit roundoff (2^-53, in single precision 2^-24), an operation returns its exact
-// result times 1 + δ, |δ| <= u, but for underflow. What n operations, one after the other, make of
-// terms of one sign is therefore at least (1 − u)^n times the exact result; a square root halves
-// what was lost before it. The product with 1 + k u, itself rounded, is no less than the exact
-// result if (1 − u)^(n + 1) (1 + k u) >= 1. As (1 − u)^(n + 1) >= 1 − (n + 1) u, that holds for
-// n <= k − 2 where k² u <= 1: for all k below. The mirrored factor 1 − k u rounds down.
+// Let u be the unit roundoff (2^-53; 2^-24 in single precision). An operation returns its exact
+// result times 1 + δ with |δ| <= u, unless it underflows. After n successive operations on terms of
+// one sign, the result is at least (1 − u)^n times the exact one; a square root halves the earlier
+// loss. Multiplying by 1 + k u, itself rounded, restores a value no less than the exact one if (1 −
+// u)^(n + 1) (1 + k u) >= 1. Because (1 − u)^(n + 1) >= 1 − (n + 1) u, this holds for n <= k − 2
+// while k² u <= 1, as for all k below. The factor 1 − k u rounds down likewise.
 //
 // A difference of terms loses u of the terms, not of itself: it needs a share of their magnitudes,
 // which is named and derived where it is used.

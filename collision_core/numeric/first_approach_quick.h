@@ -28,9 +28,9 @@ struct QuickAnswer {
 ///
 /// Method: as FirstApproach(), Newton's step on a lower bound, with one allowance each for gap and
 /// slope (10 · 2^-53 of the largest terms, derived beside the code) instead of intervals. The
-/// answer stands if the reach is *proved* to exceed the distance 2^-31 δ later. So plain doubles
-/// make no answer later or less tight, only cheaper; and the bits are the same everywhere, because
-/// no operation depends on the build.
+/// answer is accepted only if, at the time δ (1 + 2^-31), the reach provably exceeds the distance.
+/// So the answers are as certain and as tight as FirstApproach()'s, only cheaper; and the bits are
+/// the same everywhere, because no operation depends on the build.
 QuickAnswer QuickFirstApproach(const QuickApproach& approach, double limit);
 
 }  // namespace collision::numeric

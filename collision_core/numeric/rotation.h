@@ -37,7 +37,8 @@ IntervalQuaternion Turned(const Eigen::Quaterniond& q, const Eigen::Vector3d& w_
 Interval AngleBetween(const IntervalQuaternion& a, const IntervalQuaternion& b);
 
 /// A rotation matrix in doubles: for every orientation of the quaternion's intervals and every
-/// vector x, |matrix x − R x| <= error |x|, with the matrix-vector product still exact.
+/// vector x, |matrix x − R x| <= error |x|. This counts the error of the entries only; the rounding
+/// of a computed product matrix · x comes on top.
 struct Rotation {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
   double error = 0;

@@ -6,11 +6,12 @@
 //
 //   a + b   TwoSum (Knuth): the error of a sum is a double, also among denormals.
 //   a b     TwoProduct (Veltkamp, Dekker): the error of a product is a double unless it underflows.
-//   a / b   With p + e = q b exactly, (a − p) − e has the sign of the residue: a − p is exact, for
-//   p ≈ a. √a      Likewise with p + e = s².
+//   a / b   With q the rounded quotient and p + e = q b exactly, (a − p) − e has the sign of
+//           a − q b; a − p is exact, because p ≈ a.
+//   √a      The same with the rounded root s and p + e = s².
 //
 // The error of a product around 2^e is a multiple of 2^(e−106): a double for e > −968. Below
-// kErrorIsExact the answer therefore moves in any case, unless an operand is zero: there it is off
+// kExactErrorMin the answer therefore moves in any case, unless an operand is zero: there it is off
 // by up to 1.5 units. Infinite and undefined results move likewise: an infinity that rounds inward
 // becomes the largest double, inf − inf becomes the unbounded side.
 //
@@ -30,7 +31,7 @@ namespace collision::numeric {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Below this magnitude the error of a product, quotient or root may itself be rounded.
-inline constexpr double kErrorIsExact = 0x1p-960;
+inline constexpr double kExactErrorMin = 0x1p-960;
 
 /// The next double below; NaN gives −infinity, the bound that claims nothing.
 inline double NextDown(double x) {
@@ -52,7 +53,7 @@ inline double AddDown(double a, double b) {
 
 inline double AddUp(double a, double b) { return -AddDown(-a, -b); }
 
-/// a b − product exactly, where |product| >= kErrorIsExact and is finite.
+/// a b − product exactly, where |product| >= kExactErrorMin and is finite.
 inline double ProductError(double a, double b, double product) {
   constexpr double kSplit = 0x1p+27 + 1;
   const double a_scaled = kSplit * a, b_scaled = kSplit * b;
@@ -65,7 +66,7 @@ inline double ProductError(double a, double b, double product) {
 }
 
 inline bool ErrorIsExact(double x) {
-  return std::abs(x) >= kErrorIsExact && std::abs(x) <= std::numeric_limits<double>::max();
+  return std::abs(x) >= kExactErrorMin && std::abs(x) <= std::numeric_limits<double>::max();
 }
 
 /// NextDown of a finite number other than zero, if asked for. A parameter and not a condition at
@@ -98,7 +99,8 @@ inline double DivideDown(double a, double b) {
 
 inline double DivideUp(double a, double b) { return -DivideDown(-a, b); }
 
-/// a − root² has this sign, where root is √a rounded and ErrorIsExact(a).
+/// Returns a number with the sign of a − root². Unchecked: `root` is √a rounded, and
+/// ErrorIsExact(a).
 inline double RootResidue(double a, double root) {
   const double square = root * root;
   return (a - square) - ProductError(root, root, square);

@@ -51,7 +51,7 @@ sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
                                   const sphere_tree::ShapeOptions& options,
                                   sphere_tree::SurfaceKind kind) {
   if (options.builder == sphere_tree::TreeBuilder::kFitted) return BuildFitted(mesh, options, kind);
-  const bool halved = options.builder == sphere_tree::TreeBuilder::kHalved;
+  const bool halved = options.builder == sphere_tree::TreeBuilder::kMedianSplit;
   sphere_tree::SphereTree tree =
       halved ? BuildMedianSplit(mesh, options) : BuildOctree(mesh, options);
   MeasureCentres(mesh, kind, halved ? kHalvedMeasured : tree.nodes.size(), &tree);

@@ -79,8 +79,8 @@ class Shape {
   /// zero. Without a surface: true.
   bool closed() const { return facts_.closed; }
 
-  /// One vertex of each connected component, the one with the greatest x; of each convex solid the
-  /// point of its core.
+  /// One vertex of each connected component, the one with the greatest x; then, for each convex
+  /// solid, the point of its core with the greatest x.
   const std::vector<Eigen::Vector3d>& component_points() const { return component_points_; }
 
   /// The distance of a point (body frame) to the surface, certified; +infinity if there is none.

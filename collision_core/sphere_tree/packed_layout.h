@@ -14,14 +14,14 @@ inline constexpr std::uint32_t kPackBalls = 8;
 inline constexpr std::uint32_t kBlockTriangles = 4;
 
 /// Farther away than any shape reaches, and still finite in sums with other numbers.
-inline constexpr float kNowhere = 0x1p+100f;
+inline constexpr float kFarDistance = 0x1p+100f;
 /// Farther away than any body, and its square is still finite.
-inline constexpr float kElsewhere = 0x1p+60f;
+inline constexpr float kFarCoordinate = 0x1p+60f;
 
 /// Balls that are opened together, in single precision, as arrays [m]. A centre is exactly the
 /// tree's origin + (x, y, z); the ball about it contains the one of the sphere tree, and the signed
-/// distance is that of this centre. Lanes without a ball are at kElsewhere and have the radius
-/// −kNowhere and the signed distance kNowhere, so that they are near nothing.
+/// distance is that of this centre. Lanes without a ball are at kFarCoordinate and have the radius
+/// −kFarDistance and the signed distance kFarDistance, so that they are near nothing.
 struct alignas(64) BallPack {
   float x[kPackBalls], y[kPackBalls], z[kPackBalls];
   float radius[kPackBalls];

@@ -31,9 +31,9 @@ constexpr double kSumRounding = 0x1p-52;
 BallPack EmptyPack() {
   BallPack pack;
   for (std::uint32_t i = 0; i < kPackBalls; ++i) {
-    pack.x[i] = pack.y[i] = pack.z[i] = kElsewhere;
-    pack.radius[i] = -kNowhere;
-    pack.signed_distance[i] = kNowhere;
+    pack.x[i] = pack.y[i] = pack.z[i] = kFarCoordinate;
+    pack.radius[i] = -kFarDistance;
+    pack.signed_distance[i] = kFarDistance;
     pack.link[i] = BallLink::kLeaf;
   }
   return pack;
@@ -180,7 +180,7 @@ void PackedTree::SetElement(const geometry::TriangleMesh& mesh, ElementIndex ele
   if (length > 0 && length < std::numeric_limits<double>::max()) normal = across / length;
   // As they are stored, so that `above` and `below` speak of them.
   const Eigen::Vector3f stored = normal.cast<float>();
-  float above = -kNowhere, below = kNowhere;
+  float above = -kFarDistance, below = kFarDistance;
   for (std::uint32_t k = 0; k < 4; ++k) {
     const Eigen::Vector3f place = k < 3 ? corners[k].cast<float>() : stored;
     const std::uint32_t at = kBlockTriangles * k + lane;

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "idl/dds/wire_values.h"
+#include "idl/limits.h"
 
 namespace collision::dds {
 namespace {
@@ -81,7 +82,7 @@ FIELDS(AgentDescription,
        VALUE(simulator_id) VALUE(slot) VALUE(run) VALUE(generation) VALUE(revision) VALUE(sequence)
        TEXT(simulator_name) TEXT(agent_name) VALUE(radius_m) VALUE(acceleration_max_m_s2)
        VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s) VALUE(time_step_s) VALUE(group)
-       VALUE(mask) HASH(shape_hash) LIST(extensions, 16))
+       VALUE(mask) HASH(shape_hash) LIST(extensions, wire::kDescriptionExtensionsMax))
 
 FIELDS(ShapePart,
        VALUE(simulator_id) HASH(content_hash) VALUE(part) VALUE(parts) VALUE(run) VALUE(total_bytes)
@@ -118,7 +119,7 @@ FIELDS(CollisionEvent,
        VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end) VALUE(continuous)
        VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m) VALUE(depth_lower_m)
        MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal) VALUE(normal_error_rad) VALUE(level)
-       VALUE(work_units) VALUE(limited_by) LIST(extensions, 8))
+       VALUE(work_units) VALUE(limited_by) LIST(extensions, wire::kEventExtensionsMax))
 
 FIELDS(Rejection,
        VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(reason) VALUE(topic)
@@ -132,8 +133,9 @@ FIELDS(Counter, TEXT(name) VALUE(value))
 
 FIELDS(ServiceStatus,
        VALUE(service_id) MESSAGE(stamp) TEXT(version) TEXT(world) VALUE(simulated_clock)
-       VALUE(now_ns) VALUE(agents) VALUE(pairs_tracked) LIST(simulators, 64) LIST(counters, 96)
-       TEXT(broad_phase) TEXT(broad_phase_why) LIST(left_out, 32) LIST(extensions, 32))
+       VALUE(now_ns) VALUE(agents) VALUE(pairs_tracked) LIST(simulators, wire::kStatusSimulatorsMax)
+       LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
+       LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax))
 // clang-format on
 
 }  // namespace

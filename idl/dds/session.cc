@@ -18,17 +18,9 @@ namespace {
 
 using dds::Check;
 
-/// Names are parts of partitions, in which '.' separates and '*' and '?' are wildcards.
 void CheckName(const char* what, const std::string& name) {
-  const auto allowed = [](unsigned char c) {
-    return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '_' ||
-           c == '-';
-  };
-  if (!name.empty() && name.size() <= wire::kNameMax &&
-      std::all_of(name.begin(), name.end(), allowed))
-    return;
-  throw std::runtime_error(std::string(what) + " \"" + name +
-                           "\": allowed are 1 to 64 of A-Z a-z 0-9 _ -");
+  if (wire::IsName(name)) return;
+  throw std::runtime_error(std::string(what) + " \"" + name + "\": allowed are " + wire::kNameText);
 }
 
 const DdsSessionOptions& Checked(const DdsSessionOptions& options) {

@@ -203,9 +203,8 @@ std::optional<Refusal> CheckShapePart(const v1::ShapePart& part) {
     check.Refuse(v1::REJECTED_BAD_SHAPE, field, detail);
   };
   if (part.content_hash().size() != kShapeHashBytes) {
-    refuse("content_hash",
-           std::to_string(part.content_hash().size()) +
-               " bytes; allowed: " + std::to_string(kShapeHashBytes) + ", not all zero");
+    refuse("content_hash", std::to_string(part.content_hash().size()) + " bytes; allowed: " +
+                               std::to_string(kShapeHashBytes) + ", not all zero");
   }
   const std::uint64_t total = part.total_bytes();
   if (total < kShapeHeaderBytes) {
@@ -213,7 +212,8 @@ std::optional<Refusal> CheckShapePart(const v1::ShapePart& part) {
            std::to_string(total) + "; a shape has at least " + std::to_string(kShapeHeaderBytes));
   }
   const std::uint64_t parts = ShapeParts(total);
-  const std::string of_all = std::to_string(parts) + " parts of " + std::to_string(kShapePartBytes);
+  const std::string of_all =
+      std::to_string(parts) + " parts of " + std::to_string(wire::kShapePartBytes);
   if (part.parts() != parts) {
     refuse("parts", std::to_string(part.parts()) + "; " + std::to_string(total) + " bytes make " +
                         of_all + ", the last one shorter");
@@ -223,7 +223,8 @@ std::optional<Refusal> CheckShapePart(const v1::ShapePart& part) {
                        std::to_string(std::int64_t{part.parts()} - 1));
   }
   const bool last = part.part() + std::uint64_t{1} == parts;
-  const std::uint64_t bytes = last ? total - part.part() * kShapePartBytes : kShapePartBytes;
+  const std::uint64_t bytes =
+      last ? total - part.part() * wire::kShapePartBytes : wire::kShapePartBytes;
   if (part.bytes().size() != bytes) {
     refuse("bytes", std::to_string(part.bytes().size()) + "; part " + std::to_string(part.part()) +
                         " of " + of_all + " has " + std::to_string(bytes));

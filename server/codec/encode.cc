@@ -6,7 +6,7 @@ namespace {
 // The enumerations of core and wire agree value by value.
 static_assert(static_cast<int>(detection::EventStatus::kEnded) == v1::EVENT_ENDED);
 static_assert(static_cast<int>(detection::EventStatus::kUndecided) == v1::EVENT_UNDECIDED);
-static_assert(static_cast<int>(narrow_phase::EventLimit::kGeometry) == v1::LIMIT_GEOMETRY);
+static_assert(static_cast<int>(narrow_phase::BracketLimit::kGeometry) == v1::LIMIT_GEOMETRY);
 static_assert(static_cast<int>(detection::ClearanceCause::kSkew) == v1::CAUSE_SKEW);
 static_assert(static_cast<int>(detection::ClearanceCause::kBreach) == v1::CAUSE_BREACH);
 

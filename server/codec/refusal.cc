@@ -44,16 +44,15 @@ Refusal NotDescribed(const detection::AgentId& agent, std::string detail) {
 }
 
 Refusal NoRoom(const detection::AgentId& agent, std::uint32_t agents_max) {
-  return {
-      .reason = v1::REJECTED_TOO_MANY_AGENTS,
-      .topic = v1::TOPIC_AGENT_DESCRIPTION,
-      .simulator_id = agent.simulator,
-      .run = agent.run,
-      .slot = agent.slot,
-      .generation = agent.generation,
-      .field = "slot",
-      .detail = "the world has no room for another agent; allowed: at most " +
-                std::to_string(agents_max)};
+  return {.reason = v1::REJECTED_TOO_MANY_AGENTS,
+          .topic = v1::TOPIC_AGENT_DESCRIPTION,
+          .simulator_id = agent.simulator,
+          .run = agent.run,
+          .slot = agent.slot,
+          .generation = agent.generation,
+          .field = "slot",
+          .detail = "the world has no room for another agent; allowed: at most " +
+                    std::to_string(agents_max)};
 }
 
 Refusal NotItsOwn(const v1::AgentRemoval& wire) {

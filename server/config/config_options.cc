@@ -37,7 +37,7 @@ template <std::uint64_t limit>
 constexpr std::string_view kDigits{Digits<limit>::kText.data()};
 
 constexpr ConfigOption kOptions[] = {
-    {"world", "none", "", "", "1 to 64 of A-Z a-z 0-9 _ -", "\"default\"",
+    {"world", "none", "", "", wire::kNameText, "\"default\"",
      "Which world this service serves. Worlds do not see each other."},
     {"domain", "none", "0", kDigits<wire::kDomainMax>, "", "0",
      "DDS domain. Simulators and monitors must use the same."},
@@ -161,13 +161,6 @@ Place<Message> Find(v1::Config* config, const ConfigOption& option) {
   return {holder, FieldOf(*holder, LeafOf(option.path))};
 }
 
-bool IsWorldName(std::string_view text) {
-  constexpr std::string_view kAllowed =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-";
-  return !text.empty() && text.size() <= wire::kNameMax &&
-         text.find_first_not_of(kAllowed) == text.npos;
-}
-
 bool IsLogLevel(std::string_view text) {
   constexpr std::string_view kLevels[] = {"trace", "debug",    "info", "warn",
                                           "error", "critical", "off"};
@@ -175,7 +168,7 @@ bool IsLogLevel(std::string_view text) {
 }
 
 bool IsAllowedText(std::string_view path, const std::string& text) {
-  if (path == "world") return IsWorldName(text);
+  if (path == "world") return wire::IsName(text);
   if (path == "log_level") return IsLogLevel(text);
   const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
   return text.size() <= 4096 && std::ranges::all_of(text, printable);

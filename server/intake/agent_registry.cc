@@ -78,11 +78,11 @@ void AgentRegistry::Update(Simulator* simulator, std::uint32_t slot, std::uint64
   simulator->agents().Acknowledge(slot, state.stamp, sequence);
   if (outcome == detection::UpdateOutcome::kBreached) {
     Log(spdlog::level::warn, "declared bound violated",
-        fmt::format("simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns cannot "
-                    "follow from the one before; detection goes on from the new state. Declare wider "
-                    "bounds, or mark a jump as a discontinuity",
-                    simulator->id(), simulator->name(), slot, id.generation,
-                    state.stamp.nanoseconds()));
+        fmt::format(
+            "simulator {:016x} \"{}\" slot {} generation {}: its state at {} ns cannot "
+            "follow from the one before; detection goes on from the new state. Declare wider "
+            "bounds, or mark a jump as a discontinuity",
+            simulator->id(), simulator->name(), slot, id.generation, state.stamp.nanoseconds()));
   }
 }
 
@@ -98,8 +98,9 @@ void AgentRegistry::SetWaiting(Simulator* simulator, std::uint32_t slot,
   if (first && agents.Find(slot, waiting.generation) == nullptr) {
     const detection::AgentId id = simulator->IdOf(slot, waiting.generation);
     if (undescribed_.full()) {
-      return rejections_.Add(
-          NotDescribed(id, fmt::format("the state is dropped: {} states already wait for a description", kOverdueMax)));
+      return rejections_.Add(NotDescribed(
+          id, fmt::format("the state is dropped: {} states already wait for a description",
+                          kOverdueMax)));
     }
     undescribed_.Add(world_.monotonic_ns(), id);
   }
@@ -172,7 +173,8 @@ void AgentRegistry::ReportUndescribed() {
     const WaitingState* waiting = simulator->agents().Waiting(id->slot);
     if (waiting == nullptr || waiting->generation != id->generation) continue;
     if (simulator->agents().Find(id->slot, id->generation)) continue;
-    rejections_.Add(NotDescribed(*id, "the state is kept, but no description of its agent has arrived"));
+    rejections_.Add(
+        NotDescribed(*id, "the state is kept, but no description of its agent has arrived"));
   }
 }
 

@@ -75,7 +75,8 @@ RecordingReader::RecordingReader(const std::string& path)
   if (!ReadEntry(&entry)) {
     throw std::runtime_error(error_.empty() ? path + ": byte 0: empty, not a recording" : error_);
   }
-  if (!entry.has_header()) throw std::runtime_error(path + ": byte 0: not a recording: it has no header");
+  if (!entry.has_header())
+    throw std::runtime_error(path + ": byte 0: not a recording: it has no header");
   if (const std::uint32_t format = entry.header().format(); format != kRecordingFormat) {
     throw std::runtime_error(path + ": byte 0: format " + std::to_string(format) +
                              "; this program reads format " + std::to_string(kRecordingFormat));

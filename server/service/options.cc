@@ -59,8 +59,9 @@ CLI::Validator NotEmpty() {
 }
 
 void Define(CLI::App* app, Options* options) {
-  auto* config = app->add_option("--config", options->config_file,
-                                 "Configuration file, protobuf text; without it every field has its default");
+  auto* config =
+      app->add_option("--config", options->config_file,
+                      "Configuration file, protobuf text; without it every field has its default");
   auto* check = app->add_flag("--check-config", options->check_config,
                               "Check the configuration, print every error, and end");
   auto* print = app->add_flag("--print-config", options->print_config,

@@ -35,7 +35,7 @@ inline constexpr std::size_t kCoarseFirstTriangles = 4096;
 
 /// How coarse trees are built: looser balls in a tenth of the time.
 inline constexpr sphere_tree::ShapeOptions kCoarseTree{.builder =
-                                                           sphere_tree::TreeBuilder::kHalved};
+                                                           sphere_tree::TreeBuilder::kMedianSplit};
 
 /// How shapes are built.
 struct BuildOptions {

@@ -30,12 +30,12 @@ bool ShapeGathering::Add(const v1::ShapePart& part) {
   present_.Insert(part.part());
   if (refused_) return true;
   bytes_ += part.bytes().size();
-  if (part.part() != prefix_.size() / kShapePartBytes) {
+  if (part.part() != prefix_.size() / wire::kShapePartBytes) {
     later_[part.part()] = part.bytes();
     return true;
   }
   Append(part.bytes());
-  while (!later_.empty() && later_.begin()->first == prefix_.size() / kShapePartBytes) {
+  while (!later_.empty() && later_.begin()->first == prefix_.size() / wire::kShapePartBytes) {
     Append(later_.begin()->second);
     later_.erase(later_.begin());
   }
@@ -46,7 +46,8 @@ bool ShapeGathering::Repeats(const v1::ShapePart& part) const {
   if (refused_) return true;
   const auto later = later_.find(part.part());
   if (later != later_.end()) return later->second == part.bytes();
-  return prefix_.compare(part.part() * kShapePartBytes, part.bytes().size(), part.bytes()) == 0;
+  return prefix_.compare(part.part() * wire::kShapePartBytes, part.bytes().size(), part.bytes()) ==
+         0;
 }
 
 void ShapeGathering::Append(const std::string& bytes) {

@@ -126,6 +126,7 @@ void AgentTable::Validate() const {
     }
   }
   CORE_CHECK(agents == agents_, "described agents are counted", agents, agents_);
+  clearances_.Validate();
   for (const auto& [index, clearance] : clearances_.all()) {
     const Agent* agent = Find(index, clearance.agent.generation);
     CORE_CHECK(agent != nullptr && agent->admitted_, "a clearance belongs to an admitted agent",

@@ -2,16 +2,30 @@
 
 #include <utility>
 
+#include "collision_core/base/check.h"
+
 namespace collision::server {
 
 void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& clearance) {
   clearances_.insert_or_assign(slot, clearance);
+  ends_.Set(SlotIndex(slot), EndOf(clearance));
   MarkChanged(slot);
 }
 
 void Clearances::Forget(std::uint32_t slot) {
   clearances_.erase(slot);
+  ends_.Remove(SlotIndex(slot));
   MarkChanged(slot);
+}
+
+void Clearances::Validate() const {
+  ends_.Validate();
+  CORE_CHECK(ends_.size() == clearances_.size(), "each clearance is queued", ends_.size(),
+             clearances_.size());
+  for (const auto& [slot, clearance] : clearances_) {
+    CORE_CHECK(ends_.KeyOf(SlotIndex(slot)) == EndOf(clearance), "a clearance is queued by its end",
+               slot);
+  }
 }
 
 std::set<std::uint32_t> Clearances::TakeChanged() { return std::exchange(changed_, {}); }

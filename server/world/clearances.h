@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "collision_core/base/event_queue.h"
 #include "collision_core/detection/detector.h"
 #include "idl/limits.h"
 
@@ -38,11 +39,25 @@ class Clearances {
   /// By slot.
   const std::map<std::uint32_t, detection::AgentClearance>& all() const { return clearances_; }
 
+  /// Until when all of its agents are clear: Never() if there is none, Always() while one is in
+  /// contact, because a contact may end at any time. O(1).
+  Instant clear_until() const { return ends_.empty() ? Instant::Never() : ends_.top_key(); }
+
+  /// Walks everything: each clearance has its place in the queue.
+  void Validate() const;
+
   /// The chunks marked since the last call, in ascending order; none is marked afterwards.
   [[nodiscard]] std::set<std::uint32_t> TakeChanged();
 
  private:
+  using SlotIndex = Index<struct SlotTag>;
+
+  static Instant EndOf(const detection::AgentClearance& clearance) {
+    return clearance.in_contact ? Instant::Always() : clearance.clear_until;
+  }
+
   std::map<std::uint32_t, detection::AgentClearance> clearances_;
+  EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
 };
 

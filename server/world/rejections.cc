@@ -14,9 +14,9 @@ void Rejections::Add(const Refusal& refusal) {
   const std::uint64_t count = simulator != nullptr ? simulator->CountRefusal() : ++of_unknown_;
   const std::string& reason = v1::RejectionReason_Name(refusal.reason);
   Log(spdlog::level::warn, "input refused",
-      fmt::format("{} simulator {:016x} \\"{}\\" run {} slot {} generation {}: {}: {}", reason,
-                  refusal.simulator_id, simulator ? simulator->name() : "", refusal.run, refusal.slot, refusal.generation,
-                  refusal.field, refusal.detail));
+      fmt::format("{} simulator {:016x} \"{}\" run {} slot {} generation {}: {}: {}", reason,
+                  refusal.simulator_id, simulator ? simulator->name() : "", refusal.run,
+                  refusal.slot, refusal.generation, refusal.field, refusal.detail));
   const std::int64_t second = world_.monotonic_ns() / 1'000'000'000;
   if (second != second_) told_in_second_ = 0;
   second_ = second;

@@ -172,12 +172,8 @@ void World::UpdateGrants() {
   const Instant greatest = numeric::AddRoundedDown(now_, grant_ahead_max_);
   for (auto& [id, simulator] : simulators_) {
     if (!simulator.time().clock()) continue;
-    Instant clear = greatest;
-    for (const auto& [slot, clearance] : simulator.agents().clearances().all()) {
-      clear = std::min(clear, clearance.clear_until);
-      // The end of a contact counts as well: no simulator may run past it before its states are in.
-      if (clearance.in_contact) clear = std::min(clear, least);
-    }
+    // No simulator may run past the end of a contact before its states are in.
+    const Instant clear = std::min(greatest, simulator.agents().clearances().clear_until());
     if (simulator.time().Grant(std::max(least, clear))) {
       simulator.agents().clearances().MarkGrantChanged();
     }

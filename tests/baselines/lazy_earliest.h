@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "collision_core/detection/step/event_queue.h"
+#include "collision_core/base/event_queue.h"
 
 namespace collision::baselines {
 
@@ -55,7 +55,7 @@ class LazyEarliest {
   };
 
   double horizon_;
-  detection::EventQueue<AgentIndex> queue_;
+  EventQueue<AgentIndex> queue_;
   std::vector<Entry> entries_;
   std::vector<std::uint32_t> renewed_;  ///< By agent: how often.
   AgentAsker* asker_;

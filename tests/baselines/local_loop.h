@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
+#include "collision_core/base/event_queue.h"
 #include "collision_core/broad_phase/neighbour_index.h"
-#include "collision_core/detection/step/event_queue.h"
 #include "tests/baselines/collision_loop.h"
 
 namespace collision::baselines {
@@ -31,7 +31,7 @@ class LocalLoop : public CollisionLoop {
   bool IsClose(std::uint32_t a, std::uint32_t b) const;
 
   std::unique_ptr<broad_phase::NeighbourIndex> phase_;
-  detection::EventQueue<AgentIndex> queue_;
+  EventQueue<AgentIndex> queue_;
   std::vector<Instant> keys_;                         ///< By cube, as in the queue.
   std::vector<std::int64_t> frame_of_bound_;          ///< By cube.
   std::vector<CubePair> close_;                       ///< Pairs that could overlap.

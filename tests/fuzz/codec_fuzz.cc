@@ -55,8 +55,8 @@ void CheckRefusals(const v1::ServiceStatus& status, std::uint64_t reported) {
       refused += counter.value();
     }
   }
-  Require(refused == reported + suppressed, refused, " refused; reported ", reported, ", suppressed ",
-          suppressed);
+  Require(refused == reported + suppressed, refused, " refused; reported ", reported,
+          ", suppressed ", suppressed);
 }
 
 /// A daemon, and what it has said so far.

@@ -23,8 +23,8 @@ v1::ShapePart Part(std::uint32_t part, std::uint32_t parts, char content = 'p') 
   message.set_part(part);
   message.set_parts(parts);
   message.set_run(1);
-  message.set_total_bytes(parts * kShapePartBytes);
-  message.set_bytes(std::string(kShapePartBytes, content));
+  message.set_total_bytes(parts * wire::kShapePartBytes);
+  message.set_bytes(std::string(wire::kShapePartBytes, content));
   return message;
 }
 

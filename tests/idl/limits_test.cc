@@ -41,6 +41,20 @@ TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("ServiceStatus", "simulators"), count(wire::kStatusSimulatorsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "counters"), count(wire::kStatusCountersMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "left_out"), count(wire::kStatusLeftOutMax));
+  EXPECT_EQ(BoundOf("AgentDescription", "extensions"), count(wire::kDescriptionExtensionsMax));
+  EXPECT_EQ(BoundOf("CollisionEvent", "extensions"), count(wire::kEventExtensionsMax));
+  EXPECT_EQ(BoundOf("ServiceStatus", "extensions"), count(wire::kStatusExtensionsMax));
+  EXPECT_EQ(BoundOf("ShapePart", "bytes"), wire::kShapePartBytes);
+}
+
+// Goal:   a name that would be another partition, or several, is refused.
+TEST(Limits, NamesAreShortAndWithoutWildcards) {
+  for (const char* name : {"a", "Z_9-", "default", "-"}) EXPECT_TRUE(wire::IsName(name)) << name;
+  EXPECT_TRUE(wire::IsName(std::string(wire::kNameMax, 'x')));
+  EXPECT_FALSE(wire::IsName(std::string(wire::kNameMax + 1, 'x')));
+  for (const char* name : {"", "a.b", "a*", "?", "a b", "\xc3\xa4", "/"}) {
+    EXPECT_FALSE(wire::IsName(name)) << name;
+  }
 }
 
 }  // namespace

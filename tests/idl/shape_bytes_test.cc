@@ -139,8 +139,8 @@ TEST(ShapeBytes, HugeCountsAreRefused) {
 TEST(ShapeBytes, CountTheirParts) {
   EXPECT_EQ(ShapeParts(0), 0u);
   EXPECT_EQ(ShapeParts(1), 1u);
-  EXPECT_EQ(ShapeParts(kShapePartBytes), 1u);
-  EXPECT_EQ(ShapeParts(kShapePartBytes + 1), 2u);
+  EXPECT_EQ(ShapeParts(wire::kShapePartBytes), 1u);
+  EXPECT_EQ(ShapeParts(wire::kShapePartBytes + 1), 2u);
   EXPECT_EQ(ShapeParts(std::numeric_limits<std::uint64_t>::max()), 375299968947542u);
 }
 

@@ -412,7 +412,8 @@ std::vector<MeasuredPlot> MeasuredPlots() {
   return {
       {"distance-translation-homer-500",
        "Error against run time: the width of our certified brackets, the error of the libraries"},
-      {"budget-begin", "The service: the budget of one evaluation of a pair against the begin bracket"},
+      {"budget-begin",
+       "The service: the budget of one evaluation of a pair against the begin bracket"},
       {"scratch-half", "Broad phase: the earliest meeting of all from scratch"}};
 }
 

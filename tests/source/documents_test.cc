@@ -54,11 +54,11 @@ std::vector<std::string> CodeOf(const std::string& text) {
 /// writes, and the names of topics, are none.
 bool LooksLikePath(const std::string& word) {
   static const std::regex kPath(R"([A-Za-z_.*][A-Za-z0-9_.*-]*(/[A-Za-z0-9_.*-]+)*/?)");
-  static const std::set<std::string> kElsewhere = {"build", "report", "collision", "..."};
+  static const std::set<std::string> kFarCoordinate = {"build", "report", "collision", "..."};
   const auto slash = word.find('/');
   if (slash == std::string::npos || !std::regex_match(word, kPath)) return false;
   const std::string first = word.substr(0, slash);
-  if (kElsewhere.count(first) != 0) return false;
+  if (kFarCoordinate.count(first) != 0) return false;
   const std::string last = word.substr(word.rfind('/') + 1);
   return last.empty() || last.find('.') != std::string::npos || (first != ".." && Exists(first));
 }

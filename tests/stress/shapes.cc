@@ -125,7 +125,7 @@ void OneTriangle(const Setting&, Outcome* outcome) {
 void MillionTriangles(const Setting& setting, Outcome* outcome) {
   const auto cells = static_cast<std::uint32_t>(setting.Many(64, 708));
   sphere_tree::ShapeOptions options;
-  options.builder = sphere_tree::TreeBuilder::kHalved;
+  options.builder = sphere_tree::TreeBuilder::kMedianSplit;
   const Body sheet{shape::Shape::Build(Sheet(64, cells), options)};
   const auto triangles = static_cast<double>(sheet.shape->mesh().triangles.size());
   outcome->Set("triangles", triangles);

@@ -6,14 +6,15 @@
 
 #include "client/api/types.h"
 #include "client/library/world/contract.h"
+#include "idl/limits.h"
 
 namespace collision::client {
 
 /// How a simulator publishes the states that its agents are set to.
 struct PublishPolicy {
-  bool on_demand = false;         ///< Send only the states that the service needs; false: all.
-  std::int64_t lead_ns = 0;       ///< Send a state this long before the service wants it.
-  std::uint32_t chunk_size = 64;  ///< Slots per sample of agent_states.
+  bool on_demand = false;    ///< Send only the states that the service needs; false: all.
+  std::int64_t lead_ns = 0;  ///< Send a state this long before the service wants it.
+  std::uint32_t chunk_size = wire::kStatesPerChunkMax;  ///< Slots per sample of agent_states.
 };
 
 /// The states of one agent on their way to the service: one staged, one sent.

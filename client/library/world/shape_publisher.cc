@@ -1,5 +1,7 @@
 #include "client/library/world/shape_publisher.h"
 
+#include "idl/shape_bytes.h"
+
 namespace collision::client {
 
 void ShapePublisher::Add(const std::shared_ptr<const Shape>& shape, const Writer& write) {
@@ -30,13 +32,12 @@ void ShapePublisher::WriteParts(const Shape& shape, const Writer& write) const {
   v1::ShapePart* part = message.mutable_shape_part();
   part->set_simulator_id(simulator_id_);
   part->set_content_hash(shape.hash());
-  part->set_parts(
-      static_cast<std::uint32_t>((bytes.size() + kShapePartBytes - 1) / kShapePartBytes));
+  part->set_parts(static_cast<std::uint32_t>(ShapeParts(bytes.size())));
   part->set_run(run_);
   part->set_total_bytes(bytes.size());
   for (std::uint32_t i = 0; i < part->parts(); ++i) {
     part->set_part(i);
-    part->set_bytes(bytes.substr(i * kShapePartBytes, kShapePartBytes));
+    part->set_bytes(bytes.substr(i * wire::kShapePartBytes, wire::kShapePartBytes));
     write(message);
   }
 }

@@ -13,9 +13,6 @@
 
 namespace collision::client {
 
-/// Bytes of one part, as in the IDL.
-inline constexpr std::size_t kShapePartBytes = 49152;
-
 /// Counts the agents of each shape by content: shapes with the same bytes are one. The parts of a
 /// shape are written before the first description that refers to it, the removal after the last.
 class ShapePublisher {

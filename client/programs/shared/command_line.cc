@@ -15,7 +15,8 @@ void AddSimulatorOptions(CLI::App* app, SimulatorOptions* options) {
   app->add_option("--domain", options->domain, "DDS domain")
       ->check(DomainRange())
       ->capture_default_str();
-  auto* real_time = app->add_flag("--real-time", options->real_time, "Use wall-clock time for stamps, without lock-step");
+  auto* real_time = app->add_flag("--real-time", options->real_time,
+                                  "Use wall-clock time for stamps, without lock-step");
   app->add_flag_callback(
          "--lock-step", [] {}, "The clock moves as the service grants it (the default)")
       ->excludes(real_time);

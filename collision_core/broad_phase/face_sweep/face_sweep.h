@@ -1,6 +1,6 @@
 // Hubbard's face sweep: a sweep over the faces of all hypertrapezoids.
 //
-// Why its answer is that of all pairs, bit for bit, whatever rounds:
+// Why its answer is that of all pairs, bit for bit, despite rounding:
 //
 // 1. Faces contain every possible answer. EarliestIntersectionOf() gives t only if boxes overlap at
 // t, up to what the inputs' rounding forces and 1e-9 of the way (with directions and caps the

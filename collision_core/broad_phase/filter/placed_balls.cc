@@ -66,7 +66,7 @@ FilterQuery TimesOf(const PlacementFrame& frame, TimeWindow window) {
   FilterQuery times{};
   times.first = static_cast<float>(window.first - frame.middle());
   times.last = static_cast<float>(window.last - frame.middle());
-  times.way = std::max(std::abs(times.first), std::abs(times.last));
+  times.u_max = std::max(std::abs(times.first), std::abs(times.last));
   times.time = Up(window.last);
   return times;
 }

@@ -84,9 +84,9 @@ FilterQuery TimesOf(const PlacementFrame& frame, TimeWindow window);
 /// The query of a placed ball.
 FilterQuery QueryOf(const PlacedBall& horn, const PlacementFrame& frame, TimeWindow window);
 
-/// How far the query's ball comes from its place.
-inline float WayOf(const FilterQuery& query) {
-  return (query.reach + query.way * query.speed) * numeric::kFewFloatRoundingsUp;
+/// The distance from its place within which the query's ball stays [m].
+inline float ReachFromPlace(const FilterQuery& query) {
+  return (query.reach + query.u_max * query.speed) * numeric::kFewFloatRoundingsUp;
 }
 
 /// Appends the agents that a scan of the ranges finds; `hits` is scratch.

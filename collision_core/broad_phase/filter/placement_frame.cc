@@ -96,7 +96,7 @@ PlacementFrame::PlacementFrame(const HornTable& table, const intersection::Broad
                                double seconds_max)
     : query_(query) {
   window_ = std::clamp(seconds_max, kWindowMin, kWindowMax);
-  if (blind()) return;
+  if (is_unfilterable()) return;
   if (query_.bound == intersection::BoundKind::kHypertrapezoid) {
     duration_ = SignedSeconds(query_.from, query_.until);
   }

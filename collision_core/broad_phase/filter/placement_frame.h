@@ -65,9 +65,10 @@ inline constexpr double kWindowMax = 2e10;
 /// lose (2^-24 each).
 inline constexpr double kFloatUp = 1 + 0x1p-22;
 
-/// Where filters put agents for a window of time: as seen from a frame that moves with the average
-/// of all agents, at the middle of the window. Until its end an agent is never farther from where
-/// it is placed than half its way and its reach.
+/// Where filters put agents for a window of time: at the middle of the window, as seen from a frame
+/// that moves with the mean velocity of a sample of the agents, or stays at rest if that does not
+/// halve their speeds. Until the end of the window an agent stays within its reach plus half its
+/// path of where it is placed.
 class PlacementFrame {
  public:
   /// Places nothing.
@@ -76,10 +77,11 @@ class PlacementFrame {
   /// that few pairs come within reach of each other in it.
   PlacementFrame(const HornTable& table, const intersection::BroadQuery& query, double seconds_max);
 
-  /// The begin is too far away for filters: all pairs are given to the canonical routine.
-  bool blind() const { return !HornTable::Near(query_.from); }
+  /// Whether the query begins too far from time zero for filters (HornTable::Near()); all pairs
+  /// then go to the canonical routine.
+  bool is_unfilterable() const { return !HornTable::Near(query_.from); }
   intersection::BoundKind bound() const { return query_.bound; }
-  /// The time ahead that was chosen [s].
+  /// The length of the first window [s].
   double window() const { return window_; }
   /// Shortens the window to `seconds`. Unchecked: no agent was moved to its middle.
   void Shorten(double seconds);

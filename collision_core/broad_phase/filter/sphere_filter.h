@@ -5,9 +5,10 @@
 
 namespace collision::broad_phase {
 
-/// Balls in arrays, in single precision: at u seconds each has its centre at p + v u, and for
-/// u <= `time` all of it lies within s0 + time (s1 + time s2) of there; `speed` is |v| or more.
-/// Positions are relative to a corner near them.
+/// Balls in arrays, in single precision. u seconds after the middle of the placement's window each
+/// has its centre at p + v u; up to `time` seconds after the placement's begin all of it lies
+/// within s0 + time (s1 + time s2) of there; `speed` is |v| or more. Positions are relative to a
+/// corner near them.
 struct FilterView {
   const float *x, *y, *z;
   const float *vx, *vy, *vz;
@@ -27,8 +28,8 @@ struct FilterQuery {
   float reach;        ///< At `time`.
   float speed;        ///< |v| or more.
   float first, last;  ///< u in [first, last] [s].
-  float way;          ///< The greatest |u| in it [s].
-  float time;         ///< The time of all reaches [s].
+  float u_max;        ///< The greatest |u| in it [s].
+  float time;         ///< Seconds after the placement's begin at which all reaches are taken.
 };
 
 /// Writes the indices k, range by range and in order, whose centre comes within the sum of the two

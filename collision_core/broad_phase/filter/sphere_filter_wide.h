@@ -26,7 +26,7 @@ WIDE inline std::uint32_t Scan(const FilterView& balls, const FilterQuery& query
                                const FilterRange* ranges, std::uint32_t range_count,
                                std::uint32_t* hits) {
   const Points own_v = {All(query.vx), All(query.vy), All(query.vz)};
-  const Lanes own_speed = All(query.speed), way = All(query.way);
+  const Lanes own_speed = All(query.speed), u_max = All(query.u_max);
   const Lanes reach = All(query.reach), time = All(query.time);
   const Lanes first = All(query.first), last = All(query.last);
   std::uint32_t count = 0;
@@ -38,7 +38,7 @@ WIDE inline std::uint32_t Scan(const FilterView& balls, const FilterQuery& query
       const Lanes own =
           Load(balls.s0 + k) + time * (Load(balls.s1 + k) + time * Load(balls.s2 + k));
       const Lanes both = reach + own;
-      const Lanes ways = way * (own_speed + Load(balls.speed + k));
+      const Lanes ways = u_max * (own_speed + Load(balls.speed + k));
       unsigned mask = Lowest(range.end - k) & Within(d, both + ways);
       if (mask == 0) continue;
       const Points v = LoadPoints(balls.vx + k, balls.vy + k, balls.vz + k) - own_v;

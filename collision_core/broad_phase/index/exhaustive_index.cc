@@ -16,12 +16,12 @@ void ExhaustiveIndex::Set(std::uint32_t agent, const AgentBound& bound) {
 void ExhaustiveIndex::Remove(std::uint32_t agent) {
   ForgetRules(agent);
   mutable_half_spaces().Remove(agent);
-  if (Moves(agent)) bounds_[agent].reset();
+  if (Holds(bounds_, agent)) bounds_[agent].reset();
 }
 
 bool ExhaustiveIndex::SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) {
   if (!mutable_half_spaces().Set(agent, half_space)) return false;
-  if (Moves(agent)) bounds_[agent].reset();
+  if (Holds(bounds_, agent)) bounds_[agent].reset();
   return true;
 }
 
@@ -63,7 +63,7 @@ void ExhaustiveIndex::FindNearPairs(const intersection::BroadQuery& query,
                                     std::vector<NearPair>* pairs) {
   std::vector<std::uint32_t> held;
   for (std::uint32_t agent = 0; agent < IndexEnd(); ++agent) {
-    if (Moves(agent) || half_spaces().Find(agent) != nullptr) held.push_back(agent);
+    if (Holds(bounds_, agent) || half_spaces().Find(agent) != nullptr) held.push_back(agent);
   }
   for (const std::uint32_t a : held) {
     for (const std::uint32_t b : held) {
@@ -80,7 +80,7 @@ void ExhaustiveIndex::FindNeighbours(std::uint32_t agent, const NeighbourWindow&
                                        std::max(window.until, window.horizon)};
   const std::uint32_t end = IndexEnd();
   for (std::uint32_t partner = 0; partner < end; ++partner) {
-    work_.filter_tests += Moves(partner);  // a partner that is skipped costs as much
+    work_.filter_tests += Holds(bounds_, partner);  // a partner that is skipped costs as much
     if (partner == agent || skip(partner)) continue;
     const Neighbour neighbour{partner, TimeOf(query, agent, partner)};
     const Instant when = neighbour.time.instant();
@@ -100,11 +100,12 @@ void ExhaustiveIndex::FindNeighbours(const AgentBound& bound, Instant from, Inst
   const intersection::BroadQuery query{intersection::BoundKind::kHorn, from, Instant::Never()};
   const std::uint32_t end = IndexEnd();
   for (std::uint32_t partner = 0; partner < end; ++partner) {
-    work_.filter_tests += Moves(partner);
+    work_.filter_tests += Holds(bounds_, partner);
     if (skip(partner)) continue;
     intersection::IntersectionTime time{from, numeric::kInfinity};
-    const HalfSpaces::Entry* entry = Moves(partner) ? nullptr : half_spaces().Find(partner);
-    if (Moves(partner) && CanMeet(query.bound, bound, *bounds_[partner])) {
+    const HalfSpaces::Entry* entry =
+        Holds(bounds_, partner) ? nullptr : half_spaces().Find(partner);
+    if (Holds(bounds_, partner) && CanMeet(query.bound, bound, *bounds_[partner])) {
       ++work_.pair_queries;
       time = EarliestIntersectionOf(query, bound, *bounds_[partner]);
     } else if (entry != nullptr && CanMeet(entry->half_space, bound)) {

@@ -31,9 +31,6 @@ class ExhaustiveIndex : public SweepingIndex {
   BroadPhaseWork work() const override { return work_; }
 
  private:
-  bool Moves(std::uint32_t agent) const {
-    return agent < bounds_.size() && bounds_[agent].has_value();
-  }
   /// One more than the greatest index, half-spaces included.
   std::uint32_t IndexEnd() const;
   /// When the two may first meet, if both are held and may meet at all.

@@ -11,12 +11,13 @@
 
 namespace collision::broad_phase {
 
-/// A grid over placed agents of similar reach. A cell is as wide as two reaches, or as four agents
-/// need where they are sparse. Cells that lie side by side along x also lie side by side in memory,
-/// in rows that are scanned as one range. If the box around all agents has few cells, the rows are
-/// those of the box; else they are short rows of eight cells, found by hashing, so that neither far
-/// outliers nor dense clusters cost memory or time. Two agents that share a cell of the table by a
-/// collision of the hash cost one test, never an answer.
+/// A grid over placed agents of similar reach. A cell is twice as wide as the greatest reach of the
+/// first window, or wider where agents are sparse, so that it holds about four; in a crowd smaller
+/// cells, down to that width, are tried. Cells that lie side by side along x also lie side by side
+/// in memory, in rows that are scanned as one range. If the box around all agents has few cells,
+/// the rows are those of the box; else they are short rows of eight cells, found by hashing, so
+/// that neither far outliers nor dense clusters cost memory or time. A hash collision costs an
+/// extra test and changes no answer.
 class GridLevel {
  public:
   /// Builds the grid for the frame's window. Requires an agent. Unchecked: numbers are finite.
@@ -112,7 +113,7 @@ void GridLevel::ForEachPlace(TimeWindow window, Visit visit) const {
       const std::uint32_t end = begin_[static_cast<std::size_t>((row + 1) * row_cells_)];
       for (; place < end; ++place) {
         const FilterQuery query = lanes_.QueryOf(place, times);
-        const float half = WayOf(query) + most;
+        const float half = ReachFromPlace(query) + most;
         const float at[3] = {lanes_.x()[place], lanes_.y()[place], lanes_.z()[place]};
         // Cells relative to the place's own one, clamped to the box; truncated where positive.
         const auto x_from = static_cast<std::int32_t>(std::max((at[0] - half) * per_cell, 0.0f));

@@ -15,15 +15,15 @@ intersection::IntersectionTime PairTimeOf(const intersection::BroadQuery& query,
   const intersection::IntersectionTime never{query.from, numeric::kInfinity};
   const auto [a, b] = pair;
   const intersection::PairRule rule = set.rules().Of(a, b);
-  const bool a_moves = Holds(bounds, a), b_moves = Holds(bounds, b);
-  if (rule.excluded || a == b || !(a_moves || b_moves)) return never;
-  if (a_moves && b_moves) {
+  const bool has_a = Holds(bounds, a), has_b = Holds(bounds, b);
+  if (rule.excluded || a == b || !(has_a || has_b)) return never;
+  if (has_a && has_b) {
     if (!CanMeet(query.bound, *bounds[a], *bounds[b])) return never;
     ++work->pair_queries;
     return EarliestIntersectionOf(query, *bounds[a], *bounds[b], rule.margin);
   }
-  const HalfSpaces::Entry* entry = set.half_spaces().Find(a_moves ? b : a);
-  const AgentBound& bound = *bounds[a_moves ? a : b];
+  const HalfSpaces::Entry* entry = set.half_spaces().Find(has_a ? b : a);
+  const AgentBound& bound = *bounds[has_a ? a : b];
   if (entry == nullptr || !CanMeet(entry->half_space, bound)) return never;
   ++work->pair_queries;
   return EarliestIntersectionOf(query, entry->half_space, bound, rule.margin);

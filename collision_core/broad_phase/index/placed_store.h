@@ -27,7 +27,7 @@ struct PlacedScene {
   /// Whether the agent is too large or too far away for filters: then it is not placed, but tested
   /// directly.
   bool IsUnfilterable(std::uint32_t agent) const {
-    return table->row(agent).unfilterable || frame->blind();
+    return table->row(agent).unfilterable || frame->is_unfilterable();
   }
 };
 

@@ -35,7 +35,8 @@ std::optional<intersection::IntersectingPair> WindowedSearch::Earliest(
   for (const HalfSpaces::Entry& entry : half_spaces()) ForEachHalfSpace(entry.agent, offer);
   StartAnew(PlacementFrame(table_, query, best.limit()));
   OfferCrowd(&best);
-  if (frame_.blind() || !store_->PlaceForJoin(scene(), frame_.window())) PlaceEveryAgent();
+  if (frame_.is_unfilterable() || !store_->PlaceForJoin(scene(), frame_.window()))
+    PlaceEveryAgent();
   OfferUnfilterable(&best);
   for (double seconds = frame_.window();;) {
     Join(frame_.After(query.from, seconds), &best);
@@ -73,7 +74,7 @@ void WindowedSearch::FindNearPairs(const intersection::BroadQuery& query,
   const auto before = static_cast<std::ptrdiff_t>(pairs->size());
   NearPairList list(table_, seconds, pairs);
   StartAnew(PlacementFrame(table_, query, seconds));
-  if (frame_.blind() || !store_->PlaceForJoin(scene(), seconds)) PlaceEveryAgent();
+  if (frame_.is_unfilterable() || !store_->PlaceForJoin(scene(), seconds)) PlaceEveryAgent();
   OfferUnfilterable(&list);
   Join(frame_.After(query.from, seconds), &list);
   // A level that is taken whole offers a pair from both sides.
@@ -182,7 +183,7 @@ void WindowedSearch::FindNeighbours(const AgentBound& bound, Instant from, Insta
   const intersection::BroadQuery by_until{intersection::BoundKind::kHorn, from, until};
   const double limit = EarliestPairSink(table_, by_until, &cost_.work).limit();
   near_.clear();
-  if (row.unfilterable || frame_.blind() || !HornTable::Near(from)) {
+  if (row.unfilterable || frame_.is_unfilterable() || !HornTable::Near(from)) {
     FindAllBut(PlacedBall::kNoAgent);
   } else {
     FindNear(frame_.Place(row), from, std::min(limit, kWindowMax));

@@ -96,7 +96,7 @@ void WindowedSearch::StartAnew(const PlacementFrame& frame) {
   moved_.clear();
   placed_ = false;
   unfilterable_.clear();
-  if (table_.unfilterable_count() == 0 && !frame_.blind()) return;
+  if (table_.unfilterable_count() == 0 && !frame_.is_unfilterable()) return;
   for (std::uint32_t agent = 0; agent < table_.size(); ++agent) {
     if (table_.contains(agent) && scene().IsUnfilterable(agent)) unfilterable_.push_back(agent);
   }
@@ -138,7 +138,7 @@ void WindowedSearch::PlaceMoved() {
 
 // Tests some agents that are close to each other: a first answer shortens the window.
 void WindowedSearch::OfferCrowd(PairSink* sink) {
-  if (table_.count() < kCrowdMin || frame_.blind()) return;
+  if (table_.count() < kCrowdMin || frame_.is_unfilterable()) return;
   const std::uint32_t stride = std::min(table_.size() / kSomeMin + 1, kStrideMax);
   const double count = kCrowdOfRoot * std::sqrt(static_cast<double>(table_.count()));
   const Region region = frame_.Crowd(table_, static_cast<std::size_t>(count * stride));
@@ -157,7 +157,7 @@ void WindowedSearch::OfferCrowd(PairSink* sink) {
 // Brings the placement up to date for queries about horns from `from` on.
 void WindowedSearch::Refresh(Instant from) {
   const bool usable = placed_ && frame_.bound() == intersection::BoundKind::kHorn &&
-                      !(frame_.blind() && HornTable::Near(from));
+                      !(frame_.is_unfilterable() && HornTable::Near(from));
   const double frame_units = BroadPhaseWork::kPlaceUnits * static_cast<double>(table_.count());
   if (usable && cost_.wasted <= table_.count() && excess_units_ <= frame_units) {
     return PlaceMoved();

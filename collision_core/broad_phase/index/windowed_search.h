@@ -1,4 +1,5 @@
-// A search for neighbours in time windows that grow until the next answer must lie beyond them.
+// A search for neighbours in time windows that grow until no intersection beyond them can be
+// earlier than the best found.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +15,24 @@
 
 namespace collision::broad_phase {
 
-/// Places every agent once, with the reach that its horn and its way give it from then on, and
-/// keeps it in a store. A bound inside the old one leaves the placement valid, so a tightened bound
-/// costs nothing here. A query searches time windows, each four times as long as the one before,
-/// until the next answer must lie beyond, and asks the canonical routine only about pairs that
-/// three filters leave open. Each filter is certified and of a fixed price; none decides a value.
+/// Places every agent once, with a reach that covers its horn and its path from then on, and keeps
+/// it in a store. A bound inside the old one leaves the placement valid, so a tightened bound costs
+/// nothing here. A query searches time windows, each four times as long as the one before, until no
+/// intersection beyond them can be earlier than the best found, and asks the canonical routine only
+/// about pairs that three filters leave open. Each filter is certified and of a fixed price; none
+/// decides a value.
 ///
 /// - PlacementFrame: each agent is placed at the middle of the window, in a frame that moves with
-///   the average of all, with the reach that its horn has at the window's end. From there its
-///   centre strays by half its way.
+///   the average of all, with the reach that its horn has at the window's end. Its centre moves
+///   away from there by at most half its path.
 /// - SphereFilter: compares the least distance of two centres over the window with the sum of the
 ///   reaches, in single precision, sixteen, eight or one at a time.
 /// - MayMeetBy(): tests one pair in doubles: the closest approach of the two lines, the gap along
 ///   the first direction, then up to six tangent steps.
 ///
-/// Agents too large or too far for filters ("unfilterable": reach or distance over 2^60 m, speed
-/// over 2^40 m/s, a century from the begin) are tested directly.
+/// Agents beyond the range of the filters ("unfilterable": reach or a coordinate from 2^60 m on,
+/// speed or growth from 2^40 on, a stamp more than 2^61 ns, 73 years, from time zero) are tested
+/// directly.
 ///
 /// A placement ages: reaches grow and agents stray, so queries cost ever more. All agents are
 /// placed anew once the excess over the cost of the first 64 queries adds up to the cost of

@@ -20,16 +20,17 @@ struct Owner {
 /// One agent. `history` is never empty once the agent is in the table.
 struct AgentRecord {
   AgentId id;
-  /// The latest declaration. Its filter is in force at once, the rest from the next state on; each
-  /// sample of the history has the declaration that was in force then.
+  /// The latest declaration. The filter and everything wider than before are in force at once,
+  /// narrower limits from the next state on; each sample of the history has the declaration that
+  /// was in force then.
   AgentDeclaration declaration;
   History history;
-  BoundMargin margin;  ///< What later states have left of it since the last renewal.
+  BoundMargin margin;  ///< The margin that kept states have not yet used up since the last renewal.
   Instant admitted_from = Instant::Always();   ///< Nothing is known, or promised, before.
   Instant reported_until = Instant::Always();  ///< The newest stamp; once removed, heard_until().
   const Owner* owner = nullptr;                ///< Null once removed.
-  std::uint64_t removal = 0;  ///< 1-based removal number, while the last state lies ahead; 0: none.
-  bool expired = false;       ///< Promises exclude the agent: its last state has run out.
+  std::uint64_t removal = 0;      ///< Position in the order of removals, from 1; 0: not removed.
+  bool expired = false;           ///< Promises exclude the agent: its last state has run out.
   bool shape_redeclared = false;  ///< The shape was declared anew since the newest state.
   SceneProfile::Features features = 0;
 

@@ -126,7 +126,7 @@ void AgentTable::Release(AgentIndex agent) {
 }
 
 void AgentTable::UpdateExtremes() {
-  extremes_.Look(changed_.size(), agents_.size(), [this](std::size_t agent) {
+  extremes_.ExamineNext(changed_.size(), agents_.size(), [this](std::size_t agent) {
     const AgentRecord* record = agents_[agent].get();
     const bool counts = record != nullptr && !record->expired && record->removal == 0;
     return counts ? &record->bound() : nullptr;

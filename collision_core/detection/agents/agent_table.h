@@ -6,11 +6,11 @@
 #include <unordered_map>
 #include <vector>
 
+#include "collision_core/base/event_queue.h"
 #include "collision_core/base/ids.h"
+#include "collision_core/base/index_set.h"
 #include "collision_core/detection/agents/agent_record.h"
 #include "collision_core/detection/agents/scene_extremes.h"
-#include "collision_core/detection/step/event_queue.h"
-#include "collision_core/detection/step/index_set.h"
 
 namespace collision::detection {
 

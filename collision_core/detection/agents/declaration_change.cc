@@ -45,7 +45,7 @@ bool AddsGroups(const broad_phase::CollisionFilter& before,
 
 }  // namespace
 
-BoundChange Redeclare(const AgentDeclaration& declaration, AgentRecord* record) {
+BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* record) {
   CORE_CHECK(!declaration.shape || !declaration.shape_awaited, "an awaited shape is null");
   record->declaration = declaration;
   History::Sample& in_force = record->history.newest();

@@ -11,12 +11,12 @@ enum class BoundChange {
   kWidened  ///< The agent may meet more than before: answers must be computed anew.
 };
 
-/// Makes `declaration` the agent's. What is wider than before is in force at once; what is narrower
-/// waits for the next state. A shape that had been awaited is in force from the state on with which
-/// it was awaited; a shape that changes is somewhere within the ball until the next state. Another
-/// tree of the same body takes the former tree's place in the whole history. Requires that an
-/// awaited shape is null.
-BoundChange Redeclare(const AgentDeclaration& declaration, AgentRecord* record);
+/// Makes `declaration` the agent's. The filter and everything wider than before are in force at
+/// once; narrower limits from the next state on. A shape that had been awaited is in force from the
+/// state on with which it was awaited; a shape that changes is somewhere within the ball until the
+/// next state. Another tree of the same body takes the former tree's place in the whole history.
+/// Requires that an awaited shape is null.
+BoundChange ApplyDeclaration(const AgentDeclaration& declaration, AgentRecord* record);
 
 /// Whether `next` promises more than `before` in some respect, so that the agent may be unable to
 /// meet a partner that it could meet before.

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "collision_core/base/ids.h"
+#include "collision_core/base/index_set.h"
 #include "collision_core/detection/agents/agent_table.h"
 #include "collision_core/detection/step/detector_counters.h"
-#include "collision_core/detection/step/index_set.h"
 #include "collision_core/detection/step/step_clock.h"
 
 namespace collision::detection {

@@ -62,8 +62,8 @@ class History {
   /// edge of the skew about a jump. Never() if there is none.
   Instant NextCutAfter(Instant t) const;
 
-  /// The last stamp earlier than `t` from which the motion went on to `t`; Never() if there is
-  /// none, or if a jump or a breach ends at `t`.
+  /// The newest stamp before `t`; Never() if there is none, or if the state stamped `t` follows
+  /// from a jump or a breach.
   Instant LastStampBefore(Instant t) const;
 
   /// The sample in force at `t`, if every later one follows from it; else nullptr.

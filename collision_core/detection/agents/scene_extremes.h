@@ -23,9 +23,9 @@ class SceneExtremes {
     void Include(const motion::SpaceTimeBound& bound);
   };
 
-  /// Agents examined in a step, and further ones for each agent that has changed.
-  static constexpr std::size_t kLooks = 64;
-  static constexpr std::size_t kLooksPerChange = 4;
+  /// Agents examined in each step, and additional ones for each agent that has changed.
+  static constexpr std::size_t kAgentsPerStep = 64;
+  static constexpr std::size_t kAgentsPerChange = 4;
 
   const Bounds& bounds() const { return bounds_; }
 
@@ -37,8 +37,8 @@ class SceneExtremes {
   /// Examines the next agents of the table, whose indices are below `size`, round after round;
   /// `bound_of(i)` gives a bound or nullptr. At the end of a round its result replaces bounds().
   template <typename BoundOf>
-  void Look(std::size_t changed, std::size_t size, const BoundOf& bound_of) {
-    std::size_t looks = kLooks + kLooksPerChange * changed;
+  void ExamineNext(std::size_t changed, std::size_t size, const BoundOf& bound_of) {
+    std::size_t looks = kAgentsPerStep + kAgentsPerChange * changed;
     if (looks >= size) {
       looks = size;
       Restart();

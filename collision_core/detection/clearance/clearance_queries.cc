@@ -48,7 +48,7 @@ void ClearanceQueries::SettleQueried() {
   for (const AgentIndex agent : queried_) {
     if (!context_.agents.Contains(agent) || context_.agents[agent].expired) continue;
     if (coverage_.IsSaturated(agent) || coverage_[agent].renewed_from) continue;
-    coverage_.Settle(agent);
+    coverage_.MarkLowerable(agent);
   }
   queried_.clear();
 }
@@ -114,7 +114,7 @@ void ClearanceQueries::QueryAll(AgentIndex agent, Renewals renewals) {
   const Promised promised{before, covered, renewed, was_saturated};
   record.renewed_from.reset();
   if (was_saturated) coverage_.EndSaturation(agent);
-  coverage_.LeaveSettled(agent);
+  coverage_.UnmarkLowerable(agent);
   queried_.push_back(agent);
   coverage_.voided()->Insert(agent);
   // Queried before its key was due, because many others changed: an earlier key stays.
@@ -173,9 +173,9 @@ NextNeighbour ClearanceQueries::QueryBands(AgentIndex agent, const Promised& pro
 // so the farther ahead it lies.
 void ClearanceQueries::QueryFarKeysAnew() {
   far_.clear();
-  coverage_.AppendSettledFrom(band_query_.horizons().At(kFarHorizon), &far_);
+  coverage_.AppendLowerableFrom(band_query_.horizons().At(kFarHorizon), &far_);
   for (const AgentIndex agent : far_) {
-    coverage_.LeaveSettled(agent);
+    coverage_.UnmarkLowerable(agent);
     coverage_.QueryAtOnce(agent);
   }
 }

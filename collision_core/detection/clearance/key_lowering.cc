@@ -28,7 +28,7 @@ void KeyLowering::Lower(AgentIndex agent, Instant from, const PartnerMarks& trac
   const Instant split = few ? Instant::Always() : std::max(until, horizons_.At(split_));
   const Instant last = coverage_->LatestKey();
   far_.clear();
-  if (last > split) coverage_->AppendSettledFrom(split, &far_);
+  if (last > split) coverage_->AppendLowerableFrom(split, &far_);
   const std::uint64_t queried = few ? 0 : LowerNear(renewed, std::min(last, split));
   const std::uint64_t looks = kKeyUnits * far_.size();
   const std::uint64_t spared = kKeyUnits * LowerFar(renewed, horizons_.At(split_ + 1), &far_);
@@ -67,7 +67,7 @@ std::uint64_t KeyLowering::LowerNear(const Renewed& renewed, Instant horizon) {
   const auto skip = [&](std::uint32_t index) {
     const AgentIndex partner(index);
     ++offers;
-    return renewed.tracked.Contains(partner) || !coverage_->IsSettled(partner) ||
+    return renewed.tracked.Contains(partner) || !coverage_->IsLowerable(partner) ||
            filter_.CertainlyLater(renewed.agent, partner, coverage_->KeyOf(partner, renewed.agent));
   };
   const broad_phase::BroadPhaseWork before = broad_phase_->work();

@@ -10,14 +10,13 @@
 namespace collision::detection {
 
 /// After a renewal, every partner whose key is later than its intersection with the renewed agent
-/// gets the earlier one. Only keys of earlier steps need it (CoverageTable::IsSettled): a query in
-/// the same step sees the new bound.
+/// gets the earlier one. Only keys of earlier steps need it (CoverageTable::IsLowerable): a query
+/// in the same step sees the new bound.
 ///
-/// Keys up to a horizon are found with the broad phase, by where their agents are; each later key
-/// is looked at by itself (ClearanceFilter, some 20 ns). So agents that are clear for long do not
-/// make the query look as far ahead, where the renewed agent would meet every other. By counted
-/// work the horizon moves to where both together cost least: farther where that spares more looks
-/// than it costs, nearer where the query costs more than looking at all keys.
+/// A query of the broad phase finds the keys up to a horizon; each later key is examined singly
+/// (ClearanceFilter, about 20 ns), because a query that far ahead would reach every agent. The
+/// horizon follows counted work: outward if the examinations that the next horizon saves cost more
+/// than twice the query, inward if the query costs more than all examinations beyond the horizon.
 class KeyLowering {
  public:
   /// All outlive the object.

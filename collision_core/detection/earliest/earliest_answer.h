@@ -11,7 +11,7 @@ namespace collision::detection {
 struct EarliestAnswer {
   bool found = false;
   Instant earliest = Instant::Never();
-  AgentId lower;
+  AgentId lower;  ///< Equal to `higher` for a saturated agent whose partner has left.
   AgentId higher;
 };
 

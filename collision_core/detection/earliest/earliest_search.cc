@@ -81,7 +81,7 @@ EarliestAnswer EarliestSearch::Find() {
 void EarliestSearch::TakeChanges() {
   for (const PairSlot slot : *pairs_changed_) {
     if (!pair_answers_.contains(slot)) pair_answers_.resize(slot.value() + 1);
-    pair_answers_[slot] = PairBound();
+    pair_answers_[slot] = PairLowerBound();
     if (pairs_.Contains(slot) && !pairs_[slot].in_contact) {
       pair_bounds_.Set(slot, Instant::Always());
     } else {
@@ -130,7 +130,7 @@ void EarliestSearch::OfferPair(PairSlot slot, Run* run) {
   const AgentTable& agents = context_.agents;
   const PairRecord& pair = pairs_[slot];
   const std::uint64_t step = context_.clock.step;
-  PairBound& answer = pair_answers_.at(slot);
+  PairLowerBound& answer = pair_answers_.at(slot);
   if (answer.canonical_step != step) {
     const bool known = pair.canonical_step == step;
     answer = {step, known ? pair.canonical : Canonical(pair.lower, pair.higher)};
@@ -148,7 +148,7 @@ void EarliestSearch::OfferPair(PairSlot slot, Run* run) {
   }
   // Where balls may overlap, their shapes may be certified apart for longer. (Of balls, what an
   // older state certified could only be later by its rounding.)
-  const bool shaped = HaveShapes(agents[pair.lower].history, agents[pair.higher].history);
+  const bool shaped = HaveKnownShapes(agents[pair.lower].history, agents[pair.higher].history);
   run->Offer(pair.lower, pair.higher,
              shaped ? std::max(answer.canonical, pair.clear_until) : answer.canonical);
 }
@@ -199,7 +199,7 @@ bool EarliestSearch::IsUncovered(AgentIndex agent) const {
 void EarliestSearch::OfferUncovered(AgentIndex agent, Run* run) {
   const AgentCoverage& record = coverage_[agent];
   agents_[agent].next_partner = record.next_partner;
-  tracked_.Start(agent, pairs_, context_.agents.index_end());
+  PartnerMarks& tracked = TrackedWith(agent);
   const Instant covered =
       std::min(record.keys.earliest(), record.renewed_from.value_or(Instant::Never()));
   const std::vector<UncoveredPartner>& partners =
@@ -207,7 +207,7 @@ void EarliestSearch::OfferUncovered(AgentIndex agent, Run* run) {
                        .from = std::min(run->now, covered),
                        .covered = covered,
                        .renewed = record.renewed_from.has_value(),
-                       .tracked = &tracked_});
+                       .tracked = &tracked});
   for (const UncoveredPartner& partner : partners) {
     const Instant free_until = std::max(run->now, partner.free_until);
     const Instant canonical = Canonical(agent, partner.partner);
@@ -218,36 +218,40 @@ void EarliestSearch::OfferUncovered(AgentIndex agent, Run* run) {
 // All untracked partners that may be met by announce_until were tracked in the last step.
 void EarliestSearch::ComputeBound(AgentIndex agent) {
   ++context_.counters->queries;
-  tracked_.Start(agent, pairs_, context_.agents.index_end());
+  PartnerMarks& tracked = TrackedWith(agent);
   const Instant now = context_.clock.now;
   const NextNeighbour next =
-      next_.Find({.agent = agent, .from = now, .covered = now, .tracked = &tracked_},
+      next_.Find({.agent = agent, .from = now, .covered = now, .tracked = &tracked},
                  context_.clock.announce_until());
   agents_[agent] = {context_.clock.step, next.partner};
   agent_bounds_.Set(agent, std::max(kEarliestBound, next.when));
 }
 
-bool EarliestSearch::IsUntrackedPartner(AgentIndex agent, AgentIndex partner) const {
-  return partner != agent && context_.agents.Contains(partner) &&
-         !context_.agents[partner].expired && !tracked_.Contains(partner);
+PartnerMarks& EarliestSearch::TrackedWith(AgentIndex agent) {
+  tracked_memory_.Start(agent, pairs_, context_.agents.index_end());
+  return tracked_memory_;
 }
 
 // The bound is computed from wide bounds, which cannot tell which of several partners comes first.
 void EarliestSearch::OfferPartners(AgentIndex agent, Instant bound, Run* run) {
-  tracked_.Start(agent, pairs_, context_.agents.index_end());
+  PartnerMarks& tracked = TrackedWith(agent);
+  const AgentTable& agents = context_.agents;
   const AgentIndex next = agents_[agent].next_partner;
-  if (IsUntrackedPartner(agent, next)) run->Offer(agent, next, Canonical(agent, next));
-  if (!run->best.found) OfferNeighbours(agent, bound, Instant::Never(), run);
-  OfferNeighbours(agent, run->Limit(), run->Limit(), run);
+  if (next != agent && agents.Contains(next) && !agents[next].expired && !tracked.Contains(next)) {
+    run->Offer(agent, next, Canonical(agent, next));
+  }
+  if (!run->best.found) OfferNeighbours(agent, {run->now, bound, Instant::Never()}, tracked, run);
+  OfferNeighbours(agent, {run->now, run->Limit(), run->Limit()}, tracked, run);
 }
 
-void EarliestSearch::OfferNeighbours(AgentIndex agent, Instant until, Instant horizon, Run* run) {
-  found_.clear();
-  const auto skip = [this](std::uint32_t partner) {
-    return tracked_.Contains(AgentIndex(partner));
+void EarliestSearch::OfferNeighbours(AgentIndex agent, const broad_phase::NeighbourWindow& window,
+                                     const PartnerMarks& tracked, Run* run) {
+  found_memory_.clear();
+  const auto skip = [&tracked](std::uint32_t partner) {
+    return tracked.Contains(AgentIndex(partner));
   };
-  broad_phase_->FindNeighbours(agent.value(), {run->now, until, horizon}, skip, &found_);
-  for (const broad_phase::Neighbour& neighbour : found_) {
+  broad_phase_->FindNeighbours(agent.value(), window, skip, &found_memory_);
+  for (const broad_phase::Neighbour& neighbour : found_memory_) {
     const AgentIndex partner(neighbour.partner);
     run->Offer(agent, partner, Canonical(agent, partner));
   }

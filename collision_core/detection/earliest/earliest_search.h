@@ -12,8 +12,11 @@
 
 namespace collision::detection {
 
-/// Answers Detector::Earliest(). The answer is canonical: the earliest of what the canonical
-/// routine gives for all pairs from now on, though only few pairs are queried.
+/// Answers Detector::Earliest(), over all pairs that are not in contact, though only few pairs are
+/// queried. A pair counts with its canonical answer from now on. Three cases differ: a tracked pair
+/// with a known shape counts with the later of that and its certified freedom; a pair with a state
+/// or a known contact ahead of now with the end of its certified freedom or the begin of the
+/// contact, if earlier; a saturated agent with now.
 ///
 /// For each agent and each tracked pair the search remembers a *lower bound* of what it can add to
 /// the answer. Two queues order them; agents and pairs are queried in the order of their bounds
@@ -43,11 +46,11 @@ class EarliestSearch {
   void Validate() const;
 
  private:
-  struct AgentBound {
+  struct AgentLowerBound {
     std::uint64_t computed_step = 0;
     AgentIndex next_partner;  // may be met at the bound, as far as is known
   };
-  struct PairBound {
+  struct PairLowerBound {
     std::uint64_t canonical_step = 0;
     Instant canonical = Instant::Never();  // the earliest intersection as of that step
   };
@@ -68,9 +71,11 @@ class EarliestSearch {
   bool IsUncovered(AgentIndex agent) const;
   void OfferUncovered(AgentIndex agent, Run* run);
   void ComputeBound(AgentIndex agent);
+  /// Marks the partners with which the agent is tracked; valid until the next call.
+  PartnerMarks& TrackedWith(AgentIndex agent);
   void OfferPartners(AgentIndex agent, Instant bound, Run* run);
-  void OfferNeighbours(AgentIndex agent, Instant until, Instant horizon, Run* run);
-  bool IsUntrackedPartner(AgentIndex agent, AgentIndex partner) const;
+  void OfferNeighbours(AgentIndex agent, const broad_phase::NeighbourWindow& window,
+                       const PartnerMarks& tracked, Run* run);
   Instant Canonical(AgentIndex a, AgentIndex b) const {
     return queries_.EarliestOf(a, b, context_.clock.now);
   }
@@ -86,11 +91,11 @@ class EarliestSearch {
   UncoveredSearch uncovered_;
   EventQueue<AgentIndex> agent_bounds_;  // Always(): not known
   EventQueue<PairSlot> pair_bounds_;     // likewise; of pairs that are not in contact
-  IndexedVector<AgentIndex, AgentBound> agents_;
-  IndexedVector<PairSlot, PairBound> pair_answers_;
-  // Scratch of one query, kept for its memory.
-  PartnerMarks tracked_;
-  std::vector<broad_phase::Neighbour> found_;
+  IndexedVector<AgentIndex, AgentLowerBound> agents_;
+  IndexedVector<PairSlot, PairLowerBound> pair_answers_;
+  // Memory of one query, which each fills anew.
+  PartnerMarks tracked_memory_;
+  std::vector<broad_phase::Neighbour> found_memory_;
 };
 
 }  // namespace collision::detection

@@ -149,7 +149,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     Confirm(subject, episode);
     TakeBrackets(episode, &published);
     event.end.latest = episode.end.latest;
-    if (episode.exhausted) event.limited_by = narrow_phase::EventLimit::kBudget;
+    if (episode.exhausted) event.limited_by = narrow_phase::BracketLimit::kBudget;
     Emit(subject, EventStatus::kEnded);
   } else if (published.announced && event.status == EventStatus::kConfirmed) {
     if (episode.end.latest <= event.begin.latest) {
@@ -169,7 +169,7 @@ void Announcer::Finish(const Subject& subject, const ContactEpisode& episode) {
     event.begin = episode.begin;
     event.end = episode.end;
     TakeProximity(episode.nearest, episode.normal, &event);
-    if (episode.exhausted) event.limited_by = narrow_phase::EventLimit::kBudget;
+    if (episode.exhausted) event.limited_by = narrow_phase::BracketLimit::kBudget;
     Emit(subject, EventStatus::kUndecided);
   }
   published.announced = false;
@@ -201,8 +201,10 @@ void Announcer::Confirm(const Subject& subject, const ContactEpisode& episode) {
   TakeBrackets(episode, &published);
   event.began_before = episode.began_before;
   const Instant at = episode.begin.latest;
-  TakeProximity({at, subject.proximity->At(at)}, episode.normal, &event);
-  if (episode.exhausted) event.limited_by = narrow_phase::EventLimit::kBudget;
+  const ProximityAnswer proximity = subject.proximity->At(at);
+  published.work += proximity.work;
+  TakeProximity({at, proximity.found}, episode.normal, &event);
+  if (episode.exhausted) event.limited_by = narrow_phase::BracketLimit::kBudget;
   Emit(subject, EventStatus::kConfirmed);
 }
 

@@ -22,17 +22,23 @@ struct PairName {
 struct PublishedEvent {
   CollisionEvent event{};  ///< The last revision.
   bool announced = false;  ///< The event is possible or confirmed, not final yet.
-  /// Between the begin of the event and its contact lies a doubt, followed by certified freedom.
+  /// The event also covers a doubt before its contact; freedom is certified between the two.
   bool doubted = false;
   bool broken = false;     ///< A bound was broken since it was opened: its content may be void.
-  std::uint64_t work = 0;  ///< Segments and instants evaluated since the contact got its number.
+  std::uint64_t work = 0;  ///< Work units spent on the contact since it got its number.
 };
 
-/// Computes how near the two agents of one pair are at an instant, with a budget of its own.
+/// How near two agents are at an instant.
+struct ProximityAnswer {
+  narrow_phase::Proximity found;
+  std::uint64_t work = 0;  ///< Units spent.
+};
+
+/// Answers for the two agents of one pair, with a budget of its own.
 class ProximitySource {
  public:
   virtual ~ProximitySource() = default;
-  virtual narrow_phase::Proximity At(Instant at) = 0;
+  virtual ProximityAnswer At(Instant at) = 0;
 };
 
 /// Whether this is the last report about a pair.

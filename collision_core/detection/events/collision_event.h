@@ -62,7 +62,7 @@ struct CollisionEvent {
   std::uint32_t level = 0;
   std::uint64_t work = 0;  ///< WorkBudget units spent on this contact.
   /// What kept the brackets from being narrower.
-  narrow_phase::EventLimit limited_by = narrow_phase::EventLimit::kMotion;
+  narrow_phase::BracketLimit limited_by = narrow_phase::BracketLimit::kMotion;
 };
 
 }  // namespace collision::detection

@@ -40,11 +40,13 @@ class ContactTracker {
 
   /// While free: freedom is certified further, up to `until`.
   void ExtendFree(Instant until);
-  /// While free: freedom is certified only up to `until`, because a bound was broken.
+  /// Takes back freedom certified beyond `until`, after an admission, jump, breach or widening.
+  /// While an episode is open only `past` is recorded.
   void RetractFree(Instant until, Past past);
 
-  /// Adds the result for [at(), to]; `nearest` is given unless all of it is free, `normal` where
-  /// shapes approached each other. Requires to >= at().
+  /// Adds the result for [at(), to]; `nearest` is empty if no instant was evaluated: if all of it
+  /// is free, or for a contact of two balls. `normal` is known only where shapes approached each
+  /// other. Requires to >= at().
   void Apply(const narrow_phase::SegmentResult& given, Instant to, const NearestInstant& nearest,
              const narrow_phase::ContactNormal& normal);
 

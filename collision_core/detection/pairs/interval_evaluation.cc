@@ -35,7 +35,7 @@ NearestInstant AwaitedNearest(NearestInstant nearest) {
   nearest.found.depth_lower = 0;
   nearest.found.point_error = numeric::kInfinity;
   nearest.found.normal_error = std::numbers::pi;
-  nearest.found.limited_by = narrow_phase::EventLimit::kGeometry;
+  nearest.found.limited_by = narrow_phase::BracketLimit::kGeometry;
   return nearest;
 }
 
@@ -112,7 +112,9 @@ SegmentCount EvaluateSegments(const History& a, const History& b, Instant until,
   return count;
 }
 
-bool HaveShapes(const History& a, const History& b) { return a.newest().shape || b.newest().shape; }
+bool HaveKnownShapes(const History& a, const History& b) {
+  return a.newest().shape || b.newest().shape;
+}
 
 Instant ShapesFreeAhead(const History& a, const History& b, Instant from, Instant until,
                         WorkBudget* work) {

@@ -20,8 +20,8 @@ struct SegmentCount {
 SegmentCount EvaluateSegments(const History& a, const History& b, Instant until, WorkBudget* work,
                               ContactTracker* tracker);
 
-/// Whether either newest state has a shape.
-bool HaveShapes(const History& a, const History& b);
+/// Whether the shape of either newest state is known; an awaited shape does not count.
+bool HaveKnownShapes(const History& a, const History& b);
 
 /// Up to when, at most `until`, the shapes are certified apart for all motions within the newest
 /// bounds; `from` if they may touch at once. Requires `from` at or after both newest states.

@@ -84,7 +84,8 @@ void PairEvaluator::ExtendPromise(const PairOfAgents& agents, WorkBudget* work,
     pair.canonical_step = clock_.step;
   }
   outlook.ExtendFree(earliest);
-  if (HaveShapes(a.history, b.history) && WearsOut(pair.looked_ahead, clock_.now, outlook.at())) {
+  if (HaveKnownShapes(a.history, b.history) &&
+      WearsOut(pair.looked_ahead, clock_.now, outlook.at())) {
     pair.looked_ahead = clock_.now;
     // Balls that overlap need not touch: look as far ahead as decides what is announced.
     const Instant ahead = numeric::AddRoundedDown(clock_.now, kLookAhead * clock_.announce_within);

@@ -20,8 +20,10 @@ inline constexpr std::uint64_t kAllWanted = ~std::uint64_t{0};
 struct PairRecord {
   AgentIndex lower;
   AgentIndex higher;
-  ContactTracker tracker;  ///< The settled past: evaluated up to where both agents have states.
-  Instant clear_until;     ///< No contact begins before this; not later than now while undecided.
+  /// The settled past. While the pair is free throughout it also covers promised freedom, which
+  /// RetractFree() takes back.
+  ContactTracker tracker;
+  Instant clear_until;  ///< No contact begins before this; not later than now while undecided.
   /// The canonical earliest intersection from `now` on, as of step `canonical_step`.
   Instant canonical = Instant::Never();
   std::uint64_t canonical_step = 0;

@@ -35,13 +35,12 @@ class CountedProximity final : public ProximitySource {
   CountedProximity(const PairOfAgents& agents, std::uint64_t allowed, DetectorCounters* counters)
       : agents_(agents), allowed_(allowed), counters_(counters) {}
 
-  narrow_phase::Proximity At(Instant at) override {
+  ProximityAnswer At(Instant at) override {
     WorkBudget work(allowed_);
     const narrow_phase::Proximity found =
         ProximityAt(agents_.lower.history, agents_.higher.history, at, &work);
-    agents_.pair.published.work += work.spent();
     counters_->work_units += work.spent();
-    return found;
+    return {found, work.spent()};
   }
 
  private:
@@ -122,7 +121,7 @@ void TrackedPairs::EvaluateShared(const std::vector<PairSlot>& slots) {
 WorkClaim TrackedPairs::ClaimOf(PairSlot slot) const {
   const PairRecord& pair = table_[slot];
   WorkClaim claim;
-  if (!HaveShapes(context_.agents[pair.lower].history, context_.agents[pair.higher].history)) {
+  if (!HaveKnownShapes(context_.agents[pair.lower].history, context_.agents[pair.higher].history)) {
     return claim;
   }
   claim.wanted = options_.work_units_per_evaluation;
@@ -203,7 +202,7 @@ bool TrackedPairs::Release(PairSlot slot) {
   const PairRecord& pair = table_[slot];
   const AgentRecord &a = context_.agents[pair.lower], &b = context_.agents[pair.higher];
   Instant key = pair.clear_until;
-  if (!HaveShapes(a.history, b.history)) {
+  if (!HaveKnownShapes(a.history, b.history)) {
     key = std::min(key, queries_.EarliestOfWide(pair.lower, pair.higher, context_.clock.now));
   }
   if (key <= context_.clock.announce_until() || key < std::max(a.stamp(), b.stamp())) return false;

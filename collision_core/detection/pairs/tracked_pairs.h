@@ -27,8 +27,9 @@ struct ReleasedPair {
 ///
 /// A pair is due at every step while contact is possible within Δt, while it is to be announced, in
 /// a contact that may end, and when an ended contact is settled. Beyond kPairsEvaluatedEachStep
-/// tracked pairs a contact of two balls rests (contact_rest.h) until it may end, or at most an
-/// eighth of announce_within, each pair another part of it.
+/// tracked pairs a contact of two balls rests (contact_rest.h): it is not evaluated until it may
+/// end, or for announce_within / 16 to announce_within / 8, depending on its slot, so that the
+/// evaluations spread over the steps.
 class TrackedPairs {
  public:
   static constexpr std::size_t kPairsEvaluatedEachStep = 512;

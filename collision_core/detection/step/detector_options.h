@@ -10,11 +10,11 @@ namespace collision::detection {
 /// Every limit of the detector, with what happens at it. SI units.
 struct DetectorOptions {
   double temporal_resolution = 1.0 / 60;  ///< Δt [s]: pairs nearer than this in time could overlap.
-  /// [s] before a possible contact it is announced; >= temporal_resolution.
+  /// A possible contact is announced this long before it [s]; >= temporal_resolution.
   double announce_within = 2.0;
   double skew = 0;                  ///< κ [s]: a sender's clock is off by at most this.
   std::uint32_t agents_max = 1000;  ///< Admit() refuses beyond.
-  /// Tracked at once; beyond, both agents are saturated and queried again after
+  /// Pairs tracked at once. Beyond, both agents are saturated and queried again after
   /// announce_within / 8.
   std::uint32_t pairs_max = 65536;
   std::uint32_t pairs_per_agent_max = 256;  ///< Likewise for one agent.

@@ -5,8 +5,8 @@
 
 namespace collision::geometry {
 
-/// Returns the direction near `about` along which the cores' shadows are the farthest apart: there
-/// the support point of B − A lies along the direction itself. Unless `edge` is zero, only
+/// Returns the direction near `about` along which the cores' projections are the farthest apart:
+/// there the support point of B − A lies along the direction itself. Unless `edge` is zero, only
 /// directions perpendicular to it are tried. The result has any length; it is a proposal that the
 /// caller certifies.
 ///

@@ -121,7 +121,7 @@ class Growth {
 
  private:
   void PutDown() {
-    const double certain = faces_.CertainDistance(pair_.PointError(), pair_.size());
+    const double certain = faces_.CertainInnerRadius(pair_.PointError(), pair_.size());
     overlap_.inside = std::max(overlap_.inside, certain);
   }
 

@@ -170,7 +170,7 @@ bool PolytopeFaces::IsSeenFromWithin(const Face& face) const {
   return numeric::OrientationSign(a, b, c, Vector3d::Zero()) == -1;
 }
 
-double PolytopeFaces::CertainDistance(double point_error, double size) const {
+double PolytopeFaces::CertainInnerRadius(double point_error, double size) const {
   if (face_count_ < 4) return -numeric::kInfinity;
   double least = numeric::kInfinity;
   for (int i = 0; i < face_count_; ++i) {

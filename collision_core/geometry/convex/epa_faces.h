@@ -32,7 +32,7 @@ class PolytopeFaces {
 
   /// The radius of a ball about 0 that is certainly inside [m]; below 0: no ball is certain. Each
   /// point may be off by `point_error`; `size` bounds their coordinates.
-  double CertainDistance(double point_error, double size) const;
+  double CertainInnerRadius(double point_error, double size) const;
 
  private:
   static constexpr int kPointsMax = kEpaFacesMax / 2 + 4;

@@ -79,7 +79,8 @@ class ConvexPair {
 inline constexpr std::uint32_t kGjkStepsMax = 64;
 
 /// Where a search ended. Another search of the same two solids at a similar pose starts there and
-/// takes fewer steps. Only the speed depends on it; a hint that belongs to other solids is ignored.
+/// takes fewer steps. Only the speed depends on it; a hint that was kept for cores of another kind
+/// or for other hull points is ignored.
 struct GjkHint {
   /// The set that the witnesses belong to: the kind of its core and, for a hull, its points.
   struct Owner {

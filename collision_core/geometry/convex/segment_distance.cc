@@ -25,7 +25,7 @@ void TakeOut(const Vector3d& axis, double fraction, Vector3d* way) {
 void NearestOfSegments(const ConvexPair& pair, GjkResult* found) {
   CORE_CHECK(pair.a().IsThin() && pair.b().IsThin(), "both cores are points or segments");
   const Vector3d g = AxisOf(pair.a()), h = AxisOf(pair.b());
-  const auto [s, t] = FractionsOf(pair.between(), g, h);
+  const auto [s, t] = NearestOnSegments(pair.between(), g, h);
   GjkResult& result = *found;
   ConvexPair::Point& point = result.simplex[0];
   point = pair.At({Vector3d(s, 0, 0), Vector3d(t, 0, 0)});

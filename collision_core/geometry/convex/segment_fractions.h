@@ -8,7 +8,9 @@
 namespace collision::geometry {
 
 /// Clamps to [−1, 1]; NaN gives 0.
-inline double ClampToUnit(double t) { return t > -1 ? std::min(t, 1.0) : (t <= -1 ? -1 : 0); }
+inline double ClampToMinusOneOne(double t) {
+  return t > -1 ? std::min(t, 1.0) : (t <= -1 ? -1 : 0);
+}
 
 /// The nearest points of two segments: s and t in [−1, 1] that make d + t h − s g shortest, where d
 /// leads from the middle of the first segment to that of the second, and g and h are their half
@@ -17,16 +19,16 @@ inline double ClampToUnit(double t) { return t > -1 ? std::min(t, 1.0) : (t <= -
 struct SegmentFractions {
   double s, t;
 };
-inline SegmentFractions FractionsOf(const Eigen::Vector3d& d, const Eigen::Vector3d& g,
-                                    const Eigen::Vector3d& h) {
+inline SegmentFractions NearestOnSegments(const Eigen::Vector3d& d, const Eigen::Vector3d& g,
+                                          const Eigen::Vector3d& h) {
   const double gg = g.squaredNorm(), hh = h.squaredNorm(), gh = g.dot(h);
   const double gd = g.dot(d), hd = h.dot(d);
-  if (!(gg > 0)) return {0, hh > 0 ? ClampToUnit(-hd / hh) : 0};
-  if (!(hh > 0)) return {ClampToUnit(gd / gg), 0};
+  if (!(gg > 0)) return {0, hh > 0 ? ClampToMinusOneOne(-hd / hh) : 0};
+  if (!(hh > 0)) return {ClampToMinusOneOne(gd / gg), 0};
   const double denominator = gg * hh - gh * gh;
-  const double s = denominator > 0 ? ClampToUnit((gd * hh - gh * hd) / denominator) : 0;
-  const double t = ClampToUnit((s * gh - hd) / hh);
-  return {ClampToUnit((gd + t * gh) / gg), t};
+  const double s = denominator > 0 ? ClampToMinusOneOne((gd * hh - gh * hd) / denominator) : 0;
+  const double t = ClampToMinusOneOne((s * gh - hd) / hh);
+  return {ClampToMinusOneOne((gd + t * gh) / gg), t};
 }
 
 /// The t in [−1, 1] at which the point x + t v is nearest to a box. x and v are coordinates along

@@ -20,8 +20,8 @@ struct TriangleMesh {
   std::vector<Triangle> triangles;
 };
 
-/// Allowed diagonals of the mesh's box [m]. A smaller mesh is a point, a larger one a planet: most
-/// likely its unit is not the one that was stated.
+/// Allowed diagonals of the mesh's box [m]. A mesh outside this range most likely uses another unit
+/// than the one stated.
 inline constexpr double kMeshSizeMin = 1e-6;
 inline constexpr double kMeshSizeMax = 1e7;
 
@@ -42,8 +42,10 @@ struct PolygonMesh {
 
 /// What Triangulate() changed.
 struct MeshRepair {
-  std::size_t split = 0;    ///< Faces of more than three corners, cut into triangles.
-  std::size_t dropped = 0;  ///< Degenerate: a corner twice, no area, or fewer than three corners.
+  std::size_t split = 0;  ///< Faces of more than three corners, cut into triangles.
+  /// Faces with fewer than three corners once consecutive equal ones are merged, and degenerate
+  /// triangles (DropDegenerate()).
+  std::size_t dropped = 0;
 };
 
 /// Cuts polygons into triangles (ear clipping in the polygon's plane, so that non-convex ones keep
@@ -76,9 +78,9 @@ std::optional<std::string> RefusalOf(const PolygonMesh& mesh, std::size_t triang
 /// 0: a surface within another of the same orientation makes no hole, one of the opposite
 /// orientation does. A mesh with a single gap has no inside; it is an open surface.
 ///
-/// Exactly flat triangles (a vertex on a neighbour's side, filled by a triangle without area) are
-/// dropped as degenerate before. If they closed the chain, the mesh is open without them: that is
-/// safe, and the owner is told.
+/// Triangles without area that fill a T-junction (a vertex on a neighbour's edge) have been dropped
+/// as degenerate by now. If the edge chain closed only through them, the mesh counts as open. That
+/// is safe, and the owner is told.
 struct MeshFacts {
   /// The oriented edge chain sums to zero, where vertices at the same position count as one.
   bool closed = false;

@@ -2,8 +2,8 @@
 //
 // A search in plain doubles proposes the nearest points and a direction; nothing is taken from it
 // on trust. The upper end is the length between two points that belong to the triangles for
-// certain, the lower end the gap between the triangles' shadows on a line, which is never more than
-// the distance, whatever the line. For convex sets both are the distance when the proposal is
+// certain, the lower end the gap between the triangles' projections on a line, which is never more
+// than the distance, whatever the line. For convex sets both are the distance when the proposal is
 // right.
 //
 // Everything is seen from the first corner, so that coordinates far from the origin cost nothing.
@@ -227,7 +227,8 @@ Proposal Propose(const Local& a, const Local& b) {
   return best;
 }
 
-/// A lower bound on the distance from the two shadows along `n`, b's beyond a's; 0 if they overlap.
+/// A lower bound on the distance from the two projections along `n`, b's beyond a's; 0 if they
+/// overlap.
 double GapAlong(const Vector3d& n, const Local& a, const Local& b) {
   const double square = n.squaredNorm();
   if (!(square > kDirectionMin)) return 0;

@@ -1,8 +1,8 @@
 // Two triangles: how far apart, and whether they certainly cross.
 //
 // Nearest points are proposed in plain doubles and then certified: above by two points that
-// certainly belong to the triangles, below by the gap of the shadows on one line, which holds for
-// any line. A wrong proposal can make the bracket wide, never wrong. Crossings are five signed
+// certainly belong to the triangles, below by the gap of the projections on one line, which holds
+// for any line. A wrong proposal can make the bracket wide, never wrong. Crossings are five signed
 // volumes each; how far their corners may move before a sign may change has a closed form
 // (triangle_crossing.cc). Cost: 0.13 µs for pairs well apart to 0.3 µs for crossing ones; the
 // margin of a crossing 0.03 to 0.23 µs.
@@ -27,16 +27,17 @@ struct TriangleDistance {
 /// The distance of two triangles.
 TriangleDistance DistanceOf(const TrianglePoints& a, const TrianglePoints& b);
 
-/// The distance of a point to a triangle, with the nearest point of the triangle in `b`.
+/// The distance of a point to a triangle, with the nearest point of the triangle in `b`. Faster
+/// than DistanceToTriangle() (point_triangle.h), which computes in intervals.
 TriangleDistance DistanceOf(const Eigen::Vector3d& point, const TrianglePoints& triangle);
 
 /// An edge of one triangle that passes through the inside of the other, and a point of it.
 struct Crossing {
   Eigen::Vector3d point;  ///< A point common to both lies within `error` of it.
   double error = 0;
-  /// The approximate unit normal of the triangle that is passed through, and whether that is `b`.
+  /// /// Approximate unit normal of the pierced triangle.
   Eigen::Vector3d normal;
-  bool through_b = true;
+  bool through_b = true;  ///< Whether the pierced triangle is `b`.
 };
 
 /// A crossing that persists wherever each of the six corners lies within `uncertainty` of where it

@@ -8,11 +8,11 @@
 // solids that overlap at the start end a sweep at once.
 //
 // A leaf of a few large triangles (the floor below a landscape) has a ball that holds nearly
-// everything; beside a ball of less than an eighth of its radius its triangles are examined
+// everything; against a ball of less than an eighth of its radius its triangles are examined
 // themselves. For a drone above such a closed landscape with a coarse tree that takes 12,000 units
-// in the median instead of 70,000, and 50,000 at most instead of 3,100,000. A triangle may stand in
-// several leaves; that two triangles are examined once only, from the time of the first pair of
-// leaves on, is right because of the order (derived at OfferElements).
+// in the median instead of 70,000, and 50,000 at most instead of 3,100,000. A triangle may belong
+// to several leaves, but two triangles are examined only once, from the time of the first pair of
+// leaves on; the order of the search justifies this (derived at OfferElements).
 //
 // One choice of bounds serves a whole sweep, and all of them hold throughout; a sweep ends half-way
 // between two states, where the other bounds become the narrower ones.
@@ -29,7 +29,8 @@ inline constexpr double kSweepStepWorth = 1e-3;
 
 /// How far a search refines a time before it returns it.
 struct SweepDetail {
-  /// Spheres are opened while they are larger than this share of what is not known of the motion.
+  /// A pair of nodes is opened while the sum of its radii exceeds this share of the uncertainty at
+  /// that time.
   double fine_enough = 0.25;
   /// A step shorter than this share of the duration ends the search.
   double step_worth = kSweepStepWorth;
@@ -39,7 +40,7 @@ struct SweepDetail {
 struct ImpactBound {
   double seconds = 0;      ///< +infinity: not within the duration, its end included.
   bool exhausted = false;  ///< The work allowed was spent: the true time may be later.
-  bool resolved = false;   ///< The search went down to two elements.
+  bool resolved = false;   ///< The bound comes from a pair of elements, not of nodes.
   NodePair leaves;         ///< If resolved: the leaves that may touch first; else the roots.
 };
 

@@ -26,9 +26,9 @@ struct ImpactCandidate {
 
   bool has_elements() const { return steps > 0 || kind == Kind::kElements; }
 
-  /// Whether x comes after y, as heaps want it: the earlier one first; of equal times the one that
-  /// is examined the farthest (resolved, elements, small nodes, large nodes), so that of bodies
-  /// that overlap not all is opened before something is certain; of these the lower numbers first.
+  /// Whether x comes after y, as heaps want it. Earlier times first; at equal times the candidate
+  /// that is examined farthest (resolved, elements, small nodes, large nodes), so that the search
+  /// becomes certain of an overlap without opening every node; then lower numbers.
   friend bool operator<(const ImpactCandidate& x, const ImpactCandidate& y) {
     if (x.time != y.time) return x.time > y.time;
     if (x.kind != y.kind) return x.kind < y.kind;

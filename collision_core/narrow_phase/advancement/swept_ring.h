@@ -1,11 +1,12 @@
 // When two bodies that turn fast may first touch, whatever their angles are.
 //
-// Beyond a turn the bodies are replaced by what they sweep in all their turns: a part that turns
-// about an axis stays in a ring of heights and distances from it. Convex solids count by the box of
-// their axes, capsules by their segment: with their balls alone a bar of 4 m at 10⁶ rad/s below a
-// ball that falls on it took 17,600,000 units without an answer, with them 33,000 for all 12
-// digits. What flies past a rotor is free at the cost of one turn, or of a hundred thousand. The
-// query may cost as much again as the sweeps since it was made last.
+// Over spans in which a body turns by more than 6 rad, each body is replaced by everything that it
+// sweeps in a full turn: a part that turns about an axis stays in a ring of heights and distances
+// from it. Convex solids count by the box of their axes, capsules by their segment: with their
+// balls alone a bar of 4 m at 10⁶ rad/s below a ball that falls on it took 17,600,000 units without
+// an answer, with them 33,000 for all 12 digits. A body that flies past a rotor is certified free
+// at the same cost, whether the rotor turns once or a hundred thousand times. ContactBoundary
+// allows each query as much work as the sweeps since the last one, and at least 4,096 units.
 #pragma once
 
 #include "collision_core/base/work_budget.h"

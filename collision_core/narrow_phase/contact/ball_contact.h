@@ -53,9 +53,10 @@ std::optional<SegmentResult> QuickBallContact(const BallSegment& a, const BallSe
 /// touching. lower > upper: the bounds contradict each other, so one of them was breached.
 struct SeparationAt {
   numeric::Interval separation;
-  Eigen::Vector3d p_WA = Eigen::Vector3d::Zero();  ///< Most likely centre of A [m].
+  Eigen::Vector3d p_WA =
+      Eigen::Vector3d::Zero();  ///< Centre of A by its least uncertain bound [m].
   Eigen::Vector3d p_WB = Eigen::Vector3d::Zero();  ///< Most likely centre of B [m].
-  double error_A = 0, error_B = 0;                 ///< Within these of the true centres.
+  double error_A = 0, error_B = 0;  ///< The true centres lie within these of p_WA and p_WB [m].
 };
 /// Evaluates two balls at `delta` seconds after their base.
 SeparationAt EvaluateBallsAt(const BallSegment& a, const BallSegment& b, double delta);

@@ -90,7 +90,7 @@ double ContactBoundary::FreeFrom(double at) {
     const ShapeMotion::Sweep sweep = motion_.SweepFrom(at, span, direction_, detail_);
     if (!sweep.known) return at;
     touch_ = sweep.touch;
-    any_way_ = std::max(sweep.pose.chord_A, sweep.pose.chord_B) >= kAnyWay;
+    orientation_unknown_ = std::max(sweep.pose.chord_A, sweep.pose.chord_B) >= kAnyWay;
     // Containment is tested once: later the surfaces stay apart, so nothing gets inside.
     if (!asked_inside && touch_.seconds > 0) {
       asked_inside = true;

@@ -48,10 +48,12 @@ class ContactBoundary {
   bool exhausted() const { return exhausted_; }
   /// The bodies certainly come as near as this [m].
   double nearest() const { return nearest_; }
-  /// Whether the pose where FreeFrom() ended is uncertain by more than rounding.
+  /// Whether the pose from which ContactAfter() or ContactByCandidates() last searched is uncertain
+  /// by more than rounding; false before.
   bool uncertain() const { return uncertain_; }
-  /// Whether the orientation of a body was unknown there; more work does not help.
-  bool any_way() const { return any_way_; }
+  /// Whether the orientation of a body was unknown where the last sweep of FreeFrom() began; more
+  /// work does not help then.
+  bool orientation_unknown() const { return orientation_unknown_; }
 
  private:
   struct Precision {
@@ -108,7 +110,7 @@ class ContactBoundary {
   bool exhausted_ = false;  // The budget ended something early.
   bool apart_ = false;      // At the last instant at which the whole bodies were tested.
   bool uncertain_ = false;
-  bool any_way_ = false;
+  bool orientation_unknown_ = false;
   double nearest_ = numeric::kInfinity;
   ImpactBound touch_;
   std::vector<ContactCandidate> candidates_;

@@ -39,9 +39,9 @@ double DeviationOf(const NearestWay& way, double translation) {
   return std::sqrt((upper - lower) * (upper + lower)) + u + 2 * std::sqrt(u * (upper + u));
 }
 
-EventLimit LimitOf(const PoseQuery& query, double size) {
-  if (query.bracket.exhausted) return EventLimit::kBudget;
-  return query.uncertainty > kExactMotion * size ? EventLimit::kMotion : EventLimit::kGeometry;
+BracketLimit LimitOf(const PoseQuery& query, double size) {
+  if (query.bracket.exhausted) return BracketLimit::kBudget;
+  return query.uncertainty > kExactMotion * size ? BracketLimit::kMotion : BracketLimit::kGeometry;
 }
 
 // Moved by so much along the line of their reference points, two bodies within balls of radii that

@@ -26,12 +26,12 @@ class SegmentEvaluation {
   /// throughout.
   double FreeFrom(double at, TimeDirection direction);
 
-  /// Looks for certain contact in [f, g], which is not certified free.
-  void FindContact(double f, double g, SegmentResult* times);
+  /// Looks for certain contact in [free_until, free_from], which is not certified free.
+  void FindContact(double free_until, double free_from, SegmentResult* times);
 
   /// Looks for an earlier begin and a later end of a contact that FindContact() found late, as it
   /// does if edges coincide.
-  void Sharpen(double f, double g, SegmentResult* times);
+  void Sharpen(double free_until, double free_from, SegmentResult* times);
 
   /// The normal shortly before the two may touch for the first time.
   ContactNormal Normal();

@@ -78,7 +78,7 @@ ShapeSegmentResult EvaluateShapeSegment(const BodySegment& a, const BodySegment&
     result.nearest_at = evaluation.nearest()->at;
     result.nearest = evaluation.NearestProximity();
     const bool contact = result.times.contact_from <= result.times.contact_to;
-    if (!contact && evaluation.exhausted()) result.nearest.limited_by = EventLimit::kBudget;
+    if (!contact && evaluation.exhausted()) result.nearest.limited_by = BracketLimit::kBudget;
   }
   return result;
 }

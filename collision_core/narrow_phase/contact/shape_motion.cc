@@ -41,8 +41,8 @@ struct Turning {
 Turning TurningOf(const BodySegment& body, std::size_t bound, double at, TimeDirection direction) {
   if (!body.shape) return {0, 0, 0};
   const motion::MovingRotation& turn = body.turns[bound];
-  const numeric::Quadratic angle = From(turn.off_angle, at, direction);
-  const numeric::Interval reach = ReachOf(body);
+  const numeric::Quadratic angle = From(turn.angle_error, at, direction);
+  const numeric::Interval reach = TurningReachOf(body);
   return {reach * numeric::Norm(numeric::IntervalVector(turn.w_WB)),
           reach * numeric::Max(0, angle.c1), reach * angle.c2};
 }
@@ -50,7 +50,7 @@ Turning TurningOf(const BodySegment& body, std::size_t bound, double at, TimeDir
 // The tangent's deviation ½ |ω|² h² belongs to what turning may move a point by.
 SweptPose::Growth GrowthOf(const motion::MovingRotation& turn, const ShapeMotion::Departure& from,
                            double chord) {
-  const numeric::Quadratic angle = From(turn.off_angle, from.at, from.direction);
+  const numeric::Quadratic angle = From(turn.angle_error, from.at, from.direction);
   const bool bends = from.path == ShapeMotion::Departure::Path::kTangent;
   const numeric::Interval bend =
       bends ? numeric::Interval(0.5) *
@@ -62,7 +62,7 @@ SweptPose::Growth GrowthOf(const motion::MovingRotation& turn, const ShapeMotion
 
 // Half of the acceleration of the point that turning moves the most [m/s²].
 double BendOf(const BodySegment& body, std::size_t bound) {
-  return body.shape ? 0.5 * body.turns[bound].w_WB.squaredNorm() * ReachOf(body) : 0;
+  return body.shape ? 0.5 * body.turns[bound].w_WB.squaredNorm() * TurningReachOf(body) : 0;
 }
 
 // What tangents leave their circles by matters beyond this share of the bodies' size.

@@ -84,7 +84,7 @@ class ContactSearch {
     nearest_ = std::min({nearest_, forward.nearest(), backward.nearest()});
     exhausted_ = exhausted_ || forward.exhausted() || backward.exhausted();
     uncertain_ = forward.uncertain() || backward.uncertain();
-    any_way_ = forward.any_way() || backward.any_way();
+    orientation_unknown_ = forward.orientation_unknown() || backward.orientation_unknown();
     return true;
   }
 
@@ -113,10 +113,10 @@ class ContactSearch {
     return found_;
   }
 
-  EventLimit Limit() const {
-    if (IsAnswered()) return EventLimit::kNone;
-    if (exhausted_ && !any_way_) return EventLimit::kBudget;
-    return uncertain_ || any_way_ ? EventLimit::kMotion : EventLimit::kGeometry;
+  BracketLimit Limit() const {
+    if (IsAnswered()) return BracketLimit::kNone;
+    if (exhausted_ && !orientation_unknown_) return BracketLimit::kBudget;
+    return uncertain_ || orientation_unknown_ ? BracketLimit::kMotion : BracketLimit::kGeometry;
   }
 
   const ShapeMotion motion_;
@@ -125,7 +125,7 @@ class ContactSearch {
   WorkBudget& work_;
   TimeOfContactResult found_;
   double nearest_ = numeric::kInfinity;
-  bool exhausted_ = false, uncertain_ = false, any_way_ = false;
+  bool exhausted_ = false, uncertain_ = false, orientation_unknown_ = false;
 };
 
 // The result for two balls is as narrow as rounding and the motion allow.
@@ -154,7 +154,7 @@ TimeOfContactResult OfBalls(const BodySegment& a, const BodySegment& b, double d
   const BoundChoice choice = BestBounds(a, b, first);
   const bool unknown = !choice.certain || PoseAt(a, b, choice, first).translation >
                                               kExactMotion * (a.ball.radius + b.ball.radius);
-  found.limited_by = unknown ? EventLimit::kMotion : EventLimit::kGeometry;
+  found.limited_by = unknown ? BracketLimit::kMotion : BracketLimit::kGeometry;
   return found;
 }
 

@@ -21,10 +21,10 @@
 // less than to ask for the finest at once; where what is not known of the motion limits the answer,
 // up to about twice as much.
 //
-// Turning fast. Beyond a turn the bodies are replaced by what they sweep in all their turns
-// (swept_ring.h). More than kRotationAngleMax (10⁶ rad) after a state orientations are not
-// followed: the body may be turned any way, as without a declared bound, and the answer says that
-// its motion is not known.
+// Turning fast. Over spans in which a body turns by more than a full turn, each body is replaced by
+// everything that it sweeps in one (swept_ring.h). More than kRotationAngleMax (10⁶ rad) after a
+// state orientations are not followed: the body may be turned any way, as without a declared bound,
+// and the answer says that its motion is not known.
 //
 // How narrow. With nothing uncertain, 1e-12 of the time, for cubes on faces, edges and corners as
 // for tumbling stars, and for solids and their mixtures with triangles. With accelerations: free
@@ -57,18 +57,19 @@ enum class ContactStatus {
 /// Seconds after the start of a segment; every claim holds for all motions within the bounds.
 struct TimeOfContactResult {
   ContactStatus status = ContactStatus::kUndecided;
-  /// Apart on [0, begin.lower), touching at begin.upper; {0, 0}: they touch from the start on.
-  /// Undecided: if they touch, then first within it.
+  /// kFree: `begin` and `end` are both {duration, duration}; the rest holds for the other two.
+  /// Apart on [0, begin.lower), touching at begin.upper; {0, 0}: touching from the start.
+  /// Undecided: the first contact, if any, begins within it.
   numeric::Interval begin;
-  /// Touching at end.lower, apart after end.upper; {duration, duration}: they touch at the end of
-  /// the segment. In between they may have been apart. Undecided: likewise, if they touch.
+  /// Touching at end.lower, apart after end.upper; {duration, duration}: touching at the end of the
+  /// segment. The two may part in between. Undecided: the last contact, if any, ends within it.
   numeric::Interval end;
   double within = 0;  ///< Undecided: at some instant they are certainly no farther apart [m].
   /// What kept a bracket from being as narrow as asked; kNone: nothing did. kBudget: the work
   /// allowed. kMotion: what is not known of it, or turns beyond kRotationAngleMax, whatever the
   /// work allowed. kGeometry: they touch by less than rounding can tell, or graze, or are open
   /// surfaces that do not certainly cross.
-  EventLimit limited_by = EventLimit::kNone;
+  BracketLimit limited_by = BracketLimit::kNone;
   std::uint64_t work = 0;  ///< Units spent.
 };
 

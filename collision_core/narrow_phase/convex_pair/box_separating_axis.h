@@ -22,8 +22,8 @@ struct BoxPair {
 enum class BoxSeparation { kUnknown, kApart, kTouching };
 
 /// Tests the axes of all faces and of all pairs of edges; edges may be zero, as those of a segment
-/// are. kTouching requires two boxes, edges square to each other in A, and no parallel edges;
-/// kUnknown where rounding might decide.
+/// are. kTouching requires two boxes without parallel edges, and edges of A that are orthogonal to
+/// within rounding; kUnknown where rounding might decide.
 BoxSeparation TestSeparatingAxes(const BoxPair& pair);
 
 /// The versions, for tests. All give the same bits; null where the processor has no such vectors.

@@ -2,8 +2,9 @@
 // S the size of the pair, d off by u |d|:
 //   upper  |y| belongs to points of the cores. Two or four products and as many sums of terms that
 //          are S together: y is off by less than 6u S, and its length by 2.5u more.
-//   lower  the gap of the shadows along y as it is computed: y·d less the reach of all edges. Sums
-//          of three products, 3u |y| S together, six differences and d itself: less than 11u |y| S.
+//   lower  the gap of the projections along y as it is computed: y·d less the reach of all edges.
+//          Sums of three products, 3u |y| S together, six differences and d itself: less than 11u
+//          |y| S.
 //          The quotient by |y| adds 4u S, as it is no greater than S.
 // Both are covered by kWayError S, and the last rounding of what is told.
 #include "collision_core/narrow_phase/convex_pair/capsule_distance.h"
@@ -61,7 +62,7 @@ Vector3d WayFromBox(const Vector3d& d, const Edges<3>& box, const Vector3d& axis
   }
   const double t = geometry::FractionNearBox(x, v, w);
   Vector3d way = d + t * axis;
-  for (int i = 0; i < 3; ++i) way -= geometry::ClampToUnit(x[i] + t * v[i]) * box.of[i];
+  for (int i = 0; i < 3; ++i) way -= geometry::ClampToMinusOneOne(x[i] + t * v[i]) * box.of[i];
   return way;
 }
 
@@ -95,7 +96,7 @@ numeric::Interval DistanceOfCores(const geometry::ConvexSet& a, const geometry::
     return Certified(way, axis, box, cores);
   }
   const Edges<1> other(b, pose.R_AB);
-  const auto [s, t] = geometry::FractionsOf(cores.d, axis.of[0], other.of[0]);
+  const auto [s, t] = geometry::NearestOnSegments(cores.d, axis.of[0], other.of[0]);
   return Certified(Vector3d((cores.d + t * other.of[0]) - s * axis.of[0]), axis, other, cores);
 }
 

@@ -22,8 +22,9 @@ inline bool IsCapsulePair(const geometry::ConvexSet& a, const geometry::ConvexSe
          (b.IsThin() && a.core == geometry::ConvexCore::kBox);
 }
 
-/// The distance of the two cores, as they are posed; below 0, and wide, where they meet. Each set
-/// is given in its own body's frame. Requires IsCapsulePair(a, b).
+/// The bracket of the distance of the two posed cores. Where they meet, the lower end is −infinity
+/// and the upper end exceeds 0 by rounding only. Each set is given in its own body's frame.
+/// Requires IsCapsulePair(a, b).
 numeric::Interval DistanceOfCores(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                                   const PosedCores& cores, const RelativePose& pose);
 

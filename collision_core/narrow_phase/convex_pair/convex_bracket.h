@@ -1,10 +1,10 @@
 // The bracket of the distance of two convex sets, narrowed by whatever a search proposes.
 //
-// Three kinds of facts narrow it, and each is certain whatever proposed it: the gap of the shadows
-// of the cores along a direction is a lower bound; a way between a point of one core and a point of
-// the other is an upper bound; and a ball about 0 that lies in the difference B − A is an upper
-// bound below 0, since no shift by less than its radius takes the two apart. So a wrong proposal
-// makes the bracket wide, never wrong.
+// Three kinds of facts narrow it, and each is certain whatever proposed it: the gap of the
+// projections of the cores along a direction is a lower bound; a way between a point of one core
+// and a point of the other is an upper bound; and a ball about 0 that lies in the difference B − A
+// is an upper bound below 0, since no shift by less than its radius takes the two apart. So a wrong
+// proposal makes the bracket wide, never wrong.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +32,8 @@ class ConvexBracket {
  public:
   ConvexBracket(const geometry::ConvexSet& a, const geometry::ConvexSet& b);
 
-  /// Raises the lower bound to the gap of the cores' shadows along a direction from A to B, of any
-  /// length. The zero vector changes nothing.
+  /// Raises the lower bound to the gap of the cores' projections along a direction from A to B, of
+  /// any length. The zero vector changes nothing.
   void TryDirection(const Eigen::Vector3d& direction);
   /// Raises the lower bound to a gap that the caller computed, off by at most the pair's
   /// GapError(). n is a unit vector to within kUnitVectorError.

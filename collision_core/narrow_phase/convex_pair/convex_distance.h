@@ -22,13 +22,13 @@ struct ConvexSeparation {
   /// translational penetration depth: no shift by less than −upper takes them apart, one by −lower
   /// (along the normal) does.
   numeric::Interval separation{-numeric::kInfinity, numeric::kInfinity};
-  /// Points of the two, to within `point_error`: apart no further than separation.upper; in contact
-  /// (upper <= 0) the same point twice, and one common to both is that near.
+  /// Apart: the nearest points found, each within `point_error` of its set. In contact (upper <=
+  /// 0): a == b, within `point_error` of a point common to both.
   Eigen::Vector3d a{0, 0, 0}, b{0, 0, 0};
   double point_error = numeric::kInfinity;
-  /// Unit, from A to B: along the shortest way between them, or of the cores if their roundings
-  /// overlap; within `normal_error` [rad]. π: not certified; the normal of the
-  /// shortest shift that was found.
+  /// Unit, from A to B, along the shortest way between the cores, which is that between the sets
+  /// where they are apart; within `normal_error` [rad]. π: not certified; then the direction of the
+  /// shortest shift found.
   Eigen::Vector3d normal{0, 0, 0};
   double normal_error = std::numbers::pi;
   bool exhausted = false;  ///< A limit on steps or on work ended the search.
@@ -48,9 +48,9 @@ numeric::Interval IntervalOf(const geometry::ConvexSet& a, const geometry::Conve
 /// The distance or depth of a convex set A and a half-space B, exact but for rounding. The shortest
 /// shift that takes the two apart is along the half-space's normal.
 ///
-/// A library call: no shape of the service holds a half-space, and this is kept as the narrow
-/// phase's door for floors and walls, which the broad phase can hold (broad_phase/index/
-/// half_space.h). Caller: convex_pose_test.
+/// A library call: no shape of the service holds a half-space. It is the narrow phase's entry for
+/// floors and walls, which the broad phase can hold (broad_phase/half_space.h). Caller:
+/// convex_pose_test.
 ConvexSeparation SeparationOf(const geometry::ConvexSet& a, const PosedHalfSpace& b);
 
 }  // namespace collision::narrow_phase

@@ -3,10 +3,11 @@
 // A query for yes or no, or for the distance alone, need not pay for points, normals and features.
 // Each way below proves its answer; where it cannot, the full search (convex_search.h) answers.
 //
-// - A ball or capsule beside a ball, capsule or box (capsule_distance.h): the nearest points of two
-//   segments, or of a segment and a box, then the length between them and the gap along it.
+// - A ball or capsule against a ball, capsule or box (capsule_distance.h): the nearest points of
+//   two segments, or of a segment and a box, then the length between them and the gap along it.
 // - Two boxes, or a box and a capsule (box_separating_axis.h): the separating axis test of all
-//   fifteen axes, three at once, seen through A's edges: neither box need be exactly square.
+//   fifteen axes, three at once, in the coordinates x' = Gᵀx of A's edges: the edges of
+//   neither box need be exactly orthogonal.
 // - Hulls of up to 64 points (gjk_small.h): GJK in plain numbers, all points of a hull at once.
 //   It begins along (A + B)⁻¹ d, the normal where d leaves two ellipsoids about as large as the
 //   two: that alone decides most that are a tenth of their diameter apart. A tetrahedron that holds

@@ -23,15 +23,15 @@ struct SmallGjkPair {
   double apart;   ///< Stop when the distance is known to exceed this [m].
   double near;    ///< Stop when the distance is known to be below this [m].
   double inside;  ///< Stop when the ball of this radius about 0 belongs to the difference [m]; > 0.
-  double relative_tolerance;  ///< Relative tolerance: bounds that differ by this fraction of their
-                              ///< distance
-  double rounding;            ///< from `rounding` [m] are close enough.
-  double absolute_tolerance;  ///< Absolute tolerance [m].
+  /// Stop when the bracket is narrower than this share of |gap − rounding|.
+  double relative_tolerance;
+  double rounding;            ///< The rounding radii of both sets together [m].
+  double absolute_tolerance;  ///< Stop when the bracket is narrower than this [m].
 };
 
 /// A certified bracket of the distance.
 struct SmallGjkResult {
-  double lower, upper;  ///< Bounds of the distance of the cores, with rounding.
+  double lower, upper;  ///< Bounds of the distance of the cores, rounding errors included.
   bool inside = false;  ///< The ball certainly belongs to the difference.
 };
 

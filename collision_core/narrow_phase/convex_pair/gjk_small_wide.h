@@ -91,11 +91,11 @@ WIDE_INLINE Point Support(const SmallGjkCore& core, const Point& n) {
   return (first + std::copysign(1, Dot(n, g1)) * g1) + std::copysign(1, Dot(n, g2)) * g2;
 }
 
-/// What a simplex is nearest to 0 with.
+/// The point of a simplex nearest to 0.
 struct SimplexNearest {
-  unsigned corners = 0;  ///< One bit each; 0: it seems to be inside.
-  Point sum;             ///< A weighted sum of corners,
-  Point direction;       ///< and along it, more exactly.
+  unsigned corners = 0;  ///< The corners that span it, one bit each; 0: 0 seems to be inside.
+  Point sum;             ///< The nearest point, as a weighted sum of corners.
+  Point direction;       ///< The direction of `sum`, computed more exactly.
   double square;         ///< Of `sum`.
 
   SimplexNearest() = default;

@@ -22,19 +22,20 @@ inline constexpr double kUnitLengthError = 0x1p-50;
 /// Whether n has length 1 to within kUnitLengthError.
 inline bool IsUnit(const Eigen::Vector3d& n) { return std::abs(n.norm() - 1) <= kUnitLengthError; }
 
-/// Units for all directions of one pose: where they are spent what is known by then is the answer.
-inline constexpr std::uint64_t kPastUnits = 3000;
+/// Work units for all directions of one pose. When they are spent, the best shift so far is the
+/// answer.
+inline constexpr std::uint64_t kLocalTranslationUnits = 3000;
 
 /// Shifted by this along n [m], in A's body frame, B is certainly apart from A. Only what is near
 /// the shifted body counts, where SeparatingTranslationAlong() counts all of A: the hills below,
 /// and no summit far away. Rounded up; the uncertainty of rounding and turning is included, that of
 /// translation is not.
 ///
-/// `known`: a shift, along any direction, that takes the two apart. If B is not apart after three
-/// quarters of it along n, or the work was spent before, the result is `known`; else a shift found
-/// in steps of four, then by halves: at three quarters of it the two are not known to be apart, or
-/// it is a 2^-16th of `known`. `witness` of contact, if there is any, saves work. Requires
-/// IsUnit(n).
+/// `known`: a shift, along any direction, that takes the two apart. Returns `known` if B is not
+/// certainly apart at ¾ `known` along n, or if no work is left. Otherwise the shift is bracketed by
+/// factors of four, then bisected, until the two are not known to be apart at ¾ of it, it is down
+/// to 2^-16 `known`, or the work is spent. `witness` of contact, if there is any, saves work.
+/// Requires IsUnit(n).
 double LocalSeparatingTranslation(const PosedPair& pair, const Eigen::Vector3d& n, double known,
                                   const ContactWitness& witness, WorkBudget* work);
 

@@ -157,7 +157,7 @@ double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witnes
     if (!work->exhausted()) least = std::min(least, SeparatingTranslationAlong(pair, way, work));
   }
   least = std::max(0.0, least);
-  WorkBudget own(std::min(kPastUnits, work->left()));
+  WorkBudget own(std::min(kLocalTranslationUnits, work->left()));
   for (const Vector3d& way : ways)
     least = LocalSeparatingTranslation(pair, way, least, witness, &own);
   work->Spend(own.spent());

@@ -22,9 +22,10 @@ namespace collision::narrow_phase {
 double SeparatingTranslationAlong(const PosedPair& pair, const Eigen::Vector3d& n,
                                   WorkBudget* work);
 
-/// The least of some: across what shows the contact, away from each other's reference points, and
-/// along the axes of both bodies; each by SeparatingTranslationAlong() and, with kPastUnits for
-/// all, by LocalSeparatingTranslation(). The translational penetration depth is no more.
+/// An upper bound of the translational penetration depth, rounding and turning included: the least
+/// shift over the normals of the contact witness, the line of the reference points and the axes of
+/// both bodies, each in both senses. Each is tried with SeparatingTranslationAlong() and, within a
+/// shared budget, with LocalSeparatingTranslation().
 double SeparatingTranslation(const PosedPair& pair, const ContactWitness& witness,
                              WorkBudget* work);
 

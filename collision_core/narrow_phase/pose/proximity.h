@@ -9,8 +9,8 @@
 
 namespace collision::narrow_phase {
 
-/// What kept an answer from being narrower.
-enum class EventLimit {
+/// What kept a bracket from being narrower.
+enum class BracketLimit {
   kNone,     ///< Nothing but rounding.
   kBudget,   ///< The work allowed: more would help.
   kMotion,   ///< What is not known of the motion between two states.
@@ -20,7 +20,8 @@ enum class EventLimit {
 /// The bracket of the distance at one instant, with point and normal. All of it holds for every
 /// motion within the bounds.
 struct Proximity {
-  /// Distance of the surfaces [m]; upper <= 0: contact.
+  /// Distance of the surfaces [m]; for bodies that overlap, minus the penetration depth. upper <=
+  /// 0: contact.
   numeric::Interval separation{-numeric::kInfinity, numeric::kInfinity};
   double depth_lower = 0;  ///< Translational penetration depth is at least this [m].
   /// In contact: a point common to both lies within `point_error`. Apart: half-way between the
@@ -32,7 +33,7 @@ struct Proximity {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double normal_error = std::numbers::pi;
   std::uint32_t level = 0;  ///< The deepest level of the sphere trees that was opened.
-  EventLimit limited_by = EventLimit::kMotion;
+  BracketLimit limited_by = BracketLimit::kMotion;
 };
 
 }  // namespace collision::narrow_phase

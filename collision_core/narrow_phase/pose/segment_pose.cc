@@ -27,7 +27,7 @@ Orientation OrientationOf(const BodySegment& body, std::size_t bound, double del
   const motion::MovingRotation& turn = body.turns[bound];
   Orientation orientation{RotationOf(turn.OrientationAt(delta)), 2};
   if (orientation.rotation.error > kAnyRotation) return {numeric::Rotation{}, 2};
-  const double angle = std::max(0.0, turn.off_angle.At(delta).upper);
+  const double angle = std::max(0.0, turn.angle_error.At(delta).upper);
   // 2 sin(θ/2) <= θ; the difference matters for large angles only.
   if (angle <= 0.125) orientation.chord = angle;
   if (angle > 0.125 && angle < 3.14159) {
@@ -41,11 +41,12 @@ double TurnedAbout(const motion::MovingRotation& turn, double delta) {
   const double seconds = turn.since.middle() + delta;
   const bool followed = turn.w_WB.squaredNorm() * seconds * seconds <=
                         numeric::kRotationAngleMax * numeric::kRotationAngleMax;
-  return followed ? std::min(2.0, turn.off_angle.At(delta).upper) : 2;
+  return followed ? std::min(2.0, turn.angle_error.At(delta).upper) : 2;
 }
 
 double Uncertainty(const BodySegment& body, std::size_t bound, double delta) {
-  const double turned = body.shape ? TurnedAbout(body.turns[bound], delta) * ReachOf(body) : 0;
+  const double turned =
+      body.shape ? TurnedAbout(body.turns[bound], delta) * TurningReachOf(body) : 0;
   return body.ball.bounds[bound].u.At(delta).upper + turned;
 }
 
@@ -105,7 +106,7 @@ RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choi
       kPosingRounding, numeric::AddUp(numeric::Norm(centre_A).upper, a.ball.radius + length));
   pose.error_A = numeric::AddUp(
       numeric::AddUp(ball_a.u.At(delta).upper, Width(centre_A, pose.p_WA)),
-      numeric::AddUp(rounding, numeric::MultiplyUp(of_a.rotation.error, ReachOf(a))));
+      numeric::AddUp(rounding, numeric::MultiplyUp(of_a.rotation.error, TurningReachOf(a))));
   return pose;
 }
 

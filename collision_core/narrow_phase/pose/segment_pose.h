@@ -24,9 +24,8 @@ BoundChoice BestBounds(const BodySegment& a, const BodySegment& b, double delta)
 /// The pose at `delta` seconds after the segments' base, from the chosen bounds.
 RelativePose PoseAt(const BodySegment& a, const BodySegment& b, BoundChoice choice, double delta);
 
-/// How far any point of the body may be from the reference point [m]; 0 for a ball, which looks
-/// the same however it turns.
-inline double ReachOf(const BodySegment& body) {
+/// No point that turning moves is farther from the reference point [m]; 0 for a ball.
+inline double TurningReachOf(const BodySegment& body) {
   return body.shape ? body.shape->facts().radius : 0;
 }
 

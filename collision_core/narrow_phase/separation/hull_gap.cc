@@ -26,7 +26,7 @@ constexpr double kFarApart = 1e15, kAtOnePlace = 1e-15;
 /// u of itself. In all less than 124 u S.
 constexpr double kGapSlack = 0x1p-24 * 128;
 
-/// Directions are at most this much longer than 1, and a ball's shadow with them.
+/// Directions are at most this much longer than 1, and a ball's projection with them.
 constexpr double kLonger = 1 + 0x1p-15;
 
 /// Deeper than this share of the extents along the first line, and than half of it each time along
@@ -99,8 +99,8 @@ class HullPair {
     return {a_.Along(n, scale), b_.Along(-matrix_.TransposeTimes(n), scale)};
   }
 
-  /// Less what is uncertain: the gap of the shadows along n, of which `scale` makes about a unit
-  /// vector.
+  /// Less what is uncertain: the gap of the projections along n, of which `scale` makes about a
+  /// unit vector.
   float Gap(const Vector3f& n, float scale, const Foremost& along) const {
     const float gap = (n.dot(between_) - along.of_a.height) - along.of_b.height;
     return gap * scale - (along.of_a.more + along.of_b.more);
@@ -156,7 +156,7 @@ double HullGapOf(const PosedPair& posed, double enough, WorkBudget* work) {
   if (!pair.known()) return -numeric::kInfinity;
   Vector3f n = pair.FirstDirection();
   const float scale = 1 / std::sqrt(n.squaredNorm());
-  float best = -sphere_tree::kNowhere, hopeless = pair.Hopeless();
+  float best = -sphere_tree::kFarDistance, hopeless = pair.Hopeless();
   for (int i = 0; i < kHullDirectionsMax && !work->exhausted(); ++i) {
     work->Spend(kHullDirectionUnits);
     const HullPair::Foremost along = pair.Along(n, scale);

@@ -15,7 +15,7 @@ void RecheckLeaves(const BodyTree& a, const BodyTree& b, NodePair leaves,
     const sphere_tree::SphereNode& leaf = meshed.node(a.shape() ? leaves.a : leaves.b);
     for (const ElementIndex t : meshed.shape()->tree().ElementsOf(leaf)) {
       if (work->exhausted()) return;
-      findings->MeasureBeside(t, work);
+      findings->MeasureBallAgainst(t, work);
     }
     return;
   }
@@ -96,7 +96,7 @@ SeparationBracket RecheckWitness(const PosedPair& pair, const ContactWitness& wi
       if (meshes) {
         findings.RecheckElements(witness.elements, work);
       } else {
-        findings.MeasureBeside(witness.elements.a, work);
+        findings.MeasureBallAgainst(witness.elements.a, work);
       }
       break;
     case ContactWitness::Kind::kLeaves:

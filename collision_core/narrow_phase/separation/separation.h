@@ -8,8 +8,9 @@
 // wherever the corners lie within the uncertainty: the only way for open surfaces, and for solids
 // the way that finds shallow contacts.
 //
-// Free needs one point of each component outside the other solid as well (TestContainment). It is
-// asked once for each advance: from there on the surfaces stay apart, so nothing gets in.
+// Freedom also requires that one point of each component lies outside the other solid
+// (TestContainment). One test per advance is enough: the surfaces stay apart after it, so no body
+// can enter the other.
 //
 // A yes/no query (DecideAt) first tests the two roots: 20 ns for bodies whose balls are apart. Then
 // the convex bodies around both (hull_gap.h): for bodies a tenth of their diameter apart they

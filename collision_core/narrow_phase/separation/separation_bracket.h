@@ -41,7 +41,7 @@ struct ContactWitness {
   };
   Kind kind = Kind::kNone;
   NodePair nodes;        ///< With kNodes and kLeaves.
-  ElementPair elements;  ///< With kElements; beside a ball both name the other body's element.
+  ElementPair elements;  ///< With kElements; if one body is a ball, both name the other's.
 
   static ContactWitness Nodes(NodePair pair) { return {Kind::kNodes, pair, {}}; }
   static ContactWitness Elements(ElementPair pair) { return {Kind::kElements, {}, pair}; }
@@ -60,7 +60,8 @@ struct NearestWay {
 /// translation is not: the true distance lies in [lower − translation, upper + translation].
 struct SeparationBracket {
   double lower = -numeric::kInfinity;  ///< The surfaces are apart by at least this.
-  double upper = numeric::kInfinity;  ///< At most; below 0: the bodies overlap by at least −upper.
+  double upper = numeric::kInfinity;
+  /// The surfaces are apart by at most this; below 0: the bodies overlap by at least −upper.
   /// Crossing triangles: contact is certain while no corner of theirs moves further than this.
   double crossing_margin = -numeric::kInfinity;
   ContactWitness witness;   ///< Of contact, where it is certain.

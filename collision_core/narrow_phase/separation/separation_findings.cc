@@ -18,8 +18,9 @@ double Greatest(const geometry::TrianglePoints& t) {
   return std::sqrt(std::max({t[0].squaredNorm(), t[1].squaredNorm(), t[2].squaredNorm()}));
 }
 
-// The gap of two sets' shadows along about a unit vector, rounded down: supports lose kSupportError
-// of the spans, the length of n, products and sums less than as much again of the same size.
+// The gap of two sets' projections along about a unit vector, rounded down: supports lose
+// kSupportError of the spans, the length of n, products and sums less than as much again of the
+// same size.
 double GapAlong(const Eigen::Vector3d& n, const geometry::ConvexSet& a,
                 const geometry::ConvexSet& b) {
   const Eigen::Vector3d between = b.centre - a.centre;
@@ -55,7 +56,7 @@ double SeparationFindings::MeasureNodes(NodePair nodes) {
     CommonPoint(a, b, c_b, distance, slack);
     bracket_.witness = ContactWitness::Nodes(nodes);
   }
-  LowerUpper(upper);
+  TightenUpper(upper);
   return distance - a.radius - b.radius - slack;
 }
 
@@ -94,8 +95,8 @@ double SeparationFindings::TurnOfB(const geometry::TrianglePoints& t) const {
   return pose_.chord_B * Greatest(own);
 }
 
-// The gap of the shadows along the shortest way found so far, a unit vector but for rounding; what
-// rounding may have made of it is in the slack.
+// The gap of the projections along the shortest way found so far, a unit vector but for rounding;
+// what rounding may have made of it is in the slack.
 double SeparationFindings::GapAlongDirection(const geometry::TrianglePoints& a,
                                              const geometry::TrianglePoints& b) const {
   const Eigen::Vector3d& n = direction_;
@@ -161,7 +162,7 @@ double SeparationFindings::MeasureSolids(ElementPair solids, WorkBudget* work) {
   return found.separation.lower;
 }
 
-double SeparationFindings::MeasureBeside(ElementIndex element, WorkBudget* work) {
+double SeparationFindings::MeasureBallAgainst(ElementIndex element, WorkBudget* work) {
   if (AnySolid(a_, b_, {element, element})) return MeasureSolids({element, element}, work);
   if (a_.shape()) {
     const geometry::TrianglePoints corners = CornersOf(*a_.shape(), element);
@@ -225,7 +226,7 @@ void SeparationFindings::Cross(ElementPair triangles, const geometry::TrianglePo
 }
 
 void SeparationFindings::KeepWay(const NearestWay& way) {
-  LowerUpper(way.upper);
+  TightenUpper(way.upper);
   if (way.lower > bracket_.upper + 2 * pose_.translation) return;
   if (!way_ || way.upper < way_->upper) {
     way_ = way;

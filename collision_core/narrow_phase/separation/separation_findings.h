@@ -14,8 +14,8 @@ namespace collision::narrow_phase {
 /// The most shortest-way candidates that are kept; if there are more, no direction is reported.
 inline constexpr std::size_t kWaysMax = 128;
 
-/// A step of the search through time loses at most half of the distance when the bracket is this
-/// narrow.
+/// With Goal::kDecision, pairs whose lower bound exceeds this share of `upper` are not opened: a
+/// step through time then loses at most half of the distance.
 inline constexpr double kEnoughOfUpper = 0.5;
 
 /// Units for a pair of elements of which one is a convex solid. If they do not suffice, the bracket
@@ -45,7 +45,7 @@ class SeparationFindings {
   /// Contact is certain.
   bool Touching() const { return bracket_.CertainlyTouching(pose_.translation); }
   /// No further pair can improve the answer.
-  bool Settled() const;
+  bool IsFinal() const;
 
   const SeparationBracket& bracket() const { return bracket_; }
   double slack() const { return slack_; }
@@ -54,17 +54,17 @@ class SeparationFindings {
   const Eigen::Vector3d& direction() const { return direction_; }
 
   /// Adds a lower bound on the distance of a pair that is measured and will not be opened again.
-  void Resolve(double lower) { resolved_lower_ = std::min(resolved_lower_, lower); }
+  void AddResolved(double lower) { resolved_lower_ = std::min(resolved_lower_, lower); }
   double resolved_lower() const { return resolved_lower_; }
 
   /// Measures the balls of two nodes; returns the lower bound.
   double MeasureNodes(NodePair nodes);
   /// Adds an upper bound of the distance, found for some pair of balls.
-  void LowerUpper(double upper) { bracket_.upper = std::min(bracket_.upper, upper); }
+  void TightenUpper(double upper) { bracket_.upper = std::min(bracket_.upper, upper); }
   /// Measures two triangles that the filter could not separate; returns the lower bound.
   double MeasureTriangles(ElementPair triangles, FirstTest first, WorkBudget* work);
   /// If one of the bodies is a ball: measures it beside an element of the other body.
-  double MeasureBeside(ElementIndex element, WorkBudget* work);
+  double MeasureBallAgainst(ElementIndex element, WorkBudget* work);
   /// Measures any two elements; two triangles by their distance first.
   double MeasureElements(ElementPair elements, WorkBudget* work);
   /// Tests only whether two elements are certainly in contact.
@@ -118,7 +118,7 @@ inline double SeparationFindings::Limit() const {
   return std::min(std::max(moved, kEnoughOfUpper * upper), resolved);
 }
 
-inline bool SeparationFindings::Settled() const {
+inline bool SeparationFindings::IsFinal() const {
   if (goal_ == Goal::kNearest) return bracket_.upper <= 0 || bracket_.ways.size() > kWaysMax;
   return goal_ != Goal::kContact && Touching();
 }

@@ -54,7 +54,7 @@ SeparationSearch::SeparationSearch(const PosedPair& pair, Goal goal,
       frontier_(order == SearchOrder::kAsGoal && (goal == Goal::kYesNo || narrow)
                     ? FrontierOrder::kNewestFirst
                     : FrontierOrder::kNearestFirst) {
-  std::fill_n(beyond_, kLanesOver, sphere_tree::kNowhere);
+  std::fill_n(beyond_, kLanesOver, sphere_tree::kFarDistance);
 }
 
 void SeparationSearch::Start(WorkBudget* work) {
@@ -62,7 +62,7 @@ void SeparationSearch::Start(WorkBudget* work) {
   root_lower_ = findings_.MeasureNodes({});
   const Eigen::Map<const Eigen::Vector3f> offset(pose_.offset);
   if (!(offset.cwiseAbs().maxCoeff() < kFarApart)) {
-    findings_.Resolve(root_lower_);
+    findings_.AddResolved(root_lower_);
     done_ = true;
     return;
   }
@@ -71,7 +71,7 @@ void SeparationSearch::Start(WorkBudget* work) {
 
 void SeparationSearch::Refine(WorkBudget* work) {
   while (!done_) {
-    if (frontier_.empty() || findings_.Settled()) {
+    if (frontier_.empty() || findings_.IsFinal()) {
       done_ = true;
       return;
     }
@@ -80,7 +80,7 @@ void SeparationSearch::Refine(WorkBudget* work) {
     if (static_cast<double>(frontier_.next().lower) > limit) {
       // No pair that is left is nearer; with the newest first this holds for the present pair only.
       if (frontier_.order() == FrontierOrder::kNewestFirst) {
-        findings_.Resolve(static_cast<double>(frontier_.Pop().lower));
+        findings_.AddResolved(static_cast<double>(frontier_.Pop().lower));
       } else {
         done_ = true;
       }
@@ -144,7 +144,7 @@ void SeparationSearch::OpenBalls(const BallPair& pair, Opened opened, float limi
   work->Spend(task.rows * kPackRowUnits);
   BallHits hits;
   scan_.balls(pose_, task, beyond_, &hits, nullptr);
-  if (static_cast<double>(hits.upper) < upper()) LowerUpper(opening, task, hits.upper);
+  if (static_cast<double>(hits.upper) < upper()) TightenUpper(opening, task, hits.upper);
   BallPair* const pairs = frontier_.Room(kPairsMax);
   std::size_t count = 0;
   for (std::uint64_t within = hits.within; within != 0; within &= within - 1) {
@@ -155,7 +155,7 @@ void SeparationSearch::OpenBalls(const BallPair& pair, Opened opened, float limi
 }
 
 // Where this bound makes contact certain, finds the pair of balls that gave it, the witness.
-void SeparationSearch::LowerUpper(const Opening& opening, const BallScanTask& task, float upper) {
+void SeparationSearch::TightenUpper(const Opening& opening, const BallScanTask& task, float upper) {
   if (static_cast<double>(upper) <= -moved_) {
     BallHits hits;
     float uppers[kPairsMax + kLanesOver];
@@ -165,7 +165,7 @@ void SeparationSearch::LowerUpper(const Opening& opening, const BallScanTask& ta
     const BallPair balls = opening.PairOf(static_cast<std::uint32_t>(nearest - uppers), 0);
     findings_.MeasureNodes({body_a_.NodeOf(balls.a), body_b_.NodeOf(balls.b)});
   }
-  findings_.LowerUpper(static_cast<double>(upper));
+  findings_.TightenUpper(static_cast<double>(upper));
 }
 
 // Measures one pair of blocks, or of elements of which one is a solid, and puts the others back
@@ -199,7 +199,7 @@ void SeparationSearch::OpenLeaves(BallPair pair, float limit, WorkBudget* work) 
 
 void SeparationSearch::OpenSolids(const BallPair& pair, ElementPair elements, WorkBudget* work) {
   const double lower = findings_.MeasureElements(elements, work);
-  findings_.Resolve(std::max(lower, static_cast<double>(BoundOf(pair))));
+  findings_.AddResolved(std::max(lower, static_cast<double>(BoundOf(pair))));
 }
 
 // From ball to ball, about a unit vector; `other` where the centres nearly coincide.
@@ -239,8 +239,8 @@ void SeparationSearch::OpenBlocks(const BallPair& pair, const sphere_tree::Trian
     const FirstTest first = lowers[code] + slack <= 0 ? FirstTest::kCrossing : FirstTest::kDistance;
     const double lower =
         findings_.MeasureTriangles({a.element[row], b.element[column]}, first, work);
-    findings_.Resolve(std::max(lower, least));
-    if (findings_.Settled()) break;
+    findings_.AddResolved(std::max(lower, least));
+    if (findings_.IsFinal()) break;
   }
 }
 
@@ -249,7 +249,7 @@ void SeparationSearch::OpenBlock(const BallPair& pair, const sphere_tree::Triang
                                  WorkBudget* work) {
   const double least = static_cast<double>(BoundOf(pair));
   for (std::uint32_t i = 0; i < std::min(block.left, sphere_tree::kBlockTriangles); ++i) {
-    findings_.Resolve(std::max(findings_.MeasureBeside(block.element[i], work), least));
+    findings_.AddResolved(std::max(findings_.MeasureBallAgainst(block.element[i], work), least));
   }
 }
 
@@ -260,7 +260,7 @@ void SeparationSearch::TryLeaves(NodePair leaves, WorkBudget* work) {
     const sphere_tree::SphereTree& tree = (a_.shape() ? a_ : b_).shape()->tree();
     for (const ElementIndex t : tree.ElementsOf(a_.shape() ? a : b)) {
       if (work->exhausted()) return;
-      findings_.MeasureBeside(t, work);
+      findings_.MeasureBallAgainst(t, work);
     }
     return;
   }

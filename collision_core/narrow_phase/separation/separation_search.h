@@ -22,9 +22,9 @@
 
 namespace collision::narrow_phase {
 
-/// Units: up to eight pairs of balls in one wide step cost about as much as one pair elsewhere;
-/// four triangles beside four others, as filter.
+/// Work units of one ball against a pack of up to eight.
 inline constexpr std::uint64_t kPackRowUnits = 1;
+/// Work units of the filter of four triangles against four.
 inline constexpr std::uint64_t kBlockPairUnits = 3;
 
 /// Which pair is opened next. With the newest first the lower end of the bracket rises only when
@@ -70,12 +70,12 @@ class SeparationSearch {
                   const sphere_tree::TriangleBlock& b, float limit, WorkBudget* work);
   void OpenSolids(const BallPair& pair, ElementPair elements, WorkBudget* work);
   void OpenBlock(const BallPair& pair, const sphere_tree::TriangleBlock& block, WorkBudget* work);
-  /// The lower bound of a pair; −kNowhere where only the limit counts, because the key is then an
-  /// order and no bound.
+  /// The lower bound of a pair; −kFarDistance where only the limit counts, because the key is then
+  /// an order and no bound.
   float BoundOf(const BallPair& pair) const {
-    return only_within_ ? -sphere_tree::kNowhere : pair.lower;
+    return only_within_ ? -sphere_tree::kFarDistance : pair.lower;
   }
-  void LowerUpper(const Opening& opening, const BallScanTask& task, float upper);
+  void TightenUpper(const Opening& opening, const BallScanTask& task, float upper);
 
   const BodyTree& a_;
   const BodyTree& b_;

@@ -8,10 +8,10 @@
 namespace collision::narrow_phase {
 
 /// A point fixed to one of the bodies, on its surface or near it, with a bound of its signed
-/// distance to that surface: negative within the solid. Where the other solid holds a ball about it
-/// that is larger, the two overlap. Unlike triangles that cross this shows a shallow contact of
-/// parallel faces, or of edges that coincide: there no edge passes through the inside of a
-/// triangle.
+/// distance to that surface: negative within the solid. The two overlap if the other solid contains
+/// a ball about the point whose radius exceeds this signed distance. Unlike triangles that cross
+/// this shows a shallow contact of parallel faces, or of edges that coincide: there no edge passes
+/// through the inside of a triangle.
 struct SolidPoint {
   PairMember body = PairMember::kA;             ///< The body to which it is fixed.
   Eigen::Vector3d x = Eigen::Vector3d::Zero();  ///< In that body's frame.

@@ -96,7 +96,7 @@ WIDE inline BallDifferences DifferencesOf(const RowScan& scan, std::uint32_t row
 WIDE inline void ScanRows(const RowScan& scan, const ScanRoom& room) {
   const BallScanTask& task = scan.task;
   const Lanes slack = All(scan.pose.slack), parent = All(task.parent), limit = All(task.limit);
-  const Lanes nowhere = All(sphere_tree::kNowhere);
+  const Lanes nowhere = All(sphere_tree::kFarDistance);
   Lanes least = nowhere, least_beyond = Load(room.beyond);
   std::uint64_t within = 0;
   for (std::uint32_t done = 0; done < task.rows; done += kWidth / 8) {
@@ -116,7 +116,7 @@ WIDE inline void ScanRows(const RowScan& scan, const ScanRoom& room) {
   }
   Store(room.beyond, least_beyond);
   const bool is_news = NotGreater(All(task.upper), least) != kAllLanes;
-  room.hits->upper = is_news ? LeastOf(least) : sphere_tree::kNowhere;
+  room.hits->upper = is_news ? LeastOf(least) : sphere_tree::kFarDistance;
   room.hits->within = within;
 }
 
@@ -141,7 +141,7 @@ WIDE inline bool ScanRowsWithin(const RowScan& scan, const ScanRoom& room) {
   }
   if (is_news != 0) return false;
   room.beyond[0] = room.beyond[0] < task.limit ? room.beyond[0] : task.limit;
-  room.hits->upper = sphere_tree::kNowhere;
+  room.hits->upper = sphere_tree::kFarDistance;
   room.hits->within = within;
   return true;
 }

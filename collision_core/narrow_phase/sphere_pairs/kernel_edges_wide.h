@@ -81,7 +81,8 @@ WIDE inline unsigned NotApartAcrossEdges(const WideEdges& a, const WideEdges& b,
                                          const Lanes& apart) {
   const Lanes none = All(0);
   const Points normal_a = Cross(a.edge[0], a.edge[1]), normal_b = Cross(b.edge[0], b.edge[1]);
-  Lanes low_a[3], high_a[3], most = All(-sphere_tree::kNowhere), least = All(sphere_tree::kNowhere);
+  Lanes low_a[3], high_a[3], most = All(-sphere_tree::kFarDistance),
+                             least = All(sphere_tree::kFarDistance);
 #pragma GCC unroll 3
   for (int j = 0; j < 3; ++j) {
     const Lanes third = Dot(b.edge[j], normal_a);

@@ -67,7 +67,7 @@ WIDE inline WideRange RangeAlong(const Points& n, const Points* corners) {
   return {Lesser(Lesser(p, q), r), Greater(Greater(p, q), r)};
 }
 
-/// How far two shadows on a line are apart, whichever is first.
+/// How far two projections on a line are apart, whichever is first.
 WIDE inline Lanes Gap(const WideRange& a, const WideRange& b) {
   return Greater(b.low - a.high, a.low - b.high);
 }
@@ -96,7 +96,7 @@ WIDE inline Lanes GapAcrossEdges(const WideTriangles& a, const WideTriangles& b,
   return gap;
 }
 
-/// The shadows of B's triangles on the direction.
+/// The projections of B's triangles on the direction.
 WIDE inline WideRange AlongB(const KernelPose& pose, const TurnedBlock& turned) {
   const float* const n = pose.direction;
   const float* const o = pose.offset;
@@ -181,8 +181,8 @@ WIDE inline unsigned ScanTriangles(const KernelPose& pose, const BlockScanTask& 
   Lanes least_beyond = Load(beyond);
   for (std::uint32_t g = 0; g < kGroups; ++g) {
     const Lanes lower = gaps[g] - All(task.slack);
-    const Lanes others =
-        Greater(WhereGreater(lower, All(task.limit), All(sphere_tree::kNowhere)), All(task.parent));
+    const Lanes others = Greater(
+        WhereGreater(lower, All(task.limit), All(sphere_tree::kFarDistance)), All(task.parent));
     least_beyond = Lesser(others, least_beyond);
     Store(lowers + g * kWidth, lower);
   }

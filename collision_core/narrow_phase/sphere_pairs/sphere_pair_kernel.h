@@ -22,8 +22,8 @@ struct KernelPose {
 /// Which of two balls is opened.
 enum class Opened : std::uint8_t { kA, kB, kBoth };
 
-/// Every ball of pack `a` beside every one of `b`, or where only one is opened, its pack beside the
-/// ball at `lane` of the other one.
+/// Every ball of pack `a` against every ball of `b`; if only one is opened, its pack against the
+/// ball at `lane` of the other.
 struct BallScanTask {
   const sphere_tree::BallPack* a;
   const sphere_tree::BallPack* b;
@@ -32,13 +32,13 @@ struct BallScanTask {
   std::uint32_t rows;  ///< Balls in pack `a`; 1 where only one of the two is opened.
   float parent;        ///< A lower bound for all of them.
   float limit;         ///< Pairs with a greater lower bound are not reported.
-  float upper;         ///< Only a lesser upper bound is news.
+  float upper;         ///< The least upper bound known; only a smaller one is reported.
   /// Reports only which pairs are within the limit. `beyond` is the limit then, and the value that
   /// is reported for a pair is no bound: it is 0 at most, and mostly less the nearer the two are.
   bool only_within = false;
 };
 
-/// Every triangle of a block beside every one of another.
+/// Every triangle of a block against every one of another.
 struct BlockScanTask {
   const sphere_tree::TriangleBlock* a;
   const sphere_tree::TriangleBlock* b;
@@ -54,9 +54,9 @@ inline constexpr std::uint32_t kLanesOver = 16;  ///< Whole vectors are written.
 /// The least lower bounds of pairs beyond the limit, lane by lane, over as many scans as there are.
 using LeastBeyond = float[kLanesOver];
 
-/// Pair 8 · row + lane has that bit and that place.
+/// The pair of a row and a lane has bit 8 · row + lane in `within` and that index in `lowers`.
 struct BallHits {
-  float upper;           ///< The least upper bound of all pairs if it is news, else kNowhere.
+  float upper;           ///< The least upper bound if it is below the task's, else kFarDistance.
   std::uint64_t within;  ///< The pairs within the limit, or not numbers.
   float lowers[kPairsMax + kLanesOver];
 };
@@ -83,8 +83,8 @@ struct BallHits {
 ///
 /// Where only the limit counts, L = slack + limit. Balls: a square is off by 5 u of itself, that of
 /// the sum of radii and L by no more than the sum, rounded twice, and u: all in all by less than a
-/// root, a difference and L taken away. Below kNearest nothing is decided, so that squares keep
-/// their digits.
+/// root, a difference and L taken away. Nothing is decided for distances below kDistinctMin, so
+/// that squares keep their digits.
 ///
 /// Triangles across edges, seen from A's origin, E and F the longest edges of the two: edges are
 /// off by u of themselves, their moments and normals by (2.9 + 2) u of the lengths' product, dot

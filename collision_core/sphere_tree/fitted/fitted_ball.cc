@@ -36,7 +36,7 @@ Vector3d Direction(const Vector3d& v) {
 /// The largest ball that touches the surface at `from`, lies towards `inward` and contains no other
 /// surface, nearly (Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors
 /// and the normal field", 2012): each point found inside makes it smaller.
-FittedBall ShrinkingBall(const TriangleBoxes& boxes, const Vector3d& from, const Vector3d& inward,
+FittedBall ShrinkingBall(const TriangleBoxTree& boxes, const Vector3d& from, const Vector3d& inward,
                          double radius, std::uint32_t triangle) {
   FittedBall ball;
   ball.inside = true;
@@ -119,7 +119,7 @@ void BallPolish::Run(std::span<const Vector3d> points, int queries, FittedBall* 
   }
 }
 
-void AppendCandidates(const TriangleBoxes& boxes, const SurfacePoint& at, SurfaceKind kind,
+void AppendCandidates(const TriangleBoxTree& boxes, const SurfacePoint& at, SurfaceKind kind,
                       std::vector<FittedBall>* candidates) {
   const auto& [from, normal, triangle] = at;
   FittedBall on_surface;
@@ -129,7 +129,7 @@ void AppendCandidates(const TriangleBoxes& boxes, const SurfacePoint& at, Surfac
   if (kind == SurfaceKind::kOpen) return;
   for (const double side : {-1.0, 1.0}) {
     const Vector3d inward = side * normal;
-    const RayWalk walk = boxes.Walk(from, inward, triangle);
+    const RayCast walk = boxes.Walk(from, inward, triangle);
     if (walk.winding == 0) continue;
     candidates->push_back(ShrinkingBall(boxes, from, inward, 0.5 * walk.first, triangle));
     if (-candidates->back().signed_distance > kMuchOfHalfWay * 0.5 * walk.first) continue;

@@ -31,7 +31,7 @@ FarPoint FarthestFrom(const Eigen::Vector3d& centre, std::span<const Eigen::Vect
 /// Moves the centres of balls so that they overshoot less. Not thread-safe: it keeps its buffers.
 class BallPolish {
  public:
-  explicit BallPolish(const TriangleBoxes& boxes) : boxes_(boxes) {}
+  explicit BallPolish(const TriangleBoxTree& boxes) : boxes_(boxes) {}
 
   /// Moves the centre while that makes the overshoot of a ball about all points less, asking for
   /// the nearest surface at most `queries` times. Sets the radius.
@@ -41,7 +41,7 @@ class BallPolish {
   bool Try(std::span<const Eigen::Vector3d> points, const Eigen::Vector3d& centre, double step,
            FittedBall* ball);
 
-  const TriangleBoxes& boxes_;
+  const TriangleBoxTree& boxes_;
   std::vector<Eigen::Vector3d> near_;  ///< Points of the surface that were nearest once.
   std::vector<Eigen::Vector3d> far_;   ///< Points that were farthest once.
   Eigen::Vector3d farthest_ = Eigen::Vector3d::Zero();
@@ -58,7 +58,7 @@ struct SurfacePoint {
 /// Appends balls that touch the surface at a point from inside (or lie on it), as starts of a
 /// search: the point itself, and for a closed surface the largest ball that contains no surface and
 /// one half-way to the opposite side.
-void AppendCandidates(const TriangleBoxes& boxes, const SurfacePoint& at, SurfaceKind kind,
+void AppendCandidates(const TriangleBoxTree& boxes, const SurfacePoint& at, SurfaceKind kind,
                       std::vector<FittedBall>* candidates);
 
 }  // namespace collision::sphere_tree

@@ -43,7 +43,7 @@ Weights NearestOf(double uu, double uv, double vv, double d1, double d2) {
 
 }  // namespace
 
-TriangleBoxes::TriangleBoxes(const geometry::TriangleMesh& mesh) : mesh_(mesh) {
+TriangleBoxTree::TriangleBoxTree(const geometry::TriangleMesh& mesh) : mesh_(mesh) {
   faces_.reserve(mesh.triangles.size());
   nodes_.reserve(mesh.triangles.size());
   std::vector<std::uint32_t> triangles(mesh.triangles.size());
@@ -53,7 +53,7 @@ TriangleBoxes::TriangleBoxes(const geometry::TriangleMesh& mesh) : mesh_(mesh) {
   for (std::uint32_t i = 0; i < faces_.size(); ++i) place_[faces_[i].triangle] = i;
 }
 
-void TriangleBoxes::MakeFaces(std::span<const std::uint32_t> triangles, Node* leaf) {
+void TriangleBoxTree::MakeFaces(std::span<const std::uint32_t> triangles, Node* leaf) {
   leaf->first = static_cast<std::uint32_t>(faces_.size());
   leaf->count = static_cast<std::uint32_t>(triangles.size());
   for (const std::uint32_t triangle : triangles) {
@@ -67,7 +67,7 @@ void TriangleBoxes::MakeFaces(std::span<const std::uint32_t> triangles, Node* le
   }
 }
 
-void TriangleBoxes::Divide(std::span<std::uint32_t> triangles) {
+void TriangleBoxTree::Divide(std::span<std::uint32_t> triangles) {
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
   const auto middle_of = [this](std::uint32_t triangle) -> Vector3d {
@@ -100,8 +100,8 @@ void TriangleBoxes::Divide(std::span<std::uint32_t> triangles) {
   Divide(triangles.subspan(half));
 }
 
-inline void TriangleBoxes::TryFace(const Face& face, const Vector3d& point, double* best2,
-                                   NearPoint* best) {
+inline void TriangleBoxTree::TryFace(const Face& face, const Vector3d& point, double* best2,
+                                     NearPoint* best) {
   const Vector3d &u = face.to_second, &v = face.to_third, w = point - face.corner;
   // The plane alone is farther.
   const double height = face.normal.dot(w);
@@ -114,8 +114,8 @@ inline void TriangleBoxes::TryFace(const Face& face, const Vector3d& point, doub
   best->triangle = face.triangle;
 }
 
-NearPoint TriangleBoxes::Nearest(const Vector3d& point, std::uint32_t hint, double enough,
-                                 double slack) const {
+NearPoint TriangleBoxTree::Nearest(const Vector3d& point, std::uint32_t hint, double enough,
+                                   double slack) const {
   struct Pending {
     double square;
     std::uint32_t node;
@@ -163,11 +163,11 @@ NearPoint TriangleBoxes::Nearest(const Vector3d& point, std::uint32_t hint, doub
   return best;
 }
 
-RayWalk TriangleBoxes::Walk(const Vector3d& from, const Vector3d& direction,
-                            std::uint32_t start) const {
+RayCast TriangleBoxTree::Walk(const Vector3d& from, const Vector3d& direction,
+                              std::uint32_t start) const {
   std::array<std::uint32_t, kDepthMax> stack;
   std::size_t size = 0;
-  RayWalk walk{diagonal(), 0};
+  RayCast walk{diagonal(), 0};
   const Vector3d inverse = direction.cwiseInverse();
   stack[size++] = 0;
   while (size > 0) {

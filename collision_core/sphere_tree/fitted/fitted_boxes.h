@@ -23,17 +23,17 @@ struct NearPoint {
 };
 
 /// What a ray from a surface meets; without an error bound as well.
-struct RayWalk {
+struct RayCast {
   double first = 0;  ///< How far the first triangle is; the boxes' diagonal if there is none.
   int winding = 0;   ///< Passages through backs less those through fronts.
 };
 
 /// A tree of boxes, halved at the median until few triangles are left: the same for the same mesh,
 /// whatever the library. The mesh must outlive it. Not thread-safe: it counts its work.
-class TriangleBoxes {
+class TriangleBoxTree {
  public:
   /// Unchecked: IsWellFormed(mesh). BuildFitted() checks it.
-  explicit TriangleBoxes(const geometry::TriangleMesh& mesh);
+  explicit TriangleBoxTree(const geometry::TriangleMesh& mesh);
 
   /// `hint`: a triangle that is perhaps near. Ends as soon as something is no farther than
   /// `enough`, and does not look for what is nearer by less than `slack`.
@@ -41,7 +41,7 @@ class TriangleBoxes {
                     double slack) const;
 
   /// Along a unit direction from a point of the triangle `start`, which is left out.
-  RayWalk Walk(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
+  RayCast Walk(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
                std::uint32_t start) const;
 
   /// Calls `visit(triangle)` for every triangle but those certainly farther than *limit, which may

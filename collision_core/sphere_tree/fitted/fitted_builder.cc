@@ -282,7 +282,7 @@ class Builder {
   }
 
   const ShapeOptions& options_;
-  const TriangleBoxes boxes_;
+  const TriangleBoxTree boxes_;
   FittedPieces pieces_;
   const std::size_t pieces_max_;
   const std::uint64_t work_max_;

@@ -30,7 +30,7 @@ struct FittedGroup {
 class CoverSearch {
  public:
   /// `whole`: balls with so few pieces need not be divided.
-  CoverSearch(const TriangleBoxes& boxes, const FittedPieces& pieces, SurfaceKind kind,
+  CoverSearch(const TriangleBoxTree& boxes, const FittedPieces& pieces, SurfaceKind kind,
               std::uint32_t whole)
       : boxes_(boxes), pieces_(pieces), kind_(kind), whole_(whole), polish_(boxes) {}
 
@@ -67,7 +67,7 @@ class CoverSearch {
   void SplitBall(std::uint32_t ball, FittedCover* cover);
   double FarthestOf(std::uint32_t piece, const Eigen::Vector3d& centre) const;
 
-  const TriangleBoxes& boxes_;
+  const TriangleBoxTree& boxes_;
   const FittedPieces& pieces_;
   const SurfaceKind kind_;
   const std::uint32_t whole_;

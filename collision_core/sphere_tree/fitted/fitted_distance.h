@@ -19,7 +19,7 @@ struct CentreFacts {
 /// Certified queries of one surface, through its boxes.
 class FittedDistance {
  public:
-  FittedDistance(const TriangleBoxes& boxes, SurfaceKind kind) : boxes_(boxes), kind_(kind) {}
+  FittedDistance(const TriangleBoxTree& boxes, SurfaceKind kind) : boxes_(boxes), kind_(kind) {}
 
   /// The signed distance, rounded up by `slack` at most where that makes it easier, beside
   /// rounding. `near`: facts of a centre near by, which may save the winding number; `triangle`:
@@ -31,7 +31,7 @@ class FittedDistance {
   double LowerBound(const Eigen::Vector3d& centre, double from) const;
   std::optional<int> WindingNumberAt(const Eigen::Vector3d& point) const;
 
-  const TriangleBoxes& boxes_;
+  const TriangleBoxTree& boxes_;
   const SurfaceKind kind_;
 };
 

@@ -73,7 +73,7 @@ Run Fly(const Flight& flight, std::uint64_t units) {
     Keep(detector.events(), &run);
     for (const auto& [key, event] : run.contacts) {
       run.undecided_at_work += event.status == detection::EventStatus::kPossible &&
-                               event.limited_by == narrow_phase::EventLimit::kBudget;
+                               event.limited_by == narrow_phase::BracketLimit::kBudget;
     }
   }
   return run;
@@ -112,7 +112,7 @@ Verdicts VerdictsOf(const Flight& flight, const Run& run) {
     verdicts.undecided += event.status == detection::EventStatus::kUndecided;
     verdicts.possible += event.status == detection::EventStatus::kPossible;
     verdicts.by_budget +=
-        !IsOver(event.status) && event.limited_by == narrow_phase::EventLimit::kBudget;
+        !IsOver(event.status) && event.limited_by == narrow_phase::BracketLimit::kBudget;
     verdicts.between_frames += confirmed && !shown.contains(key);
     if (confirmed && event.begin.latest != Instant::Never()) {
       verdicts.widths.push_back(

@@ -36,7 +36,7 @@ class ExactPlane {
       square_ += Exact(half_space.normal[i]) * Exact(half_space.normal[i]);
     radius_ = Exact(bound.limits.radius) + Exact(margin);
     if (!HasSpeedCap(bound.limits)) return;
-    const Instant from = CapTakesOver(bound);
+    const Instant from = CapStartOf(bound);
     if (!from.is_never()) cap_ = ExactSeconds(bound.state.stamp, from);
   }
 

@@ -102,7 +102,7 @@ class SphereFilterTest : public testing::Test {
     query_.query.vz = static_cast<float>(query_ball.v[2]);
     query_.query.reach = WithSlack(query_ball.reach, way(query_ball));
     query_.query.speed = WithSlack(speed_of(query_ball), 0);
-    query_.query.way = static_cast<float>(reach_time);
+    query_.query.u_max = static_cast<float>(reach_time);
     query_.range = {0, kBalls, static_cast<float>(query_ball.p[0]),
                     static_cast<float>(query_ball.p[1]), static_cast<float>(query_ball.p[2])};
     for (int k = 0; k < kBalls; ++k) {

@@ -286,7 +286,7 @@ TEST(DetectorShapes, WithoutBudgetNothingIsWrong) {
         EXPECT_GE(event.end.latest, At(5)) << units;
       }
       if (event.status == EventStatus::kUndecided) {
-        EXPECT_EQ(event.limited_by, narrow_phase::EventLimit::kBudget) << units;
+        EXPECT_EQ(event.limited_by, narrow_phase::BracketLimit::kBudget) << units;
       }
       const bool over =
           event.status == EventStatus::kUndecided || event.status == EventStatus::kEnded;

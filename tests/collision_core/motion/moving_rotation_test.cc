@@ -31,8 +31,8 @@ TEST(MovingRotation, AngleIsHalfAlphaTimesTheSquareOfTheTime) {
   const MovingRotation forward = ForwardRotation(Turning(0.5, 0.25, 1), kBase);
   const MovingRotation backward = BackwardRotation(Turning(0.5, 0.25, 4), kBase);
   for (const double delta : {0.0, 0.25, 1.0, 1.5}) {
-    EXPECT_NEAR(forward.off_angle.At(delta).upper, 0.125 * (1 + delta) * (1 + delta), 1e-14);
-    EXPECT_NEAR(backward.off_angle.At(delta).upper, 0.125 * (2 - delta) * (2 - delta), 1e-14);
+    EXPECT_NEAR(forward.angle_error.At(delta).upper, 0.125 * (1 + delta) * (1 + delta), 1e-14);
+    EXPECT_NEAR(backward.angle_error.At(delta).upper, 0.125 * (2 - delta) * (2 - delta), 1e-14);
     // The prediction: turned by ω from the stamp on.
     EXPECT_LT(
         AngleBetweenTrue(Exponential({0, 0, 0.5L * (1 + delta)}), forward.OrientationAt(delta)),
@@ -49,19 +49,19 @@ TEST(MovingRotation, ErrorsClockAndStepAreCounted) {
   bound.skew = 0.125;
   bound.limits.time_step = 0.0625;
   const double sigma = 1.5 + 0.125;
-  EXPECT_NEAR(ForwardRotation(bound, kBase).off_angle.At(0.5).upper,
+  EXPECT_NEAR(ForwardRotation(bound, kBase).angle_error.At(0.5).upper,
               0.01 + 2 * 0.125 + 0.125 * sigma * (sigma + 0.0625), 1e-14);
   bound.state.stamp = Instant::FromNanoseconds(4000000000);
-  EXPECT_NEAR(BackwardRotation(bound, kBase).off_angle.At(0.5).upper,
+  EXPECT_NEAR(BackwardRotation(bound, kBase).angle_error.At(0.5).upper,
               0.01 + 2 * 0.125 + 0.125 * sigma * (sigma + 0.0625), 1e-14);
 }
 
 TEST(MovingRotation, UndeclaredSaysNothing) {
   const MovingRotation turn = ForwardRotation(Turning(1, -1, 1), kBase);
-  EXPECT_GE(turn.off_angle.At(0).lower, std::numbers::pi);
-  EXPECT_GE(turn.off_angle.At(100).lower, std::numbers::pi);
+  EXPECT_GE(turn.angle_error.At(0).lower, std::numbers::pi);
+  EXPECT_GE(turn.angle_error.At(100).lower, std::numbers::pi);
   const MovingRotation still = ForwardRotation(Turning(1, 0, 1), kBase);
-  EXPECT_EQ(still.off_angle.At(100).upper, 0);
+  EXPECT_EQ(still.angle_error.At(100).upper, 0);
 }
 
 // A state taken from the motion at 1 s or at 3 s holds at every instant before or after.
@@ -88,7 +88,7 @@ TEST(MovingRotation, NoMotionWithinTheBoundIsOutside) {
           is_forward ? ForwardRotation(bound, base) : BackwardRotation(bound, base);
       for (const double delta : {0.0, 0.5, 1.0, 1.5}) {
         const Real angle = AngleBetweenTrue(motion.At(1.5L + delta).q, turn.OrientationAt(delta));
-        const double allowed = turn.off_angle.At(delta).upper;
+        const double allowed = turn.angle_error.At(delta).upper;
         EXPECT_LE(angle, allowed + 1e-15);
         closest = std::max(closest, static_cast<double>(angle) / allowed);
       }

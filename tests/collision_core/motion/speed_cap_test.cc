@@ -97,19 +97,19 @@ TEST(SpeedCap, TakesOverWhenTheSlopeReachesIt) {
       EXPECT_LE(after, 0);
       EXPECT_GE(after, Exact(-1.000001e-9) - abs(exact) * Exact(1e-15));
     };
-    expect(CapTakesOver(bound), (V - 7 - errors) / M - kappa);
-    expect(FaceCapTakesOver(bound, -6, 0.5), (V + 6 - errors + M / 16) / (M / 2) - kappa);
+    expect(CapStartOf(bound), (V - 7 - errors) / M - kappa);
+    expect(FaceCapStartOf(bound, -6, 0.5), (V + 6 - errors + M / 16) / (M / 2) - kappa);
   }
 }
 
 // Goal:   extremes are defined: no acceleration, at the cap, above it, no cap.
 TEST(SpeedCap, Extremes) {
   EXPECT_FALSE(HasSpeedCap(MotionLimits()));
-  EXPECT_TRUE(CapTakesOver(Capped({0, 0, 0}, {1, 0, 0}, 0, 2)).is_never());
-  EXPECT_EQ(CapTakesOver(Capped({0, 0, 0}, {2, 0, 0}, 0, 2)), Instant());
-  EXPECT_EQ(CapTakesOver(Capped({0, 0, 0}, {2, 0, 0}, 5, 2)), Instant());
-  EXPECT_EQ(CapTakesOver(Capped({0, 0, 0}, {3, 0, 0}, 5, 2)), Instant());
-  EXPECT_TRUE(CapTakesOver(Capped({0, 0, 0}, {1, 0, 0}, 1e-12, 1e6)).is_never());
+  EXPECT_TRUE(CapStartOf(Capped({0, 0, 0}, {1, 0, 0}, 0, 2)).is_never());
+  EXPECT_EQ(CapStartOf(Capped({0, 0, 0}, {2, 0, 0}, 0, 2)), Instant());
+  EXPECT_EQ(CapStartOf(Capped({0, 0, 0}, {2, 0, 0}, 5, 2)), Instant());
+  EXPECT_EQ(CapStartOf(Capped({0, 0, 0}, {3, 0, 0}, 5, 2)), Instant());
+  EXPECT_TRUE(CapStartOf(Capped({0, 0, 0}, {1, 0, 0}, 1e-12, 1e6)).is_never());
   EXPECT_TRUE(NeverMoves(Capped({0, 0, 0}, {0, 0, 0}, 5, 0)));
   EXPECT_FALSE(NeverMoves(Capped({0, 0, 0}, {0, 0, 0}, 5, 1)));
   EXPECT_FALSE(NeverMoves(Capped({0, 0, 0}, {1, 0, 0}, 5, 0)));
@@ -121,7 +121,7 @@ TEST(SpeedCap, ContainsHonestMotions) {
   Random random(22);
   for (int i = 0; i < kMotions; ++i) {
     const SpaceTimeBound bound = AnyCapped(random);
-    const CappedBall ball = CapBall(bound);
+    const CappedBall ball = CappedBallOf(bound);
     Honest honest(&random, bound, random.UnitVector());
     const Instant end = Instant::FromNanoseconds(10 * kSecond);
     const Hypertrapezoid h = MakeHypertrapezoid(bound, Instant(), end);
@@ -149,7 +149,7 @@ TEST(SpeedCap, ContainsHonestMotions) {
   const FaceBox box = BoxAt(ahead, Instant::FromNanoseconds(10 * kSecond));
   EXPECT_NEAR(box.upper[0].upper, 46.5, 1e-7);
   EXPECT_NEAR(box.lower[0].lower, -41.5, 1e-7);
-  EXPECT_NEAR(CappedRadius(CapBall(ahead), Instant::FromNanoseconds(10 * kSecond)), 44, 1e-7);
+  EXPECT_NEAR(CappedRadius(CappedBallOf(ahead), Instant::FromNanoseconds(10 * kSecond)), 44, 1e-7);
 }
 
 // Goal:   what an honest agent reports is kept, and takes no answer back: neither its ball nor its
@@ -228,7 +228,7 @@ TEST(SpeedCap, OutsideTheCappedBallIsWidened) {
   SpaceTimeBound after = before;
   after.state = next;
   const double room =
-      CappedRadius(CapBall(before), next.stamp) - ForwardBall(after, next.stamp).u.c0.upper;
+      CappedRadius(CappedBallOf(before), next.stamp) - ForwardBall(after, next.stamp).u.c0.upper;
   const auto verdict = [&](double distance) {
     next.p_WA = distance * Eigen::Vector3d(std::sqrt(0.5), std::sqrt(0.5), 0);
     return CheckContract(before, next).verdict;

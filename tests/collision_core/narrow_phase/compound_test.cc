@@ -259,7 +259,7 @@ TEST(Compound, MeetWhenAllPairsMeet) {
       return LeastOfAll(BodyTree(at_a), BodyTree(at_b), PoseBetween(at_a, at_b));
     };
     ASSERT_NE(found.status, ContactStatus::kUndecided);
-    ASSERT_EQ(found.limited_by, EventLimit::kNone);
+    ASSERT_EQ(found.limited_by, BracketLimit::kNone);
     const bool is_free = found.status == ContactStatus::kFree;
     const double until = is_free ? 1 : found.begin.lower;
     for (int i = 0; i < 50; ++i) EXPECT_GE(separation_at(until * i / 50).upper, 0);

@@ -77,7 +77,7 @@ inline void ExpectContact(const narrow_phase::TimeOfContactResult& found, Real b
   ASSERT_EQ(found.status, narrow_phase::ContactStatus::kContact);
   ExpectWithin(found.begin, begin, relative, "begin");
   ExpectWithin(found.end, end, relative, "end");
-  EXPECT_EQ(found.limited_by, narrow_phase::EventLimit::kNone);
+  EXPECT_EQ(found.limited_by, narrow_phase::BracketLimit::kNone);
   EXPECT_EQ(found.within, 0);
   EXPECT_GT(found.work, 0u);
 }

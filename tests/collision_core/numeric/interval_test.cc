@@ -77,7 +77,7 @@ TEST(Interval, PointsAreTight) {
   Random random(2);
   for (int i = 0; i < kTrials; ++i) {
     const double x = AnyNumber(random), y = AnyNumber(random);
-    const auto is_small = [](double v) { return std::abs(v) < kErrorIsExact; };
+    const auto is_small = [](double v) { return std::abs(v) < kExactErrorMin; };
     ExpectTight(Interval(x) + y, ExactOf(x) + ExactOf(y), false);
     ExpectTight(Interval(x) * y, ExactOf(x) * ExactOf(y), is_small(x * y));
     if (y != 0) {

@@ -35,7 +35,7 @@ TEST(FittedDistance, IsAnUpperBoundAndTight) {
   for (int i = 0; i < 300; ++i) {
     const geometry::TriangleMesh mesh = CubeWithNeedles(random);
     ASSERT_TRUE(FactsOf(mesh).closed);
-    const TriangleBoxes boxes(mesh);
+    const TriangleBoxTree boxes(mesh);
     const FittedDistance distance(boxes, SurfaceKind::kClosed);
     const DistanceProof proof(mesh);
     for (int k = 0; k < 20; ++k) {
@@ -62,10 +62,10 @@ TEST(FittedDistance, IsAnUpperBoundAndTight) {
 
 // Every triangle within the limit is visited, also one at the limit exactly; and few others are.
 // Faces of a cube lie in their boxes' faces: there box and triangle are equally far.
-TEST(TriangleBoxes, VisitsWhatIsWithinTheLimit) {
+TEST(TriangleBoxTree, VisitsWhatIsWithinTheLimit) {
   Random random(522);
   const geometry::TriangleMesh mesh = Subdivided(Cube(1), 3);
-  const TriangleBoxes boxes(mesh);
+  const TriangleBoxTree boxes(mesh);
   std::size_t visits = 0;
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = dirt::Point(random, 3);
@@ -92,7 +92,7 @@ TEST(TriangleBoxes, VisitsWhatIsWithinTheLimit) {
 // A centre near by that is inside says so of another only within the ball that it knows.
 TEST(FittedDistance, TakesAnothersWordOnlyInItsBall) {
   const geometry::TriangleMesh mesh = Joined(Cube(1), Moved(Cube(1), {4, 0, 0}));
-  const TriangleBoxes boxes(mesh);
+  const TriangleBoxTree boxes(mesh);
   const FittedDistance distance(boxes, SurfaceKind::kClosed);
   const CentreFacts middle = distance.Certify({0, 0, 0}, 0, {}, 0);
   ASSERT_TRUE(middle.inside);
@@ -107,7 +107,7 @@ TEST(FittedDistance, TakesAnothersWordOnlyInItsBall) {
 TEST(FittedDistance, OpenSurfacesHaveNoInside) {
   geometry::TriangleMesh mesh = Cube(1);
   mesh.triangles.pop_back();
-  const TriangleBoxes boxes(mesh);
+  const TriangleBoxTree boxes(mesh);
   const CentreFacts facts = FittedDistance(boxes, SurfaceKind::kOpen).Certify({0, 0, 0}, 0, {}, 0);
   EXPECT_FALSE(facts.inside);
   EXPECT_NEAR(facts.signed_distance, 1, 1e-11);

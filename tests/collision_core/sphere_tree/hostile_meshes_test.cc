@@ -64,7 +64,7 @@ TEST(HostileMeshes, TreesOfThemAreBounded) {
                                            NeedlesFromOneCorner(2000, random)};
   for (const geometry::TriangleMesh& mesh : meshes) {
     for (const TreeBuilder builder :
-         {TreeBuilder::kOctree, TreeBuilder::kFitted, TreeBuilder::kHalved}) {
+         {TreeBuilder::kOctree, TreeBuilder::kFitted, TreeBuilder::kMedianSplit}) {
       const SphereTree tree = shape::Shape::Build(mesh, {.builder = builder})->tree();
       EXPECT_EQ(RefusalOf(tree, mesh), std::nullopt);
       EXPECT_LE(tree.elements.size(), PiecesMax(mesh.triangles.size()));
@@ -89,7 +89,8 @@ TEST(HostileMeshes, OctreesGrowUpToTheBound) {
 // Every ball about copies is as far from all of them.
 TEST(HostileMeshes, QuickTreesMeasureWhatTheyCanAfford) {
   const std::size_t count = 20'000;
-  const auto tree = shape::Shape::Build(Copies(count), {.builder = TreeBuilder::kHalved})->tree();
+  const auto tree =
+      shape::Shape::Build(Copies(count), {.builder = TreeBuilder::kMedianSplit})->tree();
   EXPECT_GE(Measured(tree), 10u);
   EXPECT_LE(Measured(tree), 1024 * 1024 / count + 1);
 }

@@ -21,7 +21,7 @@ namespace collision::sphere_tree {
 namespace {
 
 ShapeOptions Halved(std::uint32_t leaf = 4) {
-  return {.builder = TreeBuilder::kHalved, .triangles_per_leaf = leaf};
+  return {.builder = TreeBuilder::kMedianSplit, .triangles_per_leaf = leaf};
 }
 
 /// The middle of a long edge is a centre that rounding alone keeps off the surface, and every ray

@@ -65,8 +65,8 @@ struct Walk {
     const std::uint32_t count = BallLink::Count(link);
     for (std::uint32_t i = 0; i < kPackBalls; ++i) {
       if (i >= count) {
-        EXPECT_EQ(packed.packs()[BallLink::Index(link)].radius[i], -kNowhere);
-        EXPECT_EQ(packed.packs()[BallLink::Index(link)].x[i], kElsewhere);
+        EXPECT_EQ(packed.packs()[BallLink::Index(link)].radius[i], -kFarDistance);
+        EXPECT_EQ(packed.packs()[BallLink::Index(link)].x[i], kFarCoordinate);
         continue;
       }
       const std::uint32_t lane = packed.NodeOf(first + i).value();

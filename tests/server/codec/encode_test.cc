@@ -64,7 +64,7 @@ TEST(Encode, AnEventKeepsItsGeometryUnrounded) {
   event.normal_error = 0.02;
   event.level = 5;
   event.work = 0xf000'0000'0000'0001;
-  event.limited_by = narrow_phase::EventLimit::kGeometry;
+  event.limited_by = narrow_phase::BracketLimit::kGeometry;
   const v1::CollisionEvent wire = Encode(event);
   EXPECT_EQ(wire.separation_m().lower(), -0.1);
   EXPECT_EQ(wire.separation_m().upper(), 1 / 3.0);

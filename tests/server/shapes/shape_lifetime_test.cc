@@ -34,7 +34,7 @@ TEST(ShapeLifetime, ANewRunOwnsWhatItWrites) {
 TEST(ShapeLifetime, ASuccessorsPartsWaitWithIt) {
   for (const bool dies : {false, true}) {
     v1::Config config = Simulated();
-    config.set_shape_bytes_max(4 * kShapePartBytes);
+    config.set_shape_bytes_max(4 * wire::kShapePartBytes);
     ScriptedDaemon daemon(config);
     daemon.Step(AlphaJoins(kAlpha));
     daemon.Step(From(kBeta, PartsOf("alpha", CubeBytes(), 2)));

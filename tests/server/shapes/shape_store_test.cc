@@ -236,7 +236,7 @@ TEST_F(ShapeStoreTest, WrittenAnewWhileItIsDisposedOf) {
 
 TEST_F(ShapeStoreTest, AnUnfinishedShapeGoesWithItsParts) {
   EXPECT_EQ(TakeAll({parts[0], parts[2]}), None());
-  EXPECT_EQ(store.counters().bytes, 2 * kShapePartBytes);
+  EXPECT_EQ(store.counters().bytes, 2 * wire::kShapePartBytes);
   store.Dispose(kA, hash, 0);
   EXPECT_EQ(store.counters().gathering, 1u);
   store.Dispose(kA, hash, 2);
@@ -285,14 +285,14 @@ TEST_F(ShapeStoreTest, BadPartsAreRefusedByField) {
   v1::ShapePart last = parts.back();
   *last.mutable_bytes() += 'x';
   EXPECT_EQ(FieldOf(store.Take(last)), "bytes");
-  EXPECT_EQ(store.counters().bytes, kShapePartBytes);
+  EXPECT_EQ(store.counters().bytes, wire::kShapePartBytes);
 }
 
 // Goal:   limits hold, are reported once for a shape, and free what they refuse.
 TEST(ShapeStoreLimits, AreKept) {
   v1::Config config;
   config.set_shapes_max(2);
-  config.set_shape_bytes_max(3 * kShapePartBytes);
+  config.set_shape_bytes_max(3 * wire::kShapePartBytes);
   config.set_shape_triangles_max(10'000);
   config = CompleteConfig(config);
   InlineShapeBuilder builder({.triangles_max = 10'000});
@@ -314,9 +314,9 @@ TEST(ShapeStoreLimits, AreKept) {
   const std::string other = EncodeShape(Cube(2, UnusedFor(1)));
   EXPECT_EQ(take(PartsOf("a", two)), Refused());
   EXPECT_EQ(take({PartsOf("a", other)[0]}), Refused());
-  store.SetHeldBytes(kShapePartBytes);
+  store.SetHeldBytes(wire::kShapePartBytes);
   EXPECT_EQ(take({PartsOf("a", other)[1]}), Refused{"bytes"});
-  EXPECT_EQ(store.counters().bytes, two.size() + kShapePartBytes);
+  EXPECT_EQ(store.counters().bytes, two.size() + wire::kShapePartBytes);
   store.SetHeldBytes(0);
   EXPECT_EQ(take(PartsOf("a", other)), Refused());
 
@@ -334,7 +334,7 @@ TEST(ShapeStoreLimits, AreKept) {
 TEST(ShapeStoreAtRandom, CountsWhatIsThere) {
   v1::Config config;
   config.set_shapes_max(3);
-  config.set_shape_bytes_max(5 * kShapePartBytes);
+  config.set_shape_bytes_max(5 * wire::kShapePartBytes);
   config = CompleteConfig(config);
   InlineShapeBuilder builder({.triangles_max = 1000});
   ShapeStore store(config, &builder);

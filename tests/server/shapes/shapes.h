@@ -60,7 +60,7 @@ inline constexpr double kCubeRadius = 1.7320508075688774;
 
 /// Vertices that add so many parts.
 inline std::size_t UnusedFor(std::size_t parts) {
-  return parts * kShapePartBytes / kShapeVertexBytes;
+  return parts * wire::kShapePartBytes / kShapeVertexBytes;
 }
 
 /// All parts of these bytes, under the hash that they have.
@@ -74,7 +74,7 @@ inline std::vector<v1::ShapePart> PartsOf(const std::string& simulator, const st
     parts[i].set_parts(static_cast<std::uint32_t>(parts.size()));
     parts[i].set_run(run);
     parts[i].set_total_bytes(bytes.size());
-    parts[i].set_bytes(bytes.substr(i * kShapePartBytes, kShapePartBytes));
+    parts[i].set_bytes(bytes.substr(i * wire::kShapePartBytes, wire::kShapePartBytes));
   }
   return parts;
 }

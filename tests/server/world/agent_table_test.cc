@@ -51,6 +51,29 @@ TEST(AgentTable, EachChangeMarksItsChunkAndNoOther) {
   table.Validate();
 }
 
+// Goal:   the time until which all agents of a simulator are clear follows each change.
+TEST(AgentTable, KnowsUntilWhenAllAgentsAreClear) {
+  AgentTable table = Table();
+  EXPECT_TRUE(table.clearances().clear_until().is_never());
+  table.Add(6, Described(1));
+  table.Admit(6, At(1), 10);
+  table.SetClearance(ClearanceOf(70, 3, At(9)));
+  table.SetClearance(ClearanceOf(6, 1, At(5)));
+  EXPECT_EQ(table.clearances().clear_until(), At(5));
+  table.SetClearance(ClearanceOf(6, 1, At(12)));
+  EXPECT_EQ(table.clearances().clear_until(), At(9));
+  detection::AgentClearance touching = ClearanceOf(6, 1, At(12));
+  touching.in_contact = true;
+  table.SetClearance(touching);
+  EXPECT_EQ(table.clearances().clear_until(), Instant::Always());
+  table.Validate();
+  table.Remove(6);
+  EXPECT_EQ(table.clearances().clear_until(), At(9));
+  table.Remove(70);
+  EXPECT_TRUE(table.clearances().clear_until().is_never());
+  table.Validate();
+}
+
 TEST(AgentTable, WhatASampleDoesNotSayMarksNothing) {
   AgentTable table = Table();
   EXPECT_EQ(table.RecordState(70, 3, 12), StateOrder::kNew);

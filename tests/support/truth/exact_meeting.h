@@ -124,7 +124,7 @@ class ExactMeeting {
       Reach horn{{}, {}, errors + deviation};
       for (int i = 0; i < 3; ++i) horn.line[i] = {LineAt0(i), Slope(i)};
       if (!HasSpeedCap(bound.limits)) return {horn};
-      const Instant takes_over = CapTakesOver(bound);
+      const Instant takes_over = CapStartOf(bound);
       if (takes_over.is_never()) return {horn};
       const Dyadic from = Between(base, takes_over);
       Reach cap{from.Sign() < 0 ? Dyadic() : from, {}, Capped(horn.u, from)};
@@ -150,8 +150,8 @@ class ExactMeeting {
       const motion::DirectionalReach reach =
           holds ? ReachOfDirection(bound.state) : motion::DirectionalReach();
       const Instant takes_over =
-          FaceCapTakesOver(bound, sign * bound.state.v_WA[axis],
-                           (sign > 0 ? reach.upward : reach.downward)[axis].upper);
+          FaceCapStartOf(bound, sign * bound.state.v_WA[axis],
+                         (sign > 0 ? reach.upward : reach.downward)[axis].upper);
       if (takes_over.is_never()) return {horn};
       const Dyadic from = Between(base, takes_over);
       Reach cap{from.Sign() < 0 ? Dyadic() : from, {}, Capped(horn.u, from)};

@@ -36,7 +36,7 @@ void CoverageTable::KeysChanged(AgentIndex agent) {
   }
   const bool queried = record.queried_step == context_.clock.step;
   due_.Set(agent, queried ? record.keys.earliest() : DueAt(agent));
-  if (settled_.Contains(agent)) settled_.Set(agent, Reversed(record.keys.comparable()));
+  if (lowerable_.Contains(agent)) lowerable_.Set(agent, Reversed(record.keys.comparable()));
   context_.clearances_dirty->Insert(agent);
 }
 
@@ -50,7 +50,7 @@ void CoverageTable::Renew(AgentIndex agent, Instant from, ClearanceCause cause) 
   if (!record.renewed_from) renewed_.Insert(agent);
   record.renewed_from = std::min(record.renewed_from.value_or(from), from);
   if (record.renewed_cause != ClearanceCause::kBreach) record.renewed_cause = cause;
-  settled_.Remove(agent);
+  lowerable_.Remove(agent);
   voided_.Insert(agent);
   tiers_.Set(agent, context_.agents[agent].bound().limits.acceleration_max);
   if (!IsSaturated(agent)) record.keys.SetAll(std::min(record.keys.earliest(), from));
@@ -68,7 +68,7 @@ void CoverageTable::StateAdvanced(AgentIndex agent) {
 void CoverageTable::Remove(AgentIndex agent) {
   (*this)[agent].renewed_from.reset();
   due_.Remove(agent);
-  settled_.Remove(agent);
+  lowerable_.Remove(agent);
   voided_.Insert(agent);
   tiers_.Remove(agent);
 }
@@ -79,7 +79,7 @@ void CoverageTable::Saturate(AgentIndex agent, AgentIndex partner) {
   last_saturated_ = agent;
   last_untracked_ = partner;
   record.keys.SetAll(std::max(context_.clock.now, context_.agents[agent].stamp()));
-  settled_.Remove(agent);
+  lowerable_.Remove(agent);
   context_.clearances_dirty->Insert(agent);
   const double rest = kSaturatedShare * context_.clock.announce_within;
   due_.Set(agent, numeric::AddRoundedUp(
@@ -87,8 +87,8 @@ void CoverageTable::Saturate(AgentIndex agent, AgentIndex partner) {
   if (saturated_.Insert(agent)) ++context_.counters->saturations;
 }
 
-void CoverageTable::Settle(AgentIndex agent) {
-  settled_.Set(agent, Reversed((*this)[agent].keys.comparable()));
+void CoverageTable::MarkLowerable(AgentIndex agent) {
+  lowerable_.Set(agent, Reversed((*this)[agent].keys.comparable()));
 }
 
 void CoverageTable::ValidateAgent(AgentIndex agent) const {
@@ -99,8 +99,8 @@ void CoverageTable::ValidateAgent(AgentIndex agent) const {
              "an agent is queued for a query unless it has expired", index);
   CORE_CHECK(record.renewed_from.has_value() <= renewed_.Contains(agent),
              "a renewed agent is listed", index);
-  if (settled_.Contains(agent)) {
-    CORE_CHECK(settled_.KeyOf(agent) == Reversed(record.keys.comparable()),
+  if (lowerable_.Contains(agent)) {
+    CORE_CHECK(lowerable_.KeyOf(agent) == Reversed(record.keys.comparable()),
                "a settled agent stands at its key", index);
     CORE_CHECK(!record.renewed_from && !IsSaturated(agent), "a settled agent relies on its key",
                index);
@@ -114,7 +114,7 @@ void CoverageTable::ValidateAgent(AgentIndex agent) const {
 
 void CoverageTable::Validate() const {
   due_.Validate();
-  settled_.Validate();
+  lowerable_.Validate();
   renewed_.Validate();
   saturated_.Validate();
   voided_.Validate();
@@ -124,7 +124,7 @@ void CoverageTable::Validate() const {
       ValidateAgent(agent);
       continue;
     }
-    CORE_CHECK(!due_.Contains(agent) && !settled_.Contains(agent) && !saturated_.Contains(agent),
+    CORE_CHECK(!due_.Contains(agent) && !lowerable_.Contains(agent) && !saturated_.Contains(agent),
                "an agent that has left is in no queue", agent.value());
   }
 }

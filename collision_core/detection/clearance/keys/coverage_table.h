@@ -87,17 +87,17 @@ class CoverageTable {
   const EventQueue<AgentIndex>& due() const { return due_; }
   /// The agent is queried for all partners in this step, so a renewed agent need not lower its
   /// keys.
-  void LeaveSettled(AgentIndex agent) { settled_.Remove(agent); }
+  void UnmarkLowerable(AgentIndex agent) { lowerable_.Remove(agent); }
   /// The query is over: from now on the agent's keys are among those that a renewed agent may have
   /// to lower.
-  void Settle(AgentIndex agent);
-  bool IsSettled(AgentIndex agent) const { return settled_.Contains(agent); }
-  std::size_t settled() const { return settled_.size(); }
+  void MarkLowerable(AgentIndex agent);
+  bool IsLowerable(AgentIndex agent) const { return lowerable_.Contains(agent); }
+  std::size_t settled() const { return lowerable_.size(); }
   /// The latest key of a comparable partner among the settled agents. Requires settled() > 0.
-  Instant LatestKey() const { return Reversed(settled_.top_key()); }
+  Instant LatestKey() const { return Reversed(lowerable_.top_key()); }
   /// Appends the settled agents whose comparable key is not earlier than `from`.
-  void AppendSettledFrom(Instant from, std::vector<AgentIndex>* agents) const {
-    settled_.UpTo(Reversed(from), agents);
+  void AppendLowerableFrom(Instant from, std::vector<AgentIndex>* agents) const {
+    lowerable_.UpTo(Reversed(from), agents);
   }
 
   /// Agents whose earlier lower bounds of an intersection are void (earliest/); the reader clears
@@ -119,7 +119,7 @@ class CoverageTable {
   IndexedVector<AgentIndex, AgentCoverage> agents_;
   AccelerationTiers tiers_;  // of the bounds declared at the last renewals
   EventQueue<AgentIndex> due_;
-  EventQueue<AgentIndex> settled_;  // by ~key: not those renewed or queried in this step
+  EventQueue<AgentIndex> lowerable_;  // by ~key: not those renewed or queried in this step
   IndexSet<AgentIndex> renewed_;
   IndexSet<AgentIndex> saturated_;
   AgentIndex last_saturated_ = AgentIndex::None(), last_untracked_ = AgentIndex::None();

@@ -1,4 +1,4 @@
-// The motions that agents had before they jumped.
+// Motions of agents that their newest bounds do not contain.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,9 @@
 
 namespace collision::detection {
 
-/// An agent whose newest state lies after a jump may have met others before the jump. Holds the
-/// motions that ended with a jump, by time. Empty, and free of cost, in a scene without jumps.
+/// An agent whose newest state lies after a jump may have met others before the jump. Holds, by
+/// time, the motions that a jump or a narrower declaration ended. It is empty, and costs nothing,
+/// in a scene without either.
 class PreJumpMotions {
  public:
   /// Keeps at most `motions_max`; beyond, it drops the oldest. Unchecked: `method` is empty.

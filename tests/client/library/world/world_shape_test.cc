@@ -68,7 +68,7 @@ TEST_F(WorldShapeTest, PartsComeFirstAndAreWhole) {
     EXPECT_EQ(part.part(), i);
     EXPECT_EQ(part.parts(), 3u);
     EXPECT_EQ(part.total_bytes(), shape->bytes().size());
-    EXPECT_LE(part.bytes().size(), kShapePartBytes);
+    EXPECT_LE(part.bytes().size(), wire::kShapePartBytes);
     bytes += part.bytes();
   }
   EXPECT_EQ(bytes, shape->bytes());
@@ -81,7 +81,7 @@ TEST_F(WorldShapeTest, PartsEndWithTheBytes) {
   for (std::uint32_t triangles = 1362; triangles < 1368; ++triangles) {
     const auto shape = Strip(triangles);
     std::optional<Agent> ship = world_.AddAgent(Ship("ship", shape), {});
-    const std::size_t parts = (shape->bytes().size() - 1) / kShapePartBytes + 1;
+    const std::size_t parts = (shape->bytes().size() - 1) / wire::kShapePartBytes + 1;
     EXPECT_EQ(Kinds(), std::string(parts, 'p') + "d");
     for (const v1::Input& input : network_->written) {
       EXPECT_TRUE(!input.has_shape_part() || !input.shape_part().bytes().empty());

@@ -37,7 +37,7 @@ TEST(SceneExtremes, AreTheTruthOnceARoundIsOver) {
   for (int step = 1; step <= 200; ++step) {
     const std::size_t agent = random.Below(kAgents);
     if (step < 100) bounds[agent] = include(Draw(step, &random));
-    extremes.Look(step < 100, kAgents, bound_of);
+    extremes.ExamineNext(step < 100, kAgents, bound_of);
     SceneExtremes::Bounds truth;
     for (const motion::SpaceTimeBound& bound : bounds) truth.Include(bound);
     const SceneExtremes::Bounds& kept = extremes.bounds();
@@ -47,7 +47,7 @@ TEST(SceneExtremes, AreTheTruthOnceARoundIsOver) {
     EXPECT_GE(kept.acceleration_max, truth.acceleration_max);
     EXPECT_GE(kept.position_error_max, truth.position_error_max);
     EXPECT_GE(kept.time_step_max, truth.time_step_max);
-    if (step < 100 + 2 * static_cast<int>(kAgents / SceneExtremes::kLooks) + 2) continue;
+    if (step < 100 + 2 * static_cast<int>(kAgents / SceneExtremes::kAgentsPerStep) + 2) continue;
     EXPECT_EQ(kept.speed_max, truth.speed_max) << "two rounds after the last change";
     EXPECT_EQ(kept.oldest, truth.oldest);
     EXPECT_EQ(kept.acceleration_max, truth.acceleration_max);

@@ -69,11 +69,11 @@ TEST_F(CoverageTest, ASaturatedAgentIsQueriedAgainSoon) {
 TEST_F(CoverageTest, SettledAgentsStandByTheirLatestKeys) {
   SetKey(a_, 30);
   SetKey(b_, 50);
-  coverage_.Settle(a_);
-  coverage_.Settle(b_);
+  coverage_.MarkLowerable(a_);
+  coverage_.MarkLowerable(b_);
   EXPECT_EQ(coverage_.LatestKey(), At(50));
   std::vector<AgentIndex> far;
-  coverage_.AppendSettledFrom(At(40), &far);
+  coverage_.AppendLowerableFrom(At(40), &far);
   EXPECT_EQ(far, std::vector{b_});
   coverage_.LowerKey(b_, a_, At(20));
   EXPECT_EQ(coverage_.LatestKey(), At(30));
@@ -111,7 +111,7 @@ TEST_F(CoverageTest, ValidateFindsAKeyThatIsAlreadyDue) {
 TEST_F(CoverageTest, ValidateFindsASettledAgentWhoseKeyWasChangedBehindItsBack) {
   SetKey(a_, 30);
   SetKey(b_, 30);
-  coverage_.Settle(a_);
+  coverage_.MarkLowerable(a_);
   coverage_[a_].keys.SetAll(At(25));
   EXPECT_THROW(coverage_.Validate(), CheckFailure);
 }

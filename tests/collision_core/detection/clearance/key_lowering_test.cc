@@ -31,7 +31,7 @@ class KeyLoweringTest : public testing::Test {
     coverage_[agent].renewed_from.reset();
     coverage_[agent].keys.SetAll(At(key));
     coverage_.KeysChanged(agent);
-    coverage_.Settle(agent);
+    coverage_.MarkLowerable(agent);
     return agent;
   }
 
@@ -40,7 +40,7 @@ class KeyLoweringTest : public testing::Test {
     marks_.Start(agent, pairs_.table(), agents_.size());
     marks_.Add(agent);
     if (!tracked.is_none()) marks_.Add(tracked);
-    coverage_.LeaveSettled(agent);
+    coverage_.UnmarkLowerable(agent);
     lowering_.Lower(agent, At(from), marks_);
   }
 
@@ -65,7 +65,7 @@ class KeyLoweringTest : public testing::Test {
       before.push_back(KeyOf(partners.back()));
     }
     const AgentIndex tracked = partners.at(0), unsettled = partners.at(1);
-    coverage_.LeaveSettled(unsettled);
+    coverage_.UnmarkLowerable(unsettled);
     Lower(renewed, 0, tracked);
     std::uint32_t lowered = 0;
     for (std::uint32_t k = 0; k < count; ++k) {

@@ -20,11 +20,12 @@ Instant At(double seconds) {
 /// Records the instants for which it is called.
 class AskedProximity final : public ProximitySource {
  public:
-  narrow_phase::Proximity At(Instant at) override {
+  ProximityAnswer At(Instant at) override {
     called_for.push_back(at);
-    narrow_phase::Proximity found;
-    found.separation.upper = -0.5;
-    return found;
+    ProximityAnswer answer;
+    answer.found.separation.upper = -0.5;
+    answer.work = 7;
+    return answer;
   }
 
   std::vector<Instant> called_for;

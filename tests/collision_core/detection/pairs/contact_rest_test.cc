@@ -37,13 +37,13 @@ ContactTracker Ahead(ContactTracker tracker, const narrow_phase::SegmentResult& 
 class ContactRestTest : public testing::Test {
  protected:
   Instant RestsUntil(double now, double longest = kLong) const {
-    return ContactRestsUntil({a_, b_, settled_, preview_}, At(now), longest);
+    return ContactRestsUntil({a_, b_, lowerable_, preview_}, At(now), longest);
   }
 
   History::Sample a_ = Ball(0, 0);
   History::Sample b_ = Ball(1, 0.125);  // the balls overlap by 1 m at 1 s, and by nothing at 9 s
-  ContactTracker settled_ = Tracked({0.25, 0.5, 1, true, 1});
-  ContactTracker preview_ = Ahead(settled_, Touching());
+  ContactTracker lowerable_ = Tracked({0.25, 0.5, 1, true, 1});
+  ContactTracker preview_ = Ahead(lowerable_, Touching());
 };
 
 // Rounding may end the rest earlier, by no more than two nanoseconds, and never later.
@@ -75,22 +75,22 @@ TEST_F(ContactRestTest, NeedsAnOverlapNowAndAtTheLastEvaluation) {
 }
 
 TEST_F(ContactRestTest, NeedsACertainContactThatGoesOn) {
-  preview_ = Ahead(settled_, {0, 0, 0.25, true, 0.5});
+  preview_ = Ahead(lowerable_, {0, 0, 0.25, true, 0.5});
   EXPECT_EQ(RestsUntil(2), Instant::Always()) << "it has ended";
-  preview_ = Ahead(settled_, {0.25, 0.5, 1, true, 1});
+  preview_ = Ahead(lowerable_, {0.25, 0.5, 1, true, 1});
   EXPECT_EQ(RestsUntil(2), Instant::Always()) << "a first contact has ended, its end may move";
-  settled_ = Tracked(Undecided());
-  preview_ = Ahead(settled_, Undecided());
+  lowerable_ = Tracked(Undecided());
+  preview_ = Ahead(lowerable_, Undecided());
   EXPECT_EQ(RestsUntil(2), Instant::Always()) << "it is not certain";
 }
 
 // A contact that began after what is settled: later states may narrow its begin.
 TEST_F(ContactRestTest, NeedsABeginThatIsSettled) {
-  settled_ = Tracked({1, 1, 0, true, 0});
-  preview_ = Ahead(settled_, {0.25, 0.5, 1, true, 1});
+  lowerable_ = Tracked({1, 1, 0, true, 0});
+  preview_ = Ahead(lowerable_, {0.25, 0.5, 1, true, 1});
   EXPECT_EQ(RestsUntil(2), Instant::Always());
-  settled_ = Tracked(Undecided());
-  preview_ = Ahead(settled_, Touching());
+  lowerable_ = Tracked(Undecided());
+  preview_ = Ahead(lowerable_, Touching());
   EXPECT_LE(RestsUntil(2), At(9));
   EXPECT_GE(RestsUntil(2), At(9 - 2e-9)) << "certain from the settled instant on";
 }

@@ -93,7 +93,7 @@ TEST(IntervalEvaluation, TheProximityOfTwoBallsIsTheirDistance) {
   EXPECT_NEAR(found.separation.lower, 1, 1e-9);
   EXPECT_NEAR(found.separation.upper, 1, 1e-9);
   EXPECT_EQ(work.spent(), 1u);
-  EXPECT_FALSE(HaveShapes(Moving(0, 0, 0), Moving(4, -2, 0)));
+  EXPECT_FALSE(HaveKnownShapes(Moving(0, 0, 0), Moving(4, -2, 0)));
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ TEST(StepBudget, StarvesNoPairAndReportsItsEffect) {
     EXPECT_GE(event.begin.latest, At(3)) << slot;
     EXPECT_LE(Width(event.begin), 0.25) << slot;
     if (Width(event.begin) > 1.01 * Width(narrow.at(slot).begin)) {
-      EXPECT_EQ(event.limited_by, narrow_phase::EventLimit::kBudget) << slot;
+      EXPECT_EQ(event.limited_by, narrow_phase::BracketLimit::kBudget) << slot;
     }
   }
 }

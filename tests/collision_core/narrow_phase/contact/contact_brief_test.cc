@@ -25,7 +25,7 @@ void ExpectBrief(const Body& a, const Body& b, double duration, Real begin, Real
                                                   : Find(a, b, duration, states_at, tolerance);
         SCOPED_TRACE(testing::Message() << tolerance.absolute << ' ' << tolerance.relative);
         ASSERT_EQ(found.status, ContactStatus::kContact);
-        EXPECT_EQ(found.limited_by, EventLimit::kNone);
+        EXPECT_EQ(found.limited_by, BracketLimit::kNone);
         EXPECT_EQ(found.within, 0);
         ExpectAsAsked(found.begin, begin, tolerance);
         ExpectAsAsked(found.end, end, tolerance);
@@ -95,7 +95,7 @@ TEST_P(BriefContactOf, BallThatGrazesAnEdge) {
       // The gap closes at 4 / s times the chord: 1e-14 m of it, what is rounded, take half a
       // nanosecond.
       if (tolerance.absolute == 1e-9 && chord < 1e-5) continue;
-      EXPECT_EQ(found.limited_by, EventLimit::kNone) << tolerance.absolute;
+      EXPECT_EQ(found.limited_by, BracketLimit::kNone) << tolerance.absolute;
     }
   }
 }
@@ -191,14 +191,14 @@ TEST_P(BriefContactOf, AtTheEndsOfTheSegment) {
     EXPECT_EQ(found.begin.upper, 0);
     EXPECT_LE(found.end.lower, 1e-5 * (1 + 1e-9));
     EXPECT_GE(found.end.upper, 1e-5 * (1 - 1e-9));
-    EXPECT_EQ(found.limited_by, EventLimit::kNone);
+    EXPECT_EQ(found.limited_by, BracketLimit::kNone);
     const Body coming{nullptr, 0.25, {-100.25, 0, 0}, {100, 0, 0}};
     const TimeOfContactResult last = Find(coming, plate, 1, Result::kAtBoth, tolerance);
     ASSERT_EQ(last.status, ContactStatus::kContact);
     EXPECT_LE(last.begin.lower, 1 - 1e-5 * (1 - 1e-9));
     EXPECT_GE(last.begin.upper, 1 - 1e-5 * (1 + 1e-9));
     EXPECT_EQ(last.end.lower, 1);
-    EXPECT_EQ(last.limited_by, EventLimit::kNone);
+    EXPECT_EQ(last.limited_by, BracketLimit::kNone);
   }
 }
 
@@ -223,7 +223,7 @@ TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
     const TimeOfContactResult best = Find(a, b, 1);
     contacts += best.status == ContactStatus::kContact;
     frees += best.status == ContactStatus::kFree;
-    unknown += best.limited_by == EventLimit::kMotion;
+    unknown += best.limited_by == BracketLimit::kMotion;
     for (const ContactTolerance& tolerance : kTolerances) {
       const TimeOfContactResult found = Find(a, b, 1, Result::kAtStart, tolerance);
       EXPECT_EQ(found.status, best.status) << tolerance.absolute;
@@ -232,8 +232,8 @@ TEST(BriefContact, FoundWheneverAFinerToleranceFindsIt) {
       EXPECT_GE(found.begin.upper, best.begin.lower);
       EXPECT_LE(found.end.lower, best.end.upper);
       EXPECT_GE(found.end.upper, best.end.lower);
-      if (best.limited_by == EventLimit::kNone) {
-        EXPECT_EQ(found.limited_by, EventLimit::kNone);
+      if (best.limited_by == BracketLimit::kNone) {
+        EXPECT_EQ(found.limited_by, BracketLimit::kNone);
       }
       finest += best.work;
       coarsest += found.work;

@@ -32,7 +32,7 @@ TEST(ContactLimits, AsNarrowAsTheMotionAllows) {
     for (const Result states_at : {Result::kAtStart, Result::kAtBoth}) {
       const TimeOfContactResult found = Find(a, b, 1, states_at);
       ASSERT_EQ(found.status, ContactStatus::kContact);
-      EXPECT_EQ(found.limited_by, EventLimit::kMotion);
+      EXPECT_EQ(found.limited_by, BracketLimit::kMotion);
       EXPECT_LE(found.begin.lower, first * (1 + kStated));
       EXPECT_GE(found.begin.upper, sure * (1 - kStated));
       EXPECT_LE(found.begin.width(), 1.1 * static_cast<double>(sure - first));
@@ -49,7 +49,7 @@ TEST(ContactLimits, AsNarrowAsTheTurningAllows) {
     const Body ball{nullptr, 0.2, {0, 1, 0}};
     const TimeOfContactResult found = Find(bar, ball, 2);
     ASSERT_EQ(found.status, ContactStatus::kContact);
-    EXPECT_EQ(found.limited_by, EventLimit::kMotion);
+    EXPECT_EQ(found.limited_by, BracketLimit::kMotion);
     const double truth = std::acos(0.3), off = alpha * truth * truth / 2;
     EXPECT_LE(found.begin.lower, truth - 0.9 * off);
     EXPECT_GE(found.begin.upper, truth + 0.9 * off);
@@ -68,7 +68,7 @@ TEST(ContactLimits, TheWorkLimitIsTheOnlyOne) {
   b.w = {0, 3, 0.1};
   const TimeOfContactResult best = Find(a, b, 3);
   ASSERT_EQ(best.status, ContactStatus::kContact);
-  ASSERT_EQ(best.limited_by, EventLimit::kNone);
+  ASSERT_EQ(best.limited_by, BracketLimit::kNone);
   int limited = 0;
   for (std::uint64_t units = 0; units < 2 * best.work; units = units * 5 / 4 + 1) {
     const TimeOfContactResult found = Find(a, b, 3, Result::kAtStart, {}, units);
@@ -79,11 +79,11 @@ TEST(ContactLimits, TheWorkLimitIsTheOnlyOne) {
       EXPECT_GE(found.begin.upper, best.begin.lower) << units;
       EXPECT_LE(found.end.lower, best.end.upper) << units;
     }
-    if (found.limited_by == EventLimit::kNone) {
+    if (found.limited_by == BracketLimit::kNone) {
       EXPECT_LE(found.begin.width(), 1e-12 * found.begin.upper);
       continue;
     }
-    EXPECT_EQ(found.limited_by, EventLimit::kBudget) << units;
+    EXPECT_EQ(found.limited_by, BracketLimit::kBudget) << units;
     EXPECT_GE(found.work, units / 8) << units;
     ++limited;
   }
@@ -124,13 +124,13 @@ TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
     undeclared.angular_acceleration_max = -1;
     for (const std::uint64_t units : {std::uint64_t{10'000}, std::uint64_t{200'000}}) {
       const TimeOfContactResult least = Find(undeclared, other, 1, Result::kAtStart, {}, units);
-      EXPECT_EQ(least.limited_by, EventLimit::kMotion);
+      EXPECT_EQ(least.limited_by, BracketLimit::kMotion);
       for (const double rate : {10 * numeric::kRotationAngleMax, 1e9, 1e15, 1e150}) {
         bar.w = {0, 0, rate};
         for (const Result states_at : {Result::kAtStart, Result::kAtBoth}) {
           const TimeOfContactResult found = Find(bar, other, 1, states_at, {}, units);
           EXPECT_NE(found.status, ContactStatus::kFree);
-          EXPECT_EQ(found.limited_by, EventLimit::kMotion) << rate;
+          EXPECT_EQ(found.limited_by, BracketLimit::kMotion) << rate;
           EXPECT_GE(found.begin.lower, least.begin.lower - 1e-12);
           EXPECT_LE(found.end.upper, least.end.upper + 1e-12);
           if (found.status != ContactStatus::kContact) continue;
@@ -145,7 +145,7 @@ TEST(ContactLimits, TurnsBeyondAllMeasureAreNotKnown) {
   const Body passing{nullptr, 0.2, {-5, 0, 0}, {10, 0, 0}};
   const TimeOfContactResult found = Find(bar, passing, 1, Result::kAtBoth);
   EXPECT_EQ(found.status, ContactStatus::kContact);
-  EXPECT_EQ(found.limited_by, EventLimit::kNone);
+  EXPECT_EQ(found.limited_by, BracketLimit::kNone);
   EXPECT_LE(found.begin.width(), 1e-12);
   EXPECT_LE(found.end.width(), 1e-12);
 }
@@ -171,7 +171,7 @@ TEST(ContactLimits, GrazingEndsWithABracketAndItsReason) {
     if (off < 0) {
       EXPECT_LE(found.begin.width(), 1e-8);
     } else {
-      EXPECT_EQ(found.limited_by, EventLimit::kGeometry);
+      EXPECT_EQ(found.limited_by, BracketLimit::kGeometry);
       EXPECT_LE(found.within, 1e-13);
     }
   }
@@ -215,7 +215,7 @@ TEST(ContactLimits, TumblingStars) {
     const TimeOfContactResult found = Find(a, b, 3);
     if (found.status == ContactStatus::kFree) continue;
     ASSERT_EQ(found.status, ContactStatus::kContact) << seed;
-    EXPECT_EQ(found.limited_by, EventLimit::kNone) << seed;
+    EXPECT_EQ(found.limited_by, BracketLimit::kNone) << seed;
     EXPECT_LE(found.begin.width(), 1e-12 * found.begin.upper) << seed;
     // Just before they are apart, just after together, by the true distance.
     EXPECT_GT(TrueDistance(a, b, found.begin.lower - 1e-10), 0) << seed;

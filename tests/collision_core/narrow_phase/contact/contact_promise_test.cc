@@ -61,8 +61,9 @@ void Check(const Scene& scene, const TimeOfContactResult& found, Random& random,
   count->free += found.status == ContactStatus::kFree;
   count->contact += found.status == ContactStatus::kContact;
   count->undecided += found.status == ContactStatus::kUndecided;
-  count->budget += found.limited_by == EventLimit::kBudget;
-  count->narrow += found.status == ContactStatus::kContact && found.limited_by == EventLimit::kNone;
+  count->budget += found.limited_by == BracketLimit::kBudget;
+  count->narrow +=
+      found.status == ContactStatus::kContact && found.limited_by == BracketLimit::kNone;
 }
 
 Count Judged(std::uint64_t first, int seeds, double tolerance) {
@@ -78,7 +79,7 @@ Count Judged(std::uint64_t first, int seeds, double tolerance) {
     WorkBudget work(allowed);
     const TimeOfContactResult found = TimeOfContact(a, b, scene.duration, {0, tolerance}, &work);
     EXPECT_EQ(found.work, work.spent());
-    if (found.limited_by == EventLimit::kBudget) {
+    if (found.limited_by == BracketLimit::kBudget) {
       EXPECT_GE(work.spent(), allowed / 8);
     }
     Check(scene, found, random, &count);

@@ -269,7 +269,7 @@ TEST(ShapeContact, SpentBudgetSaysSoAndClaimsNothingWrong) {
       EXPECT_LE(verdict.times.contact_to, best.times.free_from) << units;
     } else {
       ASSERT_TRUE(verdict.examined);
-      EXPECT_EQ(verdict.nearest.limited_by, EventLimit::kBudget) << units;
+      EXPECT_EQ(verdict.nearest.limited_by, BracketLimit::kBudget) << units;
       some = true;
     }
   }

@@ -181,7 +181,7 @@ TEST_P(ClosedContact, RestingAndSlidingContactsStayUndecided) {
     EXPECT_LE(found.within, triangles ? 1e-14 : 4e-14);
     EXPECT_EQ(found.begin.lower, 0);
     EXPECT_EQ(found.end.upper, 1);
-    EXPECT_EQ(found.limited_by, EventLimit::kGeometry);
+    EXPECT_EQ(found.limited_by, BracketLimit::kGeometry);
   }
 }
 
@@ -204,7 +204,7 @@ TEST_P(ClosedContact, StartsInOverlapAndLeaves) {
     EXPECT_EQ(found.begin.lower, 0);
     EXPECT_EQ(found.begin.upper, 0);
     ExpectWithin(found.end, 0.25L, 1e-12, "end");
-    EXPECT_EQ(found.limited_by, EventLimit::kNone);
+    EXPECT_EQ(found.limited_by, BracketLimit::kNone);
   }
 }
 

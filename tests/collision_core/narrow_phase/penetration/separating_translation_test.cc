@@ -12,7 +12,7 @@
 namespace collision::narrow_phase {
 namespace {
 
-Real ReachOf(const TrueBody& body, const Vector& n) {
+Real TurningReachOf(const TrueBody& body, const Vector& n) {
   Real reach = body.triangles.empty() ? n.dot(body.centre) + body.radius : -INFINITY;
   for (const auto& triangle : body.triangles) {
     for (const Vector& corner : triangle) reach = std::max(reach, n.dot(corner));
@@ -37,7 +37,7 @@ TEST(SeparatingTranslationAlong, IsWhatTheVerticesTell) {
     // In the world: A's frame is turned; a ball's is not.
     const Vector own = n.cast<Real>();
     const Vector way = a.shape ? Vector(a.pose.q * own) : own;
-    const Real exact = ReachOf(a.Body(), way) + ReachOf(b.Body(), -way);
+    const Real exact = TurningReachOf(a.Body(), way) + TurningReachOf(b.Body(), -way);
     EXPECT_GE(shift, exact);
     EXPECT_LE(shift, exact + 1e-3 * (size + other));
     to_last_bits += shift <= exact + 1e-11 * (size + other);

@@ -148,7 +148,7 @@ TEST(RelativePose, ABallDoesNotTurn) {
   a.limits.angular_acceleration_max = -1;
   const RelativePose pose = PoseAt(Forward(a, nullptr), Forward(b), {0, 0, true}, 1);
   EXPECT_EQ(pose.chord_A, 0);
-  EXPECT_EQ(ReachOf(Forward(a, nullptr)), 0);
+  EXPECT_EQ(TurningReachOf(Forward(a, nullptr)), 0);
 }
 
 // Near the next state its bound is the better one; of each body by itself.

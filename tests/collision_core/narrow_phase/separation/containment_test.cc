@@ -33,7 +33,7 @@ class ContainmentTest : public testing::TestWithParam<sphere_tree::TreeBuilder> 
 INSTANTIATE_TEST_SUITE_P(Builders, ContainmentTest,
                          testing::Values(sphere_tree::TreeBuilder::kOctree,
                                          sphere_tree::TreeBuilder::kFitted,
-                                         sphere_tree::TreeBuilder::kHalved));
+                                         sphere_tree::TreeBuilder::kMedianSplit));
 
 // The box of half-lengths h stands 1 - y - h below the cube's upper side, and as much as it is wide
 // takes it out that way; the way into the cavity is longer or as long.

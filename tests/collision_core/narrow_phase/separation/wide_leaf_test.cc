@@ -48,7 +48,7 @@ geometry::TriangleMesh Landscape(std::uint32_t n) {
 
 TEST(WideLeaf, TheFloorBelowCostsLittle) {
   const Body ground{
-      shape::Shape::Build(Landscape(64), {.builder = sphere_tree::TreeBuilder::kHalved})};
+      shape::Shape::Build(Landscape(64), {.builder = sphere_tree::TreeBuilder::kMedianSplit})};
   ASSERT_TRUE(ground.shape->closed());
   Body cube{shape::Shape::Build(Subdivided(Cube(0.25), 2)), 0, {1.125, 2.0625, 1.25}, {0, 0, -1}};
   for (const bool swapped : {false, true}) {

@@ -92,7 +92,7 @@ struct Answer {
   LeastBeyond beyond;
 
   Answer(const SpherePairKernel& scan, const KernelPose& pose, const BallScanTask& task) {
-    std::fill_n(beyond, kLanesOver, sphere_tree::kNowhere);
+    std::fill_n(beyond, kLanesOver, sphere_tree::kFarDistance);
     std::fill_n(uppers, kPairsMax, 0.0f);
     scan.balls(pose, task, beyond, &hits, task.only_within ? nullptr : uppers);
   }
@@ -129,7 +129,7 @@ TEST(SpherePairKernel, BallsAreTheSameBitsForEveryWidth) {
       const BallScanTask task = scene.RandomTask();
       const Answer plain(*PlainSpherePairKernel(), scene.scan, task);
       certain += __builtin_popcountll(plain.hits.within);
-      news += plain.hits.upper < sphere_tree::kNowhere;
+      news += plain.hits.upper < sphere_tree::kFarDistance;
       for (const SpherePairKernel* scan : WideScans()) {
         const Answer wide(*scan, scene.scan, task);
         ASSERT_EQ(plain.hits.within, wide.hits.within);
@@ -156,10 +156,10 @@ TEST(SpherePairKernel, TrianglesAreTheSameBitsForEveryWidth) {
       const BlockScanTask task = {&a, &b, scene.scan.triangle_slack, -1, limit, only_within};
       float plain[16], wide[16];
       LeastBeyond beyond, beyond_wide;
-      std::fill_n(beyond, kLanesOver, sphere_tree::kNowhere);
+      std::fill_n(beyond, kLanesOver, sphere_tree::kFarDistance);
       const unsigned within = PlainSpherePairKernel()->triangles(scene.scan, task, beyond, plain);
       for (const SpherePairKernel* scan : WideScans()) {
-        std::fill_n(beyond_wide, kLanesOver, sphere_tree::kNowhere);
+        std::fill_n(beyond_wide, kLanesOver, sphere_tree::kFarDistance);
         ASSERT_EQ(scan->triangles(scene.scan, task, beyond_wide, wide), within);
         ASSERT_TRUE(SameBits(plain, wide, 16));
         ASSERT_EQ(*std::min_element(beyond, beyond + kLanesOver),
@@ -206,7 +206,7 @@ TEST(SpherePairKernel, BallsBeyondALimitAreCertainlyBeyond) {
     Scene scene(seed);
     BallScanTask task = scene.RandomTask();
     task.opened = Opened::kBoth, task.rows = 8, task.lane = 0, task.only_within = true;
-    task.upper = -sphere_tree::kNowhere;  // nothing is news
+    task.upper = -sphere_tree::kFarDistance;  // nothing is news
     // At one of the distances, nearly.
     const ExactVector near = ExactBetween(scene, task, 0, 0);
     const double off = Square(near).convert_to<double>();
@@ -250,7 +250,7 @@ TEST(SpherePairKernel, BallsThatMayBeNewsAreLookedAtClosely) {
     for (const float share : {0.999f, 1.001f}) {
       task.upper = least * share, task.limit = 0, task.only_within = true;
       const Answer answer(*PlainSpherePairKernel(), scene.scan, task);
-      EXPECT_EQ(answer.hits.upper, least < task.upper ? least : sphere_tree::kNowhere);
+      EXPECT_EQ(answer.hits.upper, least < task.upper ? least : sphere_tree::kFarDistance);
       ++(least < task.upper ? news : none);
     }
   }
@@ -264,7 +264,7 @@ TEST(SpherePairKernel, BallBoundsHoldExactly) {
     Scene scene(seed);
     BallScanTask task = scene.RandomTask();
     task.opened = Opened::kBoth, task.rows = 8, task.lane = 0, task.only_within = false;
-    task.parent = -sphere_tree::kNowhere, task.limit = sphere_tree::kNowhere;
+    task.parent = -sphere_tree::kFarDistance, task.limit = sphere_tree::kFarDistance;
     const Answer answer(*PlainSpherePairKernel(), scene.scan, task);
     for (std::uint32_t code = 0; code < kPairsMax; ++code) {
       const std::uint32_t i = code / 8, j = code % 8;
@@ -290,9 +290,9 @@ TEST(SpherePairKernel, TriangleBoundsHoldExactly) {
       const sphere_tree::TriangleBlock& b = scene.packed_b.tree->blocks()[scene.random.Below(40)];
       float lowers[16];
       LeastBeyond beyond;
-      std::fill_n(beyond, kLanesOver, sphere_tree::kNowhere);
+      std::fill_n(beyond, kLanesOver, sphere_tree::kFarDistance);
       PlainSpherePairKernel()->triangles(
-          scene.scan, {&a, &b, scene.scan.triangle_slack, 0, sphere_tree::kNowhere}, beyond,
+          scene.scan, {&a, &b, scene.scan.triangle_slack, 0, sphere_tree::kFarDistance}, beyond,
           lowers);
       for (std::uint32_t k = 0; k < 16; k += 5) {
         if (k / 4 >= a.left || k % 4 >= b.left) continue;
@@ -353,16 +353,16 @@ TEST(SpherePairKernel, TrianglesBeyondALimitAreCertainlyBeyond) {
     const BlockScanTask task = {packed_a.tree->blocks(),
                                 packed_b.tree->blocks(),
                                 scan.triangle_slack,
-                                -sphere_tree::kNowhere,
+                                -sphere_tree::kFarDistance,
                                 limit,
                                 true};
     float lowers[16];
     LeastBeyond beyond;
-    std::fill_n(beyond, kLanesOver, sphere_tree::kNowhere);
+    std::fill_n(beyond, kLanesOver, sphere_tree::kFarDistance);
     const unsigned within = PlainSpherePairKernel()->triangles(scan, task, beyond, lowers);
     EXPECT_LE(*std::min_element(beyond, beyond + kLanesOver), limit);
     BlockScanTask bounds = task;
-    bounds.only_within = false, bounds.limit = sphere_tree::kNowhere;
+    bounds.only_within = false, bounds.limit = sphere_tree::kFarDistance;
     PlainSpherePairKernel()->triangles(scan, bounds, beyond, lowers);
     for (std::uint32_t k = 0; k < 16; ++k) {
       if (k / 4 >= task.a->left || k % 4 >= task.b->left) continue;
@@ -377,7 +377,7 @@ TEST(SpherePairKernel, TrianglesBeyondALimitAreCertainlyBeyond) {
             ExactVector(mesh_b.vertices[mesh_b.triangles[task.b->element[k % 4].value()][corner]]));
       }
       const Exact square = SquareOfTriangles(t, u);
-      ASSERT_LT(lowers[k], sphere_tree::kNowhere);
+      ASSERT_LT(lowers[k], sphere_tree::kFarDistance);
       const Exact lower = Exact(lowers[k]);
       EXPECT_TRUE(lower <= 0 || lower * lower <= square) << lowers[k];
       const bool is_beyond = (within >> k & 1) == 0;

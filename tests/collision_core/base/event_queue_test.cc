@@ -1,6 +1,6 @@
 // Goal:   the queue's head is always the least (key, agent), whatever changed before.
 // Method: thousands of random changes, compared with a sorted map after each.
-#include "collision_core/detection/step/event_queue.h"
+#include "collision_core/base/event_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision::detection {
+namespace collision {
 namespace {
 
 TEST(EventQueue, HeadIsTheLeastAfterEveryChange) {
@@ -76,4 +76,4 @@ TEST(EventQueue, RefusesToNameAHeadThatItDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace collision::detection
+}  // namespace collision

@@ -8,7 +8,7 @@
 #include "collision_core/base/ids.h"
 #include "collision_core/base/instant.h"
 
-namespace collision::detection {
+namespace collision {
 
 /// A binary heap of (key, index). It knows each index's place, so that a key changes in O(log n).
 /// Equal keys come in the order of the indices: the order never depends on history. `IndexType` is
@@ -152,4 +152,4 @@ void EventQueue<IndexType>::Validate() const {
   CORE_CHECK(placed == heap_.size(), "each recorded place is an entry", placed, heap_.size());
 }
 
-}  // namespace collision::detection
+}  // namespace collision

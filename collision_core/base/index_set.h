@@ -7,7 +7,7 @@
 #include "collision_core/base/check.h"
 #include "collision_core/base/ids.h"
 
-namespace collision::detection {
+namespace collision {
 
 /// Indices without duplicates, in the order of their insertion unless one is erased: then the last
 /// takes its place. All operations but Clear() (O(size)) and Validate() are O(1). Memory is
@@ -66,4 +66,4 @@ class IndexSet {
   std::vector<std::uint32_t> place_;  // by index
 };
 
-}  // namespace collision::detection
+}  // namespace collision

@@ -1,7 +1,7 @@
 // Goal:   the set holds what was inserted and not erased, once, in the order of insertion as long
 //         as nothing is erased.
 // Method: random changes beside a sorted set.
-#include "collision_core/detection/step/index_set.h"
+#include "collision_core/base/index_set.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/support/random.h"
 
-namespace collision::detection {
+namespace collision {
 namespace {
 
 AgentIndex Agent(std::uint64_t k) { return AgentIndex(static_cast<std::uint32_t>(k)); }
@@ -44,4 +44,4 @@ TEST(IndexSet, KeepsTheOrderOfInsertion) {
 }
 
 }  // namespace
-}  // namespace collision::detection
+}  // namespace collision
