@@ -86,12 +86,13 @@ class Detector {
   /// all.
   std::vector<AgentClearance> TakeChangedClearances();
 
-  /// The clearance of one agent as of the last Advance(); nullopt: unknown.
+  /// The clearance of one agent as of the last Advance(); nullopt: unknown. For callers that keep
+  /// no clearances of their own; the service uses TakeChangedClearances().
   std::optional<AgentClearance> ClearanceOf(const AgentId& id) const;
 
   /// The canonical earliest intersection as of the last Advance(). No later event or clearance
-  /// depends on whether it is called; it has a cache of its own, so two threads may not call it at
-  /// the same time either.
+  /// depends on whether it is called. It fills a cache of its own and counts its work, which
+  /// counters() and profile() show, so two threads may not call it at the same time.
   EarliestAnswer Earliest() const;
 
   std::size_t agents() const;

@@ -6,7 +6,7 @@
 //
 //   MovingBall   intervals; contains the exact ball. The certified routines compute with it.
 //   QuickBall    doubles; reaches outward as far as its centre and reach may be off. The quick root
-//                finder and the filter of one pair compute with it.
+//                finder, the filter of one pair and the sweep of two nodes compute with it.
 //   PlacedBall   floats (broad_phase/filter/placement_frame.h); the filter in wide vectors.
 //
 // Each is made where its reader is, with the argument for its rounding. Intervals and doubles come
@@ -16,13 +16,15 @@
 // from doubles: PlacementFrame in broad_phase/filter/placement_frame.h; what positions lose there
 // is added in broad_phase/filter/placed_balls.h and by the stores that fill it.
 //
-// Three plainer forms exist beside these, each for one reader:
+// Four other forms exist beside these, each for one reader:
 //
 //   ReachPoint            a PlacedBall for one window, with its reach at the window's end: the grid
 //                         compares numbers, not functions. PlacementFrame::HalfWay() makes it, by
 //                         the same argument as a PlacedBall (broad_phase/filter/placement_frame.h).
 //   ClearanceFilter::Row  the terms of a bound as declared: its reader adds one allowance for both
 //                         agents (detection/clearance/clearance_filter.h).
+//   CappedBall            under a speed cap, from the instant at which the cap takes over: a centre
+//                         that stands still (motion/speed_cap.h).
 //   Estimate              the capped balls and boxes of a bound at one time, with no allowance: a
 //                         wrong estimate costs work, never an answer
 //                         (intersection/overlap_estimate.cc).

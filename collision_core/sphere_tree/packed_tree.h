@@ -30,14 +30,16 @@ struct BallLink {
 /// A ball of the packed tree: kPackBalls times its pack, plus its place there.
 using BallRef = std::uint32_t;
 
-/// The sphere tree in the order in which traversals read it: packs of up to eight balls, and blocks
-/// of four triangles, in single precision seen from the middle of the tree and rounded outward. 224
-/// bytes for each pack (28 a ball where packs are full), 256 for each four triangles of a leaf, or
-/// for a convex solid: then `element[0]` is that solid, and the corners are not used.
+/// The sphere tree in the order in which traversals read it: packs of up to eight balls and blocks
+/// of four triangles, in single precision, relative to the middle of the tree. Balls are rounded
+/// outward, triangles to nearest. 224 bytes for each pack (28 a ball where packs are full), 256 for
+/// each four triangles of a leaf, or for a convex solid: then `element[0]` is that solid, and the
+/// corners are not used.
 ///
-/// Packs stand in breadth-first order; the first one holds the root alone. A ball's pack is a cut
-/// through what is below it, as wide as there is room: the node that overshoots the surface most is
-/// replaced by its children, and so on. So packs are fuller than the tree's nodes have children.
+/// Packs stand in breadth-first order; the first one holds the root alone. The pack of a ball is a
+/// cut through its subtree with up to eight nodes: starting from the children, the node with the
+/// largest overshoot is replaced by its children as long as they fit. So packs are fuller than the
+/// tree's nodes have children.
 class PackedTree {
  public:
   PackedTree() = default;
@@ -55,11 +57,12 @@ class PackedTree {
 
   /// In the body frame [m].
   const Eigen::Vector3d& origin() const { return origin_; }
-  /// No centre, with its radius or its signed distance, and no corner is farther from the origin.
+  /// Every ball, every ball of radius |signed distance| about a centre, and every corner lies
+  /// within this distance of origin() [m].
   double extent() const { return extent_; }
 
-  /// The vertices of the surface that are the farthest in fourteen directions: along the axes, then
-  /// across the corners. Solids are not counted.
+  /// The vertices of the surface that are the farthest in fourteen directions: along ± each axis,
+  /// then along the eight diagonals of a cube. Solids are not counted.
   const std::array<Eigen::Vector3d, 14>& extremes() const { return extremes_; }
 
   std::size_t bytes() const;

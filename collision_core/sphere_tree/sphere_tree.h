@@ -11,14 +11,15 @@
 
 namespace collision::sphere_tree {
 
-/// Bounds by count, the same on every machine, against hostile meshes: thousands of large triangles
-/// that cross each other, needles, or copies upon each other. No cut takes them apart, and every
-/// ball is about as far from all of them. Leaves hold at most kGrowthMax pieces for each triangle
-/// of the mesh, and kGrowthMore more (meshes of ordinary models need 6 to 14). The fitted builder
-/// looks at kWorkPerTriangle boxes and triangles for each triangle at most, the measuring of the
-/// other builders' balls at kWorkPerBall for each ball on average. Levels are worked on one after
-/// the other, so what is left out is left out at the finest level: there a part stays whole, is
-/// halved by place with a ball about it, or has its radius for a distance, all of which are valid.
+/// Limits that hold on every machine, against hostile meshes: thousands of large triangles that
+/// cross each other, needles, or coincident copies. No cut separates such triangles, and a ball is
+/// about equally far from all of them. Leaves hold at most kGrowthMax pieces per triangle of the
+/// mesh, plus kGrowthMore (ordinary models need 6 to 14). The fitted builder stops searching and
+/// measuring after kWorkPerTriangle boxes and triangles per triangle, plus kWorkMore
+/// (fitted_builder.cc); for the other builders, measuring distances stops after kWorkPerBall per
+/// ball (shape/shape.cc). Trees are built level by level, so only the finest levels suffer: there a
+/// node stays undivided, or is halved by position with a simple ball, or keeps its radius as its
+/// signed distance. All of these are valid.
 inline constexpr std::size_t kGrowthMax = 64;
 inline constexpr std::size_t kGrowthMore = 1024;
 /// The most pieces of triangles in the leaves of one tree.

@@ -29,7 +29,7 @@ double LowerBound(const SphereNode& node, const Vector3d& point) {
 void SurfaceQuery::TryLeaf(const SphereNode& leaf, const Vector3d& point, numeric::Interval* best) {
   work_ += leaf.elements;
   for (const ElementIndex index : tree_.ElementsOf(leaf)) {
-    ElementIndex& place = measured_[index.value() % kPlaces];
+    ElementIndex& place = measured_[index.value() % kCacheSize];
     if (place == index) continue;
     const geometry::Triangle& t = mesh_.triangles[index.value()];
     const geometry::TrianglePoints corners = {mesh_.vertices[t[0]], mesh_.vertices[t[1]],

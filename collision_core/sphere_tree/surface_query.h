@@ -19,16 +19,16 @@ namespace collision::sphere_tree {
 /// Distance. Best first through the tree. A triangle that a bound in plain doubles puts beyond the
 /// best one is skipped, others get an interval. The upper end is the distance to a point of the
 /// triangle that is given by weights, in intervals. The lower end holds for any direction n: the
-/// triangle lies behind the plane across n through its foremost corner. So n need not be exact;
-/// three kinds of n make the bound tight: towards the nearest point, along the triangle's normal,
-/// and across an edge.
+/// triangle lies behind the plane perpendicular to n through its foremost corner. So n need not be
+/// exact; three choices of n make the bound tight: towards the nearest point, along the triangle's
+/// normal, and perpendicular to an edge.
 ///
-/// Winding number. The triangles are counted, with the signs of their normals' x, that a ray along
-/// ±x passes, whichever way leaves the surface sooner. "Passes" is three exact orientation signs in
-/// the plane across the ray. Where one is zero, the ray is moved by infinitely little along +y, and
-/// by infinitely less along +z: the winding number is constant about a point that is not on the
-/// surface, so every triangle is asked about the same moved ray, which meets no edge. Ahead or
-/// behind is an exact orientation sign in space.
+/// Winding number. A ray leaves the point along +x or −x, towards the nearer end of the surface.
+/// Each triangle that it crosses counts +1 where the ray leaves the solid and −1 where it enters.
+/// Three exact orientation signs in the yz-plane decide whether it crosses. Where one of them is
+/// zero, the point is perturbed symbolically, by an infinitesimal along +y and a smaller one along
+/// +z: the winding number is constant near a point off the surface, and the perturbed ray meets no
+/// edge. One exact orientation sign in space decides whether the crossing lies ahead.
 class SurfaceQuery {
  public:
   SurfaceQuery(const geometry::TriangleMesh& mesh, const SphereTree& tree)
@@ -55,16 +55,15 @@ class SurfaceQuery {
 
   void TryLeaf(const SphereNode& leaf, const Eigen::Vector3d& point, numeric::Interval* best);
 
-  /// Places for the triangles that a query measured. A later triangle takes an earlier one's
-  /// place, and a triangle that lost its place is measured again, so the cost of a look-up does not
-  /// depend on how many there are.
-  static constexpr std::size_t kPlaces = 256;
+  /// Size of a direct-mapped cache of the triangles that a query has measured. An evicted triangle
+  /// is measured again; a look-up costs the same however many there are.
+  static constexpr std::size_t kCacheSize = 256;
 
   const geometry::TriangleMesh& mesh_;
   const SphereTree& tree_;
   std::vector<Candidate> heap_;
   std::uint64_t work_ = 0;
-  std::array<ElementIndex, kPlaces> measured_;
+  std::array<ElementIndex, kCacheSize> measured_;
   std::vector<std::pair<ElementIndex, int>> passed_;  ///< By the ray: triangles, with their signs.
   std::vector<NodeIndex> stack_;
 };

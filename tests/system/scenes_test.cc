@@ -32,12 +32,12 @@ void ExpectSceneSucceeds(const std::vector<std::string>& words) {
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
 }
 
-TEST(Scenes, IridiumCosmos) { ExpectSceneSucceeds({"iridium-cosmos"}); }
+TEST(Scenes, IridiumCosmosSatisfiesTheChecker) { ExpectSceneSucceeds({"iridium-cosmos"}); }
 
-TEST(Scenes, Swarm100) { ExpectSceneSucceeds({"swarm-100", "--seconds", "5"}); }
+TEST(Scenes, Swarm100SatisfiesTheChecker) { ExpectSceneSucceeds({"swarm-100", "--seconds", "5"}); }
 
 // Convex solids, against each other and against triangles.
-TEST(Scenes, DroneArms) { ExpectSceneSucceeds({"drone-arms", "--seconds", "6"}); }
+TEST(Scenes, DroneArmsSatisfyTheChecker) { ExpectSceneSucceeds({"drone-arms", "--seconds", "6"}); }
 
 /// A number of a report, as --json writes it; -1: it is not there.
 double NumberIn(const std::string& json, const std::string& field) {
@@ -82,7 +82,7 @@ TEST(Scenes, AnInterruptedRunLeavesNoProcessBehind) {
   }
 }
 
-TEST(ScenesWithData, Corridor) { ExpectSceneSucceeds({"corridor"}); }
+TEST(ScenesWithData, CorridorSatisfiesTheChecker) { ExpectSceneSucceeds({"corridor"}); }
 
 }  // namespace
 }  // namespace collision::system_test

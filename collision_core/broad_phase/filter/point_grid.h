@@ -1,4 +1,6 @@
-// Which points of many lie within reach of each other: one pass over a grid.
+// Which points of many lie within reach of each other: one pass over a grid. Callers: the one-shot
+// queries Earliest() and FindNearPairs() of the spatial index (sweeping_index.h), so not the
+// service.
 #pragma once
 
 #include <algorithm>

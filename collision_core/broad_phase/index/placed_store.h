@@ -48,8 +48,9 @@ class PlacedStore {
   /// Removes the agent, if it is placed.
   virtual void Unplace(std::uint32_t agent) = 0;
 
-  /// Offers all pairs that come within reach of each other during the window, and others. Returns
-  /// false, and offers none, if the store was only prepared for a shorter window: PlaceAll() first.
+  /// Offers all pairs that come within reach of each other during the window, and others; for the
+  /// one-shot queries (sweeping_index.h). Returns false, and offers none, if the store was only
+  /// prepared for a shorter window: PlaceAll() first.
   virtual bool Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost,
                     PairSink* sink) = 0;
   /// Appends all agents that come within reach of `horn` during the window, and others.

@@ -145,12 +145,13 @@ class Search {
     const Eigen::Vector3d c_b = swept_.pose.ToA(b.centre);
     const SweptPose::Growth used =
         motion_.UsedUp(a.radius + b.radius, a.centre.norm(), b.centre.norm());
-    const double time = SweptBallsTouch(
-        {c_b - a.centre, motion_.VelocityOfB(c_b) - motion_.VelocityOfA(a.centre), used}, duration_,
-        detail_.step_worth);
+    const Eigen::Vector3d d = c_b - a.centre;
+    const Eigen::Vector3d w = motion_.VelocityOfB(c_b) - motion_.VelocityOfA(a.centre);
+    const numeric::QuickBall difference{
+        {d.x(), d.y(), d.z()}, {w.x(), w.y(), w.z()}, used.c0, used.c1, used.c2};
+    const double time = SweptBallsTouch(difference, duration_, detail_.step_worth);
     // Balls within the solids that overlap already: nothing is free, and nothing need be opened.
-    const bool within =
-        !(time > 0) && (c_b - a.centre).norm() + a.signed_distance + b.signed_distance < 0;
+    const bool within = !(time > 0) && d.norm() + a.signed_distance + b.signed_distance < 0;
     const double later =
         within || time > queue_.until() ? time : std::max(time, WideLeafTouch(a, b, c_b));
     ImpactCandidate candidate{std::max(parent, later), Kind::kNodes, nodes};

@@ -18,19 +18,18 @@ constexpr int kSearchSteps = 80;
 /// Rounds in which the choices of bounds may extend each other's freedom.
 constexpr int kRoundsMax = 16;
 
-/// A choice of one bound of each ball.
+/// The relative motion from A to B under one choice of a bound of each ball.
 struct Choice {
-  numeric::IntervalVector d0;  ///< From A's centre to B's, at base.
-  numeric::IntervalVector w;
-  numeric::Quadratic u;  ///< Both uncertainties.
-  numeric::Interval radii;
+  numeric::MovingBall ball;  ///< Difference() of the two; its radius is the sum of both radii.
 
   numeric::Interval Distance(double delta) const {
-    return numeric::Norm(d0 + numeric::Interval(delta) * w);
+    return numeric::Norm(ball.centre() + numeric::Interval(delta) * ball.velocity);
   }
 
   /// r − u − |Δc|, concave: touching where it is >= 0, for all motions within the bounds.
-  numeric::Interval Depth(double delta) const { return radii - u.At(delta) - Distance(delta); }
+  numeric::Interval Depth(double delta) const {
+    return ball.radius - ball.u.At(delta) - Distance(delta);
+  }
 };
 
 std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
@@ -38,8 +37,9 @@ std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
   choices.reserve(a.bounds.size() * b.bounds.size());
   for (const numeric::MovingBall& ball_a : a.bounds) {
     for (const numeric::MovingBall& ball_b : b.bounds) {
-      choices.push_back({ball_b.centre() - ball_a.centre(), ball_b.velocity - ball_a.velocity,
-                         ball_a.u + ball_b.u, numeric::Interval(a.radius) + b.radius});
+      numeric::MovingBall& ball = choices.emplace_back().ball;
+      ball = Difference(ball_a, ball_b, 0);
+      ball.radius = numeric::Interval(a.radius) + b.radius;
     }
   }
   return choices;
@@ -72,7 +72,7 @@ double Enlarging(const Eigen::Vector3d& v) {
 
 /// The time at which the centres are nearest, approximately.
 double NearestTime(const Choice& choice, double duration) {
-  const Eigen::Vector3d d0 = choice.d0.middle(), w = choice.w.middle();
+  const Eigen::Vector3d d0 = choice.ball.centre().middle(), w = choice.ball.velocity.middle();
   if (w.isZero(0)) return 0;
   if (w.cwiseAbs().maxCoeff() >= kSquareMin) {
     return std::clamp(-d0.dot(w) / w.squaredNorm(), 0.0, duration);
@@ -110,7 +110,7 @@ Contact ContactOf(const Choice& choice, double duration) {
   const bool at_start = choice.Depth(0).lower >= 0, at_end = choice.Depth(duration).lower >= 0;
   double inside = at_start ? 0 : at_end ? duration : NearestTime(choice, duration);
   if (choice.Depth(inside).lower < 0) {
-    if (choice.Distance(inside).lower > choice.radii.upper) return {};
+    if (choice.Distance(inside).lower > choice.ball.radius.upper) return {};
     inside = DeepestTime(choice, duration);
     if (choice.Depth(inside).lower < 0) return {};
   }
@@ -145,11 +145,12 @@ double FreeFrom(const std::vector<Choice>& choices, double duration, TimeDirecti
   for (int round = 0; round < kRoundsMax; ++round) {
     double step = 0;
     for (const Choice& choice : choices) {
-      const numeric::Quadratic reach = numeric::Quadratic{choice.radii, 0, 0} + choice.u;
-      const numeric::Quadratic seen = From(reach, at, direction);
-      const numeric::MovingBall difference{choice.d0, numeric::Interval(at) * choice.w,
-                                           backward ? numeric::Interval(-1) * choice.w : choice.w,
-                                           0, seen};
+      const numeric::MovingBall& ball = choice.ball;
+      const numeric::IntervalVector way = numeric::Interval(at) * ball.velocity;
+      const numeric::MovingBall difference{
+          ball.anchor, ball.shift + way,
+          backward ? numeric::Interval(-1) * ball.velocity : ball.velocity, 0,
+          From(ball.reach(), at, direction)};
       step =
           std::max(step, FirstApproach(difference, backward ? at : numeric::AddUp(duration, -at)));
     }
@@ -252,8 +253,8 @@ SeparationAt EvaluateBallsAt(const BallSegment& a, const BallSegment& b, double 
       {-numeric::kInfinity, numeric::kInfinity}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   at.error_A = at.error_B = numeric::kInfinity;
   for (const Choice& choice : ChoicesOf(a, b)) {
-    const numeric::Interval distance = choice.Distance(delta) - choice.radii,
-                            u = choice.u.At(delta);
+    const numeric::Interval distance = choice.Distance(delta) - choice.ball.radius,
+                            u = choice.ball.u.At(delta);
     at.separation.lower = std::max(at.separation.lower, (distance - u).lower);
     at.separation.upper = std::min(at.separation.upper, (distance + u).upper);
   }

@@ -35,7 +35,8 @@ Verdict DecideConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet
 
 /// Only ConvexSeparation::separation, each set given in its own body's frame; the uncertainty of
 /// translation is not included. With ConvexGoal::kDistance the lower end is no bound of the depth
-/// where they overlap.
+/// where they overlap. Callers, none of them in the service: benchmarks (tests/bench/pairs/ours.cc)
+/// and tests.
 numeric::Interval SeparationOfConvexPair(const geometry::ConvexSet& a, const geometry::ConvexSet& b,
                                          const RelativePose& pose, const ConvexQuery& query,
                                          WorkBudget* work);

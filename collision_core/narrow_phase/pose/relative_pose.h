@@ -50,7 +50,9 @@ struct RelativePose {
 inline constexpr double kMatrixRounding = 0x1p-49;
 
 /// B's body frame seen from A's, as given: nothing but rounding, and A's frame is the world's.
-/// Unchecked: the matrix is a rotation to within kMatrixRounding, which is counted.
+/// Unchecked: the matrix is a rotation to within kMatrixRounding, which is counted. Callers:
+/// queries at a pose that is known exactly, in benchmarks and tests; the service's poses come from
+/// PoseAt() (segment_pose.h).
 inline RelativePose PoseOf(const Eigen::Matrix3d& R_AB, const Eigen::Vector3d& p_AB) {
   RelativePose pose;
   pose.R_AB = R_AB;

@@ -36,7 +36,8 @@ SeparationBracket QuerySeparation(const PosedPair& pair, Goal goal, WorkBudget* 
                                   const ContactWitness& hint = {});
 
 /// Queries until the bracket of the distance is as narrow as `tolerance` asks for, or nothing makes
-/// it narrower. It ends at once where contact is certain.
+/// it narrower. It ends at once where contact is certain. Callers, none of them in the service: the
+/// precision benchmark and tests (tests/bench/pairs/ours.cc).
 SeparationBracket BracketSeparation(const PosedPair& pair, const BracketTolerance& tolerance,
                                     WorkBudget* work);
 

@@ -37,7 +37,7 @@ Vector3d Direction(const Vector3d& v) {
 /// surface, nearly (Ma, Bae and Choi, "3D medial axis point approximation using nearest neighbors
 /// and the normal field", 2012): each point found inside makes it smaller.
 FittedBall ShrinkingBall(const TriangleBoxTree& boxes, const Vector3d& from, const Vector3d& inward,
-                         double radius, std::uint32_t triangle) {
+                         double radius, ElementIndex triangle) {
   FittedBall ball;
   ball.inside = true;
   ball.triangle = triangle;

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "collision_core/base/ids.h"
 #include "collision_core/sphere_tree/fitted/fitted_boxes.h"
 #include "collision_core/sphere_tree/tree_options.h"
 
@@ -16,7 +17,7 @@ struct FittedBall {
   double signed_distance = 0;  ///< That of the centre; negative only where `inside`.
   double radius = 0;
   bool inside = false;
-  std::uint32_t triangle = 0;  ///< The triangle of `nearest`.
+  ElementIndex triangle;  ///< The triangle of `nearest`.
 
   double overshoot() const { return radius + signed_distance; }
 };
@@ -33,8 +34,9 @@ class BallPolish {
  public:
   explicit BallPolish(const TriangleBoxTree& boxes) : boxes_(boxes) {}
 
-  /// Moves the centre while that makes the overshoot of a ball about all points less, asking for
-  /// the nearest surface at most `queries` times. Sets the radius.
+  /// Moves the centre as long as that reduces the overshoot of a ball about all points. Starts no
+  /// further round of up to three trials after `queries` queries for the nearest surface. Sets the
+  /// radius.
   void Run(std::span<const Eigen::Vector3d> points, int queries, FittedBall* ball);
 
  private:
@@ -52,7 +54,7 @@ class BallPolish {
 struct SurfacePoint {
   Eigen::Vector3d point;   ///< [m]
   Eigen::Vector3d normal;  ///< The triangle's, of length 1; not read of an open surface.
-  std::uint32_t triangle;
+  ElementIndex triangle;
 };
 
 /// Appends balls that touch the surface at a point from inside (or lie on it), as starts of a

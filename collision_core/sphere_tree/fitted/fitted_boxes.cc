@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace collision::sphere_tree {
 namespace {
@@ -46,17 +45,18 @@ Weights NearestOf(double uu, double uv, double vv, double d1, double d2) {
 TriangleBoxTree::TriangleBoxTree(const geometry::TriangleMesh& mesh) : mesh_(mesh) {
   faces_.reserve(mesh.triangles.size());
   nodes_.reserve(mesh.triangles.size());
-  std::vector<std::uint32_t> triangles(mesh.triangles.size());
-  std::iota(triangles.begin(), triangles.end(), 0);
+  std::vector<ElementIndex> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) triangles.emplace_back(i);
   Divide(triangles);
   place_.resize(faces_.size());
   for (std::uint32_t i = 0; i < faces_.size(); ++i) place_[faces_[i].triangle] = i;
 }
 
-void TriangleBoxTree::MakeFaces(std::span<const std::uint32_t> triangles, Node* leaf) {
+void TriangleBoxTree::MakeFaces(std::span<const ElementIndex> triangles, Node* leaf) {
   leaf->first = static_cast<std::uint32_t>(faces_.size());
   leaf->count = static_cast<std::uint32_t>(triangles.size());
-  for (const std::uint32_t triangle : triangles) {
+  for (const ElementIndex triangle : triangles) {
     const auto [a, b, c] = CornersOf(triangle);
     const Vector3d u = b - a, v = c - a;
     const Vector3d across = u.cross(v);
@@ -67,16 +67,16 @@ void TriangleBoxTree::MakeFaces(std::span<const std::uint32_t> triangles, Node* 
   }
 }
 
-void TriangleBoxTree::Divide(std::span<std::uint32_t> triangles) {
+void TriangleBoxTree::Divide(std::span<ElementIndex> triangles) {
   const auto at = static_cast<std::uint32_t>(nodes_.size());
   nodes_.emplace_back();
-  const auto middle_of = [this](std::uint32_t triangle) -> Vector3d {
+  const auto middle_of = [this](ElementIndex triangle) -> Vector3d {
     const auto [a, b, c] = CornersOf(triangle);
     return a + b + c;
   };
   Vector3d lower = CornersOf(triangles[0])[0], upper = lower;
   Vector3d middle_lower = middle_of(triangles[0]), middle_upper = middle_lower;
-  for (const std::uint32_t triangle : triangles) {
+  for (const ElementIndex triangle : triangles) {
     for (const Vector3d& p : CornersOf(triangle)) {
       lower = lower.cwiseMin(p);
       upper = upper.cwiseMax(p);
@@ -91,7 +91,7 @@ void TriangleBoxTree::Divide(std::span<std::uint32_t> triangles) {
   (middle_upper - middle_lower).maxCoeff(&axis);
   const std::size_t half = triangles.size() / 2;
   std::nth_element(triangles.begin(), triangles.begin() + half, triangles.end(),
-                   [&](std::uint32_t i, std::uint32_t j) {
+                   [&](ElementIndex i, ElementIndex j) {
                      const double x = middle_of(i)[axis], y = middle_of(j)[axis];
                      return x != y ? x < y : i < j;
                    });
@@ -114,7 +114,7 @@ inline void TriangleBoxTree::TryFace(const Face& face, const Vector3d& point, do
   best->triangle = face.triangle;
 }
 
-NearPoint TriangleBoxTree::Nearest(const Vector3d& point, std::uint32_t hint, double enough,
+NearPoint TriangleBoxTree::Nearest(const Vector3d& point, ElementIndex hint, double enough,
                                    double slack) const {
   struct Pending {
     double square;
@@ -164,7 +164,7 @@ NearPoint TriangleBoxTree::Nearest(const Vector3d& point, std::uint32_t hint, do
 }
 
 RayCast TriangleBoxTree::Walk(const Vector3d& from, const Vector3d& direction,
-                              std::uint32_t start) const {
+                              ElementIndex start) const {
   std::array<std::uint32_t, kDepthMax> stack;
   std::size_t size = 0;
   RayCast walk{diagonal(), 0};

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "collision_core/base/ids.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/geometry/triangle/ray_passage.h"
@@ -19,7 +20,7 @@ namespace collision::sphere_tree {
 struct NearPoint {
   double distance = 0;
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  std::uint32_t triangle = 0;
+  ElementIndex triangle;
 };
 
 /// What a ray from a surface meets; without an error bound as well.
@@ -35,14 +36,14 @@ class TriangleBoxTree {
   /// Unchecked: IsWellFormed(mesh). BuildFitted() checks it.
   explicit TriangleBoxTree(const geometry::TriangleMesh& mesh);
 
-  /// `hint`: a triangle that is perhaps near. Ends as soon as something is no farther than
-  /// `enough`, and does not look for what is nearer by less than `slack`.
-  NearPoint Nearest(const Eigen::Vector3d& point, std::uint32_t hint, double enough,
+  /// Returns an approximately nearest point. `hint`: a triangle that may be near. The search ends
+  /// at a point no farther than `enough`, and ignores points that are nearer by less than `slack`.
+  NearPoint Nearest(const Eigen::Vector3d& point, ElementIndex hint, double enough,
                     double slack) const;
 
-  /// Along a unit direction from a point of the triangle `start`, which is left out.
+  /// Casts a ray from a point of the triangle `start` along a unit direction; `start` is skipped.
   RayCast Walk(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
-               std::uint32_t start) const;
+               ElementIndex start) const;
 
   /// Calls `visit(triangle)` for every triangle but those certainly farther than *limit, which may
   /// become less on the way.
@@ -74,8 +75,8 @@ class TriangleBoxTree {
         visit);
   }
 
-  geometry::TrianglePoints CornersOf(std::uint32_t triangle) const {
-    const geometry::Triangle& t = mesh_.triangles[triangle];
+  geometry::TrianglePoints CornersOf(ElementIndex triangle) const {
+    const geometry::Triangle& t = mesh_.triangles[triangle.value()];
     return {mesh_.vertices[t[0]], mesh_.vertices[t[1]], mesh_.vertices[t[2]]};
   }
   const Eigen::Vector3d& lower() const { return nodes_[0].lower; }
@@ -88,14 +89,14 @@ class TriangleBoxTree {
  private:
   struct Node {
     Eigen::Vector3d lower, upper;
-    std::uint32_t first = 0;  ///< Of a leaf: in faces_; else the second child (the first is next).
+    std::uint32_t first = 0;  ///< A leaf's first entry in faces_; else the second child.
     std::uint32_t count = 0;  ///< Triangles of a leaf; 0: not a leaf.
   };
   struct Face {
     Eigen::Vector3d corner, to_second, to_third;
     double uu, uv, vv;       ///< Products of the two.
     Eigen::Vector3d normal;  ///< Zero: none is known.
-    std::uint32_t triangle;
+    ElementIndex triangle;
   };
 
   static double SquareTo(const Node& node, const Eigen::Vector3d& p) {
@@ -128,18 +129,19 @@ class TriangleBoxTree {
     }
   }
 
-  void Divide(std::span<std::uint32_t> triangles);
-  void MakeFaces(std::span<const std::uint32_t> triangles, Node* leaf);
+  void Divide(std::span<ElementIndex> triangles);
+  void MakeFaces(std::span<const ElementIndex> triangles, Node* leaf);
   static void TryFace(const Face& face, const Eigen::Vector3d& point, double* best2,
                       NearPoint* best);
 
-  /// Halves of 2^32 triangles, and a sibling each.
+  /// Of the stack of a traversal: 2^32 triangles are halved at most 32 times, and each halving
+  /// leaves one sibling on it.
   static constexpr std::size_t kDepthMax = 40;
 
   const geometry::TriangleMesh& mesh_;
   std::vector<Node> nodes_;
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> place_;  ///< Of each triangle in faces_.
+  IndexedVector<ElementIndex, std::uint32_t> place_;  ///< Of each triangle in faces_.
   mutable std::uint64_t work_ = 0;
 };
 

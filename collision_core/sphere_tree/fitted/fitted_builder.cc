@@ -266,7 +266,7 @@ class Builder {
   }
 
   /// Each once, in ascending order.
-  std::span<const std::uint32_t> TrianglesOf(std::span<const std::uint32_t> part) {
+  std::span<const ElementIndex> TrianglesOf(std::span<const std::uint32_t> part) {
     triangles_.clear();
     for (const std::uint32_t piece : part) triangles_.push_back(pieces_[piece].triangle);
     std::sort(triangles_.begin(), triangles_.end());
@@ -278,7 +278,7 @@ class Builder {
     const auto triangles = TrianglesOf(part);
     node->first_element = static_cast<std::uint32_t>(tree_.elements.size());
     node->elements = static_cast<std::uint32_t>(triangles.size());
-    for (const std::uint32_t triangle : triangles) tree_.elements.emplace_back(triangle);
+    tree_.elements.insert(tree_.elements.end(), triangles.begin(), triangles.end());
   }
 
   const ShapeOptions& options_;
@@ -292,7 +292,8 @@ class Builder {
   std::vector<CentreFacts> facts_;               ///< Of each node.
   std::vector<std::uint32_t> list_, next_list_;  ///< Pieces of the level at work, and of the next.
   std::vector<Pending> pending_, next_;
-  std::vector<std::uint32_t> part_, triangles_;  ///< At work.
+  std::vector<std::uint32_t> part_;      ///< At work.
+  std::vector<ElementIndex> triangles_;  ///< Likewise.
   std::vector<Vector3d> corners_;
 };
 

@@ -237,7 +237,7 @@ void CoverSearch::Release(FittedCover* cover) const {
 void CoverSearch::Refill(std::uint32_t count, FittedCover* cover) {
   auto& balls = cover->balls;
   // In a large part a ball of few pieces may still be a ball about much.
-  const std::size_t enough = corners_.size() > count * whole_ ? 1 : whole_;
+  const std::size_t enough = corners_.size() > count * leaf_pieces_ ? 1 : leaf_pieces_;
   while (balls.size() < count) {
     std::vector<std::uint32_t> pieces(balls.size(), 0);
     for (const std::uint32_t k : cover->ball_of) ++pieces[k];

@@ -29,12 +29,12 @@ struct FittedGroup {
 /// each centre to the place from which its pieces need the least.
 class CoverSearch {
  public:
-  /// `whole`: balls with so few pieces need not be divided.
+  /// `leaf_pieces`: a ball with at most this many pieces need not be split.
   CoverSearch(const TriangleBoxTree& boxes, const FittedPieces& pieces, SurfaceKind kind,
-              std::uint32_t whole)
-      : boxes_(boxes), pieces_(pieces), kind_(kind), whole_(whole), polish_(boxes) {}
+              std::uint32_t leaf_pieces)
+      : boxes_(boxes), pieces_(pieces), kind_(kind), leaf_pieces_(leaf_pieces), polish_(boxes) {}
 
-  /// At most `count` balls, none without a piece: the best of `starts` searches, 1 to count − 1.
+  /// At most `count` balls, each with a piece: the best of `starts` searches; 1 <= starts < count.
   FittedCover Find(std::span<const std::uint32_t> part, std::uint32_t count, std::uint32_t starts);
 
   /// One ball around everything.
@@ -70,7 +70,7 @@ class CoverSearch {
   const TriangleBoxTree& boxes_;
   const FittedPieces& pieces_;
   const SurfaceKind kind_;
-  const std::uint32_t whole_;
+  const std::uint32_t leaf_pieces_;
   BallPolish polish_;
 
   /// For every piece, where its candidates found so far stand in `known_`.
@@ -80,13 +80,14 @@ class CoverSearch {
   std::vector<Known> known_of_;
   std::vector<FittedBall> known_;
 
-  std::vector<std::uint32_t> stamp_of_, local_of_;  ///< Of each point: seen in this part? where?
+  /// For each point: the last part that contained it, and its index in points_.
+  std::vector<std::uint32_t> stamp_of_, local_of_;
   std::uint32_t stamp_ = 0;
   Points points_;                                      ///< Of the part, each once.
   std::vector<std::array<std::uint32_t, 3>> corners_;  ///< Of the part's pieces, in points_.
   std::vector<FittedBall> candidates_;
   std::size_t samples_ = 0;
-  std::vector<float> asked_;         ///< For each candidate by each sample: the overshoot it asks.
+  std::vector<float> asked_;         ///< The overshoot that each candidate needs for each sample.
   std::vector<std::uint64_t> bits_;  ///< For each candidate by each sample: within reach?
   std::vector<std::uint64_t> open_;  ///< For each sample: not covered yet.
   std::vector<std::size_t> covers_max_;  ///< For each candidate: it covers no more of them.

@@ -27,7 +27,7 @@ bool IsInBallOf(const CentreFacts& near, const Vector3d& point) {
 /// Every triangle is certainly farther than what `limit` is when it is visited, or lowers it.
 double FittedDistance::LowerBound(const Vector3d& centre, double from) const {
   double limit = std::max(from, 0.0);
-  boxes_.VisitWithin(centre, &limit, [&](std::uint32_t triangle) {
+  boxes_.VisitWithin(centre, &limit, [&](ElementIndex triangle) {
     const geometry::TrianglePoints corners = boxes_.CornersOf(triangle);
     if (geometry::IsCertainlyFarther(centre, corners, limit)) return;
     limit = std::min(limit, geometry::DistanceToTriangle(centre, corners).distance.lower);
@@ -43,7 +43,7 @@ std::optional<int> FittedDistance::WindingNumberAt(const Vector3d& point) const 
       forward ? geometry::Passing::kForward : geometry::Passing::kBackward;
   int winding = 0;
   bool known = true;
-  boxes_.VisitAlongX(point, asked, [&](std::uint32_t triangle) {
+  boxes_.VisitAlongX(point, asked, [&](ElementIndex triangle) {
     const geometry::RayPassage passage = geometry::PassageOf(boxes_.CornersOf(triangle), point);
     known = known && passage.passing != geometry::Passing::kUnknown;
     if (passage.passing == asked) winding += forward ? passage.sign : -passage.sign;
@@ -52,7 +52,7 @@ std::optional<int> FittedDistance::WindingNumberAt(const Vector3d& point) const 
 }
 
 CentreFacts FittedDistance::Certify(const Vector3d& centre, double slack, const CentreFacts& near,
-                                    std::uint32_t triangle) const {
+                                    ElementIndex triangle) const {
   CentreFacts facts;
   facts.centre = centre;
   const NearPoint nearest = boxes_.Nearest(centre, triangle, 0, 0.5 * slack);

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "collision_core/base/ids.h"
 #include "collision_core/sphere_tree/fitted/fitted_boxes.h"
 #include "collision_core/sphere_tree/tree_options.h"
 
@@ -21,11 +22,11 @@ class FittedDistance {
  public:
   FittedDistance(const TriangleBoxTree& boxes, SurfaceKind kind) : boxes_(boxes), kind_(kind) {}
 
-  /// The signed distance, rounded up by `slack` at most where that makes it easier, beside
-  /// rounding. `near`: facts of a centre near by, which may save the winding number; `triangle`:
-  /// one near by.
+  /// Certifies an upper bound of the signed distance, which exceeds it by at most `slack`, apart
+  /// from rounding. `near`: facts of a nearby centre; if `centre` lies in its empty ball, no
+  /// winding number is needed. `triangle`: a triangle that may be near.
   CentreFacts Certify(const Eigen::Vector3d& centre, double slack, const CentreFacts& near,
-                      std::uint32_t triangle) const;
+                      ElementIndex triangle) const;
 
  private:
   double LowerBound(const Eigen::Vector3d& centre, double from) const;

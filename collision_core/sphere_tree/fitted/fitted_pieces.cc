@@ -11,7 +11,7 @@ FittedPieces::FittedPieces(const geometry::TriangleMesh& mesh)
     : points_(mesh.vertices), halvings_(mesh.vertices.size(), 0) {
   list_.reserve(mesh.triangles.size());
   for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
-    list_.push_back({mesh.triangles[i], i});
+    list_.push_back({mesh.triangles[i], ElementIndex(i)});
     for (const std::uint32_t corner : mesh.triangles[i])
       coordinate_max_ = std::max(coordinate_max_, points_[corner].cwiseAbs().maxCoeff());
   }

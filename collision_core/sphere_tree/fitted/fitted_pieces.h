@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "collision_core/base/ids.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 
 namespace collision::sphere_tree {
@@ -13,19 +14,19 @@ namespace collision::sphere_tree {
 /// coordinate S of the mesh.
 ///
 /// A piece is halved from a corner to the middle of the opposite edge ab, which *is* (a + b) / 2
-/// exactly, so that both halves unite to the whole. Stored is fl(0.5 fl(a_x + b_x)): the sum is off
-/// by u · 2 S, u = 2^−53, its half by u S (it underflows by 2^−1075 at most, nothing beside the
-/// rest); over three coordinates √3 u S < 1.8 u S. Where a and b are off by e at most
+/// exactly, so that both halves unite to the whole. The stored value is fl(0.5 fl(a_x + b_x)): the
+/// sum is off by u · 2 S, u = 2^−53, its half by u S (it underflows by 2^−1075 at most, nothing
+/// beside the rest); over three coordinates √3 u S < 1.8 u S. Where a and b are off by e at most
 /// themselves, so is their middle. After n halvings one upon the other, 2 n u S.
 inline constexpr double kHalvingError = 2;
 
-/// At most so often upon each other: an edge is then shorter than its rounding.
+/// The most successive halvings: after that an edge is shorter than its rounding.
 inline constexpr std::uint8_t kHalvingsMax = 60;
 
-/// Corners are numbers into FittedPieces::points.
+/// Its corners are indices for FittedPieces::PointAt().
 struct FittedPiece {
   std::array<std::uint32_t, 3> corners;
-  std::uint32_t triangle = 0;
+  ElementIndex triangle;
 };
 
 /// All pieces: at first the whole triangles.

@@ -9,8 +9,9 @@
 
 namespace collision::sphere_tree {
 
-/// An octant with more triangles is divided even if they all meet in one corner, which no division
-/// takes apart: this many times triangles_per_leaf.
+/// Triangles that share one vertex (a fan) cannot be separated by dividing octants, so an octant
+/// with only such triangles stays a leaf up to this many times triangles_per_leaf. With more it is
+/// divided all the same.
 inline constexpr std::uint32_t kFanFactor = 4;
 
 /// Builds the reference tree: each node is an octant of its parent's cube, with a ball about the
@@ -29,14 +30,14 @@ inline constexpr std::uint32_t kFanFactor = 4;
 /// The ball is the smaller of the octant's circumscribed ball and one by Bădoiu and Clarkson's
 /// iteration. The second is nearly always smaller: a slice through a cube is smaller than the cube.
 ///
-/// An octant with a single child that has everything becomes that child, so a level is a step in
-/// the tree, and a node's octant is at most the bounding cube halved `level` times. Triangles that
-/// all meet in one corner cannot be taken apart: up to kFanFactor times the usual number they stay
-/// a leaf. Without that rule every vertex of a fine mesh would be followed down to the last level.
+/// An octant whose surface lies in a single child is replaced by that child, so each level of the
+/// tree has siblings, and a node's octant is at most the bounding cube halved `level` times.
+/// Without the rule of kFanFactor every vertex of a fine mesh would be followed down to the last
+/// level.
 SphereTree BuildOctree(const geometry::TriangleMesh& mesh, const ShapeOptions& options);
 
 /// The same octants, each in its circumscribed ball, as in Hubbard's paper (space_time_bound.h):
-/// the measure to which the other builders are compared.
+/// the measure to which the other builders are compared, by benchmarks and tests.
 SphereTree BuildCircumscribedOctree(const geometry::TriangleMesh& mesh,
                                     const ShapeOptions& options);
 

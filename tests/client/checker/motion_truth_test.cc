@@ -137,7 +137,7 @@ TEST(MotionLogReading, MalformedTurnsAreReportedWithTheirLine) {
 }
 
 // Goal:   both formats are read, to the last bit; agents share their mesh.
-TEST(MotionLogReading, ReadsBothFormats) {
+TEST(MotionLogReading, ReadsTheOlderFormats) {
   const auto old =
       Read("motion-log 1\nagent a 0.5\npiece a 0 10 0.1 0 0 0 0 0 0 0 0 0 0 0\njump a 3\n");
   ASSERT_EQ(old.size(), 1u);

@@ -46,7 +46,7 @@ void CheckLimits(const Value& good, const std::string& field, double least, doub
   }
 }
 
-TEST(Validation, DescriptionLimits) {
+TEST(Validation, DescriptionsAreLimited) {
   using D = AgentDescription;
   const D good{.name = "ball"};
   CheckLimits<D>(good, "radius_m", 0, kRadiusMax, [](D* d, double x) { d->radius_m = x; });
@@ -58,7 +58,7 @@ TEST(Validation, DescriptionLimits) {
   CheckLimits<D>(good, "time_step_s", 0, kTimeStepMax, [](D* d, double x) { d->time_step_s = x; });
 }
 
-TEST(Validation, StateLimits) {
+TEST(Validation, StatesAreLimited) {
   for (int i = 0; i < 3; ++i) {
     const std::string axis(1, "xyz"[i]);
     CheckLimits<State>({}, "position_m." + axis, -kCoordinateMax, kCoordinateMax,

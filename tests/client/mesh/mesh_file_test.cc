@@ -188,7 +188,7 @@ TEST_F(MeshFileTest, OnlyMeshesOfTheSceneAreRead) {
   EXPECT_EQ(report_.faces, 12u);
 }
 
-TEST_F(MeshFileTest, NoFileNoFormatNoBytes) {
+TEST_F(MeshFileTest, MissingUnknownAndEmptyFilesAreRefused) {
   EXPECT_THROW(LoadShape(folder_ / "none.obj", {.unit_m = 1, .up = UpAxis::kZ}, nullptr),
                std::runtime_error);
   EXPECT_THROW(LoadShape(folder_, {.unit_m = 1, .up = UpAxis::kZ}, nullptr), std::runtime_error);
@@ -224,7 +224,7 @@ TEST_F(MeshFileTest, CutOffAnywhereIsRefused) {
   }
 }
 
-TEST_F(MeshFileTest, BadObj) {
+TEST_F(MeshFileTest, MalformedObjIsRefused) {
   ExpectRefusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
                 "line 4: a face names v 4, the file has 3");
   ExpectRefusal("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n", "line 4: a face's corner: \"0\"");
@@ -244,7 +244,7 @@ TEST_F(MeshFileTest, BadObj) {
                 "all 2 faces are degenerate");
 }
 
-TEST_F(MeshFileTest, OddButSoundObj) {
+TEST_F(MeshFileTest, OddButSoundObjIsRead) {
   const std::string odd =
       "f 1 2 3\r\nv 0 0 0 1 # origin\r\n\r\nv 1 0 0 0.5 0.5 0.5\r\nv 0 1e-400 0\r\nv 0 1 0\r\n"
       "vt 0 0\nf -4/1 \\\n -3/ -1 # after a turn\nusemtl x\nf 1//\nl 1 2\nf\n";
@@ -253,7 +253,7 @@ TEST_F(MeshFileTest, OddButSoundObj) {
   EXPECT_EQ(report_.dropped, 3u);
 }
 
-TEST_F(MeshFileTest, BadStl) {
+TEST_F(MeshFileTest, MalformedStlIsRefused) {
   const std::string binary = CubeStlBinary();
   ExpectRefusal("a.stl", binary + " ", "whose header says 12 triangles, which take 684 bytes");
   std::string wrong = binary;
@@ -272,7 +272,7 @@ TEST_F(MeshFileTest, BadStl) {
   EXPECT_EQ(Load("two.stl", text + text)->triangles().indices.size(), 24u);
 }
 
-TEST_F(MeshFileTest, BadPly) {
+TEST_F(MeshFileTest, MalformedPlyIsRefused) {
   const std::string text = CubePlyText();
   ExpectRefusal("a.ply", With(text, "4 0 3 2 1", "4 0 3 2 8"), "names vertex 8");
   ExpectRefusal("a.ply", With(text, "4 0 3 2 1", "4 0 3 2 -1"), "names vertex -1");
@@ -300,7 +300,7 @@ TEST_F(MeshFileTest, BadPly) {
   }
 }
 
-TEST_F(MeshFileTest, BadGltf) {
+TEST_F(MeshFileTest, MalformedGltfIsRefused) {
   const std::string json = CubeGltf("");
   const auto glb = [&](const std::string& what, const std::string& by) {
     return GlbOf(With(json, what, by), CubeBuffer());

@@ -336,7 +336,7 @@ TEST(Detector, NothingIsCertainWithinTheSkewAboutAJump) {
   }
 }
 
-TEST(Detector, LimitsAndStrangers) {
+TEST(Detector, RefusesAgentsBeyondTheLimitAndUnknownOnes) {
   DetectorOptions options;
   options.agents_max = 1;
   Line line(options);

@@ -235,7 +235,7 @@ void CheckEncounters(bool of_solids) {
 
 TEST(DetectorShapePromise, NeverLaterThanTheTrueFirstContact) { CheckEncounters(false); }
 
-TEST(DetectorShapePromise, NorWithConvexSolids) { CheckEncounters(true); }
+TEST(DetectorShapePromise, ConvexSolidsAreNeverLate) { CheckEncounters(true); }
 
 // One state a second of a cube that comes along x and does not turn, but does not declare that.
 struct Coming {

@@ -194,7 +194,7 @@ TEST(EarliestIntersection, NearTripleRoots) {
 
 // Goal:   skew widens both horns as documented, and directions never make the answer later than the
 // exact one. Method: velocities of rational length for the exact |v| κ.
-TEST(EarliestIntersection, Skew) {
+TEST(EarliestIntersection, SkewIsCountedIn) {
   Random random(65);
   for (int i = 0; i < kPairs / 4; ++i) {
     const auto agent = [&] {
@@ -211,7 +211,7 @@ TEST(EarliestIntersection, Skew) {
 }
 
 // Goal:   head on, from inside, identical, receding, masked, expired: the plain cases.
-TEST(EarliestIntersection, PlainCases) {
+TEST(EarliestIntersection, PlainCasesAreAsKnown) {
   motion::SpaceTimeBound a = Ball({0, 0, 0}, {10, 0, 0}, 1), b = Ball({12, 0, 0}, {0, 0, 0}, 1);
   const auto seconds = [&] { return EarliestIntersection(a, b, Instant()).seconds; };
   EXPECT_LE(seconds(), 1.0);
@@ -239,7 +239,7 @@ TEST(EarliestIntersection, PlainCases) {
 //         after. Method: A thrusts only away from B (d = −x, M = 2, ½Mτ² = τ²), B rests 16 m off
 //         along +x: never, while it holds; until 4 s: at 4 s, when the balls already overlap; until
 //         2 s: at 4 s, the balls' time.
-TEST(EarliestIntersection, Directions) {
+TEST(EarliestIntersection, DirectionsAreCountedIn) {
   motion::SpaceTimeBound a = Ball({0, 0, 0}, {0, 0, 0}, 0, 2), b = Ball({16, 0, 0}, {0, 0, 0}, 0);
   const auto seconds = [&] {
     const double time = EarliestIntersection(a, b, Instant()).seconds;

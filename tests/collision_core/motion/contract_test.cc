@@ -147,7 +147,7 @@ TEST(Contract, SkewCountsTwice) {
 
 // Goal:   a direction lost, changed or shortened widens, one that had ended or is kept does not,
 //         and a motion against it is a breach.
-TEST(Contract, Directions) {
+TEST(Contract, ALostOrChangedDirectionWidens) {
   SpaceTimeBound before = Resting(2);
   before.state.direction = {1, 0, 0};
   before.state.direction_until = Instant::FromNanoseconds(3 * kSecond);
@@ -175,7 +175,7 @@ TEST(Contract, Directions) {
 }
 
 // Goal:   a later expiry widens: promises to others ended at the old one. An earlier one does not.
-TEST(Contract, Expiry) {
+TEST(Contract, ALaterExpiryWidens) {
   SpaceTimeBound before = Resting(2);
   before.state.expiry = Instant::FromNanoseconds(3 * kSecond);
   MotionState next = After(before, kSecond);

@@ -41,7 +41,7 @@ TEST(FittedDistance, IsAnUpperBoundAndTight) {
     for (int k = 0; k < 20; ++k) {
       const Vector3d c = dirt::Point(random, 1.1);
       const double slack = random.Chance(0.5) ? 0 : random.LogUniform(1e-12, 0.1);
-      const auto hint = static_cast<std::uint32_t>(random.Below(mesh.triangles.size()));
+      const ElementIndex hint(random.Below(mesh.triangles.size()));
       const CentreFacts facts = distance.Certify(c, slack, {}, hint);
       const double s = facts.signed_distance;
       ASSERT_EQ(facts.inside, s < 0);
@@ -69,18 +69,17 @@ TEST(TriangleBoxTree, VisitsWhatIsWithinTheLimit) {
   std::size_t visits = 0;
   for (int i = 0; i < 1000; ++i) {
     const Vector3d p = dirt::Point(random, 3);
-    const auto triangle = static_cast<std::uint32_t>(random.Below(mesh.triangles.size()));
+    const ElementIndex triangle(random.Below(mesh.triangles.size()));
     const double limit = geometry::DistanceToTriangle(p, boxes.CornersOf(triangle)).distance.upper;
     const NearPoint near = boxes.Nearest(p, triangle, 0, 0);
     ASSERT_LE(near.distance, limit * (1 + 1e-15));
     bool is_visited = false;
-    boxes.VisitWithin(p, &limit,
-                      [&](std::uint32_t t) { is_visited = is_visited || t == triangle; });
+    boxes.VisitWithin(p, &limit, [&](ElementIndex t) { is_visited = is_visited || t == triangle; });
     ASSERT_TRUE(is_visited);
     const double nearest =
         geometry::DistanceToTriangle(p, boxes.CornersOf(near.triangle)).distance.upper;
     is_visited = false;
-    boxes.VisitWithin(p, &nearest, [&](std::uint32_t t) {
+    boxes.VisitWithin(p, &nearest, [&](ElementIndex t) {
       ++visits;
       is_visited = is_visited || t == near.triangle;
     });
@@ -94,13 +93,13 @@ TEST(FittedDistance, TakesAnothersWordOnlyInItsBall) {
   const geometry::TriangleMesh mesh = Joined(Cube(1), Moved(Cube(1), {4, 0, 0}));
   const TriangleBoxTree boxes(mesh);
   const FittedDistance distance(boxes, SurfaceKind::kClosed);
-  const CentreFacts middle = distance.Certify({0, 0, 0}, 0, {}, 0);
+  const CentreFacts middle = distance.Certify({0, 0, 0}, 0, {}, ElementIndex(0u));
   ASSERT_TRUE(middle.inside);
   EXPECT_NEAR(middle.signed_distance, -1, 1e-11);
-  EXPECT_TRUE(distance.Certify({0.5, 0.5, 0.5}, 0, middle, 0).inside);
-  EXPECT_FALSE(distance.Certify({1.001, 0, 0}, 0, middle, 0).inside);
-  EXPECT_FALSE(distance.Certify({2, 0, 0}, 0, middle, 0).inside);
-  EXPECT_TRUE(distance.Certify({4, 0.5, 0}, 0, middle, 0).inside);
+  EXPECT_TRUE(distance.Certify({0.5, 0.5, 0.5}, 0, middle, ElementIndex(0u)).inside);
+  EXPECT_FALSE(distance.Certify({1.001, 0, 0}, 0, middle, ElementIndex(0u)).inside);
+  EXPECT_FALSE(distance.Certify({2, 0, 0}, 0, middle, ElementIndex(0u)).inside);
+  EXPECT_TRUE(distance.Certify({4, 0.5, 0}, 0, middle, ElementIndex(0u)).inside);
 }
 
 // Without an inside there is none.
@@ -108,7 +107,8 @@ TEST(FittedDistance, OpenSurfacesHaveNoInside) {
   geometry::TriangleMesh mesh = Cube(1);
   mesh.triangles.pop_back();
   const TriangleBoxTree boxes(mesh);
-  const CentreFacts facts = FittedDistance(boxes, SurfaceKind::kOpen).Certify({0, 0, 0}, 0, {}, 0);
+  const CentreFacts facts =
+      FittedDistance(boxes, SurfaceKind::kOpen).Certify({0, 0, 0}, 0, {}, ElementIndex(0u));
   EXPECT_FALSE(facts.inside);
   EXPECT_NEAR(facts.signed_distance, 1, 1e-11);
 }

@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Data, FittedRealMeshes,
                          NameOf);
 
 // The reference: the octree takes the same proofs.
-TEST(FittedRealMesh, SoIsTheOctreeOfACow) {
+TEST(FittedRealMesh, TheOctreeOfACowIsCoveredAndMeasured) {
   DyadicPool::Install();
   const geometry::TriangleMesh mesh = RealMesh("cow");
   const SphereTree tree = Build(mesh, TreeBuilder::kOctree)->tree();

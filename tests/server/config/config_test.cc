@@ -111,7 +111,7 @@ TEST(Config, ExampleFileDocumentsEveryField) {
 }
 
 // Goal:   the defaults are those that the design states, and valid.
-TEST(Config, Defaults) {
+TEST(Config, DefaultsAreAsDesignedAndValid) {
   for (const ConfigResult& result :
        {ParseConfig("", "F"), ParseConfig("clock { kind: WALL }", "F")}) {
     EXPECT_TRUE(result.ok());
@@ -205,7 +205,7 @@ TEST(Config, TellsAllErrorsWithTheirLines) {
 
 // Goal:   fields that contradict each other are refused at the line of the one that is set, and
 //         at equality, or when they agree, they are not.
-TEST(Config, FieldsAgree) {
+TEST(Config, ContradictingFieldsAreRefused) {
   const std::pair<const char*, const char*> cases[] = {
       {"announce_within_s: 0.016", "F:1: announce_within_s: "},
       {"\ntemporal_resolution_s: 3", "F:2: announce_within_s: "},
@@ -285,7 +285,7 @@ TEST(Config, DamagedTextIsNeverMoreThanErrors) {
 }
 
 // Goal:   a file that cannot be read is one clear error; an empty one is all defaults.
-TEST(Config, FilesThatCannotBeRead) {
+TEST(Config, AnUnreadableFileIsOneClearError) {
   const std::string missing = testing::TempDir() + "no-such-config";
   EXPECT_EQ(LoadConfig(missing).errors,
             std::vector<std::string>{missing + ": cannot be read: No such file or directory"});

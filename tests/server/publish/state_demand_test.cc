@@ -30,19 +30,19 @@ double Wanted(double clear_until, double stamp, double now) {
          1e-9;
 }
 
-TEST(StateDemand, FarAwayJustBeforeTheDetectorAsksAgain) {
+TEST(StateDemand, AFarAgentIsWantedJustBeforeTheDetectorAsksAgain) {
   EXPECT_DOUBLE_EQ(Wanted(12.5, 9, 10), 10.5);
   EXPECT_DOUBLE_EQ(Wanted(100, 9, 10), 98);
   EXPECT_TRUE(Demand().WantedAt({}, At(9), At(10)).is_never());
 }
 
-TEST(StateDemand, NearHalfWayFromTheNewestState) {
+TEST(StateDemand, ANearAgentIsWantedHalfWayToItsClearance) {
   EXPECT_DOUBLE_EQ(Wanted(12, 10, 10), 11);
   EXPECT_DOUBLE_EQ(Wanted(12, 11, 11), 11.5);
   EXPECT_DOUBLE_EQ(Wanted(12, 6, 10.5), 9);  // long due
 }
 
-TEST(StateDemand, AtHandAtEveryStep) {
+TEST(StateDemand, AnAgentAtHandIsWantedAtEveryStep) {
   const Instant now = At(10);
   EXPECT_DOUBLE_EQ(Wanted(10.2, 10, 10), 10);
   EXPECT_DOUBLE_EQ(Wanted(10.21, 10, 10), 10.105);
@@ -52,7 +52,7 @@ TEST(StateDemand, AtHandAtEveryStep) {
 }
 
 // The first meeting is announced already; the next one may be soon.
-TEST(StateDemand, FreshBeforeOthersAreAnnounced) {
+TEST(StateDemand, AStaleAgentIsWantedBeforeOthersAreAnnounced) {
   const auto wanted = [](double stamp, double clear, double unannounced) {
     const detection::AgentClearance clearance{.clear_until = At(clear),
                                               .unannounced_until = At(unannounced)};
@@ -65,7 +65,7 @@ TEST(StateDemand, FreshBeforeOthersAreAnnounced) {
 }
 
 // One state newer than the end of a contact narrows its event; more states do not.
-TEST(StateDemand, OnceAfterAContact) {
+TEST(StateDemand, OneStateIsWantedAfterAContact) {
   const detection::AgentClearance clearance{.clear_until = At(100), .unsettled_until = At(9.5)};
   EXPECT_EQ(Demand().WantedAt(clearance, At(9.25), At(10)), At(10));
   EXPECT_EQ(Demand().WantedAt(clearance, At(9.5), At(10)), At(98));

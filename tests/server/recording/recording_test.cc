@@ -94,6 +94,17 @@ TEST_F(RecordingTest, ReadsBackWhatWasWritten) {
   EXPECT_FALSE(reader.Next());
 }
 
+// Goal:   a recording made with a method that is no longer there (FACE_SWEEP, 3) is read: methods
+//         differ in cost only.
+TEST_F(RecordingTest, AMethodThatIsNoLongerThereIsReadAsAuto) {
+  v1::Config config = CompleteConfig({});
+  config.set_broad_phase(static_cast<v1::Config::BroadPhase>(3));
+  { RecordingWriter writer(path_, config); }
+  const v1::Config read = RecordingReader(path_).config();
+  EXPECT_EQ(read.broad_phase(), v1::Config::AUTO);
+  EXPECT_TRUE(CheckConfig(read).empty());
+}
+
 // Goal:   a recording cut off anywhere gives every complete batch, and an error with the byte
 //         offset of the first incomplete one; cut between two entries it is simply shorter.
 // Method: every length of a recording of eight batches.
@@ -110,7 +121,7 @@ TEST_F(RecordingTest, CutOffAnywhereGivesWhatIsComplete) {
     EXPECT_EQ(reader.error(), length == ends[complete] ? "" : error);
   }
   EXPECT_EQ(RefusalOf(whole.substr(0, ends[0] - 1)), path_ + ": byte 0: cut off");
-  EXPECT_EQ(RefusalOf(""), path_ + ": byte 0: empty: no recording");
+  EXPECT_EQ(RefusalOf(""), path_ + ": byte 0: empty, not a recording");
 }
 
 // Goal:   damage never makes a program of the reader's fail: it ends in batches, then perhaps one
@@ -148,17 +159,17 @@ TEST_F(RecordingTest, RefusesASecondHeader) {
   SetContent(whole + whole);
   RecordingReader reader(path_);
   EXPECT_EQ(CountBatches(reader), 1);
-  EXPECT_EQ(reader.error(), path_ + ": byte " + std::to_string(end) + ": damaged: no batch");
+  EXPECT_EQ(reader.error(), path_ + ": byte " + std::to_string(end) + ": damaged: not a batch");
 }
 
 // Goal:   files that are something else are refused by one line that says so.
 TEST_F(RecordingTest, RefusesOtherFiles) {
   EXPECT_NE(RefusalOf("world: \"default\"\n"), "");
-  EXPECT_EQ(RefusalOf(std::string(1, '\0')), path_ + ": byte 0: no recording: no header");
+  EXPECT_EQ(RefusalOf(std::string(1, '\0')), path_ + ": byte 0: not a recording: it has no header");
   EXPECT_EQ(RefusalOf(std::string("\x04\x0a\x02\x08\x02", 5)),
             path_ + ": byte 0: format 2; this program reads format 1");
   EXPECT_EQ(RefusalOf(std::string("\xff\xff\xff\xff\xff\xff", 6)),
-            path_ + ": byte 0: damaged: no length of an entry");
+            path_ + ": byte 0: damaged: not a valid entry length");
   EXPECT_THROW(RecordingReader(path_ + ".missing"), std::runtime_error);
   EXPECT_THROW(RecordingReader("/"), std::runtime_error);
 }

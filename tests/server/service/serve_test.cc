@@ -119,7 +119,7 @@ TEST(Serve, EndsInTheMiddleOfAStep) {
     BlockingBus bus;
     Serve(config, bus, &recorder);
   };
-  EXPECT_EXIT(serve(), testing::ExitedWithCode(0), "exits without waiting for a step");
+  EXPECT_EXIT(serve(), testing::ExitedWithCode(0), "exits without waiting for it");
   RecordingReader reader(path);
   EXPECT_TRUE(reader.Next().has_value());
   EXPECT_FALSE(reader.Next().has_value());

@@ -121,7 +121,7 @@ TEST(CoarseTree, FirstTreesComeBeforeRefinements) {
 
 // Goal:   forgotten at any moment, between the two trees as well, it does not appear again; the
 //         builder ends at any moment.
-TEST(CoarseTree, ForgottenOrEndedInBetween) {
+TEST(CoarseTree, AForgottenShapeDoesNotReappear) {
   Random random(6);
   for (int round = 0; round < 12; ++round) {
     Bell bell;
@@ -306,7 +306,7 @@ TEST(CoarseTree, AReplayFollowsTheThreads) {
 
 // Goal:   a shape that goes while its wanted tree is being built leaves nothing behind, and may
 //         come again; a tree that is ready afterwards is dropped.
-TEST(CoarseTree, GoesInBetween) {
+TEST(CoarseTree, AShapeThatGoesBetweenItsTreesLeavesNothing) {
   std::vector<ReadyTree> finished;
   auto owned = std::make_unique<StagedShapeBuilder>(&finished);
   StagedShapeBuilder& builder = *owned;

@@ -98,7 +98,7 @@ TEST(ShapeLifetime, AStrangersDisposalIsRefused) {
 
 // Goal:   two simulators with one shape, one of them with other bytes under its hash: that one is
 //         rejected, and both fly the true shape.
-TEST(ShapeLifetime, OneOfTwoLies) {
+TEST(ShapeLifetime, AFalseCopySpoilsNoTrueShape) {
   ScriptedDaemon daemon(Simulated());
   std::vector<v1::ShapePart> lies = PartsOf("beta", CubeBytes());
   lies[0].mutable_bytes()->back() ^= 1;

@@ -207,7 +207,7 @@ TEST_F(ShapeStoreTest, EqualShapesAreOneUntilNoneIsNeeded) {
 }
 
 // Goal:   a shape disposed of while its tree is built is forgotten, and may come again.
-TEST_F(ShapeStoreTest, DisposedOfWhileItIsBuilt) {
+TEST_F(ShapeStoreTest, AShapeDisposedOfWhileBuiltIsForgotten) {
   for (int times = 0; times < 2; ++times) {
     EXPECT_EQ(TakeAll(parts), None());
     EXPECT_EQ(store.counters().builder.building, 1u);
@@ -222,7 +222,7 @@ TEST_F(ShapeStoreTest, DisposedOfWhileItIsBuilt) {
 }
 
 // Goal:   parts disposed of and written again one by one, in any mixture, leave the shape as it is.
-TEST_F(ShapeStoreTest, WrittenAnewWhileItIsDisposedOf) {
+TEST_F(ShapeStoreTest, PartsWrittenAnewKeepTheShape) {
   EXPECT_EQ(TakeAll(parts), None());
   ASSERT_TRUE(Ready(hash));
   const auto shape = store.Find(hash);

@@ -302,7 +302,7 @@ TEST_F(TreeCacheTest, RemovesFilesThatWereNeverFinished) {
 
 // Goal:   a folder that cannot be is said at the start; one that vanishes later costs nothing but
 //         the trees.
-TEST_F(TreeCacheTest, FoldersThatAreNone) {
+TEST_F(TreeCacheTest, AnImpossibleFolderIsReportedAtTheStart) {
   fs::create_directories(folder_);
   SetContents(folder_ + "/file", "x");
   try {

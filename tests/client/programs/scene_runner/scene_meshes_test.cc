@@ -107,7 +107,7 @@ double Length(const Shape& shape, int axis) {
   return greatest - least;
 }
 
-TEST(SceneMeshes, Spaceship) {
+TEST(SceneMeshes, SpaceshipIsClosedAndOfItsSize) {
   if (!MeshFilesSupported()) return;
   const auto shape = Load("spaceship.obj");
   const auto faces = FacesOf(*shape);
@@ -120,7 +120,7 @@ TEST(SceneMeshes, Spaceship) {
   ExpectNoFaceThroughAnother(faces);
 }
 
-TEST(SceneMeshes, DroneShip) {
+TEST(SceneMeshes, DroneShipIsClosedAndOfItsSize) {
   if (!MeshFilesSupported()) return;
   const auto shape = Load("drone-ship.obj");
   const auto faces = FacesOf(*shape);

@@ -79,7 +79,7 @@ class CollisionctlTest : public testing::Test {
   MessageMonitor monitor_{std::make_unique<FakeReceiver>(&next_), view_.Callbacks()};
 };
 
-TEST_F(CollisionctlTest, StatusPage) {
+TEST_F(CollisionctlTest, StatusPageShowsSimulatorsAndCounters) {
   v1::ServiceStatus* status = Status();
   status->set_pairs_tracked(3);
   status->set_broad_phase("all pairs");
@@ -257,7 +257,7 @@ TEST_F(CollisionctlTest, AWallClockReadsAsTheTimeOfDay) {
   EXPECT_NE(StatusPage(view_).find("now          02:58:15.022 UTC\n"), std::string::npos);
 }
 
-TEST_F(CollisionctlTest, EarliestPage) {
+TEST_F(CollisionctlTest, EarliestPageNamesPairAndTime) {
   EXPECT_EQ(EarliestPage(view_), "not published yet\n");
   next_.outputs.emplace_back().mutable_earliest_intersection()->set_now_ns(1'000'000'000);
   Poll(1);

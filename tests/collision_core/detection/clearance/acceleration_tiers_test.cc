@@ -67,7 +67,7 @@ TEST(AccelerationTiers, NoAccelerationIsBelowEveryTier) {
 }
 
 // If many agents declare no acceleration, they are not queried separately.
-TEST(AccelerationTiers, NotWhereManyDeclareNone) {
+TEST(AccelerationTiers, UnacceleratedAgentsHaveNoOwnBandIfTheyAreMany) {
   constexpr std::uint32_t kMost = AccelerationTiers::kUnacceleratedMax;
   AccelerationTiers scene;
   scene.Set(AgentIndex(0u), 1);

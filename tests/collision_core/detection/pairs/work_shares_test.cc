@@ -15,7 +15,7 @@ namespace {
 
 using Shares = std::vector<std::uint64_t>;
 
-TEST(WorkShares, AreKnown) {
+TEST(WorkShares, AreAsComputedByHand) {
   WorkShares shares;
   EXPECT_EQ(shares.Of({}, 100), Shares{});
   EXPECT_EQ(shares.Of({{70, 1}, {10, 1}}, 100), (Shares{70, 10})) << "enough for all";

@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kDuration = 4;
 
-SweptBalls HeadOn(double gap, double speed, double growth) {
-  return {{gap + 2, 0, 0}, {-speed, 0, 0}, {2, 0, growth}};
+numeric::QuickBall HeadOn(double gap, double speed, double growth) {
+  return {{gap + 2, 0, 0}, {-speed, 0, 0}, 2, 0, growth};
 }
 
-double GapAt(const SweptBalls& balls, double h) {
-  return (balls.d + h * balls.w).norm() -
-         (balls.reach.c0 + h * (balls.reach.c1 + h * balls.reach.c2));
+double GapAt(const numeric::QuickBall& difference, double h) {
+  const Eigen::Vector3d d(difference.c), w(difference.v);
+  return (d + h * w).norm() - (difference.s0 + h * (difference.s1 + h * difference.s2));
 }
 
 TEST(SweptBalls, HeadOnIsExactAndNeverLate) {
@@ -30,7 +30,7 @@ TEST(SweptBalls, HeadOnIsExactAndNeverLate) {
 
 TEST(SweptBalls, StayApartUpToTheTimeWhateverTheyGrowBy) {
   for (const double growth : {0.0, 0.25, 1.0, 3.0}) {
-    const SweptBalls balls{{6, 1, 0}, {-3, 0.5, 0.25}, {2, 0.125, growth}};
+    const numeric::QuickBall balls{{6, 1, 0}, {-3, 0.5, 0.25}, 2, 0.125, growth};
     const double h = SweptBallsTouch(balls, kDuration, 0);
     const double until = h < kDuration ? h : kDuration;
     for (int k = 0; k < 1000; ++k) EXPECT_GE(GapAt(balls, until * k / 1000), 0) << growth;

@@ -96,7 +96,7 @@ TEST(ContactPromise, EveryAnswerHoldsForTheTrueMotion) {
   EXPECT_GT(count.narrow, 8);
 }
 
-TEST(ContactPromise, LikewiseWhereMuchIsTolerated) {
+TEST(ContactPromise, EveryAnswerHoldsWithAWideTolerance) {
   const Count count = Judged(1001, 100, 1e-3);
   EXPECT_GT(count.contact, 30);
   EXPECT_GT(count.narrow, 10);
