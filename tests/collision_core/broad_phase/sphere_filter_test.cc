@@ -73,9 +73,10 @@ class SphereFilterTest : public testing::Test {
  protected:
   /// Distances, speeds and times of one scale each; every second ball just touches the query_ball,
   /// or just does not, at some time.
-  void Draw(int seed) {
+  void Draw(int seed, double size_least = 1e-6, double size_most = 1e6) {
     Random random(seed);
-    const double size = random.LogUniform(1e-6, 1e6), time = random.LogUniform(1e-3, 1e3);
+    const double size = random.LogUniform(size_least, size_most),
+                 time = random.LogUniform(1e-3, 1e3);
     const double speed = random.Chance(0.2) ? 0 : size / time * random.LogUniform(1e-3, 1e3);
     const double first = -time * random.Uniform(0, 1), last = time * random.Uniform(0, 1);
     const auto single = [](double x) { return static_cast<double>(static_cast<float>(x)); };
@@ -164,6 +165,28 @@ TEST_F(SphereFilterTest, LosesNoNeighbourAndRulesOutMost) {
   EXPECT_GT(near, kBalls * kScenes / 5);
   EXPECT_GT(far, kBalls * kScenes / 5);
   EXPECT_LT(let_through, far / 50);  // A long way costs digits.
+}
+
+// Where balls are less than kReachLeast apart, the squares of distances and reaches lose digits, or
+// are zero.
+TEST_F(SphereFilterTest, LosesNoNeighbourWhoseSquareUnderflows) {
+  int near = 0, ruled_out = 0;
+  for (int seed = 0; seed < kScenes; ++seed) {
+    Draw(seed, 1e-24, 1e-14);
+    std::vector<bool> hit(kBalls);
+    for (const std::uint32_t k : Hits(PlainSphereFilter())) hit[k] = true;
+    for (int k = 0; k < kBalls; ++k) {
+      ruled_out += !hit[k];
+      const Exact square =
+          LeastSquare(query_.query_ball, balls_.truth[k], Exact(first_), Exact(last_));
+      const Exact reach = Exact(query_.query_ball.reach) + Exact(balls_.truth[k].reach);
+      if (square > reach * reach) continue;
+      ++near;
+      ASSERT_TRUE(hit[k]) << "seed " << seed << ", ball " << k;
+    }
+  }
+  EXPECT_GT(near, kBalls * kScenes / 5);
+  EXPECT_GT(ruled_out, kBalls * kScenes / 20);
 }
 
 TEST_F(SphereFilterTest, EveryWidthGivesTheSame) {

@@ -6,28 +6,27 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
 #include "collision_core/narrow_phase/separation/separation_findings.h"
 #include "collision_core/narrow_phase/sphere_pairs/kernel_pose.h"
+#include "tests/collision_core/narrow_phase/sphere_pairs/exact_pose.h"
 #include "tests/support/meshes.h"
-#include "tests/support/truth/exact_triangle.h"
 
 namespace collision::narrow_phase {
 namespace {
-
-Eigen::Matrix3d RandomMatrix(Random& random) {
-  return Eigen::AngleAxisd(random.Uniform(0, 3.14), random.UnitVector()).toRotationMatrix();
-}
 
 BodySegment SegmentOf(const geometry::TriangleMesh& mesh) {
   BodySegment segment;
   segment.shape = shape::Shape::Build(mesh);
   return segment;
 }
+
+struct Scales {
+  double least = 1e-5, most = 1e5;
+};
 
 /// Two bodies of one scale, about as far apart as they are large, or a thousand times that.
 struct Scene {
@@ -39,9 +38,9 @@ struct Scene {
   RelativePose pose;
   KernelPose scan;
 
-  explicit Scene(std::uint64_t seed)
+  explicit Scene(std::uint64_t seed, Scales scales = {})
       : random(seed),
-        scale(random.LogUniform(1e-5, 1e5)),
+        scale(random.LogUniform(scales.least, scales.most)),
         of_a(SegmentOf(RandomMesh())),
         of_b(SegmentOf(RandomMesh())),
         a(of_a),
@@ -169,15 +168,6 @@ TEST(SpherePairKernel, TrianglesAreTheSameBitsForEveryWidth) {
   }
 }
 
-/// The exact place of a ball's centre or a corner of B, in A's body frame.
-ExactVector ExactlyPosed(const RelativePose& pose, const ExactVector& p) {
-  const auto row = [&](int i) {
-    return Exact(pose.R_AB(i, 0)) * p.x + Exact(pose.R_AB(i, 1)) * p.y +
-           Exact(pose.R_AB(i, 2)) * p.z + Exact(pose.p_AB[i]);
-  };
-  return {row(0), row(1), row(2)};
-}
-
 ExactVector CentreIn(const PackedBody& body, const sphere_tree::BallPack& pack, std::uint32_t i) {
   return ExactVector(body.origin) +
          ExactVector(Exact(pack.x[i]), Exact(pack.y[i]), Exact(pack.z[i]));
@@ -199,44 +189,65 @@ ExactVector ExactBetween(const Scene& scene, const BallScanTask& task, std::uint
          CentreIn(scene.packed_a, *task.a, i);
 }
 
-TEST(SpherePairKernel, BallsBeyondALimitAreCertainlyBeyond) {
+struct BeyondCounts {
   int beyond = 0, within = 0, nowhere = 0;
+};
+
+/// Balls of two packs beside a limit that is nearly one of the distances.
+void ExpectCertainlyBeyond(Scene* scene, BeyondCounts* counts) {
+  BallScanTask task = scene->RandomTask();
+  task.opened = Opened::kBoth, task.rows = 8, task.lane = 0, task.only_within = true;
+  task.upper = -sphere_tree::kFarDistance;  // nothing is news
+  const ExactVector near = ExactBetween(*scene, task, 0, 0);
+  const double off = std::sqrt(Square(near).convert_to<double>());
+  const double radii = double{task.a->radius[0]} + double{task.b->radius[0]};
+  const double slack = scene->scan.slack;
+  task.limit =
+      static_cast<float>(std::max(0.0, off - radii + slack * scene->random.Uniform(-4, 4)));
+  const Answer answer(*PlainSpherePairKernel(), scene->scan, task);
+  EXPECT_LE(answer.least(), task.limit);
+  for (std::uint32_t code = 0; code < kPairsMax; ++code) {
+    const std::uint32_t i = code / 8, j = code % 8;
+    if (task.a->radius[i] < 0 || task.b->radius[j] < 0) {
+      EXPECT_FALSE(answer.IsWithin(code));
+      ++counts->nowhere;
+      continue;
+    }
+    const Exact sum = Exact(task.a->radius[i]) + Exact(task.b->radius[j]) + Exact(task.limit);
+    const Exact loose = std::max(Exact(sum + Exact(3 * slack)), Exact(1.001f * kDistinctMin));
+    const Exact square = Square(ExactBetween(*scene, task, i, j));
+    if (answer.IsWithin(code)) {
+      EXPECT_LE(square, loose * loose);
+      ++counts->within;
+    } else {
+      EXPECT_GT(square, sum * sum);
+      ++counts->beyond;
+    }
+  }
+}
+
+TEST(SpherePairKernel, BallsBeyondALimitAreCertainlyBeyond) {
+  BeyondCounts counts;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     Scene scene(seed);
-    BallScanTask task = scene.RandomTask();
-    task.opened = Opened::kBoth, task.rows = 8, task.lane = 0, task.only_within = true;
-    task.upper = -sphere_tree::kFarDistance;  // nothing is news
-    // At one of the distances, nearly.
-    const ExactVector near = ExactBetween(scene, task, 0, 0);
-    const double off = Square(near).convert_to<double>();
-    const double radii = double{task.a->radius[0]} + double{task.b->radius[0]};
-    const double slack = scene.scan.slack;
-    task.limit = static_cast<float>(
-        std::max(0.0, std::sqrt(off) - radii + slack * scene.random.Uniform(-4, 4)));
-    const Answer answer(*PlainSpherePairKernel(), scene.scan, task);
-    EXPECT_LE(answer.least(), task.limit);
-    for (std::uint32_t code = 0; code < kPairsMax; ++code) {
-      const std::uint32_t i = code / 8, j = code % 8;
-      if (task.a->radius[i] < 0 || task.b->radius[j] < 0) {
-        EXPECT_FALSE(answer.IsWithin(code));
-        ++nowhere;
-        continue;
-      }
-      const Exact sum = Exact(task.a->radius[i]) + Exact(task.b->radius[j]) + Exact(task.limit);
-      const Exact loose = sum + Exact(3 * slack), square = Square(ExactBetween(scene, task, i, j));
-      if (answer.IsWithin(code)) {
-        EXPECT_LE(square, loose * loose);
-        ++within;
-      } else {
-        EXPECT_GT(square, sum * sum);
-        ++beyond;
-      }
-    }
+    ExpectCertainlyBeyond(&scene, &counts);
   }
-  EXPECT_GT(beyond, 1000);
-  EXPECT_GT(within, 1000);
-  EXPECT_GT(nowhere, 100);
+  EXPECT_GT(counts.beyond, 1000);
+  EXPECT_GT(counts.within, 1000);
+  EXPECT_GT(counts.nowhere, 100);
+}
+
+// These balls are so small and so near each other that squares lose their digits, or are zero.
+TEST(SpherePairKernel, BallsWhoseSquaresUnderflowAreCertainlyBeyond) {
+  BeyondCounts counts;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed, {1e-24, 1e-17});
+    ExpectCertainlyBeyond(&scene, &counts);
+  }
+  EXPECT_GT(counts.beyond, 1000);
+  EXPECT_GT(counts.within, 1000);
 }
 
 TEST(SpherePairKernel, BallsThatMayBeNewsAreLookedAtClosely) {
@@ -314,85 +325,6 @@ TEST(SpherePairKernel, TriangleBoundsHoldExactly) {
   }
   EXPECT_GT(pairs, 200);
   EXPECT_GT(3 * tight, pairs) << "but between corners, gaps are nearly the distance";
-}
-
-/// Four triangles in a cube of side 2, some of them needles or flat.
-geometry::TriangleMesh Soup(Random& random, double scale) {
-  geometry::TriangleMesh mesh;
-  const auto in_cube = [&] {
-    return Eigen::Vector3d(random.Uniform(-1, 1), random.Uniform(-1, 1), random.Uniform(-1, 1));
-  };
-  for (std::uint32_t t = 0; t < sphere_tree::kBlockTriangles; ++t) {
-    const Eigen::Vector3d p = in_cube(), q = in_cube();
-    const double across = random.Chance(0.4) ? random.LogUniform(1e-8, 1e-2) : 1;
-    mesh.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
-    for (const Eigen::Vector3d& x : {p, q, Eigen::Vector3d(p + across * (in_cube() - p))}) {
-      mesh.vertices.push_back(scale * x);
-    }
-  }
-  return mesh;
-}
-
-/// Triangles that lie in each other like straws: many are apart across two edges only.
-TEST(SpherePairKernel, TrianglesBeyondALimitAreCertainlyBeyond) {
-  int apart = 0, certain = 0, touching = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    SCOPED_TRACE(seed);
-    Random random(seed);
-    const double scale = random.Chance(0.3) ? 1e-8 : random.LogUniform(1e-5, 1e5);
-    BodySegment of_a, of_b;
-    of_a.shape = shape::Shape::Build(Soup(random, scale)),
-    of_b.shape = shape::Shape::Build(Soup(random, scale));
-    const BodyTree a(of_a), b(of_b);
-    const PackedBody packed_a(a), packed_b(b);
-    const RelativePose pose =
-        PoseOf(RandomMatrix(random), random.Uniform(0, 1) * scale * random.UnitVector());
-    KernelPose scan = KernelPoseOf(packed_a, packed_b, pose, SlackOf({a, b, pose}));
-    const auto limit =
-        static_cast<float>(random.Chance(0.5) ? 0 : scale * random.LogUniform(1e-6, 1));
-    const BlockScanTask task = {packed_a.tree->blocks(),
-                                packed_b.tree->blocks(),
-                                scan.triangle_slack,
-                                -sphere_tree::kFarDistance,
-                                limit,
-                                true};
-    float lowers[16];
-    LeastBeyond beyond;
-    std::fill_n(beyond, kLanesOver, sphere_tree::kFarDistance);
-    const unsigned within = PlainSpherePairKernel()->triangles(scan, task, beyond, lowers);
-    EXPECT_LE(*std::min_element(beyond, beyond + kLanesOver), limit);
-    BlockScanTask bounds = task;
-    bounds.only_within = false, bounds.limit = sphere_tree::kFarDistance;
-    PlainSpherePairKernel()->triangles(scan, bounds, beyond, lowers);
-    for (std::uint32_t k = 0; k < 16; ++k) {
-      if (k / 4 >= task.a->left || k % 4 >= task.b->left) continue;
-      ExactTriangle t, u;
-      for (std::size_t corner = 0; corner < 3; ++corner) {
-        const auto& mesh_a = a.shape()->mesh();
-        const auto& mesh_b = b.shape()->mesh();
-        t[corner] =
-            ExactVector(mesh_a.vertices[mesh_a.triangles[task.a->element[k / 4].value()][corner]]);
-        u[corner] = ExactlyPosed(
-            pose,
-            ExactVector(mesh_b.vertices[mesh_b.triangles[task.b->element[k % 4].value()][corner]]));
-      }
-      const Exact square = SquareOfTriangles(t, u);
-      ASSERT_LT(lowers[k], sphere_tree::kFarDistance);
-      const Exact lower = Exact(lowers[k]);
-      EXPECT_TRUE(lower <= 0 || lower * lower <= square) << lowers[k];
-      const bool is_beyond = (within >> k & 1) == 0;
-      if (is_beyond) {
-        EXPECT_GT(square, Exact(limit) * Exact(limit));
-      }
-      const Exact clear = Exact(4 * double{limit} + 1e-2 * scale);
-      touching += square == 0;
-      apart += square > clear * clear;
-      certain += square > clear * clear && is_beyond;
-    }
-  }
-  EXPECT_GT(touching, 300);
-  EXPECT_GT(apart, 1000);
-  EXPECT_GT(certain, 0.99 * apart);
 }
 
 }  // namespace
