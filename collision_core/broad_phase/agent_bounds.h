@@ -13,7 +13,7 @@
 
 namespace collision::broad_phase {
 
-/// The bounds of all agents by index, with what is agreed beside them: excluded pairs, margins of
+/// The bounds of all agents by index, with what is agreed in addition: excluded pairs, margins of
 /// pairs, and half-spaces (floors, walls). It is the common base of NeighbourIndex and
 /// EarliestSweep, which query the bounds that are held.
 ///

@@ -28,7 +28,7 @@ inline double HalfUp(double margin) {
 /// The rules of all pairs that have one, by the agents' indices, in either order. An agent may have
 /// rules before it exists. Memory: 48 bytes a rule and some 100 an agent that has any.
 ///
-/// A margin m of a pair is one more exact term beside both radii: in the quick routine, the
+/// A margin m of a pair is one more exact term in addition to both radii: in the quick routine, the
 /// intervals, capped balls and boxes alike, so the pair meets where it comes within m, certified as
 /// before. Filters know no pairs, so an agent's reach is grown by half of its greatest margin,
 /// which covers every pair of two agents. A greater margin places the agent anew; a smaller one

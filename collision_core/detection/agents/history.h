@@ -23,7 +23,7 @@ enum class Link {
 /// drops the oldest, and what that covered becomes unknown.
 class History {
  public:
-  /// One state, as a bound, and what was declared beside it.
+  /// One state, as a bound, and what was declared with it.
   struct Sample {
     motion::SpaceTimeBound bound;
     broad_phase::CollisionFilter filter{};

@@ -22,7 +22,7 @@ struct QueriedAgent {
 
 /// The queries of the detector about single pairs.
 ///
-/// What is agreed about a pair beside its bounds enters the detector here and in the neighbour
+/// What is agreed about a pair besides its bounds enters the detector here and in the neighbour
 /// index (broad_phase/agent_bounds.h). Today that is the filters; exclusions and margins of pairs
 /// are looked up here by the agents' indices once the detector is given PairRules.
 /// `detection/README.md` says what else they need.

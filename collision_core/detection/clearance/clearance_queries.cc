@@ -68,7 +68,7 @@ void ClearanceQueries::Query(AgentIndex agent, Renewals renewals) {
 bool ClearanceQueries::NeedsTiersOnly(AgentIndex agent, Renewals renewals) const {
   const AgentCoverage& record = coverage_[agent];
   return !record.renewed_from && !coverage_.IsSaturated(agent) && renewals == Renewals::kFew &&
-         pairs_.RoomFor(agent) > 0 && coverage_.tiers().HasBandsBeside(agent) &&
+         pairs_.RoomFor(agent) > 0 && coverage_.tiers().HasOwnBands(agent) &&
          record.keys.comparable() > DueUntil(agent);
 }
 
@@ -154,7 +154,7 @@ ClearanceQuery ClearanceQueries::QueryFor(AgentIndex agent, int band, const Prom
 NextNeighbour ClearanceQueries::QueryBands(AgentIndex agent, const Promised& promised) {
   AgentCoverage& record = coverage_[agent];
   bands_.clear();
-  coverage_.tiers().BandsBeside(agent, &bands_);
+  coverage_.tiers().OwnBandsOf(agent, &bands_);
   const int comparable = bands_.empty() ? kEveryBand : AccelerationTiers::kComparable;
   NextNeighbour next = band_query_.Find(QueryFor(agent, comparable, promised));
   if (!coverage_.IsSaturated(agent)) record.keys.SetAll(next.when);

@@ -7,7 +7,7 @@
 
 namespace collision::detection {
 
-/// What a pair would use, and its weight beside the others.
+/// What a pair would use, and its weight relative to the others.
 struct WorkClaim {
   std::uint64_t wanted = 0;
   std::uint32_t weight = 1;  ///< 1 to WorkShares::kWeightMax.

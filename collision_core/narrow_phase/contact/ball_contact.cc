@@ -20,10 +20,12 @@ constexpr int kRoundsMax = 16;
 
 /// The relative motion from A to B under one choice of a bound of each ball.
 struct Choice {
-  numeric::MovingBall ball;  ///< Difference() of the two; its radius is the sum of both radii.
+  /// As Difference(), with the sum of both radii, but the centres at base are subtracted instead of
+  /// anchors and shifts: the anchor is their difference, the shift 0.
+  numeric::MovingBall ball;
 
   numeric::Interval Distance(double delta) const {
-    return numeric::Norm(ball.centre() + numeric::Interval(delta) * ball.velocity);
+    return numeric::Norm(ball.anchor + numeric::Interval(delta) * ball.velocity);
   }
 
   /// r − u − |Δc|, concave: touching where it is >= 0, for all motions within the bounds.
@@ -37,9 +39,9 @@ std::vector<Choice> ChoicesOf(const BallSegment& a, const BallSegment& b) {
   choices.reserve(a.bounds.size() * b.bounds.size());
   for (const numeric::MovingBall& ball_a : a.bounds) {
     for (const numeric::MovingBall& ball_b : b.bounds) {
-      numeric::MovingBall& ball = choices.emplace_back().ball;
-      ball = Difference(ball_a, ball_b, 0);
-      ball.radius = numeric::Interval(a.radius) + b.radius;
+      choices.push_back({{ball_b.centre() - ball_a.centre(), numeric::IntervalVector(),
+                          ball_b.velocity - ball_a.velocity, numeric::Interval(a.radius) + b.radius,
+                          ball_a.u + ball_b.u}});
     }
   }
   return choices;
@@ -72,7 +74,7 @@ double Enlarging(const Eigen::Vector3d& v) {
 
 /// The time at which the centres are nearest, approximately.
 double NearestTime(const Choice& choice, double duration) {
-  const Eigen::Vector3d d0 = choice.ball.centre().middle(), w = choice.ball.velocity.middle();
+  const Eigen::Vector3d d0 = choice.ball.anchor.middle(), w = choice.ball.velocity.middle();
   if (w.isZero(0)) return 0;
   if (w.cwiseAbs().maxCoeff() >= kSquareMin) {
     return std::clamp(-d0.dot(w) / w.squaredNorm(), 0.0, duration);
@@ -146,9 +148,8 @@ double FreeFrom(const std::vector<Choice>& choices, double duration, TimeDirecti
     double step = 0;
     for (const Choice& choice : choices) {
       const numeric::MovingBall& ball = choice.ball;
-      const numeric::IntervalVector way = numeric::Interval(at) * ball.velocity;
       const numeric::MovingBall difference{
-          ball.anchor, ball.shift + way,
+          ball.anchor, numeric::Interval(at) * ball.velocity,
           backward ? numeric::Interval(-1) * ball.velocity : ball.velocity, 0,
           From(ball.reach(), at, direction)};
       step =

@@ -83,7 +83,7 @@ struct TimeOfContactResult {
 /// turns between two states during which the two may meet. Requires that neither is awaited.
 ///
 /// A library call: the service brackets contacts segment by segment (shape_contact.h), and this is
-/// kept as the certified time of contact of two known motions, which is measured beside the peers.
+/// kept as the certified time of contact of two known motions, which is measured against the peers.
 /// Callers: `./run bench precision` (tests/bench/pairs/contact_ours.cc), tests/stress, tests/fuzz
 /// and tests.
 TimeOfContactResult TimeOfContact(const BodySegment& a, const BodySegment& b, double duration,

@@ -14,7 +14,7 @@
 //   a small ball about 0 is contact.
 //
 // The same bits with AVX2 and without. `./run bench narrow-phase --only 'convex '` measures: boxes
-// a tenth of their diameter apart in 40 ns, overlapping by a thousandth in 65 ns; a capsule beside
+// a tenth of their diameter apart in 40 ns, overlapping by a thousandth in 65 ns; a capsule against
 // a box 37 and 130 ns; two capsules 34 ns; two hulls of 18 points 110 and 640 ns. The full
 // search takes one and a half to six times as long.
 #pragma once

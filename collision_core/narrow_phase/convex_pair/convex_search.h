@@ -2,7 +2,7 @@
 //
 // Segments and boxes have closed forms. Otherwise GJK proposes nearest points and a direction;
 // where these are mostly rounding, the directions that edges and faces determine come next, and
-// beside a smooth core Newton's method on its support function. Cores that may overlap are followed
+// against a smooth core Newton's method on its support function. Cores that may overlap are followed
 // by EPA, boxes first by the separating axis test, as far as the query needs it.
 #pragma once
 

@@ -278,7 +278,7 @@ class Search {
   /// 0 and four corners: the volumes with each face all have one sign. A triple product of vectors
   /// up to S is off by less than 16u S³, and the exact corners by kPointError S: the ball belongs
   /// to their hull if 0 is further than both together from each face. Its normal is off by less
-  /// than 16u S², which times the radius is small beside 16u S³.
+  /// than 16u S², which times the radius is small compared with 16u S³.
   WIDE_INLINE bool HoldsBall() const {
     const double size = pair_.size;
     const double radius = kRadiusUp * (pair_.inside + kPointError * size);

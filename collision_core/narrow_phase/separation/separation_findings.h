@@ -63,7 +63,7 @@ class SeparationFindings {
   void TightenUpper(double upper) { bracket_.upper = std::min(bracket_.upper, upper); }
   /// Measures two triangles that the filter could not separate; returns the lower bound.
   double MeasureTriangles(ElementPair triangles, FirstTest first, WorkBudget* work);
-  /// If one of the bodies is a ball: measures it beside an element of the other body.
+  /// If one of the bodies is a ball: measures it against an element of the other body.
   double MeasureBallAgainst(ElementIndex element, WorkBudget* work);
   /// Measures any two elements; two triangles by their distance first.
   double MeasureElements(ElementPair elements, WorkBudget* work);

@@ -5,7 +5,7 @@
 // heap; a pair farther than Limit() is never kept.
 //
 // A step opens one pair: two packs of eight children each, 64 pairs in single precision, B's balls
-// posed on the way; or one pack beside one ball, where the other one is a leaf, or much smaller.
+// posed on the way; or one pack against one ball, where the other one is a leaf, or much smaller.
 // Two leaves are two blocks of four triangles: 16 lower bounds, along the shortest way found so far
 // (or from ball to ball), along both normals, and across all pairs of edges, each only if the ones
 // before leave a pair that matters. Triangles across edges are told apart by the edges' moments,

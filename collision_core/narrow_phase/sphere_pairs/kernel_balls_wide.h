@@ -75,7 +75,7 @@ struct ScanRoom {
   float* uppers;
 };
 
-/// The others beside a row, or beside this one and the next one.
+/// The others against a row, or against this one and the next one.
 struct BallDifferences {
   Points d;
   Lanes radii, depths;

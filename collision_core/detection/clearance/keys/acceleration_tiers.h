@@ -16,19 +16,19 @@ namespace collision::detection {
 ///
 /// A partner whose bound is much larger than an agent's comes within reach of it over and over.
 /// With one query for all partners, one such partner would make the agent query all others as
-/// often. So beside an agent the partners form bands: each tier at least two above the agent's
+/// often. So the partners of an agent form bands: each tier at least two above the agent's
 /// (always at 64 times its bound, never at 8 times) is a band of its own; all others are the band
-/// kComparable. Beside an agent that declares no acceleration every tier above 0 is a band of its
+/// kComparable. For an agent that declares no acceleration every tier above 0 is a band of its
 /// own, unless more than kUnacceleratedMax agents declare none: each query would then look at all
 /// the others, which hardly move, to the end of time.
 ///
-/// Apart from that limit, the band of a partner beside an agent depends on the two alone: agents
+/// Apart from that limit, the band of a partner of an agent depends on the two alone: agents
 /// of comparable bounds are queried for each other at the same times, and get the same bits,
 /// whether or not a faster one is in the scene. All operations are O(1) or O(kTiers).
 class AccelerationTiers {
  public:
   static constexpr int kTiers = 44;
-  /// The band of all partners that have none of their own beside an agent.
+  /// The band of all partners of an agent that have none of their own.
   static constexpr int kComparable = 0;
   /// A tier that no agent is ever in.
   static constexpr int kAbsent = kTiers;
@@ -42,21 +42,21 @@ class AccelerationTiers {
   /// set at some time.
   int TierOf(AgentIndex agent) const { return tiers_.at(agent); }
 
-  /// Whether any tier may be a band of its own beside the agent.
-  bool HasBandsBeside(AgentIndex agent) const {
+  /// Whether any tier may be a band of its own for the agent.
+  bool HasOwnBands(AgentIndex agent) const {
     return tiers_[agent] > 0 || counts_[0] <= kUnacceleratedMax;
   }
-  /// The partner's tier if that is a band of its own beside the agent; otherwise kComparable.
-  int BandOf(AgentIndex partner, AgentIndex beside) const {
+  /// The partner's tier if that is a band of its own for the agent; otherwise kComparable.
+  int BandOf(AgentIndex partner, AgentIndex agent) const {
     const int tier = tiers_[partner];
-    return IsOwnBand(tier, beside) ? tier : kComparable;
+    return IsOwnBand(tier, agent) ? tier : kComparable;
   }
 
   /// Agents in a tier.
   std::uint32_t Count(int tier) const { return counts_[static_cast<std::size_t>(tier)]; }
 
-  /// Appends the tiers that are not empty and are bands of their own beside the agent, ascending.
-  void BandsBeside(AgentIndex agent, std::vector<int>* tiers) const {
+  /// Appends the tiers that are not empty and are bands of their own for the agent, ascending.
+  void OwnBandsOf(AgentIndex agent, std::vector<int>* tiers) const {
     for (int tier = 1; tier < kTiers; ++tier) {
       if (Count(tier) > 0 && IsOwnBand(tier, agent)) tiers->push_back(tier);
     }
@@ -73,9 +73,9 @@ class AccelerationTiers {
   }
 
  private:
-  bool IsOwnBand(int tier, AgentIndex beside) const {
-    const int least = tiers_[beside] + (tiers_[beside] > 0 ? 2 : 1);
-    return tier != kAbsent && tier >= least && HasBandsBeside(beside);
+  bool IsOwnBand(int tier, AgentIndex agent) const {
+    const int least = tiers_[agent] + (tiers_[agent] > 0 ? 2 : 1);
+    return tier != kAbsent && tier >= least && HasOwnBands(agent);
   }
 
   static int TierFor(double acceleration_max) {

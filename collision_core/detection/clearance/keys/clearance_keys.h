@@ -11,7 +11,7 @@
 namespace collision::detection {
 
 /// The clearance keys of one agent. A *clearance key* is the time until which the agent is
-/// certified clear of all partners that are not tracked: one for each band of partners beside it
+/// certified clear of all partners that are not tracked: one for each band of its partners
 /// (AccelerationTiers::BandOf). The key of the comparable partners holds for each tier that has no
 /// earlier one. The keys of a saturated agent promise nothing. O(tiers that have an earlier key).
 class ClearanceKeys {

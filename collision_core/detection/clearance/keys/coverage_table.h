@@ -48,7 +48,7 @@ class CoverageTable {
   /// Up to when the agent is certified clear of the partner, if the two are not tracked.
   Instant KeyOf(AgentIndex agent, AgentIndex partner) const {
     const ClearanceKeys& keys = (*this)[agent].keys;
-    if (!tiers_.HasBandsBeside(agent)) return keys.earliest();
+    if (!tiers_.HasOwnBands(agent)) return keys.earliest();
     return keys.Of(tiers_.BandOf(partner, agent));
   }
   /// The agent may meet the partner at `when`: lowers its key for that partner to `when` if it is

@@ -11,7 +11,7 @@
 
 namespace collision::detection {
 
-/// What the queries read and change beside the DetectorContext. All outlive them.
+/// What the queries read and change besides the DetectorContext. All outlive them.
 struct QueryTargets {
   CoverageTable* coverage;
   ReportedClearances* reported;

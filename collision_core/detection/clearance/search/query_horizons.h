@@ -36,7 +36,7 @@ class QueryHorizons {
     return numeric::AddRoundedUp(clock_.now, ahead);
   }
 
-  /// The first horizon of a query for `band` (-1 for kEveryBand) beside an agent of `tier`.
+  /// The first horizon of a query for `band` (-1 for kEveryBand) of an agent of `tier`.
   int Begin(int tier, int band) const { return begins_.at(Row(tier)).at(Row(band)); }
 
   /// Records the time of an answer: moves the first horizon of later queries one step towards it.

@@ -7,6 +7,7 @@
 
 #include "client/api/shape.h"
 #include "client/library/world/shape_publisher.h"
+#include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 
 namespace collision::client {

@@ -24,9 +24,9 @@ bool HasOwnGroup(const AccelerationTiers& scene, std::uint32_t partner_index,
   return band != kComparable;
 }
 
-std::vector<int> BandsBeside(const AccelerationTiers& scene, std::uint32_t agent) {
+std::vector<int> OwnBandsOf(const AccelerationTiers& scene, std::uint32_t agent) {
   std::vector<int> tiers;
-  scene.BandsBeside(AgentIndex(agent), &tiers);
+  scene.OwnBandsOf(AgentIndex(agent), &tiers);
   return tiers;
 }
 
@@ -43,7 +43,7 @@ TEST(AccelerationTiers, GoesByTheRatioOfTheAccelerations) {
     EXPECT_FALSE(HasOwnGroup(scene, 0, 0));
     EXPECT_FALSE(ratio < 8 && is_own) << calm << " " << ratio;
     EXPECT_FALSE(ratio >= 64.0001 && !is_own) << calm << " " << ratio;
-    EXPECT_EQ(BandsBeside(scene, 0).size(), is_own ? 1u : 0u);
+    EXPECT_EQ(OwnBandsOf(scene, 0).size(), is_own ? 1u : 0u);
   }
   EXPECT_GT(own_bands, 1000);
 }
@@ -74,15 +74,15 @@ TEST(AccelerationTiers, UnacceleratedAgentsHaveNoOwnBandIfTheyAreMany) {
   scene.Set(AgentIndex(1u), 1e3);
   for (std::uint32_t k = 0; k < kMost; ++k) {
     scene.Set(AgentIndex(2 + k), 0);
-    EXPECT_TRUE(scene.HasBandsBeside(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
+    EXPECT_TRUE(scene.HasOwnBands(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
   }
   scene.Set(AgentIndex(2 + kMost), 0);
-  EXPECT_FALSE(scene.HasBandsBeside(AgentIndex(2u)) || HasOwnGroup(scene, 0, 2) ||
+  EXPECT_FALSE(scene.HasOwnBands(AgentIndex(2u)) || HasOwnGroup(scene, 0, 2) ||
                HasOwnGroup(scene, 1, 2));
-  EXPECT_TRUE(BandsBeside(scene, 2).empty());
-  EXPECT_TRUE(scene.HasBandsBeside(AgentIndex(0u)) && HasOwnGroup(scene, 1, 0));
+  EXPECT_TRUE(OwnBandsOf(scene, 2).empty());
+  EXPECT_TRUE(scene.HasOwnBands(AgentIndex(0u)) && HasOwnGroup(scene, 1, 0));
   scene.Remove(AgentIndex(5u));
-  EXPECT_TRUE(scene.HasBandsBeside(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
+  EXPECT_TRUE(scene.HasOwnBands(AgentIndex(2u)) && HasOwnGroup(scene, 0, 2));
   EXPECT_EQ(scene.Count(0), kMost);
 }
 
@@ -105,10 +105,10 @@ TEST(AccelerationTiers, KnowsWhichAgentsAreThere) {
       }
       std::sort(tiers.begin(), tiers.end());
       std::uint32_t counted = 0;
-      for (const int tier : BandsBeside(scene, beside)) counted += scene.Count(tier);
+      for (const int tier : OwnBandsOf(scene, beside)) counted += scene.Count(tier);
       ASSERT_EQ(counted, tiers.size());
       tiers.erase(std::unique(tiers.begin(), tiers.end()), tiers.end());
-      ASSERT_EQ(BandsBeside(scene, beside), tiers);
+      ASSERT_EQ(OwnBandsOf(scene, beside), tiers);
     }
   }
   EXPECT_EQ(scene.Count(AccelerationTiers::kAbsent), 0u);
