@@ -1,158 +1,286 @@
-// Goal:   the earliest intersection of all is, bit for bit, the one computed from scratch, also
-//         where a cached bound was computed at an earlier time.
-// Method: pairs of the same geometry, turned at random, so that all meet at the same time up to
-//         rounding and the canonical routine's earliness, which differs for each start time; every
-//         pair computed anew beside it. No new states: only time passes.
+// Goal:   the earliest possible intersection of all is that of the canonical routine over all pairs
+//         that are not in contact, or the other time that the header names; few pairs are queried.
+// Method: unit balls without acceleration that come at 1 m/s, so that one at distance 2 + t is met
+//         after t; the test plays the façade. Random scenes beside the canonical routine for every
+//         pair.
+#include "collision_core/detection/earliest/earliest_search.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
 #include "collision_core/intersection/earliest_intersection.h"
+#include "collision_core/shape/shape.h"
 #include "tests/collision_core/detection/line.h"
+#include "tests/support/meshes.h"
 #include "tests/support/random.h"
 
 namespace collision::detection {
 namespace {
 
-/// How the two of each pair come near each other: both alike, each half of the way.
-struct Approach {
-  double gap = 0;    ///< Of the centres, along the way [m].
-  double aside = 0;  ///< And across it [m].
-  double speed = 0;  ///< Of each [m/s].
-  double acceleration_max = 0;
-  double offset = 0;  ///< Of all from the origin [m].
-
-  /// No two meet before [s].
-  double Duration() const {
-    const double by_speed = speed > 0 ? gap / (2 * speed) : 1e300;
-    const double by_force = acceleration_max > 0 ? std::sqrt(gap / acceleration_max) : 1e300;
-    return std::min(by_speed, by_force) / 2;
-  }
-};
-
-/// Each agent has one state.
-class Pairs {
+class Scene {
  public:
-  Pairs(const Approach& approach, double announce_within, std::uint64_t seed) : random_(seed) {
-    DetectorOptions options;
-    options.announce_within = announce_within;
-    detector_.emplace(options);
-    for (int pair = 0; pair < 5; ++pair) Add(pair, approach);
+  explicit Scene(std::uint32_t pairs_per_agent_max = 256)
+      : options_{.announce_within = 2, .pairs_per_agent_max = pairs_per_agent_max} {}
+
+  AgentIndex Add(const Vector3d& p, const Vector3d& v,
+                 const AgentDeclaration& declaration = {.limits = {.radius = 1}}) {
+    const auto slot = static_cast<std::uint32_t>(agents.index_end());
+    const AgentIndex agent = agents.Admit(Id(slot), declaration, At(0));
+    pairs.AddAgent(agent);
+    clearances.AddAgent(agent);
+    agents.Store(agent, State(0, p, v), Link::kJumped);
+    Renew(agent, ClearanceCause::kAdmission);
+    return agent;
+  }
+  void Renew(AgentIndex agent, ClearanceCause cause) {
+    agents[agent].margin = BoundMargin(agents[agent].bound());
+    agents.RecordBound(agent);
+    clearances.Renew(agent, {agents[agent].stamp(), cause, At(0)});
   }
 
-  void ExpectAsFromScratch(double t) {
-    detector_->Advance(At(t));
-    EarliestAnswer scratch;
-    for (std::uint32_t a = 0; a < bounds_.size(); ++a) {
-      for (std::uint32_t b = a + 1; b < bounds_.size(); ++b) {
-        const Instant when =
-            intersection::EarliestIntersection(bounds_[a], bounds_[b], At(t)).instant();
-        if (when < scratch.earliest) scratch = {true, when, Id(a), Id(b)};
-      }
+  /// All owners have reported everything up to `now`.
+  void Step(double now) {
+    for (std::uint32_t k = 0; k < agents.index_end(); ++k) {
+      agents.SetHeardUntil(OwnerOf(Id(k)), At(now));
     }
-    const EarliestAnswer lazy = detector_->Earliest();
-    EXPECT_EQ(lazy.earliest, scratch.earliest) << "at " << t;
-    EXPECT_EQ(lazy.lower, scratch.lower) << "at " << t;
-    EXPECT_EQ(lazy.higher, scratch.higher) << "at " << t;
+    clock.now = At(now);
+    ++clock.step;
+    pairs.StartStep();
+    clearances.QueryDueAgents();
+    pairs.EvaluateDuePairs();
+    clearances.Cover(pairs.TakeReleased());
+    agents.EndStep([](AgentIndex) { return Instant::Always(); });
   }
 
-  std::size_t tracked() const { return detector_->pairs_tracked(); }
+  EarliestAnswer Find() {
+    const EarliestAnswer answer = search.Find();
+    search.Validate();
+    return answer;
+  }
+
+  Instant CanonicalOf(AgentIndex a, AgentIndex b) const {
+    return intersection::EarliestIntersection(agents[a].bound(), agents[b].bound(), clock.now)
+        .instant();
+  }
 
  private:
-  void Add(int pair, const Approach& approach) {
-    const Vector3d middle =
-        random_.UnitVector() * approach.offset + Vector3d(5 * approach.gap, 0, 0) * pair;
-    const Vector3d n = random_.UnitVector();
-    const Vector3d across = n.cross(random_.UnitVector()).normalized() * approach.aside;
-    for (const double side : {-0.5, 0.5}) {
-      const motion::MotionState state =
-          State(0, middle + side * (n * approach.gap + across), -2 * side * approach.speed * n);
-      const AgentDeclaration declaration{
-          .limits = {.radius = 1, .acceleration_max = approach.acceleration_max}};
-      detector_->Admit(Id(static_cast<std::uint32_t>(bounds_.size())), declaration, state, At(0));
-      bounds_.push_back({state, declaration.limits, 0});
-    }
-  }
+  const DetectorOptions options_;
 
-  Random random_;
-  std::optional<Detector> detector_;
-  std::vector<motion::SpaceTimeBound> bounds_;
+ public:
+  StepClock clock{.now = At(0), .announce_within = 2};
+  AgentTable agents{{}};
+  DetectorCounters counters;
+  IndexSet<AgentIndex> dirty;
+  const DetectorContext context{clock, agents, &counters, &dirty};
+  TrackedPairs pairs{options_, context};
+  Clearances clearances{options_, context, &pairs};
+  EarliestSearch search{context, &pairs, &clearances};
 };
 
-void ExpectLazyIsScratch(const Approach& approach, std::uint64_t seed) {
-  // Known by their agents' keys; known as tracked pairs, by what each can add at the earliest.
-  for (const double announce_within : {1.0 / 60, 1e9}) {
-    SCOPED_TRACE(testing::Message()
-                 << "announced " << announce_within << " s before, seed " << seed);
-    Pairs pairs(approach, announce_within, seed);
-    for (int step = 0; step < 20; ++step) {
-      pairs.ExpectAsFromScratch(step * approach.Duration() / 20);
-    }
-    if (announce_within < 1) {
-      EXPECT_EQ(pairs.tracked(), 0u);
-    }
-    if (testing::Test::HasFailure()) return;
-  }
+void ExpectIs(const EarliestAnswer& answer, double seconds, std::uint32_t a, std::uint32_t b) {
+  ASSERT_TRUE(answer.found);
+  EXPECT_LE(answer.earliest, At(seconds));
+  EXPECT_GE(answer.earliest, At(seconds - 1e-6));
+  EXPECT_EQ(answer.lower, Id(a));
+  EXPECT_EQ(answer.higher, Id(b));
 }
 
-// Near the origin and slow, so that the earliness is more than the margin of the bounds explains.
-TEST(Earliest, EarlinessGrowsWithTheWay) {
-  Random random(5);
-  for (std::uint64_t seed = 0; seed < 1000 && !HasFailure(); ++seed) {
-    ExpectLazyIsScratch(
-        {.gap = random.LogUniform(10, 1000),
-         .aside = random.Chance(0.3) ? 0 : random.LogUniform(0.01, 100),
-         .speed = random.LogUniform(1e-6, 1),
-         .acceleration_max = random.Chance(0.3) ? 0 : random.LogUniform(1e-14, 1e-3)},
-        seed);
-  }
+TEST(EarliestSearch, NothingIsFoundWhereNoTwoMeet) {
+  Scene scene;
+  scene.Step(0);
+  EXPECT_FALSE(scene.Find().found);
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  scene.Add({10, 0, 0}, {1, 0, 0});
+  scene.Step(1);
+  const EarliestAnswer answer = scene.Find();
+  EXPECT_FALSE(answer.found);
+  EXPECT_TRUE(answer.earliest.is_never());
 }
 
-// Those that just touch in passing, or just not: rounding decides whether they meet at all.
-TEST(Earliest, GrazingIsDecidedAnewAtEachTime) {
-  Random random(6);
-  for (std::uint64_t seed = 0; seed < 1000 && !HasFailure(); ++seed) {
-    Approach approach{.gap = random.LogUniform(10, 1000), .speed = random.LogUniform(1e-3, 100)};
-    if (random.Chance(0.5)) approach.offset = random.LogUniform(1, 1e9);
-    approach.aside = 2 + 0x1p-53 * (approach.gap + approach.offset) * random.Uniform(-4, 4);
-    ExpectLazyIsScratch(approach, seed);
-  }
+TEST(EarliestSearch, OfUntrackedPairsTheEarliestIsFound) {
+  Scene scene;
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  scene.Add({32, 0, 0}, {-1, 0, 0});
+  scene.Add({0, 22, 0}, {0, -1, 0});
+  scene.Add({0, 0, 42}, {0, 0, -1});
+  scene.Step(0);
+  ASSERT_EQ(scene.pairs.table().size(), 0u);
+  const EarliestAnswer answer = scene.Find();
+  ExpectIs(answer, 20, 0, 2);
+  EXPECT_EQ(answer.earliest, scene.CanonicalOf(AgentIndex(0u), AgentIndex(2u)));
 }
 
-// Far from the origin a slow agent's states are off by a unit in the last place, much more than it
-// moves in a nanosecond. The margin of the bounds lasts for thousands of them: no agent is queried
-// anew.
-TEST(Earliest, RoundingOfManyStatesIsNoNews) {
-  Detector detector{DetectorOptions{}};
-  const AgentDeclaration slow{.limits = {.radius = 1, .acceleration_max = 1e-6}};
-  const Vector3d v(1e-3, 2e-3, 0);
-  const Vector3d places[] = {{1e8, 3e7, 0}, {1e8, 3.1e7, 0}};
-  for (int step = 0; step < 2000; ++step) {
-    const double t = step / 16.0;
-    for (const std::uint32_t slot : {0u, 1u}) {
-      const motion::MotionState state = State(t, places[slot] + v * t, v);
-      if (step == 0) {
-        detector.Admit(Id(slot), slow, state, At(0));
-      } else {
-        EXPECT_EQ(detector.Update(Id(slot), state, At(t)), UpdateOutcome::kKept);
+TEST(EarliestSearch, ATrackedPairCountsAsAnyOther) {
+  Scene scene;
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  scene.Add({32, 0, 0}, {-1, 0, 0});
+  scene.Add({0, 3.5, 0}, {0, -1, 0});
+  scene.Step(0);
+  ASSERT_EQ(scene.pairs.table().size(), 1u);
+  const EarliestAnswer answer = scene.Find();
+  ExpectIs(answer, 1.5, 0, 2);
+  EXPECT_EQ(answer.earliest, scene.CanonicalOf(AgentIndex(0u), AgentIndex(2u)));
+}
+
+TEST(EarliestSearch, OfEqualOnesThatOfTheLowestIdsIsFound) {
+  Scene scene;
+  for (const double y : {0.0, 100.0}) {
+    scene.Add({0, y, 0}, {0, 0, 0});
+    for (const double side : {1.0, -1.0}) scene.Add({side * 18, y, 0}, {-side, 0, 0});
+  }
+  scene.Step(0);
+  ASSERT_EQ(scene.CanonicalOf(AgentIndex(3u), AgentIndex(5u)),
+            scene.CanonicalOf(AgentIndex(0u), AgentIndex(1u)));
+  ExpectIs(scene.Find(), 16, 0, 1);
+}
+
+TEST(EarliestSearch, APairInContactDoesNotCountUntilItIsFreeAgain) {
+  Scene scene;
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  scene.Add({1, 0, 0}, {1, 0, 0});
+  scene.Add({0, 32, 0}, {0, -1, 0});
+  for (const double now : {0.25, 0.5}) scene.Step(now);
+  ASSERT_TRUE(scene.pairs.table()[scene.pairs.table().Of(AgentIndex(1u)).at(0)].in_contact);
+  ExpectIs(scene.Find(), 30, 0, 2);
+}
+
+// There is room for one of two pairs.
+TEST(EarliestSearch, ASaturatedAgentCountsWithNowAndThePartnerThatWasNotTracked) {
+  Scene scene(1);
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  scene.Add({3.5, 0, 0}, {-1, 0, 0});
+  const AgentIndex second = scene.Add({0, 3.75, 0}, {0, -1, 0});
+  scene.Step(0.125);
+  ASSERT_FALSE(scene.clearances.coverage().saturated().empty());
+  ExpectIs(scene.Find(), 0.125, 0, 2);
+
+  scene.agents.Remove(second);
+  scene.agents.SetExpired(second);
+  scene.clearances.Remove(second);
+  scene.clearances.Forget(second);
+  scene.agents.Release(second);
+  ExpectIs(scene.Find(), 0.125, 0, 0);
+}
+
+TEST(EarliestSearch, AnExpiredAgentDoesNotCount) {
+  Scene scene;
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  scene.Add({32, 0, 0}, {-1, 0, 0});
+  const AgentIndex expired = scene.Add({0, 22, 0}, {0, -1, 0});
+  scene.Step(0);
+  ExpectIs(scene.Find(), 20, 0, 2);
+  scene.agents.SetExpired(expired);
+  scene.clearances.Remove(expired);
+  ExpectIs(scene.Find(), 30, 0, 1);
+}
+
+// One owner was granted time up to 9 s. The two are certified free up to 1 s.
+TEST(EarliestSearch, APairWithAStateAheadCountsWithTheEndOfItsFreedom) {
+  Scene scene;
+  const AgentIndex a = scene.Add({0, 0, 0}, {0, 0, 0}), b = scene.Add({22, 0, 0}, {-1, 0, 0});
+  scene.Step(0);
+  scene.agents.Store(a, State(9, {0, 0, 0}, {0, 0, 0}), Link::kFollows);
+  ASSERT_TRUE(scene.pairs.Track(a, b, At(1), Past::kKnown));
+  ExpectIs(scene.Find(), 1, 0, 1);
+}
+
+// Both have reported up to 5.25 s that they touched from 4.8 s to 5.2 s: a contact ahead of now.
+// Then one jumped, so that they meet again at 5.375 s and stay tracked.
+TEST(EarliestSearch, AContactAheadOfNowCountsWithItsBegin) {
+  Scene scene;
+  const AgentIndex a = scene.Add({0, 0, 0}, {0, 0, 0}), b = scene.Add({50, 0, 0}, {-10, 0, 0});
+  scene.agents.Store(a, State(5.25, {0, 0, 0}, {0, 0, 0}), Link::kFollows);
+  scene.agents.Store(b, State(5.25, {-2.5, 0, 0}, {-10, 0, 0}), Link::kFollows);
+  scene.agents.Store(b, State(5.25, {2.125, 0, 0}, {-1, 0, 0}), Link::kJumped);
+  for (const AgentIndex agent : {a, b}) scene.Renew(agent, ClearanceCause::kTeleport);
+  scene.Step(3);
+  ASSERT_EQ(scene.pairs.table().size(), 1u);
+  EarliestAnswer answer = scene.Find();
+  ASSERT_TRUE(answer.found);
+  EXPECT_LE(answer.earliest, At(4.8));
+  EXPECT_GE(answer.earliest, At(4.79));
+  scene.Step(5);
+  EXPECT_EQ(scene.Find().earliest, At(5)) << "not before now";
+  scene.Step(5.25);
+  ExpectIs(scene.Find(), 5.375, 0, 1);
+}
+
+// Their balls overlap, but of the cubes the faces meet after 1.5 s.
+TEST(EarliestSearch, APairOfKnownShapesCountsWithItsCertifiedFreedom) {
+  const AgentDeclaration cube{.limits = {.radius = 10, .angular_acceleration_max = 0},
+                              .shape = shape::Shape::Build(Cube(1))};
+  Scene scene;
+  scene.Add({0, 0, 0}, {0, 0, 0}, cube);
+  scene.Add({3.5, 0, 0}, {-1, 0, 0}, cube);
+  scene.Step(0);
+  ASSERT_EQ(scene.CanonicalOf(AgentIndex(0u), AgentIndex(1u)), At(0));
+  const EarliestAnswer answer = scene.Find();
+  ASSERT_TRUE(answer.found);
+  EXPECT_LE(answer.earliest, At(1.5));
+  EXPECT_GT(answer.earliest, At(1.4));
+}
+
+TEST(EarliestSearch, AJumpSinceTheLastStepCountsAtOnce) {
+  Scene scene;
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  const AgentIndex b = scene.Add({0, 500, 0}, {0, 0, 1});
+  scene.Step(0);
+  EXPECT_FALSE(scene.Find().found);
+  scene.agents.Store(b, State(0, {7, 0, 0}, {-1, 0, 0}), Link::kJumped);
+  scene.Renew(b, ClearanceCause::kTeleport);
+  ExpectIs(scene.Find(), 5, 0, 1);
+  EXPECT_TRUE(scene.clearances.coverage()[b].renewed_from.has_value()) << "the step is to come";
+}
+
+// It passes the other 1.75 m beside it, about 5 s from now. Its state lies beyond its key, and the
+// next step is to find that the two touched.
+TEST(EarliestSearch, AStateBeyondItsKeyCountsWithTheKeyAtOnce) {
+  Scene scene;
+  scene.Add({0, 0, 0}, {0, 0, 0});
+  const AgentIndex b = scene.Add({-50, 1.75, 0}, {10, 0, 0});
+  scene.Step(0);
+  const double touch = 5 - std::sqrt(4 - 1.75 * 1.75) / 10;
+  ExpectIs(scene.Find(), touch, 0, 1);
+  scene.agents.Store(b, State(9, {40, 1.75, 0}, {10, 0, 0}), Link::kFollows);
+  scene.agents.RecordBound(b);
+  scene.clearances.Tighten(b);
+  scene.clearances.StateAdvanced(b);
+  ExpectIs(scene.Find(), touch, 0, 1);
+}
+
+// Goal:   the answer is the canonical one at each time, and comes from bounds that mostly still
+//         hold.
+// Method: no new states: what is known of the agents grows older.
+TEST(EarliestSearch, AsTimePassesTheAnswerIsThatOfAllPairsFromFewQueries) {
+  Random random(29);
+  constexpr std::uint32_t kAgents = 40;
+  constexpr int kSteps = 30;
+  Scene scene;
+  for (std::uint32_t k = 0; k < kAgents; ++k) {
+    const Vector3d p(random.Uniform(0, 1000), random.Uniform(0, 1000), random.Uniform(0, 1000));
+    scene.Add(p, random.UnitVector() * random.Uniform(0, 3),
+              {.limits = {.radius = 1, .acceleration_max = random.LogUniform(1e-3, 1e-1)}});
+  }
+  std::uint64_t spent = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    scene.Step(step / 16.0);
+    ASSERT_EQ(scene.pairs.table().size(), 0u);
+    EarliestAnswer expected;
+    for (std::uint32_t a = 0; a < kAgents; ++a) {
+      for (std::uint32_t b = a + 1; b < kAgents; ++b) {
+        const Instant when = scene.CanonicalOf(AgentIndex(a), AgentIndex(b));
+        if (when < expected.earliest) expected = {true, when, Id(a), Id(b)};
       }
     }
-    detector.Advance(At(t));
+    const std::uint64_t before = scene.counters.queries;
+    const EarliestAnswer answer = scene.Find();
+    ASSERT_EQ(answer.earliest, expected.earliest) << step;
+    ASSERT_EQ(answer.lower, expected.lower);
+    ASSERT_EQ(answer.higher, expected.higher);
+    spent += scene.counters.queries - before;
   }
-  EXPECT_EQ(detector.counters().queries, 2u);
-}
-
-// So near the end of time that there is no instant announce_within later: no agent is due for ever.
-TEST(Earliest, TheEndOfTimeIsReached) {
-  Detector detector{{.announce_within = 1e9}};
-  for (const std::uint32_t slot : {0u, 1u}) {
-    detector.Admit(Id(slot), {.limits = {.radius = 1}}, State(0, {3.0 * slot, 0, 0}, {1, 0, 0}),
-                   At(0));
-  }
-  detector.Advance(At(0));
-  detector.Advance(At(9e9));
-  EXPECT_FALSE(detector.Earliest().found);
+  EXPECT_LT(spent, kSteps * 4u) << "queries of the search's own";
 }
 
 }  // namespace

@@ -6,62 +6,15 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
-
 #include "collision_core/narrow_phase/contact/shape_contact.h"
+#include "tests/collision_core/narrow_phase/contact/segment_body.h"
 #include "tests/support/meshes.h"
 
 namespace collision::narrow_phase {
 namespace {
 
 constexpr std::uint64_t kPlenty = 10'000'000;
-const Instant kBase = Instant::FromNanoseconds(0);
-
-Instant At(double seconds) {
-  return Instant::FromNanoseconds(static_cast<std::int64_t>(seconds * 1e9));
-}
-
-struct Body {
-  std::shared_ptr<const shape::Shape> shape;
-  Eigen::Vector3d p = Eigen::Vector3d::Zero(), v = Eigen::Vector3d::Zero();
-  Eigen::Vector3d w = Eigen::Vector3d::Zero();
-  double M = 0;
-  double radius = 0;  // of a ball
-  double alpha = 0;
-
-  motion::SpaceTimeBound BoundAt(double stamp) const {
-    motion::SpaceTimeBound bound;
-    bound.state.stamp = At(stamp);
-    bound.state.p_WA = p + stamp * v;
-    bound.state.v_WA = v;
-    bound.state.w_WB = w;
-    const double angle = w.norm() * stamp;
-    if (angle > 0) bound.state.q_WB = Eigen::AngleAxisd(angle, w.normalized());
-    bound.state.rotation_error = 1e-14;
-    bound.limits.radius = shape ? shape->facts().radius : radius;
-    bound.limits.acceleration_max = M;
-    bound.limits.angular_acceleration_max = alpha;
-    return bound;
-  }
-
-  // A segment from the states at 0 and at `next`, as far as they exist.
-  BodySegment Segment(std::optional<double> next, bool last = true) const {
-    BodySegment segment;
-    segment.ball.radius = BoundAt(0).limits.radius;
-    segment.shape = shape;
-    if (last) Add(ForwardBall(BoundAt(0), kBase), ForwardRotation(BoundAt(0), kBase), &segment);
-    if (next)
-      Add(BackwardBall(BoundAt(*next), kBase), BackwardRotation(BoundAt(*next), kBase), &segment);
-    return segment;
-  }
-
- private:
-  void Add(const numeric::MovingBall& ball, const motion::MovingRotation& turn,
-           BodySegment* segment) const {
-    segment->ball.bounds.push_back(ball);
-    if (shape) segment->turns.push_back(turn);
-  }
-};
+using Body = SegmentBody;
 
 SegmentResult Judged(const BodySegment& a, const BodySegment& b, double duration) {
   WorkBudget work(kPlenty);

@@ -1,0 +1,286 @@
+// Goal:   an agent is in the detector exactly while its description, a state and the time of its
+//         simulator are there; every state counts once, by what became of it, and faults reach
+//         their sender.
+// Method: one simulator in a world without a bus; the test hands over each message.
+#include "server/intake/agent_registry.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "server/config/config.h"
+#include "tests/server/messages.h"
+
+namespace collision::server {
+namespace {
+
+class AgentRegistryTest : public testing::Test {
+ protected:
+  static constexpr std::int64_t kSecond = 1'000'000'000;
+  static constexpr std::uint64_t kSender = 10;
+
+  static v1::Config ConfigOf(v1::Clock::Kind kind) {
+    v1::Config config;
+    config.mutable_clock()->set_kind(kind);
+    config.set_agents_max(2);
+    config.set_undescribed_after_s(3);
+    return CompleteConfig(config);
+  }
+
+  explicit AgentRegistryTest(v1::Clock::Kind kind = v1::Clock::SIMULATED) : config(ConfigOf(kind)) {
+    const std::string name = "alpha";
+    alpha = world.ClaimFor(SimulatorId(name), kSender, 1, &name).simulator;
+    SetTime(0);
+  }
+
+  /// The daemon's clocks.
+  void SetTime(std::int64_t ns) {
+    world.SetReading({.wall_ns = 1'700'000'000 * kSecond + ns, .monotonic_ns = ns});
+  }
+  /// The clock of the simulator comes into force.
+  void SetClock(std::int64_t ns) {
+    alpha->time().Offer({.clock = Instant::FromNanoseconds(ns)});
+    ASSERT_TRUE(alpha->time().Take());
+    world.UpdateSimulatedTime();
+    registry.AdmitComplete(alpha);
+  }
+  void Describe(const v1::AgentDescription& wire) {
+    const auto decoded = DecodeDescription(wire);
+    ASSERT_TRUE(std::holds_alternative<detection::AgentDeclaration>(decoded));
+    registry.Describe(alpha, wire, std::get<detection::AgentDeclaration>(decoded));
+  }
+  void Describe(std::uint32_t slot) { Describe(Description("alpha", slot)); }
+  void Take(const v1::AgentState& state) { registry.TakeState(alpha, Chunk("alpha"), state); }
+  /// The agent of slot 0 is there, with its state at 0 s.
+  void Join() {
+    SetClock(0);
+    Describe(0);
+    Take(State(0, 0, 1));
+    ASSERT_EQ(detector.agents(), 1u);
+  }
+
+  std::vector<v1::RejectionReason> TakeReasons() {
+    std::vector<v1::RejectionReason> reasons;
+    for (const v1::Rejection& rejection : rejections.Take()) reasons.push_back(rejection.reason());
+    return reasons;
+  }
+  const AgentCounters& counters() const { return registry.counters(); }
+
+  const v1::Config config;
+  World world{config};
+  detection::Detector detector{detection::DetectorOptions{}};
+  Rejections rejections{100, &world};
+  InlineShapeBuilder builder{BuildOptions{.triangles_max = 1000}};
+  ShapeStore store{config, &builder};
+  AgentShapes shapes{config, &world, &detector, &rejections, &store};
+  AgentRegistry registry{config, &world, &detector, &rejections, &shapes};
+  Simulator* alpha = nullptr;
+};
+
+using Reasons = std::vector<v1::RejectionReason>;
+
+/// What comes when: 0 the description, 1 a state, 2 the clock.
+class AgentRegistryOrderTest : public AgentRegistryTest,
+                               public testing::WithParamInterface<std::array<int, 3>> {};
+
+TEST_P(AgentRegistryOrderTest, AnAgentIsAdmittedWithTheLastOfDescriptionStateAndClock) {
+  for (const int step : GetParam()) {
+    EXPECT_EQ(detector.agents(), 0u);
+    if (step == 0) Describe(0);
+    if (step == 1) Take(State(0, 0, 7));
+    if (step == 2) SetClock(0);
+  }
+  EXPECT_EQ(detector.agents(), 1u);
+  EXPECT_EQ(counters().admitted, 1u);
+  EXPECT_EQ(counters().states_accepted, 1u);
+  EXPECT_TRUE(alpha->agents().Find(0)->admitted());
+  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 7u);
+  EXPECT_TRUE(TakeReasons().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryOrder, AgentRegistryOrderTest,
+                         testing::Values(std::array{0, 1, 2}, std::array{0, 2, 1},
+                                         std::array{1, 0, 2}, std::array{1, 2, 0},
+                                         std::array{2, 0, 1}, std::array{2, 1, 0}));
+
+class AgentRegistryWallTest : public AgentRegistryTest {
+ protected:
+  AgentRegistryWallTest() : AgentRegistryTest(v1::Clock::WALL) {}
+};
+
+TEST_F(AgentRegistryWallTest, WithAWallClockNoClockIsAwaited) {
+  Describe(0);
+  Take(State(0, world.now().nanoseconds(), 1));
+  EXPECT_EQ(detector.agents(), 1u);
+}
+
+TEST_F(AgentRegistryTest, AStateWithoutADescriptionIsKeptAndReportedOnceItIsOverdue) {
+  SetClock(0);
+  EXPECT_EQ(registry.NextDue(), std::nullopt);
+  Take(State(0, 0, 1));
+  Take(State(0, 0, 2));
+  EXPECT_EQ(registry.NextDue(), 3 * kSecond);
+  SetTime(3 * kSecond - 1);
+  registry.ReportUndescribed();
+  EXPECT_TRUE(TakeReasons().empty());
+  SetTime(3 * kSecond);
+  registry.ReportUndescribed();
+  registry.ReportUndescribed();
+  EXPECT_EQ(TakeReasons(), Reasons{v1::REJECTED_NOT_DESCRIBED});
+  Describe(0);
+  EXPECT_EQ(detector.agents(), 1u);
+  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 2u) << "the newest state";
+}
+
+// It waits for the clock of its simulator.
+TEST_F(AgentRegistryTest, AStateThatIsDescribedInTimeIsNotReported) {
+  Take(State(0, 0, 1));
+  Describe(0);
+  SetTime(4 * kSecond);
+  registry.ReportUndescribed();
+  EXPECT_TRUE(TakeReasons().empty());
+}
+
+TEST_F(AgentRegistryTest, OfStatesThatWaitTheNewestStays) {
+  SetClock(0);
+  Take(State(0, kSecond, 1));
+  Take(State(0, 0, 2));
+  EXPECT_EQ(counters().states_older, 1u);
+  Describe(0);
+  EXPECT_EQ(alpha->agents().Find(0)->stamp(), Instant::FromNanoseconds(kSecond));
+}
+
+TEST_F(AgentRegistryTest, EachStateCountsByWhatBecameOfIt) {
+  Join();
+  Take(State(0, kSecond, 3));      // newer
+  Take(State(0, kSecond, 3));      // repeated
+  Take(State(0, kSecond / 2, 4));  // before the newest
+  EXPECT_EQ(counters().states_received, 4u);
+  EXPECT_EQ(counters().states_accepted, 2u);
+  EXPECT_EQ(counters().states_repeated, 1u);
+  EXPECT_EQ(counters().states_older, 1u);
+  EXPECT_EQ(alpha->states(), 2u);
+  EXPECT_EQ(alpha->agents().Find(0)->stamp(), Instant::FromNanoseconds(kSecond));
+  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 3u);
+}
+
+TEST_F(AgentRegistryTest, AStateOfTheFutureOrOfNoSlotIsRefusedAndChangesNothing) {
+  Join();
+  Take(State(0, 3600 * kSecond, 2));
+  Take(State(70000, 0, 3));
+  EXPECT_EQ(TakeReasons(), (Reasons{v1::REJECTED_FUTURE_STAMP, v1::REJECTED_OUT_OF_RANGE}));
+  EXPECT_EQ(counters().states_received, 3u);
+  EXPECT_EQ(counters().states_accepted, 1u);
+  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 1u);
+}
+
+// The clock that comes into force may tell that the stamp lies too far ahead.
+TEST_F(AgentRegistryTest, TheStampOfAStateThatHasWaitedIsCheckedAgain) {
+  Describe(0);
+  Take(State(0, 5 * kSecond, 1));
+  ASSERT_NE(alpha->agents().Waiting(0), nullptr);
+  SetClock(-3600 * kSecond);
+  EXPECT_EQ(detector.agents(), 0u);
+  EXPECT_EQ(TakeReasons(), Reasons{v1::REJECTED_FUTURE_STAMP});
+}
+
+TEST_F(AgentRegistryTest, AStateThatBreaksItsBoundIsAccepted) {
+  Join();
+  v1::AgentState state = State(0, kSecond, 2);
+  state.mutable_position_m()->set_x(1000);
+  Take(state);
+  EXPECT_EQ(detector.counters().breaches, 1u);
+  EXPECT_EQ(counters().states_accepted, 2u);
+  EXPECT_EQ(alpha->agents().Find(0)->acknowledged_sequence(), 2u);
+}
+
+TEST_F(AgentRegistryTest, WithoutRoomTheOwnerGetsOneRejectionAndTheAgentEntersWhenThereIs) {
+  Join();
+  Describe(1);
+  Take(State(1, 0, 2));
+  Describe(2);
+  for (const std::uint64_t sequence : {3, 4}) Take(State(2, 0, sequence));
+  EXPECT_EQ(detector.agents(), 2u);
+  EXPECT_EQ(TakeReasons(), Reasons{v1::REJECTED_TOO_MANY_AGENTS});
+  registry.Remove(alpha, 0);
+  Take(State(2, 0, 5));
+  EXPECT_EQ(detector.agents(), 2u);
+  EXPECT_TRUE(alpha->agents().Find(2)->admitted());
+  EXPECT_TRUE(TakeReasons().empty());
+}
+
+TEST_F(AgentRegistryTest, ANewGenerationEndsTheFormerAndItsLateStatesCountAsOlder) {
+  Join();
+  v1::AgentDescription next = Description("alpha", 0);
+  next.set_generation(2);
+  Describe(next);
+  EXPECT_EQ(counters().removed, 1u);
+  EXPECT_EQ(detector.agents(), 0u);
+  Take(State(0, kSecond, 2));
+  EXPECT_EQ(counters().states_older, 1u);
+  EXPECT_EQ(detector.agents(), 0u);
+  Describe(0);
+  EXPECT_EQ(alpha->agents().Find(0)->generation(), 2u) << "a late description of the former";
+  v1::AgentState state = State(0, kSecond, 3);
+  state.set_generation(2);
+  Take(state);
+  EXPECT_EQ(detector.agents(), 1u);
+  EXPECT_EQ(counters().admitted, 2u);
+}
+
+TEST_F(AgentRegistryTest, OnlyANewerRevisionRedeclaresTheAgent) {
+  Join();
+  v1::AgentDescription wire = Description("alpha", 0);
+  wire.set_radius_m(5);
+  Describe(wire);
+  EXPECT_EQ(detector.counters().widenings, 0u);
+  EXPECT_EQ(alpha->agents().Find(0)->declaration.limits.radius, 1);
+  wire.set_revision(2);
+  Describe(wire);
+  EXPECT_EQ(detector.counters().widenings, 1u);
+  EXPECT_EQ(alpha->agents().Find(0)->declaration.limits.radius, 5);
+  EXPECT_EQ(alpha->agents().Find(0)->revision(), 2u);
+  EXPECT_EQ(counters().removed, 0u);
+}
+
+// A description may come again, with another bound, before the agent is there.
+TEST_F(AgentRegistryTest, ARevisionBeforeTheAdmissionIsWhatTheAgentIsAdmittedWith) {
+  SetClock(0);
+  v1::AgentDescription wire = Description("alpha", 0);
+  Describe(wire);
+  wire.set_revision(2);
+  wire.set_radius_m(5);
+  Describe(wire);
+  Take(State(0, 0, 1));
+  EXPECT_EQ(detector.counters().widenings, 0u);
+  wire.set_revision(3);
+  Describe(wire);
+  EXPECT_EQ(detector.counters().widenings, 0u) << "the radius was 5 m from the start";
+}
+
+TEST_F(AgentRegistryTest, ARemovedAgentLeavesTheDetectorAndAWaitingStateItsSlot) {
+  Join();
+  registry.Remove(alpha, 0);
+  EXPECT_EQ(detector.agents(), 0u);
+  EXPECT_EQ(counters().removed, 1u);
+  EXPECT_EQ(alpha->agents().Find(0), nullptr);
+  Take(State(1, 0, 2));
+  ASSERT_NE(alpha->agents().Waiting(1), nullptr);
+  registry.Remove(alpha, 1);
+  EXPECT_EQ(alpha->agents().Waiting(1), nullptr);
+  EXPECT_EQ(counters().removed, 1u) << "no agent";
+}
+
+TEST_F(AgentRegistryTest, RemovalOfAllKeepsStatesThatWaitForADescription) {
+  Join();
+  Describe(1);
+  Take(State(2, 0, 2));
+  registry.RemoveAll(alpha);
+  EXPECT_EQ(detector.agents(), 0u);
+  EXPECT_EQ(alpha->agents().size(), 0u);
+  EXPECT_EQ(counters().removed, 1u) << "the other one was not admitted";
+  EXPECT_NE(alpha->agents().Waiting(2), nullptr);
+}
+
+}  // namespace
+}  // namespace collision::server
