@@ -57,8 +57,8 @@ struct SimulatorStatus {
   std::uint64_t rejected = 0;  ///< Samples refused so far.
 };
 
-/// Health and counters of the service, published every `status_period_s` (0.5 s by default) and when
-/// simulators come or go.
+/// Health and counters of the service, published every `status_period_s` (0.5 s by default) and
+/// when simulators come or go.
 struct ServiceStatus {
   std::uint64_t service = 0;  ///< Identity of the service instance.
   std::uint32_t term = 0;     ///< Grows when another instance takes over.

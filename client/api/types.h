@@ -142,7 +142,8 @@ struct Clearance {
   AgentId cause_agent;
   std::int64_t void_from_ns = kNever;  ///< A broken declaration voids the promise from then on.
   /// When the service next needs a state of the agent. A time that is not after the sample's own:
-  /// at every step. kNever: it needs none. A World sends those states by itself (WorldOptions::on_demand).
+  /// at every step. kNever: it needs none. A World sends those states by itself
+  /// (WorldOptions::on_demand).
   std::int64_t state_wanted_ns = std::numeric_limits<std::int64_t>::min();
 };
 

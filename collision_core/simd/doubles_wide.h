@@ -4,9 +4,6 @@
 
 namespace collision::simd::COLLISION_SIMD {
 
-// Passing such vectors depends on the processor; all functions that do are inlined.
-#pragma GCC diagnostic ignored "-Wpsabi"
-
 /// With the operators of double, lane by lane; doubles[i] is lane i.
 using Doubles = double __attribute__((vector_size(32)));
 /// The result of a comparison: all bits of a lane are one, or none.

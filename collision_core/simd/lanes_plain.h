@@ -45,7 +45,8 @@ inline bool IsSupported() { return true; }
 constexpr std::uint32_t kWidth = 8;
 constexpr unsigned kAllLanes = (1u << kWidth) - 1;
 
-// Passing such vectors depends on the processor; all functions that do are inlined.
+// Passing such vectors depends on the processor; all functions that do are inlined. The warning is
+// off to the end of the source, since the kernels that follow pass such vectors, too.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 using Lanes = float __attribute__((vector_size(4 * kWidth)));

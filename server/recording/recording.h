@@ -24,9 +24,9 @@ class BatchSink {
 /// Writes a recording to a file: a header with the complete configuration, then one entry per
 /// batch, each a delimited protobuf message of at most 64 MiB (idl/recording.proto).
 ///
-/// Each batch has been handed to the operating system when Record() returns: a crash of the daemon loses
-/// nothing, a crash of the machine at most its page cache. The file needs no closing entry; it is
-/// whole after every batch. One thread, except for HoldWrites().
+/// Each batch has been handed to the operating system when Record() returns: a crash of the daemon
+/// loses nothing, a crash of the machine at most its page cache. The file needs no closing entry;
+/// it is whole after every batch. One thread, except for HoldWrites().
 class RecordingWriter final : public BatchSink {
  public:
   /// Replaces the file and writes the header; `config` is complete. Throws std::runtime_error if it

@@ -1,7 +1,9 @@
-// Goal:   every file, folder and command that a document of the repository names exists.
+// Goal:   every file, folder and command that a document of the repository names exists, and every
+//         file and folder that a script names.
 // Method: links, and the words between backticks or in a block of shell commands that look like a
 //         path of the repository, are looked up from the document's folder, from those above it
-//         and from collision_core/. A star and a word in capitals (NAME) stand for any text.
+//         and from collision_core/. A star and a word in capitals (NAME) stand for any text. In a
+//         script a path begins with a room, alone or after "$root/".
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -138,6 +140,35 @@ TEST(Documents, PathsTheyNameExist) {
   }
   EXPECT_GT(paths, 100);
   EXPECT_GT(sources, 100);
+}
+
+/// The paths of the repository that a script names: what follows "$root/" or, at the begin of a
+/// word, the name of a room. A path that goes on with a variable is cut before it. Objects in the
+/// folder of a build are none.
+std::vector<std::string> PathsIn(const std::string& script) {
+  std::vector<std::string> paths = Captures(
+      script,
+      std::regex(R"re((?:^|[\s"'(=]|\$root"?/))re"
+                 R"re(((?:collision_core|idl|server|client|config|docker|tests)/[\w./*-]*))re"));
+  std::erase_if(paths, [](const auto& path) { return path.find("/CMakeFiles/") != path.npos; });
+  for (std::string& path : paths) {
+    while (path.back() == '.') path.pop_back();
+  }
+  return paths;
+}
+
+TEST(Documents, PathsThatScriptsNameExist) {
+  EXPECT_EQ(PathsIn("find \"$root/tests/a\" tests/b.cc $build/tests/c \"$root\"/idl/$name"),
+            (std::vector<std::string>{"tests/a", "tests/b.cc", "idl/"}));
+  const std::vector<std::string> all = PathsInRooms();
+  int paths = 0;
+  for (const SourceFile& script : Scripts()) {
+    for (const std::string& path : PathsIn(script.text)) {
+      EXPECT_TRUE(PathExists(script.path, path, all)) << script.path << ": " << path;
+      ++paths;
+    }
+  }
+  EXPECT_GT(paths, 30);
 }
 
 TEST(Documents, CommandsOfRunThatTheyNameExist) {

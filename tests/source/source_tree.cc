@@ -44,6 +44,14 @@ std::vector<SourceFile> SourceFiles(const std::vector<std::string>& endings) {
   return files;
 }
 
+std::vector<SourceFile> Scripts() {
+  std::vector<SourceFile> scripts = {{"run", ReadFile("run")}, {".ci/run", ReadFile(".ci/run")}};
+  for (SourceFile& file : SourceFiles({""})) {
+    if (file.text.rfind("#!", 0) == 0) scripts.push_back(std::move(file));
+  }
+  return scripts;
+}
+
 std::vector<std::string> PathsInRooms() {
   std::vector<std::string> paths;
   for (const char* room : kRooms) {

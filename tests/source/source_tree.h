@@ -21,6 +21,10 @@ int CountLines(const std::string& text);
 /// by path.
 std::vector<SourceFile> SourceFiles(const std::vector<std::string>& endings);
 
+/// The programs that are text: `run`, `.ci/run`, and the files in the rooms without an ending that
+/// begin with "#!".
+std::vector<SourceFile> Scripts();
+
 /// Every file and folder in the rooms of the project, a folder with '/' at its end.
 std::vector<std::string> PathsInRooms();
 

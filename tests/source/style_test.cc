@@ -95,15 +95,6 @@ std::string WrappableLines(const std::string& markdown) {
   return wrappable;
 }
 
-/// The programs in the rooms that are text: they have no ending and begin with "#!".
-std::vector<SourceFile> Scripts() {
-  std::vector<SourceFile> scripts;
-  for (SourceFile& file : SourceFiles({""})) {
-    if (file.text.rfind("#!", 0) == 0) scripts.push_back(std::move(file));
-  }
-  return scripts;
-}
-
 /// Every text that is written by hand and can be wrapped.
 std::vector<SourceFile> FilesWithColumns() {
   std::vector<SourceFile> files =
@@ -112,7 +103,7 @@ std::vector<SourceFile> FilesWithColumns() {
     if (file.path.find("CMakeLists") != std::string::npos) files.push_back(std::move(file));
   }
   for (SourceFile& script : Scripts()) files.push_back(std::move(script));
-  for (const char* path : {"README.md", "CHANGELOG.md", "CMakeLists.txt", "run", ".ci/run"}) {
+  for (const char* path : {"README.md", "CHANGELOG.md", "CMakeLists.txt"}) {
     files.push_back({path, ReadFile(path)});
   }
   const std::regex markdown("\\.md$");

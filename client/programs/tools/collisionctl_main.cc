@@ -136,7 +136,7 @@ int Run(const std::string& command, const Options& options) {
 constexpr const char* kExamples = R"(
 Examples:
   collisionctl status                   health of the service, simulators, refusals
-  collisionctl earliest                 the pair that can touch first, and the earliest time at which it can
+  collisionctl earliest                 the pair that can touch first, and the earliest time for it
   collisionctl agents                   every agent, and how long it is clear
   collisionctl shapes                   every shape: owner, triangles and solids, parts received
   collisionctl events                   the current revision of every event

@@ -34,8 +34,9 @@ class Peer : public Contestant {
   Sweep sweep_;
 };
 
-void AddPeer(const std::string& name, std::unique_ptr<BoxPairs> (*make)(),
-             std::vector<Entrant>* peers) {
+// Not used where none of the libraries is there.
+[[maybe_unused]] void AddPeer(const std::string& name, std::unique_ptr<BoxPairs> (*make)(),
+                              std::vector<Entrant>* peers) {
   peers->push_back({name, false, [make] { return MakePeer(make(), Sweep::kWhole); }});
   peers->push_back(
       {name + ", windows", false, [make] { return MakePeer(make(), Sweep::kWindows); }, name});
