@@ -65,12 +65,13 @@ class WindowedSearch : public SweepingIndex {
   /// The bounds that are held.
   const HornTable& table() const { return table_; }
 
-  /// Walks the structure: each agent is either due to be placed, or placed, or unfilterable; and
-  /// the store. Throws CheckFailure.
+  /// Walks the structure: each agent that is held is due to be placed, or in the store, or
+  /// unfilterable; and the store. Throws CheckFailure.
   void Validate() const;
 
  private:
   PlacedScene scene() const { return {&table_, &frame_}; }
+  void ValidatePlaced() const;
   void Drop(std::uint32_t agent);
   void MarkMoved(std::uint32_t agent);
   void StartAnew(const PlacementFrame& frame);

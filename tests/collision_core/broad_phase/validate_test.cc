@@ -1,8 +1,13 @@
 // Goal:   the structures of the index are whole after every step of a history, and a walk of them
 //         tells a broken one; what a constructor requires is checked.
 // Method: agents of all sizes come, move and go in random order, with queries in between; each
-//         structure is walked after each step. A row is broken on purpose.
+//         structure is walked after each step. A row and a grid are broken on purpose; a search
+//         is given a store that loses or keeps what it should not.
 #include <gtest/gtest.h>
+
+#include <memory>
+#include <set>
+#include <vector>
 
 #include "collision_core/base/check.h"
 #include "collision_core/broad_phase/filter/filter_row.h"
@@ -93,6 +98,99 @@ TEST(Validate, GridIsWholeBesideVacantPlaces) {
   grid.Validate();
   for (std::uint32_t k = 0; k < 100; ++k) grid.Vacate(grid.place(k));
   grid.Validate();
+}
+
+TEST(Validate, TellsAnAgentThatStandsInAGridAndBesideIt) {
+  Random random(7);
+  HornTable table;
+  for (std::uint32_t a = 0; a < 50; ++a) table.Set(a, BoundIn(100, 0.5, 5, 1, &random));
+  const PlacementFrame frame(
+      table, {intersection::BoundKind::kHorn, kMethodStart, Instant::Never()}, kWindowMax);
+  std::vector<PlacedBall> horns;
+  for (std::uint32_t a = 0; a < table.size(); ++a) horns.push_back(frame.Place(table, a));
+  const PlacedBall again = horns[9];
+  GridStore store;
+  store.PlaceAll({&table, &frame}, &horns);
+  store.Validate();
+  EXPECT_TRUE(store.Holds(9) && !store.Holds(50));
+  store.Place(again);
+  EXPECT_THROW(store.Validate(), CheckFailure);
+}
+
+/// A store that does not place one agent when it moves, and keeps another one that is taken away.
+class ForgetfulStore : public PlacedStore {
+ public:
+  static constexpr std::uint32_t kLost = 3, kKept = 4;
+
+  void PlaceAll(const PlacedScene& /*scene*/, std::vector<PlacedBall>* horns) override {
+    placed_.clear();
+    for (const PlacedBall& horn : *horns) placed_.insert(horn.agent);
+  }
+  void Place(const PlacedBall& horn) override {
+    if (horn.agent != kLost) placed_.insert(horn.agent);
+  }
+  void Unplace(std::uint32_t agent) override {
+    if (agent != kKept) placed_.erase(agent);
+  }
+  bool Join(const PlacedScene& /*scene*/, TimeWindow /*window*/, SearchCost* /*cost*/,
+            PairSink* /*sink*/) override {
+    return true;
+  }
+  void FindNear(const PlacedScene& /*scene*/, const PlacedBall& /*horn*/, TimeWindow /*window*/,
+                SearchCost* /*cost*/, std::vector<std::uint32_t>* /*near*/) override {}
+  bool Holds(std::uint32_t agent) const override { return placed_.contains(agent); }
+  void Validate() const override {}
+
+ private:
+  std::set<std::uint32_t> placed_;
+};
+
+/// Five agents in the store, after one query.
+class ForgetfulSearch : public testing::Test {
+ protected:
+  ForgetfulSearch() {
+    for (std::uint32_t agent = 0; agent < 5; ++agent) Move(agent);
+    QueryAndValidate();
+  }
+
+  void Move(std::uint32_t agent) { search_.Set(agent, BoundIn(100, 1, 5, 1, &random_)); }
+
+  /// In a debug build the query itself walks.
+  void QueryAndValidate() {
+    std::vector<Neighbour> found;
+    const auto none = [](std::uint32_t) { return false; };
+    search_.FindNeighbours(0, {kMethodStart, kMethodStart, kMethodStart}, none, &found);
+    search_.Validate();
+  }
+
+  Random random_{6};
+  WindowedSearch search_{std::make_unique<ForgetfulStore>()};
+};
+
+TEST_F(ForgetfulSearch, AnAgentThatIsNowhereIsTold) {
+  Move(1);
+  Move(ForgetfulStore::kKept);
+  QueryAndValidate();
+  Move(ForgetfulStore::kLost);
+  EXPECT_NO_THROW(search_.Validate()) << "it is due to be placed";
+  EXPECT_THROW(QueryAndValidate(), CheckFailure);
+}
+
+TEST_F(ForgetfulSearch, AnAgentThatIsPlacedButNotHeldIsTold) {
+  search_.Remove(1);
+  QueryAndValidate();
+  search_.Remove(ForgetfulStore::kKept);
+  EXPECT_NO_THROW(search_.Validate()) << "it is due to be taken away";
+  EXPECT_THROW(QueryAndValidate(), CheckFailure);
+}
+
+TEST_F(ForgetfulSearch, AnAgentThatIsPlacedAndUnfilterableIsTold) {
+  motion::SpaceTimeBound bound = BoundIn(0x1p61, 1, 5, 1, &random_);
+  bound.state.p_WA.x() = 0x1p61;
+  search_.Set(1, bound);
+  QueryAndValidate();
+  search_.Set(ForgetfulStore::kKept, bound);
+  EXPECT_THROW(QueryAndValidate(), CheckFailure);
 }
 
 TEST(Validate, ASearchWithoutAStoreIsRefused) {
