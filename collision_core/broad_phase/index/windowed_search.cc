@@ -241,6 +241,7 @@ void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
 }
 
 void WindowedSearch::Validate() const {
+  AgentBounds::Validate();
   table_.Validate();
   std::vector<bool> marked = has_moved_;
   for (const std::uint32_t agent : moved_) {

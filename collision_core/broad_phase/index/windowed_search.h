@@ -61,13 +61,14 @@ class WindowedSearch : public SweepingIndex {
   std::optional<intersection::IntersectingPair> Earliest(
       const intersection::BroadQuery& query) override;
   BroadPhaseWork work() const override { return cost_.work; }
+  bool Contains(std::uint32_t agent) const override { return table_.contains(agent); }
 
   /// The bounds that are held.
   const HornTable& table() const { return table_; }
 
   /// Walks the structure: each agent that is held is due to be placed, or in the store, or
   /// unfilterable; and the store. Throws CheckFailure.
-  void Validate() const;
+  void Validate() const override;
 
  private:
   PlacedScene scene() const { return {&table_, &frame_}; }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "collision_core/base/check.h"
+#include "collision_core/broad_phase/adaptive_broad_phase.h"
 #include "collision_core/broad_phase/filter/filter_row.h"
 #include "collision_core/broad_phase/index/grid_level.h"
 #include "tests/collision_core/broad_phase/method_scenes.h"
@@ -191,6 +192,74 @@ TEST_F(ForgetfulSearch, AnAgentThatIsPlacedAndUnfilterableIsTold) {
   QueryAndValidate();
   search_.Set(ForgetfulStore::kKept, bound);
   EXPECT_THROW(QueryAndValidate(), CheckFailure);
+}
+
+/// Lets a test put a half-space where the method does not expect it.
+template <typename Method>
+class WithHalfSpaces : public Method {
+ public:
+  using AgentBounds::mutable_half_spaces;
+};
+
+template <typename Method>
+void ExpectAHalfSpaceOfAnAgentsIndexIsTold() {
+  Random random(8);
+  WithHalfSpaces<Method> method;
+  method.Set(2, BoundIn(100, 1, 5, 1, &random));
+  ASSERT_TRUE(method.SetHalfSpace(3, {}));
+  method.Validate();
+  ASSERT_TRUE(method.mutable_half_spaces().Set(2, {}));
+  EXPECT_THROW(method.Validate(), CheckFailure);
+}
+
+TEST(Validate, TellsAHalfSpaceOfAnAgentsIndex) {
+  ExpectAHalfSpaceOfAnAgentsIndexIsTold<AllPairs>();
+  ExpectAHalfSpaceOfAnAgentsIndexIsTold<ExhaustiveIndex>();
+  ExpectAHalfSpaceOfAnAgentsIndexIsTold<FaceSweep>();
+  ExpectAHalfSpaceOfAnAgentsIndexIsTold<AdaptiveBroadPhase>();
+}
+
+TEST(Validate, TellsAHalfSpaceThatNoMethodHas) {
+  WithHalfSpaces<AdaptiveBroadPhase> broad_phase;
+  ASSERT_TRUE(broad_phase.SetHalfSpace(3, {}));
+  broad_phase.Validate();
+  ASSERT_TRUE(broad_phase.mutable_half_spaces().Set(4, {}));
+  EXPECT_THROW(broad_phase.Validate(), CheckFailure);
+  broad_phase.mutable_half_spaces().Remove(3);
+  EXPECT_THROW(broad_phase.Validate(), CheckFailure) << "as many, but another";
+}
+
+// Nothing may be tightened that is not held: a method takes it, the choice between methods does
+// not count it.
+TEST(Validate, TellsAnAgentThatOnlyAMethodHolds) {
+  Random random(9);
+  for (const std::uint32_t agent : {1u, 9u}) {
+    AdaptiveBroadPhase broad_phase;
+    broad_phase.Set(0, BoundIn(100, 1, 5, 1, &random));
+    broad_phase.Set(2, BoundIn(100, 1, 5, 1, &random));
+    broad_phase.Validate();
+    broad_phase.Tighten(agent, BoundIn(100, 1, 5, 1, &random));
+    EXPECT_THROW(broad_phase.Validate(), CheckFailure) << agent;
+  }
+}
+
+// Method: up and down across the numbers of agents at which it changes, with half-spaces between.
+TEST(Validate, MethodsAgreeWhileOneIsFilled) {
+  Random random(10);
+  AdaptiveBroadPhase broad_phase;
+  for (int step = 0; step < 3000; ++step) {
+    const bool grows = step / 600 % 2 == 0;
+    const auto agent = static_cast<std::uint32_t>(random.Below(260));
+    if (random.Chance(grows ? 0.1 : 0.9)) {
+      broad_phase.Remove(agent);
+    } else if (random.Chance(0.02)) {
+      ASSERT_TRUE(broad_phase.SetHalfSpace(agent % 30, {}));
+    } else {
+      broad_phase.Set(agent, BoundIn(100, 1, 5, 1, &random));
+    }
+    ASSERT_NO_THROW(broad_phase.Validate()) << step;
+  }
+  EXPECT_GT(broad_phase.changes(), 2u);
 }
 
 TEST(Validate, ASearchWithoutAStoreIsRefused) {
