@@ -285,6 +285,40 @@ void AdaptiveBroadPhase::EndQuery(const BroadPhaseWork& before) {
   Choose();
 }
 
+void AdaptiveBroadPhase::ValidateMethod(const Method& method) const {
+  method.phase->Validate();
+  for (auto agent = static_cast<std::uint32_t>(held_.size());
+       method.table != nullptr && agent < method.table->size(); ++agent) {
+    CORE_CHECK(!method.table->contains(agent), "no method holds an agent of its own", agent);
+  }
+  const HalfSpaces &own = half_spaces(), &others = method.phase->half_spaces();
+  CORE_CHECK(own.size() == others.size(), "all methods have the same half-spaces", own.size(),
+             others.size());
+  for (const HalfSpaces::Entry& entry : own) {
+    CORE_CHECK(others.Find(entry.agent) != nullptr, "each method has each half-space", entry.agent);
+  }
+}
+
+void AdaptiveBroadPhase::Validate() const {
+  AgentBounds::Validate();
+  const auto count = static_cast<std::size_t>(std::count(held_.begin(), held_.end(), true));
+  CORE_CHECK(count == agents_, "agents that are held are counted", count, agents_);
+  ValidateMethod(method_);
+  if (next_.phase) ValidateMethod(next_);
+  for (std::uint32_t agent = 0; agent < held_.size(); ++agent) {
+    CORE_CHECK(method_.phase->Contains(agent) == held_[agent],
+               "the method that answers holds the agents that are held", agent);
+    if (!next_.phase) continue;
+    const bool is_next = next_.phase->Contains(agent);
+    // Beyond the mark there may be agents that were half-spaces.
+    CORE_CHECK(is_next <= held_[agent] && (is_next == held_[agent] || agent >= filled_),
+               "the method that is being filled holds the agents below its mark", agent, filled_);
+    CORE_CHECK(!is_next || agent >= filled_ ||
+                   method_.table->row(agent).stamp == next_.table->row(agent).stamp,
+               "both methods hold the same bounds", agent);
+  }
+}
+
 std::string AdaptiveBroadPhase::why() const {
   const std::string agents = std::to_string(agents_) + " agents";
   if (requested_ != BroadPhaseMethod::kAuto) return agents + "; the configuration asks for it";

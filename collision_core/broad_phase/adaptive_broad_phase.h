@@ -62,6 +62,13 @@ class AdaptiveBroadPhase : public SweepingIndex {
   std::optional<intersection::IntersectingPair> Earliest(
       const intersection::BroadQuery& query) override;
 
+  bool Contains(std::uint32_t agent) const override { return agent < held_.size() && held_[agent]; }
+  /// Agents that are held.
+  std::size_t agents() const { return agents_; }
+  /// Walks both methods: the one that answers holds exactly the agents that are held, the one that
+  /// is being filled those below its mark; both have the same half-spaces.
+  void Validate() const override;
+
   /// The work of all methods together.
   BroadPhaseWork work() const override;
   /// The same in the units by which it chooses.
@@ -81,6 +88,7 @@ class AdaptiveBroadPhase : public SweepingIndex {
 
   /// All methods share the rules; half-spaces are its own as well as each method's.
   Method Make(BroadPhaseMethod kind) const;
+  void ValidateMethod(const Method& method) const;
   void Release(std::uint32_t agent);
   double Units(BroadPhaseMethod kind, const BroadPhaseWork& done) const;
   double UnitsByAllPairs(const BroadPhaseWork& done) const;

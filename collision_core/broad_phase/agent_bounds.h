@@ -48,6 +48,9 @@ class AgentBounds {
   virtual bool SetHalfSpace(std::uint32_t agent, const HalfSpace& half_space) = 0;
   const HalfSpaces& half_spaces() const { return half_spaces_; }
 
+  /// Whether an agent of this index is held; a half-space is none.
+  virtual bool Contains(std::uint32_t agent) const = 0;
+
   /// Replaces the rule of a pair; PairRule() takes it away. It counts from the next query on,
   /// also for agents that are set later, until one of the two is removed. Returns false, and
   /// changes nothing, if PairRules refuses it.
@@ -66,6 +69,17 @@ class AgentBounds {
 
   /// The rules of the agent have changed: stored reaches that depend on them are updated.
   virtual void UpdateRules(std::uint32_t /*agent*/) {}
+
+  /// Walks the structure and compares its parts. Here: half-spaces stand in the order of their
+  /// indices, which are no agents'. Throws CheckFailure.
+  virtual void Validate() const {
+    std::uint32_t next = 0;
+    for (const HalfSpaces::Entry& entry : half_spaces_) {
+      CORE_CHECK(entry.agent >= next, "half-spaces are in the order of their indices", entry.agent);
+      CORE_CHECK(!Contains(entry.agent), "an index is an agent's or a half-space's", entry.agent);
+      next = entry.agent + 1;
+    }
+  }
 
  protected:
   /// Removes all rules of the agent and updates its partners.

@@ -46,6 +46,11 @@ void MeasureCentres(const geometry::TriangleMesh& mesh, sphere_tree::SurfaceKind
   }
 }
 
+bool IsOfBody(const Shape& shape, const geometry::TriangleMesh& mesh, std::size_t solids) {
+  return shape.mesh().vertices == mesh.vertices && shape.mesh().triangles == mesh.triangles &&
+         shape.solids().size() == solids;
+}
+
 /// Builds the tree, without its packed layout.
 sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
                                   const sphere_tree::ShapeOptions& options,
@@ -65,6 +70,7 @@ std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
                                           const Shape* twin) {
   CORE_CHECK(geometry::IsWellFormed(mesh), "a surface has a well-formed mesh",
              mesh.triangles.size());
+  CORE_CHECK(!twin || IsOfBody(*twin, mesh, 0), "a twin has the same surface, and no solid");
   std::shared_ptr<Shape> shape(new Shape());
   if (twin) shape->body_ = twin->body_;
   shape->facts_ = FactsOf(mesh);
@@ -80,6 +86,8 @@ std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
 
 std::shared_ptr<const Shape> Shape::FromTree(geometry::TriangleMesh mesh,
                                              sphere_tree::SphereTree tree) {
+  CORE_CHECK(geometry::IsWellFormed(mesh), "a surface has a well-formed mesh",
+             mesh.triangles.size());
   CORE_CHECK(!RefusalOf(tree, mesh), "a tree has the structure of one of its mesh");
   std::shared_ptr<Shape> shape(new Shape());
   shape->facts_ = FactsOf(mesh);
@@ -111,6 +119,8 @@ std::shared_ptr<const Shape> Shape::Compound(std::shared_ptr<const Shape> surfac
   shape->tree_ = BuildCompound(surface ? &surface->tree() : nullptr, triangles, solids);
   shape->surface_ = std::move(surface);
   shape->solids_ = std::move(solids);
+  CORE_CHECK(!twin || IsOfBody(*twin, shape->mesh(), shape->solids_.size()),
+             "a twin has the same surface, and as many solids", shape->solids_.size());
   shape->packed_ = sphere_tree::PackedTree(shape->mesh(), shape->tree_);
   shape->hull_ = HullAround(shape->mesh(), shape->solids_);
   return shape;

@@ -36,15 +36,16 @@ class Shape {
  public:
   /// Builds a shape of a surface. Takes about 50 µs a triangle, with the fitted builder 100.
   /// Deterministic: the same mesh and options give the same bits. `twin`, here and below: a shape
-  /// of the same mesh and solids with another tree; null: none. Requires IsWellFormed(mesh).
-  /// Unchecked: it has no degenerate triangles.
+  /// of the same mesh and solids with another tree; null: none. Requires IsWellFormed(mesh), and
+  /// the same mesh and number of solids of a twin. Unchecked: the mesh has no degenerate triangles;
+  /// the solids are the twin's.
   static std::shared_ptr<const Shape> Build(geometry::TriangleMesh mesh,
                                             const sphere_tree::ShapeOptions& options = {},
                                             const Shape* twin = nullptr);
 
   /// Makes the shape that Build() would return for the mesh from its stored tree, without building
-  /// it again. The distances in the tree are trusted. Requires that RefusalOf(tree, mesh) is
-  /// nullopt.
+  /// it again. The distances in the tree are trusted. Requires IsWellFormed(mesh), and that
+  /// RefusalOf(tree, mesh) is nullopt.
   static std::shared_ptr<const Shape> FromTree(geometry::TriangleMesh mesh,
                                                sphere_tree::SphereTree tree);
 

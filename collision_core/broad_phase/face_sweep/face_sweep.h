@@ -85,6 +85,7 @@ class FaceSweep : public EarliestSweep {
       const intersection::BroadQuery& query) override;
   /// visits: crossings. filter_tests: tests of two boxes. rebuilds: windows.
   BroadPhaseWork work() const override { return work_; }
+  bool Contains(std::uint32_t agent) const override { return Holds(bounds_, agent); }
 
   /// The most crossings that one axis has had queued at once, in any query: below 2 N for N agents.
   std::size_t queued_max() const { return queued_max_; }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "collision_core/base/free_list.h"
+
 namespace collision::broad_phase {
 namespace {
 
@@ -149,6 +151,9 @@ void HornTable::Validate() const {
                "a bound that is kept whole belongs to one row", row.full, full_.size());
     taken[row.full - 1] = true;
   }
+  ValidateFreeList(
+      free_, full_.size(), [](std::uint32_t full) { return full - 1; },
+      [&taken](std::size_t place) { return taken[place]; });
   CORE_CHECK(count == count_ && still == still_count_ && unfilterable == unfilterable_count_ &&
                  filtered == filtered_count_,
              "counts are those of the rows", count, still, unfilterable, filtered);

@@ -76,8 +76,8 @@ class HornTable {
   motion::SpaceTimeBound bound(std::uint32_t agent) const;
   AgentBound agent_bound(std::uint32_t agent) const { return {bound(agent), rows_[agent].filter}; }
 
-  /// Walks the table: counts are those of its rows, and bounds kept whole belong to one row each.
-  /// Throws CheckFailure.
+  /// Walks the table: counts are those of its rows, and places of whole bounds belong to one row
+  /// each, or are free. Throws CheckFailure.
   void Validate() const;
 
   /// Whether filters can work with the instant: differences of such instants do not overflow.

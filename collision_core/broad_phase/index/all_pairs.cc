@@ -35,6 +35,10 @@ class RowStore : public PlacedStore {
     if (window.first > scene.frame->window()) cost->wasted += near->size() - before;
   }
 
+  bool Holds(std::uint32_t agent) const override {
+    return agent < row_.size() && row_.agent(agent) == agent;
+  }
+
   void Validate() const override {
     row_.Validate();
     for (std::uint32_t k = 0; k < row_.size(); ++k) {

@@ -29,6 +29,7 @@ class ExhaustiveIndex : public SweepingIndex {
   std::optional<intersection::IntersectingPair> Earliest(
       const intersection::BroadQuery& query) override;
   BroadPhaseWork work() const override { return work_; }
+  bool Contains(std::uint32_t agent) const override { return Holds(bounds_, agent); }
 
  private:
   /// One more than the greatest index, half-spaces included.

@@ -231,11 +231,30 @@ void GridStore::FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeW
   unplaced_.FindNear(horn, *scene.frame, window, &cost->work, near);
 }
 
+bool GridStore::Holds(std::uint32_t agent) const {
+  if (agent >= places_.size()) return false;
+  const Spot& spot = places_[agent];
+  if (spot.level != kUnsorted) return levels_[spot.level].grid.lanes().agent(spot.place) == agent;
+  return spot.place < unplaced_.size() && unplaced_.agent(spot.place) == agent;
+}
+
 void GridStore::Validate() const {
-  for (std::uint32_t l = 0; l < level_count_ && points_last_ == 0; ++l) levels_[l].grid.Validate();
   unplaced_.Validate();
-  for (std::uint32_t agent = 0; agent < places_.size() && points_last_ == 0; ++agent) {
+  if (points_last_ > 0) return;
+  std::size_t held = 0, taken = 0;
+  const auto count = [&taken](const auto& places) {
+    for (std::uint32_t k = 0; k < places.size(); ++k) {
+      taken += places.agent(k) != PlacedBalls::kNoAgent;
+    }
+  };
+  count(unplaced_);
+  for (std::uint32_t l = 0; l < level_count_; ++l) {
+    levels_[l].grid.Validate();
+    count(levels_[l].grid.lanes());
+  }
+  for (std::uint32_t agent = 0; agent < places_.size(); ++agent) {
     const Spot& place = places_[agent];
+    held += place.level != kUnsorted || Holds(agent);
     if (place.level == kUnsorted) continue;
     CORE_CHECK(place.level < level_count_, "a place names a level that is in use", agent,
                place.level, level_count_);
@@ -243,6 +262,7 @@ void GridStore::Validate() const {
     CORE_CHECK(place.place < lanes.size() && lanes.agent(place.place) == agent,
                "an agent stands at its place in its level", agent, place.level, place.place);
   }
+  CORE_CHECK(held == taken, "each place that is taken is its agent's", held, taken);
 }
 
 }  // namespace collision::broad_phase

@@ -34,6 +34,7 @@ class GridStore : public PlacedStore {
   bool Join(const PlacedScene& scene, TimeWindow window, SearchCost* cost, PairSink* sink) override;
   void FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeWindow window,
                 SearchCost* cost, std::vector<std::uint32_t>* near) override;
+  bool Holds(std::uint32_t agent) const override;
   void Validate() const override;
 
  private:

@@ -57,8 +57,11 @@ class PlacedStore {
   virtual void FindNear(const PlacedScene& scene, const PlacedBall& horn, TimeWindow window,
                         SearchCost* cost, std::vector<std::uint32_t>* near) = 0;
 
-  /// Walks the structure: every agent that is placed stands where FindNear() looks for it. Throws
-  /// CheckFailure.
+  /// Whether FindNear() can find the agent: it is placed, and has not been taken away since.
+  virtual bool Holds(std::uint32_t agent) const = 0;
+
+  /// Walks the structure: every agent that is placed stands where FindNear() looks for it, once.
+  /// Throws CheckFailure.
   virtual void Validate() const = 0;
 };
 

@@ -120,6 +120,7 @@ void WindowedSearch::PlaceEveryAgent() {
 }
 
 void WindowedSearch::PlaceMoved() {
+  if (moved_.empty()) return;
   for (const std::uint32_t agent : moved_) {
     has_moved_[agent] = false;
     store_->Unplace(agent);
@@ -134,6 +135,9 @@ void WindowedSearch::PlaceMoved() {
     }
   }
   moved_.clear();
+#ifndef NDEBUG
+  Validate();
+#endif
 }
 
 // Tests some agents that are close to each other: a first answer shortens the window.
@@ -237,17 +241,36 @@ void WindowedSearch::FindNear(PlacedBall horn, Instant from, double seconds) {
 }
 
 void WindowedSearch::Validate() const {
+  AgentBounds::Validate();
   table_.Validate();
-  if (!placed_) return;
-  store_->Validate();
+  std::vector<bool> marked = has_moved_;
   for (const std::uint32_t agent : moved_) {
-    CORE_CHECK(has_moved_[agent], "an agent that is due to be placed is marked", agent);
+    CORE_CHECK(agent < marked.size() && marked[agent],
+               "an agent that is due to be placed is marked, and listed once", agent);
+    marked[agent] = false;
   }
+  CORE_CHECK(std::find(marked.begin(), marked.end(), true) == marked.end(),
+             "an agent that is marked is due to be placed", moved_.size());
+  if (placed_) ValidatePlaced();
+}
+
+// What is due may still be where it was.
+void WindowedSearch::ValidatePlaced() const {
+  store_->Validate();
+  std::vector<bool> listed(table_.size());
   for (const std::uint32_t agent : unfilterable_) {
-    const bool is_due = agent < has_moved_.size() && has_moved_[agent];
-    CORE_CHECK(is_due || (table_.contains(agent) && scene().IsUnfilterable(agent)),
-               "an agent on the unfilterable list is held and unfilterable, or due to be placed",
+    CORE_CHECK(agent < listed.size() && !listed[agent], "an agent is on the unfilterable list once",
                agent);
+    listed[agent] = true;
+  }
+  for (std::uint32_t agent = 0; agent < table_.size(); ++agent) {
+    if (agent < has_moved_.size() && has_moved_[agent]) continue;
+    const bool is_held = table_.contains(agent);
+    const bool is_direct = is_held && scene().IsUnfilterable(agent);
+    CORE_CHECK(listed[agent] == is_direct,
+               "an agent is on the unfilterable list if it is held and unfilterable", agent);
+    CORE_CHECK(store_->Holds(agent) == (is_held && !is_direct),
+               "an agent is in the store if it is held and filters can compare it", agent);
   }
 }
 

@@ -61,16 +61,18 @@ class WindowedSearch : public SweepingIndex {
   std::optional<intersection::IntersectingPair> Earliest(
       const intersection::BroadQuery& query) override;
   BroadPhaseWork work() const override { return cost_.work; }
+  bool Contains(std::uint32_t agent) const override { return table_.contains(agent); }
 
   /// The bounds that are held.
   const HornTable& table() const { return table_; }
 
-  /// Walks the structure: each agent is either due to be placed, or placed, or unfilterable; and
-  /// the store. Throws CheckFailure.
-  void Validate() const;
+  /// Walks the structure: each agent that is held is due to be placed, or in the store, or
+  /// unfilterable; and the store. Throws CheckFailure.
+  void Validate() const override;
 
  private:
   PlacedScene scene() const { return {&table_, &frame_}; }
+  void ValidatePlaced() const;
   void Drop(std::uint32_t agent);
   void MarkMoved(std::uint32_t agent);
   void StartAnew(const PlacementFrame& frame);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/base/free_list.h"
+
 namespace collision::detection {
 
 // The bits of an id are its owner's choice. They are mixed (SplitMix64's finalizer), so that no
@@ -136,15 +138,15 @@ void AgentTable::UpdateExtremes() {
 void AgentTable::Validate() const {
   expiries_.Validate();
   changed_.Validate();
-  std::size_t named = 0, held = 0;
+  std::size_t named = 0;
   std::map<OwnerId, std::uint32_t> counts;
+  SceneProfile profile;
   for (std::size_t k = 0; k < agents_.size(); ++k) {
     const AgentIndex agent(k);
     if (!Contains(agent)) {
       CORE_CHECK(!expiries_.Contains(agent), "a free index does not expire", k);
       continue;
     }
-    ++held;
     const AgentRecord& record = (*this)[agent];
     CORE_CHECK(!record.history.empty(), "an agent has a state", k);
     CORE_CHECK(record.stamp() <= record.heard_until(),
@@ -156,14 +158,19 @@ void AgentTable::Validate() const {
     }
     ++named;
     ++counts[OwnerOf(record.id)];
+    profile.Add(record.features);
+    CORE_CHECK(record.expired || record.features == SceneProfile::Of(record.history.newest()),
+               "an agent's features are those of its newest state", k, record.features);
+    CORE_CHECK(record.expired || extremes_.bounds().Holds(record.bound()),
+               "the scene's extremes hold each newest bound", k);
     CORE_CHECK(Find(record.id) == agent, "an agent is found by its name", k);
     CORE_CHECK(record.owner != nullptr, "an agent has an owner", k);
   }
   CORE_CHECK(named == index_.size(), "each name is of one agent", named, index_.size());
-  CORE_CHECK(held + free_.size() == agents_.size(), "each index is held or free", held);
-  for (const AgentIndex agent : free_) {
-    CORE_CHECK(!Contains(agent), "a free index is not held", agent.value());
-  }
+  ValidateFreeList(
+      free_, agents_.size(), [](AgentIndex agent) { return agent.value(); },
+      [this](std::size_t agent) { return Contains(AgentIndex(agent)); });
+  CORE_CHECK(profile == profile_, "the features of all agents are counted", named);
   CORE_CHECK(counts.size() == owners_.size(), "an owner has agents", counts.size());
   for (const auto& [id, owner] : owners_) {
     CORE_CHECK(owner.agents == counts[id], "an owner's agents are counted", owner.agents);

@@ -88,7 +88,8 @@ class AgentTable {
     changed_.Clear();
   }
 
-  /// Walks the whole table: names, owners' counts, expiries, free indices.
+  /// Walks the whole table: names, owners' counts, expiries, free indices, extremes() and
+  /// profile().
   void Validate() const;
 
  private:

@@ -14,4 +14,10 @@ void SceneExtremes::Bounds::Include(const motion::SpaceTimeBound& bound) {
   time_step_max = std::max(time_step_max, bound.limits.time_step);
 }
 
+bool SceneExtremes::Bounds::Holds(const motion::SpaceTimeBound& bound) const {
+  Bounds with = *this;
+  with.Include(bound);
+  return with == *this;
+}
+
 }  // namespace collision::detection

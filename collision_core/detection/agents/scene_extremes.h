@@ -21,6 +21,10 @@ class SceneExtremes {
     double time_step_max = 0;       ///< [s]
 
     void Include(const motion::SpaceTimeBound& bound);
+    /// Whether they would stay as they are if the bound was included.
+    bool Holds(const motion::SpaceTimeBound& bound) const;
+
+    friend bool operator==(const Bounds&, const Bounds&) = default;
   };
 
   /// Agents examined in each step, and additional ones for each agent that has changed.

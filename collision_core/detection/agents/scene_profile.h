@@ -23,6 +23,9 @@ class SceneProfile {
   void Add(Features features) { Count(features, 1); }
   void Remove(Features features) { Count(features, -1); }
 
+  /// Whether both count the same.
+  friend bool operator==(const SceneProfile&, const SceneProfile&) = default;
+
   /// A line for each part that is left out, with the reason.
   std::vector<std::string> LeftOut() const;
 

@@ -65,6 +65,22 @@ void Clearances::Cover(const std::vector<ReleasedPair>& pairs) {
   }
 }
 
+void Clearances::Validate() const {
+  coverage_.Validate();
+  former_.Validate();
+  broad_phase_.Validate();
+  std::size_t held = 0;
+  for (std::size_t k = 0; k < context_.agents.index_end(); ++k) {
+    const AgentIndex agent(k);
+    const bool counts = context_.agents.Contains(agent) && !context_.agents[agent].expired;
+    CORE_CHECK(broad_phase_.Contains(agent.value()) == counts,
+               "the broad phase holds an agent until it expires", k);
+    held += counts;
+  }
+  CORE_CHECK(broad_phase_.agents() == held, "the broad phase holds no agent that is not there",
+             broad_phase_.agents(), held);
+}
+
 void Clearances::UpdateCounters() {
   const broad_phase::BroadPhaseWork work = broad_phase_.work();
   DetectorCounters& counters = *context_.counters;

@@ -67,7 +67,8 @@ class Clearances {
   /// Brings the counters of the broad phase's work up to date.
   void UpdateCounters();
 
-  void Validate() const { coverage_.Validate(); }
+  /// Walks the keys and the broad phase, which holds exactly the agents that have not expired.
+  void Validate() const;
 
  private:
   const DetectorContext context_;

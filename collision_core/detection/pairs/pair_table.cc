@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collision_core/base/free_list.h"
+
 namespace collision::detection {
 
 void PairTable::AddAgent(AgentIndex agent) {
@@ -56,6 +58,18 @@ void PairTable::UpdateFull(AgentIndex agent) {
   full_[agent] = of_agent_[agent].size() >= pairs_per_agent_max_;
 }
 
+void PairTable::ValidateAgent(AgentIndex agent) const {
+  CORE_CHECK(Of(agent).size() <= pairs_per_agent_max_, "an agent has no more pairs than allowed",
+             agent.value());
+  CORE_CHECK(full_[agent] == (Of(agent).size() >= pairs_per_agent_max_),
+             "an agent that has no room is marked", agent.value());
+  std::vector<AgentIndex> partners;
+  for (const PairSlot slot : Of(agent)) partners.push_back((*this)[slot].PartnerOf(agent));
+  std::sort(partners.begin(), partners.end());
+  CORE_CHECK(std::adjacent_find(partners.begin(), partners.end()) == partners.end(),
+             "two agents are tracked as one pair", agent.value());
+}
+
 void PairTable::Validate() const {
   std::size_t held = 0, listed = 0;
   for (PairSlot slot; pairs_.contains(slot); slot = PairSlot(slot.value() + 1)) {
@@ -69,16 +83,12 @@ void PairTable::Validate() const {
   }
   CORE_CHECK(held == size_, "tracked pairs are counted", held, size_);
   CORE_CHECK(size_ <= pairs_max_, "there are no more pairs than allowed", size_, pairs_max_);
-  CORE_CHECK(held + free_.size() == pairs_.size(), "each slot is tracked or free", held);
-  for (const PairSlot slot : free_) {
-    CORE_CHECK(!Contains(slot), "a free slot has no pair", slot.value());
-  }
+  ValidateFreeList(
+      free_, pairs_.size(), [](PairSlot slot) { return slot.value(); },
+      [this](std::size_t slot) { return Contains(PairSlot(slot)); });
   for (AgentIndex agent; of_agent_.contains(agent); agent = AgentIndex(agent.value() + 1)) {
     listed += Of(agent).size();
-    CORE_CHECK(Of(agent).size() <= pairs_per_agent_max_, "an agent has no more pairs than allowed",
-               agent.value());
-    CORE_CHECK(full_[agent] == (Of(agent).size() >= pairs_per_agent_max_),
-               "an agent that has no room is marked", agent.value());
+    ValidateAgent(agent);
   }
   CORE_CHECK(listed == 2 * held, "an agent's pairs are tracked", listed, held);
 }

@@ -62,7 +62,7 @@ class PairTable {
   void AddAgent(AgentIndex agent);
 
   /// Adds a pair and returns its slot; None() if `pairs_max` pairs are tracked. Otherwise requires
-  /// RoomFor() > 0 of both agents.
+  /// RoomFor() > 0 of both agents. Unchecked: the two share no pair yet; Validate() finds it.
   PairSlot Add(const PairRecord& pair);
   /// Requires Contains(slot).
   void Remove(PairSlot slot);
@@ -89,11 +89,13 @@ class PairTable {
   std::size_t RoomFor(AgentIndex agent) const;
   bool IsFull(AgentIndex agent) const { return full_[agent] != 0 || room() == 0; }
 
-  /// Walks the whole table: each pair stands with both its agents, each other slot is free.
+  /// Walks the whole table: each pair stands with both its agents, which share no other; each other
+  /// slot is free, and listed as free once.
   void Validate() const;
 
  private:
   void UpdateFull(AgentIndex agent);
+  void ValidateAgent(AgentIndex agent) const;
 
   const std::uint32_t pairs_max_;
   const std::uint32_t pairs_per_agent_max_;

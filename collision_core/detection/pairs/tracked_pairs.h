@@ -44,7 +44,7 @@ class TrackedPairs {
   const PairTable& table() const { return table_; }
 
   /// Tracks two agents that are certified free up to `free_until`. Returns false, and changes
-  /// nothing, if there is no room. Unchecked: they are not tracked.
+  /// nothing, if there is no room. Unchecked: they are not tracked; Validate() finds it.
   [[nodiscard]] bool Track(AgentIndex a, AgentIndex b, Instant free_until, Past past);
 
   /// Freedom that was certified for the agent's pairs beyond `from` no longer holds.

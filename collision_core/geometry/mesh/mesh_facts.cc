@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "collision_core/base/check.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/numeric/interval.h"
 
@@ -93,6 +94,8 @@ std::vector<std::uint32_t> MergedVertices(const TriangleMesh& mesh) {
 }
 
 std::vector<Vector3d> ComponentPoints(const TriangleMesh& mesh) {
+  CORE_CHECK(IsWellFormed(mesh), "components are those of a well-formed mesh",
+             mesh.triangles.size());
   Components components(mesh, MergedVertices(mesh));
   constexpr std::uint32_t kNone = 0xffffffff;
   std::vector<std::uint32_t> place(mesh.vertices.size(), kNone);
@@ -112,6 +115,7 @@ std::vector<Vector3d> ComponentPoints(const TriangleMesh& mesh) {
 }
 
 MeshFacts FactsOf(const TriangleMesh& mesh) {
+  CORE_CHECK(IsWellFormed(mesh), "facts are those of a well-formed mesh", mesh.triangles.size());
   const auto merged = MergedVertices(mesh);
   MeshFacts facts;
   facts.closed = IsClosed(mesh, merged);

@@ -88,11 +88,12 @@ struct MeshFacts {
   double radius = 0;             ///< Radius of a ball about the origin that contains the mesh [m].
   Eigen::Vector3d lower, upper;  ///< Its box [m]. Vertices without a triangle are not counted.
 };
-/// Computes the facts; linear in the mesh but for sorting its edges.
+/// Computes the facts; linear in the mesh but for sorting its edges. Requires IsWellFormed(mesh).
+/// Unchecked: it has no degenerate triangle.
 MeshFacts FactsOf(const TriangleMesh& mesh);
 
 /// One vertex of each connected component, the one with the greatest x (of equal ones, the greatest
-/// y, then z); components in the order of their first triangles.
+/// y, then z); components in the order of their first triangles. Requires IsWellFormed(mesh).
 std::vector<Eigen::Vector3d> ComponentPoints(const TriangleMesh& mesh);
 
 /// For each vertex the first one at the same position.

@@ -64,6 +64,11 @@ class SweepBesideIndex : public SweepingIndex {
       const intersection::BroadQuery& query) override {
     return sweep_.Earliest(query);
   }
+  bool Contains(std::uint32_t agent) const override { return index_.Contains(agent); }
+  void Validate() const override {
+    sweep_.Validate();
+    index_.Validate();
+  }
   BroadPhaseWork work() const override {
     const BroadPhaseWork a = sweep_.work(), b = index_.work();
     return {a.pair_queries + b.pair_queries, a.filter_tests + b.filter_tests, a.visits + b.visits,

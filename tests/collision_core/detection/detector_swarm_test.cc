@@ -150,6 +150,7 @@ RunLog Simulate(const Crowd& crowd, int steps) {
     const Instant now = At(step * kStep);
     for (std::size_t i = 0; i < crowd.size(); ++i) detector.SetHeardUntil(OwnerOf(Id(i)), now);
     detector.Advance(now);
+    if (step % 16 == 0) detector.Validate();
     for (const CollisionEvent& event : detector.events()) {
       run.events.push_back(event);
       last[{event.lower, event.higher}] = event.status;
@@ -293,6 +294,7 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
       }
     }
     detector.Advance(At(t));
+    if (step % 16 == 0) detector.Validate();
     EarliestAnswer scratch;
     for (std::size_t i = 0; i < start.size(); i += 2) {
       const Instant when =

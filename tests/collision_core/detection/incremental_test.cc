@@ -55,6 +55,7 @@ class Lattice {
     }
     const std::size_t allocated = Allocations() - before;
     detector->Advance(now);
+    if (step_ % 16 == 0) detector->Validate();
     detector->TakeChangedClearances();
     detector->Earliest();
     return allocated;
@@ -122,6 +123,7 @@ TEST(Incremental, ACrowdAtOnePointCostsWhatIsPublished) {
     detector.Advance(At(step / 64.0));
     detector.Earliest();
   }
+  detector.Validate();
   // One more query for each finds whether it is still saturated.
   EXPECT_LT(detector.counters().pair_queries - before,
             20u * 3 * 1000 + (kSanitized ? 40u : 10u) * agents);
@@ -185,6 +187,7 @@ class RandomHistory {
     }
     for (const auto& [slot, bound] : known_) detector_->SetHeardUntil(OwnerOf(Id(slot)), now);
     detector_->Advance(now);
+    detector_->Validate();
     for (const AgentClearance& told : detector_->TakeChangedClearances()) {
       clearances_[told.agent.slot] = told;
       log_.push_back(told.clear_until.nanoseconds());

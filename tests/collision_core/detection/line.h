@@ -51,6 +51,7 @@ class Line {
 
   void Step() {
     detector.Advance(At(now));
+    detector.Validate();
     events.insert(events.end(), detector.events().begin(), detector.events().end());
   }
 

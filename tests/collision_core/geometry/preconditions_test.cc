@@ -21,6 +21,18 @@ TEST(GeometryPreconditions, CoordinatesHaveFiniteSquares) {
   EXPECT_THROW(ConvexPoints{unknown}, CheckFailure);
 }
 
+TEST(GeometryPreconditions, AnIllFormedMeshHasNoFacts) {
+  TriangleMesh mesh;
+  EXPECT_THROW(FactsOf(mesh), CheckFailure);
+  EXPECT_THROW(ComponentPoints(mesh), CheckFailure);
+  mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 3}};
+  EXPECT_THROW(FactsOf(mesh), CheckFailure);
+  EXPECT_THROW(ComponentPoints(mesh), CheckFailure);
+  mesh.triangles = {{0, 1, 2}};
+  EXPECT_EQ(FactsOf(mesh).components, ComponentPoints(mesh).size());
+}
+
 TEST(GeometryPreconditions, RefusedPolygonsAreNotCut) {
   PolygonMesh polygons;
   polygons.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};

@@ -40,4 +40,24 @@ void PreJumpMotions::Find(const broad_phase::AgentBound& around, Instant from, I
     agents->push_back(agents_[neighbour.partner]);
 }
 
+void PreJumpMotions::Validate() const {
+  method_->Validate();
+  std::vector<bool> used(agents_.size());
+  const auto use = [&used](std::uint32_t place) {
+    CORE_CHECK(place < used.size() && !used[place], "a place has one motion, or is free once",
+               place);
+    used[place] = true;
+  };
+  for (const Motion& motion : motions_) {
+    use(motion.place);
+    CORE_CHECK(method_->Contains(motion.place), "the index holds each motion", motion.place);
+  }
+  for (const std::uint32_t place : free_) {
+    use(place);
+    CORE_CHECK(!method_->Contains(place), "the index holds no motion that is forgotten", place);
+  }
+  CORE_CHECK(motions_.size() + free_.size() == agents_.size(), "each place is used or free",
+             motions_.size(), free_.size());
+}
+
 }  // namespace collision::detection

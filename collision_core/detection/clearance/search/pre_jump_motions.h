@@ -33,6 +33,9 @@ class PreJumpMotions {
 
   std::size_t size() const { return motions_.size(); }
 
+  /// Walks the motions and their index: each place has a motion that the index holds, or is free.
+  void Validate() const;
+
  private:
   struct Motion {
     std::uint32_t place;  // in method_

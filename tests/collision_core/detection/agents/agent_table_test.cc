@@ -122,6 +122,38 @@ TEST(AgentTable, ValidateFindsAWrongName) {
   EXPECT_THROW(table.Validate(), CheckFailure);
 }
 
+/// A table with one agent, whose newest bound the test changes without RecordBound().
+class UnrecordedBound : public testing::Test {
+ protected:
+  UnrecordedBound() : agent_(Admitted(Id(1), 0, &table_)) { table_.Validate(); }
+
+  motion::SpaceTimeBound& bound() { return table_[agent_].history.newest().bound; }
+
+  AgentTable table_{{}};
+  const AgentIndex agent_;
+};
+
+TEST_F(UnrecordedBound, BeyondTheExtremesIsFound) {
+  bound().limits.acceleration_max = 1;
+  table_.RecordBound(agent_);
+  table_.Validate();
+  bound().limits.acceleration_max = 2;
+  EXPECT_THROW(table_.Validate(), CheckFailure);
+}
+
+TEST_F(UnrecordedBound, WithOtherFeaturesIsFound) {
+  bound().skew = 1;
+  EXPECT_THROW(table_.Validate(), CheckFailure);
+  table_.RecordBound(agent_);
+  table_.Validate();
+}
+
+TEST_F(UnrecordedBound, WithFeaturesThatAreNotCountedIsFound) {
+  bound().skew = 1;
+  table_[agent_].features = SceneProfile::Of(table_[agent_].history.newest());
+  EXPECT_THROW(table_.Validate(), CheckFailure);
+}
+
 TEST(History, WithoutAStateHasNoNewest) {
   const History history;
   EXPECT_THROW(history.newest(), CheckFailure);

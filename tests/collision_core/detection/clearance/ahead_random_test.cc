@@ -58,6 +58,7 @@ class History {
     for (const auto& [slot, agent] : agents_) detector_.SetHeardUntil(OwnerOf(Id(slot)), now_);
     if (random_.Chance(0.2)) detector_.Earliest();
     detector_.Advance(now_);
+    detector_.Validate();
     for (const CollisionEvent& event : detector_.events()) {
       told_[{event.lower.slot, event.higher.slot}].push_back(event);
     }

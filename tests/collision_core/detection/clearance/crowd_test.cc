@@ -37,6 +37,7 @@ struct Crowd {
       detector->SetHeardUntil(OwnerOf(Id(slot)), At(now));
     }
     detector->Advance(At(now));
+    if (step % 16 == 0) detector->Validate();
     confirmed += std::count_if(
         detector->events().begin(), detector->events().end(),
         [](const CollisionEvent& event) { return event.status == EventStatus::kConfirmed; });
@@ -139,6 +140,7 @@ TEST(ACrowd, ASaturatedAgentCountsHoweverOthersComeAndGo) {
                       At(now));
     }
     detector.Advance(At(now));
+    if (step % 16 == 0) detector.Validate();
     std::set<std::uint32_t> told;
     for (const AgentClearance& clearance : detector.TakeChangedClearances()) {
       if (clearance.saturated) told.insert(clearance.agent.slot);
@@ -216,6 +218,7 @@ struct Couples {
       }
     }
     detector->Advance(collision::At(now));
+    if (step % 16 == 0) detector->Validate();
     for (const CollisionEvent& event : detector->events()) {
       log[event.lower.slot / 2].push_back(
           {step, static_cast<std::int64_t>(event.status), event.begin.earliest.nanoseconds(),

@@ -51,6 +51,7 @@ class Swarm {
       if (one_by_one) detector->Advance(At(0));
     }
     detector->Advance(At(0));
+    detector->Validate();
     return widened;
   }
 

@@ -56,5 +56,20 @@ TEST(PreJumpMotions, TheOldestGoesWhereThereIsNoRoom) {
   EXPECT_EQ(none.size(), 0u);
 }
 
+TEST(PreJumpMotions, ValidateFindsAMotionThatTheIndexDoesNotHold) {
+  auto index = std::make_unique<broad_phase::AllPairs>();
+  broad_phase::AllPairs* const held = index.get();
+  PreJumpMotions motions(std::move(index), 4);
+  for (std::uint32_t k = 0; k < 3; ++k) motions.Record(AgentIndex(k), Runner(), At(k));
+  motions.Forget(At(0));
+  motions.Validate();
+  held->Set(0, {Runner(), {}});
+  EXPECT_THROW(motions.Validate(), CheckFailure) << "it was forgotten";
+  held->Remove(0);
+  motions.Validate();
+  held->Remove(1);
+  EXPECT_THROW(motions.Validate(), CheckFailure);
+}
+
 }  // namespace
 }  // namespace collision::detection

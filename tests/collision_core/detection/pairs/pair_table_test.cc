@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -49,7 +50,11 @@ TEST(PairTable, KnowsThePairsOfEachAgentAndItsRoom) {
   std::map<PairSlot, std::pair<AgentIndex, AgentIndex>> model;
   for (int i = 0; i < 4000; ++i) {
     const AgentIndex a = Agent(random.Below(kAgents)), b = Agent(random.Below(kAgents));
-    if (random.Chance(0.6) && a != b && pairs.RoomFor(a) > 0 && pairs.RoomFor(b) > 0) {
+    const bool is_tracked = std::any_of(model.begin(), model.end(), [=](const auto& pair) {
+      return pair.second == std::pair(a, b) || pair.second == std::pair(b, a);
+    });
+    const bool can_add = a != b && !is_tracked && pairs.RoomFor(a) > 0 && pairs.RoomFor(b) > 0;
+    if (random.Chance(0.6) && can_add) {
       model[pairs.Add(PairOf(a, b))] = {a, b};
     } else if (!model.empty()) {
       const auto gone = std::next(model.begin(), static_cast<int>(random.Below(model.size())));
@@ -90,6 +95,18 @@ TEST(PairTable, ValidateFindsAPairThatIsNotListed) {
   pairs.Validate();
   pairs[slot].higher = Agent(2);
   EXPECT_THROW(pairs.Validate(), CheckFailure);
+}
+
+// Method: the same pair is added twice.
+TEST(PairTable, ValidateFindsTwoAgentsInTwoPairs) {
+  PairTable pairs = TableOf(8, 4, 3);
+  pairs.Add(PairOf(Agent(0), Agent(1)));
+  pairs.Add(PairOf(Agent(0), Agent(2)));
+  pairs.Validate();
+  const PairSlot twice = pairs.Add(PairOf(Agent(1), Agent(0)));
+  EXPECT_THROW(pairs.Validate(), CheckFailure);
+  pairs.Remove(twice);
+  pairs.Validate();
 }
 
 }  // namespace
