@@ -16,7 +16,8 @@ namespace collision::detection {
 /// queried. A pair counts with its canonical answer from now on. Three cases differ: a tracked pair
 /// with a known shape counts with the later of that and its certified freedom; a pair with a state
 /// or a known contact ahead of now with the end of its certified freedom or the begin of the
-/// contact, if earlier; a saturated agent with now.
+/// contact, if earlier; a saturated agent with now. A contact that is settled, its event ended,
+/// counts no more, even if it lies ahead of now.
 ///
 /// For each agent and each tracked pair the search remembers a *lower bound* of what it can add to
 /// the answer. Two queues order them; agents and pairs are queried in the order of their bounds
