@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::intersection {
 namespace {
 
-/// ε: the most that one rounding costs, relative.
-constexpr double kEpsilon = 0x1p-53;
+// Below, ε is kUnitRoundoff.
 
 /// The seconds from `from` to `to`, off by 2ε relative: from integer to double, and the quotient.
 double Seconds(Instant from, Instant to) {
@@ -39,14 +39,14 @@ numeric::QuickBall Rounded(const motion::SpaceTimeBound& bound, Instant base) {
 }
 
 /// The error of the reach's terms: the 13ε of each ball, and the sums of five terms.
-constexpr double kErrorOfReach = 20 * kEpsilon;
+constexpr double kErrorOfReach = 20 * numeric::kUnitRoundoff;
 
 /// The error of the centre, relative to the sum of the magnitudes of its terms p_B − p_A, v_B τ_B
 /// and v_A τ_A: each is off by 3ε at most, and two more sums make it 5ε.
-constexpr double kErrorOfDistance = 6 * kEpsilon;
+constexpr double kErrorOfDistance = 6 * numeric::kUnitRoundoff;
 
 /// The error of the velocity v_B − v_A: ε, and what summing the magnitudes costs.
-constexpr double kErrorOfVelocity = 2 * kEpsilon;
+constexpr double kErrorOfVelocity = 2 * numeric::kUnitRoundoff;
 
 }  // namespace
 

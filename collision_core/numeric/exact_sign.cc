@@ -4,12 +4,16 @@
 #include <cmath>
 #include <vector>
 
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::numeric {
 namespace {
 
-constexpr double kUnit = 0x1p-53;
+/// Shewchuk's bounds for ORIENT2D (three roundings in each product, one in the difference) and
+/// ORIENT3D, relative to the magnitudes of the terms.
+constexpr double kOrient2dError = (3 + 16 * kUnitRoundoff) * kUnitRoundoff;
+constexpr double kOrient3dError = (7 + 56 * kUnitRoundoff) * kUnitRoundoff;
 
 /// Below it the filters do not decide: their error bounds do not count underflow.
 constexpr double kFilterSmallest = 0x1p-900;
@@ -92,8 +96,7 @@ std::optional<int> OrientationSign(const Eigen::Vector2d& a, const Eigen::Vector
   const double left = (b.x() - a.x()) * (c.y() - a.y());
   const double right = (b.y() - a.y()) * (c.x() - a.x());
   const double det = left - right;
-  // Shewchuk's bound for ORIENT2D: three roundings in each product, one in the difference.
-  const double error = (3 + 16 * kUnit) * kUnit * (std::abs(left) + std::abs(right));
+  const double error = kOrient2dError * (std::abs(left) + std::abs(right));
   if (std::abs(det) > error && std::abs(det) > kFilterSmallest) return SignOf(det);
   return Cross(Expansion::Difference(b.x(), a.x()), Expansion::Difference(b.y(), a.y()),
                Expansion::Difference(c.x(), a.x()), Expansion::Difference(c.y(), a.y()))
@@ -110,8 +113,7 @@ std::optional<int> OrientationSign(const Eigen::Vector3d& a, const Eigen::Vector
     det += w[i] * (left - right);
     permanent += std::abs(w[i]) * (std::abs(left) + std::abs(right));
   }
-  // Shewchuk's bound for ORIENT3D.
-  const double error = (7 + 56 * kUnit) * kUnit * permanent;
+  const double error = kOrient3dError * permanent;
   if (std::abs(det) > error && std::abs(det) > kFilterSmallest) return SignOf(det);
 
   std::array<Expansion, 3> e, f, g;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::numeric {
@@ -10,15 +11,14 @@ namespace {
 /// Steps before the interval arithmetic is asked: a simple root takes about 5.
 constexpr int kStepsMax = 24;
 
-/// ε: the most that one rounding costs, relative.
-constexpr double kEpsilon = 0x1p-53;
+// Below, ε is kUnitRoundoff.
 
 /// The error of an evaluation, relative to the greatest terms; derived at View.
-constexpr double kErrorOfGap = 10 * kEpsilon;
-constexpr double kErrorOfSlope = 10 * kEpsilon;
+constexpr double kErrorOfGap = 10 * kUnitRoundoff;
+constexpr double kErrorOfSlope = 10 * kUnitRoundoff;
 
 /// A step's formula has at most six roundings, each of positive numbers.
-constexpr double kLessStep = 1 - 8 * kEpsilon;
+constexpr double kLessStep = 1 - 8 * kUnitRoundoff;
 
 /// Distances between these have squares whose rounding is relative: what underflows beside them is
 /// less than 2^-140 of the allowances.

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::numeric {
 namespace {
@@ -30,15 +31,14 @@ constexpr double kQuartersPerRadian = 0x1.45f306dc9c883p-1;
 /// Adding it rounds a double of modest size to a whole number.
 constexpr double kRound = 0x1.8p+52;
 
-/// Half a unit in the last place, relative: what one rounding costs.
-constexpr double kEpsilon = 0x1p-53;
+// Below, ε is kUnitRoundoff.
 
 /// The series below are evaluated in doubles, from the last factor in, sum = 1 − z sum' / d. Three
 /// roundings (of z = x², product, quotient) and the error of sum' weigh z / d, the last rounding
 /// ε. For z <= 0.64 the z / d are at most 0.32, 0.054, … (cosine): the second sum is off by less
 /// than 1.3ε, the first by ε + 0.32 (3 + 1.3) ε < 2.4ε. Nine terms leave out 0.8^18 / 18! < 0.03ε.
 /// The sine has smaller z / d. All sums are in [0.6, 1].
-constexpr double kSeriesError = 2.5 * kEpsilon;
+constexpr double kSeriesError = 2.5 * kUnitRoundoff;
 
 /// `first` is 2 for sin x / x = 1 − z/(2·3) (1 − z/(4·5) (…)), 1 for cos x = 1 − z/(1·2) (…).
 /// Requires |x| <= 0.8; contains the exact value.
@@ -84,7 +84,7 @@ SinCos PointSinCos(double x) {
 /// by ε: together below 9ε.
 Interval ArcTangent(double t) {
   constexpr int kTerms = 13;
-  constexpr double kError = 10 * kEpsilon;
+  constexpr double kError = 10 * kUnitRoundoff;
   // Far more than the few units of 2^-1074 that angles lose which underflow.
   constexpr double kAngleUnderflow = 0x1p-1060;
   for (int halving = 0; halving < 2; ++halving) t = t / (1 + std::sqrt(1 + t * t));

@@ -51,9 +51,7 @@ struct Player {
   std::shared_ptr<const shape::Shape> shape;
 
   TrueBody At(std::int64_t t_ns) const {
-    TruePose pose;
-    pose.p = agent.motion.At(t_ns).From(t_ns).p.cast<Real>();
-    return {shape.get(), agent.radius, pose};
+    return {shape.get(), agent.radius, agent.motion.At(t_ns).TrueAt(t_ns)};
   }
 };
 

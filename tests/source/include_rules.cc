@@ -149,6 +149,7 @@ bool IsForWide(const std::string& name) {
                                    "collision_core/narrow_phase/convex_pair/box_separating_axis.h",
                                    "collision_core/narrow_phase/convex_pair/gjk_small.h",
                                    "collision_core/narrow_phase/sphere_pairs/sphere_pair_kernel.h",
+                                   "collision_core/numeric/allowances.h",
                                    "collision_core/sphere_tree/packed_layout.h"};
   static const Names standard = {"cmath", "cstdint", "immintrin.h"};
   return IsWide(name) ||

@@ -41,12 +41,13 @@ void ExpectNowhere(const std::string& pattern, const std::vector<SourceFile>& fi
 std::string CodeOf(const std::string& line) { return line.substr(0, line.find("//")); }
 
 /// The lines, counted from 1, that have outside a statement that declares a constant: a negative
-/// power of two or of ten, or one of two digits; a number a little above 1 or below it; a fraction
-/// that begins with two zeros.
+/// power of two or of ten, or one of two digits; a number with three decimals or more; a multiple
+/// of the unit roundoff.
 std::vector<int> UnnamedEpsilons(const std::string& text) {
   static const std::regex epsilon(
       "\\b0[xX][0-9a-fA-F.]+p(-[0-9]|\\+?[0-9]{2})|\\b[0-9][0-9.]*e(-[0-9]|\\+?[0-9]{2})|"
-      "\\b1\\.0{2,}[0-9]*[1-9]|(^|[^0-9])(0?\\.9{3,}|0?\\.0{2,}[0-9]*[1-9])");
+      "(^|[^0-9a-fA-FxX])[0-9]*\\.[0-9]{2,}[1-9]|\\b[0-9.]+\\s*\\*\\s*(numeric::)?"
+      "kUnitRoundoff\\b");
   static const std::regex end("[;{}]\\s*$");
   std::vector<int> found;
   std::istringstream lines(text);
@@ -123,13 +124,15 @@ TEST(Style, TheFindingsFind) {
   EXPECT_TRUE(UnnamedEpsilons(named).empty());
   EXPECT_EQ(UnnamedEpsilons(named + "x *= 1 +\n    0x1p-50f;\nif (y > 2.5e-3 * z) {\n"),
             (std::vector<int>{5, 6}));
-  for (const char* number : {"1e-9", "0x1p-30", "1.001", "1.0000001", "0.999", ".9999", "0.001",
-                             "0.005", ".0005", "1e18", "2.5e+30", "0x1p+60", "0x1p100"}) {
+  for (const char* number :
+       {"1e-9", "0x1p-30", "1.001", "1.0000001", "0.999", ".9999", "0.001", "0.005", ".0005",
+        "1e18", "2.5e+30", "0x1p+60", "0x1p100", "20.001", "0.125", "3.14159", "5 * kUnitRoundoff",
+        "12 * numeric::kUnitRoundoff"}) {
     EXPECT_EQ(UnnamedEpsilons(std::string("x *= ") + number + ";\n"), std::vector<int>{1})
         << number;
   }
-  for (const char* number :
-       {"0.5", "0.98", "1.05", "1.0", "0.0", "1e3", "0x1p+3", "100", "20.001"}) {
+  for (const char* number : {"0.5", "0.98", "1.05", "1.0", "0.0", "1e3", "0x1p+3", "0x1.921fp+0",
+                             "100", "0.500", "kErrorOfGap * kUnitRoundoff"}) {
     EXPECT_TRUE(UnnamedEpsilons(std::string("x *= ") + number + ";\n").empty()) << number;
   }
   EXPECT_EQ(CountLines("a\nb\n"), 2);
@@ -170,6 +173,20 @@ TEST(Style, NoEpsilonOfTheCoreIsUnnamed) {
     if (file.path.rfind("collision_core/", 0) != 0) continue;
     for (const int line : UnnamedEpsilons(file.text)) ADD_FAILURE() << file.path << ":" << line;
   }
+}
+
+TEST(Style, TheUnitRoundoffHasOneDefinition) {
+  int definitions = 0;
+  for (const SourceFile& file : SourceFiles({".h", ".cc"})) {
+    if (file.path.rfind("collision_core/", 0) != 0) continue;
+    std::istringstream lines(file.text);
+    for (std::string line; std::getline(lines, line);) {
+      if (!Finds("\\b0x1p-53\\b", CodeOf(line))) continue;
+      EXPECT_EQ(file.path, "collision_core/numeric/allowances.h") << line;
+      ++definitions;
+    }
+  }
+  EXPECT_EQ(definitions, 1);
 }
 
 TEST(Style, NothingIsLeftOver) {

@@ -22,7 +22,7 @@ struct Part {
 // The parts of a body, without an allocation if there is only one: it is requested often.
 class BodyParts {
  public:
-  explicit BodyParts(const Body& body) : one_{{body.mesh, 0}} {
+  explicit BodyParts(const Body& body) : one_{{{body.mesh, 0}}} {
     if (body.IsBall()) one_[0].rounding_m = body.radius_m;
     if (body.solids == nullptr || body.solids->empty()) return;
     if (body.mesh != nullptr) many_.push_back(one_[0]);

@@ -20,13 +20,12 @@
 #include <cmath>
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::geometry {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double kUnit = 0x1p-53;
 
 struct HalfEdges {
   std::array<Vector3d, 6> edges;
@@ -48,6 +47,19 @@ constexpr double kParallel = 1e-28;
 
 /// On σ, a root, a quotient and products of positive terms: a few roundings, and the second order.
 constexpr double kSineUp = 1.01;
+
+/// Of |g_i| |g_j|: n is off from N by less than 4u of it, and it is itself a root of a product that
+/// is off by less than 5u.
+constexpr double kNormalError = 5 * numeric::kUnitRoundoff;
+
+/// Of |n| S: f(n) is off by 10u of it, and this product by a few roundings of itself.
+constexpr double kReachError = 12 * numeric::kUnitRoundoff;
+
+/// |n| is off by 2.5u of itself (squares, two sums, a root). The two products with these factors,
+/// the sum that bounds |N|, the difference of reach and error, and the quotient cost a rounding
+/// each: 7.5u in all. The factors take 8u.
+constexpr double kLengthUp = 1 + 4 * numeric::kUnitRoundoff,
+                 kRadiusDown = 1 - 4 * numeric::kUnitRoundoff;
 
 /// IsNoNearer() leaves aside normals with a squared sine below kClearSquare, and reaches beyond 0
 /// below 1e-10 |g_i| |g_j| S. With σ < 1.1e-14 a reach is off by less than 1.3e-14 |g_i| |g_j| S:
@@ -81,7 +93,7 @@ class Faces {
         const double square = half_.edges[i].cross(half_.edges[j]).squaredNorm();
         if (!(squares > 0) || square > kParallel * squares) continue;
         if (++partners[i] > 1 || ++partners[j] > 1) return false;
-        parallel_ = std::max(parallel_, kSineUp * std::sqrt(square / squares) + 5 * kUnit);
+        parallel_ = std::max(parallel_, kSineUp * std::sqrt(square / squares) + kNormalError);
       }
     }
     return true;
@@ -115,10 +127,10 @@ class Faces {
     const double beyond = reach - std::abs(along);
     if (IsNoNearer(beyond, square, squares)) return false;
     const double length = std::sqrt(square), lengths = std::sqrt(squares);
-    const double off = (5 * kUnit + kSineUp * parallel_) * lengths;
-    const double error = (12 * kUnit * length + off) * pair_.size();
-    const double most = (1 + 5 * kUnit) * length + off;
-    inside_ = std::min(inside_, (beyond - error) / most * (1 - 4 * kUnit));
+    const double off = (kNormalError + kSineUp * parallel_) * lengths;
+    const double error = (kReachError * length + off) * pair_.size();
+    const double most = kLengthUp * length + off;
+    inside_ = std::min(inside_, (beyond - error) / most * kRadiusDown);
     if (-beyond > found_.gap * length) {
       found_.gap = -beyond / length;
       found_.direction = along < 0 ? Vector3d(n / -length) : Vector3d(n / length);

@@ -64,7 +64,7 @@ ConvexSet BallSet(const Eigen::Vector3d& centre, double radius);
 /// · the greatest n·x of a core is less than n·(computed support point) + kSupportError span;
 /// · a computed support point is within kSupportError span of a point of the core.
 /// Where all products underflow, kSupportUnderflow is added.
-inline constexpr double kSupportError = 18 * 0x1p-53;
+inline constexpr double kSupportError = 18 * numeric::kUnitRoundoff;
 inline constexpr double kSupportUnderflow = 0x1p-500;
 
 /// At least |v|: a root of a sum of three squares is off by 2.5 · 2^-53 of itself, but for

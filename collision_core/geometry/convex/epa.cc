@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision_core/geometry/convex/epa_faces.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::geometry {
 namespace {
@@ -12,16 +13,16 @@ using Eigen::Vector3d;
 using Point = ConvexPair::Point;
 
 /// A difference whose height is less than this share of S counts as flat.
-constexpr double kFlat = 64 * 0x1p-53;
+constexpr double kFlat = 64 * numeric::kUnitRoundoff;
 
 /// A face is final where the difference reaches beyond it by less than this share of S; where it is
 /// smooth, a finer face would be too small for its normal to be known.
-constexpr double kFinal = 4 * 0x1p-53;
+constexpr double kFinal = 4 * numeric::kUnitRoundoff;
 constexpr double kFinalSmooth = 0x1p-40;
 
 /// A point that is beyond a face of the first tetrahedron by less than this share of S counts as in
 /// its plane: differences, products with its normal and their sums, a rounding each.
-constexpr double kInPlane = 8 * 0x1p-53;
+constexpr double kInPlane = 8 * numeric::kUnitRoundoff;
 
 /// After this many steps each the certain radius is recorded, in case the surface degenerates
 /// later.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/exact_sign.h"
 
 namespace collision::geometry {
@@ -16,11 +17,11 @@ constexpr double kNeedle = 1e-10;
 
 /// Relative to |y_0| |e_1| |e_2|: more than twice what a computed y_0·(e_1 × e_2) is off by, 12u
 /// (IsSeenFromWithin).
-constexpr double kTripleError = 32 * 0x1p-53;
+constexpr double kTripleError = 32 * numeric::kUnitRoundoff;
 
 /// Relative to S: n·y is off by 3u |y| <= 3u √3 S, and |n| by 4u, which counts of the distance, at
 /// most S; below 9.2u, rounded up.
-constexpr double kDistanceError = 12 * 0x1p-53;
+constexpr double kDistanceError = 12 * numeric::kUnitRoundoff;
 
 constexpr int kNext[3] = {1, 2, 0};
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "collision_core/geometry/convex/gjk_simplex.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::geometry {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Up to this share of S, a distance counts as contact: a search in doubles cannot resolve less.
-constexpr double kTouching = 4 * 0x1p-53;
+constexpr double kTouching = 4 * numeric::kUnitRoundoff;
 
 /// Smooth cores are followed down to this share of S: further down the corners of a simplex are so
 /// near to each other that it has no direction.
@@ -18,7 +19,7 @@ constexpr double kSmooth = 0x1p-44;
 
 /// Largest magnitude that counts as 0 for the weighted sum of corners that enclose 0: this share of
 /// S, or this share of the squared distance before.
-constexpr double kEncloses = 16 * 0x1p-53;
+constexpr double kEncloses = 16 * numeric::kUnitRoundoff;
 constexpr double kEnclosesShare = 0x1p-40;
 
 class Search {

@@ -65,8 +65,8 @@ class ConvexPair {
   double PointError() const { return kPointError * size_ + kSupportUnderflow; }
 
  private:
-  static constexpr double kGapError = kSupportError + 8 * 0x1p-53;
-  static constexpr double kPointError = kSupportError + 14 * 0x1p-53;
+  static constexpr double kGapError = kSupportError + 8 * numeric::kUnitRoundoff;
+  static constexpr double kPointError = kSupportError + 14 * numeric::kUnitRoundoff;
 
   const ConvexSet& a_;
   const ConvexSet& b_;

@@ -25,11 +25,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEpsilon = 0x1p-53;
-
 /// The determinant in doubles is off by at most (7 + 56ε) ε times its permanent, as computed
 /// (Shewchuk, "Adaptive precision floating-point arithmetic", 1997, orient3d).
-constexpr double kVolumeRounding = 8 * kEpsilon;
+constexpr double kVolumeRounding = 8 * numeric::kUnitRoundoff;
 
 /// Coordinates beyond this [m] are never certain. Within it, products that underflow add at most
 /// kVolumeUnderflow: twelve of 2^-1075, times a coordinate.
@@ -37,11 +35,15 @@ constexpr double kCoordinateMax = 0x1p+150;
 constexpr double kVolumeUnderflow = 0x1p-900;
 
 /// The four cross products are off by at most 7.1ε ℓ² each.
-constexpr double kAreaRounding = 32 * kEpsilon;
+constexpr double kAreaRounding = 32 * numeric::kUnitRoundoff;
 
 /// Sums, products, quotients and roots of positive numbers, at most a dozen one after the other:
 /// kSomeRoundingsUp rounds them up, and this down.
 constexpr double kSomeRoundingsDown = 1 - 0x1p-48;
+
+/// Of the point where an edge passes: per coordinate the difference, the product and the sum are
+/// off by 3ε of the largest, √3 times that in length.
+constexpr double kPointRounding = 8 * numeric::kUnitRoundoff;
 
 constexpr int kNext[3] = {1, 2, 0};
 
@@ -198,8 +200,7 @@ Crossing CrossingOf(const EdgePassage& passage, const TrianglePoints& edges,
   const double length = (q - p).norm();
   double reach = 0;
   for (const Vector3d& corner : triangle) reach = std::max(reach, (corner - crossing.point).norm());
-  // Per coordinate the difference, the product and the sum are off by 3ε of the largest.
-  const double rounding = 8 * kEpsilon * (length + crossing.point.norm());
+  const double rounding = kPointRounding * (length + crossing.point.norm());
   const double along = std::max(t_high - t, t - t_low) * length;
   crossing.error = (uncertainty + std::min(along, reach) + rounding) * numeric::kSomeRoundingsUp;
   crossing.normal = (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]).normalized();

@@ -24,6 +24,7 @@
 #include <cmath>
 
 #include "collision_core/geometry/triangle/triangle_pair.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/rounding.h"
 
 namespace collision::geometry {
@@ -31,18 +32,17 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kEpsilon = 0x1p-53;
-constexpr double kUpperSlack = 20 * kEpsilon;  ///< Of S_a + S_b.
-constexpr double kLowerSlack = 6 * kEpsilon;   ///< Of |n|₁ (S_a + S_b).
+constexpr double kUpperSlack = 20 * numeric::kUnitRoundoff;  ///< Of S_a + S_b.
+constexpr double kLowerSlack = 6 * numeric::kUnitRoundoff;   ///< Of |n|₁ (S_a + S_b).
 /// A quotient and a root of values rounded a few times: the lower end is taken down by this.
-constexpr double kShrink = 1 - 16 * kEpsilon;
+constexpr double kShrink = 1 - 16 * numeric::kUnitRoundoff;
 /// Squares of lengths below 2^-530 underflow; they may count as zero, so the upper end adds more.
 constexpr double kUnderflow = 0x1p-500;
 /// The least n² of a direction in use: products of shorter ones would underflow.
 constexpr double kDirectionMin = 0x1p-700;
 /// A bracket narrower than this times S_a + S_b is as good as the arithmetic: no other direction is
 /// tried.
-constexpr double kTight = 64 * kEpsilon;
+constexpr double kTight = 64 * numeric::kUnitRoundoff;
 
 constexpr int kNext[3] = {1, 2, 0};
 

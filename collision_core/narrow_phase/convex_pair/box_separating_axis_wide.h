@@ -30,6 +30,8 @@ constexpr double kSizeMax = 1e45;
 constexpr double kFaceError = 0x1p-49;
 constexpr double kEdgeError = 0x1p-43;
 constexpr double kSquare = 0x1p-46;
+/// Of s_A³ s_B²: |N| of n' = C_j × C_m is at most 6 W b_j b_m, 1/18 of it.
+constexpr double kFaceNormalMax = 0.0625;
 /// More than what underflows, and above rounding of the last few steps.
 constexpr double kTiny = 0x1p-1000;
 constexpr double kMore = 1 + 0x1p-40;
@@ -109,7 +111,7 @@ WIDE inline BoxSeparation TestAxes(const BoxPair& pair) {
   const Doubles along = (p[0] * across[0] + p[1] * across[1]) + p[2] * across[2];
   const Doubles own =
       (s[0] * Magnitude(across[0]) + s[1] * Magnitude(across[1])) + s[2] * Magnitude(across[2]);
-  const double face_margin = margin * (faces * pair.span_a * pair.span_b) * 0.0625;
+  const double face_margin = margin * (faces * pair.span_a * pair.span_b) * kFaceNormalMax;
   touching = touching && AllOfThree((own + Magnitude(volume)) - Magnitude(along) > face_margin);
   return touching ? BoxSeparation::kTouching : BoxSeparation::kUnknown;
 }

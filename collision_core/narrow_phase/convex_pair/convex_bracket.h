@@ -12,19 +12,20 @@
 
 #include "collision_core/geometry/convex/gjk.h"
 #include "collision_core/narrow_phase/convex_pair/convex_query.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/numeric/interval.h"
 
 namespace collision::narrow_phase {
 
 /// Relative error of a computed unit vector, of its length, and of a product with it: a few
 /// roundings of 2^-53 each.
-inline constexpr double kUnitVectorError = 8 * 0x1p-53;
+inline constexpr double kUnitVectorError = 8 * numeric::kUnitRoundoff;
 
 /// π / 2, rounded up: θ <= (π / 2) sin θ up to a right angle.
 inline constexpr double kHalfPiUp = 1.5707963267948968;
 
 /// A bracket narrower than this share of the pair's size is as good as the arithmetic.
-inline constexpr double kTightestWidth = 96 * 0x1p-53;
+inline constexpr double kTightestWidth = 96 * numeric::kUnitRoundoff;
 
 /// Bounds of the distance of two convex sets in one frame. The sets outlive it. Not thread-safe;
 /// each operation costs a pair of support points or less.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "collision_core/base/check.h"
+#include "collision_core/numeric/allowances.h"
 
 namespace collision::narrow_phase {
 namespace {
@@ -13,7 +14,7 @@ using Eigen::Vector3d;
 /// With u = 2^-53, all of it relative to what is added up: kSupportError (18u) of span;
 /// differences, cross products and the direction's sum 5u; products with it 3u; the last sums 4u;
 /// the length times the rounding 4u. √3 for cross products by components.
-constexpr double kFrontError = 48 * 0x1p-53;
+constexpr double kFrontError = 48 * numeric::kUnitRoundoff;
 
 /// n is longer than 1 by less than 2^-20; 2^-10 covers that and the bounds' own rounding.
 constexpr double kBoundsUp = 1 + 0x1p-10;

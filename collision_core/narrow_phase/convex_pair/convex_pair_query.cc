@@ -14,15 +14,15 @@ namespace {
 
 /// Sums of a core's distance, the rounding and the errors: off by less than this share of the
 /// pair's size and the rounding.
-constexpr double kSumRounding = 8 * 0x1p-53;
+constexpr double kSumRounding = 8 * numeric::kUnitRoundoff;
 
 /// Relative to the same: what a search leaves of an answer, 32 · 2^-53 (kGapError in
 /// gjk_small_wide.h), and kSumRounding, more than three times.
-constexpr double kVerdictMargin = 128 * 0x1p-53;
+constexpr double kVerdictMargin = 128 * numeric::kUnitRoundoff;
 
 /// Relative to the same: four times kSumRounding, so that contact remains when OfSets() has counted
 /// it in.
-constexpr double kInsideMargin = 32 * 0x1p-53;
+constexpr double kInsideMargin = 32 * numeric::kUnitRoundoff;
 
 /// The bracket of the sets, given that of their cores: roundings and errors counted in.
 numeric::Interval OfSets(const numeric::Interval& of_cores, double rounding,

@@ -9,17 +9,17 @@
 #include <cmath>
 
 #include "collision_core/narrow_phase/convex_pair/gjk_small.h"
+#include "collision_core/numeric/allowances.h"
 #include "collision_core/simd/doubles_wide.h"
 
 namespace collision::narrow_phase::gjk_small::COLLISION_SIMD {
 
 using namespace simd::COLLISION_SIMD;
 
-constexpr double kUnit = 0x1p-53;
-constexpr double kGapError = 32 * kUnit;
-constexpr double kPointError = 36 * kUnit;
+constexpr double kGapError = 32 * numeric::kUnitRoundoff;
+constexpr double kPointError = 36 * numeric::kUnitRoundoff;
 /// Nearer than this share of S a search in doubles cannot tell.
-constexpr double kTouching = 4 * kUnit;
+constexpr double kTouching = 4 * numeric::kUnitRoundoff;
 constexpr int kStepsMax = 24;
 
 /// Copied one by one: what has been written as numbers and is read as pairs has to wait.
@@ -275,14 +275,24 @@ class Search {
   /// On the radius: a product and a sum of positive terms, and the product with this.
   static constexpr double kRadiusUp = 1 + 0x1p-40;
 
+<<<<<<< HEAD
   /// 0 and four corners: the volumes with each face all have one sign. A triple product of vectors
   /// up to S is off by less than 16u S³, and the exact corners by kPointError S: the ball belongs
   /// to their hull if 0 is further than both together from each face. Its normal is off by less
   /// than 16u S², which times the radius is small compared with 16u S³.
+=======
+  /// Of S³: a triple product of vectors up to S is off by less than 16u of it, and a face's normal
+  /// by less than 16u S², which times the radius is small beside that. Four times as much.
+  static constexpr double kVolumeError = 64 * numeric::kUnitRoundoff;
+
+  /// 0 and four corners: the volumes with each face all have one sign. The exact corners are off by
+  /// kPointError S, the volumes by kVolumeError S³: the ball belongs to their hull if 0 is further
+  /// than both together from each face.
+>>>>>>> 93b1b3b5d87c97a4cb1ea1494d1a615c16141fc3
   WIDE_INLINE bool HoldsBall() const {
     const double size = pair_.size;
     const double radius = kRadiusUp * (pair_.inside + kPointError * size);
-    const double error = 64 * kUnit * (size * size * size);
+    const double error = kVolumeError * (size * size * size);
     constexpr int kFaces[4][4] = {{1, 2, 3, 0}, {0, 3, 2, 1}, {0, 1, 3, 2}, {0, 2, 1, 3}};
     bool positive = true, negative = true;
     for (const auto& f : kFaces) {

@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Relative error of a root of a sum of three products and of a division.
-constexpr double kUnitError = 8 * 0x1p-53;
+constexpr double kUnitError = 8 * numeric::kUnitRoundoff;
 
 /// n / |n|.
 PosedHalfSpace Normalised(const shape::ConvexHalfSpace& half_space) {

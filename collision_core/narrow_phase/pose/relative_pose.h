@@ -14,7 +14,7 @@ namespace collision::narrow_phase {
 
 /// R_AB x + p_AB, entry by entry three products and three sums, of terms below 1.1 |x| and
 /// |offset|: less than 8 units of |x| + |offset| on each axis, and √3 times that in length.
-inline constexpr double kPosingRounding = 16 * 0x1p-53;
+inline constexpr double kPosingRounding = 16 * numeric::kUnitRoundoff;
 
 /// R_AB lengthens no vector by more: it is a rotation to within 2^-20.
 inline constexpr double kPosedLengthUp = 1 + 0x1p-20;

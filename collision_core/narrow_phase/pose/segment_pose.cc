@@ -2,15 +2,15 @@
 
 #include <algorithm>
 
+#include "collision_core/numeric/allowances.h"
+
 namespace collision::narrow_phase {
 namespace {
 
-// 2^-53: each operation on doubles is off by at most this share of its result.
-constexpr double kUnit = 0x1p-53;
-
 // A product of two matrices of norm at most 1 + 2^-20, entry by entry three products and two sums:
-// each entry is off by less than 3.1 units, the matrix as a whole by less than three times as much.
-constexpr double kProductRounding = 16 * kUnit;
+// each entry is off by less than 3.1 kUnitRoundoff, the matrix as a whole by less than three times
+// as much.
+constexpr double kProductRounding = 16 * numeric::kUnitRoundoff;
 
 struct Orientation {
   numeric::Rotation rotation;
@@ -20,6 +20,13 @@ struct Orientation {
 // A rotation with a larger error counts as unknown (kRotationAngleMax).
 constexpr double kAnyRotation = 0.5;
 
+// The chord 2 sin(θ/2) is at most θ, and less by θ²/24 of it: up to this angle [rad], where that is
+// less than a thousandth, θ itself will do.
+constexpr double kSmallAngle = 0.125;
+
+// Less than π: up to this angle [rad] the chord grows with it. Beyond, 2 bounds it.
+constexpr double kGrowingAngle = 3.14159;
+
 // A ball looks the same however it is turned. For a body that may be turned any way, every exact
 // orientation is as good as another.
 Orientation OrientationOf(const BodySegment& body, std::size_t bound, double delta) {
@@ -28,9 +35,8 @@ Orientation OrientationOf(const BodySegment& body, std::size_t bound, double del
   Orientation orientation{RotationOf(turn.OrientationAt(delta)), 2};
   if (orientation.rotation.error > kAnyRotation) return {numeric::Rotation{}, 2};
   const double angle = std::max(0.0, turn.angle_error.At(delta).upper);
-  // 2 sin(θ/2) <= θ; the difference matters for large angles only.
-  if (angle <= 0.125) orientation.chord = angle;
-  if (angle > 0.125 && angle < 3.14159) {
+  if (angle <= kSmallAngle) orientation.chord = angle;
+  if (angle > kSmallAngle && angle < kGrowingAngle) {
     orientation.chord = std::min(2.0, 2 * SinCosOf(numeric::Interval(angle / 2)).sin.upper);
   }
   return orientation;

@@ -1,7 +1,7 @@
 // Goal:   in a crowd no contact is late, none is made up, brackets contain the truth and are nearly
 //         tight, and the cached earliest intersection is the one computed from scratch.
 // Method: seeded crowds under forces that honour M exactly, with states of unequal rate; the
-//         truth is the closed-form motion, sampled eight times a step and bisected.
+//         truth is BallContacts (tests/support/truth).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +11,7 @@
 #include "collision_core/detection/detector.h"
 #include "collision_core/intersection/earliest_intersection.h"
 #include "tests/support/random.h"
+#include "tests/support/truth/ball_contacts.h"
 
 namespace collision::detection {
 namespace {
@@ -20,16 +21,13 @@ using Eigen::Vector3d;
 constexpr double kStep = 1.0 / 64;
 constexpr double kRadius = 0.5;
 constexpr double kAccelerationMax = 5;
-constexpr int kSamples = 8;
+// More than a position 7,000 km from the origin is rounded by, in all steps of a run [m].
+constexpr double kTolerance = 1e-7;
 
 Instant At(double seconds) {
   return Instant::FromNanoseconds(static_cast<std::int64_t>(std::llround(seconds * 1e9)));
 }
 double Seconds(Instant t) { return static_cast<double>(t.nanoseconds()) * 1e-9; }
-
-struct Knot {
-  Vector3d p = Vector3d::Zero(), v = Vector3d::Zero(), a = Vector3d::Zero();
-};
 
 // Every agent's exact motion: quadratic over each step.
 class Crowd {
@@ -38,18 +36,20 @@ class Crowd {
     const Vector3d middle = Vector3d::Constant(offset + box / 2);
     Random random(seed);
     for (std::size_t i = 0; i < agents; ++i) {
-      Knot knot{{offset + random.Uniform(0, box), offset + random.Uniform(0, box),
-                 offset + random.Uniform(0, box)},
-                random.UnitVector() * random.Uniform(0, 8),
-                {}};
-      std::vector<Knot> motion;
+      MotionPiece knot;
+      knot.p = {offset + random.Uniform(0, box), offset + random.Uniform(0, box),
+                offset + random.Uniform(0, box)};
+      knot.v = random.UnitVector() * random.Uniform(0, 8);
+      PiecewiseMotion motion;
       for (int k = 0; k < steps; ++k) {
+        knot.start_ns = At(k * kStep).nanoseconds();
+        knot.end_ns = At((k + 1) * kStep).nanoseconds();
         // Towards the middle, and at random; shortened a little, so that rounding cannot pass M.
         const Vector3d pull = (middle - knot.p) / box * kAccelerationMax;
         knot.a = pull + random.UnitVector() * kAccelerationMax;
         knot.a *= random.Uniform(0, 1 - 1e-12) * kAccelerationMax /
                   std::max(knot.a.norm(), kAccelerationMax);
-        motion.push_back(knot);
+        motion.pieces.push_back(knot);
         knot.p += knot.v * kStep + knot.a * (kStep * kStep / 2);
         knot.v += knot.a * kStep;
       }
@@ -58,46 +58,35 @@ class Crowd {
   }
 
   std::size_t size() const { return motion_.size(); }
-  const Knot& Start(std::size_t agent, int step) const { return motion_[agent][step]; }
-
-  Vector3d Position(std::size_t agent, double t) const {
-    const int last = static_cast<int>(motion_[agent].size()) - 1;
-    const int step = std::clamp(static_cast<int>(t / kStep), 0, last);
-    const double dt = t - step * kStep;
-    const Knot& knot = motion_[agent][step];
-    return knot.p + knot.v * dt + knot.a * (dt * dt / 2);
+  const MotionPiece& Start(std::size_t agent, int step) const {
+    return motion_[agent].pieces[static_cast<std::size_t>(step)];
   }
+  const PiecewiseMotion& Motion(std::size_t agent) const { return motion_[agent]; }
 
-  double Gap(std::size_t a, std::size_t b, double t) const {
-    return (Position(a, t) - Position(b, t)).norm() - 2 * kRadius;
+  Real Gap(std::size_t a, std::size_t b, Instant t) const {
+    const std::int64_t t_ns = t.nanoseconds();
+    const Vector apart = motion_[b].At(t_ns).TrueAt(t_ns).p - motion_[a].At(t_ns).TrueAt(t_ns).p;
+    return apart.norm() - 2 * kRadius;
   }
 
  private:
-  std::vector<std::vector<Knot>> motion_;
+  std::vector<PiecewiseMotion> motion_;
 };
 
 struct Contact {
   std::size_t a, b;
-  double begin;
+  Instant begin;
 };
 
-std::vector<Contact> TrueContacts(const Crowd& crowd, double end) {
+// Those that begin in motion, and are deeper than rounding of the positions.
+std::vector<Contact> TrueContacts(const Crowd& crowd, Instant end) {
   std::vector<Contact> contacts;
   for (std::size_t a = 0; a < crowd.size(); ++a) {
     for (std::size_t b = a + 1; b < crowd.size(); ++b) {
-      bool touching = crowd.Gap(a, b, 0) <= 0;
-      for (double t = 0; t < end; t += kStep / kSamples) {
-        const double next = t + kStep / kSamples;
-        const bool touching_next = crowd.Gap(a, b, next) <= 0;
-        if (!touching && touching_next) {
-          double apart = t, touch = next;
-          for (int i = 0; i < 60; ++i) {
-            const double middle = (apart + touch) / 2;
-            (crowd.Gap(a, b, middle) > 0 ? apart : touch) = middle;
-          }
-          contacts.push_back({a, b, touch});
-        }
-        touching = touching_next;
+      for (const BallContact& contact :
+           BallContacts(crowd.Motion(a), crowd.Motion(b), 2 * kRadius, 0, end.nanoseconds())) {
+        if (!contact.begins_in_motion || contact.depth < kTolerance) continue;
+        contacts.push_back({a, b, Instant::FromNanoseconds(contact.begin_ns)});
       }
     }
   }
@@ -109,7 +98,7 @@ AgentId Id(std::size_t slot) { return {1, static_cast<std::uint32_t>(slot), 1, 1
 struct RunLog {
   std::vector<CollisionEvent> events;
   struct Promise {
-    double now, clear_until;
+    Instant now, clear_until;
   };
   std::vector<std::vector<Promise>> promises;  // by agent
   std::uint64_t mismatched_earliest = 0;
@@ -156,8 +145,7 @@ RunLog Simulate(const Crowd& crowd, int steps) {
       last[{event.lower, event.higher}] = event.status;
     }
     for (const AgentClearance& clearance : detector.TakeChangedClearances()) {
-      run.promises[clearance.agent.slot].push_back(
-          {Seconds(now), clearance.clear_until.is_never() ? 1e9 : Seconds(clearance.clear_until)});
+      run.promises[clearance.agent.slot].push_back({now, clearance.clear_until});
     }
     if (step % 8 != 0) continue;
     const bool contact = std::any_of(last.begin(), last.end(), [](const auto& entry) {
@@ -181,12 +169,14 @@ RunLog Simulate(const Crowd& crowd, int steps) {
   return run;
 }
 
+// What the truth is off by [ns]: the root, and the nanosecond that it is cut to.
+constexpr std::int64_t kOracle = 2;
+
 bool Explains(const CollisionEvent& event, const Contact& contact) {
   if (event.lower != Id(contact.a) || event.higher != Id(contact.b)) return false;
-  constexpr double kOracle = 2e-9;  // the bisection's own error, and the nanosecond
-  const double begin = contact.begin;
+  const std::int64_t begin = contact.begin.nanoseconds();
   const auto within = [&](Instant from, Instant to) {
-    return Seconds(from) <= begin + kOracle && (to.is_never() || begin <= Seconds(to) + kOracle);
+    return from.nanoseconds() <= begin + kOracle && begin - kOracle <= to.nanoseconds();
   };
   switch (event.status) {
     case EventStatus::kConfirmed:
@@ -207,29 +197,28 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
   // Half of the crowds are 7,000 km from the origin, where a position is known to a nanometre.
   const Crowd crowd(100 + GetParam(), 30, 10, kSteps + 1, GetParam() % 2 == 0 ? 0 : 7e6);
   const RunLog run = Simulate(crowd, kSteps);
-  const double judged = (kSteps - 8) * kStep;
-  const std::vector<Contact> contacts = TrueContacts(crowd, judged);
+  const std::vector<Contact> contacts = TrueContacts(crowd, At((kSteps - 8) * kStep));
   ASSERT_GT(contacts.size(), 5u);
 
   for (const Contact& contact : contacts) {
     const auto explained = std::any_of(run.events.begin(), run.events.end(),
                                        [&](const auto& event) { return Explains(event, contact); });
-    EXPECT_TRUE(explained) << contact.a << "-" << contact.b << " at " << contact.begin;
+    EXPECT_TRUE(explained) << contact.a << "-" << contact.b << " at " << Seconds(contact.begin);
     const auto announced =
         std::any_of(run.events.begin(), run.events.end(), [&](const auto& event) {
           return event.lower == Id(contact.a) && event.higher == Id(contact.b) &&
-                 Seconds(event.now) <= contact.begin && event.status == EventStatus::kPossible;
+                 event.now <= contact.begin && event.status == EventStatus::kPossible;
         });
-    EXPECT_TRUE(announced) << contact.a << "-" << contact.b << " at " << contact.begin;
+    EXPECT_TRUE(announced) << contact.a << "-" << contact.b << " at " << Seconds(contact.begin);
     for (const std::size_t agent : {contact.a, contact.b}) {
       for (const RunLog::Promise& promise : run.promises[agent]) {
-        const bool broken =
-            promise.now <= contact.begin && contact.begin < promise.clear_until - 1e-9;
+        const bool broken = promise.now <= contact.begin &&
+                            contact.begin.nanoseconds() < promise.clear_until.nanoseconds() - 1;
         if (!broken) continue;
         // Only a pair in contact is exempt: the earlier contact of the same two had not ended.
         EXPECT_LE(crowd.Gap(contact.a, contact.b, promise.now), 0)
-            << contact.a << "-" << contact.b << " promised " << promise.clear_until << " at "
-            << promise.now;
+            << contact.a << "-" << contact.b << " promised " << Seconds(promise.clear_until)
+            << " at " << Seconds(promise.now);
       }
     }
   }
@@ -238,16 +227,16 @@ TEST_P(DetectorSwarm, NeverLateNeverMadeUpNearlyTight) {
   for (const CollisionEvent& event : run.events) {
     const std::size_t a = event.lower.slot, b = event.higher.slot;
     if (event.status == EventStatus::kConfirmed || event.status == EventStatus::kEnded) {
-      EXPECT_LE(crowd.Gap(a, b, Seconds(event.begin.latest)), 1e-7);
-      EXPECT_GE(crowd.Gap(a, b, Seconds(event.begin.earliest)), event.began_before ? -1 : -1e-7);
+      EXPECT_LE(crowd.Gap(a, b, event.begin.latest), kTolerance);
+      EXPECT_GE(crowd.Gap(a, b, event.begin.earliest), event.began_before ? -1 : -kTolerance);
     }
     if (event.status == EventStatus::kEnded) {
-      EXPECT_GE(crowd.Gap(a, b, Seconds(event.end.latest)), -1e-7);
-      EXPECT_LE(crowd.Gap(a, b, Seconds(event.end.earliest)), 1e-7);
+      EXPECT_GE(crowd.Gap(a, b, event.end.latest), -kTolerance);
+      EXPECT_LE(crowd.Gap(a, b, event.end.earliest), kTolerance);
       widths.push_back(Seconds(event.begin.latest) - Seconds(event.begin.earliest));
     }
     if (event.status == EventStatus::kDismissed) {
-      EXPECT_GT(crowd.Gap(a, b, Seconds(event.now)), 0);
+      EXPECT_GT(crowd.Gap(a, b, event.now), 0);
     }
   }
   // Between states T <= 1/16 s apart two bounds of 5 m/s² meet at 2.5 mm; bodies close at metres a
@@ -271,13 +260,13 @@ TEST(DetectorSwarm, LazyIsScratchWhereRoundingDecides) {
   Detector detector{DetectorOptions{}};
   constexpr std::size_t kPairs = 24;
   const AgentDeclaration still{.limits = {1, 0}};
-  std::vector<Knot> start;
+  std::vector<MotionPiece> start;
   for (std::size_t i = 0; i < kPairs; ++i) {
     const Vector3d middle =
         random.UnitVector() * random.Uniform(1e6, 9e6) + Vector3d(1e5, 0, 0) * i;
     const Vector3d n = random.UnitVector();
-    start.push_back({middle - n * 51, n * 0.5, Vector3d::Zero()});
-    start.push_back({middle + n * 51, n * -0.5, Vector3d::Zero()});
+    start.push_back({.p = middle - n * 51, .v = n * 0.5});
+    start.push_back({.p = middle + n * 51, .v = n * -0.5});
   }
   std::vector<motion::SpaceTimeBound> newest(start.size());
   for (int step = 0; step < 400; ++step) {

@@ -1,4 +1,4 @@
-// When two balls touch, in plain doubles and without any code of the service.
+// When two balls touch, in long double as in true_motion.h.
 #pragma once
 
 #include <cstdint>

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <vector>
 
+#include "tests/support/truth/true_motion.h"
+
 namespace collision {
 
 /// p + v τ + ½ a τ² on [start, end), τ in seconds since start.
@@ -17,7 +19,14 @@ struct MotionPiece {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
   Eigen::Vector3d a = Eigen::Vector3d::Zero();
 
-  /// The same motion from a later instant on.
+  /// Where it is in truth.
+  TruePose TrueAt(std::int64_t t_ns) const {
+    const TrueMotion motion{{p.cast<Real>(), v.cast<Real>()},
+                            {{INFINITY, a.cast<Real>(), Vector::Zero()}}};
+    return motion.At(static_cast<Real>(t_ns - start_ns) * 1e-9L);
+  }
+
+  /// The same motion from a later instant on, rounded: what a scenario goes on with.
   MotionPiece From(std::int64_t t_ns) const {
     const double tau = static_cast<double>(t_ns - start_ns) * 1e-9;
     return {.start_ns = t_ns,
