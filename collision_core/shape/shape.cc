@@ -51,6 +51,15 @@ bool IsOfBody(const Shape& shape, const geometry::TriangleMesh& mesh, std::size_
          shape.solids().size() == solids;
 }
 
+/// Walks a tree that a builder made. In release builds the tests do.
+void WalkInDebugBuilds([[maybe_unused]] const sphere_tree::SphereTree& tree,
+                       [[maybe_unused]] const sphere_tree::TreeElements& elements) {
+#ifndef NDEBUG
+  const auto refusal = RefusalOf(tree, elements);
+  CORE_CHECK(!refusal, refusal->c_str(), elements.triangles, elements.solids);
+#endif
+}
+
 /// Builds the tree, without its packed layout.
 sphere_tree::SphereTree BuildTree(const geometry::TriangleMesh& mesh,
                                   const sphere_tree::ShapeOptions& options,
@@ -77,6 +86,7 @@ std::shared_ptr<const Shape> Shape::Build(geometry::TriangleMesh mesh,
   shape->tree_ = BuildTree(
       mesh, options,
       shape->closed() ? sphere_tree::SurfaceKind::kClosed : sphere_tree::SurfaceKind::kOpen);
+  WalkInDebugBuilds(shape->tree_, {.triangles = mesh.triangles.size()});
   shape->component_points_ = ComponentPoints(mesh);
   shape->mesh_ = std::move(mesh);
   shape->packed_ = sphere_tree::PackedTree(shape->mesh_, shape->tree_);
@@ -117,6 +127,7 @@ std::shared_ptr<const Shape> Shape::Compound(std::shared_ptr<const Shape> surfac
   }
   const auto triangles = static_cast<std::uint32_t>(surface ? surface->mesh().triangles.size() : 0);
   shape->tree_ = BuildCompound(surface ? &surface->tree() : nullptr, triangles, solids);
+  WalkInDebugBuilds(shape->tree_, {.triangles = triangles, .solids = solids.size()});
   shape->surface_ = std::move(surface);
   shape->solids_ = std::move(solids);
   CORE_CHECK(!twin || IsOfBody(*twin, shape->mesh(), shape->solids_.size()),

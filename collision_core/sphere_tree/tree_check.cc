@@ -22,7 +22,7 @@ bool HasBall(const SphereNode& node) {
 
 /// The children of all nodes stand one after the other, in the order of their parents: so each node
 /// but the root has one parent, which stands before it.
-std::optional<std::string> RefusalOfNodes(const SphereTree& tree) {
+std::optional<std::string> RefusalOfNodes(const SphereTree& tree, std::uint32_t levels_max) {
   std::size_t next_child = 1;
   std::uint32_t levels = 0;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -30,9 +30,9 @@ std::optional<std::string> RefusalOfNodes(const SphereTree& tree) {
     if (!HasBall(node)) return At(i, "no ball");
     if (i == 0 && node.level != 0) return At(i, "the root is on level 0");
     levels = node.level + 1;
-    if (levels > kTreeDepthMax) {
+    if (levels > levels_max) {
       return At(i, "level " + std::to_string(node.level) + "; allowed: less than " +
-                       std::to_string(kTreeDepthMax));
+                       std::to_string(levels_max));
     }
     if (node.children == 0) continue;
     if (node.children == 1 || node.children > kNodeChildrenMax) {
@@ -53,12 +53,13 @@ std::optional<std::string> RefusalOfNodes(const SphereTree& tree) {
   return std::nullopt;
 }
 
-/// The leaves' lists stand one after the other, in the order of the leaves, and each names a
-/// triangle once: so all of them together are no longer than `elements`.
-std::optional<std::string> RefusalOfTriangles(const SphereTree& tree,
-                                              const geometry::TriangleMesh& mesh) {
-  std::vector<bool> held(mesh.triangles.size());
-  std::size_t next_triangle = 0;
+/// The leaves' lists stand one after the other, in the order of the leaves, and each names an
+/// element once: so all of them together are no longer than `elements`. The solids' lists, of one
+/// each, come after all lists of triangles.
+std::optional<std::string> RefusalOfLeaves(const SphereTree& tree, const TreeElements& elements) {
+  std::vector<bool> held(elements.triangles + elements.solids);
+  const std::size_t pieces = tree.elements.size() - elements.solids;
+  std::size_t next_piece = 0, next_solid = pieces;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const SphereNode& node = tree.nodes[i];
     if (node.children > 0) {
@@ -66,42 +67,52 @@ std::optional<std::string> RefusalOfTriangles(const SphereTree& tree,
       continue;
     }
     if (node.elements == 0) return At(i, "a leaf without triangles");
-    if (node.first_element != next_triangle) {
-      return At(i, "its triangles do not stand where they belong");
-    }
-    if (node.elements > tree.elements.size() - next_triangle) {
+    const bool is_solid = node.first_element >= pieces;
+    std::size_t& next = is_solid ? next_solid : next_piece;
+    if (node.first_element != next) return At(i, "its triangles do not stand where they belong");
+    if (node.elements > (is_solid ? tree.elements.size() : pieces) - next) {
       return At(i, "triangles beyond the last");
     }
-    std::size_t least = 0;
-    for (const ElementIndex element : tree.ElementsOf(node)) {
-      const std::size_t triangle = element.value();
-      if (triangle >= held.size()) return At(i, "a triangle that the mesh does not have");
-      if (triangle < least) return At(i, "its triangles do not ascend");
-      least = triangle + 1;
-      held[triangle] = true;
+    if (is_solid && node.elements > 1) return At(i, "a solid that is not alone in its leaf");
+    const std::size_t end = is_solid ? held.size() : elements.triangles;
+    std::size_t least = is_solid ? elements.triangles : 0;
+    for (const ElementIndex index : tree.ElementsOf(node)) {
+      const std::size_t element = index.value();
+      if (element >= end) return At(i, "a triangle that the mesh does not have");
+      if (element < least) return At(i, "its triangles do not ascend");
+      least = element + 1;
+      held[element] = true;
     }
-    next_triangle += node.elements;
+    next += node.elements;
   }
-  if (next_triangle != tree.elements.size()) return "triangles that no leaf has";
-  for (std::size_t triangle = 0; triangle < held.size(); ++triangle) {
-    if (!held[triangle]) return "triangle " + std::to_string(triangle) + " is in no leaf";
+  if (next_piece != pieces || next_solid != tree.elements.size())
+    return "triangles that no leaf has";
+  for (std::size_t element = 0; element < held.size(); ++element) {
+    if (!held[element]) return "element " + std::to_string(element) + " is in no leaf";
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<std::string> RefusalOf(const SphereTree& tree, const geometry::TriangleMesh& mesh) {
-  const std::size_t nodes = tree.nodes.size(), triangles = tree.elements.size();
-  if (nodes == 0 || nodes > kTreeSizeMax || triangles > kTreeSizeMax) {
-    return std::to_string(nodes) + " nodes with " + std::to_string(triangles) +
+std::optional<std::string> RefusalOf(const SphereTree& tree, const TreeElements& elements) {
+  const std::size_t nodes = tree.nodes.size(), held = tree.elements.size();
+  if (nodes == 0 || nodes > kTreeSizeMax || held > kTreeSizeMax) {
+    return std::to_string(nodes) + " nodes with " + std::to_string(held) +
            " triangles; allowed: 1 to " + std::to_string(kTreeSizeMax);
   }
-  if (const std::size_t most = PiecesMax(mesh.triangles.size()); triangles > most) {
-    return std::to_string(triangles) + " triangles in leaves; allowed: " + std::to_string(most);
+  if (held < elements.solids) return "solids that no leaf has";
+  const std::size_t pieces = held - elements.solids;
+  if (const std::size_t most = PiecesMax(elements.triangles); pieces > most) {
+    return std::to_string(pieces) + " triangles in leaves; allowed: " + std::to_string(most);
   }
-  if (auto refusal = RefusalOfNodes(tree)) return refusal;
-  return RefusalOfTriangles(tree, mesh);
+  const std::uint32_t gathered = elements.solids > 0 ? kGatheredLevelsMax : 0;
+  if (auto refusal = RefusalOfNodes(tree, kTreeDepthMax + gathered)) return refusal;
+  return RefusalOfLeaves(tree, elements);
+}
+
+std::optional<std::string> RefusalOf(const SphereTree& tree, const geometry::TriangleMesh& mesh) {
+  return RefusalOf(tree, TreeElements{.triangles = mesh.triangles.size()});
 }
 
 }  // namespace collision::sphere_tree

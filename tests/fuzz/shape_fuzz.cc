@@ -74,6 +74,10 @@ void Damage(v1::SphereTree* tree, FuzzedData* data) {
 }
 
 void CheckTree(const std::shared_ptr<const shape::Shape>& shape, FuzzedData* data) {
+  const auto walked = RefusalOf(
+      shape->tree(), sphere_tree::TreeElements{.triangles = shape->mesh().triangles.size(),
+                                               .solids = shape->solids().size()});
+  Require(!walked, "a builder's tree is refused: ", walked.value_or(""));
   if (shape->mesh().triangles.empty() || !shape->solids().empty()) return;
   v1::SphereTree message = ToMessage(shape->tree());
   const std::optional<sphere_tree::SphereTree> back = FromMessage(message);

@@ -31,8 +31,9 @@ class AgentTable {
  public:
   explicit AgentTable(const AgentLimits& limits) : limits_(limits) {}
 
-  /// The index of a new agent without any state yet: Store() must follow. None() if `agents_max` is
-  /// reached or the id is present. Requires that an awaited shape is null.
+  /// The index of a new agent without any state yet. None() if `agents_max` is reached or the id is
+  /// present. Requires that an awaited shape is null. Unchecked: Store() follows before anything
+  /// else is asked about the agent.
   AgentIndex Admit(const AgentId& id, const AgentDeclaration& declaration, Instant stamp);
 
   /// None() if there is no agent of this name.
@@ -48,10 +49,10 @@ class AgentTable {
   /// One more than the greatest index ever used.
   std::size_t index_end() const { return agents_.size(); }
 
-  /// Appends a state under the agent's declaration to its history. RecordBound() must follow before
-  /// the step.
+  /// Appends a state under the agent's declaration to its history. Unchecked: RecordBound() follows
+  /// before the step; Validate() finds a bound beyond extremes() or with other features.
   void Store(AgentIndex agent, const motion::MotionState& state, Link link);
-  /// The newest bound has changed: records its expiry, and updates extremes() and profile().
+  /// The newest bound has changed (a state was stored, or it was declared anew): records its expiry, and updates extremes() and profile().
   void RecordBound(AgentIndex agent);
   /// Records that the agent has changed in this step.
   void MarkChanged(AgentIndex agent) { changed_.Insert(agent); }

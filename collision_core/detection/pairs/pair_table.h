@@ -84,10 +84,10 @@ class PairTable {
   /// The agent's tracked pairs. Requires AddAgent(agent).
   const std::vector<PairSlot>& Of(AgentIndex agent) const { return of_agent_.at(agent); }
 
-  /// Pairs that can still be added: in all, and with this agent.
+  /// Pairs that can still be added: in all, and with this agent. Requires AddAgent(agent).
   std::size_t room() const { return pairs_max_ - size_; }
   std::size_t RoomFor(AgentIndex agent) const;
-  bool IsFull(AgentIndex agent) const { return full_[agent] != 0 || room() == 0; }
+  bool IsFull(AgentIndex agent) const { return full_.at(agent) != 0 || room() == 0; }
 
   /// Walks the whole table: each pair stands with both its agents, which share no other; each other
   /// slot is free, and listed as free once.

@@ -212,7 +212,7 @@ Crossing CrossingOf(const EdgePassage& passage, const TrianglePoints& edges,
 
 std::optional<Crossing> CertainCrossing(const TrianglePoints& a, const TrianglePoints& b,
                                         double uncertainty) {
-  CORE_CHECK(!(uncertainty < 0), "an uncertainty is not below 0", uncertainty);
+  CORE_CHECK(uncertainty >= 0, "an uncertainty is a number, and not below 0", uncertainty);
   const EdgePassage passage = WidestPassage(a, b);
   if (!(passage.margin >= 0 && passage.margin >= uncertainty)) return std::nullopt;
   return passage.pierced == Pierced::kB ? CrossingOf(passage, a, b, uncertainty)

@@ -275,20 +275,13 @@ class Search {
   /// On the radius: a product and a sum of positive terms, and the product with this.
   static constexpr double kRadiusUp = 1 + 0x1p-40;
 
-<<<<<<< HEAD
-  /// 0 and four corners: the volumes with each face all have one sign. A triple product of vectors
-  /// up to S is off by less than 16u S³, and the exact corners by kPointError S: the ball belongs
-  /// to their hull if 0 is further than both together from each face. Its normal is off by less
-  /// than 16u S², which times the radius is small compared with 16u S³.
-=======
   /// Of S³: a triple product of vectors up to S is off by less than 16u of it, and a face's normal
-  /// by less than 16u S², which times the radius is small beside that. Four times as much.
+  /// by less than 16u S², which times the radius is small compared with that. Four times as much.
   static constexpr double kVolumeError = 64 * numeric::kUnitRoundoff;
 
   /// 0 and four corners: the volumes with each face all have one sign. The exact corners are off by
   /// kPointError S, the volumes by kVolumeError S³: the ball belongs to their hull if 0 is further
   /// than both together from each face.
->>>>>>> 93b1b3b5d87c97a4cb1ea1494d1a615c16141fc3
   WIDE_INLINE bool HoldsBall() const {
     const double size = pair_.size;
     const double radius = kRadiusUp * (pair_.inside + kPointError * size);

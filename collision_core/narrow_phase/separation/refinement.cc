@@ -113,8 +113,14 @@ void Refinement::RefineLargest(WorkBudget* work) {
 }
 
 RefinedPair Refinement::At(std::size_t pair) const {
+  CORE_CHECK(pair < entries_.size(), "a pair has been added", pair, entries_.size());
   const Entry& entry = entries_[pair];
   return {entry.search.lower(), entry.search.upper(), entry.spent, entry.search.done()};
+}
+
+SeparationBracket Refinement::Result(std::size_t pair) {
+  CORE_CHECK(pair < entries_.size(), "a pair has been added", pair, entries_.size());
+  return entries_[pair].search.Result();
 }
 
 std::vector<std::size_t> Refinement::Coarse() const {

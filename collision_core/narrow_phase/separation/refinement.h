@@ -58,13 +58,14 @@ class Refinement {
   void Refine(WorkBudget* work);
 
   std::size_t size() const { return entries_.size(); }
+  /// Requires pair < size(), as Result() does.
   RefinedPair At(std::size_t pair) const;
   /// Pairs that are not done, in order.
   std::vector<std::size_t> Coarse() const;
   /// Σ weight · width over all pairs [m].
   double TotalWidth() const;
   /// The whole answer of a pair, once.
-  SeparationBracket Result(std::size_t pair) { return entries_[pair].search.Result(); }
+  SeparationBracket Result(std::size_t pair);
 
  private:
   struct Entry {

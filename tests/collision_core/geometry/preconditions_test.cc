@@ -8,6 +8,7 @@
 #include "collision_core/geometry/convex/convex_points.h"
 #include "collision_core/geometry/mesh/triangle_mesh.h"
 #include "collision_core/geometry/triangle/enclosing_ball.h"
+#include "collision_core/geometry/triangle/triangle_pair.h"
 
 namespace collision::geometry {
 namespace {
@@ -42,6 +43,14 @@ TEST(GeometryPreconditions, RefusedPolygonsAreNotCut) {
   EXPECT_THROW(Triangulate(polygons, &repair), CheckFailure);
   polygons.corners[2] = 2;
   EXPECT_EQ(Triangulate(polygons, &repair).triangles.size(), 1u);
+}
+
+TEST(GeometryPreconditions, AnUncertaintyIsANumberNotBelowZero) {
+  const TrianglePoints a = {Eigen::Vector3d(0, 0, 0), {2, 0, 0}, {0, 2, 0}};
+  const TrianglePoints b = {Eigen::Vector3d(0.5, 0.5, -1), {0.5, 0.5, 1}, {0.5, 3, 0}};
+  EXPECT_TRUE(CertainCrossing(a, b, 0));
+  EXPECT_THROW(CertainCrossing(a, b, -1e-9), CheckFailure);
+  EXPECT_THROW(CertainCrossing(a, b, std::numeric_limits<double>::quiet_NaN()), CheckFailure);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "collision_core/narrow_phase/separation/element.h"
 #include "collision_core/narrow_phase/separation/refinement.h"
+#include "collision_core/sphere_tree/tree_check.h"
 #include "tests/collision_core/narrow_phase/convex_cases.h"
 #include "tests/collision_core/narrow_phase/posed_body.h"
 
@@ -61,6 +62,9 @@ void ExpectCovered(const sphere_tree::SphereNode& node, const shape::ConvexSolid
 
 void ExpectTree(const shape::Shape& shape) {
   const sphere_tree::SphereTree& tree = shape.tree();
+  EXPECT_EQ(RefusalOf(tree, sphere_tree::TreeElements{.triangles = shape.mesh().triangles.size(),
+                                                      .solids = shape.solids().size()}),
+            std::nullopt);
   std::vector<int> seen(ElementCountOf(shape), 0);
   std::uint32_t expected_child = 1;
   for (const sphere_tree::SphereNode& node : tree.nodes) {

@@ -5,6 +5,7 @@
 #include "collision_core/base/check.h"
 #include "collision_core/narrow_phase/contact/time_of_contact.h"
 #include "collision_core/narrow_phase/convex_pair/convex_search.h"
+#include "collision_core/narrow_phase/separation/refinement.h"
 #include "collision_core/narrow_phase/separation/separation_frontier.h"
 
 namespace collision::narrow_phase {
@@ -33,6 +34,12 @@ TEST(NarrowPhasePreconditions, ASpanOfTimeDoesNotEndBeforeItBegins) {
 TEST(NarrowPhasePreconditions, AnEmptyFrontierHasNoNextPair) {
   const Frontier frontier(FrontierOrder::kNewestFirst);
   EXPECT_THROW(frontier.next(), CheckFailure);
+}
+
+TEST(NarrowPhasePreconditions, ARefinementKnowsOnlyPairsThatWereAdded) {
+  Refinement refinement(RefinementOrder::kLargestFirst);
+  EXPECT_THROW(refinement.At(0), CheckFailure);
+  EXPECT_THROW(refinement.Result(0), CheckFailure);
 }
 
 }  // namespace

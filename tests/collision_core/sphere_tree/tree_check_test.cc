@@ -85,6 +85,51 @@ TEST(TreeCheck, RefusesWhatIsNoTreeOfTheMesh) {
   EXPECT_NE(RefusalOf(good, more), std::nullopt) << "a triangle in no leaf";
 }
 
+// Goal:   the tree of a compound passes with its solids, and each of them is alone in one leaf.
+// Method: three balls with and without a surface; a good tree, spoilt in one place.
+TEST(TreeCheck, ACompoundsTreeHasItsSolids) {
+  std::vector<shape::ConvexSolid> solids;
+  for (const double x : {-4.0, 0.0, 9.0}) {
+    shape::ConvexDescription ball;
+    ball.p_BS.x() = x;
+    ball.rounding = 1;
+    solids.push_back(shape::ConvexSolid::Build(ball));
+  }
+  const auto bare = shape::Shape::Compound(nullptr, solids);
+  EXPECT_EQ(RefusalOf(bare->tree(), TreeElements{.solids = 3}), std::nullopt);
+  EXPECT_NE(RefusalOf(bare->tree(), TreeElements{.solids = 4}), std::nullopt);
+  const geometry::TriangleMesh mesh = LShape();
+  const TreeElements wanted{.triangles = mesh.triangles.size(), .solids = 3};
+  const SphereTree good = shape::Shape::Compound(shape::Shape::Build(mesh), solids)->tree();
+  ASSERT_EQ(RefusalOf(good, wanted), std::nullopt);
+  EXPECT_NE(RefusalOf(good, mesh), std::nullopt) << "its solids are no triangles";
+  EXPECT_NE(RefusalOf(good, TreeElements{wanted.triangles, 2}), std::nullopt);
+  EXPECT_NE(RefusalOf(good, TreeElements{wanted.triangles, 4}), std::nullopt);
+  EXPECT_NE(RefusalOf(good, TreeElements{wanted.triangles, good.elements.size() + 1}),
+            std::nullopt);
+  const std::size_t pieces = good.elements.size() - 3;
+  const auto leaf_at = [&](std::size_t element) {
+    std::size_t leaf = 0;
+    while (good.nodes[leaf].children > 0 || good.nodes[leaf].first_element != element) ++leaf;
+    return leaf;
+  };
+  const std::size_t first = leaf_at(0), solid = leaf_at(pieces), last = leaf_at(pieces + 2);
+  const std::vector<std::function<void(SphereTree&)>> spoils = {
+      [&](SphereTree& t) { t.elements[pieces] = t.elements[pieces + 1]; },
+      [&](SphereTree& t) { t.elements[pieces] = t.elements[0]; },
+      [&](SphereTree& t) { t.elements[0] = t.elements[pieces]; },
+      [&](SphereTree& t) { t.nodes[solid].elements = 2; },
+      [&](SphereTree& t) { t.nodes[last].elements = 2; },
+      [&](SphereTree& t) { t.nodes[last].first_element -= 1; },
+      [&](SphereTree& t) { t.nodes[first].first_element = static_cast<std::uint32_t>(pieces); },
+  };
+  for (std::size_t i = 0; i < spoils.size(); ++i) {
+    SphereTree tree = good;
+    spoils[i](tree);
+    EXPECT_NE(RefusalOf(tree, wanted), std::nullopt) << "spoilt in way " << i;
+  }
+}
+
 // Goal:   packs have room for all siblings.
 // Method: leaves of one triangle each below a root, up to eight and nine.
 TEST(TreeCheck, SiblingsAreFew) {

@@ -34,7 +34,7 @@ class AccelerationTiers {
   static constexpr int kAbsent = kTiers;
   static constexpr std::uint32_t kUnacceleratedMax = 256;
 
-  /// The agent's declared bound [m/s²] from now on, >= 0.
+  /// The agent's declared bound [m/s²] from now on; what is not above 0 counts as 0.
   void Set(AgentIndex agent, double acceleration_max) { Put(agent, TierFor(acceleration_max)); }
   void Remove(AgentIndex agent) { Put(agent, kAbsent); }
 
@@ -42,18 +42,22 @@ class AccelerationTiers {
   /// set at some time.
   int TierOf(AgentIndex agent) const { return tiers_.at(agent); }
 
-  /// Whether any tier may be a band of its own for the agent.
+  /// Whether any tier may be a band of its own for the agent. Here and below: requires agents
+  /// that were set at some time.
   bool HasOwnBands(AgentIndex agent) const {
-    return tiers_[agent] > 0 || counts_[0] <= kUnacceleratedMax;
+    return TierOf(agent) > 0 || counts_[0] <= kUnacceleratedMax;
   }
   /// The partner's tier if that is a band of its own for the agent; otherwise kComparable.
   int BandOf(AgentIndex partner, AgentIndex agent) const {
-    const int tier = tiers_[partner];
+    const int tier = TierOf(partner);
     return IsOwnBand(tier, agent) ? tier : kComparable;
   }
 
-  /// Agents in a tier.
-  std::uint32_t Count(int tier) const { return counts_[static_cast<std::size_t>(tier)]; }
+  /// Agents in a tier. Requires a tier from 0 to kAbsent.
+  std::uint32_t Count(int tier) const {
+    CORE_CHECK(tier >= 0 && tier <= kAbsent, "a tier is one of the tiers", tier);
+    return counts_[static_cast<std::size_t>(tier)];
+  }
 
   /// Appends the tiers that are not empty and are bands of their own for the agent, ascending.
   void OwnBandsOf(AgentIndex agent, std::vector<int>* tiers) const {
@@ -74,7 +78,7 @@ class AccelerationTiers {
 
  private:
   bool IsOwnBand(int tier, AgentIndex agent) const {
-    const int least = tiers_[agent] + (tiers_[agent] > 0 ? 2 : 1);
+    const int own = TierOf(agent), least = own + (own > 0 ? 2 : 1);
     return tier != kAbsent && tier >= least && HasOwnBands(agent);
   }
 

@@ -114,5 +114,17 @@ TEST(AccelerationTiers, KnowsWhichAgentsAreThere) {
   EXPECT_EQ(scene.Count(AccelerationTiers::kAbsent), 0u);
 }
 
+TEST(AccelerationTiers, KnowsOnlyAgentsThatWereSet) {
+  AccelerationTiers scene;
+  const AgentIndex set(0u), unknown(1u);
+  scene.Set(set, 1);
+  EXPECT_THROW(scene.TierOf(unknown), CheckFailure);
+  EXPECT_THROW(scene.HasBandsBeside(unknown), CheckFailure);
+  EXPECT_THROW(scene.BandOf(unknown, set), CheckFailure);
+  EXPECT_THROW(scene.BandOf(set, unknown), CheckFailure);
+  EXPECT_THROW(scene.Count(-1), CheckFailure);
+  EXPECT_THROW(scene.Count(AccelerationTiers::kAbsent + 1), CheckFailure);
+}
+
 }  // namespace
 }  // namespace collision::detection

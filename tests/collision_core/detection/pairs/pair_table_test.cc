@@ -85,6 +85,8 @@ TEST(PairTable, RefusesWhatItDoesNotHold) {
   EXPECT_THROW(pairs.Remove(slot), CheckFailure);
   EXPECT_THROW(pairs[PairSlot::None()], CheckFailure);
   EXPECT_THROW(pairs.Of(Agent(3)), CheckFailure);
+  EXPECT_THROW(pairs.IsFull(Agent(3)), CheckFailure);
+  EXPECT_THROW(pairs.RoomFor(Agent(3)), CheckFailure);
   EXPECT_THROW(pairs.Add(PairOf(Agent(2), Agent(2))), CheckFailure);
 }
 
