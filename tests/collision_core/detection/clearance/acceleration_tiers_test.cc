@@ -119,7 +119,7 @@ TEST(AccelerationTiers, KnowsOnlyAgentsThatWereSet) {
   const AgentIndex set(0u), unknown(1u);
   scene.Set(set, 1);
   EXPECT_THROW(scene.TierOf(unknown), CheckFailure);
-  EXPECT_THROW(scene.HasBandsBeside(unknown), CheckFailure);
+  EXPECT_THROW(scene.HasOwnBands(unknown), CheckFailure);
   EXPECT_THROW(scene.BandOf(unknown, set), CheckFailure);
   EXPECT_THROW(scene.BandOf(set, unknown), CheckFailure);
   EXPECT_THROW(scene.Count(-1), CheckFailure);
