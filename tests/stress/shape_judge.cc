@@ -57,10 +57,10 @@ void JudgeForm(const narrow_phase::TimeOfContactResult& found, double duration, 
   outcome->Add("queries", 1);
 }
 
-void JudgeTimes(const Body& a, const Body& b, double duration, long double begin, long double end,
-                double speed, const std::string& what, Outcome* outcome) {
-  const narrow_phase::TimeOfContactResult found = FindContact(a, b, duration, kPlenty);
-  JudgeForm(found, duration, kPlenty, what, outcome);
+void JudgeTimes(const ShapeMeeting& meeting, const std::string& what, Outcome* outcome) {
+  const narrow_phase::TimeOfContactResult found =
+      FindContact(meeting.a, meeting.b, meeting.duration, kPlenty);
+  JudgeForm(found, meeting.duration, kPlenty, what, outcome);
   if (!outcome->Expect(found.status == narrow_phase::ContactStatus::kContact,
                        what + ": contact is not found")) {
     return;
@@ -70,22 +70,23 @@ void JudgeTimes(const Body& a, const Body& b, double duration, long double begin
     const long double slack = 0x1p-60L * truth;
     outcome->Expect(bracket.lower <= truth + slack && bracket.upper >= truth - slack,
                     what + ": the " + which + " is not in its bracket");
-    const double unit =
-        0x1p-52 * ScaleOf(a, b) / speed + 1e-12 * static_cast<double>(truth) / kShapeUnits;
+    const double unit = 0x1p-52 * ScaleOf(meeting.a, meeting.b) / meeting.speed +
+                        1e-12 * static_cast<double>(truth) / kShapeUnits;
     outcome->Greatest("width_units", bracket.width() / unit);
     outcome->Expect(bracket.width() <= kShapeUnits * unit,
                     what + ": the " + which + "'s bracket is " + Show(bracket.width()) + " s wide");
   };
-  judge(found.begin, begin, "begin");
-  judge(found.end, end, "end");
+  judge(found.begin, meeting.begin, "begin");
+  judge(found.end, meeting.end, "end");
 }
 
-void JudgeStay(const narrow_phase::TimeOfContactResult& found, long double begin, long double end,
-               double unit, const std::string& what, Outcome* outcome) {
-  outcome->Expect(found.begin.lower <= begin && found.end.upper >= end, what + ": missed");
+void JudgeStay(const narrow_phase::TimeOfContactResult& found, const Stay& stay,
+               const std::string& what, Outcome* outcome) {
+  outcome->Expect(found.begin.lower <= stay.begin && found.end.upper >= stay.end,
+                  what + ": missed");
   const auto longer =
-      static_cast<double>(std::max(begin - found.begin.lower, found.end.upper - end));
-  const double most = kShapeUnits * unit + 1e-12 * static_cast<double>(end);
+      static_cast<double>(std::max(stay.begin - found.begin.lower, found.end.upper - stay.end));
+  const double most = kShapeUnits * stay.unit + 1e-12 * static_cast<double>(stay.end);
   outcome->Greatest("stay_units", kShapeUnits * longer / most);
   outcome->Expect(longer <= most, what + ": not free for " + Show(longer) + " s before or after");
 }

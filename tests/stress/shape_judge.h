@@ -40,14 +40,26 @@ inline constexpr std::uint64_t kPlenty = 2'000'000;
 /// known.
 inline constexpr double kShapeUnits = 128;
 
-/// The two touch on [begin, end] seconds, exactly. `speed` at which they close.
-void JudgeTimes(const Body& a, const Body& b, double duration, long double begin, long double end,
-                double speed, const std::string& what, Outcome* outcome);
+/// Two bodies that touch on [begin, end], exactly, and what is asked of them.
+struct ShapeMeeting {
+  Body a, b;
+  double duration = 0;             ///< Of the query [s].
+  long double begin = 0, end = 0;  ///< [s].
+  double speed = 0;                ///< At which they close [m/s].
+};
 
-/// Where contact is not certain: it is not excluded on [begin, end], and no sooner or later than a
-/// bracket may be wide. `unit` in seconds.
-void JudgeStay(const narrow_phase::TimeOfContactResult& found, long double begin, long double end,
-               double unit, const std::string& what, Outcome* outcome);
+/// The service finds the contact, and brackets its begin and end tightly.
+void JudgeTimes(const ShapeMeeting& meeting, const std::string& what, Outcome* outcome);
+
+/// When contact is possible, but not certain.
+struct Stay {
+  long double begin = 0, end = 0;  ///< [s].
+  double unit = 0;                 ///< One in the last place of place and size, over the speed [s].
+};
+
+/// Contact is not excluded during the stay, and no sooner or later than a bracket may be wide.
+void JudgeStay(const narrow_phase::TimeOfContactResult& found, const Stay& stay,
+               const std::string& what, Outcome* outcome);
 
 /// What holds of every answer: a finite, ordered one within the work allowed.
 void JudgeForm(const narrow_phase::TimeOfContactResult& found, double duration, std::uint64_t units,

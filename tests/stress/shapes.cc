@@ -4,6 +4,7 @@
 #include "collision_core/numeric/rotation.h"
 #include "tests/stress/shape_judge.h"
 #include "tests/support/meshes.h"
+#include "tests/support/truth/true_distance.h"
 
 namespace collision::stress {
 namespace {
@@ -20,7 +21,7 @@ std::shared_ptr<const shape::Shape> CubeOf(double half, bool solid) {
 void JudgeHeadOn(double half, const Vector3d& at, bool solid, Outcome* outcome) {
   const auto cube = CubeOf(half, solid);
   const Body a{cube, 0, at}, b{cube, 0, at + Vector3d(10 * half, 0, 0), {-16 * half, 0, 0}};
-  JudgeTimes(a, b, 1, 0.5L, 0.75L, 16 * half, Show(half) + " m at " + Show(at.norm()) + " m",
+  JudgeTimes({a, b, 1, 0.5L, 0.75L, 16 * half}, Show(half) + " m at " + Show(at.norm()) + " m",
              outcome);
 }
 
@@ -34,8 +35,9 @@ void Sizes(const Setting&, Outcome* outcome) {
       const double small = std::ldexp(1, exponent), large = 0x1p21;
       const Body a{CubeOf(large, solid)};
       const Body b{CubeOf(small, solid), 0, {large + small + 4, 0, 0}, {-8, 0, 0}};
-      JudgeTimes(a, b, 0x1p20, 0.5L, 0.5L + (2 * (large + static_cast<long double>(small))) / 8, 8,
-                 "mixed with " + Show(small) + " m", outcome);
+      JudgeTimes(
+          {a, b, 0x1p20, 0.5L, 0.5L + (2 * (large + static_cast<long double>(small))) / 8, 8},
+          "mixed with " + Show(small) + " m", outcome);
     }
   }
   SayTimes(outcome);
@@ -60,7 +62,7 @@ void Quaternions(const Setting&, Outcome* outcome) {
       Body a{cube}, b{cube, 0, {10, 0, 0}, {-16, 0, 0}};
       a.q = Eigen::Quaterniond(1 + off, 0, 0, 1 + off);
       b.q = Eigen::Quaterniond(1 - off, 0, 0, 0);
-      JudgeTimes(a, b, 1, 0.5L, 0.75L, 16, "off by " + Show(off), outcome);
+      JudgeTimes({a, b, 1, 0.5L, 0.75L, 16}, "off by " + Show(off), outcome);
     }
   }
   SayTimes(outcome);
@@ -72,7 +74,7 @@ void Speeds(const Setting&, Outcome* outcome) {
       const double speed = std::min(std::ldexp(1, exponent), kLight);
       const Body a{CubeOf(1, solid)}, b{CubeOf(1, solid), 0, {10, 0, 0}, {-speed, 0, 0}};
       const long double v = speed;
-      JudgeTimes(a, b, 16 / speed, 8 / v, 12 / v, speed, Show(speed) + " m/s", outcome);
+      JudgeTimes({a, b, 16 / speed, 8 / v, 12 / v, speed}, Show(speed) + " m/s", outcome);
     }
   }
   SayTimes(outcome);
@@ -86,12 +88,13 @@ void NeedlesAndPlates(const Setting&, Outcome* outcome) {
     const auto needle_y = BoxShape({kThin, kLong, kThin}, solid);
     const auto plate = BoxShape({kFlat, kLong, kLong}, solid);
     const Body through{needle_x, 0, {kLong + kFlat + 4, 3, 5}, {-8, 0, 0}};
-    JudgeTimes({plate}, through, 300, 0.5L, 0.5L + (2 * (kLong + kFlat)) / 8, 8,
+    JudgeTimes({{plate}, through, 300, 0.5L, 0.5L + (2 * (kLong + kFlat)) / 8, 8},
                "needle through plate", outcome);
     const Body across{needle_y, 0, {7, 9, 4 + 2 * kThin}, {0, 0, -8}};
-    JudgeTimes({needle_x}, across, 2, 0.5L, 0.5L + 4 * kThin / 8, 8, "needles crosswise", outcome);
+    JudgeTimes({{needle_x}, across, 2, 0.5L, 0.5L + 4 * kThin / 8, 8}, "needles crosswise",
+               outcome);
     const Body facing{plate, 0, {4 + 2 * kFlat, 11, -13}, {-8, 0, 0}};
-    JudgeTimes({plate}, facing, 2, 0.5L, 0.5L + 4 * kFlat / 8, 8, "plates", outcome);
+    JudgeTimes({{plate}, facing, 2, 0.5L, 0.5L + 4 * kFlat / 8, 8}, "plates", outcome);
   }
   SayTimes(outcome);
 }
@@ -106,16 +109,16 @@ void OneTriangle(const Setting&, Outcome* outcome) {
     const Body a{shape::Shape::Build(flat)};
     const Vector3d above(0, 0, 3 * size), down(0, 0, -4 * size);
     const std::string of = " of " + Show(size) + " m";
-    JudgeTimes(a, {shape::Shape::Build(upright), 0, above, down}, 2, 0.5L, 1, 4 * size,
+    JudgeTimes({a, {shape::Shape::Build(upright), 0, above, down}, 2, 0.5L, 1, 4 * size},
                "triangles" + of, outcome);
-    JudgeTimes(a, {nullptr, size / 2, above, down}, 2, 0.625L, 0.875L, 4 * size,
+    JudgeTimes({a, {nullptr, size / 2, above, down}, 2, 0.625L, 0.875L, 4 * size},
                "triangle and ball" + of, outcome);
     const narrow_phase::TimeOfContactResult point =
         FindContact(a, {nullptr, 0, above, down}, 2, kPlenty);
     JudgeForm(point, 2, kPlenty, "triangle and point", outcome);
     outcome->Expect(point.status != narrow_phase::ContactStatus::kFree,
                     "a point that passes through a triangle is missed");
-    JudgeStay(point, 0.75, 0.75, 0x1p-52 * 4 * size / (4 * size), "triangle and point" + of,
+    JudgeStay(point, {0.75, 0.75, 0x1p-52 * 4 * size / (4 * size)}, "triangle and point" + of,
               outcome);
   }
   SayTimes(outcome);
@@ -130,9 +133,11 @@ void MillionTriangles(const Setting& setting, Outcome* outcome) {
   const auto triangles = static_cast<double>(sheet.shape->mesh().triangles.size());
   outcome->Set("triangles", triangles);
   const Vector3d above(5.25, -7.125, 3), down(0, 0, -4);
-  JudgeTimes(sheet, {nullptr, 0.5, above, down}, 2, 0.625L, 0.875L, 4, "a ball", outcome);
-  JudgeTimes(sheet, {CubeOf(0.5, false), 0, above, down}, 2, 0.625L, 0.875L, 4, "a cube", outcome);
-  JudgeTimes(sheet, {CubeOf(0.5, true), 0, above, down}, 2, 0.625L, 0.875L, 4, "a solid", outcome);
+  JudgeTimes({sheet, {nullptr, 0.5, above, down}, 2, 0.625L, 0.875L, 4}, "a ball", outcome);
+  JudgeTimes({sheet, {CubeOf(0.5, false), 0, above, down}, 2, 0.625L, 0.875L, 4}, "a cube",
+             outcome);
+  JudgeTimes({sheet, {CubeOf(0.5, true), 0, above, down}, 2, 0.625L, 0.875L, 4}, "a solid",
+             outcome);
   const narrow_phase::TimeOfContactResult beside =
       FindContact(sheet, {nullptr, 0.5, {66, 0, 3}, down}, 2, kPlenty);
   JudgeForm(beside, 2, kPlenty, "beside it", outcome);
@@ -158,7 +163,7 @@ void Grazing(const Setting&, Outcome* outcome) {
                           what + ": a contact that is none");
         }
         if (found.status != narrow_phase::ContactStatus::kFree) {
-          JudgeStay(found, 0.5, 0.75, 0x1p-52 * 12 * size / (16 * size), what, outcome);
+          JudgeStay(found, {0.5, 0.75, 0x1p-52 * 12 * size / (16 * size)}, what, outcome);
         }
         if (found.status != narrow_phase::ContactStatus::kUndecided) continue;
         outcome->Greatest("width_units", found.within / (0x1p-52 * 12 * size));
@@ -174,32 +179,27 @@ void Grazing(const Setting&, Outcome* outcome) {
 constexpr double kSpin = 1e6;
 const Vector3d kBar(2, 0.125, 0.125);
 
-/// From the bar to the surface of a ball, at t; negative where they overlap. Angles are exact to
-/// 2^-45 rad in long double.
-long double GapToBar(const Body& ball, long double t) {
-  const Eigen::Matrix<long double, 3, 1> p =
-      ball.p.cast<long double>() + t * ball.v.cast<long double>();
-  const long double cosine = std::cos(kSpin * t), sine = std::sin(kSpin * t);
-  const long double inside[] = {cosine * p.x() + sine * p.y(), cosine * p.y() - sine * p.x(),
-                                p.z()};
-  long double square = 0;
-  for (int i = 0; i < 3; ++i) {
-    const long double beyond = std::max<long double>(0, std::fabs(inside[i]) - kBar[i]);
-    square += beyond * beyond;
-  }
-  return std::sqrt(square) - ball.radius;
+TrueMotion MotionOf(const Body& body) {
+  return {{body.p.cast<Real>(), body.v.cast<Real>(), body.w.cast<Real>(), body.q.cast<Real>()}, {}};
+}
+
+/// Whether the bar touches a ball at t. Angles are exact to 2^-45 rad in long double.
+bool TouchesBar(const Body& bar, const Body& ball, Real t) {
+  const TrueBody at_bar(bar.shape.get(), 0, MotionOf(bar).At(t));
+  const TrueBody at_ball(nullptr, ball.radius, MotionOf(ball).At(t));
+  return SolidDistance(at_bar, at_ball) == 0;
 }
 
 /// When they first touch within half a turn after `from`, or last before it (a `step` below 0).
-long double TouchOfBar(const Body& ball, long double from, long double step) {
-  long double apart = from, touching = from;
-  while (GapToBar(ball, touching) > 0) {
+Real TouchOfBar(const Body& bar, const Body& ball, Real from, Real step) {
+  Real apart = from, touching = from;
+  while (!TouchesBar(bar, ball, touching)) {
     apart = touching;
     touching += step;
   }
   for (int i = 0; i < 80 && apart != touching; ++i) {
-    const long double middle = (apart + touching) / 2;
-    (GapToBar(ball, middle) > 0 ? apart : touching) = middle;
+    const Real middle = (apart + touching) / 2;
+    (TouchesBar(bar, ball, middle) ? touching : apart) = middle;
   }
   return touching;
 }
@@ -216,7 +216,7 @@ void JudgeUnknownTurn(Body bar, Outcome* outcome) {
   JudgeForm(found, kDuration, kPlenty, "turned beyond measure", outcome);
   outcome->Expect(found.status == narrow_phase::ContactStatus::kUndecided,
                   "turned beyond measure, and decided");
-  JudgeStay(found, kNearest - half, kNearest + half, 0x1p-52 * 6.25 / kSpeed,
+  JudgeStay(found, {kNearest - half, kNearest + half, 0x1p-52 * 6.25 / kSpeed},
             "turned beyond measure", outcome);
 }
 
@@ -234,10 +234,12 @@ void Spinning(const Setting&, Outcome* outcome) {
     // The ball is as low as the bar's face at 0.3125 s, and has passed the other one at 0.6875 s;
     // the bar is below it once in half a turn.
     const Body falling{nullptr, 0.25, {0.75, 0.5, 1}, {0, 0, -2}};
-    const long double begin = TouchOfBar(falling, 0.3125L, 1e-9L);
-    const long double end = TouchOfBar(falling, 0.6875L, -1e-9L);
+    Body surface = bar;
+    surface.shape = BoxShape(kBar, false);
+    const Real begin = TouchOfBar(surface, falling, 0.3125L, 1e-9L);
+    const Real end = TouchOfBar(surface, falling, 0.6875L, -1e-9L);
     outcome->Set("half_turns_waited", static_cast<double>(begin - 0.3125L) * kSpin / 3.14159265);
-    JudgeTimes(bar, falling, 0.9, begin, end, 2, "what falls on it", outcome);
+    JudgeTimes({bar, falling, 0.9, begin, end, 2}, "what falls on it", outcome);
     JudgeUnknownTurn(bar, outcome);
   }
   SayTimes(outcome);

@@ -1,6 +1,7 @@
 // Points, triangles and meshes in exact rational arithmetic, by the names of the shape's tests.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "collision_core/geometry/mesh/triangle_mesh.h"
@@ -28,11 +29,23 @@ inline Exact SquaredDistance(const ExactPoint& p, const ExactTriangle& t) {
   return SquareToTriangle(p, t);
 }
 
-inline Exact SquaredDistance(const ExactPoint& p, const geometry::TriangleMesh& mesh) {
+/// Triangles whose box is certainly farther than a corner of the mesh are left aside.
+inline Exact SquaredDistance(const Eigen::Vector3d& p, const geometry::TriangleMesh& mesh) {
+  double corner = HUGE_VAL;
+  for (const geometry::Triangle& t : mesh.triangles) {
+    for (const std::uint32_t i : t) corner = std::min(corner, (mesh.vertices[i] - p).norm());
+  }
   Exact least = -1;
   for (const geometry::Triangle& t : mesh.triangles) {
-    const Exact d = SquaredDistance(p, ExactOf(mesh, t));
-    if (least < 0 || d < least) least = d;
+    const Eigen::Vector3d &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]],
+                          &c = mesh.vertices[t[2]];
+    const Eigen::Vector3d below = a.cwiseMin(b).cwiseMin(c) - p,
+                          above = p - a.cwiseMax(b).cwiseMax(c);
+    const double box = below.cwiseMax(above).cwiseMax(Eigen::Vector3d::Zero()).norm();
+    // Both lengths are relatively exact to a few units of 2^-53.
+    if (box > corner * (1 + 1e-12)) continue;
+    const Exact exact = SquaredDistance(ExactOf(p), ExactOf(mesh, t));
+    if (least < 0 || exact < least) least = exact;
   }
   return least;
 }

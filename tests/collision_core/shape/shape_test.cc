@@ -42,7 +42,7 @@ TEST(Shape, SignedDistancesAreUpperBoundsAndTight) {
     const auto& nodes = shape->tree().nodes;
     for (std::size_t i = 0; i < nodes.size(); i += 1 + random.Below(nodes.size() / 20 + 1)) {
       const sphere_tree::SphereNode& node = nodes[i];
-      const Exact exact = SquaredDistance(ExactOf(node.centre), mesh);
+      const Exact exact = SquaredDistance(node.centre, mesh);
       const double s = node.signed_distance;
       const bool is_inside = std::abs(SolidAngleWinding(mesh, node.centre)) > 0.5;
       if (s < 0) {
@@ -74,7 +74,7 @@ TEST(Shape, DistancesOfAnyPointContainTheExactOne) {
   const auto shape = Shape::Build(mesh);
   for (int i = 0; i < 300; ++i) {
     const Vector3d p = random.LogUniform(1e-6, 100) * random.UnitVector();
-    const Exact exact = SquaredDistance(ExactOf(p), mesh);
+    const Exact exact = SquaredDistance(p, mesh);
     const numeric::Interval d = shape->DistanceTo(p);
     ASSERT_LE(Squared(d.lower), exact);
     ASSERT_GE(Squared(d.upper), exact);

@@ -1,9 +1,8 @@
 // Goal:   meshes made elsewhere become shapes, closed or open as they are known to be, with
 // bounds that hold on both sides.
-// Method: distances to all triangles in long double, and the sum of solid angles, at some nodes.
+// Method: exact distances to all triangles, and the sum of solid angles, at some nodes.
 #include <gtest/gtest.h>
 
-#include "collision_core/geometry/triangle/point_triangle.h"
 #include "collision_core/shape/shape.h"
 #include "tests/collision_core/geometry/exact_geometry.h"
 #include "tests/collision_core/sphere_tree/meshes.h"
@@ -22,24 +21,6 @@ class RealMeshes : public testing::TestWithParam<Known> {};
 
 double Length(const Exact& squared) { return std::sqrt(squared.convert_to<double>()); }
 
-/// The least over all triangles, one by one, exact where it matters: candidates come from
-/// intervals.
-Exact BruteForceSquaredDistance(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& p) {
-  const auto corners = [&](const geometry::Triangle& t) {
-    return geometry::TrianglePoints{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]};
-  };
-  double upper = numeric::kInfinity;
-  for (const geometry::Triangle& t : mesh.triangles)
-    upper = std::min(upper, geometry::DistanceToTriangle(p, corners(t)).distance.upper);
-  Exact least = -1;
-  for (const geometry::Triangle& t : mesh.triangles) {
-    if (geometry::DistanceToTriangle(p, corners(t)).distance.lower > upper) continue;
-    const Exact exact = SquaredDistance(ExactOf(p), ExactOf(mesh, t));
-    if (least < 0 || exact < least) least = exact;
-  }
-  return least;
-}
-
 TEST_P(RealMeshes, BecomeShapes) {
   const Known& known = GetParam();
   const geometry::PolygonMesh polygons =
@@ -57,7 +38,7 @@ TEST_P(RealMeshes, BecomeShapes) {
   const double radius = shape->facts().radius;
   for (int i = 0; i < 20; ++i) {
     const SphereNode& node = nodes[i == 0 ? 0 : random.Below(nodes.size())];
-    const Exact exact = BruteForceSquaredDistance(mesh, node.centre);
+    const Exact exact = SquaredDistance(node.centre, mesh);
     const double s = node.signed_distance;
     ASSERT_TRUE(s < 0 ? Squared(s) <= exact : Squared(s) >= exact);
     ASSERT_NEAR(std::abs(s), Length(exact), 1e-14 * radius);
