@@ -52,7 +52,8 @@ class AgentTable {
   /// Appends a state under the agent's declaration to its history. Unchecked: RecordBound() follows
   /// before the step; Validate() finds a bound beyond extremes() or with other features.
   void Store(AgentIndex agent, const motion::MotionState& state, Link link);
-  /// The newest bound has changed (a state was stored, or it was declared anew): records its expiry, and updates extremes() and profile().
+  /// The newest bound has changed, by a state or a declaration: records its expiry, and updates
+  /// extremes() and profile().
   void RecordBound(AgentIndex agent);
   /// Records that the agent has changed in this step.
   void MarkChanged(AgentIndex agent) { changed_.Insert(agent); }

@@ -26,8 +26,8 @@ class Clearances {
   /// The agent of this index is new. Unchecked: Renew() follows before the step, once the agent has
   /// a state; Validate() finds it.
   void AddAgent(AgentIndex agent);
-  /// An agent that had expired is back. Unchecked: Renew() follows before the step; Validate() finds
-  /// it.
+  /// An agent that had expired is back. Unchecked: Renew() follows before the step; Validate()
+  /// finds it.
   void Readmit(AgentIndex agent) { coverage_[agent].keys.SetAll(Instant::Never()); }
   /// The newest bound may reach beyond the former one: the agent is queried again in the next step.
   void Renew(AgentIndex agent, const Renewal& renewal);
