@@ -1,5 +1,5 @@
-// Goal:   the broad phase holds the agents that have not expired, and the walk finds one too many or
-//         too few.
+// Goal:   the broad phase holds the agents that have not expired, and the walk finds one too many
+//         or too few.
 // Method: two agents by hand; the broad phase is changed behind the back of its owner.
 #include <gtest/gtest.h>
 
