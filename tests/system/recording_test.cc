@@ -44,7 +44,7 @@ TEST(Recording, WhatCannotBeReplayedIsOneClearLine) {
     EXPECT_EQ(replay.status, 74) << file;
     EXPECT_EQ(replay.err.rfind("collisiond: " + file + ": ", 0), 0u) << replay.err;
     EXPECT_EQ(replay.err.find('\n'), replay.err.size() - 1) << replay.err;
-    EXPECT_EQ(replay.err.find(": byte 0: its configuration: ") != std::string::npos,
+    EXPECT_EQ(replay.err.find(": byte 0: the configuration is missing") != std::string::npos,
               file == unconfigured)
         << replay.err;
   }

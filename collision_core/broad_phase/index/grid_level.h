@@ -34,8 +34,8 @@ class GridLevel {
   double ReachMax(TimeWindow window) const { return frame_->Reach(most_, window); }
   /// Appends ranges that contain all agents that come within `reach` of `c` during the window. With
   /// `after` given, which is the place of the agent at `c`, only those that come after it in the
-  /// order of the cells, so that of two agents one finds the other (both where rows share a place of
-  /// the hash). Returns false, and appends none, if that would be more cells than there are agents.
+  /// order of the cells, so that of two agents one finds the other (both where rows share a place
+  /// of the hash). Returns false, and appends none, if that would be more cells than agents.
   bool Ranges(const double* c, double reach, TimeWindow window, std::uint32_t after,
               std::vector<FilterRange>* ranges) const;
 

@@ -2,8 +2,8 @@
 //
 // Segments and boxes have closed forms. Otherwise GJK proposes nearest points and a direction;
 // where these are mostly rounding, the directions that edges and faces determine come next, and
-// against a smooth core Newton's method on its support function. Cores that may overlap are followed
-// by EPA, boxes first by the separating axis test, as far as the query needs it.
+// against a smooth core Newton's method on its support function. Cores that may overlap are
+// followed by EPA, boxes first by the separating axis test, as far as the query needs it.
 #pragma once
 
 #include <array>

@@ -16,8 +16,8 @@ namespace collision::sphere_tree {
 /// A piece is halved from a corner to the middle of the opposite edge ab, which *is* (a + b) / 2
 /// exactly, so that both halves unite to the whole. The stored value is fl(0.5 fl(a_x + b_x)): the
 /// sum is off by u · 2 S, u = 2^−53, its half by u S (it underflows by 2^−1075 at most, nothing
-/// compared with the rest); over three coordinates √3 u S < 1.8 u S. Where a and b are off by e at most
-/// themselves, so is their middle. After n halvings one upon the other, 2 n u S.
+/// compared with the rest); over three coordinates √3 u S < 1.8 u S. Where a and b are off by e at
+/// most themselves, so is their middle. After n halvings one upon the other, 2 n u S.
 inline constexpr double kHalvingError = 2;
 
 /// The most successive halvings: after that an edge is shorter than its rounding.

@@ -277,7 +277,7 @@ TEST_F(MeshFileTest, MalformedPlyIsRefused) {
   ExpectRefusal("a.ply", With(text, "4 0 3 2 1", "4 0 3 2 8"), "names vertex 8");
   ExpectRefusal("a.ply", With(text, "4 0 3 2 1", "4 0 3 2 -1"), "names vertex -1");
   ExpectRefusal("a.ply", With(text, "4 0 3 2 1", "4 0 3 2 x"), "\"x\" is not a number");
-  ExpectRefusal("a.ply", With(text, "4 0 3 2 1", "-4 0 3 2 1"), "less than nothing");
+  ExpectRefusal("a.ply", With(text, "4 0 3 2 1", "-4 0 3 2 1"), "of negative length");
   ExpectRefusal("a.ply", With(text, "1 1 1\n", "1 nan 1\n"), "not a finite number");
   ExpectRefusal("a.ply", With(text, "vertex 8", "vertex 4294967295"), "cut off");
   ExpectRefusal("a.ply", With(text, "face 6", "face 99999999999"), "cut off");

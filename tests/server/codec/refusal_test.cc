@@ -64,7 +64,7 @@ TEST(Refusal, OfAnAgentNamesReasonAndField) {
   const Refusal full = NoRoom(kAgent, 1000);
   ExpectNamesTheAgent(full);
   EXPECT_EQ(full.reason, v1::REJECTED_TOO_MANY_AGENTS);
-  EXPECT_NE(full.detail.find("0 to 1000 agents"), std::string::npos);
+  EXPECT_NE(full.detail.find("at most 1000"), std::string::npos);
 }
 
 TEST(Refusal, OfARemovalNamesTheTopicOfWhatItRemoves) {
