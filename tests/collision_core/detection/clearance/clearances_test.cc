@@ -54,6 +54,12 @@ TEST_F(ClearancesTest, ValidateFindsAnAgentOfTheBroadPhaseThatIsNotThere) {
   EXPECT_THROW(clearances_.Validate(), CheckFailure);
 }
 
+TEST_F(ClearancesTest, ValidateFindsAnotherAgentInsteadOfOneThatIsThere) {
+  clearances_.broad_phase()->Remove(b_.value());
+  clearances_.broad_phase()->Set(7, agents_[a_].wide_bound());
+  EXPECT_THROW(clearances_.Validate(), CheckFailure);
+}
+
 TEST_F(ClearancesTest, ValidateWalksTheBroadPhase) {
   clearances_.broad_phase()->Tighten(7, agents_[a_].wide_bound());
   EXPECT_THROW(clearances_.Validate(), CheckFailure);
