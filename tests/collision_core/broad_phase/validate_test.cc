@@ -227,6 +227,8 @@ TEST(Validate, TellsAHalfSpaceThatNoMethodHas) {
   EXPECT_THROW(broad_phase.Validate(), CheckFailure);
   broad_phase.mutable_half_spaces().Remove(3);
   EXPECT_THROW(broad_phase.Validate(), CheckFailure) << "as many, but another";
+  broad_phase.mutable_half_spaces().Remove(4);
+  EXPECT_THROW(broad_phase.Validate(), CheckFailure) << "a method has one that it has not";
 }
 
 // Nothing may be tightened that is not held: a method takes it, the choice between methods does

@@ -130,6 +130,15 @@ TEST(TreeCheck, ACompoundsTreeHasItsSolids) {
   }
 }
 
+TEST(TreeCheck, TwoSolidsShareNoLeaf) {
+  SphereTree tree;
+  tree.levels = 1;
+  tree.nodes.push_back({.radius = 2, .elements = 2});
+  tree.elements = {ElementIndex(0u), ElementIndex(1u)};
+  EXPECT_EQ(RefusalOf(tree, TreeElements{.triangles = 2}), std::nullopt);
+  EXPECT_NE(RefusalOf(tree, TreeElements{.solids = 2}), std::nullopt);
+}
+
 // Goal:   packs have room for all siblings.
 // Method: leaves of one triangle each below a root, up to eight and nine.
 TEST(TreeCheck, SiblingsAreFew) {

@@ -53,6 +53,12 @@ TEST_F(ClearancesWalkTest, ValidateFindsAnAgentOfTheBroadPhaseThatIsNotThere) {
   EXPECT_THROW(clearances_.Validate(), CheckFailure);
 }
 
+TEST_F(ClearancesWalkTest, ValidateFindsAnotherAgentInsteadOfOneThatIsThere) {
+  clearances_.broad_phase()->Remove(b_.value());
+  clearances_.broad_phase()->Set(7, agents_[a_].wide_bound());
+  EXPECT_THROW(clearances_.Validate(), CheckFailure);
+}
+
 TEST_F(ClearancesWalkTest, ValidateWalksTheBroadPhase) {
   clearances_.broad_phase()->Tighten(7, agents_[a_].wide_bound());
   EXPECT_THROW(clearances_.Validate(), CheckFailure);
