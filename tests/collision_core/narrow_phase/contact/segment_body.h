@@ -14,7 +14,7 @@ namespace collision::narrow_phase {
 inline const Instant kSegmentBase = Instant::FromNanoseconds(0);
 
 struct SegmentBody {
-  std::shared_ptr<const shape::Shape> shape;
+  std::shared_ptr<const shape::Shape> shape = nullptr;
   Eigen::Vector3d p = Eigen::Vector3d::Zero(), v = Eigen::Vector3d::Zero();
   Eigen::Vector3d w = Eigen::Vector3d::Zero();
   double M = 0;
