@@ -52,6 +52,7 @@ const std::vector<Layer>& Layers() {
       {"server/process/", {"server/process/"}},
       {"server/config/", {"idl/", "server/config/"}},
       {"server/bus/", {"idl/", "server/bus/"}},
+      {"server/claim/", {core, "idl/", "server/process/", "server/claim/"}},
       {"server/recording/",
        {"idl/", "server/process/", "server/config/", "server/bus/", "server/recording/"}},
       {"server/codec/", {core, "idl/", "server/codec/"}},

@@ -1,0 +1,86 @@
+// What a service must remember when it is started again.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "collision_core/base/instant.h"
+
+namespace collision::server {
+
+/// A simulator of the roster: who it was, and how far it may have gone.
+struct JournalledSimulator {
+  std::uint64_t id = 0;
+  std::uint32_t run = 0;
+  std::string name;                ///< At most 64 bytes.
+  std::optional<Instant> granted;  ///< The greatest time granted to it; nullopt: none.
+
+  bool operator==(const JournalledSimulator&) const = default;
+};
+
+/// A small file in the state directory: the term, the epoch and, of the simulators that hold time,
+/// run and greatest grant. One process has it open at a time.
+///
+/// **Form.** Records of 128 bytes: first the head, then one for each simulator of the roster, in
+/// any order, at most `simulators_max`. Each ends with a checksum. A record is overwritten in place
+/// by one write of the operating system: a process that is killed leaves it whole, old or new. A
+/// machine that loses its power may lose what its page cache holds: the last seconds, or one record
+/// that does not fit its checksum. It is of the machine that wrote it (little-endian).
+///
+/// **Damage.** What does not fit its checksum is left out and told by damage(); nothing else is
+/// lost.
+///
+/// **Failure.** A write that fails (a full disk, a medium gone read-only) is told by error(), and
+/// nothing more is written. One thread.
+class Journal {
+ public:
+  /// Opens the journal of a world, or begins one, and makes `folder` if it is missing. Throws
+  /// std::runtime_error, with path and cause: it cannot be written, is no journal, or another
+  /// process has it open.
+  Journal(const std::string& folder, const std::string& world, std::uint32_t domain,
+          std::size_t simulators_max);
+  ~Journal();
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
+
+  const std::string& path() const { return path_; }
+  std::uint32_t term() const { return term_; }    ///< 0: none was ever written.
+  std::uint32_t epoch() const { return epoch_; }  ///< Likewise.
+
+  /// The roster, by id.
+  const std::map<std::uint64_t, JournalledSimulator>& simulators() const { return simulators_; }
+
+  /// What was left out when it was opened, a line each.
+  const std::vector<std::string>& damage() const { return damage_; }
+
+  /// All are on file when they return; false: they are not, and error() says why.
+  bool SetTerm(std::uint32_t term, std::uint32_t epoch);
+  bool Put(const JournalledSimulator& simulator);
+  bool Remove(std::uint64_t id);
+  bool RemoveAll();
+
+  /// One line with path and cause of the first write that failed; empty while all is well.
+  const std::string& error() const { return error_; }
+
+ private:
+  void Open(const std::string& folder);
+  void Read();
+  bool Write(std::size_t record, const std::string& payload);
+  bool WriteHead();
+
+  const std::size_t simulators_max_;
+  std::string path_;
+  int file_ = -1;
+  std::uint32_t term_ = 0;
+  std::uint32_t epoch_ = 0;
+  std::map<std::uint64_t, JournalledSimulator> simulators_;
+  std::map<std::uint64_t, std::size_t> record_of_;  ///< By simulator.
+  std::vector<std::size_t> free_;                   ///< Records without a simulator, last first.
+  std::vector<std::string> damage_;
+  std::string error_;
+};
+
+}  // namespace collision::server

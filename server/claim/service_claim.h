@@ -1,0 +1,89 @@
+// Which of several services serves a world.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace collision::server {
+
+/// One status of another service of this world.
+struct HeardService {
+  std::uint64_t instance = 0;
+  std::uint32_t term = 0;
+  bool serving = false;        ///< False: it is claiming the world, like this one.
+  std::uint64_t sequence = 0;  ///< Of the sample.
+};
+
+enum class ClaimPhase {
+  kClaiming,  ///< It listens whether anybody serves the world, and publishes nothing but its claim.
+  kServing,   ///< The world is its own, in term().
+  kYielded,   ///< Another service has it; why() says which.
+};
+
+struct ClaimOptions {
+  std::uint64_t instance = 1;     ///< Random, so that no two services share one.
+  std::uint32_t term_before = 0;  ///< The highest that the journal knows of.
+  std::int64_t wait_ns = 0;       ///< How long it listens; longer than discovery takes.
+  std::int64_t heard_for_ns = 0;  ///< How long a status counts as a sign of life: its lease.
+};
+
+/// A service's claim to its world. Of the services that serve one world at most one stays: a
+/// newcomer ends beside a live one, of two newcomers the one with the lower instance goes on, and
+/// of two that serve, because the network had parted them, the one with the higher term (of equal
+/// terms the lower instance). A term is the highest heard or remembered + 1; at the greatest number
+/// it stays there, and the instance alone decides.
+///
+/// Whoever serves yields only to a service that it has heard twice, so that one stray sample ends
+/// nobody. Pure bookkeeping: it reads no clock; times are nanoseconds of the monotonic one. One
+/// thread.
+class ServiceClaim {
+ public:
+  explicit ServiceClaim(const ClaimOptions& options) : options_(options) {}
+
+  /// Takes a status that has arrived. Its own is ignored.
+  void Hear(const HeardService& heard, std::int64_t now_ns);
+
+  /// Brings the phase up to date; the first call begins the claim.
+  void Update(std::int64_t now_ns);
+
+  ClaimPhase phase() const { return phase_; }
+  std::uint32_t term() const { return term_; }  ///< 0 until it serves.
+  std::uint64_t instance() const { return options_.instance; }
+
+  /// kYielded: the other service, in words for the log and standard error.
+  const std::string& why() const { return why_; }
+
+  /// When Update() changes something although nothing is heard; nullopt: never.
+  std::optional<std::int64_t> NextDue() const;
+
+  /// Serving: one line for each live service that serves this world too and will yield, or has an
+  /// implausible term. Empty is what an operator wants to see.
+  std::vector<std::string> Conflicts(std::int64_t now_ns) const;
+
+ private:
+  struct Other {
+    HeardService newest;
+    std::int64_t heard_ns = 0;
+    std::uint64_t samples = 0;
+  };
+
+  bool GoesFirst(const HeardService& other) const;
+  void Yield(const std::string& why);
+
+  const ClaimOptions options_;
+  ClaimPhase phase_ = ClaimPhase::kClaiming;
+  std::optional<std::int64_t> since_ns_;
+  std::uint32_t term_ = 0;
+  std::uint32_t highest_heard_ = 0;
+  std::string why_;
+  std::map<std::uint64_t, Other> others_;  ///< By instance; at most kOthersMax.
+};
+
+/// Other services of one world that are remembered at a time; further ones are not, except that
+/// their terms count.
+inline constexpr std::size_t kOthersMax = 16;
+
+}  // namespace collision::server

@@ -1,0 +1,195 @@
+// Goal:   of any number of services in one world exactly one stays, whatever they hear of each
+//         other and when.
+// Method: single rules by hand; then any number of services with random starts, partitions of the
+//         network and lost samples, simulated in steps, from a seed.
+#include "server/claim/service_claim.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace collision::server {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+constexpr std::uint32_t kTermMax = std::numeric_limits<std::uint32_t>::max();
+
+ClaimOptions Options(std::uint64_t instance, std::uint32_t term_before = 0) {
+  return {.instance = instance,
+          .term_before = term_before,
+          .wait_ns = kSecond,
+          .heard_for_ns = 2 * kSecond};
+}
+
+ServiceClaim Serving(std::uint64_t instance, std::uint32_t term_before = 0) {
+  ServiceClaim claim(Options(instance, term_before));
+  claim.Update(0);
+  claim.Update(kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  return claim;
+}
+
+TEST(ServiceClaim, AloneItServesAfterTheWaitInTheTermAfterTheJournals) {
+  ServiceClaim claim(Options(5, 7));
+  claim.Update(3 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kClaiming);
+  EXPECT_EQ(claim.NextDue(), 4 * kSecond);
+  claim.Update(4 * kSecond - 1);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kClaiming);
+  EXPECT_EQ(claim.term(), 0u);
+  claim.Update(4 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(claim.term(), 8u);
+  EXPECT_EQ(claim.NextDue(), std::nullopt);
+}
+
+TEST(ServiceClaim, BesideALiveServiceItEndsAndNamesIt) {
+  ServiceClaim claim(Options(5));
+  claim.Update(0);
+  claim.Hear({.instance = 0xab, .term = 3, .serving = true, .sequence = 9}, kSecond / 2);
+  claim.Update(kSecond / 2);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kYielded);
+  EXPECT_EQ(claim.why(), "service 00000000000000ab, term 3 serves this world");
+}
+
+TEST(ServiceClaim, OfTwoThatStartTogetherTheLowerInstanceGoesOn) {
+  ServiceClaim low(Options(5)), high(Options(6));
+  for (ServiceClaim* claim : {&low, &high}) claim->Update(0);
+  low.Hear({.instance = 6, .sequence = 1}, 1);
+  high.Hear({.instance = 5, .sequence = 1}, 1);
+  for (ServiceClaim* claim : {&low, &high}) claim->Update(kSecond);
+  EXPECT_EQ(low.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(high.phase(), ClaimPhase::kYielded);
+}
+
+TEST(ServiceClaim, ItsOwnStatusIsNoOtherService) {
+  ServiceClaim claim(Options(5));
+  claim.Update(0);
+  claim.Hear({.instance = 5, .term = 9, .serving = true, .sequence = 1}, 1);
+  claim.Update(kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(claim.term(), 1u);
+}
+
+TEST(ServiceClaim, ATermHeardOfOneThatHasDiedCounts) {
+  ServiceClaim claim({.instance = 5, .wait_ns = 5 * kSecond, .heard_for_ns = kSecond});
+  claim.Hear({.instance = 1, .term = 41, .serving = true, .sequence = 1}, 0);
+  claim.Update(2 * kSecond);
+  claim.Update(7 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  EXPECT_EQ(claim.term(), 42u);
+}
+
+TEST(ServiceClaim, TheGreatestTermIsNotExceeded) {
+  EXPECT_EQ(Serving(5, kTermMax).term(), kTermMax);
+  EXPECT_EQ(Serving(5, kTermMax - 1).term(), kTermMax);
+}
+
+TEST(ServiceClaim, WhoServesYieldsToAHigherTermOnlyWhenItIsHeardTwice) {
+  ServiceClaim claim = Serving(5);
+  claim.Hear({.instance = 6, .term = kTermMax, .serving = true, .sequence = 1}, 2 * kSecond);
+  claim.Hear({.instance = 6, .term = kTermMax, .serving = true, .sequence = 1}, 2 * kSecond);
+  claim.Update(2 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing) << "one sample, although it came twice";
+  EXPECT_EQ(claim.Conflicts(2 * kSecond).size(), 1u);
+  claim.Hear({.instance = 6, .term = kTermMax, .serving = true, .sequence = 2}, 3 * kSecond);
+  claim.Update(3 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kYielded);
+}
+
+TEST(ServiceClaim, WhoServesStaysBesideALowerTermAndANewcomer) {
+  ServiceClaim claim = Serving(5, 3);
+  for (std::uint64_t sequence : {1, 2, 3}) {
+    claim.Hear({.instance = 1, .term = 3, .serving = true, .sequence = sequence}, 2 * kSecond);
+    claim.Hear({.instance = 2, .term = 0, .serving = false, .sequence = sequence}, 2 * kSecond);
+  }
+  claim.Update(2 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kServing);
+  const std::vector<std::string> conflicts = claim.Conflicts(2 * kSecond);
+  ASSERT_EQ(conflicts.size(), 1u);
+  EXPECT_EQ(conflicts[0], "service 0000000000000001, term 3 publishes in this world beside term 4");
+  EXPECT_TRUE(claim.Conflicts(5 * kSecond).empty()) << "not heard of for longer than its lease";
+}
+
+TEST(ServiceClaim, EverNewInstancesFillNothing) {
+  ServiceClaim claim = Serving(5, 100);
+  for (std::uint64_t instance = 1000; instance < 11'000; ++instance) {
+    claim.Hear({.instance = instance, .term = 1, .serving = true, .sequence = 1}, 2 * kSecond);
+  }
+  EXPECT_EQ(claim.Conflicts(2 * kSecond).size(), kOthersMax);
+  claim.Hear({.instance = 1, .term = 200, .serving = true, .sequence = 1}, 5 * kSecond);
+  claim.Hear({.instance = 1, .term = 200, .serving = true, .sequence = 2}, 5 * kSecond);
+  claim.Update(5 * kSecond);
+  EXPECT_EQ(claim.phase(), ClaimPhase::kYielded) << "the flood is forgotten after its lease";
+}
+
+/// Services that hear each other while they are on the same side of a parted network.
+class Room {
+ public:
+  explicit Room(std::uint32_t seed) : random_(seed) {}
+
+  void Start() {
+    services_.push_back({ServiceClaim(Options(random_(), random_() % 4)), random_() % 2 == 0});
+  }
+  void Part(bool parted) { parted_ = parted; }
+
+  void Run(std::int64_t seconds) {
+    for (int i = 0; i < 4 * seconds; ++i, now_ns_ += kSecond / 4) Step();
+  }
+
+  std::size_t serving() const {
+    std::size_t count = 0;
+    for (const auto& [claim, left] : services_) count += claim.phase() == ClaimPhase::kServing;
+    return count;
+  }
+
+ private:
+  void Step() {
+    ++sequence_;
+    for (const auto& [speaker, speaker_left] : services_) {
+      if (speaker.phase() == ClaimPhase::kYielded) continue;
+      for (auto& [hearer, hearer_left] : services_) {
+        if (parted_ && speaker_left != hearer_left) continue;
+        if (random_() % 5 == 0) continue;  // lost
+        hearer.Hear({.instance = speaker.instance(),
+                     .term = speaker.term(),
+                     .serving = speaker.phase() == ClaimPhase::kServing,
+                     .sequence = sequence_},
+                    now_ns_);
+      }
+    }
+    for (auto& [claim, left] : services_) claim.Update(now_ns_);
+  }
+
+  std::mt19937 random_;
+  std::vector<std::pair<ServiceClaim, bool>> services_;
+  bool parted_ = false;
+  std::int64_t now_ns_ = 0;
+  std::uint64_t sequence_ = 0;
+};
+
+TEST(ServiceClaim, OfAnyNumberExactlyOneStays) {
+  for (std::uint32_t seed = 1; seed <= 300; ++seed) {
+    Room room(seed);
+    std::mt19937 random(seed);
+    for (std::size_t i = 0, starts = 1 + random() % 6; i < starts; ++i) {
+      room.Start();
+      room.Run(random() % 3);
+    }
+    room.Run(4);
+    EXPECT_EQ(room.serving(), 1u) << "seed " << seed;
+    room.Part(true);
+    room.Start();
+    room.Start();
+    room.Run(4);
+    EXPECT_GE(room.serving(), 1u) << "seed " << seed;
+    EXPECT_LE(room.serving(), 2u) << "seed " << seed;
+    room.Part(false);
+    room.Run(4);
+    EXPECT_EQ(room.serving(), 1u) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace collision::server
