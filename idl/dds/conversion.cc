@@ -132,7 +132,7 @@ FIELDS(SimulatorStatus,
 FIELDS(Counter, TEXT(name) VALUE(value))
 
 FIELDS(ServiceStatus,
-       VALUE(service_id) MESSAGE(stamp) TEXT(version) TEXT(world) VALUE(simulated_clock)
+       VALUE(service_id) MESSAGE(stamp) VALUE(phase) TEXT(version) TEXT(world) VALUE(simulated_clock)
        VALUE(now_ns) VALUE(agents) VALUE(pairs_tracked) LIST(simulators, wire::kStatusSimulatorsMax)
        LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
        LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax))
@@ -176,8 +176,17 @@ void FromWire(TopicId topic, const void* wire, v1::Input* input) {
       return Get(wire, input->mutable_shape_part());
     case TopicId::kAgentStates:
       return Get(wire, input->mutable_agent_states());
+    case TopicId::kServiceStatus: {
+      const auto& status = *static_cast<const collision_v1_ServiceStatus*>(wire);
+      v1::ServiceHeard& heard = *input->mutable_service_heard();
+      heard.set_service_id(status.service_id);
+      heard.set_term(status.stamp.term);
+      heard.set_sequence(status.stamp.sequence);
+      heard.set_phase(static_cast<v1::ServicePhase>(status.phase));
+      return;
+    }
     default:
-      throw std::logic_error("not a topic of simulators");
+      throw std::logic_error("not a topic that a service reads");
   }
 }
 

@@ -40,12 +40,20 @@ class Builder {
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
     for (const TopicRow& row : Topics()) {
-      if (row.source != source) continue;
-      endpoints_.readers[Index(row)] =
-          Check(dds_create_reader(subscriber, Topic(row), TopicQos(row, row.reader_depth).get(),
-                                  listener),
-                std::string("DDS reader of ") + row.name);
+      if (row.source == source) Read(row, subscriber, TopicQos(row, row.reader_depth), listener);
     }
+  }
+
+  /// What other services of the world say of themselves.
+  void ReadOtherServices(const std::string& partition) {
+    Qos qos = MakeQos();
+    dds_qset_partition1(qos.get(), partition.c_str());
+    const dds_entity_t subscriber =
+        Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
+    const TopicRow& row = Row(TopicId::kServiceStatus);
+    Qos others = TopicQos(row, row.reader_depth);
+    dds_qset_ignorelocal(others.get(), DDS_IGNORELOCAL_PARTICIPANT);
+    Read(row, subscriber, std::move(others), nullptr);
   }
 
   void Write(Source source, const std::string& partition) {
@@ -64,6 +72,12 @@ class Builder {
   Endpoints endpoints() const { return endpoints_; }
 
  private:
+  void Read(const TopicRow& row, dds_entity_t subscriber, Qos qos, const dds_listener_t* listener) {
+    endpoints_.readers[Index(row)] =
+        Check(dds_create_reader(subscriber, Topic(row), qos.get(), listener),
+              std::string("DDS reader of ") + row.name);
+  }
+
   static std::size_t Index(const TopicRow& row) { return static_cast<std::size_t>(row.id); }
 
   dds_entity_t Topic(const TopicRow& row) {
@@ -81,9 +95,10 @@ class Builder {
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener) {
   Builder builder(participant, lease);
-  const auto& [of_simulators, of_service, as_simulator, as_service] = partitions;
+  const auto& [of_simulators, of_service, of_other_services, as_simulator, as_service] = partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener);
   if (of_service) builder.Read(Source::kService, *of_service, nullptr);
+  if (of_other_services) builder.ReadOtherServices(*of_other_services);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
   return builder.endpoints();

@@ -88,6 +88,8 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
     for (std::size_t i = 0; i < loan.size(); ++i) {
       if (row.source == Source::kSimulators) {
         Receive(reader, row, loan.sample(i), loan.info(i), inputs);
+      } else if (loan.info(i).valid_data && outputs == nullptr) {
+        FromWire(row.id, loan.sample(i), &inputs->emplace_back());
       } else if (loan.info(i).valid_data && Wanted(row, loan.sample(i))) {
         FromWire(row.id, loan.sample(i), &outputs->emplace_back());
       }

@@ -43,7 +43,7 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
     partitions.read_of_simulators = options.world + ".*";
   if (simulator || (monitor && options.reads_service)) partitions.read_of_service = options.world;
   if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;
-  if (service) partitions.write_as_service = options.world;
+  if (service) partitions.read_of_other_services = partitions.write_as_service = options.world;
   return partitions;
 }
 

@@ -13,7 +13,8 @@ namespace collision {
 
 /// What a program writes and reads; ../README.md has the topics.
 enum class DdsRole {
-  kService,    ///< Reads what all simulators of the world write; writes the service's topics.
+  kService,    ///< Reads what all simulators of the world write, and the status of other services;
+               ///< writes the service's topics.
   kSimulator,  ///< Writes its agents; reads the service's topics, of clearances and rejections its
                ///< own.
   kMonitor,    ///< Writes nothing.
@@ -87,7 +88,7 @@ class DdsSession {
   /// Waits until something arrived, `timeout` is over or Wake() was called; then takes what
   /// arrived, at most `limit` samples, the rest stays for the next call, and appends a message for
   /// each. What simulators wrote goes to `inputs`, what the service wrote to `outputs`; nullptr
-  /// where the role reads none. Returns how many samples it took; not all are messages (a
+  /// where the role reads none. To a service, another one's status is an input too. Returns how many samples it took; not all are messages (a
   /// simulator's session hands on only its own clearances), a removal may come as a second message
   /// of one sample, and changes of liveliness come on top.
   ///

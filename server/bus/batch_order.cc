@@ -22,6 +22,7 @@ struct Ordered {
 /// removal takes effect after the states of its batch.
 Key KeyOf(const v1::Input& input, bool reused) {
   switch (input.message_case()) {
+    case v1::Input::kServiceHeard:
     case v1::Input::kShapeReady:
       return {0, -1, 0};
     case v1::Input::kAgentDescription:

@@ -120,11 +120,11 @@ void Journal::Open(const std::string& folder) {
   struct stat facts {};
   const bool regular = fstat(file_, &facts) == 0 && S_ISREG(facts.st_mode);
   if (regular && flock(file_, LOCK_EX | LOCK_NB) == 0) return;
-  const std::string cause = !regular               ? "is no regular file"
-                            : errno == EWOULDBLOCK ? "in use: another collisiond serves this world"
-                                                   : "cannot be locked: " + CauseOf(errno);
+  const int error_number = errno;
   close(file_);
-  Fail(path_, cause);
+  if (!regular) Fail(path_, "is no regular file");
+  if (error_number != EWOULDBLOCK) Fail(path_, "cannot be locked: " + CauseOf(error_number));
+  throw JournalInUse(path_ + ": in use: another collisiond serves this world");
 }
 
 void Journal::Read() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,12 @@ struct JournalledSimulator {
   std::optional<Instant> granted;  ///< The greatest time granted to it; nullopt: none.
 
   bool operator==(const JournalledSimulator&) const = default;
+};
+
+/// Another process has the journal open: it serves the world, or is about to.
+class JournalInUse : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// A small file in the state directory: the term, the epoch and, of the simulators that hold time,
@@ -38,8 +45,8 @@ struct JournalledSimulator {
 class Journal {
  public:
   /// Opens the journal of a world, or begins one, and makes `folder` if it is missing. Throws
-  /// std::runtime_error, with path and cause: it cannot be written, is no journal, or another
-  /// process has it open.
+  /// JournalInUse, or another std::runtime_error with path and cause: it cannot be written, or is
+  /// no journal.
   Journal(const std::string& folder, const std::string& world, std::uint32_t domain,
           std::size_t simulators_max);
   ~Journal();

@@ -41,10 +41,6 @@ constexpr ConfigOption kOptions[] = {
      "Which world this service serves. Worlds do not see each other."},
     {"domain", "none", "0", kDigits<wire::kDomainMax>, "", "0",
      "DDS domain. Simulators and monitors must use the same."},
-    {"service_id", "none", "1", "18446744073709551615", "", "1",
-     "Identifies this instance in everything that it publishes; must be unique in the world."},
-    {"term", "none", "1", "4294967295", "", "1",
-     "Must be higher for an instance that takes over; clients drop samples of a lower term."},
     {"clock.kind", "none", "", "", "SIMULATED or WALL", "SIMULATED",
      "SIMULATED: now is the least clock of the live simulators. WALL: now is the time since 1970, "
      "advanced by the monotonic clock."},
@@ -127,6 +123,17 @@ constexpr ConfigOption kOptions[] = {
      "Folder that keeps trees once they are built; it is made if it is missing. A file that is "
      "damaged or of another version is replaced. Empty: the folder that systemd names "
      "(CacheDirectory=), else none."},
+    {"state_dir", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
+     "\"\"",
+     "Folder of the journal: what a service must remember when it is started again. It is made if "
+     "it is missing. Empty: the folder that systemd names (StateDirectory=), else none."},
+    {"on_state_failure", "none", "", "", "GO_ON or END", "GO_ON",
+     "When the journal cannot be read or written: GO_ON serves without one, END ends the service. "
+     "It is logged either way."},
+    {"claim_wait_s", "s", "0", "60", "", "0.5",
+     "How long a service that starts listens whether another one serves the world, in which case "
+     "it "
+     "ends. Longer than the network needs to find it."},
     {"tree_cache_mb", "MB", "1", "1048576", "", "1024",
      "Maximum size of all files in tree_cache_dir together, in millions of bytes; the least "
      "recently used are removed first. A shape of a million triangles takes about 100."},

@@ -7,13 +7,13 @@
 
 namespace collision::server {
 
-Publisher::Publisher(const v1::Config& config, Bus* bus)
-    : service_id_(config.service_id()), term_(config.term()), demand_(config), bus_(*bus) {}
+Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus)
+    : claim_(*claim), demand_(config), bus_(*bus) {}
 
 v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
-  stamp.set_service_id(service_id_);
-  stamp.set_term(term_);
+  stamp.set_service_id(claim_.instance());
+  stamp.set_term(claim_.term());
   stamp.set_sequence(++sequence_);
   return stamp;
 }
@@ -65,7 +65,7 @@ void Publisher::PublishEarliest(const detection::EarliestAnswer& answer, Instant
   v1::EarliestIntersection wire = Encode(answer);
   if (earliest_ && earliest_->SerializeAsString() == wire.SerializeAsString()) return;
   earliest_ = wire;
-  wire.set_service_id(service_id_);
+  wire.set_service_id(claim_.instance());
   wire.set_now_ns(now.nanoseconds());
   *wire.mutable_stamp() = NextStamp();
   v1::Output output;
@@ -84,7 +84,8 @@ void Publisher::PublishRejections(std::vector<v1::Rejection> rejections) {
 
 void Publisher::PublishStatus(v1::ServiceStatus status) {
   v1::Output output;
-  status.set_service_id(service_id_);
+  status.set_service_id(claim_.instance());
+  status.set_phase(claim_.phase() == ClaimPhase::kServing ? v1::PHASE_SERVING : v1::PHASE_CLAIMING);
   *status.mutable_stamp() = NextStamp();
   *output.mutable_service_status() = std::move(status);
   bus_.Publish(output);

@@ -6,6 +6,7 @@
 
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
+#include "server/claim/service_claim.h"
 #include "server/publish/event_log.h"
 #include "server/publish/state_demand.h"
 #include "server/world/world.h"
@@ -15,8 +16,8 @@ namespace collision::server {
 /// Every sample carries (service, term, sequence); the sequence counts all samples. One thread.
 class Publisher {
  public:
-  /// The bus outlives the publisher.
-  Publisher(const v1::Config& config, Bus* bus);
+  /// `claim`: who publishes. It and the bus outlive the publisher.
+  Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus);
 
   /// Publishes the chunks that are marked as changed, each complete, and takes the marks. Chunk 0,
   /// which carries the grant, comes last: a simulator that waits for its grant in it then has the
@@ -41,8 +42,7 @@ class Publisher {
   v1::ServiceStamp NextStamp();
   void PublishChunk(const World& world, const Simulator& simulator, std::uint32_t chunk);
 
-  const std::uint64_t service_id_;
-  const std::uint32_t term_;
+  const ServiceClaim& claim_;
   const StateDemand demand_;
   Bus& bus_;
   std::uint64_t sequence_ = 0;

@@ -1,6 +1,10 @@
 // What the service publishes about itself.
 #pragma once
 
+#include <cstdint>
+#include <limits>
+#include <vector>
+
 #include "collision_core/detection/detector.h"
 #include "idl/config.pb.h"
 #include "server/intake/intake.h"
@@ -55,6 +59,9 @@ class StatusSchedule {
 
   /// True if a status is to be published at this step; it then counts as published.
   bool Take(const World& world);
+
+  /// The next one is due at once.
+  void Hasten() { next_ns_ = std::numeric_limits<std::int64_t>::min(); }
 
   /// The monotonic time at which the next one is due.
   std::int64_t next_ns() const { return next_ns_; }

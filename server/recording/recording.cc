@@ -27,13 +27,20 @@ constexpr int kLengthBytesMax = 5;
 
 }  // namespace
 
-RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& config) : path_(path) {
+RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& config,
+                                 const ClaimOptions& claim)
+    : path_(path) {
   file_ = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
   if (file_ < 0) throw std::runtime_error(path + ": cannot be written: " + CauseOf(errno));
   v1::RecordingEntry entry;
   entry.mutable_header()->set_format(kRecordingFormat);
   entry.mutable_header()->set_version(kVersion);
   *entry.mutable_header()->mutable_config() = config;
+  v1::ServiceClaim& claimed = *entry.mutable_header()->mutable_claim();
+  claimed.set_instance(claim.instance);
+  claimed.set_term_before(claim.term_before);
+  claimed.set_wait_ns(claim.wait_ns);
+  claimed.set_heard_for_ns(claim.heard_for_ns);
   if (Write(entry)) return;
   close(file_);
   throw std::runtime_error(error_);
@@ -90,6 +97,12 @@ RecordingReader::RecordingReader(const std::string& path)
   if (!v1::Config::BroadPhase_IsValid(config_.broad_phase())) config_.clear_broad_phase();
   if (!config_.has_tree_builder()) config_.set_tree_builder(v1::Config::OCTREE);
   config_ = CompleteConfig(std::move(config_));
+  if (!entry.header().has_claim()) return;
+  const v1::ServiceClaim& claimed = entry.header().claim();
+  claim_ = {.instance = claimed.instance(),
+            .term_before = claimed.term_before(),
+            .wait_ns = claimed.wait_ns(),
+            .heard_for_ns = claimed.heard_for_ns()};
 }
 
 std::optional<v1::RecordedBatch> RecordingReader::Next() {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "idl/recording.pb.h"
+#include "server/claim/service_claim.h"
 
 namespace collision::server {
 
@@ -31,7 +32,8 @@ class RecordingWriter final : public BatchSink {
  public:
   /// Replaces the file and writes the header; `config` is complete. Throws std::runtime_error if it
   /// cannot.
-  RecordingWriter(const std::string& path, const v1::Config& config);
+  RecordingWriter(const std::string& path, const v1::Config& config,
+                  const ClaimOptions& claim = {});
   ~RecordingWriter() override;
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
@@ -65,6 +67,9 @@ class RecordingReader {
   /// As recorded: complete, with every default.
   const v1::Config& config() const { return config_; }
 
+  /// Likewise.
+  const ClaimOptions& claim() const { return claim_; }
+
   /// The next batch; nothing at the end and at the first entry that is cut off or damaged: see
   /// error().
   std::optional<v1::RecordedBatch> Next();
@@ -81,6 +86,7 @@ class RecordingReader {
   std::ifstream file_;
   std::uint64_t offset_ = 0;  // where the current entry begins
   v1::Config config_;
+  ClaimOptions claim_;
   std::string error_;
 };
 

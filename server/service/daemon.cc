@@ -1,6 +1,6 @@
 #include "server/service/daemon.h"
 
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
@@ -10,6 +10,7 @@
 #include "server/bus/batch_order.h"
 #include "server/config/config.h"
 #include "server/intake/intake.h"
+#include "server/process/logging.h"
 #include "server/process/names_log.h"
 #include "server/publish/publisher.h"
 #include "server/publish/status.h"
@@ -48,21 +49,22 @@ detection::DetectorOptions OptionsOf(const v1::Config& config) {
 
 class Daemon::Implementation {
  public:
-  Implementation(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder,
-                 std::unique_ptr<ShapeBuilder> shape_builder)
+  Implementation(const v1::Config& config, Bus& bus, Clock& clock, DaemonParts parts)
       : config_(config),
         bus_(bus),
         clock_(clock),
-        recorder_(recorder),
-        shape_builder_(shape_builder
-                           ? std::move(shape_builder)
+        recorder_(parts.recorder),
+        journal_(parts.journal),
+        claim_(parts.claim),
+        shape_builder_(parts.shape_builder
+                           ? std::move(parts.shape_builder)
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
         shapes_(config_, shape_builder_.get()),
         world_(config_),
         detector_(OptionsOf(config_)),
         rejections_(config_.rejections_per_second_max(), &world_),
         intake_(config_, &world_, &detector_, &rejections_, &shapes_),
-        publisher_(config_, &bus_),
+        publisher_(config_, &claim_, &bus_),
         schedule_(ToNanoseconds(config_.status_period_s())) {}
 
   bool Step() {
@@ -72,12 +74,17 @@ class Daemon::Implementation {
     if (!bus_.recorded()) AddReadyShapes(&inputs);
     SortBatch(&inputs);
     if (!Begin(clock_.Read(), &inputs)) return false;
+    if (!Claim(inputs)) return false;
     for (const v1::Input& input : inputs) intake_.Apply(input);
     intake_.EndBatch();
     LogSilence(world_.ReleaseSilent());
     world_.UpdateSimulatedTime();
-    Detect(!inputs.empty());
-    Publish();
+    if (claim_.phase() == ClaimPhase::kServing) {
+      Detect(!inputs.empty());
+      PublishAnswers();
+    }
+    PublishStatus();
+    bus_.Flush();
 #ifndef NDEBUG
     world_.Validate();
 #endif
@@ -89,6 +96,7 @@ class Daemon::Implementation {
     bus_.Wake();
   }
 
+  const ServiceClaim& claim() const { return claim_; }
   const EventLog& event_log() const { return publisher_.event_log(); }
 
  private:
@@ -108,6 +116,7 @@ class Daemon::Implementation {
     std::int64_t due = schedule_.next_ns();
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
     if (const auto next = world_.NextRelease()) due = std::min(due, *next);
+    if (const auto next = claim_.NextDue()) due = std::min(due, *next);
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
@@ -130,6 +139,34 @@ class Daemon::Implementation {
       (*inputs)[i] = std::move(*batch.mutable_inputs(static_cast<int>(i)));
     }
     return kept;
+  }
+
+  /// Takes what other services say of themselves. False: one of them has the world.
+  bool Claim(const std::vector<v1::Input>& inputs) {
+    const std::int64_t now_ns = world_.monotonic_ns();
+    for (const v1::Input& input : inputs) {
+      if (!input.has_service_heard()) continue;
+      const v1::ServiceHeard& heard = input.service_heard();
+      claim_.Hear({.instance = heard.service_id(),
+                   .term = heard.term(),
+                   .serving = heard.phase() != v1::PHASE_CLAIMING,
+                   .sequence = heard.sequence()},
+                  now_ns);
+    }
+    const ClaimPhase before = claim_.phase();
+    claim_.Update(now_ns);
+    for (const std::string& conflict : claim_.Conflicts(now_ns)) {
+      Log(spdlog::level::warn, "two services in one world", conflict);
+    }
+    if (claim_.phase() == ClaimPhase::kServing && before == ClaimPhase::kClaiming) BeginTerm();
+    return claim_.phase() != ClaimPhase::kYielded;
+  }
+
+  void BeginTerm() {
+    schedule_.Hasten();
+    spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
+    if (journal_ == nullptr || journal_->SetTerm(claim_.term(), 0)) return;
+    Log(spdlog::level::err, "state is not kept", journal_->error());
   }
 
   /// Logs each silent simulator that holds the world's time, or has been released, once.
@@ -163,29 +200,32 @@ class Daemon::Implementation {
 
   /// Publishes what does not come from the detector alone. Events have left before the clearances,
   /// and with them the grants, of the same step.
-  void Publish() {
+  void PublishAnswers() {
     publisher_.PublishRejections(rejections_.Take());
     publisher_.PublishClearances(&world_);
-    if (schedule_.Take(world_)) {
-      publisher_.PublishStatus(MakeStatus({.config = config_,
-                                           .world = world_,
-                                           .detector = detector_,
-                                           .intake = intake_,
-                                           .shapes = shapes_,
-                                           .rejections = rejections_,
-                                           .event_log = publisher_.event_log(),
-                                           .steps = steps_,
-                                           .queries_per_second = query_rate_.Take(
-                                               detector_.counters().queries, world_.monotonic_ns()),
-                                           .network = bus_.network_counters()}));
-    }
-    bus_.Flush();
+  }
+
+  void PublishStatus() {
+    if (!schedule_.Take(world_)) return;
+    publisher_.PublishStatus(MakeStatus({.config = config_,
+                                         .world = world_,
+                                         .detector = detector_,
+                                         .intake = intake_,
+                                         .shapes = shapes_,
+                                         .rejections = rejections_,
+                                         .event_log = publisher_.event_log(),
+                                         .steps = steps_,
+                                         .queries_per_second = query_rate_.Take(
+                                             detector_.counters().queries, world_.monotonic_ns()),
+                                         .network = bus_.network_counters()}));
   }
 
   const v1::Config config_;
   Bus& bus_;
   Clock& clock_;
   BatchSink* const recorder_;
+  Journal* const journal_;
+  ServiceClaim claim_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   ShapeStore shapes_;
   World world_;
@@ -207,16 +247,16 @@ class Daemon::Implementation {
   std::atomic<bool> stopped_ = false;
 };
 
-Daemon::Daemon(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder,
-               std::unique_ptr<ShapeBuilder> shape_builder)
-    : implementation_(std::make_unique<Implementation>(config, bus, clock, recorder,
-                                                       std::move(shape_builder))) {}
+Daemon::Daemon(const v1::Config& config, Bus& bus, Clock& clock, DaemonParts parts)
+    : implementation_(std::make_unique<Implementation>(config, bus, clock, std::move(parts))) {}
 
 Daemon::~Daemon() = default;
 
 bool Daemon::Step() { return implementation_->Step(); }
 
 void Daemon::Stop() { implementation_->Stop(); }
+
+const ServiceClaim& Daemon::claim() const { return implementation_->claim(); }
 
 const EventLog& Daemon::event_log() const { return implementation_->event_log(); }
 

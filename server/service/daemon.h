@@ -6,12 +6,23 @@
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
 #include "server/bus/clock.h"
+#include "server/claim/journal.h"
+#include "server/claim/service_claim.h"
 #include "server/publish/event_log.h"
 #include "server/shapes/shape_builder.h"
 
 namespace collision::server {
 
 class BatchSink;
+
+/// What a daemon may have beside bus and clock.
+struct DaemonParts {
+  BatchSink* recorder = nullptr;  ///< Gets every batch before it is applied.
+  std::unique_ptr<ShapeBuilder> shape_builder = nullptr;  ///< Null: shapes are built in the step
+                                                          ///< after they have arrived.
+  Journal* journal = nullptr;                             ///< Keeps the term.
+  ClaimOptions claim = {};  ///< By default it serves from the first step.
+};
 
 /// Owns the parts of the service and runs them in steps, on one thread. A step
 ///  1. waits until messages have arrived or something is due, and reads the clock;
@@ -32,18 +43,19 @@ class BatchSink;
 class Daemon {
  public:
   /// Requires that `config` is complete (CompleteConfig()) and valid, and that everything passed in
-  /// by reference outlives the daemon. `recorder` gets every batch before it is applied; it may be
-  /// null. Without a `shape_builder`, shapes are built in the step after they have arrived.
-  Daemon(const v1::Config& config, Bus& bus, Clock& clock, BatchSink* recorder,
-         std::unique_ptr<ShapeBuilder> shape_builder = nullptr);
+  /// by reference or pointer outlives the daemon.
+  Daemon(const v1::Config& config, Bus& bus, Clock& clock, DaemonParts parts = {});
   ~Daemon();
 
-  /// Runs one step. False: the bus has ended, Stop() was called, or the batch could not be
-  /// recorded.
+  /// Runs one step. False: the bus has ended, Stop() was called, the batch could not be recorded,
+  /// or another service has the world.
   bool Step();
 
   /// Makes Step() return false soon. Any thread.
   void Stop();
+
+  /// Its claim to the world.
+  const ServiceClaim& claim() const;
 
   /// Every collision event published so far.
   const EventLog& event_log() const;

@@ -11,6 +11,7 @@ enum ExitCode {
   kExitSoftware = 70,       ///< A fault of this program: a check has failed.
   kExitSystem = 71,         ///< Memory, or another resource of the system, is exhausted.
   kExitRecording = 74,      ///< A recording cannot be written, or not be read to its end.
+  kExitOccupied = 75,       ///< Another service has the world.
   kExitConfiguration = 78,  ///< The configuration is wrong.
 };
 

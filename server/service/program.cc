@@ -1,7 +1,7 @@
 #include "server/service/program.h"
 
 #include <google/protobuf/util/json_util.h>
-#include <spdlog/common.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -27,14 +28,29 @@
 namespace collision::server {
 namespace {
 
-/// systemd names the folder that it has made for CacheDirectory=; of several, none is ours alone.
-void TakeFolderOfSystemd(v1::Config* config) {
-  const char* folder = std::getenv("CACHE_DIRECTORY");
-  if (folder == nullptr || !config->tree_cache_dir().empty()) return;
-  config->set_tree_cache_dir(folder);
-  const ConfigOption& option = *FindConfigOption("tree_cache_dir");
-  if (std::string(folder).find(':') != std::string::npos || !CheckValue(*config, option).empty()) {
-    config->set_tree_cache_dir("");
+/// A service that is silent for so long counts as gone.
+constexpr std::chrono::nanoseconds kServiceLease = std::chrono::seconds(2);
+
+/// The folder that systemd has made and named in this variable of the environment; empty: it made
+/// none, or several, of which none is ours alone.
+std::string FolderOfSystemd(const char* variable) {
+  const char* value = std::getenv(variable);
+  const std::string folder = value == nullptr ? "" : value;
+  return folder.find(':') == std::string::npos ? folder : "";
+}
+
+/// Folders that are not configured are those of systemd: CacheDirectory=, StateDirectory=.
+void TakeFoldersOfSystemd(v1::Config* config) {
+  v1::Config with_folders = *config;
+  if (config->tree_cache_dir().empty()) {
+    with_folders.set_tree_cache_dir(FolderOfSystemd("CACHE_DIRECTORY"));
+  }
+  if (CheckValue(with_folders, *FindConfigOption("tree_cache_dir")).empty()) {
+    config->set_tree_cache_dir(with_folders.tree_cache_dir());
+  }
+  if (config->state_dir().empty()) with_folders.set_state_dir(FolderOfSystemd("STATE_DIRECTORY"));
+  if (CheckValue(with_folders, *FindConfigOption("state_dir")).empty()) {
+    config->set_state_dir(with_folders.state_dir());
   }
 }
 
@@ -46,6 +62,33 @@ std::shared_ptr<TreeCache> MakeTreeCache(const v1::Config& config) {
                                      BuildOptionsOf(config).tree);
 }
 
+/// Null: none is wanted, or the service goes on without one. Throws std::runtime_error otherwise.
+std::unique_ptr<Journal> OpenJournal(const v1::Config& config) {
+  if (config.state_dir().empty()) {
+    spdlog::info("no state_dir: nothing is remembered for the next start");
+    return nullptr;
+  }
+  try {
+    auto journal = std::make_unique<Journal>(config.state_dir(), config.world(), config.domain(),
+                                             config.simulators_max());
+    for (const std::string& damage : journal->damage()) spdlog::warn("{}", damage);
+    return journal;
+  } catch (const JournalInUse&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    if (config.on_state_failure() == v1::Config::END) throw;
+    spdlog::error("{}; nothing is remembered for the next start", error.what());
+    return nullptr;
+  }
+}
+
+/// An id that no other service has: of two random ones, equal with probability 2^-64.
+std::uint64_t DrawInstance() {
+  std::random_device source;
+  const std::uint64_t high = source();
+  return std::max<std::uint64_t>(high << 32 | source(), 1);
+}
+
 int Serve(const v1::Config& config, const std::string& record_file) {
   PrepareSignals();
   std::shared_ptr<TreeCache> cache;
@@ -54,19 +97,37 @@ int Serve(const v1::Config& config, const std::string& record_file) {
   } catch (const std::runtime_error& error) {
     return Fail(kExitConfiguration, std::string("tree_cache_dir: ") + error.what());
   }
+  std::unique_ptr<Journal> journal;
+  try {
+    journal = OpenJournal(config);
+  } catch (const JournalInUse& error) {
+    return Fail(kExitOccupied, error.what());
+  } catch (const std::runtime_error& error) {
+    return Fail(kExitConfiguration, std::string("state_dir: ") + error.what());
+  }
+  const ClaimOptions claim = {.instance = DrawInstance(),
+                              .term_before = journal ? journal->term() : 0,
+                              .wait_ns = ToNanoseconds(config.claim_wait_s()),
+                              .heard_for_ns = kServiceLease.count()};
   std::unique_ptr<RecordingWriter> recorder;
   try {
-    if (!record_file.empty()) recorder = std::make_unique<RecordingWriter>(record_file, config);
+    if (!record_file.empty()) {
+      recorder = std::make_unique<RecordingWriter>(record_file, config, claim);
+    }
   } catch (const std::runtime_error& error) {
     return Fail(kExitRecording, error.what());
   }
   std::unique_ptr<DdsBus> bus;
   try {
-    bus = std::make_unique<DdsBus>(config.world(), config.domain());
+    bus = std::make_unique<DdsBus>(config.world(), config.domain(), kServiceLease);
   } catch (const std::runtime_error& error) {
     return Fail(kExitUnavailable, error.what());
   }
-  return Serve(config, *bus, recorder.get(), std::move(cache));
+  return Serve(config, *bus,
+               {.recorder = recorder.get(),
+                .trees = std::move(cache),
+                .journal = journal.get(),
+                .claim = claim});
 }
 
 void PrintEvent(const v1::Output& output) {
@@ -83,7 +144,7 @@ void PrintEvent(const v1::Output& output) {
 /// What is complete is replayed, also of a recording that ends too early.
 int Replay(RecordingReader& reader) {
   ReplaySource source(reader, PrintEvent);
-  Daemon daemon(reader.config(), source, source, nullptr);
+  Daemon daemon(reader.config(), source, source, {.claim = reader.claim()});
   while (daemon.Step()) {
   }
   std::cout.flush();
@@ -132,7 +193,7 @@ int Run(const Options& options) {
   } catch (const std::exception& error) {
     return Fail(kExitConfiguration, std::string("log_file: ") + error.what());
   }
-  TakeFolderOfSystemd(&loaded.config);
+  TakeFoldersOfSystemd(&loaded.config);
   return Serve(loaded.config, options.record_file);
 }
 

@@ -45,25 +45,38 @@ int EndWith(ExitCode code, const char* what, const std::exception& failure) {
   return Fail(code, std::string(what) + ": " + failure.what());
 }
 
-int ServeUntilStopped(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
-                      std::shared_ptr<TreeStore> trees) {
+int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   SystemClock clock;
+  RecordingWriter* const recorder = parts.recorder;
   BuildOptions build = BuildOptionsOf(config);
-  build.cache = std::move(trees);
-  Daemon daemon(config, bus, clock, recorder,
-                std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }));
+  build.cache = std::move(parts.trees);
+  Daemon daemon(
+      config, bus, clock,
+      {.recorder = recorder,
+       .shape_builder = std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }),
+       .journal = parts.journal,
+       .claim = parts.claim});
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
                                   [recorder] { EndInTheStep(recorder); });
   ServiceNotifier service_manager;
-  spdlog::info("collisiond {} serves world \"{}\" on domain {}", kVersion, config.world(),
-               config.domain());
+  spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", kVersion,
+               parts.claim.instance, config.world(), config.domain());
   spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
                config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
-  service_manager.Ready();
-  while (daemon.Step()) service_manager.Alive(std::chrono::steady_clock::now());
+  bool ready = false;
+  while (daemon.Step()) {
+    if (!ready && daemon.claim().phase() == ClaimPhase::kServing) {
+      service_manager.Ready();
+      ready = true;
+    }
+    service_manager.Alive(std::chrono::steady_clock::now());
+  }
   service_manager.Stopping();
   LogFingerprint(daemon.event_log());
   if (recorder && !recorder->error().empty()) return Fail(kExitRecording, recorder->error());
+  if (daemon.claim().phase() == ClaimPhase::kYielded) {
+    return Fail(kExitOccupied, "world \"" + config.world() + "\": " + daemon.claim().why());
+  }
   return signals.stopped() ? kExitOk : Fail(kExitUnavailable, "DDS has ended");
 }
 
@@ -92,9 +105,8 @@ int EndOnFailure(const std::function<int()>& run) {
   }
 }
 
-int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
-          std::shared_ptr<TreeStore> trees) {
-  return EndOnFailure([&] { return ServeUntilStopped(config, bus, recorder, std::move(trees)); });
+int Serve(const v1::Config& config, Bus& bus, ServiceParts parts) {
+  return EndOnFailure([&] { return ServeUntilStopped(config, bus, std::move(parts)); });
 }
 
 }  // namespace collision::server

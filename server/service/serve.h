@@ -7,6 +7,8 @@
 
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
+#include "server/claim/journal.h"
+#include "server/claim/service_claim.h"
 #include "server/publish/event_log.h"
 #include "server/recording/recording.h"
 #include "server/service/exit_code.h"
@@ -14,14 +16,21 @@
 
 namespace collision::server {
 
+/// What a service may have beside its bus; all may be null.
+struct ServiceParts {
+  RecordingWriter* recorder = nullptr;
+  std::shared_ptr<TreeStore> trees = nullptr;
+  Journal* journal = nullptr;
+  ClaimOptions claim = {};
+};
+
 /// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, or
-/// a failure (EndOnFailure()). Returns the exit code. PrepareSignals() was called.
+/// a failure (EndOnFailure()), or because another service has the world. Returns the exit code. PrepareSignals() was called.
 ///
 /// A step that is not over 0.7 s after the signal is not waited for: what is recorded stays whole,
-/// and the process ends with 0 from another thread, so Serve() does not return. `recorder` may be
-/// null, and so may `trees`, which keeps what BuildOptionsOf(config) builds.
-int Serve(const v1::Config& config, Bus& bus, RecordingWriter* recorder,
-          std::shared_ptr<TreeStore> trees = nullptr);
+/// and the process ends with 0 from another thread, so Serve() does not return. `parts` may lack any, also
+/// `trees`, which keeps what BuildOptionsOf(config) builds.
+int Serve(const v1::Config& config, Bus& bus, ServiceParts parts);
 
 /// Returns what `run` returns. If a CheckFailure, or another std::logic_error, leaves it, there is
 /// a bug in this program: logs what failed as critical, and returns kExitSoftware. If any other

@@ -47,6 +47,7 @@ struct FakeNetwork {
     v1::Clearance* clearance = arriving.emplace_back().mutable_clearance();
     clearance->set_simulator_id(SimulatorId(kSimulator));
     clearance->set_run(run);
+    clearance->mutable_stamp()->set_service_id(term);  // each term has a service of its own
     clearance->mutable_stamp()->set_term(term);
     clearance->set_granted_until_ns(until_ns);
   }

@@ -39,7 +39,7 @@ void FuzzRecording(Bytes bytes) {
       return;
     }
     server::ReplaySource source(reader, CheckOutput);
-    server::Daemon daemon(reader.config(), source, source, nullptr);
+    server::Daemon daemon(reader.config(), source, source, {.claim = reader.claim()});
     for (int step = 0; step < kStepsMax && daemon.Step(); ++step) {
     }
     Require(reader.error().empty() || reader.error().starts_with(file.path()),

@@ -52,8 +52,8 @@ class ScriptedDaemon {
  public:
   explicit ScriptedDaemon(v1::Config config, BatchSink* recorder = nullptr,
                           std::unique_ptr<ShapeBuilder> shape_builder = nullptr)
-      : daemon_(CompleteConfig(std::move(config)), bus_, bus_, recorder, std::move(shape_builder)) {
-  }
+      : daemon_(CompleteConfig(std::move(config)), bus_, bus_,
+                {.recorder = recorder, .shape_builder = std::move(shape_builder)}) {}
 
   /// One step `seconds` later with these inputs.
   void Step(std::vector<v1::Input> inputs, double seconds = 0) {

@@ -59,7 +59,7 @@ TEST(Golden, TheEventLogIsTheSameEverywhere) {
 
   RecordingReader reader(file);
   ReplaySource source(reader);
-  Daemon replayed(reader.config(), source, source, nullptr);
+  Daemon replayed(reader.config(), source, source, {.claim = reader.claim()});
   while (replayed.Step()) {
   }
   EXPECT_TRUE(reader.error().empty()) << reader.error();

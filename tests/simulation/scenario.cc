@@ -48,7 +48,9 @@ void Scenario::StartService(BatchSink* recorder, std::unique_ptr<ShapeBuilder> s
   daemon_.reset();
   bus_.reset();
   bus_ = std::make_unique<SimulatedBus>(&network_);
-  daemon_ = std::make_unique<Daemon>(config_, *bus_, clock_, recorder, std::move(shape_builder));
+  daemon_ = std::make_unique<Daemon>(
+      config_, *bus_, clock_,
+      DaemonParts{.recorder = recorder, .shape_builder = std::move(shape_builder)});
 }
 
 void Scenario::StartSimulators() {

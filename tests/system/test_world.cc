@@ -55,11 +55,17 @@ std::string Folder::Write(const std::string& name, const std::string& text) cons
 }
 
 TestWorld::TestWorld(int domain, const std::string& clock)
-    : domain_(std::to_string(domain)), name_("test-" + domain_ + "-" + std::to_string(getpid())) {
-  config_file_ =
-      folder_.Write("collisiond.textproto",
-                    "world: \"" + name_ + "\"\ndomain: " + domain_ + "\nclock { " + clock + " }\n");
+    : domain_(std::to_string(domain)),
+      name_("test-" + domain_ + "-" + std::to_string(getpid())),
+      clock_(clock) {
+  SetStateFolder(folder_.Path("state"));
   variables_ = {"CYCLONEDDS_URI=file://" + ConfigFile("cyclonedds-loopback.xml")};
+}
+
+void TestWorld::SetStateFolder(const std::string& path) {
+  config_file_ = folder_.Write("collisiond.textproto",
+                               "world: \"" + name_ + "\"\ndomain: " + domain_ + "\nclock { " +
+                                   clock_ + " }\nstate_dir: \"" + path + "\"\n");
 }
 
 void TestWorld::MoveTo(const TwoHosts& hosts, int host) {
@@ -73,9 +79,13 @@ std::vector<std::string> TestWorld::OnHost(std::vector<std::string> command) con
   return hosts_ ? hosts_->On(host_, std::move(command)) : command;
 }
 
-std::unique_ptr<Process> TestWorld::StartDaemon(const std::vector<std::string>& options) const {
-  auto daemon = std::make_unique<Process>(
+std::unique_ptr<Process> TestWorld::LaunchDaemon(const std::vector<std::string>& options) const {
+  return std::make_unique<Process>(
       OnHost(Joined({Program("collisiond"), "--config", config_file_}, options)), variables_);
+}
+
+std::unique_ptr<Process> TestWorld::StartDaemon(const std::vector<std::string>& options) const {
+  auto daemon = LaunchDaemon(options);
   if (!daemon->WaitForOutput("serves world"))
     throw std::runtime_error("collisiond: " + daemon->err());
   return daemon;

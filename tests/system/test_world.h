@@ -52,8 +52,11 @@ const Flight kRight{"right", 5, -1};
 class TestWorld {
  public:
   /// `domain` is the test's own, so that tests can run at once. `clock` is what stands in the field
-  /// clock {}.
+  /// clock {}. The service keeps its journal in the folder "state".
   explicit TestWorld(int domain, const std::string& clock = "simulators_awaited: 2");
+
+  /// Another folder for the journal from here on; empty: none.
+  void SetStateFolder(const std::string& path);
 
   /// From here on programs start on this host, with the profile for several hosts. `hosts` must
   /// outlive them.
@@ -61,7 +64,10 @@ class TestWorld {
 
   const Folder& folder() const { return folder_; }
 
-  /// Starts collisiond in this world and waits until it serves.
+  /// Starts collisiond in this world.
+  std::unique_ptr<Process> LaunchDaemon(const std::vector<std::string>& options = {}) const;
+
+  /// Likewise, and waits until it serves.
   std::unique_ptr<Process> StartDaemon(const std::vector<std::string>& options = {}) const;
 
   /// Starts a trajectory-player for one flight; `options` go on its command line.
@@ -85,6 +91,7 @@ class TestWorld {
   Folder folder_;
   std::string domain_;
   std::string name_;
+  std::string clock_;
   std::string config_file_;
   std::vector<std::string> variables_;
   const TwoHosts* hosts_ = nullptr;

@@ -1,7 +1,5 @@
 #include "client/library/world/revision_filter.h"
 
-#include <algorithm>
-
 namespace collision::client {
 namespace {
 
@@ -15,18 +13,7 @@ bool SameContact(const v1::CollisionEvent& a, const v1::CollisionEvent& b) {
          SameAgent(a.higher(), b.higher());
 }
 
-/// Whether one incarnation of a service published both, `earlier` first.
-bool SameIncarnation(const v1::ServiceStamp& earlier, const v1::ServiceStamp& later) {
-  return earlier.service_id() == later.service_id() && earlier.term() == later.term() &&
-         earlier.sequence() <= later.sequence();
-}
-
 }  // namespace
-
-bool RevisionFilter::IsCurrent(const v1::ServiceStamp& stamp) {
-  term_ = std::max(term_, stamp.term());
-  return stamp.term() == term_;
-}
 
 bool RevisionFilter::IsNew(const v1::CollisionEvent& event) {
   const auto [entry, first] = seen_.try_emplace(event.pair_slot(), event);
@@ -34,7 +21,7 @@ bool RevisionFilter::IsNew(const v1::CollisionEvent& event) {
   const v1::CollisionEvent& known = entry->second;
   if (SameContact(known, event)) {
     const bool outdated =
-        SameIncarnation(known.stamp(), event.stamp())
+        known.stamp().service_id() == event.stamp().service_id()
             ? event.revision() <= known.revision()
             : event.revision() == known.revision() && event.status() == known.status();
     if (outdated) return false;

@@ -208,7 +208,8 @@ void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Flush();  // Descriptions may be waiting.
   Arrivals arrivals;
   transport_->Receive(timeout, &arrivals);
-  for (const v1::Output& output : arrivals.outputs) Handle(output);
+  const CurrentService::Time now = std::chrono::steady_clock::now();
+  for (const v1::Output& output : arrivals.outputs) Handle(output, now);
   if (on_event_) return;
   while (events_.size() > kEventsMax) {
     events_.pop_front();
@@ -216,13 +217,13 @@ void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   }
 }
 
-void World::Implementation::Handle(const v1::Output& output) {
+void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
   switch (output.message_case()) {
     case v1::Output::kClearance:
-      if (filter_.IsCurrent(output.clearance().stamp())) Handle(output.clearance());
+      if (service_.Accept(output.clearance().stamp(), now)) Handle(output.clearance());
       break;
     case v1::Output::kCollisionEvent:
-      if (filter_.IsCurrent(output.collision_event().stamp())) Handle(output.collision_event());
+      if (service_.Accept(output.collision_event().stamp(), now)) Handle(output.collision_event());
       break;
     case v1::Output::kRejection: {
       const v1::Rejection& rejection = output.rejection();
@@ -233,7 +234,8 @@ void World::Implementation::Handle(const v1::Output& output) {
       break;
     }
     case v1::Output::kServiceStatus:
-      if (!filter_.IsCurrent(output.service_status().stamp())) break;
+      if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
+      if (!service_.Accept(output.service_status().stamp(), now)) break;
       simulated_clock_ = output.service_status().simulated_clock();
       break;
     default:

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/api/world.h"
+#include "client/library/network/current_service.h"
 #include "client/library/network/transport.h"
 #include "client/library/world/agent_table.h"
 #include "client/library/world/revision_filter.h"
@@ -74,7 +75,7 @@ class World::Implementation {
 
   /// Takes in what arrives within `timeout`, without callbacks.
   void Gather(std::chrono::nanoseconds timeout);
-  void Handle(const v1::Output& output);
+  void Handle(const v1::Output& output, CurrentService::Time now);
   void Handle(const v1::Clearance& clearance);
   void Handle(const v1::CollisionEvent& event);
   bool IsOwn(const v1::AgentId& id) const;
@@ -88,6 +89,7 @@ class World::Implementation {
   std::unique_ptr<Transport> transport_;
   AgentTable agents_;
   ShapePublisher shapes_;
+  CurrentService service_;
   RevisionFilter filter_;
 
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();

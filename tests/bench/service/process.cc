@@ -34,7 +34,7 @@ void ServeOurs(const std::string& world, std::uint32_t domain) {
   config = server::CompleteConfig(config);
   server::DdsBus bus(world, domain);
   server::SystemClock clock;
-  server::Daemon daemon(config, bus, clock, nullptr);
+  server::Daemon daemon(config, bus, clock);
   while (daemon.Step()) {
   }
 }

@@ -16,9 +16,14 @@ Instant At(std::int64_t ns) { return Instant::FromNanoseconds(ns); }
 
 v1::Config Config() {
   v1::Config config;
-  config.set_service_id(7);
-  config.set_term(3);
   return CompleteConfig(config);
+}
+
+/// Service 7, in its term 3.
+ServiceClaim Claimed() {
+  ServiceClaim claim({.instance = 7, .term_before = 2});
+  claim.Update(0);
+  return claim;
 }
 
 /// The numbers of the chunks published so far, in order.
@@ -46,7 +51,8 @@ struct OneSimulator {
 
 TEST(Publisher, EverySampleCarriesServiceTermAndTheNextNumber) {
   ScriptedBus bus;
-  Publisher publisher(Config(), &bus);
+  const ServiceClaim claim = Claimed();
+  Publisher publisher(Config(), &claim, &bus);
   publisher.PublishEvents({{}, {}});
   publisher.PublishRejections({v1::Rejection{}});
   publisher.PublishStatus({});
@@ -64,7 +70,8 @@ TEST(Publisher, EverySampleCarriesServiceTermAndTheNextNumber) {
 
 TEST(Publisher, AnEarliestAnswerIsPublishedOnceUntilItChanges) {
   ScriptedBus bus;
-  Publisher publisher(Config(), &bus);
+  const ServiceClaim claim = Claimed();
+  Publisher publisher(Config(), &claim, &bus);
   publisher.PublishEarliest({}, At(1));
   publisher.PublishEarliest({}, At(2));
   ASSERT_EQ(bus.outputs.size(), 1u);
@@ -77,7 +84,8 @@ TEST(Publisher, AnEarliestAnswerIsPublishedOnceUntilItChanges) {
 
 TEST(Publisher, TheEventLogCountsEventsWithoutTheirStamps) {
   ScriptedBus bus;
-  Publisher one(Config(), &bus), late(Config(), &bus);
+  const ServiceClaim claim = Claimed();
+  Publisher one(Config(), &claim, &bus), late(Config(), &claim, &bus);
   late.PublishStatus({});  // its later samples have other numbers
   one.PublishEvents({{}});
   late.PublishEvents({{}});
@@ -97,7 +105,8 @@ TEST(Publisher, TheChunkOfTheGrantLeavesLastAndEachOnce) {
     one.simulator->agents().clearances().MarkChanged(slot);
   }
   ScriptedBus bus;
-  Publisher publisher(Config(), &bus);
+  const ServiceClaim claim = Claimed();
+  Publisher publisher(Config(), &claim, &bus);
   publisher.PublishClearances(&one.world);
   EXPECT_EQ(Chunks(bus), (std::vector<std::uint32_t>{3, 1, 0}));
   EXPECT_EQ(bus.outputs.back().clearance().granted_until_ns(), kSecond);
@@ -109,7 +118,8 @@ TEST(Publisher, ASimulatorWithoutAGrantKeepsItsMarks) {
   OneSimulator one;
   one.simulator->agents().clearances().MarkChanged(64);
   ScriptedBus bus;
-  Publisher publisher(Config(), &bus);
+  const ServiceClaim claim = Claimed();
+  Publisher publisher(Config(), &claim, &bus);
   publisher.PublishClearances(&one.world);
   EXPECT_EQ(Chunks(bus), std::vector<std::uint32_t>{});
   one.simulator->time().Grant(At(kSecond));

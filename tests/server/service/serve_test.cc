@@ -94,7 +94,7 @@ Served ServeOn(Bus& bus, std::shared_ptr<TreeStore> trees = nullptr) {
   PrepareSignals();
   {
     RecordingWriter recorder(recording, config);
-    served.exit_code = Serve(config, bus, &recorder, std::move(trees));
+    served.exit_code = Serve(config, bus, {.recorder = &recorder, .trees = std::move(trees)});
     EXPECT_EQ(recorder.error(), "");
   }
   StartLogging("info", "");
@@ -117,7 +117,7 @@ TEST(Serve, EndsInTheMiddleOfAStep) {
     const v1::Config config = CompleteConfig({});
     RecordingWriter recorder(path, config);
     BlockingBus bus;
-    Serve(config, bus, &recorder);
+    Serve(config, bus, {.recorder = &recorder});
   };
   EXPECT_EXIT(serve(), testing::ExitedWithCode(0), "exits without waiting for it");
   RecordingReader reader(path);

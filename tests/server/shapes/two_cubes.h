@@ -77,7 +77,7 @@ inline v1::CollisionEvent LastEvent(ScriptedDaemon& daemon) {
 inline void ExpectSameReplay(const std::string& path, std::uint64_t hash, std::uint64_t count) {
   RecordingReader reader(path);
   ReplaySource source(reader);
-  Daemon replayed(reader.config(), source, source, nullptr);
+  Daemon replayed(reader.config(), source, source, {.claim = reader.claim()});
   while (replayed.Step()) {
   }
   EXPECT_EQ(reader.error(), "");

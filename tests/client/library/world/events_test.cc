@@ -95,11 +95,17 @@ TEST_F(EventsTest, AllFieldsArrive) {
   EXPECT_STREQ(Name(received.limited_by), "geometry");
 }
 
+v1::CollisionEvent OfService(std::uint64_t id, std::uint32_t term, v1::CollisionEvent event) {
+  event.mutable_stamp()->set_service_id(id);
+  event.mutable_stamp()->set_term(term);
+  return event;
+}
+
 // A restarted service counts from 1 again, in sequences and in revisions.
 TEST_F(EventsTest, EventsOfARestartedServiceArrive) {
   Arrive(OwnEvent(1, 5, 100));
-  Arrive(OwnEvent(1, 1, 3));
-  Arrive(OwnEvent(1, 2, 4));
+  Arrive(OfService(7, 2, OwnEvent(1, 1, 3)));
+  Arrive(OfService(7, 2, OwnEvent(1, 2, 4)));
   world_.Poll();
   const std::vector<Event> events = world_.TakeEvents();
   ASSERT_EQ(events.size(), 3u);
@@ -109,12 +115,9 @@ TEST_F(EventsTest, EventsOfARestartedServiceArrive) {
 // A standby that takes over publishes the complete current set: known events are not new.
 TEST_F(EventsTest, RepetitionsOfANewTermAndSamplesOfAnOldOneAreDropped) {
   Arrive(OwnEvent(1, 5, 100));
-  v1::CollisionEvent repeated = OwnEvent(1, 5, 1);
-  repeated.mutable_stamp()->set_term(2);
-  Arrive(repeated);
+  Arrive(OfService(2, 2, OwnEvent(1, 5, 1)));
   Arrive(OwnEvent(1, 6, 101));
-  v1::CollisionEvent next = OwnEvent(1, 6, 2);
-  next.mutable_stamp()->set_term(2);
+  v1::CollisionEvent next = OfService(2, 2, OwnEvent(1, 6, 2));
   next.set_now_ns(77);
   Arrive(next);
   world_.Poll();

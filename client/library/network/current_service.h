@@ -1,0 +1,48 @@
+// Which of several services a client believes.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// A service that was silent for so long has ended, or cannot be heard: another one counts.
+inline constexpr std::chrono::seconds kServiceSilence(2);
+
+/// The service in force: of those that speak the one with the highest term, of equal terms the one
+/// with the lower id. A service of a higher term takes over at once; one of a lower term when the
+/// one in force has been silent for kServiceSilence. So a term that was only a test, or a forged
+/// one, is in force no longer than it is repeated, and conflicts() tells of it.
+///
+/// It judges each sample by its stamp, and its answers depend on nothing but the calls. One thread.
+class CurrentService {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// Whether the sample that carries this stamp comes from the service in force, which it may
+  /// become by it.
+  bool Accept(const v1::ServiceStamp& stamp, Time now);
+
+  /// 0: none was heard yet.
+  std::uint64_t id() const { return id_; }
+  std::uint32_t term() const { return term_; }
+
+  /// How often another service came into force than the one before; not counting the first.
+  std::uint64_t changes() const { return changes_; }
+
+  /// Samples dropped because another service is in force: more than a few mean that two services
+  /// publish in one world.
+  std::uint64_t conflicts() const { return conflicts_; }
+
+ private:
+  std::uint64_t id_ = 0;
+  std::uint32_t term_ = 0;
+  Time heard_{};
+  std::uint64_t changes_ = 0;
+  std::uint64_t conflicts_ = 0;
+};
+
+}  // namespace collision::client

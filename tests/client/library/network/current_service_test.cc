@@ -1,0 +1,73 @@
+// Goal:   a client follows one service at a time: the highest term that still speaks.
+// Method: stamps of several services at times of our own.
+#include "client/library/network/current_service.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace collision::client {
+namespace {
+
+using std::chrono::milliseconds;
+
+CurrentService::Time At(int ms) { return CurrentService::Time() + milliseconds(ms); }
+
+v1::ServiceStamp Stamp(std::uint64_t id, std::uint32_t term) {
+  v1::ServiceStamp stamp;
+  stamp.set_service_id(id);
+  stamp.set_term(term);
+  return stamp;
+}
+
+TEST(CurrentService, TheFirstOneHeardIsInForce) {
+  CurrentService service;
+  EXPECT_EQ(service.id(), 0u);
+  EXPECT_TRUE(service.Accept(Stamp(5, 3), At(0)));
+  EXPECT_EQ(service.id(), 5u);
+  EXPECT_EQ(service.term(), 3u);
+  EXPECT_EQ(service.changes(), 0u);
+}
+
+TEST(CurrentService, AHigherTermTakesOverAtOnceAndTheLowerOneIsDropped) {
+  CurrentService service;
+  EXPECT_TRUE(service.Accept(Stamp(5, 3), At(0)));
+  EXPECT_TRUE(service.Accept(Stamp(9, 4), At(0)));
+  EXPECT_FALSE(service.Accept(Stamp(5, 3), At(1)));
+  EXPECT_EQ(service.id(), 9u);
+  EXPECT_EQ(service.changes(), 1u);
+  EXPECT_EQ(service.conflicts(), 1u);
+}
+
+TEST(CurrentService, OfEqualTermsTheLowerIdCounts) {
+  for (const bool lower_first : {true, false}) {
+    CurrentService service;
+    service.Accept(Stamp(lower_first ? 5 : 6, 3), At(0));
+    service.Accept(Stamp(lower_first ? 6 : 5, 3), At(1));
+    EXPECT_EQ(service.id(), 5u);
+  }
+}
+
+TEST(CurrentService, ATermThatWasOnlyATestIsOverWhenItsServiceIsSilent) {
+  CurrentService service;
+  service.Accept(Stamp(5, 1), At(0));
+  EXPECT_TRUE(service.Accept(Stamp(9, std::numeric_limits<std::uint32_t>::max()), At(100)));
+  EXPECT_FALSE(service.Accept(Stamp(5, 1), At(2099)));
+  EXPECT_TRUE(service.Accept(Stamp(5, 1), At(2100)));
+  EXPECT_EQ(service.id(), 5u);
+  EXPECT_EQ(service.term(), 1u);
+  EXPECT_EQ(service.changes(), 2u);
+}
+
+TEST(CurrentService, ATermThatIsRepeatedStays) {
+  CurrentService service;
+  service.Accept(Stamp(9, 7), At(0));
+  for (int ms = 500; ms <= 60'000; ms += 500) {
+    EXPECT_TRUE(service.Accept(Stamp(9, 7), At(ms)));
+    EXPECT_FALSE(service.Accept(Stamp(5, 1), At(ms)));
+  }
+  EXPECT_EQ(service.conflicts(), 120u);
+}
+
+}  // namespace
+}  // namespace collision::client
