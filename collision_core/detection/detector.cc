@@ -6,6 +6,8 @@ namespace collision::detection {
 
 Detector::Detector(const DetectorOptions& options)
     : implementation_(std::make_unique<Implementation>(options)) {}
+Detector::Detector(Detector&&) noexcept = default;
+Detector& Detector::operator=(Detector&&) noexcept = default;
 Detector::~Detector() = default;
 
 bool Detector::Admit(const AgentId& id, const AgentDeclaration& declaration,

@@ -47,6 +47,8 @@ enum class UpdateOutcome {
 class Detector {
  public:
   explicit Detector(const DetectorOptions& options);
+  Detector(Detector&&) noexcept;
+  Detector& operator=(Detector&&) noexcept;
   ~Detector();
 
   /// False if `agents_max` is reached or the id is present. An agent that comes after Remove() has

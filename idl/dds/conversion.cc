@@ -76,7 +76,7 @@ FIELDS(KeyValue, TEXT(key) TEXT(value))
 FIELDS(TimeBracket, VALUE(earliest_ns) VALUE(latest_ns))
 FIELDS(Bracket, VALUE(lower) VALUE(upper))
 FIELDS(AgentId, VALUE(simulator_id) VALUE(run) VALUE(slot) VALUE(generation))
-FIELDS(ServiceStamp, VALUE(service_id) VALUE(term) VALUE(sequence))
+FIELDS(ServiceStamp, VALUE(service_id) VALUE(term) VALUE(epoch) VALUE(sequence))
 
 FIELDS(AgentDescription,
        VALUE(simulator_id) VALUE(slot) VALUE(run) VALUE(generation) VALUE(revision) VALUE(sequence)
@@ -132,8 +132,9 @@ FIELDS(SimulatorStatus,
 FIELDS(Counter, TEXT(name) VALUE(value))
 
 FIELDS(ServiceStatus,
-       VALUE(service_id) MESSAGE(stamp) VALUE(phase) TEXT(version) TEXT(world) VALUE(simulated_clock)
-       VALUE(now_ns) VALUE(agents) VALUE(pairs_tracked) LIST(simulators, wire::kStatusSimulatorsMax)
+       VALUE(service_id) MESSAGE(stamp) VALUE(phase) TEXT(version) TEXT(world)
+       VALUE(simulated_clock) VALUE(now_ns) VALUE(agents) VALUE(pairs_tracked)
+       LIST(simulators, wire::kStatusSimulatorsMax)
        LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
        LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax))
 // clang-format on

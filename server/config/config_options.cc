@@ -59,6 +59,10 @@ constexpr ConfigOption kOptions[] = {
      "and their bounds grow."},
     {"clock.release_after_s", "s", "0.1", "86400", "", "5",
      "How long RELEASE waits. With WAIT it must keep its default."},
+    {"clock.first_clock_max_s", "s", "0", "4000000000", "", "31536000",
+     "With SIMULATED, the latest time at which an epoch of the world may begin: a first clock "
+     "beyond "
+     "it, such as a time since 1970, is refused."},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
      "The least severe lines that are logged."},
     {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
@@ -123,6 +127,9 @@ constexpr ConfigOption kOptions[] = {
      "Folder that keeps trees once they are built; it is made if it is missing. A file that is "
      "damaged or of another version is replaced. Empty: the folder that systemd names "
      "(CacheDirectory=), else none."},
+    {"tree_cache_mb", "MB", "1", "1048576", "", "1024",
+     "Maximum size of all files in tree_cache_dir together, in millions of bytes; the least "
+     "recently used are removed first. A shape of a million triangles takes about 100."},
     {"state_dir", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",
      "\"\"",
      "Folder of the journal: what a service must remember when it is started again. It is made if "
@@ -134,9 +141,6 @@ constexpr ConfigOption kOptions[] = {
      "How long a service that starts listens whether another one serves the world, in which case "
      "it "
      "ends. Longer than the network needs to find it."},
-    {"tree_cache_mb", "MB", "1", "1048576", "", "1024",
-     "Maximum size of all files in tree_cache_dir together, in millions of bytes; the least "
-     "recently used are removed first. A shape of a million triangles takes about 100."},
 };
 
 class Silent final : public google::protobuf::io::ErrorCollector {

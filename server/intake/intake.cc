@@ -175,6 +175,14 @@ void Intake::TakeClocks(Simulator* simulator) {
   detector_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock());
 }
 
+void Intake::EndEpoch() {
+  for (auto& [id, simulator] : world_.simulators()) {
+    if (!World::LeavesWithEpoch(simulator)) continue;
+    TakeClocks(&simulator);
+    agents_.RemoveAll(&simulator);
+  }
+}
+
 /// Successors take over at the end of the batch: they may have ended in the same one.
 void Intake::EndBatch() {
   for (auto& [id, simulator] : world_.simulators()) {

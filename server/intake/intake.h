@@ -36,6 +36,10 @@ class Intake {
   /// reports overdue descriptions and shapes, and frees what simulators that left had written.
   void EndBatch();
 
+  /// Removes the agents of the simulators that leave with the epoch, after their last clocks have
+  /// come into force.
+  void EndEpoch();
+
   const IntakeCounters& counters() const { return counters_; }
   const AgentCounters& agent_counters() const { return agents_.counters(); }
 

@@ -14,6 +14,7 @@ v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
   stamp.set_service_id(claim_.instance());
   stamp.set_term(claim_.term());
+  stamp.set_epoch(epoch_);
   stamp.set_sequence(++sequence_);
   return stamp;
 }
@@ -80,6 +81,11 @@ void Publisher::PublishRejections(std::vector<v1::Rejection> rejections) {
     *output.mutable_rejection()->mutable_stamp() = NextStamp();
     bus_.Publish(output);
   }
+}
+
+void Publisher::BeginEpoch(std::uint32_t epoch) {
+  epoch_ = epoch;
+  earliest_.reset();
 }
 
 void Publisher::PublishStatus(v1::ServiceStatus status) {

@@ -35,6 +35,9 @@ class Publisher {
 
   void PublishStatus(v1::ServiceStatus status);
 
+  /// What is published from here on belongs to this epoch.
+  void BeginEpoch(std::uint32_t epoch);
+
   /// The events as published, without the stamp, which differs between instances of the service.
   const EventLog& event_log() const { return event_log_; }
 
@@ -45,6 +48,7 @@ class Publisher {
   const ServiceClaim& claim_;
   const StateDemand demand_;
   Bus& bus_;
+  std::uint32_t epoch_ = 1;
   std::uint64_t sequence_ = 0;
   EventLog event_log_;
   std::optional<v1::EarliestIntersection> earliest_;

@@ -76,6 +76,7 @@ class Daemon::Implementation {
     if (!Begin(clock_.Read(), &inputs)) return false;
     if (!Claim(inputs)) return false;
     for (const v1::Input& input : inputs) intake_.Apply(input);
+    if (world_.EpochIsOver()) EndEpoch();
     intake_.EndBatch();
     LogSilence(world_.ReleaseSilent());
     world_.UpdateSimulatedTime();
@@ -163,10 +164,33 @@ class Daemon::Implementation {
   }
 
   void BeginTerm() {
+    KeepTerm();
     schedule_.Hasten();
     spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
-    if (journal_ == nullptr || journal_->SetTerm(claim_.term(), 0)) return;
+  }
+
+  void KeepTerm() {
+    if (journal_ == nullptr || journal_->SetTerm(claim_.term(), world_.epoch())) return;
     Log(spdlog::level::err, "state is not kept", journal_->error());
+  }
+
+  /// Everybody has left: brings what they told to its end, and lets time begin anew.
+  void EndEpoch() {
+    intake_.EndEpoch();
+    world_.FinishEpoch();
+    if (claim_.phase() == ClaimPhase::kServing) {
+      Detect(true);
+      PublishAnswers();
+    }
+    Log(spdlog::level::info, "epoch over",
+        fmt::format("epoch {} ends at {} s: no simulator holds time any more", world_.epoch(),
+                    1e-9 * static_cast<double>(world_.now().nanoseconds())));
+    detector_ = detection::Detector(OptionsOf(config_));
+    advanced_to_.reset();
+    world_.BeginEpoch();
+    publisher_.BeginEpoch(world_.epoch());
+    schedule_.Hasten();
+    KeepTerm();
   }
 
   /// Logs each silent simulator that holds the world's time, or has been released, once.

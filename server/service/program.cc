@@ -64,10 +64,7 @@ std::shared_ptr<TreeCache> MakeTreeCache(const v1::Config& config) {
 
 /// Null: none is wanted, or the service goes on without one. Throws std::runtime_error otherwise.
 std::unique_ptr<Journal> OpenJournal(const v1::Config& config) {
-  if (config.state_dir().empty()) {
-    spdlog::info("no state_dir: nothing is remembered for the next start");
-    return nullptr;
-  }
+  if (config.state_dir().empty()) return nullptr;
   try {
     auto journal = std::make_unique<Journal>(config.state_dir(), config.world(), config.domain(),
                                              config.simulators_max());
@@ -77,7 +74,7 @@ std::unique_ptr<Journal> OpenJournal(const v1::Config& config) {
     throw;
   } catch (const std::runtime_error& error) {
     if (config.on_state_failure() == v1::Config::END) throw;
-    spdlog::error("{}; nothing is remembered for the next start", error.what());
+    spdlog::error("{}", error.what());
     return nullptr;
   }
 }

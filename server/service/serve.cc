@@ -61,6 +61,7 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   ServiceNotifier service_manager;
   spdlog::info("collisiond {}, instance {:016x}, claims world \"{}\" on domain {}", kVersion,
                parts.claim.instance, config.world(), config.domain());
+  if (parts.journal == nullptr) spdlog::info("no journal: nothing is kept for the next start");
   spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
                config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
   bool ready = false;

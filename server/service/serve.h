@@ -24,12 +24,12 @@ struct ServiceParts {
   ClaimOptions claim = {};
 };
 
-/// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, or
-/// a failure (EndOnFailure()), or because another service has the world. Returns the exit code. PrepareSignals() was called.
+/// Runs the daemon until SIGTERM or SIGINT, the end of the bus, a batch that cannot be recorded, a
+/// failure (EndOnFailure()), or until another service has the world. Returns the exit code.
+/// PrepareSignals() was called.
 ///
 /// A step that is not over 0.7 s after the signal is not waited for: what is recorded stays whole,
-/// and the process ends with 0 from another thread, so Serve() does not return. `parts` may lack any, also
-/// `trees`, which keeps what BuildOptionsOf(config) builds.
+/// and the process ends with 0 from another thread, so Serve() does not return.
 int Serve(const v1::Config& config, Bus& bus, ServiceParts parts);
 
 /// Returns what `run` returns. If a CheckFailure, or another std::logic_error, leaves it, there is

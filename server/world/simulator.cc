@@ -11,6 +11,11 @@ void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
   succeeded_unheard_ = false;
 }
 
+void Simulator::LeaveEpoch() {
+  agents_.Clear();
+  time_ = {};
+}
+
 void Simulator::SetAlive(bool alive, std::int64_t monotonic_ns) {
   alive_ = alive;
   silent_since_ns_ = monotonic_ns;

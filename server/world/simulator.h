@@ -31,6 +31,10 @@ class Simulator {
   /// Starts a run of `sender`. Requires that the agents have been removed.
   void StartRun(std::uint64_t sender, std::uint32_t run);
 
+  /// The world's time begins anew, and it is not in it: no agents, no clock, no grant. Requires
+  /// that the agents have been removed.
+  void LeaveEpoch();
+
   bool alive() const { return alive_; }
   std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
   void SetAlive(bool alive, std::int64_t monotonic_ns);

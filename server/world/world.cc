@@ -18,6 +18,7 @@ World::World(const v1::Config& config)
       skew_(config.clock().skew_max_s()),
       grant_ahead_max_(config.clock().grant_ahead_max_s()),
       temporal_resolution_(config.temporal_resolution_s()),
+      first_clock_max_(Instant::FromNanoseconds(ToNanoseconds(config.clock().first_clock_max_s()))),
       release_after_ns_(ToNanoseconds(config.clock().release_after_s())),
       simulators_awaited_(config.clock().simulators_awaited()),
       simulators_max_(config.simulators_max()) {}
@@ -123,11 +124,34 @@ std::optional<std::int64_t> World::NextRelease() const {
   return next;
 }
 
+bool World::EpochIsOver() const {
+  return simulated_ && started_ &&
+         std::none_of(simulators_.begin(), simulators_.end(), [this](const auto& one) {
+           const bool succeeded = !one.second.alive() && succession_.IsAwaited(one.first);
+           return one.second.holds_time() && !succeeded;
+         });
+}
+
+void World::FinishEpoch() {
+  for (const auto& [id, simulator] : simulators_) {
+    now_ = std::max(now_, simulator.time().clock().value_or(now_));
+  }
+}
+
+void World::BeginEpoch() {
+  for (auto& [id, simulator] : simulators_) {
+    if (LeavesWithEpoch(simulator)) simulator.LeaveEpoch();
+  }
+  ++epoch_;
+  started_ = false;
+  now_ = Instant();
+}
+
 Instant World::LatestAllowed(const Simulator& simulator) const {
   if (!simulated_) return numeric::AddRoundedDown(now_, skew_);
   const SimulatorTime& time = simulator.time();
   const bool waits = time.lock_step() && time.granted();
-  if (!started_ && !waits && !time.first_clock()) return Instant::Never();
+  if (!started_ && !waits && !time.first_clock()) return first_clock_max_;
   Instant latest = time.granted().value_or(Instant::Always());
   if (started_ && !waits)
     latest = std::max(latest, numeric::AddRoundedDown(now_, grant_ahead_max_));

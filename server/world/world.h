@@ -41,6 +41,11 @@ struct Claim {
 /// (WAIT) or for `release_after_s` (RELEASE); its agents stay, and their bounds grow. Wall clock:
 /// the wall reading at the start, carried on by the monotonic clock.
 ///
+/// **Epochs** (simulated clock). When nobody holds time any more, the epoch is over: agents that
+/// were left behind are gone, and the next simulator's first clock begins another one, at whatever
+/// time it names up to `first_clock_max_s`. A dead simulator whose successor waits holds no time
+/// here.
+///
 /// **Grants** (simulated clock). A simulator may run until the least `clear_until` of its agents,
 /// at least to now + `temporal_resolution_s`, at most to now + `grant_ahead_max_s`; a grant is
 /// never withdrawn. A simulator whose first clock is not the start of a run was granted time by a
@@ -77,6 +82,24 @@ class World {
   /// Simulated clock: the names of the simulators whose process is gone and that still hold time.
   std::vector<std::string> WaitedFor() const;
 
+  /// Simulated clock: it has begun, and nobody holds time any more. Call it before successors take
+  /// over.
+  bool EpochIsOver() const;
+
+  /// Brings `now` to the greatest clock in force: all that was told of this epoch counts.
+  void FinishEpoch();
+
+  /// There is no `now` until the next first clock. Requires that the agents of the simulators that
+  /// leave (LeavesWithEpoch()) have been removed.
+  void BeginEpoch();
+
+  /// Whether it was in the epoch that is over. Who has no clock yet comes to the next one.
+  static bool LeavesWithEpoch(const Simulator& simulator) {
+    return simulator.time().clock().has_value() || !simulator.alive();
+  }
+
+  std::uint32_t epoch() const { return epoch_; }  ///< From 1.
+
   bool simulated() const { return simulated_; }
   bool started() const { return started_; }  ///< There is a `now`; nothing happens before.
   Instant now() const { return now_; }
@@ -112,12 +135,14 @@ class World {
   const double skew_;
   const double grant_ahead_max_;
   const double temporal_resolution_;
+  const Instant first_clock_max_;
   const std::int64_t release_after_ns_;
   const std::size_t simulators_awaited_;
   const std::size_t simulators_max_;
 
   std::map<std::uint64_t, Simulator> simulators_;
   Succession succession_;
+  std::uint32_t epoch_ = 1;
   bool started_ = false;
   Instant now_;
   ClockReading reading_;

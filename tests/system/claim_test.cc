@@ -1,5 +1,5 @@
-// Goal:   a world has one service, whoever starts how many, and what a restarted one must remember it
-//         does.
+// Goal:   a world has one service, whoever starts how many, and what a restarted one must remember
+//         it does.
 // Method: several daemons with one configuration, with and without a common state folder.
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -66,7 +66,7 @@ TEST(Claim, AStateFolderThatCannotBeUsedIsTold) {
   world.SetStateFolder(world.folder().Write("notes", "somebody's") + "/state");
   const auto daemon = world.StartDaemon();
   EXPECT_TRUE(Contains(daemon->err(), "/notes/state: cannot be made: ")) << daemon->err();
-  EXPECT_TRUE(Contains(daemon->err(), "nothing is remembered for the next start"));
+  EXPECT_TRUE(Contains(daemon->err(), "nothing is kept for the next start"));
 }
 
 }  // namespace

@@ -30,7 +30,9 @@ TEST(RunAndClock, TheServiceSaysTheKindOfItsClock) {
   World world = ConnectTo(network);
   EXPECT_FALSE(world.simulated_clock());
   for (const bool simulated : {true, false}) {
-    network->arriving.emplace_back().mutable_service_status()->set_simulated_clock(simulated);
+    v1::ServiceStatus& status = *network->arriving.emplace_back().mutable_service_status();
+    status.set_phase(v1::PHASE_SERVING);
+    status.set_simulated_clock(simulated);
     world.Poll();
     EXPECT_EQ(world.simulated_clock(), simulated);
   }
