@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -77,6 +78,7 @@ Property ReadProperty(Words* words) {
   }
   property.value = TypeOf(*words, type);
   property.name = words->Next();
+  if (property.name.empty()) words->Fail("a property without a name");
   const bool counted = property.count.kind != Type::Kind::kFloat;
   if (counted && !(IsIndices(property) && property.value.kind == Type::Kind::kFloat)) {
     return property;
@@ -84,37 +86,73 @@ Property ReadProperty(Words* words) {
   words->Fail("a list of " + Quoted(property.name) + " with floating-point counts or indices");
 }
 
-Element ReadElement(Words* words) {
+/// Of a face, one list may be that of its indices, whichever of its names it has.
+void AddProperty(Words* words, Element* element) {
+  Property property = ReadProperty(words);
+  for (const Property& other : element->properties) {
+    if (other.name != property.name && !(IsIndices(other) && IsIndices(property))) continue;
+    words->Fail("property " + Quoted(property.name) + " of " + Quoted(element->name) +
+                " is there twice");
+  }
+  element->properties.push_back(std::move(property));
+}
+
+void AddElement(Words* words, std::vector<Element>* elements) {
   Element element;
   element.name = words->Next();
+  for (const Element& other : *elements) {
+    if (other.name == element.name)
+      words->Fail("element " + Quoted(element.name) + " is there twice");
+  }
   const std::string_view count = words->Next();
   const auto number = NumberOf<std::uint64_t>(count);
   if (!number) words->Fail("number of elements " + Quoted(count) + ", allowed: 0 and more");
   element.count = *number;
-  return element;
+  elements->push_back(std::move(element));
+}
+
+Header::Format ReadFormat(Words* words) {
+  const std::string_view format = words->Next();
+  if (format == "ascii") return Header::Format::kText;
+  if (format == "binary_little_endian") return Header::Format::kLittle;
+  if (format == "binary_big_endian") return Header::Format::kBig;
+  words->Fail("unknown format " + Quoted(format));
+}
+
+/// Line by line and strictly: where this read a line otherwise than the library that reads the
+/// body, the two would take the body for different things. The library trusts the header: of two
+/// elements "vertex" it would write the second beyond the memory of the first.
+void ReadHeaderLine(Words* words, Header* header) {
+  const std::string_view keyword = words->Next();
+  if (keyword.empty() || keyword == "comment" || keyword == "obj_info" || keyword == "end_header") {
+    return;
+  }
+  if (keyword == "format") {
+    header->format = ReadFormat(words);
+    words->Next();  // Its version.
+  } else if (keyword == "element") {
+    AddElement(words, &header->elements);
+  } else if (keyword == "property") {
+    if (header->elements.empty()) words->Fail("a property of no element");
+    AddProperty(words, &header->elements.back());
+  } else {
+    words->Fail(Quoted(keyword) + ", allowed: comment, element, format, obj_info or property");
+  }
+  if (const std::string_view rest = words->Next(); !rest.empty()) {
+    words->Fail(Quoted(rest) + " after the end of what " + Quoted(keyword) + " tells");
+  }
 }
 
 Header ReadHeader(std::string_view text) {
   Header header;
   if (text.substr(0, 3) != "ply") throw std::runtime_error("not a PLY file");
   header.body = HeaderEnd(text);
-  Words words(text.substr(0, header.body));
-  for (std::string_view word = words.Next(); word != "end_header"; word = words.Next()) {
-    if (word.empty()) words.Fail("the header ends within a line");
-    if (word == "format") {
-      const std::string_view format = words.Next();
-      if (format == "ascii") header.format = Header::Format::kText;
-      if (format == "binary_little_endian") header.format = Header::Format::kLittle;
-      if (format == "binary_big_endian") header.format = Header::Format::kBig;
-      if (header.format == Header::Format::kNone) words.Fail("unknown format " + Quoted(format));
-    } else if (word == "element") {
-      header.elements.push_back(ReadElement(&words));
-    } else if (word == "property") {
-      if (header.elements.empty()) words.Fail("a property of no element");
-      header.elements.back().properties.push_back(ReadProperty(&words));
-      continue;  // Its name is read; the rest of the line has no meaning here.
-    }
-    words.SkipLine();
+  std::string_view rest = text.substr(3, header.body - 3);
+  for (std::size_t line = 1; !rest.empty(); ++line) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
+    Words words(rest.substr(0, end), line);
+    ReadHeaderLine(&words, &header);
+    rest.remove_prefix(end + 1);
   }
   if (header.format == Header::Format::kNone) throw std::runtime_error("the header has no format");
   return header;

@@ -15,7 +15,8 @@ namespace collision::client {
 /// Cuts a text into words between blanks, counting lines.
 class Words {
  public:
-  explicit Words(std::string_view text) : text_(text) {}
+  /// `line`: the number of its first line, for messages.
+  explicit Words(std::string_view text, std::size_t line = 1) : text_(text), line_(line) {}
 
   /// Empty at the end.
   std::string_view Next() {
@@ -45,7 +46,7 @@ class Words {
 
   std::string_view text_;
   std::size_t at_ = 0;
-  std::size_t line_ = 1;
+  std::size_t line_;
 };
 
 /// The whole word as a number, also "inf" and "nan"; nullopt if it is not a number. A number beyond

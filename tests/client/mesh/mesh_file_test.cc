@@ -285,6 +285,15 @@ TEST_F(MeshFileTest, MalformedPlyIsRefused) {
   ExpectRefusal("a.ply", With(text, "list uchar int", "list uchar float"), "floating-point");
   ExpectRefusal("a.ply", With(text, "format ascii", "format roman"), "unknown format");
   ExpectRefusal("a.ply", With(text, "vertex_indices", "none"), "no faces");
+  ExpectRefusal("a.ply", With(text, "property float y", "propyter float y"),
+                "line 6: \"propyter\", allowed: comment, element, format, obj_info or property");
+  ExpectRefusal("a.ply", With(text, "float x", "float"), "line 5: a property without a name");
+  ExpectRefusal("a.ply", With(text, "float x", "float x z"), "line 5: \"z\" after the end");
+  ExpectRefusal("a.ply", With(text, "float y", "float x"), "property \"x\" of \"vertex\" is there");
+  ExpectRefusal("a.ply", With(text, "element face 6", "element vertex 6"), "\"vertex\" is there");
+  const std::string list = "property list uchar int vertex_ind";
+  ExpectRefusal("a.ply", With(text, list + "ices", list + "ices\n" + list + "ex"),
+                "line 10: property \"vertex_index\" of \"face\" is there twice");
   const std::string cloud =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty "
       "float y\nproperty float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
