@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -54,6 +53,8 @@ struct Header {
   std::vector<Element> elements;
   std::size_t body = 0;  ///< Where it begins.
 };
+
+constexpr std::string_view kOtherLineEnds("\r\f\v\0", 4);
 
 /// Where the line of "end_header" ends.
 std::size_t HeaderEnd(std::string_view text) {
@@ -124,10 +125,9 @@ Header::Format ReadFormat(Words* words) {
 /// elements "vertex" it would write the second beyond the memory of the first.
 void ReadHeaderLine(Words* words, Header* header) {
   const std::string_view keyword = words->Next();
-  if (keyword.empty() || keyword == "comment" || keyword == "obj_info" || keyword == "end_header") {
-    return;
-  }
+  if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return;
   if (keyword == "format") {
+    if (header->format != Header::Format::kNone) words->Fail("the format is there twice");
     header->format = ReadFormat(words);
     words->Next();  // Its version.
   } else if (keyword == "element") {
@@ -147,12 +147,18 @@ Header ReadHeader(std::string_view text) {
   Header header;
   if (text.substr(0, 3) != "ply") throw std::runtime_error("not a PLY file");
   header.body = HeaderEnd(text);
-  std::string_view rest = text.substr(3, header.body - 3);
-  for (std::size_t line = 1; !rest.empty(); ++line) {
-    const std::size_t end = std::min(rest.find('\n'), rest.size() - 1);
-    Words words(rest.substr(0, end), line);
-    ReadHeaderLine(&words, &header);
+  std::string_view rest = text.substr(0, header.body);
+  for (std::size_t number = 1; !rest.empty(); ++number) {
+    const std::size_t end = rest.find('\n');
+    std::string_view line = rest.substr(0, end);
     rest.remove_prefix(end + 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    Words words(line, number);
+    if (line.find_first_of(kOtherLineEnds) != line.npos) {
+      words.Fail("a control character that some take for the end of a line");
+    }
+    if (number == 1 && line != "ply") words.Fail("not \"ply\" alone");
+    if (number > 1 && !rest.empty()) ReadHeaderLine(&words, &header);
   }
   if (header.format == Header::Format::kNone) throw std::runtime_error("the header has no format");
   return header;

@@ -288,6 +288,13 @@ TEST_F(MeshFileTest, MalformedPlyIsRefused) {
   ExpectRefusal("a.ply", With(text, "property float y", "propyter float y"),
                 "line 6: \"propyter\", allowed: comment, element, format, obj_info or property");
   ExpectRefusal("a.ply", With(text, "float x", "float"), "line 5: a property without a name");
+  ExpectRefusal("a.ply", With(text, "ply\n", "ply element vertex 8\n"),
+                "line 1: not \"ply\" alone");
+  ExpectRefusal("a.ply", With(text, "end_header", "end_header x\nend_header"),
+                "\"end_header\", all");
+  ExpectRefusal("a.ply", With(text, "format", "format ascii 1.0\nformat"), "format is there twice");
+  ExpectRefusal("a.ply", With(text, "format", "comment x\relement vertex 9\nformat"),
+                "line 2: a con");
   ExpectRefusal("a.ply", With(text, "float x", "float x z"), "line 5: \"z\" after the end");
   ExpectRefusal("a.ply", With(text, "float y", "float x"), "property \"x\" of \"vertex\" is there");
   ExpectRefusal("a.ply", With(text, "element face 6", "element vertex 6"), "\"vertex\" is there");
