@@ -79,14 +79,15 @@ FIELDS(AgentId, VALUE(simulator_id) VALUE(run) VALUE(slot) VALUE(generation))
 FIELDS(ServiceStamp, VALUE(service_id) VALUE(term) VALUE(epoch) VALUE(sequence))
 
 FIELDS(AgentDescription,
-       VALUE(simulator_id) VALUE(slot) VALUE(run) VALUE(generation) VALUE(revision) VALUE(sequence)
-       TEXT(simulator_name) TEXT(agent_name) VALUE(radius_m) VALUE(acceleration_max_m_s2)
-       VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s) VALUE(time_step_s) VALUE(group)
-       VALUE(mask) HASH(shape_hash) LIST(extensions, wire::kDescriptionExtensionsMax))
+       VALUE(simulator_id) VALUE(slot) VALUE(incarnation) VALUE(run) VALUE(generation)
+       VALUE(revision) VALUE(sequence) TEXT(simulator_name) TEXT(agent_name) VALUE(radius_m)
+       VALUE(acceleration_max_m_s2) VALUE(angular_acceleration_max_rad_s2) VALUE(speed_max_m_s)
+       VALUE(time_step_s) VALUE(group) VALUE(mask) HASH(shape_hash)
+       LIST(extensions, wire::kDescriptionExtensionsMax))
 
 FIELDS(ShapePart,
-       VALUE(simulator_id) HASH(content_hash) VALUE(part) VALUE(parts) VALUE(run) VALUE(total_bytes)
-       OCTETS(bytes, collision_v1_SHAPE_PART_BYTES_MAX))
+       VALUE(simulator_id) HASH(content_hash) VALUE(part) VALUE(parts) VALUE(run)
+       VALUE(total_bytes) OCTETS(bytes, collision_v1_SHAPE_PART_BYTES_MAX))
 
 FIELDS(AgentState,
        VALUE(slot) VALUE(generation) VALUE(stamp_ns) VALUE(sequence) MESSAGE(position_m)
@@ -95,46 +96,52 @@ FIELDS(AgentState,
        MESSAGE(thrust_direction) VALUE(direction_until_ns) VALUE(expiry_ns) VALUE(discontinuity))
 
 FIELDS(AgentStates,
-       VALUE(simulator_id) VALUE(chunk) VALUE(run) LIST(states, collision_v1_STATES_PER_CHUNK_MAX))
+       VALUE(simulator_id) VALUE(chunk) VALUE(incarnation) VALUE(run)
+       LIST(states, collision_v1_STATES_PER_CHUNK_MAX))
 
 FIELDS(SimulatorClock,
-       VALUE(simulator_id) VALUE(run) TEXT(simulator_name) VALUE(clock_ns) VALUE(states_sequence)
-       VALUE(descriptions_sequence) VALUE(agents) VALUE(lock_step))
+       VALUE(simulator_id) VALUE(incarnation) VALUE(run) TEXT(simulator_name) VALUE(clock_ns)
+       VALUE(next_ns) VALUE(states_sequence) VALUE(descriptions_sequence) VALUE(agents)
+       VALUE(lock_step) VALUE(clearances_sequence) VALUE(echo_ns) VALUE(heard_ns) VALUE(sent_ns))
 
 FIELDS(AgentClearance,
        VALUE(slot) VALUE(generation) VALUE(clear_until_ns) VALUE(not_clear) VALUE(saturated)
        VALUE(acknowledged_sequence) VALUE(acknowledged_revision) VALUE(effective_from_ns)
-       VALUE(cause) MESSAGE(cause_agent) VALUE(void_from_ns) VALUE(state_wanted_ns))
+       VALUE(lowerings) VALUE(cause) MESSAGE(cause_agent) VALUE(void_from_ns)
+       VALUE(state_wanted_ns))
 
 FIELDS(Clearance,
        VALUE(simulator_id) VALUE(chunk) VALUE(run) MESSAGE(stamp) VALUE(now_ns)
-       VALUE(granted_until_ns) LIST(agents, collision_v1_STATES_PER_CHUNK_MAX))
+       VALUE(granted_until_ns) VALUE(contacts_sequence)
+       LIST(agents, collision_v1_STATES_PER_CHUNK_MAX))
 
 FIELDS(EarliestIntersection,
        VALUE(service_id) MESSAGE(stamp) VALUE(now_ns) VALUE(found) VALUE(earliest_ns)
        MESSAGE(lower) MESSAGE(higher))
 
 FIELDS(CollisionEvent,
-       VALUE(pair_slot) MESSAGE(stamp) VALUE(now_ns) MESSAGE(lower) MESSAGE(higher) VALUE(contact)
-       VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end) VALUE(continuous)
-       VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m) VALUE(depth_lower_m)
-       MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal) VALUE(normal_error_rad) VALUE(level)
-       VALUE(work_units) VALUE(limited_by) LIST(extensions, wire::kEventExtensionsMax))
+       VALUE(pair_slot) MESSAGE(stamp) VALUE(now_ns) VALUE(contacts_sequence) MESSAGE(lower)
+       MESSAGE(higher) VALUE(contact) VALUE(revision) VALUE(status) MESSAGE(begin) MESSAGE(end)
+       VALUE(continuous) VALUE(began_before) VALUE(evaluated_at_ns) MESSAGE(separation_m)
+       VALUE(depth_lower_m) MESSAGE(point_m) VALUE(point_error_m) MESSAGE(normal)
+       VALUE(normal_error_rad) VALUE(level) VALUE(work_units) VALUE(limited_by)
+       LIST(extensions, wire::kEventExtensionsMax))
 
 FIELDS(Rejection,
-       VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(reason) VALUE(topic)
-       VALUE(slot) VALUE(generation) TEXT(field) TEXT(detail) VALUE(count))
+       VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)
+       VALUE(reason) VALUE(topic) VALUE(slot) VALUE(generation) TEXT(field) TEXT(detail)
+       VALUE(count))
 
 FIELDS(SimulatorStatus,
        VALUE(simulator_id) VALUE(run) TEXT(name) VALUE(alive) VALUE(clock_ns)
-       VALUE(granted_until_ns) VALUE(agents) VALUE(states) VALUE(rejected))
+       VALUE(granted_until_ns) VALUE(agents) VALUE(states) VALUE(rejected) MESSAGE(clock_offset))
 
 FIELDS(Counter, TEXT(name) VALUE(value))
 
 FIELDS(ServiceStatus,
        VALUE(service_id) MESSAGE(stamp) VALUE(phase) TEXT(version) TEXT(world)
-       VALUE(simulated_clock) VALUE(now_ns) VALUE(agents) VALUE(pairs_tracked)
-       LIST(simulators, wire::kStatusSimulatorsMax)
+       VALUE(simulated_clock) VALUE(now_ns) VALUE(granted_until_ns) VALUE(lease_ns) VALUE(agents)
+       VALUE(pairs_tracked) LIST(simulators, wire::kStatusSimulatorsMax)
        LIST(counters, wire::kStatusCountersMax) TEXT(broad_phase) TEXT(broad_phase_why)
        LIST(left_out, wire::kStatusLeftOutMax) LIST(extensions, wire::kStatusExtensionsMax))
 // clang-format on

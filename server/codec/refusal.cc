@@ -72,7 +72,7 @@ Refusal NotItsOwn(const v1::ShapeRemoval& wire) {
           .detail = "a removal by another sender; allowed: by its owner"};
 }
 
-Refusal ShapeRefusal(const detection::AgentId& agent, v1::Topic topic, std::string field,
+Refusal ShapeRefusal(const detection::AgentId& agent, v1::InputTopic topic, std::string field,
                      const std::string& detail) {
   return {.reason = v1::REJECTED_BAD_SHAPE,
           .topic = topic,

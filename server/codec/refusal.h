@@ -12,7 +12,7 @@ namespace collision::server {
 /// What was refused, where, and what would have been allowed.
 struct Refusal {
   v1::RejectionReason reason = v1::REJECTED_NOT_FINITE;
-  v1::Topic topic = v1::TOPIC_AGENT_DESCRIPTION;
+  v1::InputTopic topic = v1::TOPIC_AGENT_DESCRIPTION;
   std::uint64_t simulator_id = 0;
   std::uint32_t run = 0;
   std::uint32_t slot = 0;
@@ -40,7 +40,7 @@ Refusal NotItsOwn(const v1::ShapeRemoval& wire);
 
 /// Refuses a shape: for an agent that refers to it, or for a simulator that wrote it (`agent` then
 /// names no slot). `detail` is cut to what the wire carries.
-Refusal ShapeRefusal(const detection::AgentId& agent, v1::Topic topic, std::string field,
+Refusal ShapeRefusal(const detection::AgentId& agent, v1::InputTopic topic, std::string field,
                      const std::string& detail);
 
 }  // namespace collision::server

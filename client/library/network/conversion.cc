@@ -155,7 +155,7 @@ Rejection FromMessage(const v1::Rejection& message) {
   Rejection rejection;
   rejection.simulator = message.simulator_id();
   rejection.reason = v1::RejectionReason_Name(message.reason());
-  rejection.topic = v1::Topic_Name(message.topic());
+  rejection.topic = v1::InputTopic_Name(message.topic());
   rejection.slot = message.slot();
   rejection.field = message.field();
   rejection.detail = message.detail();

@@ -1,4 +1,5 @@
-// Goal:   a service that runs for weeks serves one run after the other, each as if it were the first.
+// Goal:   a service that runs for weeks serves one run after the other, each as if it were the
+//         first.
 // Method: the same run, of two agents that pass through each other, several times against one
 //         daemon, with every way in which a run may end and the next one begin.
 #include <gtest/gtest.h>
