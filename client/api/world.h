@@ -81,13 +81,21 @@ class World {
   /// lock-step, beyond what is granted; the first clock of a run may be any.
   void Publish(std::int64_t clock_ns);
 
-  /// Lock-step: takes in what has arrived, then moves the clock to `clock_ns` as the service grants
-  /// it, with one clock sample per grant on the way. Events are delivered meanwhile; a state that a
-  /// callback sets is sent next, at the same clock if its stamp has come. The first clock of a run
-  /// is 0, or what is granted. Without lock-step this publishes and never waits.
+  /// Lock-step: takes in what has arrived, says that the next step is at `clock_ns`, waits until
+  /// the service has granted time up to there, and writes the staged states with stamps up to it.
+  /// Events are delivered meanwhile: all that follow from what everybody has told so far, so that a
+  /// run with the same simulators has the same events at the same steps. What a callback stages
+  /// counts from this step on. The first clock of a run is 0, or what is granted. Without lock-step
+  /// this publishes and never waits.
   /// kTimeout: the grant did not arrive within `timeout` of wall time. The clock stands at
-  /// clock_ns(), what is staged for later stays staged, and a further call continues.
+  /// clock_ns(), what is staged for later stays staged, and a further call continues; it may not
+  /// name an earlier step, since others have gone on in reliance on this one.
   Advance AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout);
+
+  /// Lock-step: no step follows. The world's time waits for this simulator no longer; its agents
+  /// stay, as their last states say, until they are removed. A World without agents says so when
+  /// it is destroyed.
+  void Finish();
 
   /// The last clock published; INT64_MIN before the first.
   std::int64_t clock_ns() const;
@@ -99,6 +107,9 @@ class World {
   std::optional<bool> simulated_clock() const;
 
   /// Takes in what has arrived, waits at most `timeout` for an arrival, and runs the callbacks.
+  /// With a timeout above 0, in lock-step after AdvanceTo(), it says that nothing more of this time
+  /// follows: the service can judge it, and tells its events. Without one that is said by the next
+  /// AdvanceTo().
   void Poll(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
 
   /// Calls back for events about this simulator's agents, each revision once. Without a callback
@@ -135,8 +146,9 @@ class Agent {
 
   /// Stages a state in place of the one staged before; it stays a discontinuity if that one was.
   /// Publish() or AdvanceTo() sends it when the clock reaches its stamp or, on demand, when it is
-  /// needed after that. Throws std::invalid_argument as AddAgent() does, and for a stamp before
-  /// that of the last state sent.
+  /// needed after that. Throws std::invalid_argument as AddAgent() does, for a stamp before that of
+  /// the last state sent and, in lock-step, for a discontinuity before the next step, if that has
+  /// been announced: others rely on it (AdvanceTo(), Poll()).
   void SetState(const State& state);
 
   /// Announces a changed description. A wider bound counts once the service has acknowledged it,

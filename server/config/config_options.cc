@@ -63,6 +63,9 @@ constexpr ConfigOption kOptions[] = {
      "With SIMULATED, the latest time at which an epoch of the world may begin: a first clock "
      "beyond "
      "it, such as a time since 1970, is refused."},
+    {"clock.shape_wait_max_s", "s", "0", "86400", "", "60",
+     "With SIMULATED, how long time stands still for the shape of an agent: until it has arrived "
+     "and its tree is built. After that the agent counts as its ball."},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
      "The least severe lines that are logged."},
     {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",

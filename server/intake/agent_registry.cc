@@ -19,6 +19,19 @@ AgentRegistry::AgentRegistry(const v1::Config& config, World* world, detection::
 
 void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& wire,
                              const detection::AgentDeclaration& declaration) {
+  const Agent* agent = simulator->agents().Find(wire.slot());
+  if (agent == nullptr || !agent->admitted()) return Introduce(simulator, wire, declaration);
+  Told& told = told_[simulator->id()][wire.slot()];
+  const std::pair<std::uint32_t, std::uint32_t> newest =
+      told.description ? std::pair(told.description->generation(), told.description->revision())
+                       : std::pair(agent->generation(), agent->revision());
+  if (std::pair(wire.generation(), wire.revision()) <= newest) return;
+  if (told.removed && wire.generation() <= newest.first) return;
+  told = {.description = wire, .declaration = declaration};
+}
+
+void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& wire,
+                              const detection::AgentDeclaration& declaration) {
   AgentTable& agents = simulator->agents();
   const std::uint32_t slot = wire.slot();
   if (agents.HasEnded(slot, wire.generation())) return;
@@ -26,7 +39,7 @@ void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& w
   if (Agent* former = agents.Find(slot)) RemoveAgent(simulator, slot, former);
   Agent* agent = agents.Add(slot, {wire.generation(), wire.revision(), declaration});
   shapes_.Refer(simulator, slot, ShapeHashOf(wire), agent);
-  AdmitIfComplete(simulator, slot);
+  told_[simulator->id()].try_emplace(slot);
 }
 
 void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wire,
@@ -56,7 +69,7 @@ void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk
       DecodeState(chunk, wire, world_.RulesForState(*simulator, admitted));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
   const motion::MotionState& state = std::get<motion::MotionState>(decoded);
-  if (admitted) {
+  if (admitted && !world_.simulated()) {
     Update(simulator, wire.slot(), wire.sequence(), state);
   } else {
     SetWaiting(simulator, wire.slot(), {wire.generation(), wire.sequence(), state});
@@ -95,7 +108,7 @@ void AgentRegistry::SetWaiting(Simulator* simulator, std::uint32_t slot,
     ++counters_.states_older;
     return;
   }
-  if (first && agents.Find(slot, waiting.generation) == nullptr) {
+  if (first && !IsDescribed(*simulator, slot, waiting.generation)) {
     const detection::AgentId id = simulator->IdOf(slot, waiting.generation);
     if (undescribed_.full()) {
       return rejections_.Add(NotDescribed(
@@ -105,11 +118,43 @@ void AgentRegistry::SetWaiting(Simulator* simulator, std::uint32_t slot,
     undescribed_.Add(world_.monotonic_ns(), id);
   }
   agents.SetWaiting(slot, waiting);
-  AdmitIfComplete(simulator, slot);
+  told_[simulator->id()].try_emplace(slot);
 }
 
-void AgentRegistry::AdmitComplete(Simulator* simulator) {
-  simulator->agents().ForEachSlot([&](std::uint32_t slot) { AdmitIfComplete(simulator, slot); });
+bool AgentRegistry::IsDescribed(const Simulator& simulator, std::uint32_t slot,
+                                std::uint32_t generation) const {
+  if (simulator.agents().Find(slot, generation) != nullptr) return true;
+  const auto told = told_.find(simulator.id());
+  if (told == told_.end()) return false;
+  const auto one = told->second.find(slot);
+  return one != told->second.end() && one->second.description &&
+         one->second.description->generation() == generation;
+}
+
+void AgentRegistry::Enact(Simulator* simulator) {
+  const auto all = told_.find(simulator->id());
+  if (all == told_.end() || simulator->time().is_other_kind()) return;
+  if (world_.simulated() && !simulator->time().clock()) return;
+  const std::map<std::uint32_t, Told> told = std::move(all->second);
+  told_.erase(all);
+  for (const auto& [slot, one] : told) {
+    EnactState(simulator, slot);
+    if (one.description) Introduce(simulator, *one.description, one.declaration);
+    if (one.removed) RemoveNow(simulator, slot);
+    if (one.description) EnactState(simulator, slot);
+  }
+  told_.erase(simulator->id());
+}
+
+void AgentRegistry::EnactState(Simulator* simulator, std::uint32_t slot) {
+  AgentTable& agents = simulator->agents();
+  const Agent* agent = agents.Find(slot);
+  const WaitingState* waiting = agents.Waiting(slot);
+  if (agent == nullptr || waiting == nullptr) return;
+  if (waiting->generation != agent->generation()) return;
+  if (!agent->admitted()) return AdmitIfComplete(simulator, slot);
+  const WaitingState state = agents.TakeWaiting(slot);
+  Update(simulator, slot, state.sequence, state.state);
 }
 
 void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
@@ -118,8 +163,6 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
   const WaitingState* waiting = agents.Waiting(slot);
   if (agent == nullptr || agent->admitted() || waiting == nullptr) return;
   if (waiting->generation != agent->generation()) return;
-  if (simulator->time().is_other_kind()) return;
-  if (world_.simulated() && !simulator->time().clock()) return;
   if (detector_.agents() >= agents_max_) {
     const detection::AgentId id = simulator->IdOf(slot, agent->generation());
     if (!std::exchange(agent->room_refused, true)) rejections_.Add(NoRoom(id, agents_max_));
@@ -147,6 +190,12 @@ void AgentRegistry::CountAccepted(Simulator* simulator) {
 }
 
 void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot) {
+  const Agent* agent = simulator->agents().Find(slot);
+  if (agent == nullptr || !agent->admitted()) return RemoveNow(simulator, slot);
+  told_[simulator->id()][slot].removed = true;
+}
+
+void AgentRegistry::RemoveNow(Simulator* simulator, std::uint32_t slot) {
   if (Agent* agent = simulator->agents().Find(slot)) return RemoveAgent(simulator, slot, agent);
   simulator->agents().RemoveWaiting(slot);
 }
@@ -161,6 +210,7 @@ void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent*
 }
 
 void AgentRegistry::RemoveAll(Simulator* simulator) {
+  told_.erase(simulator->id());
   simulator->agents().ForEachSlot([&](std::uint32_t slot) {
     if (Agent* agent = simulator->agents().Find(slot)) RemoveAgent(simulator, slot, agent);
   });

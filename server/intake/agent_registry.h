@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "collision_core/detection/detector.h"
@@ -25,12 +26,16 @@ struct AgentCounters {
 
 /// Keeps the agents of the world's simulators and those of the detector the same.
 ///
-/// An agent enters the detector when its description and a state are there and, with a simulated
-/// clock, the first clock of its simulator is in force. A state without a description is kept, the
-/// newest per slot, and reported to its sender after `undescribed_after_s`. If there is no room for
-/// another agent, its owner gets one rejection; the agent is admitted with its next state once
-/// there is room. A new generation ends the agent of its slot; late states of ended ones count as
-/// older. A change that may lower promises counts from World::EffectiveFrom(). One thread.
+/// What is told of an agent is checked when it arrives and takes effect with Enact(): the newest
+/// state, the newest description, a removal. An agent enters the detector when its description and
+/// a state are there and, with a simulated clock, the first clock of its simulator is in force. A
+/// state without a description is kept and reported to its sender after `undescribed_after_s`. If
+/// there is no room for another agent, its owner gets one rejection; the agent is admitted with its
+/// next state once there is room. A new generation ends the agent of its slot; late states of ended
+/// ones count as older. A change that may lower promises counts from World::EffectiveFrom().
+///
+/// With a wall clock the states of one batch take effect one by one, since each narrows what could
+/// have happened between its neighbours. One thread.
 class AgentRegistry {
  public:
   /// Everything passed in outlives this.
@@ -44,11 +49,11 @@ class AgentRegistry {
   /// Takes one state of a chunk from the owner of its simulator.
   void TakeState(Simulator* simulator, const v1::AgentStates& chunk, const v1::AgentState& wire);
 
-  /// Admits the agents of a simulator that have waited for its first clock.
-  void AdmitComplete(Simulator* simulator);
-
-  /// Removes the agent in `slot`, or ends the generation of the state that waits there.
+  /// The owner gives up the agent in `slot`, or the generation of the state that waits there.
   void Remove(Simulator* simulator, std::uint32_t slot);
+
+  /// What was told of the agents of a simulator takes effect.
+  void Enact(Simulator* simulator);
 
   /// Removes all agents of a simulator; states that wait for a description stay.
   void RemoveAll(Simulator* simulator);
@@ -62,8 +67,21 @@ class AgentRegistry {
   const AgentCounters& counters() const { return counters_; }
 
  private:
+  /// What was told of a slot and has not taken effect, beside the state that waits in it.
+  struct Told {
+    /// The newest of an agent in the detector; others are in the table at once.
+    std::optional<v1::AgentDescription> description = {};
+    detection::AgentDeclaration declaration = {};  ///< As the description says.
+    bool removed = false;                          ///< After the description.
+  };
+
+  void Introduce(Simulator* simulator, const v1::AgentDescription& wire,
+                 const detection::AgentDeclaration& declaration);
   void Revise(Simulator* simulator, const v1::AgentDescription& wire,
               const detection::AgentDeclaration& declaration);
+  bool IsDescribed(const Simulator& simulator, std::uint32_t slot, std::uint32_t generation) const;
+  void RemoveNow(Simulator* simulator, std::uint32_t slot);
+  void EnactState(Simulator* simulator, std::uint32_t slot);
   void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
               const motion::MotionState& state);
   void SetWaiting(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting);
@@ -77,6 +95,8 @@ class AgentRegistry {
   detection::Detector& detector_;
   Rejections& rejections_;
   AgentShapes& shapes_;
+  /// By simulator and slot: each slot of which anything has been told since it last took effect.
+  std::map<std::uint64_t, std::map<std::uint32_t, Told>> told_;
   OverdueQueue<detection::AgentId> undescribed_;
   AgentCounters counters_;
 };

@@ -46,15 +46,20 @@ AgentShapes::AgentShapes(const v1::Config& config, World* world, detection::Dete
       detector_(*detector),
       rejections_(*rejections),
       store_(*store),
-      awaited_(ToNanoseconds(config.undescribed_after_s())) {}
+      awaited_(ToNanoseconds(config.undescribed_after_s())),
+      wait_(ToNanoseconds(config.clock().shape_wait_max_s())) {}
 
 void AgentShapes::Refer(Simulator* simulator, std::uint32_t slot, const std::string& hash,
                         Agent* agent) {
   const ShapeUser user(simulator->id(), slot);
   const std::string before = std::exchange(agent->shape_hash, hash);
   if (!hash.empty()) store_.AddUser(hash, user);
-  if (!before.empty() && before != hash) store_.RemoveUser(before, user);
+  if (!before.empty() && before != hash) {
+    store_.RemoveUser(before, user);
+    if (!store_.HasUsers(before)) wait_.End(before);
+  }
   if (hash.empty()) return;
+  if (!store_.HasWantedTree(hash)) wait_.Begin(hash, world_.monotonic_ns());
   Give(*simulator, slot, agent);
   if (before != hash && !store_.ProgressOf(simulator->id(), hash).whole) {
     Await(simulator->IdOf(slot, agent->generation()), hash);
@@ -85,6 +90,7 @@ void AgentShapes::TakeReady(const v1::ShapeReady& message) {
   const std::string& hash = message.content_hash();
   const std::optional<ReadyShape> ready = store_.MakeVisible({hash, message.coarse()});
   if (!ready) return;
+  if (!ready->built.coarse) wait_.End(hash);
   if (!ready->built.shape) return ReportRefusal(hash, *ready);
   LogShape(hash, *ready);
   for (const auto& [id, slot] : ready->users) {

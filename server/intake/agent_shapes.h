@@ -7,6 +7,7 @@
 
 #include "collision_core/detection/detector.h"
 #include "server/intake/overdue_queue.h"
+#include "server/intake/shape_wait.h"
 #include "server/shapes/shape_store.h"
 #include "server/world/rejections.h"
 #include "server/world/world.h"
@@ -18,7 +19,8 @@ namespace collision::server {
 /// refused, the agent is its ball. A rejection informs its owner: at once of a fault, after
 /// `undescribed_after_s` of what is missing.
 ///
-/// A shape that becomes visible only narrows what is known, so it lowers no promise. One thread.
+/// A shape that becomes visible only narrows what is known, so it lowers no promise. A world in
+/// lock-step waits for it all the same (ShapeWait). One thread.
 class AgentShapes {
  public:
   /// Everything passed in outlives this.
@@ -31,6 +33,13 @@ class AgentShapes {
   /// Makes a shape visible, or gives it its wanted tree in place of the coarse one: agents that
   /// refer to it have it from now on. If it is refused, its writers get a rejection.
   void TakeReady(const v1::ShapeReady& message);
+
+  /// No shape of this hash will come: what was written under it was refused.
+  void GiveUp(const std::string& hash) { wait_.End(hash); }
+
+  /// The shapes for which time waits in lock-step.
+  ShapeWait& wait() { return wait_; }
+  const ShapeWait& wait() const { return wait_; }
 
   /// Reports shapes that have not arrived in time, to the owners of their agents.
   void ReportMissing();
@@ -58,6 +67,7 @@ class AgentShapes {
   Rejections& rejections_;
   ShapeStore& store_;
   OverdueQueue<Awaited> awaited_;
+  ShapeWait wait_;
 };
 
 }  // namespace collision::server

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "server/process/logging.h"
+
 namespace collision::server {
 
 Intake::Intake(const v1::Config& config, World* world, detection::Detector* detector,
@@ -96,10 +98,13 @@ void Intake::TakeClock(const v1::Input& input) {
     }
     return rejections_.Add(*refusal);
   }
-  time.Offer({.clock = std::get<Instant>(decoded),
-              .states_sequence = wire.states_sequence(),
-              .descriptions_sequence = wire.descriptions_sequence(),
-              .lock_step = wire.lock_step()});
+  const bool tells_next = wire.next_ns() > wire.clock_ns();
+  time.Offer(
+      {.clock = std::get<Instant>(decoded),
+       .next = tells_next ? std::optional(Instant::FromNanoseconds(wire.next_ns())) : std::nullopt,
+       .states_sequence = wire.states_sequence(),
+       .descriptions_sequence = wire.descriptions_sequence(),
+       .lock_step = wire.lock_step()});
 }
 
 bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, const Refusal& refusal) {
@@ -144,7 +149,10 @@ void Intake::TakeLiveliness(const v1::Input& input) {
 void Intake::TakeShapePart(const v1::Input& input) {
   const v1::ShapePart& part = input.shape_part();
   if (Claimed(input, At(part), nullptr) == nullptr) return;
-  if (const auto refusal = shapes_.Take(part)) rejections_.Add(*refusal);
+  if (const auto refusal = shapes_.Take(part)) {
+    rejections_.Add(*refusal);
+    agent_shapes_.GiveUp(part.content_hash());
+  }
 }
 
 void Intake::TakeShapeRemoval(const v1::Input& input) {
@@ -160,44 +168,67 @@ void Intake::Hold(const Simulator& simulator, const v1::Input& input) {
   CountHeldBytes();
 }
 
-void Intake::HandOver(Simulator* simulator) {
-  if (simulator->alive() || !world_.succession().IsAwaited(simulator->id())) return;
+bool Intake::HandOver(Simulator* simulator) {
+  if (simulator->alive() || !world_.succession().IsAwaited(simulator->id())) return false;
   const std::vector<v1::Input> held = world_.succession().Take(simulator->id());
   CountHeldBytes();
   for (const v1::Input& input : held) Apply(input);
   simulator->SetSucceededUnheard(simulator->alive());
+  return true;
 }
 
-void Intake::TakeClocks(Simulator* simulator) {
-  const bool first = !simulator->time().clock();
-  if (!simulator->time().Take()) return;
-  if (first) return agents_.AdmitComplete(simulator);
+void Intake::Enact(Simulator* simulator) {
+  agents_.Enact(simulator);
+  if (!simulator->time().clock()) return;
   detector_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock());
+}
+
+void Intake::Enact() {
+  for (auto& [id, simulator] : world_.simulators()) Enact(&simulator);
 }
 
 void Intake::EndEpoch() {
   for (auto& [id, simulator] : world_.simulators()) {
     if (!World::LeavesWithEpoch(simulator)) continue;
-    TakeClocks(&simulator);
+    Enact(&simulator);
     agents_.RemoveAll(&simulator);
   }
 }
 
 /// Successors take over at the end of the batch: they may have ended in the same one.
-void Intake::EndBatch() {
-  for (auto& [id, simulator] : world_.simulators()) {
-    HandOver(&simulator);
-    TakeClocks(&simulator);
-  }
+bool Intake::EndBatch() {
+  bool told = false;
+  for (auto& [id, simulator] : world_.simulators()) told |= HandOver(&simulator);
+  if (told) TakeClocks();
   agent_shapes_.ReleaseLeft();
   agents_.ReportUndescribed();
   agent_shapes_.ReportMissing();
+  if (!world_.simulated()) return told;
+  for (const std::string& line : agent_shapes_.wait().TakeLines(world_.monotonic_ns())) {
+    Log(spdlog::level::info, "waiting for shapes", line);
+  }
+  return told;
+}
+
+void Intake::TakeClocks() {
+  for (auto& [id, simulator] : world_.simulators()) simulator.time().Take();
+}
+
+std::vector<std::string> Intake::AwaitedShapes() const {
+  if (!world_.simulated()) return {};
+  return agent_shapes_.wait().Waiting(world_.monotonic_ns());
 }
 
 std::optional<std::int64_t> Intake::NextDue() const {
   const std::optional<std::int64_t> state = agents_.NextDue();
   const std::optional<std::int64_t> shape = agent_shapes_.NextDue();
-  return state && shape ? std::min(state, shape) : state ? state : shape;
+  const std::optional<std::int64_t> wait =
+      world_.simulated() ? agent_shapes_.wait().NextDue() : std::nullopt;
+  std::optional<std::int64_t> next;
+  for (const auto& due : {state, shape, wait}) {
+    if (due) next = next ? std::min(*next, *due) : *due;
+  }
+  return next;
 }
 
 }  // namespace collision::server

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "collision_core/detection/detector.h"
 #include "server/intake/agent_registry.h"
@@ -20,10 +21,14 @@ struct IntakeCounters {
   std::uint64_t clocks_received = 0;
 };
 
-/// Applies one batch: Apply() for every input in order, then EndBatch(). It decides which simulator
-/// an input speaks for, has the codec validate it, and hands it on: to the AgentRegistry, to the
-/// ShapeStore, or to the simulator's time. Everything refused goes to the rejections; nothing else
-/// in the same message or batch is disturbed. One thread.
+/// Takes one batch: Apply() for every input in order, TakeClocks(), EndBatch(). It decides which
+/// simulator an input speaks for, has the codec validate it, and hands it on: to the AgentRegistry,
+/// to the ShapeStore, or to the simulator's time. Everything refused goes to the rejections;
+/// nothing else in the same message or batch is disturbed.
+///
+/// What was told of agents takes effect with Enact(). Between two calls only the newest state of an
+/// agent counts and the order of arrival makes no difference, so that with a simulated clock the
+/// same simulators always give the same events. One thread.
 class Intake {
  public:
   /// Everything passed in outlives this.
@@ -32,9 +37,21 @@ class Intake {
 
   void Apply(const v1::Input& input);
 
-  /// Lets successors take over, brings clocks into force, admits the agents that waited for them,
-  /// reports overdue descriptions and shapes, and frees what simulators that left had written.
-  void EndBatch();
+  /// Brings clocks into force.
+  void TakeClocks();
+
+  /// Lets successors take over, reports overdue descriptions and shapes, and frees what simulators
+  /// that left had written. True: a successor has told something that can take effect.
+  bool EndBatch();
+
+  /// What was told of agents takes effect: admissions, states, revisions, removals.
+  void Enact();
+
+  /// Whether lock-step time waits for the shape of an agent.
+  bool AwaitsShapes() const { return agent_shapes_.wait().Holds(world_.monotonic_ns()); }
+
+  /// The shapes for which it waits, for the status.
+  std::vector<std::string> AwaitedShapes() const;
 
   /// Removes the agents of the simulators that leave with the epoch, after their last clocks have
   /// come into force.
@@ -67,10 +84,9 @@ class Intake {
   void Hold(const Simulator& simulator, const v1::Input& input);
 
   /// If the simulator is gone, applies what is held for its id.
-  void HandOver(Simulator* simulator);
+  bool HandOver(Simulator* simulator);
 
-  /// Brings the clocks of a simulator into force, for its agents too.
-  void TakeClocks(Simulator* simulator);
+  void Enact(Simulator* simulator);
 
   /// Parts of shapes that are held for successors take room in the store.
   void CountHeldBytes() { shapes_.SetHeldBytes(world_.succession().shape_bytes()); }

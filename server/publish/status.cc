@@ -89,7 +89,7 @@ void AddShapes(const ShapeCounters& shapes, v1::ServiceStatus* status) {
 }
 
 void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
-  const detection::DetectorCounters& detector = sources.detector.counters();
+  const detection::DetectorCounters& detector = sources.counted;
   for (int kind = 0; kind < v1::EventStatus_ARRAYSIZE; ++kind) {
     std::string name = LowerCase(v1::EventStatus_Name(static_cast<v1::EventStatus>(kind)));
     name.replace(0, std::string("event").size(), "events");
@@ -125,6 +125,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_world(sources.config.world().substr(0, wire::kNameMax));
   status.set_simulated_clock(sources.world.simulated());
   status.set_now_ns(sources.world.now().nanoseconds());
+  status.set_granted_until_ns(sources.world.granted().nanoseconds());
   status.set_agents(static_cast<std::uint32_t>(sources.detector.agents()));
   status.set_pairs_tracked(static_cast<std::uint32_t>(sources.detector.pairs_tracked()));
   AddSimulators(sources.world, &status);
@@ -143,7 +144,9 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
   AddExtension("tree_builder",
                LowerCase(v1::Config::TreeBuilder_Name(sources.config.tree_builder())), &status);
-  if (const auto names = sources.world.WaitedFor(); !names.empty()) {
+  std::vector<std::string> names = sources.world.WaitedFor();
+  for (std::string& shape : sources.intake.AwaitedShapes()) names.push_back(std::move(shape));
+  if (!names.empty()) {
     const std::string text = fmt::format("{}", fmt::join(names, ", "));
     AddExtension("waiting_for", text.substr(0, wire::kExtensionValueMax), &status);
   }

@@ -26,6 +26,7 @@ struct StatusSources {
   const v1::Config& config;
   const World& world;
   const detection::Detector& detector;
+  const detection::DetectorCounters& counted;  ///< Of the detectors of all epochs.
   const Intake& intake;
   const ShapeStore& shapes;
   const Rejections& rejections;

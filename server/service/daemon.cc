@@ -20,6 +20,10 @@
 namespace collision::server {
 namespace {
 
+/// Rounds in which no simulator has a step follow each other in one step of the daemon, but not
+/// more than these, so that it hears what arrives meanwhile.
+constexpr int kRoundsPerStepMax = 64;
+
 /// A recording from before the field has none set.
 broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
   switch (method) {
@@ -76,14 +80,12 @@ class Daemon::Implementation {
     if (!Begin(clock_.Read(), &inputs)) return false;
     if (!Claim(inputs)) return false;
     for (const v1::Input& input : inputs) intake_.Apply(input);
-    if (world_.EpochIsOver()) EndEpoch();
-    intake_.EndBatch();
+    intake_.TakeClocks();
     LogSilence(world_.ReleaseSilent());
-    world_.UpdateSimulatedTime();
-    if (claim_.phase() == ClaimPhase::kServing) {
-      Detect(!inputs.empty());
-      PublishAnswers();
-    }
+    MoveOn(!inputs.empty());
+    if (world_.EpochIsOver()) EndEpoch();
+    if (intake_.EndBatch()) MoveOn(true);
+    if (claim_.phase() == ClaimPhase::kServing) PublishAnswers();
     PublishStatus();
     bus_.Flush();
 #ifndef NDEBUG
@@ -114,6 +116,7 @@ class Daemon::Implementation {
   /// The time until something is due without any input.
   std::chrono::nanoseconds Timeout() const {
     if (shape_builder_->has_finished()) return std::chrono::nanoseconds(0);
+    if (world_.RunsInRounds() && NextRound()) return std::chrono::nanoseconds(0);
     std::int64_t due = schedule_.next_ns();
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
     if (const auto next = world_.NextRelease()) due = std::min(due, *next);
@@ -185,6 +188,7 @@ class Daemon::Implementation {
     Log(spdlog::level::info, "epoch over",
         fmt::format("epoch {} ends at {} s: no simulator holds time any more", world_.epoch(),
                     1e-9 * static_cast<double>(world_.now().nanoseconds())));
+    past_ += detector_.counters();
     detector_ = detection::Detector(OptionsOf(config_));
     advanced_to_.reset();
     world_.BeginEpoch();
@@ -205,6 +209,29 @@ class Daemon::Implementation {
     for (const std::string& name : released) releases_.Add(name);
     waits_.Write(world_.monotonic_ns());
     releases_.Write(world_.monotonic_ns());
+  }
+
+  /// Brings into effect what was told, moves the world's time as far as it may go, and detects.
+  void MoveOn(bool inputs) {
+    if (claim_.phase() != ClaimPhase::kServing) return;
+    if (!world_.RunsInRounds()) {
+      intake_.Enact();
+      world_.MoveOn();
+      return Detect(inputs);
+    }
+    world_.ShareGrant();
+    for (int round = 0; round < kRoundsPerStepMax; ++round) {
+      const std::optional<Instant> next = NextRound();
+      if (!next) return;
+      intake_.Enact();
+      world_.MoveTo(*next);
+      Detect(true);
+    }
+  }
+
+  /// The end of the round, if it is over: then everything in it is known.
+  std::optional<Instant> NextRound() const {
+    return intake_.AwaitsShapes() ? std::nullopt : world_.NextNow();
   }
 
   /// Advances the detector to the world's time and publishes what it found. With a simulated clock
@@ -231,17 +258,20 @@ class Daemon::Implementation {
 
   void PublishStatus() {
     if (!schedule_.Take(world_)) return;
-    publisher_.PublishStatus(MakeStatus({.config = config_,
-                                         .world = world_,
-                                         .detector = detector_,
-                                         .intake = intake_,
-                                         .shapes = shapes_,
-                                         .rejections = rejections_,
-                                         .event_log = publisher_.event_log(),
-                                         .steps = steps_,
-                                         .queries_per_second = query_rate_.Take(
-                                             detector_.counters().queries, world_.monotonic_ns()),
-                                         .network = bus_.network_counters()}));
+    detection::DetectorCounters counted = past_;
+    counted += detector_.counters();
+    publisher_.PublishStatus(
+        MakeStatus({.config = config_,
+                    .world = world_,
+                    .detector = detector_,
+                    .counted = counted,
+                    .intake = intake_,
+                    .shapes = shapes_,
+                    .rejections = rejections_,
+                    .event_log = publisher_.event_log(),
+                    .steps = steps_,
+                    .queries_per_second = query_rate_.Take(counted.queries, world_.monotonic_ns()),
+                    .network = bus_.network_counters()}));
   }
 
   const v1::Config config_;
@@ -254,6 +284,7 @@ class Daemon::Implementation {
   ShapeStore shapes_;
   World world_;
   detection::Detector detector_;
+  detection::DetectorCounters past_;  ///< Of the epochs that are over.
   Rejections rejections_;
   Intake intake_;
   Publisher publisher_;

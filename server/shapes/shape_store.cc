@@ -275,6 +275,11 @@ std::shared_ptr<const shape::Shape> ShapeStore::Find(const std::string& hash) co
   return known == shapes_.end() ? nullptr : known->second.shape;
 }
 
+bool ShapeStore::HasWantedTree(const std::string& hash) const {
+  const auto known = shapes_.find(hash);
+  return known != shapes_.end() && known->second.shape && !known->second.coarse;
+}
+
 ShapeProgress ShapeStore::ProgressOf(std::uint64_t simulator, const std::string& hash) const {
   if (shapes_.contains(hash)) return {.whole = true};
   const auto gathering = gatherings_.find({hash, simulator});

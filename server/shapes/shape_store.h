@@ -92,6 +92,11 @@ class ShapeStore {
   /// Null: not visible.
   std::shared_ptr<const shape::Shape> Find(const std::string& hash) const;
 
+  /// Whether the wanted tree of a shape is there.
+  bool HasWantedTree(const std::string& hash) const;
+
+  bool HasUsers(const std::string& hash) const { return users_.contains(hash); }
+
   /// How much has arrived of a shape that this simulator writes.
   ShapeProgress ProgressOf(std::uint64_t simulator, const std::string& hash) const;
 

@@ -47,8 +47,9 @@ class Simulator {
   bool succeeded_unheard() const { return succeeded_unheard_; }
   void SetSucceededUnheard(bool unheard) { succeeded_unheard_ = unheard; }
 
-  /// Gone for good: its process has ended, and it removed all its agents or never described any.
-  bool has_left() const { return !alive_ && agents_.size() == 0; }
+  /// Gone for good: its process has ended or no step of it follows, and it removed all its agents
+  /// or never described any.
+  bool has_left() const { return (!alive_ || time_.has_finished()) && agents_.size() == 0; }
 
   /// Whether the world's time waits for it.
   bool holds_time() const { return time_.clock().has_value() && !released_ && !has_left(); }

@@ -25,11 +25,18 @@ bool SimulatorTime::Take() {
   while (!pending_.empty() && pending_.front().states_sequence <= states_seen_ &&
          pending_.front().descriptions_sequence <= descriptions_seen_) {
     clock_ = pending_.front().clock;
+    next_ = pending_.front().next;
     pending_.pop_front();
     taken = true;
   }
   if (taken && !first_clock_) first_clock_ = clock_;
   return taken;
+}
+
+Instant SimulatorTime::told_until() const {
+  if (!clock_) return Instant::Always();
+  if (!next_ || next_->is_never()) return next_.value_or(*clock_);
+  return Instant::FromNanoseconds(next_->nanoseconds() - 1);
 }
 
 bool SimulatorTime::Grant(Instant until) {

@@ -13,6 +13,8 @@ namespace collision::server {
 /// A clock, and what its simulator had written before it.
 struct PendingClock {
   Instant clock;
+  /// It has nothing more to tell of any time before this one; nullopt: it does not say.
+  std::optional<Instant> next = {};
   std::uint64_t states_sequence = 0;        ///< Highest sequence of its states by then.
   std::uint64_t descriptions_sequence = 0;  ///< Likewise of its descriptions.
   bool lock_step = false;                   ///< The simulator waits for grants.
@@ -45,6 +47,17 @@ class SimulatorTime {
   /// Extends the grant to `until`; a grant is never shortened. True if it has changed.
   bool Grant(Instant until);
 
+  /// All that its simulator has to tell up to and including this time has arrived: the time before
+  /// its next step or, where it does not say when that is, its clock. Never(): no step follows.
+  /// Always() without a clock.
+  Instant told_until() const;
+
+  /// Its newest clock says when its next step is.
+  bool tells_next() const { return next_.has_value(); }
+
+  /// No step follows.
+  bool has_finished() const { return next_ && next_->is_never(); }
+
   Instant newest() const { return newest_; }  ///< The newest clock that has arrived; else Always().
   const std::optional<Instant>& clock() const { return clock_; }  ///< The newest in force.
   /// The one that this service first brought into force.
@@ -61,6 +74,7 @@ class SimulatorTime {
   std::deque<PendingClock> pending_;
   std::optional<Instant> first_clock_;
   std::optional<Instant> clock_;
+  std::optional<Instant> next_;  // of the clock in force
   std::optional<Instant> granted_;
   bool lock_step_ = true;
   bool other_kind_ = false;

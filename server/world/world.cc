@@ -79,17 +79,44 @@ void World::SetReading(const ClockReading& reading) {
   now_ = std::max(now_, Instant::FromNanoseconds(*wall_minus_monotonic_ns_ + reading.monotonic_ns));
 }
 
-void World::UpdateSimulatedTime() {
-  if (!simulated_) return;
+bool World::RunsInRounds() const {
+  return simulated_ && std::all_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
+           return !one.second.holds_time() || one.second.time().tells_next();
+         });
+}
+
+std::optional<Instant> World::NextNow() const {
   std::size_t with_clock = 0;
-  Instant least = Instant::Never();
+  Instant told = Instant::Never();  // by all who hold time
+  Instant first = Instant::Never();
+  Instant last = Instant::Always();
   for (const auto& [id, simulator] : simulators_) {
-    if (simulator.time().clock()) ++with_clock;
-    if (simulator.holds_time()) least = std::min(least, *simulator.time().clock());
+    const SimulatorTime& time = simulator.time();
+    if (!time.clock()) continue;
+    ++with_clock;
+    // Who has finished and left is not waited for, but its last round counts.
+    if (!simulator.holds_time() && (simulator.released() || !time.has_finished())) continue;
+    told = std::min(told, time.told_until());
+    first = std::min(first, *time.clock());
+    last = std::max(last, *time.clock());
   }
-  if (least.is_never() || (!started_ && with_clock < simulators_awaited_)) return;
-  now_ = started_ ? std::max(now_, least) : least;
+  if (first.is_never()) return std::nullopt;
+  if (!started_) {
+    return with_clock >= simulators_awaited_ && told >= first ? std::optional(first) : std::nullopt;
+  }
+  if (!RunsInRounds()) return std::max(now_, first);
+  // Of those who have no further step the last round is still to be judged.
+  if (told < granted_ || (told.is_never() && last <= now_)) return std::nullopt;
+  return granted_ > now_ ? std::optional(granted_) : std::nullopt;
+}
+
+void World::MoveTo(Instant next) {
+  now_ = next;
   started_ = true;
+}
+
+void World::MoveOn() {
+  if (const auto next = NextNow()) MoveTo(*next);
 }
 
 std::vector<std::string> World::ReleaseSilent() {
@@ -145,6 +172,7 @@ void World::BeginEpoch() {
   ++epoch_;
   started_ = false;
   now_ = Instant();
+  granted_ = Instant::Always();
 }
 
 Instant World::LatestAllowed(const Simulator& simulator) const {
@@ -177,11 +205,7 @@ ClockRules World::RulesForClock(const Simulator& simulator) const {
 
 Instant World::EffectiveFrom(Instant stamp) const {
   if (!simulated_) return now_;
-  Instant greatest = Instant::Always();
-  for (const auto& [id, simulator] : simulators_) {
-    greatest = std::max(greatest, simulator.time().granted().value_or(Instant::Always()));
-  }
-  return greatest == Instant::Always() ? stamp : greatest;
+  return granted_ == Instant::Always() ? stamp : granted_;
 }
 
 void World::SetClearance(const detection::AgentClearance& clearance) {
@@ -192,15 +216,21 @@ void World::SetClearance(const detection::AgentClearance& clearance) {
 
 void World::UpdateGrants() {
   if (!simulated_ || !started_) return;
-  const Instant least = numeric::AddRoundedDown(now_, temporal_resolution_);
-  const Instant greatest = numeric::AddRoundedDown(now_, grant_ahead_max_);
+  Instant until = numeric::AddRoundedDown(now_, grant_ahead_max_);
+  for (const auto& [id, simulator] : simulators_) {
+    until = std::min(until, simulator.agents().clearances().clear_until());
+  }
+  // No simulator may run past the end of a contact before its states are in.
+  until = std::max(until, numeric::AddRoundedDown(now_, temporal_resolution_));
+  granted_ = std::max(granted_, until);
+  ShareGrant();
+}
+
+void World::ShareGrant() {
+  if (!simulated_ || granted_ == Instant::Always()) return;
   for (auto& [id, simulator] : simulators_) {
-    if (!simulator.time().clock()) continue;
-    // No simulator may run past the end of a contact before its states are in.
-    const Instant clear = std::min(greatest, simulator.agents().clearances().clear_until());
-    if (simulator.time().Grant(std::max(least, clear))) {
-      simulator.agents().clearances().MarkGrantChanged();
-    }
+    if (!simulator.time().clock() || !simulator.time().Grant(granted_)) continue;
+    simulator.agents().clearances().MarkGrantChanged();
   }
 }
 

@@ -36,19 +36,23 @@ struct Claim {
 /// (Succession). A simulator has left when its process is gone and it has no agents; it makes room
 /// for another one.
 ///
-/// **Now.** Simulated clock: the least clock in force of the simulators that hold time, once
-/// `simulators_awaited` have one. It never goes back. A silent simulator holds time for ever
-/// (WAIT) or for `release_after_s` (RELEASE); its agents stay, and their bounds grow. Wall clock:
-/// the wall reading at the start, carried on by the monotonic clock.
+/// **Now.** Simulated clock: it begins with the least first clock, once `simulators_awaited` have
+/// one, and goes on in rounds. All that hold time are granted the same time, and when each has told
+/// everything up to it, the round is over: now is the end of it. So when the world's time moves,
+/// and what is known by then, follows from the simulators alone. While one of them does not say
+/// when its next step is, now is the least clock as it arrives, which is as safe but depends on the
+/// network. A silent simulator holds time for ever (WAIT) or for `release_after_s` (RELEASE); its
+/// agents stay, and their bounds grow. Wall clock: the wall reading at the start, carried on by the
+/// monotonic clock.
 ///
 /// **Epochs** (simulated clock). When nobody holds time any more, the epoch is over: agents that
 /// were left behind are gone, and the next simulator's first clock begins another one, at whatever
 /// time it names up to `first_clock_max_s`. A dead simulator whose successor waits holds no time
 /// here.
 ///
-/// **Grants** (simulated clock). A simulator may run until the least `clear_until` of its agents,
-/// at least to now + `temporal_resolution_s`, at most to now + `grant_ahead_max_s`; a grant is
-/// never withdrawn. A simulator whose first clock is not the start of a run was granted time by a
+/// **Grants** (simulated clock). All may run until the least `clear_until` of all agents, at least
+/// to now + `temporal_resolution_s`, at most to now + `grant_ahead_max_s`; a grant is never
+/// withdrawn. A simulator whose first clock is not the start of a run was granted time by a
 /// service before this one: it is believed up to that clock + `grant_ahead_max_s`. Before its
 /// first grant a simulator may be ahead of now, or of its first clock, by `grant_ahead_max_s`.
 class World {
@@ -71,9 +75,18 @@ class World {
   /// The daemon's clocks at this step. With a wall clock this moves `now`.
   void SetReading(const ClockReading& reading);
 
-  /// Simulated clock: brings `now` to the least clock. Call it after the clocks of a batch are in
-  /// force.
-  void UpdateSimulatedTime();
+  /// Simulated clock: each simulator that holds time says when its next step is.
+  bool RunsInRounds() const;
+
+  /// Simulated clock: the time to which now may go, as far as clocks are in force; nullopt: it has
+  /// to wait. In rounds it is the end of the round, or the start.
+  std::optional<Instant> NextNow() const;
+
+  /// Simulated clock: now moves there.
+  void MoveTo(Instant next);
+
+  /// Moves to NextNow(), if there is one.
+  void MoveOn();
 
   /// Simulated clock: simulators that have been silent for `release_after_s` hold time no longer.
   /// Returns the names of those released now.
@@ -115,9 +128,15 @@ class World {
   /// The detector gives an agent a new clearance. Ignored if the agent is not there any more.
   void SetClearance(const detection::AgentClearance& clearance);
 
-  /// Grants each simulator with a clock the time described above, and marks its clearance samples
-  /// where the grant has grown.
+  /// Grants the time described above to each simulator with a clock, and marks its clearance
+  /// samples where the grant has grown.
   void UpdateGrants();
+
+  /// The same with the time that is granted already, for those who have come since.
+  void ShareGrant();
+
+  /// The greatest time granted in this epoch; Always(): none was.
+  Instant granted() const { return granted_; }
 
   /// The monotonic time at which ReleaseSilent() may next release a simulator; nullopt: none is
   /// silent.
@@ -145,6 +164,7 @@ class World {
   std::uint32_t epoch_ = 1;
   bool started_ = false;
   Instant now_;
+  Instant granted_ = Instant::Always();
   ClockReading reading_;
   std::optional<std::int64_t> wall_minus_monotonic_ns_;
 };

@@ -8,13 +8,13 @@
 namespace collision::system_test {
 namespace {
 
-/// Stays at 2 s, in the world: a simulator that waits for it waits there.
+/// Takes minutes at the speed below: a simulator that waits for it stands still.
 const Flight kShortLeft{"left", -5, 1, 2};
 
 TEST(Crash, KilledSimulatorIsWaitedFor) {
   const TestWorld world(64, "simulators_awaited: 2 on_silent_simulator: WAIT");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--linger"});
+  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
@@ -32,7 +32,7 @@ TEST(Crash, KilledSimulatorIsWaitedFor) {
 TEST(Crash, SuccessorThatStartsAtOnceTakesOver) {
   const TestWorld world(69);
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--linger"});
+  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
@@ -50,7 +50,7 @@ TEST(Crash, KilledSimulatorIsReleased) {
   const TestWorld world(65,
                         "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 0.5");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--linger"});
+  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));

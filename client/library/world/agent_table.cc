@@ -66,18 +66,34 @@ void AgentTable::Stage(const AgentId& id, const State& state) {
 
 v1::AgentRemoval AgentTable::Remove(const AgentId& id) {
   Slot& slot = slots_.at(id.slot);
-  if (slot.states.sent()) thinned_chunks_.push_back(id.slot / policy_.chunk_size);
   slot.occupied = false;
-  slot.states = OutgoingStates();
   std::erase(staged_slots_, id.slot);
-  free_slots_.push_back(id.slot);
-  std::push_heap(free_slots_.begin(), free_slots_.end(), std::greater<>());
+  if (slot.states.sent()) {
+    removed_slots_.push_back(id.slot);
+  } else {
+    Free(id.slot);
+  }
   --agent_count_;
   census_changed_ = true;
   v1::AgentRemoval removal;
   removal.set_simulator_id(simulator_id_);
   removal.set_slot(id.slot);
   return removal;
+}
+
+std::vector<std::uint32_t> AgentTable::FreeRemoved() {
+  std::vector<std::uint32_t> thinned;  // Chunks.
+  for (const std::uint32_t index : std::exchange(removed_slots_, {})) {
+    thinned.push_back(index / policy_.chunk_size);
+    Free(index);
+  }
+  return thinned;
+}
+
+void AgentTable::Free(std::uint32_t slot) {
+  slots_[slot].states = OutgoingStates();
+  free_slots_.push_back(slot);
+  std::push_heap(free_slots_.begin(), free_slots_.end(), std::greater<>());
 }
 
 bool AgentTable::IsDue(const Slot& slot, std::int64_t clock_ns) const {
@@ -107,7 +123,9 @@ std::vector<v1::AgentStates> AgentTable::SentStates() const {
 }
 
 std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
-  std::vector<std::uint32_t> chunks = std::exchange(thinned_chunks_, {});
+  std::vector<std::uint32_t> chunks;
+  if (clock_ns > taken_ns_) chunks = FreeRemoved();
+  taken_ns_ = clock_ns;
   std::size_t waiting = 0;
   for (const std::uint32_t index : staged_slots_) {
     Slot& slot = slots_[index];
@@ -133,13 +151,14 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   return result;
 }
 
-v1::SimulatorClock AgentTable::Clock(std::int64_t clock_ns, bool lock_step) {
+v1::SimulatorClock AgentTable::Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step) {
   census_changed_ = false;
   v1::SimulatorClock clock;
   clock.set_simulator_id(simulator_id_);
   clock.set_run(run_);
   clock.set_simulator_name(simulator_name_);
   clock.set_clock_ns(clock_ns);
+  clock.set_next_ns(next_ns);
   clock.set_states_sequence(states_sequence_);
   clock.set_descriptions_sequence(descriptions_sequence_);
   clock.set_agents(agent_count_);

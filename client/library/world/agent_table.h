@@ -1,6 +1,8 @@
 // The agents of one simulator: their slots, and the messages that tell the service about them.
 #pragma once
 
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -41,16 +43,18 @@ class AgentTable {
   std::vector<v1::AgentStates> SentStates() const;
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
-  /// of all its agents.
+  /// of all its agents. Where an agent was removed, its last state stays in its chunk, and its slot
+  /// unused, until the clock has moved on: the service is to see it.
   std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);
 
   /// The clock sample that follows everything sent so far.
-  v1::SimulatorClock Clock(std::int64_t clock_ns, bool lock_step);
+  v1::SimulatorClock Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step);
 
   /// A clearance as of the service's time `now_ns`; those of former agents are ignored.
   void SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns);
   Clearance clearance(const AgentId& id) const;
 
+  std::uint32_t size() const { return agent_count_; }
   const Traffic& traffic() const { return traffic_; }
 
  private:
@@ -62,6 +66,9 @@ class AgentTable {
   };
 
   std::uint32_t FreeSlot();
+  /// Gives back the slots of removed agents; returns the chunks that they were in.
+  std::vector<std::uint32_t> FreeRemoved();
+  void Free(std::uint32_t slot);
   bool IsDue(const Slot& slot, std::int64_t clock_ns) const;
   v1::AgentState Message(std::uint32_t slot) const;
   v1::AgentStates Chunk(std::uint32_t chunk) const;
@@ -71,9 +78,10 @@ class AgentTable {
   std::uint32_t run_;
   PublishPolicy policy_;
   std::vector<Slot> slots_;
-  std::vector<std::uint32_t> free_slots_;      ///< A heap, the lowest on top.
-  std::vector<std::uint32_t> staged_slots_;    ///< Of agents with a staged state.
-  std::vector<std::uint32_t> thinned_chunks_;  ///< They lost an agent since they were sent.
+  std::vector<std::uint32_t> free_slots_;     ///< A heap, the lowest on top.
+  std::vector<std::uint32_t> staged_slots_;   ///< Of agents with a staged state.
+  std::vector<std::uint32_t> removed_slots_;  ///< Their last states were sent at this clock.
+  std::int64_t taken_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Clock of TakeDue().
   std::uint32_t agent_count_ = 0;
   std::uint64_t states_sequence_ = 0;
   std::uint64_t descriptions_sequence_ = 0;

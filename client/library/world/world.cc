@@ -49,6 +49,8 @@ Advance World::AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout
   return alive->AdvanceTo(clock_ns, timeout);
 }
 
+void World::Finish() { implementation_->Finish(); }
+
 std::int64_t World::clock_ns() const { return implementation_->clock_ns(); }
 
 std::int64_t World::granted_until_ns() const { return implementation_->granted_until_ns(); }

@@ -1,6 +1,7 @@
 #include "client/library/world/world_implementation.h"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -81,6 +82,11 @@ AgentId World::Implementation::AddAgent(const AgentDescription& description, con
 
 void World::Implementation::SetState(const AgentId& id, const State& state) {
   Validate(state);
+  if (state.discontinuity && state.stamp_ns < next_ns_) {
+    throw std::invalid_argument("stamp_ns: " + std::to_string(state.stamp_ns) +
+                                " of a discontinuity, allowed: >= " + std::to_string(next_ns_) +
+                                ", the next step that was announced");
+  }
   agents_.Stage(id, state);
 }
 
@@ -104,6 +110,7 @@ void World::Implementation::RemoveAgent(const AgentId& id) {
 
 void World::Implementation::Publish(std::int64_t clock_ns) {
   RequireForward(clock_ns);
+  next_ns_ = std::numeric_limits<std::int64_t>::min();
   if (clock_published_ && clock_ns > Reachable()) {
     throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) +
                                 ", allowed: <= " + std::to_string(Reachable()) + ", as granted");
@@ -117,8 +124,15 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
   const Deadline deadline(timeout);
   Poll(std::chrono::nanoseconds(0));
   while (!closed_) {
-    Send(std::min(clock_ns, Reachable()));
-    if (clock_ns_ >= clock_ns) return Advance::kReached;
+    if (!lock_step_) {
+      Send(clock_ns);
+    } else if (clock_ns <= Reachable()) {
+      Reach(clock_ns);
+    } else {
+      if (!clock_published_) Reach(Reachable());
+      Tell(clock_ns);
+    }
+    if (clock_published_ && clock_ns_ >= clock_ns) return Advance::kReached;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) break;
     const Deadline repeat(kRepeatPeriod);
@@ -130,6 +144,8 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
 
 void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("Poll()");
+  // Who waits here has nothing more to tell of this time, so the service may judge it.
+  if (clock_due_ && timeout.count() > 0) Tell(clock_ns_ + 1);
   Gather(timeout);
   Deliver();
 }
@@ -144,9 +160,15 @@ void World::Implementation::RequireOutsideCallback(const char* function) const {
 
 void World::Implementation::RequireForward(std::int64_t clock_ns) const {
   ValidateClock(clock_ns);
-  if (!clock_published_ || clock_ns >= clock_ns_) return;
-  throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) + ", allowed: >= " +
-                              std::to_string(clock_ns_) + ", the last clock published");
+  if (!clock_published_) return;
+  const auto require = [clock_ns](std::int64_t least_ns, const char* what) {
+    if (clock_ns >= least_ns) return;
+    throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) +
+                                ", allowed: >= " + std::to_string(least_ns) + ", " + what);
+  };
+  require(clock_ns_, "the last clock published");
+  // Others may have gone on in reliance on it.
+  if (clock_ns > clock_ns_) require(next_ns_, "the next step that was announced");
 }
 
 std::int64_t World::Implementation::Reachable() const {
@@ -158,26 +180,58 @@ std::int64_t World::Implementation::Reachable() const {
 void World::Implementation::Send(std::int64_t clock_ns) {
   if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !name_refused_)
     return;
+  Reach(clock_ns);
+  WriteClock();
+}
+
+void World::Implementation::Reach(std::int64_t clock_ns) {
   v1::Input message;
   if (name_refused_) Reintroduce();
   for (v1::AgentStates& chunk : agents_.TakeDue(clock_ns)) {
     *message.mutable_agent_states() = std::move(chunk);
     transport_->Write(message);
   }
-  *message.mutable_simulator_clock() = agents_.Clock(clock_ns, lock_step_);
-  transport_->Write(message);
   transport_->Flush();
   clock_ns_ = clock_ns;
   clock_published_ = true;
+  clock_due_ = true;
+}
+
+void World::Implementation::Tell(std::int64_t next_ns) {
+  const bool known = !clock_due_ && next_ns <= next_ns_;
+  if (known && !agents_.HasNews(clock_ns_) && !name_refused_) return;
+  Reach(clock_ns_);
+  next_ns_ = std::max(next_ns_, next_ns);
+  WriteClock();
+}
+
+void World::Implementation::WriteClock() {
+  v1::Input message;
+  *message.mutable_simulator_clock() = agents_.Clock(clock_ns_, next_ns_, lock_step_);
+  transport_->Write(message);
+  transport_->Flush();
+  clock_due_ = false;
 }
 
 void World::Implementation::Repeat() {
   if (!clock_published_ || closed_) return;
-  v1::Input message;
   if (name_refused_) Reintroduce();
-  *message.mutable_simulator_clock() = agents_.Clock(clock_ns_, lock_step_);
-  transport_->Write(message);
-  transport_->Flush();
+  WriteClock();
+}
+
+void World::Implementation::Finish() {
+  if (lock_step_ && clock_published_) Tell(kNever);
+}
+
+void World::Implementation::Close() {
+  closed_ = true;
+  if (agents_.size() > 0) return;
+  try {
+    Finish();
+  } catch (const std::exception&) {
+    // A destructor cannot report it. Without a network the service waits, as if this process had
+    // been killed.
+  }
 }
 
 void World::Implementation::Reintroduce() {

@@ -40,8 +40,10 @@ class World::Implementation {
   Advance AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout);
   void Poll(std::chrono::nanoseconds timeout);
 
+  void Finish();
+
   /// The World is gone: no more callbacks, and agents' handles do nothing.
-  void Close() { closed_ = true; }
+  void Close();
   bool closed() const { return closed_; }
 
   std::int64_t clock_ns() const { return clock_ns_; }
@@ -64,6 +66,14 @@ class World::Implementation {
 
   /// Writes what is due at this clock, then the clock, unless the service knows all of it already.
   void Send(std::int64_t clock_ns);
+
+  /// Writes what is due at this clock, which is reached now. In lock-step a clock follows when it
+  /// is known what comes next (Tell()).
+  void Reach(std::int64_t clock_ns);
+
+  /// Lock-step: tells that nothing of any time before `next_ns` follows, unless the service knows.
+  void Tell(std::int64_t next_ns);
+  void WriteClock();
   void Repeat();
   /// Repeats everything: the service refused this simulator while another program of its name,
   /// perhaps its own predecessor, still counted as alive.
@@ -96,6 +106,10 @@ class World::Implementation {
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();
   std::optional<bool> simulated_clock_;
   bool clock_published_ = false;
+  /// Nothing of any time before this one follows, as the service has been told or is told with the
+  /// next clock; not above the clock: it is not told.
+  std::int64_t next_ns_ = std::numeric_limits<std::int64_t>::min();
+  bool clock_due_ = false;  ///< The clock has been reached by AdvanceTo(), and is not written.
   /// Since the last Reintroduce() the service refused this sender: another one owns the name.
   bool name_refused_ = false;
 

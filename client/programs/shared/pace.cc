@@ -171,6 +171,7 @@ void Pace::Fly(double rate_hz, std::size_t state_every,
 }
 
 void Pace::Linger() {
+  if (options_.linger && !StopRequested()) world_.Finish();
   while (options_.linger && !StopRequested()) {
     world_.Poll(kStopCheck);
     TakeRefusals();

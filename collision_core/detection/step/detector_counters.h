@@ -1,6 +1,7 @@
 // What a detector has done so far, counted.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace collision::detection {
@@ -19,6 +20,26 @@ struct DetectorCounters {
   std::uint64_t evaluations_cut_short = 0;  ///< Evaluations that spent all they were allowed.
   std::uint64_t saturations = 0;            ///< Times an agent became saturated.
   std::uint64_t events[6] = {};  ///< Published revisions that changed the status, by EventStatus.
+
+  /// Counts of one detector after another.
+  DetectorCounters& operator+=(const DetectorCounters& more) {
+    updates_kept += more.updates_kept;
+    jumps += more.jumps;
+    widenings += more.widenings;
+    breaches += more.breaches;
+    queries += more.queries;
+    pair_queries += more.pair_queries;
+    filter_tests += more.filter_tests;
+    broad_units += more.broad_units;
+    method_changes += more.method_changes;
+    segments += more.segments;
+    quick_segments += more.quick_segments;
+    work_units += more.work_units;
+    evaluations_cut_short += more.evaluations_cut_short;
+    saturations += more.saturations;
+    for (std::size_t i = 0; i < 6; ++i) events[i] += more.events[i];
+    return *this;
+  }
 };
 
 }  // namespace collision::detection

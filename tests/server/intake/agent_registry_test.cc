@@ -41,16 +41,24 @@ class AgentRegistryTest : public testing::Test {
   void SetClock(std::int64_t ns) {
     alpha->time().Offer({.clock = Instant::FromNanoseconds(ns)});
     ASSERT_TRUE(alpha->time().Take());
-    world.UpdateSimulatedTime();
-    registry.AdmitComplete(alpha);
+    world.MoveOn();
+    registry.Enact(alpha);
   }
   void Describe(const v1::AgentDescription& wire) {
     const auto decoded = DecodeDescription(wire);
     ASSERT_TRUE(std::holds_alternative<detection::AgentDeclaration>(decoded));
     registry.Describe(alpha, wire, std::get<detection::AgentDeclaration>(decoded));
+    registry.Enact(alpha);
   }
   void Describe(std::uint32_t slot) { Describe(Description("alpha", slot)); }
-  void Take(const v1::AgentState& state) { registry.TakeState(alpha, Chunk("alpha"), state); }
+  void Take(const v1::AgentState& state) {
+    registry.TakeState(alpha, Chunk("alpha"), state);
+    registry.Enact(alpha);
+  }
+  void Remove(std::uint32_t slot) {
+    registry.Remove(alpha, slot);
+    registry.Enact(alpha);
+  }
   /// The agent of slot 0 is there, with its state at 0 s.
   void Join() {
     SetClock(0);
@@ -202,7 +210,7 @@ TEST_F(AgentRegistryTest, WithoutRoomTheOwnerGetsOneRejectionAndTheAgentEntersWh
   for (const std::uint64_t sequence : {3, 4}) Take(State(2, 0, sequence));
   EXPECT_EQ(detector.agents(), 2u);
   EXPECT_EQ(TakeReasons(), Reasons{v1::REJECTED_TOO_MANY_AGENTS});
-  registry.Remove(alpha, 0);
+  Remove(0);
   Take(State(2, 0, 5));
   EXPECT_EQ(detector.agents(), 2u);
   EXPECT_TRUE(alpha->agents().Find(2)->admitted());
@@ -260,13 +268,13 @@ TEST_F(AgentRegistryTest, ARevisionBeforeTheAdmissionIsWhatTheAgentIsAdmittedWit
 
 TEST_F(AgentRegistryTest, ARemovedAgentLeavesTheDetectorAndAWaitingStateItsSlot) {
   Join();
-  registry.Remove(alpha, 0);
+  Remove(0);
   EXPECT_EQ(detector.agents(), 0u);
   EXPECT_EQ(counters().removed, 1u);
   EXPECT_EQ(alpha->agents().Find(0), nullptr);
   Take(State(1, 0, 2));
   ASSERT_NE(alpha->agents().Waiting(1), nullptr);
-  registry.Remove(alpha, 1);
+  Remove(1);
   EXPECT_EQ(alpha->agents().Waiting(1), nullptr);
   EXPECT_EQ(counters().removed, 1u) << "no agent";
 }

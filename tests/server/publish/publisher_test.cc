@@ -42,7 +42,7 @@ struct OneSimulator {
     simulator = world.ClaimFor(1, 10, 1, &name).simulator;
     simulator->time().Offer({.clock = At(0)});
     EXPECT_TRUE(simulator->time().Take());
-    world.UpdateSimulatedTime();
+    world.MoveOn();
   }
 
   World world;

@@ -95,14 +95,14 @@ TEST(World, HoldsNoMoreSimulatorsThanAllowedAndForgetsThoseThatLeft) {
 TEST(World, SimulatedTimeIsTheLeastClock) {
   World world(Simulated(2));
   Simulator& a = Join(&world, 1, 10, 5);
-  world.UpdateSimulatedTime();
+  world.MoveOn();
   EXPECT_FALSE(world.started());
   Join(&world, 2, 20, 3);
-  world.UpdateSimulatedTime();
+  world.MoveOn();
   EXPECT_TRUE(world.started());
   EXPECT_EQ(world.now(), At(3));
   Join(&world, 3, 30, 1);
-  world.UpdateSimulatedTime();
+  world.MoveOn();
   EXPECT_EQ(world.now(), At(3));
   EXPECT_EQ(a.time().clock(), At(5));
 }
@@ -124,11 +124,11 @@ TEST(World, ASilentSimulatorHoldsTimeUntilReleased) {
     EXPECT_EQ(world.ReleaseSilent().size(), policy == v1::Clock::RELEASE ? 1u : 0u);
     EXPECT_EQ(world.WaitedFor().size(), policy == v1::Clock::RELEASE ? 0u : 1u);
     EXPECT_EQ(world.ReleaseSilent().size(), 0u);
-    world.UpdateSimulatedTime();
+    world.MoveOn();
     EXPECT_EQ(world.now(), At(policy == v1::Clock::RELEASE ? 7 : 3));
     silent.agents().Remove(0);
     EXPECT_TRUE(world.WaitedFor().empty());
-    world.UpdateSimulatedTime();
+    world.MoveOn();
     EXPECT_EQ(world.now(), At(7));
   }
 }
@@ -145,7 +145,7 @@ TEST(World, GrantsWhatIsClear) {
     EXPECT_EQ(a.agents().clearances().TakeChanged(), std::set<std::uint32_t>{0});
   };
   clear_until(At(4 * kSecond));
-  world.UpdateSimulatedTime();
+  world.MoveOn();
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4 * kSecond));
   EXPECT_TRUE(a.agents().clearances().TakeChanged().contains(0));
@@ -159,7 +159,7 @@ TEST(World, GrantsWhatIsClear) {
 
   a.time().Offer({.clock = At(4 * kSecond)});
   EXPECT_TRUE(a.time().Take());
-  world.UpdateSimulatedTime();
+  world.MoveOn();
   world.UpdateGrants();
   EXPECT_EQ(a.time().granted(), At(4'016'666'666));
 
@@ -176,11 +176,11 @@ TEST(World, AllowsWhatIsGranted) {
   World world(Simulated(1));
   const std::string name = "a";
   Simulator& a = *world.ClaimFor(1, 10, 1, &name).simulator;
-  EXPECT_EQ(world.RulesForClock(a).latest, Instant::Never());
+  EXPECT_EQ(world.RulesForClock(a).latest, At(365 * 86400 * kSecond));
   Join(&world, 1, 10, 0);
   EXPECT_EQ(world.RulesForState(a, true).latest, At(10 * kSecond));
   a.time().Grant(At(2 * kSecond));
-  world.UpdateSimulatedTime();
+  world.MoveOn();
   a.time().Offer({.clock = At(0), .lock_step = true});
   EXPECT_EQ(world.RulesForState(a, true).latest, At(2 * kSecond));
   EXPECT_EQ(world.RulesForClock(a).earliest, At(0));
@@ -202,7 +202,7 @@ TEST(World, NoSimulatorRunsFurtherAheadThanAllowed) {
   const auto advance_to = [&world, &a](std::int64_t clock_ns) {
     a.time().Offer({.clock = At(clock_ns)});
     EXPECT_TRUE(a.time().Take());
-    world.UpdateSimulatedTime();
+    world.MoveOn();
     world.UpdateGrants();
   };
   advance_to(12 * kSecond);
@@ -218,7 +218,7 @@ TEST(World, NoSimulatorRunsFurtherAheadThanAllowed) {
 
   b.time().Offer({.clock = At(6 * kSecond)});
   EXPECT_TRUE(b.time().Take());
-  world.UpdateSimulatedTime();
+  world.MoveOn();
   EXPECT_EQ(world.RulesForClock(a).latest, At(16 * kSecond));
 }
 
