@@ -8,7 +8,9 @@
 
 namespace collision::server {
 
-void EventLog::Add(const v1::CollisionEvent& event) {
+void EventLog::Add(v1::CollisionEvent event) {
+  event.mutable_lower()->clear_run();
+  event.mutable_higher()->clear_run();
   constexpr std::uint64_t kPrime = 0x100000001b3;
   std::string bytes;
   {

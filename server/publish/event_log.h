@@ -7,11 +7,12 @@
 
 namespace collision::server {
 
-/// Counts and hashes the published collision events in their order, without their stamps. Two runs
-/// with the same inputs have the same hash, from any instance of the service.
+/// Counts and hashes the collision events in their order, without their stamps and without the
+/// numbers of their simulators' runs, which depend on when these were started. Two runs with the
+/// same inputs have the same hash, from any instance of the service.
 class EventLog {
  public:
-  void Add(const v1::CollisionEvent& event);
+  void Add(v1::CollisionEvent event);
 
   /// FNV-1a, 64 bits, over the events in delimited, deterministic serialisation.
   std::uint64_t hash() const { return hash_; }
