@@ -50,6 +50,9 @@ inline constexpr std::size_t kShapeSolidsMax = 65536;         ///< Convex solids
 /// Points of all hulls of one shape together: they take memory beside the bytes that bring them.
 inline constexpr std::size_t kShapeHullPointsMax = std::size_t{1} << 20;
 
+/// [ns] A service not heard of for so long counts as gone, and what it promised has expired.
+inline constexpr std::int64_t kServiceLease = 2'000'000'000;
+
 // Lengths of texts [bytes] and of lists, as in collision.idl.
 
 inline constexpr std::size_t kNameMax = 64;             ///< Of worlds, simulators and agents.

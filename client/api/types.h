@@ -136,11 +136,16 @@ struct Clearance {
   bool saturated = false;  ///< It has more partners at hand than the service tracks.
   /// From when on promises count its latest admission, jump or widened declaration.
   std::int64_t effective_from_ns = std::numeric_limits<std::int64_t>::min();
-  /// What changed it, as in the IDL (CAUSE_...); empty: none of those. It may be lower even then,
-  /// where a contact ended or the agent became saturated.
+  /// How often it was lowered for a cause since the agent was admitted.
+  std::uint32_t lowerings = 0;
+  /// The newest cause that this simulator has not taken in before, as in the IDL (CAUSE_...);
+  /// empty: none. It may be lower even then, where a contact ended or the agent became saturated.
   std::string cause;
   AgentId cause_agent;
   std::int64_t void_from_ns = kNever;  ///< A broken declaration voids the promise from then on.
+  /// Wall clock: the promise holds no longer than this unless the service is heard again. In
+  /// lock-step time does not go on without the service: kNever.
+  std::int64_t expires_ns = kNever;
   /// When the service next needs a state of the agent. A time that is not after the sample's own:
   /// at every step. kNever: it needs none. A World sends those states by itself
   /// (WorldOptions::on_demand).

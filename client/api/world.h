@@ -120,6 +120,18 @@ class World {
   std::vector<Event> TakeEvents();
   std::uint64_t events_lost() const;
 
+  /// Calls back when the clearance of an agent of this simulator was lowered, with the newest
+  /// cause, and when earlier promises to it are void (Clearance::void_from_ns). The service repeats
+  /// each until it has arrived. Callbacks as for OnEvent().
+  void OnClearanceLowered(std::function<void(const AgentId&, const Clearance&)> callback);
+  void OnVoid(std::function<void(const AgentId&, const Clearance&)> callback);
+
+  /// Calls back when nothing was heard of the service for 2 s, and when one is heard again, which
+  /// may be another one. Without the service promises expire (Clearance::expires_ns), and in
+  /// lock-step none goes beyond what is granted. Poll() and AdvanceTo() notice it.
+  void OnServiceLost(std::function<void()> callback);
+  void OnServiceBack(std::function<void()> callback);
+
   /// What has been set and sent so far.
   const Traffic& traffic() const;
 

@@ -7,9 +7,10 @@
 
 namespace collision::server {
 
-Intake::Intake(const v1::Config& config, World* world, detection::Detector* detector,
-               Rejections* rejections, ShapeStore* shapes)
-    : world_(*world),
+Intake::Intake(const v1::Config& config, std::uint64_t instance, World* world,
+               detection::Detector* detector, Rejections* rejections, ShapeStore* shapes)
+    : instance_(instance),
+      world_(*world),
       detector_(*detector),
       rejections_(*rejections),
       shapes_(*shapes),
@@ -97,6 +98,9 @@ void Intake::TakeClock(const v1::Input& input) {
       if (!world_.simulated()) agents_.RemoveAll(simulator);
     }
     return rejections_.Add(*refusal);
+  }
+  if (wire.service_id() == instance_) {
+    simulator->agents().clearances().lowerings().Acknowledge(wire.clearances_sequence());
   }
   const bool tells_next = wire.next_ns() > wire.clock_ns();
   time.Offer(

@@ -31,9 +31,10 @@ struct IntakeCounters {
 /// same simulators always give the same events. One thread.
 class Intake {
  public:
-  /// Everything passed in outlives this.
-  Intake(const v1::Config& config, World* world, detection::Detector* detector,
-         Rejections* rejections, ShapeStore* shapes);
+  /// Everything passed in outlives this. `instance`: of this service; what clocks acknowledge of
+  /// another one's samples means nothing here.
+  Intake(const v1::Config& config, std::uint64_t instance, World* world,
+         detection::Detector* detector, Rejections* rejections, ShapeStore* shapes);
 
   void Apply(const v1::Input& input);
 
@@ -91,6 +92,7 @@ class Intake {
   /// Parts of shapes that are held for successors take room in the store.
   void CountHeldBytes() { shapes_.SetHeldBytes(world_.succession().shape_bytes()); }
 
+  const std::uint64_t instance_;
   World& world_;
   detection::Detector& detector_;
   Rejections& rejections_;

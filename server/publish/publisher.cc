@@ -6,6 +6,17 @@
 #include "server/codec/encode.h"
 
 namespace collision::server {
+namespace {
+
+/// What stands until it is acknowledged, in place of what the detector told once.
+void Set(const Lowering& lowering, v1::AgentClearance* wire) {
+  wire->set_lowerings(lowering.count);
+  wire->set_cause(static_cast<v1::ClearanceCause>(lowering.cause));
+  *wire->mutable_cause_agent() = Encode(lowering.cause_agent);
+  wire->set_void_from_ns(lowering.void_from.nanoseconds());
+}
+
+}  // namespace
 
 Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus)
     : claim_(*claim), demand_(config), bus_(*bus) {}
@@ -26,12 +37,13 @@ void Publisher::PublishClearances(World* world) {
     // Chunk 0 last: a simulator that waits for the grant in it then has all the others.
     const std::set<std::uint32_t> chunks = simulator.agents().clearances().TakeChanged();
     for (auto chunk = chunks.rbegin(); chunk != chunks.rend(); ++chunk) {
-      PublishChunk(*world, simulator, *chunk);
+      PublishChunk(*world, &simulator, *chunk);
     }
   }
 }
 
-void Publisher::PublishChunk(const World& world, const Simulator& simulator, std::uint32_t chunk) {
+void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t chunk) {
+  const Simulator& simulator = *to;
   v1::Output output;
   v1::Clearance& clearance = *output.mutable_clearance();
   clearance.set_simulator_id(simulator.id());
@@ -41,13 +53,16 @@ void Publisher::PublishChunk(const World& world, const Simulator& simulator, std
   clearance.set_now_ns(world.now().nanoseconds());
   clearance.set_granted_until_ns(
       simulator.time().granted().value_or(Instant::Never()).nanoseconds());
+  Lowerings& lowerings = to->agents().clearances().lowerings();
+  lowerings.Publish(chunk, clearance.stamp().sequence());
   const auto& clearances = simulator.agents().clearances().all();
   const auto end = clearances.lower_bound((chunk + 1) * kSlotsPerChunk);
   for (auto next = clearances.lower_bound(chunk * kSlotsPerChunk); next != end; ++next) {
     const Agent& agent = *simulator.agents().Find(next->first);
     const Instant wanted = demand_.WantedAt(next->second, agent.stamp(), world.now());
-    *clearance.add_agents() =
+    v1::AgentClearance& wire = *clearance.add_agents() =
         Encode(next->second, agent.acknowledged_sequence(), agent.revision(), wanted);
+    Set(lowerings.Of(next->first), &wire);
   }
   bus_.Publish(output);
 }

@@ -43,7 +43,7 @@ class Publisher {
 
  private:
   v1::ServiceStamp NextStamp();
-  void PublishChunk(const World& world, const Simulator& simulator, std::uint32_t chunk);
+  void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
 
   const ServiceClaim& claim_;
   const StateDemand demand_;

@@ -126,6 +126,7 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   status.set_simulated_clock(sources.world.simulated());
   status.set_now_ns(sources.world.now().nanoseconds());
   status.set_granted_until_ns(sources.world.granted().nanoseconds());
+  status.set_lease_ns(wire::kServiceLease);
   status.set_agents(static_cast<std::uint32_t>(sources.detector.agents()));
   status.set_pairs_tracked(static_cast<std::uint32_t>(sources.detector.pairs_tracked()));
   AddSimulators(sources.world, &status);

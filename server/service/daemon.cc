@@ -67,7 +67,7 @@ class Daemon::Implementation {
         world_(config_),
         detector_(OptionsOf(config_)),
         rejections_(config_.rejections_per_second_max(), &world_),
-        intake_(config_, &world_, &detector_, &rejections_, &shapes_),
+        intake_(config_, claim_.instance(), &world_, &detector_, &rejections_, &shapes_),
         publisher_(config_, &claim_, &bus_),
         schedule_(ToNanoseconds(config_.status_period_s())) {}
 

@@ -9,12 +9,14 @@ namespace collision::server {
 void Clearances::Set(std::uint32_t slot, const detection::AgentClearance& clearance) {
   clearances_.insert_or_assign(slot, clearance);
   ends_.Set(SlotIndex(slot), EndOf(clearance));
+  lowerings_.Take(slot, clearance);
   MarkChanged(slot);
 }
 
 void Clearances::Forget(std::uint32_t slot) {
   clearances_.erase(slot);
   ends_.Remove(SlotIndex(slot));
+  lowerings_.Forget(slot);
   MarkChanged(slot);
 }
 

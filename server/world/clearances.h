@@ -8,6 +8,7 @@
 #include "collision_core/base/event_queue.h"
 #include "collision_core/detection/detector.h"
 #include "idl/limits.h"
+#include "server/world/lowerings.h"
 
 namespace collision::server {
 
@@ -36,6 +37,10 @@ class Clearances {
   /// The agent in `slot` is gone, with its clearance; marks its chunk.
   void Forget(std::uint32_t slot);
 
+  /// What lowered them and has not been acknowledged.
+  Lowerings& lowerings() { return lowerings_; }
+  const Lowerings& lowerings() const { return lowerings_; }
+
   /// By slot.
   const std::map<std::uint32_t, detection::AgentClearance>& all() const { return clearances_; }
 
@@ -59,6 +64,7 @@ class Clearances {
   std::map<std::uint32_t, detection::AgentClearance> clearances_;
   EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
+  Lowerings lowerings_;
 };
 
 }  // namespace collision::server

@@ -144,6 +144,7 @@ Clearance FromMessage(const v1::AgentClearance& message) {
   clearance.not_clear = message.not_clear();
   clearance.saturated = message.saturated();
   clearance.effective_from_ns = message.effective_from_ns();
+  clearance.lowerings = message.lowerings();
   if (message.cause() != v1::CAUSE_NONE) clearance.cause = v1::ClearanceCause_Name(message.cause());
   clearance.cause_agent = FromMessage(message.cause_agent());
   clearance.void_from_ns = message.void_from_ns();

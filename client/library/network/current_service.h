@@ -5,12 +5,14 @@
 #include <cstdint>
 #include <optional>
 
+#include "idl/limits.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {
 
-/// A service that was silent for so long has ended, or cannot be heard: another one counts.
-inline constexpr std::chrono::seconds kServiceSilence(2);
+/// A service that was silent for so long has ended, or cannot be heard: another one counts, and
+/// what it promised has expired.
+inline constexpr std::chrono::nanoseconds kServiceSilence(wire::kServiceLease);
 
 /// The service in force: of those that speak the one with the highest term, of equal terms the one
 /// with the lower id. A service of a higher term takes over at once; one of a lower term when the
@@ -25,6 +27,9 @@ class CurrentService {
   /// Whether the sample that carries this stamp comes from the service in force, which it may
   /// become by it.
   bool Accept(const v1::ServiceStamp& stamp, Time now);
+
+  /// One was heard, and has been silent for too long.
+  bool IsLost(Time now) const { return id_ != 0 && now - heard_ >= kServiceSilence; }
 
   /// 0: none was heard yet.
   std::uint64_t id() const { return id_; }

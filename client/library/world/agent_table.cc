@@ -166,11 +166,17 @@ v1::SimulatorClock AgentTable::Clock(std::int64_t clock_ns, std::int64_t next_ns
   return clock;
 }
 
-void AgentTable::SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns) {
-  if (clearance.slot() >= slots_.size()) return;
+bool AgentTable::SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns) {
+  if (clearance.slot() >= slots_.size()) return false;
   Slot& slot = slots_[clearance.slot()];
-  if (!slot.occupied || slot.description.generation() != clearance.generation()) return;
+  if (!slot.occupied || slot.description.generation() != clearance.generation()) return false;
   slot.states.SetClearance(FromMessage(clearance), clearance.acknowledged_sequence(), now_ns);
+  const bool lowered = clearance.lowerings() > std::exchange(slot.lowerings, clearance.lowerings());
+  return lowered && clearance.cause() != v1::CAUSE_NONE;
+}
+
+void AgentTable::ForgetLowerings() {
+  for (Slot& slot : slots_) slot.lowerings = 0;
 }
 
 Clearance AgentTable::clearance(const AgentId& id) const {

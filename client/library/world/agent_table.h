@@ -50,8 +50,12 @@ class AgentTable {
   /// The clock sample that follows everything sent so far.
   v1::SimulatorClock Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step);
 
-  /// A clearance as of the service's time `now_ns`; those of former agents are ignored.
-  void SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns);
+  /// A clearance as of the service's time `now_ns`; those of former agents are ignored. True: it
+  /// tells of a lowering that the ones before did not.
+  bool SetClearance(const v1::AgentClearance& clearance, std::int64_t now_ns);
+
+  /// Another service counts lowerings anew.
+  void ForgetLowerings();
   Clearance clearance(const AgentId& id) const;
 
   std::uint32_t size() const { return agent_count_; }
@@ -63,6 +67,7 @@ class AgentTable {
     v1::AgentDescription description;  ///< Keeps the generation, also while the slot is free.
     MotionBounds bounds;               ///< As described.
     OutgoingStates states;
+    std::uint32_t lowerings = 0;  ///< Of its clearance, as last heard.
   };
 
   std::uint32_t FreeSlot();

@@ -66,6 +66,22 @@ void World::OnEvent(std::function<void(const Event&)> callback) {
   implementation_->OnEvent(std::move(callback));
 }
 
+void World::OnClearanceLowered(std::function<void(const AgentId&, const Clearance&)> callback) {
+  implementation_->OnClearanceLowered(std::move(callback));
+}
+
+void World::OnVoid(std::function<void(const AgentId&, const Clearance&)> callback) {
+  implementation_->OnVoid(std::move(callback));
+}
+
+void World::OnServiceLost(std::function<void()> callback) {
+  implementation_->OnServiceLost(std::move(callback));
+}
+
+void World::OnServiceBack(std::function<void()> callback) {
+  implementation_->OnServiceBack(std::move(callback));
+}
+
 std::vector<Event> World::TakeEvents() { return implementation_->TakeEvents(); }
 
 std::uint64_t World::events_lost() const { return implementation_->events_lost(); }

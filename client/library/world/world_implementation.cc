@@ -10,6 +10,7 @@
 #include "client/library/network/conversion.h"
 #include "client/library/validation.h"
 #include "idl/identity.h"
+#include "idl/limits.h"
 
 namespace collision::client {
 namespace {
@@ -207,7 +208,10 @@ void World::Implementation::Tell(std::int64_t next_ns) {
 
 void World::Implementation::WriteClock() {
   v1::Input message;
-  *message.mutable_simulator_clock() = agents_.Clock(clock_ns_, next_ns_, lock_step_);
+  v1::SimulatorClock& clock = *message.mutable_simulator_clock();
+  clock = agents_.Clock(clock_ns_, next_ns_, lock_step_);
+  clock.set_service_id(service_.id());
+  clock.set_clearances_sequence(clearances_sequence_);
   transport_->Write(message);
   transport_->Flush();
   clock_due_ = false;
@@ -264,6 +268,7 @@ void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Receive(timeout, &arrivals);
   const CurrentService::Time now = std::chrono::steady_clock::now();
   for (const v1::Output& output : arrivals.outputs) Handle(output, now);
+  Watch(now);
   if (on_event_) return;
   while (events_.size() > kEventsMax) {
     events_.pop_front();
@@ -274,10 +279,14 @@ void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
 void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
   switch (output.message_case()) {
     case v1::Output::kClearance:
-      if (service_.Accept(output.clearance().stamp(), now)) Handle(output.clearance());
+      if (Accept(output.clearance().stamp(), output.clearance().now_ns(), now)) {
+        Handle(output.clearance());
+      }
       break;
     case v1::Output::kCollisionEvent:
-      if (service_.Accept(output.collision_event().stamp(), now)) Handle(output.collision_event());
+      if (Accept(output.collision_event().stamp(), output.collision_event().now_ns(), now)) {
+        Handle(output.collision_event());
+      }
       break;
     case v1::Output::kRejection: {
       const v1::Rejection& rejection = output.rejection();
@@ -289,7 +298,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
     }
     case v1::Output::kServiceStatus:
       if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
-      if (!service_.Accept(output.service_status().stamp(), now)) break;
+      if (!Accept(output.service_status().stamp(), output.service_status().now_ns(), now)) break;
       simulated_clock_ = output.service_status().simulated_clock();
       break;
     default:
@@ -304,9 +313,43 @@ void World::Implementation::Handle(const v1::Clearance& clearance) {
   if (clearance.chunk() == 0) {
     granted_until_ns_ = std::max(granted_until_ns_, clearance.granted_until_ns());
   }
+  clearances_sequence_ = std::max(clearances_sequence_, clearance.stamp().sequence());
   for (const v1::AgentClearance& agent : clearance.agents()) {
-    agents_.SetClearance(agent, clearance.now_ns());
+    if (!agents_.SetClearance(agent, clearance.now_ns())) continue;
+    const AgentId id{simulator_id_, run_, agent.slot(), agent.generation()};
+    if (on_lowered_ || on_void_) lowered_.emplace_back(id, this->clearance(id));
   }
+}
+
+bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns,
+                                   CurrentService::Time now) {
+  const std::uint64_t before = service_.id();
+  if (!service_.Accept(stamp, now)) return false;
+  if (service_.id() != before) {
+    clearances_sequence_ = 0;
+    agents_.ForgetLowerings();
+    service_now_ns_ = now_ns;
+  }
+  service_now_ns_ = std::max(service_now_ns_, now_ns);
+  return true;
+}
+
+void World::Implementation::Watch(CurrentService::Time now) {
+  if (service_.IsLost(now) == service_lost_) return;
+  service_lost_ = !service_lost_;
+  lost_news_ = service_lost_;
+}
+
+Clearance World::Implementation::clearance(const AgentId& id) const {
+  Clearance clearance = agents_.clearance(id);
+  if (service_.id() == 0) return clearance;
+  if (!lock_step_) clearance.expires_ns = service_now_ns_ + wire::kServiceLease;
+  if (service_lost_) {
+    // Nobody would tell of a lowering. What was granted stands.
+    const std::int64_t stands_ns = lock_step_ ? granted_until_ns_ : clearance.expires_ns;
+    clearance.clear_until_ns = std::min(clearance.clear_until_ns, stands_ns);
+  }
+  return clearance;
 }
 
 void World::Implementation::Handle(const v1::CollisionEvent& event) {
@@ -319,13 +362,26 @@ bool World::Implementation::IsOwn(const v1::AgentId& id) const {
 }
 
 void World::Implementation::Deliver() {
+  if (const auto lost = std::exchange(lost_news_, std::nullopt)) Call(*lost ? on_lost_ : on_back_);
+  while (!closed_ && !lowered_.empty()) {
+    const auto [id, clearance] = lowered_.front();
+    lowered_.pop_front();
+    if (clearance.void_from_ns != kNever) Call(on_void_, id, clearance);
+    Call(on_lowered_, id, clearance);
+  }
   while (on_event_ && !closed_ && !events_.empty()) {
     const Event event = events_.front();
     events_.pop_front();
-    const auto callback = on_event_;  // It may replace itself.
-    const Raised raised(&in_callback_);
-    callback(event);
+    Call(on_event_, event);
   }
+}
+
+template <typename Callback, typename... Values>
+void World::Implementation::Call(const Callback& callback, const Values&... values) {
+  if (!callback || closed_) return;
+  const Callback called = callback;  // It may replace itself.
+  const Raised raised(&in_callback_);
+  called(values...);
 }
 
 }  // namespace collision::client

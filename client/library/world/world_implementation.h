@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "client/api/world.h"
@@ -34,7 +35,7 @@ class World::Implementation {
   void SetState(const AgentId& id, const State& state);
   void SetDescription(const AgentId& id, const AgentDescription& description);
   void RemoveAgent(const AgentId& id);
-  Clearance clearance(const AgentId& id) const { return agents_.clearance(id); }
+  Clearance clearance(const AgentId& id) const;
 
   void Publish(std::int64_t clock_ns);
   Advance AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout);
@@ -52,6 +53,11 @@ class World::Implementation {
   std::optional<bool> simulated_clock() const { return simulated_clock_; }
 
   void OnEvent(std::function<void(const Event&)> callback) { on_event_ = std::move(callback); }
+  using ClearanceCallback = std::function<void(const AgentId&, const Clearance&)>;
+  void OnClearanceLowered(ClearanceCallback callback) { on_lowered_ = std::move(callback); }
+  void OnVoid(ClearanceCallback callback) { on_void_ = std::move(callback); }
+  void OnServiceLost(std::function<void()> callback) { on_lost_ = std::move(callback); }
+  void OnServiceBack(std::function<void()> callback) { on_back_ = std::move(callback); }
   std::vector<Event> TakeEvents();
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
@@ -90,8 +96,16 @@ class World::Implementation {
   void Handle(const v1::CollisionEvent& event);
   bool IsOwn(const v1::AgentId& id) const;
 
-  /// Runs the callback for the events received.
+  /// Whether the sample is of the service in force; takes note of its time.
+  bool Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns, CurrentService::Time now);
+
+  /// Notes when the service in force is heard no longer, and when one is heard again.
+  void Watch(CurrentService::Time now);
+
+  /// Runs the callbacks for what has been received.
   void Deliver();
+  template <typename Callback, typename... Values>
+  void Call(const Callback& callback, const Values&... values);
 
   const std::uint64_t simulator_id_;
   const std::uint32_t run_;
@@ -113,6 +127,14 @@ class World::Implementation {
   /// Since the last Reintroduce() the service refused this sender: another one owns the name.
   bool name_refused_ = false;
 
+  std::int64_t service_now_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Newest heard.
+  std::uint64_t clearances_sequence_ = 0;  ///< Of the newest clearance taken in, of this service.
+  bool service_lost_ = false;
+  std::optional<bool> lost_news_;  ///< It was lost (true) or is back, and that was not told yet.
+  std::deque<std::pair<AgentId, Clearance>> lowered_;  ///< Not told yet.
+
+  ClearanceCallback on_lowered_, on_void_;
+  std::function<void()> on_lost_, on_back_;
   std::function<void(const Event&)> on_event_;
   std::deque<Event> events_;
   std::deque<Rejection> rejections_;
