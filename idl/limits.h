@@ -50,6 +50,16 @@ inline constexpr std::size_t kShapeSolidsMax = 65536;         ///< Convex solids
 /// Points of all hulls of one shape together: they take memory beside the bytes that bring them.
 inline constexpr std::size_t kShapeHullPointsMax = std::size_t{1} << 20;
 
+// Histories [samples].
+
+/// Contacts that the service's writer keeps for a reader that has stopped, and a reader for a
+/// program that has: 10 s at 1,000 contacts a second, each told three times. They take memory
+/// (about 0.4 kB each) only while they wait.
+inline constexpr int kContactsKept = 32768;
+
+/// Contacts that reach a reader that joins later. They stay in memory for good.
+inline constexpr int kContactsForLateJoiners = 1024;
+
 // Lengths of texts [bytes] and of lists, as in collision.idl.
 
 inline constexpr std::size_t kNameMax = 64;             ///< Of worlds, simulators and agents.
