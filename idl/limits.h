@@ -57,6 +57,9 @@ inline constexpr std::size_t kShapeHullPointsMax = std::size_t{1} << 20;
 /// (about 0.4 kB each) only while they wait.
 inline constexpr int kContactsKept = 32768;
 
+/// The counter of the status that tells the number of the last contact published.
+inline constexpr std::string_view kContactsCounter = "contacts_published";
+
 /// Contacts that reach a reader that joins later. They stay in memory for good.
 inline constexpr int kContactsForLateJoiners = 1024;
 

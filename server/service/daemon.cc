@@ -218,7 +218,7 @@ class Daemon::Implementation {
       world_.SetClearance(clearance);
     }
     world_.UpdateGrants();
-    publisher_.PublishEvents(detector_.events());
+    publisher_.PublishEvents(detector_.events(), world_);
     publisher_.PublishEarliest(detector_.Earliest(), world_.now());
   }
 
@@ -238,6 +238,7 @@ class Daemon::Implementation {
                                          .shapes = shapes_,
                                          .rejections = rejections_,
                                          .event_log = publisher_.event_log(),
+                                         .events = publisher_.event_counters(),
                                          .steps = steps_,
                                          .queries_per_second = query_rate_.Take(
                                              detector_.counters().queries, world_.monotonic_ns()),

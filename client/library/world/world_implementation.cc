@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "client/library/deadline.h"
+#include "client/library/network/arrival_order.h"
 #include "client/library/network/conversion.h"
 #include "client/library/validation.h"
 #include "idl/identity.h"
@@ -207,9 +208,13 @@ ShapePublisher::Writer World::Implementation::Writer() {
 void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Flush();  // Descriptions may be waiting.
   Arrivals arrivals;
+  if (const auto patience = gate_.Remaining(std::chrono::steady_clock::now()))
+    timeout = std::min(timeout, *patience);
   transport_->Receive(timeout, &arrivals);
   const CurrentService::Time now = std::chrono::steady_clock::now();
+  OrderEvents(&arrivals.outputs);
   for (const v1::Output& output : arrivals.outputs) Handle(output, now);
+  for (const v1::Clearance& clearance : gate_.Take(&contacts_, now)) Handle(clearance);
   if (on_event_) return;
   while (events_.size() > kEventsMax) {
     events_.pop_front();
@@ -220,10 +225,10 @@ void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
 void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
   switch (output.message_case()) {
     case v1::Output::kClearance:
-      if (service_.Accept(output.clearance().stamp(), now)) Handle(output.clearance());
+      if (Accept(output.clearance().stamp(), now)) AddToGate(output.clearance(), now);
       break;
     case v1::Output::kCollisionEvent:
-      if (service_.Accept(output.collision_event().stamp(), now)) Handle(output.collision_event());
+      if (Accept(output.collision_event().stamp(), now)) Handle(output.collision_event());
       break;
     case v1::Output::kRejection: {
       const v1::Rejection& rejection = output.rejection();
@@ -235,7 +240,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
     }
     case v1::Output::kServiceStatus:
       if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
-      if (!service_.Accept(output.service_status().stamp(), now)) break;
+      if (!Accept(output.service_status().stamp(), now)) break;
       simulated_clock_ = output.service_status().simulated_clock();
       break;
     default:
@@ -243,8 +248,25 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
   }
 }
 
-void World::Implementation::Handle(const v1::Clearance& clearance) {
+bool World::Implementation::Accept(const v1::ServiceStamp& stamp, CurrentService::Time now) {
+  const std::uint64_t former = service_.id();
+  if (!service_.Accept(stamp, now)) return false;
+  if (service_.id() != former) {
+    contacts_.Restart();
+    gate_.Clear();
+  }
+  return true;
+}
+
+/// Clearances of this run are younger than this program, so they tell whether it was there before
+/// the first contact.
+void World::Implementation::AddToGate(const v1::Clearance& clearance, CurrentService::Time now) {
   if (clearance.simulator_id() != simulator_id_ || clearance.run() != run_) return;
+  if (clearance.contacts_sequence() == 0) contacts_.BeginAtNone();
+  gate_.Add(clearance, now);
+}
+
+void World::Implementation::Handle(const v1::Clearance& clearance) {
   // All chunks carry the grant. The service writes chunk 0 after the others, so a simulator that
   // takes the grant from there knows all clearances as of that time, and which states are wanted.
   if (clearance.chunk() == 0) {
@@ -256,8 +278,11 @@ void World::Implementation::Handle(const v1::Clearance& clearance) {
 }
 
 void World::Implementation::Handle(const v1::CollisionEvent& event) {
-  if (!IsOwn(event.lower()) && !IsOwn(event.higher())) return;
-  if (filter_.IsNew(event)) events_.push_back(FromMessage(event));
+  if (!IsOwn(event.lower()) && !IsOwn(event.higher())) {
+    if (event.contacts_sequence() > 0) contacts_.Take(event.contacts_sequence());
+  } else if (filter_.IsNew(event, &contacts_)) {
+    events_.push_back(FromMessage(event));
+  }
 }
 
 bool World::Implementation::IsOwn(const v1::AgentId& id) const {
