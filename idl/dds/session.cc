@@ -102,6 +102,9 @@ class DdsSession::Implementation {
   }
 
   void Flush() {
+    // Contacts first, since clearances name them.
+    constexpr auto kContacts = static_cast<std::size_t>(dds::TopicId::kContact);
+    if (endpoints_.writers[kContacts] != 0) dds_write_flush(endpoints_.writers[kContacts]);
     for (const dds_entity_t writer : endpoints_.writers) {
       if (writer != 0) dds_write_flush(writer);
     }

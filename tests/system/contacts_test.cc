@@ -1,5 +1,5 @@
-// Goal:   a monitor that keeps reading hears every contact and little else, one that has stood still
-//         likewise.
+// Goal:   a monitor that keeps reading hears every contact and little else; one that has stood
+//         still likewise.
 // Method: two columns of balls that pass through each other; one monitor is stopped meanwhile, the
 //         output of the other is not read. Their lines are compared with what the service counted.
 #include <gtest/gtest.h>

@@ -6,17 +6,17 @@ namespace collision::client {
 
 void ContactSequence::Restart() {
   begun_ = false;
-  taken_ = given_up_ = 0;
+  taken_ = given_up_ = given_up_after_ = 0;
 }
 
 bool ContactSequence::Take(std::uint64_t sequence) {
   if (begun_ && sequence <= taken_) return false;
   if (begun_) {
     const std::uint64_t settled = std::max(taken_, given_up_);
-    if (sequence <= settled) {
-      --missed_;
-    } else {
+    if (sequence > settled) {
       missed_ += sequence - settled - 1;
+    } else if (sequence > given_up_after_) {
+      --missed_;
     }
   }
   begun_ = true;
@@ -33,8 +33,9 @@ bool ContactSequence::HasAll(std::uint64_t sequence) const {
 void ContactSequence::GiveUp(std::uint64_t sequence) {
   if (HasAll(sequence)) return;
   // Whoever joins gets the newest contact: at least that one was lost.
-  missed_ += begun_ ? sequence - std::max(taken_, given_up_) : 1;
-  if (!begun_) taken_ = sequence - 1;
+  if (!begun_) given_up_after_ = sequence - 1;
+  if (begun_ && given_up_ <= taken_) given_up_after_ = taken_;
+  missed_ += sequence - std::max({taken_, given_up_, given_up_after_});
   begun_ = true;
   given_up_ = sequence;
 }

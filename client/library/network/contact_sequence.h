@@ -33,8 +33,9 @@ class ContactSequence {
 
  private:
   bool begun_ = false;
-  std::uint64_t taken_ = 0;     ///< The highest that has come.
-  std::uint64_t given_up_ = 0;  ///< The highest that was given up.
+  std::uint64_t taken_ = 0;           ///< The highest that has come.
+  std::uint64_t given_up_ = 0;        ///< The highest that was given up ...
+  std::uint64_t given_up_after_ = 0;  ///< ... with all after this one that have not come.
   std::uint64_t missed_ = 0;
 };
 

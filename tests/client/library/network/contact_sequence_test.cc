@@ -67,6 +67,27 @@ TEST(ContactSequence, ANewestContactThatDoesNotComeIsMissedEvenByALateJoiner) {
   EXPECT_EQ(contacts.missed(), 1u);
 }
 
+TEST(ContactSequence, AHistoryThatComesLateIsTakenAndNothingOfItWasMissed) {
+  ContactSequence contacts;
+  contacts.GiveUp(500);
+  for (std::uint64_t sequence = 400; sequence <= 501; ++sequence) {
+    EXPECT_TRUE(contacts.Take(sequence));
+  }
+  EXPECT_EQ(contacts.missed(), 0u);
+}
+
+TEST(ContactSequence, WhatIsGivenUpTwiceCountsOnce) {
+  ContactSequence contacts;
+  EXPECT_TRUE(contacts.Take(10));
+  contacts.GiveUp(12);
+  contacts.GiveUp(14);
+  EXPECT_EQ(contacts.missed(), 4u);
+  for (std::uint64_t sequence = 11; sequence <= 14; ++sequence) {
+    EXPECT_TRUE(contacts.Take(sequence));
+  }
+  EXPECT_EQ(contacts.missed(), 0u);
+}
+
 TEST(ContactSequence, AnotherServiceCountsAnew) {
   ContactSequence contacts;
   EXPECT_TRUE(contacts.Take(10));
