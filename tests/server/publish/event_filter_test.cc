@@ -94,10 +94,9 @@ TEST_F(EventFilterTest, WhatIsLeftIsToldWhenItDiffersByMoreThanAQuarter) {
 
 TEST_F(EventFilterTest, ABeginThatHardlyMovesSaysNothingNew) {
   EXPECT_EQ(Told({Possible(1, 0, 1000)}, 0), Tellings{"forecast possible 1"});
-  // 600 are left until the begin told: a quarter of that is 150.
-  EXPECT_EQ(Told({Possible(1, 400, 1150)}, 400), Tellings{});
-  EXPECT_EQ(Told({Possible(1, 400, 1151)}, 400), Tellings{});  // but 751 are left of 1000
-  EXPECT_EQ(Told({Possible(1, 800, 1051)}, 800), Tellings{"forecast possible 1"});
+  // What is left has halved, as was foretold: a quarter of the 400 until the begin told is 100.
+  EXPECT_EQ(Told({Possible(1, 600, 1100)}, 600), Tellings{});
+  EXPECT_EQ(Told({Possible(1, 600, 1101)}, 600), Tellings{"forecast possible 1"});
 }
 
 TEST_F(EventFilterTest, AnEarlierBeginIsToldAlways) {
