@@ -87,10 +87,14 @@ struct EarliestIntersection {
 /// Receives what is published in one world and writes nothing: it creates DDS readers only, so a
 /// subscribe-only permission suffices.
 ///
+/// Of several services it believes the one in force, and drops what the others say. The event
+/// callback gets contacts and forecasts, each revision once.
+///
 /// Callbacks run inside Poll(), on its thread. Every topic but the rejections keeps its last value,
-/// so a late monitor receives the values of now. One thread at a time; a callback must not call
-/// Poll() or destroy the monitor. Samples of different topics may overtake each other: an event can
-/// arrive before the descriptions of its agents (see PendingNames).
+/// so a late monitor receives the values of now, and the newest 1024 samples of contacts. One
+/// thread at a time; a callback must not call Poll() or destroy the monitor. Samples of different
+/// topics may overtake each other: an event can arrive before the descriptions of its agents (see
+/// PendingNames).
 class Monitor {
  public:
   /// Each may be empty.
@@ -123,6 +127,10 @@ class Monitor {
 
   /// True while a service of this world is alive. Needs MonitorOptions::service.
   bool service_alive() const;
+
+  /// Contacts (confirmed, ended or undecided) that were published while this monitor was there and
+  /// that the network lost: 0 for one that never stops longer than about 10 s.
+  std::uint64_t contacts_missed() const;
 
  private:
   std::unique_ptr<MessageMonitor> monitor_;

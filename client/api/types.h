@@ -97,7 +97,9 @@ struct Event {
   AgentId higher;
   std::uint32_t contact = 0;  ///< Ordinal among the contacts of this pair, from 1.
   std::uint32_t revision = 0;
-  std::int64_t now_ns = 0;  ///< The service's time when it published this revision.
+  std::int64_t now_ns = 0;  ///< The service's time at this revision.
+  /// Number among the contacts (confirmed, ended, undecided) of the world; 0: a forecast.
+  std::uint64_t contacts_sequence = 0;
   EventStatus status = EventStatus::kPossible;
   TimeBracket begin;
   TimeBracket end;

@@ -112,7 +112,9 @@ class World {
   /// AdvanceTo().
   void Poll(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
 
-  /// Calls back for events about this simulator's agents, each revision once. Without a callback
+  /// Calls back for events about this simulator's agents, contacts and forecasts alike: each
+  /// revision that tells something new once. When a grant counts, the contacts that the service
+  /// published before it have been delivered, or count as missed. Without a callback
   /// they are kept until TakeEvents(): at most 65536, then the oldest are dropped and counted by
   /// events_lost(). A callback may call everything but WaitForService(), AdvanceTo() and Poll(),
   /// which throw std::logic_error.
@@ -131,6 +133,11 @@ class World {
   /// lock-step none goes beyond what is granted. Poll() and AdvanceTo() notice it.
   void OnServiceLost(std::function<void()> callback);
   void OnServiceBack(std::function<void()> callback);
+
+  /// Contacts of the whole world, confirmed, ended or undecided, that were published while this
+  /// simulator was there and that the network lost: 0 for one that never stops longer than about
+  /// 10 s. Those of its own agents may be among them.
+  std::uint64_t contacts_missed() const;
 
   /// What has been set and sent so far.
   const Traffic& traffic() const;

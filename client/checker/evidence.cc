@@ -89,8 +89,9 @@ void Evidence::Sort(const v1::CollisionEvent& event) {
     histories_.push_back({*a, *b, moment, std::nullopt, std::nullopt, {}});
   }
   EventHistory& history = histories_[index];
-  if (!history.revisions.empty() && event.revision() <= history.last().revision()) return;
+  // Contacts and forecasts come through two topics: an older revision may come later.
   if (history.announced.IsAfter(moment)) history.announced = moment;
+  if (!history.revisions.empty() && event.revision() <= history.last().revision()) return;
   const bool confirmed = IsConfirmed(event);
   if (confirmed && !history.confirmed) history.confirmed = moment;
   if (IsFinal(event.status()) && !history.closed) history.closed = moment;

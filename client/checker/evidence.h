@@ -52,7 +52,7 @@ bool IsConfirmed(const v1::CollisionEvent& event);
 struct EventHistory {
   std::size_t a = 0;  ///< Indices of the motions, a < b.
   std::size_t b = 0;
-  Moment announced;                           ///< The first revision received.
+  Moment announced;                           ///< The first revision.
   std::optional<Moment> confirmed;            ///< The first that was confirmed.
   std::optional<Moment> closed;               ///< The first that was final.
   std::vector<v1::CollisionEvent> revisions;  ///< As received; the highest revision last.

@@ -204,7 +204,8 @@ void FromWire(TopicId topic, const void* wire, v1::Output* output) {
       return Get(wire, output->mutable_clearance());
     case TopicId::kEarliestIntersection:
       return Get(wire, output->mutable_earliest_intersection());
-    case TopicId::kCollisionEvent:
+    case TopicId::kContact:
+    case TopicId::kForecast:
       return Get(wire, output->mutable_collision_event());
     case TopicId::kRejection:
       return Get(wire, output->mutable_rejection());

@@ -29,7 +29,7 @@ COLLISION_CARRIER(ShapePart, kShapePart)
 COLLISION_CARRIER(AgentStates, kAgentStates)
 COLLISION_CARRIER(Clearance, kClearance)
 COLLISION_CARRIER(EarliestIntersection, kEarliestIntersection)
-COLLISION_CARRIER(CollisionEvent, kCollisionEvent)
+COLLISION_CARRIER(CollisionEvent, kContact)  // and kForecast
 COLLISION_CARRIER(Rejection, kRejection)
 COLLISION_CARRIER(ServiceStatus, kServiceStatus)
 #undef COLLISION_CARRIER

@@ -16,8 +16,8 @@ Qos TopicQos(const TopicRow& row, int depth) {
   // for: 0.
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, 0);
   dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
-  dds_qset_durability(
-      qos.get(), row.for_late_joiners ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_durability(qos.get(), row.late_joiners_depth > 0 ? DDS_DURABILITY_TRANSIENT_LOCAL
+                                                            : DDS_DURABILITY_VOLATILE);
   return qos;
 }
 
@@ -25,6 +25,11 @@ Qos WriterQos(const TopicRow& row, dds_duration_t lease) {
   Qos qos = TopicQos(row, row.writer_depth);
   // A program that ends, however it ends, has not removed anything: only a dispose does.
   dds_qset_writer_data_lifecycle(qos.get(), false);
+  if (row.late_joiners_depth > 1) {
+    // What a late joiner gets is the history of the durability service, by default 1 sample.
+    dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, row.late_joiners_depth,
+                                DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+  }
   if (row.leased) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, lease);
   return qos;
 }

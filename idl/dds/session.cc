@@ -77,8 +77,8 @@ class DdsSession::Implementation {
   }
 
   template <class Message>
-  void Write(const Message& message) {
-    const dds_entity_t writer = Writer(dds::Carrier<Message>::kTopic);
+  void Write(const Message& message, dds::TopicId topic = dds::Carrier<Message>::kTopic) {
+    const dds_entity_t writer = Writer(topic);
     if (dds_write(writer, dds::ToWire(message).get()) != DDS_RETCODE_OK) ++writes_failed_;
   }
 
@@ -102,6 +102,9 @@ class DdsSession::Implementation {
   }
 
   void Flush() {
+    // Contacts first, since clearances name them.
+    constexpr auto kContacts = static_cast<std::size_t>(dds::TopicId::kContact);
+    if (endpoints_.writers[kContacts] != 0) dds_write_flush(endpoints_.writers[kContacts]);
     for (const dds_entity_t writer : endpoints_.writers) {
       if (writer != 0) dds_write_flush(writer);
     }
@@ -180,7 +183,10 @@ void DdsSession::Write(const v1::AgentStates& message) { implementation_->Write(
 void DdsSession::Write(const v1::SimulatorClock& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::Clearance& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::EarliestIntersection& message) { implementation_->Write(message); }
-void DdsSession::Write(const v1::CollisionEvent& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::CollisionEvent& message) {
+  const bool contact = message.contacts_sequence() > 0;
+  implementation_->Write(message, contact ? dds::TopicId::kContact : dds::TopicId::kForecast);
+}
 void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->Write(message); }
 

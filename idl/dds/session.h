@@ -69,7 +69,7 @@ class DdsSession {
   void Write(const v1::SimulatorClock& message);
   void Write(const v1::Clearance& message);
   void Write(const v1::EarliestIntersection& message);
-  void Write(const v1::CollisionEvent& message);
+  void Write(const v1::CollisionEvent& message);  ///< A contact if it has contacts_sequence.
   void Write(const v1::Rejection& message);
   void Write(const v1::ServiceStatus& message);
 

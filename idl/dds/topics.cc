@@ -1,5 +1,7 @@
 #include "idl/dds/topics.h"
 
+#include "idl/limits.h"
+
 namespace collision::dds {
 
 const std::array<TopicRow, kTopics>& Topics() {
@@ -7,23 +9,25 @@ const std::array<TopicRow, kTopics>& Topics() {
   using enum Source;
   static const std::array<TopicRow, kTopics> rows = {{
       {kSimulatorClock, "collision/v1/simulator_clock", &collision_v1_SimulatorClock_desc,
-       kSimulators, true, 1, 8, true, kAll},
+       kSimulators, 1, 1, 8, true, kAll},
       {kAgentDescription, "collision/v1/agent_description", &collision_v1_AgentDescription_desc,
-       kSimulators, true, 1, 1, false, kAll},
-      {kShapePart, "collision/v1/shape", &collision_v1_ShapePart_desc, kSimulators, true, 1, 1,
-       false, kShapePartsAtOnce},
-      {kAgentStates, "collision/v1/agent_states", &collision_v1_AgentStates_desc, kSimulators, true,
-       1, 32, false, kAll},
-      {kClearance, "collision/v1/clearance", &collision_v1_Clearance_desc, kService, true, 1, 1,
-       false, kAll},
+       kSimulators, 1, 1, 1, false, kAll},
+      {kShapePart, "collision/v1/shape", &collision_v1_ShapePart_desc, kSimulators, 1, 1, 1, false,
+       kShapePartsAtOnce},
+      {kAgentStates, "collision/v1/agent_states", &collision_v1_AgentStates_desc, kSimulators, 1, 1,
+       32, false, kAll},
+      {kClearance, "collision/v1/clearance", &collision_v1_Clearance_desc, kService, 1, 1, 1, false,
+       kAll},
       {kEarliestIntersection, "collision/v1/earliest_intersection",
-       &collision_v1_EarliestIntersection_desc, kService, true, 1, 64, false, kAll},
-      {kCollisionEvent, "collision/v1/collision_event", &collision_v1_CollisionEvent_desc, kService,
-       true, 1, 64, false, kAll},
-      {kRejection, "collision/v1/rejection", &collision_v1_Rejection_desc, kService, false, 64, 64,
+       &collision_v1_EarliestIntersection_desc, kService, 1, 1, 64, false, kAll},
+      {kContact, "collision/v1/contact", &collision_v1_CollisionEvent_desc, kService,
+       wire::kContactsForLateJoiners, wire::kContactsKept, wire::kContactsKept, false, kAll},
+      {kForecast, "collision/v1/forecast", &collision_v1_CollisionEvent_desc, kService, 1, 1, 1,
        false, kAll},
-      {kServiceStatus, "collision/v1/service_status", &collision_v1_ServiceStatus_desc, kService,
-       true, 1, 1, true, kAll},
+      {kRejection, "collision/v1/rejection", &collision_v1_Rejection_desc, kService, 0, 64, 64,
+       false, kAll},
+      {kServiceStatus, "collision/v1/service_status", &collision_v1_ServiceStatus_desc, kService, 1,
+       1, 1, true, kAll},
   }};
   return rows;
 }

@@ -17,11 +17,12 @@ enum class TopicId {
   kAgentStates,
   kClearance,
   kEarliestIntersection,
-  kCollisionEvent,
+  kContact,
+  kForecast,
   kRejection,
   kServiceStatus,
 };
-inline constexpr std::size_t kTopics = 9;
+inline constexpr std::size_t kTopics = 10;
 
 enum class Source { kSimulators, kService };
 
@@ -30,10 +31,11 @@ struct TopicRow {
   const char* name;
   const dds_topic_descriptor_t* type;
   Source source;
-  bool for_late_joiners;  ///< Transient-local: its newest samples reach readers that join later.
-  int writer_depth;       ///< Keep-last, per key.
-  int reader_depth;       ///< Keep-last, per key: how many wait for a reader that is slow.
-  bool leased;            ///< Its writer's silence is noticed within the lease.
+  /// Transient-local: how many newest samples of a key reach readers that join later; 0: volatile.
+  int late_joiners_depth;
+  int writer_depth;  ///< Keep-last, per key.
+  int reader_depth;  ///< Keep-last, per key: how many wait for a reader that is slow.
+  bool leased;       ///< Its writer's silence is noticed within the lease.
   /// Taken at once; the rest stays in the reader until the next Receive(). It bounds what large
   /// samples may fill of one step, of one recorded batch and of memory beside the reader's.
   std::size_t take_max;
@@ -43,7 +45,7 @@ inline constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 inline constexpr std::size_t kShapePartsAtOnce = 256;  ///< 12.6 MB.
 
 /// In the order in which a reader drains them: few before many, so that no flood starves the
-/// clocks.
+/// clocks; and clearances before contacts, so that the contacts that a clearance names are there.
 const std::array<TopicRow, kTopics>& Topics();
 
 inline const TopicRow& Row(TopicId id) { return Topics()[static_cast<std::size_t>(id)]; }

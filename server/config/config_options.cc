@@ -97,6 +97,11 @@ constexpr ConfigOption kOptions[] = {
      "Time between two samples of the service's status, by the monotonic clock."},
     {"rejections_per_second_max", "messages", "1", "100000", "", "100",
      "Rejections published per second; further ones are only counted in the status."},
+    {"forecasts_per_second_max", "messages", "1", "1000000", "", "1000",
+     "New and moved forecasts published per second, of the world's time with SIMULATED; the "
+     "soonest "
+     "goes first, the others wait. A forecast that may begin within temporal_resolution_s does not "
+     "wait, nor does its end. Contacts are no forecasts and never wait."},
     {"time_budget_us", "us", "0", "1000000", "", "2000",
      "Budget of the narrow phase for one pair in one evaluation, where at least one agent has a "
      "shape. A pair that runs out of it gets wider brackets; its events say limited by budget. 0: "

@@ -19,7 +19,7 @@ void Set(const Lowering& lowering, v1::AgentClearance* wire) {
 }  // namespace
 
 Publisher::Publisher(const v1::Config& config, const ServiceClaim* claim, Bus* bus)
-    : claim_(*claim), demand_(config), bus_(*bus) {}
+    : claim_(*claim), demand_(config), bus_(*bus), filter_(config) {}
 
 v1::ServiceStamp Publisher::NextStamp() {
   v1::ServiceStamp stamp;
@@ -55,6 +55,7 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
       simulator.time().granted().value_or(Instant::Never()).nanoseconds());
   Lowerings& lowerings = to->agents().clearances().lowerings();
   lowerings.Publish(chunk, clearance.stamp().sequence());
+  clearance.set_contacts_sequence(events_.contacts);
   const auto& clearances = simulator.agents().clearances().all();
   const auto end = clearances.lower_bound((chunk + 1) * kSlotsPerChunk);
   for (auto next = clearances.lower_bound(chunk * kSlotsPerChunk); next != end; ++next) {
@@ -67,14 +68,30 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   bus_.Publish(output);
 }
 
-void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events) {
-  for (const detection::CollisionEvent& event : events) {
+void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
+                              const World& world) {
+  for (const detection::CollisionEvent& event : events) event_log_.Add(Encode(event));
+  // By the world's time where that is simulated, so that a run at any speed tells the same.
+  const std::int64_t time_ns = world.simulated() ? world.now().nanoseconds() : world.monotonic_ns();
+  for (const Telling& telling : filter_.Take(events, world.now(), time_ns)) {
     v1::Output output;
-    *output.mutable_collision_event() = Encode(event);
-    event_log_.Add(output.collision_event());
-    *output.mutable_collision_event()->mutable_stamp() = NextStamp();
+    v1::CollisionEvent& event = *output.mutable_collision_event();
+    event = Encode(telling.event);
+    ++(telling.contact ? events_.contacts : events_.forecasts);
+    if (telling.contact) {
+      // One instance holds the history of all contacts.
+      event.set_pair_slot(0);
+      event.set_contacts_sequence(events_.contacts);
+    }
+    *event.mutable_stamp() = NextStamp();
     bus_.Publish(output);
   }
+}
+
+EventCounters Publisher::event_counters() const {
+  EventCounters counters = events_;
+  counters.forecasts_withheld = filter_.withheld();
+  return counters;
 }
 
 void Publisher::PublishEarliest(const detection::EarliestAnswer& answer, Instant now) {
@@ -101,6 +118,7 @@ void Publisher::PublishRejections(std::vector<v1::Rejection> rejections) {
 void Publisher::BeginEpoch(std::uint32_t epoch) {
   epoch_ = epoch;
   earliest_.reset();
+  filter_.Forget();
 }
 
 void Publisher::PublishStatus(v1::ServiceStatus status) {

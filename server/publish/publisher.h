@@ -7,11 +7,19 @@
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
 #include "server/claim/service_claim.h"
+#include "server/publish/event_filter.h"
 #include "server/publish/event_log.h"
 #include "server/publish/state_demand.h"
 #include "server/world/world.h"
 
 namespace collision::server {
+
+/// Events published so far.
+struct EventCounters {
+  std::uint64_t contacts = 0;  ///< Also the number of the last one.
+  std::uint64_t forecasts = 0;
+  std::uint64_t forecasts_withheld = 0;  ///< EventFilter::withheld().
+};
 
 /// Every sample carries (service, term, sequence); the sequence counts all samples. One thread.
 class Publisher {
@@ -24,9 +32,10 @@ class Publisher {
   /// others. A simulator that has been granted nothing yet keeps its marks.
   void PublishClearances(World* world);
 
-  /// In this order. They leave before the clearances of the same step, so that a simulator that is
-  /// granted time has been told what it may meet.
-  void PublishEvents(const std::vector<detection::CollisionEvent>& events);
+  /// Publishes what is new to readers (EventFilter). Contacts are numbered from 1, and leave before
+  /// the clearances of the same step, which name the last one: a simulator that is granted time
+  /// hears first whom it has met.
+  void PublishEvents(const std::vector<detection::CollisionEvent>& events, const World& world);
 
   /// Publishes the answer if it differs from the last one published.
   void PublishEarliest(const detection::EarliestAnswer& answer, Instant now);
@@ -38,7 +47,10 @@ class Publisher {
   /// What is published from here on belongs to this epoch.
   void BeginEpoch(std::uint32_t epoch);
 
-  /// The events as published, without the stamp, which differs between instances of the service.
+  EventCounters event_counters() const;
+
+  /// All revisions of the detector, without stamps and numbers, which differ between instances of
+  /// the service.
   const EventLog& event_log() const { return event_log_; }
 
  private:
@@ -51,6 +63,8 @@ class Publisher {
   std::uint32_t epoch_ = 1;
   std::uint64_t sequence_ = 0;
   EventLog event_log_;
+  EventFilter filter_;
+  EventCounters events_;
   std::optional<v1::EarliestIntersection> earliest_;
 };
 

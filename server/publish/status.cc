@@ -95,6 +95,9 @@ void AddDetection(const StatusSources& sources, v1::ServiceStatus* status) {
     name.replace(0, std::string("event").size(), "events");
     Count(name, detector.events[kind], status);
   }
+  Count(std::string(wire::kContactsCounter), sources.events.contacts, status);
+  Count("forecasts_published", sources.events.forecasts, status);
+  Count("forecasts_withheld", sources.events.forecasts_withheld, status);
   Count("updates_kept", detector.updates_kept, status);
   Count("discontinuities", detector.jumps, status);
   Count("widenings", detector.widenings, status);

@@ -9,6 +9,7 @@
 #include "idl/config.pb.h"
 #include "server/intake/intake.h"
 #include "server/publish/event_log.h"
+#include "server/publish/publisher.h"
 #include "server/shapes/shape_store.h"
 #include "server/world/rejections.h"
 #include "server/world/world.h"
@@ -31,6 +32,7 @@ struct StatusSources {
   const ShapeStore& shapes;
   const Rejections& rejections;
   const EventLog& event_log;
+  EventCounters events;
   StepCounters steps;
   std::uint64_t queries_per_second = 0;  ///< Of the detector, since the last status.
   std::vector<v1::Counter> network;      ///< Bus::network_counters().

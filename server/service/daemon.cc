@@ -245,7 +245,7 @@ class Daemon::Implementation {
       world_.SetClearance(clearance);
     }
     world_.UpdateGrants();
-    publisher_.PublishEvents(detector_.events());
+    publisher_.PublishEvents(detector_.events(), world_);
     publisher_.PublishEarliest(detector_.Earliest(), world_.now());
   }
 
@@ -269,6 +269,7 @@ class Daemon::Implementation {
                     .shapes = shapes_,
                     .rejections = rejections_,
                     .event_log = publisher_.event_log(),
+                    .events = publisher_.event_counters(),
                     .steps = steps_,
                     .queries_per_second = query_rate_.Take(counted.queries, world_.monotonic_ns()),
                     .network = bus_.network_counters()}));

@@ -132,13 +132,16 @@ int RunChildSimulator(std::uint32_t domain, const std::string& world, std::size_
   session.Write(Description("child", 0));
   session.Write(SimulatorTime("child", 1));
   session.Flush();
-  std::set<std::uint32_t> slots;
+  std::set<std::uint64_t> different;
   const auto all = [&] {
     for (const v1::Output& output : outputs) {
-      if (output.has_collision_event()) slots.insert(output.collision_event().pair_slot());
+      if (!output.has_collision_event()) continue;
+      const v1::CollisionEvent& event = output.collision_event();
+      different.insert(event.contacts_sequence() > 0 ? event.contacts_sequence()
+                                                     : event.pair_slot());
     }
     outputs.clear();
-    return slots.size() == events;
+    return different.size() == events;
   };
   if (!ReceiveUntil(session, &outputs, all)) return 1;
   session.Write(SimulatorTime("child", 2));

@@ -39,7 +39,7 @@ std::size_t Count(const std::vector<v1::Output>& outputs, v1::Output::MessageCas
 
 /// The simulator "child" as a process of its own, in this process's world. It writes an agent and a
 /// clock of 1 ns once it has heard a service's status, and a clock of 2 ns once it has heard
-/// `events` collision events of different pair slots; then it stays. The destructor kills it.
+/// `events` forecasts of different pair slots, or contacts; then it stays. The destructor kills it.
 class ChildSimulator {
  public:
   explicit ChildSimulator(std::size_t events);

@@ -235,16 +235,23 @@ TEST(DdsBus, AReaderThatNeverReadsDelaysNoOther) {
   std::vector<v1::Output> outputs;
   for (std::uint32_t revision = 1; revision <= 1000; ++revision) {
     v1::Output output;
+    output.mutable_earliest_intersection()->set_now_ns(revision);
+    bus.Publish(output);
     output.mutable_collision_event()->set_revision(revision);
     bus.Publish(output);
     bus.Flush();
     reader.Receive(std::chrono::nanoseconds(0), kNoLimit, nullptr, &outputs);
   }
   EXPECT_EQ(bus.counters().writes_failed, 0u);
-  ASSERT_TRUE(ReceiveUntil(reader, &outputs, [&] { return outputs.size() >= 1000; }));
+  const auto ends = [&] {
+    return !outputs.empty() && outputs.back().has_collision_event() &&
+           outputs.back().collision_event().revision() == 1000;
+  };
+  ASSERT_TRUE(ReceiveUntil(reader, &outputs, ends));
   outputs.clear();
   sleeper.Receive(kShort, kNoLimit, nullptr, &outputs);
-  ASSERT_EQ(outputs.size(), 64u);  // its depth: the newest
+  ASSERT_EQ(outputs.size(), 64u + 1);  // its depths: the newest
+  EXPECT_EQ(outputs[63].earliest_intersection().now_ns(), 1000);
   EXPECT_EQ(outputs.back().collision_event().revision(), 1000u);
 }
 

@@ -96,8 +96,11 @@ std::unique_ptr<Process> TestWorld::StartSimulator(const Flight& flight,
   const std::string table = folder_.Write(flight.name + ".csv", Table(flight));
   const std::vector<std::string> words = {
       table, "--simulator", flight.name + "-sim", "--radius", "0.5", "--acceleration-max", "0.01"};
-  return std::make_unique<Process>(InWorld("trajectory-player", Joined(words, options)),
-                                   variables_);
+  return StartPlayer(Joined(words, options));
+}
+
+std::unique_ptr<Process> TestWorld::StartPlayer(const std::vector<std::string>& words) const {
+  return std::make_unique<Process>(InWorld("trajectory-player", words), variables_);
 }
 
 std::unique_ptr<Process> TestWorld::StartMonitor(const std::vector<std::string>& words) const {

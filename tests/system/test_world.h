@@ -74,6 +74,9 @@ class TestWorld {
   std::unique_ptr<Process> StartSimulator(const Flight& flight,
                                           const std::vector<std::string>& options = {}) const;
 
+  /// Starts a trajectory-player with these words, in this world.
+  std::unique_ptr<Process> StartPlayer(const std::vector<std::string>& words) const;
+
   /// Starts collisionctl with these words, in this world.
   std::unique_ptr<Process> StartMonitor(const std::vector<std::string>& words) const;
 

@@ -119,6 +119,7 @@ Event FromMessage(const v1::CollisionEvent& message) {
   event.contact = message.contact();
   event.revision = message.revision();
   event.now_ns = message.now_ns();
+  event.contacts_sequence = message.contacts_sequence();
   event.status = static_cast<EventStatus>(message.status());
   event.begin = BracketOf(message.begin());
   event.end = BracketOf(message.end());

@@ -2,8 +2,10 @@
 
 #include <utility>
 
+#include "client/library/network/arrival_order.h"
 #include "client/library/network/dds_transport.h"
 #include "client/library/validation.h"
+#include "idl/limits.h"
 
 namespace collision::client {
 namespace {
@@ -29,8 +31,11 @@ MessageMonitor::MessageMonitor(std::unique_ptr<Receiver> receiver, Callbacks cal
 std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   Arrivals arrivals;
   receiver_->Receive(timeout, &arrivals);
+  now_ = std::chrono::steady_clock::now();
+  OrderEvents(&arrivals.outputs);
   for (const v1::Input& input : arrivals.inputs) HandOn(input);
   for (const v1::Output& output : arrivals.outputs) HandOn(output);
+  GiveUpOverdue();
   return arrivals.inputs.size() + arrivals.outputs.size();
 }
 
@@ -53,21 +58,53 @@ void MessageMonitor::HandOn(const v1::Input& input) const {
   }
 }
 
-void MessageMonitor::HandOn(const v1::Output& output) const {
+void MessageMonitor::HandOn(const v1::Output& output) {
   switch (output.message_case()) {
     case v1::Output::kClearance:
-      return Call(callbacks_.clearance, output.clearance());
+      if (Accept(output.clearance().stamp())) Call(callbacks_.clearance, output.clearance());
+      return;
     case v1::Output::kEarliestIntersection:
+      if (!Accept(output.earliest_intersection().stamp())) return;
       return Call(callbacks_.earliest, output.earliest_intersection());
     case v1::Output::kCollisionEvent:
+      if (!Accept(output.collision_event().stamp())) return;
+      if (!filter_.IsNew(output.collision_event(), &contacts_)) return;
       return Call(callbacks_.event, output.collision_event());
     case v1::Output::kRejection:
-      return Call(callbacks_.rejection, output.rejection());
+      if (Accept(output.rejection().stamp())) Call(callbacks_.rejection, output.rejection());
+      return;
     case v1::Output::kServiceStatus:
+      if (output.service_status().phase() == v1::PHASE_CLAIMING) return;
+      if (!Accept(output.service_status().stamp())) return;
+      Await(output.service_status());
       return Call(callbacks_.status, output.service_status());
     default:
       return;
   }
+}
+
+bool MessageMonitor::Accept(const v1::ServiceStamp& stamp) {
+  const std::uint64_t former = service_.id();
+  if (!service_.Accept(stamp, now_)) return false;
+  if (service_.id() != former) {
+    contacts_.Restart();
+    awaited_.reset();
+  }
+  return true;
+}
+
+void MessageMonitor::Await(const v1::ServiceStatus& status) {
+  for (const v1::Counter& counter : status.counters()) {
+    if (counter.name() != wire::kContactsCounter) continue;
+    if (counter.value() == 0) contacts_.BeginAtNone();
+    if (!awaited_) awaited_ = {counter.value(), now_};
+  }
+}
+
+void MessageMonitor::GiveUpOverdue() {
+  if (!awaited_) return;
+  if (now_ - awaited_->since >= kServiceSilence) contacts_.GiveUp(awaited_->sequence);
+  if (contacts_.HasAll(awaited_->sequence)) awaited_.reset();
 }
 
 }  // namespace collision::client

@@ -5,8 +5,12 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 
 #include "client/api/monitor.h"
+#include "client/library/network/contact_sequence.h"
+#include "client/library/network/current_service.h"
+#include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
 #include "idl/messages.pb.h"
 
@@ -14,6 +18,8 @@ namespace collision::client {
 
 /// Stands behind Monitor. Programs of this project that print or keep messages (collisionctl, the
 /// scene runner) use it directly; rules of use as for Monitor.
+///
+/// It knows of contacts that do not come from the number that the status tells (kContactsCounter).
 class MessageMonitor {
  public:
   /// Each may be empty.
@@ -40,13 +46,28 @@ class MessageMonitor {
   std::size_t Poll(std::chrono::nanoseconds timeout);
 
   bool service_alive() const { return receiver_->service_alive(); }
+  std::uint64_t contacts_missed() const { return contacts_.missed(); }
 
  private:
+  /// Contacts up to `sequence` were published by the time `since`.
+  struct Awaited {
+    std::uint64_t sequence;
+    CurrentService::Time since;
+  };
+
   void HandOn(const v1::Input& input) const;
-  void HandOn(const v1::Output& output) const;
+  void HandOn(const v1::Output& output);
+  bool Accept(const v1::ServiceStamp& stamp);
+  void Await(const v1::ServiceStatus& status);
+  void GiveUpOverdue();
 
   std::unique_ptr<Receiver> receiver_;
   Callbacks callbacks_;
+  CurrentService service_;
+  CurrentService::Time now_{};
+  ContactSequence contacts_;
+  std::optional<Awaited> awaited_;
+  RevisionFilter filter_;
 };
 
 }  // namespace collision::client

@@ -63,4 +63,6 @@ std::size_t Monitor::Poll(std::chrono::nanoseconds timeout) { return monitor_->P
 
 bool Monitor::service_alive() const { return monitor_->service_alive(); }
 
+std::uint64_t Monitor::contacts_missed() const { return monitor_->contacts_missed(); }
+
 }  // namespace collision::client

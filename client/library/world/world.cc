@@ -86,6 +86,8 @@ std::vector<Event> World::TakeEvents() { return implementation_->TakeEvents(); }
 
 std::uint64_t World::events_lost() const { return implementation_->events_lost(); }
 
+std::uint64_t World::contacts_missed() const { return implementation_->contacts_missed(); }
+
 const Traffic& World::traffic() const { return implementation_->traffic(); }
 
 std::vector<Rejection> World::TakeRejections() { return implementation_->TakeRejections(); }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "client/library/deadline.h"
+#include "client/library/network/arrival_order.h"
 #include "client/library/network/conversion.h"
 #include "client/library/validation.h"
 #include "idl/identity.h"
@@ -265,9 +266,13 @@ ShapePublisher::Writer World::Implementation::Writer() {
 void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Flush();  // Descriptions may be waiting.
   Arrivals arrivals;
+  if (const auto patience = gate_.Remaining(std::chrono::steady_clock::now()))
+    timeout = std::min(timeout, *patience);
   transport_->Receive(timeout, &arrivals);
   const CurrentService::Time now = std::chrono::steady_clock::now();
+  OrderEvents(&arrivals.outputs);
   for (const v1::Output& output : arrivals.outputs) Handle(output, now);
+  for (const v1::Clearance& clearance : gate_.Take(&contacts_, now)) Handle(clearance);
   Watch(now);
   if (on_event_) return;
   while (events_.size() > kEventsMax) {
@@ -280,7 +285,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
   switch (output.message_case()) {
     case v1::Output::kClearance:
       if (Accept(output.clearance().stamp(), output.clearance().now_ns(), now)) {
-        Handle(output.clearance());
+        AddToGate(output.clearance(), now);
       }
       break;
     case v1::Output::kCollisionEvent:
@@ -306,8 +311,15 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
   }
 }
 
-void World::Implementation::Handle(const v1::Clearance& clearance) {
+/// Clearances of this run are younger than this program, so they tell whether it was there before
+/// the first contact.
+void World::Implementation::AddToGate(const v1::Clearance& clearance, CurrentService::Time now) {
   if (clearance.simulator_id() != simulator_id_ || clearance.run() != run_) return;
+  if (clearance.contacts_sequence() == 0) contacts_.BeginAtNone();
+  gate_.Add(clearance, now);
+}
+
+void World::Implementation::Handle(const v1::Clearance& clearance) {
   // All chunks carry the grant. The service writes chunk 0 after the others, so a simulator that
   // takes the grant from there knows all clearances as of that time, and which states are wanted.
   if (clearance.chunk() == 0) {
@@ -326,6 +338,8 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
   const std::uint64_t before = service_.id();
   if (!service_.Accept(stamp, now)) return false;
   if (service_.id() != before) {
+    contacts_.Restart();
+    gate_.Clear();
     clearances_sequence_ = 0;
     agents_.ForgetLowerings();
     service_now_ns_ = now_ns;
@@ -353,8 +367,11 @@ Clearance World::Implementation::clearance(const AgentId& id) const {
 }
 
 void World::Implementation::Handle(const v1::CollisionEvent& event) {
-  if (!IsOwn(event.lower()) && !IsOwn(event.higher())) return;
-  if (filter_.IsNew(event)) events_.push_back(FromMessage(event));
+  if (!IsOwn(event.lower()) && !IsOwn(event.higher())) {
+    if (event.contacts_sequence() > 0) contacts_.Take(event.contacts_sequence());
+  } else if (filter_.IsNew(event, &contacts_)) {
+    events_.push_back(FromMessage(event));
+  }
 }
 
 bool World::Implementation::IsOwn(const v1::AgentId& id) const {

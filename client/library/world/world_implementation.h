@@ -11,9 +11,10 @@
 
 #include "client/api/world.h"
 #include "client/library/network/current_service.h"
+#include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
 #include "client/library/world/agent_table.h"
-#include "client/library/world/revision_filter.h"
+#include "client/library/world/clearance_gate.h"
 #include "client/library/world/shape_publisher.h"
 
 namespace collision::client {
@@ -61,6 +62,7 @@ class World::Implementation {
   std::vector<Event> TakeEvents();
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
+  std::uint64_t contacts_missed() const { return contacts_.missed(); }
   const Traffic& traffic() const { return agents_.traffic(); }
 
  private:
@@ -92,6 +94,7 @@ class World::Implementation {
   /// Takes in what arrives within `timeout`, without callbacks.
   void Gather(std::chrono::nanoseconds timeout);
   void Handle(const v1::Output& output, CurrentService::Time now);
+  void AddToGate(const v1::Clearance& clearance, CurrentService::Time now);
   void Handle(const v1::Clearance& clearance);
   void Handle(const v1::CollisionEvent& event);
   bool IsOwn(const v1::AgentId& id) const;
@@ -114,7 +117,9 @@ class World::Implementation {
   AgentTable agents_;
   ShapePublisher shapes_;
   CurrentService service_;
+  ContactSequence contacts_;
   RevisionFilter filter_;
+  ClearanceGate gate_;
 
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstdio>
 #include <iterator>
+#include <set>
 #include <tuple>
 #include <utility>
 
+#include "client/library/network/conversion.h"
 #include "idl/shape_bytes.h"
 
 namespace collision::client {
@@ -24,7 +26,10 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
   MessageMonitor::Callbacks callbacks;
   callbacks.status = [this](const v1::ServiceStatus& status) { status_ = status; };
   callbacks.earliest = [this](const v1::EarliestIntersection& earliest) { earliest_ = earliest; };
-  callbacks.event = [this](const v1::CollisionEvent& event) { events_.push_back(event); };
+  callbacks.event = [this](const v1::CollisionEvent& event) {
+    events_.push_back(event);
+    if (event.contacts_sequence() > 0) ++contacts_;
+  };
   callbacks.description = [this](const v1::AgentDescription& message) { Handle(message); };
   callbacks.removal = [this](const v1::AgentRemoval& message) { Handle(message); };
   callbacks.shape_part = [this](const v1::ShapePart& message) { Handle(message); };
@@ -82,11 +87,23 @@ bool WorldView::IsNamed(const AgentId& id) const { return names_.contains(id); }
 std::vector<v1::CollisionEvent> WorldView::TakeEvents() {
   const auto order = [](const v1::CollisionEvent& event) {
     const v1::ServiceStamp& stamp = event.stamp();
-    return std::tuple(stamp.term(), event.now_ns(), stamp.sequence());
+    return std::tuple(stamp.term(), stamp.sequence(), event.now_ns());
   };
   std::stable_sort(events_.begin(), events_.end(),
                    [&](const auto& a, const auto& b) { return order(a) < order(b); });
   return std::exchange(events_, {});
+}
+
+std::vector<v1::CollisionEvent> WorldView::TakeNewestRevisions() {
+  std::vector<v1::CollisionEvent> events = TakeEvents();
+  std::set<std::tuple<AgentId, AgentId, std::uint32_t>> seen;
+  std::vector<v1::CollisionEvent> newest;
+  for (auto event = events.rbegin(); event != events.rend(); ++event) {
+    const AgentId lower = FromMessage(event->lower()), higher = FromMessage(event->higher());
+    if (seen.emplace(lower, higher, event->contact()).second) newest.push_back(std::move(*event));
+  }
+  std::reverse(newest.begin(), newest.end());
+  return newest;
 }
 
 void WorldView::Handle(const v1::AgentDescription& description) {

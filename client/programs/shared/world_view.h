@@ -66,6 +66,12 @@ class WorldView {
   /// The events since the last call, in the order in which the service published them.
   std::vector<v1::CollisionEvent> TakeEvents();
 
+  /// Likewise, of each event only the newest revision.
+  std::vector<v1::CollisionEvent> TakeNewestRevisions();
+
+  /// Contacts (confirmed, ended, undecided) that have come.
+  std::uint64_t contacts() const { return contacts_; }
+
  private:
   using Key = std::pair<std::uint64_t, std::uint32_t>;  ///< Simulator, slot.
 
@@ -84,6 +90,7 @@ class WorldView {
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
   std::map<std::pair<std::uint64_t, std::string>, ShapeView> shapes_;  ///< By simulator and hash.
   std::vector<v1::CollisionEvent> events_;
+  std::uint64_t contacts_ = 0;
 };
 
 }  // namespace collision::client

@@ -59,13 +59,13 @@ void PrintLine(const Event& event, const WorldView& view) {
             << '\n';
 }
 
-/// Prints every event that has arrived.
-void PrintEvents(WorldView* view, bool json) {
-  for (const v1::CollisionEvent& message : view->TakeEvents()) {
+/// Prints these events.
+void PrintEvents(const std::vector<v1::CollisionEvent>& events, const WorldView& view, bool json) {
+  for (const v1::CollisionEvent& message : events) {
     if (json) {
       std::cout << Json(message) << '\n';
     } else {
-      PrintLine(FromMessage(message), *view);
+      PrintLine(FromMessage(message), view);
     }
   }
   std::cout.flush();
@@ -73,7 +73,7 @@ void PrintEvents(WorldView* view, bool json) {
 
 /// Likewise, but a line waits for the names of its agents; JSON has none.
 void PrintNewEvents(WorldView* view, PendingNames* pending, bool json) {
-  if (json) return PrintEvents(view, json);
+  if (json) return PrintEvents(view->TakeEvents(), *view, json);
   const auto now = std::chrono::steady_clock::now();
   for (const v1::CollisionEvent& message : view->TakeEvents()) {
     pending->Add(FromMessage(message), now);
@@ -83,20 +83,32 @@ void PrintNewEvents(WorldView* view, PendingNames* pending, bool json) {
   std::cout.flush();
 }
 
+/// Says among the events how many contacts were lost since it was said last.
+void PrintGap(std::uint64_t missed, std::uint64_t* told, bool json) {
+  if (missed > *told) {
+    const std::uint64_t more = missed - *told;
+    std::cout << (json ? MissedJson(more, missed) : MissedLine(more, missed)) << std::endl;
+  }
+  *told = missed;
+}
+
 void Follow(MessageMonitor* monitor, WorldView* view, bool json) {
   PendingNames pending;
   bool alive = true;
+  std::uint64_t missed = 0;
   while (stopped == 0 && std::cout) {
+    PrintGap(monitor->contacts_missed(), &missed, json);
     PrintNewEvents(view, &pending, json);
     monitor->Poll(kFollowWait);
     if (monitor->service_alive() == alive) continue;
     alive = !alive;
     std::cerr << (alive ? "the service is back\n" : "the service is gone; waiting for it\n");
   }
+  std::cerr << ContactsSummary(view->contacts(), monitor->contacts_missed()) << '\n';
 }
 
 void Print(const std::string& command, const Options& options, WorldView* view) {
-  if (command == "events") return PrintEvents(view, options.json);
+  if (command == "events") return PrintEvents(view->TakeNewestRevisions(), *view, options.json);
   if (command == "status") {
     std::cout << (options.json ? Json(*view->status()) + "\n" : StatusPage(*view));
   } else if (command == "agents") {

@@ -49,11 +49,21 @@ struct OneSimulator {
   Simulator* simulator = nullptr;
 };
 
+/// The first revision of an event about the pair in this slot.
+detection::CollisionEvent InSlot(std::uint32_t slot, detection::EventStatus status = {}) {
+  detection::CollisionEvent event;
+  event.pair_slot = slot;
+  event.lower.slot = slot;
+  event.status = status;
+  return event;
+}
+
 TEST(Publisher, EverySampleCarriesServiceTermAndTheNextNumber) {
   ScriptedBus bus;
   const ServiceClaim claim = Claimed();
   Publisher publisher(Config(), &claim, &bus);
-  publisher.PublishEvents({{}, {}});
+  const World world(Config());
+  publisher.PublishEvents({InSlot(1), InSlot(2)}, world);
   publisher.PublishRejections({v1::Rejection{}});
   publisher.PublishStatus({});
   ASSERT_EQ(bus.outputs.size(), 4u);
@@ -82,18 +92,44 @@ TEST(Publisher, AnEarliestAnswerIsPublishedOnceUntilItChanges) {
   EXPECT_EQ(bus.outputs[1].earliest_intersection().earliest_ns(), 5);
 }
 
+TEST(Publisher, ContactsAreNumberedInOneInstanceAndClearancesNameTheLast) {
+  OneSimulator one;
+  one.simulator->agents().clearances().MarkChanged(0);
+  one.simulator->time().Grant(At(kSecond));
+  ScriptedBus bus;
+  const ServiceClaim claim = Claimed();
+  Publisher publisher(Config(), &claim, &bus);
+  using enum detection::EventStatus;
+  publisher.PublishEvents({InSlot(3, kConfirmed), InSlot(4), InSlot(3, kEnded)}, one.world);
+  publisher.PublishClearances(&one.world);
+  ASSERT_EQ(bus.outputs.size(), 4u);
+  const v1::CollisionEvent& confirmed = bus.outputs[0].collision_event();
+  const v1::CollisionEvent& ended = bus.outputs[1].collision_event();
+  const v1::CollisionEvent& forecast = bus.outputs[2].collision_event();
+  EXPECT_EQ(confirmed.contacts_sequence(), 1u);
+  EXPECT_EQ(ended.contacts_sequence(), 2u);
+  EXPECT_EQ(confirmed.pair_slot(), 0u);
+  EXPECT_EQ(ended.pair_slot(), 0u);
+  EXPECT_EQ(forecast.contacts_sequence(), 0u);
+  EXPECT_EQ(forecast.pair_slot(), 4u);
+  EXPECT_EQ(bus.outputs[3].clearance().contacts_sequence(), 2u);
+  EXPECT_EQ(publisher.event_counters().contacts, 2u);
+  EXPECT_EQ(publisher.event_counters().forecasts, 1u);
+}
+
 TEST(Publisher, TheEventLogCountsEventsWithoutTheirStamps) {
   ScriptedBus bus;
   const ServiceClaim claim = Claimed();
   Publisher one(Config(), &claim, &bus), late(Config(), &claim, &bus);
   late.PublishStatus({});  // its later samples have other numbers
-  one.PublishEvents({{}});
-  late.PublishEvents({{}});
+  const World world(Config());
+  one.PublishEvents({{}}, world);
+  late.PublishEvents({{}}, world);
   EXPECT_EQ(one.event_log().count(), 1u);
   EXPECT_EQ(one.event_log().hash(), late.event_log().hash());
   detection::CollisionEvent other;
   other.revision = 2;
-  late.PublishEvents({other});
+  late.PublishEvents({other}, world);
   EXPECT_NE(one.event_log().hash(), late.event_log().hash());
 }
 

@@ -82,6 +82,7 @@ class EpochTest : public testing::Test {
       if (!output.has_collision_event()) continue;
       v1::CollisionEvent event = output.collision_event();
       event.clear_stamp();
+      event.clear_contacts_sequence();
       event.mutable_lower()->clear_run();
       event.mutable_higher()->clear_run();
       events.push_back(event.ShortDebugString());

@@ -18,6 +18,11 @@ std::string Json(const google::protobuf::Message& message) {
   return status.ok() ? text : "{}";
 }
 
+std::string MissedJson(std::uint64_t more, std::uint64_t so_far) {
+  return "{\"contacts_missed\":\"" + std::to_string(more) + "\",\"contacts_missed_so_far\":\"" +
+         std::to_string(so_far) + "\"}";
+}
+
 std::string AgentsJson(const WorldView& view) {
   std::string json = "{\"agents\":[";
   const char* separator = "";

@@ -2,6 +2,7 @@
 // and, as that mapping has it, 64-bit integers as strings. One line each, without a newline.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "client/programs/shared/world_view.h"
@@ -10,6 +11,10 @@ namespace collision::client {
 
 /// Any message of idl/messages.proto, with every field printed.
 std::string Json(const google::protobuf::Message& message);
+
+/// Among the events, where contacts were lost: {"contacts_missed": "how many since the last time",
+/// "contacts_missed_so_far": "in all"}
+std::string MissedJson(std::uint64_t more, std::uint64_t so_far);
 
 /// {"agents": [{"description": AgentDescription, "state": AgentState, "clearance": AgentClearance},
 /// ...]}, without the parts that are not known.

@@ -200,6 +200,15 @@ std::string EarliestPage(const WorldView& view) {
   return page;
 }
 
+std::string MissedLine(std::uint64_t more, std::uint64_t so_far) {
+  return "contacts missed: " + std::to_string(more) + " (" + std::to_string(so_far) +
+         " so far): the network kept no more for this program";
+}
+
+std::string ContactsSummary(std::uint64_t told, std::uint64_t missed) {
+  return "contacts told: " + std::to_string(told) + ", missed: " + std::to_string(missed);
+}
+
 std::string Table(const std::vector<std::vector<std::string>>& rows) {
   std::vector<std::size_t> widths(rows.front().size(), 0);
   const auto width = [](const std::string& cell) {

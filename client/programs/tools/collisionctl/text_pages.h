@@ -1,6 +1,7 @@
 // The pages of collisionctl, for people. Every page ends with a newline.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,13 @@ std::string ShapesPage(const WorldView& view);
 
 /// The pair that can touch first, and before when it certainly does not.
 std::string EarliestPage(const WorldView& view);
+
+/// Among the events, where contacts were lost: how many since the last time, and in all. Without a
+/// newline.
+std::string MissedLine(std::uint64_t more, std::uint64_t so_far);
+
+/// How many contacts have come and how many were lost, when it ends. Without a newline.
+std::string ContactsSummary(std::uint64_t told, std::uint64_t missed);
 
 /// The value in a printf() `format` for one double, of at most 63 characters.
 std::string NumberText(double value, const char* format);

@@ -87,11 +87,13 @@ TEST_F(DdsSmokeTest, ASimulatorAServiceAndAMonitorMeet) {
   clearance.set_simulator_id(SimulatorId("smoke"));
   clearance.set_run(kRun);
   clearance.set_granted_until_ns(1000);
+  clearance.set_contacts_sequence(1);
   service.Write(clearance);
   v1::CollisionEvent event;
   event.mutable_lower()->set_simulator_id(SimulatorId("smoke"));
   event.mutable_lower()->set_run(kRun);
   event.set_status(v1::EVENT_CONFIRMED);
+  event.set_contacts_sequence(1);
   service.Write(event);
   service.Flush();
   ball.SetState({.stamp_ns = 1000, .position_m = {1, 2, 3}});

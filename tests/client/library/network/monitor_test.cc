@@ -49,6 +49,7 @@ TEST_F(MonitorTest, AnEventArrivesWithAllItsFields) {
   SetId(message->mutable_lower(), 1);
   SetId(message->mutable_higher(), 2);
   message->set_status(v1::EVENT_ENDED);
+  message->set_contacts_sequence(9);
   message->set_limited_by(v1::LIMIT_GEOMETRY);
   message->mutable_begin()->set_earliest_ns(10);
   message->mutable_end()->set_latest_ns(20);
@@ -61,6 +62,7 @@ TEST_F(MonitorTest, AnEventArrivesWithAllItsFields) {
   EXPECT_EQ(events[0].lower, IdOf(1));
   EXPECT_EQ(events[0].higher, IdOf(2));
   EXPECT_EQ(events[0].status, EventStatus::kEnded);
+  EXPECT_EQ(events[0].contacts_sequence, 9u);
   EXPECT_EQ(events[0].limited_by, EventLimit::kGeometry);
   EXPECT_EQ(events[0].begin.earliest_ns, 10);
   EXPECT_EQ(events[0].end.latest_ns, 20);
@@ -78,6 +80,7 @@ TEST(Conversion, AnEventWithoutASeparationIsEvaluatedAtNoInstant) {
 TEST_F(MonitorTest, TheStatusArrivesWithSimulatorsAndCounters) {
   auto* message = next_.outputs.emplace_back().mutable_service_status();
   message->mutable_stamp()->set_term(2);
+  message->set_phase(v1::PHASE_SERVING);
   message->set_world("lab");
   message->add_left_out("rotation");
   auto* counter = message->add_counters();

@@ -49,6 +49,7 @@ TEST_F(EventsTest, EachRevisionArrivesOnceAndOnlyForOwnAgents) {
 TEST_F(EventsTest, AllFieldsArrive) {
   v1::CollisionEvent event = OwnEvent(3, 4, 10);
   event.set_now_ns(1);
+  event.set_contacts_sequence(14);
   event.set_status(v1::EVENT_UNDECIDED);
   event.mutable_begin()->set_earliest_ns(2);
   event.mutable_begin()->set_latest_ns(3);
@@ -74,6 +75,7 @@ TEST_F(EventsTest, AllFieldsArrive) {
   EXPECT_EQ(received.contact, 3u);
   EXPECT_EQ(received.revision, 4u);
   EXPECT_EQ(received.now_ns, 1);
+  EXPECT_EQ(received.contacts_sequence, 14u);
   EXPECT_EQ(received.status, EventStatus::kUndecided);
   EXPECT_EQ(received.begin.earliest_ns, 2);
   EXPECT_EQ(received.begin.latest_ns, 3);

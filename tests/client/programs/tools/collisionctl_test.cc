@@ -34,6 +34,7 @@ class CollisionctlTest : public testing::Test {
     v1::ServiceStatus* status = next_.outputs.emplace_back().mutable_service_status();
     status->set_service_id(1);
     status->mutable_stamp()->set_term(2);
+    status->set_phase(v1::PHASE_SERVING);
     status->set_version("0.1.0");
     status->set_world("lab");
     status->set_simulated_clock(true);
@@ -267,8 +268,8 @@ TEST_F(CollisionctlTest, EarliestPageNamesPairAndTime) {
 
 // DDS delivers samples by key: the view restores the order of publication.
 TEST_F(CollisionctlTest, EventsAreInTheOrderOfPublication) {
-  for (const std::uint64_t sequence : {3, 1, 2}) {
-    *next_.outputs.emplace_back().mutable_collision_event() = OwnEvent(1, 1, sequence);
+  for (const std::uint32_t sequence : {3, 1, 2}) {
+    *next_.outputs.emplace_back().mutable_collision_event() = OwnEvent(sequence, 1, sequence);
   }
   Poll(3);
   const auto events = view_.TakeEvents();
@@ -276,6 +277,31 @@ TEST_F(CollisionctlTest, EventsAreInTheOrderOfPublication) {
   EXPECT_EQ(events[0].stamp().sequence(), 1u);
   EXPECT_EQ(events[2].stamp().sequence(), 3u);
   EXPECT_TRUE(view_.TakeEvents().empty());
+}
+
+TEST_F(CollisionctlTest, OfEachEventTheNewestRevisionStands) {
+  for (const std::uint32_t revision : {1, 2, 4}) {
+    *next_.outputs.emplace_back().mutable_collision_event() = OwnEvent(1, revision, revision);
+  }
+  *next_.outputs.emplace_back().mutable_collision_event() = OwnEvent(2, 1, 5);
+  Poll(4);
+  const auto events = view_.TakeNewestRevisions();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_EQ(events[0].contact(), 1u);
+  EXPECT_EQ(events[0].revision(), 4u);
+  EXPECT_EQ(events[1].contact(), 2u);
+}
+
+TEST_F(CollisionctlTest, LostContactsAreToldInLinesOfTheirOwn) {
+  v1::CollisionEvent contact = OwnEvent(1, 1, 1);
+  contact.set_contacts_sequence(1);
+  *next_.outputs.emplace_back().mutable_collision_event() = contact;
+  *next_.outputs.emplace_back().mutable_collision_event() = OwnEvent(2, 1, 2);
+  Poll(2);
+  EXPECT_EQ(view_.contacts(), 1u);
+  EXPECT_EQ(MissedJson(2, 5), "{\"contacts_missed\":\"2\",\"contacts_missed_so_far\":\"5\"}");
+  EXPECT_EQ(MissedLine(2, 5).rfind("contacts missed: 2 (5 so far)", 0), 0u);
+  EXPECT_EQ(ContactsSummary(7, 5), "contacts told: 7, missed: 5");
 }
 
 TEST_F(CollisionctlTest, JsonHasTheNamesOfTheProto) {

@@ -1,0 +1,48 @@
+// Which events are new to a reader of contacts and forecasts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include "client/library/network/contact_sequence.h"
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+/// Makes one stream of the two topics: each revision once, no forecast after a later revision of
+/// its pair, every contact. A service counts revisions from 1 for each contact; another service
+/// counts anew.
+class RevisionFilter {
+ public:
+  /// Pairs that are remembered; beyond twice as many those heard of longest ago are forgotten, and
+  /// a late repetition of a forecast about them counts as new.
+  static constexpr std::size_t kPairsMax = 65536;
+
+  /// False: it is a contact that has come before; a forecast that was overtaken by a later revision
+  /// of the same pair; the copy among the forecasts that says that a pair has become a contact,
+  /// which the contact itself says; or the repetition by another service of what is known.
+  bool IsNew(const v1::CollisionEvent& event, ContactSequence* contacts);
+
+ private:
+  using Agent = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+  using Pair = std::pair<Agent, Agent>;
+
+  /// The newest revision of a pair.
+  struct Known {
+    std::uint64_t service = 0;
+    std::uint32_t contact = 0;
+    std::uint32_t revision = 0;
+    v1::EventStatus status{};
+  };
+
+  static Agent Id(const v1::AgentId& id);
+  static bool IsOutdated(const v1::CollisionEvent& event, const Known& known);
+  Known* Find(const Pair& pair);
+
+  std::map<Pair, Known> known_, earlier_;  ///< When the first is full it takes the other's place.
+};
+
+}  // namespace collision::client

@@ -1,0 +1,86 @@
+// Goal:   of two topics one stream: every contact, no forecast that a later revision overtook, no
+//         copy; bounded memory.
+// Method: events of one pair in the orders that two topics allow, and more pairs than fit.
+#include "client/library/network/revision_filter.h"
+
+#include <gtest/gtest.h>
+
+namespace collision::client {
+namespace {
+
+v1::CollisionEvent Event(std::uint32_t contact, std::uint32_t revision, v1::EventStatus status,
+                         std::uint64_t contacts_sequence = 0) {
+  v1::CollisionEvent event;
+  event.mutable_stamp()->set_service_id(1);
+  event.mutable_higher()->set_slot(1);
+  event.set_contact(contact);
+  event.set_revision(revision);
+  event.set_status(status);
+  event.set_contacts_sequence(contacts_sequence);
+  return event;
+}
+
+class RevisionFilterTest : public testing::Test {
+ protected:
+  bool IsNew(const v1::CollisionEvent& event) { return filter_.IsNew(event, &contacts_); }
+
+  RevisionFilter filter_;
+  ContactSequence contacts_;
+};
+
+TEST_F(RevisionFilterTest, AnEventIsToldOnceInItsOrder) {
+  EXPECT_TRUE(IsNew(Event(1, 1, v1::EVENT_POSSIBLE)));
+  EXPECT_FALSE(IsNew(Event(1, 1, v1::EVENT_POSSIBLE)));
+  EXPECT_TRUE(IsNew(Event(1, 3, v1::EVENT_POSSIBLE)));
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 1)));
+  EXPECT_FALSE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED)));  // the copy among the forecasts
+  EXPECT_TRUE(IsNew(Event(1, 5, v1::EVENT_ENDED, 2)));
+  EXPECT_TRUE(IsNew(Event(2, 1, v1::EVENT_POSSIBLE)));
+  EXPECT_EQ(contacts_.missed(), 0u);
+}
+
+TEST_F(RevisionFilterTest, AForecastThatWasOvertakenIsDropped) {
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 1)));
+  EXPECT_FALSE(IsNew(Event(1, 3, v1::EVENT_POSSIBLE)));
+}
+
+TEST_F(RevisionFilterTest, ACopyWithoutItsContactIsDropped) {
+  EXPECT_FALSE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED)));
+  EXPECT_FALSE(IsNew(Event(1, 4, v1::EVENT_UNDECIDED)));
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 1)));
+}
+
+TEST_F(RevisionFilterTest, AContactCountsThoughTheNextForecastWasFaster) {
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 1)));
+  EXPECT_TRUE(IsNew(Event(2, 1, v1::EVENT_POSSIBLE)));
+  EXPECT_TRUE(IsNew(Event(1, 5, v1::EVENT_ENDED, 2)));
+  EXPECT_FALSE(IsNew(Event(2, 1, v1::EVENT_POSSIBLE)));
+  EXPECT_TRUE(IsNew(Event(2, 2, v1::EVENT_DISMISSED)));
+}
+
+TEST_F(RevisionFilterTest, AnotherServiceRepeatsWhatIsKnownAndCountsAnew) {
+  EXPECT_TRUE(IsNew(Event(1, 4, v1::EVENT_CONFIRMED, 7)));
+  contacts_.Restart();
+  v1::CollisionEvent repeated = Event(1, 4, v1::EVENT_CONFIRMED, 1);
+  repeated.mutable_stamp()->set_service_id(2);
+  EXPECT_FALSE(IsNew(repeated));
+  v1::CollisionEvent anew = Event(1, 1, v1::EVENT_CONFIRMED, 2);
+  anew.mutable_stamp()->set_service_id(2);
+  EXPECT_TRUE(IsNew(anew));
+}
+
+TEST_F(RevisionFilterTest, TheNewestPairsAreRememberedAndTheOldestForgotten) {
+  v1::CollisionEvent event = Event(1, 1, v1::EVENT_POSSIBLE);
+  const std::uint32_t last = 2 * RevisionFilter::kPairsMax + 1;
+  for (std::uint32_t pair = 1; pair <= last; ++pair) {
+    event.mutable_higher()->set_slot(pair);
+    EXPECT_TRUE(IsNew(event));
+  }
+  event.mutable_higher()->set_slot(last - RevisionFilter::kPairsMax);
+  EXPECT_FALSE(IsNew(event));
+  event.mutable_higher()->set_slot(1);
+  EXPECT_TRUE(IsNew(event));
+}
+
+}  // namespace
+}  // namespace collision::client

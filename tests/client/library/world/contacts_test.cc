@@ -1,0 +1,181 @@
+// Goal:   a grant never overtakes the contacts that it implies, and lost ones are counted; a
+//         monitor counts them, too, and believes one service.
+// Method: clearances, contacts and statuses on a network under the test's control.
+#include <gtest/gtest.h>
+
+#include "client/library/network/message_monitor.h"
+#include "client/library/world/clearance_gate.h"
+#include "idl/limits.h"
+#include "tests/client/fake_transport.h"
+
+namespace collision::client {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::nanoseconds;
+
+v1::CollisionEvent Contact(std::uint64_t sequence, std::uint32_t revision = 1) {
+  v1::CollisionEvent event = OwnEvent(1, revision, sequence);
+  event.set_contacts_sequence(sequence);
+  event.set_status(v1::EVENT_CONFIRMED);
+  return event;
+}
+
+class ContactsTest : public testing::Test {
+ protected:
+  void Grant(std::int64_t until_ns, std::uint64_t contacts_sequence) {
+    network_->Grant(until_ns);
+    network_->arriving.back().mutable_clearance()->set_contacts_sequence(contacts_sequence);
+  }
+  void Arrive(const v1::CollisionEvent& event) {
+    *network_->arriving.emplace_back().mutable_collision_event() = event;
+  }
+
+  std::shared_ptr<FakeNetwork> network_ = std::make_shared<FakeNetwork>();
+  World world_ = ConnectTo(network_);
+};
+
+TEST_F(ContactsTest, AGrantWaitsForTheContactsBeforeIt) {
+  Grant(10, 0);
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 10);
+  Grant(50, 2);
+  Arrive(Contact(1));
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 10);
+  Arrive(Contact(2, 2));
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 50);
+  EXPECT_EQ(world_.TakeEvents().size(), 2u);
+  EXPECT_EQ(world_.contacts_missed(), 0u);
+}
+
+TEST_F(ContactsTest, AContactIsDeliveredBeforeTheClockMovesOn) {
+  std::int64_t clock_then = -1;
+  world_.OnEvent([&](const Event&) { clock_then = world_.clock_ns(); });
+  network_->on_wait = [this](FakeNetwork* network) {
+    if (network->waits.size() < 3) return Grant(50, 1);
+    Arrive(Contact(1));
+  };
+  EXPECT_EQ(world_.AdvanceTo(50, hours(1)), Advance::kReached);
+  EXPECT_EQ(clock_then, 0);
+}
+
+TEST_F(ContactsTest, ContactsOfOthersCountForTheGrantButAreNotDelivered) {
+  v1::CollisionEvent others = Contact(1);
+  others.mutable_lower()->set_simulator_id(5);
+  Arrive(others);
+  Grant(50, 1);
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 50);
+  EXPECT_TRUE(world_.TakeEvents().empty());
+}
+
+TEST_F(ContactsTest, AGapIsCountedAndHoldsNothingUp) {
+  Grant(10, 0);
+  Arrive(Contact(4));
+  Grant(50, 4);
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 50);
+  EXPECT_EQ(world_.contacts_missed(), 3u);
+}
+
+TEST_F(ContactsTest, AClearanceThatWaitsEndsAWaitInTime) {
+  Grant(50, 1);
+  world_.Poll();
+  world_.Poll(hours(1));
+  EXPECT_LE(network_->waits.back(), nanoseconds(ClearanceGate::kPatience));
+}
+
+TEST_F(ContactsTest, AClearanceOfAFormerServiceDoesNotPassLater) {
+  Grant(50, 1);
+  world_.Poll();
+  network_->Grant(20, 2);  // the service of term 2
+  world_.Poll();
+  v1::CollisionEvent event = Contact(1);
+  event.mutable_stamp()->set_service_id(2);
+  event.mutable_stamp()->set_term(2);
+  Arrive(event);
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 20);
+}
+
+/// Hands over what the test has put into `next`.
+class ScriptedReceiver : public Receiver {
+ public:
+  explicit ScriptedReceiver(Arrivals* next) : next_(next) {}
+  void Receive(nanoseconds, Arrivals* arrivals) override { *arrivals = std::exchange(*next_, {}); }
+  bool service_alive() const override { return true; }
+
+ private:
+  Arrivals* next_;
+};
+
+class MonitorContactsTest : public testing::Test {
+ protected:
+  void Status(std::uint64_t service, std::uint32_t term, std::uint64_t contacts) {
+    v1::ServiceStatus& status = *next_.outputs.emplace_back().mutable_service_status();
+    status.mutable_stamp()->set_service_id(service);
+    status.mutable_stamp()->set_term(term);
+    status.set_phase(v1::PHASE_SERVING);
+    v1::Counter& counter = *status.add_counters();
+    counter.set_name(std::string(wire::kContactsCounter));
+    counter.set_value(contacts);
+  }
+  void Arrive(const v1::CollisionEvent& event) {
+    *next_.outputs.emplace_back().mutable_collision_event() = event;
+  }
+  void Poll() { monitor_.Poll(nanoseconds(0)); }
+
+  Arrivals next_;
+  std::vector<std::uint64_t> events_;
+  std::size_t statuses_ = 0;
+  MessageMonitor monitor_{
+      std::make_unique<ScriptedReceiver>(&next_),
+      {.event = [this](const auto& event) { events_.push_back(event.contacts_sequence()); },
+       .status = [this](const auto&) { ++statuses_; }}};
+};
+
+TEST_F(MonitorContactsTest, AMonitorThatWasThereCountsAGap) {
+  Status(1, 1, 0);
+  Arrive(Contact(2));
+  Arrive(Contact(5, 2));
+  Poll();
+  EXPECT_EQ(events_, (std::vector<std::uint64_t>{2, 5}));
+  EXPECT_EQ(monitor_.contacts_missed(), 3u);
+}
+
+TEST_F(MonitorContactsTest, AMonitorThatJoinsLaterCountsNone) {
+  Status(1, 1, 5000);
+  Arrive(Contact(3977));
+  Arrive(Contact(3978, 2));
+  Poll();
+  EXPECT_EQ(monitor_.contacts_missed(), 0u);
+}
+
+TEST_F(MonitorContactsTest, WhatAnotherServiceSaysIsDropped) {
+  Status(1, 2, 0);
+  Status(9, 1, 7);
+  v1::CollisionEvent event = Contact(1);
+  event.mutable_stamp()->set_term(2);
+  Arrive(event);
+  v1::CollisionEvent other = Contact(1, 7);
+  other.mutable_stamp()->set_service_id(9);
+  Arrive(other);
+  Poll();
+  EXPECT_EQ(statuses_, 1u);
+  EXPECT_EQ(events_.size(), 1u);
+}
+
+TEST_F(MonitorContactsTest, AServiceThatClaimsIsNotInForce) {
+  Status(1, 1, 0);
+  Status(2, 7, 0);
+  next_.outputs.back().mutable_service_status()->set_phase(v1::PHASE_CLAIMING);
+  Arrive(Contact(1));
+  Poll();
+  EXPECT_EQ(statuses_, 1u);
+  EXPECT_EQ(events_.size(), 1u);
+}
+
+}  // namespace
+}  // namespace collision::client
