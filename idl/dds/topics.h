@@ -20,8 +20,9 @@ enum class TopicId {
   kCollisionEvent,
   kRejection,
   kServiceStatus,
+  kSimulatorReport,
 };
-inline constexpr std::size_t kTopics = 9;
+inline constexpr std::size_t kTopics = 10;
 
 enum class Source { kSimulators, kService };
 

@@ -25,6 +25,8 @@ void AgentRegistry::Describe(Simulator* simulator, const v1::AgentDescription& w
   if (agents.Find(slot, wire.generation())) return Revise(simulator, wire, declaration);
   if (Agent* former = agents.Find(slot)) RemoveAgent(simulator, slot, former);
   Agent* agent = agents.Add(slot, {wire.generation(), wire.revision(), declaration});
+  simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
+  simulator->refusals().Accept(v1::TOPIC_AGENT_STATES, slot);
   shapes_.Refer(simulator, slot, ShapeHashOf(wire), agent);
   AdmitIfComplete(simulator, slot);
 }
@@ -34,6 +36,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
+  simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
   shapes_.Refer(simulator, wire.slot(), ShapeHashOf(wire), agent);
   if (agent->admitted()) {
     detector_.Redeclare(simulator->IdOf(wire.slot(), agent->generation()), agent->declaration,
@@ -55,6 +58,7 @@ void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk
   const Decoded<motion::MotionState> decoded =
       DecodeState(chunk, wire, world_.RulesForState(*simulator, admitted));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
+  simulator->refusals().Accept(v1::TOPIC_AGENT_STATES, wire.slot());
   const motion::MotionState& state = std::get<motion::MotionState>(decoded);
   if (admitted) {
     Update(simulator, wire.slot(), wire.sequence(), state);
@@ -136,6 +140,9 @@ void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
   const detection::AgentDeclaration& declaration = simulator->agents().Find(slot)->declaration;
   if (!detector_.Admit(id, declaration, waiting.state, world_.EffectiveFrom(stamp))) return;
   ++counters_.admitted;
+  if (simulator->agents().Find(slot)->room_refused) {
+    simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
+  }
   CountAccepted(simulator);
   simulator->agents().Admit(slot, stamp, waiting.sequence);
   if (simulator->time().clock()) detector_.SetHeardUntil(OwnerOf(id), *simulator->time().clock());
@@ -149,6 +156,7 @@ void AgentRegistry::CountAccepted(Simulator* simulator) {
 void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot) {
   if (Agent* agent = simulator->agents().Find(slot)) return RemoveAgent(simulator, slot, agent);
   simulator->agents().RemoveWaiting(slot);
+  simulator->refusals().RemoveAgent(slot);
 }
 
 void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent) {
@@ -158,6 +166,7 @@ void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent*
   }
   shapes_.Refer(simulator, slot, {}, agent);
   simulator->agents().Remove(slot);
+  simulator->refusals().RemoveAgent(slot);
 }
 
 void AgentRegistry::RemoveAll(Simulator* simulator) {

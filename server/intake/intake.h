@@ -16,6 +16,7 @@ namespace collision::server {
 
 /// Messages since the start, beside the AgentCounters.
 struct IntakeCounters {
+  std::uint64_t removals_ignored = 0;  ///< Without a sender, and not of the owner's program.
   std::uint64_t descriptions_received = 0;
   std::uint64_t clocks_received = 0;
 };
@@ -32,7 +33,7 @@ class Intake {
 
   void Apply(const v1::Input& input);
 
-  /// Lets successors take over, brings clocks into force, admits the agents that waited for them,
+  /// Brings clocks into force, counts what has arrived, admits the agents that waited for them,
   /// reports overdue descriptions and shapes, and frees what simulators that left had written.
   void EndBatch();
 
@@ -49,12 +50,13 @@ class Intake {
 
  private:
   /// The simulator that the input speaks for, its former run ended where a new one begins; null:
-  /// refused, and held if the sender may succeed the owner. `name`: as in World::ClaimFor().
+  /// refused. `name`: as in World::ClaimFor().
   Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);
 
-  /// Whether the sender of a removal is the owner. A removal by a successor that waits for the id
-  /// is held with what it wrote before; any other one is refused.
-  bool MayRemove(const Simulator& simulator, const v1::Input& input, const Refusal& refusal);
+  /// Whether a removal is the owner's; else it is refused. `is_owners`: without a sender, what it
+  /// names is the owner's.
+  bool MayRemove(const Simulator& simulator, const v1::Input& input, bool is_owners,
+                 const Refusal& refusal);
 
   void TakeDescription(const v1::Input& input);
   void TakeStates(const v1::Input& input);
@@ -64,16 +66,8 @@ class Intake {
   void TakeShapePart(const v1::Input& input);
   void TakeShapeRemoval(const v1::Input& input);
 
-  void Hold(const Simulator& simulator, const v1::Input& input);
-
-  /// If the simulator is gone, applies what is held for its id.
-  void HandOver(Simulator* simulator);
-
   /// Brings the clocks of a simulator into force, for its agents too.
   void TakeClocks(Simulator* simulator);
-
-  /// Parts of shapes that are held for successors take room in the store.
-  void CountHeldBytes() { shapes_.SetHeldBytes(world_.succession().shape_bytes()); }
 
   World& world_;
   detection::Detector& detector_;

@@ -68,20 +68,22 @@ TEST(DdsBusLiveliness, ADisposedAgentArrivesAsRemoval) {
   ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return inputs.size() >= 2; }));
   const std::uint64_t sender = inputs[0].sender();
   inputs.clear();
-  simulator.RemoveAgent(SimulatorId("a"), 3);
+  simulator.RemoveAgent(RemovalOf("a", 3));
   simulator.Flush();
   ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !inputs.empty(); }));
   ASSERT_EQ(inputs.size(), 1u);
   EXPECT_EQ(inputs[0].sender(), sender);
   EXPECT_EQ(inputs[0].agent_removal().simulator_id(), SimulatorId("a"));
   EXPECT_EQ(inputs[0].agent_removal().slot(), 3u);
+  EXPECT_EQ(inputs[0].agent_removal().incarnation(), kIncarnation);
+  EXPECT_EQ(inputs[0].agent_removal().sequence(), kRemovalSequence);
 }
 
 TEST(DdsBusLiveliness, ARemovalBeforeTheFirstReadComesAfterTheDescription) {
   DdsBus bus(TestWorld(), TestDomain());
   DdsSession simulator(SimulatorOptions("a"));
   simulator.Write(Description("a", 3));
-  simulator.RemoveAgent(SimulatorId("a"), 3);
+  simulator.RemoveAgent(RemovalOf("a", 3));
   simulator.Flush();
   std::vector<v1::Input> inputs;
   ASSERT_TRUE(

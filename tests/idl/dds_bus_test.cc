@@ -273,7 +273,7 @@ TEST(DdsBus, WakeEndsAReceiveThatWaits) {
 TEST(DdsSession, WhatIsNotOfTheRoleIsAnError) {
   DdsSession monitor(MonitorOptions(false));
   EXPECT_THROW(monitor.Write(Description("a", 0)), std::logic_error);
-  EXPECT_THROW(monitor.RemoveAgent(1, 0), std::logic_error);
+  EXPECT_THROW(monitor.RemoveAgent({}), std::logic_error);
 }
 
 TEST(DdsSession, BadOptionsSayWhatIsAllowed) {

@@ -65,6 +65,8 @@ void MessageMonitor::HandOn(const v1::Output& output) const {
       return Call(callbacks_.rejection, output.rejection());
     case v1::Output::kServiceStatus:
       return Call(callbacks_.status, output.service_status());
+    case v1::Output::kSimulatorReport:
+      return Call(callbacks_.report, output.simulator_report());
     default:
       return;
   }

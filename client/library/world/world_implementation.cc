@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -20,6 +21,13 @@ std::uint32_t RunByClock() {
   using Tenths = duration<std::int64_t, std::deci>;
   const auto since_2020 = system_clock::now() - sys_days(year(2020) / January / 1);
   return static_cast<std::uint32_t>(duration_cast<Tenths>(since_2020).count());
+}
+
+std::uint32_t DrawIncarnation() {
+  std::random_device device;
+  std::uint32_t incarnation = 0;
+  while (incarnation == 0) incarnation = device();
+  return incarnation;
 }
 
 PublishPolicy PolicyOf(const WorldOptions& options) {
@@ -52,12 +60,14 @@ class Raised {
 
 World::Implementation::Implementation(const WorldOptions& options,
                                       std::unique_ptr<Transport> transport)
-    : simulator_id_(SimulatorId(options.simulator)),
+    : name_(options.simulator),
+      simulator_id_(SimulatorId(options.simulator)),
       run_(options.run != 0 ? options.run : RunByClock()),
       lock_step_(options.lock_step),
       transport_(std::move(transport)),
-      agents_(options.simulator, simulator_id_, run_, PolicyOf(options)),
-      shapes_(simulator_id_, run_) {}
+      arrival_(run_, options.incarnation != 0 ? options.incarnation : DrawIncarnation()),
+      agents_(options.simulator, simulator_id_, run_, arrival_.incarnation(), PolicyOf(options)),
+      shapes_(simulator_id_, run_, arrival_.incarnation()) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
@@ -121,16 +131,20 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
     if (clock_ns_ >= clock_ns) return Advance::kReached;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) break;
-    const Deadline repeat(kRepeatPeriod);
     Poll(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
-    if (repeat.Remaining().count() == 0) Repeat();
   }
   return Advance::kTimeout;
 }
 
 void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("Poll()");
-  Gather(timeout);
+  const Deadline deadline(timeout);
+  std::chrono::nanoseconds left = timeout;
+  do {
+    if (Gather(std::min<std::chrono::nanoseconds>(left, kRepeatPeriod))) left = {};
+    Tend();
+    left = std::min(left, deadline.Remaining());
+  } while (left.count() > 0);
   Deliver();
 }
 
@@ -156,34 +170,48 @@ std::int64_t World::Implementation::Reachable() const {
 }
 
 void World::Implementation::Send(std::int64_t clock_ns) {
-  if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !name_refused_)
-    return;
+  const bool again = MustReintroduce();
+  if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !again) return;
+  if (again) Reintroduce();
   v1::Input message;
-  if (name_refused_) Reintroduce();
   for (v1::AgentStates& chunk : agents_.TakeDue(clock_ns)) {
     *message.mutable_agent_states() = std::move(chunk);
     transport_->Write(message);
   }
+  WriteClock(clock_ns);
+}
+
+void World::Implementation::WriteClock(std::int64_t clock_ns) {
+  v1::Input message;
   *message.mutable_simulator_clock() = agents_.Clock(clock_ns, lock_step_);
   transport_->Write(message);
   transport_->Flush();
   clock_ns_ = clock_ns;
   clock_published_ = true;
+  clock_written_ = std::chrono::steady_clock::now();
+  arrival_.Wrote(message.simulator_clock(), agents_.stated(), clock_written_);
 }
 
-void World::Implementation::Repeat() {
+void World::Implementation::Tend() {
   if (!clock_published_ || closed_) return;
-  v1::Input message;
-  if (name_refused_) Reintroduce();
-  *message.mutable_simulator_clock() = agents_.Clock(clock_ns_, lock_step_);
-  transport_->Write(message);
-  transport_->Flush();
+  const bool again = MustReintroduce();
+  if (again) Reintroduce();
+  if (again || std::chrono::steady_clock::now() - clock_written_ >= kRepeatPeriod) {
+    WriteClock(clock_ns_);
+  }
+}
+
+bool World::Implementation::MustReintroduce() {
+  return transport_->service_alive() && arrival_.TakeDue(std::chrono::steady_clock::now());
 }
 
 void World::Implementation::Reintroduce() {
-  name_refused_ = false;
   shapes_.WriteAll(Writer());
   v1::Input message;
+  for (const v1::AgentRemoval& removal : agents_.Removals()) {
+    *message.mutable_agent_removal() = removal;
+    transport_->Write(message);
+  }
   for (const v1::AgentDescription& description : agents_.Descriptions()) {
     *message.mutable_agent_description() = description;
     transport_->Write(message);
@@ -204,17 +232,17 @@ ShapePublisher::Writer World::Implementation::Writer() {
   return [this](const v1::Input& message) { transport_->Write(message); };
 }
 
-void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
+bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Flush();  // Descriptions may be waiting.
   Arrivals arrivals;
   transport_->Receive(timeout, &arrivals);
   const CurrentService::Time now = std::chrono::steady_clock::now();
   for (const v1::Output& output : arrivals.outputs) Handle(output, now);
-  if (on_event_) return;
-  while (events_.size() > kEventsMax) {
+  while (!on_event_ && events_.size() > kEventsMax) {
     events_.pop_front();
     ++events_lost_;
   }
+  return !arrivals.outputs.empty();
 }
 
 void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
@@ -228,11 +256,16 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
     case v1::Output::kRejection: {
       const v1::Rejection& rejection = output.rejection();
       if (rejection.simulator_id() != simulator_id_ || rejection.run() != run_) break;
-      name_refused_ |= rejection.reason() == v1::REJECTED_ID_OWNED;
+      if (!IsForThis(rejection.incarnation())) break;
       if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
       rejections_.push_back(FromMessage(rejection));
       break;
     }
+    case v1::Output::kSimulatorReport:
+      if (service_.Accept(output.simulator_report().stamp(), now)) {
+        Handle(output.simulator_report(), now);
+      }
+      break;
     case v1::Output::kServiceStatus:
       if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
       if (!service_.Accept(output.service_status().stamp(), now)) break;
@@ -245,6 +278,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
 
 void World::Implementation::Handle(const v1::Clearance& clearance) {
   if (clearance.simulator_id() != simulator_id_ || clearance.run() != run_) return;
+  if (!IsForThis(clearance.incarnation())) return;
   // All chunks carry the grant. The service writes chunk 0 after the others, so a simulator that
   // takes the grant from there knows all clearances as of that time, and which states are wanted.
   if (clearance.chunk() == 0) {
@@ -258,6 +292,28 @@ void World::Implementation::Handle(const v1::Clearance& clearance) {
 void World::Implementation::Handle(const v1::CollisionEvent& event) {
   if (!IsOwn(event.lower()) && !IsOwn(event.higher())) return;
   if (filter_.IsNew(event)) events_.push_back(FromMessage(event));
+}
+
+void World::Implementation::Handle(const v1::SimulatorReport& report, Arrival::Time now) {
+  if (report.simulator_id() != simulator_id_) return;
+  arrival_.Hear(report, now);
+  if (arrival_.run() == run_) return;
+  run_ = arrival_.run();
+  agents_.SetRun(run_);
+  shapes_.SetRun(run_);
+}
+
+std::vector<Rejection> World::Implementation::standing_refusals() const {
+  std::vector<Rejection> refusals;
+  if (!arrival_.own()) return refusals;
+  for (const v1::StandingRefusal& refusal : arrival_.own()->refusals()) {
+    refusals.push_back(FromMessage(refusal, *arrival_.own()));
+  }
+  return refusals;
+}
+
+bool World::Implementation::IsForThis(std::uint32_t incarnation) const {
+  return incarnation == 0 || incarnation == arrival_.incarnation();
 }
 
 bool World::Implementation::IsOwn(const v1::AgentId& id) const {

@@ -6,12 +6,14 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "client/api/world.h"
 #include "client/library/network/current_service.h"
 #include "client/library/network/transport.h"
 #include "client/library/world/agent_table.h"
+#include "client/library/world/arrival.h"
 #include "client/library/world/revision_filter.h"
 #include "client/library/world/shape_publisher.h"
 
@@ -20,8 +22,8 @@ namespace collision::client {
 inline constexpr std::size_t kEventsMax = 65536;     ///< Kept without a callback.
 inline constexpr std::size_t kRejectionsMax = 1024;  ///< Kept until they are taken.
 
-/// Period of repeating the clock while waiting for a grant: a service that counted this simulator
-/// as dead (it was stopped for longer than the liveliness lease) notices that it is back.
+/// Period of repeating the clock while nothing else is written: a service that counted this
+/// simulator as dead (it was stopped for longer than the liveliness lease) notices that it is back.
 inline constexpr std::chrono::milliseconds kRepeatPeriod(500);
 
 /// The state of a World.
@@ -53,6 +55,9 @@ class World::Implementation {
   std::vector<Event> TakeEvents();
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
+  std::uint32_t run() const { return run_; }
+  std::string waits_for_name() const { return OtherText(name_, arrival_); }
+  std::vector<Rejection> standing_refusals() const;
   const Traffic& traffic() const { return agents_.traffic(); }
 
  private:
@@ -64,9 +69,12 @@ class World::Implementation {
 
   /// Writes what is due at this clock, then the clock, unless the service knows all of it already.
   void Send(std::int64_t clock_ns);
-  void Repeat();
-  /// Repeats everything: the service refused this simulator while another program of its name,
-  /// perhaps its own predecessor, still counted as alive.
+  void WriteClock(std::int64_t clock_ns);
+
+  /// Repeats the clock if nothing was written for kRepeatPeriod, and everything if that is due.
+  void Tend();
+  bool MustReintroduce();
+  /// Repeats everything that still holds.
   void Reintroduce();
   void WriteDescription(const AgentId& id);
 
@@ -74,19 +82,25 @@ class World::Implementation {
   ShapePublisher::Writer Writer();
 
   /// Takes in what arrives within `timeout`, without callbacks.
-  void Gather(std::chrono::nanoseconds timeout);
+  /// False: nothing has arrived.
+  bool Gather(std::chrono::nanoseconds timeout);
   void Handle(const v1::Output& output, CurrentService::Time now);
   void Handle(const v1::Clearance& clearance);
   void Handle(const v1::CollisionEvent& event);
+  void Handle(const v1::SimulatorReport& report, Arrival::Time now);
   bool IsOwn(const v1::AgentId& id) const;
+  /// Not for another program of this name.
+  bool IsForThis(std::uint32_t incarnation) const;
 
   /// Runs the callback for the events received.
   void Deliver();
 
+  const std::string name_;
   const std::uint64_t simulator_id_;
-  const std::uint32_t run_;
+  std::uint32_t run_;
   const bool lock_step_;
   std::unique_ptr<Transport> transport_;
+  Arrival arrival_;
   AgentTable agents_;
   ShapePublisher shapes_;
   CurrentService service_;
@@ -96,8 +110,7 @@ class World::Implementation {
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();
   std::optional<bool> simulated_clock_;
   bool clock_published_ = false;
-  /// Since the last Reintroduce() the service refused this sender: another one owns the name.
-  bool name_refused_ = false;
+  Arrival::Time clock_written_{};
 
   std::function<void(const Event&)> on_event_;
   std::deque<Event> events_;

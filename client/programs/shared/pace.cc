@@ -126,6 +126,8 @@ void Pace::RequireClock() const {
 }
 
 void Pace::RequireAgentsTaken() const {
+  const std::string other = world_.waits_for_name();
+  if (!other.empty()) throw RefusedError(other);
   const auto reason = refusals_.fatal(steady_clock::now());
   if (reason) throw RefusedError("the service refused this simulator's agents: " + *reason);
 }

@@ -8,7 +8,7 @@ namespace {
 
 // The jump has happened, although the clock never came to its stamp.
 TEST(AgentTable, AJumpSurvivesALaterStagedState) {
-  AgentTable table("simulator", 1, 1, {});
+  AgentTable table("simulator", 1, 1, 1, {});
   const AgentId ball = table.Add({.name = "ball"}, {.stamp_ns = 0});
   EXPECT_FALSE(table.TakeDue(0).at(0).states(0).discontinuity());
   table.Stage(ball, {.stamp_ns = 1, .discontinuity = true});
