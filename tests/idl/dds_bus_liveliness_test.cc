@@ -92,6 +92,19 @@ TEST(DdsBusLiveliness, ARemovalBeforeTheFirstReadComesAfterTheDescription) {
   EXPECT_EQ(inputs.back().agent_removal().slot(), 3u);
 }
 
+// Goal:   a service that comes later hears of removals, too: a clock may wait for one of them.
+TEST(DdsBusLiveliness, ARemovalReachesALateReader) {
+  DdsSession simulator(SimulatorOptions("a"));
+  simulator.Write(Description("a", 3));
+  simulator.RemoveAgent(RemovalOf("a", 3));
+  simulator.Flush();
+  DdsBus bus(TestWorld(), TestDomain());
+  std::vector<v1::Input> inputs;
+  ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !inputs.empty(); }));
+  ASSERT_TRUE(inputs[0].has_agent_removal()) << inputs[0].ShortDebugString();
+  EXPECT_EQ(inputs[0].agent_removal().sequence(), kRemovalSequence);
+}
+
 TEST(DdsBusLiveliness, EachProgramThatLeavesIsReportedOnceAndItsAgentsStay) {
   DdsBus bus(TestWorld(), TestDomain());
   std::vector<v1::Input> inputs;

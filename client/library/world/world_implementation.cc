@@ -170,9 +170,20 @@ std::int64_t World::Implementation::Reachable() const {
 }
 
 void World::Implementation::Send(std::int64_t clock_ns) {
+  if (arrival_.waits()) return Wait(clock_ns);
   const bool again = MustReintroduce();
   if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !again) return;
   if (again) Reintroduce();
+  WriteDue(clock_ns);
+}
+
+void World::Implementation::Wait(std::int64_t clock_ns) {
+  clock_ns_ = clock_ns;
+  clock_published_ = true;
+  if (IsQuiet()) WriteClock(clock_ns);
+}
+
+void World::Implementation::WriteDue(std::int64_t clock_ns) {
   v1::Input message;
   for (v1::AgentStates& chunk : agents_.TakeDue(clock_ns)) {
     *message.mutable_agent_states() = std::move(chunk);
@@ -194,11 +205,16 @@ void World::Implementation::WriteClock(std::int64_t clock_ns) {
 
 void World::Implementation::Tend() {
   if (!clock_published_ || closed_) return;
-  const bool again = MustReintroduce();
-  if (again) Reintroduce();
-  if (again || std::chrono::steady_clock::now() - clock_written_ >= kRepeatPeriod) {
+  if (MustReintroduce()) {
+    Reintroduce();
+    WriteDue(clock_ns_);
+  } else if (IsQuiet()) {
     WriteClock(clock_ns_);
   }
+}
+
+bool World::Implementation::IsQuiet() const {
+  return std::chrono::steady_clock::now() - clock_written_ >= kRepeatPeriod;
 }
 
 bool World::Implementation::MustReintroduce() {

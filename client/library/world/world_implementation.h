@@ -69,7 +69,12 @@ class World::Implementation {
 
   /// Writes what is due at this clock, then the clock, unless the service knows all of it already.
   void Send(std::int64_t clock_ns);
+  /// The same while another program has the name: what is due stays staged, since it would be
+  /// refused, and the clock is repeated now and then, so that the service knows who waits.
+  void Wait(std::int64_t clock_ns);
+  void WriteDue(std::int64_t clock_ns);
   void WriteClock(std::int64_t clock_ns);
+  bool IsQuiet() const;  ///< Nothing was written for kRepeatPeriod.
 
   /// Repeats the clock if nothing was written for kRepeatPeriod, and everything if that is due.
   void Tend();
