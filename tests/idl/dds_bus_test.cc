@@ -314,5 +314,12 @@ TEST(DdsSession, TheLanProfileIsWellFormed) {
   setenv("CYCLONEDDS_URI", COLLISION_DDS_LOOPBACK, 1);
 }
 
+// Readers of the status ask for a lease of 2 s: they would not match a longer one.
+TEST(DdsBus, AServiceHasNoLongerLeaseThanItsReadersAskFor) {
+  const DdsBus bus(TestWorld(), TestDomain(), std::chrono::seconds(2));
+  EXPECT_THROW(DdsBus(TestWorld(), TestDomain(), std::chrono::nanoseconds(2'000'000'001)),
+               std::runtime_error);
+}
+
 }  // namespace
 }  // namespace collision::server

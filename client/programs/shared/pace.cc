@@ -100,9 +100,12 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
       notice = WaitNotice(steady_clock::now());
     }
     const std::string beyond = GrantedText(granted_ns);
-    notice.Tick(steady_clock::now(), options_.simulator + ": waiting for the service of world " +
-                                         options_.world + " to grant time" + beyond +
-                                         " (another simulator may be behind) ...");
+    const std::string other = world_.waits_for_name();
+    notice.Tick(steady_clock::now(),
+                other.empty()
+                    ? options_.simulator + ": waiting for the service of world " + options_.world +
+                          " to grant time" + beyond + " (another simulator may be behind) ..."
+                    : other);
     if (steady_clock::now() <= deadline) continue;
     RequireAgentsTaken();
     throw std::runtime_error("the service granted no time" + beyond + " for 30 s");
