@@ -116,8 +116,8 @@ class World {
   const Traffic& traffic() const;
 
   /// Why nothing counts that this simulator sends: another program of its name is alive. It waits
-  /// until that has ended, and then takes over by itself, with a new run: its agents have other
-  /// ids then. Empty: it does not wait.
+  /// until that has ended, and then takes over by itself, with a new run if need be: its agents
+  /// have other ids then. Empty: it does not wait.
   std::string waits_for_name() const;
 
   /// What the service refuses of this simulator now, as it last said: the first 16.

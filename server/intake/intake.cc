@@ -1,6 +1,10 @@
 #include "server/intake/intake.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
+
+#include "server/process/logging.h"
 
 namespace collision::server {
 
@@ -51,6 +55,10 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     return nullptr;
   }
   if (claim.new_run) {
+    Log(spdlog::level::info, "run begins",
+        fmt::format("simulator {:016x} \"{}\": run {} follows run {}, whose {} agents are removed",
+                    claim.simulator->id(), claim.simulator->name(), where.run,
+                    claim.simulator->run(), claim.simulator->agents().size()));
     agents_.RemoveAll(claim.simulator);
     shapes_.Release(claim.simulator->id());
     claim.simulator->StartRun(input.sender(), where.run);

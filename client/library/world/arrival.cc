@@ -74,7 +74,12 @@ bool Arrival::TakeDue(Time now) {
 }
 
 std::string OtherText(const std::string& simulator, const Arrival& arrival) {
-  if (!arrival.waits()) return "";
+  if (!arrival.other()) return "";
+  if (!arrival.waits()) {
+    if (arrival.run() > arrival.other()->run()) return "";
+    return "the name \"" + simulator + "\" was used with the highest run there is, " +
+           std::to_string(arrival.other()->run()) + ": choose another name";
+  }
   return "another program named \"" + simulator + "\" is alive and has the name, in run " +
          std::to_string(arrival.other()->run()) +
          "; this one waits until it has ended: end it, or choose another name";

@@ -78,7 +78,8 @@ class Arrival {
   std::chrono::seconds resend_after_ = kResendAfter;
 };
 
-/// A sentence for people: another program has the name; empty if it is free.
+/// A sentence for people: another program has the name, or had it in the last of all runs; empty if
+/// it is free.
 std::string OtherText(const std::string& simulator, const Arrival& arrival);
 
 }  // namespace collision::client

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "client/api/event_text.h"
 #include "client/programs/shared/stop_signal.h"
@@ -100,12 +101,9 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
       notice = WaitNotice(steady_clock::now());
     }
     const std::string beyond = GrantedText(granted_ns);
-    const std::string other = world_.waits_for_name();
-    notice.Tick(steady_clock::now(),
-                other.empty()
-                    ? options_.simulator + ": waiting for the service of world " + options_.world +
-                          " to grant time" + beyond + " (another simulator may be behind) ..."
-                    : other);
+    notice.Tick(steady_clock::now(), options_.simulator + ": waiting for the service of world " +
+                                         options_.world + " to grant time" + beyond +
+                                         " (another simulator may be behind) ...");
     if (steady_clock::now() <= deadline) continue;
     RequireAgentsTaken();
     throw std::runtime_error("the service granted no time" + beyond + " for 30 s");
@@ -115,6 +113,8 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
 
 void Pace::TakeRefusals() {
   refusals_.Add(world_.TakeRejections(), steady_clock::now());
+  const std::string former = std::exchange(other_, world_.waits_for_name());
+  if (!other_.empty() && former.empty()) std::fprintf(stderr, "%s\n", other_.c_str());
   if (world_.granted_until_ns() > granted_ns_) refusals_.Granted();
   granted_ns_ = world_.granted_until_ns();
   RequireClock();

@@ -149,6 +149,7 @@ TEST_F(ArrivalTest, AHigherRunOfADeadProgramIsFollowedByTheNext) {
   EXPECT_TRUE(DueAfter(milliseconds(0)));
   ReportOther(std::numeric_limits<std::uint32_t>::max(), false);
   EXPECT_EQ(arrival_.run(), 4'000'000'001) << "there is none after it";
+  EXPECT_NE(OtherText("tester", arrival_).find("highest run"), std::string::npos);
 }
 
 TEST_F(ArrivalTest, ALowerRunOfADeadProgramNeedsNothing) {
