@@ -6,9 +6,12 @@
 namespace collision::client {
 namespace {
 
+/// An agent has a shape that has not arrived.
+bool LacksShape(const v1::StandingRefusal& refusal) { return refusal.field() == "shape_hash"; }
+
 /// A refusal that is over as soon as everything has been sent again.
 bool IsMissing(const v1::StandingRefusal& refusal) {
-  return refusal.reason() == v1::REJECTED_NOT_DESCRIBED || refusal.field() == "shape_hash";
+  return refusal.reason() == v1::REJECTED_NOT_DESCRIBED || LacksShape(refusal);
 }
 
 }  // namespace
@@ -67,6 +70,8 @@ void Arrival::HearOfOther(const v1::SimulatorReport& report) {
 bool Arrival::TakeDue(Time now) {
   const bool behind = written_ && !reached_ && !waits() && now - awaited_.at >= resend_after_;
   if (!due_ && !behind) return false;
+  with_shapes_ =
+      due_ || (own_ && std::any_of(own_->refusals().begin(), own_->refusals().end(), LacksShape));
   if (!due_) resend_after_ = std::min(2 * resend_after_, kResendAfterMax);
   due_ = false;
   if (written_) Await(*written_, now);

@@ -46,6 +46,9 @@ class Arrival {
   /// Whether everything must be sent again. It then counts as sent.
   bool TakeDue(Time now);
 
+  /// Whether that includes the shapes, which may be large: a service that is only late has them.
+  bool with_shapes() const { return with_shapes_; }
+
   /// Whether another program of this name is alive and owns it.
   bool waits() const { return other_ && other_->alive(); }
 
@@ -75,6 +78,7 @@ class Arrival {
   Written awaited_;                 ///< What the report must reach.
   bool reached_ = true;
   bool due_ = false;
+  bool with_shapes_ = false;
   std::chrono::seconds resend_after_ = kResendAfter;
 };
 

@@ -222,7 +222,7 @@ bool World::Implementation::MustReintroduce() {
 }
 
 void World::Implementation::Reintroduce() {
-  shapes_.WriteAll(Writer());
+  if (arrival_.with_shapes()) shapes_.WriteAll(Writer());
   v1::Input message;
   for (const v1::AgentRemoval& removal : agents_.Removals()) {
     *message.mutable_agent_removal() = removal;

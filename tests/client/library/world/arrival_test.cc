@@ -69,6 +69,7 @@ TEST_F(ArrivalTest, WhatIsMissingIsSentAgainEverMoreRarely) {
     for (const int wait : {1, 2, 4, 8, 8}) {
       EXPECT_FALSE(DueAfter(seconds(wait) - milliseconds(1)));
       EXPECT_TRUE(DueAfter(milliseconds(1)));
+      EXPECT_FALSE(arrival_.with_shapes());
       EXPECT_FALSE(DueAfter(milliseconds(0)));
     }
     Report(5, 9, 5);
@@ -113,6 +114,7 @@ TEST_F(ArrivalTest, AServiceThatMissesAShapeOrADescriptionGetsAll) {
   refusal.set_field("shape_hash");
   arrival_.Hear(report, now_);
   EXPECT_TRUE(DueAfter(seconds(1)));
+  EXPECT_TRUE(arrival_.with_shapes());
 }
 
 // Goal:   a service that was started again has nothing at first; it gets the time to fetch it.
@@ -171,6 +173,7 @@ TEST_F(ArrivalTest, AfterAWaitEverythingIsSentAtOnce) {
     if (!end_is_heard) Report(0, 0, 0);
     EXPECT_EQ(arrival_.run(), kRun);
     EXPECT_TRUE(DueAfter(milliseconds(0)));
+    EXPECT_TRUE(arrival_.with_shapes());
   }
 }
 
