@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "client/api/shape.h"
 #include "tests/client/service/in_process_service.h"
 
 namespace collision::client {
@@ -144,6 +145,29 @@ TEST_F(RestartTest, TheSecondOfTwoLivePrograms) {
     Kill(&second);
     service_.End(sender + 1, "alpha");
   }
+}
+
+// Goal:   the shapes that were refused with all else while the first counted as alive are there.
+TEST_F(RestartTest, ShapesComeAgain) {
+  const auto box = Shape::Make({.solids = {Solid::Box({0.5, 0.3, 0.1})}});
+  const auto start = [&](std::uint64_t sender) {
+    Program program = Start(sender, static_cast<std::uint32_t>(sender), 1);
+    program.agents[0].SetDescription({.name = "box", .radius_m = 1, .shape = box});
+    return program;
+  };
+  Program first = start(1);
+  ASSERT_TRUE(Until({&first}, [&] { return service_.daemon().counter("shapes") == 1; }));
+  Kill(&first);
+  Program second = start(2);
+  ASSERT_TRUE(Until({&second}, [&] { return !second.world.waits_for_name().empty(); }));
+  service_.End(1, "alpha");
+  ASSERT_TRUE(Until({&second}, [&] { return second.world.granted_until_ns() > 0; }));
+  EXPECT_TRUE(Until({&second}, [&] { return service_.daemon().counter("shapes") == 1; }));
+  constexpr double kReported = 6;  // [s] after the time within which a shape must come
+  service_.Step(kReported);
+  service_.Step(kReported);
+  second.world.Poll();
+  EXPECT_TRUE(second.world.standing_refusals().empty());
 }
 
 // Goal:   what is refused is there to be read as long as it is refused.
