@@ -74,6 +74,7 @@ inline constexpr std::size_t kRefusalDetailMax = 256;   ///< Rejection::detail.
 inline constexpr std::size_t kExtensionValueMax = 256;  ///< KeyValue::value.
 inline constexpr int kDescriptionExtensionsMax = 16;    ///< AgentDescription::extensions.
 inline constexpr int kEventExtensionsMax = 8;           ///< CollisionEvent::extensions.
+inline constexpr int kReportRefusalsMax = 16;           ///< SimulatorReport::refusals.
 inline constexpr int kStatusExtensionsMax = 32;         ///< ServiceStatus::extensions.
 inline constexpr int kStatusSimulatorsMax = 64;         ///< ServiceStatus::simulators.
 inline constexpr int kStatusCountersMax = 96;           ///< ServiceStatus::counters.

@@ -20,9 +20,12 @@ struct WorldOptions {
       {};  ///< Unique in the world, 1-64 of [A-Za-z0-9_-]; names your agents' owner.
   std::uint32_t domain = 0;  ///< DDS domain, 0-230.
   bool lock_step = true;     ///< False: stamps are wall-clock time, and no simulator waits.
-  /// Each start of a simulator needs a higher run than the last. 0: tenths of a second since 2020
-  /// (UTC), modulo 2^32, which grow until 2033.
+  /// The first run that it tries; 0: tenths of a second since 2020 (UTC), modulo 2^32. Each start
+  /// of a simulator has a higher run than the last: if the service has a higher one of an earlier
+  /// start, this one takes the next after it.
   std::uint32_t run = 0;
+  /// Tells two programs of one name apart; 0: drawn at random. For tests.
+  std::uint32_t incarnation = 0;
   /// True: of the states that are set, send those that the service needs (Clearance::
   /// state_wanted_ns), and those that the last one sent no longer stands in for: the agent jumped,
   /// was described anew, declares something else, or left what it promised. The simulator sets
@@ -142,6 +145,14 @@ class World {
   /// What has been set and sent so far.
   const Traffic& traffic() const;
 
+  /// Why nothing counts that this simulator sends: another program of its name is alive. It waits
+  /// until that has ended, and then takes over by itself, with a new run if need be: its agents
+  /// have other ids then. Empty: it does not wait.
+  std::string waits_for_name() const;
+
+  /// What the service refuses of this simulator now, as it last said: the first 16.
+  std::vector<Rejection> standing_refusals() const;
+
   /// What the service refused since the last call; at most 1024, then the oldest are dropped.
   std::vector<Rejection> TakeRejections();
 
@@ -161,7 +172,8 @@ class Agent {
   Agent& operator=(Agent&&) noexcept;
   ~Agent();
 
-  const AgentId& id() const;
+  /// Its run changes when the simulator takes another one.
+  AgentId id() const;
 
   /// Stages a state in place of the one staged before; it stays a discontinuity if that one was.
   /// Publish() or AdvanceTo() sends it when the clock reaches its stamp or, on demand, when it is

@@ -86,7 +86,7 @@ FIELDS(AgentDescription,
        LIST(extensions, wire::kDescriptionExtensionsMax))
 
 FIELDS(ShapePart,
-       VALUE(simulator_id) HASH(content_hash) VALUE(part) VALUE(parts) VALUE(run)
+       VALUE(simulator_id) VALUE(shape) VALUE(part) HASH(content_hash) VALUE(parts) VALUE(run)
        VALUE(total_bytes) OCTETS(bytes, collision_v1_SHAPE_PART_BYTES_MAX))
 
 FIELDS(AgentState,
@@ -113,7 +113,7 @@ FIELDS(AgentClearance,
 FIELDS(Clearance,
        VALUE(simulator_id) VALUE(chunk) VALUE(run) MESSAGE(stamp) VALUE(now_ns)
        VALUE(granted_until_ns) VALUE(contacts_sequence)
-       LIST(agents, collision_v1_STATES_PER_CHUNK_MAX))
+       LIST(agents, collision_v1_STATES_PER_CHUNK_MAX) VALUE(incarnation))
 
 FIELDS(EarliestIntersection,
        VALUE(service_id) MESSAGE(stamp) VALUE(now_ns) VALUE(found) VALUE(earliest_ns)
@@ -130,7 +130,15 @@ FIELDS(CollisionEvent,
 FIELDS(Rejection,
        VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(run_in_force)
        VALUE(reason) VALUE(topic) VALUE(slot) VALUE(generation) TEXT(field) TEXT(detail)
-       VALUE(count))
+       VALUE(count) VALUE(incarnation))
+
+FIELDS(StandingRefusal,
+       VALUE(reason) VALUE(topic) VALUE(slot) VALUE(generation) TEXT(field) TEXT(detail))
+
+FIELDS(SimulatorReport,
+       VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(incarnation) TEXT(name)
+       VALUE(alive) VALUE(descriptions_sequence) VALUE(states_sequence) VALUE(agents)
+       VALUE(agents_stated) VALUE(refused) LIST(refusals, wire::kReportRefusalsMax))
 
 FIELDS(SimulatorStatus,
        VALUE(simulator_id) VALUE(run) TEXT(name) VALUE(alive) VALUE(clock_ns)
@@ -211,6 +219,8 @@ void FromWire(TopicId topic, const void* wire, v1::Output* output) {
       return Get(wire, output->mutable_rejection());
     case TopicId::kServiceStatus:
       return Get(wire, output->mutable_service_status());
+    case TopicId::kSimulatorReport:
+      return Get(wire, output->mutable_simulator_report());
     default:
       throw std::logic_error("not a topic of the service");
   }
@@ -228,5 +238,6 @@ BOTH_WAYS(EarliestIntersection)
 BOTH_WAYS(CollisionEvent)
 BOTH_WAYS(Rejection)
 BOTH_WAYS(ServiceStatus)
+BOTH_WAYS(SimulatorReport)
 
 }  // namespace collision::dds

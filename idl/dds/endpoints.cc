@@ -34,6 +34,16 @@ Qos WriterQos(const TopicRow& row, dds_duration_t lease) {
   return qos;
 }
 
+/// Some vendors watch a writer's lease only for readers that ask for one: so the reader of the
+/// status does, and the service's lease must not be longer. Simulators have leases of any length.
+Qos ReaderQos(const TopicRow& row) {
+  Qos qos = TopicQos(row, row.reader_depth);
+  if (row.id == TopicId::kServiceStatus) {
+    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, kServiceLeaseMax.count());
+  }
+  return qos;
+}
+
 class Builder {
  public:
   Builder(dds_entity_t participant, dds_duration_t lease)
@@ -45,7 +55,7 @@ class Builder {
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
     for (const TopicRow& row : Topics()) {
-      if (row.source == source) Read(row, subscriber, TopicQos(row, row.reader_depth), listener);
+      if (row.source == source) Read(row, subscriber, ReaderQos(row), listener);
     }
   }
 
@@ -56,7 +66,7 @@ class Builder {
     const dds_entity_t subscriber =
         Check(dds_create_subscriber(participant_, qos.get(), nullptr), "DDS subscriber");
     const TopicRow& row = Row(TopicId::kServiceStatus);
-    Qos others = TopicQos(row, row.reader_depth);
+    Qos others = ReaderQos(row);
     dds_qset_ignorelocal(others.get(), DDS_IGNORELOCAL_PARTICIPANT);
     Read(row, subscriber, std::move(others), nullptr);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,9 @@ struct Partitions {
   std::optional<std::string> read_of_other_services;  ///< Their status only.
   std::optional<std::string> write_as_simulator, write_as_service;
 };
+
+/// The longest lease of a service [s]: what its readers ask for.
+inline constexpr std::chrono::nanoseconds kServiceLeaseMax = std::chrono::seconds(2);
 
 /// All live inside the participant and end with it. 0: the program does not have it.
 struct Endpoints {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "idl/dds/conversion.h"
-#include "idl/dds/wire_values.h"
 
 namespace collision::dds {
 namespace {
@@ -40,16 +39,25 @@ const Wire& As(const void* sample) {
   return *static_cast<const Wire*>(sample);
 }
 
-void AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
-                   std::vector<v1::Input>* inputs) {
+v1::SimulatorLiveliness& AddLiveliness(std::uint64_t sender, std::uint64_t simulator, bool alive,
+                                       std::vector<v1::Input>* inputs) {
   v1::Input& input = inputs->emplace_back();
   input.set_sender(sender);
   input.mutable_liveliness()->set_simulator_id(simulator);
   input.mutable_liveliness()->set_alive(alive);
+  return *input.mutable_liveliness();
 }
 
-/// The removal of an instance that its writer disposed of. Only the key of the sample counts.
-void AddRemoval(TopicId topic, const void* sample, std::uint64_t sender,
+/// A sample that was written only to be disposed of: it tells the sequence of the removal.
+bool IsRemoval(TopicId topic, const void* sample, const dds_sample_info_t& info) {
+  return topic == TopicId::kAgentDescription &&
+         info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE && info.sample_rank == 0 &&
+         As<collision_v1_AgentDescription>(sample).simulator_name[0] == '\0';
+}
+
+/// The removal of an instance that its writer disposed of. Unless `has_data`, only the key of the
+/// sample counts.
+void AddRemoval(TopicId topic, const void* sample, bool has_data, std::uint64_t sender,
                 std::vector<v1::Input>* inputs) {
   if (topic == TopicId::kAgentDescription) {
     const auto& key = As<collision_v1_AgentDescription>(sample);
@@ -57,12 +65,14 @@ void AddRemoval(TopicId topic, const void* sample, std::uint64_t sender,
     input.set_sender(sender);
     input.mutable_agent_removal()->set_simulator_id(key.simulator_id);
     input.mutable_agent_removal()->set_slot(key.slot);
+    input.mutable_agent_removal()->set_incarnation(key.incarnation);
+    if (has_data) input.mutable_agent_removal()->set_sequence(key.sequence);
   } else if (topic == TopicId::kShapePart) {
     const auto& key = As<collision_v1_ShapePart>(sample);
     v1::Input& input = inputs->emplace_back();
     input.set_sender(sender);
     input.mutable_shape_removal()->set_simulator_id(key.simulator_id);
-    input.mutable_shape_removal()->set_content_hash(GetHash(key.content_hash));
+    input.mutable_shape_removal()->set_shape(key.shape);
     input.mutable_shape_removal()->set_part(key.part);
   }
 }
@@ -101,7 +111,9 @@ std::size_t Intake::Take(dds_entity_t reader, const TopicRow& row, std::size_t l
 /// The state of the instance is that of now, not of the sample: it belongs behind the newest one.
 void Intake::Receive(dds_entity_t reader, const TopicRow& row, const void* sample,
                      const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
-  if (info.valid_data) ReceiveData(reader, row, sample, info, inputs);
+  if (info.valid_data && !IsRemoval(row.id, sample, info)) {
+    ReceiveData(reader, row, sample, info, inputs);
+  }
   if (info.sample_rank > 0 || info.instance_state == DDS_ALIVE_INSTANCE_STATE) return;
   ReceiveEnd(reader, row, sample, info, inputs);
 }
@@ -127,11 +139,12 @@ void Intake::ReceiveEnd(dds_entity_t reader, const TopicRow& row, const void* sa
                         const dds_sample_info_t& info, std::vector<v1::Input>* inputs) {
   const std::optional<std::uint64_t> sender = senders_.Of(reader, info.publication_handle);
   if (info.instance_state == DDS_NOT_ALIVE_DISPOSED_INSTANCE_STATE) {
-    AddRemoval(row.id, sample, sender.value_or(0), inputs);
+    AddRemoval(row.id, sample, info.valid_data, sender.value_or(0), inputs);
   }
   // Follow() reports each known writer by itself.
   if (row.id == TopicId::kSimulatorClock && !sender) {
-    AddLiveliness(0, As<collision_v1_SimulatorClock>(sample).simulator_id, false, inputs);
+    const auto& key = As<collision_v1_SimulatorClock>(sample);
+    AddLiveliness(0, key.simulator_id, false, inputs).set_incarnation(key.incarnation);
   }
 }
 
@@ -148,6 +161,8 @@ void Intake::Follow(const std::vector<WriterChange>& changes, std::vector<v1::In
 bool Intake::Wanted(const TopicRow& row, const void* sample) const {
   if (own_ == 0) return true;
   if (row.id == TopicId::kClearance) return As<collision_v1_Clearance>(sample).simulator_id == own_;
+  if (row.id == TopicId::kSimulatorReport)
+    return As<collision_v1_SimulatorReport>(sample).simulator_id == own_;
   if (row.id == TopicId::kRejection) return As<collision_v1_Rejection>(sample).simulator_id == own_;
   return true;
 }

@@ -8,7 +8,6 @@
 #include "idl/dds/endpoints.h"
 #include "idl/dds/intake.h"
 #include "idl/dds/waker.h"
-#include "idl/dds/wire_values.h"
 #include "idl/dds/writer_watch.h"
 #include "idl/identity.h"
 #include "idl/limits.h"
@@ -31,6 +30,9 @@ const DdsSessionOptions& Checked(const DdsSessionOptions& options) {
                              ": allowed are 0 to " + std::to_string(wire::kDomainMax));
   }
   if (options.lease.count() <= 0) throw std::runtime_error("lease: must be longer than 0");
+  if (options.role == DdsRole::kService && options.lease > dds::kServiceLeaseMax) {
+    throw std::runtime_error("lease: of a service at most 2 s, which its readers ask for");
+  }
   return options;
 }
 
@@ -82,20 +84,22 @@ class DdsSession::Implementation {
     if (dds_write(writer, dds::ToWire(message).get()) != DDS_RETCODE_OK) ++writes_failed_;
   }
 
-  void RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot) {
-    collision_v1_AgentDescription key{};
-    key.simulator_id = simulator_id;
-    key.slot = slot;
-    if (dds_dispose(Writer(dds::TopicId::kAgentDescription), &key) != DDS_RETCODE_OK)
+  /// Writes and disposes at once, so that the removal has a sequence of its own.
+  void RemoveAgent(const v1::AgentRemoval& removal) {
+    collision_v1_AgentDescription sample{};
+    sample.simulator_id = removal.simulator_id();
+    sample.slot = removal.slot();
+    sample.incarnation = removal.incarnation();
+    sample.sequence = removal.sequence();
+    if (dds_writedispose(Writer(dds::TopicId::kAgentDescription), &sample) != DDS_RETCODE_OK)
       ++writes_failed_;
   }
 
-  void RemoveShape(std::uint64_t simulator_id, const std::string& content_hash,
-                   std::uint32_t parts) {
+  void RemoveShape(std::uint64_t simulator_id, std::uint32_t shape, std::uint32_t parts) {
     const dds_entity_t writer = Writer(dds::TopicId::kShapePart);
     collision_v1_ShapePart key{};
     key.simulator_id = simulator_id;
-    dds::SetHash("content_hash", content_hash, key.content_hash);
+    key.shape = shape;
     for (key.part = 0; key.part < parts; ++key.part) {
       if (dds_dispose(writer, &key) != DDS_RETCODE_OK) ++writes_failed_;
     }
@@ -189,14 +193,14 @@ void DdsSession::Write(const v1::CollisionEvent& message) {
 }
 void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::SimulatorReport& message) { implementation_->Write(message); }
 
-void DdsSession::RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot) {
-  implementation_->RemoveAgent(simulator_id, slot);
+void DdsSession::RemoveAgent(const v1::AgentRemoval& removal) {
+  implementation_->RemoveAgent(removal);
 }
 
-void DdsSession::RemoveShape(std::uint64_t simulator_id, const std::string& content_hash,
-                             std::uint32_t parts) {
-  implementation_->RemoveShape(simulator_id, content_hash, parts);
+void DdsSession::RemoveShape(std::uint64_t simulator_id, std::uint32_t shape, std::uint32_t parts) {
+  implementation_->RemoveShape(simulator_id, shape, parts);
 }
 
 void DdsSession::Flush() { implementation_->Flush(); }

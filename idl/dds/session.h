@@ -72,15 +72,14 @@ class DdsSession {
   void Write(const v1::CollisionEvent& message);  ///< A contact if it has contacts_sequence.
   void Write(const v1::Rejection& message);
   void Write(const v1::ServiceStatus& message);
+  void Write(const v1::SimulatorReport& message);
 
   /// Removes an agent for good, by disposing of its description. kSimulator only. Flush() sends it.
-  void RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot);
+  void RemoveAgent(const v1::AgentRemoval& removal);
 
   /// Removes a shape that was written in parts 0 to `parts` - 1, by disposing of each. The service
-  /// keeps it as long as an agent refers to it. kSimulator only. Flush() sends it. Throws
-  /// std::length_error for a hash that is not of 32 bytes.
-  void RemoveShape(std::uint64_t simulator_id, const std::string& content_hash,
-                   std::uint32_t parts);
+  /// keeps it as long as an agent refers to it. kSimulator only. Flush() sends it.
+  void RemoveShape(std::uint64_t simulator_id, std::uint32_t shape, std::uint32_t parts);
 
   /// Everything written leaves now.
   void Flush();

@@ -28,6 +28,8 @@ const std::array<TopicRow, kTopics>& Topics() {
        false, kAll},
       {kServiceStatus, "collision/v1/service_status", &collision_v1_ServiceStatus_desc, kService, 1,
        1, 1, true, kAll},
+      {kSimulatorReport, "collision/v1/simulator_report", &collision_v1_SimulatorReport_desc,
+       kService, 1, 1, 1, false, kAll},
   }};
   return rows;
 }

@@ -21,8 +21,9 @@ enum class TopicId {
   kForecast,
   kRejection,
   kServiceStatus,
+  kSimulatorReport,
 };
-inline constexpr std::size_t kTopics = 10;
+inline constexpr std::size_t kTopics = 11;
 
 enum class Source { kSimulators, kService };
 

@@ -50,25 +50,29 @@ class WrittenLater {
  public:
   void Add(const v1::Input& input) {
     if (input.has_agent_description()) {
-      slots_.emplace(input.agent_description().simulator_id(), input.agent_description().slot());
+      const v1::AgentDescription& agent = input.agent_description();
+      slots_.emplace(agent.simulator_id(), agent.slot(), agent.incarnation());
     } else if (input.has_shape_part()) {
       const v1::ShapePart& part = input.shape_part();
-      parts_.emplace(part.simulator_id(), part.content_hash(), part.part());
+      parts_.emplace(part.simulator_id(), part.shape(), part.part());
     }
   }
 
   bool Replaces(const v1::Input& input) const {
     if (input.has_agent_removal()) {
-      return slots_.contains({input.agent_removal().simulator_id(), input.agent_removal().slot()});
+      const v1::AgentRemoval& removal = input.agent_removal();
+      return slots_.contains({removal.simulator_id(), removal.slot(), removal.incarnation()});
     }
     if (!input.has_shape_removal()) return false;
     const v1::ShapeRemoval& removal = input.shape_removal();
-    return parts_.contains({removal.simulator_id(), removal.content_hash(), removal.part()});
+    return parts_.contains({removal.simulator_id(), removal.shape(), removal.part()});
   }
 
  private:
-  std::set<std::pair<std::uint64_t, std::uint32_t>> slots_;
-  std::set<std::tuple<std::uint64_t, std::string, std::uint32_t>> parts_;
+  using Instance = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>;
+
+  std::set<Instance> slots_;  ///< Simulator, slot, incarnation.
+  std::set<Instance> parts_;  ///< Simulator, shape, part.
 };
 
 }  // namespace

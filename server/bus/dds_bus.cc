@@ -43,6 +43,8 @@ void DdsBus::Publish(const v1::Output& output) {
       return session_.Write(output.rejection());
     case v1::Output::kServiceStatus:
       return session_.Write(output.service_status());
+    case v1::Output::kSimulatorReport:
+      return session_.Write(output.simulator_report());
     case v1::Output::MESSAGE_NOT_SET:
       return;
   }

@@ -9,7 +9,8 @@ Refusal At(const v1::AgentDescription& wire) {
           .simulator_id = wire.simulator_id(),
           .run = wire.run(),
           .slot = wire.slot(),
-          .generation = wire.generation()};
+          .generation = wire.generation(),
+          .incarnation = wire.incarnation()};
 }
 
 Refusal At(const v1::ShapePart& wire) {
@@ -17,7 +18,10 @@ Refusal At(const v1::ShapePart& wire) {
 }
 
 Refusal At(const v1::AgentStates& wire) {
-  return {.topic = v1::TOPIC_AGENT_STATES, .simulator_id = wire.simulator_id(), .run = wire.run()};
+  return {.topic = v1::TOPIC_AGENT_STATES,
+          .simulator_id = wire.simulator_id(),
+          .run = wire.run(),
+          .incarnation = wire.incarnation()};
 }
 
 Refusal At(const v1::AgentStates& chunk, const v1::AgentState& wire) {
@@ -28,8 +32,10 @@ Refusal At(const v1::AgentStates& chunk, const v1::AgentState& wire) {
 }
 
 Refusal At(const v1::SimulatorClock& wire) {
-  return {
-      .topic = v1::TOPIC_SIMULATOR_CLOCK, .simulator_id = wire.simulator_id(), .run = wire.run()};
+  return {.topic = v1::TOPIC_SIMULATOR_CLOCK,
+          .simulator_id = wire.simulator_id(),
+          .run = wire.run(),
+          .incarnation = wire.incarnation()};
 }
 
 Refusal NotDescribed(const detection::AgentId& agent, std::string detail) {
@@ -60,6 +66,7 @@ Refusal NotItsOwn(const v1::AgentRemoval& wire) {
           .topic = v1::TOPIC_AGENT_DESCRIPTION,
           .simulator_id = wire.simulator_id(),
           .slot = wire.slot(),
+          .incarnation = wire.incarnation(),
           .field = "simulator_id",
           .detail = "a removal by another sender; allowed: by its owner"};
 }

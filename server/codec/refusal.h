@@ -17,8 +17,9 @@ struct Refusal {
   std::uint32_t run = 0;
   std::uint32_t slot = 0;
   std::uint32_t generation = 0;
-  std::string field = {};   ///< Name as in collision.idl; at most 64 characters.
-  std::string detail = {};  ///< The value and the allowed range; at most 256 characters.
+  std::uint32_t incarnation = 0;  ///< Of the sender, if its message says.
+  std::string field = {};         ///< Name as in collision.idl; at most 64 characters.
+  std::string detail = {};        ///< The value and the allowed range; at most 256 characters.
 };
 
 /// A refusal of this message, without its reason.

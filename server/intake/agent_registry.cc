@@ -38,6 +38,8 @@ void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& 
   if (agents.Find(slot, wire.generation())) return Revise(simulator, wire, declaration);
   if (Agent* former = agents.Find(slot)) RemoveAgent(simulator, slot, former);
   Agent* agent = agents.Add(slot, {wire.generation(), wire.revision(), declaration});
+  simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
+  simulator->refusals().Accept(v1::TOPIC_AGENT_STATES, slot);
   shapes_.Refer(simulator, slot, ShapeHashOf(wire), agent);
   told_[simulator->id()].try_emplace(slot);
 }
@@ -47,6 +49,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   Agent* agent = simulator->agents().Find(wire.slot());
   if (wire.revision() <= agent->revision()) return;
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
+  simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
   shapes_.Refer(simulator, wire.slot(), ShapeHashOf(wire), agent);
   if (agent->admitted()) {
     detector_.Redeclare(simulator->IdOf(wire.slot(), agent->generation()), agent->declaration,
@@ -68,6 +71,7 @@ void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk
   const Decoded<motion::MotionState> decoded =
       DecodeState(chunk, wire, world_.RulesForState(*simulator, admitted));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) return rejections_.Add(*refusal);
+  simulator->refusals().Accept(v1::TOPIC_AGENT_STATES, wire.slot());
   const motion::MotionState& state = std::get<motion::MotionState>(decoded);
   if (admitted && !world_.simulated()) {
     Update(simulator, wire.slot(), wire.sequence(), state);
@@ -179,6 +183,9 @@ void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const Waitin
   const detection::AgentDeclaration& declaration = simulator->agents().Find(slot)->declaration;
   if (!detector_.Admit(id, declaration, waiting.state, world_.EffectiveFrom(stamp))) return;
   ++counters_.admitted;
+  if (simulator->agents().Find(slot)->room_refused) {
+    simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
+  }
   CountAccepted(simulator);
   simulator->agents().Admit(slot, stamp, waiting.sequence);
   if (simulator->time().clock()) detector_.SetHeardUntil(OwnerOf(id), *simulator->time().clock());
@@ -198,6 +205,7 @@ void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot) {
 void AgentRegistry::RemoveNow(Simulator* simulator, std::uint32_t slot) {
   if (Agent* agent = simulator->agents().Find(slot)) return RemoveAgent(simulator, slot, agent);
   simulator->agents().RemoveWaiting(slot);
+  simulator->refusals().RemoveAgent(slot);
 }
 
 void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent* agent) {
@@ -207,6 +215,7 @@ void AgentRegistry::RemoveAgent(Simulator* simulator, std::uint32_t slot, Agent*
   }
   shapes_.Refer(simulator, slot, {}, agent);
   simulator->agents().Remove(slot);
+  simulator->refusals().RemoveAgent(slot);
 }
 
 void AgentRegistry::RemoveAll(Simulator* simulator) {

@@ -66,7 +66,7 @@ void AgentShapes::Refer(Simulator* simulator, std::uint32_t slot, const std::str
   }
 }
 
-void AgentShapes::Give(const Simulator& simulator, std::uint32_t slot, Agent* agent) {
+void AgentShapes::Give(Simulator& simulator, std::uint32_t slot, Agent* agent) {
   detection::AgentDeclaration& declaration = agent->declaration;
   std::shared_ptr<const shape::Shape> shape = store_.Find(agent->shape_hash);
   if (!shape) return;
@@ -75,6 +75,7 @@ void AgentShapes::Give(const Simulator& simulator, std::uint32_t slot, Agent* ag
     declaration.limits.radius = std::max(declaration.limits.radius, radius);
     declaration.shape = std::move(shape);
     declaration.shape_awaited = false;
+    simulator.refusals().Accept(v1::TOPIC_SHAPE, slot);
     return;
   }
   rejections_.Add(ShapeRefusal(

@@ -57,7 +57,7 @@ class AgentShapes {
   };
 
   /// Gives the agent its shape if that is visible and fits.
-  void Give(const Simulator& simulator, std::uint32_t slot, Agent* agent);
+  void Give(Simulator& simulator, std::uint32_t slot, Agent* agent);
   void Await(const detection::AgentId& id, const std::string& hash);
   void ReportMissing(const Awaited& awaited);
   void ReportRefusal(const std::string& hash, const ReadyShape& ready);

@@ -1,7 +1,8 @@
 #include "server/intake/intake.h"
 
+#include <spdlog/fmt/fmt.h>
+
 #include <algorithm>
-#include <vector>
 
 #include "server/process/logging.h"
 
@@ -43,19 +44,27 @@ void Intake::Apply(const v1::Input& input) {
 Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::string* name) {
   const Claim claim = world_.ClaimFor(where.simulator_id, input.sender(), where.run, name);
   if (!claim.accepted) {
-    if (claim.may_wait) Hold(*claim.simulator, input);
     where.reason = claim.reason;
     where.field = claim.reason == v1::REJECTED_OLD_RUN ? "run" : "simulator_id";
     where.detail = claim.detail;
-    rejections_.Add(where);
+    const bool contends = claim.reason == v1::REJECTED_ID_OWNED;
+    if (!contends || claim.simulator->contenders().Add(input.sender())) {
+      rejections_.Add(where);
+    } else {
+      rejections_.Count(where);
+    }
     return nullptr;
   }
   if (claim.new_run) {
+    Log(spdlog::level::info, "run begins",
+        fmt::format("simulator {:016x} \"{}\": run {} follows run {}, whose {} agents are removed",
+                    claim.simulator->id(), claim.simulator->name(), where.run,
+                    claim.simulator->run(), claim.simulator->agents().size()));
     agents_.RemoveAll(claim.simulator);
     shapes_.Release(claim.simulator->id());
     claim.simulator->StartRun(input.sender(), where.run);
   }
-  claim.simulator->SetSucceededUnheard(false);
+  if (name != nullptr) claim.simulator->SetIncarnation(where.incarnation);
   return claim.simulator;
 }
 
@@ -108,15 +117,18 @@ void Intake::TakeClock(const v1::Input& input) {
        .next = tells_next ? std::optional(Instant::FromNanoseconds(wire.next_ns())) : std::nullopt,
        .states_sequence = wire.states_sequence(),
        .descriptions_sequence = wire.descriptions_sequence(),
-       .lock_step = wire.lock_step()});
+       .lock_step = wire.lock_step(),
+       .agents = wire.agents()});
+  simulator->refusals().Accept(v1::TOPIC_SIMULATOR_CLOCK, 0);
 }
 
-bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, const Refusal& refusal) {
-  // Without a sender, the instance itself has ended.
-  if (input.sender() == 0 || simulator.sender() == input.sender()) return true;
-  if (world_.succession().Waits(simulator.id(), input.sender())) {
-    world_.succession().HoldRemoval(simulator.id(), input);
-    CountHeldBytes();
+bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, bool is_owners,
+                       const Refusal& refusal) {
+  if (input.sender() == simulator.sender()) return true;
+  // Without a sender, the instance itself has ended: it says whose it was.
+  if (input.sender() == 0 && is_owners) return true;
+  if (input.sender() == 0) {
+    ++counters_.removals_ignored;
   } else {
     rejections_.Add(refusal);
   }
@@ -126,7 +138,10 @@ bool Intake::MayRemove(const Simulator& simulator, const v1::Input& input, const
 void Intake::TakeRemoval(const v1::Input& input) {
   const v1::AgentRemoval& removal = input.agent_removal();
   Simulator* simulator = world_.Find(removal.simulator_id());
-  if (simulator == nullptr || !MayRemove(*simulator, input, NotItsOwn(removal))) return;
+  if (simulator == nullptr) return;
+  const bool is_owners = removal.incarnation() == simulator->incarnation();
+  if (!MayRemove(*simulator, input, is_owners, NotItsOwn(removal))) return;
+  simulator->time().RecordDescriptions(removal.sequence());
   agents_.Remove(simulator, removal.slot());
 }
 
@@ -135,50 +150,35 @@ void Intake::TakeLiveliness(const v1::Input& input) {
   if (simulator == nullptr) return;
   const bool alive = input.liveliness().alive();
   // Without a sender, the instance of the clock itself has ended: the owner's, if it has a clock.
-  const bool deserted = input.sender() == 0 && simulator->time().newest() > Instant::Always();
+  const bool deserted = input.sender() == 0 && simulator->time().newest() > Instant::Always() &&
+                        input.liveliness().incarnation() == simulator->incarnation();
   if (simulator->sender() != input.sender() && !deserted) {
-    // A successor that dies while it waits must not come to life when the owner goes.
-    if (!alive) {
-      world_.succession().Drop(simulator->id(), input.sender());
-      CountHeldBytes();
-    }
+    if (!alive) simulator->contenders().Drop(input.sender());
     return;
   }
   simulator->SetAlive(alive, world_.monotonic_ns());
-  // It died while it waited for the id, and the notice came last: no simulator waits for its
-  // agents.
-  if (!alive && simulator->succeeded_unheard()) agents_.RemoveAll(simulator);
 }
 
 void Intake::TakeShapePart(const v1::Input& input) {
   const v1::ShapePart& part = input.shape_part();
-  if (Claimed(input, At(part), nullptr) == nullptr) return;
+  Simulator* simulator = Claimed(input, At(part), nullptr);
+  if (simulator == nullptr) return;
   if (const auto refusal = shapes_.Take(part)) {
     rejections_.Add(*refusal);
     agent_shapes_.GiveUp(part.content_hash());
+    return;
   }
+  simulator->refusals().Accept(v1::TOPIC_SHAPE, 0);
 }
 
 void Intake::TakeShapeRemoval(const v1::Input& input) {
   const v1::ShapeRemoval& removal = input.shape_removal();
   const Simulator* simulator = world_.Find(removal.simulator_id());
-  if (simulator == nullptr || !MayRemove(*simulator, input, NotItsOwn(removal))) return;
-  shapes_.Dispose(removal.simulator_id(), removal.content_hash(), removal.part());
-}
-
-void Intake::Hold(const Simulator& simulator, const v1::Input& input) {
-  if (!shapes_.HasRoomFor(input.shape_part().bytes().size())) return;
-  world_.succession().Hold(simulator.id(), input);
-  CountHeldBytes();
-}
-
-bool Intake::HandOver(Simulator* simulator) {
-  if (simulator->alive() || !world_.succession().IsAwaited(simulator->id())) return false;
-  const std::vector<v1::Input> held = world_.succession().Take(simulator->id());
-  CountHeldBytes();
-  for (const v1::Input& input : held) Apply(input);
-  simulator->SetSucceededUnheard(simulator->alive());
-  return true;
+  if (simulator == nullptr) return;
+  // The numbers of another program are other ones.
+  const bool is_owners = shapes_.Knows(removal.simulator_id(), removal.shape());
+  if (!MayRemove(*simulator, input, is_owners, NotItsOwn(removal))) return;
+  shapes_.Dispose(removal.simulator_id(), removal.shape(), removal.part());
 }
 
 void Intake::Enact(Simulator* simulator) {
@@ -199,19 +199,17 @@ void Intake::EndEpoch() {
   }
 }
 
-/// Successors take over at the end of the batch: they may have ended in the same one.
-bool Intake::EndBatch() {
-  bool told = false;
-  for (auto& [id, simulator] : world_.simulators()) told |= HandOver(&simulator);
-  if (told) TakeClocks();
+void Intake::EndBatch() {
+  for (auto& [id, simulator] : world_.simulators()) {
+    simulator.time().TakeCensus(simulator.agents().size(), simulator.refusals().descriptions());
+  }
   agent_shapes_.ReleaseLeft();
   agents_.ReportUndescribed();
   agent_shapes_.ReportMissing();
-  if (!world_.simulated()) return told;
+  if (!world_.simulated()) return;
   for (const std::string& line : agent_shapes_.wait().TakeLines(world_.monotonic_ns())) {
     Log(spdlog::level::info, "waiting for shapes", line);
   }
-  return told;
 }
 
 void Intake::TakeClocks() {

@@ -17,6 +17,7 @@ namespace collision::server {
 
 /// Messages since the start, beside the AgentCounters.
 struct IntakeCounters {
+  std::uint64_t removals_ignored = 0;  ///< Without a sender, and not of the owner's program.
   std::uint64_t descriptions_received = 0;
   std::uint64_t clocks_received = 0;
 };
@@ -41,9 +42,9 @@ class Intake {
   /// Brings clocks into force.
   void TakeClocks();
 
-  /// Lets successors take over, reports overdue descriptions and shapes, and frees what simulators
-  /// that left had written. True: a successor has told something that can take effect.
-  bool EndBatch();
+  /// Counts what has arrived, reports overdue descriptions and shapes, and frees what simulators
+  /// that left had written.
+  void EndBatch();
 
   /// What was told of agents takes effect: admissions, states, revisions, removals.
   void Enact();
@@ -67,12 +68,13 @@ class Intake {
 
  private:
   /// The simulator that the input speaks for, its former run ended where a new one begins; null:
-  /// refused, and held if the sender may succeed the owner. `name`: as in World::ClaimFor().
+  /// refused. `name`: as in World::ClaimFor().
   Simulator* Claimed(const v1::Input& input, Refusal where, const std::string* name);
 
-  /// Whether the sender of a removal is the owner. A removal by a successor that waits for the id
-  /// is held with what it wrote before; any other one is refused.
-  bool MayRemove(const Simulator& simulator, const v1::Input& input, const Refusal& refusal);
+  /// Whether a removal is the owner's; else it is refused. `is_owners`: without a sender, what it
+  /// names is the owner's.
+  bool MayRemove(const Simulator& simulator, const v1::Input& input, bool is_owners,
+                 const Refusal& refusal);
 
   void TakeDescription(const v1::Input& input);
   void TakeStates(const v1::Input& input);
@@ -82,15 +84,7 @@ class Intake {
   void TakeShapePart(const v1::Input& input);
   void TakeShapeRemoval(const v1::Input& input);
 
-  void Hold(const Simulator& simulator, const v1::Input& input);
-
-  /// If the simulator is gone, applies what is held for its id.
-  bool HandOver(Simulator* simulator);
-
   void Enact(Simulator* simulator);
-
-  /// Parts of shapes that are held for successors take room in the store.
-  void CountHeldBytes() { shapes_.SetHeldBytes(world_.succession().shape_bytes()); }
 
   const std::uint64_t instance_;
   World& world_;

@@ -49,6 +49,7 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   clearance.set_simulator_id(simulator.id());
   clearance.set_chunk(chunk);
   clearance.set_run(simulator.run());
+  clearance.set_incarnation(simulator.incarnation());
   *clearance.mutable_stamp() = NextStamp();
   clearance.set_now_ns(world.now().nanoseconds());
   clearance.set_granted_until_ns(
@@ -111,6 +112,15 @@ void Publisher::PublishRejections(std::vector<v1::Rejection> rejections) {
     v1::Output output;
     *output.mutable_rejection() = std::move(rejection);
     *output.mutable_rejection()->mutable_stamp() = NextStamp();
+    bus_.Publish(output);
+  }
+}
+
+void Publisher::PublishReports(std::vector<v1::SimulatorReport> reports) {
+  for (v1::SimulatorReport& report : reports) {
+    v1::Output output;
+    *output.mutable_simulator_report() = std::move(report);
+    *output.mutable_simulator_report()->mutable_stamp() = NextStamp();
     bus_.Publish(output);
   }
 }

@@ -44,6 +44,8 @@ class Publisher {
 
   void PublishStatus(v1::ServiceStatus status);
 
+  void PublishReports(std::vector<v1::SimulatorReport> reports);
+
   /// What is published from here on belongs to this epoch.
   void BeginEpoch(std::uint32_t epoch);
 

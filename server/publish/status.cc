@@ -42,7 +42,7 @@ void AddSimulators(const World& world, v1::ServiceStatus* status) {
     wire.set_granted_until_ns(simulator.time().granted().value_or(Instant::Always()).nanoseconds());
     wire.set_agents(static_cast<std::uint32_t>(simulator.agents().size()));
     wire.set_states(simulator.states());
-    wire.set_rejected(simulator.refusals());
+    wire.set_rejected(simulator.refused());
   }
   Count("simulators_unlisted", unlisted, status);
 }
@@ -64,6 +64,7 @@ void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
     const auto value = static_cast<v1::RejectionReason>(reason);
     Count(LowerCase(v1::RejectionReason_Name(value)), sources.rejections.count(value), status);
   }
+  Count("removals_ignored", intake.removals_ignored, status);
   Count("rejections_suppressed", sources.rejections.suppressed(), status);
 }
 

@@ -13,6 +13,7 @@
 #include "server/process/logging.h"
 #include "server/process/names_log.h"
 #include "server/publish/publisher.h"
+#include "server/publish/reports.h"
 #include "server/publish/status.h"
 #include "server/recording/recording.h"
 #include "server/shapes/shape_store.h"
@@ -84,7 +85,7 @@ class Daemon::Implementation {
     LogSilence(world_.ReleaseSilent());
     MoveOn(!inputs.empty());
     if (world_.EpochIsOver()) EndEpoch();
-    if (intake_.EndBatch()) MoveOn(true);
+    intake_.EndBatch();
     if (claim_.phase() == ClaimPhase::kServing) PublishAnswers();
     PublishStatus();
     bus_.Flush();
@@ -121,6 +122,7 @@ class Daemon::Implementation {
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
     if (const auto next = world_.NextRelease()) due = std::min(due, *next);
     if (const auto next = claim_.NextDue()) due = std::min(due, *next);
+    if (const auto next = reports_.next_ns()) due = std::min(due, *next);
     std::int64_t wait = due - world_.monotonic_ns();
     if (!world_.simulated()) {
       wait = std::min(wait, ToNanoseconds(config_.temporal_resolution_s()));
@@ -254,6 +256,7 @@ class Daemon::Implementation {
   void PublishAnswers() {
     publisher_.PublishRejections(rejections_.Take());
     publisher_.PublishClearances(&world_);
+    publisher_.PublishReports(reports_.TakeDue(world_));
   }
 
   void PublishStatus() {
@@ -289,6 +292,7 @@ class Daemon::Implementation {
   Rejections rejections_;
   Intake intake_;
   Publisher publisher_;
+  Reports reports_;
   StatusSchedule schedule_;
   Rate query_rate_;
   StepCounters steps_;

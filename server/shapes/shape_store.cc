@@ -52,15 +52,34 @@ ShapeStore::ShapeStore(const v1::Config& config, ShapeBuilder* builder)
       bytes_max_(config.shape_bytes_max()),
       builder_(*builder) {}
 
-bool ShapeStore::HasRoomFor(std::uint64_t bytes) const {
-  return bytes_ + held_bytes_ + bytes <= bytes_max_;
+bool ShapeStore::HasRoomFor(std::uint64_t bytes) const { return bytes_ + bytes <= bytes_max_; }
+
+bool ShapeStore::Holds(std::uint64_t simulator, const std::string& hash) const {
+  if (gatherings_.contains({hash, simulator})) return true;
+  const auto known = shapes_.find(hash);
+  return known != shapes_.end() && known->second.owners.contains(simulator);
+}
+
+std::optional<Refusal> ShapeStore::CheckNumber(const v1::ShapePart& part) const {
+  const std::string* hash = numbers_.HashOf(part.simulator_id(), part.shape());
+  if (hash == nullptr || *hash == part.content_hash()) return std::nullopt;
+  return BadShape(part, "shape",
+                  fmt::format("{}, which this simulator gave shape {}; allowed: a number that no "
+                              "other shape has",
+                              part.shape(), ShortHash(*hash)));
 }
 
 std::optional<Refusal> ShapeStore::Take(const v1::ShapePart& part) {
   ++counters_.parts_received;
   if (auto refusal = CheckShapePart(part)) return refusal;
+  if (auto refusal = CheckNumber(part)) return refusal;
   const auto known = shapes_.find(part.content_hash());
-  return known != shapes_.end() ? TakeKnown(part, &known->second) : TakeUnknown(part);
+  const std::optional<Refusal> refusal =
+      known != shapes_.end() ? TakeKnown(part, &known->second) : TakeUnknown(part);
+  if (Holds(part.simulator_id(), part.content_hash())) {
+    numbers_.Set(part.simulator_id(), part.shape(), part.content_hash());
+  }
+  return refusal;
 }
 
 /// Ignores the bytes: the shape of this hash is known.
@@ -169,6 +188,8 @@ std::optional<Refusal> ShapeStore::Complete(const v1::ShapePart& part, ShapeGath
     const auto writer = next++;
     if (!writer->second.refused()) {
       known.owners.emplace(writer->first.second, writer->second.present());
+    } else {
+      numbers_.Erase(writer->first.second, hash);
     }
     Forget(writer);
   }
@@ -186,7 +207,17 @@ void ShapeStore::Forget(Gatherings::iterator gathering) {
   gatherings_.erase(gathering);
 }
 
+void ShapeStore::Dispose(std::uint64_t simulator, std::uint32_t number, std::uint32_t part) {
+  const std::string* hash = numbers_.HashOf(simulator, number);
+  if (hash != nullptr) Dispose(simulator, std::string(*hash), part);
+}
+
 void ShapeStore::Dispose(std::uint64_t simulator, const std::string& hash, std::uint32_t part) {
+  DisposeOf(simulator, hash, part);
+  if (!Holds(simulator, hash)) numbers_.Erase(simulator, hash);
+}
+
+void ShapeStore::DisposeOf(std::uint64_t simulator, const std::string& hash, std::uint32_t part) {
   const auto gathering = gatherings_.find({hash, simulator});
   if (gathering != gatherings_.end()) {
     gathering->second.present().Erase(part);
@@ -203,6 +234,7 @@ void ShapeStore::Dispose(std::uint64_t simulator, const std::string& hash, std::
 }
 
 void ShapeStore::Release(std::uint64_t simulator) {
+  numbers_.Release(simulator);
   if (holders_.erase(simulator) == 0) return;
   for (auto next = gatherings_.begin(); next != gatherings_.end();) {
     const auto gathering = next++;
@@ -265,6 +297,7 @@ std::optional<ReadyShape> ShapeStore::MakeVisible(const ReadyTree& tree) {
   } else {
     ++counters_.refused;
     bytes_ -= known->second.bytes;
+    for (const std::uint64_t owner : ready.owners) numbers_.Erase(owner, tree.hash);
     shapes_.erase(known);
   }
   return ready;
@@ -290,7 +323,7 @@ ShapeProgress ShapeStore::ProgressOf(std::uint64_t simulator, const std::string&
 ShapeCounters ShapeStore::counters() const {
   ShapeCounters counters = counters_;
   counters.gathering = gatherings_.size();
-  counters.bytes = bytes_ + held_bytes_;
+  counters.bytes = bytes_;
   counters.builder = builder_.counters();
   return counters;
 }

@@ -14,6 +14,7 @@
 #include "server/codec/refusal.h"
 #include "server/shapes/shape_builder.h"
 #include "server/shapes/shape_gathering.h"
+#include "server/shapes/shape_numbers.h"
 
 namespace collision::server {
 
@@ -75,6 +76,14 @@ class ShapeStore {
   /// A part was disposed of. With its last part a simulator gives a shape up.
   void Dispose(std::uint64_t simulator, const std::string& hash, std::uint32_t part);
 
+  /// The same by the simulator's number of the shape; nothing, if it has none of this number.
+  void Dispose(std::uint64_t simulator, std::uint32_t number, std::uint32_t part);
+
+  /// Whether the simulator has a shape of this number.
+  bool Knows(std::uint64_t simulator, std::uint32_t number) const {
+    return numbers_.HashOf(simulator, number) != nullptr;
+  }
+
   /// The simulator gives up all shapes that it wrote.
   void Release(std::uint64_t simulator);
 
@@ -100,10 +109,6 @@ class ShapeStore {
   /// How much has arrived of a shape that this simulator writes.
   ShapeProgress ProgressOf(std::uint64_t simulator, const std::string& hash) const;
 
-  /// Bytes of parts that wait elsewhere, for a successor; they count as well.
-  void SetHeldBytes(std::uint64_t bytes) { held_bytes_ = bytes; }
-  bool HasRoomFor(std::uint64_t bytes) const;
-
   ShapeCounters counters() const;
 
  private:
@@ -116,6 +121,11 @@ class ShapeStore {
   using Key = std::pair<std::string, std::uint64_t>;  ///< Hash, simulator.
   using Gatherings = std::map<Key, ShapeGathering>;
 
+  bool HasRoomFor(std::uint64_t bytes) const;
+  /// Whether the simulator has written any of the shape that is still here.
+  bool Holds(std::uint64_t simulator, const std::string& hash) const;
+  std::optional<Refusal> CheckNumber(const v1::ShapePart& part) const;
+  void DisposeOf(std::uint64_t simulator, const std::string& hash, std::uint32_t part);
   std::optional<Refusal> TakeKnown(const v1::ShapePart& part, Known* known);
   std::optional<Refusal> TakeUnknown(const v1::ShapePart& part);
   std::optional<Refusal> Begin(const v1::ShapePart& part);
@@ -134,8 +144,8 @@ class ShapeStore {
   Gatherings gatherings_;
   std::map<std::string, std::set<ShapeUser>> users_;  ///< By hash, known or not.
   std::set<std::uint64_t> holders_;
+  ShapeNumbers numbers_;  ///< Of what the simulators hold.
   std::uint64_t bytes_ = 0;
-  std::uint64_t held_bytes_ = 0;
   ShapeCounters counters_;
 };
 

@@ -38,7 +38,9 @@ StateOrder AgentTable::RecordState(std::uint32_t slot_index, std::uint32_t gener
   if (generation < slot.ended) return StateOrder::kEnded;
   const std::pair<std::uint32_t, std::uint64_t> order(generation, sequence);
   if (slot.handled && order <= *slot.handled) return StateOrder::kRepeated;
+  stated_ -= slot.stated();
   slot.handled = order;
+  stated_ += slot.stated();
   return StateOrder::kNew;
 }
 
@@ -50,6 +52,7 @@ Agent* AgentTable::Add(std::uint32_t slot_index, const Agent& agent) {
   slot.ended = agent.generation_;
   slot.agent = agent;
   ++agents_;
+  stated_ += slot.stated();
   return &*slot.agent;
 }
 
@@ -93,6 +96,7 @@ void AgentTable::Remove(std::uint32_t slot_index) {
   CORE_CHECK(slot.agent.has_value(), "an agent is in the slot", slot_index);
   slot.ended = std::uint64_t{slot.agent->generation_} + 1;
   if (slot.waiting && slot.waiting->generation < slot.ended) slot.waiting.reset();
+  stated_ -= slot.stated();
   slot.agent.reset();
   --agents_;
   clearances_.Forget(slot_index);
@@ -119,14 +123,16 @@ Agent& AgentTable::AgentIn(std::uint32_t slot) {
 }
 
 void AgentTable::Validate() const {
-  std::size_t agents = 0;
+  std::size_t agents = 0, stated = 0;
   for (const auto& [index, slot] : slots_) {
     if (slot.agent) {
       ++agents;
+      stated += slot.stated();
       CORE_CHECK(slot.agent->generation_ >= slot.ended, "the agent has not ended", index);
     }
   }
   CORE_CHECK(agents == agents_, "described agents are counted", agents, agents_);
+  CORE_CHECK(stated == stated_, "agents with a state are counted", stated, stated_);
   clearances_.Validate();
   for (const auto& [index, clearance] : clearances_.all()) {
     const Agent* agent = Find(index, clearance.agent.generation);

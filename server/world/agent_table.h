@@ -123,7 +123,8 @@ class AgentTable {
     for (const auto& [slot, content] : slots_) visit(slot);
   }
 
-  std::size_t size() const { return agents_; }  ///< Described agents.
+  std::size_t size() const { return agents_; }    ///< Described agents.
+  std::size_t stated() const { return stated_; }  ///< Of them, those of which a state has arrived.
   Clearances& clearances() { return clearances_; }
   const Clearances& clearances() const { return clearances_; }
 
@@ -137,12 +138,15 @@ class AgentTable {
     std::uint64_t ended = 0;  ///< Generations below have been removed or replaced.
     /// Generation and sequence of the newest state looked at, accepted or not.
     std::optional<std::pair<std::uint32_t, std::uint64_t>> handled;
+
+    bool stated() const { return agent && handled && handled->first == agent->generation_; }
   };
 
   Agent& AgentIn(std::uint32_t slot);
 
   std::map<std::uint32_t, Slot> slots_;
   std::size_t agents_ = 0;
+  std::size_t stated_ = 0;
   Clearances clearances_;
 };
 

@@ -8,10 +8,22 @@
 
 namespace collision::server {
 
-void Rejections::Add(const Refusal& refusal) {
+std::uint64_t Rejections::CountOne(const Refusal& refusal) {
   ++counts_[static_cast<std::size_t>(refusal.reason)];
   Simulator* simulator = world_.Find(refusal.simulator_id);
-  const std::uint64_t count = simulator != nullptr ? simulator->CountRefusal() : ++of_unknown_;
+  return simulator != nullptr ? simulator->CountRefusal() : ++of_unknown_;
+}
+
+void Rejections::Count(const Refusal& refusal) {
+  CountOne(refusal);
+  ++suppressed_;
+}
+
+void Rejections::Add(const Refusal& refusal) {
+  const std::uint64_t count = CountOne(refusal);
+  Simulator* simulator = world_.Find(refusal.simulator_id);
+  const bool stands = simulator != nullptr && StandingRefusals::Stands(refusal.reason);
+  if (stands) simulator->refusals().Add(refusal);
   const std::string& reason = v1::RejectionReason_Name(refusal.reason);
   Log(spdlog::level::warn, "input refused",
       fmt::format("{} simulator {:016x} \"{}\" run {} slot {} generation {}: {}: {}", reason,
@@ -29,6 +41,7 @@ void Rejections::Add(const Refusal& refusal) {
   wire.set_simulator_id(refusal.simulator_id);
   wire.set_now_ns(world_.now().nanoseconds());
   wire.set_run(refusal.run);
+  wire.set_run_in_force(simulator != nullptr ? simulator->run() : 0);
   wire.set_reason(refusal.reason);
   wire.set_topic(refusal.topic);
   wire.set_slot(refusal.slot);
@@ -36,6 +49,7 @@ void Rejections::Add(const Refusal& refusal) {
   wire.set_field(refusal.field);
   wire.set_detail(refusal.detail);
   wire.set_count(count);
+  wire.set_incarnation(stands ? simulator->incarnation() : refusal.incarnation);
 }
 
 std::vector<v1::Rejection> Rejections::Take() { return std::exchange(pending_, {}); }

@@ -10,9 +10,10 @@
 
 namespace collision::server {
 
-/// Counts every refusal, per reason and per simulator, and keeps the messages to the senders: at
-/// most `per_second_max` in one second of the monotonic clock, so that a broken simulator cannot
-/// flood the network. The log has at most one line about refusals per second. One thread.
+/// Counts every refusal, per reason and per simulator, notes those that stand (StandingRefusals),
+/// and keeps the messages to the senders: at most `per_second_max` in one second of the monotonic
+/// clock, so that a broken simulator cannot flood the network. The log has at most one line about
+/// refusals per second. One thread.
 class Rejections {
  public:
   /// `world` outlives this: it knows the simulators and the time.
@@ -21,6 +22,9 @@ class Rejections {
 
   void Add(const Refusal& refusal);
 
+  /// Counts a refusal of which its sender knows.
+  void Count(const Refusal& refusal);
+
   /// The messages since the last call, without stamps.
   [[nodiscard]] std::vector<v1::Rejection> Take();
 
@@ -28,10 +32,13 @@ class Rejections {
     return counts_[static_cast<std::size_t>(reason)];
   }
 
-  /// Refusals beyond `per_second_max`.
+  /// Refusals beyond `per_second_max`, and those that were only counted.
   std::uint64_t suppressed() const { return suppressed_; }
 
  private:
+  /// The refusals of this simulator so far.
+  std::uint64_t CountOne(const Refusal& refusal);
+
   const std::uint32_t per_second_max_;
   World& world_;
   std::array<std::uint64_t, v1::RejectionReason_ARRAYSIZE> counts_{};

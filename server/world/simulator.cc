@@ -7,13 +7,16 @@ void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
   time_ = {};
   sender_ = sender;
   run_ = run;
+  incarnation_ = 0;
+  standing_.Clear();
+  contenders_.Clear();
   SetAlive(true, 0);
-  succeeded_unheard_ = false;
 }
 
 void Simulator::LeaveEpoch() {
   agents_.Clear();
   time_ = {};
+  standing_.Clear();
 }
 
 void Simulator::SetAlive(bool alive, std::int64_t monotonic_ns) {

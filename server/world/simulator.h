@@ -5,7 +5,9 @@
 #include <string>
 
 #include "server/world/agent_table.h"
+#include "server/world/contenders.h"
 #include "server/world/simulator_time.h"
+#include "server/world/standing_refusals.h"
 
 namespace collision::server {
 
@@ -28,6 +30,10 @@ class Simulator {
   /// A description or a clock, whose id is the hash of this name, has come from the sender.
   void SetName(const std::string& name) { name_ = name; }
 
+  /// Of the program, as its messages say; 0: none said.
+  std::uint32_t incarnation() const { return incarnation_; }
+  void SetIncarnation(std::uint32_t incarnation) { incarnation_ = incarnation; }
+
   /// Starts a run of `sender`. Requires that the agents have been removed.
   void StartRun(std::uint64_t sender, std::uint32_t run);
 
@@ -42,10 +48,6 @@ class Simulator {
   /// It was silent for too long: the world's time does not wait for it until it is alive again.
   bool released() const { return released_; }
   void Release() { released_ = true; }
-
-  /// All its input so far is what it had written while it waited for the id.
-  bool succeeded_unheard() const { return succeeded_unheard_; }
-  void SetSucceededUnheard(bool unheard) { succeeded_unheard_ = unheard; }
 
   /// Gone for good: its process has ended or no step of it follows, and it removed all its agents
   /// or never described any.
@@ -62,13 +64,17 @@ class Simulator {
   const SimulatorTime& time() const { return time_; }
   AgentTable& agents() { return agents_; }
   const AgentTable& agents() const { return agents_; }
+  StandingRefusals& refusals() { return standing_; }
+  const StandingRefusals& refusals() const { return standing_; }
+  Contenders& contenders() { return contenders_; }
+  const Contenders& contenders() const { return contenders_; }
 
   void CountState() { ++states_; }
   std::uint64_t states() const { return states_; }  ///< Accepted, in all runs.
 
   /// Returns the number of refusals so far, in all runs.
-  std::uint64_t CountRefusal() { return ++refusals_; }
-  std::uint64_t refusals() const { return refusals_; }
+  std::uint64_t CountRefusal() { return ++refused_; }
+  std::uint64_t refused() const { return refused_; }
 
  private:
   const std::uint64_t id_;
@@ -78,11 +84,13 @@ class Simulator {
   bool alive_ = true;
   bool released_ = false;
   std::int64_t silent_since_ns_ = 0;
-  bool succeeded_unheard_ = false;
+  std::uint32_t incarnation_ = 0;
   SimulatorTime time_;
   AgentTable agents_;
+  StandingRefusals standing_;
+  Contenders contenders_;
   std::uint64_t states_ = 0;
-  std::uint64_t refusals_ = 0;
+  std::uint64_t refused_ = 0;
 };
 
 }  // namespace collision::server

@@ -12,7 +12,15 @@ void SimulatorTime::RecordDescriptions(std::uint64_t sequence) {
   descriptions_seen_ = std::max(descriptions_seen_, sequence);
 }
 
+void SimulatorTime::TakeCensus(std::uint64_t described, std::uint64_t refused) {
+  const bool counted = described <= offered_.agents && offered_.agents <= described + refused;
+  if (counted && offered_.descriptions_sequence == descriptions_seen_) {
+    descriptions_arrived_ = descriptions_seen_;
+  }
+}
+
 void SimulatorTime::Offer(const PendingClock& offered) {
+  offered_ = offered;
   newest_ = std::max(newest_, offered.clock);
   lock_step_ = offered.lock_step;
   other_kind_ = false;

@@ -18,6 +18,7 @@ struct PendingClock {
   std::uint64_t states_sequence = 0;        ///< Highest sequence of its states by then.
   std::uint64_t descriptions_sequence = 0;  ///< Likewise of its descriptions.
   bool lock_step = false;                   ///< The simulator waits for grants.
+  std::uint64_t agents = 0;                 ///< How many it had described.
 };
 
 /// A simulator's clocks arrive in order, so only a few overtake their states. Beyond this many the
@@ -33,6 +34,14 @@ class SimulatorTime {
  public:
   void RecordStates(std::uint64_t sequence);
   void RecordDescriptions(std::uint64_t sequence);
+
+  /// At the end of a batch: how many agents are described, and how many descriptions are refused.
+  /// If that is what the newest clock names, all descriptions up to its sequence have arrived.
+  void TakeCensus(std::uint64_t described, std::uint64_t refused);
+
+  std::uint64_t states_seen() const { return states_seen_; }  ///< The highest sequence.
+  /// Up to this sequence every description and removal has arrived.
+  std::uint64_t descriptions_arrived() const { return descriptions_arrived_; }
 
   /// Takes a clock that has arrived; Take() brings it into force.
   void Offer(const PendingClock& offered);
@@ -70,6 +79,8 @@ class SimulatorTime {
  private:
   std::uint64_t states_seen_ = 0;
   std::uint64_t descriptions_seen_ = 0;
+  std::uint64_t descriptions_arrived_ = 0;
+  PendingClock offered_;  ///< The newest clock that has arrived.
   Instant newest_ = Instant::Always();
   std::deque<PendingClock> pending_;
   std::optional<Instant> first_clock_;

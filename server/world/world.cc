@@ -31,8 +31,8 @@ Simulator* World::Find(std::uint64_t id) {
 /// In place of one that has left, if there is no room. Null: none has.
 Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run) {
   if (simulators_.size() >= simulators_max_) {
-    const auto left = std::find_if(simulators_.begin(), simulators_.end(), [this](const auto& one) {
-      return one.second.has_left() && !succession_.IsAwaited(one.first);
+    const auto left = std::find_if(simulators_.begin(), simulators_.end(), [](const auto& one) {
+      return one.second.has_left() && one.second.contenders().empty();
     });
     if (left == simulators_.end()) return nullptr;
     simulators_.erase(left);
@@ -59,7 +59,6 @@ Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
     claim.reason = v1::REJECTED_OLD_RUN;
   } else {
     claim.accepted = claim.new_run = proves || (!simulator.alive() && run > simulator.run());
-    claim.may_wait = !claim.accepted && simulator.alive() && run > simulator.run();
   }
   if (!claim.accepted) {
     claim.detail = "run " + std::to_string(run) + "; in force: run " +
@@ -153,8 +152,8 @@ std::optional<std::int64_t> World::NextRelease() const {
 
 bool World::EpochIsOver() const {
   return simulated_ && started_ &&
-         std::none_of(simulators_.begin(), simulators_.end(), [this](const auto& one) {
-           const bool succeeded = !one.second.alive() && succession_.IsAwaited(one.first);
+         std::none_of(simulators_.begin(), simulators_.end(), [](const auto& one) {
+           const bool succeeded = !one.second.alive() && !one.second.contenders().empty();
            return one.second.holds_time() && !succeeded;
          });
 }

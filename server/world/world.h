@@ -12,7 +12,6 @@
 #include "server/bus/clock.h"
 #include "server/codec/codec.h"
 #include "server/world/simulator.h"
-#include "server/world/succession.h"
 
 namespace collision::server {
 
@@ -21,8 +20,6 @@ struct Claim {
   Simulator* simulator = nullptr;  ///< The one that the id names; null: unknown, and no room.
   bool accepted = false;
   bool new_run = false;  ///< Accepted, and a run begins: remove its agents, then StartRun().
-  /// Refused only because the owner lives: another sender with a higher run.
-  bool may_wait = false;
   v1::RejectionReason reason = v1::REJECTED_ID_OWNED;  ///< Unless accepted.
   std::string detail = {};
 };
@@ -32,9 +29,9 @@ struct Claim {
 ///
 /// **Ownership.** An id belongs to the first sender that names itself, in a description or a clock;
 /// states alone prove nothing. Another sender is refused until the owner is gone *and* the other
-/// one's run is higher. A successor that writes earlier is refused, and what it writes is held
-/// (Succession). A simulator has left when its process is gone and it has no agents; it makes room
-/// for another one.
+/// one's run is higher. A successor that writes earlier is refused (Contenders) and writes again
+/// when the simulator's report says that the owner is gone. A simulator has left when its process
+/// is gone and it has no agents; it makes room for another one.
 ///
 /// **Now.** Simulated clock: it begins with the least first clock, once `simulators_awaited` have
 /// one, and goes on in rounds. All that hold time are granted the same time, and when each has told
@@ -69,8 +66,6 @@ class World {
   Simulator* Find(std::uint64_t id);
   std::map<std::uint64_t, Simulator>& simulators() { return simulators_; }
   const std::map<std::uint64_t, Simulator>& simulators() const { return simulators_; }
-
-  Succession& succession() { return succession_; }
 
   /// The daemon's clocks at this step. With a wall clock this moves `now`.
   void SetReading(const ClockReading& reading);
@@ -160,7 +155,6 @@ class World {
   const std::size_t simulators_max_;
 
   std::map<std::uint64_t, Simulator> simulators_;
-  Succession succession_;
   std::uint32_t epoch_ = 1;
   bool started_ = false;
   Instant now_;

@@ -15,6 +15,7 @@ namespace collision::client {
 
 inline constexpr char kSimulator[] = "tester";
 inline constexpr std::uint32_t kRun = 7;
+inline constexpr std::uint32_t kIncarnation = 4711;  ///< Shapes are numbered from here.
 
 /// Shared by the test and the transport; outlives the World that owns the transport.
 struct FakeNetwork {
@@ -41,6 +42,18 @@ struct FakeNetwork {
       if (input.has_agent_states()) states.push_back(input.agent_states());
     }
     return states;
+  }
+
+  /// On this simulator, by the service of term 1, which is alive.
+  void Report(std::uint32_t run, std::uint32_t incarnation, bool owner_alive) {
+    alive = true;
+    v1::SimulatorReport* report = arriving.emplace_back().mutable_simulator_report();
+    report->set_simulator_id(SimulatorId(kSimulator));
+    report->mutable_stamp()->set_service_id(1);
+    report->mutable_stamp()->set_term(1);
+    report->set_run(run);
+    report->set_incarnation(incarnation);
+    report->set_alive(owner_alive);
   }
 
   void Grant(std::int64_t until_ns, std::uint32_t term = 1, std::uint32_t run = kRun) {
@@ -80,6 +93,7 @@ class FakeTransport : public Transport {
 inline World ConnectTo(const std::shared_ptr<FakeNetwork>& network, WorldOptions options = {}) {
   options.simulator = kSimulator;
   options.run = kRun;
+  options.incarnation = kIncarnation;
   return World::Connect(options, std::make_unique<FakeTransport>(network));
 }
 

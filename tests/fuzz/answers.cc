@@ -109,6 +109,11 @@ void CheckOutput(const v1::Output& output) {
       Require(output.rejection().count() >= 1, "a rejection that was not counted");
       dds::ToWire(output.rejection());
       break;
+    case v1::Output::kSimulatorReport:
+      Require(output.simulator_report().agents_stated() <= output.simulator_report().agents(),
+              "more agents with a state than agents");
+      dds::ToWire(output.simulator_report());
+      break;
     case v1::Output::kServiceStatus:
       dds::ToWire(output.service_status());
       break;

@@ -68,26 +68,41 @@ TEST(DdsBusLiveliness, ADisposedAgentArrivesAsRemoval) {
   ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return inputs.size() >= 2; }));
   const std::uint64_t sender = inputs[0].sender();
   inputs.clear();
-  simulator.RemoveAgent(SimulatorId("a"), 3);
+  simulator.RemoveAgent(RemovalOf("a", 3));
   simulator.Flush();
   ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !inputs.empty(); }));
   ASSERT_EQ(inputs.size(), 1u);
   EXPECT_EQ(inputs[0].sender(), sender);
   EXPECT_EQ(inputs[0].agent_removal().simulator_id(), SimulatorId("a"));
   EXPECT_EQ(inputs[0].agent_removal().slot(), 3u);
+  EXPECT_EQ(inputs[0].agent_removal().incarnation(), kIncarnation);
+  EXPECT_EQ(inputs[0].agent_removal().sequence(), kRemovalSequence);
 }
 
 TEST(DdsBusLiveliness, ARemovalBeforeTheFirstReadComesAfterTheDescription) {
   DdsBus bus(TestWorld(), TestDomain());
   DdsSession simulator(SimulatorOptions("a"));
   simulator.Write(Description("a", 3));
-  simulator.RemoveAgent(SimulatorId("a"), 3);
+  simulator.RemoveAgent(RemovalOf("a", 3));
   simulator.Flush();
   std::vector<v1::Input> inputs;
   ASSERT_TRUE(
       ReceiveUntil(bus, &inputs, [&] { return Count(inputs, v1::Input::kAgentRemoval) > 0; }));
   EXPECT_TRUE(inputs.back().has_agent_removal());
   EXPECT_EQ(inputs.back().agent_removal().slot(), 3u);
+}
+
+// Goal:   a service that comes later hears of removals, too: a clock may wait for one of them.
+TEST(DdsBusLiveliness, ARemovalReachesALateReader) {
+  DdsSession simulator(SimulatorOptions("a"));
+  simulator.Write(Description("a", 3));
+  simulator.RemoveAgent(RemovalOf("a", 3));
+  simulator.Flush();
+  DdsBus bus(TestWorld(), TestDomain());
+  std::vector<v1::Input> inputs;
+  ASSERT_TRUE(ReceiveUntil(bus, &inputs, [&] { return !inputs.empty(); }));
+  ASSERT_TRUE(inputs[0].has_agent_removal()) << inputs[0].ShortDebugString();
+  EXPECT_EQ(inputs[0].agent_removal().sequence(), kRemovalSequence);
 }
 
 TEST(DdsBusLiveliness, EachProgramThatLeavesIsReportedOnceAndItsAgentsStay) {

@@ -51,9 +51,19 @@ v1::AgentDescription Description(const std::string& simulator, std::uint32_t slo
   v1::AgentDescription message;
   message.set_simulator_id(SimulatorId(simulator));
   message.set_slot(slot);
+  message.set_incarnation(kIncarnation);
   message.set_simulator_name(simulator);
   message.set_radius_m(1);
   return message;
+}
+
+v1::AgentRemoval RemovalOf(const std::string& simulator, std::uint32_t slot) {
+  v1::AgentRemoval removal;
+  removal.set_simulator_id(SimulatorId(simulator));
+  removal.set_slot(slot);
+  removal.set_incarnation(kIncarnation);
+  removal.set_sequence(kRemovalSequence);
+  return removal;
 }
 
 v1::AgentStates States(const std::string& simulator, std::uint64_t sequence) {

@@ -16,6 +16,8 @@ namespace collision::server {
 
 inline constexpr std::chrono::milliseconds kShort{20};  ///< One wait inside a loop.
 inline constexpr std::chrono::seconds kDeadline{20};    ///< For what must come.
+inline constexpr std::uint32_t kIncarnation = 77;       ///< Of all that write descriptions here.
+inline constexpr std::uint64_t kRemovalSequence = 90;   ///< Of every removal.
 inline constexpr std::chrono::nanoseconds kLease = std::chrono::milliseconds(300);
 
 /// This process's own, so that tests that run side by side do not meet.
@@ -26,6 +28,7 @@ DdsSessionOptions SimulatorOptions(const std::string& name);
 DdsSessionOptions MonitorOptions(bool reads_simulators);
 
 v1::AgentDescription Description(const std::string& simulator, std::uint32_t slot);
+v1::AgentRemoval RemovalOf(const std::string& simulator, std::uint32_t slot);
 v1::AgentStates States(const std::string& simulator, std::uint64_t sequence);
 v1::SimulatorClock SimulatorTime(const std::string& simulator, std::int64_t clock_ns);
 

@@ -280,7 +280,7 @@ TEST(DdsBus, WakeEndsAReceiveThatWaits) {
 TEST(DdsSession, WhatIsNotOfTheRoleIsAnError) {
   DdsSession monitor(MonitorOptions(false));
   EXPECT_THROW(monitor.Write(Description("a", 0)), std::logic_error);
-  EXPECT_THROW(monitor.RemoveAgent(1, 0), std::logic_error);
+  EXPECT_THROW(monitor.RemoveAgent({}), std::logic_error);
 }
 
 TEST(DdsSession, BadOptionsSayWhatIsAllowed) {
@@ -319,6 +319,13 @@ TEST(DdsSession, TheLanProfileIsWellFormed) {
   setenv("CYCLONEDDS_URI", (COLLISION_DDS_LAN + loopback_only).c_str(), 1);
   EXPECT_NO_THROW(DdsBus(TestWorld(), TestDomain()));
   setenv("CYCLONEDDS_URI", COLLISION_DDS_LOOPBACK, 1);
+}
+
+// Readers of the status ask for a lease of 2 s: they would not match a longer one.
+TEST(DdsBus, AServiceHasNoLongerLeaseThanItsReadersAskFor) {
+  const DdsBus bus(TestWorld(), TestDomain(), std::chrono::seconds(2));
+  EXPECT_THROW(DdsBus(TestWorld(), TestDomain(), std::chrono::nanoseconds(2'000'000'001)),
+               std::runtime_error);
 }
 
 }  // namespace

@@ -39,7 +39,10 @@ class Reader {
             [&](const std::smatch& m) { constants_[m[1]] = std::stoul(m[2]); });
     ForEach(text, R"(struct (\w+) \{([^}]*)\})", [&](const std::smatch& m) {
       for (const std::string& line : Split(m[2], ';')) {
-        if (!Trimmed(line).empty()) file_.structs[m[1]].push_back(Field(Trimmed(line)));
+        if (Trimmed(line).empty()) continue;
+        IdlField field = Field(Trimmed(line));
+        field.key = Trimmed(line).rfind("@key ", 0) == 0;
+        file_.structs[m[1]].push_back(field);
       }
     });
     ForEach(text, R"(enum (\w+) \{([^}]*)\})", [&](const std::smatch& m) {

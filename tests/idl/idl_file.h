@@ -14,6 +14,7 @@ struct IdlField {
   std::string name;
   std::size_t bound = 0;  ///< Of a string, sequence or array; 0: none of these.
   bool sequence = false;
+  bool key = false;
 };
 
 struct IdlFile {

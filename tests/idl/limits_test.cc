@@ -27,7 +27,10 @@ TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("SimulatorClock", "simulator_name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("SimulatorStatus", "name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "world"), wire::kNameMax);
+  EXPECT_EQ(BoundOf("SimulatorReport", "name"), wire::kNameMax);
   EXPECT_EQ(BoundOf("Rejection", "field"), wire::kRefusedFieldMax);
+  EXPECT_EQ(BoundOf("StandingRefusal", "field"), wire::kRefusedFieldMax);
+  EXPECT_EQ(BoundOf("StandingRefusal", "detail"), wire::kRefusalDetailMax);
   EXPECT_EQ(BoundOf("Rejection", "detail"), wire::kRefusalDetailMax);
   EXPECT_EQ(BoundOf("KeyValue", "value"), wire::kExtensionValueMax);
   EXPECT_EQ(BoundOf("ServiceStatus", "broad_phase"), wire::kStatusBroadPhaseMax);
@@ -44,6 +47,7 @@ TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   EXPECT_EQ(BoundOf("AgentDescription", "extensions"), count(wire::kDescriptionExtensionsMax));
   EXPECT_EQ(BoundOf("CollisionEvent", "extensions"), count(wire::kEventExtensionsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "extensions"), count(wire::kStatusExtensionsMax));
+  EXPECT_EQ(BoundOf("SimulatorReport", "refusals"), count(wire::kReportRefusalsMax));
   EXPECT_EQ(BoundOf("ShapePart", "bytes"), wire::kShapePartBytes);
 }
 

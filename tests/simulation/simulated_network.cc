@@ -31,15 +31,15 @@ std::pair<int, std::string> AddressOf(const v1::Input& message) {
 }  // namespace
 
 SimulatedNetwork::SimulatedNetwork(const NetworkOptions& options)
-    : options_(options), random_(options.seed) {}
+    : options_(options), random_(options.seed), random_of_reports_(options.seed) {}
 
 void SimulatedNetwork::At(std::int64_t time_ns, std::function<void()> action) {
   occurrences_.push({std::max(time_ns, now_ns_), ++order_, std::move(action)});
 }
 
-std::int64_t SimulatedNetwork::Delay() {
+std::int64_t SimulatedNetwork::Delay(Random* random) {
   const std::int64_t range = options_.delay_max_ns - options_.delay_min_ns + 1;
-  return options_.delay_min_ns + static_cast<std::int64_t>(random_.Below(range));
+  return options_.delay_min_ns + static_cast<std::int64_t>(random->Below(range));
 }
 
 void SimulatedNetwork::Write(std::uint64_t sender, const v1::Input& message) {
@@ -55,7 +55,7 @@ void SimulatedNetwork::Write(std::uint64_t sender, const v1::Input& message) {
 void SimulatedNetwork::Transmit(const WriterKey& key, const std::string& instance,
                                 const v1::Input& message, std::uint64_t version) {
   Writer& writer = writers_[key];
-  std::int64_t arrival = now_ns_ + Delay();
+  std::int64_t arrival = now_ns_ + Delay(&random_);
   bool lost = false;
   while (random_.Chance(options_.loss)) {
     lost = true;
@@ -98,8 +98,10 @@ void SimulatedNetwork::Attach(std::function<void(const v1::Input&, bool)> reader
 }
 
 void SimulatedNetwork::PublishToAll(const v1::Output& output) {
-  last_output_ns_ = std::max(last_output_ns_, now_ns_ + Delay());
-  At(last_output_ns_, [this, output] {
+  const bool is_report = output.has_simulator_report();
+  std::int64_t& last_ns = is_report ? last_report_ns_ : last_output_ns_;
+  last_ns = std::max(last_ns, now_ns_ + Delay(is_report ? &random_of_reports_ : &random_));
+  At(last_ns, [this, output] {
     for (std::size_t i = 0; i < handlers_.size(); ++i) handlers_[i](output);
   });
 }

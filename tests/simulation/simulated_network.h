@@ -88,14 +88,16 @@ class SimulatedNetwork {
   void Deliver(const v1::Input& message, bool duplicate) {
     if (reader_) reader_(message, duplicate);
   }
-  std::int64_t Delay();
+  std::int64_t Delay(Random* random);
 
   const NetworkOptions options_;
   Random random_;
+  Random random_of_reports_;  ///< Of its own: reports do not change when all else arrives.
   std::int64_t now_ns_ = 0;
   std::uint64_t order_ = 0;
   std::uint64_t version_ = 0;
   std::int64_t last_output_ns_ = 0;
+  std::int64_t last_report_ns_ = 0;
   std::priority_queue<Occurrence> occurrences_;
   std::map<WriterKey, Writer> writers_;
   std::vector<std::function<void(const v1::Output&)>> handlers_;

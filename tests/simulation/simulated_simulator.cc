@@ -70,6 +70,7 @@ void SimulatedSimulator::Hear(const v1::Output& output) {
   if (output.has_rejection() && output.rejection().simulator_id() == id_) {
     rejections_.push_back(output.rejection());
   }
+  if (output.has_simulator_report()) HearReport(output.simulator_report());
   if (!output.has_clearance() || output.clearance().simulator_id() != id_) return;
   const v1::Clearance& clearance = output.clearance();
   if (clearance.run() != options_.run) return;
@@ -86,6 +87,16 @@ void SimulatedSimulator::Hear(const v1::Output& output) {
     continuing_ = false;
     Continue();
   });
+}
+
+/// What it wrote while its predecessor counted as alive was refused.
+void SimulatedSimulator::HearReport(const v1::SimulatorReport& report) {
+  const bool succeeds = report.simulator_id() == id_ && report.run() < options_.run;
+  if (!succeeds || report.alive() || !started_ || killed_ || finished_) return;
+  written_.clear();
+  for (const std::uint32_t slot : present_) Describe(slot);
+  WriteChunks();
+  WriteClock();
 }
 
 std::int64_t SimulatedSimulator::NextStop() const {
@@ -136,6 +147,7 @@ void SimulatedSimulator::WriteShape(const std::string& bytes) {
   v1::ShapePart& part = *input.mutable_shape_part();
   part.set_simulator_id(id_);
   part.set_run(options_.run);
+  part.set_shape(Incarnation() + static_cast<std::uint32_t>(written_.size()));
   part.set_content_hash(hash);
   part.set_parts(1);
   part.set_total_bytes(bytes.size());
@@ -148,6 +160,7 @@ void SimulatedSimulator::Describe(std::uint32_t slot) {
   v1::Input input;
   *input.mutable_agent_description() =
       DescriptionOf(options_.name, options_.run, slot, agents_[slot]);
+  input.mutable_agent_description()->set_incarnation(Incarnation());
   input.mutable_agent_description()->set_sequence(++descriptions_sequence_);
   network_.Write(options_.sender, input);
   present_.insert(slot);
@@ -158,6 +171,8 @@ void SimulatedSimulator::Remove(std::uint32_t slot) {
   v1::Input input;
   input.mutable_agent_removal()->set_simulator_id(id_);
   input.mutable_agent_removal()->set_slot(slot);
+  input.mutable_agent_removal()->set_incarnation(Incarnation());
+  input.mutable_agent_removal()->set_sequence(++descriptions_sequence_);
   network_.Write(options_.sender, input);
   present_.erase(slot);
   awaited_.erase(slot);
@@ -192,6 +207,7 @@ void SimulatedSimulator::WriteChunks() {
     v1::AgentStates& chunk = *chunks[slot / options_.chunk_size].mutable_agent_states();
     chunk.set_simulator_id(id_);
     chunk.set_chunk(slot / options_.chunk_size);
+    chunk.set_incarnation(Incarnation());
     chunk.set_run(options_.run);
     *chunk.add_states() = StateOf(slot);
   }
@@ -202,6 +218,7 @@ void SimulatedSimulator::WriteClock() {
   v1::Input input;
   v1::SimulatorClock& clock = *input.mutable_simulator_clock();
   clock.set_simulator_id(id_);
+  clock.set_incarnation(Incarnation());
   clock.set_run(options_.run);
   clock.set_simulator_name(options_.name);
   clock.set_clock_ns(clock_ns_);

@@ -62,8 +62,10 @@ class SimulatedSimulator {
 
  private:
   void Hear(const v1::Output& output);
+  void HearReport(const v1::SimulatorReport& report);
   void Continue();
   std::int64_t NextStop() const;
+  std::uint32_t Incarnation() const { return static_cast<std::uint32_t>(options_.sender) << 16; }
   void PublishAt(std::int64_t clock_ns);
   void Describe(std::uint32_t slot);
   void Remove(std::uint32_t slot);

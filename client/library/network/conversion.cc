@@ -165,6 +165,18 @@ Rejection FromMessage(const v1::Rejection& message) {
   return rejection;
 }
 
+Rejection FromMessage(const v1::StandingRefusal& refusal, const v1::SimulatorReport& report) {
+  Rejection rejection;
+  rejection.simulator = report.simulator_id();
+  rejection.reason = v1::RejectionReason_Name(refusal.reason());
+  rejection.topic = v1::InputTopic_Name(refusal.topic());
+  rejection.slot = refusal.slot();
+  rejection.field = refusal.field();
+  rejection.detail = refusal.detail();
+  rejection.count = report.refused();
+  return rejection;
+}
+
 EarliestIntersection FromMessage(const v1::EarliestIntersection& message) {
   return {message.now_ns(), message.found(), message.earliest_ns(), FromMessage(message.lower()),
           FromMessage(message.higher())};

@@ -40,8 +40,7 @@ class DdsTransport : public Transport {
       case v1::Input::kSimulatorClock:
         return session_.Write(message.simulator_clock());
       case v1::Input::kAgentRemoval:
-        return session_.RemoveAgent(message.agent_removal().simulator_id(),
-                                    message.agent_removal().slot());
+        return session_.RemoveAgent(message.agent_removal());
       case v1::Input::kShapeRemoval:
         return RemoveShape(message.shape_removal());
       default:
@@ -53,20 +52,20 @@ class DdsTransport : public Transport {
 
  private:
   void WritePart(const v1::ShapePart& part) {
-    parts_[part.content_hash()] = part.parts();
+    parts_[part.shape()] = part.parts();
     session_.Write(part);
   }
 
   /// Each part is an instance of its own; the message does not say how many parts there are.
   void RemoveShape(const v1::ShapeRemoval& removal) {
-    const auto parts = parts_.find(removal.content_hash());
+    const auto parts = parts_.find(removal.shape());
     if (parts == parts_.end()) return;
-    session_.RemoveShape(removal.simulator_id(), removal.content_hash(), parts->second);
+    session_.RemoveShape(removal.simulator_id(), removal.shape(), parts->second);
     parts_.erase(parts);
   }
 
   DdsSession session_;
-  std::map<std::string, std::uint32_t> parts_;  ///< Of each shape written, by its hash.
+  std::map<std::uint32_t, std::uint32_t> parts_;  ///< Of each shape written, by its number.
 };
 
 }  // namespace

@@ -78,6 +78,8 @@ void MessageMonitor::HandOn(const v1::Output& output) {
       if (!Accept(output.service_status().stamp())) return;
       Await(output.service_status());
       return Call(callbacks_.status, output.service_status());
+    case v1::Output::kSimulatorReport:
+      return Call(callbacks_.report, output.simulator_report());
     default:
       return;
   }

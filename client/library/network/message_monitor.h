@@ -35,6 +35,7 @@ class MessageMonitor {
     std::function<void(const v1::SimulatorClock&)> clock = {};
     std::function<void(const v1::Clearance&)> clearance = {};
     std::function<void(const v1::Rejection&)> rejection = {};
+    std::function<void(const v1::SimulatorReport&)> report = {};
   };
 
   /// Throws std::runtime_error if an option is out of range or DDS is not available.

@@ -18,11 +18,17 @@ constexpr std::uint64_t kSampleBytes = 20, kStateBytes = 200;
 }  // namespace
 
 AgentTable::AgentTable(std::string simulator_name, std::uint64_t simulator_id, std::uint32_t run,
-                       const PublishPolicy& policy)
+                       std::uint32_t incarnation, const PublishPolicy& policy)
     : simulator_name_(std::move(simulator_name)),
       simulator_id_(simulator_id),
       run_(run),
+      incarnation_(incarnation),
       policy_(policy) {}
+
+void AgentTable::SetRun(std::uint32_t run) {
+  run_ = run;
+  for (Slot& slot : slots_) slot.description.set_run(run);
+}
 
 AgentId AgentTable::Add(const AgentDescription& description, const State& state) {
   const std::uint32_t index = FreeSlot();
@@ -48,6 +54,7 @@ void AgentTable::Describe(const AgentId& id, const AgentDescription& description
   current = ToMessage(description);
   current.set_simulator_id(simulator_id_);
   current.set_slot(id.slot);
+  current.set_incarnation(incarnation_);
   current.set_run(run_);
   current.set_generation(id.generation);
   current.set_revision(revision);
@@ -67,17 +74,25 @@ void AgentTable::Stage(const AgentId& id, const State& state) {
 v1::AgentRemoval AgentTable::Remove(const AgentId& id) {
   Slot& slot = slots_.at(id.slot);
   slot.occupied = false;
+  slot.description.set_sequence(++descriptions_sequence_);
   std::erase(staged_slots_, id.slot);
   if (slot.states.sent()) {
+    --stated_;
     removed_slots_.push_back(id.slot);
   } else {
     Free(id.slot);
   }
   --agent_count_;
   census_changed_ = true;
+  return RemovalOf(id.slot);
+}
+
+v1::AgentRemoval AgentTable::RemovalOf(std::uint32_t slot) const {
   v1::AgentRemoval removal;
   removal.set_simulator_id(simulator_id_);
-  removal.set_slot(id.slot);
+  removal.set_slot(slot);
+  removal.set_incarnation(incarnation_);
+  removal.set_sequence(slots_[slot].description.sequence());
   return removal;
 }
 
@@ -91,9 +106,25 @@ std::vector<std::uint32_t> AgentTable::FreeRemoved() {
 }
 
 void AgentTable::Free(std::uint32_t slot) {
+  const std::uint64_t sequence = slots_[slot].states.sent_sequence();
   slots_[slot].states = OutgoingStates();
   free_slots_.push_back(slot);
   std::push_heap(free_slots_.begin(), free_slots_.end(), std::greater<>());
+  if (sequence == 0 || sequence != standing_sequence_) return;
+  // No clock may name a state that is in no sample any more: a service that joins would wait for
+  // it.
+  standing_sequence_ = 0;
+  for (const Slot& other : slots_) {
+    standing_sequence_ = std::max(standing_sequence_, other.states.sent_sequence());
+  }
+}
+
+std::vector<v1::AgentRemoval> AgentTable::Removals() const {
+  std::vector<v1::AgentRemoval> removals;
+  for (const auto* slots : {&free_slots_, &removed_slots_}) {
+    for (const std::uint32_t slot : *slots) removals.push_back(RemovalOf(slot));
+  }
+  return removals;
 }
 
 bool AgentTable::IsDue(const Slot& slot, std::int64_t clock_ns) const {
@@ -130,7 +161,9 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   for (const std::uint32_t index : staged_slots_) {
     Slot& slot = slots_[index];
     if (IsDue(slot, clock_ns)) {
+      stated_ += !slot.states.sent().has_value();
       slot.states.MarkSent(++states_sequence_, slot.description.revision());
+      standing_sequence_ = states_sequence_;
       ++traffic_.states_sent;
       chunks.push_back(index / policy_.chunk_size);
     } else {
@@ -155,11 +188,12 @@ v1::SimulatorClock AgentTable::Clock(std::int64_t clock_ns, std::int64_t next_ns
   census_changed_ = false;
   v1::SimulatorClock clock;
   clock.set_simulator_id(simulator_id_);
+  clock.set_incarnation(incarnation_);
   clock.set_run(run_);
   clock.set_simulator_name(simulator_name_);
   clock.set_clock_ns(clock_ns);
   clock.set_next_ns(next_ns);
-  clock.set_states_sequence(states_sequence_);
+  clock.set_states_sequence(standing_sequence_);
   clock.set_descriptions_sequence(descriptions_sequence_);
   clock.set_agents(agent_count_);
   clock.set_lock_step(lock_step);
@@ -210,6 +244,7 @@ v1::AgentStates AgentTable::Chunk(std::uint32_t chunk) const {
   v1::AgentStates states;
   states.set_simulator_id(simulator_id_);
   states.set_chunk(chunk);
+  states.set_incarnation(incarnation_);
   states.set_run(run_);
   const std::size_t first = std::size_t{chunk} * policy_.chunk_size;
   const std::size_t last = std::min(first + policy_.chunk_size, slots_.size());

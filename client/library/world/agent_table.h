@@ -20,7 +20,10 @@ namespace collision::client {
 class AgentTable {
  public:
   AgentTable(std::string simulator_name, std::uint64_t simulator_id, std::uint32_t run,
-             const PublishPolicy& policy);
+             std::uint32_t incarnation, const PublishPolicy& policy);
+
+  /// All agents belong to this run from here on.
+  void SetRun(std::uint32_t run);
 
   /// Gives a new agent its slot and stages its first state. Throws std::length_error if the table
   /// is full.
@@ -33,6 +36,7 @@ class AgentTable {
   /// Stages a state until the clock reaches its stamp; see OutgoingStates.
   void Stage(const AgentId& id, const State& state);
 
+  /// The removal is a description, too: it takes the next number of these.
   v1::AgentRemoval Remove(const AgentId& id);
 
   /// Whether TakeDue() or a clock sample would say anything new at this clock.
@@ -40,6 +44,7 @@ class AgentTable {
 
   /// All messages that still hold, to repeat them.
   std::vector<v1::AgentDescription> Descriptions() const;
+  std::vector<v1::AgentRemoval> Removals() const;
   std::vector<v1::AgentStates> SentStates() const;
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
@@ -49,6 +54,9 @@ class AgentTable {
 
   /// The clock sample that follows everything sent so far.
   v1::SimulatorClock Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step);
+
+  /// Agents of which a state has been sent.
+  std::uint32_t stated() const { return stated_; }
 
   /// A clearance as of the service's time `now_ns`; those of former agents are ignored. True: it
   /// tells of a lowering that the ones before did not.
@@ -74,6 +82,7 @@ class AgentTable {
   /// Gives back the slots of removed agents; returns the chunks that they were in.
   std::vector<std::uint32_t> FreeRemoved();
   void Free(std::uint32_t slot);
+  v1::AgentRemoval RemovalOf(std::uint32_t slot) const;
   bool IsDue(const Slot& slot, std::int64_t clock_ns) const;
   v1::AgentState Message(std::uint32_t slot) const;
   v1::AgentStates Chunk(std::uint32_t chunk) const;
@@ -81,6 +90,7 @@ class AgentTable {
   std::string simulator_name_;
   std::uint64_t simulator_id_;
   std::uint32_t run_;
+  std::uint32_t incarnation_;
   PublishPolicy policy_;
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;     ///< A heap, the lowest on top.
@@ -88,7 +98,9 @@ class AgentTable {
   std::vector<std::uint32_t> removed_slots_;  ///< Their last states were sent at this clock.
   std::int64_t taken_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Clock of TakeDue().
   std::uint32_t agent_count_ = 0;
+  std::uint32_t stated_ = 0;
   std::uint64_t states_sequence_ = 0;
+  std::uint64_t standing_sequence_ = 0;  ///< The highest of a state that its agent still has.
   std::uint64_t descriptions_sequence_ = 0;
   Traffic traffic_;
   bool census_changed_ = false;  ///< Descriptions or agents differ from the last clock sample.

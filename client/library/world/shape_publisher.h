@@ -19,8 +19,13 @@ class ShapePublisher {
  public:
   using Writer = std::function<void(const v1::Input&)>;
 
-  ShapePublisher(std::uint64_t simulator_id, std::uint32_t run)
-      : simulator_id_(simulator_id), run_(run) {}
+  /// Shapes are numbered from `first_number` on; another program of the same name must not use the
+  /// same numbers.
+  ShapePublisher(std::uint64_t simulator_id, std::uint32_t run, std::uint32_t first_number)
+      : simulator_id_(simulator_id), run_(run), next_number_(first_number) {}
+
+  /// What is written from here on belongs to this run.
+  void SetRun(std::uint32_t run) { run_ = run; }
 
   /// One more agent has this shape; writes the parts if it is the first.
   void Add(const std::shared_ptr<const Shape>& shape, const Writer& write);
@@ -35,13 +40,15 @@ class ShapePublisher {
  private:
   struct Entry {
     std::shared_ptr<const Shape> shape;
+    std::uint32_t number = 0;
     std::size_t agents = 0;
   };
 
-  void WriteParts(const Shape& shape, const Writer& write) const;
+  void WriteParts(const Entry& entry, const Writer& write) const;
 
   std::uint64_t simulator_id_;
   std::uint32_t run_;
+  std::uint32_t next_number_;             ///< After 2^32 - 1 comes 0.
   std::map<std::string, Entry> entries_;  ///< By content hash.
 };
 

@@ -90,6 +90,12 @@ std::uint64_t World::contacts_missed() const { return implementation_->contacts_
 
 const Traffic& World::traffic() const { return implementation_->traffic(); }
 
+std::string World::waits_for_name() const { return implementation_->waits_for_name(); }
+
+std::vector<Rejection> World::standing_refusals() const {
+  return implementation_->standing_refusals();
+}
+
 std::vector<Rejection> World::TakeRejections() { return implementation_->TakeRejections(); }
 
 Agent::Agent(std::weak_ptr<World::Implementation> world, const AgentId& id)
@@ -107,7 +113,11 @@ Agent& Agent::operator=(Agent&& other) noexcept {
 
 Agent::~Agent() { Remove(); }
 
-const AgentId& Agent::id() const { return id_; }
+AgentId Agent::id() const {
+  AgentId id = id_;
+  if (const auto world = Lock()) id.run = world->run();
+  return id;
+}
 
 void Agent::SetState(const State& state) {
   if (const auto world = Lock()) world->SetState(id_, state);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <iterator>
+#include <random>
 #include <stdexcept>
 #include <utility>
 
@@ -23,6 +24,13 @@ std::uint32_t RunByClock() {
   using Tenths = duration<std::int64_t, std::deci>;
   const auto since_2020 = system_clock::now() - sys_days(year(2020) / January / 1);
   return static_cast<std::uint32_t>(duration_cast<Tenths>(since_2020).count());
+}
+
+std::uint32_t DrawIncarnation() {
+  std::random_device device;
+  std::uint32_t incarnation = 0;
+  while (incarnation == 0) incarnation = device();
+  return incarnation;
 }
 
 PublishPolicy PolicyOf(const WorldOptions& options) {
@@ -55,12 +63,14 @@ class Raised {
 
 World::Implementation::Implementation(const WorldOptions& options,
                                       std::unique_ptr<Transport> transport)
-    : simulator_id_(SimulatorId(options.simulator)),
+    : name_(options.simulator),
+      simulator_id_(SimulatorId(options.simulator)),
       run_(options.run != 0 ? options.run : RunByClock()),
       lock_step_(options.lock_step),
       transport_(std::move(transport)),
-      agents_(options.simulator, simulator_id_, run_, PolicyOf(options)),
-      shapes_(simulator_id_, run_) {}
+      arrival_(run_, options.incarnation != 0 ? options.incarnation : DrawIncarnation()),
+      agents_(options.simulator, simulator_id_, run_, arrival_.incarnation(), PolicyOf(options)),
+      shapes_(simulator_id_, run_, arrival_.incarnation()) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
@@ -137,9 +147,7 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
     if (clock_published_ && clock_ns_ >= clock_ns) return Advance::kReached;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) break;
-    const Deadline repeat(kRepeatPeriod);
     Poll(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
-    if (repeat.Remaining().count() == 0) Repeat();
   }
   return Advance::kTimeout;
 }
@@ -148,7 +156,13 @@ void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("Poll()");
   // Who waits here has nothing more to tell of this time, so the service may judge it.
   if (clock_due_ && timeout.count() > 0) Tell(clock_ns_ + 1);
-  Gather(timeout);
+  const Deadline deadline(timeout);
+  std::chrono::nanoseconds left = timeout;
+  do {
+    if (Gather(std::min<std::chrono::nanoseconds>(left, kRepeatPeriod))) left = {};
+    Tend();
+    left = std::min(left, deadline.Remaining());
+  } while (left.count() > 0);
   Deliver();
 }
 
@@ -180,48 +194,85 @@ std::int64_t World::Implementation::Reachable() const {
 }
 
 void World::Implementation::Send(std::int64_t clock_ns) {
-  if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !name_refused_)
-    return;
+  if (arrival_.waits()) return Wait(clock_ns);
+  const bool again = MustReintroduce();
+  if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !again) return;
+  if (again) Reintroduce();
   Reach(clock_ns);
   WriteClock();
 }
 
+void World::Implementation::Wait(std::int64_t clock_ns) {
+  clock_ns_ = clock_ns;
+  clock_published_ = true;
+  if (IsQuiet()) WriteClock();
+}
+
 void World::Implementation::Reach(std::int64_t clock_ns) {
-  v1::Input message;
-  if (name_refused_) Reintroduce();
-  for (v1::AgentStates& chunk : agents_.TakeDue(clock_ns)) {
-    *message.mutable_agent_states() = std::move(chunk);
-    transport_->Write(message);
-  }
-  transport_->Flush();
+  if (!arrival_.waits()) WriteDue(clock_ns);
   clock_ns_ = clock_ns;
   clock_published_ = true;
   clock_due_ = true;
 }
 
+void World::Implementation::WriteDue(std::int64_t clock_ns) {
+  v1::Input message;
+  for (v1::AgentStates& chunk : agents_.TakeDue(clock_ns)) {
+    *message.mutable_agent_states() = std::move(chunk);
+    transport_->Write(message);
+  }
+  transport_->Flush();
+}
+
 void World::Implementation::Tell(std::int64_t next_ns) {
   const bool known = !clock_due_ && next_ns <= next_ns_;
-  if (known && !agents_.HasNews(clock_ns_) && !name_refused_) return;
+  if (known && arrival_.waits()) return;
+  const bool again = MustReintroduce();
+  if (known && !agents_.HasNews(clock_ns_) && !again) return;
+  if (again) Reintroduce();
   Reach(clock_ns_);
   next_ns_ = std::max(next_ns_, next_ns);
   WriteClock();
 }
 
 void World::Implementation::WriteClock() {
-  v1::Input message;
-  v1::SimulatorClock& clock = *message.mutable_simulator_clock();
-  clock = agents_.Clock(clock_ns_, next_ns_, lock_step_);
-  clock.set_service_id(service_.id());
-  clock.set_clearances_sequence(clearances_sequence_);
-  transport_->Write(message);
-  transport_->Flush();
+  last_clock_ = agents_.Clock(clock_ns_, next_ns_, lock_step_);
+  last_clock_.set_service_id(service_.id());
+  last_clock_.set_clearances_sequence(clearances_sequence_);
   clock_due_ = false;
+  RepeatClock();
+  arrival_.Wrote(last_clock_, agents_.stated(), clock_written_);
 }
 
-void World::Implementation::Repeat() {
+void World::Implementation::RepeatClock() {
+  v1::Input message;
+  *message.mutable_simulator_clock() = last_clock_;
+  transport_->Write(message);
+  transport_->Flush();
+  clock_written_ = std::chrono::steady_clock::now();
+}
+
+void World::Implementation::Tend() {
   if (!clock_published_ || closed_) return;
-  if (name_refused_) Reintroduce();
-  WriteClock();
+  const bool again = MustReintroduce();
+  if (again) Reintroduce();
+  // A clock that has been reached is told with what comes next; until then the last one stands.
+  if (clock_due_) {
+    if (last_clock_.simulator_id() != 0 && IsQuiet()) RepeatClock();
+  } else if (again) {
+    Reach(clock_ns_);
+    WriteClock();
+  } else if (IsQuiet()) {
+    WriteClock();
+  }
+}
+
+bool World::Implementation::IsQuiet() const {
+  return std::chrono::steady_clock::now() - clock_written_ >= kRepeatPeriod;
+}
+
+bool World::Implementation::MustReintroduce() {
+  return transport_->service_alive() && arrival_.TakeDue(std::chrono::steady_clock::now());
 }
 
 void World::Implementation::Finish() {
@@ -240,9 +291,12 @@ void World::Implementation::Close() {
 }
 
 void World::Implementation::Reintroduce() {
-  name_refused_ = false;
-  shapes_.WriteAll(Writer());
+  if (arrival_.with_shapes()) shapes_.WriteAll(Writer());
   v1::Input message;
+  for (const v1::AgentRemoval& removal : agents_.Removals()) {
+    *message.mutable_agent_removal() = removal;
+    transport_->Write(message);
+  }
   for (const v1::AgentDescription& description : agents_.Descriptions()) {
     *message.mutable_agent_description() = description;
     transport_->Write(message);
@@ -263,7 +317,7 @@ ShapePublisher::Writer World::Implementation::Writer() {
   return [this](const v1::Input& message) { transport_->Write(message); };
 }
 
-void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
+bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Flush();  // Descriptions may be waiting.
   Arrivals arrivals;
   if (const auto patience = gate_.Remaining(std::chrono::steady_clock::now()))
@@ -274,11 +328,11 @@ void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   for (const v1::Output& output : arrivals.outputs) Handle(output, now);
   for (const v1::Clearance& clearance : gate_.Take(&contacts_, now)) Handle(clearance);
   Watch(now);
-  if (on_event_) return;
-  while (events_.size() > kEventsMax) {
+  while (!on_event_ && events_.size() > kEventsMax) {
     events_.pop_front();
     ++events_lost_;
   }
+  return !arrivals.outputs.empty();
 }
 
 void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
@@ -296,11 +350,16 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
     case v1::Output::kRejection: {
       const v1::Rejection& rejection = output.rejection();
       if (rejection.simulator_id() != simulator_id_ || rejection.run() != run_) break;
-      name_refused_ |= rejection.reason() == v1::REJECTED_ID_OWNED;
+      if (!IsForThis(rejection.incarnation())) break;
       if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
       rejections_.push_back(FromMessage(rejection));
       break;
     }
+    case v1::Output::kSimulatorReport:
+      if (Accept(output.simulator_report().stamp(), output.simulator_report().now_ns(), now)) {
+        Handle(output.simulator_report(), now);
+      }
+      break;
     case v1::Output::kServiceStatus:
       if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
       if (!Accept(output.service_status().stamp(), output.service_status().now_ns(), now)) break;
@@ -315,6 +374,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
 /// the first contact.
 void World::Implementation::AddToGate(const v1::Clearance& clearance, CurrentService::Time now) {
   if (clearance.simulator_id() != simulator_id_ || clearance.run() != run_) return;
+  if (!IsForThis(clearance.incarnation())) return;
   if (clearance.contacts_sequence() == 0) contacts_.BeginAtNone();
   gate_.Add(clearance, now);
 }
@@ -372,6 +432,28 @@ void World::Implementation::Handle(const v1::CollisionEvent& event) {
   } else if (filter_.IsNew(event, &contacts_)) {
     events_.push_back(FromMessage(event));
   }
+}
+
+void World::Implementation::Handle(const v1::SimulatorReport& report, Arrival::Time now) {
+  if (report.simulator_id() != simulator_id_) return;
+  arrival_.Hear(report, now);
+  if (arrival_.run() == run_) return;
+  run_ = arrival_.run();
+  agents_.SetRun(run_);
+  shapes_.SetRun(run_);
+}
+
+std::vector<Rejection> World::Implementation::standing_refusals() const {
+  std::vector<Rejection> refusals;
+  if (!arrival_.own()) return refusals;
+  for (const v1::StandingRefusal& refusal : arrival_.own()->refusals()) {
+    refusals.push_back(FromMessage(refusal, *arrival_.own()));
+  }
+  return refusals;
+}
+
+bool World::Implementation::IsForThis(std::uint32_t incarnation) const {
+  return incarnation == 0 || incarnation == arrival_.incarnation();
 }
 
 bool World::Implementation::IsOwn(const v1::AgentId& id) const {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
 #include "client/library/world/agent_table.h"
+#include "client/library/world/arrival.h"
 #include "client/library/world/clearance_gate.h"
 #include "client/library/world/shape_publisher.h"
 
@@ -22,8 +24,8 @@ namespace collision::client {
 inline constexpr std::size_t kEventsMax = 65536;     ///< Kept without a callback.
 inline constexpr std::size_t kRejectionsMax = 1024;  ///< Kept until they are taken.
 
-/// Period of repeating the clock while waiting for a grant: a service that counted this simulator
-/// as dead (it was stopped for longer than the liveliness lease) notices that it is back.
+/// Period of repeating the clock while nothing else is written: a service that counted this
+/// simulator as dead (it was stopped for longer than the liveliness lease) notices that it is back.
 inline constexpr std::chrono::milliseconds kRepeatPeriod(500);
 
 /// The state of a World.
@@ -63,6 +65,9 @@ class World::Implementation {
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
   std::uint64_t contacts_missed() const { return contacts_.missed(); }
+  std::uint32_t run() const { return run_; }
+  std::string waits_for_name() const { return OtherText(name_, arrival_); }
+  std::vector<Rejection> standing_refusals() const;
   const Traffic& traffic() const { return agents_.traffic(); }
 
  private:
@@ -75,16 +80,25 @@ class World::Implementation {
   /// Writes what is due at this clock, then the clock, unless the service knows all of it already.
   void Send(std::int64_t clock_ns);
 
+  /// The same while another program has the name: what is due stays staged, since it would be
+  /// refused, and the clock is repeated now and then, so that the service knows who waits.
+  void Wait(std::int64_t clock_ns);
+
   /// Writes what is due at this clock, which is reached now. In lock-step a clock follows when it
   /// is known what comes next (Tell()).
   void Reach(std::int64_t clock_ns);
+  void WriteDue(std::int64_t clock_ns);
 
   /// Lock-step: tells that nothing of any time before `next_ns` follows, unless the service knows.
   void Tell(std::int64_t next_ns);
   void WriteClock();
-  void Repeat();
-  /// Repeats everything: the service refused this simulator while another program of its name,
-  /// perhaps its own predecessor, still counted as alive.
+  void RepeatClock();
+  bool IsQuiet() const;  ///< Nothing was written for kRepeatPeriod.
+
+  /// Repeats the clock if nothing was written for kRepeatPeriod, and everything if that is due.
+  void Tend();
+  bool MustReintroduce();
+  /// Repeats everything that still holds.
   void Reintroduce();
   void WriteDescription(const AgentId& id);
 
@@ -92,12 +106,16 @@ class World::Implementation {
   ShapePublisher::Writer Writer();
 
   /// Takes in what arrives within `timeout`, without callbacks.
-  void Gather(std::chrono::nanoseconds timeout);
+  /// False: nothing has arrived.
+  bool Gather(std::chrono::nanoseconds timeout);
   void Handle(const v1::Output& output, CurrentService::Time now);
   void AddToGate(const v1::Clearance& clearance, CurrentService::Time now);
   void Handle(const v1::Clearance& clearance);
   void Handle(const v1::CollisionEvent& event);
+  void Handle(const v1::SimulatorReport& report, Arrival::Time now);
   bool IsOwn(const v1::AgentId& id) const;
+  /// Not for another program of this name.
+  bool IsForThis(std::uint32_t incarnation) const;
 
   /// Whether the sample is of the service in force; takes note of its time.
   bool Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns, CurrentService::Time now);
@@ -110,10 +128,12 @@ class World::Implementation {
   template <typename Callback, typename... Values>
   void Call(const Callback& callback, const Values&... values);
 
+  const std::string name_;
   const std::uint64_t simulator_id_;
-  const std::uint32_t run_;
+  std::uint32_t run_;
   const bool lock_step_;
   std::unique_ptr<Transport> transport_;
+  Arrival arrival_;
   AgentTable agents_;
   ShapePublisher shapes_;
   CurrentService service_;
@@ -129,8 +149,8 @@ class World::Implementation {
   /// next clock; not above the clock: it is not told.
   std::int64_t next_ns_ = std::numeric_limits<std::int64_t>::min();
   bool clock_due_ = false;  ///< The clock has been reached by AdvanceTo(), and is not written.
-  /// Since the last Reintroduce() the service refused this sender: another one owns the name.
-  bool name_refused_ = false;
+  v1::SimulatorClock last_clock_;  ///< As written.
+  Arrival::Time clock_written_{};
 
   std::int64_t service_now_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Newest heard.
   std::uint64_t clearances_sequence_ = 0;  ///< Of the newest clearance taken in, of this service.

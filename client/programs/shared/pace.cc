@@ -5,6 +5,7 @@
 #include <fstream>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "client/api/event_text.h"
 #include "client/programs/shared/stop_signal.h"
@@ -112,6 +113,8 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
 
 void Pace::TakeRefusals() {
   refusals_.Add(world_.TakeRejections(), steady_clock::now());
+  const std::string former = std::exchange(other_, world_.waits_for_name());
+  if (!other_.empty() && former.empty()) std::fprintf(stderr, "%s\n", other_.c_str());
   if (world_.granted_until_ns() > granted_ns_) refusals_.Granted();
   granted_ns_ = world_.granted_until_ns();
   RequireClock();
@@ -126,6 +129,8 @@ void Pace::RequireClock() const {
 }
 
 void Pace::RequireAgentsTaken() const {
+  const std::string other = world_.waits_for_name();
+  if (!other.empty()) throw RefusedError(other);
   const auto reason = refusals_.fatal(steady_clock::now());
   if (reason) throw RefusedError("the service refused this simulator's agents: " + *reason);
 }

@@ -79,6 +79,7 @@ class Pace {
   SimulatorOptions options_;
   World world_;
   Refusals refusals_;
+  std::string other_;  ///< Printed: why it waits for its name.
   std::int64_t granted_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t start_ns_ = 0;
   std::chrono::steady_clock::time_point start_;  // the same moment

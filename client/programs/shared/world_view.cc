@@ -34,7 +34,9 @@ MessageMonitor::Callbacks WorldView::Callbacks() {
   callbacks.removal = [this](const v1::AgentRemoval& message) { Handle(message); };
   callbacks.shape_part = [this](const v1::ShapePart& message) { Handle(message); };
   callbacks.shape_removal = [this](const v1::ShapeRemoval& message) {
-    shapes_.erase({message.simulator_id(), message.content_hash()});
+    std::erase_if(shapes_, [&](const auto& shape) {
+      return shape.first.first == message.simulator_id() && shape.second.number == message.shape();
+    });
   };
   callbacks.states = [this](const v1::AgentStates& message) { Handle(message); };
   callbacks.clearance = [this](const v1::Clearance& message) { Handle(message); };
@@ -124,12 +126,15 @@ void WorldView::Handle(const v1::AgentDescription& description) {
 }
 
 void WorldView::Handle(const v1::AgentRemoval& removal) {
-  descriptions_.erase({removal.simulator_id(), removal.slot()});
+  const auto agent = descriptions_.find({removal.simulator_id(), removal.slot()});
+  if (agent == descriptions_.end()) return;
+  if (agent->second.incarnation() == removal.incarnation()) descriptions_.erase(agent);
 }
 
 void WorldView::Handle(const v1::ShapePart& part) {
   ShapeView& shape = shapes_[{part.simulator_id(), part.content_hash()}];
   shape.run = std::max(shape.run, part.run());
+  shape.number = part.shape();
   shape.bytes = part.total_bytes();
   shape.parts = part.parts();
   shape.parts_seen.insert(part.part());

@@ -24,6 +24,7 @@ struct AgentView {
 struct ShapeView {
   std::string hash;
   std::string simulator;
+  std::uint32_t number = 0;  ///< Its simulator's number of it.
   std::uint32_t run = 0;
   std::size_t agents = 0;  ///< Agents of this simulator that have it.
   std::uint64_t bytes = 0;

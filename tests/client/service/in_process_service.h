@@ -11,6 +11,7 @@
 #include "client/api/world.h"
 #include "client/library/network/transport.h"
 #include "idl/identity.h"
+#include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 
 namespace collision::client {
@@ -33,6 +34,9 @@ class InProcessService {
     for (const v1::Output& output : steps_.back()) said_.push_back(output);
     if (steps_.size() <= late_) return;
     for (const v1::Output& output : steps_.front()) {
+      if (output.has_simulator_report()) {
+        reports_[output.simulator_report().simulator_id()] = output;
+      }
       for (auto& [sender, inbox] : inboxes_) inbox.push_back(output);
     }
     steps_.pop_front();
@@ -41,7 +45,14 @@ class InProcessService {
   /// A world over this service, for a simulator with this sender id.
   World Connect(std::uint64_t sender, WorldOptions options);
 
+  /// The program with this sender is gone: its simulator's lease is over.
+  void End(std::uint64_t sender, const std::string& simulator) {
+    inputs_.push_back(server::Liveliness(sender, simulator, false));
+    inboxes_.erase(sender);
+  }
+
   const std::vector<v1::Output>& said() const { return said_; }
+  server::ScriptedDaemon& daemon() { return daemon_; }
 
  private:
   class Line;
@@ -51,6 +62,7 @@ class InProcessService {
   std::vector<v1::Input> inputs_;
   std::deque<std::vector<v1::Output>> steps_;
   std::map<std::uint64_t, std::vector<v1::Output>> inboxes_;
+  std::map<std::uint64_t, v1::Output> reports_;  ///< The newest ones, for who comes later.
   std::vector<v1::Output> said_;
 };
 
@@ -59,6 +71,9 @@ class InProcessService::Line : public Transport {
  public:
   Line(InProcessService* service, std::uint64_t sender, std::uint64_t simulator)
       : service_(*service), sender_(sender), simulator_(simulator) {
+    for (const auto& [id, report] : service_.reports_) {
+      service_.inboxes_[sender].push_back(report);
+    }
     service_.inboxes_[sender];
   }
 
@@ -84,7 +99,7 @@ class InProcessService::Line : public Transport {
 };
 
 inline World InProcessService::Connect(std::uint64_t sender, WorldOptions options) {
-  options.run = 1;
+  if (options.run == 0) options.run = 1;
   auto line = std::make_unique<Line>(this, sender, SimulatorId(options.simulator));
   return World::Connect(options, std::move(line));
 }

@@ -313,11 +313,6 @@ TEST(ShapeStoreLimits, AreKept) {
   const std::string two = EncodeShape(Cube(1, UnusedFor(1)));
   const std::string other = EncodeShape(Cube(2, UnusedFor(1)));
   EXPECT_EQ(take(PartsOf("a", two)), Refused());
-  EXPECT_EQ(take({PartsOf("a", other)[0]}), Refused());
-  store.SetHeldBytes(wire::kShapePartBytes);
-  EXPECT_EQ(take({PartsOf("a", other)[1]}), Refused{"bytes"});
-  EXPECT_EQ(store.counters().bytes, two.size() + wire::kShapePartBytes);
-  store.SetHeldBytes(0);
   EXPECT_EQ(take(PartsOf("a", other)), Refused());
 
   const std::string third = EncodeShape(Cube(3));
@@ -326,6 +321,51 @@ TEST(ShapeStoreLimits, AreKept) {
     store.Dispose(kA, part.content_hash(), part.part());
   }
   EXPECT_EQ(take(PartsOf("a", third)), Refused());
+}
+
+TEST(ShapeStoreLimits, APartForWhichThereIsNoRoomIsRefused) {
+  v1::Config config;
+  config.set_shape_bytes_max(2 * wire::kShapePartBytes);
+  InlineShapeBuilder builder({.triangles_max = 10'000});
+  ShapeStore store(CompleteConfig(config), &builder);
+  const std::string two = EncodeShape(Cube(1, UnusedFor(1)));
+  const std::string other = EncodeShape(Cube(2, UnusedFor(1)));
+  for (const v1::ShapePart& part : PartsOf("a", two)) EXPECT_FALSE(store.Take(part));
+  const auto refusal = store.Take(PartsOf("b", other)[0]);
+  ASSERT_TRUE(refusal);
+  EXPECT_EQ(refusal->field, "bytes");
+  EXPECT_EQ(store.counters().bytes, two.size());
+}
+
+// Goal:   a number names one shape while its simulator holds anything of it; the number that a
+//         shape has come under last is the one that removes it.
+TEST_F(ShapeStoreTest, ANumberNamesOneShape) {
+  EXPECT_EQ(TakeAll(parts), None());
+  v1::ShapePart other = PartsOf("a", EncodeShape(Cube(7)))[0];
+  other.set_shape(parts[0].shape());
+  EXPECT_EQ(FieldOf(store.Take(other)), "shape");
+  const std::uint32_t former = parts[0].shape(), latter = former + 1;
+  std::vector<v1::ShapePart> renumbered = parts;
+  for (v1::ShapePart& part : renumbered) part.set_shape(latter);
+  EXPECT_EQ(TakeAll(renumbered), None());
+  EXPECT_FALSE(store.Knows(kA, former));
+  for (const v1::ShapePart& part : parts) store.Dispose(kA, former, part.part());
+  EXPECT_TRUE(store.Knows(kA, latter));
+  for (const v1::ShapePart& part : parts) store.Dispose(kA, latter, part.part());
+  EXPECT_FALSE(store.Knows(kA, latter));
+  EXPECT_FALSE(store.Take(other)) << "the number is free again";
+}
+
+// Goal:   numbers are forgotten with what they name, also if it is refused later than it came.
+TEST_F(ShapeStoreTest, NumbersAreForgottenWithTheirShapes) {
+  const v1::ShapePart bad =
+      PartsOf("a", EncodeShape({.vertices = {{0, 0, 0}}, .triangles = {}}))[0];
+  store.Take(bad);
+  store.MakeVisible({bad.content_hash()});
+  EXPECT_FALSE(store.Knows(kA, bad.shape()));
+  EXPECT_EQ(TakeAll(parts), None());
+  store.Release(kA);
+  EXPECT_FALSE(store.Knows(kA, parts[0].shape()));
 }
 
 // Goal:   after any sequence of everything, what is counted is what is there.

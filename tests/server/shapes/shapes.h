@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -63,12 +64,20 @@ inline std::size_t UnusedFor(std::size_t parts) {
   return parts * wire::kShapePartBytes / kShapeVertexBytes;
 }
 
+/// A number that no other shape of a test has.
+inline std::uint32_t ShapeNumberOf(const std::string& bytes) {
+  std::uint32_t number = 0;
+  std::memcpy(&number, Sha256(bytes).data(), sizeof number);
+  return number;
+}
+
 /// All parts of these bytes, under the hash that they have.
 inline std::vector<v1::ShapePart> PartsOf(const std::string& simulator, const std::string& bytes,
                                           std::uint32_t run = 1) {
   std::vector<v1::ShapePart> parts(ShapeParts(bytes.size()));
   for (std::uint32_t i = 0; i < parts.size(); ++i) {
     parts[i].set_simulator_id(SimulatorId(simulator));
+    parts[i].set_shape(ShapeNumberOf(bytes));
     parts[i].set_content_hash(Sha256(bytes));
     parts[i].set_part(i);
     parts[i].set_parts(static_cast<std::uint32_t>(parts.size()));
@@ -100,7 +109,7 @@ inline std::vector<v1::Input> RemovalsOf(std::uint64_t sender,
     v1::Input& input = inputs.emplace_back();
     input.set_sender(sender);
     input.mutable_shape_removal()->set_simulator_id(part.simulator_id());
-    input.mutable_shape_removal()->set_content_hash(part.content_hash());
+    input.mutable_shape_removal()->set_shape(part.shape());
     input.mutable_shape_removal()->set_part(part.part());
   }
   return inputs;

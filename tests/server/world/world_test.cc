@@ -41,9 +41,7 @@ TEST(World, AnIdHasOneOwner) {
 
   const Claim other = world.ClaimFor(1, 11, 6, &name);
   EXPECT_FALSE(other.accepted);
-  EXPECT_TRUE(other.may_wait);
   EXPECT_EQ(other.reason, v1::REJECTED_ID_OWNED);
-  EXPECT_FALSE(world.ClaimFor(1, 11, 5, &name).may_wait);
 
   world.Find(1)->SetAlive(false, 0);
   EXPECT_EQ(world.ClaimFor(1, 11, 5, &name).reason, v1::REJECTED_ID_OWNED);

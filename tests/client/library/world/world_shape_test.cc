@@ -109,7 +109,7 @@ TEST_F(WorldShapeTest, ManyAgentsShareOneShapeAndTheLastRemovesIt) {
   EXPECT_EQ(Kinds(), "rx");
   const v1::ShapeRemoval& removal = network_->written.back().shape_removal();
   EXPECT_EQ(removal.simulator_id(), SimulatorId(kSimulator));
-  EXPECT_EQ(removal.content_hash(), Strip(5)->hash());
+  EXPECT_EQ(removal.shape(), kIncarnation);
   EXPECT_EQ(network_->flushed, network_->written.size());
 }
 
@@ -129,7 +129,7 @@ TEST_F(WorldShapeTest, AChangeOfShapePublishesTheNewOneFirstAndRemovesTheOldOneL
   EXPECT_EQ(Kinds(), "d");
   ship.SetDescription(Ship("ship", Strip(6)));
   EXPECT_EQ(Kinds(), "pdx");
-  EXPECT_EQ(network_->written.back().shape_removal().content_hash(), Strip(5)->hash());
+  EXPECT_EQ(network_->written.back().shape_removal().shape(), kIncarnation);
   ship.SetDescription(Ship("ship", nullptr));
   EXPECT_EQ(Kinds(), "dx");
   ship.SetDescription(Ship("ship", Strip(6)));
@@ -148,21 +148,18 @@ TEST_F(WorldShapeTest, ARefusedDescriptionWritesNothing) {
   EXPECT_EQ(Kinds(), "rx");
 }
 
-// The successor of a killed program is refused until the service has given up its predecessor.
-TEST_F(WorldShapeTest, AfterARefusedNameShapesAreRepeatedToo) {
+// The successor of a killed program waits until the service has given up its predecessor.
+TEST_F(WorldShapeTest, WhenTheNameIsFreeShapesAreRepeatedToo) {
   const Agent ship = world_.AddAgent(Ship("ship", Strip(5)), {});
   const Agent other = world_.AddAgent(Ship("other", Strip(5)), {});
   std::optional<Agent> gone = world_.AddAgent(Ship("gone", Strip(6)), {});
   gone.reset();
   world_.Publish(0);
   Kinds();
-  v1::Rejection* rejection = network_->arriving.emplace_back().mutable_rejection();
-  rejection->set_simulator_id(SimulatorId(kSimulator));
-  rejection->set_run(kRun);
-  rejection->set_reason(v1::REJECTED_ID_OWNED);
+  network_->Report(kRun - 1, 1, true);
+  network_->Report(kRun - 1, 1, false);
   world_.Poll();
-  world_.Publish(0);
-  EXPECT_EQ(Kinds(), "pddssc");
+  EXPECT_EQ(Kinds(), "prddssc");
 }
 
 // The end of a World leaves its agents to the service, and so their shapes.

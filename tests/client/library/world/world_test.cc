@@ -70,25 +70,35 @@ TEST_F(WorldTest, AJumpIsRepeatedUntilItIsAcknowledged) {
   EXPECT_FALSE(network_->States().back().states(0).discontinuity());
 }
 
-// The successor of a killed program is refused until the service has given up its predecessor, but
-// not longer.
-TEST_F(WorldTest, AfterARefusedNameEverythingIsRepeated) {
+// The successor of a killed program waits until the service has given up its predecessor, but not
+// longer, and takes the next run if its own is not higher.
+TEST_F(WorldTest, WhenTheNameIsFreeEverythingIsRepeated) {
   World world = ConnectTo(network_);
-  const Agent ball = world.AddAgent(Ball(), At(0, 3));
+  Agent ball = world.AddAgent(Ball(), At(0, 3));
   world.Publish(0);
   network_->written.clear();
-  v1::Rejection* rejection = network_->arriving.emplace_back().mutable_rejection();
-  rejection->set_simulator_id(SimulatorId(kSimulator));
-  rejection->set_run(kRun);
-  rejection->set_reason(v1::REJECTED_ID_OWNED);
+  network_->Report(kRun + 2, 1, true);
   world.Poll();
+  EXPECT_NE(world.waits_for_name(), "");
+  ball.SetState(At(0, 4));
   world.Publish(0);
-  ASSERT_EQ(network_->written.size(), 3u);
+  EXPECT_TRUE(network_->States().empty()) << "it would be refused";
+  EXPECT_EQ(ball.id().run, kRun);
+  network_->written.clear();
+  network_->Report(kRun + 2, 1, false);
+  world.Poll();
+  EXPECT_EQ(world.waits_for_name(), "");
+  EXPECT_EQ(ball.id().run, kRun + 3);
+  ASSERT_EQ(network_->written.size(), 4u);
+  EXPECT_EQ(network_->written[0].agent_description().run(), kRun + 3);
   EXPECT_EQ(network_->written[0].agent_description().agent_name(), "ball");
+  EXPECT_EQ(network_->written[1].agent_states().run(), kRun + 3);
   EXPECT_EQ(network_->written[1].agent_states().states(0).position_m().x(), 3);
-  EXPECT_EQ(network_->written[2].simulator_clock().descriptions_sequence(), 1u);
+  EXPECT_EQ(network_->written[2].agent_states().states(0).position_m().x(), 4) << "it is due";
+  EXPECT_EQ(network_->written[3].simulator_clock().run(), kRun + 3);
+  EXPECT_EQ(network_->written[3].simulator_clock().descriptions_sequence(), 1u);
   world.Publish(0);
-  EXPECT_EQ(network_->written.size(), 3u) << "once is enough until it is refused again";
+  EXPECT_EQ(network_->written.size(), 4u) << "once is enough";
 }
 
 TEST_F(WorldTest, AnAgentIsDescribedThenPlacedThenCoveredByAClock) {

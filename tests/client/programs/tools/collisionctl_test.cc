@@ -158,6 +158,7 @@ TEST_F(CollisionctlTest, ShapesPageShowsTheArrivedPartsOfEach) {
   const auto part = [&](std::uint32_t number, std::uint32_t run) {
     v1::ShapePart* message = next_.inputs.emplace_back().mutable_shape_part();
     message->set_simulator_id(5);
+    message->set_shape(9);
     message->set_content_hash(hash);
     message->set_run(run);
     message->set_part(number);
@@ -186,7 +187,7 @@ TEST_F(CollisionctlTest, ShapesPageShowsTheArrivedPartsOfEach) {
                 "\"solids\":3,\"bytes\":100000,\"parts\":3,\"parts_seen\":2}]}");
   v1::ShapeRemoval* removal = next_.inputs.emplace_back().mutable_shape_removal();
   removal->set_simulator_id(5);
-  removal->set_content_hash(hash);
+  removal->set_shape(9);
   Poll(1);
   EXPECT_TRUE(view_.Shapes().empty());
   part(0, 7);
