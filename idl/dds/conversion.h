@@ -32,6 +32,7 @@ COLLISION_CARRIER(EarliestIntersection, kEarliestIntersection)
 COLLISION_CARRIER(CollisionEvent, kCollisionEvent)
 COLLISION_CARRIER(Rejection, kRejection)
 COLLISION_CARRIER(ServiceStatus, kServiceStatus)
+COLLISION_CARRIER(OperatorCommand, kOperatorCommand)
 #undef COLLISION_CARRIER
 
 /// Throws std::length_error, naming field and bound, if a text, list or byte field is longer than

@@ -15,6 +15,7 @@ struct Partitions {
   std::optional<std::string> read_of_simulators, read_of_service;
   std::optional<std::string> read_of_other_services;  ///< Their status only.
   std::optional<std::string> write_as_simulator, write_as_service;
+  std::optional<std::string> read_of_operators, write_as_operator;
 };
 
 /// All live inside the participant and end with it. 0: the program does not have it.

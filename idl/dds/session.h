@@ -18,6 +18,7 @@ enum class DdsRole {
   kSimulator,  ///< Writes its agents; reads the service's topics, of clearances and rejections its
                ///< own.
   kMonitor,    ///< Writes nothing.
+  kOperator,   ///< Writes commands; reads the service's topics.
 };
 
 struct DdsSessionOptions {
@@ -72,6 +73,7 @@ class DdsSession {
   void Write(const v1::CollisionEvent& message);
   void Write(const v1::Rejection& message);
   void Write(const v1::ServiceStatus& message);
+  void Write(const v1::OperatorCommand& message);
 
   /// Removes an agent for good, by disposing of its description. kSimulator only. Flush() sends it.
   void RemoveAgent(std::uint64_t simulator_id, std::uint32_t slot);

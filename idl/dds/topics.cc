@@ -24,6 +24,8 @@ const std::array<TopicRow, kTopics>& Topics() {
        false, kAll},
       {kServiceStatus, "collision/v1/service_status", &collision_v1_ServiceStatus_desc, kService,
        true, 1, 1, true, kAll},
+      {kOperatorCommand, "collision/v1/operator_command", &collision_v1_OperatorCommand_desc,
+       kOperators, true, 1, 1, false, kCommandsAtOnce},
   }};
   return rows;
 }

@@ -20,10 +20,14 @@ enum class TopicId {
   kCollisionEvent,
   kRejection,
   kServiceStatus,
+  kOperatorCommand,
 };
-inline constexpr std::size_t kTopics = 9;
+inline constexpr std::size_t kTopics = 10;
 
-enum class Source { kSimulators, kService };
+enum class Source { kSimulators, kService, kOperators };
+
+/// A command that a service has not taken by then means nothing any more [ns].
+inline constexpr dds_duration_t kCommandLifespan = DDS_SECS(10);
 
 struct TopicRow {
   TopicId id;
@@ -41,6 +45,7 @@ struct TopicRow {
 
 inline constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 inline constexpr std::size_t kShapePartsAtOnce = 256;  ///< 12.6 MB.
+inline constexpr std::size_t kCommandsAtOnce = 8;      ///< As many answers as a status shows.
 
 /// In the order in which a reader drains them: few before many, so that no flood starves the
 /// clocks.

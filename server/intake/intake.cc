@@ -32,6 +32,8 @@ void Intake::Apply(const v1::Input& input) {
       return TakeShapeRemoval(input);
     case v1::Input::kShapeReady:
       return agent_shapes_.TakeReady(input.shape_ready());
+    case v1::Input::kServiceHeard:     // for the claim
+    case v1::Input::kOperatorCommand:  // for the OperatorCommands
     case v1::Input::MESSAGE_NOT_SET:
       return;
   }
@@ -53,6 +55,7 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     claim.simulator->StartRun(input.sender(), where.run);
   }
   claim.simulator->SetSucceededUnheard(false);
+  if (where.topic != v1::TOPIC_SIMULATOR_CLOCK) claim.simulator->CountTold();
   return claim.simulator;
 }
 
@@ -96,6 +99,8 @@ void Intake::TakeClock(const v1::Input& input) {
     }
     return rejections_.Add(*refusal);
   }
+  // A clock that is only repeated is no progress.
+  if (std::get<Instant>(decoded) > time.newest()) simulator->Resume();
   time.Offer({.clock = std::get<Instant>(decoded),
               .states_sequence = wire.states_sequence(),
               .descriptions_sequence = wire.descriptions_sequence(),
@@ -173,6 +178,13 @@ void Intake::TakeClocks(Simulator* simulator) {
   if (!simulator->time().Take()) return;
   if (first) return agents_.AdmitComplete(simulator);
   detector_.SetHeardUntil({simulator->id(), simulator->run()}, *simulator->time().clock());
+}
+
+void Intake::EndRun(Simulator* simulator, EndCause cause) {
+  TakeClocks(simulator);
+  agents_.RemoveAll(simulator);
+  shapes_.Release(simulator->id());
+  world_.EndRun(simulator, cause);
 }
 
 void Intake::EndEpoch() {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/codec/encode.h"
+#include "server/publish/because.h"
 
 namespace collision::server {
 
@@ -52,10 +53,12 @@ void Publisher::PublishChunk(const World& world, const Simulator& simulator, std
   bus_.Publish(output);
 }
 
-void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events) {
+void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
+                              const EndedRuns& ended) {
   for (const detection::CollisionEvent& event : events) {
     v1::Output output;
     *output.mutable_collision_event() = Encode(event);
+    AddBecause(ended, output.mutable_collision_event());
     event_log_.Add(output.collision_event());
     *output.mutable_collision_event()->mutable_stamp() = NextStamp();
     bus_.Publish(output);

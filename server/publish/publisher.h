@@ -26,7 +26,9 @@ class Publisher {
 
   /// In this order. They leave before the clearances of the same step, so that a simulator that is
   /// granted time has been told what it may meet.
-  void PublishEvents(const std::vector<detection::CollisionEvent>& events);
+  /// `ended`: events of agents that the service removed say so.
+  void PublishEvents(const std::vector<detection::CollisionEvent>& events,
+                     const EndedRuns& ended = {});
 
   /// Publishes the answer if it differs from the last one published.
   void PublishEarliest(const detection::EarliestAnswer& answer, Instant now);

@@ -7,6 +7,7 @@ void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
   time_ = {};
   sender_ = sender;
   run_ = run;
+  ended_ = false;
   SetAlive(true, 0);
   succeeded_unheard_ = false;
 }
@@ -16,9 +17,19 @@ void Simulator::LeaveEpoch() {
   time_ = {};
 }
 
+void Simulator::Release(std::int64_t monotonic_ns) {
+  released_ = true;
+  released_since_ns_ = monotonic_ns;
+}
+
+void Simulator::End() {
+  agents_.Clear();
+  ended_ = true;
+}
+
 void Simulator::SetAlive(bool alive, std::int64_t monotonic_ns) {
+  if (alive || alive_) silent_since_ns_ = monotonic_ns;
   alive_ = alive;
-  silent_since_ns_ = monotonic_ns;
   if (alive) released_ = false;
 }
 

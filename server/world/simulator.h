@@ -35,20 +35,29 @@ class Simulator {
   /// that the agents have been removed.
   void LeaveEpoch();
 
-  bool alive() const { return alive_; }
+  /// Its process lives, and the service has not ended its run.
+  bool alive() const { return alive_ && !ended_; }
   std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
   void SetAlive(bool alive, std::int64_t monotonic_ns);
 
-  /// It was silent for too long: the world's time does not wait for it until it is alive again.
+  /// It was silent, or stood, for too long: the world's time does not wait for it until it is alive
+  /// again or its clock moves.
   bool released() const { return released_; }
-  void Release() { released_ = true; }
+  std::int64_t released_since_ns() const { return released_since_ns_; }  ///< Monotonic; likewise.
+  void Release(std::int64_t monotonic_ns);
+  void Resume() { released_ = false; }
+
+  /// The service ends this run: no agents, and nothing more is taken of it. Requires that the
+  /// agents have been removed.
+  void End();
 
   /// All its input so far is what it had written while it waited for the id.
   bool succeeded_unheard() const { return succeeded_unheard_; }
   void SetSucceededUnheard(bool unheard) { succeeded_unheard_ = unheard; }
 
-  /// Gone for good: its process has ended, and it removed all its agents or never described any.
-  bool has_left() const { return !alive_ && agents_.size() == 0; }
+  /// Gone for good: its process or its run has ended, and its agents are removed, or it never
+  /// described any.
+  bool has_left() const { return !alive() && agents_.size() == 0; }
 
   /// Whether the world's time waits for it.
   bool holds_time() const { return time_.clock().has_value() && !released_ && !has_left(); }
@@ -61,6 +70,10 @@ class Simulator {
   const SimulatorTime& time() const { return time_; }
   AgentTable& agents() { return agents_; }
   const AgentTable& agents() const { return agents_; }
+
+  /// Counts a message that is more than a clock.
+  void CountTold() { ++told_; }
+  std::uint64_t told() const { return told_; }
 
   void CountState() { ++states_; }
   std::uint64_t states() const { return states_; }  ///< Accepted, in all runs.
@@ -76,10 +89,13 @@ class Simulator {
   std::string name_;
   bool alive_ = true;
   bool released_ = false;
+  bool ended_ = false;
   std::int64_t silent_since_ns_ = 0;
+  std::int64_t released_since_ns_ = 0;
   bool succeeded_unheard_ = false;
   SimulatorTime time_;
   AgentTable agents_;
+  std::uint64_t told_ = 0;
   std::uint64_t states_ = 0;
   std::uint64_t refusals_ = 0;
 };
