@@ -237,6 +237,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
       if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
       if (!service_.Accept(output.service_status().stamp(), now)) break;
       simulated_clock_ = output.service_status().simulated_clock();
+      waiting_.Take(output.service_status());
       break;
     default:
       break;
@@ -265,6 +266,11 @@ bool World::Implementation::IsOwn(const v1::AgentId& id) const {
 }
 
 void World::Implementation::Deliver() {
+  if (on_waiting_ && !closed_ && waiting_.TakeChange()) {
+    const auto callback = on_waiting_;  // It may replace itself.
+    const Raised raised(&in_callback_);
+    callback(waiting_.names());
+  }
   while (on_event_ && !closed_ && !events_.empty()) {
     const Event event = events_.front();
     events_.pop_front();

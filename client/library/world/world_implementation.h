@@ -14,6 +14,7 @@
 #include "client/library/world/agent_table.h"
 #include "client/library/world/revision_filter.h"
 #include "client/library/world/shape_publisher.h"
+#include "client/library/world/waiting_list.h"
 
 namespace collision::client {
 
@@ -50,6 +51,9 @@ class World::Implementation {
   std::optional<bool> simulated_clock() const { return simulated_clock_; }
 
   void OnEvent(std::function<void(const Event&)> callback) { on_event_ = std::move(callback); }
+  void OnWaiting(std::function<void(const std::vector<std::string>&)> callback) {
+    on_waiting_ = std::move(callback);
+  }
   std::vector<Event> TakeEvents();
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
@@ -80,7 +84,7 @@ class World::Implementation {
   void Handle(const v1::CollisionEvent& event);
   bool IsOwn(const v1::AgentId& id) const;
 
-  /// Runs the callback for the events received.
+  /// Runs the callbacks for what was received.
   void Deliver();
 
   const std::uint64_t simulator_id_;
@@ -100,6 +104,8 @@ class World::Implementation {
   bool name_refused_ = false;
 
   std::function<void(const Event&)> on_event_;
+  std::function<void(const std::vector<std::string>&)> on_waiting_;
+  WaitingList waiting_;
   std::deque<Event> events_;
   std::deque<Rejection> rejections_;
   std::uint64_t events_lost_ = 0;
