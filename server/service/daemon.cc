@@ -173,6 +173,8 @@ class Daemon::Implementation {
   }
 
   void BeginTerm() {
+    // What an earlier configuration left behind means nothing to a wall clock.
+    if (!world_.simulated()) journal_.Clear();
     KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
     schedule_.Hasten();
     spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());

@@ -220,6 +220,38 @@ TEST(SilenceOnTheWallClock, TheLivingStayAndSoDoTheDeadWithoutALimit) {
   EXPECT_EQ(other.status().agents(), 1u);
 }
 
+// Two that are 5 km apart, with 20 m/s² each. The dead one's bound reaches the other after 16 s.
+TEST(SilenceOnTheWallClock, TheNeighbourOfTheRemovedIsClearAgain) {
+  ScriptedDaemon daemon(Wall(60));
+  std::uint64_t sequence = 0;
+  const auto tell = [&](const std::string& name, std::uint64_t sender, double x) {
+    v1::AgentState state = State(0, daemon.bus().wall_ns + daemon.bus().monotonic_ns, ++sequence);
+    state.mutable_position_m()->set_x(x);
+    return From(sender, state, name);
+  };
+  const auto describe = [](const std::string& name, std::uint64_t sender) {
+    v1::AgentDescription description = Description(name, 0);
+    description.set_acceleration_max_m_s2(20);
+    return From(sender, description);
+  };
+  daemon.Step({describe("alpha", 1), tell("alpha", 1, 0)});
+  daemon.Step({describe("beta", 2), tell("beta", 2, 5000)});
+  daemon.Step({Liveliness(2, "beta", false)});
+  for (int second = 1; second <= 62; ++second) {
+    daemon.Step({}, 1);
+    daemon.Step({tell("alpha", 1, 0)});
+    const v1::Clearance clearance = daemon.clearance(SimulatorId("alpha"));
+    ASSERT_EQ(clearance.agents_size(), 1);
+    if (second > 23 && second < 60) {
+      EXPECT_TRUE(clearance.agents(0).not_clear()) << second;
+    }
+    if (second > 60) {
+      EXPECT_FALSE(clearance.agents(0).not_clear()) << second;
+      EXPECT_EQ(clearance.agents(0).clear_until_ns(), kNeverNs);
+    }
+  }
+}
+
 TEST(SilenceOnTheWallClock, WhoIsBackInTimeBeginsAnew) {
   ScriptedDaemon daemon(Wall(30));
   daemon.Step(Joins(&daemon, "alpha", 1), 1);
