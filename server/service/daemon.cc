@@ -230,7 +230,6 @@ class Daemon::Implementation {
     world_.BeginEpoch();
     publisher_.BeginEpoch(world_.epoch());
     schedule_.Hasten();
-    journal_.Clear();
     KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
   }
 

@@ -22,7 +22,7 @@ class RosterJournal {
   /// before, and error() says why.
   bool Keep(const World& world);
 
-  /// Empties the roster: its epoch is over.
+  /// Empties the roster.
   bool Clear();
 
   /// The term and epoch in force.

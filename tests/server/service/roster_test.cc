@@ -212,6 +212,18 @@ TEST_F(RosterOfDaemonTest, WhoLeftIsNotWaitedForAndAnEndedEpochLeavesNobody) {
   EXPECT_EQ(journal_->epoch(), 2u);
 }
 
+TEST_F(RosterOfDaemonTest, AWallClockForgetsARosterThatAnEarlierConfigurationLeft) {
+  Start();
+  FlyTogether(5 * kSecond);
+  ASSERT_EQ(journal_->simulators().size(), 2u);
+  config_ = {};
+  config_.mutable_clock()->set_kind(v1::Clock::WALL);
+  config_ = CompleteConfig(config_);
+  Start();
+  EXPECT_EQ(Extension(daemon_->status(), "waiting_for"), "");
+  EXPECT_TRUE(journal_->simulators().empty());
+}
+
 TEST_F(RosterOfDaemonTest, NewcomersBesideAFullRosterFindRoomOnceItIsComplete) {
   config_.set_simulators_max(2);
   Start();
