@@ -116,6 +116,8 @@ struct Event {
   std::uint32_t level = 0;       ///< Depth of the sphere trees that decided it; 0: balls.
   std::uint64_t work_units = 0;  ///< Spent on this contact so far.
   EventLimit limited_by = EventLimit::kNone;
+  /// The service removed an agent of the pair: "silent", "evicted" or "restarted"; else empty.
+  std::string because;
 };
 
 /// A sample that the service refused, and why.

@@ -142,6 +142,11 @@ class World {
   /// 10 s. Those of its own agents may be among them.
   std::uint64_t contacts_missed() const;
 
+  /// Lock-step: calls back when the simulators that the world's time waits for change, with all
+  /// their names; empty: it waits for none. It waits for one that has died, or that was granted
+  /// time and does not move (`clock.waiting_after_s` of the service). Rules as for OnEvent().
+  void OnWaiting(std::function<void(const std::vector<std::string>&)> callback);
+
   /// What has been set and sent so far.
   const Traffic& traffic() const;
 

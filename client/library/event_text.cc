@@ -198,7 +198,8 @@ std::string EventLine(const Event& event, const AgentNamer& name, std::int64_t o
                 Name(event.status));
   return head + Padded(name(event.lower) + " × " + name(event.higher), kPairColumns) + "  #" +
          std::to_string(event.contact) + " r" + std::to_string(event.revision) + "  " +
-         WhenText(event, origin_ns) + GapText(event);
+         WhenText(event, origin_ns) + GapText(event) +
+         (event.because.empty() ? "" : "  because " + event.because);
 }
 
 }  // namespace collision::client

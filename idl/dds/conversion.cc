@@ -146,6 +146,8 @@ FIELDS(SimulatorStatus,
 
 FIELDS(Counter, TEXT(name) VALUE(value))
 
+FIELDS(OperatorCommand, VALUE(command_id) VALUE(kind) TEXT(simulator))
+
 FIELDS(ServiceStatus,
        VALUE(service_id) MESSAGE(stamp) VALUE(phase) TEXT(version) TEXT(world)
        VALUE(simulated_clock) VALUE(now_ns) VALUE(granted_until_ns) VALUE(lease_ns) VALUE(agents)
@@ -192,6 +194,8 @@ void FromWire(TopicId topic, const void* wire, v1::Input* input) {
       return Get(wire, input->mutable_shape_part());
     case TopicId::kAgentStates:
       return Get(wire, input->mutable_agent_states());
+    case TopicId::kOperatorCommand:
+      return Get(wire, input->mutable_operator_command());
     case TopicId::kServiceStatus: {
       const auto& status = *static_cast<const collision_v1_ServiceStatus*>(wire);
       v1::ServiceHeard& heard = *input->mutable_service_heard();
@@ -239,5 +243,6 @@ BOTH_WAYS(CollisionEvent)
 BOTH_WAYS(Rejection)
 BOTH_WAYS(ServiceStatus)
 BOTH_WAYS(SimulatorReport)
+BOTH_WAYS(OperatorCommand)
 
 }  // namespace collision::dds

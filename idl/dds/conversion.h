@@ -33,6 +33,7 @@ COLLISION_CARRIER(CollisionEvent, kContact)  // and kForecast
 COLLISION_CARRIER(Rejection, kRejection)
 COLLISION_CARRIER(ServiceStatus, kServiceStatus)
 COLLISION_CARRIER(SimulatorReport, kSimulatorReport)
+COLLISION_CARRIER(OperatorCommand, kOperatorCommand)
 #undef COLLISION_CARRIER
 
 /// Throws std::length_error, naming field and bound, if a text, list or byte field is longer than

@@ -30,6 +30,7 @@ Qos WriterQos(const TopicRow& row, dds_duration_t lease) {
     dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, row.late_joiners_depth,
                                 DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
   }
+  if (row.source == Source::kOperators) dds_qset_lifespan(qos.get(), kCommandLifespan);
   if (row.leased) dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, lease);
   return qos;
 }
@@ -110,12 +111,15 @@ class Builder {
 Endpoints MakeEndpoints(dds_entity_t participant, const Partitions& partitions,
                         dds_duration_t lease, const dds_listener_t* listener) {
   Builder builder(participant, lease);
-  const auto& [of_simulators, of_service, of_other_services, as_simulator, as_service] = partitions;
+  const auto& [of_simulators, of_service, of_other_services, as_simulator, as_service, of_operators,
+               as_operator] = partitions;
   if (of_simulators) builder.Read(Source::kSimulators, *of_simulators, listener);
   if (of_service) builder.Read(Source::kService, *of_service, nullptr);
   if (of_other_services) builder.ReadOtherServices(*of_other_services);
   if (as_service) builder.Write(Source::kService, *as_service);
   if (as_simulator) builder.Write(Source::kSimulators, *as_simulator);
+  if (of_operators) builder.Read(Source::kOperators, *of_operators, nullptr);
+  if (as_operator) builder.Write(Source::kOperators, *as_operator);
   return builder.endpoints();
 }
 

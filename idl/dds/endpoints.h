@@ -16,6 +16,7 @@ struct Partitions {
   std::optional<std::string> read_of_simulators, read_of_service;
   std::optional<std::string> read_of_other_services;  ///< Their status only.
   std::optional<std::string> write_as_simulator, write_as_service;
+  std::optional<std::string> read_of_operators, write_as_operator;
 };
 
 /// The longest lease of a service [s]: what its readers ask for.

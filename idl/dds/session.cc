@@ -17,6 +17,9 @@ namespace {
 
 using dds::Check;
 
+/// Behind the world's name. No simulator has this partition: none has an empty name.
+constexpr char kOperatorsPartition[] = "..operators";
+
 void CheckName(const char* what, const std::string& name) {
   if (wire::IsName(name)) return;
   throw std::runtime_error(std::string(what) + " \"" + name + "\": allowed are " + wire::kNameText);
@@ -40,12 +43,17 @@ dds::Partitions PartitionsOf(const DdsSessionOptions& options) {
   const bool monitor = options.role == DdsRole::kMonitor;
   const bool service = options.role == DdsRole::kService;
   const bool simulator = options.role == DdsRole::kSimulator;
+  const bool as_operator = options.role == DdsRole::kOperator;
   dds::Partitions partitions;
   if (service || (monitor && options.reads_simulators))
     partitions.read_of_simulators = options.world + ".*";
-  if (simulator || (monitor && options.reads_service)) partitions.read_of_service = options.world;
+  if (simulator || as_operator || (monitor && options.reads_service))
+    partitions.read_of_service = options.world;
   if (simulator) partitions.write_as_simulator = options.world + "." + options.simulator;
   if (service) partitions.read_of_other_services = partitions.write_as_service = options.world;
+  const std::string of_operators = options.world + kOperatorsPartition;
+  if (service) partitions.read_of_operators = of_operators;
+  if (as_operator) partitions.write_as_operator = of_operators;
   return partitions;
 }
 
@@ -194,6 +202,7 @@ void DdsSession::Write(const v1::CollisionEvent& message) {
 void DdsSession::Write(const v1::Rejection& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::ServiceStatus& message) { implementation_->Write(message); }
 void DdsSession::Write(const v1::SimulatorReport& message) { implementation_->Write(message); }
+void DdsSession::Write(const v1::OperatorCommand& message) { implementation_->Write(message); }
 
 void DdsSession::RemoveAgent(const v1::AgentRemoval& removal) {
   implementation_->RemoveAgent(removal);

@@ -18,6 +18,7 @@ enum class DdsRole {
   kSimulator,  ///< Writes its agents; reads the service's topics, of clearances and rejections its
                ///< own.
   kMonitor,    ///< Writes nothing.
+  kOperator,   ///< Writes commands; reads the service's topics.
 };
 
 struct DdsSessionOptions {
@@ -73,6 +74,7 @@ class DdsSession {
   void Write(const v1::Rejection& message);
   void Write(const v1::ServiceStatus& message);
   void Write(const v1::SimulatorReport& message);
+  void Write(const v1::OperatorCommand& message);
 
   /// Removes an agent for good, by disposing of its description. kSimulator only. Flush() sends it.
   void RemoveAgent(const v1::AgentRemoval& removal);
@@ -86,11 +88,11 @@ class DdsSession {
 
   /// Waits until something arrived, `timeout` is over or Wake() was called; then takes what
   /// arrived, at most `limit` samples, the rest stays for the next call, and appends a message for
-  /// each. What simulators wrote goes to `inputs`, what the service wrote to `outputs`; nullptr
-  /// where the role reads none. To a service another one's status is an input. Returns how many
-  /// samples it took; not all are messages (a simulator's session hands on only its own
-  /// clearances), a removal may come as a second message of one sample, and changes of liveliness
-  /// come on top.
+  /// each. What simulators and operators wrote goes to `inputs`, what the service wrote to
+  /// `outputs`; nullptr where the role reads none. To a service another one's status is an input.
+  /// Returns how many samples it took; not all are messages (a simulator's session hands on only
+  /// its own clearances), a removal may come as a second message of one sample, and changes of
+  /// liveliness come on top.
   ///
   /// Samples of one key come in the order of their writing; there is no order between keys, topics
   /// or writers. SimulatorLiveliness: its sender, which has described the simulator's agents or

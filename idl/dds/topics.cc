@@ -30,6 +30,8 @@ const std::array<TopicRow, kTopics>& Topics() {
        1, 1, true, kAll},
       {kSimulatorReport, "collision/v1/simulator_report", &collision_v1_SimulatorReport_desc,
        kService, 1, 1, 1, false, kAll},
+      {kOperatorCommand, "collision/v1/operator_command", &collision_v1_OperatorCommand_desc,
+       kOperators, 1, 1, 1, false, kCommandsAtOnce},
   }};
   return rows;
 }

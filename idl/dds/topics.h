@@ -22,10 +22,14 @@ enum class TopicId {
   kRejection,
   kServiceStatus,
   kSimulatorReport,
+  kOperatorCommand,
 };
-inline constexpr std::size_t kTopics = 11;
+inline constexpr std::size_t kTopics = 12;
 
-enum class Source { kSimulators, kService };
+enum class Source { kSimulators, kService, kOperators };
+
+/// A command that a service has not taken by then means nothing any more [ns].
+inline constexpr dds_duration_t kCommandLifespan = DDS_SECS(10);
 
 struct TopicRow {
   TopicId id;
@@ -44,6 +48,7 @@ struct TopicRow {
 
 inline constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 inline constexpr std::size_t kShapePartsAtOnce = 256;  ///< 12.6 MB.
+inline constexpr std::size_t kCommandsAtOnce = 8;      ///< As many answers as a status shows.
 
 /// In the order in which a reader drains them: few before many, so that no flood starves the
 /// clocks; and clearances before contacts, so that the contacts that a clearance names are there.

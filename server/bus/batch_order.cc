@@ -24,6 +24,7 @@ Key KeyOf(const v1::Input& input, bool reused) {
   switch (input.message_case()) {
     case v1::Input::kServiceHeard:
     case v1::Input::kShapeReady:
+    case v1::Input::kOperatorCommand:
       return {0, -1, 0};
     case v1::Input::kAgentDescription:
       return {input.agent_description().simulator_id(), 0, input.agent_description().slot()};

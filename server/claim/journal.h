@@ -3,24 +3,13 @@
 
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "collision_core/base/instant.h"
+#include "server/claim/journalled_simulator.h"
 
 namespace collision::server {
-
-/// A simulator of the roster: who it was, and how far it may have gone.
-struct JournalledSimulator {
-  std::uint64_t id = 0;
-  std::uint32_t run = 0;
-  std::string name;                ///< At most 64 bytes.
-  std::optional<Instant> granted;  ///< The greatest time granted to it; nullopt: none.
-
-  bool operator==(const JournalledSimulator&) const = default;
-};
 
 /// Another process has the journal open: it serves the world, or is about to.
 class JournalInUse : public std::runtime_error {
@@ -59,6 +48,9 @@ class Journal {
 
   /// The roster, by id.
   const std::map<std::uint64_t, JournalledSimulator>& simulators() const { return simulators_; }
+
+  /// Whether the roster has no room for another simulator.
+  bool full() const { return free_.empty(); }
 
   /// What was left out when it was opened, a line each.
   const std::vector<std::string>& damage() const { return damage_; }

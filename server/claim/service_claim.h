@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "server/claim/journalled_simulator.h"
+
 namespace collision::server {
 
 /// One status of another service of this world.
@@ -28,6 +30,8 @@ struct ClaimOptions {
   std::uint32_t term_before = 0;  ///< The highest that the journal knows of.
   std::int64_t wait_ns = 0;       ///< How long it listens; longer than discovery takes.
   std::int64_t heard_for_ns = 0;  ///< How long a status counts as a sign of life: its lease.
+  /// Whom the service before this one served, as the journal has it.
+  std::vector<JournalledSimulator> roster = {};
 };
 
 /// A service's claim to its world. Of the services that serve one world at most one stays: a

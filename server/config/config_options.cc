@@ -54,11 +54,13 @@ constexpr ConfigOption kOptions[] = {
      "With SIMULATED, no simulator is allowed to run further ahead than this, however empty the "
      "scene."},
     {"clock.on_silent_simulator", "none", "", "", "WAIT or RELEASE", "WAIT",
-     "With SIMULATED, when the process of a simulator has died: WAIT stops the world's time until "
-     "it is back, RELEASE goes on without it after release_after_s. Its agents stay either way, "
-     "and their bounds grow."},
+     "With SIMULATED, when the process of a simulator has died, or it does not move although it "
+     "was granted time: WAIT stops the world's time until it is back, RELEASE goes on without it "
+     "after release_after_s. Its agents stay either way, and their bounds grow. A service that is "
+     "started again waits likewise for those that the one before it served."},
     {"clock.release_after_s", "s", "0.1", "86400", "", "5",
-     "How long RELEASE waits. With WAIT it must keep its default."},
+     "How long RELEASE waits; longer than any simulator takes for one step. With WAIT it must keep "
+     "its default."},
     {"clock.first_clock_max_s", "s", "0", "4000000000", "", "31536000",
      "With SIMULATED, the latest time at which an epoch of the world may begin: a first clock "
      "beyond "
@@ -66,6 +68,12 @@ constexpr ConfigOption kOptions[] = {
     {"clock.shape_wait_max_s", "s", "0", "86400", "", "60",
      "With SIMULATED, how long time stands still for the shape of an agent: until it has arrived "
      "and its tree is built. After that the agent counts as its ball."},
+    {"clock.waiting_after_s", "s", "0.1", "86400", "", "5",
+     "With SIMULATED, a simulator that was granted time, is the last one and tells nothing new for "
+     "so long is named: in the log, in the status, and to the other simulators."},
+    {"clock.remove_silent_after_s", "s", "0", "604800", "", "60",
+     "A simulator that has been silent for so long is removed with its agents: with WALL since its "
+     "process died, with SIMULATED since it was released (on_silent_simulator RELEASE). 0: never."},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
      "The least severe lines that are logged."},
     {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",

@@ -36,6 +36,8 @@ void Intake::Apply(const v1::Input& input) {
       return TakeShapeRemoval(input);
     case v1::Input::kShapeReady:
       return agent_shapes_.TakeReady(input.shape_ready());
+    case v1::Input::kServiceHeard:     // for the claim
+    case v1::Input::kOperatorCommand:  // for the OperatorCommands
     case v1::Input::MESSAGE_NOT_SET:
       return;
   }
@@ -65,6 +67,7 @@ Simulator* Intake::Claimed(const v1::Input& input, Refusal where, const std::str
     claim.simulator->StartRun(input.sender(), where.run);
   }
   if (name != nullptr) claim.simulator->SetIncarnation(where.incarnation);
+  if (where.topic != v1::TOPIC_SIMULATOR_CLOCK) claim.simulator->CountTold();
   return claim.simulator;
 }
 
@@ -108,6 +111,8 @@ void Intake::TakeClock(const v1::Input& input) {
     }
     return rejections_.Add(*refusal);
   }
+  // A clock that is only repeated is no progress.
+  if (std::get<Instant>(decoded) > time.newest()) simulator->Resume();
   if (wire.service_id() == instance_) {
     simulator->agents().clearances().lowerings().Acknowledge(wire.clearances_sequence());
   }
@@ -189,6 +194,13 @@ void Intake::Enact(Simulator* simulator) {
 
 void Intake::Enact() {
   for (auto& [id, simulator] : world_.simulators()) Enact(&simulator);
+}
+
+void Intake::EndRun(Simulator* simulator, EndCause cause) {
+  Enact(simulator);
+  agents_.RemoveAll(simulator);
+  shapes_.Release(simulator->id());
+  world_.EndRun(simulator, cause);
 }
 
 void Intake::EndEpoch() {

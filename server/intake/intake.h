@@ -59,6 +59,9 @@ class Intake {
   /// come into force.
   void EndEpoch();
 
+  /// Ends the run of a simulator: removes its agents and frees its shapes, as if it had done so.
+  void EndRun(Simulator* simulator, EndCause cause);
+
   const IntakeCounters& counters() const { return counters_; }
   const AgentCounters& agent_counters() const { return agents_.counters(); }
 

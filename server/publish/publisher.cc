@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "server/codec/encode.h"
+#include "server/publish/because.h"
 
 namespace collision::server {
 namespace {
@@ -14,6 +15,13 @@ void Set(const Lowering& lowering, v1::AgentClearance* wire) {
   wire->set_cause(static_cast<v1::ClearanceCause>(lowering.cause));
   *wire->mutable_cause_agent() = Encode(lowering.cause_agent);
   wire->set_void_from_ns(lowering.void_from.nanoseconds());
+}
+
+/// Events of agents that the service removed say so.
+v1::CollisionEvent Encode(const detection::CollisionEvent& event, const EndedRuns& ended) {
+  v1::CollisionEvent wire = server::Encode(event);
+  AddBecause(ended, &wire);
+  return wire;
 }
 
 }  // namespace
@@ -71,13 +79,15 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
 
 void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& events,
                               const World& world) {
-  for (const detection::CollisionEvent& event : events) event_log_.Add(Encode(event));
+  for (const detection::CollisionEvent& event : events) {
+    event_log_.Add(Encode(event, world.ended_runs()));
+  }
   // By the world's time where that is simulated, so that a run at any speed tells the same.
   const std::int64_t time_ns = world.simulated() ? world.now().nanoseconds() : world.monotonic_ns();
   for (const Telling& telling : filter_.Take(events, world.now(), time_ns)) {
     v1::Output output;
     v1::CollisionEvent& event = *output.mutable_collision_event();
-    event = Encode(telling.event);
+    event = Encode(telling.event, world.ended_runs());
     ++(telling.contact ? events_.contacts : events_.forecasts);
     if (telling.contact) {
       // One instance holds the history of all contacts.

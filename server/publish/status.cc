@@ -8,6 +8,7 @@
 
 #include "idl/limits.h"
 #include "server/process/version.h"
+#include "server/publish/names_text.h"
 
 namespace collision::server {
 namespace {
@@ -45,6 +46,8 @@ void AddSimulators(const World& world, v1::ServiceStatus* status) {
     wire.set_rejected(simulator.refused());
   }
   Count("simulators_unlisted", unlisted, status);
+  Count("simulators_removed_silent", world.ended_runs().count(EndCause::kSilent), status);
+  Count("simulators_evicted", world.ended_runs().count(EndCause::kEvicted), status);
 }
 
 void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
@@ -152,9 +155,9 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   std::vector<std::string> names = sources.world.WaitedFor();
   for (std::string& shape : sources.intake.AwaitedShapes()) names.push_back(std::move(shape));
   if (!names.empty()) {
-    const std::string text = fmt::format("{}", fmt::join(names, ", "));
-    AddExtension("waiting_for", text.substr(0, wire::kExtensionValueMax), &status);
+    AddExtension("waiting_for", NamesText(names, wire::kExtensionValueMax), &status);
   }
+  for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
   return status;
 }
 

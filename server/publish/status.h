@@ -34,8 +34,9 @@ struct StatusSources {
   const EventLog& event_log;
   EventCounters events;
   StepCounters steps;
-  std::uint64_t queries_per_second = 0;  ///< Of the detector, since the last status.
-  std::vector<v1::Counter> network;      ///< Bus::network_counters().
+  std::uint64_t queries_per_second = 0;       ///< Of the detector, since the last status.
+  std::vector<v1::Counter> network;           ///< Bus::network_counters().
+  std::vector<v1::KeyValue> extensions = {};  ///< Further ones.
 };
 
 /// Without service id and stamp. Texts are cut to the bounds of collision.idl.

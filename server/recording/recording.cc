@@ -41,6 +41,13 @@ RecordingWriter::RecordingWriter(const std::string& path, const v1::Config& conf
   claimed.set_term_before(claim.term_before);
   claimed.set_wait_ns(claim.wait_ns);
   claimed.set_heard_for_ns(claim.heard_for_ns);
+  for (const JournalledSimulator& simulator : claim.roster) {
+    v1::RosterEntry& entry_of_roster = *claimed.add_roster();
+    entry_of_roster.set_id(simulator.id);
+    entry_of_roster.set_run(simulator.run);
+    entry_of_roster.set_name(simulator.name);
+    if (simulator.granted) entry_of_roster.set_granted_ns(simulator.granted->nanoseconds());
+  }
   if (Write(entry)) return;
   close(file_);
   throw std::runtime_error(error_);
@@ -103,6 +110,15 @@ RecordingReader::RecordingReader(const std::string& path)
             .term_before = claimed.term_before(),
             .wait_ns = claimed.wait_ns(),
             .heard_for_ns = claimed.heard_for_ns()};
+  for (const v1::RosterEntry& of_roster : claimed.roster()) {
+    JournalledSimulator& simulator = claim_.roster.emplace_back();
+    simulator.id = of_roster.id();
+    simulator.run = of_roster.run();
+    simulator.name = of_roster.name();
+    if (of_roster.has_granted_ns()) {
+      simulator.granted = Instant::FromNanoseconds(of_roster.granted_ns());
+    }
+  }
 }
 
 std::optional<v1::RecordedBatch> RecordingReader::Next() {

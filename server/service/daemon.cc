@@ -7,15 +7,18 @@
 #include <chrono>
 #include <utility>
 
+#include "idl/limits.h"
 #include "server/bus/batch_order.h"
 #include "server/config/config.h"
 #include "server/intake/intake.h"
 #include "server/process/logging.h"
-#include "server/process/names_log.h"
 #include "server/publish/publisher.h"
 #include "server/publish/reports.h"
 #include "server/publish/status.h"
 #include "server/recording/recording.h"
+#include "server/service/operator_commands.h"
+#include "server/service/roster_journal.h"
+#include "server/service/silence_report.h"
 #include "server/shapes/shape_store.h"
 
 namespace collision::server {
@@ -59,16 +62,18 @@ class Daemon::Implementation {
         bus_(bus),
         clock_(clock),
         recorder_(parts.recorder),
-        journal_(parts.journal),
+        journal_(config_, parts.journal),
+        state_failure_(parts.state_failure),
         claim_(parts.claim),
         shape_builder_(parts.shape_builder
                            ? std::move(parts.shape_builder)
                            : std::make_unique<InlineShapeBuilder>(BuildOptionsOf(config_))),
         shapes_(config_, shape_builder_.get()),
-        world_(config_),
+        world_(config_, parts.claim.roster),
         detector_(OptionsOf(config_)),
         rejections_(config_.rejections_per_second_max(), &world_),
         intake_(config_, claim_.instance(), &world_, &detector_, &rejections_, &shapes_),
+        operators_(&world_, &intake_),
         publisher_(config_, &claim_, &bus_),
         schedule_(ToNanoseconds(config_.status_period_s())) {}
 
@@ -82,11 +87,17 @@ class Daemon::Implementation {
     if (!Claim(inputs)) return false;
     for (const v1::Input& input : inputs) intake_.Apply(input);
     intake_.TakeClocks();
-    LogSilence(world_.ReleaseSilent());
-    MoveOn(!inputs.empty());
-    if (world_.EpochIsOver()) EndEpoch();
+    const bool restarts = ObeyOperators(inputs);
+    const bool removed = RemoveSilent();
+    ReportSilence(world_.ReleaseSilent());
+    MoveOn(!inputs.empty() || removed);
+    if (restarts) EndEpoch("an operator restarts time");
+    if (world_.EpochIsOver()) EndEpoch("no simulator holds time any more");
     intake_.EndBatch();
-    if (claim_.phase() == ClaimPhase::kServing) PublishAnswers();
+    if (claim_.phase() == ClaimPhase::kServing) {
+      if (!KeepState(journal_.Keep(world_))) return false;
+      PublishAnswers();
+    }
     PublishStatus();
     bus_.Flush();
 #ifndef NDEBUG
@@ -169,18 +180,49 @@ class Daemon::Implementation {
   }
 
   void BeginTerm() {
-    KeepTerm();
+    // What an earlier configuration left behind means nothing to a wall clock.
+    if (!world_.simulated()) journal_.Clear();
+    KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
     schedule_.Hasten();
     spdlog::info("serves world \"{}\" in term {}", config_.world(), claim_.term());
   }
 
-  void KeepTerm() {
-    if (journal_ == nullptr || journal_->SetTerm(claim_.term(), world_.epoch())) return;
-    Log(spdlog::level::err, "state is not kept", journal_->error());
+  /// Tells that the journal cannot be written. False: the service is to end (on_state_failure).
+  bool KeepState(bool kept) {
+    if (kept) return true;
+    if (state_failure_.empty()) {
+      state_failure_ = journal_.error();
+      spdlog::error("{}; nothing more is kept for the next start", state_failure_);
+      schedule_.Hasten();
+    }
+    return config_.on_state_failure() != v1::Config::END;
+  }
+
+  /// True: the world's time is to begin anew. Only a service that serves is asked.
+  bool ObeyOperators(const std::vector<v1::Input>& inputs) {
+    bool restarts = false;
+    if (claim_.phase() != ClaimPhase::kServing) return restarts;
+    for (const v1::Input& input : inputs) {
+      if (input.has_operator_command()) restarts |= operators_.Obey(input.operator_command());
+    }
+    if (operators_.TakeNews()) schedule_.Hasten();
+    return restarts;
+  }
+
+  /// Removes simulators that were silent for too long. False: there was none.
+  bool RemoveSilent() {
+    const std::vector<std::uint64_t> overdue =
+        world_.silence().Overdue(world_.simulators(), world_.monotonic_ns());
+    for (const std::uint64_t id : overdue) {
+      Simulator* simulator = world_.Find(id);
+      silence_report_.AddRemoved(simulator->name());
+      intake_.EndRun(simulator, EndCause::kSilent);
+    }
+    return !overdue.empty();
   }
 
   /// Everybody has left: brings what they told to its end, and lets time begin anew.
-  void EndEpoch() {
+  void EndEpoch(const char* why) {
     intake_.EndEpoch();
     world_.FinishEpoch();
     if (claim_.phase() == ClaimPhase::kServing) {
@@ -188,29 +230,22 @@ class Daemon::Implementation {
       PublishAnswers();
     }
     Log(spdlog::level::info, "epoch over",
-        fmt::format("epoch {} ends at {} s: no simulator holds time any more", world_.epoch(),
-                    1e-9 * static_cast<double>(world_.now().nanoseconds())));
+        fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
+                    1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
     past_ += detector_.counters();
     detector_ = detection::Detector(OptionsOf(config_));
     advanced_to_.reset();
     world_.BeginEpoch();
     publisher_.BeginEpoch(world_.epoch());
     schedule_.Hasten();
-    KeepTerm();
+    KeepState(journal_.SetTerm(claim_.term(), world_.epoch()));
   }
 
-  /// Logs each silent simulator that holds the world's time, or has been released, once.
-  void LogSilence(const std::vector<std::string>& released) {
-    std::vector<std::string> waited_for = world_.WaitedFor();
-    for (const std::string& name : waited_for) {
-      if (std::find(waited_for_.begin(), waited_for_.end(), name) == waited_for_.end()) {
-        waits_.Add(name);
-      }
-    }
-    waited_for_ = std::move(waited_for);
-    for (const std::string& name : released) releases_.Add(name);
-    waits_.Write(world_.monotonic_ns());
-    releases_.Write(world_.monotonic_ns());
+  /// Tells of each simulator that the world's time waits for, or goes on without.
+  void ReportSilence(const std::vector<std::string>& released) {
+    if (silence_report_.TakeWaited(world_.Waited())) schedule_.Hasten();
+    silence_report_.AddReleased(released);
+    silence_report_.Write(world_.monotonic_ns());
   }
 
   /// Brings into effect what was told, moves the world's time as far as it may go, and detects.
@@ -275,14 +310,28 @@ class Daemon::Implementation {
                     .events = publisher_.event_counters(),
                     .steps = steps_,
                     .queries_per_second = query_rate_.Take(counted.queries, world_.monotonic_ns()),
-                    .network = bus_.network_counters()}));
+                    .network = bus_.network_counters(),
+                    .extensions = Extensions()}));
+  }
+
+  std::vector<v1::KeyValue> Extensions() const {
+    std::vector<v1::KeyValue> extensions;
+    silence_report_.AddExtensions(&extensions);
+    operators_.AddExtensions(&extensions);
+    if (!state_failure_.empty()) {
+      v1::KeyValue& failure = extensions.emplace_back();
+      failure.set_key("state_failure");
+      failure.set_value(state_failure_.substr(0, wire::kExtensionValueMax));
+    }
+    return extensions;
   }
 
   const v1::Config config_;
   Bus& bus_;
   Clock& clock_;
   BatchSink* const recorder_;
-  Journal* const journal_;
+  RosterJournal journal_;
+  std::string state_failure_;  ///< Empty: what must be kept is kept.
   ServiceClaim claim_;
   const std::unique_ptr<ShapeBuilder> shape_builder_;
   ShapeStore shapes_;
@@ -291,18 +340,13 @@ class Daemon::Implementation {
   detection::DetectorCounters past_;  ///< Of the epochs that are over.
   Rejections rejections_;
   Intake intake_;
+  OperatorCommands operators_;
   Publisher publisher_;
   Reports reports_;
   StatusSchedule schedule_;
   Rate query_rate_;
   StepCounters steps_;
-  std::vector<std::string> waited_for_;  ///< Logged already.
-  NamesLog waits_{
-      "world time waits for simulator {}: its process has ended; start it again (or set "
-      "clock.on_silent_simulator to RELEASE)"};
-  NamesLog releases_{
-      "world time goes on without simulator {}: its process has ended; its agents stay, and "
-      "their bounds grow"};
+  SilenceReport silence_report_;
   std::optional<Instant> advanced_to_;
   std::atomic<bool> stopped_ = false;
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "idl/config.pb.h"
 #include "server/bus/bus.h"
@@ -20,8 +21,9 @@ struct DaemonParts {
   BatchSink* recorder = nullptr;  ///< Gets every batch before it is applied.
   std::unique_ptr<ShapeBuilder> shape_builder = nullptr;  ///< Null: shapes are built in the step
                                                           ///< after they have arrived.
-  Journal* journal = nullptr;                             ///< Keeps the term.
-  ClaimOptions claim = {};  ///< By default it serves from the first step.
+  Journal* journal = nullptr;                             ///< Keeps term, roster and grants.
+  std::string state_failure = {};  ///< Why there is no journal, if one was wanted.
+  ClaimOptions claim = {};         ///< By default it serves from the first step.
 };
 
 /// Owns the parts of the service and runs them in steps, on one thread. A step
@@ -48,7 +50,7 @@ class Daemon {
   ~Daemon();
 
   /// Runs one step. False: the bus has ended, Stop() was called, the batch could not be recorded,
-  /// or another service has the world.
+  /// another service has the world, or the journal cannot be written (on_state_failure END).
   bool Step();
 
   /// Makes Step() return false soon. Any thread.

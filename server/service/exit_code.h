@@ -10,7 +10,8 @@ enum ExitCode {
   kExitUnavailable = 69,    ///< DDS is not available.
   kExitSoftware = 70,       ///< A fault of this program: a check has failed.
   kExitSystem = 71,         ///< Memory, or another resource of the system, is exhausted.
-  kExitRecording = 74,      ///< A recording cannot be written, or not be read to its end.
+  kExitRecording = 74,      ///< A recording or the journal cannot be written, or a recording not
+                            ///< be read to its end.
   kExitOccupied = 75,       ///< Another service has the world.
   kExitConfiguration = 78,  ///< The configuration is wrong.
 };

@@ -62,8 +62,9 @@ std::shared_ptr<TreeCache> MakeTreeCache(const v1::Config& config) {
                                      BuildOptionsOf(config).tree);
 }
 
-/// Null: none is wanted, or the service goes on without one. Throws std::runtime_error otherwise.
-std::unique_ptr<Journal> OpenJournal(const v1::Config& config) {
+/// Null: none is wanted, or the service goes on without one, for the reason in `failure`. Throws
+/// std::runtime_error otherwise.
+std::unique_ptr<Journal> OpenJournal(const v1::Config& config, std::string* failure) {
   if (config.state_dir().empty()) return nullptr;
   try {
     auto journal = std::make_unique<Journal>(config.state_dir(), config.world(), config.domain(),
@@ -75,6 +76,7 @@ std::unique_ptr<Journal> OpenJournal(const v1::Config& config) {
   } catch (const std::runtime_error& error) {
     if (config.on_state_failure() == v1::Config::END) throw;
     spdlog::error("{}", error.what());
+    *failure = error.what();
     return nullptr;
   }
 }
@@ -95,17 +97,21 @@ int Serve(const v1::Config& config, const std::string& record_file) {
     return Fail(kExitConfiguration, std::string("tree_cache_dir: ") + error.what());
   }
   std::unique_ptr<Journal> journal;
+  std::string state_failure;
   try {
-    journal = OpenJournal(config);
+    journal = OpenJournal(config, &state_failure);
   } catch (const JournalInUse& error) {
     return Fail(kExitOccupied, error.what());
   } catch (const std::runtime_error& error) {
     return Fail(kExitConfiguration, std::string("state_dir: ") + error.what());
   }
-  const ClaimOptions claim = {.instance = DrawInstance(),
-                              .term_before = journal ? journal->term() : 0,
-                              .wait_ns = ToNanoseconds(config.claim_wait_s()),
-                              .heard_for_ns = kServiceLease.count()};
+  ClaimOptions claim = {.instance = DrawInstance(),
+                        .term_before = journal ? journal->term() : 0,
+                        .wait_ns = ToNanoseconds(config.claim_wait_s()),
+                        .heard_for_ns = kServiceLease.count()};
+  if (journal) {
+    for (const auto& [id, simulator] : journal->simulators()) claim.roster.push_back(simulator);
+  }
   std::unique_ptr<RecordingWriter> recorder;
   try {
     if (!record_file.empty()) {
@@ -124,6 +130,7 @@ int Serve(const v1::Config& config, const std::string& record_file) {
                {.recorder = recorder.get(),
                 .trees = std::move(cache),
                 .journal = journal.get(),
+                .state_failure = std::move(state_failure),
                 .claim = claim});
 }
 

@@ -55,6 +55,7 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
       {.recorder = recorder,
        .shape_builder = std::make_unique<ThreadedShapeBuilder>(build, [&bus] { bus.Wake(); }),
        .journal = parts.journal,
+       .state_failure = parts.state_failure,
        .claim = parts.claim});
   const StopSignalWatcher signals([&daemon] { daemon.Stop(); }, kStepPatience,
                                   [recorder] { EndInTheStep(recorder); });
@@ -75,6 +76,10 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   service_manager.Stopping();
   LogFingerprint(daemon.event_log());
   if (recorder && !recorder->error().empty()) return Fail(kExitRecording, recorder->error());
+  const bool ends = config.on_state_failure() == v1::Config::END;
+  if (ends && parts.journal != nullptr && !parts.journal->error().empty()) {
+    return Fail(kExitRecording, "state_dir: " + parts.journal->error());
+  }
   if (daemon.claim().phase() == ClaimPhase::kYielded) {
     return Fail(kExitOccupied, "world \"" + config.world() + "\": " + daemon.claim().why());
   }

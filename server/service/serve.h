@@ -21,6 +21,7 @@ struct ServiceParts {
   RecordingWriter* recorder = nullptr;
   std::shared_ptr<TreeStore> trees = nullptr;
   Journal* journal = nullptr;
+  std::string state_failure = {};  ///< As in DaemonParts.
   ClaimOptions claim = {};
 };
 

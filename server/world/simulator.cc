@@ -10,6 +10,7 @@ void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
   incarnation_ = 0;
   standing_.Clear();
   contenders_.Clear();
+  ended_ = false;
   SetAlive(true, 0);
 }
 
@@ -19,9 +20,19 @@ void Simulator::LeaveEpoch() {
   standing_.Clear();
 }
 
+void Simulator::Release(std::int64_t monotonic_ns) {
+  released_ = true;
+  released_since_ns_ = monotonic_ns;
+}
+
+void Simulator::End() {
+  agents_.Clear();
+  ended_ = true;
+}
+
 void Simulator::SetAlive(bool alive, std::int64_t monotonic_ns) {
+  if (alive || alive_) silent_since_ns_ = monotonic_ns;
   alive_ = alive;
-  silent_since_ns_ = monotonic_ns;
   if (alive) released_ = false;
 }
 

@@ -41,17 +41,25 @@ class Simulator {
   /// that the agents have been removed.
   void LeaveEpoch();
 
-  bool alive() const { return alive_; }
+  /// Its process lives, and the service has not ended its run.
+  bool alive() const { return alive_ && !ended_; }
   std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
   void SetAlive(bool alive, std::int64_t monotonic_ns);
 
-  /// It was silent for too long: the world's time does not wait for it until it is alive again.
+  /// It was silent, or stood, for too long: the world's time does not wait for it until it is alive
+  /// again or its clock moves.
   bool released() const { return released_; }
-  void Release() { released_ = true; }
+  std::int64_t released_since_ns() const { return released_since_ns_; }  ///< Monotonic; likewise.
+  void Release(std::int64_t monotonic_ns);
+  void Resume() { released_ = false; }
 
-  /// Gone for good: its process has ended or no step of it follows, and it removed all its agents
-  /// or never described any.
-  bool has_left() const { return (!alive_ || time_.has_finished()) && agents_.size() == 0; }
+  /// The service ends this run: no agents, and nothing more is taken of it. Requires that the
+  /// agents have been removed.
+  void End();
+
+  /// Gone for good: its process or its run has ended, or no step of it follows, and its agents are
+  /// removed, or it never described any.
+  bool has_left() const { return (!alive() || time_.has_finished()) && agents_.size() == 0; }
 
   /// Whether the world's time waits for it.
   bool holds_time() const { return time_.clock().has_value() && !released_ && !has_left(); }
@@ -69,6 +77,10 @@ class Simulator {
   Contenders& contenders() { return contenders_; }
   const Contenders& contenders() const { return contenders_; }
 
+  /// Counts a message that is more than a clock.
+  void CountTold() { ++told_; }
+  std::uint64_t told() const { return told_; }
+
   void CountState() { ++states_; }
   std::uint64_t states() const { return states_; }  ///< Accepted, in all runs.
 
@@ -83,12 +95,15 @@ class Simulator {
   std::string name_;
   bool alive_ = true;
   bool released_ = false;
+  bool ended_ = false;
   std::int64_t silent_since_ns_ = 0;
+  std::int64_t released_since_ns_ = 0;
   std::uint32_t incarnation_ = 0;
   SimulatorTime time_;
   AgentTable agents_;
   StandingRefusals standing_;
   Contenders contenders_;
+  std::uint64_t told_ = 0;
   std::uint64_t states_ = 0;
   std::uint64_t refused_ = 0;
 };

@@ -12,16 +12,15 @@ std::int64_t ToNanoseconds(double seconds) {
   return static_cast<std::int64_t>(std::llround(seconds * 1e9));
 }
 
-World::World(const v1::Config& config)
+World::World(const v1::Config& config, const std::vector<JournalledSimulator>& roster)
     : simulated_(config.clock().kind() != v1::Clock::WALL),
-      releases_silent_(config.clock().on_silent_simulator() == v1::Clock::RELEASE),
       skew_(config.clock().skew_max_s()),
       grant_ahead_max_(config.clock().grant_ahead_max_s()),
       temporal_resolution_(config.temporal_resolution_s()),
       first_clock_max_(Instant::FromNanoseconds(ToNanoseconds(config.clock().first_clock_max_s()))),
-      release_after_ns_(ToNanoseconds(config.clock().release_after_s())),
       simulators_awaited_(config.clock().simulators_awaited()),
-      simulators_max_(config.simulators_max()) {}
+      simulators_max_(config.simulators_max()),
+      silence_(config, roster) {}
 
 Simulator* World::Find(std::uint64_t id) {
   const auto found = simulators_.find(id);
@@ -43,6 +42,13 @@ Simulator* World::Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run)
 Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
                       const std::string* name) {
   Claim claim{.simulator = Find(id)};
+  auto refusal = ended_runs_.Refusal(id, run);
+  if (!refusal) refusal = silence_.roster().Refusal(id, run);
+  if (refusal) {
+    claim.reason = v1::REJECTED_OLD_RUN;
+    claim.detail = *refusal;
+    return claim;
+  }
   if (claim.simulator == nullptr) claim.simulator = Add(id, sender, run);
   if (claim.simulator == nullptr) {
     claim.reason = v1::REJECTED_TOO_MANY_SIMULATORS;
@@ -101,7 +107,8 @@ std::optional<Instant> World::NextNow() const {
   }
   if (first.is_never()) return std::nullopt;
   if (!started_) {
-    return with_clock >= simulators_awaited_ && told >= first ? std::optional(first) : std::nullopt;
+    if (with_clock < simulators_awaited_ || !silence_.roster().complete()) return std::nullopt;
+    return told >= first ? std::optional(first) : std::nullopt;
   }
   if (!RunsInRounds()) return std::max(now_, first);
   // Of those who have no further step the last round is still to be judged.
@@ -119,35 +126,25 @@ void World::MoveOn() {
 }
 
 std::vector<std::string> World::ReleaseSilent() {
-  std::vector<std::string> released;
-  if (!simulated_ || !releases_silent_) return released;
-  for (auto& [id, simulator] : simulators_) {
-    if (simulator.alive() || !simulator.holds_time()) continue;
-    if (monotonic_ns() - simulator.silent_since_ns() < release_after_ns_) continue;
-    simulator.Release();
-    released.push_back(simulator.name());
-  }
-  return released;
+  silence_.Update(simulators_, monotonic_ns());
+  return silence_.Release(&simulators_, monotonic_ns());
 }
+
+std::vector<Awaited> World::Waited() const { return silence_.Waited(simulators_, monotonic_ns()); }
 
 std::vector<std::string> World::WaitedFor() const {
   std::vector<std::string> names;
-  if (!simulated_) return names;
-  for (const auto& [id, simulator] : simulators_) {
-    if (!simulator.alive() && simulator.holds_time()) names.push_back(simulator.name());
-  }
+  for (const Awaited& one : Waited()) names.push_back(one.name);
   return names;
 }
 
 std::optional<std::int64_t> World::NextRelease() const {
-  std::optional<std::int64_t> next;
-  if (!simulated_ || !releases_silent_) return next;
-  for (const auto& [id, simulator] : simulators_) {
-    if (simulator.alive() || !simulator.holds_time()) continue;
-    const std::int64_t due = simulator.silent_since_ns() + release_after_ns_;
-    next = next ? std::min(*next, due) : due;
-  }
-  return next;
+  return silence_.NextDue(simulators_, monotonic_ns());
+}
+
+void World::EndRun(Simulator* simulator, EndCause cause) {
+  ended_runs_.Add(simulator->id(), simulator->run(), cause);
+  simulator->End();
 }
 
 bool World::EpochIsOver() const {
@@ -168,6 +165,7 @@ void World::BeginEpoch() {
   for (auto& [id, simulator] : simulators_) {
     if (LeavesWithEpoch(simulator)) simulator.LeaveEpoch();
   }
+  silence_.roster().Forget();
   ++epoch_;
   started_ = false;
   now_ = Instant();
@@ -204,7 +202,8 @@ ClockRules World::RulesForClock(const Simulator& simulator) const {
 
 Instant World::EffectiveFrom(Instant stamp) const {
   if (!simulated_) return now_;
-  return granted_ == Instant::Always() ? stamp : granted_;
+  const Instant greatest = std::max(granted_, silence_.roster().greatest_grant());
+  return greatest == Instant::Always() ? stamp : greatest;
 }
 
 void World::SetClearance(const detection::AgentClearance& clearance) {

@@ -11,6 +11,8 @@
 #include "idl/config.pb.h"
 #include "server/bus/clock.h"
 #include "server/codec/codec.h"
+#include "server/world/silence.h"
+#include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
 
 namespace collision::server {
@@ -54,7 +56,8 @@ struct Claim {
 /// first grant a simulator may be ahead of now, or of its first clock, by `grant_ahead_max_s`.
 class World {
  public:
-  explicit World(const v1::Config& config);
+  /// `roster`: whom a service before this one served.
+  explicit World(const v1::Config& config, const std::vector<JournalledSimulator>& roster = {});
 
   /// `name`: as in a description or clock, already checked against the id; null for messages
   /// without one. Only a named message proves ownership: it takes an id from a sender that never
@@ -83,12 +86,23 @@ class World {
   /// Moves to NextNow(), if there is one.
   void MoveOn();
 
-  /// Simulated clock: simulators that have been silent for `release_after_s` hold time no longer.
-  /// Returns the names of those released now.
+  /// Who is silent, stands or is missing, and what follows.
+  Silence& silence() { return silence_; }
+  const Silence& silence() const { return silence_; }
+
+  /// Simulated clock: takes note of who has moved in this step; simulators that have been silent or
+  /// have stood for `release_after_s` then hold time no longer. Returns the names of those released
+  /// now. Call it once a step, after the inputs.
   std::vector<std::string> ReleaseSilent();
 
-  /// Simulated clock: the names of the simulators whose process is gone and that still hold time.
-  std::vector<std::string> WaitedFor() const;
+  /// Simulated clock: whom the world's time waits for.
+  std::vector<Awaited> Waited() const;
+  std::vector<std::string> WaitedFor() const;  ///< Their names.
+
+  /// Ends the run of a simulator: nothing more is taken of it. Requires that its agents have been
+  /// removed.
+  void EndRun(Simulator* simulator, EndCause cause);
+  const EndedRuns& ended_runs() const { return ended_runs_; }
 
   /// Simulated clock: it has begun, and nobody holds time any more. Call it before successors take
   /// over.
@@ -133,8 +147,8 @@ class World {
   /// The greatest time granted in this epoch; Always(): none was.
   Instant granted() const { return granted_; }
 
-  /// The monotonic time at which ReleaseSilent() may next release a simulator; nullopt: none is
-  /// silent.
+  /// The monotonic time at which a simulator may next be named, released or removed; nullopt: none
+  /// is silent or stands.
   std::optional<std::int64_t> NextRelease() const;
 
   /// Walks all simulators and checks what must hold, with CORE_CHECK. For tests and debug builds.
@@ -145,16 +159,16 @@ class World {
   Instant LatestAllowed(const Simulator& simulator) const;
 
   const bool simulated_;
-  const bool releases_silent_;
   const double skew_;
   const double grant_ahead_max_;
   const double temporal_resolution_;
   const Instant first_clock_max_;
-  const std::int64_t release_after_ns_;
   const std::size_t simulators_awaited_;
   const std::size_t simulators_max_;
 
   std::map<std::uint64_t, Simulator> simulators_;
+  Silence silence_;
+  EndedRuns ended_runs_;
   std::uint32_t epoch_ = 1;
   bool started_ = false;
   Instant now_;

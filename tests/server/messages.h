@@ -108,6 +108,23 @@ inline v1::Input Liveliness(std::uint64_t sender, const std::string& simulator, 
   return input;
 }
 
+inline v1::Input Command(std::uint64_t command_id, v1::OperatorCommandKind kind,
+                         const std::string& simulator = "") {
+  v1::Input input;
+  input.mutable_operator_command()->set_command_id(command_id);
+  input.mutable_operator_command()->set_kind(kind);
+  input.mutable_operator_command()->set_simulator(simulator);
+  return input;
+}
+
+/// The value of an extension of a status; empty if it has none of this key.
+inline std::string Extension(const v1::ServiceStatus& status, const std::string& key) {
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() == key) return extension.value();
+  }
+  return "";
+}
+
 /// A clock behind all states and descriptions up to these sequences.
 inline v1::SimulatorClock ClockAfter(const std::string& simulator, std::int64_t clock_ns,
                                      std::uint64_t states, std::uint64_t descriptions) {

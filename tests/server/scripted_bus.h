@@ -55,6 +55,9 @@ class ScriptedDaemon {
       : daemon_(CompleteConfig(std::move(config)), bus_, bus_,
                 {.recorder = recorder, .shape_builder = std::move(shape_builder)}) {}
 
+  ScriptedDaemon(v1::Config config, DaemonParts parts)
+      : daemon_(CompleteConfig(std::move(config)), bus_, bus_, std::move(parts)) {}
+
   /// One step `seconds` later with these inputs.
   void Step(std::vector<v1::Input> inputs, double seconds = 0) {
     bus_.monotonic_ns += static_cast<std::int64_t>(seconds * 1e9);

@@ -48,15 +48,25 @@ TEST(Crash, SuccessorThatStartsAtOnceTakesOver) {
 
 TEST(Crash, KilledSimulatorIsReleased) {
   const TestWorld world(65,
-                        "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 0.5");
+                        "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 4");
   const auto daemon = world.StartDaemon();
   const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
-  EXPECT_FALSE(right->WaitForExit(std::chrono::seconds(1)).has_value()) << right->err();
   left->Signal(SIGKILL);
   EXPECT_EQ(right->WaitForExit(), 0) << right->err() << daemon->err();
+}
+
+// It lives, and lingers where its data ends: the other one goes on without it.
+TEST(Crash, ASimulatorThatStandsIsReleased) {
+  const TestWorld world(80,
+                        "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 0.5");
+  const auto daemon = world.StartDaemon();
+  const auto left = world.StartSimulator(kShortLeft, {"--linger"});
+  const auto right = world.StartSimulator(kRight);
+  EXPECT_EQ(right->WaitForExit(), 0) << right->err() << daemon->err();
+  EXPECT_TRUE(daemon->WaitForOutput("goes on without simulator \"left-sim\"")) << daemon->err();
 }
 
 TEST(Crash, RestartedDaemonRecoversFromTheNetworkAlone) {

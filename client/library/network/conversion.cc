@@ -136,6 +136,9 @@ Event FromMessage(const v1::CollisionEvent& message) {
   event.level = message.level();
   event.work_units = message.work_units();
   event.limited_by = static_cast<EventLimit>(message.limited_by());
+  for (const v1::KeyValue& extension : message.extensions()) {
+    if (extension.key() == "because") event.because = extension.value();
+  }
   return event;
 }
 

@@ -43,6 +43,8 @@ class DdsTransport : public Transport {
         return session_.RemoveAgent(message.agent_removal());
       case v1::Input::kShapeRemoval:
         return RemoveShape(message.shape_removal());
+      case v1::Input::kOperatorCommand:
+        return session_.Write(message.operator_command());
       default:
         return;
     }
@@ -75,6 +77,10 @@ std::unique_ptr<Transport> ConnectSimulator(const std::string& world, const std:
   DdsSessionOptions options = Options(DdsRole::kSimulator, world, domain);
   options.simulator = simulator;
   return std::make_unique<DdsTransport>(options);
+}
+
+std::unique_ptr<Transport> ConnectOperator(const std::string& world, std::uint32_t domain) {
+  return std::make_unique<DdsTransport>(Options(DdsRole::kOperator, world, domain));
 }
 
 std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options) {

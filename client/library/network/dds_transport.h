@@ -15,6 +15,9 @@ namespace collision::client {
 std::unique_ptr<Transport> ConnectSimulator(const std::string& world, const std::string& simulator,
                                             std::uint32_t domain);
 
+/// Writes the commands of an operator, reads the service. Throws as above.
+std::unique_ptr<Transport> ConnectOperator(const std::string& world, std::uint32_t domain);
+
 /// Creates readers only, of the topics that the options select. Throws as above.
 std::unique_ptr<Receiver> ConnectMonitor(const MonitorOptions& options);
 

@@ -26,11 +26,11 @@ class Receiver {
   virtual bool service_alive() const = 0;
 };
 
-/// Also writes, for one simulator.
+/// Also writes, for one simulator or operator.
 class Transport : public Receiver {
  public:
-  /// A description, states, a clock, a part of a shape, or a removal of an agent or a shape. Never
-  /// waits for a reader.
+  /// A description, states, a clock, a part of a shape, or a removal of an agent or a shape; of an
+  /// operator a command. Never waits for a reader.
   virtual void Write(const v1::Input& message) = 0;
 
   /// Sends what was written and is still buffered.

@@ -82,6 +82,10 @@ void World::OnServiceBack(std::function<void()> callback) {
   implementation_->OnServiceBack(std::move(callback));
 }
 
+void World::OnWaiting(std::function<void(const std::vector<std::string>&)> callback) {
+  implementation_->OnWaiting(std::move(callback));
+}
+
 std::vector<Event> World::TakeEvents() { return implementation_->TakeEvents(); }
 
 std::uint64_t World::events_lost() const { return implementation_->events_lost(); }

@@ -364,6 +364,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
       if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
       if (!Accept(output.service_status().stamp(), output.service_status().now_ns(), now)) break;
       simulated_clock_ = output.service_status().simulated_clock();
+      waiting_.Take(output.service_status());
       break;
     default:
       break;
@@ -462,6 +463,7 @@ bool World::Implementation::IsOwn(const v1::AgentId& id) const {
 
 void World::Implementation::Deliver() {
   if (const auto lost = std::exchange(lost_news_, std::nullopt)) Call(*lost ? on_lost_ : on_back_);
+  if (on_waiting_ && waiting_.TakeChange()) Call(on_waiting_, waiting_.names());
   while (!closed_ && !lowered_.empty()) {
     const auto [id, clearance] = lowered_.front();
     lowered_.pop_front();

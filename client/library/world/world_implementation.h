@@ -18,6 +18,7 @@
 #include "client/library/world/arrival.h"
 #include "client/library/world/clearance_gate.h"
 #include "client/library/world/shape_publisher.h"
+#include "client/library/world/waiting_list.h"
 
 namespace collision::client {
 
@@ -61,6 +62,9 @@ class World::Implementation {
   void OnVoid(ClearanceCallback callback) { on_void_ = std::move(callback); }
   void OnServiceLost(std::function<void()> callback) { on_lost_ = std::move(callback); }
   void OnServiceBack(std::function<void()> callback) { on_back_ = std::move(callback); }
+  void OnWaiting(std::function<void(const std::vector<std::string>&)> callback) {
+    on_waiting_ = std::move(callback);
+  }
   std::vector<Event> TakeEvents();
   std::vector<Rejection> TakeRejections();
   std::uint64_t events_lost() const { return events_lost_; }
@@ -161,6 +165,8 @@ class World::Implementation {
   ClearanceCallback on_lowered_, on_void_;
   std::function<void()> on_lost_, on_back_;
   std::function<void(const Event&)> on_event_;
+  std::function<void(const std::vector<std::string>&)> on_waiting_;
+  WaitingList waiting_;
   std::deque<Event> events_;
   std::deque<Rejection> rejections_;
   std::uint64_t events_lost_ = 0;

@@ -8,7 +8,7 @@ namespace collision::client {
 /// sysexits(3).
 enum ExitCode {
   kExitOk = 0,
-  kExitRefused = 1,  ///< The service refused the agents.
+  kExitRefused = 1,  ///< The service refused the agents or the command, or has not answered it.
   kExitUsage = 2,
   kExitBadData = 65,
   kExitNoInput = 66,

@@ -8,10 +8,14 @@
 #include <utility>
 
 #include "client/library/network/conversion.h"
+#include "idl/limits.h"
 #include "idl/shape_bytes.h"
 
 namespace collision::client {
 namespace {
+
+/// Slots of one clearance sample.
+constexpr std::uint32_t kSlotsPerChunk = wire::kStatesPerChunkMax;
 
 /// A little-endian u32 in a shape's bytes.
 std::uint32_t NumberAt(const std::string& bytes, std::size_t at) {
@@ -57,8 +61,53 @@ std::vector<AgentView> WorldView::Agents() const {
     };
     take(states_, &agent.state);
     take(clearances_, &agent.clearance);
+    const v1::SimulatorStatus* status = StatusOf(entry.first.first);
+    agent.gone = status != nullptr && !status->alive() && status->run() == description.run();
   }
+  for (const auto& [key, clearance] : clearances_) {
+    if (!IsHeldOnly(key.first, key.second, clearance.first)) continue;
+    agents.push_back(HeldOnly(key.first, clearance.first, clearance.second));
+  }
+  std::stable_sort(agents.begin(), agents.end(), [](const AgentView& a, const AgentView& b) {
+    return Key(a.description.simulator_id(), a.description.slot()) <
+           Key(b.description.simulator_id(), b.description.slot());
+  });
   return agents;
+}
+
+const v1::SimulatorStatus* WorldView::StatusOf(std::uint64_t simulator) const {
+  if (!status_) return nullptr;
+  for (const v1::SimulatorStatus& status : status_->simulators()) {
+    if (status.simulator_id() == simulator) return &status;
+  }
+  return nullptr;
+}
+
+/// Whether the service holds an agent in the slot in this run, and nobody describes it.
+bool WorldView::IsHeldOnly(std::uint64_t simulator, std::uint32_t slot, std::uint32_t run) const {
+  const auto described = descriptions_.find({simulator, slot});
+  if (described != descriptions_.end() && described->second.run() == run) return false;
+  const v1::SimulatorStatus* status = StatusOf(simulator);
+  if (status == nullptr || status->alive() || status->run() != run) return false;
+  // A sample that an earlier service or epoch left behind tells nothing of now.
+  const auto found = clearance_stamps_.find({simulator, slot / kSlotsPerChunk});
+  if (found == clearance_stamps_.end()) return false;
+  const v1::ServiceStamp& stamp = found->second;
+  return stamp.service_id() == status_->service_id() && stamp.term() == status_->stamp().term() &&
+         stamp.epoch() == status_->stamp().epoch();
+}
+
+AgentView WorldView::HeldOnly(std::uint64_t simulator, std::uint32_t run,
+                              const v1::AgentClearance& clearance) const {
+  AgentView agent{.gone = true, .description = {}, .state = {}, .clearance = clearance};
+  agent.description.set_simulator_id(simulator);
+  agent.description.set_simulator_name(SimulatorName(simulator));
+  agent.description.set_run(run);
+  agent.description.set_slot(clearance.slot());
+  agent.description.set_generation(clearance.generation());
+  const AgentId id{simulator, run, clearance.slot(), clearance.generation()};
+  if (IsNamed(id)) agent.description.set_agent_name(Name(id));
+  return agent;
 }
 
 std::vector<ShapeView> WorldView::Shapes() const {
@@ -74,9 +123,7 @@ std::vector<ShapeView> WorldView::Shapes() const {
   return shapes;
 }
 
-bool WorldView::knows_all_agents() const {
-  return status_ && descriptions_.size() >= status_->agents();
-}
+bool WorldView::knows_all_agents() const { return status_ && Agents().size() >= status_->agents(); }
 
 std::string WorldView::Name(const AgentId& id) const {
   const auto found = names_.find(id);
@@ -154,6 +201,12 @@ void WorldView::Handle(const v1::AgentStates& states) {
 }
 
 void WorldView::Handle(const v1::Clearance& clearance) {
+  if (clearance.chunk() > wire::kSlotMax / kSlotsPerChunk) return;  // of no service
+  // A chunk tells all of its agents: those that it does not name are not there.
+  const std::uint32_t first = clearance.chunk() * kSlotsPerChunk;
+  clearances_.erase(clearances_.lower_bound({clearance.simulator_id(), first}),
+                    clearances_.lower_bound({clearance.simulator_id(), first + kSlotsPerChunk}));
+  clearance_stamps_[{clearance.simulator_id(), clearance.chunk()}] = clearance.stamp();
   for (const v1::AgentClearance& agent : clearance.agents()) {
     clearances_[{clearance.simulator_id(), agent.slot()}] = {clearance.run(), agent};
   }

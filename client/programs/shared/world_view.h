@@ -15,6 +15,9 @@ namespace collision::client {
 
 /// One agent, as far as it is known.
 struct AgentView {
+  /// The service holds it although its process has ended: its bounds grow. Of one that was never
+  /// described to this monitor the description holds no more than its identity.
+  bool gone = false;
   v1::AgentDescription description;
   std::optional<v1::AgentState> state;
   std::optional<v1::AgentClearance> clearance;
@@ -50,7 +53,8 @@ class WorldView {
   const std::optional<v1::ServiceStatus>& status() const { return status_; }
   const std::optional<v1::EarliestIntersection>& earliest() const { return earliest_; }
 
-  /// All described agents, by simulator and slot.
+  /// All described agents, and those that the service holds without a living writer, by simulator
+  /// and slot.
   std::vector<AgentView> Agents() const;
 
   /// All shapes, by simulator and hash.
@@ -82,6 +86,10 @@ class WorldView {
   void Handle(const v1::AgentStates& states);
   void Handle(const v1::Clearance& clearance);
   std::string SimulatorName(std::uint64_t id) const;
+  const v1::SimulatorStatus* StatusOf(std::uint64_t simulator) const;
+  bool IsHeldOnly(std::uint64_t simulator, std::uint32_t slot, std::uint32_t run) const;
+  AgentView HeldOnly(std::uint64_t simulator, std::uint32_t run,
+                     const v1::AgentClearance& clearance) const;
 
   std::optional<v1::ServiceStatus> status_;
   std::optional<v1::EarliestIntersection> earliest_;
@@ -89,6 +97,7 @@ class WorldView {
   std::map<AgentId, std::string> names_;                            ///< Also of agents that left.
   std::map<Key, std::pair<std::uint32_t, v1::AgentState>> states_;  ///< With their run.
   std::map<Key, std::pair<std::uint32_t, v1::AgentClearance>> clearances_;  ///< With their run.
+  std::map<Key, v1::ServiceStamp> clearance_stamps_;                   ///< By simulator and chunk.
   std::map<std::pair<std::uint64_t, std::string>, ShapeView> shapes_;  ///< By simulator and hash.
   std::vector<v1::CollisionEvent> events_;
   std::uint64_t contacts_ = 0;

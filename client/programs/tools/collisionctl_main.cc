@@ -12,8 +12,10 @@
 #include "client/library/validation.h"
 #include "client/programs/shared/exit_code.h"
 #include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/operator_request.h"
 #include "client/programs/tools/collisionctl/text_pages.h"
 #include "client/programs/tools/sphere_tree/command.h"
+#include "idl/limits.h"
 
 namespace collision::client {
 namespace {
@@ -153,12 +155,14 @@ Examples:
   collisionctl shapes                   every shape: owner, triangles and solids, parts received
   collisionctl events                   the current revision of every event
   collisionctl events --follow          one line per revision as it comes, until Ctrl-C
+  collisionctl evict NAME               remove a simulator with its agents
+  collisionctl restart-time             let simulated time begin anew, for all simulators
   collisionctl sphere-tree ship.obj     how well the spheres of a mesh fit it (needs no service)
   collisionctl --world lab events --follow --json | jq 'select(.status == "EVENT_CONFIRMED")'
 
-It changes nothing in the world. The network is that of Cyclone DDS, set by CYCLONEDDS_URI.
-Exit codes: 0 done, 2 usage, 69 no service within the timeout or no DDS, 74 the output
-cannot be written.)";
+Only evict and restart-time change anything in the world. The network is that of Cyclone DDS, set
+by CYCLONEDDS_URI. Exit codes: 0 done, 1 refused or not answered within the timeout, 2 usage, 69 no
+service within the timeout or no DDS, 74 the output cannot be written.)";
 
 int Main(int argc, char** argv) {
   CLI::App app("Shows what collisiond and the simulators of a world publish.", "collisionctl");
@@ -180,6 +184,10 @@ int Main(int argc, char** argv) {
   app.add_subcommand("earliest", "The earliest intersection that is possible now");
   app.add_subcommand("events", "The current events")
       ->add_flag("--follow", options.follow, "Print every further revision as it arrives");
+  std::string evicted;
+  CLI::App* evict = app.add_subcommand("evict", "Remove a simulator, also if its process lives");
+  evict->add_option("NAME", evicted, "Its name")->required();
+  CLI::App* restart = app.add_subcommand("restart-time", "Let simulated time begin anew");
   SphereTreeOptions tree;
   const CLI::App* sphere_tree = AddSphereTreeCommand(&app, &tree);
   try {
@@ -200,6 +208,20 @@ int Main(int argc, char** argv) {
   } catch (const std::runtime_error& error) {
     std::cerr << "collisionctl: " << error.what() << '\n';
     return kExitUsage;
+  }
+  if (evict->parsed() && !wire::IsName(evicted)) {
+    std::cerr << "collisionctl: NAME: \"" << evicted << "\", allowed: " << wire::kNameText << '\n';
+    return kExitUsage;
+  }
+  if (evict->parsed() || restart->parsed()) {
+    const auto kind = evict->parsed() ? v1::OPERATOR_EVICT : v1::OPERATOR_RESTART_TIME;
+    try {
+      return RunOperatorRequest(options.monitor.world, options.monitor.domain, options.timeout_s,
+                                MakeCommand(kind, evicted));
+    } catch (const std::runtime_error& error) {
+      std::cerr << "collisionctl: " << error.what() << '\n';
+      return kExitUnavailable;
+    }
   }
   const auto stop = [](int) { stopped = 1; };
   std::signal(SIGINT, stop);

@@ -92,6 +92,12 @@ TEST(EventText, AContactOfShapesLeavesOutWhatIsUnknown) {
   EXPECT_NE(FromGap(event).find(", limited by motion"), std::string::npos);
 }
 
+TEST(EventText, AnEventThatTheServiceEndedSaysWhy) {
+  Event event = OfShapes();
+  event.because = "silent";
+  EXPECT_TRUE(FromGap(event).ends_with(", limited by budget  because silent")) << FromGap(event);
+}
+
 // The surface of a ball is known: there is nothing to search.
 TEST(EventText, BallsHaveNoLevel) {
   Event event = OfShapes();

@@ -30,6 +30,7 @@ std::string AgentsJson(const WorldView& view) {
     json += std::exchange(separator, ",") + ("{\"description\":" + Json(agent.description));
     if (agent.state) json += ",\"state\":" + Json(*agent.state);
     if (agent.clearance) json += ",\"clearance\":" + Json(*agent.clearance);
+    if (agent.gone) json += ",\"gone\":true";
     json += "}";
   }
   return json + "]}";

@@ -17,7 +17,8 @@ std::string Json(const google::protobuf::Message& message);
 std::string MissedJson(std::uint64_t more, std::uint64_t so_far);
 
 /// {"agents": [{"description": AgentDescription, "state": AgentState, "clearance": AgentClearance},
-/// ...]}, without the parts that are not known.
+/// ...]}, without the parts that are not known; with "gone": true where the process of an agent is
+/// gone.
 std::string AgentsJson(const WorldView& view);
 
 /// {"shapes": [{"hash": hexadecimal, "simulator": name, "agents": n, "triangles": n or null,

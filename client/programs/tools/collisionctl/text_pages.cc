@@ -120,12 +120,14 @@ std::string ShapeText(const std::string& hash) {
 
 std::vector<std::string> AgentRow(const AgentView& agent) {
   const v1::AgentDescription& description = agent.description;
-  std::vector<std::string> row = {description.simulator_name() + ":" +
-                                      std::to_string(description.slot()) + "." +
-                                      std::to_string(description.generation()),
-                                  description.agent_name(), ShapeText(description.shape_hash()),
-                                  NumberText(description.radius_m(), "%.6g"),
-                                  NumberText(description.acceleration_max_m_s2(), "%.6g")};
+  const bool described = description.radius_m() > 0;
+  std::vector<std::string> row = {
+      description.simulator_name() + ":" + std::to_string(description.slot()) + "." +
+          std::to_string(description.generation()),
+      description.agent_name().empty() ? "-" : description.agent_name(),
+      described ? ShapeText(description.shape_hash()) : "-",
+      described ? NumberText(description.radius_m(), "%.6g") : "-",
+      described ? NumberText(description.acceleration_max_m_s2(), "%.6g") : "-"};
   row.push_back(agent.state ? SinceText(agent.state->stamp_ns()) : "-");
   row.push_back(agent.state ? PositionText(agent.state->position_m()) : "-");
   if (!agent.clearance) {
@@ -136,6 +138,7 @@ std::vector<std::string> AgentRow(const AgentView& agent) {
                    : agent.clearance->not_clear() ? " not clear"
                                                   : ""));
   }
+  if (agent.gone) row.back() += ", gone";
   return row;
 }
 

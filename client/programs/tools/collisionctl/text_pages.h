@@ -12,7 +12,8 @@ namespace collision::client {
 /// Service, clock, simulators, broad phase and why, what is left out, refusals. Requires a status.
 std::string StatusPage(const WorldView& view);
 
-/// A table of all agents: identity, declaration, newest state, how long they are clear.
+/// A table of all agents: identity, declaration, newest state, how long they are clear, and whether
+/// their process is gone.
 std::string AgentsPage(const WorldView& view);
 
 /// A table of all shapes that simulators have published: owner, number of agents, size, and how

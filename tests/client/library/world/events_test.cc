@@ -67,6 +67,9 @@ TEST_F(EventsTest, AllFieldsArrive) {
   event.set_level(12);
   event.set_work_units(13);
   event.set_limited_by(v1::LIMIT_GEOMETRY);
+  v1::KeyValue* because = event.add_extensions();
+  because->set_key("because");
+  because->set_value("silent");
   Arrive(event);
   world_.Poll();
   const Event received = world_.TakeEvents().at(0);
@@ -94,6 +97,7 @@ TEST_F(EventsTest, AllFieldsArrive) {
   EXPECT_EQ(received.level, 12u);
   EXPECT_EQ(received.work_units, 13u);
   EXPECT_EQ(received.limited_by, EventLimit::kGeometry);
+  EXPECT_EQ(received.because, "silent");
   EXPECT_STREQ(Name(received.limited_by), "geometry");
 }
 

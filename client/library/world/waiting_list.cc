@@ -1,0 +1,30 @@
+#include "client/library/world/waiting_list.h"
+
+#include <algorithm>
+
+#include "idl/limits.h"
+
+namespace collision::client {
+
+void WaitingList::Take(const v1::ServiceStatus& status) {
+  names_.clear();
+  for (const v1::KeyValue& extension : status.extensions()) {
+    if (extension.key() != "waiting_for") continue;
+    const std::string& text = extension.value();
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = std::min(text.find(", ", begin), text.size());
+      const std::string name = text.substr(begin, end - begin);
+      // What is no name tells how many do not fit: "+7 more".
+      if (wire::IsName(name)) names_.push_back(name);
+      begin = end + 2;
+    }
+  }
+}
+
+bool WaitingList::TakeChange() {
+  if (names_ == told_) return false;
+  told_ = names_;
+  return true;
+}
+
+}  // namespace collision::client

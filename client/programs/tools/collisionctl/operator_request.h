@@ -1,0 +1,41 @@
+// What an operator asks of a service, and its answer.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "client/library/deadline.h"
+#include "client/library/network/transport.h"
+#include "idl/messages.pb.h"
+
+namespace collision::client {
+
+enum class RequestOutcome {
+  kDone,
+  kRefused,    ///< The answer says why.
+  kNoService,  ///< None serves this world.
+  kNoAnswer    ///< One serves it, and has not answered in time: it may still obey.
+};
+
+struct RequestResult {
+  RequestOutcome outcome = RequestOutcome::kNoService;
+  std::string answer;  ///< As the service gave it, with "done: " or "refused: "; else empty.
+};
+
+/// A command with a random id.
+v1::OperatorCommand MakeCommand(v1::OperatorCommandKind kind, const std::string& simulator);
+
+/// Waits for a service that serves, hands it the command and waits for its answer.
+RequestResult Request(Transport* transport, const v1::OperatorCommand& command,
+                      const Deadline& deadline);
+
+/// The answer to this command in a status; nullopt: it has none.
+std::optional<std::string> AnswerIn(const v1::ServiceStatus& status,
+                                    const v1::OperatorCommand& command);
+
+/// Connects, requests, and prints the answer: to standard output, or the reason of a failure to
+/// standard error. Returns the exit code. Throws std::runtime_error if DDS is not available.
+int RunOperatorRequest(const std::string& world, std::uint32_t domain, double timeout_s,
+                       const v1::OperatorCommand& command);
+
+}  // namespace collision::client

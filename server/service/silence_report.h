@@ -1,0 +1,55 @@
+// Tells in the log, and in the status, whom the world waits for and who was let go.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "idl/messages.pb.h"
+#include "server/process/names_log.h"
+#include "server/world/silence.h"
+
+namespace collision::server {
+
+/// Names each simulator once for each time that it is waited for, released or removed; at most one
+/// line a second of each kind. One thread.
+class SilenceReport {
+ public:
+  /// Takes note of whom the world waits for now. True: that has changed.
+  bool TakeWaited(const std::vector<Awaited>& waited);
+
+  void AddReleased(const std::vector<std::string>& names);
+
+  /// Removed as silent; `name` may be empty.
+  void AddRemoved(const std::string& name);
+
+  /// Writes what is new.
+  void Write(std::int64_t monotonic_ns);
+
+  /// For the status: the simulators that were removed last, newest first.
+  void AddExtensions(std::vector<v1::KeyValue>* extensions) const;
+
+ private:
+  std::vector<Awaited> waited_;       ///< Logged already.
+  std::vector<std::string> removed_;  ///< Newest first; at most kRemovedShownMax.
+  NamesLog ended_{
+      "world time waits for simulator {}: its process has ended; start it again, or evict it with "
+      "collisionctl evict (or set clock.on_silent_simulator to RELEASE)"};
+  NamesLog stands_{
+      "world time waits for simulator {}: it was granted time and does not move (see "
+      "clock.waiting_after_s); let it go on, or evict it with collisionctl evict"};
+  NamesLog missing_{
+      "world time waits for simulator {}: the service before this one served it, and it is not "
+      "back yet; start it again, or evict it with collisionctl evict"};
+  NamesLog releases_{
+      "world time goes on without simulator {}: it was silent for clock.release_after_s; its "
+      "agents stay, and their bounds grow"};
+  NamesLog removals_{
+      "simulator {} is removed with its agents: it was silent for clock.remove_silent_after_s; it "
+      "is welcome again with a higher run"};
+};
+
+/// Simulators removed last that the status names.
+inline constexpr std::size_t kRemovedShownMax = 8;
+
+}  // namespace collision::server

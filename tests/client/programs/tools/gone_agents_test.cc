@@ -1,0 +1,148 @@
+// Goal:   agents that the service still holds although their process is gone are shown as such,
+//         with the name where it is known; what has been removed, or belongs to an earlier service
+//         or epoch, is not.
+// Method: clearances and statuses by hand, as a monitor that came late, or early, receives them.
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "client/programs/tools/collisionctl/json_pages.h"
+#include "client/programs/tools/collisionctl/text_pages.h"
+
+namespace collision::client {
+namespace {
+
+class HandedOver : public Receiver {
+ public:
+  explicit HandedOver(Arrivals* next) : next_(next) {}
+  void Receive(std::chrono::nanoseconds, Arrivals* arrivals) override {
+    *arrivals = std::exchange(*next_, {});
+  }
+  bool service_alive() const override { return true; }
+
+ private:
+  Arrivals* next_;
+};
+
+class GoneAgentsTest : public testing::Test {
+ protected:
+  void Stamp(v1::ServiceStamp* stamp) {
+    stamp->set_service_id(9);
+    stamp->set_term(1);
+    stamp->set_epoch(epoch_);
+  }
+
+  /// `runs`: of simulator 5; none: it is not listed.
+  void Status(std::optional<std::uint32_t> run, bool alive, std::uint32_t agents) {
+    v1::ServiceStatus* status = next_.outputs.emplace_back().mutable_service_status();
+    status->set_service_id(9);
+    Stamp(status->mutable_stamp());
+    status->set_agents(agents);
+    if (!run) return;
+    v1::SimulatorStatus* simulator = status->add_simulators();
+    simulator->set_simulator_id(5);
+    simulator->set_run(*run);
+    simulator->set_name("beta");
+    simulator->set_alive(alive);
+  }
+
+  void Clear(std::uint32_t chunk, const std::vector<std::uint32_t>& slots, std::uint32_t run = 7) {
+    v1::Clearance* clearance = next_.outputs.emplace_back().mutable_clearance();
+    clearance->set_simulator_id(5);
+    clearance->set_run(run);
+    clearance->set_chunk(chunk);
+    Stamp(clearance->mutable_stamp());
+    for (const std::uint32_t slot : slots) {
+      v1::AgentClearance* agent = clearance->add_agents();
+      agent->set_slot(slot);
+      agent->set_generation(1);
+      agent->set_clear_until_ns(2'000'000'000);
+      agent->set_not_clear(true);
+    }
+  }
+
+  void Describe(std::uint32_t slot) {
+    v1::AgentDescription* description = next_.inputs.emplace_back().mutable_agent_description();
+    description->set_simulator_id(5);
+    description->set_simulator_name("beta");
+    description->set_agent_name("buoy");
+    description->set_run(7);
+    description->set_slot(slot);
+    description->set_generation(1);
+    description->set_radius_m(0.5);
+  }
+
+  std::vector<AgentView> Agents() {
+    monitor_.Poll(std::chrono::nanoseconds(0));
+    return view_.Agents();
+  }
+
+  std::uint32_t epoch_ = 1;
+  Arrivals next_;
+  WorldView view_;
+  MessageMonitor monitor_{std::make_unique<HandedOver>(&next_), view_.Callbacks()};
+};
+
+TEST_F(GoneAgentsTest, OneThatWasNeverDescribedHereIsShownBySimulatorAndSlot) {
+  Clear(0, {3});
+  Clear(1, {64});
+  EXPECT_TRUE(Agents().empty()) << "the service has not said whose they are";
+  Status(7, false, 2);
+  ASSERT_EQ(Agents().size(), 2u);
+  EXPECT_TRUE(view_.knows_all_agents());
+  EXPECT_EQ(AgentsPage(view_),
+            "ID         NAME  SHAPE  RADIUS [m]  M [m/s²]  STATE AT  POSITION [m]  CLEAR UNTIL\n"
+            "beta:3.1   -     -      -           -         -         -             2.000 s not "
+            "clear, gone\n"
+            "beta:64.1  -     -      -           -         -         -             2.000 s not "
+            "clear, gone\n");
+  EXPECT_NE(AgentsJson(view_).find("\"gone\":true"), std::string::npos);
+}
+
+TEST_F(GoneAgentsTest, OneThatWasSeenAliveKeepsItsName) {
+  Describe(0);
+  Clear(0, {0});
+  Status(7, true, 1);
+  ASSERT_EQ(Agents().size(), 1u);
+  EXPECT_FALSE(view_.Agents()[0].gone);
+  EXPECT_EQ(AgentsPage(view_).find("gone"), std::string::npos);
+  EXPECT_EQ(AgentsJson(view_).find("gone"), std::string::npos);
+  Status(7, false, 1);
+  ASSERT_EQ(Agents().size(), 1u);
+  EXPECT_TRUE(view_.Agents()[0].gone);
+  EXPECT_EQ(view_.Agents()[0].description.agent_name(), "buoy");
+}
+
+TEST_F(GoneAgentsTest, WhatTheServiceHoldsNoMoreIsNotShown) {
+  Clear(0, {3, 4});
+  Status(7, false, 2);
+  EXPECT_EQ(Agents().size(), 2u);
+  Clear(0, {4});
+  EXPECT_EQ(Agents().size(), 1u) << "one was removed";
+  Clear(1, {64});
+  EXPECT_EQ(Agents().size(), 2u) << "another chunk says nothing of the first";
+  Status({}, false, 0);
+  EXPECT_TRUE(Agents().empty()) << "the simulator has left";
+}
+
+TEST_F(GoneAgentsTest, SamplesOfAnotherRunEpochOrServiceTellNothing) {
+  Clear(0, {3}, 6);
+  Status(7, false, 0);
+  EXPECT_TRUE(Agents().empty());
+  Clear(0, {3});
+  EXPECT_EQ(Agents().size(), 1u);
+  epoch_ = 2;
+  Status(7, false, 0);
+  EXPECT_TRUE(Agents().empty());
+  Clear(0xffffffff, {3});
+  EXPECT_TRUE(Agents().empty()) << "no service has such a chunk";
+}
+
+TEST_F(GoneAgentsTest, TheLivingThatAreNotDescribedYetAreNotGone) {
+  Clear(0, {3});
+  Status(7, true, 1);
+  EXPECT_TRUE(Agents().empty());
+}
+
+}  // namespace
+}  // namespace collision::client
