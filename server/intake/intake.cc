@@ -12,7 +12,8 @@ Intake::Intake(const v1::Config& config, World* world, detection::Detector* dete
       rejections_(*rejections),
       shapes_(*shapes),
       agent_shapes_(config, world, detector, rejections, shapes),
-      agents_(config, world, detector, rejections, &agent_shapes_) {}
+      agents_(config, world, detector, rejections, &agent_shapes_),
+      sender_clocks_(config, world, &agents_) {}
 
 void Intake::Apply(const v1::Input& input) {
   switch (input.message_case()) {
@@ -77,6 +78,9 @@ void Intake::TakeStates(const v1::Input& input) {
     simulator->time().RecordStates(state.sequence());
   }
   if (const auto refusal = CheckChunk(chunk)) return rejections_.Add(*refusal);
+  if (const auto refusal = sender_clocks_.Check(*simulator, chunk)) {
+    return rejections_.Add(*refusal);
+  }
   for (const v1::AgentState& state : chunk.states()) agents_.TakeState(simulator, chunk, state);
 }
 
@@ -86,6 +90,7 @@ void Intake::TakeClock(const v1::Input& input) {
   if (const auto refusal = CheckIdentity(wire)) return rejections_.Add(*refusal);
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
+  sender_clocks_.Take(simulator, wire);
   SimulatorTime& time = simulator->time();
   const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) {
@@ -181,6 +186,10 @@ void Intake::EndEpoch() {
     TakeClocks(&simulator);
     agents_.RemoveAll(&simulator);
   }
+}
+
+void Intake::ExpelAgents() {
+  for (auto& [id, simulator] : world_.simulators()) agents_.ExpelAll(&simulator);
 }
 
 /// Successors take over at the end of the batch: they may have ended in the same one.

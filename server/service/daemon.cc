@@ -65,7 +65,9 @@ class Daemon::Implementation {
         rejections_(config_.rejections_per_second_max(), &world_),
         intake_(config_, &world_, &detector_, &rejections_, &shapes_),
         publisher_(config_, &claim_, &bus_),
-        schedule_(ToNanoseconds(config_.status_period_s())) {}
+        schedule_(ToNanoseconds(config_.status_period_s())) {
+    intake_.sender_clocks().SetServiceId(claim_.instance());
+  }
 
   bool Step() {
     std::vector<v1::Input> inputs;
@@ -75,6 +77,7 @@ class Daemon::Implementation {
     SortBatch(&inputs);
     if (!Begin(clock_.Read(), &inputs)) return false;
     if (!Claim(inputs)) return false;
+    if (clock_step_) FollowStep(*clock_step_);
     for (const v1::Input& input : inputs) intake_.Apply(input);
     if (world_.EpochIsOver()) EndEpoch();
     intake_.EndBatch();
@@ -127,13 +130,14 @@ class Daemon::Implementation {
 
   /// Takes the time of this step and records what it applies. False: it could not be recorded.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
-    world_.SetReading(reading);
+    clock_step_ = world_.SetReading(reading);
     ++steps_.batches;
     steps_.inputs += inputs->size();
     if (recorder_ == nullptr) return true;
     v1::RecordedBatch batch;
     batch.set_wall_ns(reading.wall_ns);
     batch.set_monotonic_ns(reading.monotonic_ns);
+    batch.set_wall_was_set(reading.wall_was_set);
     for (v1::Input& input : *inputs) *batch.add_inputs() = std::move(input);
     const bool kept = recorder_->Record(batch);
     for (std::size_t i = 0; i < inputs->size(); ++i) {
@@ -178,13 +182,32 @@ class Daemon::Implementation {
   void EndEpoch() {
     intake_.EndEpoch();
     world_.FinishEpoch();
+    CloseEpoch("no simulator holds time any more");
+  }
+
+  /// The wall clock was set. Before the inputs of the step are applied: they were written by the
+  /// clock as it is now, or are refused.
+  void FollowStep(const ClockStep& step) {
+    ++steps_.clock_steps;
+    steps_.last_clock_step = StepText(step);
+    Log(spdlog::level::warn, "wall clock was set",
+        steps_.last_clock_step + (step.breaks
+                                      ? ", by more than clock.skew_max_s: all promises are void"
+                                      : ", within clock.skew_max_s: promises hold"));
+    if (!step.breaks) return;
+    intake_.ExpelAgents();
+    CloseEpoch("the wall clock was set; agents come back with their next states");
+  }
+
+  /// Publishes the end of what was told in this epoch, and begins the next.
+  void CloseEpoch(const char* why) {
     if (claim_.phase() == ClaimPhase::kServing) {
       Detect(true);
       PublishAnswers();
     }
     Log(spdlog::level::info, "epoch over",
-        fmt::format("epoch {} ends at {} s: no simulator holds time any more", world_.epoch(),
-                    1e-9 * static_cast<double>(world_.now().nanoseconds())));
+        fmt::format("epoch {} ends at {} s: {}", world_.epoch(),
+                    1e-9 * static_cast<double>(world_.now().nanoseconds()), why));
     detector_ = detection::Detector(OptionsOf(config_));
     advanced_to_.reset();
     world_.BeginEpoch();
@@ -260,6 +283,7 @@ class Daemon::Implementation {
   StatusSchedule schedule_;
   Rate query_rate_;
   StepCounters steps_;
+  std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::vector<std::string> waited_for_;  ///< Logged already.
   NamesLog waits_{
       "world time waits for simulator {}: its process has ended; start it again (or set "

@@ -5,6 +5,7 @@ namespace collision::server {
 void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
   agents_.Clear();
   time_ = {};
+  sender_clock_ = {};
   sender_ = sender;
   run_ = run;
   SetAlive(true, 0);
@@ -14,6 +15,11 @@ void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
 void Simulator::LeaveEpoch() {
   agents_.Clear();
   time_ = {};
+}
+
+void Simulator::RestartTime() {
+  time_.Restart();
+  agents_.clearances().MarkGrantChanged();
 }
 
 void Simulator::SetAlive(bool alive, std::int64_t monotonic_ns) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "server/world/agent_table.h"
+#include "server/world/sender_clock.h"
 #include "server/world/simulator_time.h"
 
 namespace collision::server {
@@ -35,6 +36,10 @@ class Simulator {
   /// that the agents have been removed.
   void LeaveEpoch();
 
+  /// The world's time begins anew, and it stays with its agents and their descriptions: no clock,
+  /// no grant. Its clearances are published again. Requires that no agent is admitted.
+  void RestartTime();
+
   bool alive() const { return alive_; }
   std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
   void SetAlive(bool alive, std::int64_t monotonic_ns);
@@ -57,6 +62,8 @@ class Simulator {
     return {.simulator = id_, .slot = slot, .run = run_, .generation = generation};
   }
 
+  SenderClock& sender_clock() { return sender_clock_; }
+  const SenderClock& sender_clock() const { return sender_clock_; }
   SimulatorTime& time() { return time_; }
   const SimulatorTime& time() const { return time_; }
   AgentTable& agents() { return agents_; }
@@ -78,6 +85,7 @@ class Simulator {
   bool released_ = false;
   std::int64_t silent_since_ns_ = 0;
   bool succeeded_unheard_ = false;
+  SenderClock sender_clock_;
   SimulatorTime time_;
   AgentTable agents_;
   std::uint64_t states_ = 0;

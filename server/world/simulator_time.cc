@@ -32,6 +32,14 @@ bool SimulatorTime::Take() {
   return taken;
 }
 
+void SimulatorTime::Restart() {
+  newest_ = Instant::Always();
+  pending_.clear();
+  first_clock_.reset();
+  clock_.reset();
+  granted_.reset();
+}
+
 bool SimulatorTime::Grant(Instant until) {
   const Instant grant = std::max(granted_.value_or(Instant::Always()), until);
   if (granted_ == grant) return false;

@@ -45,6 +45,9 @@ class SimulatorTime {
   /// Extends the grant to `until`; a grant is never shortened. True if it has changed.
   bool Grant(Instant until);
 
+  /// The world's time begins anew: no clock and no grant. What has arrived stays known.
+  void Restart();
+
   Instant newest() const { return newest_; }  ///< The newest clock that has arrived; else Always().
   const std::optional<Instant>& clock() const { return clock_; }  ///< The newest in force.
   /// The one that this service first brought into force.

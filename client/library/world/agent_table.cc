@@ -60,7 +60,7 @@ void AgentTable::Stage(const AgentId& id, const State& state) {
   Slot& slot = slots_.at(id.slot);
   const bool was_staged = slot.states.staged().has_value();
   slot.states.Stage(state, slot.bounds, policy_);
-  if (!was_staged) staged_slots_.push_back(id.slot);
+  if (!was_staged && slot.states.staged()) staged_slots_.push_back(id.slot);
   ++traffic_.states_set;
 }
 
@@ -104,6 +104,10 @@ std::vector<v1::AgentStates> AgentTable::SentStates() const {
     if (states.states_size() > 0) chunks.push_back(std::move(states));
   }
   return chunks;
+}
+
+void AgentTable::ForgetSent() {
+  for (Slot& slot : slots_) slot.states.ForgetSent();
 }
 
 std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {

@@ -40,6 +40,9 @@ class AgentTable {
   std::vector<v1::AgentDescription> Descriptions() const;
   std::vector<v1::AgentStates> SentStates() const;
 
+  /// The service has forgotten all states: each agent's next one is sent, whatever its stamp.
+  void ForgetSent();
+
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
   /// of all its agents.
   std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);

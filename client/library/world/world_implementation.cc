@@ -22,11 +22,17 @@ std::uint32_t RunByClock() {
   return static_cast<std::uint32_t>(duration_cast<Tenths>(since_2020).count());
 }
 
+std::int64_t SystemClockNs() {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
+}
+
 PublishPolicy PolicyOf(const WorldOptions& options) {
   const std::uint32_t chunk_size = options.on_demand ? 1 : kChunkSizeMax;
   return {.on_demand = options.on_demand,
           .lead_ns = options.lock_step ? 0 : options.lead.count(),
-          .chunk_size = options.chunk_size > 0 ? options.chunk_size : chunk_size};
+          .chunk_size = options.chunk_size > 0 ? options.chunk_size : chunk_size,
+          .wall_clock = !options.lock_step};
 }
 
 template <typename T>
@@ -57,7 +63,8 @@ World::Implementation::Implementation(const WorldOptions& options,
       lock_step_(options.lock_step),
       transport_(std::move(transport)),
       agents_(options.simulator, simulator_id_, run_, PolicyOf(options)),
-      shapes_(simulator_id_, run_) {}
+      shapes_(simulator_id_, run_),
+      wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
@@ -144,7 +151,7 @@ void World::Implementation::RequireOutsideCallback(const char* function) const {
 
 void World::Implementation::RequireForward(std::int64_t clock_ns) const {
   ValidateClock(clock_ns);
-  if (!clock_published_ || clock_ns >= clock_ns_) return;
+  if (!clock_published_ || !lock_step_ || clock_ns >= clock_ns_) return;
   throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) + ", allowed: >= " +
                               std::to_string(clock_ns_) + ", the last clock published");
 }
@@ -156,6 +163,8 @@ std::int64_t World::Implementation::Reachable() const {
 }
 
 void World::Implementation::Send(std::int64_t clock_ns) {
+  // A wall clock that was set back: the service begins another epoch, or the clock catches up.
+  if (clock_published_ && clock_ns < clock_ns_) return Repeat();
   if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !name_refused_)
     return;
   v1::Input message;
@@ -164,7 +173,7 @@ void World::Implementation::Send(std::int64_t clock_ns) {
     *message.mutable_agent_states() = std::move(chunk);
     transport_->Write(message);
   }
-  *message.mutable_simulator_clock() = agents_.Clock(clock_ns, lock_step_);
+  *message.mutable_simulator_clock() = Clock(clock_ns);
   transport_->Write(message);
   transport_->Flush();
   clock_ns_ = clock_ns;
@@ -175,9 +184,15 @@ void World::Implementation::Repeat() {
   if (!clock_published_ || closed_) return;
   v1::Input message;
   if (name_refused_) Reintroduce();
-  *message.mutable_simulator_clock() = agents_.Clock(clock_ns_, lock_step_);
+  *message.mutable_simulator_clock() = Clock(clock_ns_);
   transport_->Write(message);
   transport_->Flush();
+}
+
+v1::SimulatorClock World::Implementation::Clock(std::int64_t clock_ns) {
+  v1::SimulatorClock clock = agents_.Clock(clock_ns, lock_step_);
+  if (!lock_step_) echo_.FillIn(wall_clock_(), &clock);
+  return clock;
 }
 
 void World::Implementation::Reintroduce() {
@@ -204,6 +219,23 @@ ShapePublisher::Writer World::Implementation::Writer() {
   return [this](const v1::Input& message) { transport_->Write(message); };
 }
 
+bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns,
+                                   CurrentService::Time at) {
+  const std::uint64_t id = service_.id();
+  const std::uint32_t epoch = service_.epoch();
+  if (!service_.Accept(stamp, at)) return false;
+  if (lock_step_) return true;
+  echo_.Hear(stamp, now_ns, wall_clock_());
+  if (service_.id() == id && service_.epoch() != epoch) BeginEpoch();
+  return true;
+}
+
+void World::Implementation::BeginEpoch() {
+  filter_ = {};
+  agents_.ForgetSent();
+  clock_published_ = false;
+}
+
 void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Flush();  // Descriptions may be waiting.
   Arrivals arrivals;
@@ -220,10 +252,14 @@ void World::Implementation::Gather(std::chrono::nanoseconds timeout) {
 void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
   switch (output.message_case()) {
     case v1::Output::kClearance:
-      if (service_.Accept(output.clearance().stamp(), now)) Handle(output.clearance());
+      if (Accept(output.clearance().stamp(), output.clearance().now_ns(), now)) {
+        Handle(output.clearance());
+      }
       break;
     case v1::Output::kCollisionEvent:
-      if (service_.Accept(output.collision_event().stamp(), now)) Handle(output.collision_event());
+      if (Accept(output.collision_event().stamp(), output.collision_event().now_ns(), now)) {
+        Handle(output.collision_event());
+      }
       break;
     case v1::Output::kRejection: {
       const v1::Rejection& rejection = output.rejection();
@@ -235,7 +271,7 @@ void World::Implementation::Handle(const v1::Output& output, CurrentService::Tim
     }
     case v1::Output::kServiceStatus:
       if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
-      if (!service_.Accept(output.service_status().stamp(), now)) break;
+      if (!Accept(output.service_status().stamp(), output.service_status().now_ns(), now)) break;
       simulated_clock_ = output.service_status().simulated_clock();
       break;
     default:

@@ -13,6 +13,7 @@
 #include "client/library/network/transport.h"
 #include "client/library/world/agent_table.h"
 #include "client/library/world/revision_filter.h"
+#include "client/library/world/service_echo.h"
 #include "client/library/world/shape_publisher.h"
 
 namespace collision::client {
@@ -65,6 +66,7 @@ class World::Implementation {
   /// Writes what is due at this clock, then the clock, unless the service knows all of it already.
   void Send(std::int64_t clock_ns);
   void Repeat();
+  v1::SimulatorClock Clock(std::int64_t clock_ns);
   /// Repeats everything: the service refused this simulator while another program of its name,
   /// perhaps its own predecessor, still counted as alive.
   void Reintroduce();
@@ -72,6 +74,11 @@ class World::Implementation {
 
   /// Hands messages to the network.
   ShapePublisher::Writer Writer();
+
+  /// Whether a sample with this stamp, as of `now_ns`, counts.
+  bool Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns, CurrentService::Time at);
+  /// Wall clock: the service's clock was set, and it has forgotten all states.
+  void BeginEpoch();
 
   /// Takes in what arrives within `timeout`, without callbacks.
   void Gather(std::chrono::nanoseconds timeout);
@@ -91,6 +98,8 @@ class World::Implementation {
   ShapePublisher shapes_;
   CurrentService service_;
   RevisionFilter filter_;
+  std::function<std::int64_t()> wall_clock_;
+  ServiceEcho echo_;
 
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -222,17 +222,24 @@ TEST(World, NoSimulatorRunsFurtherAheadThanAllowed) {
   EXPECT_EQ(world.RulesForClock(a).latest, At(16 * kSecond));
 }
 
-TEST(World, WallTimeFollowsTheMonotonicClock) {
+TEST(World, WallTimeFollowsTheWallClock) {
   v1::Config config;
   config.mutable_clock()->set_kind(v1::Clock::WALL);
   config.mutable_clock()->set_skew_max_s(0.002);
   World world(CompleteConfig(config));
-  world.SetReading({.wall_ns = 1000 * kSecond, .monotonic_ns = 1 * kSecond});
+  EXPECT_FALSE(world.SetReading({.wall_ns = 1000 * kSecond, .monotonic_ns = 1 * kSecond}));
   EXPECT_EQ(world.now(), At(1000 * kSecond));
-  world.SetReading({.wall_ns = 5000 * kSecond, .monotonic_ns = 3 * kSecond});
+  EXPECT_FALSE(world.SetReading({.wall_ns = 1002 * kSecond, .monotonic_ns = 3 * kSecond}));
   EXPECT_EQ(world.now(), At(1002 * kSecond));
   EXPECT_EQ(world.RulesForState(Simulator(1, 1, 1), true).latest, At(1002 * kSecond + 2'000'000));
   EXPECT_EQ(world.EffectiveFrom(At(1)), world.now());
+  const auto step = world.SetReading({.wall_ns = 5000 * kSecond, .monotonic_ns = 3 * kSecond});
+  ASSERT_TRUE(step && step->breaks);
+  EXPECT_EQ(world.now(), At(1002 * kSecond));
+  world.BeginEpoch();
+  EXPECT_EQ(world.now(), At(5000 * kSecond));
+  EXPECT_EQ(world.epoch(), 2u);
+  EXPECT_EQ(world.RulesForState(Simulator(1, 1, 1), true).earliest, At(5000 * kSecond - 2'000'000));
 }
 
 }  // namespace
