@@ -35,8 +35,8 @@ struct WorldOptions {
   /// States per sample, 1 to 64: 1 for rare updates, 6 on lossy links (one Ethernet frame), 64 at
   /// full speed. 0: 1 on demand, else 64.
   std::uint32_t chunk_size = 0;
-  /// Without lock-step: the clock that stamps are taken from, in nanoseconds since 1970. The service
-  /// measures by it how far it is off. Empty: the system's.
+  /// Without lock-step: the clock that stamps are taken from, in nanoseconds since 1970. By it the
+  /// service measures how far they are off. Empty: the system's.
   std::function<std::int64_t()> wall_clock = {};
 };
 

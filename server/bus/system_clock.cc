@@ -7,8 +7,6 @@
 
 #include <cerrno>
 
-#include "collision_core/numeric/seconds.h"
-
 namespace collision::server {
 namespace {
 
@@ -18,9 +16,10 @@ constexpr int kAttempts = 8;
 constexpr std::int64_t kCloseNs = 20'000;
 
 std::int64_t Now(clockid_t clock) {
+  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
   timespec time{};
   clock_gettime(clock, &time);
-  return time.tv_sec * numeric::kNanosecondsPerSecond + time.tv_nsec;
+  return time.tv_sec * kNanosecondsPerSecond + time.tv_nsec;
 }
 
 struct Pair {

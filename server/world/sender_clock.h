@@ -43,9 +43,10 @@ struct RoundTrip {
 /// What is certain about the offset θ of one sender.
 ///
 /// The answer left before it arrived, and the sample was heard after it was published, so θ lies in
-/// [t3 − t4, t2 − t1], the upper end widened by what drifts apart from t1 to t4. This needs no assumption about the ways there and back; only their sum makes
-/// the interval wide, and so does the time that a message waits for the service's step. A trip
-/// without `asked` gives the lower end alone.
+/// [t3 − t4, t2 − t1], the upper end widened by what drifts apart from t1 to t4. This needs no
+/// assumption about the ways there and back; only their sum makes the interval wide, and so does
+/// the time that a message waits for the service's step. A trip without `asked` gives the lower end
+/// alone.
 ///
 /// What one trip has proved holds later, less kDriftPerSecondNs of the time since. All bounds widen
 /// at that rate, so the best one stays the best, and one per side is all that is kept. A trip that

@@ -6,6 +6,7 @@
 
 #include <set>
 
+#include "server/recording/recording.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 
@@ -158,6 +159,45 @@ TEST_F(WallClockTest, SlewingIsFollowed) {
   EXPECT_TRUE(daemon_.rejections().empty()) << "stamps follow the clock, and so does the service";
   EXPECT_EQ(daemon_.status().now_ns(), daemon_.bus().wall_ns);
   EXPECT_EQ(daemon_.counter("clock_steps"), 0u);
+}
+
+/// Keeps what it gets.
+class BatchList final : public BatchSink {
+ public:
+  bool Record(const v1::RecordedBatch& batch) override {
+    batches.push_back(batch);
+    return true;
+  }
+  std::vector<v1::RecordedBatch> batches;
+};
+
+TEST_F(WallClockTest, AReplayFollowsTheSameSteps) {
+  BatchList record;
+  ScriptedDaemon recorded(Wall(), &record);
+  const auto tell = [&](int step, std::int64_t set_ns) {
+    recorded.bus().wall_ns += set_ns;
+    recorded.bus().wall_was_set = set_ns != 0;
+    recorded.bus().Pass(kStepNs);
+    std::vector<v1::Input> inputs;
+    for (std::uint32_t slot : {0, 1}) {
+      if (step == 0) inputs.push_back(From(kSender, Description("alpha", slot)));
+      v1::AgentState state = State(slot, recorded.bus().wall_ns, 2 * step + slot + 1);
+      state.mutable_position_m()->set_x(slot == 0 ? 0 : 6 - 0.3 * step);
+      state.mutable_velocity_m_s()->set_x(slot == 0 ? 0 : -3);
+      inputs.push_back(From(kSender, state, "alpha"));
+    }
+    recorded.Step(inputs);
+  };
+  for (int step = 0; step < 20; ++step) tell(step, step == 5 ? -kSecond * 3 / 2 : 0);
+  ScriptedDaemon replayed(Wall());
+  for (const v1::RecordedBatch& batch : record.batches) {
+    replayed.bus().wall_ns = batch.wall_ns();
+    replayed.bus().monotonic_ns = batch.monotonic_ns();
+    replayed.bus().wall_was_set = batch.wall_was_set();
+    replayed.Step({batch.inputs().begin(), batch.inputs().end()});
+  }
+  EXPECT_GT(recorded.daemon().event_log().count(), 2u);
+  EXPECT_EQ(replayed.daemon().event_log().hash(), recorded.daemon().event_log().hash());
 }
 
 TEST_F(WallClockTest, AServiceThatStartsBeforeTheClockIsSetServesOnceItIs) {
