@@ -198,6 +198,7 @@ void Intake::EndBatch() {
     HandOver(&simulator);
     TakeClocks(&simulator);
   }
+  sender_clocks_.WriteNames();
   agent_shapes_.ReleaseLeft();
   agents_.ReportUndescribed();
   agent_shapes_.ReportMissing();

@@ -17,9 +17,10 @@ void SenderClocks::Take(Simulator* simulator, const v1::SimulatorClock& clock) {
       simulator->sender_clock().Take(*trip, world_.monotonic_ns(), ToNanoseconds(skew_max_s_));
   if (verdict == SenderVerdict::kRefused) {
     agents_.VoidAll(simulator, within_until);
+    names_.Add(simulator->name());
     Log(spdlog::level::warn, "clock of a simulator is off",
-        fmt::format("simulator {:016x} \"{}\": its clock is {}. Its states are refused until then",
-                    simulator->id(), simulator->name(), WhatIsWrong(*simulator)));
+        fmt::format("simulator {:016x} \"{}\": its clock is {}", simulator->id(), simulator->name(),
+                    WhatIsWrong(*simulator)));
   } else if (verdict == SenderVerdict::kTaken) {
     Log(spdlog::level::info, "clock of a simulator is right again",
         fmt::format("simulator {:016x} \"{}\": its clock is {}; its states are taken",

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "server/intake/agent_registry.h"
+#include "server/process/names_log.h"
 #include "server/world/world.h"
 
 namespace collision::server {
@@ -26,6 +27,9 @@ class SenderClocks {
   /// Takes a clock of the owner of its simulator.
   void Take(Simulator* simulator, const v1::SimulatorClock& clock);
 
+  /// Names in the log each simulator that was refused since the last line. At the end of a batch.
+  void WriteNames() { names_.Write(world_.monotonic_ns()); }
+
   /// Why the states of a chunk are refused, if they are.
   std::optional<Refusal> Check(const Simulator& simulator, const v1::AgentStates& chunk) const;
 
@@ -36,6 +40,9 @@ class SenderClocks {
   World& world_;
   AgentRegistry& agents_;
   std::uint64_t service_id_ = 0;
+  NamesLog names_{
+      "refuses simulator {}: its clock is off by more than clock.skew_max_s; its rejections and "
+      "collisionctl status say by how much. Synchronise its clock, or set clock.skew_max_s higher"};
 };
 
 }  // namespace collision::server

@@ -5,8 +5,12 @@
 //         Both answer each sample of the service.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
 #include <map>
+#include <sstream>
 
+#include "server/process/logging.h"
 #include "tests/server/messages.h"
 #include "tests/server/scripted_bus.h"
 
@@ -143,6 +147,23 @@ TEST_F(ClockSkewTest, PromisesAboutItsAgentsAreVoidForBothAndItsCulpritIsNamed) 
   }
   EXPECT_TRUE(ClearanceOf("beta").not_clear());
   EXPECT_FALSE(ClearanceOf("alpha").not_clear());
+}
+
+TEST_F(ClockSkewTest, TheLogNamesEachAndSaysWhatToDo) {
+  const std::string path = testing::TempDir() + "clock_skew_test.log";
+  StartLogging("info", path);
+  offset_ns_["alpha"] = offset_ns_["beta"] = -5 * kSecond;
+  Tell(true);
+  TellFor(3 * kSecond);
+  EndLogging();
+  StartLogging("info", "");
+  std::ostringstream text;
+  text << std::ifstream(path).rdbuf();
+  std::remove(path.c_str());
+  for (const char* part :
+       {"refuses simulator \"alpha\", \"beta\": ", "set clock.skew_max_s higher"}) {
+    EXPECT_NE(text.str().find(part), std::string::npos) << part << text.str();
+  }
 }
 
 TEST_F(ClockSkewTest, OneWithinTheBoundIsServed) {
