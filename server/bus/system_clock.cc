@@ -1,11 +1,15 @@
 #include "server/bus/system_clock.h"
 
+#include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/timerfd.h>
 #include <sys/timex.h>
 #include <time.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <iterator>
+#include <utility>
 
 namespace collision::server {
 namespace {
@@ -46,14 +50,34 @@ Pair ReadBoth() {
 
 }  // namespace
 
-SystemClock::SystemClock()
-    : start_ns_(Now(CLOCK_BOOTTIME)),
-      timer_(timerfd_create(CLOCK_REALTIME, TFD_NONBLOCK | TFD_CLOEXEC)) {
+SystemClock::SystemClock(std::function<void()> on_set)
+    : on_set_(std::move(on_set)),
+      start_ns_(Now(CLOCK_BOOTTIME)),
+      timer_(timerfd_create(CLOCK_REALTIME, TFD_NONBLOCK | TFD_CLOEXEC)),
+      end_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
   ArmTimer();
+  if (timer_ >= 0 && end_ >= 0) watch_ = std::thread([this] { Watch(); });
 }
 
 SystemClock::~SystemClock() {
+  if (watch_.joinable()) {
+    eventfd_write(end_, 1);
+    watch_.join();
+  }
   if (timer_ >= 0) close(timer_);
+  if (end_ >= 0) close(end_);
+}
+
+void SystemClock::Watch() {
+  pollfd waits[] = {{.fd = timer_, .events = POLLIN, .revents = 0},
+                    {.fd = end_, .events = POLLIN, .revents = 0}};
+  for (;;) {
+    if (poll(waits, std::size(waits), -1) < 0 && errno != EINTR) return;
+    if (waits[1].revents != 0 || (waits[0].revents & ~POLLIN) != 0) return;
+    if (!TakeCancellation()) continue;
+    was_set_ = true;
+    if (on_set_) on_set_();
+  }
 }
 
 /// The timer is never meant to fire, only to be cancelled.
@@ -67,7 +91,6 @@ void SystemClock::ArmTimer() {
 }
 
 bool SystemClock::TakeCancellation() {
-  if (timer_ < 0) return false;
   std::uint64_t expirations = 0;
   if (read(timer_, &expirations, sizeof(expirations)) >= 0 || errno != ECANCELED) return false;
   ArmTimer();
@@ -75,8 +98,8 @@ bool SystemClock::TakeCancellation() {
 }
 
 ClockReading SystemClock::Read() {
-  // Told before the clocks are read: what is set in between shows in the next reading, too.
-  const bool was_set = TakeCancellation();
+  // Taken before the clocks are read: what is set in between is told with the next reading.
+  const bool was_set = was_set_.exchange(false);
   const Pair clocks = ReadBoth();
   return {.wall_ns = clocks.wall_ns,
           .monotonic_ns = clocks.boot_ns - start_ns_,

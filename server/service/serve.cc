@@ -75,7 +75,7 @@ void WaitForWallClock(const v1::Config& config, const StopSignalWatcher& signals
 }
 
 int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
-  SystemClock clock;
+  SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
   BuildOptions build = BuildOptionsOf(config);
   build.cache = std::move(parts.trees);

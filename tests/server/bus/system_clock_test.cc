@@ -30,5 +30,18 @@ TEST(SystemClock, ReadsBothClocks) {
   EXPECT_GT(close, kReadings / 2);
 }
 
+// Goal:   a clock that nobody sets calls nobody, and ends at once.
+TEST(SystemClock, SaysNothingWhereTheClockIsNotSet) {
+  constexpr int kClocks = 100;
+  for (int i = 0; i < kClocks; ++i) {
+    bool called = false;
+    {
+      SystemClock clock([&called] { called = true; });
+      EXPECT_FALSE(clock.Read().wall_was_set);
+    }
+    EXPECT_FALSE(called);
+  }
+}
+
 }  // namespace
 }  // namespace collision::server
