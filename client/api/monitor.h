@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -55,6 +56,9 @@ struct SimulatorStatus {
   std::uint32_t agents = 0;
   std::uint64_t states = 0;    ///< Accepted so far, in all runs.
   std::uint64_t rejected = 0;  ///< Samples refused so far.
+  /// Wall clock: its clock less the service's is within [earliest_ns, latest_ns] for certain;
+  /// INT64_MIN, INT64_MAX: not known.
+  TimeBracket clock_offset{std::numeric_limits<std::int64_t>::min(), kNever};
 };
 
 /// Health and counters of the service, published every `status_period_s` (0.5 s by default) and

@@ -38,6 +38,9 @@ struct WorldOptions {
   /// States per sample, 1 to 64: 1 for rare updates, 6 on lossy links (one Ethernet frame), 64 at
   /// full speed. 0: 1 on demand, else 64.
   std::uint32_t chunk_size = 0;
+  /// Without lock-step: the clock that stamps are taken from, in nanoseconds since 1970. By it the
+  /// service measures how far they are off. Empty: the system's.
+  std::function<std::int64_t()> wall_clock = {};
 };
 
 enum class Advance { kReached, kTimeout };
@@ -81,7 +84,9 @@ class World {
   /// Writes the staged states with stamps up to `clock_ns`, then the clock, which promises that
   /// everything up to `clock_ns` has been sent. With an unchanged clock it writes what is new at
   /// this instant, if anything. Throws std::invalid_argument if the clock goes backward or, in
-  /// lock-step, beyond what is granted; the first clock of a run may be any.
+  /// lock-step, beyond what is granted; the first clock of a run may be any. Without lock-step a
+  /// clock that goes back, because it was set, sends nothing until it has caught up or the service
+  /// has begun another epoch, and all states are to be set anew.
   void Publish(std::int64_t clock_ns);
 
   /// Lock-step: takes in what has arrived, says that the next step is at `clock_ns`, waits until

@@ -26,6 +26,9 @@ bool Detector::Remove(const AgentId& id) { return implementation_->Remove(id); }
 void Detector::SetHeardUntil(const OwnerId& owner, Instant until) {
   implementation_->SetHeardUntil(owner, until);
 }
+void Detector::VoidOwner(const OwnerId& owner, Instant from) {
+  implementation_->VoidOwner(owner, from);
+}
 void Detector::Advance(Instant now) { implementation_->Advance(now); }
 const std::vector<CollisionEvent>& Detector::events() const {
   return implementation_->pairs().events();

@@ -77,6 +77,13 @@ class Detector {
   /// later; has no effect while it has none. Never goes back. O(log owners).
   void SetHeardUntil(const OwnerId& owner, Instant until);
 
+  /// The clock of one run of a simulator turned out to be off by more than its bounds allow for, so
+  /// that none of its states is believed: in the next step its agents expire, each to come back
+  /// with its next state. What was promised to them, and to others about them, is void from `from`
+  /// on: the clearances of these agents, and of all that can meet one of them, tell so with kSkew.
+  /// O(agents) where masks let them meet.
+  void VoidOwner(const OwnerId& owner, Instant from);
+
   /// Brings everything to `now` (never backward): afterwards every pair that may meet before
   /// now + announce_within is tracked, and events() holds what is new.
   void Advance(Instant now);

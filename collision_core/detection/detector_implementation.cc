@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "collision_core/detection/agents/declaration_change.h"
+#include "collision_core/detection/agents/pair_queries.h"
 #include "collision_core/numeric/seconds.h"
 
 namespace collision::detection {
@@ -138,6 +139,31 @@ bool Detector::Implementation::Remove(const AgentId& id) {
   if (agent.is_none()) return false;
   agents_.Remove(agent);
   return true;
+}
+
+// Each of the others is told of the first agent, in the order of ids, that it can meet.
+void Detector::Implementation::VoidOwner(const OwnerId& owner, Instant from) {
+  std::vector<AgentIndex> disbelieved, others;
+  for (std::size_t k = 0; k < agents_.index_end(); ++k) {
+    const AgentIndex agent(k);
+    if (!agents_.Contains(agent) || agents_[agent].removal != 0 || agents_[agent].expired) continue;
+    (OwnerOf(agents_[agent].id) == owner ? disbelieved : others).push_back(agent);
+  }
+  std::sort(disbelieved.begin(), disbelieved.end(),
+            [this](AgentIndex a, AgentIndex b) { return agents_[a].id < agents_[b].id; });
+  for (const AgentIndex agent : disbelieved) Disbelieve(agent, from);
+  const PairQueries queries({clock_, agents_, &counters_, &clearances_dirty_});
+  for (const AgentIndex agent : others) {
+    const auto culprit = std::find_if(disbelieved.begin(), disbelieved.end(),
+                                      [&](AgentIndex one) { return queries.MayMeet(one, agent); });
+    if (culprit != disbelieved.end()) clearances_.RecordVoid(agent, *culprit, from);
+  }
+}
+
+void Detector::Implementation::Disbelieve(AgentIndex agent, Instant void_from) {
+  clearances_.RecordVoid(agent, agent, void_from);
+  pairs_.MarkBroken(agent, agents_[agent].stamp());
+  agents_.ExpireAtItsStamp(agent);
 }
 
 void Detector::Implementation::Renew(AgentIndex agent, const Renewal& renewal) {

@@ -24,6 +24,7 @@ class Detector::Implementation {
   bool Redeclare(const AgentId& id, const AgentDeclaration& declaration, Instant effective_from);
   bool Remove(const AgentId& id);
   void SetHeardUntil(const OwnerId& owner, Instant until) { agents_.SetHeardUntil(owner, until); }
+  void VoidOwner(const OwnerId& owner, Instant from);
   void Advance(Instant now);
 
   std::vector<AgentClearance> TakeChangedClearances() { return clearances_.TakeChanged(); }
@@ -54,6 +55,7 @@ class Detector::Implementation {
   UpdateOutcome Breach(const NextState& next);
   void Renew(AgentIndex agent, const Renewal& renewal);
   void Tighten(AgentIndex agent);
+  void Disbelieve(AgentIndex agent, Instant void_from);
   void ExpireAgents();
   void Expire(AgentIndex agent, Departure departure);
   void Leave(AgentIndex agent);

@@ -5,10 +5,14 @@
 
 namespace collision::server {
 
-/// Two readings of one moment. The world's time follows the monotonic one.
+/// Two readings of one moment.
 struct ClockReading {
-  std::int64_t wall_ns = 0;       ///< Since 1970 (POSIX).
-  std::int64_t monotonic_ns = 0;  ///< Since the clock was made.
+  std::int64_t wall_ns = 0;  ///< Since 1970 (POSIX). It may be set, forward and back.
+  /// Since the clock was made. It never goes back, and goes on while the machine sleeps.
+  std::int64_t monotonic_ns = 0;
+  /// The system said that the wall clock was set since the last reading, by whatever amount. It may
+  /// say so, too, after the machine has slept.
+  bool wall_was_set = false;
 };
 
 /// Read once per step, on the daemon's thread.

@@ -75,6 +75,8 @@ void TakeDirection(const v1::AgentState& wire, FieldCheck* check, motion::Motion
 void CheckStamp(std::int64_t stamp_ns, const StampRules& rules, FieldCheck* check) {
   check->Integer("stamp_ns", stamp_ns, -wire::kInstantMax, rules.latest.nanoseconds(),
                  v1::REJECTED_FUTURE_STAMP);
+  check->Integer("stamp_ns", stamp_ns, rules.earliest.nanoseconds(), wire::kInstantMax,
+                 v1::REJECTED_STALE);
 }
 
 }  // namespace

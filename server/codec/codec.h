@@ -17,6 +17,8 @@
 //                                 before the first grant now, or its first
 //                                 clock, + grant_ahead_max_s;
 //                                 wall clock: now + skew_max_s
+//                                 not before the wall clock was set,        STALE
+//                                 by more than skew_max_s, less that
 //   discontinuity                 not before its simulator's clock          STALE
 //   clock                         not before the last one of its run,       CLOCK_BACKWARD,
 //                                 not later than a stamp may be             CLOCK_BEYOND_GRANT
@@ -28,7 +30,8 @@
 //                                 of bytes fit together (idl/PROTOCOL.md)
 //
 // Further reasons come from behind the codec: the owner of an id (world/world.h), what is missing
-// (intake/agent_registry.h), shapes as a whole (shapes/shape_decoding.h, intake/agent_shapes.h).
+// (intake/agent_registry.h), shapes as a whole (shapes/shape_decoding.h, intake/agent_shapes.h), a
+// sender whose clock is off (intake/sender_clocks.h).
 // No errors: a state that is older than its agent's newest, of an ended generation, or repeated.
 #pragma once
 
@@ -59,7 +62,8 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
 
 /// Which times a state may carry.
 struct StampRules {
-  Instant latest = Instant::Never();  ///< See the table above.
+  Instant earliest = Instant::Always();  ///< See the table above.
+  Instant latest = Instant::Never();     ///< Likewise.
   Instant discontinuity_from =
       Instant::Always();  ///< The simulator's clock: a jump before it comes too late.
 };

@@ -42,11 +42,14 @@ constexpr ConfigOption kOptions[] = {
     {"domain", "none", "0", kDigits<wire::kDomainMax>, "", "0",
      "DDS domain. Simulators and monitors must use the same."},
     {"clock.kind", "none", "", "", "SIMULATED or WALL", "SIMULATED",
-     "SIMULATED: now is the least clock of the live simulators. WALL: now is the time since 1970, "
-     "advanced by the monotonic clock."},
+     "SIMULATED: now is the least clock of the live simulators. WALL: now is the time since 1970 "
+     "by "
+     "the clock of this machine, which should be synchronised (NTP, PTP)."},
     {"clock.skew_max_s", "s", "0", "60", "", "0",
      "Bound on the difference between any sender's clock and ours. Bounds are widened by it, and a "
-     "stamp further in the future is refused. With WALL it must be greater than 0.",
+     "stamp further in the future is refused, as is a sender whose clock is certainly off by more. "
+     "If our own clock is set by more, all promises are void and given anew. With WALL it must be "
+     "greater than 0.",
      "0.002"},
     {"clock.simulators_awaited", "simulators", "1", "1024", "", "1",
      "With SIMULATED, time stands still until so many simulators have published a clock."},
@@ -74,6 +77,9 @@ constexpr ConfigOption kOptions[] = {
     {"clock.remove_silent_after_s", "s", "0", "604800", "", "60",
      "A simulator that has been silent for so long is removed with its agents: with WALL since its "
      "process died, with SIMULATED since it was released (on_silent_simulator RELEASE). 0: never."},
+    {"clock.wait_for_synchronisation_s", "s", "0", "86400", "", "0",
+     "With WALL, wait so long at the start until the system counts its clock as synchronised, then "
+     "go on without. 0: do not wait."},
     {"log_level", "none", "", "", "trace, debug, info, warn, error, critical or off", "\"info\"",
      "The least severe lines that are logged."},
     {"log_file", "none", "", "", "a path of at most 4096 printable ASCII characters, or empty",

@@ -225,6 +225,24 @@ void AgentRegistry::RemoveAll(Simulator* simulator) {
   });
 }
 
+void AgentRegistry::ExpelAll(Simulator* simulator) {
+  AgentTable& agents = simulator->agents();
+  agents.ForEachSlot([&](std::uint32_t slot) {
+    const Agent* agent = agents.Find(slot);
+    if (agent != nullptr && agent->admitted()) {
+      detector_.Remove(simulator->IdOf(slot, agent->generation()));
+      ++counters_.removed;
+    }
+    agents.Expel(slot);
+  });
+}
+
+void AgentRegistry::VoidAll(Simulator* simulator, Instant from) {
+  AgentTable& agents = simulator->agents();
+  detector_.VoidOwner({simulator->id(), simulator->run()}, from);
+  agents.ForEachSlot([&](std::uint32_t slot) { agents.DropWaiting(slot); });
+}
+
 void AgentRegistry::ReportUndescribed() {
   while (const auto id = undescribed_.TakeDue(world_.monotonic_ns())) {
     Simulator* simulator = world_.Find(id->simulator);

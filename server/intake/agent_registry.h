@@ -58,6 +58,14 @@ class AgentRegistry {
   /// Removes all agents of a simulator; states that wait for a description stay.
   void RemoveAll(Simulator* simulator);
 
+  /// The detector forgets all agents of a simulator: each comes back with its next state, under the
+  /// description that it has. States that wait are dropped.
+  void ExpelAll(Simulator* simulator);
+
+  /// No state of a simulator is believed any more: its agents expire, each to come back with its
+  /// next state, and promises are void from `from` on. States that wait are dropped.
+  void VoidAll(Simulator* simulator, Instant from);
+
   /// Reports states whose description has not arrived in time, to their senders.
   void ReportUndescribed();
 

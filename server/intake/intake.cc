@@ -16,7 +16,8 @@ Intake::Intake(const v1::Config& config, std::uint64_t instance, World* world,
       rejections_(*rejections),
       shapes_(*shapes),
       agent_shapes_(config, world, detector, rejections, shapes),
-      agents_(config, world, detector, rejections, &agent_shapes_) {}
+      agents_(config, world, detector, rejections, &agent_shapes_),
+      sender_clocks_(config, world, &agents_) {}
 
 void Intake::Apply(const v1::Input& input) {
   switch (input.message_case()) {
@@ -92,6 +93,9 @@ void Intake::TakeStates(const v1::Input& input) {
     simulator->time().RecordStates(state.sequence());
   }
   if (const auto refusal = CheckChunk(chunk)) return rejections_.Add(*refusal);
+  if (const auto refusal = sender_clocks_.Check(*simulator, chunk)) {
+    return rejections_.Add(*refusal);
+  }
   for (const v1::AgentState& state : chunk.states()) agents_.TakeState(simulator, chunk, state);
 }
 
@@ -101,6 +105,7 @@ void Intake::TakeClock(const v1::Input& input) {
   if (const auto refusal = CheckIdentity(wire)) return rejections_.Add(*refusal);
   Simulator* simulator = Claimed(input, At(wire), &wire.simulator_name());
   if (simulator == nullptr) return;
+  sender_clocks_.Take(simulator, wire);
   SimulatorTime& time = simulator->time();
   const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) {
@@ -211,10 +216,15 @@ void Intake::EndEpoch() {
   }
 }
 
+void Intake::ExpelAgents() {
+  for (auto& [id, simulator] : world_.simulators()) agents_.ExpelAll(&simulator);
+}
+
 void Intake::EndBatch() {
   for (auto& [id, simulator] : world_.simulators()) {
     simulator.time().TakeCensus(simulator.agents().size(), simulator.refusals().descriptions());
   }
+  sender_clocks_.WriteNames();
   agent_shapes_.ReleaseLeft();
   agents_.ReportUndescribed();
   agent_shapes_.ReportMissing();

@@ -9,6 +9,7 @@
 #include "collision_core/detection/detector.h"
 #include "server/intake/agent_registry.h"
 #include "server/intake/agent_shapes.h"
+#include "server/intake/sender_clocks.h"
 #include "server/shapes/shape_store.h"
 #include "server/world/rejections.h"
 #include "server/world/world.h"
@@ -62,6 +63,11 @@ class Intake {
   /// Ends the run of a simulator: removes its agents and frees its shapes, as if it had done so.
   void EndRun(Simulator* simulator, EndCause cause);
 
+  /// The wall clock was set: every agent leaves the detector, to come back with its next state.
+  void ExpelAgents();
+
+  SenderClocks& sender_clocks() { return sender_clocks_; }
+
   const IntakeCounters& counters() const { return counters_; }
   const AgentCounters& agent_counters() const { return agents_.counters(); }
 
@@ -96,6 +102,7 @@ class Intake {
   ShapeStore& shapes_;
   AgentShapes agent_shapes_;
   AgentRegistry agents_;
+  SenderClocks sender_clocks_;
   IntakeCounters counters_;
 };
 

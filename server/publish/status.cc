@@ -44,6 +44,9 @@ void AddSimulators(const World& world, v1::ServiceStatus* status) {
     wire.set_agents(static_cast<std::uint32_t>(simulator.agents().size()));
     wire.set_states(simulator.states());
     wire.set_rejected(simulator.refused());
+    const OffsetBracket offset = simulator.sender_clock().offset(world.monotonic_ns());
+    wire.mutable_clock_offset()->set_earliest_ns(offset.lower_ns);
+    wire.mutable_clock_offset()->set_latest_ns(offset.upper_ns);
   }
   Count("simulators_unlisted", unlisted, status);
   Count("simulators_removed_silent", world.ended_runs().count(EndCause::kSilent), status);
@@ -55,6 +58,7 @@ void AddIntake(const StatusSources& sources, v1::ServiceStatus* status) {
   const AgentCounters& agents = sources.intake.agent_counters();
   Count("batches", sources.steps.batches, status);
   Count("inputs", sources.steps.inputs, status);
+  Count("clock_steps", sources.steps.clock_steps, status);
   Count("agents_admitted", agents.admitted, status);
   Count("agents_removed", agents.removed, status);
   Count("descriptions_received", intake.descriptions_received, status);
@@ -152,6 +156,9 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   AddExtension("event_log_hash", fmt::format("{:016x}", sources.event_log.hash()), &status);
   AddExtension("tree_builder",
                LowerCase(v1::Config::TreeBuilder_Name(sources.config.tree_builder())), &status);
+  if (!sources.steps.last_clock_step.empty()) {
+    AddExtension("clock_step", sources.steps.last_clock_step, &status);
+  }
   std::vector<std::string> names = sources.world.WaitedFor();
   for (std::string& shape : sources.intake.AwaitedShapes()) names.push_back(std::move(shape));
   if (!names.empty()) {
@@ -159,6 +166,11 @@ v1::ServiceStatus MakeStatus(const StatusSources& sources) {
   }
   for (const v1::KeyValue& extension : sources.extensions) *status.add_extensions() = extension;
   return status;
+}
+
+std::string StepText(const ClockStep& step) {
+  return fmt::format("by {:+.6f} s, to {:.6f} s", 1e-9 * static_cast<double>(step.by_ns),
+                     1e-9 * static_cast<double>(step.to.nanoseconds()));
 }
 
 std::uint64_t Rate::Take(std::uint64_t count, std::int64_t monotonic_ns) {

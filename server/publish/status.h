@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "collision_core/detection/detector.h"
@@ -20,7 +21,12 @@ namespace collision::server {
 struct StepCounters {
   std::uint64_t batches = 0;
   std::uint64_t inputs = 0;
+  std::uint64_t clock_steps = 0;     ///< How often the wall clock was set.
+  std::string last_clock_step = {};  ///< In words; empty: never.
 };
+
+/// How far the wall clock was set, and to what.
+std::string StepText(const ClockStep& step);
 
 /// Everything that a status is made of; all of it outlives the call.
 struct StatusSources {

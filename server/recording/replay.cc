@@ -6,7 +6,9 @@ namespace collision::server {
 namespace {
 
 ClockReading TimesOf(const v1::RecordedBatch& batch) {
-  return {.wall_ns = batch.wall_ns(), .monotonic_ns = batch.monotonic_ns()};
+  return {.wall_ns = batch.wall_ns(),
+          .monotonic_ns = batch.monotonic_ns(),
+          .wall_was_set = batch.wall_was_set()};
 }
 
 }  // namespace

@@ -75,7 +75,9 @@ class Daemon::Implementation {
         intake_(config_, claim_.instance(), &world_, &detector_, &rejections_, &shapes_),
         operators_(&world_, &intake_),
         publisher_(config_, &claim_, &bus_),
-        schedule_(ToNanoseconds(config_.status_period_s())) {}
+        schedule_(ToNanoseconds(config_.status_period_s())) {
+    intake_.sender_clocks().SetServiceId(claim_.instance());
+  }
 
   bool Step() {
     std::vector<v1::Input> inputs;
@@ -85,6 +87,7 @@ class Daemon::Implementation {
     SortBatch(&inputs);
     if (!Begin(clock_.Read(), &inputs)) return false;
     if (!Claim(inputs)) return false;
+    if (clock_step_) FollowStep(*clock_step_);
     for (const v1::Input& input : inputs) intake_.Apply(input);
     intake_.TakeClocks();
     const bool restarts = ObeyOperators(inputs);
@@ -143,13 +146,14 @@ class Daemon::Implementation {
 
   /// Takes the time of this step and records what it applies. False: it could not be recorded.
   bool Begin(const ClockReading& reading, std::vector<v1::Input>* inputs) {
-    world_.SetReading(reading);
+    clock_step_ = world_.SetReading(reading);
     ++steps_.batches;
     steps_.inputs += inputs->size();
     if (recorder_ == nullptr) return true;
     v1::RecordedBatch batch;
     batch.set_wall_ns(reading.wall_ns);
     batch.set_monotonic_ns(reading.monotonic_ns);
+    batch.set_wall_was_set(reading.wall_was_set);
     for (v1::Input& input : *inputs) *batch.add_inputs() = std::move(input);
     const bool kept = recorder_->Record(batch);
     for (std::size_t i = 0; i < inputs->size(); ++i) {
@@ -225,6 +229,25 @@ class Daemon::Implementation {
   void EndEpoch(const char* why) {
     intake_.EndEpoch();
     world_.FinishEpoch();
+    CloseEpoch(why);
+  }
+
+  /// The wall clock was set. Before the inputs of the step are applied: they were written by the
+  /// clock as it is now, or are refused.
+  void FollowStep(const ClockStep& step) {
+    ++steps_.clock_steps;
+    steps_.last_clock_step = StepText(step);
+    Log(spdlog::level::warn, "wall clock was set",
+        steps_.last_clock_step + (step.breaks
+                                      ? ", by more than clock.skew_max_s: all promises are void"
+                                      : ", within clock.skew_max_s: promises hold"));
+    if (!step.breaks) return;
+    intake_.ExpelAgents();
+    CloseEpoch("the wall clock was set; agents come back with their next states");
+  }
+
+  /// Publishes the end of what was told in this epoch, and begins the next.
+  void CloseEpoch(const char* why) {
     if (claim_.phase() == ClaimPhase::kServing) {
       Detect(true);
       PublishAnswers();
@@ -347,6 +370,7 @@ class Daemon::Implementation {
   Rate query_rate_;
   StepCounters steps_;
   SilenceReport silence_report_;
+  std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
   std::atomic<bool> stopped_ = false;
 };

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "server/bus/system_clock.h"
@@ -18,6 +19,7 @@
 #include "server/process/stop_signals.h"
 #include "server/process/version.h"
 #include "server/service/daemon.h"
+#include "server/service/wait_for_clock.h"
 #include "server/shapes/threaded_shape_builder.h"
 
 namespace collision::server {
@@ -45,8 +47,35 @@ int EndWith(ExitCode code, const char* what, const std::exception& failure) {
   return Fail(code, std::string(what) + ": " + failure.what());
 }
 
+/// As the configuration asks for; says how it ended.
+void WaitForWallClock(const v1::Config& config, const StopSignalWatcher& signals,
+                      ServiceNotifier* service_manager) {
+  const std::chrono::nanoseconds longest(
+      ToNanoseconds(config.clock().wait_for_synchronisation_s()));
+  if (config.clock().kind() != v1::Clock::WALL || longest.count() == 0) return;
+  spdlog::info("waits for the wall clock to be synchronised, at most {} s",
+               config.clock().wait_for_synchronisation_s());
+  const auto pause = [&](std::chrono::nanoseconds period) {
+    std::this_thread::sleep_for(period);
+    service_manager->Alive(std::chrono::steady_clock::now());
+    return !signals.stopped();
+  };
+  switch (WaitForClock(longest, WallClockIsSynchronised, pause)) {
+    case ClockWait::kSynchronised:
+      return spdlog::info("the wall clock is synchronised");
+    case ClockWait::kNotToldBySystem:
+      return spdlog::warn(
+          "the system does not say whether the wall clock is synchronised (under systemd, "
+          "ProtectClock= forbids to ask): goes on without");
+    case ClockWait::kTimeout:
+      return spdlog::warn("the wall clock is still not synchronised: goes on without");
+    case ClockWait::kStopped:
+      return;
+  }
+}
+
 int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
-  SystemClock clock;
+  SystemClock clock([&bus] { bus.Wake(); });
   RecordingWriter* const recorder = parts.recorder;
   BuildOptions build = BuildOptionsOf(config);
   build.cache = std::move(parts.trees);
@@ -65,6 +94,7 @@ int ServeUntilStopped(const v1::Config& config, Bus& bus, ServiceParts parts) {
   if (parts.journal == nullptr) spdlog::info("no journal: nothing is kept for the next start");
   spdlog::info("narrow phase: {} us at {} units/us = {} work units per pair and evaluation",
                config.time_budget_us(), config.work_units_per_us(), WorkUnitsPerEvaluation(config));
+  WaitForWallClock(config, signals, &service_manager);
   bool ready = false;
   while (daemon.Step()) {
     if (!ready && daemon.claim().phase() == ClaimPhase::kServing) {

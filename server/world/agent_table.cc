@@ -74,9 +74,24 @@ WaitingState AgentTable::TakeWaiting(std::uint32_t slot) {
   return *std::exchange(found->second.waiting, std::nullopt);
 }
 
+void AgentTable::DropWaiting(std::uint32_t slot) {
+  const auto found = slots_.find(slot);
+  if (found != slots_.end()) found->second.waiting.reset();
+}
+
 void AgentTable::Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence) {
   AgentIn(slot).admitted_ = true;
   Acknowledge(slot, stamp, sequence);
+}
+
+void AgentTable::Expel(std::uint32_t slot_index) {
+  Slot& slot = slots_[slot_index];
+  slot.waiting.reset();
+  if (!slot.agent) return;
+  slot.agent->admitted_ = false;
+  slot.agent->stamp_ = Instant::Always();
+  slot.agent->acknowledged_sequence_ = 0;
+  clearances_.Forget(slot_index);
 }
 
 void AgentTable::Acknowledge(std::uint32_t slot, Instant stamp, std::uint64_t sequence) {

@@ -95,8 +95,15 @@ class AgentTable {
   /// Hands out the state that waits in `slot`, which then waits no more. Requires one.
   [[nodiscard]] WaitingState TakeWaiting(std::uint32_t slot);
 
+  /// Drops the state that waits in `slot`, if one does.
+  void DropWaiting(std::uint32_t slot);
+
   /// The agent in `slot` is in the detector from now on, with this state. Requires an agent.
   void Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence);
+
+  /// The agent in `slot` is not in the detector any more: it waits for its next state, as after its
+  /// description. A state that waits is dropped. Does nothing without an agent.
+  void Expel(std::uint32_t slot);
 
   /// This state of the agent in `slot` is in force. Requires an agent.
   void Acknowledge(std::uint32_t slot, Instant stamp, std::uint64_t sequence);

@@ -5,6 +5,7 @@ namespace collision::server {
 void Simulator::StartRun(std::uint64_t sender, std::uint32_t run) {
   agents_.Clear();
   time_ = {};
+  sender_clock_ = {};
   sender_ = sender;
   run_ = run;
   incarnation_ = 0;
@@ -28,6 +29,11 @@ void Simulator::Release(std::int64_t monotonic_ns) {
 void Simulator::End() {
   agents_.Clear();
   ended_ = true;
+}
+
+void Simulator::RestartTime() {
+  time_.Restart();
+  agents_.clearances().MarkGrantChanged();
 }
 
 void Simulator::SetAlive(bool alive, std::int64_t monotonic_ns) {

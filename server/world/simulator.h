@@ -6,6 +6,7 @@
 
 #include "server/world/agent_table.h"
 #include "server/world/contenders.h"
+#include "server/world/sender_clock.h"
 #include "server/world/simulator_time.h"
 #include "server/world/standing_refusals.h"
 
@@ -41,6 +42,10 @@ class Simulator {
   /// that the agents have been removed.
   void LeaveEpoch();
 
+  /// The world's time begins anew, and it stays with its agents and their descriptions: no clock,
+  /// no grant. Its clearances are published again. Requires that no agent is admitted.
+  void RestartTime();
+
   /// Its process lives, and the service has not ended its run.
   bool alive() const { return alive_ && !ended_; }
   std::int64_t silent_since_ns() const { return silent_since_ns_; }  ///< Monotonic; if not alive.
@@ -68,6 +73,8 @@ class Simulator {
     return {.simulator = id_, .slot = slot, .run = run_, .generation = generation};
   }
 
+  SenderClock& sender_clock() { return sender_clock_; }
+  const SenderClock& sender_clock() const { return sender_clock_; }
   SimulatorTime& time() { return time_; }
   const SimulatorTime& time() const { return time_; }
   AgentTable& agents() { return agents_; }
@@ -99,6 +106,7 @@ class Simulator {
   std::int64_t silent_since_ns_ = 0;
   std::int64_t released_since_ns_ = 0;
   std::uint32_t incarnation_ = 0;
+  SenderClock sender_clock_;
   SimulatorTime time_;
   AgentTable agents_;
   StandingRefusals standing_;

@@ -47,6 +47,15 @@ Instant SimulatorTime::told_until() const {
   return Instant::FromNanoseconds(next_->nanoseconds() - 1);
 }
 
+void SimulatorTime::Restart() {
+  newest_ = Instant::Always();
+  pending_.clear();
+  first_clock_.reset();
+  clock_.reset();
+  next_.reset();
+  granted_.reset();
+}
+
 bool SimulatorTime::Grant(Instant until) {
   const Instant grant = std::max(granted_.value_or(Instant::Always()), until);
   if (granted_ == grant) return false;

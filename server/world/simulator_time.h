@@ -67,6 +67,9 @@ class SimulatorTime {
   /// No step follows.
   bool has_finished() const { return next_ && next_->is_never(); }
 
+  /// The world's time begins anew: no clock and no grant. What has arrived stays known.
+  void Restart();
+
   Instant newest() const { return newest_; }  ///< The newest clock that has arrived; else Always().
   const std::optional<Instant>& clock() const { return clock_; }  ///< The newest in force.
   /// The one that this service first brought into force.

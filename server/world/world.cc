@@ -20,7 +20,8 @@ World::World(const v1::Config& config, const std::vector<JournalledSimulator>& r
       first_clock_max_(Instant::FromNanoseconds(ToNanoseconds(config.clock().first_clock_max_s()))),
       simulators_awaited_(config.clock().simulators_awaited()),
       simulators_max_(config.simulators_max()),
-      silence_(config, roster) {}
+      silence_(config, roster),
+      wall_time_(ToNanoseconds(config.clock().skew_max_s())) {}
 
 Simulator* World::Find(std::uint64_t id) {
   const auto found = simulators_.find(id);
@@ -76,12 +77,32 @@ Claim World::ClaimFor(std::uint64_t id, std::uint64_t sender, std::uint32_t run,
   return claim;
 }
 
-void World::SetReading(const ClockReading& reading) {
+std::optional<ClockStep> World::SetReading(const ClockReading& reading) {
   reading_ = reading;
-  if (simulated_) return;
-  if (!wall_minus_monotonic_ns_) wall_minus_monotonic_ns_ = reading.wall_ns - reading.monotonic_ns;
+  if (simulated_) return std::nullopt;
+  const std::optional<ClockStep> step = wall_time_.Take(reading);
   started_ = true;
-  now_ = std::max(now_, Instant::FromNanoseconds(*wall_minus_monotonic_ns_ + reading.monotonic_ns));
+  now_ = wall_time_.now();
+  if (!step) return std::nullopt;
+  for (auto& [id, simulator] : simulators_) simulator.sender_clock().Forget();
+  return step;
+}
+
+std::optional<RoundTrip> World::RoundTripOf(const v1::SimulatorClock& clock,
+                                            std::uint64_t service_id) const {
+  const auto is_instant = [](std::int64_t ns) { return 0 < ns && ns <= wire::kInstantMax; };
+  if (simulated_ || !is_instant(clock.sent_ns())) return std::nullopt;
+  RoundTrip trip{.answered = Instant::FromNanoseconds(clock.sent_ns()),
+                 .arrived = wall_time_.reading()};
+  // An echo counts if it is of a sample on the present time scale.
+  const Instant echo = Instant::FromNanoseconds(clock.echo_ns());
+  if (clock.service_id() == service_id && clock.epoch() == epoch_ && is_instant(clock.echo_ns()) &&
+      is_instant(clock.heard_ns()) && echo > wall_time_.echoes_after() && echo <= now_) {
+    // `now` may be ahead of the clock by what two readings of it differ.
+    trip.asked = Instant::FromNanoseconds(clock.echo_ns() - kReadingErrorNs);
+    trip.heard = Instant::FromNanoseconds(clock.heard_ns());
+  }
+  return trip;
 }
 
 bool World::RunsInRounds() const {
@@ -162,6 +183,7 @@ void World::FinishEpoch() {
 }
 
 void World::BeginEpoch() {
+  if (!simulated_) return BeginWallEpoch();
   for (auto& [id, simulator] : simulators_) {
     if (LeavesWithEpoch(simulator)) simulator.LeaveEpoch();
   }
@@ -172,8 +194,15 @@ void World::BeginEpoch() {
   granted_ = Instant::Always();
 }
 
+void World::BeginWallEpoch() {
+  for (auto& [id, simulator] : simulators_) simulator.RestartTime();
+  ++epoch_;
+  wall_time_.Restart();
+  now_ = wall_time_.now();
+}
+
 Instant World::LatestAllowed(const Simulator& simulator) const {
-  if (!simulated_) return numeric::AddRoundedDown(now_, skew_);
+  if (!simulated_) return numeric::AddRoundedDown(wall_time_.reading(), skew_);
   const SimulatorTime& time = simulator.time();
   const bool waits = time.lock_step() && time.granted();
   if (!started_ && !waits && !time.first_clock()) return first_clock_max_;
@@ -188,7 +217,7 @@ Instant World::LatestAllowed(const Simulator& simulator) const {
 }
 
 StampRules World::RulesForState(const Simulator& simulator, bool admitted) const {
-  StampRules rules{.latest = LatestAllowed(simulator)};
+  StampRules rules{.earliest = wall_time_.earliest_stamp(), .latest = LatestAllowed(simulator)};
   const std::optional<Instant>& clock = simulator.time().clock();
   if (admitted && clock) rules.discontinuity_from = *clock;
   return rules;

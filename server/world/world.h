@@ -14,6 +14,7 @@
 #include "server/world/silence.h"
 #include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
+#include "server/world/wall_time.h"
 
 namespace collision::server {
 
@@ -41,13 +42,13 @@ struct Claim {
 /// and what is known by then, follows from the simulators alone. While one of them does not say
 /// when its next step is, now is the least clock as it arrives, which is as safe but depends on the
 /// network. A silent simulator holds time for ever (WAIT) or for `release_after_s` (RELEASE); its
-/// agents stay, and their bounds grow. Wall clock: the wall reading at the start, carried on by the
-/// monotonic clock.
+/// agents stay, and their bounds grow. Wall clock: what it shows (WallTime).
 ///
 /// **Epochs** (simulated clock). When nobody holds time any more, the epoch is over: agents that
 /// were left behind are gone, and the next simulator's first clock begins another one, at whatever
 /// time it names up to `first_clock_max_s`. A dead simulator whose successor waits holds no time
-/// here.
+/// here. Wall clock: a step of it that breaks the time begins another epoch at once; simulators and
+/// the descriptions of their agents stay.
 ///
 /// **Grants** (simulated clock). All may run until the least `clear_until` of all agents, at least
 /// to now + `temporal_resolution_s`, at most to now + `grant_ahead_max_s`; a grant is never
@@ -70,8 +71,9 @@ class World {
   std::map<std::uint64_t, Simulator>& simulators() { return simulators_; }
   const std::map<std::uint64_t, Simulator>& simulators() const { return simulators_; }
 
-  /// The daemon's clocks at this step. With a wall clock this moves `now`.
-  void SetReading(const ClockReading& reading);
+  /// The daemon's clocks at this step. With a wall clock this moves `now`, and returns the step of
+  /// the clock, if it was set. One that breaks the time needs BeginEpoch().
+  std::optional<ClockStep> SetReading(const ClockReading& reading);
 
   /// Simulated clock: each simulator that holds time says when its next step is.
   bool RunsInRounds() const;
@@ -111,8 +113,9 @@ class World {
   /// Brings `now` to the greatest clock in force: all that was told of this epoch counts.
   void FinishEpoch();
 
-  /// There is no `now` until the next first clock. Requires that the agents of the simulators that
-  /// leave (LeavesWithEpoch()) have been removed.
+  /// Simulated clock: there is no `now` until the next first clock. Requires that the agents of the
+  /// simulators that leave (LeavesWithEpoch()) have been removed. Wall clock: now is what the clock
+  /// shows. Requires that no agent is admitted.
   void BeginEpoch();
 
   /// Whether it was in the epoch that is over. Who has no clock yet comes to the next one.
@@ -126,6 +129,10 @@ class World {
   bool started() const { return started_; }  ///< There is a `now`; nothing happens before.
   Instant now() const { return now_; }
   std::int64_t monotonic_ns() const { return reading_.monotonic_ns; }
+
+  /// What a clock tells of its sender's offset; nullopt: nothing. `service_id`: of this service.
+  std::optional<RoundTrip> RoundTripOf(const v1::SimulatorClock& clock,
+                                       std::uint64_t service_id) const;
 
   StampRules RulesForState(const Simulator& simulator, bool admitted) const;
   ClockRules RulesForClock(const Simulator& simulator) const;
@@ -157,6 +164,7 @@ class World {
  private:
   Simulator* Add(std::uint64_t id, std::uint64_t sender, std::uint32_t run);
   Instant LatestAllowed(const Simulator& simulator) const;
+  void BeginWallEpoch();
 
   const bool simulated_;
   const double skew_;
@@ -174,7 +182,7 @@ class World {
   Instant now_;
   Instant granted_ = Instant::Always();
   ClockReading reading_;
-  std::optional<std::int64_t> wall_minus_monotonic_ns_;
+  WallTime wall_time_;
 };
 
 /// Seconds of a configuration, as nanoseconds.

@@ -27,13 +27,24 @@ class ScriptedBus final : public Bus, public Clock {
   void Flush() override { ++flushes; }
   void Wake() override { woken = true; }
   std::vector<v1::Counter> network_counters() const override { return counters; }
-  ClockReading Read() override { return {.wall_ns = wall_ns, .monotonic_ns = monotonic_ns}; }
+  ClockReading Read() override {
+    return {.wall_ns = wall_ns,
+            .monotonic_ns = monotonic_ns,
+            .wall_was_set = std::exchange(wall_was_set, false)};
+  }
+
+  /// Both clocks go on.
+  void Pass(std::int64_t ns) {
+    wall_ns += ns;
+    monotonic_ns += ns;
+  }
 
   std::vector<v1::Input> next;
   std::vector<v1::Output> outputs;
   std::vector<v1::Counter> counters;
   std::int64_t wall_ns = 1'700'000'000'000'000'000;
   std::int64_t monotonic_ns = 0;
+  bool wall_was_set = false;  ///< What the next reading says.
   std::int64_t timeout_ns = -1;
   int flushes = 0;
   bool ended = false;
@@ -60,7 +71,7 @@ class ScriptedDaemon {
 
   /// One step `seconds` later with these inputs.
   void Step(std::vector<v1::Input> inputs, double seconds = 0) {
-    bus_.monotonic_ns += static_cast<std::int64_t>(seconds * 1e9);
+    bus_.Pass(static_cast<std::int64_t>(seconds * 1e9));
     bus_.next = std::move(inputs);
     if (!daemon_.Step()) throw std::logic_error("the daemon has ended");
   }

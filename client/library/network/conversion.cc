@@ -28,6 +28,7 @@ SimulatorStatus SimulatorStatusOf(const v1::SimulatorStatus& message) {
   status.agents = message.agents();
   status.states = message.states();
   status.rejected = message.rejected();
+  if (message.has_clock_offset()) status.clock_offset = BracketOf(message.clock_offset());
   return status;
 }
 

@@ -12,8 +12,11 @@ bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now) {
     }
     if (id_ != 0) ++changes_;
     id_ = stamp.service_id();
+  } else if (stamp.term() == term_ && stamp.epoch() < epoch_) {
+    return false;
   }
   term_ = stamp.term();
+  epoch_ = stamp.epoch();
   heard_ = now;
   return true;
 }

@@ -34,6 +34,8 @@ class CurrentService {
   /// 0: none was heard yet.
   std::uint64_t id() const { return id_; }
   std::uint32_t term() const { return term_; }
+  /// The epoch of its newest sample. What it said in an earlier epoch is not accepted any more.
+  std::uint32_t epoch() const { return epoch_; }
 
   /// How often another service came into force than the one before; not counting the first.
   std::uint64_t changes() const { return changes_; }
@@ -45,6 +47,7 @@ class CurrentService {
  private:
   std::uint64_t id_ = 0;
   std::uint32_t term_ = 0;
+  std::uint32_t epoch_ = 0;
   Time heard_{};
   std::uint64_t changes_ = 0;
   std::uint64_t conflicts_ = 0;

@@ -67,7 +67,7 @@ void AgentTable::Stage(const AgentId& id, const State& state) {
   Slot& slot = slots_.at(id.slot);
   const bool was_staged = slot.states.staged().has_value();
   slot.states.Stage(state, slot.bounds, policy_);
-  if (!was_staged) staged_slots_.push_back(id.slot);
+  if (!was_staged && slot.states.staged()) staged_slots_.push_back(id.slot);
   ++traffic_.states_set;
 }
 
@@ -151,6 +151,13 @@ std::vector<v1::AgentStates> AgentTable::SentStates() const {
     if (states.states_size() > 0) chunks.push_back(std::move(states));
   }
   return chunks;
+}
+
+void AgentTable::ForgetSent() {
+  for (Slot& slot : slots_) slot.states.ForgetSent();
+  stated_ = 0;
+  standing_sequence_ = 0;
+  taken_ns_ = std::numeric_limits<std::int64_t>::min();
 }
 
 std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {

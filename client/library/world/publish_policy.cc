@@ -22,6 +22,7 @@ std::uint64_t Between(std::int64_t earlier_ns, std::int64_t later_ns) {
 void OutgoingStates::Stage(const State& state, const MotionBounds& bounds,
                            const PublishPolicy& policy) {
   if (sent_ && state.stamp_ns < sent_->stamp_ns) {
+    if (policy.wall_clock) return;
     throw std::invalid_argument("stamp_ns: " + std::to_string(state.stamp_ns) +
                                 ", allowed: >= " + std::to_string(sent_->stamp_ns) +
                                 ", the stamp of the agent's last state");
@@ -66,6 +67,12 @@ void OutgoingStates::MarkSent(std::uint64_t sequence, std::uint32_t revision) {
   sent_revision_ = revision;
   if (sent_->discontinuity) jump_sequence_ = sequence;
   sent_->discontinuity = jump_sequence_ != 0;
+}
+
+void OutgoingStates::ForgetSent() {
+  const std::optional<State> staged = staged_;
+  *this = OutgoingStates();
+  staged_ = staged;
 }
 
 void OutgoingStates::SetClearance(const Clearance& clearance, std::uint64_t acknowledged,

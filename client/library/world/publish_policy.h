@@ -15,6 +15,7 @@ struct PublishPolicy {
   bool on_demand = false;    ///< Send only the states that the service needs; false: all.
   std::int64_t lead_ns = 0;  ///< Send a state this long before the service wants it.
   std::uint32_t chunk_size = wire::kStatesPerChunkMax;  ///< Slots per sample of agent_states.
+  bool wall_clock = false;  ///< Stamps may go back: the clock that they come from may be set.
 };
 
 /// The states of one agent on their way to the service: one staged, one sent.
@@ -31,7 +32,8 @@ struct PublishPolicy {
 class OutgoingStates {
  public:
   /// A jump that was staged stays recorded when a later state replaces it. Throws
-  /// std::invalid_argument if the stamp lies before that of the state sent last.
+  /// std::invalid_argument if the stamp lies before that of the state sent last; with a wall clock
+  /// such a state is dropped.
   void Stage(const State& state, const MotionBounds& bounds, const PublishPolicy& policy);
 
   const std::optional<State>& staged() const { return staged_; }
@@ -43,6 +45,9 @@ class OutgoingStates {
 
   /// The staged state is sent now, as number `sequence` of its simulator.
   void MarkSent(std::uint64_t sequence, std::uint32_t revision);
+
+  /// The service has forgotten what was sent, and says nothing about the agent any more.
+  void ForgetSent();
 
   /// A clearance as of the service's time `now_ns`; `acknowledged`: the newest sequence in force.
   void SetClearance(const Clearance& clearance, std::uint64_t acknowledged, std::int64_t now_ns);

@@ -33,11 +33,17 @@ std::uint32_t DrawIncarnation() {
   return incarnation;
 }
 
+std::int64_t SystemClockNs() {
+  const auto since_1970 = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(since_1970).count();
+}
+
 PublishPolicy PolicyOf(const WorldOptions& options) {
   const std::uint32_t chunk_size = options.on_demand ? 1 : kChunkSizeMax;
   return {.on_demand = options.on_demand,
           .lead_ns = options.lock_step ? 0 : options.lead.count(),
-          .chunk_size = options.chunk_size > 0 ? options.chunk_size : chunk_size};
+          .chunk_size = options.chunk_size > 0 ? options.chunk_size : chunk_size,
+          .wall_clock = !options.lock_step};
 }
 
 template <typename T>
@@ -70,7 +76,8 @@ World::Implementation::Implementation(const WorldOptions& options,
       transport_(std::move(transport)),
       arrival_(run_, options.incarnation != 0 ? options.incarnation : DrawIncarnation()),
       agents_(options.simulator, simulator_id_, run_, arrival_.incarnation(), PolicyOf(options)),
-      shapes_(simulator_id_, run_, arrival_.incarnation()) {}
+      shapes_(simulator_id_, run_, arrival_.incarnation()),
+      wall_clock_(options.wall_clock ? options.wall_clock : SystemClockNs) {}
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
@@ -176,7 +183,7 @@ void World::Implementation::RequireOutsideCallback(const char* function) const {
 
 void World::Implementation::RequireForward(std::int64_t clock_ns) const {
   ValidateClock(clock_ns);
-  if (!clock_published_) return;
+  if (!clock_published_ || !lock_step_) return;
   const auto require = [clock_ns](std::int64_t least_ns, const char* what) {
     if (clock_ns >= least_ns) return;
     throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) +
@@ -195,6 +202,8 @@ std::int64_t World::Implementation::Reachable() const {
 
 void World::Implementation::Send(std::int64_t clock_ns) {
   if (arrival_.waits()) return Wait(clock_ns);
+  // A wall clock that was set back: the service begins another epoch, or the clock catches up.
+  if (clock_published_ && clock_ns < clock_ns_) return WriteClock();
   const bool again = MustReintroduce();
   if (clock_published_ && clock_ns == clock_ns_ && !agents_.HasNews(clock_ns) && !again) return;
   if (again) Reintroduce();
@@ -239,6 +248,7 @@ void World::Implementation::WriteClock() {
   last_clock_ = agents_.Clock(clock_ns_, next_ns_, lock_step_);
   last_clock_.set_service_id(service_.id());
   last_clock_.set_clearances_sequence(clearances_sequence_);
+  if (!lock_step_) echo_.FillIn(wall_clock_(), &last_clock_);
   clock_due_ = false;
   RepeatClock();
   arrival_.Wrote(last_clock_, agents_.stated(), clock_written_);
@@ -315,6 +325,12 @@ void World::Implementation::WriteDescription(const AgentId& id) {
 
 ShapePublisher::Writer World::Implementation::Writer() {
   return [this](const v1::Input& message) { transport_->Write(message); };
+}
+
+void World::Implementation::BeginEpoch() {
+  filter_ = {};
+  agents_.ForgetSent();
+  clock_published_ = false;
 }
 
 bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
@@ -396,16 +412,21 @@ void World::Implementation::Handle(const v1::Clearance& clearance) {
 
 bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns,
                                    CurrentService::Time now) {
-  const std::uint64_t before = service_.id();
+  const std::uint64_t id = service_.id();
+  const std::uint32_t epoch = service_.epoch();
   if (!service_.Accept(stamp, now)) return false;
-  if (service_.id() != before) {
+  if (service_.id() != id) {
     contacts_.Restart();
     gate_.Clear();
     clearances_sequence_ = 0;
     agents_.ForgetLowerings();
     service_now_ns_ = now_ns;
+  } else if (service_.epoch() != epoch) {
+    service_now_ns_ = now_ns;
+    if (!lock_step_) BeginEpoch();
   }
   service_now_ns_ = std::max(service_now_ns_, now_ns);
+  if (!lock_step_) echo_.Hear(stamp, now_ns, wall_clock_());
   return true;
 }
 

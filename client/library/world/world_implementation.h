@@ -17,6 +17,7 @@
 #include "client/library/world/agent_table.h"
 #include "client/library/world/arrival.h"
 #include "client/library/world/clearance_gate.h"
+#include "client/library/world/service_echo.h"
 #include "client/library/world/shape_publisher.h"
 #include "client/library/world/waiting_list.h"
 
@@ -109,6 +110,9 @@ class World::Implementation {
   /// Hands messages to the network.
   ShapePublisher::Writer Writer();
 
+  /// Wall clock: the service's clock was set, and it has forgotten all states.
+  void BeginEpoch();
+
   /// Takes in what arrives within `timeout`, without callbacks.
   /// False: nothing has arrived.
   bool Gather(std::chrono::nanoseconds timeout);
@@ -144,6 +148,8 @@ class World::Implementation {
   ContactSequence contacts_;
   RevisionFilter filter_;
   ClearanceGate gate_;
+  std::function<std::int64_t()> wall_clock_;
+  ServiceEcho echo_;
 
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();

@@ -23,6 +23,14 @@ constexpr std::chrono::seconds kServiceTimeout{20};
 constexpr std::chrono::seconds kGrantTimeout{30};
 constexpr milliseconds kStopCheck{50};  // period of looking for a stop signal
 
+/// The wall clock as it was when it was first read, carried on by the steady clock: so the stamps
+/// of a run go on evenly if the clock is set, and the service says if they are too far off.
+std::int64_t CarriedWallClock() {
+  static const auto steady = steady_clock::now();
+  static const auto wall = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<nanoseconds>(wall + (steady_clock::now() - steady)).count();
+}
+
 World Connect(const SimulatorOptions& options) {
   WorldOptions world;
   world.world = options.world;
@@ -30,6 +38,7 @@ World Connect(const SimulatorOptions& options) {
   world.domain = options.domain;
   world.lock_step = !options.real_time;
   world.on_demand = !options.stream;
+  world.wall_clock = CarriedWallClock;
   return World::Connect(world);
 }
 
@@ -56,9 +65,7 @@ Pace::Pace(const SimulatorOptions& options)
   }
   start_ = steady_clock::now();
   if (!options_.real_time) return;
-  const std::int64_t now_ns =
-      std::chrono::duration_cast<nanoseconds>(std::chrono::system_clock::now().time_since_epoch())
-          .count();
+  const std::int64_t now_ns = CarriedWallClock();
   start_ns_ = options_.start_ns >= 0 ? options_.start_ns : now_ns;
   start_ += nanoseconds(start_ns_ - now_ns);
 }

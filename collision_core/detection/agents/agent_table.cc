@@ -105,6 +105,12 @@ void AgentTable::Remove(AgentIndex agent) {
   index_.erase(record.id);
 }
 
+void AgentTable::ExpireAtItsStamp(AgentIndex agent) {
+  motion::MotionState& state = (*this)[agent].history.newest().bound.state;
+  state.expiry = std::min(state.expiry, state.stamp);
+  RecordBound(agent);
+}
+
 std::vector<AgentIndex> AgentTable::TakeExpired(Instant now) {
   std::vector<AgentIndex> expired;
   while (!expiries_.empty() && expiries_.top_key() <= now) {

@@ -69,6 +69,8 @@ class AgentTable {
   /// Takes the agents that expire by `now` out of the queue: first the removed ones in the order of
   /// their removal, then the others in the order of their ids.
   std::vector<AgentIndex> TakeExpired(Instant now);
+  /// Promises exclude the agent from its newest state on.
+  void ExpireAtItsStamp(AgentIndex agent);
   void SetExpired(AgentIndex agent) { (*this)[agent].expired = true; }
   /// Frees the index of a removed agent; it is reused by later admissions.
   void Release(AgentIndex agent);

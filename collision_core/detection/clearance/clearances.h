@@ -45,6 +45,10 @@ class Clearances {
   void RecordBreach(AgentIndex agent, Instant last_honest) {
     reported_.RecordBreach(agent, last_honest);
   }
+  /// Promises to the agent are void from `from` on, since the owner's clock of `culprit` is off.
+  void RecordVoid(AgentIndex agent, AgentIndex culprit, Instant from) {
+    reported_.RecordVoid(agent, culprit, from);
+  }
   /// The agent has expired: promises exclude it until Readmit().
   void Remove(AgentIndex agent);
   /// The agent has left.

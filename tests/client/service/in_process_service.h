@@ -42,6 +42,9 @@ class InProcessService {
     steps_.pop_front();
   }
 
+  /// The clocks of the daemon, for tests that set them.
+  server::ScriptedBus& clocks() { return daemon_.bus(); }
+
   /// A world over this service, for a simulator with this sender id.
   World Connect(std::uint64_t sender, WorldOptions options);
 

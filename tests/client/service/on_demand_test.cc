@@ -130,9 +130,11 @@ class Flight {
  public:
   explicit Flight(const Plan& plan) : plan_(plan), service_(ConfigOf(plan), plan.late) {
     for (const std::string name : {"a", "b"}) {
-      worlds_.push_back(service_.Connect(
-          worlds_.size() + 1,
-          {.simulator = name, .lock_step = !plan.wall, .on_demand = plan.on_demand}));
+      worlds_.push_back(
+          service_.Connect(worlds_.size() + 1, {.simulator = name,
+                                                .lock_step = !plan.wall,
+                                                .on_demand = plan.on_demand,
+                                                .wall_clock = [this] { return wall_ns_; }}));
     }
     for (int i = 0; i < plan.agents; ++i) {
       walkers_.emplace_back("walker-" + std::to_string(i), 77 + 1000 * i);
@@ -166,6 +168,7 @@ class Flight {
   /// Advances both worlds to `t_ns`. In lock-step a world that waits lets the daemon step.
   void Advance(std::int64_t t_ns) {
     if (plan_.wall) {
+      wall_ns_ = t_ns;
       for (World& world : worlds_) world.Publish(t_ns);
       service_.Step(static_cast<double>(kStep) * 1e-9);
       for (World& world : worlds_) world.Poll();
@@ -223,6 +226,7 @@ class Flight {
   }
 
   Plan plan_;
+  std::int64_t wall_ns_ = kWallStart;
   InProcessService service_;
   std::vector<World> worlds_;
   std::vector<Walker> walkers_;

@@ -176,6 +176,10 @@ TEST(Codec, ChecksStamps) {
   EXPECT_EQ(std::get<Refusal>(Decode(state, rules)).reason, v1::REJECTED_STALE);
   state.set_stamp_ns(50);
   EXPECT_TRUE(std::holds_alternative<motion::MotionState>(Decode(state, rules)));
+  const StampRules of_epoch{.earliest = Instant::FromNanoseconds(50)};
+  EXPECT_TRUE(std::holds_alternative<motion::MotionState>(Decode(state, of_epoch)));
+  state.set_stamp_ns(49);
+  EXPECT_EQ(std::get<Refusal>(Decode(state, of_epoch)).reason, v1::REJECTED_STALE);
 }
 
 struct DescriptionCase {

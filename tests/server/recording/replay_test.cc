@@ -19,6 +19,7 @@ class ReplayTest : public testing::Test {
       v1::RecordedBatch batch;
       batch.set_monotonic_ns(10 * (i + 1));
       batch.set_wall_ns(1000 + i);
+      batch.set_wall_was_set(i == 1);
       for (int j = 0; j < i; ++j) batch.add_inputs()->set_sender(100 * i + j);
       EXPECT_TRUE(writer.Record(batch));
     }
@@ -41,6 +42,7 @@ TEST_F(ReplayTest, RepeatsBatchesAndTimes) {
     for (int j = 0; j < i; ++j) EXPECT_EQ(inputs[j].sender(), 100u * i + j);
     EXPECT_EQ(source.Read().monotonic_ns, 10 * (i + 1));
     EXPECT_EQ(source.Read().wall_ns, 1000 + i);
+    EXPECT_EQ(source.Read().wall_was_set, i == 1);
   }
   std::vector<v1::Input> inputs;
   EXPECT_FALSE(source.Receive({}, 1, &inputs));

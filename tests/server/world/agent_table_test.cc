@@ -132,6 +132,33 @@ TEST(AgentTable, ANewRunMarksEveryUsedSlot) {
   table.Validate();
 }
 
+TEST(AgentTable, AnExpelledAgentKeepsItsDescriptionAndWaitsForItsNextState) {
+  AgentTable table = Table();
+  table.RecordState(70, 3, 1);
+  table.Admit(70, At(1), 1);
+  static_cast<void>(table.clearances().TakeChanged());
+  table.SetWaiting(70, {.generation = 3, .sequence = 2, .state = {}});
+  table.Expel(70);
+  ASSERT_NE(table.Find(70), nullptr);
+  EXPECT_FALSE(table.Find(70)->admitted());
+  EXPECT_EQ(table.Find(70)->stamp(), Instant::Always());
+  EXPECT_EQ(table.Find(70)->acknowledged_sequence(), 0u);
+  EXPECT_EQ(table.Waiting(70), nullptr);
+  EXPECT_EQ(table.clearances().TakeChanged(), (Chunks{1}));
+  EXPECT_EQ(table.RecordState(70, 3, 1), StateOrder::kRepeated) << "what was known stays known";
+  table.Expel(5);
+  table.Validate();
+}
+
+TEST(AgentTable, AStateThatWaitsIsDroppedAndItsGenerationGoesOn) {
+  AgentTable table = Table();
+  table.SetWaiting(5, {.generation = 2, .sequence = 1, .state = {}});
+  table.DropWaiting(5);
+  table.DropWaiting(6);
+  EXPECT_EQ(table.Waiting(5), nullptr);
+  EXPECT_FALSE(table.HasEnded(5, 2));
+}
+
 TEST(AgentTable, PreconditionsAreChecked) {
   AgentTable table = Table();
   EXPECT_THROW(table.Add(70, Described(4)), CheckFailure);

@@ -50,6 +50,23 @@ TEST(SimulatorTime, AGrantIsNeverShortened) {
   EXPECT_TRUE(time.Grant(At(6)));
 }
 
+TEST(SimulatorTime, AfterARestartClocksMayGoBackAndWhatHasArrivedStaysKnown) {
+  SimulatorTime time;
+  time.RecordDescriptions(2);
+  time.Offer({.clock = At(9), .descriptions_sequence = 2});
+  EXPECT_TRUE(time.Take());
+  time.Grant(At(10));
+  time.Offer({.clock = At(11), .states_sequence = 5});
+  time.Restart();
+  EXPECT_EQ(time.clock(), std::nullopt);
+  EXPECT_EQ(time.granted(), std::nullopt);
+  EXPECT_EQ(time.newest(), Instant::Always());
+  EXPECT_EQ(time.pending(), 0u);
+  time.Offer({.clock = At(3), .descriptions_sequence = 2});
+  EXPECT_TRUE(time.Take());
+  EXPECT_EQ(time.first_clock(), At(3));
+}
+
 TEST(SimulatorTime, AClockOfTheWorldsKindMendsOneOfTheOther) {
   SimulatorTime time;
   time.SetOtherKind();

@@ -220,17 +220,71 @@ TEST(World, NoSimulatorRunsFurtherAheadThanAllowed) {
   EXPECT_EQ(world.RulesForClock(a).latest, At(16 * kSecond));
 }
 
-TEST(World, WallTimeFollowsTheMonotonicClock) {
+TEST(World, WallTimeFollowsTheWallClock) {
   v1::Config config;
   config.mutable_clock()->set_kind(v1::Clock::WALL);
   config.mutable_clock()->set_skew_max_s(0.002);
   World world(CompleteConfig(config));
-  world.SetReading({.wall_ns = 1000 * kSecond, .monotonic_ns = 1 * kSecond});
+  EXPECT_FALSE(world.SetReading({.wall_ns = 1000 * kSecond, .monotonic_ns = 1 * kSecond}));
   EXPECT_EQ(world.now(), At(1000 * kSecond));
-  world.SetReading({.wall_ns = 5000 * kSecond, .monotonic_ns = 3 * kSecond});
+  EXPECT_FALSE(world.SetReading({.wall_ns = 1002 * kSecond, .monotonic_ns = 3 * kSecond}));
   EXPECT_EQ(world.now(), At(1002 * kSecond));
   EXPECT_EQ(world.RulesForState(Simulator(1, 1, 1), true).latest, At(1002 * kSecond + 2'000'000));
   EXPECT_EQ(world.EffectiveFrom(At(1)), world.now());
+  const auto step = world.SetReading({.wall_ns = 5000 * kSecond, .monotonic_ns = 3 * kSecond});
+  ASSERT_TRUE(step && step->breaks);
+  EXPECT_EQ(world.now(), At(1002 * kSecond));
+  world.BeginEpoch();
+  EXPECT_EQ(world.now(), At(5000 * kSecond));
+  EXPECT_EQ(world.epoch(), 2u);
+  EXPECT_EQ(world.RulesForState(Simulator(1, 1, 1), true).earliest, At(5000 * kSecond - 2'000'000));
+}
+
+// Goal:   an echo tells of an offset only if its sample is of this service and on the time scale of
+//         now: anything else would accuse a sender, or excuse it, wrongly.
+TEST(World, AnEchoCountsIfItsSampleIsOnThePresentTimeScale) {
+  constexpr std::uint64_t kService = 7;
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_skew_max_s(0.002);
+  World world(CompleteConfig(config));
+  std::int64_t wall_ns = 1000 * kSecond, steady_ns = 0;
+  const auto pass = [&](std::int64_t ns, std::int64_t set_ns = 0) {
+    wall_ns += ns + set_ns;
+    steady_ns += ns;
+    world.SetReading({.wall_ns = wall_ns, .monotonic_ns = steady_ns});
+  };
+  pass(kSecond);
+  v1::SimulatorClock clock;
+  const auto has_echo = [&] {
+    const auto trip = world.RoundTripOf(clock, kService);
+    EXPECT_TRUE(trip.has_value());
+    return trip && trip->asked;
+  };
+  EXPECT_FALSE(world.RoundTripOf(clock, kService)) << "it says nothing";
+  clock.set_sent_ns(wall_ns - 10);
+  clock.set_heard_ns(wall_ns - 20);
+  clock.set_echo_ns(wall_ns - 30);
+  clock.set_epoch(1);
+  EXPECT_FALSE(has_echo()) << "of no service";
+  clock.set_service_id(kService);
+  EXPECT_TRUE(has_echo());
+  EXPECT_EQ(world.RoundTripOf(clock, kService)->arrived, At(wall_ns));
+  clock.set_epoch(2);
+  EXPECT_FALSE(has_echo());
+  clock.set_epoch(1);
+  clock.set_echo_ns(wall_ns + 1);
+  EXPECT_FALSE(has_echo()) << "of the future";
+  clock.set_echo_ns(wall_ns);
+  for (const std::int64_t by_ns : {1'000'000, -1'000'000}) {
+    pass(kSecond, by_ns);
+    EXPECT_FALSE(has_echo()) << "of before a step";
+    pass(kSecond);
+    clock.set_echo_ns(wall_ns);
+    EXPECT_TRUE(has_echo());
+  }
+  clock.set_sent_ns(-1);
+  EXPECT_FALSE(world.RoundTripOf(clock, kService));
 }
 
 }  // namespace

@@ -99,14 +99,29 @@ std::string TreesText(const v1::ServiceStatus& status) {
          " from the cache";
 }
 
+/// The simulator's clock less the service's: "-0.215 … +0.402 ms".
+std::string OffsetText(const v1::SimulatorStatus& simulator) {
+  if (!simulator.has_clock_offset()) return "-";
+  const v1::TimeBracket& offset = simulator.clock_offset();
+  const bool has_lower = offset.earliest_ns() != std::numeric_limits<std::int64_t>::min();
+  const bool has_upper = offset.latest_ns() != kNever;
+  if (!has_lower && !has_upper) return "-";
+  const auto end = [](bool is_known, std::int64_t ns) {
+    return is_known ? NumberText(1e-6 * static_cast<double>(ns), "%+.3f") : std::string("?");
+  };
+  return end(has_lower, offset.earliest_ns()) + " … " + end(has_upper, offset.latest_ns()) + " ms";
+}
+
 std::string SimulatorsTable(const v1::ServiceStatus& status) {
   std::vector<std::vector<std::string>> rows = {
       {"SIMULATOR", "RUN", "ALIVE", "CLOCK", "GRANTED", "AGENTS", "STATES", "REJECTED"}};
+  if (!status.simulated_clock()) rows.front().push_back("OFFSET");
   for (const v1::SimulatorStatus& simulator : status.simulators()) {
     rows.push_back({simulator.name(), std::to_string(simulator.run()),
                     simulator.alive() ? "yes" : "no", SinceText(simulator.clock_ns()),
                     SinceText(simulator.granted_until_ns()), std::to_string(simulator.agents()),
                     std::to_string(simulator.states()), std::to_string(simulator.rejected())});
+    if (!status.simulated_clock()) rows.back().push_back(OffsetText(simulator));
   }
   return Table(rows);
 }

@@ -13,7 +13,7 @@ enum class ClearanceCause {
   kTeleport,   ///< An agent jumped: a declared discontinuity.
   kBreach,     ///< An agent broke its bound.
   kWidening,   ///< An agent promises less than before.
-  kSkew        ///< Reserved: no clearance is published with it.
+  kSkew        ///< The clock of an agent's owner is off by more than is allowed for.
 };
 
 /// What is published to one agent, as of a step: until when no new contact can begin.
@@ -30,11 +30,12 @@ struct AgentClearance {
   /// The clearances of other agents take account of this agent's latest admission, jump, breach or
   /// widening from this instant on.
   Instant effective_from = Instant::Always();
-  /// What changed it. It may be lower with kNone, where a contact ended or the agent became
-  /// saturated.
+  /// What changed it. With a `void_from` it need not be lower; with kNone it may be lower, where a
+  /// contact ended or the agent became saturated.
   ClearanceCause cause = ClearanceCause::kNone;
-  AgentId cause_agent{};                 ///< The agent that caused it; meaningful unless kNone.
-  Instant void_from = Instant::Never();  ///< With kBreach: earlier clearances are void from here.
+  AgentId cause_agent{};  ///< The agent that caused it; meaningful unless kNone.
+  /// With kBreach and kSkew: earlier clearances are void from here.
+  Instant void_from = Instant::Never();
 };
 
 }  // namespace collision::detection

@@ -40,6 +40,14 @@ void ReportedClearances::RecordBreach(AgentIndex agent, Instant from) {
               &reports_.at(agent));
 }
 
+void ReportedClearances::RecordVoid(AgentIndex agent, AgentIndex culprit, Instant from) {
+  RecordCause({.cause = ClearanceCause::kSkew,
+               .cause_agent = context_.agents[culprit].id,
+               .void_from = from},
+              &reports_.at(agent));
+  context_.clearances_dirty->Insert(agent);
+}
+
 void ReportedClearances::RecordRenewal(AgentIndex agent) {
   const ClearanceCause cause = coverage_[agent].renewed_cause;
   if (cause == ClearanceCause::kBreach) return;
@@ -86,10 +94,10 @@ std::optional<AgentClearance> ReportedClearances::TakeChange(AgentIndex agent) {
   Report& report = reports_.at(agent);
   AgentClearance clearance = Of(agent);
   const bool lowered = report.last && clearance.clear_until < report.last->clear_until;
-  const bool changed =
-      !report.last || !Same(clearance, *report.last) || !report.void_from.is_never();
+  const bool voided = !report.void_from.is_never();
+  const bool changed = !report.last || !Same(clearance, *report.last) || voided;
   if (changed) {
-    if (!report.last || lowered || report.cause_agent == clearance.agent) {
+    if (!report.last || lowered || voided || report.cause_agent == clearance.agent) {
       clearance.cause = report.cause;
       clearance.cause_agent = report.cause_agent;
       clearance.void_from = report.void_from;

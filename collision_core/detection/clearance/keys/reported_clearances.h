@@ -29,6 +29,8 @@ class ReportedClearances {
   void SetEffectiveFrom(AgentIndex agent, Instant effective_from);
   /// The agent broke its bound: promises are void from `from` on.
   void RecordBreach(AgentIndex agent, Instant from);
+  /// Promises to the agent are void from `from` on, because of the clock that `culprit` goes by.
+  void RecordVoid(AgentIndex agent, AgentIndex culprit, Instant from);
   /// The agent's own renewal is the cause, unless that was a breach, which RecordBreach() records.
   void RecordRenewal(AgentIndex agent);
   /// The agent's clearance may be lowered because of the renewal of `cause`.

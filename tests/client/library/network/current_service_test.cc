@@ -69,5 +69,20 @@ TEST(CurrentService, ATermThatIsRepeatedStays) {
   EXPECT_EQ(service.conflicts(), 120u);
 }
 
+TEST(CurrentService, AnEarlierEpochOfTheSameServiceIsOver) {
+  CurrentService service;
+  const auto accept = [&](std::uint64_t id, std::uint32_t term, std::uint32_t epoch) {
+    v1::ServiceStamp stamp = Stamp(id, term);
+    stamp.set_epoch(epoch);
+    return service.Accept(stamp, At(0));
+  };
+  EXPECT_TRUE(accept(5, 1, 1));
+  EXPECT_TRUE(accept(5, 1, 3));
+  EXPECT_FALSE(accept(5, 1, 2));
+  EXPECT_EQ(service.epoch(), 3u);
+  EXPECT_TRUE(accept(6, 2, 1)) << "another service counts anew";
+  EXPECT_EQ(service.epoch(), 1u);
+}
+
 }  // namespace
 }  // namespace collision::client

@@ -141,6 +141,27 @@ TEST_F(CollisionctlTest, StatusPageShowsSimulatorsAndCounters) {
       "sim        7    yes    12.000 s  -        1       0       0\n");
 }
 
+TEST_F(CollisionctlTest, StatusPageShowsTheOffsetsOfClocksInAWorldOfTheWallClock) {
+  v1::ServiceStatus* status = next_.outputs.emplace_back().mutable_service_status();
+  status->set_phase(v1::PHASE_SERVING);
+  const auto add = [&](const char* name, std::int64_t lower_ns, std::int64_t upper_ns) {
+    v1::SimulatorStatus* simulator = status->add_simulators();
+    simulator->set_name(name);
+    simulator->mutable_clock_offset()->set_earliest_ns(lower_ns);
+    simulator->mutable_clock_offset()->set_latest_ns(upper_ns);
+  };
+  constexpr std::int64_t kNoLower = std::numeric_limits<std::int64_t>::min();
+  add("near", -215'000, 402'000);
+  add("ahead", 5'000'000'000, kNever);
+  add("silent", kNoLower, kNever);
+  Poll(1);
+  const std::string page = StatusPage(view_);
+  for (const char* row : {"REJECTED  OFFSET\n", "-0.215 … +0.402 ms\n", "+5000.000 … ? ms\n"}) {
+    EXPECT_NE(page.find(row), std::string::npos) << row << page;
+  }
+  EXPECT_EQ(page.substr(page.size() - 2), "-\n");
+}
+
 TEST_F(CollisionctlTest, AgentsPageIsTheSameInAnyOrderOfArrival) {
   Clear(7);
   Place(7, 1);
