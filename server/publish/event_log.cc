@@ -9,8 +9,8 @@
 namespace collision::server {
 
 void EventLog::Add(v1::CollisionEvent event) {
-  event.mutable_lower()->clear_run();
-  event.mutable_higher()->clear_run();
+  if (event.has_lower()) event.mutable_lower()->clear_run();
+  if (event.has_higher()) event.mutable_higher()->clear_run();
   constexpr std::uint64_t kPrime = 0x100000001b3;
   std::string bytes;
   {

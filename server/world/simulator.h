@@ -6,9 +6,9 @@
 
 #include "server/world/agent_table.h"
 #include "server/world/contenders.h"
-#include "server/world/sender_clock.h"
 #include "server/world/simulator_time.h"
 #include "server/world/standing_refusals.h"
+#include "server/world/wall_clock/sender_clock.h"
 
 namespace collision::server {
 

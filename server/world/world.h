@@ -14,7 +14,7 @@
 #include "server/world/silence.h"
 #include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
-#include "server/world/wall_time.h"
+#include "server/world/wall_clock/wall_time.h"
 
 namespace collision::server {
 

@@ -21,8 +21,8 @@ struct Golden {
   v1::Config::TreeBuilder builder;
   std::uint64_t hash;
 };
-constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0xf98a044c5fc1f8c0},
-                              {v1::Config::FITTED, 0x22d7848e494d0253}};
+constexpr Golden kGolden[] = {{v1::Config::OCTREE, 0x72ccdb02fae5232c},
+                              {v1::Config::FITTED, 0x63734499a96a8372}};
 
 constexpr std::int64_t kEnd = 8 * kSecond;
 

@@ -12,7 +12,7 @@ bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now) {
     }
     if (id_ != 0) ++changes_;
     id_ = stamp.service_id();
-  } else if (stamp.term() == term_ && stamp.epoch() < epoch_) {
+  } else if (IsPast(stamp)) {
     return false;
   }
   term_ = stamp.term();

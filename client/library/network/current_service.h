@@ -28,6 +28,12 @@ class CurrentService {
   /// become by it.
   bool Accept(const v1::ServiceStamp& stamp, Time now);
 
+  /// Whether the sample comes from an earlier epoch of the service in force: an event is history,
+  /// everything else means nothing any more.
+  bool IsPast(const v1::ServiceStamp& stamp) const {
+    return stamp.service_id() == id_ && stamp.term() == term_ && stamp.epoch() < epoch_;
+  }
+
   /// One was heard, and has been silent for too long.
   bool IsLost(Time now) const { return id_ != 0 && now - heard_ >= kServiceSilence; }
 

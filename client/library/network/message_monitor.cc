@@ -67,7 +67,10 @@ void MessageMonitor::HandOn(const v1::Output& output) {
       if (!Accept(output.earliest_intersection().stamp())) return;
       return Call(callbacks_.earliest, output.earliest_intersection());
     case v1::Output::kCollisionEvent:
-      if (!Accept(output.collision_event().stamp())) return;
+      if (!service_.IsPast(output.collision_event().stamp()) &&
+          !Accept(output.collision_event().stamp())) {
+        return;
+      }
       if (!filter_.IsNew(output.collision_event(), &contacts_)) return;
       return Call(callbacks_.event, output.collision_event());
     case v1::Output::kRejection:

@@ -1,7 +1,7 @@
 // Goal:   the offset of a sender's clock is bracketed for certain, whatever the ways there and back
 //         take; a sender is refused exactly if it is certainly beyond the bound, and taken again.
 // Method: round trips of a sender whose true offset the test knows, by hand and drawn from a seed.
-#include "server/world/sender_clock.h"
+#include "server/world/wall_clock/sender_clock.h"
 
 #include <gtest/gtest.h>
 

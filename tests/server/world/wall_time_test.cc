@@ -1,7 +1,7 @@
 // Goal:   the world's time follows the wall clock through everything that happens to it, never goes
 //         back, and tells every step of it from what is none.
 // Method: readings of both clocks, written by hand.
-#include "server/world/wall_time.h"
+#include "server/world/wall_clock/wall_time.h"
 
 #include <gtest/gtest.h>
 

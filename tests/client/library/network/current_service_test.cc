@@ -79,6 +79,11 @@ TEST(CurrentService, AnEarlierEpochOfTheSameServiceIsOver) {
   EXPECT_TRUE(accept(5, 1, 1));
   EXPECT_TRUE(accept(5, 1, 3));
   EXPECT_FALSE(accept(5, 1, 2));
+  v1::ServiceStamp past = Stamp(5, 1);
+  past.set_epoch(2);
+  EXPECT_TRUE(service.IsPast(past));
+  past.set_epoch(3);
+  EXPECT_FALSE(service.IsPast(past));
   EXPECT_EQ(service.epoch(), 3u);
   EXPECT_TRUE(accept(6, 2, 1)) << "another service counts anew";
   EXPECT_EQ(service.epoch(), 1u);

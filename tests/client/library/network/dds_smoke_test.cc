@@ -108,15 +108,16 @@ TEST_F(DdsSmokeTest, ASimulatorAServiceAndAMonitorMeet) {
   }));
   EXPECT_EQ(events[0].status, EventStatus::kConfirmed);
 
+  ASSERT_TRUE(Until([&] {
+    monitor.Poll(milliseconds(10));
+    return events_monitored > 0 && descriptions_monitored > 0;
+  }));
+
   { const Agent gone = std::move(ball); }
   ASSERT_TRUE(Until([&] {
     service.Receive(milliseconds(10), 100, &inputs, nullptr);
     return std::any_of(inputs.begin(), inputs.end(),
                        [](const v1::Input& input) { return input.has_agent_removal(); });
-  }));
-  ASSERT_TRUE(Until([&] {
-    monitor.Poll(milliseconds(10));
-    return events_monitored > 0 && descriptions_monitored > 0;
   }));
   EXPECT_TRUE(monitor.service_alive());
 }

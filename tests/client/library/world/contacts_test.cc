@@ -80,13 +80,6 @@ TEST_F(ContactsTest, AGapIsCountedAndHoldsNothingUp) {
   EXPECT_EQ(world_.contacts_missed(), 3u);
 }
 
-TEST_F(ContactsTest, AClearanceThatWaitsEndsAWaitInTime) {
-  Grant(50, 1);
-  world_.Poll();
-  world_.Poll(hours(1));
-  EXPECT_LE(network_->waits.back(), nanoseconds(ClearanceGate::kPatience));
-}
-
 TEST_F(ContactsTest, AClearanceOfAFormerServiceDoesNotPassLater) {
   Grant(50, 1);
   world_.Poll();

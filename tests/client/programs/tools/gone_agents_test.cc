@@ -36,6 +36,7 @@ class GoneAgentsTest : public testing::Test {
   void Status(std::optional<std::uint32_t> run, bool alive, std::uint32_t agents) {
     v1::ServiceStatus* status = next_.outputs.emplace_back().mutable_service_status();
     status->set_service_id(9);
+    status->set_phase(v1::PHASE_SERVING);
     Stamp(status->mutable_stamp());
     status->set_agents(agents);
     if (!run) return;

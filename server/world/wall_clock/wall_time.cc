@@ -1,4 +1,4 @@
-#include "server/world/wall_time.h"
+#include "server/world/wall_clock/wall_time.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,4 +1,4 @@
-#include "server/world/sender_clock.h"
+#include "server/world/wall_clock/sender_clock.h"
 
 #include <spdlog/fmt/fmt.h>
 

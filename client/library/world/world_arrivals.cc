@@ -1,0 +1,211 @@
+// What a World does with what arrives.
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <utility>
+
+#include "client/library/network/arrival_order.h"
+#include "client/library/network/conversion.h"
+#include "client/library/world/world_implementation.h"
+#include "idl/limits.h"
+
+namespace collision::client {
+namespace {
+
+/// True while it lives, also if the callback throws.
+class Raised {
+ public:
+  explicit Raised(bool* flag) : flag_(flag) { *flag_ = true; }
+  ~Raised() { *flag_ = false; }
+  Raised(const Raised&) = delete;
+  Raised& operator=(const Raised&) = delete;
+
+ private:
+  bool* flag_;
+};
+
+}  // namespace
+
+void World::Implementation::BeginEpoch() {
+  filter_ = {};
+  agents_.ForgetSent();
+  clock_published_ = false;
+}
+
+bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
+  transport_->Flush();  // Descriptions may be waiting.
+  Arrivals arrivals;
+  if (const auto patience = gate_.Remaining(std::chrono::steady_clock::now()))
+    timeout = std::min(timeout, *patience);
+  transport_->Receive(timeout, &arrivals);
+  const CurrentService::Time now = std::chrono::steady_clock::now();
+  OrderEvents(&arrivals.outputs);
+  for (const v1::Output& output : arrivals.outputs) Handle(output, now);
+  const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, now);
+  for (const v1::Clearance& clearance : passed) Handle(clearance);
+  Watch(now);
+  while (!on_event_ && events_.size() > kEventsMax) {
+    events_.pop_front();
+    ++events_lost_;
+  }
+  return !arrivals.outputs.empty() || !passed.empty();
+}
+
+void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
+  switch (output.message_case()) {
+    case v1::Output::kClearance:
+      if (Accept(output.clearance().stamp(), output.clearance().now_ns(), now)) {
+        AddToGate(output.clearance(), now);
+      }
+      break;
+    case v1::Output::kCollisionEvent: {
+      const v1::CollisionEvent& event = output.collision_event();
+      if (service_.IsPast(event.stamp()) || Accept(event.stamp(), event.now_ns(), now)) {
+        Handle(event);
+      }
+      break;
+    }
+    case v1::Output::kRejection: {
+      const v1::Rejection& rejection = output.rejection();
+      if (rejection.simulator_id() != simulator_id_ || rejection.run() != run_) break;
+      if (!IsForThis(rejection.incarnation())) break;
+      if (rejections_.size() == kRejectionsMax) rejections_.pop_front();
+      rejections_.push_back(FromMessage(rejection));
+      break;
+    }
+    case v1::Output::kSimulatorReport:
+      if (Accept(output.simulator_report().stamp(), output.simulator_report().now_ns(), now)) {
+        Handle(output.simulator_report(), now);
+      }
+      break;
+    case v1::Output::kServiceStatus:
+      if (output.service_status().phase() == v1::PHASE_CLAIMING) break;
+      if (!Accept(output.service_status().stamp(), output.service_status().now_ns(), now)) break;
+      simulated_clock_ = output.service_status().simulated_clock();
+      waiting_.Take(output.service_status());
+      break;
+    default:
+      break;
+  }
+}
+
+/// Clearances of this run are younger than this program, so they tell whether it was there before
+/// the first contact.
+void World::Implementation::AddToGate(const v1::Clearance& clearance, CurrentService::Time now) {
+  if (clearance.simulator_id() != simulator_id_ || clearance.run() != run_) return;
+  if (!IsForThis(clearance.incarnation())) return;
+  if (clearance.contacts_sequence() == 0) contacts_.BeginAtNone();
+  gate_.Add(clearance, now);
+}
+
+void World::Implementation::Handle(const v1::Clearance& clearance) {
+  // All chunks carry the grant. The service writes chunk 0 after the others, so a simulator that
+  // takes the grant from there knows all clearances as of that time, and which states are wanted.
+  if (clearance.chunk() == 0) {
+    granted_until_ns_ = std::max(granted_until_ns_, clearance.granted_until_ns());
+  }
+  clearances_sequence_ = std::max(clearances_sequence_, clearance.stamp().sequence());
+  for (const v1::AgentClearance& agent : clearance.agents()) {
+    if (!agents_.SetClearance(agent, clearance.now_ns())) continue;
+    const AgentId id{simulator_id_, run_, agent.slot(), agent.generation()};
+    if (on_lowered_ || on_void_) lowered_.emplace_back(id, this->clearance(id));
+  }
+}
+
+bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t now_ns,
+                                   CurrentService::Time now) {
+  const std::uint64_t id = service_.id();
+  const std::uint32_t epoch = service_.epoch();
+  if (!service_.Accept(stamp, now)) return false;
+  if (service_.id() != id) {
+    contacts_.Restart();
+    gate_.Clear();
+    clearances_sequence_ = 0;
+    agents_.ForgetLowerings();
+    service_now_ns_ = now_ns;
+  } else if (service_.epoch() != epoch) {
+    service_now_ns_ = now_ns;
+    if (!lock_step_) BeginEpoch();
+  }
+  service_now_ns_ = std::max(service_now_ns_, now_ns);
+  if (!lock_step_) echo_.Hear(stamp, now_ns, wall_clock_());
+  return true;
+}
+
+void World::Implementation::Watch(CurrentService::Time now) {
+  if (service_.IsLost(now) == service_lost_) return;
+  service_lost_ = !service_lost_;
+  lost_news_ = service_lost_;
+}
+
+Clearance World::Implementation::clearance(const AgentId& id) const {
+  Clearance clearance = agents_.clearance(id);
+  if (service_.id() == 0) return clearance;
+  if (!lock_step_) clearance.expires_ns = service_now_ns_ + wire::kServiceLease;
+  if (service_lost_) {
+    // Nobody would tell of a lowering. What was granted stands.
+    const std::int64_t stands_ns = lock_step_ ? granted_until_ns_ : clearance.expires_ns;
+    clearance.clear_until_ns = std::min(clearance.clear_until_ns, stands_ns);
+  }
+  return clearance;
+}
+
+void World::Implementation::Handle(const v1::CollisionEvent& event) {
+  if (!IsOwn(event.lower()) && !IsOwn(event.higher())) {
+    if (event.contacts_sequence() > 0) contacts_.Take(event.contacts_sequence());
+  } else if (filter_.IsNew(event, &contacts_)) {
+    events_.push_back(FromMessage(event));
+  }
+}
+
+void World::Implementation::Handle(const v1::SimulatorReport& report, Arrival::Time now) {
+  if (report.simulator_id() != simulator_id_) return;
+  arrival_.Hear(report, now);
+  if (arrival_.run() == run_) return;
+  run_ = arrival_.run();
+  agents_.SetRun(run_);
+  shapes_.SetRun(run_);
+}
+
+std::vector<Rejection> World::Implementation::standing_refusals() const {
+  std::vector<Rejection> refusals;
+  if (!arrival_.own()) return refusals;
+  for (const v1::StandingRefusal& refusal : arrival_.own()->refusals()) {
+    refusals.push_back(FromMessage(refusal, *arrival_.own()));
+  }
+  return refusals;
+}
+
+bool World::Implementation::IsForThis(std::uint32_t incarnation) const {
+  return incarnation == 0 || incarnation == arrival_.incarnation();
+}
+
+bool World::Implementation::IsOwn(const v1::AgentId& id) const {
+  return id.simulator_id() == simulator_id_ && id.run() == run_;
+}
+
+void World::Implementation::Deliver() {
+  if (const auto lost = std::exchange(lost_news_, std::nullopt)) Call(*lost ? on_lost_ : on_back_);
+  if (on_waiting_ && waiting_.TakeChange()) Call(on_waiting_, waiting_.names());
+  while (!closed_ && !lowered_.empty()) {
+    const auto [id, clearance] = lowered_.front();
+    lowered_.pop_front();
+    if (clearance.void_from_ns != kNever) Call(on_void_, id, clearance);
+    Call(on_lowered_, id, clearance);
+  }
+  while (on_event_ && !closed_ && !events_.empty()) {
+    const Event event = events_.front();
+    events_.pop_front();
+    Call(on_event_, event);
+  }
+}
+
+template <typename Callback, typename... Values>
+void World::Implementation::Call(const Callback& callback, const Values&... values) {
+  if (!callback || closed_) return;
+  const Callback called = callback;  // It may replace itself.
+  const Raised raised(&in_callback_);
+  called(values...);
+}
+
+}  // namespace collision::client
