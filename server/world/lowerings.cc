@@ -9,6 +9,8 @@ void Lowerings::Take(std::uint32_t slot, const detection::AgentClearance& cleara
   Lowering& standing = by_slot_[slot];
   ++standing.count;
   standing_.insert(slot);
+  // No sample has carried it yet.
+  published_.erase(slot / wire::kStatesPerChunkMax);
   if (clearance.void_from.is_never() && !standing.void_from.is_never()) return;
   standing.cause = clearance.cause;
   standing.cause_agent = clearance.cause_agent;

@@ -50,8 +50,9 @@ class Lowerings {
 
  private:
   std::map<std::uint32_t, Lowering> by_slot_;
-  std::map<std::uint32_t, std::uint64_t> published_;  ///< Sequence of the newest sample by chunk.
-  std::set<std::uint32_t> standing_;                  ///< Slots with a cause.
+  /// Sequence of the newest sample by chunk; none while it does not say what stands.
+  std::map<std::uint32_t, std::uint64_t> published_;
+  std::set<std::uint32_t> standing_;  ///< Slots with a cause.
   std::uint64_t newest_published_ = 0;
   std::uint64_t acknowledged_ = 0;
 };

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -67,6 +68,40 @@ TEST(Scenes, AStreamSendsEverything) {
   text << std::ifstream(path).rdbuf();
   std::remove(path.c_str());
   EXPECT_EQ(NumberIn(text.str(), "message_ratio"), 1);
+}
+
+/// What the daemon's log tells of the events of a run: their number and hash.
+std::string EventLogOf(const std::vector<std::string>& scene) {
+  const std::string folder = testing::TempDir() + "repeat." + std::to_string(getpid());
+  std::vector<std::string> words = scene;
+  words.insert(words.end(), {"--logs", folder});
+  ExpectSceneSucceeds(words);
+  std::ifstream log(folder + "/collisiond.log");
+  std::string told;
+  for (std::string line; std::getline(log, line);) {
+    const std::size_t at = line.find("event log: ");
+    if (at != std::string::npos) told = line.substr(at);
+  }
+  std::filesystem::remove_all(folder);
+  return told;
+}
+
+// Goal:   the events of a scene in lock-step follow from its simulators alone, which bounce where
+//         they hear of a contact.
+// Method: the same scenes again and again, also while the machine is kept busy, with balls and with
+//         meshes, whose trees take their time.
+TEST(Scenes, InLockStepTheEventsAreTheSameEveryTime) {
+  const std::vector<std::string> scenes[] = {{"swarm-100", "--seconds", "5"},
+                                             {"spaceships", "--seconds", "6"}};
+  for (const std::vector<std::string>& scene : scenes) {
+    const std::string first = EventLogOf(scene);
+    EXPECT_NE(first.find("hash"), std::string::npos);
+    EXPECT_EQ(first.find(" 0 events"), std::string::npos) << first;
+    EXPECT_EQ(EventLogOf(scene), first);
+    const Process busy({"sh", "-c", "while :; do :; done"});
+    const Process as_busy({"sh", "-c", "while :; do :; done"});
+    EXPECT_EQ(EventLogOf(scene), first);
+  }
 }
 
 TEST(Scenes, AnInterruptedRunLeavesNoProcessBehind) {
