@@ -1,6 +1,5 @@
-// Goal:   a simulator hears of every lowering once, of a service that is gone, and relies on nothing
-//         that nobody would take back.
-// Method: a network under the test's control; a service that speaks once and then no more.
+// Goal:   a simulator hears of every lowering once, and acknowledges it.
+// Method: a network under the test's control.
 #include <gtest/gtest.h>
 
 #include <string>
