@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "tests/fuzz/answers.h"
 #include "tests/fuzz/fuzzed_messages.h"
@@ -88,11 +89,9 @@ class Session {
     if (!output.has_clearance()) return;
     const v1::Clearance& clearance = output.clearance();
     if (simulated_) now_ns_ = clearance.now_ns();
-    // Time that was granted is never taken back.
-    std::int64_t& granted =
-        granted_
-            .try_emplace({clearance.simulator_id(), clearance.run()}, clearance.granted_until_ns())
-            .first->second;
+    // Time that was granted is never taken back within an epoch.
+    const std::tuple key(clearance.simulator_id(), clearance.run(), clearance.stamp().epoch());
+    std::int64_t& granted = granted_.try_emplace(key, clearance.granted_until_ns()).first->second;
     Require(clearance.granted_until_ns() >= granted, "granted ", granted, ", now only ",
             clearance.granted_until_ns());
     granted = clearance.granted_until_ns();
@@ -103,7 +102,8 @@ class Session {
   std::int64_t now_ns_ = 0;
   std::uint64_t reported_ = 0;
   std::optional<v1::ServiceStatus> status_;
-  std::map<std::pair<std::uint64_t, std::uint32_t>, std::int64_t> granted_;
+  /// By simulator, run and epoch.
+  std::map<std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>, std::int64_t> granted_;
 };
 
 std::vector<v1::Input> FuzzedBatch(std::int64_t now_ns, int* left, FuzzedData* data) {

@@ -63,7 +63,7 @@ TEST(Crash, ASimulatorThatStandsIsReleased) {
   const TestWorld world(80,
                         "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 0.5");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--linger"});
+  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
   const auto right = world.StartSimulator(kRight);
   EXPECT_EQ(right->WaitForExit(), 0) << right->err() << daemon->err();
   EXPECT_TRUE(daemon->WaitForOutput("goes on without simulator \"left-sim\"")) << daemon->err();
