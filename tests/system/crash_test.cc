@@ -8,13 +8,10 @@
 namespace collision::system_test {
 namespace {
 
-/// Takes minutes at the speed below: a simulator that waits for it stands still.
-const Flight kShortLeft{"left", -5, 1, 2};
-
 TEST(Crash, KilledSimulatorIsWaitedFor) {
   const TestWorld world(64, "simulators_awaited: 2 on_silent_simulator: WAIT");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
+  const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
@@ -32,7 +29,7 @@ TEST(Crash, KilledSimulatorIsWaitedFor) {
 TEST(Crash, SuccessorThatStartsAtOnceTakesOver) {
   const TestWorld world(69);
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
+  const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
@@ -50,7 +47,7 @@ TEST(Crash, KilledSimulatorIsReleased) {
   const TestWorld world(65,
                         "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 4");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
+  const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
@@ -63,7 +60,7 @@ TEST(Crash, ASimulatorThatStandsIsReleased) {
   const TestWorld world(80,
                         "simulators_awaited: 2 on_silent_simulator: RELEASE release_after_s: 0.5");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
+  const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   const auto right = world.StartSimulator(kRight);
   EXPECT_EQ(right->WaitForExit(), 0) << right->err() << daemon->err();
   EXPECT_TRUE(daemon->WaitForOutput("goes on without simulator \"left-sim\"")) << daemon->err();

@@ -12,13 +12,10 @@ namespace {
 constexpr int kRefused = 1;
 constexpr int kUnavailable = 69;
 
-/// Takes minutes at the speed below: a simulator that waits for it stands still.
-const Flight kShortLeft{"left", -5, 1, 2};
-
 TEST(SilenceOfPrograms, AGhostIsShownAndCanBeEvicted) {
-  const TestWorld world(76, "simulators_awaited: 2 waiting_after_s: 0.5");
+  const TestWorld world(81, "simulators_awaited: 2 waiting_after_s: 0.5");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
+  const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   // Left lives and does not move.
@@ -50,7 +47,7 @@ TEST(SilenceOfPrograms, WithoutAServiceAnOperatorIsTold) {
 TEST(SilenceOfPrograms, TimeBeginsAnew) {
   const TestWorld world(78, "simulators_awaited: 1");
   const auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
+  const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));
   const Outcome restarted = world.Monitor({"restart-time"});
   EXPECT_EQ(restarted.status, 0) << restarted.err;
@@ -60,7 +57,7 @@ TEST(SilenceOfPrograms, TimeBeginsAnew) {
 TEST(SilenceOfPrograms, ADaemonStartedAgainWaitsForWhoIsOutOfReach) {
   const TestWorld world(79);
   auto daemon = world.StartDaemon();
-  const auto left = world.StartSimulator(kShortLeft, {"--speed", "0.02"});
+  const auto left = world.StartSimulator(kLeft, kHardlyMoves);
   const auto right = world.StartSimulator(kRight);
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"right\""));
   ASSERT_TRUE(world.MonitorComesToSay({"agents", "--json"}, "\"left\""));

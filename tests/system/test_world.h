@@ -49,6 +49,9 @@ struct Flight {
 const Flight kLeft{"left", -5, 1};
 const Flight kRight{"right", 5, -1};
 
+/// Options with which a flight takes minutes: a simulator that waits for it stands still.
+const std::vector<std::string> kHardlyMoves = {"--speed", "0.02"};
+
 class TestWorld {
  public:
   /// `domain` is the test's own, so that tests can run at once. `clock` is what stands in the field
