@@ -3,23 +3,31 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
+#include <utility>
 
 namespace collision::client {
 
-/// The rest of a time to wait, on the monotonic clock. Any duration is allowed, also the longest.
+/// The rest of a time to wait, on the monotonic clock or another one. Any duration is allowed, also
+/// the longest.
 class Deadline {
  public:
-  explicit Deadline(std::chrono::nanoseconds timeout) : timeout_(timeout) {}
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit Deadline(std::chrono::nanoseconds timeout,
+                    std::function<Time()> now = std::chrono::steady_clock::now)
+      : timeout_(timeout), now_(std::move(now)), start_(now_()) {}
 
   /// Never negative; zero when the time is over.
   std::chrono::nanoseconds Remaining() const {
-    const std::chrono::nanoseconds elapsed = std::chrono::steady_clock::now() - start_;
-    return std::max(timeout_ - elapsed, std::chrono::nanoseconds(0));
+    return std::max<std::chrono::nanoseconds>(timeout_ - (now_() - start_),
+                                              std::chrono::nanoseconds(0));
   }
 
  private:
   std::chrono::nanoseconds timeout_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::function<Time()> now_;
+  Time start_;
 };
 
 }  // namespace collision::client

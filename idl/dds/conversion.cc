@@ -113,7 +113,7 @@ FIELDS(AgentClearance,
 
 FIELDS(Clearance,
        VALUE(simulator_id) VALUE(chunk) VALUE(run) MESSAGE(stamp) VALUE(now_ns)
-       VALUE(granted_until_ns) VALUE(contacts_sequence)
+       VALUE(granted_until_ns) VALUE(contacts_sequence) VALUE(forecasts_sequence)
        LIST(agents, collision_v1_STATES_PER_CHUNK_MAX) VALUE(incarnation))
 
 FIELDS(EarliestIntersection,

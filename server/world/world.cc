@@ -92,8 +92,9 @@ std::optional<RoundTrip> World::RoundTripOf(const v1::SimulatorClock& clock,
                                             std::uint64_t service_id) const {
   const auto is_instant = [](std::int64_t ns) { return 0 < ns && ns <= wire::kInstantMax; };
   if (simulated_ || !is_instant(clock.sent_ns())) return std::nullopt;
-  RoundTrip trip{.answered = Instant::FromNanoseconds(clock.sent_ns()),
-                 .arrived = wall_time_.reading()};
+  RoundTrip trip;
+  trip.answered = Instant::FromNanoseconds(clock.sent_ns());
+  trip.arrived = wall_time_.reading();
   // An echo counts if it is of a sample on the present time scale.
   const Instant echo = Instant::FromNanoseconds(clock.echo_ns());
   if (clock.service_id() == service_id && clock.epoch() == epoch_ && is_instant(clock.echo_ns()) &&

@@ -31,7 +31,7 @@ MessageMonitor::MessageMonitor(std::unique_ptr<Receiver> receiver, Callbacks cal
 std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   Arrivals arrivals;
   receiver_->Receive(timeout, &arrivals);
-  now_ = std::chrono::steady_clock::now();
+  now_ = receiver_->Now();
   OrderEvents(&arrivals.outputs);
   for (const v1::Input& input : arrivals.inputs) HandOn(input);
   for (const v1::Output& output : arrivals.outputs) HandOn(output);

@@ -24,6 +24,11 @@ class Receiver {
 
   /// Whether a service of this world is alive.
   virtual bool service_alive() const = 0;
+
+  /// The monotonic time by which timeouts count.
+  virtual std::chrono::steady_clock::time_point Now() const {
+    return std::chrono::steady_clock::now();
+  }
 };
 
 /// Also writes, for one simulator or operator.

@@ -35,10 +35,11 @@ void World::Implementation::BeginEpoch() {
 bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Flush();  // Descriptions may be waiting.
   Arrivals arrivals;
-  if (const auto patience = gate_.Remaining(std::chrono::steady_clock::now()))
+  if (const auto patience = gate_.Remaining(transport_->Now())) {
     timeout = std::min(timeout, *patience);
+  }
   transport_->Receive(timeout, &arrivals);
-  const CurrentService::Time now = std::chrono::steady_clock::now();
+  const CurrentService::Time now = transport_->Now();
   OrderEvents(&arrivals.outputs);
   for (const v1::Output& output : arrivals.outputs) Handle(output, now);
   const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, now);

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "client/library/deadline.h"
 #include "client/library/network/arrival_order.h"
 #include "client/library/network/conversion.h"
 #include "client/library/validation.h"
@@ -69,7 +68,7 @@ World::Implementation::Implementation(const WorldOptions& options,
 
 bool World::Implementation::WaitForService(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("WaitForService()");
-  const Deadline deadline(timeout);
+  const Deadline deadline = Until(timeout);
   while (!transport_->service_alive()) {
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) return false;
@@ -128,7 +127,7 @@ void World::Implementation::Publish(std::int64_t clock_ns) {
 Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("AdvanceTo()");
   RequireForward(clock_ns);
-  const Deadline deadline(timeout);
+  const Deadline deadline = Until(timeout);
   Poll(std::chrono::nanoseconds(0));
   while (!closed_) {
     if (!lock_step_) {
@@ -151,7 +150,7 @@ void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("Poll()");
   // Who waits here has nothing more to tell of this time, so the service may judge it.
   if (clock_due_ && timeout.count() > 0) Tell(clock_ns_ + 1);
-  const Deadline deadline(timeout);
+  const Deadline deadline = Until(timeout);
   std::chrono::nanoseconds left = timeout;
   do {
     if (Gather(std::min<std::chrono::nanoseconds>(left, kRepeatPeriod))) left = {};
@@ -164,6 +163,10 @@ void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
 std::vector<Event> World::Implementation::TakeEvents() { return TakeAll(&events_); }
 
 std::vector<Rejection> World::Implementation::TakeRejections() { return TakeAll(&rejections_); }
+
+Deadline World::Implementation::Until(std::chrono::nanoseconds timeout) const {
+  return Deadline(timeout, [this] { return transport_->Now(); });
+}
 
 void World::Implementation::RequireOutsideCallback(const char* function) const {
   if (in_callback_) throw std::logic_error(std::string(function) + " called inside a callback");
@@ -247,7 +250,7 @@ void World::Implementation::RepeatClock() {
   *message.mutable_simulator_clock() = last_clock_;
   transport_->Write(message);
   transport_->Flush();
-  clock_written_ = std::chrono::steady_clock::now();
+  clock_written_ = transport_->Now();
 }
 
 void World::Implementation::Tend() {
@@ -266,11 +269,11 @@ void World::Implementation::Tend() {
 }
 
 bool World::Implementation::IsQuiet() const {
-  return std::chrono::steady_clock::now() - clock_written_ >= kRepeatPeriod;
+  return transport_->Now() - clock_written_ >= kRepeatPeriod;
 }
 
 bool World::Implementation::MustReintroduce() {
-  return transport_->service_alive() && arrival_.TakeDue(std::chrono::steady_clock::now());
+  return transport_->service_alive() && arrival_.TakeDue(transport_->Now());
 }
 
 void World::Implementation::Finish() {

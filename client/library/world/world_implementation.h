@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "client/api/world.h"
+#include "client/library/deadline.h"
 #include "client/library/network/current_service.h"
 #include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
@@ -76,6 +77,7 @@ class World::Implementation {
   const Traffic& traffic() const { return agents_.traffic(); }
 
  private:
+  Deadline Until(std::chrono::nanoseconds timeout) const;
   void RequireOutsideCallback(const char* function) const;
   void RequireForward(std::int64_t clock_ns) const;
 
