@@ -111,7 +111,9 @@ TEST_F(StepsTest, AWorldWithoutAgentsLeavesTheWorldsTime) {
     if (!stays) ball.reset();
     world.reset();
     ASSERT_EQ(network_->Clocks().size(), stays ? 0u : 1u);
-    if (!stays) EXPECT_EQ(network_->Clocks()[0].next_ns(), kNever);
+    if (!stays) {
+      EXPECT_EQ(network_->Clocks()[0].next_ns(), kNever);
+    }
   }
 }
 
