@@ -150,6 +150,18 @@ std::vector<v1::AgentStates> AgentTable::SentStates() const {
     v1::AgentStates states = Chunk(chunk);
     if (states.states_size() > 0) chunks.push_back(std::move(states));
   }
+  // As in TakeDue(): the highest sequence last.
+  const auto highest = [](const v1::AgentStates& chunk) {
+    std::uint64_t sequence = 0;
+    for (const v1::AgentState& state : chunk.states()) {
+      sequence = std::max(sequence, state.sequence());
+    }
+    return sequence;
+  };
+  std::stable_sort(chunks.begin(), chunks.end(),
+                   [&highest](const v1::AgentStates& a, const v1::AgentStates& b) {
+                     return highest(a) < highest(b);
+                   });
   return chunks;
 }
 
@@ -164,6 +176,9 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   std::vector<std::uint32_t> chunks;
   if (clock_ns > taken_ns_) chunks = FreeRemoved();
   taken_ns_ = clock_ns;
+  // In the order of the chunks, so that the last one that is written has the highest sequence: it
+  // arrives last, and a clock that names it counts when all have come.
+  std::sort(staged_slots_.begin(), staged_slots_.end());
   std::size_t waiting = 0;
   for (const std::uint32_t index : staged_slots_) {
     Slot& slot = slots_[index];

@@ -45,6 +45,7 @@ class AgentTable {
   /// All messages that still hold, to repeat them.
   std::vector<v1::AgentDescription> Descriptions() const;
   std::vector<v1::AgentRemoval> Removals() const;
+  /// The states so that the highest sequence is in the last message: see TakeDue().
   std::vector<v1::AgentStates> SentStates() const;
 
   /// The service has forgotten all states: each agent's next one is sent, whatever its stamp.
@@ -52,7 +53,9 @@ class AgentTable {
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
   /// of all its agents. Where an agent was removed, its last state stays in its chunk, and its slot
-  /// unused, until the clock has moved on: the service is to see it.
+  /// unused, until the clock has moved on: the service is to see it. The last message has the
+  /// highest sequence: samples of one topic arrive in their order, so a clock that names this
+  /// sequence counts only when all of them have come.
   std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);
 
   /// The clock sample that follows everything sent so far.

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace collision::client {
 namespace {
 
@@ -52,6 +54,28 @@ TEST(AgentTable, ARemovalIsOneOfTheDescriptions) {
   table.SetRun(9);
   EXPECT_EQ(table.Descriptions()[0].run(), 9u);
   EXPECT_EQ(table.Clock(0, 0, true).run(), 9u);
+}
+
+// Goal:   a clock that names the highest sequence counts when all states before it have come, since
+//         one topic keeps its order: whatever order they are set in, and when they are repeated.
+TEST(AgentTable, TheHighestSequenceIsSentLast) {
+  AgentTable table("simulator", 1, 1, 1, {.chunk_size = 1});
+  std::vector<AgentId> balls;
+  for (int i = 0; i < 3; ++i) balls.push_back(table.Add({.name = "ball"}, {.stamp_ns = 0}));
+  table.TakeDue(0);
+  const auto expect_rising = [](const std::vector<v1::AgentStates>& chunks) {
+    for (std::size_t i = 1; i < chunks.size(); ++i) {
+      EXPECT_LT(chunks[i - 1].states(0).sequence(), chunks[i].states(0).sequence());
+    }
+  };
+  for (const std::size_t i : {2, 0, 1}) table.Stage(balls[i], {.stamp_ns = 1});
+  const std::vector<v1::AgentStates> due = table.TakeDue(1);
+  ASSERT_EQ(due.size(), 3u);
+  expect_rising(due);
+  table.Stage(balls[0], {.stamp_ns = 2});
+  table.TakeDue(2);
+  ASSERT_EQ(table.SentStates().size(), 3u);
+  expect_rising(table.SentStates());
 }
 
 }  // namespace
