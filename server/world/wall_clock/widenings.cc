@@ -20,8 +20,7 @@ void Widenings::Publish(std::uint64_t owner, const std::vector<Informed>& others
   }
 }
 
-bool Widenings::IsOver(const std::vector<Informed>& others, std::int64_t now_ns,
-                       Waiting* waiting) {
+bool Widenings::IsOver(const std::vector<Informed>& others, std::int64_t now_ns, Waiting* waiting) {
   for (const Informed& other : others) {
     const auto awaited = waiting->awaited.find(other.simulator);
     if (awaited == waiting->awaited.end() || other.acknowledged < awaited->second) continue;

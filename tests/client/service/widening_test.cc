@@ -4,6 +4,7 @@
 //         acknowledging.
 #include <gtest/gtest.h>
 
+#include "idl/limits.h"
 #include "tests/client/service/in_process_service.h"
 
 namespace collision::client {
@@ -26,9 +27,7 @@ class WideningTest : public testing::Test {
                                      }});
   }
 
-  State At(double x) {
-    return {.stamp_ns = service_.clocks().wall_ns, .position_m = {x, 0, 0}};
-  }
+  State At(double x) { return {.stamp_ns = service_.clocks().wall_ns, .position_m = {x, 0, 0}}; }
 
   void Publish(World* world) {
     world->Publish(service_.clocks().wall_ns);
