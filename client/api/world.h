@@ -202,7 +202,8 @@ class Agent {
   void SetState(const State& state);
 
   /// Announces a changed description. A wider bound counts from clearance().effective_from_ns on
-  /// once clearance().description_counts: with a wall clock, when all others have heard of it. Throws std::invalid_argument as AddAgent() does.
+  /// once clearance().description_counts: with a wall clock, when all others have heard of it.
+  /// Throws std::invalid_argument as AddAgent() does.
   void SetDescription(const AgentDescription& description);
 
   /// The newest clearance received; before the first one, a clearance that promises nothing.

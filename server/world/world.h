@@ -76,8 +76,8 @@ class World {
   /// the clock, if it was set. One that breaks the time needs BeginEpoch().
   std::optional<ClockStep> SetReading(const ClockReading& reading);
 
-  /// Simulated clock: a simulator that has no clock asks what time it is. The answer is a grant: the
-  /// greatest so far, or 0 before time has begun; time waits for its first clock there.
+  /// Simulated clock: a simulator that has no clock asks what time it is. The answer is a grant:
+  /// the greatest so far, or 0 before time has begun; time waits for its first clock there.
   void Join(Simulator* simulator);
 
   /// Simulated clock: each simulator that holds time says when its next step is.

@@ -18,7 +18,7 @@ struct Widening {
   friend bool operator==(const Widening&, const Widening&) = default;
 };
 
-/// What a simulator that relies on clearances has been told, and has taken in: sequences of samples.
+/// What a simulator that relies on clearances has been told and has taken in: sample sequences.
 struct Informed {
   std::uint64_t simulator = 0;
   std::uint64_t published = 0;
@@ -41,7 +41,8 @@ class Widenings {
   /// The detector has this revision from this step on.
   void Add(const Widening& widening);
 
-  /// After the clearances of a step were published: the revisions that count now. `others`: every simulator that has a clearance. `now_ns`: monotonic.
+  /// After the clearances of a step were published: the revisions that count now. `others`: every
+  /// simulator that has a clearance. `now_ns`: monotonic.
   [[nodiscard]] std::vector<Widening> Take(const std::vector<Informed>& others,
                                            std::int64_t now_ns);
 

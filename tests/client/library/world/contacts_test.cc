@@ -3,8 +3,8 @@
 // Method: clearances, contacts and statuses on a network under the test's control.
 #include <gtest/gtest.h>
 
+#include "client/library/network/clearance_gate.h"
 #include "client/library/network/message_monitor.h"
-#include "client/library/world/clearance_gate.h"
 #include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 

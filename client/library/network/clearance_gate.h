@@ -33,8 +33,8 @@ class ClearanceGate {
 
   void Add(const v1::Clearance& clearance, Time now);
 
-  /// The clearances that wait for nothing any more. `newest_forecast`: the highest stamp.sequence of
-  /// a forecast that has come; kAllForecasts: they are not waited for.
+  /// The clearances that wait for nothing any more. `newest_forecast`: the highest stamp.sequence
+  /// of a forecast that has come; kAllForecasts: they are not waited for.
   std::vector<v1::Clearance> Take(ContactSequence* contacts, std::uint64_t newest_forecast,
                                   Time now);
   static constexpr std::uint64_t kAllForecasts = std::numeric_limits<std::uint64_t>::max();

@@ -11,8 +11,8 @@
 namespace collision::client {
 
 /// Lock-step: which revisions of a forecast arrive, and when, is a matter of the network: only the
-/// newest of a pair is sure to come. So forecasts are told when the simulator takes a step or polls,
-/// of each pair the newest. One thread; depends on nothing but the calls.
+/// newest of a pair is sure to come. So forecasts are told when the simulator takes a step or
+/// polls, of each pair the newest. One thread; depends on nothing but the calls.
 class HeldForecasts {
  public:
   /// A forecast about anybody's agents has come.

@@ -1,7 +1,7 @@
 // Goal:   a clearance passes with the events before it, in its order, or when these are given up:
 //         after the patience, or when too many wait.
 // Method: clearances and events in chosen orders at chosen times.
-#include "client/library/world/clearance_gate.h"
+#include "client/library/network/clearance_gate.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Goal:   of each pair the newest forecast is told, in the order of publication, and the gate knows
 //         the newest of all.
 // Method: forecasts in chosen orders.
-#include "client/library/world/held_forecasts.h"
+#include "client/library/network/held_forecasts.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "client/library/world/held_forecasts.h"
+#include "client/library/network/held_forecasts.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "client/library/world/clearance_gate.h"
+#include "client/library/network/clearance_gate.h"
 
 #include <algorithm>
 #include <utility>
