@@ -140,6 +140,9 @@ struct Clearance {
   bool saturated = false;  ///< It has more partners at hand than the service tracks.
   /// From when on promises count its latest admission, jump or widened declaration.
   std::int64_t effective_from_ns = std::numeric_limits<std::int64_t>::min();
+  /// That holds for its newest description, too: nobody relies on the one before any more. Until
+  /// then the agent must keep to both.
+  bool description_counts = false;
   /// How often it was lowered for a cause since the agent was admitted.
   std::uint32_t lowerings = 0;
   /// The newest cause that this simulator has not taken in before, as in the IDL (CAUSE_...);

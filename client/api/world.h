@@ -81,6 +81,13 @@ class World {
   /// 65536 agents already.
   Agent AddAgent(const AgentDescription& description, const State& state);
 
+  /// Lock-step, before the first clock: asks what time it is. The world's time waits there until
+  /// this simulator has told its first clock: set the states of its agents as they are then, and
+  /// AdvanceTo() that time. So nobody else has to reckon with where they may have been before. A
+  /// world whose time has not begun begins at 0. Without lock-step it is what the clock shows, at
+  /// once. nullopt: no answer within `timeout`. Throws std::logic_error after the first clock.
+  std::optional<std::int64_t> Join(std::chrono::nanoseconds timeout);
+
   /// Writes the staged states with stamps up to `clock_ns`, then the clock, which promises that
   /// everything up to `clock_ns` has been sent. With an unchanged clock it writes what is new at
   /// this instant, if anything. Throws std::invalid_argument if the clock goes backward or, in
@@ -92,8 +99,9 @@ class World {
   /// Lock-step: takes in what has arrived, says that the next step is at `clock_ns`, waits until
   /// the service has granted time up to there, and writes the staged states with stamps up to it.
   /// Events are delivered meanwhile: all that follow from what everybody has told so far, so that a
-  /// run with the same simulators has the same events at the same steps. What a callback stages
-  /// counts from this step on. The first clock of a run is 0, or what is granted. Without lock-step
+  /// run with the same simulators has the same events at the same steps. Forecasts come last, of
+  /// each pair the newest, when the step is reached. What a callback stages counts from this step
+  /// on. The first clock of a run is 0, or what is granted. Without lock-step
   /// this publishes and never waits.
   /// kTimeout: the grant did not arrive within `timeout` of wall time. The clock stands at
   /// clock_ns(), what is staged for later stays staged, and a further call continues; it may not
@@ -131,8 +139,9 @@ class World {
   std::uint64_t events_lost() const;
 
   /// Calls back when the clearance of an agent of this simulator was lowered, with the newest
-  /// cause, and when earlier promises to it are void (Clearance::void_from_ns). The service repeats
-  /// each until it has arrived. Callbacks as for OnEvent().
+  /// cause, and when earlier promises to it are void (Clearance::void_from_ns; INT64_MIN, with
+  /// CAUSE_SKEW: all, since a clock was set). The service repeats each until it has arrived.
+  /// Callbacks as for OnEvent().
   void OnClearanceLowered(std::function<void(const AgentId&, const Clearance&)> callback);
   void OnVoid(std::function<void(const AgentId&, const Clearance&)> callback);
 
@@ -192,8 +201,9 @@ class Agent {
   /// been announced: others rely on it (AdvanceTo(), Poll()).
   void SetState(const State& state);
 
-  /// Announces a changed description. A wider bound counts once the service has acknowledged it,
-  /// from clearance().effective_from_ns on. Throws std::invalid_argument as AddAgent() does.
+  /// Announces a changed description. A wider bound counts from clearance().effective_from_ns on
+  /// once clearance().description_counts: with a wall clock, when all others have heard of it.
+  /// Throws std::invalid_argument as AddAgent() does.
   void SetDescription(const AgentDescription& description);
 
   /// The newest clearance received; before the first one, a clearance that promises nothing.

@@ -51,10 +51,10 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
   shapes_.Refer(simulator, wire.slot(), ShapeHashOf(wire), agent);
-  if (agent->admitted()) {
-    detector_.Redeclare(simulator->IdOf(wire.slot(), agent->generation()), agent->declaration,
-                        world_.EffectiveFrom(agent->stamp()));
-  }
+  if (!agent->admitted()) return;
+  const detection::AgentId id = simulator->IdOf(wire.slot(), agent->generation());
+  detector_.Redeclare(id, agent->declaration, world_.EffectiveFrom(agent->stamp()));
+  world_.AddRevision({id, wire.revision()});
 }
 
 void AgentRegistry::TakeState(Simulator* simulator, const v1::AgentStates& chunk,

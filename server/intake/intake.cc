@@ -107,6 +107,11 @@ void Intake::TakeClock(const v1::Input& input) {
   if (simulator == nullptr) return;
   sender_clocks_.Take(simulator, wire);
   SimulatorTime& time = simulator->time();
+  const bool asks = wire.lock_step() && wire.clock_ns() == Instant::Always().nanoseconds();
+  if (asks && world_.simulated()) {
+    world_.Join(simulator);
+    return simulator->refusals().Accept(v1::TOPIC_SIMULATOR_CLOCK, 0);
+  }
   const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));
   if (const auto* refusal = std::get_if<Refusal>(&decoded)) {
     if (wire.lock_step() != world_.simulated() && time.newest() == Instant::Always()) {

@@ -1,5 +1,6 @@
 #include "server/publish/publisher.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -39,8 +40,8 @@ v1::ServiceStamp Publisher::NextStamp() {
 }
 
 void Publisher::PublishClearances(World* world) {
-  if (!world->started()) return;
   for (auto& [id, simulator] : world->simulators()) {
+    // Before time begins only who asked for it is told.
     if (world->simulated() && !simulator.time().granted()) continue;
     // Chunk 0 last: a simulator that waits for the grant in it then has all the others.
     const std::set<std::uint32_t> chunks = simulator.agents().clearances().TakeChanged();
@@ -65,13 +66,16 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   Lowerings& lowerings = to->agents().clearances().lowerings();
   lowerings.Publish(chunk, clearance.stamp().sequence());
   clearance.set_contacts_sequence(events_.contacts);
+  clearance.set_forecasts_sequence(newest_forecast_);
   const auto& clearances = simulator.agents().clearances().all();
   const auto end = clearances.lower_bound((chunk + 1) * kSlotsPerChunk);
   for (auto next = clearances.lower_bound(chunk * kSlotsPerChunk); next != end; ++next) {
     const Agent& agent = *simulator.agents().Find(next->first);
     const Instant wanted = demand_.WantedAt(next->second, agent.stamp(), world.now());
     v1::AgentClearance& wire = *clearance.add_agents() =
-        Encode(next->second, agent.acknowledged_sequence(), agent.revision(), wanted);
+        Encode(next->second, agent.acknowledged_sequence(), agent.acknowledged_revision(), wanted);
+    wire.set_effective_from_ns(
+        std::max(next->second.effective_from, agent.acknowledged_from()).nanoseconds());
     Set(lowerings.Of(next->first), &wire);
   }
   bus_.Publish(output);
@@ -95,6 +99,7 @@ void Publisher::PublishEvents(const std::vector<detection::CollisionEvent>& even
       event.set_contacts_sequence(events_.contacts);
     }
     *event.mutable_stamp() = NextStamp();
+    if (!telling.contact) newest_forecast_ = event.stamp().sequence();
     bus_.Publish(output);
   }
 }

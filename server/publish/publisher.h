@@ -64,6 +64,7 @@ class Publisher {
   Bus& bus_;
   std::uint32_t epoch_ = 1;
   std::uint64_t sequence_ = 0;
+  std::uint64_t newest_forecast_ = 0;  ///< Its sequence; 0: there was none.
   EventLog event_log_;
   EventFilter filter_;
   EventCounters events_;

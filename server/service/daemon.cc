@@ -135,6 +135,7 @@ class Daemon::Implementation {
     std::int64_t due = schedule_.next_ns();
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
     if (const auto next = world_.NextRelease()) due = std::min(due, *next);
+    if (const auto next = world_.NextRevision()) due = std::min(due, *next);
     if (const auto next = claim_.NextDue()) due = std::min(due, *next);
     if (const auto next = reports_.next_ns()) due = std::min(due, *next);
     std::int64_t wait = due - world_.monotonic_ns();
@@ -314,6 +315,7 @@ class Daemon::Implementation {
   void PublishAnswers() {
     publisher_.PublishRejections(rejections_.Take());
     publisher_.PublishClearances(&world_);
+    if (world_.AcknowledgeRevisions()) publisher_.PublishClearances(&world_);
     publisher_.PublishReports(reports_.TakeDue(world_));
   }
 

@@ -61,6 +61,16 @@ void AgentTable::Revise(std::uint32_t slot, std::uint32_t revision,
   Agent& agent = AgentIn(slot);
   agent.revision_ = revision;
   agent.declaration = declaration;
+  if (!agent.admitted_) agent.acknowledged_revision_ = revision;
+  clearances_.MarkChanged(slot);
+}
+
+void AgentTable::AcknowledgeRevision(std::uint32_t slot, std::uint32_t generation,
+                                     std::uint32_t revision, Instant from) {
+  Agent* agent = Find(slot, generation);
+  if (agent == nullptr || revision <= agent->acknowledged_revision_) return;
+  agent->acknowledged_revision_ = revision;
+  agent->acknowledged_from_ = from;
   clearances_.MarkChanged(slot);
 }
 
@@ -80,7 +90,9 @@ void AgentTable::DropWaiting(std::uint32_t slot) {
 }
 
 void AgentTable::Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence) {
-  AgentIn(slot).admitted_ = true;
+  Agent& agent = AgentIn(slot);
+  agent.admitted_ = true;
+  agent.acknowledged_revision_ = agent.revision_;
   Acknowledge(slot, stamp, sequence);
 }
 

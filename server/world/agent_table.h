@@ -21,7 +21,10 @@ namespace collision::server {
 class Agent {
  public:
   Agent(std::uint32_t generation, std::uint32_t revision, const detection::AgentDeclaration& told)
-      : declaration(told), generation_(generation), revision_(revision) {}
+      : declaration(told),
+        generation_(generation),
+        revision_(revision),
+        acknowledged_revision_(revision) {}
 
   detection::AgentDeclaration declaration;  ///< With its shape once that is visible.
   std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
@@ -29,6 +32,9 @@ class Agent {
 
   std::uint32_t generation() const { return generation_; }
   std::uint32_t revision() const { return revision_; }
+  /// The revision that counts for everybody, and since when, if it does not since the admission.
+  std::uint32_t acknowledged_revision() const { return acknowledged_revision_; }
+  Instant acknowledged_from() const { return acknowledged_from_; }
   bool admitted() const { return admitted_; }
   Instant stamp() const { return stamp_; }  ///< Of the newest state in force; else Always().
   std::uint64_t acknowledged_sequence() const { return acknowledged_sequence_; }  ///< Likewise.
@@ -38,6 +44,8 @@ class Agent {
 
   std::uint32_t generation_;
   std::uint32_t revision_;
+  std::uint32_t acknowledged_revision_;
+  Instant acknowledged_from_ = Instant::Always();
   bool admitted_ = false;
   Instant stamp_ = Instant::Always();
   std::uint64_t acknowledged_sequence_ = 0;
@@ -85,9 +93,14 @@ class AgentTable {
   /// agent and that the generation has not ended.
   Agent* Add(std::uint32_t slot, const Agent& agent);
 
-  /// A newer revision of the description of the agent in `slot` is in force. Requires an agent.
+  /// A newer revision of the description of the agent in `slot` is in force. Of an agent that is
+  /// admitted it counts with AcknowledgeRevision(). Requires an agent.
   void Revise(std::uint32_t slot, std::uint32_t revision,
               const detection::AgentDeclaration& declaration);
+
+  /// This revision, if the agent in `slot` still has the generation, counts from `from` on.
+  void AcknowledgeRevision(std::uint32_t slot, std::uint32_t generation, std::uint32_t revision,
+                           Instant from);
 
   /// Replaces the state that waits in `slot`.
   void SetWaiting(std::uint32_t slot, const WaitingState& waiting);

@@ -21,7 +21,9 @@ World::World(const v1::Config& config, const std::vector<JournalledSimulator>& r
       simulators_awaited_(config.clock().simulators_awaited()),
       simulators_max_(config.simulators_max()),
       silence_(config, roster),
-      wall_time_(ToNanoseconds(config.clock().skew_max_s())) {}
+      wall_time_(ToNanoseconds(config.clock().skew_max_s())),
+      // Two clients' clocks may differ by twice the skew.
+      widenings_(wire::kServiceLease + 2 * ToNanoseconds(config.clock().skew_max_s())) {}
 
 Simulator* World::Find(std::uint64_t id) {
   const auto found = simulators_.find(id);
@@ -104,6 +106,16 @@ std::optional<RoundTrip> World::RoundTripOf(const v1::SimulatorClock& clock,
     trip.heard = Instant::FromNanoseconds(clock.heard_ns());
   }
   return trip;
+}
+
+void World::Join(Simulator* simulator) {
+  SimulatorTime& time = simulator->time();
+  if (time.newest() != Instant::Always()) return;
+  const Instant granted = std::max(granted_, silence_.roster().greatest_grant());
+  const Instant at = std::max(granted, started_ ? now_ : Instant());
+  time.Offer({.clock = at, .next = at, .lock_step = true});
+  time.Grant(at);
+  simulator->agents().clearances().MarkGrantChanged();
 }
 
 bool World::RunsInRounds() const {
@@ -197,6 +209,7 @@ void World::BeginEpoch() {
 
 void World::BeginWallEpoch() {
   for (auto& [id, simulator] : simulators_) simulator.RestartTime();
+  widenings_.Clear();
   ++epoch_;
   wall_time_.Restart();
   now_ = wall_time_.now();
@@ -234,6 +247,32 @@ Instant World::EffectiveFrom(Instant stamp) const {
   if (!simulated_) return now_;
   const Instant greatest = std::max(granted_, silence_.roster().greatest_grant());
   return greatest == Instant::Always() ? stamp : greatest;
+}
+
+void World::AddRevision(const Widening& revision) {
+  if (!simulated_) return widenings_.Add(revision);
+  Find(revision.agent.simulator)
+      ->agents()
+      .AcknowledgeRevision(revision.agent.slot, revision.agent.generation, revision.revision,
+                           Instant::Always());
+}
+
+bool World::AcknowledgeRevisions() {
+  if (widenings_.empty()) return false;
+  std::vector<Informed> informed;
+  for (const auto& [id, simulator] : simulators_) {
+    const Clearances& clearances = simulator.agents().clearances();
+    if (clearances.all().empty()) continue;
+    informed.push_back(
+        {id, clearances.lowerings().published(), clearances.lowerings().acknowledged()});
+  }
+  const std::vector<Widening> acknowledged = widenings_.Take(informed, monotonic_ns());
+  for (const auto& [agent, revision] : acknowledged) {
+    Simulator* simulator = Find(agent.simulator);
+    if (simulator == nullptr || simulator->run() != agent.run) continue;
+    simulator->agents().AcknowledgeRevision(agent.slot, agent.generation, revision, now_);
+  }
+  return !acknowledged.empty();
 }
 
 void World::SetClearance(const detection::AgentClearance& clearance) {

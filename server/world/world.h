@@ -15,6 +15,7 @@
 #include "server/world/silence/ended_runs.h"
 #include "server/world/simulator.h"
 #include "server/world/wall_clock/wall_time.h"
+#include "server/world/wall_clock/widenings.h"
 
 namespace collision::server {
 
@@ -74,6 +75,10 @@ class World {
   /// The daemon's clocks at this step. With a wall clock this moves `now`, and returns the step of
   /// the clock, if it was set. One that breaks the time needs BeginEpoch().
   std::optional<ClockStep> SetReading(const ClockReading& reading);
+
+  /// Simulated clock: a simulator that has no clock asks what time it is. The answer is a grant:
+  /// the greatest so far, or 0 before time has begun; time waits for its first clock there.
+  void Join(Simulator* simulator);
 
   /// Simulated clock: each simulator that holds time says when its next step is.
   bool RunsInRounds() const;
@@ -141,6 +146,15 @@ class World {
   /// greatest time granted to any simulator.
   Instant EffectiveFrom(Instant stamp) const;
 
+  /// The detector has a new description of an admitted agent, which counts from EffectiveFrom() on;
+  /// with a wall clock when everybody knows (Widenings).
+  void AddRevision(const Widening& revision);
+
+  /// Wall clock, after clearances were published: acknowledges the revisions that count from now
+  /// on. True: there are some, and their clearances are to be published again.
+  bool AcknowledgeRevisions();
+  std::optional<std::int64_t> NextRevision() const { return widenings_.NextDue(); }
+
   /// The detector gives an agent a new clearance. Ignored if the agent is not there any more.
   void SetClearance(const detection::AgentClearance& clearance);
 
@@ -183,6 +197,7 @@ class World {
   Instant granted_ = Instant::Always();
   ClockReading reading_;
   WallTime wall_time_;
+  Widenings widenings_;
 };
 
 /// Seconds of a configuration, as nanoseconds.

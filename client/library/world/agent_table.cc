@@ -165,11 +165,20 @@ std::vector<v1::AgentStates> AgentTable::SentStates() const {
   return chunks;
 }
 
-void AgentTable::ForgetSent() {
-  for (Slot& slot : slots_) slot.states.ForgetSent();
+std::vector<AgentId> AgentTable::ForgetSent() {
+  std::vector<AgentId> voided;
+  for (std::uint32_t index = 0; index < slots_.size(); ++index) {
+    Slot& slot = slots_[index];
+    const bool promised = slot.states.clearance().clear_until_ns != Clearance().clear_until_ns;
+    if (slot.occupied && promised) {
+      voided.push_back({simulator_id_, run_, index, slot.description.generation()});
+    }
+    slot.states.ForgetSent();
+  }
   stated_ = 0;
   standing_sequence_ = 0;
   taken_ns_ = std::numeric_limits<std::int64_t>::min();
+  return voided;
 }
 
 std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
@@ -227,6 +236,7 @@ bool AgentTable::SetClearance(const v1::AgentClearance& clearance, std::int64_t 
   Slot& slot = slots_[clearance.slot()];
   if (!slot.occupied || slot.description.generation() != clearance.generation()) return false;
   slot.states.SetClearance(FromMessage(clearance), clearance.acknowledged_sequence(), now_ns);
+  slot.acknowledged_revision = clearance.acknowledged_revision();
   const bool lowered = clearance.lowerings() > std::exchange(slot.lowerings, clearance.lowerings());
   return lowered && clearance.cause() != v1::CAUSE_NONE;
 }
@@ -236,7 +246,10 @@ void AgentTable::ForgetLowerings() {
 }
 
 Clearance AgentTable::clearance(const AgentId& id) const {
-  return slots_.at(id.slot).states.clearance();
+  const Slot& slot = slots_.at(id.slot);
+  Clearance clearance = slot.states.clearance();
+  clearance.description_counts = slot.acknowledged_revision == slot.description.revision();
+  return clearance;
 }
 
 std::uint32_t AgentTable::FreeSlot() {

@@ -48,8 +48,9 @@ class AgentTable {
   /// The states so that the highest sequence is in the last message: see TakeDue().
   std::vector<v1::AgentStates> SentStates() const;
 
-  /// The service has forgotten all states: each agent's next one is sent, whatever its stamp.
-  void ForgetSent();
+  /// The service has forgotten all states: each agent's next one is sent, whatever its stamp, and
+  /// no promise stands until then. Returns the agents that had one.
+  std::vector<AgentId> ForgetSent();
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
   /// of all its agents. Where an agent was removed, its last state stays in its chunk, and its slot
@@ -81,7 +82,8 @@ class AgentTable {
     v1::AgentDescription description;  ///< Keeps the generation, also while the slot is free.
     MotionBounds bounds;               ///< As described.
     OutgoingStates states;
-    std::uint32_t lowerings = 0;  ///< Of its clearance, as last heard.
+    std::uint32_t lowerings = 0;              ///< Of its clearance, as last heard.
+    std::uint32_t acknowledged_revision = 0;  ///< Likewise.
   };
 
   std::uint32_t FreeSlot();

@@ -49,6 +49,10 @@ Advance World::AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout
   return alive->AdvanceTo(clock_ns, timeout);
 }
 
+std::optional<std::int64_t> World::Join(std::chrono::nanoseconds timeout) {
+  return implementation_->Join(timeout);
+}
+
 void World::Finish() { implementation_->Finish(); }
 
 std::int64_t World::clock_ns() const { return implementation_->clock_ns(); }

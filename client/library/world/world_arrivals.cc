@@ -28,8 +28,13 @@ class Raised {
 
 void World::Implementation::BeginEpoch() {
   filter_ = {};
-  agents_.ForgetSent();
   clock_published_ = false;
+  for (const AgentId& id : agents_.ForgetSent()) {
+    Clearance none;
+    none.cause = v1::ClearanceCause_Name(v1::CAUSE_SKEW);
+    none.void_from_ns = kBeforeAll;
+    if (on_lowered_ || on_void_) lowered_.emplace_back(id, none);
+  }
 }
 
 bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
@@ -42,7 +47,8 @@ bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   const CurrentService::Time now = transport_->Now();
   OrderEvents(&arrivals.outputs);
   for (const v1::Output& output : arrivals.outputs) Handle(output, now);
-  const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, now);
+  const std::uint64_t forecast = lock_step_ ? forecasts_.newest() : ClearanceGate::kAllForecasts;
+  const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, forecast, now);
   for (const v1::Clearance& clearance : passed) Handle(clearance);
   Watch(now);
   while (!on_event_ && events_.size() > kEventsMax) {
@@ -121,6 +127,7 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
   if (service_.id() != id) {
     contacts_.Restart();
     gate_.Clear();
+    forecasts_.Clear();
     clearances_sequence_ = 0;
     agents_.ForgetLowerings();
     service_now_ns_ = now_ns;
@@ -152,7 +159,11 @@ Clearance World::Implementation::clearance(const AgentId& id) const {
 }
 
 void World::Implementation::Handle(const v1::CollisionEvent& event) {
-  if (!IsOwn(event.lower()) && !IsOwn(event.higher())) {
+  const bool own = IsOwn(event.lower()) || IsOwn(event.higher());
+  if (lock_step_ && event.contacts_sequence() == 0) {
+    forecasts_.Hear(event);
+    if (own) forecasts_.Hold(event);
+  } else if (!own) {
     if (event.contacts_sequence() > 0) contacts_.Take(event.contacts_sequence());
   } else if (filter_.IsNew(event, &contacts_)) {
     events_.push_back(FromMessage(event));
@@ -199,6 +210,13 @@ void World::Implementation::Deliver() {
     events_.pop_front();
     Call(on_event_, event);
   }
+}
+
+void World::Implementation::DeliverAll() {
+  for (const v1::CollisionEvent& event : forecasts_.Take()) {
+    if (filter_.IsNew(event, &contacts_)) events_.push_back(FromMessage(event));
+  }
+  Deliver();
 }
 
 template <typename Callback, typename... Values>

@@ -116,7 +116,7 @@ void World::Implementation::RemoveAgent(const AgentId& id) {
 
 void World::Implementation::Publish(std::int64_t clock_ns) {
   RequireForward(clock_ns);
-  next_ns_ = std::numeric_limits<std::int64_t>::min();
+  next_ns_ = kBeforeAll;
   if (clock_published_ && clock_ns > Reachable()) {
     throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) +
                                 ", allowed: <= " + std::to_string(Reachable()) + ", as granted");
@@ -128,11 +128,15 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
   RequireOutsideCallback("AdvanceTo()");
   RequireForward(clock_ns);
   const Deadline deadline = Until(timeout);
-  Poll(std::chrono::nanoseconds(0));
+  Listen(std::chrono::nanoseconds(0));
   while (!closed_) {
+    Deliver();
+    if (closed_) break;
     if (!lock_step_) {
       Send(clock_ns);
     } else if (clock_ns <= Reachable()) {
+      DeliverAll();
+      if (closed_) break;
       Reach(clock_ns);
     } else {
       if (!clock_published_) Reach(Reachable());
@@ -141,15 +145,35 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
     if (clock_published_ && clock_ns_ >= clock_ns) return Advance::kReached;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) break;
-    Poll(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
+    Listen(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
   }
   return Advance::kTimeout;
+}
+
+std::optional<std::int64_t> World::Implementation::Join(std::chrono::nanoseconds timeout) {
+  RequireOutsideCallback("Join()");
+  if (clock_published_) throw std::logic_error("Join() called after the first clock");
+  if (!lock_step_) return wall_clock_();
+  const Deadline deadline = Until(timeout);
+  while (granted_until_ns_ == kBeforeAll) {
+    // A clock without a time asks for it.
+    if (last_clock_.simulator_id() == 0 || IsQuiet()) WriteClock();
+    const auto remaining = deadline.Remaining();
+    if (remaining.count() == 0) return std::nullopt;
+    Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
+  }
+  return granted_until_ns_;
 }
 
 void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
   RequireOutsideCallback("Poll()");
   // Who waits here has nothing more to tell of this time, so the service may judge it.
   if (clock_due_ && timeout.count() > 0) Tell(clock_ns_ + 1);
+  Listen(timeout);
+  DeliverAll();
+}
+
+void World::Implementation::Listen(std::chrono::nanoseconds timeout) {
   const Deadline deadline = Until(timeout);
   std::chrono::nanoseconds left = timeout;
   do {
@@ -157,7 +181,6 @@ void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
     Tend();
     left = std::min(left, deadline.Remaining());
   } while (left.count() > 0);
-  Deliver();
 }
 
 std::vector<Event> World::Implementation::TakeEvents() { return TakeAll(&events_); }

@@ -12,12 +12,13 @@
 
 #include "client/api/world.h"
 #include "client/library/deadline.h"
+#include "client/library/network/clearance_gate.h"
 #include "client/library/network/current_service.h"
+#include "client/library/network/held_forecasts.h"
 #include "client/library/network/revision_filter.h"
 #include "client/library/network/transport.h"
 #include "client/library/world/agent_table.h"
 #include "client/library/world/arrival.h"
-#include "client/library/world/clearance_gate.h"
 #include "client/library/world/service_echo.h"
 #include "client/library/world/shape_publisher.h"
 #include "client/library/world/waiting_list.h"
@@ -26,6 +27,9 @@ namespace collision::client {
 
 inline constexpr std::size_t kEventsMax = 65536;     ///< Kept without a callback.
 inline constexpr std::size_t kRejectionsMax = 1024;  ///< Kept until they are taken.
+
+/// Before every other time: there is none yet.
+inline constexpr std::int64_t kBeforeAll = std::numeric_limits<std::int64_t>::min();
 
 /// Period of repeating the clock while nothing else is written: a service that counted this
 /// simulator as dead (it was stopped for longer than the liveliness lease) notices that it is back.
@@ -45,6 +49,7 @@ class World::Implementation {
 
   void Publish(std::int64_t clock_ns);
   Advance AdvanceTo(std::int64_t clock_ns, std::chrono::nanoseconds timeout);
+  std::optional<std::int64_t> Join(std::chrono::nanoseconds timeout);
   void Poll(std::chrono::nanoseconds timeout);
 
   void Finish();
@@ -115,6 +120,9 @@ class World::Implementation {
   /// Wall clock: the service's clock was set, and it has forgotten all states.
   void BeginEpoch();
 
+  /// Waits for an arrival, and repeats meanwhile what is due.
+  void Listen(std::chrono::nanoseconds timeout);
+
   /// Takes in what arrives within `timeout`, without callbacks.
   /// False: nothing has arrived.
   bool Gather(std::chrono::nanoseconds timeout);
@@ -133,8 +141,9 @@ class World::Implementation {
   /// Notes when the service in force is heard no longer, and when one is heard again.
   void Watch(CurrentService::Time now);
 
-  /// Runs the callbacks for what has been received.
+  /// Runs the callbacks for what has been received, or for that and the forecasts that are held.
   void Deliver();
+  void DeliverAll();
   template <typename Callback, typename... Values>
   void Call(const Callback& callback, const Values&... values);
 
@@ -150,21 +159,22 @@ class World::Implementation {
   ContactSequence contacts_;
   RevisionFilter filter_;
   ClearanceGate gate_;
+  HeldForecasts forecasts_;
   std::function<std::int64_t()> wall_clock_;
   ServiceEcho echo_;
 
-  std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();
-  std::int64_t granted_until_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t clock_ns_ = kBeforeAll;
+  std::int64_t granted_until_ns_ = kBeforeAll;
   std::optional<bool> simulated_clock_;
   bool clock_published_ = false;
   /// Nothing of any time before this one follows, as the service has been told or is told with the
   /// next clock; not above the clock: it is not told.
-  std::int64_t next_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::int64_t next_ns_ = kBeforeAll;
   bool clock_due_ = false;  ///< The clock has been reached by AdvanceTo(), and is not written.
   v1::SimulatorClock last_clock_;  ///< As written.
   Arrival::Time clock_written_{};
 
-  std::int64_t service_now_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Newest heard.
+  std::int64_t service_now_ns_ = kBeforeAll;  ///< Newest heard.
   std::uint64_t clearances_sequence_ = 0;  ///< Of the newest clearance taken in, of this service.
   bool service_lost_ = false;
   std::optional<bool> lost_news_;  ///< It was lost (true) or is back, and that was not told yet.

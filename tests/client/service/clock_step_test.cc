@@ -55,6 +55,11 @@ TEST_P(ClockStepTest, TheContactIsToldAgainAndConfirmed) {
   };
   fly(3);
   ASSERT_FALSE(left.TakeEvents().empty());
+  std::vector<std::string> voided;
+  left.OnVoid([&](const AgentId&, const Clearance& clearance) {
+    voided.push_back(clearance.cause);
+    EXPECT_EQ(clearance.void_from_ns, std::numeric_limits<std::int64_t>::min());
+  });
   service_.clocks().wall_ns += GetParam();
   const std::size_t before = service_.said().size();
   fly(6);
@@ -74,6 +79,7 @@ TEST_P(ClockStepTest, TheContactIsToldAgainAndConfirmed) {
     }
   }
   EXPECT_TRUE(offset_known);
+  EXPECT_EQ(voided, std::vector<std::string>{"CAUSE_SKEW"});
   EXPECT_LE(refused, 8) << "what was on its way";
   for (World* world : {&left, &right}) {
     bool confirmed = false;

@@ -3,8 +3,8 @@
 // Method: clearances, contacts and statuses on a network under the test's control.
 #include <gtest/gtest.h>
 
+#include "client/library/network/clearance_gate.h"
 #include "client/library/network/message_monitor.h"
-#include "client/library/world/clearance_gate.h"
 #include "idl/limits.h"
 #include "tests/client/fake_transport.h"
 
@@ -69,6 +69,52 @@ TEST_F(ContactsTest, ContactsOfOthersCountForTheGrantButAreNotDelivered) {
   world_.Poll();
   EXPECT_EQ(world_.granted_until_ns(), 50);
   EXPECT_TRUE(world_.TakeEvents().empty());
+}
+
+/// The forecast that is published under this number: the newest of its pair slot.
+v1::CollisionEvent Forecast(std::uint64_t sequence, std::uint32_t revision) {
+  v1::CollisionEvent event = OwnEvent(1, revision, sequence);
+  event.set_status(v1::EVENT_POSSIBLE);
+  return event;
+}
+
+TEST_F(ContactsTest, AGrantWaitsForTheForecastsBeforeIt) {
+  Grant(50, 0);
+  network_->arriving.back().mutable_clearance()->set_forecasts_sequence(7);
+  Arrive(Forecast(6, 1));
+  world_.Poll();
+  EXPECT_NE(world_.granted_until_ns(), 50);
+  Arrive(Forecast(8, 2));  // in place of 7
+  world_.Poll();
+  EXPECT_EQ(world_.granted_until_ns(), 50);
+}
+
+TEST_F(ContactsTest, AStepIsToldTheNewestForecastOfEachPairWhateverCameBefore) {
+  for (const bool overwritten : {false, true}) {
+    std::vector<std::uint32_t> revisions;
+    world_.OnEvent([&](const Event& event) { revisions.push_back(event.revision); });
+    const std::uint32_t newest = overwritten ? 8 : 4;
+    const std::int64_t step = overwritten ? 20 : 10;
+    network_->on_wait = [&, step, newest](FakeNetwork* network) {
+      if (!overwritten) Arrive(Forecast(newest - 1, newest - 1));
+      Arrive(Forecast(newest, newest));
+      network->Grant(step);
+      network->arriving.back().mutable_clearance()->set_forecasts_sequence(newest);
+    };
+    EXPECT_EQ(world_.AdvanceTo(step, hours(1)), Advance::kReached);
+    EXPECT_EQ(revisions, std::vector<std::uint32_t>{newest});
+  }
+}
+
+TEST_F(ContactsTest, AContactIsNotFollowedByAForecastThatItHasReplaced) {
+  Arrive(Forecast(1, 1));
+  Arrive(Contact(2, 2));
+  Grant(50, 2);
+  network_->arriving.back().mutable_clearance()->set_forecasts_sequence(1);
+  world_.AdvanceTo(0, nanoseconds(0));
+  const std::vector<Event> events = world_.TakeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].revision, 2u);
 }
 
 TEST_F(ContactsTest, AGapIsCountedAndHoldsNothingUp) {

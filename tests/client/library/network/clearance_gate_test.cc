@@ -1,7 +1,7 @@
-// Goal:   a clearance passes with the contacts before it, in its order, or when these are given up:
+// Goal:   a clearance passes with the events before it, in its order, or when these are given up:
 //         after the patience, or when too many wait.
-// Method: clearances and contacts in chosen orders at chosen times.
-#include "client/library/world/clearance_gate.h"
+// Method: clearances and events in chosen orders at chosen times.
+#include "client/library/network/clearance_gate.h"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ class ClearanceGateTest : public testing::Test {
   /// The contacts named by the clearances that pass.
   std::vector<std::uint64_t> Passed(ClearanceGate::Time now = kStart) {
     std::vector<std::uint64_t> passed;
-    for (const v1::Clearance& clearance : gate_.Take(&contacts_, now)) {
+    for (const v1::Clearance& clearance : gate_.Take(&contacts_, newest_forecast_, now)) {
       passed.push_back(clearance.contacts_sequence());
     }
     return passed;
@@ -33,6 +33,7 @@ class ClearanceGateTest : public testing::Test {
 
   using Numbers = std::vector<std::uint64_t>;
   ContactSequence contacts_;
+  std::uint64_t newest_forecast_ = ClearanceGate::kAllForecasts;
   ClearanceGate gate_;
 };
 
@@ -67,6 +68,20 @@ TEST_F(ClearanceGateTest, AfterThePatienceTheContactsCountAsMissed) {
   EXPECT_EQ(gate_.Remaining(kStart + ClearanceGate::kPatience), milliseconds(500));
   EXPECT_EQ(Passed(kStart + ClearanceGate::kPatience + milliseconds(500)), Numbers{5});
   EXPECT_EQ(contacts_.missed(), 4u);
+}
+
+TEST_F(ClearanceGateTest, AClearanceWaitsForAForecastThatIsNotOlderAndThenForThePatience) {
+  v1::Clearance clearance = Naming(0);
+  clearance.set_forecasts_sequence(20);
+  newest_forecast_ = 19;
+  gate_.Add(clearance, kStart);
+  EXPECT_EQ(Passed(), Numbers{});
+  newest_forecast_ = 21;  // 20 was overwritten
+  EXPECT_EQ(Passed(), Numbers{0});
+  newest_forecast_ = 19;
+  gate_.Add(clearance, kStart);
+  EXPECT_EQ(Passed(kStart + ClearanceGate::kPatience - nanoseconds(1)), Numbers{});
+  EXPECT_EQ(Passed(kStart + ClearanceGate::kPatience), Numbers{0});
 }
 
 TEST_F(ClearanceGateTest, BeyondItsRoomTheOldestPasses) {

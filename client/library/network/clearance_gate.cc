@@ -1,4 +1,4 @@
-#include "client/library/world/clearance_gate.h"
+#include "client/library/network/clearance_gate.h"
 
 #include <algorithm>
 #include <utility>
@@ -9,13 +9,15 @@ void ClearanceGate::Add(const v1::Clearance& clearance, Time now) {
   waiting_.push_back({clearance, now});
 }
 
-std::vector<v1::Clearance> ClearanceGate::Take(ContactSequence* contacts, Time now) {
+std::vector<v1::Clearance> ClearanceGate::Take(ContactSequence* contacts,
+                                               std::uint64_t newest_forecast, Time now) {
   std::vector<v1::Clearance> passed;
   while (!waiting_.empty()) {
     auto& [clearance, since] = waiting_.front();
     const bool overdue = now - since >= kPatience || waiting_.size() > kWaitingMax;
     if (overdue) contacts->GiveUp(clearance.contacts_sequence());
     if (!contacts->HasAll(clearance.contacts_sequence())) break;
+    if (!overdue && clearance.forecasts_sequence() > newest_forecast) break;
     passed.push_back(std::move(clearance));
     waiting_.pop_front();
   }
