@@ -1,59 +1,16 @@
-// One case of the stress suite: what is promised, and what was measured.
+// The cases of the stress suite.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <utility>
 #include <vector>
+
+#include "tests/support/suite/case.h"
 
 namespace collision::stress {
 
-/// How much a case does. The quick part runs with all tests.
-struct Setting {
-  bool quick = true;
-
-  /// So many of something: fewer in the quick part.
-  int Many(int in_quick, int in_full) const { return quick ? in_quick : in_full; }
-};
-
-/// What came out of a case: checks that hold or do not, and numbers.
-class Outcome {
- public:
-  /// Counts a check; the first one that fails is reported. Returns `holds`.
-  bool Expect(bool holds, const std::string& what);
-
-  /// A number for the report, finite.
-  void Set(const std::string& name, double value);
-  /// The greatest of all that were given under this name.
-  void Greatest(const std::string& name, double value);
-  void Add(const std::string& name, double value);
-  double Get(const std::string& name) const;  ///< 0 where there is none.
-
-  /// What was measured, as a sentence.
-  void Say(const std::string& sentence) { said_ = sentence; }
-
-  bool passed() const { return failures_ == 0 && checks_ > 0; }
-  std::uint64_t checks() const { return checks_; }
-  /// The sentence; where a check failed that one first.
-  std::string Measured() const;
-  const std::vector<std::pair<std::string, double>>& numbers() const { return numbers_; }
-
- private:
-  double& Slot(const std::string& name, double initial);
-
-  std::uint64_t checks_ = 0, failures_ = 0;
-  std::string first_failure_, said_;
-  std::vector<std::pair<std::string, double>> numbers_;
-};
-
-struct Case {
-  std::string group;  ///< stiff, extreme or long.
-  std::string name;
-  std::string promise;
-  void (*run)(const Setting& setting, Outcome* outcome);
-
-  std::string full_name() const { return group + "/" + name; }
-};
+using suite::Case;
+using suite::Outcome;
+using suite::Setting;
+using suite::Show;
 
 /// In the order of the report.
 std::vector<Case> AllCases();
@@ -68,8 +25,5 @@ std::vector<Case> EdgeCases();
 std::vector<Case> RestingCases();
 std::vector<Case> SceneCases();
 std::vector<Case> ViolentCases();
-
-/// A number in a sentence.
-std::string Show(double value);
 
 }  // namespace collision::stress

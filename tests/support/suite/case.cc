@@ -1,11 +1,11 @@
-#include "tests/stress/case.h"
+#include "tests/support/suite/case.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-namespace collision::stress {
+namespace collision::suite {
 
 bool Outcome::Expect(bool holds, const std::string& what) {
   ++checks_;
@@ -61,14 +61,4 @@ std::string Show(double value) {
   return text;
 }
 
-std::vector<Case> AllCases() {
-  std::vector<Case> all;
-  for (const auto& part :
-       {PairCases(), ContractCases(), ShapeCases(), BracketCases(), SceneCases(), RestingCases(),
-        ViolentCases(), CrowdCases(), EdgeCases(), LongCases()}) {
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  return all;
-}
-
-}  // namespace collision::stress
+}  // namespace collision::suite

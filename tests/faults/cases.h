@@ -1,0 +1,16 @@
+// The cases of the faults suite.
+#pragma once
+
+#include <vector>
+
+#include "tests/support/suite/case.h"
+
+namespace collision::faults {
+
+using suite::Case;
+using suite::Outcome;
+using suite::Setting;
+
+std::vector<Case> NetworkCases();
+
+}  // namespace collision::faults

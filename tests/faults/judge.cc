@@ -1,0 +1,232 @@
+#include "tests/faults/judge.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "client/library/network/conversion.h"
+#include "idl/identity.h"
+#include "tests/support/truth/ball_contacts.h"
+
+namespace collision::faults {
+namespace {
+
+using client::Event;
+using client::EventStatus;
+
+struct Body {
+  const SimulatorProgram* program;
+  const Flown* flown;
+
+  std::string Text() const {
+    return program->options().name + "." + std::to_string(flown->id.slot);
+  }
+  bool Is(const client::AgentId& id) const {
+    return id.slot == flown->id.slot && id.generation == flown->id.generation &&
+           id.simulator == flown->id.simulator && program->runs().contains(id.run);
+  }
+};
+
+/// One story: (service, epoch, contact) of a pair, as the monitor was told of it.
+using StoryKey = std::tuple<std::uint64_t, std::uint32_t, std::uint32_t>;
+using Stories = std::map<StoryKey, std::vector<const MonitoredEvent*>>;
+
+bool Confirmed(EventStatus status) {
+  return status == EventStatus::kConfirmed || status == EventStatus::kEnded;
+}
+
+class PairJudge {
+ public:
+  PairJudge(const Body& a, const Body& b, const MonitorProgram& monitor,
+            const JudgeOptions& options, Judgement* judgement)
+      : a_(a), b_(b), options_(options), result_(*judgement) {
+    for (const MonitoredEvent& heard : monitor.heard()) {
+      const Event event = client::FromMessage(heard.event);
+      if (!IsOfPair(event)) continue;
+      const v1::ServiceStamp& stamp = heard.event.stamp();
+      stories_[{stamp.service_id(), stamp.epoch(), event.contact}].push_back(&heard);
+    }
+  }
+
+  void Run() {
+    const Flown &a = *a_.flown, &b = *b_.flown;
+    const std::int64_t from = std::max(*a.added_ns, *b.added_ns);
+    const std::int64_t to = std::min(EndOf(a_), EndOf(b_));
+    if (from < to) {
+      contacts_ = BallContacts(a.flight.motion, b.flight.motion, a.flight.radius + b.flight.radius,
+                               from, to);
+    }
+    for (const BallContact& contact : contacts_) {
+      if (contact.depth >= options_.grazing) JudgeContact(contact);
+    }
+    for (const auto& [key, story] : stories_) JudgeStory(story);
+  }
+
+ private:
+  static std::int64_t EndOf(const Body& body) {
+    return std::min(body.flown->removed_ns, body.program->reached_ns());
+  }
+
+  bool IsOfPair(const Event& event) const {
+    return (a_.Is(event.lower) && b_.Is(event.higher)) ||
+           (a_.Is(event.higher) && b_.Is(event.lower));
+  }
+
+  std::int64_t Rel(std::int64_t instant_ns) const {
+    return instant_ns == client::kNever || instant_ns == kAlways ? instant_ns
+                                                                 : instant_ns - options_.base_ns;
+  }
+
+  void Fail(std::uint64_t* count, const std::string& what) {
+    ++*count;
+    result_.failures.push_back(a_.Text() + " and " + b_.Text() + ": " + what);
+  }
+
+  /// Whether the event, as it stood, says that a contact may begin then.
+  bool Covers(const Event& event, std::int64_t begin_ns) const {
+    if (event.status == EventStatus::kDismissed) return false;
+    const std::int64_t latest =
+        Confirmed(event.status) ? event.begin.latest_ns : event.end.latest_ns;
+    return Rel(event.begin.earliest_ns) <= begin_ns + options_.tolerance_ns &&
+           begin_ns - options_.tolerance_ns <= Rel(latest);
+  }
+
+  void JudgeContact(const BallContact& contact) {
+    ++result_.contacts;
+    const std::int64_t begin = contact.begin_ns;
+    const auto unserved = [begin](const auto& gap) {
+      return gap.first <= begin && begin <= gap.second;
+    };
+    const bool is_served =
+        std::none_of(options_.unserved.begin(), options_.unserved.end(), unserved);
+    if (!is_served) ++result_.unserved;
+    if (contact.begins_in_motion) {
+      if (is_served) JudgeAnnouncement(begin);
+      for (const Body* body : {&a_, &b_}) JudgeReliance(*body, begin, is_served);
+    }
+    for (const auto& [key, story] : stories_) {
+      const Event last = client::FromMessage(story.back()->event);
+      if (!Confirmed(last.status) || !Covers(last, begin)) continue;
+      ++result_.confirmed;
+      return;
+    }
+  }
+
+  /// The monitor must have been told, and at a time of the world that is not after the begin.
+  void JudgeAnnouncement(std::int64_t begin) {
+    std::int64_t first = client::kNever;
+    for (const auto& [key, story] : stories_) {
+      for (const MonitoredEvent* heard : story) {
+        const Event event = client::FromMessage(heard->event);
+        if (Covers(event, begin)) first = std::min(first, Rel(event.now_ns));
+      }
+    }
+    if (first > begin + options_.tolerance_ns) {
+      return Fail(&result_.late, "contact at " + std::to_string(begin) + " ns, announced at " +
+                                     std::to_string(first));
+    }
+    result_.notice_least_s =
+        std::min(result_.notice_least_s, 1e-9 * static_cast<double>(begin - first));
+  }
+
+  /// What the program heard of this contact before its own clock passed the begin, and what it
+  /// relied on until then.
+  void JudgeReliance(const Body& body, std::int64_t begin, bool is_served) {
+    std::int64_t told_at = client::kNever;  // Virtual time.
+    bool in_time = false;
+    for (const HeardEvent& heard : body.program->heard()) {
+      if (!IsOfPair(heard.event) || !Covers(heard.event, begin)) continue;
+      told_at = std::min(told_at, heard.at_ns);
+      in_time |= heard.world_ns <= begin + options_.tolerance_ns;
+    }
+    if (!in_time && is_served) {
+      Fail(&result_.unheard, "contact at " + std::to_string(begin) + " ns, not heard in time by " +
+                                 body.program->options().name);
+    }
+    const std::vector<Reliance>& relied = body.flown->relied;
+    const Reliance* last = nullptr;
+    for (const Reliance& promise : relied) {
+      if (promise.world_ns >= begin || promise.at_ns >= told_at) break;
+      ++result_.promises;
+      last = &promise;
+      if (!options_.lowered) JudgePromise(body, promise, begin);
+    }
+    if (options_.lowered && last != nullptr) JudgePromise(body, *last, begin);
+  }
+
+  void JudgePromise(const Body& body, const Reliance& promise, std::int64_t begin) {
+    if (promise.clear_until_ns <= begin + options_.tolerance_ns) return;
+    Fail(&result_.relied, "contact at " + std::to_string(begin) + " ns; at " +
+                              std::to_string(promise.world_ns) + " " + body.Text() +
+                              " was clear until " + std::to_string(promise.clear_until_ns));
+  }
+
+  void JudgeStory(const std::vector<const MonitoredEvent*>& story) {
+    for (const MonitoredEvent* heard : story) {
+      const Event event = client::FromMessage(heard->event);
+      if (Confirmed(event.status)) JudgeConfirmed(event);
+    }
+    const Event last = client::FromMessage(story.back()->event);
+    if (!Confirmed(last.status)) return;
+    result_.begin_width_s =
+        std::max(result_.begin_width_s,
+                 1e-9 * static_cast<double>(last.begin.latest_ns - last.begin.earliest_ns));
+  }
+
+  bool Holds(const client::TimeBracket& bracket, std::int64_t t_ns) const {
+    return Rel(bracket.earliest_ns) <= t_ns + options_.tolerance_ns &&
+           t_ns - options_.tolerance_ns <= Rel(bracket.latest_ns);
+  }
+
+  void JudgeConfirmed(const Event& event) {
+    const std::int64_t certified = Rel(event.begin.latest_ns);
+    const auto is_in = [&](const BallContact& contact) {
+      return contact.begin_ns - options_.tolerance_ns <= certified &&
+             certified <= contact.end_ns + options_.tolerance_ns;
+    };
+    const auto found = std::find_if(contacts_.begin(), contacts_.end(), is_in);
+    if (found == contacts_.end()) {
+      return Fail(&result_.untrue, "confirmed at " + std::to_string(certified) + " ns, untrue");
+    }
+    if (found->begins_in_motion && !event.began_before && !Holds(event.begin, found->begin_ns)) {
+      Fail(&result_.wrong_brackets,
+           "begin " + std::to_string(found->begin_ns) + " ns is not in the bracket");
+    }
+    if (event.status != EventStatus::kEnded || !event.because.empty()) return;
+    const auto ends = [&](const BallContact& contact) {
+      return contact.end_ns >= found->begin_ns &&
+             (!contact.ends_in_motion || Holds(event.end, contact.end_ns));
+    };
+    if (std::none_of(contacts_.begin(), contacts_.end(), ends)) {
+      Fail(&result_.wrong_brackets,
+           "end " + std::to_string(found->end_ns) + " ns is not in the bracket");
+    }
+  }
+
+  const Body &a_, &b_;
+  const JudgeOptions& options_;
+  Judgement& result_;
+  Stories stories_;
+  std::vector<BallContact> contacts_;
+};
+
+}  // namespace
+
+Judgement Judge(const std::vector<const SimulatorProgram*>& programs, const MonitorProgram& monitor,
+                const JudgeOptions& options) {
+  Judgement judgement;
+  std::vector<Body> bodies;
+  for (const SimulatorProgram* program : programs) {
+    for (const Flown& flown : program->flown()) {
+      if (flown.added_ns) bodies.push_back({program, &flown});
+    }
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+      PairJudge(bodies[i], bodies[j], monitor, options, &judgement).Run();
+    }
+  }
+  return judgement;
+}
+
+}  // namespace collision::faults

@@ -1,0 +1,137 @@
+#include "tests/faults/scene.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "server/config/config.h"
+
+namespace collision::faults {
+
+v1::Config LockStepConfig(std::size_t simulators) {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::SIMULATED);
+  config.mutable_clock()->set_simulators_awaited(static_cast<std::uint32_t>(simulators));
+  return config;
+}
+
+v1::Config WallConfig(double skew_max_s) {
+  v1::Config config;
+  config.mutable_clock()->set_kind(v1::Clock::WALL);
+  config.mutable_clock()->set_skew_max_s(skew_max_s);
+  return config;
+}
+
+NetworkOptions Perfect(std::uint64_t seed) { return {.seed = seed, .delay_max_ns = 50'000}; }
+
+NetworkOptions Faulty(std::uint64_t seed) {
+  return {.seed = seed, .loss = 0.1, .duplicate = 0.1, .delay_max_ns = 5 * kMillisecond};
+}
+
+std::vector<Flight> Wanderers(int count, std::int64_t end_ns, Random* random) {
+  std::vector<Flight> flights;
+  for (int i = 0; i < count; ++i) {
+    const server::WanderOptions options{.half_side = 4, .speed = 6, .acceleration_max = 4};
+    Motion motion = server::Wander(options, end_ns, random);
+    flights.push_back({.motion = std::move(motion),
+                       .radius = random->Uniform(0.4, 1.2),
+                       .acceleration_max = options.acceleration_max});
+  }
+  return flights;
+}
+
+Scene::Scene(const v1::Config& config, const NetworkOptions& network)
+    : config_(server::CompleteConfig(config)), network_(network) {}
+
+Scene::~Scene() {
+  services_.clear();
+  std::error_code ignored;
+  if (!state_dir_.empty()) std::filesystem::remove_all(state_dir_, ignored);
+}
+
+std::string Scene::StateDir() {
+  static int count = 0;
+  state_dir_ = (std::filesystem::temp_directory_path() /
+                ("faults-" + std::to_string(getpid()) + "-" + std::to_string(++count)))
+                   .string();
+  return state_dir_;
+}
+
+ServiceProgram& Scene::AddService(const ServiceOptions& options) {
+  services_.push_back(std::make_unique<ServiceProgram>(config_, options, &network_));
+  return *services_.back();
+}
+
+SimulatorProgram& Scene::AddSimulator(const SimulatorOptions& options,
+                                      std::vector<Flight> flights) {
+  simulators_.push_back(std::make_unique<SimulatorProgram>(options, std::move(flights), &network_));
+  return *simulators_.back();
+}
+
+MonitorProgram& Scene::AddMonitor() {
+  monitors_.push_back(std::make_unique<MonitorProgram>(&network_));
+  return *monitors_.back();
+}
+
+void Scene::StartAll() {
+  for (const auto& service : services_) service->Start();
+  for (const auto& monitor : monitors_) monitor->Start();
+  for (const auto& simulator : simulators_) simulator->Start();
+}
+
+bool Scene::RunToEnd(std::int64_t limit_ns) {
+  const auto over = [this] {
+    return std::all_of(simulators_.begin(), simulators_.end(), [](const auto& simulator) {
+      return simulator->finished() || simulator->killed();
+    });
+  };
+  while (!over() && network_.now_ns() < limit_ns) {
+    network_.Run(network_.now_ns() + kSecond / 10);
+  }
+  const bool ended = over();
+  network_.Run(network_.now_ns() + 5 * kSecond);
+  return ended;
+}
+
+std::vector<const SimulatorProgram*> Scene::simulators() const {
+  std::vector<const SimulatorProgram*> all;
+  for (const auto& simulator : simulators_) all.push_back(simulator.get());
+  return all;
+}
+
+Judgement Scene::Judged(const JudgeOptions& options, std::size_t monitor) const {
+  return Judge(simulators(), *monitors_[monitor], options);
+}
+
+void Report(const Judgement& judgement, std::uint64_t seed, suite::Outcome* outcome) {
+  const std::string first = judgement.failures.empty() ? "" : judgement.failures.front();
+  outcome->Expect(judgement.holds(), "seed " + std::to_string(seed) + ": " + first + ", first of " +
+                                         std::to_string(judgement.failures.size()));
+  outcome->Add("runs", 1);
+  outcome->Add("contacts", static_cast<double>(judgement.contacts));
+  outcome->Add("confirmed", static_cast<double>(judgement.confirmed));
+  outcome->Add("late", static_cast<double>(judgement.late));
+  outcome->Add("unheard", static_cast<double>(judgement.unheard));
+  outcome->Add("relied_wrongly", static_cast<double>(judgement.relied));
+  outcome->Add("promises", static_cast<double>(judgement.promises));
+  outcome->Add("brackets_wrong", static_cast<double>(judgement.wrong_brackets + judgement.untrue));
+  outcome->Greatest("begin_width_s", judgement.begin_width_s);
+}
+
+void ExpectAllHeard(const Scene&, const MonitorProgram& monitor, std::uint64_t seed,
+                    suite::Outcome* outcome) {
+  const std::string where = "seed " + std::to_string(seed) + ": ";
+  std::uint64_t heard = 0, gaps = 0;
+  for (const auto& [service, numbers] : monitor.contacts()) {
+    heard += numbers.size();
+    gaps += *numbers.rbegin() - numbers.size() - (*numbers.begin() - 1);
+  }
+  outcome->Expect(heard > 0, where + "the monitor heard of no contact");
+  outcome->Expect(gaps == 0, where + std::to_string(gaps) + " contacts were not heard");
+  outcome->Expect(monitor.contacts_missed() == 0,
+                  where + std::to_string(monitor.contacts_missed()) + " contacts count as missed");
+  outcome->Expect(monitor.out_of_order() == 0, where + "contacts out of order");
+}
+
+}  // namespace collision::faults
