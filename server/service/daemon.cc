@@ -89,7 +89,8 @@ class Daemon::Implementation {
     if (!Claim(inputs)) return false;
     if (clock_step_) FollowStep(*clock_step_);
     for (const v1::Input& input : inputs) intake_.Apply(input);
-    intake_.TakeClocks();
+    batch_was_full_ = IsFull(inputs);
+    if (!batch_was_full_) intake_.TakeClocks();
     const bool restarts = ObeyOperators(inputs);
     const bool removed = RemoveSilent();
     ReportSilence(world_.ReleaseSilent());
@@ -128,9 +129,19 @@ class Daemon::Implementation {
     }
   }
 
+  /// Whether more may have arrived than was taken. The network hands on instance by instance, so a
+  /// clock may have come with the newest of the states that it counts while older ones of other
+  /// agents still wait: no clock comes into force then.
+  bool IsFull(const std::vector<v1::Input>& inputs) const {
+    const auto received = std::count_if(inputs.begin(), inputs.end(), [](const v1::Input& input) {
+      return !input.has_shape_ready();
+    });
+    return received >= static_cast<std::ptrdiff_t>(config_.inputs_per_batch_max());
+  }
+
   /// The time until something is due without any input.
   std::chrono::nanoseconds Timeout() const {
-    if (shape_builder_->has_finished()) return std::chrono::nanoseconds(0);
+    if (shape_builder_->has_finished() || batch_was_full_) return std::chrono::nanoseconds(0);
     if (world_.RunsInRounds() && NextRound()) return std::chrono::nanoseconds(0);
     std::int64_t due = schedule_.next_ns();
     if (const auto next = intake_.NextDue()) due = std::min(due, *next);
@@ -374,6 +385,7 @@ class Daemon::Implementation {
   SilenceReport silence_report_;
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
+  bool batch_was_full_ = false;
   std::atomic<bool> stopped_ = false;
 };
 
