@@ -1,4 +1,5 @@
-// Goal:   a World chooses a run of its own, and knows which kind of clock the service has.
+// Goal:   a World chooses a run of its own, takes no step while another program has its name, and
+//         knows which kind of clock the service has.
 // Method: a network under the test's control; the run is compared with the clock before and after.
 #include <gtest/gtest.h>
 
@@ -36,6 +37,29 @@ TEST(RunAndClock, TheServiceSaysTheKindOfItsClock) {
     world.Poll();
     EXPECT_EQ(world.simulated_clock(), simulated);
   }
+}
+
+// Goal:   the first states and the first clock are sent together, also where the grant arrives before
+//         the word that the name is free: others rely on where the agents are from then on.
+TEST(RunAndClock, NoStepIsTakenWhileAnotherProgramHasTheName) {
+  using namespace std::chrono_literals;
+  const auto network = std::make_shared<FakeNetwork>();
+  World world = ConnectTo(network);
+  network->Report(kRun - 1, kIncarnation + 1, true);
+  EXPECT_FALSE(world.Join(0ns));
+  EXPECT_NE(world.waits_for_name(), "");
+  network->Grant(5);
+  ASSERT_EQ(world.Join(0ns), 5);
+  const Agent ball = world.AddAgent({.name = "ball"}, {.stamp_ns = 5});
+  EXPECT_EQ(world.AdvanceTo(5, 0ns), Advance::kTimeout);
+  EXPECT_TRUE(network->States().empty());
+  network->Report(kRun - 1, kIncarnation + 1, false);
+  EXPECT_EQ(world.AdvanceTo(5, 0ns), Advance::kReached);
+  EXPECT_EQ(world.AdvanceTo(6, 0ns), Advance::kTimeout);
+  EXPECT_EQ(network->Clocks().back().clock_ns(), 5);
+  EXPECT_EQ(network->Clocks().back().states_sequence(), 1u);
+  ASSERT_FALSE(network->States().empty());
+  EXPECT_EQ(network->States().back().states(0).stamp_ns(), 5);
 }
 
 }  // namespace
