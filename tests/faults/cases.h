@@ -12,5 +12,6 @@ using suite::Outcome;
 using suite::Setting;
 
 std::vector<Case> NetworkCases();
+std::vector<Case> ProgramCases();
 
 }  // namespace collision::faults

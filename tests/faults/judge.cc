@@ -143,18 +143,20 @@ class PairJudge {
       Fail(&result_.unheard, "contact at " + std::to_string(begin) + " ns, not heard in time by " +
                                  body.program->options().name);
     }
-    const std::vector<Reliance>& relied = body.flown->relied;
+    // A promise is about the agents that were known.
+    const std::int64_t known_from = std::max(*a_.flown->added_ns, *b_.flown->added_ns);
     const Reliance* last = nullptr;
-    for (const Reliance& promise : relied) {
+    for (const Reliance& promise : body.flown->relied) {
       if (promise.world_ns >= begin || promise.at_ns >= told_at) break;
-      ++result_.promises;
       last = &promise;
-      if (!options_.lowered) JudgePromise(body, promise, begin);
+      if (!options_.lowered && promise.world_ns > known_from) JudgePromise(body, promise, begin);
     }
-    if (options_.lowered && last != nullptr) JudgePromise(body, *last, begin);
+    // What was promised before counts until the contact is heard of.
+    if (last != nullptr && !in_time) JudgePromise(body, *last, begin);
   }
 
   void JudgePromise(const Body& body, const Reliance& promise, std::int64_t begin) {
+    ++result_.promises;
     if (promise.clear_until_ns <= begin + options_.tolerance_ns) return;
     Fail(&result_.relied, "contact at " + std::to_string(begin) + " ns; at " +
                               std::to_string(promise.world_ns) + " " + body.Text() +

@@ -94,7 +94,6 @@ void Network::Kill(Id id) {
 }
 
 void Network::Write(Id id, const v1::Input& message) {
-  fprintf(stderr, "%lld IN %s\n", (long long)now_ns_, message.ShortDebugString().c_str());
   auto input = std::make_shared<v1::Input>(message);
   input->set_sender(id);
   if (message.has_simulator_clock()) {
@@ -107,7 +106,6 @@ void Network::Write(Id id, const v1::Input& message) {
 }
 
 void Network::Write(Id id, const v1::Output& message) {
-  fprintf(stderr, "%lld OUT %s\n", (long long)now_ns_, message.ShortDebugString().c_str());
   Write(id,
         {.address = AddressOf(message),
          .input = nullptr,

@@ -1,68 +1,100 @@
 // What the network may do to samples on their way.
-
+#include "server/config/config.h"
 #include "tests/faults/cases.h"
 #include "tests/faults/scene.h"
 
 namespace collision::faults {
 namespace {
 
-constexpr std::int64_t kEnd = 10 * kSecond;
+std::string Seed(std::uint64_t seed) { return "seed " + std::to_string(seed) + ": "; }
 
-/// What the events of a lock-step run are known by.
-struct Fingerprint {
-  std::uint64_t hash = 0, count = 0;
-  bool operator==(const Fingerprint&) const = default;
-};
+/// A run that must have the events of a perfect network.
+void FlyAsPerfect(const Fleet& fleet, const std::function<void(Scene*)>& faults, Outcome* outcome) {
+  const Fingerprint perfect = PerfectEvents(fleet);
+  const auto scene = MakeScene(fleet);
+  Fly(
+      fleet, scene.get(),
+      [&] {
+        if (faults) faults(scene.get());
+      },
+      outcome);
+  Report(scene->Judged(), fleet.seed, outcome);
+  ExpectAllHeard(scene->monitor(), fleet.seed, outcome);
+  const Fingerprint events{scene->service().events_hash(), scene->service().events_count()};
+  outcome->Add("events", static_cast<double>(events.count));
+  outcome->Expect(events == perfect, Seed(fleet.seed) + "other events than on a perfect network");
+  outcome->Expect(scene->service().counter("breaches") == 0,
+                  Seed(fleet.seed) + "an honest agent counts as a breach");
+}
 
-/// Three simulators with different steps, one of which streams every state.
-Fingerprint FlyThree(const NetworkOptions& network, std::uint64_t seed, Outcome* outcome) {
-  Scene scene(LockStepConfig(3), network);
-  Random random(seed);
-  scene.AddService();
-  scene.AddMonitor();
-  scene.AddSimulator({.name = "alpha", .period_ns = 100 * kMillisecond, .end_ns = kEnd},
-                     Wanderers(6, kEnd, &random));
-  scene.AddSimulator({.name = "beta", .period_ns = 250 * kMillisecond, .end_ns = kEnd},
-                     Wanderers(6, kEnd, &random));
-  scene.AddSimulator(
-      {.name = "gamma", .period_ns = 40 * kMillisecond, .end_ns = kEnd, .on_demand = false},
-      Wanderers(6, kEnd, &random));
-  scene.StartAll();
-  const bool ended = scene.RunToEnd(600 * kSecond);
-  outcome->Expect(ended, "seed " + std::to_string(seed) + ": the run came to no end");
-  Report(scene.Judged(), seed, outcome);
-  ExpectAllHeard(scene, scene.monitor(), seed, outcome);
-  const NetworkCounters& counters = scene.network().counters();
-  outcome->Add("samples", static_cast<double>(counters.written));
-  outcome->Add("lost", static_cast<double>(counters.lost));
-  outcome->Add("doubled", static_cast<double>(counters.doubled));
-  outcome->Add("overwritten", static_cast<double>(counters.overwritten));
-  outcome->Greatest("waiting_max", static_cast<double>(counters.waiting_max));
-  outcome->Expect(scene.service().counter("breaches") == 0, "an honest agent counts as a breach");
-  return {scene.service().events_hash(), scene.service().events_count()};
+void ExpectContacts(double in_each_run, Outcome* outcome) {
+  outcome->Expect(outcome->Get("contacts") >= in_each_run * outcome->Get("runs"),
+                  "hardly any contact");
 }
 
 void LockStep(const Setting& setting, Outcome* outcome) {
-  for (int i = 0; i < setting.Many(3, 60); ++i) {
+  for (int i = 0; i < setting.Many(4, 60); ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
-    const Fingerprint perfect = FlyThree(Perfect(seed), seed, outcome);
-    const Fingerprint faulty = FlyThree(Faulty(seed), seed, outcome);
-    outcome->Add("events", static_cast<double>(faulty.count));
-    outcome->Expect(faulty == perfect,
-                    "seed " + std::to_string(seed) + ": other events than on a perfect network");
+    FlyAsPerfect({.network = Faulty(seed), .seed = seed}, {}, outcome);
   }
-  outcome->Expect(outcome->Get("contacts") >= 10 * outcome->Get("runs"), "hardly any contact");
+  ExpectContacts(8, outcome);
+}
+
+/// A batch takes so few messages that clocks, states and descriptions of one step come apart.
+void SmallBatches(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(4, 60); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Fleet fleet{.network = Faulty(seed), .seed = seed};
+    fleet.config.set_inputs_per_batch_max(1 + static_cast<std::uint32_t>(i % 4));
+    FlyAsPerfect(fleet, {}, outcome);
+  }
+  ExpectContacts(8, outcome);
+}
+
+enum class Way { kBoth, kToService, kFromService };
+
+void Part(Scene* scene, Way way, std::int64_t for_ns) {
+  Network& network = scene->network();
+  const Network::Id service = scene->service().id(), one = scene->simulator(1).id();
+  if (way != Way::kFromService) network.Block(one, service);
+  if (way != Way::kToService) network.Block(service, one);
+  network.After(for_ns, [=, &network] {
+    network.Unblock(one, service);
+    network.Unblock(service, one);
+  });
+}
+
+/// Time waits for the one that is parted from the service.
+void Parted(const Setting& setting, Outcome* outcome) {
+  const std::int64_t times_ns[] = {kSecond / 2, 5 * kSecond, 30 * kSecond};
+  for (int i = 0; i < setting.Many(9, 90); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    FlyAsPerfect(
+        {.network = Faulty(seed), .seed = seed},
+        [&](Scene* scene) {
+          scene->When(3 * kSecond,
+                      [=] { Part(scene, static_cast<Way>(i / 3 % 3), times_ns[i % 3]); });
+        },
+        outcome);
+  }
+  outcome->Expect(outcome->Get("rematches") > 0, "no outage was longer than every lease");
+  ExpectContacts(8, outcome);
 }
 
 }  // namespace
 
 std::vector<Case> NetworkCases() {
-  return {{"network", "lock-step",
-           "no contact late or unheard, no promise covers one, brackets hold; the same events, bit "
-           "for bit, as on a perfect network",
-           LockStep,
-           "a tenth of all transmissions lost, of samples doubled, 0.05 to 5 ms of delay, both "
-           "ways"}};
+  const std::string events =
+      "no contact late or unheard, no promise covers one, brackets hold; the same events, bit for "
+      "bit, as on a perfect network";
+  return {{"network", "lock-step", events, LockStep,
+           "a tenth of all transmissions lost, of samples to the service doubled, 0.05 to 5 ms of "
+           "delay, both ways"},
+          {"network", "small-batches", events, SmallBatches,
+           "the same, and the service takes 1 to 4 messages in a step"},
+          {"network", "parted", events, Parted,
+           "the same, and a simulator and the service are parted, both ways or one way, for 0.5, 5 "
+           "or 30 s: leases are 2 s, of a participant 20 s"}};
 }
 
 }  // namespace collision::faults

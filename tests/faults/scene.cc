@@ -3,7 +3,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <utility>
 
 #include "server/config/config.h"
 
@@ -100,6 +102,72 @@ std::vector<const SimulatorProgram*> Scene::simulators() const {
   return all;
 }
 
+std::int64_t Scene::reached_ns() const {
+  std::int64_t least = client::kNever;
+  for (const auto& simulator : simulators_) {
+    if (!simulator->killed() && !simulator->finished()) {
+      least = std::min(least, simulator->reached_ns());
+    }
+  }
+  return least;
+}
+
+void Scene::When(std::int64_t reached, std::function<void()> action) {
+  if (reached_ns() >= reached) return action();
+  network_.After(kMillisecond, [this, reached, action] { When(reached, action); });
+}
+
+std::unique_ptr<Scene> MakeScene(const Fleet& fleet) {
+  auto scene = std::make_unique<Scene>(fleet.config, fleet.network);
+  Random random(fleet.seed);
+  scene->AddService({.state_dir = fleet.keeps_journal ? scene->StateDir() : std::string()});
+  scene->AddMonitor();
+  SimulatorOptions options{.lock_step = fleet.lock_step, .end_ns = fleet.end_ns};
+  const std::array<std::pair<const char*, std::int64_t>, 3> names = {
+      {{"alpha", 100}, {"beta", 250}, {"gamma", 40}}};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    options.name = names[i].first;
+    options.period_ns = names[i].second * kMillisecond;
+    options.on_demand = i < 2;
+    options.wall_offset_ns = fleet.wall_offsets_ns[i];
+    options.incarnation = static_cast<std::uint32_t>(i + 1);
+    scene->AddSimulator(options, Wanderers(fleet.agents, fleet.end_ns, &random));
+  }
+  return scene;
+}
+
+void Fly(const Fleet& fleet, Scene* scene, const std::function<void()>& faults,
+         suite::Outcome* outcome) {
+  scene->StartAll();
+  if (faults) faults();
+  const bool ended = scene->RunToEnd(fleet.limit_ns);
+  std::string text = "seed " + std::to_string(fleet.seed) + ": the run came to no end:";
+  for (const SimulatorProgram* one : scene->simulators()) {
+    text += " " + one->options().name + " at " + std::to_string(one->reached_ns());
+  }
+  outcome->Expect(ended, text);
+  Report(scene->network().counters(), outcome);
+}
+
+Fingerprint PerfectEvents(const Fleet& fleet) {
+  Fleet perfect = fleet;
+  perfect.network = Perfect(fleet.seed);
+  perfect.network.depths = fleet.network.depths;
+  const auto scene = MakeScene(perfect);
+  scene->StartAll();
+  scene->RunToEnd(fleet.limit_ns);
+  return {scene->service().events_hash(), scene->service().events_count()};
+}
+
+void Report(const NetworkCounters& counters, suite::Outcome* outcome) {
+  outcome->Add("samples", static_cast<double>(counters.written));
+  outcome->Add("lost", static_cast<double>(counters.lost));
+  outcome->Add("doubled", static_cast<double>(counters.doubled));
+  outcome->Add("overwritten", static_cast<double>(counters.overwritten));
+  outcome->Add("rematches", static_cast<double>(counters.rematches));
+  outcome->Greatest("waiting_max", static_cast<double>(counters.waiting_max));
+}
+
 Judgement Scene::Judged(const JudgeOptions& options, std::size_t monitor) const {
   return Judge(simulators(), *monitors_[monitor], options);
 }
@@ -119,8 +187,7 @@ void Report(const Judgement& judgement, std::uint64_t seed, suite::Outcome* outc
   outcome->Greatest("begin_width_s", judgement.begin_width_s);
 }
 
-void ExpectAllHeard(const Scene&, const MonitorProgram& monitor, std::uint64_t seed,
-                    suite::Outcome* outcome) {
+void ExpectAllHeard(const MonitorProgram& monitor, std::uint64_t seed, suite::Outcome* outcome) {
   const std::string where = "seed " + std::to_string(seed) + ": ";
   std::uint64_t heard = 0, gaps = 0;
   for (const auto& [service, numbers] : monitor.contacts()) {

@@ -1,6 +1,7 @@
 // One run: the network, and all programs on it.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ class Scene {
   SimulatorProgram& simulator(std::size_t i) { return *simulators_[i]; }
   MonitorProgram& monitor(std::size_t i = 0) { return *monitors_[i]; }
   std::vector<const SimulatorProgram*> simulators() const;
+  /// The least step that a simulator which still flies has reached, less the base.
+  std::int64_t reached_ns() const;
+  /// Once all have reached this step.
+  void When(std::int64_t reached_ns, std::function<void()> action);
 
   Judgement Judged(const JudgeOptions& options = {}, std::size_t monitor = 0) const;
 
@@ -54,12 +59,42 @@ class Scene {
   std::string state_dir_;
 };
 
+/// Three simulators, alpha, beta and gamma, with different steps; gamma streams every state.
+struct Fleet {
+  v1::Config config = LockStepConfig(3);
+  NetworkOptions network;
+  std::uint64_t seed = 1;
+  int agents = 6;  ///< Of each.
+  std::int64_t end_ns = 10 * kSecond;
+  bool lock_step = true;
+  std::vector<std::int64_t> wall_offsets_ns = {0, 0, 0};
+  bool keeps_journal = false;
+  std::int64_t limit_ns = 600 * kSecond;  ///< Virtual time in which the run must come to its end.
+};
+
+/// All of them on one network with a service and a monitor, not yet started.
+std::unique_ptr<Scene> MakeScene(const Fleet& fleet);
+
+/// Starts them, lets `faults` arrange what is to happen, and runs to the end, which is expected.
+void Fly(const Fleet& fleet, Scene* scene, const std::function<void()>& faults,
+         suite::Outcome* outcome);
+
+/// What the events of a lock-step run are known by.
+struct Fingerprint {
+  std::uint64_t hash = 0, count = 0;
+  bool operator==(const Fingerprint&) const = default;
+};
+/// Of the same fleet on a perfect network, without any fault.
+Fingerprint PerfectEvents(const Fleet& fleet);
+
 /// Puts a judgement into the outcome: what must hold is checked, what was seen is counted.
 void Report(const Judgement& judgement, std::uint64_t seed, suite::Outcome* outcome);
 
+/// What the network did.
+void Report(const NetworkCounters& counters, suite::Outcome* outcome);
+
 /// Every contact that the services published was heard, once and in order, and none counts as
 /// missed.
-void ExpectAllHeard(const Scene& scene, const MonitorProgram& monitor, std::uint64_t seed,
-                    suite::Outcome* outcome);
+void ExpectAllHeard(const MonitorProgram& monitor, std::uint64_t seed, suite::Outcome* outcome);
 
 }  // namespace collision::faults

@@ -95,6 +95,8 @@ void SimulatorProgram::Continue() {
   bool goes_on = false;
   if (finished_) {
     world_->Poll();
+  } else if (options_.joins && !joined_) {
+    goes_on = joined_ = Join();
   } else if (options_.lock_step) {
     goes_on = Advance();
   } else {
@@ -113,6 +115,12 @@ void SimulatorProgram::Continue() {
                                    ? kLookingPeriod
                                    : std::max(step_ns_ - network_.now_ns(), kThinkingTime);
   Wake(network_.now_ns() + (goes_on ? kThinkingTime : next_ns));
+}
+
+bool SimulatorProgram::Join() {
+  const std::optional<std::int64_t> now_ns = world_->Join(std::chrono::nanoseconds(0));
+  if (now_ns) step_ns_ = *now_ns;
+  return now_ns.has_value();
 }
 
 /// One step, if it is granted.

@@ -38,6 +38,7 @@ struct SimulatorOptions {
   std::int64_t start_ns = 0;  ///< First step.
   std::int64_t end_ns = 10 * kSecond;
   bool on_demand = true;
+  bool joins = false;  ///< Lock-step: comes later, asks what time it is, and begins then.
   std::int64_t wall_offset_ns = 0;  ///< Of its clock, without lock-step.
 };
 
@@ -100,6 +101,7 @@ class SimulatorProgram {
  private:
   void Wake(std::int64_t at_ns);
   void Continue();
+  bool Join();
   bool Advance();
   void Tick();
   void Set(std::int64_t world_ns);
@@ -126,7 +128,7 @@ class SimulatorProgram {
   std::int64_t wall_offset_ns_;
   std::int64_t awake_at_ns_ = 0;
   bool awaits_ = false, staged_ = false, finished_ = false, killed_ = false, suspended_ = false;
-  bool ended_ = false, waited_for_name_ = false;
+  bool ended_ = false, waited_for_name_ = false, joined_ = false;
   std::uint64_t contacts_missed_ = 0, refusals_ = 0, lowered_ = 0, voided_ = 0, times_lost_ = 0;
 };
 

@@ -1,0 +1,224 @@
+// What may become of programs: they are killed, stand still, come again, come late, come twice.
+#include "server/config/config.h"
+#include "tests/faults/cases.h"
+#include "tests/faults/scene.h"
+
+namespace collision::faults {
+namespace {
+
+std::string Seed(std::uint64_t seed) { return "seed " + std::to_string(seed) + ": "; }
+
+void JudgeAll(const Fleet& fleet, const Scene& scene, const MonitorProgram& monitor,
+              Outcome* outcome) {
+  Report(scene.Judged(), fleet.seed, outcome);
+  ExpectAllHeard(monitor, fleet.seed, outcome);
+}
+
+/// When in the run something happens, and how long it lasts.
+struct Moment {
+  std::int64_t at_ns, for_ns;
+};
+
+Moment MomentOf(std::uint64_t seed, std::int64_t longest_ns) {
+  Random random(seed * 77);
+  const auto at = static_cast<std::int64_t>(random.Uniform(1, 8) * 1e9);
+  return {at, static_cast<std::int64_t>(random.LogUniform(1e7, static_cast<double>(longest_ns)))};
+}
+
+void KillService(const Setting& setting, bool journal, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const Moment moment = MomentOf(seed, 30 * kSecond);
+    const Fleet fleet{.network = Faulty(seed), .seed = seed, .keeps_journal = journal};
+    const auto scene = MakeScene(fleet);
+    Fly(
+        fleet, scene.get(),
+        [&] {
+          scene->When(moment.at_ns, [&] {
+            scene->service().Kill();
+            scene->network().After(moment.for_ns, [&] { scene->service().Start(); });
+          });
+        },
+        outcome);
+    outcome->Expect(scene->monitor().services().size() == 2,
+                    Seed(seed) + "the monitor knows of " +
+                        std::to_string(scene->monitor().services().size()) + " services");
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+  }
+}
+
+void KillServiceWithJournal(const Setting& setting, Outcome* outcome) {
+  KillService(setting, true, outcome);
+}
+void KillServiceWithoutJournal(const Setting& setting, Outcome* outcome) {
+  KillService(setting, false, outcome);
+}
+
+/// The process of the service stands still, or one of a simulator.
+void Suspend(const Setting& setting, bool service, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const Moment moment = MomentOf(seed, 40 * kSecond);
+    const Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const Fingerprint perfect = PerfectEvents(fleet);
+    const auto scene = MakeScene(fleet);
+    Fly(
+        fleet, scene.get(),
+        [&] {
+          scene->When(moment.at_ns, [&] {
+            const auto go_on = [&] {
+              service ? scene->service().Resume() : scene->simulator(i % 3).Resume();
+            };
+            service ? scene->service().Suspend() : scene->simulator(i % 3).Suspend();
+            scene->network().After(moment.for_ns, go_on);
+          });
+        },
+        outcome);
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+    const Fingerprint events{scene->service().events_hash(), scene->service().events_count()};
+    outcome->Expect(events == perfect, Seed(seed) + "other events than on a perfect network");
+  }
+}
+
+void SuspendService(const Setting& setting, Outcome* outcome) { Suspend(setting, true, outcome); }
+void SuspendSimulator(const Setting& setting, Outcome* outcome) {
+  Suspend(setting, false, outcome);
+}
+
+/// Beta is killed; a second run of it comes, before or after its death is noticed.
+void SecondRun(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const Moment moment = MomentOf(seed, 10 * kSecond);
+    const Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const auto scene = MakeScene(fleet);
+    SimulatorProgram* second = nullptr;
+    Fly(
+        fleet, scene.get(),
+        [&] {
+          scene->When(moment.at_ns, [&] {
+            scene->simulator(1).Kill();
+            Random random(seed + 1000);
+            second = &scene->AddSimulator({.name = "beta",
+                                           .run = 5,
+                                           .incarnation = 12,
+                                           .period_ns = 250 * kMillisecond,
+                                           .end_ns = fleet.end_ns,
+                                           .joins = true},
+                                          Wanderers(fleet.agents, fleet.end_ns, &random));
+            scene->network().After(moment.for_ns, [&] { second->Start(); });
+          });
+        },
+        outcome);
+    outcome->Expect(second != nullptr && second->finished(), Seed(seed) + "no second run");
+    if (second == nullptr) continue;
+    outcome->Add("second_runs_waited", second->waited_for_name() ? 1 : 0);
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+  }
+}
+
+/// Another program of beta's name, while beta lives, and killed before beta ends.
+void TwoOfOneName(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(4, 60); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const Fingerprint perfect = PerfectEvents(fleet);
+    const auto scene = MakeScene(fleet);
+    SimulatorProgram* twin = nullptr;
+    Fly(
+        fleet, scene.get(),
+        [&] {
+          scene->When(MomentOf(seed, kSecond).at_ns, [&] {
+            Random random(seed + 1000);
+            twin = &scene->AddSimulator(
+                {.name = "beta", .run = 5, .incarnation = 12, .end_ns = fleet.end_ns},
+                Wanderers(fleet.agents, fleet.end_ns, &random));
+            twin->Start();
+            scene->When(9 * kSecond, [] {});
+            scene->network().After(400 * kMillisecond, [&] { twin->Kill(); });
+          });
+        },
+        outcome);
+    outcome->Expect(twin != nullptr && twin->waited_for_name(),
+                    Seed(seed) + "the second program was not told that it waits");
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+    const Fingerprint events{scene->service().events_hash(), scene->service().events_count()};
+    outcome->Expect(events == perfect, Seed(seed) + "the second program changed the events");
+  }
+}
+
+/// Beta is killed and does not come back.
+void Released(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(4, 60); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Fleet fleet{.network = Faulty(seed), .seed = seed};
+    fleet.config.mutable_clock()->set_on_silent_simulator(v1::Clock::RELEASE);
+    const auto scene = MakeScene(fleet);
+    Fly(
+        fleet, scene.get(),
+        [&] { scene->When(MomentOf(seed, kSecond).at_ns, [&] { scene->simulator(1).Kill(); }); },
+        outcome);
+    outcome->Expect(scene->simulator(0).finished() && scene->simulator(2).finished(),
+                    Seed(seed) + "the others were held");
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+  }
+}
+
+/// Delta comes in the middle, and so does a second monitor.
+void LateJoiners(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const auto scene = MakeScene(fleet);
+    Fly(
+        fleet, scene.get(),
+        [&] {
+          scene->When(MomentOf(seed, kSecond).at_ns, [&] {
+            Random random(seed + 1000);
+            scene
+                ->AddSimulator({.name = "delta",
+                                .incarnation = 12,
+                                .period_ns = 70 * kMillisecond,
+                                .end_ns = fleet.end_ns,
+                                .joins = true},
+                               Wanderers(fleet.agents, fleet.end_ns, &random))
+                .Start();
+            scene->AddMonitor().Start();
+          });
+        },
+        outcome);
+    outcome->Expect(scene->simulators().size() == 4 && scene->simulator(3).finished(),
+                    Seed(seed) + "the late one did not get to its end");
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+    ExpectAllHeard(scene->monitor(1), seed, outcome);
+    outcome->Expect(
+        scene->monitor(1).contacts().begin()->second == scene->monitor().contacts().begin()->second,
+        Seed(seed) + "the late monitor has not heard all contacts");
+  }
+}
+
+}  // namespace
+
+std::vector<Case> ProgramCases() {
+  const std::string promise =
+      "no contact late or unheard, no promise covers one, brackets hold; all come to their end";
+  const std::string same = promise + "; the same events as on a perfect network";
+  return {{"programs", "service-killed-journal", promise, KillServiceWithJournal,
+           "the service is killed, and started again on its journal after 10 ms to 30 s"},
+          {"programs", "service-killed", promise, KillServiceWithoutJournal,
+           "the service is killed, and started again without a journal"},
+          {"programs", "service-suspended", same, SuspendService,
+           "the process of the service stands still for 10 ms to 40 s, longer than every lease"},
+          {"programs", "simulator-suspended", same, SuspendSimulator,
+           "the process of a simulator stands still for 10 ms to 40 s"},
+          {"programs", "second-run", promise, SecondRun,
+           "a simulator is killed, and its second run comes after 10 ms to 10 s"},
+          {"programs", "two-of-one-name", same + "; the second one is told", TwoOfOneName,
+           "a program takes the name of one that lives"},
+          {"programs", "released", promise, Released,
+           "a simulator is killed and does not come back (RELEASE)"},
+          {"programs", "late-joiners", promise + "; the late monitor hears every contact",
+           LateJoiners, "a simulator and a monitor come in the middle of the run"}};
+}
+
+}  // namespace collision::faults
