@@ -1,5 +1,8 @@
 #include "client/library/network/current_service.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace collision::client {
 
 bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now) {
@@ -19,6 +22,75 @@ bool CurrentService::Accept(const v1::ServiceStamp& stamp, Time now) {
   epoch_ = stamp.epoch();
   heard_ = now;
   return true;
+}
+
+const v1::ServiceStamp& StampOf(const v1::Output& output) {
+  switch (output.message_case()) {
+    case v1::Output::kClearance:
+      return output.clearance().stamp();
+    case v1::Output::kEarliestIntersection:
+      return output.earliest_intersection().stamp();
+    case v1::Output::kCollisionEvent:
+      return output.collision_event().stamp();
+    case v1::Output::kRejection:
+      return output.rejection().stamp();
+    case v1::Output::kSimulatorReport:
+      return output.simulator_report().stamp();
+    default:
+      return output.service_status().stamp();
+  }
+}
+
+OtherServices::Instance OtherServices::InstanceOf(const v1::Output& output) {
+  const auto kind = output.message_case();
+  switch (kind) {
+    case v1::Output::kClearance:
+      return {kind, {output.clearance().simulator_id(), output.clearance().chunk()}};
+    case v1::Output::kCollisionEvent:
+      return {kind, {output.collision_event().pair_slot(), 0}};
+    case v1::Output::kSimulatorReport:
+      return {kind, {output.simulator_report().simulator_id(), 0}};
+    default:
+      return {kind, {0, 0}};
+  }
+}
+
+void OtherServices::Keep(const v1::Output& output) {
+  // A rejection answers what was just sent; a claim is nothing that comes into force.
+  if (output.has_rejection()) return;
+  if (output.has_service_status() && output.service_status().phase() == v1::PHASE_CLAIMING) return;
+  const std::uint64_t id = StampOf(output).service_id();
+  if (!services_.contains(id) && services_.size() == kServicesMax) {
+    services_.erase(std::min_element(
+        services_.begin(), services_.end(),
+        [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; }));
+  }
+  Said& said = services_[id];
+  said.heard = ++calls_;
+  if (output.has_collision_event() && output.collision_event().contacts_sequence() > 0) {
+    said.contacts.push_back(output);
+    if (said.contacts.size() > kContactsMax) said.contacts.pop_front();
+    return;
+  }
+  const Instance instance = InstanceOf(output);
+  if (said.newest.size() < kInstancesMax || said.newest.contains(instance)) {
+    said.newest.insert_or_assign(instance, output);
+  }
+}
+
+std::vector<v1::Output> OtherServices::Take(std::uint64_t service_id) {
+  std::vector<v1::Output> outputs;
+  const auto found = services_.find(service_id);
+  if (found == services_.end()) return outputs;
+  Said& said = found->second;
+  outputs.assign(std::make_move_iterator(said.contacts.begin()),
+                 std::make_move_iterator(said.contacts.end()));
+  for (auto& [instance, output] : said.newest) outputs.push_back(std::move(output));
+  services_.erase(found);
+  std::sort(outputs.begin(), outputs.end(), [](const v1::Output& a, const v1::Output& b) {
+    return StampOf(a).sequence() < StampOf(b).sequence();
+  });
+  return outputs;
 }
 
 }  // namespace collision::client

@@ -1,9 +1,14 @@
-// Which of several services a client believes.
+// Which of several services a client believes, and what it keeps of the others.
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <map>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "idl/limits.h"
 #include "idl/messages.pb.h"
@@ -57,6 +62,39 @@ class CurrentService {
   Time heard_{};
   std::uint64_t changes_ = 0;
   std::uint64_t conflicts_ = 0;
+};
+
+/// Of any output.
+const v1::ServiceStamp& StampOf(const v1::Output& output);
+
+/// Keeps what the network would hand to a reader that joined now: the newest sample of each
+/// instance, and the newest contacts. A service publishes most things once. One that is not in
+/// force yet, because the one before it has not been silent for long enough, may come into force,
+/// and then all of it counts. One thread; depends on nothing but the calls.
+class OtherServices {
+ public:
+  static constexpr std::size_t kServicesMax = 4;  ///< Beyond, the one heard longest ago is dropped.
+  static constexpr std::size_t kInstancesMax =
+      65536;  ///< Of one service; further ones are dropped.
+  static constexpr std::size_t kContactsMax = wire::kContactsForLateJoiners;
+
+  void Keep(const v1::Output& output);
+
+  /// All that is kept of this service, in the order of its publication, and no longer kept.
+  std::vector<v1::Output> Take(std::uint64_t service_id);
+
+ private:
+  using Instance = std::pair<v1::Output::MessageCase, std::pair<std::uint64_t, std::uint32_t>>;
+  struct Said {
+    std::map<Instance, v1::Output> newest;
+    std::deque<v1::Output> contacts;
+    std::uint64_t heard = 0;  ///< Counts the calls.
+  };
+
+  static Instance InstanceOf(const v1::Output& output);
+
+  std::map<std::uint64_t, Said> services_;
+  std::uint64_t calls_ = 0;
 };
 
 }  // namespace collision::client

@@ -34,7 +34,10 @@ std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   now_ = receiver_->Now();
   OrderEvents(&arrivals.outputs);
   for (const v1::Input& input : arrivals.inputs) HandOn(input);
-  for (const v1::Output& output : arrivals.outputs) HandOn(output);
+  for (const v1::Output& output : arrivals.outputs) {
+    HandOn(output);
+    if (StampOf(output).service_id() != service_.id()) others_.Keep(output);
+  }
   GiveUpOverdue();
   return arrivals.inputs.size() + arrivals.outputs.size();
 }
@@ -94,6 +97,7 @@ bool MessageMonitor::Accept(const v1::ServiceStamp& stamp) {
   if (service_.id() != former) {
     contacts_.Restart();
     awaited_.reset();
+    for (const v1::Output& output : others_.Take(service_.id())) HandOn(output);
   }
   return true;
 }

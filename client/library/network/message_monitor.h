@@ -65,6 +65,7 @@ class MessageMonitor {
   std::unique_ptr<Receiver> receiver_;
   Callbacks callbacks_;
   CurrentService service_;
+  OtherServices others_;
   CurrentService::Time now_{};
   ContactSequence contacts_;
   std::optional<Awaited> awaited_;

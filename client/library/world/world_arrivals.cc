@@ -46,7 +46,10 @@ bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   transport_->Receive(timeout, &arrivals);
   const CurrentService::Time now = transport_->Now();
   OrderEvents(&arrivals.outputs);
-  for (const v1::Output& output : arrivals.outputs) Handle(output, now);
+  for (const v1::Output& output : arrivals.outputs) {
+    Handle(output, now);
+    if (StampOf(output).service_id() != service_.id()) others_.Keep(output);
+  }
   const std::uint64_t forecast = lock_step_ ? forecasts_.newest() : ClearanceGate::kAllForecasts;
   const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, forecast, now);
   for (const v1::Clearance& clearance : passed) Handle(clearance);
@@ -131,6 +134,7 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
     clearances_sequence_ = 0;
     agents_.ForgetLowerings();
     service_now_ns_ = now_ns;
+    for (const v1::Output& output : others_.Take(service_.id())) Handle(output, now);
   } else if (service_.epoch() != epoch) {
     service_now_ns_ = now_ns;
     if (!lock_step_) BeginEpoch();

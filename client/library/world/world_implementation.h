@@ -156,6 +156,7 @@ class World::Implementation {
   AgentTable agents_;
   ShapePublisher shapes_;
   CurrentService service_;
+  OtherServices others_;
   ContactSequence contacts_;
   RevisionFilter filter_;
   ClearanceGate gate_;

@@ -39,8 +39,8 @@ TEST(RunAndClock, TheServiceSaysTheKindOfItsClock) {
   }
 }
 
-// Goal:   the first states and the first clock are sent together, also where the grant arrives before
-//         the word that the name is free: others rely on where the agents are from then on.
+// Goal:   the first states and the first clock are sent together, also where the grant arrives
+//         before the word that the name is free: others rely on where the agents are then.
 TEST(RunAndClock, NoStepIsTakenWhileAnotherProgramHasTheName) {
   using namespace std::chrono_literals;
   const auto network = std::make_shared<FakeNetwork>();

@@ -1,0 +1,123 @@
+// Goal:   a service that comes into force late is known by all that it said before: to a simulator,
+//         which would else wait for its grant for ever, and to a monitor.
+#include <gtest/gtest.h>
+
+#include "client/library/network/current_service.h"
+#include "client/library/network/message_monitor.h"
+#include "tests/client/fake_transport.h"
+
+namespace collision::client {
+namespace {
+
+using namespace std::chrono_literals;
+
+v1::Output ClearanceOf(std::uint64_t service, std::uint32_t chunk, std::uint64_t sequence) {
+  v1::Output output;
+  output.mutable_clearance()->set_chunk(chunk);
+  output.mutable_clearance()->mutable_stamp()->set_service_id(service);
+  output.mutable_clearance()->mutable_stamp()->set_sequence(sequence);
+  return output;
+}
+
+v1::Output ContactOf(std::uint64_t service, std::uint64_t sequence) {
+  v1::Output output;
+  *output.mutable_collision_event() = OwnEvent(1, 1, sequence);
+  output.mutable_collision_event()->mutable_stamp()->set_service_id(service);
+  output.mutable_collision_event()->set_contacts_sequence(sequence);
+  output.mutable_collision_event()->set_status(v1::EVENT_CONFIRMED);
+  return output;
+}
+
+TEST(OtherServices, TheNewestOfEachInstanceIsKeptInItsOrder) {
+  OtherServices others;
+  others.Keep(ClearanceOf(2, 1, 5));
+  others.Keep(ClearanceOf(2, 0, 6));
+  others.Keep(ContactOf(2, 7));
+  others.Keep(ContactOf(2, 8));
+  others.Keep(ClearanceOf(2, 1, 9));
+  others.Keep(ClearanceOf(3, 1, 1));
+  const std::vector<v1::Output> said = others.Take(2);
+  ASSERT_EQ(said.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(StampOf(said[i]).sequence(), 6 + i);
+  EXPECT_TRUE(others.Take(2).empty());
+  EXPECT_EQ(others.Take(3).size(), 1u);
+}
+
+TEST(OtherServices, IsBounded) {
+  OtherServices others;
+  for (std::uint64_t i = 1; i <= OtherServices::kContactsMax + 1; ++i) others.Keep(ContactOf(1, i));
+  for (std::uint64_t id = 1; id <= OtherServices::kServicesMax; ++id) {
+    others.Keep(ClearanceOf(id, 0, 10'000));
+  }
+  EXPECT_EQ(others.Take(2).size(), 1u);
+  EXPECT_EQ(others.Take(1).size(), OtherServices::kContactsMax + 1);
+  for (std::uint64_t id = 11; id <= 11 + OtherServices::kServicesMax; ++id) {
+    others.Keep(ClearanceOf(id, 0, 1));
+  }
+  EXPECT_TRUE(others.Take(11).empty()) << "heard longest ago";
+  EXPECT_FALSE(others.Take(12).empty());
+}
+
+/// Virtual time, which the test sets.
+class TimedTransport : public FakeTransport {
+ public:
+  TimedTransport(std::shared_ptr<FakeNetwork> network, const std::chrono::nanoseconds* now)
+      : FakeTransport(std::move(network)), now_(*now) {}
+  std::chrono::steady_clock::time_point Now() const override {
+    return std::chrono::steady_clock::time_point(now_);
+  }
+
+ private:
+  const std::chrono::nanoseconds& now_;
+};
+
+void Say(std::uint64_t service, FakeNetwork* network) {
+  v1::ServiceStatus& status = *network->arriving.emplace_back().mutable_service_status();
+  status.set_phase(v1::PHASE_SERVING);
+  status.mutable_stamp()->set_service_id(service);
+  status.mutable_stamp()->set_term(1);
+  status.mutable_stamp()->set_sequence(100);
+}
+
+// The service is started again at once, in the same term, with a higher id: the one before it is in
+// force until it has been silent for 2 s.
+TEST(OtherServices, AGrantOfTheNextServiceCountsWhenThatComesIntoForce) {
+  const auto network = std::make_shared<FakeNetwork>();
+  std::chrono::nanoseconds now = 100s;
+  World world = World::Connect({.simulator = kSimulator, .run = kRun, .incarnation = kIncarnation},
+                               std::make_unique<TimedTransport>(network, &now));
+  Say(1, network.get());
+  EXPECT_EQ(world.AdvanceTo(0, 0ns), Advance::kReached);
+  now += 1s;
+  network->Grant(5);
+  network->arriving.back().mutable_clearance()->mutable_stamp()->set_service_id(2);
+  world.Poll();
+  EXPECT_NE(world.granted_until_ns(), 5);
+  now += 2s;
+  Say(2, network.get());
+  world.Poll();
+  EXPECT_EQ(world.granted_until_ns(), 5);
+}
+
+TEST(OtherServices, AMonitorHearsTheContactsOfTheNextService) {
+  const auto network = std::make_shared<FakeNetwork>();
+  std::chrono::nanoseconds now = 100s;
+  std::size_t events = 0;
+  MessageMonitor::Callbacks callbacks;
+  callbacks.event = [&events](const v1::CollisionEvent&) { ++events; };
+  MessageMonitor monitor(std::make_unique<TimedTransport>(network, &now), callbacks);
+  Say(1, network.get());
+  monitor.Poll(0ns);
+  now += 1s;
+  network->arriving.push_back(ContactOf(2, 1));
+  network->arriving.back().mutable_collision_event()->mutable_stamp()->set_term(1);
+  monitor.Poll(0ns);
+  EXPECT_EQ(events, 0u);
+  now += 2s;
+  Say(2, network.get());
+  monitor.Poll(0ns);
+  EXPECT_EQ(events, 1u);
+}
+
+}  // namespace
+}  // namespace collision::client
