@@ -386,6 +386,24 @@ Section Stress(const v1::Results& results) {
   return section;
 }
 
+Section Faults(const v1::Results& results) {
+  Section section{"faults", "Faults", {}, {}, {}};
+  section.paragraphs = {
+      "What the network and the programs do wrong, what is promised then, and what was measured "
+      "over "
+      "many seeds, with the real client library (./run faults)."};
+  AddTable(TableOf("", Select(results, "faults", {}),
+                   {{"group", "group"},
+                    {"name", "case"},
+                    {"fault", "fault"},
+                    {"promised", "promised"},
+                    {"measured", "measured"},
+                    {"kept", "kept"}}),
+           &section);
+  AddWhole(results, "faults", &section);
+  return section;
+}
+
 Section Trust(const v1::Results& results) {
   Section section{"trust", "Same bits, fuzzing, mutants", {}, {}, {}};
   section.paragraphs = {
@@ -403,9 +421,9 @@ Section Trust(const v1::Results& results) {
 }  // namespace
 
 std::vector<Section> SectionsOf(const v1::Results& results) {
-  return {Precision(results), Budget(results),     Hubbard(results),
-          Stepping(results),  BroadPhase(results), Service(results),
-          LeftOut(results),   Stress(results),     Trust(results)};
+  return {Precision(results),  Budget(results),  Hubbard(results), Stepping(results),
+          BroadPhase(results), Service(results), LeftOut(results), Stress(results),
+          Faults(results),     Trust(results)};
 }
 
 std::vector<MeasuredPlot> MeasuredPlots() {
