@@ -13,5 +13,7 @@ using suite::Setting;
 
 std::vector<Case> NetworkCases();
 std::vector<Case> ProgramCases();
+std::vector<Case> ClockCases();
+std::vector<Case> HostileCases();
 
 }  // namespace collision::faults

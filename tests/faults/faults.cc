@@ -9,7 +9,7 @@ namespace {
 
 std::vector<Case> AllCases() {
   std::vector<Case> all;
-  for (const auto& part : {NetworkCases(), ProgramCases()}) {
+  for (const auto& part : {NetworkCases(), ProgramCases(), ClockCases(), HostileCases()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

@@ -112,13 +112,20 @@ class PairJudge {
     }
   }
 
-  /// The monitor must have been told, and at a time of the world that is not after the begin.
+  /// The monitor or a program in it was told, and at a time of the world that is not after the
+  /// begin. A forecast that a newer one replaces on its way never comes to the monitor.
   void JudgeAnnouncement(std::int64_t begin) {
     std::int64_t first = client::kNever;
     for (const auto& [key, story] : stories_) {
       for (const MonitoredEvent* heard : story) {
         const Event event = client::FromMessage(heard->event);
         if (Covers(event, begin)) first = std::min(first, Rel(event.now_ns));
+      }
+    }
+    for (const Body* body : {&a_, &b_}) {
+      for (const HeardEvent& heard : body->program->heard()) {
+        if (!IsOfPair(heard.event) || !Covers(heard.event, begin)) continue;
+        first = std::min(first, Rel(heard.event.now_ns));
       }
     }
     if (first > begin + options_.tolerance_ns) {

@@ -125,7 +125,7 @@ void Network::Write(Id id, Sample sample, bool disposes) {
   if (history.size() > options_.depths[static_cast<std::size_t>(topic)].writer) history.pop_front();
   for (auto& [other, reader] : programs_) {
     if (other == id || reader.gone || !Reads(reader, topic)) continue;
-    if (links_[{id, other}].matched) Transmit(id, other, sample, false);
+    if (links_[{id, other}].matched) Transmit(id, other, sample);
   }
   // Who joins later hears of no removal.
   if (disposes && topic == Topic::kShape) writer.history.erase(sample.address.instance);
@@ -152,13 +152,13 @@ bool Network::Stands(Id writer, const Sample& sample) const {
   return history != topic->second.history.end() && history->second.front().number <= sample.number;
 }
 
-void Network::Transmit(Id writer, Id reader, const Sample& sample, bool again) {
+void Network::Transmit(Id writer, Id reader, const Sample& sample) {
   Link& link = links_[{writer, reader}];
   Line& line = link.lines[sample.address.topic];
   const std::uint64_t lost_before = counters_.lost;
   const std::int64_t delay = Delay();
   line.last_arrival_ns = std::max(line.last_arrival_ns, now_ns_ + delay);
-  const bool lost = again || counters_.lost > lost_before;
+  const bool lost = counters_.lost > lost_before;
   At(line.last_arrival_ns, [this, writer, reader, sample, generation = link.generation, lost] {
     Arrive(writer, reader, sample, generation, lost);
   });
@@ -255,10 +255,20 @@ void Network::Unblock(Id from, Id to) {
   // What was lost or held up on the way may be sent again now: there, and on the way back.
   for (const auto& [writer, reader] : {std::pair(from, to), std::pair(to, from)}) {
     for (auto& [topic, line] : links_[{writer, reader}].lines) {
-      for (const Sample& sample : std::exchange(line.held, {})) {
-        Transmit(writer, reader, sample, true);
-      }
+      if (line.held.empty()) continue;
+      After(Delay(), [this, writer = writer, reader = reader, topic = topic] {
+        Release(writer, reader, topic);
+      });
     }
+  }
+}
+
+/// What is held arrives, in its order; until then whatever else arrives is held behind it.
+void Network::Release(Id writer, Id reader, Topic topic) {
+  if (blocked_.contains({writer, reader}) || blocked_.contains({reader, writer})) return;
+  Link& link = links_[{writer, reader}];
+  for (const Sample& sample : std::exchange(link.lines[topic].held, {})) {
+    Arrive(writer, reader, sample, link.generation, true);
   }
 }
 
@@ -349,7 +359,7 @@ void Network::Match(Id writer, Id reader) {
     }
     std::sort(samples.begin(), samples.end(),
               [](const Sample& a, const Sample& b) { return a.number < b.number; });
-    for (const Sample& sample : samples) Transmit(writer, reader, sample, false);
+    for (const Sample& sample : samples) Transmit(writer, reader, sample);
   }
 }
 

@@ -151,7 +151,8 @@ class Network {
   bool IsFor(const Program& reader, const Sample& sample) const;
   bool Stands(Id writer, const Sample& sample) const;
   void Write(Id id, Sample sample, bool disposes);
-  void Transmit(Id writer, Id reader, const Sample& sample, bool again);
+  void Transmit(Id writer, Id reader, const Sample& sample);
+  void Release(Id writer, Id reader, Topic topic);
   void Arrive(Id writer, Id reader, const Sample& sample, std::uint64_t generation, bool lost);
   void Deliver(Id reader, const Sample& sample);
   void Hear(Id listener, Id other);

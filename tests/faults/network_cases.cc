@@ -37,7 +37,7 @@ void LockStep(const Setting& setting, Outcome* outcome) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
     FlyAsPerfect({.network = Faulty(seed), .seed = seed}, {}, outcome);
   }
-  ExpectContacts(8, outcome);
+  ExpectContacts(4, outcome);
 }
 
 /// A batch takes so few messages that clocks, states and descriptions of one step come apart.
@@ -48,7 +48,7 @@ void SmallBatches(const Setting& setting, Outcome* outcome) {
     fleet.config.set_inputs_per_batch_max(1 + static_cast<std::uint32_t>(i % 4));
     FlyAsPerfect(fleet, {}, outcome);
   }
-  ExpectContacts(8, outcome);
+  ExpectContacts(4, outcome);
 }
 
 enum class Way { kBoth, kToService, kFromService };
@@ -78,7 +78,7 @@ void Parted(const Setting& setting, Outcome* outcome) {
         outcome);
   }
   outcome->Expect(outcome->Get("rematches") > 0, "no outage was longer than every lease");
-  ExpectContacts(8, outcome);
+  ExpectContacts(4, outcome);
 }
 
 }  // namespace

@@ -134,7 +134,6 @@ void TwoOfOneName(const Setting& setting, Outcome* outcome) {
                 {.name = "beta", .run = 5, .incarnation = 12, .end_ns = fleet.end_ns},
                 Wanderers(fleet.agents, fleet.end_ns, &random));
             twin->Start();
-            scene->When(9 * kSecond, [] {});
             scene->network().After(400 * kMillisecond, [&] { twin->Kill(); });
           });
         },
@@ -149,7 +148,7 @@ void TwoOfOneName(const Setting& setting, Outcome* outcome) {
 
 /// Beta is killed and does not come back.
 void Released(const Setting& setting, Outcome* outcome) {
-  for (int i = 0; i < setting.Many(4, 60); ++i) {
+  for (int i = 0; i < setting.Many(1, 20); ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
     Fleet fleet{.network = Faulty(seed), .seed = seed};
     fleet.config.mutable_clock()->set_on_silent_simulator(v1::Clock::RELEASE);
@@ -197,28 +196,105 @@ void LateJoiners(const Setting& setting, Outcome* outcome) {
   }
 }
 
+/// Two services that do not hear each other at first, while all simulators hear both.
+void TwoServices(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const Moment moment = MomentOf(seed, 30 * kSecond);
+    const Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const auto scene = MakeScene(fleet);
+    // Of equal terms the lower id goes first: the second service takes over, or ends.
+    ServiceProgram& second =
+        scene->AddService({.state_dir = {}, .instance = i % 2 == 0 ? 100u : 10u});
+    scene->StartAll();
+    second.Kill();
+    scene->When(moment.at_ns, [&] {
+      second.Start();
+      Network& network = scene->network();
+      const Network::Id one = scene->service().id(), other = second.id();
+      network.Block(one, other);
+      network.Block(other, one);
+      network.After(moment.for_ns, [&network, one, other] {
+        network.Unblock(one, other);
+        network.Unblock(other, one);
+      });
+    });
+    outcome->Expect(scene->RunToEnd(600 * kSecond), Seed(seed) + "the run came to no end");
+    scene->network().Run(scene->network().now_ns() + 40 * kSecond);
+    outcome->Expect(scene->service().runs() != second.runs(),
+                    Seed(seed) + "not one of the two services was left");
+    outcome->Add("second_stayed", second.runs() ? 1 : 0);
+    Report(scene->network().counters(), outcome);
+    JudgeAll(fleet, *scene, scene->monitor(), outcome);
+  }
+}
+
+/// A monitor reads no more while more contacts are published than wait for it.
+void MonitorStops(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 60); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const std::size_t depth = i % 2 == 0 ? wire::kContactsKept : 2;
+    fleet.network.depths[static_cast<std::size_t>(Topic::kContact)].reader = depth;
+    const auto scene = MakeScene(fleet);
+    MonitorProgram& lazy = scene->AddMonitor();
+    Fly(
+        fleet, scene.get(),
+        [&] {
+          scene->When(3 * kSecond, [&] {
+            lazy.Stop();
+            scene->When(8 * kSecond, [&] { lazy.GoOn(); });
+          });
+        },
+        outcome);
+    // With so few the other monitor may lose some, too.
+    if (depth > 2) JudgeAll(fleet, *scene, scene->monitor(), outcome);
+    const auto& all = scene->monitor().contacts().begin()->second;
+    std::uint64_t missing = 0;
+    for (const std::uint64_t number : all) {
+      if (!lazy.contacts().empty() && number >= *lazy.contacts().begin()->second.begin()) {
+        missing += lazy.contacts().begin()->second.contains(number) ? 0 : 1;
+      }
+    }
+    outcome->Expect(lazy.contacts_missed() == missing, Seed(seed) + std::to_string(missing) +
+                                                           " contacts are missing, told are " +
+                                                           std::to_string(lazy.contacts_missed()));
+    outcome->Expect(depth == 2 || missing == 0, Seed(seed) + "contacts are missing");
+    outcome->Add("contacts_overwritten", static_cast<double>(missing));
+  }
+  outcome->Expect(outcome->Get("contacts_overwritten") > 0, "nothing was ever overwritten");
+}
+
 }  // namespace
 
 std::vector<Case> ProgramCases() {
   const std::string promise =
       "no contact late or unheard, no promise covers one, brackets hold; all come to their end";
   const std::string same = promise + "; the same events as on a perfect network";
-  return {{"programs", "service-killed-journal", promise, KillServiceWithJournal,
-           "the service is killed, and started again on its journal after 10 ms to 30 s"},
-          {"programs", "service-killed", promise, KillServiceWithoutJournal,
-           "the service is killed, and started again without a journal"},
-          {"programs", "service-suspended", same, SuspendService,
-           "the process of the service stands still for 10 ms to 40 s, longer than every lease"},
-          {"programs", "simulator-suspended", same, SuspendSimulator,
-           "the process of a simulator stands still for 10 ms to 40 s"},
-          {"programs", "second-run", promise, SecondRun,
-           "a simulator is killed, and its second run comes after 10 ms to 10 s"},
-          {"programs", "two-of-one-name", same + "; the second one is told", TwoOfOneName,
-           "a program takes the name of one that lives"},
-          {"programs", "released", promise, Released,
-           "a simulator is killed and does not come back (RELEASE)"},
-          {"programs", "late-joiners", promise + "; the late monitor hears every contact",
-           LateJoiners, "a simulator and a monitor come in the middle of the run"}};
+  return {
+      {"programs", "journal-killed", promise, KillServiceWithJournal,
+       "the service is killed, and started again on its journal after 10 ms to 30 s"},
+      {"programs", "service-killed", promise, KillServiceWithoutJournal,
+       "the service is killed, and started again without a journal"},
+      {"programs", "service-suspended", same, SuspendService,
+       "the process of the service stands still for 10 ms to 40 s, longer than every lease"},
+      {"programs", "simulator-suspended", same, SuspendSimulator,
+       "the process of a simulator stands still for 10 ms to 40 s"},
+      {"programs", "second-run", promise, SecondRun,
+       "a simulator is killed, and its second run comes after 10 ms to 10 s"},
+      {"programs", "two-of-one-name", same + "; the second one is told", TwoOfOneName,
+       "a program takes the name of one that lives"},
+      {"programs", "released", promise, Released,
+       "a simulator is killed and does not come back (RELEASE)"},
+      {"programs", "late-joiners", promise + "; the late monitor hears every contact", LateJoiners,
+       "a simulator and a monitor come in the middle of the run"},
+      {"programs", "two-services", promise + "; in the end there is one service", TwoServices,
+       "a second service is started that hears the first after 10 ms to 30 s, while all "
+       "simulators hear both"},
+      {"programs", "monitor-stops",
+       promise + "; what the monitor has not heard, and only that, counts as missed", MonitorStops,
+       "a monitor stops reading for 5 s of the world; in every second run only 2 contacts wait "
+       "for it"}};
 }
 
 }  // namespace collision::faults

@@ -20,7 +20,7 @@ inline constexpr std::int64_t kWallAtStart = 1'700'000'000 * kSecond;
 
 struct ServiceOptions {
   std::string state_dir;  ///< Empty: no journal.
-  std::uint64_t instance = 1;
+  std::uint64_t instance = 50;
 };
 
 /// One that is published, and when.
