@@ -43,6 +43,7 @@ inline constexpr double kShapeRadiusTolerance = 1e-9;
 
 inline constexpr std::uint32_t kSlotMax = 65535;  ///< Slots are reused, so 65536 are enough.
 inline constexpr int kStatesPerChunkMax = 64;     ///< Slots in a chunk of states or clearances.
+inline constexpr int kStatesPerSampleMax = 128;   ///< With those before them that are jumps.
 inline constexpr std::uint32_t kDomainMax = 230;  ///< Higher DDS domains have ports beyond 65535.
 inline constexpr std::size_t kShapeTrianglesMax = 5'000'000;  ///< Of one shape, in any service.
 inline constexpr std::size_t kShapeSolidsMax = 65536;         ///< Convex solids of one shape.

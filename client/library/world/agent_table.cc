@@ -178,7 +178,7 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
     Slot& slot = slots_[index];
     if (IsDue(slot, clock_ns)) {
       stated_ += !slot.states.sent().has_value();
-      slot.states.MarkSent(++states_sequence_, slot.description.revision());
+      slot.states.MarkSent(++states_sequence_, slot.description.revision(), policy_);
       standing_sequence_ = states_sequence_;
       ++traffic_.states_sent;
       chunks.push_back(index / policy_.chunk_size);
@@ -251,12 +251,12 @@ std::uint32_t AgentTable::FreeSlot() {
   return slot;
 }
 
-v1::AgentState AgentTable::Message(std::uint32_t slot) const {
-  const OutgoingStates& states = slots_[slot].states;
-  v1::AgentState message = ToMessage(*states.sent());
+v1::AgentState AgentTable::Message(std::uint32_t slot, const State& state,
+                                   std::uint64_t sequence) const {
+  v1::AgentState message = ToMessage(state);
   message.set_slot(slot);
   message.set_generation(slots_[slot].description.generation());
-  message.set_sequence(states.sent_sequence());
+  message.set_sequence(sequence);
   return message;
 }
 
@@ -266,12 +266,15 @@ v1::AgentStates AgentTable::Chunk(std::uint32_t chunk) const {
   states.set_chunk(chunk);
   states.set_incarnation(incarnation_);
   states.set_run(run_);
-  const std::size_t first = std::size_t{chunk} * policy_.chunk_size;
-  const std::size_t last = std::min(first + policy_.chunk_size, slots_.size());
-  for (std::size_t slot = first; slot < last; ++slot) {
-    if (slots_[slot].states.sent()) {
-      *states.add_states() = Message(static_cast<std::uint32_t>(slot));
+  const std::uint32_t first = chunk * policy_.chunk_size;
+  const auto slots = static_cast<std::uint32_t>(slots_.size());
+  for (std::uint32_t slot = first; slot < std::min(first + policy_.chunk_size, slots); ++slot) {
+    const OutgoingStates& outgoing = slots_[slot].states;
+    if (!outgoing.sent()) continue;
+    for (const OutgoingStates::Jump& jump : outgoing.jumps()) {
+      *states.add_states() = Message(slot, jump.state, jump.sequence);
     }
+    *states.add_states() = Message(slot, *outgoing.sent(), outgoing.sent_sequence());
   }
   return states;
 }

@@ -89,7 +89,7 @@ class AgentTable {
   void Free(std::uint32_t slot);
   v1::AgentRemoval RemovalOf(std::uint32_t slot) const;
   bool IsDue(const Slot& slot, std::int64_t clock_ns) const;
-  v1::AgentState Message(std::uint32_t slot) const;
+  v1::AgentState Message(std::uint32_t slot, const State& state, std::uint64_t sequence) const;
   v1::AgentStates Chunk(std::uint32_t chunk) const;
 
   std::string simulator_name_;

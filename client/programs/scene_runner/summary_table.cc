@@ -81,8 +81,10 @@ void RatioRows(std::string* text, const v1::RunReport& report) {
         report.clearance_tightness_median());
   }
   if (report.latency_p99_s() > 0) {
-    Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms", "update to event", report.latency_p50_s() * 1e3,
-        report.latency_p99_s() * 1e3);
+    // In lock-step an update is judged when the others have told their part of the round.
+    const char* until = report.real_time_fraction() > 0 ? ", the round included" : "";
+    Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms%s", "update to event", report.latency_p50_s() * 1e3,
+        report.latency_p99_s() * 1e3, until);
   } else {
     Row(text, "  %-30s –", "update to event");
   }
