@@ -31,8 +31,9 @@ struct AgentCounters {
 /// when its description and a state are there and, with a simulated clock, the first clock of its
 /// simulator is in force. A state without a description is kept and reported to its sender after
 /// `undescribed_after_s`. If there is no room for another agent, its owner gets one rejection; the
-/// agent is admitted with its next state once there is room. A new generation ends the agent of its slot; late states of ended
-/// ones count as older. A change that may lower promises counts from World::EffectiveFrom().
+/// agent is admitted with its next state once there is room. A new generation ends the agent of its
+/// slot; late states of ended ones count as older. A change that may lower promises counts from
+/// World::EffectiveFrom().
 ///
 /// With a wall clock the states of one batch take effect one by one, since each narrows what could
 /// have happened between its neighbours. One thread.
