@@ -36,7 +36,7 @@ class OutgoingStatesTest : public testing::Test {
 
   bool IsDue(std::int64_t clock_ns) const { return states_.IsDue(clock_ns, kRevision, policy_); }
 
-  PublishPolicy policy_{.on_demand = true};
+  PublishPolicy policy_{.on_demand = true, .chunk_size = 1};
   OutgoingStates states_;
 };
 

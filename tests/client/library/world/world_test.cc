@@ -61,7 +61,8 @@ TEST_F(WorldTest, AJumpIsCarriedUntilItIsAcknowledged) {
     ball.SetState(At(++clock_ns, 50));
     world.Publish(clock_ns);
     Stamps stamps;
-    for (const v1::AgentState& state : network_->States().back().states()) {
+    const v1::AgentStates chunk = network_->States().back();
+    for (const v1::AgentState& state : chunk.states()) {
       stamps.push_back(state.stamp_ns());
       EXPECT_EQ(state.discontinuity(), state.stamp_ns() == 1);
     }
