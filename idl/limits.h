@@ -61,9 +61,9 @@ inline constexpr std::int64_t kServiceLease = 2'000'000'000;
 /// (about 0.4 kB each) only while they wait.
 inline constexpr int kContactsKept = 32768;
 
-/// Likewise revisions of the forecast of a pair: only the newest counts, but a monitor that is late
-/// for a moment still hears when a contact was first told as possible.
-inline constexpr int kForecastsKept = 8;
+/// Likewise revisions of the forecast of a pair. Only the newest counts; but if that says that the
+/// pair is in contact, the one before it says that this was told as possible.
+inline constexpr int kForecastsKept = 2;
 
 /// The counter of the status that tells the number of the last contact published.
 inline constexpr std::string_view kContactsCounter = "contacts_published";

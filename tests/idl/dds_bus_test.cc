@@ -250,7 +250,7 @@ TEST(DdsBus, AReaderThatNeverReadsDelaysNoOther) {
   ASSERT_TRUE(ReceiveUntil(reader, &outputs, ends));
   outputs.clear();
   sleeper.Receive(kShort, kNoLimit, nullptr, &outputs);
-  ASSERT_EQ(outputs.size(), 64u + 1);  // its depths: the newest
+  ASSERT_EQ(outputs.size(), 64u + wire::kForecastsKept);  // its depths: the newest
   EXPECT_EQ(outputs[63].earliest_intersection().now_ns(), 1000);
   EXPECT_EQ(outputs.back().collision_event().revision(), 1000u);
 }
