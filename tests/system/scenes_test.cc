@@ -76,14 +76,10 @@ std::string EventLogOf(const std::vector<std::string>& scene) {
   std::vector<std::string> words = scene;
   words.insert(words.end(), {"--logs", folder});
   ExpectSceneSucceeds(words);
-  std::ifstream log(folder + "/collisiond.log");
-  std::string told;
-  for (std::string line; std::getline(log, line);) {
-    const std::size_t at = line.find("event log: ");
-    if (at != std::string::npos) told = line.substr(at);
-  }
+  std::ostringstream log;
+  log << std::ifstream(folder + "/collisiond.log").rdbuf();
   std::filesystem::remove_all(folder);
-  return told;
+  return EventLogLine(log.str());
 }
 
 // Goal:   the events of a scene in lock-step follow from its simulators alone, which bounce where
