@@ -5,7 +5,9 @@ namespace collision::repeat {
 const std::vector<Condition>& AllConditions() {
   static const std::vector<Condition> conditions = {
       {.name = "full-speed", .text = "as fast as it goes"},
-      {.name = "real-time", .text = "simulators keep to real time", .paced = true},
+      {.name = "real-time",
+       .text = "simulators keep to real time, in long scenes to a multiple of it",
+       .paced = true},
       {.name = "starved-service",
        .text = "collisiond of low priority beside busy loops, stopped again and again",
        .starves_service = true},

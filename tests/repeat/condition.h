@@ -9,7 +9,7 @@ namespace collision::repeat {
 struct Condition {
   std::string name;
   std::string text;
-  bool paced = false;            ///< Simulators keep to real time, in lock-step all the same.
+  bool paced = false;            ///< Simulators keep to the clock, in lock-step all the same.
   bool starves_service = false;  ///< Low priority beside busy loops, stopped again and again.
   bool starves_simulators = false;
   bool slow_network = false;  ///< Between simulators and service; needs root.

@@ -51,14 +51,15 @@ struct Start {
   bool starved = false;
 };
 
-Start StartOf(const std::string& program, const Condition& condition, const SlowNetwork* network) {
+Start StartOf(const std::string& program, const FlightPlan& plan, const SlowNetwork* network) {
+  const Condition& condition = plan.condition;
   const bool service = program == kService;
   Start start;
   start.starved = service ? condition.starves_service : condition.starves_simulators;
   if (start.starved) start.before = {"nice", "-n", "5"};
   if (service) return start;
   if (network != nullptr) start.before = network->On(1, start.before);
-  if (condition.paced) start.after = {"--speed", "1"};
+  if (plan.speed > 0) start.after = {"--speed", std::to_string(plan.speed)};
   return start;
 }
 
@@ -70,7 +71,7 @@ void WriteScripts(const FlightPlan& plan, const Places& places, const SlowNetwor
   fs::create_directories(folder / "starved");
   for (const auto& entry : fs::directory_iterator(places.bin)) {
     const std::string program = entry.path().filename().string();
-    const Start start = StartOf(program, plan.condition, network);
+    const Start start = StartOf(program, plan, network);
     const fs::path path = folder / "bin" / program;
     std::ofstream script(path);
     script << "#!/bin/sh\n";
@@ -148,6 +149,7 @@ Flight Fly(const FlightPlan& plan, const Places& places, const std::string& fold
   }
   flight.wall_s = std::chrono::duration<double>(steady_clock::now() - began).count();
   flight.satisfied = runner.WaitForExit(std::chrono::nanoseconds(0)) == 0;
+  flight.ended = runner.out().find("\nchecker: ") != std::string::npos;
   flight.event_log =
       system_test::EventLogLine(ReadFile(fs::path(folder) / "logs" / "collisiond.log"));
   if (flight.satisfied) return flight;

@@ -19,12 +19,14 @@ struct Places {
 struct FlightPlan {
   std::string scene;
   double seconds = 0;  ///< Simulated.
+  double speed = 0;    ///< At most so many simulated seconds a second; 0: no limit.
   Condition condition;
   std::uint64_t seed = 1;  ///< Of stops, delays and losses.
 };
 
 struct Flight {
-  bool satisfied = false;  ///< The scene ran to its end and its checker is satisfied.
+  bool ended = false;      ///< The scene ran to its end.
+  bool satisfied = false;  ///< And its checker is satisfied.
   std::string event_log;   ///< Number and hash of the events, as collisiond logs them.
   double wall_s = 0;
   int stops = 0;     ///< How often a process was stopped.

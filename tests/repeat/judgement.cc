@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <set>
-#include <utility>
 
 #include "tests/bench/harness/json.h"
 
@@ -13,18 +12,15 @@ namespace {
 using bench::Format;
 using bench::Padded;
 
-/// Flights that must agree: of one scene and length, in the order of the table.
-using Key = std::pair<std::string, double>;
-
 std::set<std::string> EventLogs(const Row& row) {
   std::set<std::string> logs;
   for (const Flight& flight : row.flights) logs.insert(flight.event_log);
   return logs;
 }
 
-std::size_t CountFailed(const Row& row) {
-  return static_cast<std::size_t>(std::count_if(row.flights.begin(), row.flights.end(),
-                                                [](const Flight& f) { return !f.satisfied; }));
+double Count(const Row& row, bool Flight::*what) {
+  return static_cast<double>(std::count_if(row.flights.begin(), row.flights.end(),
+                                           [&](const Flight& flight) { return flight.*what; }));
 }
 
 double MedianWall(const Row& row) {
@@ -53,24 +49,26 @@ std::string LogsText(const std::set<std::string>& logs) {
 
 bool HasEvents(const std::string& log) { return log.find(": 0 events") == std::string::npos; }
 
+double Flights(const Row& row) { return static_cast<double>(row.flights.size()); }
+
 std::string Measurement(const Row& row) {
-  return bench::Object({bench::Text("part", "repeat"), bench::Text("scene", row.series.scene),
-                        bench::Text("condition", row.series.condition.name),
-                        bench::Number("seconds", row.series.seconds),
-                        bench::Number("flights", static_cast<double>(row.flights.size())),
-                        bench::Number("failed", static_cast<double>(CountFailed(row))),
-                        bench::Number("event_logs", static_cast<double>(EventLogs(row).size())),
-                        bench::Text("event_log", LogsText(EventLogs(row))),
-                        bench::Number("stops", CountStops(row)),
-                        bench::Number("wall_s", MedianWall(row))});
+  return bench::Object(
+      {bench::Text("part", "repeat"), bench::Text("scene", row.series.scene),
+       bench::Text("condition", row.series.condition.name),
+       bench::Number("seconds", row.series.seconds), bench::Number("speed", row.series.speed),
+       bench::Number("flights", Flights(row)), bench::Number("ended", Count(row, &Flight::ended)),
+       bench::Number("satisfied", Count(row, &Flight::satisfied)),
+       bench::Number("event_logs", static_cast<double>(EventLogs(row).size())),
+       bench::Text("event_log", LogsText(EventLogs(row))), bench::Number("stops", CountStops(row)),
+       bench::Number("wall_s", MedianWall(row))});
 }
 
 }  // namespace
 
 std::string TableHead() {
-  return Padded("scene", 17) + Padded("condition", 20) + Padded("seconds", 9) +
-         Padded("flights", 9) + Padded("failed", 8) + Padded("logs", 6) + Padded("stops", 7) +
-         Padded("wall s", 8) + "event log\n";
+  return Padded("scene", 16) + Padded("condition", 20) + Padded("seconds", 8) + Padded("speed", 7) +
+         Padded("flights", 8) + Padded("ended", 6) + Padded("satisfied", 10) + Padded("logs", 5) +
+         Padded("stops", 7) + Padded("wall s", 7) + "event log\n";
 }
 
 std::string TableLine(const Row& row) {
@@ -78,33 +76,35 @@ std::string TableLine(const Row& row) {
   const auto number = [](double value, std::size_t width) {
     return Padded(Format("%g", value), width);
   };
-  return Padded(row.series.scene, 17) + Padded(row.series.condition.name, 20) +
-         number(row.series.seconds, 9) + number(static_cast<double>(row.flights.size()), 9) +
-         number(static_cast<double>(CountFailed(row)), 8) +
-         number(static_cast<double>(logs.size()), 6) + number(CountStops(row), 7) +
-         Padded(Format("%.1f", MedianWall(row)), 8) + LogsText(logs) + "\n";
+  const double speed = row.series.speed;
+  return Padded(row.series.scene, 16) + Padded(row.series.condition.name, 20) +
+         number(row.series.seconds, 8) + Padded(speed > 0 ? Format("%.3g", speed) : "-", 7) +
+         number(Flights(row), 8) + number(Count(row, &Flight::ended), 6) +
+         number(Count(row, &Flight::satisfied), 10) + number(static_cast<double>(logs.size()), 5) +
+         number(CountStops(row), 7) + Padded(Format("%.1f", MedianWall(row)), 7) + LogsText(logs) +
+         "\n";
 }
 
 std::vector<std::string> Faults(const std::vector<Row>& rows) {
   struct Found {
     std::set<std::string> logs;
-    std::size_t failed = 0;
+    double broken_off = 0;
   };
-  std::map<Key, Found> groups;
+  std::map<std::string, Found> scenes;
   for (const Row& row : rows) {
-    Found& group = groups[{row.series.scene, row.series.seconds}];
-    group.logs.merge(EventLogs(row));
-    group.failed += CountFailed(row);
+    Found& scene = scenes[row.series.scene];
+    scene.logs.merge(EventLogs(row));
+    scene.broken_off += Flights(row) - Count(row, &Flight::ended);
   }
   std::vector<std::string> faults;
-  for (const auto& [key, group] : groups) {
-    const std::string name = key.first + " of " + Format("%g", key.second) + " s: ";
-    const std::size_t logs = group.logs.size();
-    if (logs > 1) faults.push_back(name + std::to_string(logs) + " different event logs");
-    if (group.failed > 0) faults.push_back(name + std::to_string(group.failed) + " flights failed");
-    if (group.logs.contains("")) faults.push_back(name + "a flight without an event log");
-    if (std::none_of(group.logs.begin(), group.logs.end(), HasEvents))
-      faults.push_back(name + "no events");
+  for (const auto& [name, scene] : scenes) {
+    const std::size_t logs = scene.logs.size();
+    if (logs > 1) faults.push_back(name + ": " + std::to_string(logs) + " different event logs");
+    if (scene.broken_off > 0)
+      faults.push_back(name + Format(": %g flights did not run to their end", scene.broken_off));
+    if (scene.logs.contains("")) faults.push_back(name + ": a flight without an event log");
+    if (std::none_of(scene.logs.begin(), scene.logs.end(), HasEvents))
+      faults.push_back(name + ": no events");
   }
   return faults;
 }

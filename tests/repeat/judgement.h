@@ -18,9 +18,10 @@ struct Row {
 std::string TableHead();
 std::string TableLine(const Row& row);
 
-/// "SCENE of N s: what is wrong", of each scene and length that has flights with different event
-/// logs, or flights that did not satisfy the checker or whose service told no event log. A scene
-/// without a single event proves nothing, so it is named, too.
+/// "SCENE: what is wrong", of each scene that has flights with different event logs, or flights
+/// that did not run to their end or whose service told no event log. A scene without a single event
+/// proves nothing, so it is named, too. A checker that is not satisfied is no fault here: it judges
+/// by what its monitor has heard, and a monitor that gets no processor misses forecasts.
 std::vector<std::string> Faults(const std::vector<Row>& rows);
 
 std::string Json(const std::vector<Row>& rows);

@@ -19,13 +19,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kSame = 0, kNotTheSame = 1, kNothingToFly = 2, kInterrupted = 130;
-constexpr double kPart = 20, kQuickPart = 4;
+constexpr double kQuickSeconds = 4;
 constexpr int kTimes = 10, kQuickTimes = 2;
 
 struct Options {
   Choice choice;
   int times = 0;  ///< 0: the default.
-  double seconds = 0;
   std::string json;
   Places places{COLLISION_BIN_DIR, std::string(COLLISION_SOURCE_DIR) + "/config",
                 COLLISION_DATA_DIR, "repeat-logs"};
@@ -39,8 +38,7 @@ class Keeper {
   Flight Fly(const FlightPlan& plan, const std::string& name) {
     const fs::path folder = fs::path(places_.logs) / name;
     const Flight flight = repeat::Fly(plan, places_, folder.string());
-    const std::string seconds = bench::Format("%g", plan.seconds);
-    const bool is_new = known_.insert(plan.scene + " " + seconds + " " + flight.event_log).second;
+    const bool is_new = known_.insert(plan.scene + " " + flight.event_log).second;
     if (flight.satisfied && !is_new) fs::remove_all(folder);
     return flight;
   }
@@ -53,15 +51,13 @@ class Keeper {
 Row FlySeries(const Series& series, int times, Keeper* keeper) {
   Row row{series, {}};
   for (int i = 1; i <= times && !client::StopRequested(); ++i) {
-    const std::string seconds = bench::Format("%gs", series.seconds);
-    const std::string name =
-        series.scene + "-" + seconds + "-" + series.condition.name + "-" + std::to_string(i);
-    const FlightPlan plan{series.scene, series.seconds, series.condition,
+    const std::string name = series.scene + "-" + series.condition.name + "-" + std::to_string(i);
+    const FlightPlan plan{series.scene, series.seconds, series.speed, series.condition,
                           static_cast<std::uint64_t>(i)};
     const Flight flight = keeper->Fly(plan, name);
     if (client::StopRequested()) break;
     std::fprintf(stderr, "%s: %.1f s, %s%s\n", name.c_str(), flight.wall_s,
-                 flight.event_log.c_str(), flight.satisfied ? "" : ", FAILED:");
+                 flight.event_log.c_str(), flight.satisfied ? "" : ", not satisfied:");
     if (!flight.satisfied) std::fprintf(stderr, "%s\n", flight.said.c_str());
     row.flights.push_back(flight);
   }
@@ -97,7 +93,7 @@ int FlyAll(const Options& options) {
   if (const int status = bench::WriteJson(options.json, Json(rows)); status != 0) return status;
   if (client::StopRequested()) return kInterrupted;
   if (!faults.empty()) return kNotTheSame;
-  std::printf("SAME: %zu flights, of each scene and length one event log\n", flights);
+  std::printf("SAME: %zu flights, of each scene one event log\n", flights);
   return kSame;
 }
 
@@ -116,16 +112,20 @@ int main(int argc, char** argv) {
   app.add_option("--times", options.times, "Flights of each row; default 10")
       ->check(CLI::Range(1, kTimesMax));
   app.add_option("--only", options.choice.only, "Only rows whose SCENE/CONDITION contains this");
-  app.add_option("--seconds", options.seconds,
-                 "Simulated seconds of flights at real time, by default 20; with --quick of all")
+  app.add_option("--seconds", options.choice.seconds,
+                 "Simulated length of each flight; default: as the scene says")
       ->check(client::Finite(kSecondsMax, false));
+  app.add_option("--paced-max", options.choice.paced_max_s,
+                 "Longest time of a flight at real time [s]: a longer scene is flown faster")
+      ->check(client::Finite(kSecondsMax, false))
+      ->capture_default_str();
   app.add_option("--json", options.json, "Write the table to this file");
   app.add_option("--logs", options.places.logs, "Folder for logs of flights that differ")
       ->capture_default_str();
   if (const auto code = client::ParseCommandLine(&app, argc, argv)) return *code;
   const bool quick = options.choice.quick;
   if (options.times == 0) options.times = quick ? kQuickTimes : kTimes;
-  options.choice.part_seconds = options.seconds > 0 ? options.seconds : quick ? kQuickPart : kPart;
+  if (options.choice.seconds == 0 && quick) options.choice.seconds = kQuickSeconds;
   client::CatchStopSignals();
   return client::RunProgram("repeat", [&] { return FlyAll(options); });
 }

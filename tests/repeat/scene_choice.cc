@@ -47,15 +47,11 @@ std::string WhyNotRepeatable(const v1::Scene& scene) {
 
 std::vector<Series> SeriesOf(const std::string& name, double scene_seconds, const Choice& choice,
                              const std::vector<Condition>& conditions) {
-  const double part = std::min(scene_seconds, choice.part_seconds);
-  const double whole = choice.quick ? part : scene_seconds;
+  const double seconds = choice.seconds > 0 ? choice.seconds : scene_seconds;
   std::vector<Series> series;
   for (const Condition& condition : conditions) {
-    const bool is_reference = &condition == &conditions.front();
-    if (!condition.paced) series.push_back({name, whole, condition});
-    if (condition.paced || (is_reference && part < whole)) {
-      series.push_back({name, part, condition});
-    }
+    const double speed = condition.paced ? std::max(1.0, seconds / choice.paced_max_s) : 0;
+    series.push_back({name, seconds, speed, condition});
   }
   std::erase_if(
       series, [&](const Series& one) { return one.name().find(choice.only) == std::string::npos; });

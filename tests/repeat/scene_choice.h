@@ -10,15 +10,17 @@
 namespace collision::repeat {
 
 struct Choice {
-  bool quick = false;        ///< Two scenes, a few seconds of each.
-  std::string only;          ///< Part of SCENE/CONDITION.
-  double part_seconds = 20;  ///< Of flights that keep to real time; if quick, of all.
+  bool quick = false;        ///< Two scenes.
+  std::string only = {};     ///< Part of SCENE/CONDITION.
+  double seconds = 0;        ///< Simulated; 0: as the scene says.
+  double paced_max_s = 120;  ///< A longer scene is flown faster than real time where it is paced.
 };
 
-/// Flights that are to have the same event log: of one scene, equally long.
+/// Flights of a scene under one condition.
 struct Series {
   std::string scene;
   double seconds = 0;  ///< Simulated.
+  double speed = 0;    ///< Simulated seconds a second; 0: no limit.
   Condition condition;
 
   std::string name() const { return scene + "/" + condition.name; }
@@ -32,8 +34,7 @@ struct Chosen {
 /// Why the events of a scene need not be the same every time; empty: they are.
 std::string WhyNotRepeatable(const v1::Scene& scene);
 
-/// A scene that is longer than the part flies this part at full speed as well: only flights of one
-/// length can have the same event log.
+/// All of one length: only such flights can have the same event log.
 std::vector<Series> SeriesOf(const std::string& name, double scene_seconds, const Choice& choice,
                              const std::vector<Condition>& conditions);
 

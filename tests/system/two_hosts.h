@@ -6,7 +6,8 @@
 
 namespace collision::system_test {
 
-/// Runs `ip` (iproute2) with these words. Throws std::runtime_error, with what it said, if it fails.
+/// Runs `ip` (iproute2) with these words. Throws std::runtime_error, with what it said, if it
+/// fails.
 void Ip(const std::string& arguments);
 
 /// Removes a network namespace, if there is one of that name.
