@@ -145,11 +145,19 @@ std::vector<v1::AgentDescription> AgentTable::Descriptions() const {
 }
 
 std::vector<v1::AgentStates> AgentTable::SentStates() const {
+  const auto newest = [](const v1::AgentStates& chunk) {
+    std::uint64_t sequence = 0;
+    for (const v1::AgentState& state : chunk.states())
+      sequence = std::max<std::uint64_t>(sequence, state.sequence());
+    return sequence;
+  };
   std::vector<v1::AgentStates> chunks;
   for (std::uint32_t chunk = 0; chunk * policy_.chunk_size < slots_.size(); ++chunk) {
     v1::AgentStates states = Chunk(chunk);
     if (states.states_size() > 0) chunks.push_back(std::move(states));
   }
+  std::sort(chunks.begin(), chunks.end(),
+            [&](const auto& a, const auto& b) { return newest(a) < newest(b); });
   return chunks;
 }
 
@@ -164,20 +172,20 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   std::vector<std::uint32_t> chunks;
   if (clock_ns > taken_ns_) chunks = FreeRemoved();
   taken_ns_ = clock_ns;
-  std::size_t waiting = 0;
-  for (const std::uint32_t index : staged_slots_) {
-    Slot& slot = slots_[index];
-    if (IsDue(slot, clock_ns)) {
-      stated_ += !slot.states.sent().has_value();
-      slot.states.MarkSent(++states_sequence_, slot.description.revision());
-      standing_sequence_ = states_sequence_;
-      ++traffic_.states_sent;
-      chunks.push_back(index / policy_.chunk_size);
-    } else {
-      staged_slots_[waiting++] = index;
-    }
+  const auto due =
+      std::stable_partition(staged_slots_.begin(), staged_slots_.end(),
+                            [&](std::uint32_t index) { return !IsDue(slots_[index], clock_ns); });
+  // Numbered in the order in which the chunks are written.
+  std::sort(due, staged_slots_.end());
+  for (auto index = due; index != staged_slots_.end(); ++index) {
+    Slot& slot = slots_[*index];
+    stated_ += !slot.states.sent().has_value();
+    slot.states.MarkSent(++states_sequence_, slot.description.revision());
+    standing_sequence_ = states_sequence_;
+    ++traffic_.states_sent;
+    chunks.push_back(*index / policy_.chunk_size);
   }
-  staged_slots_.resize(waiting);
+  staged_slots_.erase(due, staged_slots_.end());
   std::sort(chunks.begin(), chunks.end());
   chunks.erase(std::unique(chunks.begin(), chunks.end()), chunks.end());
   traffic_.samples_sent += chunks.size();
