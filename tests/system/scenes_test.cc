@@ -40,6 +40,11 @@ TEST(Scenes, Swarm100SatisfiesTheChecker) { ExpectSceneSucceeds({"swarm-100", "-
 // Convex solids, against each other and against triangles.
 TEST(Scenes, DroneArmsSatisfyTheChecker) { ExpectSceneSucceeds({"drone-arms", "--seconds", "6"}); }
 
+// Its fine tree takes longer than any simulator waits: time must begin with the coarse one.
+TEST(Scenes, AMillionTrianglesSatisfyTheChecker) {
+  ExpectSceneSucceeds({"terrain-million", "--seconds", "0.5"});
+}
+
 /// A number of a report, as --json writes it; -1: it is not there.
 double NumberIn(const std::string& json, const std::string& field) {
   const std::string key = "\"" + field + "\": ";
