@@ -13,6 +13,8 @@ struct Condition {
   bool starves_service = false;  ///< Low priority beside busy loops, stopped again and again.
   bool starves_simulators = false;
   bool slow_network = false;  ///< Between simulators and service; needs root.
+
+  bool starves() const { return starves_service || starves_simulators; }
 };
 
 /// The first one is undisturbed.

@@ -127,7 +127,7 @@ void Attend(Process* runner, Stopper* stopper) {
 
 Flight Fly(const FlightPlan& plan, const Places& places, const std::string& folder) {
   const Condition& condition = plan.condition;
-  const bool starves = condition.starves_service || condition.starves_simulators;
+  const bool starves = condition.starves();
   fs::remove_all(folder);
   fs::create_directories(folder);
   CableFaults faults = kFaults;

@@ -97,6 +97,10 @@ std::vector<std::string> Faults(const std::vector<Row>& rows) {
     scene.broken_off += Flights(row) - Count(row, &Flight::ended);
   }
   std::vector<std::string> faults;
+  for (const Row& row : rows) {
+    if (row.series.condition.starves() && CountStops(row) == 0)
+      faults.push_back(row.series.name() + ": nothing was stopped");
+  }
   for (const auto& [name, scene] : scenes) {
     const std::size_t logs = scene.logs.size();
     if (logs > 1) faults.push_back(name + ": " + std::to_string(logs) + " different event logs");

@@ -53,6 +53,14 @@ TEST(Judgement, FlightsWithoutEventsOrWithoutALogProveNothing) {
             std::vector<std::string>{"a: a flight without an event log"});
 }
 
+TEST(Judgement, StarvedFlightsInWhichNothingWasStoppedProveNothing) {
+  Row row = RowOf("a", {kLog, kLog});
+  row.series.condition = {.name = "starved", .text = {}, .starves_service = true};
+  EXPECT_EQ(Faults({row}), std::vector<std::string>{"a/starved: nothing was stopped"});
+  row.flights.back().stops = 1;
+  EXPECT_TRUE(Faults({row}).empty());
+}
+
 TEST(Judgement, TheTableAndTheFileTellHowManyLogsARowHas) {
   const Row row = RowOf("a", {kLog, kOther});
   EXPECT_NE(TableLine(row).find("3 events, hash 0000000000000001 | 3 events, hash 00000000000000"
