@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "idl/identity.h"
+#include "idl/limits.h"
 #include "tests/idl/dds_bus_support.h"
 #include "tests/idl/random_message.h"
 

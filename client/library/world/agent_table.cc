@@ -145,11 +145,19 @@ std::vector<v1::AgentDescription> AgentTable::Descriptions() const {
 }
 
 std::vector<v1::AgentStates> AgentTable::SentStates() const {
+  const auto newest = [](const v1::AgentStates& chunk) {
+    std::uint64_t sequence = 0;
+    for (const v1::AgentState& state : chunk.states())
+      sequence = std::max<std::uint64_t>(sequence, state.sequence());
+    return sequence;
+  };
   std::vector<v1::AgentStates> chunks;
   for (std::uint32_t chunk = 0; chunk * policy_.chunk_size < slots_.size(); ++chunk) {
     v1::AgentStates states = Chunk(chunk);
     if (states.states_size() > 0) chunks.push_back(std::move(states));
   }
+  std::sort(chunks.begin(), chunks.end(),
+            [&](const auto& a, const auto& b) { return newest(a) < newest(b); });
   return chunks;
 }
 
@@ -173,6 +181,9 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   std::vector<std::uint32_t> chunks;
   if (clock_ns > taken_ns_) chunks = FreeRemoved();
   taken_ns_ = clock_ns;
+  // In the order of the chunks, so that the last one that is written has the highest sequence: it
+  // arrives last, and a clock that names it counts when all have come.
+  std::sort(staged_slots_.begin(), staged_slots_.end());
   std::size_t waiting = 0;
   for (const std::uint32_t index : staged_slots_) {
     Slot& slot = slots_[index];

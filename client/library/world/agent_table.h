@@ -42,7 +42,7 @@ class AgentTable {
   /// Whether TakeDue() or a clock sample would say anything new at this clock.
   bool HasNews(std::int64_t clock_ns) const;
 
-  /// All messages that still hold, to repeat them.
+  /// All messages that still hold, to repeat them; of states, the newest chunk last.
   std::vector<v1::AgentDescription> Descriptions() const;
   std::vector<v1::AgentRemoval> Removals() const;
   std::vector<v1::AgentStates> SentStates() const;
@@ -53,7 +53,8 @@ class AgentTable {
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
   /// of all its agents. Where an agent was removed, its last state stays in its chunk, and its slot
-  /// unused, until the clock has moved on: the service is to see it.
+  /// unused, until the clock has moved on: the service is to see it. To be written in this order:
+  /// the highest sequence comes last, so that the service has all when it has that one.
   std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);
 
   /// The clock sample that follows everything sent so far.

@@ -1,8 +1,10 @@
 // Goal:   a jump that is staged reaches the service, also if a later state replaces it; and what a
-//         clock counts is there to be read by a service that comes later.
+//         clock counts is there to be read by a service that comes later, or has not all yet.
 #include "client/library/world/agent_table.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 namespace collision::client {
 namespace {
@@ -52,6 +54,46 @@ TEST(AgentTable, ARemovalIsOneOfTheDescriptions) {
   table.SetRun(9);
   EXPECT_EQ(table.Descriptions()[0].run(), 9u);
   EXPECT_EQ(table.Clock(0, 0, true).run(), 9u);
+}
+
+/// The highest sequence in each chunk, in the order of writing.
+std::vector<std::uint64_t> Newest(const std::vector<v1::AgentStates>& chunks) {
+  std::vector<std::uint64_t> newest;
+  for (const v1::AgentStates& chunk : chunks) {
+    std::uint64_t& sequence = newest.emplace_back(0);
+    for (const v1::AgentState& state : chunk.states())
+      sequence = std::max<std::uint64_t>(sequence, state.sequence());
+  }
+  return newest;
+}
+
+// Goal:   who has the state that a clock names has all states before it: nothing that was written
+//         comes after the highest sequence.
+// Method: states are set in another order than that of the slots; one that is not due yet waits
+//         before the others.
+TEST(AgentTable, TheHighestSequenceIsWrittenLast) {
+  for (const std::uint32_t chunk_size : {1u, 2u, 64u}) {
+    PublishPolicy policy;
+    policy.chunk_size = chunk_size;
+    AgentTable table("simulator", 1, 1, 1, policy);
+    std::vector<AgentId> agents;
+    for (const char* name : {"a", "b", "c", "d", "e", "f"})
+      agents.push_back(table.Add({.name = name}, {.stamp_ns = 0}));
+    table.TakeDue(0);
+    table.Stage(agents[5], {.stamp_ns = 2});
+    for (const int agent : {4, 1, 3, 0}) table.Stage(agents[agent], {.stamp_ns = 1});
+    for (const std::int64_t clock_ns : {1, 2}) {
+      const auto written = Newest(table.TakeDue(clock_ns));
+      ASSERT_FALSE(written.empty());
+      EXPECT_TRUE(std::is_sorted(written.begin(), written.end())) << "chunks of " << chunk_size;
+      EXPECT_EQ(written.back(), table.Clock(clock_ns, 0, true).states_sequence());
+    }
+    table.Stage(agents[0], {.stamp_ns = 3});
+    table.TakeDue(3);
+    const auto again = Newest(table.SentStates());
+    EXPECT_TRUE(std::is_sorted(again.begin(), again.end())) << "chunks of " << chunk_size;
+    EXPECT_EQ(again.back(), table.Clock(3, 0, true).states_sequence());
+  }
 }
 
 }  // namespace
