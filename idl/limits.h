@@ -43,6 +43,7 @@ inline constexpr double kShapeRadiusTolerance = 1e-9;
 
 inline constexpr std::uint32_t kSlotMax = 65535;  ///< Slots are reused, so 65536 are enough.
 inline constexpr int kStatesPerChunkMax = 64;     ///< Slots in a chunk of states or clearances.
+inline constexpr int kStatesPerSampleMax = 128;   ///< With those before them that are jumps.
 inline constexpr std::uint32_t kDomainMax = 230;  ///< Higher DDS domains have ports beyond 65535.
 inline constexpr std::size_t kShapeTrianglesMax = 5'000'000;  ///< Of one shape, in any service.
 inline constexpr std::size_t kShapeSolidsMax = 65536;         ///< Convex solids of one shape.
@@ -59,6 +60,10 @@ inline constexpr std::int64_t kServiceLease = 2'000'000'000;
 /// program that has: 10 s at 1,000 contacts a second, each told three times. They take memory
 /// (about 0.4 kB each) only while they wait.
 inline constexpr int kContactsKept = 32768;
+
+/// Likewise revisions of the forecast of a pair. Only the newest counts; but if that says that the
+/// pair is in contact, the one before it says that this was told as possible.
+inline constexpr int kForecastsKept = 2;
 
 /// The counter of the status that tells the number of the last contact published.
 inline constexpr std::string_view kContactsCounter = "contacts_published";

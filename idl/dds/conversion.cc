@@ -97,7 +97,7 @@ FIELDS(AgentState,
 
 FIELDS(AgentStates,
        VALUE(simulator_id) VALUE(chunk) VALUE(incarnation) VALUE(run)
-       LIST(states, collision_v1_STATES_PER_CHUNK_MAX))
+       LIST(states, collision_v1_STATES_PER_SAMPLE_MAX))
 
 FIELDS(SimulatorClock,
        VALUE(simulator_id) VALUE(incarnation) VALUE(run) TEXT(simulator_name) VALUE(clock_ns)

@@ -119,7 +119,7 @@ Decoded<detection::AgentDeclaration> DecodeDescription(const v1::AgentDescriptio
 
 std::optional<Refusal> CheckChunk(const v1::AgentStates& chunk) {
   FieldCheck check(At(chunk));
-  check.Integer("states", chunk.states_size(), 0, wire::kStatesPerChunkMax,
+  check.Integer("states", chunk.states_size(), 0, wire::kStatesPerSampleMax,
                 v1::REJECTED_CHUNK_TOO_LARGE);
   check.Integer("chunk", chunk.chunk(), 0, wire::kSlotMax);
   return check.refusal();

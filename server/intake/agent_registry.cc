@@ -157,8 +157,9 @@ void AgentRegistry::EnactState(Simulator* simulator, std::uint32_t slot) {
   if (agent == nullptr || waiting == nullptr) return;
   if (waiting->generation != agent->generation()) return;
   if (!agent->admitted()) return AdmitIfComplete(simulator, slot);
-  const WaitingState state = agents.TakeWaiting(slot);
-  Update(simulator, slot, state.sequence, state.state);
+  for (const WaitingState& state : agents.TakeWaiting(slot)) {
+    Update(simulator, slot, state.sequence, state.state);
+  }
 }
 
 void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
@@ -172,7 +173,7 @@ void AgentRegistry::AdmitIfComplete(Simulator* simulator, std::uint32_t slot) {
     if (!std::exchange(agent->room_refused, true)) rejections_.Add(NoRoom(id, agents_max_));
     return;
   }
-  Admit(simulator, slot, agents.TakeWaiting(slot));
+  Admit(simulator, slot, agents.TakeWaiting(slot).back());
 }
 
 void AgentRegistry::Admit(Simulator* simulator, std::uint32_t slot, const WaitingState& waiting) {

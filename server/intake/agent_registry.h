@@ -27,12 +27,13 @@ struct AgentCounters {
 /// Keeps the agents of the world's simulators and those of the detector the same.
 ///
 /// What is told of an agent is checked when it arrives and takes effect with Enact(): the newest
-/// state, the newest description, a removal. An agent enters the detector when its description and
-/// a state are there and, with a simulated clock, the first clock of its simulator is in force. A
-/// state without a description is kept and reported to its sender after `undescribed_after_s`. If
-/// there is no room for another agent, its owner gets one rejection; the agent is admitted with its
-/// next state once there is room. A new generation ends the agent of its slot; late states of ended
-/// ones count as older. A change that may lower promises counts from World::EffectiveFrom().
+/// state with the jumps before it, the newest description, a removal. An agent enters the detector
+/// when its description and a state are there and, with a simulated clock, the first clock of its
+/// simulator is in force. A state without a description is kept and reported to its sender after
+/// `undescribed_after_s`. If there is no room for another agent, its owner gets one rejection; the
+/// agent is admitted with its next state once there is room. A new generation ends the agent of its
+/// slot; late states of ended ones count as older. A change that may lower promises counts from
+/// World::EffectiveFrom().
 ///
 /// With a wall clock the states of one batch take effect one by one, since each narrows what could
 /// have happened between its neighbours. One thread.

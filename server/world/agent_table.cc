@@ -24,7 +24,8 @@ Agent* AgentTable::Find(std::uint32_t slot, std::uint32_t generation) {
 
 const WaitingState* AgentTable::Waiting(std::uint32_t slot) const {
   const auto found = slots_.find(slot);
-  return found == slots_.end() || !found->second.waiting ? nullptr : &*found->second.waiting;
+  if (found == slots_.end() || found->second.waiting.empty()) return nullptr;
+  return &found->second.waiting.back();
 }
 
 bool AgentTable::HasEnded(std::uint32_t slot, std::uint32_t generation) const {
@@ -75,18 +76,27 @@ void AgentTable::AcknowledgeRevision(std::uint32_t slot, std::uint32_t generatio
 }
 
 void AgentTable::SetWaiting(std::uint32_t slot, const WaitingState& waiting) {
-  slots_[slot].waiting = waiting;
+  const Agent* agent = Find(slot, waiting.generation);
+  std::vector<WaitingState>& all = slots_[slot].waiting;
+  if (agent == nullptr || !agent->admitted_ ||
+      (!all.empty() && all.back().generation != waiting.generation)) {
+    all.clear();
+  }
+  if (!all.empty() && !all.back().state.discontinuity) all.pop_back();
+  if (all.size() > kJumpsWaitingMax) all.erase(all.begin());
+  all.push_back(waiting);
 }
 
-WaitingState AgentTable::TakeWaiting(std::uint32_t slot) {
+std::vector<WaitingState> AgentTable::TakeWaiting(std::uint32_t slot) {
   const auto found = slots_.find(slot);
-  CORE_CHECK(found != slots_.end() && found->second.waiting, "a state waits in the slot", slot);
-  return *std::exchange(found->second.waiting, std::nullopt);
+  CORE_CHECK(found != slots_.end() && !found->second.waiting.empty(), "a state waits in the slot",
+             slot);
+  return std::exchange(found->second.waiting, {});
 }
 
 void AgentTable::DropWaiting(std::uint32_t slot) {
   const auto found = slots_.find(slot);
-  if (found != slots_.end()) found->second.waiting.reset();
+  if (found != slots_.end()) found->second.waiting.clear();
 }
 
 void AgentTable::Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence) {
@@ -98,7 +108,7 @@ void AgentTable::Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence
 
 void AgentTable::Expel(std::uint32_t slot_index) {
   Slot& slot = slots_[slot_index];
-  slot.waiting.reset();
+  slot.waiting.clear();
   if (!slot.agent) return;
   slot.agent->admitted_ = false;
   slot.agent->stamp_ = Instant::Always();
@@ -122,7 +132,7 @@ void AgentTable::Remove(std::uint32_t slot_index) {
   Slot& slot = slots_[slot_index];
   CORE_CHECK(slot.agent.has_value(), "an agent is in the slot", slot_index);
   slot.ended = std::uint64_t{slot.agent->generation_} + 1;
-  if (slot.waiting && slot.waiting->generation < slot.ended) slot.waiting.reset();
+  if (!slot.waiting.empty() && slot.waiting.back().generation < slot.ended) slot.waiting.clear();
   stated_ -= slot.stated();
   slot.agent.reset();
   --agents_;
@@ -131,9 +141,9 @@ void AgentTable::Remove(std::uint32_t slot_index) {
 
 void AgentTable::RemoveWaiting(std::uint32_t slot_index) {
   const auto found = slots_.find(slot_index);
-  if (found == slots_.end() || !found->second.waiting) return;
-  found->second.ended = std::uint64_t{found->second.waiting->generation} + 1;
-  found->second.waiting.reset();
+  if (found == slots_.end() || found->second.waiting.empty()) return;
+  found->second.ended = std::uint64_t{found->second.waiting.back().generation} + 1;
+  found->second.waiting.clear();
 }
 
 void AgentTable::Clear() {

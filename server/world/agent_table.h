@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "collision_core/detection/detector.h"
 #include "server/world/clearances.h"
@@ -51,12 +52,16 @@ class Agent {
   std::uint64_t acknowledged_sequence_ = 0;
 };
 
-/// The newest state of an agent that cannot be admitted yet.
+/// A state that has not taken effect: the newest of its slot, or a jump before it.
 struct WaitingState {
   std::uint32_t generation = 0;
   std::uint64_t sequence = 0;
   motion::MotionState state;
 };
+
+/// Jumps of one agent that wait for its newest state to take effect; beyond, the oldest is dropped:
+/// what lies between two jumps is not known then, as if the network had lost it.
+inline constexpr std::size_t kJumpsWaitingMax = 64;
 
 /// What a state that arrives is, beside those before it.
 enum class StateOrder {
@@ -80,7 +85,7 @@ class AgentTable {
   Agent* Find(std::uint32_t slot, std::uint32_t generation);
   const Agent* Find(std::uint32_t slot, std::uint32_t generation) const;
 
-  /// The state that waits in `slot` for its agent to be complete; null: there is none.
+  /// The newest state that waits in `slot`; null: there is none.
   const WaitingState* Waiting(std::uint32_t slot) const;
 
   /// Whether `generation` of `slot` has been removed or replaced.
@@ -102,13 +107,14 @@ class AgentTable {
   void AcknowledgeRevision(std::uint32_t slot, std::uint32_t generation, std::uint32_t revision,
                            Instant from);
 
-  /// Replaces the state that waits in `slot`.
+  /// Replaces the newest state that waits in `slot`. If that is a jump of an agent that is
+  /// admitted, it waits on: what lies between it and the next one counts.
   void SetWaiting(std::uint32_t slot, const WaitingState& waiting);
 
-  /// Hands out the state that waits in `slot`, which then waits no more. Requires one.
-  [[nodiscard]] WaitingState TakeWaiting(std::uint32_t slot);
+  /// Hands out what waits in `slot`, the newest last, which then waits no more. Requires one.
+  [[nodiscard]] std::vector<WaitingState> TakeWaiting(std::uint32_t slot);
 
-  /// Drops the state that waits in `slot`, if one does.
+  /// Drops what waits in `slot`.
   void DropWaiting(std::uint32_t slot);
 
   /// The agent in `slot` is in the detector from now on, with this state. Requires an agent.
@@ -154,8 +160,8 @@ class AgentTable {
  private:
   struct Slot {
     std::optional<Agent> agent;
-    std::optional<WaitingState> waiting;
-    std::uint64_t ended = 0;  ///< Generations below have been removed or replaced.
+    std::vector<WaitingState> waiting;  ///< Jumps, and the newest state.
+    std::uint64_t ended = 0;            ///< Generations below have been removed or replaced.
     /// Generation and sequence of the newest state looked at, accepted or not.
     std::optional<std::pair<std::uint32_t, std::uint64_t>> handled;
 

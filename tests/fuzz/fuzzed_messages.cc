@@ -69,7 +69,7 @@ v1::Input FuzzedStates(const std::string& simulator, std::int64_t now_ns, Fuzzed
   const std::uint8_t kind = data->Byte();
   if (kind >= 240) chunk.set_run(Small(data));
   if (kind >= 250) chunk.set_chunk(static_cast<std::uint32_t>(data->Bits(4)));
-  const int states = kind % 4 + (kind == 239 ? wire::kStatesPerChunkMax : 0);
+  const int states = kind % 4 + (kind == 239 ? wire::kStatesPerSampleMax : 0);
   for (int i = 0; i < states; ++i) *chunk.add_states() = FuzzedState(now_ns, data);
   return From(SenderOf(simulator, data), chunk);
 }

@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "idl/identity.h"
+#include "idl/limits.h"
 #include "tests/idl/dds_bus_support.h"
 #include "tests/idl/random_message.h"
 
@@ -250,7 +251,7 @@ TEST(DdsBus, AReaderThatNeverReadsDelaysNoOther) {
   ASSERT_TRUE(ReceiveUntil(reader, &outputs, ends));
   outputs.clear();
   sleeper.Receive(kShort, kNoLimit, nullptr, &outputs);
-  ASSERT_EQ(outputs.size(), 64u + 1);  // its depths: the newest
+  ASSERT_EQ(outputs.size(), 64u + wire::kForecastsKept);  // its depths: the newest
   EXPECT_EQ(outputs[63].earliest_intersection().now_ns(), 1000);
   EXPECT_EQ(outputs.back().collision_event().revision(), 1000u);
 }

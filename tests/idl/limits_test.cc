@@ -39,7 +39,7 @@ TEST(Limits, LengthsAreTheBoundsOfTheIdl) {
 
 TEST(Limits, CountsAreTheBoundsOfTheIdl) {
   const auto count = [](int limit) { return static_cast<std::size_t>(limit); };
-  EXPECT_EQ(BoundOf("AgentStates", "states"), count(wire::kStatesPerChunkMax));
+  EXPECT_EQ(BoundOf("AgentStates", "states"), count(wire::kStatesPerSampleMax));
   EXPECT_EQ(BoundOf("Clearance", "agents"), count(wire::kStatesPerChunkMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "simulators"), count(wire::kStatusSimulatorsMax));
   EXPECT_EQ(BoundOf("ServiceStatus", "counters"), count(wire::kStatusCountersMax));

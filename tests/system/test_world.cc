@@ -125,9 +125,4 @@ std::vector<std::string> TestWorld::InWorld(const std::string& program,
   return OnHost(Joined(Joined({Program(program)}, words), {"--world", name_, "--domain", domain_}));
 }
 
-std::string EventLogLine(const std::string& log) {
-  const auto begin = log.rfind("event log:");
-  return begin == std::string::npos ? "" : log.substr(begin, log.find('\n', begin) - begin);
-}
-
 }  // namespace collision::system_test

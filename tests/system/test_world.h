@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/system/event_log.h"
 #include "tests/system/process.h"
 #include "tests/system/two_hosts.h"
 
@@ -103,9 +104,5 @@ class TestWorld {
   const TwoHosts* hosts_ = nullptr;
   int host_ = 0;
 };
-
-/// The line of collisiond's log that sums up the events, from "event log:" to its end; empty if
-/// there is none.
-std::string EventLogLine(const std::string& log);
 
 }  // namespace collision::system_test

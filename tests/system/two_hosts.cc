@@ -4,6 +4,7 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "tests/system/process.h"
 
@@ -17,14 +18,22 @@ std::vector<std::string> Words(const std::string& line) {
   return words;
 }
 
+}  // namespace
+
 void Ip(const std::string& arguments) {
   const Outcome outcome = RunToEnd(Words(COLLISION_IP_PROGRAM " " + arguments));
   if (outcome.status != 0) throw std::runtime_error("ip " + arguments + ": " + outcome.err);
 }
 
-void Remove(const std::string& name) { RunToEnd(Words(COLLISION_IP_PROGRAM " netns del " + name)); }
+void RemoveNamespace(const std::string& name) {
+  RunToEnd(Words(COLLISION_IP_PROGRAM " netns del " + name));
+}
 
-}  // namespace
+std::vector<std::string> InNamespace(const std::string& name, std::vector<std::string> command) {
+  const auto prefix = Words(COLLISION_IP_PROGRAM " netns exec " + name);
+  command.insert(command.begin(), prefix.begin(), prefix.end());
+  return command;
+}
 
 TwoHosts::TwoHosts() {
   for (int host : {0, 1})
@@ -39,13 +48,13 @@ TwoHosts::TwoHosts() {
       Ip(on_host + " link set cable up");
     }
   } catch (...) {
-    for (const std::string& name : names_) Remove(name);
+    for (const std::string& name : names_) RemoveNamespace(name);
     throw;
   }
 }
 
 TwoHosts::~TwoHosts() {
-  for (const std::string& name : names_) Remove(name);
+  for (const std::string& name : names_) RemoveNamespace(name);
 }
 
 void TwoHosts::Plug(bool in) const {
@@ -53,9 +62,7 @@ void TwoHosts::Plug(bool in) const {
 }
 
 std::vector<std::string> TwoHosts::On(int host, std::vector<std::string> command) const {
-  const auto prefix = Words(COLLISION_IP_PROGRAM " netns exec " + names_[host]);
-  command.insert(command.begin(), prefix.begin(), prefix.end());
-  return command;
+  return InNamespace(names_[host], std::move(command));
 }
 
 }  // namespace collision::system_test

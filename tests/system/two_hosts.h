@@ -6,6 +6,16 @@
 
 namespace collision::system_test {
 
+/// Runs `ip` (iproute2) with these words. Throws std::runtime_error, with what it said, if it
+/// fails.
+void Ip(const std::string& arguments);
+
+/// Removes a network namespace, if there is one of that name.
+void RemoveNamespace(const std::string& name);
+
+/// The command, to be run in a network namespace.
+std::vector<std::string> InNamespace(const std::string& name, std::vector<std::string> command);
+
 /// Made at the start, removed at the end. Needs root. Addresses 10.99.0.1 and 10.99.0.2 exist
 /// inside only.
 class TwoHosts {

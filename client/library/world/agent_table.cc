@@ -145,23 +145,19 @@ std::vector<v1::AgentDescription> AgentTable::Descriptions() const {
 }
 
 std::vector<v1::AgentStates> AgentTable::SentStates() const {
+  const auto newest = [](const v1::AgentStates& chunk) {
+    std::uint64_t sequence = 0;
+    for (const v1::AgentState& state : chunk.states())
+      sequence = std::max<std::uint64_t>(sequence, state.sequence());
+    return sequence;
+  };
   std::vector<v1::AgentStates> chunks;
   for (std::uint32_t chunk = 0; chunk * policy_.chunk_size < slots_.size(); ++chunk) {
     v1::AgentStates states = Chunk(chunk);
     if (states.states_size() > 0) chunks.push_back(std::move(states));
   }
-  // As in TakeDue(): the highest sequence last.
-  const auto highest = [](const v1::AgentStates& chunk) {
-    std::uint64_t sequence = 0;
-    for (const v1::AgentState& state : chunk.states()) {
-      sequence = std::max(sequence, state.sequence());
-    }
-    return sequence;
-  };
-  std::stable_sort(chunks.begin(), chunks.end(),
-                   [&highest](const v1::AgentStates& a, const v1::AgentStates& b) {
-                     return highest(a) < highest(b);
-                   });
+  std::sort(chunks.begin(), chunks.end(),
+            [&](const auto& a, const auto& b) { return newest(a) < newest(b); });
   return chunks;
 }
 
@@ -193,7 +189,7 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
     Slot& slot = slots_[index];
     if (IsDue(slot, clock_ns)) {
       stated_ += !slot.states.sent().has_value();
-      slot.states.MarkSent(++states_sequence_, slot.description.revision());
+      slot.states.MarkSent(++states_sequence_, slot.description.revision(), policy_);
       standing_sequence_ = states_sequence_;
       ++traffic_.states_sent;
       chunks.push_back(index / policy_.chunk_size);
@@ -266,12 +262,12 @@ std::uint32_t AgentTable::FreeSlot() {
   return slot;
 }
 
-v1::AgentState AgentTable::Message(std::uint32_t slot) const {
-  const OutgoingStates& states = slots_[slot].states;
-  v1::AgentState message = ToMessage(*states.sent());
+v1::AgentState AgentTable::Message(std::uint32_t slot, const State& state,
+                                   std::uint64_t sequence) const {
+  v1::AgentState message = ToMessage(state);
   message.set_slot(slot);
   message.set_generation(slots_[slot].description.generation());
-  message.set_sequence(states.sent_sequence());
+  message.set_sequence(sequence);
   return message;
 }
 
@@ -281,12 +277,15 @@ v1::AgentStates AgentTable::Chunk(std::uint32_t chunk) const {
   states.set_chunk(chunk);
   states.set_incarnation(incarnation_);
   states.set_run(run_);
-  const std::size_t first = std::size_t{chunk} * policy_.chunk_size;
-  const std::size_t last = std::min(first + policy_.chunk_size, slots_.size());
-  for (std::size_t slot = first; slot < last; ++slot) {
-    if (slots_[slot].states.sent()) {
-      *states.add_states() = Message(static_cast<std::uint32_t>(slot));
+  const std::uint32_t first = chunk * policy_.chunk_size;
+  const auto slots = static_cast<std::uint32_t>(slots_.size());
+  for (std::uint32_t slot = first; slot < std::min(first + policy_.chunk_size, slots); ++slot) {
+    const OutgoingStates& outgoing = slots_[slot].states;
+    if (!outgoing.sent()) continue;
+    for (const OutgoingStates::Jump& jump : outgoing.jumps()) {
+      *states.add_states() = Message(slot, jump.state, jump.sequence);
     }
+    *states.add_states() = Message(slot, *outgoing.sent(), outgoing.sent_sequence());
   }
   return states;
 }

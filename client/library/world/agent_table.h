@@ -42,10 +42,9 @@ class AgentTable {
   /// Whether TakeDue() or a clock sample would say anything new at this clock.
   bool HasNews(std::int64_t clock_ns) const;
 
-  /// All messages that still hold, to repeat them.
+  /// All messages that still hold, to repeat them; of states, the newest chunk last.
   std::vector<v1::AgentDescription> Descriptions() const;
   std::vector<v1::AgentRemoval> Removals() const;
-  /// The states so that the highest sequence is in the last message: see TakeDue().
   std::vector<v1::AgentStates> SentStates() const;
 
   /// The service has forgotten all states: each agent's next one is sent, whatever its stamp, and
@@ -54,9 +53,8 @@ class AgentTable {
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
   /// of all its agents. Where an agent was removed, its last state stays in its chunk, and its slot
-  /// unused, until the clock has moved on: the service is to see it. The last message has the
-  /// highest sequence: samples of one topic arrive in their order, so a clock that names this
-  /// sequence counts only when all of them have come.
+  /// unused, until the clock has moved on: the service is to see it. To be written in this order:
+  /// the highest sequence comes last, so that the service has all when it has that one.
   std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);
 
   /// The clock sample that follows everything sent so far.
@@ -92,7 +90,7 @@ class AgentTable {
   void Free(std::uint32_t slot);
   v1::AgentRemoval RemovalOf(std::uint32_t slot) const;
   bool IsDue(const Slot& slot, std::int64_t clock_ns) const;
-  v1::AgentState Message(std::uint32_t slot) const;
+  v1::AgentState Message(std::uint32_t slot, const State& state, std::uint64_t sequence) const;
   v1::AgentStates Chunk(std::uint32_t chunk) const;
 
   std::string simulator_name_;

@@ -60,13 +60,18 @@ bool OutgoingStates::MustBeSent(std::uint32_t revision) const {
   return !stands_in_ || sent_revision_ != revision;
 }
 
-void OutgoingStates::MarkSent(std::uint64_t sequence, std::uint32_t revision) {
+void OutgoingStates::MarkSent(std::uint64_t sequence, std::uint32_t revision,
+                              const PublishPolicy& policy) {
   if (MustBeSent(revision)) must_sequence_ = sequence;
+  if (sent_ && sent_->discontinuity && sent_sequence_ > acknowledged_) {
+    jumps_.push_back({*sent_, sent_sequence_});
+  }
+  // In a sample there is room for one of each agent at least.
+  const std::size_t kept = wire::kStatesPerChunkMax / policy.chunk_size;
+  if (jumps_.size() > kept) jumps_.erase(jumps_.begin());
   sent_ = std::exchange(staged_, std::nullopt);
   sent_sequence_ = sequence;
   sent_revision_ = revision;
-  if (sent_->discontinuity) jump_sequence_ = sequence;
-  sent_->discontinuity = jump_sequence_ != 0;
 }
 
 void OutgoingStates::ForgetSent() {
@@ -80,7 +85,7 @@ void OutgoingStates::SetClearance(const Clearance& clearance, std::uint64_t ackn
   clearance_ = clearance;
   wanted_always_ = clearance.state_wanted_ns <= now_ns;
   acknowledged_ = acknowledged;
-  if (acknowledged >= jump_sequence_) jump_sequence_ = 0;
+  std::erase_if(jumps_, [&](const Jump& jump) { return jump.sequence <= acknowledged; });
 }
 
 }  // namespace collision::client

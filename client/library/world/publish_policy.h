@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "client/api/types.h"
 #include "client/library/world/contract.h"
@@ -40,11 +41,19 @@ class OutgoingStates {
   const std::optional<State>& sent() const { return sent_; }
   std::uint64_t sent_sequence() const { return sent_sequence_; }
 
+  /// Jumps sent before that the service has not acknowledged, oldest first: the network keeps the
+  /// newest sample only, so each sample carries them.
+  struct Jump {
+    State state;
+    std::uint64_t sequence = 0;
+  };
+  const std::vector<Jump>& jumps() const { return jumps_; }
+
   /// Requires a staged state. `revision` is that of the agent's description.
   bool IsDue(std::int64_t clock_ns, std::uint32_t revision, const PublishPolicy& policy) const;
 
   /// The staged state is sent now, as number `sequence` of its simulator.
-  void MarkSent(std::uint64_t sequence, std::uint32_t revision);
+  void MarkSent(std::uint64_t sequence, std::uint32_t revision, const PublishPolicy& policy);
 
   /// The service has forgotten what was sent, and says nothing about the agent any more.
   void ForgetSent();
@@ -62,11 +71,9 @@ class OutgoingStates {
   bool stands_in_ = false;  ///< `sent_` stands in for `staged_`.
   std::uint64_t sent_sequence_ = 0;
   std::uint32_t sent_revision_ = 0;  ///< Of the description, when `sent_` was sent.
+  std::vector<Jump> jumps_;
   std::uint64_t must_sequence_ = 0;  ///< Of the last state that had to be sent, wanted or not.
   std::int64_t period_ns_ = 0;       ///< Between the last two stamps that were set.
-  /// Sequence of the last jump until the service has acknowledged it; 0: none. The network keeps
-  /// the newest sample only, so every state until then is marked as a jump.
-  std::uint64_t jump_sequence_ = 0;
   Clearance clearance_;
   bool wanted_always_ = true;  ///< At every step; so until the service says otherwise.
   std::uint64_t acknowledged_ = 0;

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kStuck{30};  // without any progress of the service's time
+// Without any progress of the service's time: as long as a simulator waits for a grant.
+constexpr std::chrono::seconds kStuck{120};
 constexpr std::chrono::nanoseconds kRealTimeLead{
     3'000'000'000};                             // until all programs have discovered each other
 constexpr std::int64_t kTransit = 200'000'000;  // [ns] delay of samples, with a wall clock

@@ -71,7 +71,7 @@ void ShapeRows(std::string* text, const v1::RunReport& report, const checker::Ev
   TreeRows(text, report);
 }
 
-void RatioRows(std::string* text, const v1::RunReport& report) {
+void RatioRows(std::string* text, const v1::RunReport& report, bool lock_step) {
   if (report.contacts_true() == 0) {
     Row(text, "  %-30s –", "false alarms per contact");
     Row(text, "  %-30s –", "clear time / true time, median");
@@ -81,8 +81,10 @@ void RatioRows(std::string* text, const v1::RunReport& report) {
         report.clearance_tightness_median());
   }
   if (report.latency_p99_s() > 0) {
-    Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms", "update to event", report.latency_p50_s() * 1e3,
-        report.latency_p99_s() * 1e3);
+    // In lock-step an update is judged when the others have told their part of the round.
+    const char* until = lock_step ? ", the rest of the round included" : "";
+    Row(text, "  %-30s p50 %.3g ms, p99 %.3g ms%s", "update to event", report.latency_p50_s() * 1e3,
+        report.latency_p99_s() * 1e3, until);
   } else {
     Row(text, "  %-30s –", "update to event");
   }
@@ -119,7 +121,7 @@ std::string SummaryTable(const v1::RunReport& report, const checker::Evidence& e
   Row(&text, "  %-30s %llu dismissed, %llu undecided, %llu withdrawn", "",
       count(report.events_dismissed()), count(report.events_undecided()),
       count(report.events_withdrawn()));
-  RatioRows(&text, report);
+  RatioRows(&text, report, evidence.facts().transit_ns == 0);
   WidthRow(&text, "begin bracket at confirmation", report.begin_width_s());
   WidthRow(&text, "begin bracket, final", QuantilesOf(BeginWidthsFinal(evidence)));
   WidthRow(&text, "end bracket, final", report.end_width_s());

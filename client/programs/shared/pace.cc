@@ -20,7 +20,8 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kServiceTimeout{20};
-constexpr std::chrono::seconds kGrantTimeout{30};
+// Twice as long as the service by default waits for a shape (clock.shape_wait_max_s).
+constexpr std::chrono::seconds kGrantTimeout{120};
 constexpr milliseconds kStopCheck{50};  // period of looking for a stop signal
 
 /// The wall clock as it was when it was first read, carried on by the steady clock: so the stamps
@@ -113,7 +114,8 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
                                          " (another simulator may be behind) ...");
     if (steady_clock::now() <= deadline) continue;
     RequireAgentsTaken();
-    throw std::runtime_error("the service granted no time" + beyond + " for 30 s");
+    throw std::runtime_error("the service granted no time" + beyond + " for " +
+                             std::to_string(kGrantTimeout.count()) + " s");
   }
   return false;
 }

@@ -243,9 +243,9 @@ TEST(Codec, ChecksClocks) {
 
 TEST(Codec, ChecksChunks) {
   v1::AgentStates chunk = Chunk("a");
-  for (std::uint32_t slot = 0; slot < 64; ++slot) *chunk.add_states() = State(slot, 0, slot + 1);
+  for (std::uint32_t i = 0; i < 128; ++i) *chunk.add_states() = State(i / 2, 0, i + 1);
   EXPECT_FALSE(CheckChunk(chunk));
-  *chunk.add_states() = State(64, 0, 65);
+  *chunk.add_states() = State(64, 0, 129);
   EXPECT_EQ(CheckChunk(chunk)->reason, v1::REJECTED_CHUNK_TOO_LARGE);
   EXPECT_EQ(CheckSlot(chunk, State(wire::kSlotMax + 1, 0, 1))->reason, v1::REJECTED_OUT_OF_RANGE);
 }

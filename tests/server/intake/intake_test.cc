@@ -65,7 +65,7 @@ std::vector<BadInput> BadInputs() {
   part.mutable_shape_part()->set_run(1);
   add(v1::REJECTED_BAD_SHAPE, part);
   v1::AgentStates large = Chunk("alpha");
-  for (int i = 0; i < 65; ++i) *large.add_states() = State(0, 0, 7);
+  for (int i = 0; i < 129; ++i) *large.add_states() = State(0, 0, 7);
   add(v1::REJECTED_CHUNK_TOO_LARGE, From(kAlpha, large));
   add(v1::REJECTED_OLD_RUN, From(kAlpha, ClockOf("alpha", 0, 0)));
   add(v1::REJECTED_CLOCK_BACKWARD, From(kAlpha, ClockOf("alpha", -1)));

@@ -171,5 +171,34 @@ TEST(AgentTable, PreconditionsAreChecked) {
   EXPECT_THROW(table.Add(70, Described(3)), CheckFailure);
 }
 
+TEST(AgentTable, AJumpWaitsBeforeTheNewestStateUpToABound) {
+  AgentTable table;
+  table.Add(5, {1, 1, {}});
+  const auto set = [&](std::uint64_t sequence, bool jumps) {
+    motion::MotionState state;
+    state.discontinuity = jumps;
+    table.SetWaiting(5, {.generation = 1, .sequence = sequence, .state = state});
+  };
+  const auto taken = [&] {
+    std::vector<std::uint64_t> sequences;
+    for (const WaitingState& one : table.TakeWaiting(5)) sequences.push_back(one.sequence);
+    return sequences;
+  };
+  set(1, true);
+  set(2, false);
+  EXPECT_EQ(taken(), std::vector<std::uint64_t>{2}) << "it is not admitted";
+  table.Admit(5, {}, 2);
+  set(3, true);
+  set(4, false);
+  set(5, false);
+  set(6, true);
+  set(7, false);
+  EXPECT_EQ(taken(), (std::vector<std::uint64_t>{3, 6, 7}));
+  for (std::uint64_t sequence = 10; sequence < 200; ++sequence) set(sequence, true);
+  const std::vector<std::uint64_t> all = taken();
+  EXPECT_EQ(all.size(), kJumpsWaitingMax + 1);
+  EXPECT_EQ(all.back(), 199u);
+}
+
 }  // namespace
 }  // namespace collision::server

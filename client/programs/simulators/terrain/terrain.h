@@ -26,7 +26,7 @@ struct TerrainOptions {
 inline constexpr std::size_t kTerrainTrianglesMin = 50;
 inline constexpr double kTerrainSizeMax = 1e6;  ///< [m] The ground is flat: no planet.
 
-/// Less than the 30 s for which other simulators wait for a grant [s].
+/// Less than the 120 s for which other simulators wait for a grant [s].
 inline constexpr double kAwaitTreeMax = 25;
 
 /// A closed block: hills on a grid on top, walls around, a flat floor a quarter of the relief below

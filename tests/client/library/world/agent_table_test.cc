@@ -1,10 +1,10 @@
 // Goal:   a jump that is staged reaches the service, also if a later state replaces it; and what a
-//         clock counts is there to be read by a service that comes later.
+//         clock counts is there to be read by a service that comes later, or has not all yet.
 #include "client/library/world/agent_table.h"
 
 #include <gtest/gtest.h>
 
-#include <vector>
+#include <algorithm>
 
 namespace collision::client {
 namespace {
@@ -56,26 +56,44 @@ TEST(AgentTable, ARemovalIsOneOfTheDescriptions) {
   EXPECT_EQ(table.Clock(0, 0, true).run(), 9u);
 }
 
-// Goal:   a clock that names the highest sequence counts when all states before it have come, since
-//         one topic keeps its order: whatever order they are set in, and when they are repeated.
-TEST(AgentTable, TheHighestSequenceIsSentLast) {
-  AgentTable table("simulator", 1, 1, 1, {.chunk_size = 1});
-  std::vector<AgentId> balls;
-  for (int i = 0; i < 3; ++i) balls.push_back(table.Add({.name = "ball"}, {.stamp_ns = 0}));
-  table.TakeDue(0);
-  const auto expect_rising = [](const std::vector<v1::AgentStates>& chunks) {
-    for (std::size_t i = 1; i < chunks.size(); ++i) {
-      EXPECT_LT(chunks[i - 1].states(0).sequence(), chunks[i].states(0).sequence());
+/// The highest sequence in each chunk, in the order of writing.
+std::vector<std::uint64_t> Newest(const std::vector<v1::AgentStates>& chunks) {
+  std::vector<std::uint64_t> newest;
+  for (const v1::AgentStates& chunk : chunks) {
+    std::uint64_t& sequence = newest.emplace_back(0);
+    for (const v1::AgentState& state : chunk.states())
+      sequence = std::max<std::uint64_t>(sequence, state.sequence());
+  }
+  return newest;
+}
+
+// Goal:   who has the state that a clock names has all states before it: nothing that was written
+//         comes after the highest sequence.
+// Method: states are set in another order than that of the slots; one that is not due yet waits
+//         before the others.
+TEST(AgentTable, TheHighestSequenceIsWrittenLast) {
+  for (const std::uint32_t chunk_size : {1u, 2u, 64u}) {
+    PublishPolicy policy;
+    policy.chunk_size = chunk_size;
+    AgentTable table("simulator", 1, 1, 1, policy);
+    std::vector<AgentId> agents;
+    for (const char* name : {"a", "b", "c", "d", "e", "f"})
+      agents.push_back(table.Add({.name = name}, {.stamp_ns = 0}));
+    table.TakeDue(0);
+    table.Stage(agents[5], {.stamp_ns = 2});
+    for (const int agent : {4, 1, 3, 0}) table.Stage(agents[agent], {.stamp_ns = 1});
+    for (const std::int64_t clock_ns : {1, 2}) {
+      const auto written = Newest(table.TakeDue(clock_ns));
+      ASSERT_FALSE(written.empty());
+      EXPECT_TRUE(std::is_sorted(written.begin(), written.end())) << "chunks of " << chunk_size;
+      EXPECT_EQ(written.back(), table.Clock(clock_ns, 0, true).states_sequence());
     }
-  };
-  for (const std::size_t i : {2, 0, 1}) table.Stage(balls[i], {.stamp_ns = 1});
-  const std::vector<v1::AgentStates> due = table.TakeDue(1);
-  ASSERT_EQ(due.size(), 3u);
-  expect_rising(due);
-  table.Stage(balls[0], {.stamp_ns = 2});
-  table.TakeDue(2);
-  ASSERT_EQ(table.SentStates().size(), 3u);
-  expect_rising(table.SentStates());
+    table.Stage(agents[0], {.stamp_ns = 3});
+    table.TakeDue(3);
+    const auto again = Newest(table.SentStates());
+    EXPECT_TRUE(std::is_sorted(again.begin(), again.end())) << "chunks of " << chunk_size;
+    EXPECT_EQ(again.back(), table.Clock(3, 0, true).states_sequence());
+  }
 }
 
 }  // namespace

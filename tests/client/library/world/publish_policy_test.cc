@@ -5,13 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <vector>
 
 namespace collision::client {
 namespace {
 
 constexpr std::int64_t kSecond = 1'000'000'000;
 constexpr std::uint32_t kRevision = 1;
-constexpr PublishPolicy kOnDemand = {.on_demand = true};
 
 State DriftingAt(std::int64_t stamp_ns) {
   return {.stamp_ns = stamp_ns,
@@ -21,10 +21,10 @@ State DriftingAt(std::int64_t stamp_ns) {
 
 class OutgoingStatesTest : public testing::Test {
  protected:
-  void Stage(const State& state) { states_.Stage(state, {.acceleration_max_m_s2 = 1}, kOnDemand); }
+  void Stage(const State& state) { states_.Stage(state, {.acceleration_max_m_s2 = 1}, policy_); }
 
   /// Sends the staged state as number `sequence`.
-  void Send(std::uint64_t sequence) { states_.MarkSent(sequence, kRevision); }
+  void Send(std::uint64_t sequence) { states_.MarkSent(sequence, kRevision, policy_); }
 
   /// The service wants a state at `wanted_ns`, and has taken the states up to `acknowledged`.
   void Answer(std::int64_t wanted_ns, std::uint64_t acknowledged) {
@@ -34,8 +34,9 @@ class OutgoingStatesTest : public testing::Test {
     states_.SetClearance(clearance, acknowledged, 0);
   }
 
-  bool IsDue(std::int64_t clock_ns) const { return states_.IsDue(clock_ns, kRevision, kOnDemand); }
+  bool IsDue(std::int64_t clock_ns) const { return states_.IsDue(clock_ns, kRevision, policy_); }
 
+  PublishPolicy policy_{.on_demand = true, .chunk_size = 1};
   OutgoingStates states_;
 };
 
@@ -67,22 +68,43 @@ TEST_F(OutgoingStatesTest, AStateOutsideThePromiseIsDueAtOnce) {
   EXPECT_TRUE((Stage(state), IsDue(kSecond)));
 }
 
-TEST_F(OutgoingStatesTest, AJumpStaysMarkedUntilItIsAcknowledged) {
+TEST_F(OutgoingStatesTest, JumpsAreCarriedUntilTheyAreAcknowledged) {
   Stage(DriftingAt(0));
   Send(1);
   Answer(kNever, 1);
-  State jump = DriftingAt(kSecond);
-  jump.discontinuity = true;
-  Stage(jump);
-  Send(2);
-  EXPECT_TRUE(states_.sent()->discontinuity);
-  Stage(DriftingAt(2 * kSecond));
-  Send(3);
-  EXPECT_TRUE(states_.sent()->discontinuity);
-  Answer(kNever, 2);
-  Stage(DriftingAt(3 * kSecond));
-  Send(4);
-  EXPECT_FALSE(states_.sent()->discontinuity);
+  for (std::uint64_t sequence = 2; sequence <= 5; ++sequence) {
+    State state = DriftingAt(static_cast<std::int64_t>(sequence) * kSecond);
+    state.discontinuity = sequence != 3;
+    Stage(state);
+    Send(sequence);
+  }
+  const auto carried = [&] {
+    std::vector<std::uint64_t> sequences;
+    for (const OutgoingStates::Jump& jump : states_.jumps()) sequences.push_back(jump.sequence);
+    return sequences;
+  };
+  EXPECT_EQ(carried(), (std::vector<std::uint64_t>{2, 4}));
+  Answer(kNever, 3);
+  EXPECT_EQ(carried(), std::vector<std::uint64_t>{4});
+  Answer(kNever, 5);
+  Stage(DriftingAt(6 * kSecond));
+  Send(6);
+  EXPECT_EQ(carried(), std::vector<std::uint64_t>{});
+}
+
+TEST_F(OutgoingStatesTest, OfMoreJumpsThanFitTheNewestAreCarried) {
+  for (const std::uint32_t chunk_size : {1u, 64u}) {
+    policy_.chunk_size = chunk_size;
+    states_ = {};
+    for (std::uint64_t sequence = 1; sequence <= 100; ++sequence) {
+      State jump = DriftingAt(static_cast<std::int64_t>(sequence) * kSecond);
+      jump.discontinuity = true;
+      Stage(jump);
+      Send(sequence);
+    }
+    EXPECT_EQ(states_.jumps().size(), 64 / chunk_size);
+    EXPECT_EQ(states_.jumps().back().sequence, 99u);
+  }
 }
 
 TEST_F(OutgoingStatesTest, AStampBeforeTheLastOneSentIsRefused) {

@@ -37,37 +37,42 @@ class WorldTest : public testing::Test {
 };
 
 // A jump may be overwritten by the next state before the service has read it: until it is
-// acknowledged, every state says that the motion jumped.
-TEST_F(WorldTest, AJumpIsRepeatedUntilItIsAcknowledged) {
+// acknowledged, every sample carries it.
+TEST_F(WorldTest, AJumpIsCarriedUntilItIsAcknowledged) {
   World world = ConnectTo(network_, {.lock_step = false});
   Agent ball = world.AddAgent(Ball(), At(0));
-  world.Publish(0);
-  State jump = At(1, 50);
+  std::int64_t clock_ns = 0;
+  world.Publish(clock_ns);
+  State jump = At(++clock_ns, 50);
   jump.discontinuity = true;
   ball.SetState(jump);
-  world.Publish(1);
-  ball.SetState(At(2, 50));
-  world.Publish(2);
-  EXPECT_TRUE(network_->States().back().states(0).discontinuity());
-  v1::Clearance* clearance = network_->arriving.emplace_back().mutable_clearance();
-  clearance->set_simulator_id(SimulatorId(kSimulator));
-  clearance->set_run(kRun);
-  v1::AgentClearance* agent = clearance->add_agents();
-  agent->set_generation(1);
-  agent->set_acknowledged_sequence(1);
-  world.Poll();
-  ball.SetState(At(3, 50));
-  world.Publish(3);
-  EXPECT_TRUE(network_->States().back().states(0).discontinuity()) << "only its predecessor was";
-  agent = network_->arriving.emplace_back().mutable_clearance()->add_agents();
-  network_->arriving.back().mutable_clearance()->set_simulator_id(SimulatorId(kSimulator));
-  network_->arriving.back().mutable_clearance()->set_run(kRun);
-  agent->set_generation(1);
-  agent->set_acknowledged_sequence(2);
-  world.Poll();
-  ball.SetState(At(4, 50));
-  world.Publish(4);
-  EXPECT_FALSE(network_->States().back().states(0).discontinuity());
+  world.Publish(clock_ns);
+  const auto acknowledge = [&](std::uint64_t sequence) {
+    v1::Clearance* clearance = network_->arriving.emplace_back().mutable_clearance();
+    clearance->set_simulator_id(SimulatorId(kSimulator));
+    clearance->set_run(kRun);
+    v1::AgentClearance* agent = clearance->add_agents();
+    agent->set_generation(1);
+    agent->set_acknowledged_sequence(sequence);
+    world.Poll();
+  };
+  using Stamps = std::vector<std::int64_t>;
+  const auto next = [&] {
+    ball.SetState(At(++clock_ns, 50));
+    world.Publish(clock_ns);
+    Stamps stamps;
+    const v1::AgentStates chunk = network_->States().back();
+    for (const v1::AgentState& state : chunk.states()) {
+      stamps.push_back(state.stamp_ns());
+      EXPECT_EQ(state.discontinuity(), state.stamp_ns() == 1);
+    }
+    return stamps;
+  };
+  EXPECT_EQ(next(), (Stamps{1, 2}));
+  acknowledge(1);  // only the state before it
+  EXPECT_EQ(next(), (Stamps{1, 3}));
+  acknowledge(2);
+  EXPECT_EQ(next(), Stamps{4});
 }
 
 // The successor of a killed program waits until the service has given up its predecessor, but not
