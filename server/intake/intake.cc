@@ -124,7 +124,7 @@ void Intake::TakeClock(const v1::Input& input) {
   // A clock that is only repeated is no progress.
   if (std::get<Instant>(decoded) > time.newest()) simulator->Resume();
   if (wire.service_id() == instance_) {
-    simulator->agents().clearances().lowerings().Acknowledge(wire.clearances_sequence());
+    simulator->agents().clearances().Acknowledge(wire.clearances_sequence(), world_.monotonic_ns());
   }
   const bool tells_next = wire.next_ns() > wire.clock_ns();
   time.Offer(

@@ -63,8 +63,8 @@ void Publisher::PublishChunk(const World& world, Simulator* to, std::uint32_t ch
   clearance.set_now_ns(world.now().nanoseconds());
   clearance.set_granted_until_ns(
       simulator.time().granted().value_or(Instant::Never()).nanoseconds());
-  Lowerings& lowerings = to->agents().clearances().lowerings();
-  lowerings.Publish(chunk, clearance.stamp().sequence());
+  to->agents().clearances().Publish(chunk, clearance.stamp().sequence(), world.monotonic_ns());
+  const Lowerings& lowerings = simulator.agents().clearances().lowerings();
   clearance.set_contacts_sequence(events_.contacts);
   clearance.set_forecasts_sequence(newest_forecast_);
   const auto& clearances = simulator.agents().clearances().all();

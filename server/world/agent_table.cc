@@ -150,7 +150,7 @@ void AgentTable::Clear() {
   CORE_CHECK(agents_ == 0, "all agents are removed before a new run", agents_);
   for (const auto& [slot, content] : slots_) clearances_.MarkChanged(slot);
   slots_.clear();
-  clearances_.lowerings().Clear();
+  clearances_.ForgetLowerings();
 }
 
 Agent& AgentTable::AgentIn(std::uint32_t slot) {

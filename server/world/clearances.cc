@@ -20,6 +20,20 @@ void Clearances::Forget(std::uint32_t slot) {
   MarkChanged(slot);
 }
 
+void Clearances::Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns) {
+  lowerings_.Publish(chunk, sequence);
+  published_ns_ = now_ns;
+}
+
+void Clearances::Acknowledge(std::uint64_t sequence, std::int64_t now_ns) {
+  lowerings_.Acknowledge(sequence);
+  if (lowerings_.acknowledged() >= lowerings_.published()) return;
+  if (now_ns - published_ns_ < kRepeatAfterNs) return;
+  published_ns_ = now_ns;
+  for (const auto& [slot, clearance] : clearances_) MarkChanged(slot);
+  MarkGrantChanged();
+}
+
 void Clearances::Validate() const {
   ends_.Validate();
   CORE_CHECK(ends_.size() == clearances_.size(), "each clearance is queued", ends_.size(),

@@ -16,6 +16,9 @@ namespace collision::server {
 /// since it carries the grant.
 inline constexpr std::uint32_t kSlotsPerChunk = wire::kStatesPerChunkMax;
 
+/// Longer than an acknowledgement takes on any network on which a simulator keeps up.
+inline constexpr std::int64_t kRepeatAfterNs = 1'000'000'000;
+
 /// The clearances of one simulator as the detector last gave them, and the chunks whose samples are
 /// out of date.
 ///
@@ -37,9 +40,18 @@ class Clearances {
   /// The agent in `slot` is gone, with its clearance; marks its chunk.
   void Forget(std::uint32_t slot);
 
+  /// The sample of this chunk was published under this sequence, at this monotonic time.
+  void Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns);
+
+  /// A clock of the simulator says that it has taken in all samples up to this sequence. If it has
+  /// not taken in the newest for kRepeatAfterNs, all are marked: beside those of another service,
+  /// which are of the same keys, they may have been overwritten unread.
+  void Acknowledge(std::uint64_t sequence, std::int64_t now_ns);
+
   /// What lowered them and has not been acknowledged.
-  Lowerings& lowerings() { return lowerings_; }
   const Lowerings& lowerings() const { return lowerings_; }
+  /// A new run or another epoch.
+  void ForgetLowerings() { lowerings_.Clear(); }
 
   /// By slot.
   const std::map<std::uint32_t, detection::AgentClearance>& all() const { return clearances_; }
@@ -65,6 +77,7 @@ class Clearances {
   EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
   Lowerings lowerings_;
+  std::int64_t published_ns_ = 0;
 };
 
 }  // namespace collision::server
