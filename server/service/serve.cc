@@ -21,6 +21,7 @@
 #include "server/service/daemon.h"
 #include "server/service/wait_for_clock.h"
 #include "server/shapes/threaded_shape_builder.h"
+#include "server/world/world.h"
 
 namespace collision::server {
 namespace {
