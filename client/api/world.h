@@ -85,7 +85,8 @@ class World {
   /// this simulator has told its first clock: set the states of its agents as they are then, and
   /// AdvanceTo() that time. So nobody else has to reckon with where they may have been before. A
   /// world whose time has not begun begins at 0. Without lock-step it is what the clock shows, at
-  /// once. nullopt: no answer within `timeout`. Throws std::logic_error after the first clock.
+  /// once. nullopt: no answer within `timeout`; call again, or Finish() to give it up. Throws
+  /// std::logic_error after the first clock.
   std::optional<std::int64_t> Join(std::chrono::nanoseconds timeout);
 
   /// Writes the staged states with stamps up to `clock_ns`, then the clock, which promises that
@@ -132,8 +133,8 @@ class World {
   /// revision that tells something new once. When a grant counts, the contacts that the service
   /// published before it have been delivered, or count as missed. Without a callback
   /// they are kept until TakeEvents(): at most 65536, then the oldest are dropped and counted by
-  /// events_lost(). A callback may call everything but WaitForService(), AdvanceTo() and Poll(),
-  /// which throw std::logic_error.
+  /// events_lost(). A callback may call everything but WaitForService(), Join(), AdvanceTo() and
+  /// Poll(), which throw std::logic_error.
   void OnEvent(std::function<void(const Event&)> callback);
   std::vector<Event> TakeEvents();
   std::uint64_t events_lost() const;

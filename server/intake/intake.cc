@@ -109,7 +109,7 @@ void Intake::TakeClock(const v1::Input& input) {
   SimulatorTime& time = simulator->time();
   const bool asks = wire.lock_step() && wire.clock_ns() == Instant::Always().nanoseconds();
   if (asks && world_.simulated()) {
-    world_.Join(simulator);
+    world_.Join(simulator, wire.next_ns() == Instant::Never().nanoseconds());
     return simulator->refusals().Accept(v1::TOPIC_SIMULATOR_CLOCK, 0);
   }
   const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));
@@ -122,7 +122,7 @@ void Intake::TakeClock(const v1::Input& input) {
     return rejections_.Add(*refusal);
   }
   // A clock that is only repeated is no progress.
-  if (std::get<Instant>(decoded) > time.newest()) simulator->Resume();
+  if (std::get<Instant>(decoded) > time.newest() || time.awaits_own_clock()) simulator->Resume();
   if (wire.service_id() == instance_) {
     simulator->agents().clearances().Acknowledge(wire.clearances_sequence(), world_.monotonic_ns());
   }

@@ -28,6 +28,10 @@ namespace {
 /// more than these, so that it hears what arrives meanwhile.
 constexpr int kRoundsPerStepMax = 64;
 
+/// Inputs of full batches that follow one another while no clock comes into force; after so many it
+/// does all the same, so that a flood of messages does not stop everybody's time.
+constexpr std::size_t kHeldInputsMax = 1 << 20;
+
 /// A recording from before the field has none set.
 broad_phase::BroadPhaseMethod MethodOf(v1::Config::BroadPhase method) {
   switch (method) {
@@ -90,7 +94,9 @@ class Daemon::Implementation {
     if (clock_step_) FollowStep(*clock_step_);
     for (const v1::Input& input : inputs) intake_.Apply(input);
     batch_was_full_ = IsFull(inputs);
-    if (!batch_was_full_) intake_.TakeClocks();
+    held_inputs_ =
+        batch_was_full_ && held_inputs_ < kHeldInputsMax ? held_inputs_ + inputs.size() : 0;
+    if (held_inputs_ == 0) intake_.TakeClocks();
     const bool restarts = ObeyOperators(inputs);
     const bool removed = RemoveSilent();
     ReportSilence(world_.ReleaseSilent());
@@ -386,6 +392,7 @@ class Daemon::Implementation {
   std::optional<ClockStep> clock_step_;  ///< Of this step.
   std::optional<Instant> advanced_to_;
   bool batch_was_full_ = false;
+  std::size_t held_inputs_ = 0;  ///< In the full batches up to now.
   std::atomic<bool> stopped_ = false;
 };
 

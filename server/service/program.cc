@@ -24,6 +24,7 @@
 #include "server/service/daemon.h"
 #include "server/service/serve.h"
 #include "server/shapes/tree_cache.h"
+#include "server/world/world.h"
 
 namespace collision::server {
 namespace {

@@ -103,6 +103,7 @@ void AgentTable::Admit(std::uint32_t slot, Instant stamp, std::uint64_t sequence
   Agent& agent = AgentIn(slot);
   agent.admitted_ = true;
   agent.acknowledged_revision_ = agent.revision_;
+  agent.acknowledged_from_ = Instant::Always();
   Acknowledge(slot, stamp, sequence);
 }
 

@@ -21,15 +21,17 @@ void Clearances::Forget(std::uint32_t slot) {
 }
 
 void Clearances::Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns) {
+  if (lowerings_.acknowledged() >= lowerings_.published()) waiting_since_ns_ = now_ns;
   lowerings_.Publish(chunk, sequence);
-  published_ns_ = now_ns;
 }
 
 void Clearances::Acknowledge(std::uint64_t sequence, std::int64_t now_ns) {
+  const std::uint64_t before = lowerings_.acknowledged();
   lowerings_.Acknowledge(sequence);
+  if (lowerings_.acknowledged() > before) waiting_since_ns_ = now_ns;
   if (lowerings_.acknowledged() >= lowerings_.published()) return;
-  if (now_ns - published_ns_ < kRepeatAfterNs) return;
-  published_ns_ = now_ns;
+  if (now_ns - waiting_since_ns_ < kRepeatAfterNs) return;
+  waiting_since_ns_ = now_ns;
   for (const auto& [slot, clearance] : clearances_) MarkChanged(slot);
   MarkGrantChanged();
 }

@@ -43,9 +43,9 @@ class Clearances {
   /// The sample of this chunk was published under this sequence, at this monotonic time.
   void Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns);
 
-  /// A clock of the simulator says that it has taken in all samples up to this sequence. If it has
-  /// not taken in the newest for kRepeatAfterNs, all are marked: beside those of another service,
-  /// which are of the same keys, they may have been overwritten unread.
+  /// A clock of the simulator says that it has taken in all samples up to this sequence. If some
+  /// wait for that, and none was taken in for kRepeatAfterNs, all are marked: beside those of
+  /// another service, which are of the same keys, they may have been overwritten unread.
   void Acknowledge(std::uint64_t sequence, std::int64_t now_ns);
 
   /// What lowered them and has not been acknowledged.
@@ -77,7 +77,7 @@ class Clearances {
   EventQueue<SlotIndex> ends_;  // EndOf() of each clearance
   std::set<std::uint32_t> changed_;
   Lowerings lowerings_;
-  std::int64_t published_ns_ = 0;
+  std::int64_t waiting_since_ns_ = 0;  ///< While samples are not acknowledged.
 };
 
 }  // namespace collision::server

@@ -19,7 +19,14 @@ void SimulatorTime::TakeCensus(std::uint64_t described, std::uint64_t refused) {
   }
 }
 
+void SimulatorTime::Join(Instant at, bool finishes) {
+  Offer({.clock = at, .next = finishes ? Instant::Never() : at, .lock_step = true});
+  Grant(at);
+  joined_ = awaits_own_clock_ = true;
+}
+
 void SimulatorTime::Offer(const PendingClock& offered) {
+  awaits_own_clock_ = false;
   offered_ = offered;
   newest_ = std::max(newest_, offered.clock);
   lock_step_ = offered.lock_step;
@@ -54,6 +61,7 @@ void SimulatorTime::Restart() {
   clock_.reset();
   next_.reset();
   granted_.reset();
+  joined_ = awaits_own_clock_ = false;
 }
 
 bool SimulatorTime::Grant(Instant until) {

@@ -46,6 +46,15 @@ class SimulatorTime {
   /// Takes a clock that has arrived; Take() brings it into force.
   void Offer(const PendingClock& offered);
 
+  /// It has asked what time it is. In place of its first clock: it has told everything of any time
+  /// before `at`, and is granted that time. Or no step of it follows.
+  void Join(Instant at, bool finishes);
+
+  /// Its first clock was an answer to Join(), not one of its own.
+  bool joined() const { return joined_; }
+  /// And it has told none of its own yet.
+  bool awaits_own_clock() const { return awaits_own_clock_; }
+
   /// The simulator has published a clock of the other kind (simulated or wall) and none of this
   /// world's: its stamps mean nothing here until it offers one.
   void SetOtherKind() { other_kind_ = true; }
@@ -92,6 +101,8 @@ class SimulatorTime {
   std::optional<Instant> granted_;
   bool lock_step_ = true;
   bool other_kind_ = false;
+  bool joined_ = false;
+  bool awaits_own_clock_ = false;
 };
 
 }  // namespace collision::server

@@ -108,13 +108,15 @@ std::optional<RoundTrip> World::RoundTripOf(const v1::SimulatorClock& clock,
   return trip;
 }
 
-void World::Join(Simulator* simulator) {
+void World::Join(Simulator* simulator, bool finishes) {
   SimulatorTime& time = simulator->time();
-  if (time.newest() != Instant::Always()) return;
+  if (time.awaits_own_clock()) {
+    if (finishes) time.Join(time.newest(), true);
+    return;
+  }
+  if (finishes || time.newest() != Instant::Always()) return;
   const Instant granted = std::max(granted_, silence_.roster().greatest_grant());
-  const Instant at = std::max(granted, started_ ? now_ : Instant());
-  time.Offer({.clock = at, .next = at, .lock_step = true});
-  time.Grant(at);
+  time.Join(std::max(granted, started_ ? now_ : Instant()), false);
   simulator->agents().clearances().MarkGrantChanged();
 }
 
@@ -224,7 +226,7 @@ Instant World::LatestAllowed(const Simulator& simulator) const {
   if (started_ && !waits)
     latest = std::max(latest, numeric::AddRoundedDown(now_, grant_ahead_max_));
   // A clock that does not begin at the run's start was granted by a service before this one.
-  if (time.first_clock() && (!waits || *time.first_clock() > Instant())) {
+  if (time.first_clock() && (!waits || (*time.first_clock() > Instant() && !time.joined()))) {
     latest = std::max(latest, numeric::AddRoundedDown(*time.first_clock(), grant_ahead_max_));
   }
   return latest;

@@ -77,8 +77,9 @@ class World {
   std::optional<ClockStep> SetReading(const ClockReading& reading);
 
   /// Simulated clock: a simulator that has no clock asks what time it is. The answer is a grant:
-  /// the greatest so far, or 0 before time has begun; time waits for its first clock there.
-  void Join(Simulator* simulator);
+  /// the greatest so far, or 0 before time has begun; time waits for its first clock there, unless
+  /// it `finishes`: no step of it follows after all.
+  void Join(Simulator* simulator, bool finishes);
 
   /// Simulated clock: each simulator that holds time says when its next step is.
   bool RunsInRounds() const;

@@ -55,7 +55,7 @@ OtherServices::Instance OtherServices::InstanceOf(const v1::Output& output) {
   }
 }
 
-void OtherServices::Keep(const v1::Output& output) {
+void OtherServices::Keep(const v1::Output& output, Time now) {
   // A rejection answers what was just sent; a claim is nothing that comes into force.
   if (output.has_rejection()) return;
   if (output.has_service_status() && output.service_status().phase() == v1::PHASE_CLAIMING) return;
@@ -66,7 +66,8 @@ void OtherServices::Keep(const v1::Output& output) {
         [](const auto& a, const auto& b) { return a.second.heard < b.second.heard; }));
   }
   Said& said = services_[id];
-  said.heard = ++calls_;
+  if (now - said.heard >= kForgottenAfter) said = {};
+  said.heard = now;
   if (output.has_collision_event() && output.collision_event().contacts_sequence() > 0) {
     said.contacts.push_back(output);
     if (said.contacts.size() > kContactsMax) said.contacts.pop_front();
@@ -78,19 +79,26 @@ void OtherServices::Keep(const v1::Output& output) {
   }
 }
 
-std::vector<v1::Output> OtherServices::Take(std::uint64_t service_id) {
+std::vector<v1::Output> OtherServices::Take(std::uint64_t service_id, Time now) {
   std::vector<v1::Output> outputs;
   const auto found = services_.find(service_id);
   if (found == services_.end()) return outputs;
-  Said& said = found->second;
+  Said said = std::move(found->second);
+  services_.erase(found);
+  if (now - said.heard >= kForgottenAfter) return outputs;
   outputs.assign(std::make_move_iterator(said.contacts.begin()),
                  std::make_move_iterator(said.contacts.end()));
   for (auto& [instance, output] : said.newest) outputs.push_back(std::move(output));
-  services_.erase(found);
   std::sort(outputs.begin(), outputs.end(), [](const v1::Output& a, const v1::Output& b) {
     return StampOf(a).sequence() < StampOf(b).sequence();
   });
   return outputs;
+}
+
+bool OtherServices::IsHeard(Time now) const {
+  return std::any_of(services_.begin(), services_.end(), [now](const auto& service) {
+    return now - service.second.heard < kServiceSilence;
+  });
 }
 
 }  // namespace collision::client

@@ -70,31 +70,38 @@ const v1::ServiceStamp& StampOf(const v1::Output& output);
 /// Keeps what the network would hand to a reader that joined now: the newest sample of each
 /// instance, and the newest contacts. A service publishes most things once. One that is not in
 /// force yet, because the one before it has not been silent for long enough, may come into force,
-/// and then all of it counts. One thread; depends on nothing but the calls.
+/// and then all of it counts. What one said before a long silence is forgotten. One thread;
+/// depends on nothing but the calls.
 class OtherServices {
  public:
+  using Time = CurrentService::Time;
+
+  static constexpr auto kForgottenAfter = 2 * kServiceSilence;
   static constexpr std::size_t kServicesMax = 4;  ///< Beyond, the one heard longest ago is dropped.
-  static constexpr std::size_t kInstancesMax =
-      65536;  ///< Of one service; further ones are dropped.
+  /// Of one service, of 0.5 kB mostly; further ones are dropped.
+  static constexpr std::size_t kInstancesMax = 16384;
   static constexpr std::size_t kContactsMax = wire::kContactsForLateJoiners;
 
-  void Keep(const v1::Output& output);
+  void Keep(const v1::Output& output, Time now);
 
   /// All that is kept of this service, in the order of its publication, and no longer kept.
-  std::vector<v1::Output> Take(std::uint64_t service_id);
+  std::vector<v1::Output> Take(std::uint64_t service_id, Time now);
+
+  /// One of them was heard lately: samples of services are of the same keys, so those of the one in
+  /// force may be overwritten unread.
+  bool IsHeard(Time now) const;
 
  private:
   using Instance = std::pair<v1::Output::MessageCase, std::pair<std::uint64_t, std::uint32_t>>;
   struct Said {
     std::map<Instance, v1::Output> newest;
     std::deque<v1::Output> contacts;
-    std::uint64_t heard = 0;  ///< Counts the calls.
+    Time heard{};
   };
 
   static Instance InstanceOf(const v1::Output& output);
 
   std::map<std::uint64_t, Said> services_;
-  std::uint64_t calls_ = 0;
 };
 
 }  // namespace collision::client

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
+#include "client/api/types.h"
 #include "idl/messages.pb.h"
 
 namespace collision::client {
@@ -20,11 +22,8 @@ class HeldForecasts {
     newest_ = std::max(newest_, event.stamp().sequence());
   }
 
-  /// It is about this simulator's agents: keeps it in place of an older one of its pair slot.
-  void Hold(const v1::CollisionEvent& event) {
-    v1::CollisionEvent& held = by_slot_[event.pair_slot()];
-    if (event.stamp().sequence() > held.stamp().sequence()) held = event;
-  }
+  /// It is about this simulator's agents: keeps it in place of an older one of its pair.
+  void Hold(const v1::CollisionEvent& event);
 
   /// The highest stamp.sequence of a forecast that has come. The network keeps their order, so no
   /// lower one comes any more.
@@ -38,7 +37,7 @@ class HeldForecasts {
 
  private:
   std::uint64_t newest_ = 0;
-  std::map<std::uint32_t, v1::CollisionEvent> by_slot_;
+  std::map<std::pair<AgentId, AgentId>, v1::CollisionEvent> by_pair_;
 };
 
 }  // namespace collision::client

@@ -36,7 +36,10 @@ std::size_t MessageMonitor::Poll(std::chrono::nanoseconds timeout) {
   for (const v1::Input& input : arrivals.inputs) HandOn(input);
   for (const v1::Output& output : arrivals.outputs) {
     HandOn(output);
-    if (StampOf(output).service_id() != service_.id()) others_.Keep(output);
+    // Reports are handed on, whoever they are from.
+    if (StampOf(output).service_id() != service_.id() && !output.has_simulator_report()) {
+      others_.Keep(output, now_);
+    }
   }
   GiveUpOverdue();
   return arrivals.inputs.size() + arrivals.outputs.size();
@@ -97,7 +100,7 @@ bool MessageMonitor::Accept(const v1::ServiceStamp& stamp) {
   if (service_.id() != former) {
     contacts_.Restart();
     awaited_.reset();
-    for (const v1::Output& output : others_.Take(service_.id())) HandOn(output);
+    for (const v1::Output& output : others_.Take(service_.id(), now_)) HandOn(output);
   }
   return true;
 }

@@ -1,14 +1,11 @@
 #include "client/library/network/revision_filter.h"
 
 namespace collision::client {
-namespace {
 
 bool IsForecast(v1::EventStatus status) {
   return status == v1::EVENT_POSSIBLE || status == v1::EVENT_DISMISSED ||
          status == v1::EVENT_WITHDRAWN;
 }
-
-}  // namespace
 
 bool RevisionFilter::IsNew(const v1::CollisionEvent& event, ContactSequence* contacts) {
   const bool is_contact = event.contacts_sequence() > 0;

@@ -12,6 +12,9 @@
 
 namespace collision::client {
 
+/// Possible, dismissed or withdrawn.
+bool IsForecast(v1::EventStatus status);
+
 /// Makes one stream of the two topics: each revision once, no forecast after a later revision of
 /// its pair, every contact. A service counts revisions from 1 for each contact; another service
 /// counts anew.

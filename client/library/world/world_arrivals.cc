@@ -48,17 +48,21 @@ bool World::Implementation::Gather(std::chrono::nanoseconds timeout) {
   OrderEvents(&arrivals.outputs);
   for (const v1::Output& output : arrivals.outputs) {
     Handle(output, now);
-    if (StampOf(output).service_id() != service_.id()) others_.Keep(output);
+    if (StampOf(output).service_id() != service_.id()) others_.Keep(output, now);
   }
   const std::uint64_t forecast = lock_step_ ? forecasts_.newest() : ClearanceGate::kAllForecasts;
   const std::vector<v1::Clearance> passed = gate_.Take(&contacts_, forecast, now);
   for (const v1::Clearance& clearance : passed) Handle(clearance);
   Watch(now);
+  DropOldEvents();
+  return !arrivals.outputs.empty() || !passed.empty();
+}
+
+void World::Implementation::DropOldEvents() {
   while (!on_event_ && events_.size() > kEventsMax) {
     events_.pop_front();
     ++events_lost_;
   }
-  return !arrivals.outputs.empty() || !passed.empty();
 }
 
 void World::Implementation::Handle(const v1::Output& output, CurrentService::Time now) {
@@ -111,10 +115,14 @@ void World::Implementation::AddToGate(const v1::Clearance& clearance, CurrentSer
 void World::Implementation::Handle(const v1::Clearance& clearance) {
   // All chunks carry the grant. The service writes chunk 0 after the others, so a simulator that
   // takes the grant from there knows all clearances as of that time, and which states are wanted.
-  if (clearance.chunk() == 0) {
+  // With a wall clock there is no grant.
+  if (clearance.chunk() == 0 && clearance.granted_until_ns() != kNever) {
     granted_until_ns_ = std::max(granted_until_ns_, clearance.granted_until_ns());
   }
-  clearances_sequence_ = std::max(clearances_sequence_, clearance.stamp().sequence());
+  // Beside another service some may have been overwritten unread: then they are not taken in.
+  if (!others_.IsHeard(transport_->Now())) {
+    clearances_sequence_ = std::max(clearances_sequence_, clearance.stamp().sequence());
+  }
   for (const v1::AgentClearance& agent : clearance.agents()) {
     if (!agents_.SetClearance(agent, clearance.now_ns())) continue;
     const AgentId id{simulator_id_, run_, agent.slot(), agent.generation()};
@@ -134,7 +142,7 @@ bool World::Implementation::Accept(const v1::ServiceStamp& stamp, std::int64_t n
     clearances_sequence_ = 0;
     agents_.ForgetLowerings();
     service_now_ns_ = now_ns;
-    for (const v1::Output& output : others_.Take(service_.id())) Handle(output, now);
+    for (const v1::Output& output : others_.Take(service_.id(), now)) Handle(output, now);
   } else if (service_.epoch() != epoch) {
     service_now_ns_ = now_ns;
     if (!lock_step_) BeginEpoch();
@@ -166,7 +174,7 @@ void World::Implementation::Handle(const v1::CollisionEvent& event) {
   const bool own = IsOwn(event.lower()) || IsOwn(event.higher());
   if (lock_step_ && event.contacts_sequence() == 0) {
     forecasts_.Hear(event);
-    if (own) forecasts_.Hold(event);
+    if (own && IsForecast(event.status())) forecasts_.Hold(event);
   } else if (!own) {
     if (event.contacts_sequence() > 0) contacts_.Take(event.contacts_sequence());
   } else if (filter_.IsNew(event, &contacts_)) {
@@ -220,6 +228,7 @@ void World::Implementation::DeliverAll() {
   for (const v1::CollisionEvent& event : forecasts_.Take()) {
     if (filter_.IsNew(event, &contacts_)) events_.push_back(FromMessage(event));
   }
+  DropOldEvents();
   Deliver();
 }
 

@@ -136,10 +136,11 @@ Advance World::Implementation::AdvanceTo(std::int64_t clock_ns, std::chrono::nan
       Send(clock_ns);
     } else if (arrival_.waits()) {
       // Nothing counts that it writes: the step is taken when the name is free.
-      if (IsQuiet()) WriteClock();
+      if (IsQuiet()) WriteClock(Reachable());
     } else if (clock_ns <= Reachable()) {
       DeliverAll();
       if (closed_) break;
+      RequireForward(clock_ns);  // A callback may have moved the clock.
       Reach(clock_ns);
     } else {
       if (!clock_published_) Reach(Reachable());
@@ -161,12 +162,14 @@ std::optional<std::int64_t> World::Implementation::Join(std::chrono::nanoseconds
   Gather(std::chrono::nanoseconds(0));  // An answer that has arrived counts without any waiting.
   while (granted_until_ns_ == kBeforeAll) {
     // A clock without a time asks for it.
-    if (last_clock_.simulator_id() == 0 || IsQuiet()) WriteClock();
+    if (!asked_ || IsQuiet()) WriteClock(kBeforeAll);
+    asked_ = true;
     const auto remaining = deadline.Remaining();
     if (remaining.count() == 0) return std::nullopt;
     Gather(std::min<std::chrono::nanoseconds>(remaining, kRepeatPeriod));
   }
-  return granted_until_ns_;
+  joined_ns_ = granted_until_ns_;
+  return joined_ns_;
 }
 
 void World::Implementation::Poll(std::chrono::nanoseconds timeout) {
@@ -201,12 +204,16 @@ void World::Implementation::RequireOutsideCallback(const char* function) const {
 
 void World::Implementation::RequireForward(std::int64_t clock_ns) const {
   ValidateClock(clock_ns);
-  if (!clock_published_ || !lock_step_) return;
+  if (!lock_step_) return;
   const auto require = [clock_ns](std::int64_t least_ns, const char* what) {
     if (clock_ns >= least_ns) return;
     throw std::invalid_argument("clock_ns: " + std::to_string(clock_ns) +
                                 ", allowed: >= " + std::to_string(least_ns) + ", " + what);
   };
+  if (!clock_published_) {
+    if (joined_ns_) require(*joined_ns_, "the time that Join() told");
+    return;
+  }
   require(clock_ns_, "the last clock published");
   // Others may have gone on in reliance on it.
   if (clock_ns > clock_ns_) require(next_ns_, "the next step that was announced");
@@ -262,8 +269,10 @@ void World::Implementation::Tell(std::int64_t next_ns) {
   WriteClock();
 }
 
-void World::Implementation::WriteClock() {
-  last_clock_ = agents_.Clock(clock_ns_, next_ns_, lock_step_);
+void World::Implementation::WriteClock() { WriteClock(clock_ns_); }
+
+void World::Implementation::WriteClock(std::int64_t clock_ns) {
+  last_clock_ = agents_.Clock(clock_ns, next_ns_, lock_step_);
   last_clock_.set_service_id(service_.id());
   last_clock_.set_clearances_sequence(clearances_sequence_);
   if (!lock_step_) echo_.FillIn(wall_clock_(), &last_clock_);
@@ -304,7 +313,12 @@ bool World::Implementation::MustReintroduce() {
 }
 
 void World::Implementation::Finish() {
-  if (lock_step_ && clock_published_) Tell(kNever);
+  if (!lock_step_) return;
+  if (clock_published_) return Tell(kNever);
+  if (!asked_) return;
+  // It gives up to join.
+  next_ns_ = kNever;
+  WriteClock(kBeforeAll);
 }
 
 void World::Implementation::Close() {

@@ -104,6 +104,7 @@ class World::Implementation {
   /// Lock-step: tells that nothing of any time before `next_ns` follows, unless the service knows.
   void Tell(std::int64_t next_ns);
   void WriteClock();
+  void WriteClock(std::int64_t clock_ns);
   void RepeatClock();
   bool IsQuiet() const;  ///< Nothing was written for kRepeatPeriod.
 
@@ -141,6 +142,8 @@ class World::Implementation {
   /// Notes when the service in force is heard no longer, and when one is heard again.
   void Watch(CurrentService::Time now);
 
+  void DropOldEvents();
+
   /// Runs the callbacks for what has been received, or for that and the forecasts that are held.
   void Deliver();
   void DeliverAll();
@@ -168,6 +171,8 @@ class World::Implementation {
   std::int64_t granted_until_ns_ = kBeforeAll;
   std::optional<bool> simulated_clock_;
   bool clock_published_ = false;
+  bool asked_ = false;                     ///< What time it is: Join().
+  std::optional<std::int64_t> joined_ns_;  ///< The answer.
   /// Nothing of any time before this one follows, as the service has been told or is told with the
   /// next clock; not above the clock: it is not told.
   std::int64_t next_ns_ = kBeforeAll;

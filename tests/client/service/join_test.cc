@@ -102,6 +102,28 @@ TEST_F(JoinTest, WhoAsksAndIsGoneHoldsNobodyUp) {
   EXPECT_EQ(first.AdvanceTo(10 * kSecond, seconds(10)), Advance::kReached);
 }
 
+TEST_F(JoinTest, WhoGivesUpHoldsNobodyUpAndAnEarlierFirstClockIsRefused) {
+  World first = Connect(1, "first");
+  Agent a = first.AddAgent(Ball(), At(0, 0));
+  std::int64_t now_ns = 0;
+  const auto fly = [&](std::int64_t until_ns) {
+    for (int tries = 0; tries < 1000 && now_ns < until_ns; ++tries) {
+      a.SetState(At(now_ns, 0));
+      if (first.AdvanceTo(now_ns, nanoseconds(0)) == Advance::kReached) now_ns += kSecond / 10;
+      service_.Step(0.001);
+    }
+    return now_ns >= until_ns;
+  };
+  ASSERT_TRUE(fly(5 * kSecond));
+  World late = Connect(2, "late");
+  const std::optional<std::int64_t> joins_ns = late.Join(seconds(10));
+  ASSERT_TRUE(joins_ns);
+  EXPECT_THROW(late.AdvanceTo(*joins_ns - 1, nanoseconds(0)), std::invalid_argument);
+  EXPECT_FALSE(fly(15 * kSecond)) << "the world waits for its first clock";
+  late.Finish();
+  EXPECT_TRUE(fly(15 * kSecond));
+}
+
 TEST_F(JoinTest, WithoutTimeToWaitThereIsNoAnswer) {
   World first = Connect(1, "first");
   EXPECT_EQ(first.Join(nanoseconds(0)), std::nullopt);

@@ -171,6 +171,22 @@ TEST(AgentTable, PreconditionsAreChecked) {
   EXPECT_THROW(table.Add(70, Described(3)), CheckFailure);
 }
 
+TEST(AgentTable, ARevisionCountsAtTheLatestFromTheAdmissionOn) {
+  AgentTable table;
+  table.Add(5, {1, 1, {}});
+  table.Admit(5, {}, 1);
+  table.Revise(5, 2, {});
+  EXPECT_EQ(table.Find(5)->acknowledged_revision(), 1u);
+  table.AcknowledgeRevision(5, 1, 2, Instant::FromNanoseconds(70));
+  EXPECT_EQ(table.Find(5)->acknowledged_from(), Instant::FromNanoseconds(70));
+  // Another epoch, whose time may be earlier.
+  table.Expel(5);
+  table.Revise(5, 3, {});
+  table.Admit(5, {}, 2);
+  EXPECT_EQ(table.Find(5)->acknowledged_revision(), 3u);
+  EXPECT_EQ(table.Find(5)->acknowledged_from(), Instant::Always());
+}
+
 TEST(AgentTable, AJumpWaitsBeforeTheNewestStateUpToABound) {
   AgentTable table;
   table.Add(5, {1, 1, {}});

@@ -14,19 +14,20 @@ TEST(Clearances, WhatIsNotTakenInIsPublishedAgainNowAndThen) {
   clearances.Set(130, {});
   EXPECT_EQ(clearances.TakeChanged(), Chunks{2});
   std::int64_t now_ns = 0;
-  std::uint64_t sequence = 7;
-  clearances.Publish(2, sequence, now_ns);
-  clearances.Acknowledge(6, now_ns + kRepeatAfterNs - 1);
+  clearances.Publish(2, 7, now_ns);
+  clearances.Publish(2, 8, now_ns += kRepeatAfterNs - 1);  // something newer does not put it off
+  clearances.Acknowledge(0, now_ns);
   EXPECT_EQ(clearances.TakeChanged(), Chunks{});
-  now_ns += kRepeatAfterNs;
-  clearances.Acknowledge(6, now_ns);
+  clearances.Acknowledge(0, ++now_ns);
   EXPECT_EQ(clearances.TakeChanged(), (Chunks{0, 2})) << "the grant, too";
-  clearances.Acknowledge(6, now_ns + 1);
+  clearances.Acknowledge(0, now_ns + kRepeatAfterNs - 1);
+  EXPECT_EQ(clearances.TakeChanged(), Chunks{}) << "once a second";
+  clearances.Publish(2, 9, now_ns);
+  clearances.Acknowledge(8, now_ns += kRepeatAfterNs);  // it is slow, but takes in
   EXPECT_EQ(clearances.TakeChanged(), Chunks{});
-  clearances.Publish(2, ++sequence, now_ns);
-  clearances.Publish(0, ++sequence, now_ns);
-  clearances.Acknowledge(sequence, now_ns + 10 * kRepeatAfterNs);
-  EXPECT_EQ(clearances.TakeChanged(), Chunks{});
+  clearances.Acknowledge(9, now_ns);
+  clearances.Acknowledge(9, now_ns += kRepeatAfterNs);
+  EXPECT_EQ(clearances.TakeChanged(), Chunks{}) << "it has everything";
 }
 
 }  // namespace

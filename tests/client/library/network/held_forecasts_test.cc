@@ -8,17 +8,18 @@
 namespace collision::client {
 namespace {
 
-v1::CollisionEvent Forecast(std::uint32_t pair_slot, std::uint64_t sequence) {
+/// All of one pair slot, which is given to one pair after another.
+v1::CollisionEvent Forecast(std::uint32_t pair, std::uint64_t sequence) {
   v1::CollisionEvent event;
-  event.set_pair_slot(pair_slot);
+  event.mutable_higher()->set_slot(pair);
   event.mutable_stamp()->set_sequence(sequence);
   return event;
 }
 
 TEST(HeldForecasts, OfEachPairTheNewestInTheOrderOfPublication) {
   HeldForecasts forecasts;
-  for (const auto& [slot, sequence] : {std::pair(1, 9), {2, 4}, {1, 7}, {3, 5}, {3, 6}}) {
-    forecasts.Hold(Forecast(slot, sequence));
+  for (const auto& [pair, sequence] : {std::pair(1, 9), {2, 4}, {1, 7}, {3, 5}, {3, 6}}) {
+    forecasts.Hold(Forecast(pair, sequence));
   }
   std::vector<std::uint64_t> sequences;
   for (const auto& event : forecasts.Take()) sequences.push_back(event.stamp().sequence());

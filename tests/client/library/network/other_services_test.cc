@@ -11,6 +11,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
+constexpr OtherServices::Time kNow{std::chrono::hours(1)};
+
 v1::Output ClearanceOf(std::uint64_t service, std::uint32_t chunk, std::uint64_t sequence) {
   v1::Output output;
   output.mutable_clearance()->set_chunk(chunk);
@@ -30,32 +32,44 @@ v1::Output ContactOf(std::uint64_t service, std::uint64_t sequence) {
 
 TEST(OtherServices, TheNewestOfEachInstanceIsKeptInItsOrder) {
   OtherServices others;
-  others.Keep(ClearanceOf(2, 1, 5));
-  others.Keep(ClearanceOf(2, 0, 6));
-  others.Keep(ContactOf(2, 7));
-  others.Keep(ContactOf(2, 8));
-  others.Keep(ClearanceOf(2, 1, 9));
-  others.Keep(ClearanceOf(3, 1, 1));
-  const std::vector<v1::Output> said = others.Take(2);
+  others.Keep(ClearanceOf(2, 1, 5), kNow);
+  others.Keep(ClearanceOf(2, 0, 6), kNow);
+  others.Keep(ContactOf(2, 7), kNow);
+  others.Keep(ContactOf(2, 8), kNow);
+  others.Keep(ClearanceOf(2, 1, 9), kNow);
+  others.Keep(ClearanceOf(3, 1, 1), kNow);
+  const std::vector<v1::Output> said = others.Take(2, kNow);
   ASSERT_EQ(said.size(), 4u);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(StampOf(said[i]).sequence(), 6 + i);
-  EXPECT_TRUE(others.Take(2).empty());
-  EXPECT_EQ(others.Take(3).size(), 1u);
+  EXPECT_TRUE(others.Take(2, kNow).empty());
+  EXPECT_EQ(others.Take(3, kNow).size(), 1u);
+}
+
+TEST(OtherServices, WhatASilentOneSaidIsForgotten) {
+  OtherServices others;
+  others.Keep(ClearanceOf(2, 0, 1), kNow);
+  EXPECT_TRUE(others.IsHeard(kNow + kServiceSilence - 1ns));
+  EXPECT_FALSE(others.IsHeard(kNow + kServiceSilence));
+  EXPECT_TRUE(others.Take(2, kNow + OtherServices::kForgottenAfter).empty());
+  others.Keep(ClearanceOf(2, 0, 1), kNow);
+  others.Keep(ClearanceOf(2, 1, 2), kNow + OtherServices::kForgottenAfter);
+  EXPECT_EQ(others.Take(2, kNow + OtherServices::kForgottenAfter).size(), 1u);
 }
 
 TEST(OtherServices, IsBounded) {
   OtherServices others;
-  for (std::uint64_t i = 1; i <= OtherServices::kContactsMax + 1; ++i) others.Keep(ContactOf(1, i));
+  for (std::uint64_t i = 1; i <= OtherServices::kContactsMax + 1; ++i)
+    others.Keep(ContactOf(1, i), kNow);
   for (std::uint64_t id = 1; id <= OtherServices::kServicesMax; ++id) {
-    others.Keep(ClearanceOf(id, 0, 10'000));
+    others.Keep(ClearanceOf(id, 0, 10'000), kNow);
   }
-  EXPECT_EQ(others.Take(2).size(), 1u);
-  EXPECT_EQ(others.Take(1).size(), OtherServices::kContactsMax + 1);
+  EXPECT_EQ(others.Take(2, kNow).size(), 1u);
+  EXPECT_EQ(others.Take(1, kNow).size(), OtherServices::kContactsMax + 1);
   for (std::uint64_t id = 11; id <= 11 + OtherServices::kServicesMax; ++id) {
-    others.Keep(ClearanceOf(id, 0, 1));
+    others.Keep(ClearanceOf(id, 0, 1), kNow + std::chrono::milliseconds(id));
   }
-  EXPECT_TRUE(others.Take(11).empty()) << "heard longest ago";
-  EXPECT_FALSE(others.Take(12).empty());
+  EXPECT_TRUE(others.Take(11, kNow).empty()) << "heard longest ago";
+  EXPECT_FALSE(others.Take(12, kNow).empty());
 }
 
 /// Virtual time, which the test sets.

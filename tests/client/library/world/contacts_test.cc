@@ -106,6 +106,19 @@ TEST_F(ContactsTest, AStepIsToldTheNewestForecastOfEachPairWhateverCameBefore) {
   }
 }
 
+TEST_F(ContactsTest, TheCopyAmongTheForecastsThatSaysThatAPairIsInContactReplacesNone) {
+  Arrive(Forecast(1, 1));
+  v1::CollisionEvent copy = Contact(2, 2);
+  copy.set_contacts_sequence(0);
+  Arrive(copy);
+  Grant(50, 1);
+  network_->arriving.back().mutable_clearance()->set_forecasts_sequence(2);
+  world_.AdvanceTo(0, nanoseconds(0));
+  const std::vector<Event> events = world_.TakeEvents();
+  ASSERT_EQ(events.size(), 1u);
+  EXPECT_EQ(events[0].status, EventStatus::kPossible);
+}
+
 TEST_F(ContactsTest, AContactIsNotFollowedByAForecastThatItHasReplaced) {
   Arrive(Forecast(1, 1));
   Arrive(Contact(2, 2));
