@@ -11,6 +11,18 @@ bool IsOfOneLength(const v1::SphereTree& message) {
          message.first_triangle_size() == nodes && message.triangles_size() == nodes;
 }
 
+v1::TreeRecipe::Builder BuilderOf(sphere_tree::TreeBuilder builder) {
+  switch (builder) {
+    case sphere_tree::TreeBuilder::kOctree:
+      return v1::TreeRecipe::OCTREE;
+    case sphere_tree::TreeBuilder::kFitted:
+      return v1::TreeRecipe::FITTED;
+    case sphere_tree::TreeBuilder::kMedianSplit:
+      return v1::TreeRecipe::MEDIAN_SPLIT;
+  }
+  return v1::TreeRecipe::BUILDER_UNSET;
+}
+
 }  // namespace
 
 v1::SphereTree ToMessage(const sphere_tree::SphereTree& tree) {
@@ -57,8 +69,7 @@ std::optional<sphere_tree::SphereTree> FromMessage(const v1::SphereTree& message
 
 v1::TreeRecipe RecipeOf(const sphere_tree::ShapeOptions& options) {
   v1::TreeRecipe recipe;
-  recipe.set_builder(options.builder == sphere_tree::TreeBuilder::kFitted ? v1::TreeRecipe::FITTED
-                                                                          : v1::TreeRecipe::OCTREE);
+  recipe.set_builder(BuilderOf(options.builder));
   recipe.set_triangles_per_leaf(options.triangles_per_leaf);
   recipe.set_levels_max(options.levels_max);
   recipe.set_nodes_max(options.nodes_max);

@@ -94,7 +94,8 @@ class World {
   /// this instant, if anything. Throws std::invalid_argument if the clock goes backward or, in
   /// lock-step, beyond what is granted; the first clock of a run may be any. Without lock-step a
   /// clock that goes back, because it was set, sends nothing until it has caught up or the service
-  /// has begun another epoch, and all states are to be set anew.
+  /// has begun another epoch, and all states are to be set anew; and until the service has a jump
+  /// it is told no later clock than that of the jump.
   void Publish(std::int64_t clock_ns);
 
   /// Lock-step: takes in what has arrived, says that the next step is at `clock_ns`, waits until

@@ -70,7 +70,8 @@ constexpr ConfigOption kOptions[] = {
      "it, such as a time since 1970, is refused."},
     {"clock.shape_wait_max_s", "s", "0", "86400", "", "60",
      "With SIMULATED, how long time stands still for the shape of an agent: until it has arrived "
-     "and its tree is built. After that the agent counts as its ball."},
+     "and its tree is built. After that the agent counts as its ball, or with its coarse tree, and "
+     "from when on the tree counts is chance: two runs need not have the same events."},
     {"clock.waiting_after_s", "s", "0.1", "86400", "", "5",
      "With SIMULATED, a simulator that was granted time, is the last one and tells nothing new for "
      "so long is named: in the log, in the status, and to the other simulators."},
@@ -139,11 +140,12 @@ constexpr ConfigOption kOptions[] = {
      "How candidate pairs are found. All methods give the same answers and differ in cost. AUTO "
      "takes ALL_PAIRS for few agents, SPATIAL_INDEX for many, and in between the one that does "
      "less work."},
-    {"tree_builder", "none", "", "", "OCTREE or FITTED", "FITTED",
+    {"tree_builder", "none", "", "", "OCTREE, FITTED or MEDIAN_SPLIT", "FITTED",
      "Which builder makes the sphere trees of shapes. FITTED: balls that fit the surface far more "
      "tightly, so that brackets of the same cost are narrower. OCTREE: the reference. collisionctl "
      "sphere-tree shows the difference. A surface of more than 4096 triangles has a coarse tree "
-     "until this one is built."},
+     "until this one is built. MEDIAN_SPLIT: the coarse tree is all there is, built in a tenth of "
+     "the time: for landscapes in SIMULATED time, which waits for trees."},
     {"tree_cache_dir", "none", "", "",
      "a path of at most 4096 printable ASCII characters, or empty", "\"\"",
      "Folder that keeps trees once they are built; it is made if it is missing. A file that is "

@@ -39,7 +39,8 @@ std::shared_ptr<const shape::Shape> SurfaceOf(const std::string& hash, geometry:
   if (options.cache) cached = options.cache->Load(hash, mesh);
   built->from_cache = cached.has_value();
   if (cached) return shape::Shape::FromTree(std::move(mesh), std::move(*cached));
-  built->coarse = !may_wait && mesh.triangles.size() > kCoarseFirstTriangles;
+  built->coarse = !may_wait && mesh.triangles.size() > kCoarseFirstTriangles &&
+                  options.tree.builder != kCoarseTree.builder;
   if (built->coarse) return shape::Shape::Build(std::move(mesh), kCoarseTree);
   return BuildSurface(hash, std::move(mesh), options, nullptr);
 }
@@ -69,6 +70,8 @@ BuildOptions BuildOptionsOf(const v1::Config& complete) {
   BuildOptions options{.triangles_max = complete.shape_triangles_max()};
   if (complete.tree_builder() == v1::Config::FITTED)
     options.tree.builder = sphere_tree::TreeBuilder::kFitted;
+  if (complete.tree_builder() == v1::Config::MEDIAN_SPLIT)
+    options.tree.builder = sphere_tree::TreeBuilder::kMedianSplit;
   return options;
 }
 

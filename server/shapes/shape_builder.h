@@ -11,8 +11,9 @@
 // expensive.
 // The wanted tree takes its place when it is ready (`shape_ready` says which of the two). To the
 // detector both are one body (Shape::IsSameBodyAs): no bound widens, no promise is withdrawn. If
-// the wanted tree is ready before the coarse one was used, the coarse one is dropped. Measured on
-// two shared cores with a terrain of 99,458 triangles: usable after 0.5 s, fine after 5 s.
+// the wanted tree is ready before the coarse one was used, the coarse one is dropped. With the
+// builder MEDIAN_SPLIT the coarse tree is the wanted one. Measured on two shared cores with a
+// terrain of 99,458 triangles: usable after 0.5 s, fine after 5 s.
 #pragma once
 
 #include <cstddef>

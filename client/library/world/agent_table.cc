@@ -173,7 +173,7 @@ std::vector<AgentId> AgentTable::ForgetSent() {
   }
   stated_ = 0;
   standing_sequence_ = 0;
-  taken_ns_ = std::numeric_limits<std::int64_t>::min();
+  taken_ns_ = clock_ns_ = told_ns_ = std::numeric_limits<std::int64_t>::min();
   return voided;
 }
 
@@ -189,6 +189,7 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
     Slot& slot = slots_[index];
     if (IsDue(slot, clock_ns)) {
       stated_ += !slot.states.sent().has_value();
+      if (slot.states.staged()->discontinuity) jumped_slots_.push_back(index);
       slot.states.MarkSent(++states_sequence_, slot.description.revision(), policy_);
       standing_sequence_ = states_sequence_;
       ++traffic_.states_sent;
@@ -211,14 +212,28 @@ std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   return result;
 }
 
+std::int64_t AgentTable::HeldBack(std::int64_t clock_ns) const {
+  if (!policy_.wall_clock) return clock_ns;
+  std::int64_t held_ns = clock_ns;
+  for (const std::uint32_t slot : jumped_slots_) {
+    const auto jump_ns = slots_[slot].states.JumpOnItsWay();
+    if (jump_ns) held_ns = std::min(held_ns, std::max(*jump_ns, told_ns_));
+  }
+  return held_ns;
+}
+
 v1::SimulatorClock AgentTable::Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step) {
   census_changed_ = false;
+  std::erase_if(jumped_slots_,
+                [&](std::uint32_t slot) { return !slots_[slot].states.JumpOnItsWay(); });
+  clock_ns_ = clock_ns;
+  told_ns_ = HeldBack(clock_ns);
   v1::SimulatorClock clock;
   clock.set_simulator_id(simulator_id_);
   clock.set_incarnation(incarnation_);
   clock.set_run(run_);
   clock.set_simulator_name(simulator_name_);
-  clock.set_clock_ns(clock_ns);
+  clock.set_clock_ns(told_ns_);
   clock.set_next_ns(next_ns);
   clock.set_states_sequence(standing_sequence_);
   clock.set_descriptions_sequence(descriptions_sequence_);

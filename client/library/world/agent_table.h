@@ -57,8 +57,13 @@ class AgentTable {
   /// the highest sequence comes last, so that the service has all when it has that one.
   std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);
 
-  /// The clock sample that follows everything sent so far.
+  /// The clock sample that follows everything sent so far. With a wall clock it tells no more than
+  /// the stamp of a jump on its way: it might overtake the jump, if that is overwritten in one
+  /// sample and comes with the next, and others would have relied on what the jump ends.
   v1::SimulatorClock Clock(std::int64_t clock_ns, std::int64_t next_ns, bool lock_step);
+
+  /// The last clock sample was held back, and the next one need not be so far.
+  bool clock_released() const { return HeldBack(clock_ns_) > told_ns_; }
 
   /// Agents of which a state has been sent.
   std::uint32_t stated() const { return stated_; }
@@ -84,6 +89,7 @@ class AgentTable {
     std::uint32_t acknowledged_revision = 0;  ///< Likewise.
   };
 
+  std::int64_t HeldBack(std::int64_t clock_ns) const;
   std::uint32_t FreeSlot();
   /// Gives back the slots of removed agents; returns the chunks that they were in.
   std::vector<std::uint32_t> FreeRemoved();
@@ -102,6 +108,9 @@ class AgentTable {
   std::vector<std::uint32_t> free_slots_;     ///< A heap, the lowest on top.
   std::vector<std::uint32_t> staged_slots_;   ///< Of agents with a staged state.
   std::vector<std::uint32_t> removed_slots_;  ///< Their last states were sent at this clock.
+  std::vector<std::uint32_t> jumped_slots_;   ///< With a jump on its way, or so they were.
+  std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Of the last sample ...
+  std::int64_t told_ns_ = std::numeric_limits<std::int64_t>::min();   ///< ... and what it told.
   std::int64_t taken_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Clock of TakeDue().
   std::uint32_t agent_count_ = 0;
   std::uint32_t stated_ = 0;

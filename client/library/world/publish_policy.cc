@@ -74,6 +74,13 @@ void OutgoingStates::MarkSent(std::uint64_t sequence, std::uint32_t revision,
   sent_revision_ = revision;
 }
 
+std::optional<std::int64_t> OutgoingStates::JumpOnItsWay() const {
+  if (acknowledged_ == 0) return std::nullopt;
+  if (!jumps_.empty()) return jumps_.front().state.stamp_ns;
+  const bool newest = sent_ && sent_->discontinuity && sent_sequence_ > acknowledged_;
+  return newest ? std::optional(sent_->stamp_ns) : std::nullopt;
+}
+
 void OutgoingStates::ForgetSent() {
   const std::optional<State> staged = staged_;
   *this = OutgoingStates();

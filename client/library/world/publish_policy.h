@@ -49,6 +49,10 @@ class OutgoingStates {
   };
   const std::vector<Jump>& jumps() const { return jumps_; }
 
+  /// Stamp of the oldest jump on its way: sent, and not acknowledged although an earlier state was.
+  /// Until a state is acknowledged the agent may not be admitted, and never be.
+  std::optional<std::int64_t> JumpOnItsWay() const;
+
   /// Requires a staged state. `revision` is that of the agent's description.
   bool IsDue(std::int64_t clock_ns, std::uint32_t revision, const PublishPolicy& policy) const;
 

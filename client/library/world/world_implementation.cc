@@ -299,7 +299,7 @@ void World::Implementation::Tend() {
   } else if (again) {
     Reach(clock_ns_);
     WriteClock();
-  } else if (IsQuiet()) {
+  } else if (IsQuiet() || agents_.clock_released()) {
     WriteClock();
   }
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "client/api/event_text.h"
+#include "client/programs/shared/grant_patience.h"
 #include "client/programs/shared/stop_signal.h"
 #include "client/programs/shared/wait_notice.h"
 #include "idl/scene.pb.h"
@@ -20,8 +21,6 @@ using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kServiceTimeout{20};
-// Twice as long as the service by default waits for a shape (clock.shape_wait_max_s).
-constexpr std::chrono::seconds kGrantTimeout{120};
 constexpr milliseconds kStopCheck{50};  // period of looking for a stop signal
 
 /// The wall clock as it was when it was first read, carried on by the steady clock: so the stamps
@@ -52,6 +51,9 @@ std::string GrantedText(std::int64_t granted_ns) {
 
 Pace::Pace(const SimulatorOptions& options)
     : options_(options), world_(Connect(options)), refusals_(options.simulator) {
+  world_.OnWaiting([this](const std::vector<std::string>& names) { waited_for_ = names; });
+  world_.OnServiceLost([this] { has_service_ = false; });
+  world_.OnServiceBack([this] { has_service_ = true; });
   WaitNotice notice(steady_clock::now());
   const auto deadline = steady_clock::now() + kServiceTimeout;
   while (!world_.WaitForService(kStopCheck)) {
@@ -96,28 +98,36 @@ bool Pace::AdvanceTo(std::int64_t clock_ns) {
     const auto due = nanoseconds(std::llround(static_cast<double>(elapsed_ns) / options_.speed));
     if (!WaitForWall(start_ + due)) return false;
   }
-  auto deadline = steady_clock::now() + kGrantTimeout;
-  WaitNotice notice(steady_clock::now());
   std::int64_t granted_ns = world_.granted_until_ns();
+  GrantPatience patience(granted_ns, steady_clock::now());
+  WaitNotice notice(steady_clock::now());
   while (!StopRequested()) {
     const bool reached = world_.AdvanceTo(clock_ns, kStopCheck) == Advance::kReached;
     TakeRefusals();
     if (reached) return true;
-    if (world_.granted_until_ns() != granted_ns) {
-      granted_ns = world_.granted_until_ns();
-      deadline = steady_clock::now() + kGrantTimeout;
-      notice = WaitNotice(steady_clock::now());
-    }
+    const auto now = steady_clock::now();
+    const bool granted = world_.granted_until_ns() != granted_ns;
+    if (granted) notice = WaitNotice(now);
+    granted_ns = world_.granted_until_ns();
     const std::string beyond = GrantedText(granted_ns);
-    notice.Tick(steady_clock::now(), options_.simulator + ": waiting for the service of world " +
-                                         options_.world + " to grant time" + beyond +
-                                         " (another simulator may be behind) ...");
-    if (steady_clock::now() <= deadline) continue;
+    const std::string reason = WaitsFor();
+    notice.Tick(now, options_.simulator + ": waiting for the service of world " + options_.world +
+                         " to grant time" + beyond + " (" +
+                         (reason.empty() ? "another simulator may be behind" : reason) + ") ...");
+    if (patience.Lasts(granted_ns, !reason.empty(), now)) continue;
     RequireAgentsTaken();
     throw std::runtime_error("the service granted no time" + beyond + " for " +
                              std::to_string(kGrantTimeout.count()) + " s");
   }
   return false;
+}
+
+std::string Pace::WaitsFor() const {
+  std::string names;
+  for (const std::string& name : waited_for_) {
+    if (name != options_.simulator) names += (names.empty() ? "it waits for " : ", ") + name;
+  }
+  return has_service_ ? names : "";
 }
 
 void Pace::TakeRefusals() {

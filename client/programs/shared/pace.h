@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "client/api/world.h"
 #include "client/programs/shared/refusals.h"
@@ -39,6 +40,8 @@ class Pace {
   /// Connects and waits for the service, at most 20 s; prints a notice while it waits. Throws
   /// std::runtime_error.
   explicit Pace(const SimulatorOptions& options);
+  Pace(const Pace&) = delete;
+  Pace& operator=(const Pace&) = delete;
 
   World& world() { return world_; }
 
@@ -50,8 +53,8 @@ class Pace {
 
   /// Publishes the states with stamps up to `clock_ns` and moves the clock there; delivers events
   /// and prints refusals meanwhile. False: the program was asked to stop. Throws std::runtime_error
-  /// if the service grants no time for 120 s; RefusedError if it refused the agents, or if its
-  /// clock is of the other kind.
+  /// if the service grants no time for 120 s and names nobody whom it waits for; RefusedError if it
+  /// refused the agents, or if its clock is of the other kind.
   bool AdvanceTo(std::int64_t clock_ns);
 
   /// The loop of a simulator that steps `rate_hz` times a second. `step` computes the motion from
@@ -72,6 +75,8 @@ class Pace {
 
  private:
   bool WaitForWall(std::chrono::steady_clock::time_point until);
+  /// Whom or what else time waits for, as the service says; empty: it says nothing, or is gone.
+  std::string WaitsFor() const;
   void TakeRefusals();
   void RequireClock() const;
   void RequireAgentsTaken() const;
@@ -79,6 +84,8 @@ class Pace {
   SimulatorOptions options_;
   World world_;
   Refusals refusals_;
+  std::vector<std::string> waited_for_;  ///< As the service last said.
+  bool has_service_ = true;
   std::string other_;  ///< Printed: why it waits for its name.
   std::int64_t granted_ns_ = std::numeric_limits<std::int64_t>::min();
   std::int64_t start_ns_ = 0;

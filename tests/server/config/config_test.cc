@@ -235,7 +235,7 @@ std::string RandomValue(const ConfigOption& option, Random& random) {
   if (option.path == "log_file" || option.path.ends_with("_dir")) return "\"/a b\\\"\\\\\"";
   if (option.path == "clock.kind") return random.Chance(0.5) ? "WALL" : "SIMULATED";
   if (option.path == "broad_phase") return random.Chance(0.5) ? "AUTO" : "ALL_PAIRS";
-  if (option.path == "tree_builder") return random.Chance(0.5) ? "OCTREE" : "FITTED";
+  if (option.path == "tree_builder") return random.Chance(0.5) ? "MEDIAN_SPLIT" : "FITTED";
   if (option.path == "on_state_failure") return random.Chance(0.5) ? "GO_ON" : "END";
   if (option.least.empty()) return "RELEASE";
   const double least = std::max(std::stod(std::string(option.least)), 1e-6);

@@ -49,7 +49,7 @@ bool SameBits(const sphere_tree::SphereTree& a, const sphere_tree::SphereTree& b
 }
 
 // Goal:   what follows the coarse tree is what would have been built at once, as a twin; small
-//         surfaces have no coarse tree.
+//         surfaces have no coarse tree, and where it is the wanted one nothing follows.
 TEST(CoarseTree, TheWantedOneFollows) {
   for (const bool with_solid : {false, true}) {
     ShapeContent content = FineCube(kLarge);
@@ -71,6 +71,13 @@ TEST(CoarseTree, TheWantedOneFollows) {
   }
   EXPECT_FALSE(BuildFirst("", EncodeShape(FineCube(kNotLarge)), Options()).coarse);
   EXPECT_NE(BuildFirst("", "nothing", Options()).refusal, "");
+  v1::Config config;
+  config.set_tree_builder(v1::Config::MEDIAN_SPLIT);
+  const BuildOptions quick = BuildOptionsOf(CompleteConfig(config));
+  const std::string large = EncodeShape(FineCube(kLarge));
+  const BuiltShape only = BuildFirst("", large, quick);
+  EXPECT_FALSE(only.coarse);
+  EXPECT_TRUE(SameBits(only.shape->tree(), BuildFirst("", large, Options()).shape->tree()));
 }
 
 // Goal:   the threads hand out the coarse tree and then the other; a late caller gets the better

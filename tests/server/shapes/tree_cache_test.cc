@@ -107,6 +107,7 @@ TEST_F(TreeCacheTest, KnowsHowATreeWasBuilt) {
   cache.Store(HashOf(1), shape::Shape::Build(mesh)->tree());
   for (const sphere_tree::ShapeOptions& options :
        {sphere_tree::ShapeOptions{.builder = sphere_tree::TreeBuilder::kFitted},
+        sphere_tree::ShapeOptions{.builder = sphere_tree::TreeBuilder::kMedianSplit},
         sphere_tree::ShapeOptions{.triangles_per_leaf = 5},
         sphere_tree::ShapeOptions{.levels_max = 11},
         sphere_tree::ShapeOptions{.nodes_max = 1000}}) {

@@ -1,13 +1,9 @@
 #include "client/programs/simulators/terrain/terrain.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
-#include "client/api/monitor.h"
-#include "client/programs/shared/stop_signal.h"
 #include "client/programs/simulators/motion/random.h"
 
 namespace collision::client {
@@ -108,41 +104,6 @@ void AddWallsAndFloor(const TerrainOptions& options, std::uint32_t n, Triangles*
   }
 }
 
-std::uint64_t CounterOf(const ServiceStatus& status, const std::string& name) {
-  const auto counter = status.counters.find(name);
-  return counter != status.counters.end() ? counter->second : 0;
-}
-
-/// Whether the service has the ground's tree: so many bytes of shapes have arrived that the
-/// ground's must be among them, and nothing is being gathered or built, except fine trees where the
-/// coarse ones are enough.
-bool HasTree(const ServiceStatus& status, std::uint64_t bytes, bool coarse_is_enough) {
-  const std::uint64_t coarse = coarse_is_enough ? CounterOf(status, "trees_coarse") : 0;
-  return CounterOf(status, "shape_bytes") >= bytes && CounterOf(status, "shapes_gathering") == 0 &&
-         CounterOf(status, "trees_building") <= coarse;
-}
-
-void AwaitTree(const TerrainOptions& options, const SimulatorOptions& simulator,
-               std::uint64_t bytes) {
-  using std::chrono::steady_clock;
-  bool built = false;
-  Monitor monitor({.world = simulator.world, .domain = simulator.domain},
-                  {.status = [&](const ServiceStatus& s) {
-                    built = HasTree(s, bytes, options.coarse_is_enough);
-                  }});
-  const auto start = steady_clock::now();
-  const auto taken = [&] {
-    return std::chrono::duration<double>(steady_clock::now() - start).count();
-  };
-  while (!built && !StopRequested() && taken() < options.await_tree_s) {
-    monitor.Poll(std::chrono::milliseconds(50));
-  }
-  std::printf(built ? "the service has a tree of the ground after %.1f s\n"
-                    : "the service has no tree of the ground after %.1f s; time begins\n",
-              taken());
-  std::fflush(stdout);
-}
-
 }  // namespace
 
 Triangles TerrainMesh(const TerrainOptions& options) {
@@ -153,8 +114,7 @@ Triangles TerrainMesh(const TerrainOptions& options) {
   return mesh;
 }
 
-void ServeTerrain(const TerrainOptions& options, const SimulatorOptions& simulator, Pace* pace,
-                  MotionLog* log) {
+void ServeTerrain(const TerrainOptions& options, Pace* pace, MotionLog* log) {
   AgentDescription description;
   description.name = options.name;
   description.shape = Shape::Make(TerrainMesh(options));
@@ -165,9 +125,6 @@ void ServeTerrain(const TerrainOptions& options, const SimulatorOptions& simulat
   state.stamp_ns = pace->start_ns();
   state.position_m = {options.size_m / 2, options.size_m / 2, options.base_m};
   const Agent ground = pace->world().AddAgent(description, state);
-  if (options.await_tree_s > 0 && pace->AdvanceTo(pace->start_ns())) {
-    AwaitTree(options, simulator, description.shape->bytes().size());
-  }
   log->Agent(description.name, description.radius_m, description.shape);
   MotionPiece piece{pace->start_ns(), pace->start_ns(), {}};
   for (int axis = 0; axis < 3; ++axis) piece.coefficients[axis][0] = state.position_m[axis];

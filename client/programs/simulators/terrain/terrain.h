@@ -16,18 +16,10 @@ struct TerrainOptions {
   double base_m = 0;                ///< World z of the lowest possible point.
   std::uint64_t seed = 1;
   std::string name = "terrain";
-  /// Time to wait for the service to build the ground's tree before the run begins. Until the tree
-  /// exists, everything that flies inside the ground's ball may touch it.
-  double await_tree_s = 0;
-  /// Wait for the coarse tree only, which exists much earlier; the fine one follows in the run.
-  bool coarse_is_enough = false;
 };
 
 inline constexpr std::size_t kTerrainTrianglesMin = 50;
 inline constexpr double kTerrainSizeMax = 1e6;  ///< [m] The ground is flat: no planet.
-
-/// Less than the 120 s for which other simulators wait for a grant [s].
-inline constexpr double kAwaitTreeMax = 25;
 
 /// A closed block: hills on a grid on top, walls around, a flat floor a quarter of the relief below
 /// the lowest point. The reference point is in the middle of the square, at the lowest height. The
@@ -36,8 +28,8 @@ inline constexpr double kAwaitTreeMax = 25;
 Triangles TerrainMesh(const TerrainOptions& options);
 
 /// Publishes the ground once, then only the clock. The ground declares that it never moves, so the
-/// service wants no further state.
-void ServeTerrain(const TerrainOptions& options, const SimulatorOptions& simulator, Pace* pace,
-                  MotionLog* log);
+/// service wants no further state. With a wall clock everything that flies inside the ground's ball
+/// may touch it until the service has built the tree; in lock-step time waits for that.
+void ServeTerrain(const TerrainOptions& options, Pace* pace, MotionLog* log);
 
 }  // namespace collision::client

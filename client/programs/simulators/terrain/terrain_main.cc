@@ -25,12 +25,6 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(-kTerrainSizeMax, kTerrainSizeMax))
       ->capture_default_str();
   app.add_option("--seed", terrain.seed, "Seed of the hills")->capture_default_str();
-  app.add_option("--await-tree", terrain.await_tree_s,
-                 "Longest time to wait for the service to build the sphere tree [s], 0 to 25")
-      ->check(Finite(kAwaitTreeMax, true))
-      ->capture_default_str();
-  app.add_flag("--coarse", terrain.coarse_is_enough,
-               "Wait for the coarse tree only, which is built first");
   app.add_option("--seconds", simulator.seconds, "Length of the run")
       ->required()
       ->check(Finite(kRunSecondsMax, false));
@@ -40,7 +34,7 @@ int main(int argc, char** argv) {
   return RunProgram("terrain", [&] {
     MotionLog log(simulator.motion_log);
     Pace pace(simulator);
-    ServeTerrain(terrain, simulator, &pace, &log);
+    ServeTerrain(terrain, &pace, &log);
     log.Close();
     pace.ReportTraffic();
     pace.CheckRefusals();

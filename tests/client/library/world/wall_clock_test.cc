@@ -3,6 +3,8 @@
 // Method: a network and a clock under the test's control.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "tests/client/fake_transport.h"
 
 namespace collision::client {
@@ -140,6 +142,54 @@ TEST_F(WallClockTest, AClockThatWasSetBackGoesOnOnceItHasCaughtUp) {
   now_ns_ += 2 * kSecond;
   Tell();
   EXPECT_EQ(StatesSent(), 2u);
+  EXPECT_EQ(LastClock().clock_ns(), now_ns_);
+}
+
+TEST_F(WallClockTest, TheClockDoesNotPassAJumpThatTheServiceMayNotHave) {
+  const auto jump = [this] {
+    now_ns_ += kSecond;
+    agent_.SetState({.stamp_ns = now_ns_, .discontinuity = true});
+    world_.Publish(now_ns_);
+    return now_ns_;
+  };
+  Tell();
+  Hear(now_ns_);
+  Acknowledge(1);
+  const std::int64_t first_ns = jump();
+  const std::int64_t second_ns = jump();
+  now_ns_ += kSecond;
+  Tell();
+  EXPECT_EQ(LastClock().clock_ns(), first_ns);
+  Acknowledge(2);
+  EXPECT_EQ(LastClock().clock_ns(), second_ns);
+  Acknowledge(3);
+  EXPECT_EQ(LastClock().clock_ns(), now_ns_) << "told at once, without another Publish()";
+  const std::size_t clocks = network_->Clocks().size();
+  world_.Poll();
+  EXPECT_EQ(network_->Clocks().size(), clocks);
+}
+
+// The service may refuse it, and would not hear of any time then.
+TEST_F(WallClockTest, TheClockGoesOnBesideJumpsOfAnAgentThatIsNotAdmitted) {
+  Tell();
+  now_ns_ += kSecond;
+  agent_.SetState({.stamp_ns = now_ns_, .discontinuity = true});
+  world_.Publish(now_ns_);
+  now_ns_ += kSecond;
+  Tell();
+  EXPECT_EQ(LastClock().clock_ns(), now_ns_);
+}
+
+TEST_F(WallClockTest, TheClockGoesOnWhenTheAgentThatJumpedIsRemoved) {
+  Tell();
+  Hear(now_ns_);
+  Acknowledge(1);
+  now_ns_ += kSecond;
+  agent_.SetState({.stamp_ns = now_ns_, .discontinuity = true});
+  world_.Publish(now_ns_);
+  { const Agent removed = std::move(agent_); }
+  now_ns_ += kSecond;
+  world_.Publish(now_ns_);
   EXPECT_EQ(LastClock().clock_ns(), now_ns_);
 }
 
