@@ -102,12 +102,13 @@ std::vector<std::string> Command(const FlightPlan& plan, const Places& places,
       {"--scenes", places.config + "/scenes"},
       {"--bin", (folder / "bin").string()},
       {"--logs", (folder / "logs").string()},
-      {"--json", (folder / "report.json").string()},
+      {"--json", plan.judged ? (folder / "report.json").string() : ""},
       {"--data", places.data}};
   std::vector<std::string> words = {(fs::path(places.bin) / "scene-runner").string(), plan.scene};
   for (const auto& [option, value] : options) {
     if (!value.empty()) words.insert(words.end(), {option, value});
   }
+  if (!plan.judged) words.emplace_back("--unjudged");
   return words;
 }
 

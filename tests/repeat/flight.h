@@ -22,11 +22,12 @@ struct FlightPlan {
   double speed = 0;    ///< At most so many simulated seconds a second; 0: no limit.
   Condition condition;
   std::uint64_t seed = 1;  ///< Of stops, delays and losses.
+  bool judged = true;      ///< By the checker, which may take longer than the flight.
 };
 
 struct Flight {
   bool ended = false;      ///< The scene ran to its end.
-  bool satisfied = false;  ///< And its checker is satisfied.
+  bool satisfied = false;  ///< And its programs did not fail, nor the checker object, if asked.
   std::string event_log;   ///< Number and hash of the events, as collisiond logs them.
   double wall_s = 0;
   int stops = 0;     ///< How often a process was stopped.

@@ -52,8 +52,9 @@ Row FlySeries(const Series& series, int times, Keeper* keeper) {
   Row row{series, {}};
   for (int i = 1; i <= times && !client::StopRequested(); ++i) {
     const std::string name = series.scene + "-" + series.condition.name + "-" + std::to_string(i);
-    const FlightPlan plan{series.scene, series.seconds, series.speed, series.condition,
-                          static_cast<std::uint64_t>(i)};
+    const FlightPlan plan{
+        series.scene, series.seconds, series.speed, series.condition, static_cast<std::uint64_t>(i),
+        i == 1};
     const Flight flight = keeper->Fly(plan, name);
     if (client::StopRequested()) break;
     std::fprintf(stderr, "%s: %.1f s, %s%s\n", name.c_str(), flight.wall_s,

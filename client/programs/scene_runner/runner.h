@@ -22,6 +22,7 @@ struct RunnerOptions {
   std::optional<std::uint32_t> domain;  ///< Default: one that depends on this process.
   std::string config;        ///< Fields that override the scene's configuration, as protobuf text.
   bool every_event = false;  ///< Print every event, however many.
+  bool unjudged = false;     ///< Leave the checker out: it may take longer than the run.
   std::string json;          ///< File for the report; empty: none.
   std::string logs;          ///< Folder for configuration and logs, kept; empty: a temporary one.
 };
@@ -56,7 +57,10 @@ class Runner {
   void Drain(std::chrono::milliseconds quiet, std::chrono::milliseconds longest);
   void StopSimulators();
   void ReadTraffic(Measured* measured) const;
+  /// Programs that failed, and samples that the service refused.
+  checker::Violations Failures() const;
   RunResult Judge(const Measured& measured);
+  RunResult Conclude(const checker::Violations& violations, const char* satisfied) const;
 
   RunnerOptions options_;
   v1::Scene scene_;

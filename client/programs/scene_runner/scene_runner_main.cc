@@ -44,7 +44,11 @@ int main(int argc, char** argv) {
                  "'time_budget_us: 100'");
   app.add_flag("--every-event", options.every_event,
                "Print every possible, dismissed and withdrawn event");
-  app.add_option("--json", options.json, "Write the report (v1::RunReport) to this file");
+  CLI::Option* json =
+      app.add_option("--json", options.json, "Write the report (v1::RunReport) to this file");
+  app.add_flag("--unjudged", options.unjudged,
+               "Leave the checker out: only whether the programs ran to their end counts")
+      ->excludes(json);
   app.add_option("--logs", options.logs, "Keep configuration, logs and motion logs in this folder");
   app.add_option("--scenes", options.folders.scenes, "Folder of the scenes")->capture_default_str();
   app.add_option("--data", options.folders.data, "Folder of the real data sets")
