@@ -1,7 +1,7 @@
 // What the network may do to samples on their way.
 #include "server/config/config.h"
-#include "tests/faults/cases.h"
-#include "tests/faults/scene.h"
+#include "tests/faults/cases/cases.h"
+#include "tests/faults/cases/fleet.h"
 
 namespace collision::faults {
 namespace {

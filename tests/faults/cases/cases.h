@@ -15,5 +15,6 @@ std::vector<Case> NetworkCases();
 std::vector<Case> ProgramCases();
 std::vector<Case> ClockCases();
 std::vector<Case> HostileCases();
+std::vector<Case> MemoryCases();
 
 }  // namespace collision::faults
