@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kService = 256 << 10;   ///< Its tables when they are empty.
 constexpr std::size_t kSimulator = 32 << 10;  ///< In the service: clocks, refusals, clearances.
 constexpr std::size_t kAgent = 8 << 10;       ///< In the service: states, a row in each table.
-constexpr std::size_t kClient = 32 << 10;     ///< A World or a monitor without an agent.
+constexpr std::size_t kClient = 48 << 10;     ///< A World or a monitor without an agent.
 constexpr std::size_t kOwnAgent = 4 << 10;    ///< In its World.
 constexpr std::size_t kRemembered = 128;      ///< A pair that a client was told of.
 constexpr std::size_t kWaitingSample = 2048;  ///< Taken from the network, and handed on.

@@ -179,7 +179,8 @@ void SimulatorProgram::Set(std::int64_t world_ns) {
       Describe(i, world_ns, &agent->second);
       agent->second.SetState(StateOf(flight, world_ns));
     } else if (agent != agents_.end()) {
-      flown.removed_ns = world_ns;
+      // In lock-step that is told ahead of the step, and counts from the last one on.
+      flown.removed_ns = options_.lock_step ? reached_ns_ : world_ns;
       agents_.erase(agent);
     }
   }
@@ -233,6 +234,9 @@ void SimulatorProgram::Note(std::int64_t world_ns) {
         std::min({clearance.clear_until_ns, clearance.void_from_ns, clearance.expires_ns});
     if (clearance.not_clear) until = kAlways;
     if (until != kAlways && until != client::kNever) until -= StampOf(0);
+    if (clearance.effective_from_ns != kAlways) {
+      flown_[index].effective_ns.insert(clearance.effective_from_ns - StampOf(0));
+    }
     std::vector<Reliance>& relied = flown_[index].relied;
     const bool same = !relied.empty() && relied.back().clear_until_ns == until;
     if (same) continue;

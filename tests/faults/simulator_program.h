@@ -72,6 +72,8 @@ struct Flown {
   std::int64_t removed_ns = client::kNever;
   client::AgentId id;
   std::vector<Reliance> relied;
+  /// From when on, as its program was told, others count its changes: in the world, less the base.
+  std::set<std::int64_t> effective_ns;
 };
 
 class SimulatorProgram {

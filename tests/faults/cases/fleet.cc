@@ -8,6 +8,28 @@
 
 namespace collision::faults {
 
+Fleet WallFleet(std::uint64_t seed) {
+  Random random(seed * 31);
+  Fleet fleet{.config = WallConfig(1e-9 * static_cast<double>(kSkewNs)),
+              .network = Faulty(seed),
+              .seed = seed};
+  fleet.lock_step = false;
+  for (std::int64_t& offset : fleet.wall_offsets_ns) {
+    offset = static_cast<std::int64_t>(random.Uniform(-0.9, 0.9) * static_cast<double>(kSkewNs));
+  }
+  return fleet;
+}
+
+JudgeOptions WallJudge() {
+  JudgeOptions options;
+  options.base_ns = kWallAtStart;
+  // A stamp is off by as much as its sender's clock, and so may be what follows from it.
+  options.tolerance_ns = 2 * kSkewNs;
+  // Until all have arrived, a contact may begin before it can be announced.
+  options.unserved = {{0, kSecond}};
+  return options;
+}
+
 std::unique_ptr<Scene> MakeScene(const Fleet& fleet) {
   v1::Config config = fleet.config;
   // The sooner a contact is announced, the less is promised.
@@ -25,7 +47,7 @@ std::unique_ptr<Scene> MakeScene(const Fleet& fleet) {
     options.on_demand = i < 2;
     options.wall_offset_ns = fleet.wall_offsets_ns[i];
     options.incarnation = static_cast<std::uint32_t>(i + 1);
-    scene->AddSimulator(options, Wanderers(fleet.agents, fleet.end_ns, &random));
+    scene->AddSimulator(options, fleet.flights(fleet.agents, fleet.end_ns, &random));
   }
   return scene;
 }
@@ -72,6 +94,7 @@ void Report(const Judgement& judgement, std::uint64_t seed, suite::Outcome* outc
   outcome->Add("runs", 1);
   outcome->Add("contacts", static_cast<double>(judgement.contacts));
   outcome->Add("confirmed", static_cast<double>(judgement.confirmed));
+  outcome->Add("unserved", static_cast<double>(judgement.unserved));
   outcome->Add("late", static_cast<double>(judgement.late));
   outcome->Add("unheard", static_cast<double>(judgement.unheard));
   outcome->Add("relied_wrongly", static_cast<double>(judgement.relied));
@@ -92,6 +115,31 @@ void ExpectAllHeard(const MonitorProgram& monitor, std::uint64_t seed, suite::Ou
   outcome->Expect(monitor.contacts_missed() == 0,
                   where + std::to_string(monitor.contacts_missed()) + " contacts count as missed");
   outcome->Expect(monitor.out_of_order() == 0, where + "contacts out of order");
+}
+
+void FlyAsPerfect(const Fleet& fleet, const std::function<void(Scene*)>& faults,
+                  suite::Outcome* outcome) {
+  const std::string where = "seed " + std::to_string(fleet.seed) + ": ";
+  const Fingerprint perfect = PerfectEvents(fleet);
+  const auto scene = MakeScene(fleet);
+  Fly(
+      fleet, scene.get(),
+      [&] {
+        if (faults) faults(scene.get());
+      },
+      outcome);
+  Report(scene->Judged(), fleet.seed, outcome);
+  ExpectAllHeard(scene->monitor(), fleet.seed, outcome);
+  const Fingerprint events{scene->service().events_hash(), scene->service().events_count()};
+  outcome->Add("events", static_cast<double>(events.count));
+  outcome->Expect(events == perfect, where + "other events than on a perfect network");
+  outcome->Expect(scene->service().counter("breaches") == 0,
+                  where + "an honest agent counts as a breach");
+}
+
+void ExpectContacts(double in_each_run, suite::Outcome* outcome) {
+  outcome->Expect(outcome->Get("contacts") >= in_each_run * outcome->Get("runs"),
+                  "hardly any contact");
 }
 
 }  // namespace collision::faults

@@ -17,6 +17,7 @@ struct Fleet {
   NetworkOptions network;
   std::uint64_t seed = 1;
   int agents = 6;  ///< Of each.
+  std::function<std::vector<Flight>(int count, std::int64_t end_ns, Random*)> flights = Wanderers;
   std::int64_t end_ns = 10 * kSecond;
   bool lock_step = true;
   std::vector<std::int64_t> wall_offsets_ns = {0, 0, 0};
@@ -24,6 +25,13 @@ struct Fleet {
   std::size_t strangers = 0;              ///< Agents that other programs may bring.
   std::int64_t limit_ns = 600 * kSecond;  ///< Virtual time in which the run must come to its end.
 };
+
+/// The bound on clocks of a wall fleet [ns].
+inline constexpr std::int64_t kSkewNs = 20 * kMillisecond;
+/// By wall clocks that are off by up to 0.9 of the bound, over a faulty network.
+Fleet WallFleet(std::uint64_t seed);
+/// What holds of it: within the bound, and once all have arrived.
+JudgeOptions WallJudge();
 
 /// All of them on one network with a service and a monitor, not yet started.
 std::unique_ptr<Scene> MakeScene(const Fleet& fleet);
@@ -50,5 +58,12 @@ void ReportProgress(const Scene& scene, std::uint64_t seed, suite::Outcome* outc
 /// Every contact that the services published was heard, once and in order, and none counts as
 /// missed.
 void ExpectAllHeard(const MonitorProgram& monitor, std::uint64_t seed, suite::Outcome* outcome);
+
+/// A run in lock-step that must have the events of a perfect network.
+void FlyAsPerfect(const Fleet& fleet, const std::function<void(Scene*)>& faults,
+                  suite::Outcome* outcome);
+
+/// A scene in which nothing happens proves nothing.
+void ExpectContacts(double in_each_run, suite::Outcome* outcome);
 
 }  // namespace collision::faults
