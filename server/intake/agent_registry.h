@@ -90,6 +90,7 @@ class AgentRegistry {
               const detection::AgentDeclaration& declaration);
   bool IsDescribed(const Simulator& simulator, std::uint32_t slot, std::uint32_t generation) const;
   void RemoveNow(Simulator* simulator, std::uint32_t slot);
+  static bool Ends(const Simulator& simulator, std::uint32_t slot, const Told& told);
   void EnactState(Simulator* simulator, std::uint32_t slot);
   void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
               const motion::MotionState& state);

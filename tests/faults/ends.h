@@ -9,6 +9,7 @@
 
 #include "client/library/network/transport.h"
 #include "server/bus/bus.h"
+#include "tests/faults/heap.h"
 #include "tests/faults/network.h"
 
 namespace collision::faults {
@@ -31,6 +32,7 @@ class ServiceEnd final : public server::Bus {
     return true;
   }
   void Publish(const v1::Output& output) override {
+    const OnBehalfOf test(Owner::kTest);
     published_(output);
     network_.Write(id_, output);
   }
@@ -68,7 +70,10 @@ class ClientEnd final : public client::Transport {
     return std::chrono::steady_clock::time_point(
         std::chrono::nanoseconds(kMonotonicAtStart + network_.now_ns()));
   }
-  void Write(const v1::Input& message) override { network_.Write(id_, message); }
+  void Write(const v1::Input& message) override {
+    const OnBehalfOf test(Owner::kTest);
+    network_.Write(id_, message);
+  }
   void Flush() override {}
 
   Network::Id id() const { return id_; }

@@ -1,7 +1,7 @@
 // ./run faults: what the service promises, over a network and beside programs that fail.
 #include <spdlog/spdlog.h>
 
-#include "tests/faults/cases.h"
+#include "tests/faults/cases/cases.h"
 #include "tests/support/suite/suite.h"
 
 namespace collision::faults {
@@ -9,7 +9,8 @@ namespace {
 
 std::vector<Case> AllCases() {
   std::vector<Case> all;
-  for (const auto& part : {NetworkCases(), ProgramCases(), ClockCases(), HostileCases()}) {
+  for (const auto& part : {NetworkCases(), ProgramCases(), ClockCases(), HostileCases(),
+                           AgentCases(), MemoryCases()}) {
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;

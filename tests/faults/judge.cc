@@ -97,12 +97,17 @@ class PairJudge {
     const auto unserved = [begin](const auto& gap) {
       return gap.first <= begin && begin <= gap.second;
     };
-    const bool is_served =
-        std::none_of(options_.unserved.begin(), options_.unserved.end(), unserved);
+    bool is_served = std::none_of(options_.unserved.begin(), options_.unserved.end(), unserved);
+    // Time is granted ahead, and promises reach so far: a change counts from there on.
+    const bool counts =
+        KnownFrom(*a_.flown, begin) <= begin && KnownFrom(*b_.flown, begin) <= begin;
+    is_served = is_served && counts;
     if (!is_served) ++result_.unserved;
     if (contact.begins_in_motion) {
       if (is_served) JudgeAnnouncement(begin);
-      for (const Body* body : {&a_, &b_}) JudgeReliance(*body, begin, is_served);
+      for (const Body* body : {&a_, &b_}) {
+        if (counts) JudgeReliance(*body, begin, is_served);
+      }
     }
     for (const auto& [key, story] : stories_) {
       const Event last = client::FromMessage(story.back()->event);
@@ -150,8 +155,9 @@ class PairJudge {
       Fail(&result_.unheard, "contact at " + std::to_string(begin) + " ns, not heard in time by " +
                                  body.program->options().name);
     }
-    // A promise is about the agents that were known.
-    const std::int64_t known_from = std::max(*a_.flown->added_ns, *b_.flown->added_ns);
+    // A promise is about the agents that were known, and as they were known.
+    const std::int64_t known_from =
+        std::max(KnownFrom(*a_.flown, begin), KnownFrom(*b_.flown, begin));
     const Reliance* last = nullptr;
     for (const Reliance& promise : body.flown->relied) {
       if (promise.world_ns >= begin || promise.at_ns >= told_at) break;
@@ -160,6 +166,30 @@ class PairJudge {
     }
     // What was promised before counts until the contact is heard of.
     if (last != nullptr && !in_time) JudgePromise(body, *last, begin);
+  }
+
+  /// Calls back with each instant up to `begin` at which it was added, while others flew already,
+  /// jumped or was described anew.
+  template <typename Visit>
+  static void VisitChanges(const Flown& flown, std::int64_t begin, const Visit& visit) {
+    if (flown.flight.from_ns > 0) visit(*flown.added_ns);
+    for (const std::int64_t jump : flown.flight.motion.jumps_ns) {
+      if (*flown.added_ns < jump && jump <= begin) visit(jump);
+    }
+    for (const Declaration& declared : flown.flight.changes) {
+      if (*flown.added_ns < declared.at_ns && declared.at_ns <= begin) visit(declared.at_ns);
+    }
+  }
+
+  /// Since when others count it as it is at the begin.
+  std::int64_t KnownFrom(const Flown& flown, std::int64_t begin) const {
+    std::int64_t from = *flown.added_ns;
+    VisitChanges(flown, begin, [&](std::int64_t at_ns) {
+      const auto told = flown.effective_ns.lower_bound(at_ns - options_.tolerance_ns);
+      const std::int64_t effective = told == flown.effective_ns.end() ? at_ns : *told;
+      from = std::max(from, std::max(at_ns, effective) + options_.tolerance_ns);
+    });
+    return from;
   }
 
   void JudgePromise(const Body& body, const Reliance& promise, std::int64_t begin) {
@@ -207,8 +237,13 @@ class PairJudge {
              (!contact.ends_in_motion || Holds(event.end, contact.end_ns));
     };
     if (std::none_of(contacts_.begin(), contacts_.end(), ends)) {
-      Fail(&result_.wrong_brackets,
-           "end " + std::to_string(found->end_ns) + " ns is not in the bracket");
+      Fail(&result_.wrong_brackets, "end " + std::to_string(found->end_ns) +
+                                        " ns is not in the bracket [" +
+                                        std::to_string(Rel(event.end.earliest_ns)) + ", " +
+                                        std::to_string(Rel(event.end.latest_ns)) + "], begin " +
+                                        std::to_string(found->begin_ns) + " in [" +
+                                        std::to_string(Rel(event.begin.earliest_ns)) + ", " +
+                                        std::to_string(Rel(event.begin.latest_ns)) + "]");
     }
   }
 

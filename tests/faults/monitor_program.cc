@@ -20,10 +20,12 @@ void MonitorProgram::Start() {
   client::MessageMonitor::Callbacks callbacks;
   callbacks.event = [this](const v1::CollisionEvent& event) { Hear(event); };
   callbacks.status = [this](const v1::ServiceStatus& status) {
+    const OnBehalfOf test(Owner::kTest);
     const std::uint64_t id = status.stamp().service_id();
     if (services_.empty() || services_.back() != id) services_.push_back(id);
     status_ = status;
   };
+  const OnBehalfOf client(Owner::kClients);
   monitor_.emplace(std::move(end), callbacks);
   Wake(network_.now_ns());
 }
@@ -36,15 +38,20 @@ void MonitorProgram::GoOn() {
 void MonitorProgram::Wake(std::int64_t at_ns) {
   if (!reads_ || awaits_) return;
   awaits_ = true;
+  const OnBehalfOf test(Owner::kTest);
   network_.At(at_ns, [this] {
     awaits_ = false;
     if (!reads_) return;
-    monitor_->Poll(std::chrono::nanoseconds(0));
+    {
+      const OnBehalfOf client(Owner::kClients);
+      monitor_->Poll(std::chrono::nanoseconds(0));
+    }
     network_.After(kLookingPeriod, [this] { Wake(network_.now_ns()); });
   });
 }
 
 void MonitorProgram::Hear(const v1::CollisionEvent& event) {
+  const OnBehalfOf test(Owner::kTest);
   heard_.push_back({network_.now_ns(), event});
   if (event.contacts_sequence() == 0) return;
   std::set<std::uint64_t>& heard = contacts_[event.stamp().service_id()];

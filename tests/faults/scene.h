@@ -1,13 +1,14 @@
 // One run: the network, and all programs on it.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "tests/faults/heap.h"
 #include "tests/faults/judge.h"
-#include "tests/support/suite/case.h"
 
 namespace collision::faults {
 
@@ -39,6 +40,14 @@ class Scene {
   bool RunToEnd(std::int64_t limit_ns);
 
   Network& network() { return network_; }
+  /// Of the programs of this scene together.
+  HeapUse heap(Owner owner) const;
+  const v1::Config& config() const { return config_; }
+  const Network& network() const { return network_; }
+  const ServiceProgram& service(std::size_t i) const { return *services_[i]; }
+  const MonitorProgram& monitor(std::size_t i) const { return *monitors_[i]; }
+  std::size_t services() const { return services_.size(); }
+  std::size_t monitors() const { return monitors_.size(); }
   ServiceProgram& service(std::size_t i = 0) { return *services_[i]; }
   SimulatorProgram& simulator(std::size_t i) { return *simulators_[i]; }
   MonitorProgram& monitor(std::size_t i = 0) { return *monitors_[i]; }
@@ -57,44 +66,7 @@ class Scene {
   std::vector<std::unique_ptr<SimulatorProgram>> simulators_;
   std::vector<std::unique_ptr<MonitorProgram>> monitors_;
   std::string state_dir_;
+  std::array<std::int64_t, kOwners> before_{};  ///< Live bytes of each owner.
 };
-
-/// Three simulators, alpha, beta and gamma, with different steps; gamma streams every state.
-struct Fleet {
-  v1::Config config = LockStepConfig(3);
-  NetworkOptions network;
-  std::uint64_t seed = 1;
-  int agents = 6;  ///< Of each.
-  std::int64_t end_ns = 10 * kSecond;
-  bool lock_step = true;
-  std::vector<std::int64_t> wall_offsets_ns = {0, 0, 0};
-  bool keeps_journal = false;
-  std::int64_t limit_ns = 600 * kSecond;  ///< Virtual time in which the run must come to its end.
-};
-
-/// All of them on one network with a service and a monitor, not yet started.
-std::unique_ptr<Scene> MakeScene(const Fleet& fleet);
-
-/// Starts them, lets `faults` arrange what is to happen, and runs to the end, which is expected.
-void Fly(const Fleet& fleet, Scene* scene, const std::function<void()>& faults,
-         suite::Outcome* outcome);
-
-/// What the events of a lock-step run are known by.
-struct Fingerprint {
-  std::uint64_t hash = 0, count = 0;
-  bool operator==(const Fingerprint&) const = default;
-};
-/// Of the same fleet on a perfect network, without any fault.
-Fingerprint PerfectEvents(const Fleet& fleet);
-
-/// Puts a judgement into the outcome: what must hold is checked, what was seen is counted.
-void Report(const Judgement& judgement, std::uint64_t seed, suite::Outcome* outcome);
-
-/// What the network did.
-void Report(const NetworkCounters& counters, suite::Outcome* outcome);
-
-/// Every contact that the services published was heard, once and in order, and none counts as
-/// missed.
-void ExpectAllHeard(const MonitorProgram& monitor, std::uint64_t seed, suite::Outcome* outcome);
 
 }  // namespace collision::faults

@@ -21,6 +21,13 @@ ServiceProgram::~ServiceProgram() { End(); }
 
 void ServiceProgram::Start() {
   ++process_;
+  bus_ = std::make_unique<ServiceEnd>(
+      &network_, [this] { Wake(network_.now_ns() + kWakingTime); },
+      [this](const v1::Output& output) {
+        published_.push_back({network_.now_ns(), output});
+        if (output.has_service_status()) status_ = output.service_status();
+      });
+  const OnBehalfOf service(Owner::kServices);
   if (!options_.state_dir.empty()) {
     journal_ = std::make_unique<server::Journal>(options_.state_dir, config_.world(),
                                                  config_.domain(), config_.simulators_max());
@@ -33,12 +40,6 @@ void ServiceProgram::Start() {
   if (journal_) {
     for (const auto& [id, simulator] : journal_->simulators()) claim.roster.push_back(simulator);
   }
-  bus_ = std::make_unique<ServiceEnd>(
-      &network_, [this] { Wake(network_.now_ns() + kWakingTime); },
-      [this](const v1::Output& output) {
-        published_.push_back({network_.now_ns(), output});
-        if (output.has_service_status()) status_ = output.service_status();
-      });
   daemon_ = std::make_unique<server::Daemon>(
       config_, *bus_, static_cast<server::Clock&>(*this),
       server::DaemonParts{.journal = journal_.get(), .claim = claim});
@@ -89,6 +90,7 @@ void ServiceProgram::Wake(std::int64_t at_ns) {
   if (!daemon_ || suspended_ || (awaits_ && awake_at_ns_ <= at_ns)) return;
   awaits_ = true;
   awake_at_ns_ = at_ns;
+  const OnBehalfOf test(Owner::kTest);
   network_.At(at_ns, [this, at_ns, process = process_] {
     if (process != process_ || suspended_ || !awaits_ || awake_at_ns_ != at_ns) return;
     awaits_ = false;
@@ -96,10 +98,15 @@ void ServiceProgram::Wake(std::int64_t at_ns) {
   });
 }
 
+bool ServiceProgram::StepDaemon() {
+  const OnBehalfOf service(Owner::kServices);
+  return daemon_->Step();
+}
+
 /// The daemon says how long it would wait only when it is asked to step. So each step that may
 /// have changed that is followed by one that nothing has come for.
 void ServiceProgram::Step() {
-  if (!daemon_->Step()) {
+  if (!StepDaemon()) {
     yielded_ = true;
     const Network::Id id = bus_->id();
     End();

@@ -63,6 +63,7 @@ class ServiceProgram final : private server::Clock {
   server::ClockReading Read() override;
   void Wake(std::int64_t at_ns);
   void Step();
+  bool StepDaemon();
   void End();
 
   const v1::Config config_;

@@ -27,6 +27,7 @@ SimulatorProgram::SimulatorProgram(const SimulatorOptions& options, std::vector<
   for (Flight& flight : flights) {
     stops_.insert({flight.from_ns, flight.until_ns});
     stops_.insert(flight.motion.jumps_ns.begin(), flight.motion.jumps_ns.end());
+    for (const Declaration& change : flight.changes) stops_.insert(change.at_ns);
     Flown& flown = flown_.emplace_back();
     flown.flight = std::move(flight);
   }
@@ -43,6 +44,7 @@ void SimulatorProgram::Start() {
   auto end = std::make_unique<ClientEnd>(&network_, Role::kSimulator, SimulatorId(options_.name),
                                          [this] { Wake(network_.now_ns() + kThinkingTime); });
   end_ = end.get();
+  const OnBehalfOf client(Owner::kClients);
   world_.emplace(
       client::World::Connect({.simulator = options_.name,
                               .lock_step = options_.lock_step,
@@ -52,6 +54,7 @@ void SimulatorProgram::Start() {
                               .wall_clock = [this] { return StampOf(network_.now_ns()); }},
                              std::move(end)));
   world_->OnEvent([this](const client::Event& event) {
+    const OnBehalfOf test(Owner::kTest);
     const std::int64_t clock_ns = world_->clock_ns();
     heard_.push_back(
         {network_.now_ns(), clock_ns == kAlways ? kAlways : clock_ns - StampOf(0), event});
@@ -84,6 +87,7 @@ void SimulatorProgram::Wake(std::int64_t at_ns) {
   if (!world_ || suspended_ || (awaits_ && awake_at_ns_ <= at_ns)) return;
   awaits_ = true;
   awake_at_ns_ = at_ns;
+  const OnBehalfOf test(Owner::kTest);
   network_.At(at_ns, [this, at_ns] {
     if (!world_ || suspended_ || !awaits_ || awake_at_ns_ != at_ns) return;
     awaits_ = false;
@@ -92,6 +96,7 @@ void SimulatorProgram::Wake(std::int64_t at_ns) {
 }
 
 void SimulatorProgram::Continue() {
+  const OnBehalfOf client(Owner::kClients);
   bool goes_on = false;
   if (finished_) {
     world_->Poll();
@@ -103,18 +108,16 @@ void SimulatorProgram::Continue() {
     Tick();
   }
   for (auto& [index, agent] : agents_) {
-    flown_[index].id = agent.id();
-    runs_.insert(agent.id().run);
+    NoteId(agent.id(), &flown_[index]);
   }
   waited_for_name_ |= !world_->waits_for_name().empty();
   refusals_ += world_->TakeRejections().size();
   contacts_missed_ = world_->contacts_missed();
   if (finished_ && !ended_) End();
   // Without lock-step the steps have their times.
-  const std::int64_t next_ns = options_.lock_step || finished_
-                                   ? kLookingPeriod
-                                   : std::max(step_ns_ - network_.now_ns(), kThinkingTime);
-  Wake(network_.now_ns() + (goes_on ? kThinkingTime : next_ns));
+  const std::int64_t next_ns =
+      options_.lock_step || finished_ ? kLookingPeriod : step_ns_ - network_.now_ns();
+  Wake(network_.now_ns() + (goes_on || next_ns <= 0 ? kThinkingTime : next_ns));
 }
 
 bool SimulatorProgram::Join() {
@@ -169,20 +172,43 @@ void SimulatorProgram::Set(std::int64_t world_ns) {
     const auto agent = agents_.find(i);
     if (lives && agent == agents_.end()) {
       flown.added_ns = world_ns;
-      const auto added =
-          agents_.emplace(i, world_->AddAgent({.name = options_.name + "-" + std::to_string(i),
-                                               .radius_m = flight.radius,
-                                               .acceleration_max_m_s2 = flight.acceleration_max},
-                                              StateOf(flight, world_ns)));
-      flown.id = added.first->second.id();
-      runs_.insert(flown.id.run);
+      const auto added = agents_.emplace(
+          i, world_->AddAgent(DescriptionOf(i, world_ns), StateOf(flight, world_ns)));
+      NoteId(added.first->second.id(), &flown);
     } else if (lives) {
+      Describe(i, world_ns, &agent->second);
       agent->second.SetState(StateOf(flight, world_ns));
     } else if (agent != agents_.end()) {
-      flown.removed_ns = world_ns;
+      // In lock-step that is told ahead of the step, and counts from the last one on.
+      flown.removed_ns = options_.lock_step ? reached_ns_ : world_ns;
       agents_.erase(agent);
     }
   }
+}
+
+/// As declared from its last change on.
+client::AgentDescription SimulatorProgram::DescriptionOf(std::size_t i,
+                                                         std::int64_t world_ns) const {
+  const Flight& flight = flown_[i].flight;
+  client::AgentDescription description{.name = options_.name + "-" + std::to_string(i),
+                                       .radius_m = flight.radius,
+                                       .acceleration_max_m_s2 = flight.acceleration_max,
+                                       .shape = flight.shape};
+  for (const Declaration& change : flight.changes) {
+    if (change.at_ns <= world_ns) description.acceleration_max_m_s2 = change.acceleration_max;
+  }
+  return description;
+}
+
+/// Tells of the changes since the last step.
+void SimulatorProgram::Describe(std::size_t i, std::int64_t world_ns, client::Agent* agent) {
+  const auto is_new = [&](const Declaration& change) {
+    return reached_ns_ < change.at_ns && change.at_ns <= world_ns;
+  };
+  const std::vector<Declaration>& changes = flown_[i].flight.changes;
+  if (std::none_of(changes.begin(), changes.end(), is_new)) return;
+  agent->SetDescription(DescriptionOf(i, world_ns));
+  ++changes_told_;
 }
 
 client::State SimulatorProgram::StateOf(const Flight& flight, std::int64_t world_ns) const {
@@ -194,13 +220,23 @@ client::State SimulatorProgram::StateOf(const Flight& flight, std::int64_t world
           .discontinuity = std::binary_search(jumps.begin(), jumps.end(), world_ns)};
 }
 
+void SimulatorProgram::NoteId(const client::AgentId& id, Flown* flown) {
+  const OnBehalfOf test(Owner::kTest);
+  flown->id = id;
+  runs_.insert(id.run);
+}
+
 void SimulatorProgram::Note(std::int64_t world_ns) {
+  const OnBehalfOf test(Owner::kTest);
   for (auto& [index, agent] : agents_) {
     const client::Clearance clearance = agent.clearance();
     std::int64_t until =
         std::min({clearance.clear_until_ns, clearance.void_from_ns, clearance.expires_ns});
     if (clearance.not_clear) until = kAlways;
     if (until != kAlways && until != client::kNever) until -= StampOf(0);
+    if (clearance.effective_from_ns != kAlways) {
+      flown_[index].effective_ns.insert(clearance.effective_from_ns - StampOf(0));
+    }
     std::vector<Reliance>& relied = flown_[index].relied;
     const bool same = !relied.empty() && relied.back().clear_until_ns == until;
     if (same) continue;
@@ -211,11 +247,14 @@ void SimulatorProgram::Note(std::int64_t world_ns) {
 /// Leaves once its last clock has had its effect.
 void SimulatorProgram::End() {
   ended_ = true;
+  const OnBehalfOf test(Owner::kTest);
   network_.After(kSecond, [this] {
     if (killed_) return;
+    const OnBehalfOf client(Owner::kClients);
     agents_.clear();
     world_->Poll();
     world_.reset();
+    const OnBehalfOf leaving(Owner::kTest);
     network_.Leave(id());
   });
 }

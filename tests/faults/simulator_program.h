@@ -20,6 +20,12 @@ using server::Motion;
 
 inline constexpr std::int64_t kAlways = std::numeric_limits<std::int64_t>::min();
 
+/// What an agent declares from an instant on.
+struct Declaration {
+  std::int64_t at_ns;
+  double acceleration_max;
+};
+
 /// What one agent does in truth. Instants are those of the world, less its base.
 struct Flight {
   Motion motion;
@@ -27,6 +33,8 @@ struct Flight {
   double acceleration_max = 0;
   std::int64_t from_ns = 0;                ///< Added at the first step from then on ...
   std::int64_t until_ns = client::kNever;  ///< ... and removed at the first from then on.
+  std::vector<Declaration> changes = {};   ///< Of `acceleration_max`, in their order.
+  std::shared_ptr<const client::Shape> shape = nullptr;
 };
 
 struct SimulatorOptions {
@@ -64,6 +72,8 @@ struct Flown {
   std::int64_t removed_ns = client::kNever;
   client::AgentId id;
   std::vector<Reliance> relied;
+  /// From when on, as its program was told, others count its changes: in the world, less the base.
+  std::set<std::int64_t> effective_ns;
 };
 
 class SimulatorProgram {
@@ -82,6 +92,8 @@ class SimulatorProgram {
 
   bool finished() const { return finished_; }
   bool killed() const { return killed_; }
+  /// It has started, and has not ended.
+  bool connected() const { return world_.has_value(); }
   Network::Id id() const { return end_->id(); }
   const SimulatorOptions& options() const { return options_; }
   const std::vector<Flown>& flown() const { return flown_; }
@@ -92,6 +104,7 @@ class SimulatorProgram {
   std::uint64_t lowered() const { return lowered_; }
   std::uint64_t voided() const { return voided_; }
   std::uint64_t times_lost() const { return times_lost_; }
+  std::uint64_t changes_told() const { return changes_told_; }
   /// How often it was told that another program has its name.
   bool waited_for_name() const { return waited_for_name_; }
   /// Its last step, less the base.
@@ -105,7 +118,10 @@ class SimulatorProgram {
   bool Advance();
   void Tick();
   void Set(std::int64_t world_ns);
+  client::AgentDescription DescriptionOf(std::size_t i, std::int64_t world_ns) const;
+  void Describe(std::size_t i, std::int64_t world_ns, client::Agent* agent);
   client::State StateOf(const Flight& flight, std::int64_t world_ns) const;
+  void NoteId(const client::AgentId& id, Flown* flown);
   void Note(std::int64_t world_ns);
   std::int64_t NextStep(std::int64_t after_ns) const;
   std::int64_t StampOf(std::int64_t world_ns) const {
@@ -130,6 +146,7 @@ class SimulatorProgram {
   bool awaits_ = false, staged_ = false, finished_ = false, killed_ = false, suspended_ = false;
   bool ended_ = false, waited_for_name_ = false, joined_ = false;
   std::uint64_t contacts_missed_ = 0, refusals_ = 0, lowered_ = 0, voided_ = 0, times_lost_ = 0;
+  std::uint64_t changes_told_ = 0;
 };
 
 }  // namespace collision::faults

@@ -1,37 +1,12 @@
 // Worlds that go by wall clocks, which are off, set and suspended.
 #include "server/config/config.h"
-#include "tests/faults/cases.h"
-#include "tests/faults/scene.h"
+#include "tests/faults/cases/cases.h"
+#include "tests/faults/cases/fleet.h"
 
 namespace collision::faults {
 namespace {
 
-constexpr double kSkew = 0.02;
-constexpr auto kSkewNs = static_cast<std::int64_t>(kSkew * 1e9);
-
-/// Until all have arrived, a contact may begin before it can be announced.
-constexpr std::pair<std::int64_t, std::int64_t> kArrival = {0, kSecond};
-
 std::string Seed(std::uint64_t seed) { return "seed " + std::to_string(seed) + ": "; }
-
-Fleet WallFleet(std::uint64_t seed) {
-  Random random(seed * 31);
-  Fleet fleet{.config = WallConfig(kSkew), .network = Faulty(seed), .seed = seed};
-  fleet.lock_step = false;
-  for (std::int64_t& offset : fleet.wall_offsets_ns) {
-    offset = static_cast<std::int64_t>(random.Uniform(-0.9, 0.9) * static_cast<double>(kSkewNs));
-  }
-  return fleet;
-}
-
-JudgeOptions WallJudge() {
-  JudgeOptions options;
-  options.base_ns = kWallAtStart;
-  // A stamp is off by as much as its sender's clock, and so may be what follows from it.
-  options.tolerance_ns = 2 * kSkewNs;
-  options.unserved = {kArrival};
-  return options;
-}
 
 void Offsets(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(6, 100); ++i) {

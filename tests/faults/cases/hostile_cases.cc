@@ -3,8 +3,8 @@
 
 #include "idl/identity.h"
 #include "server/config/config.h"
-#include "tests/faults/cases.h"
-#include "tests/faults/scene.h"
+#include "tests/faults/cases/cases.h"
+#include "tests/faults/cases/fleet.h"
 
 namespace collision::faults {
 namespace {
@@ -12,6 +12,8 @@ namespace {
 std::string Seed(std::uint64_t seed) { return "seed " + std::to_string(seed) + ": "; }
 
 constexpr std::int64_t kPeriod = 2 * kMillisecond;
+/// Slots 0 to 3 of as many simulators as a world may have.
+constexpr std::size_t kStrangers = 4 * 64;
 
 /// Writes every few milliseconds, as long as the scene lasts.
 class Hostile {
@@ -150,7 +152,7 @@ class Hostile {
 void Garbage(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(4, 60); ++i) {
     const auto seed = static_cast<std::uint64_t>(i + 1);
-    const Fleet fleet{.network = Faulty(seed), .seed = seed};
+    const Fleet fleet{.network = Faulty(seed), .seed = seed, .strangers = kStrangers};
     const Fingerprint perfect = PerfectEvents(fleet);
     const auto scene = MakeScene(fleet);
     Hostile hostile(seed + 5000, &scene->network());

@@ -15,5 +15,7 @@ std::vector<Case> NetworkCases();
 std::vector<Case> ProgramCases();
 std::vector<Case> ClockCases();
 std::vector<Case> HostileCases();
+std::vector<Case> AgentCases();
+std::vector<Case> MemoryCases();
 
 }  // namespace collision::faults

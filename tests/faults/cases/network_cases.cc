@@ -1,36 +1,10 @@
 // What the network may do to samples on their way.
 #include "server/config/config.h"
-#include "tests/faults/cases.h"
-#include "tests/faults/scene.h"
+#include "tests/faults/cases/cases.h"
+#include "tests/faults/cases/fleet.h"
 
 namespace collision::faults {
 namespace {
-
-std::string Seed(std::uint64_t seed) { return "seed " + std::to_string(seed) + ": "; }
-
-/// A run that must have the events of a perfect network.
-void FlyAsPerfect(const Fleet& fleet, const std::function<void(Scene*)>& faults, Outcome* outcome) {
-  const Fingerprint perfect = PerfectEvents(fleet);
-  const auto scene = MakeScene(fleet);
-  Fly(
-      fleet, scene.get(),
-      [&] {
-        if (faults) faults(scene.get());
-      },
-      outcome);
-  Report(scene->Judged(), fleet.seed, outcome);
-  ExpectAllHeard(scene->monitor(), fleet.seed, outcome);
-  const Fingerprint events{scene->service().events_hash(), scene->service().events_count()};
-  outcome->Add("events", static_cast<double>(events.count));
-  outcome->Expect(events == perfect, Seed(fleet.seed) + "other events than on a perfect network");
-  outcome->Expect(scene->service().counter("breaches") == 0,
-                  Seed(fleet.seed) + "an honest agent counts as a breach");
-}
-
-void ExpectContacts(double in_each_run, Outcome* outcome) {
-  outcome->Expect(outcome->Get("contacts") >= in_each_run * outcome->Get("runs"),
-                  "hardly any contact");
-}
 
 void LockStep(const Setting& setting, Outcome* outcome) {
   for (int i = 0; i < setting.Many(4, 60); ++i) {

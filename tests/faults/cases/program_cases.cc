@@ -1,7 +1,7 @@
 // What may become of programs: they are killed, stand still, come again, come late, come twice.
 #include "server/config/config.h"
-#include "tests/faults/cases.h"
-#include "tests/faults/scene.h"
+#include "tests/faults/cases/cases.h"
+#include "tests/faults/cases/fleet.h"
 
 namespace collision::faults {
 namespace {
@@ -224,7 +224,7 @@ void TwoServices(const Setting& setting, Outcome* outcome) {
     outcome->Expect(scene->service().runs() != second.runs(),
                     Seed(seed) + "not one of the two services was left");
     outcome->Add("second_stayed", second.runs() ? 1 : 0);
-    Report(scene->network().counters(), outcome);
+    ReportProgress(*scene, seed, outcome);
     JudgeAll(fleet, *scene, scene->monitor(), outcome);
   }
 }

@@ -1,0 +1,122 @@
+// Agents that change: they jump, are described anew, come and go, and have shapes.
+#include "tests/faults/cases/cases.h"
+#include "tests/faults/cases/fleet.h"
+
+namespace collision::faults {
+namespace {
+
+constexpr double kCalm = 4, kWild = 12;  ///< Bounds on the acceleration [m/s²].
+
+/// Faster changes of the velocity between the two instants, three times as wild.
+Motion WildBetween(const Motion& calm, std::int64_t from_ns, std::int64_t until_ns) {
+  Motion motion = calm;
+  for (std::size_t i = 0; i < motion.pieces.size(); ++i) {
+    server::Piece& piece = motion.pieces[i];
+    if (i > 0) {
+      const server::Piece& before = motion.pieces[i - 1];
+      const server::Piece at = before.From(before.end_ns);
+      piece.p = at.p;
+      piece.v = at.v;
+    }
+    if (from_ns <= piece.start_ns && piece.end_ns <= until_ns) piece.a *= kWild / kCalm;
+  }
+  return motion;
+}
+
+/// One third jumps; one third declares a wider bound and, `lead_ns` later, makes use of it, until
+/// it declares a narrower one; one third is removed, and others are added.
+std::vector<Flight> Changing(int count, std::int64_t end_ns, std::int64_t lead_ns, Random* random) {
+  std::vector<Flight> flights;
+  for (int i = 0; i < count; ++i) {
+    const server::WanderOptions options{.half_side = 7,
+                                        .speed = 8,
+                                        .acceleration_max = kCalm,
+                                        .jumps_per_piece = i % 3 == 0 ? 0.4 : 0,
+                                        .piece_min_ns = 200 * kMillisecond,
+                                        .piece_max_ns = kSecond};
+    Flight flight{.motion = server::Wander(options, end_ns, random),
+                  .radius = random->Uniform(0.4, 1.2),
+                  .acceleration_max = kCalm};
+    const auto at_ns = static_cast<std::int64_t>(random->Uniform(1, 3) * 1e9);
+    if (i % 3 == 1) {
+      const std::int64_t until_ns = at_ns + lead_ns + 3 * kSecond;
+      flight.changes = {{at_ns, kWild}, {until_ns, kCalm}};
+      flight.motion = WildBetween(flight.motion, at_ns + lead_ns, until_ns);
+    }
+    if (i % 3 == 2) {
+      Flight next = flight;
+      flight.until_ns = at_ns;
+      next.from_ns = at_ns + kSecond;
+      next.motion = server::Wander(options, end_ns, random);
+      flights.push_back(next);
+    }
+    flights.push_back(flight);
+  }
+  return flights;
+}
+
+void ReportChanges(const Scene& scene, Outcome* outcome) {
+  for (const SimulatorProgram* one : scene.simulators()) {
+    outcome->Add("lowered", static_cast<double>(one->lowered()));
+    outcome->Add("described_anew", static_cast<double>(one->changes_told()));
+    for (const Flown& flown : one->flown()) {
+      outcome->Add("jumps", static_cast<double>(flown.flight.motion.jumps_ns.size()));
+      outcome->Add("removed", flown.removed_ns == client::kNever ? 0 : 1);
+    }
+  }
+}
+
+void ChangesInLockStep(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Fleet fleet{.network = Faulty(seed), .seed = seed};
+    // Others are granted time up to a step ahead.
+    fleet.flights = [](int count, std::int64_t end_ns, Random* random) {
+      return Changing(count, end_ns, kSecond / 2, random);
+    };
+    FlyAsPerfect(
+        fleet,
+        [&](Scene* scene) {
+          scene->When(fleet.end_ns - kSecond, [scene, outcome] { ReportChanges(*scene, outcome); });
+        },
+        outcome);
+  }
+  ExpectContacts(4, outcome);
+  outcome->Expect(outcome->Get("lowered") > 0, "no promise was ever lowered");
+}
+
+void ChangesOnTheWallClock(const Setting& setting, Outcome* outcome) {
+  for (int i = 0; i < setting.Many(6, 100); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    Fleet fleet = WallFleet(seed);
+    // A wider bound counts once all others know, or after the lease and twice the skew.
+    fleet.flights = [](int count, std::int64_t end_ns, Random* random) {
+      return Changing(count, end_ns, 5 * kSecond / 2, random);
+    };
+    const auto scene = MakeScene(fleet);
+    Fly(fleet, scene.get(), {}, outcome);
+    Report(scene->Judged(WallJudge()), seed, outcome);
+    ExpectAllHeard(scene->monitor(), seed, outcome);
+    ReportChanges(*scene, outcome);
+    outcome->Expect(scene->service().counter("breaches") == 0,
+                    "seed " + std::to_string(seed) + ": an honest agent counts as a breach");
+  }
+  ExpectContacts(4, outcome);
+  outcome->Expect(outcome->Get("lowered") > 0, "no promise was ever lowered");
+}
+
+}  // namespace
+
+std::vector<Case> AgentCases() {
+  const std::string promise = "no contact late or unheard, no promise covers one, brackets hold";
+  const std::string fault =
+      "a tenth lost, of samples to the service doubled, up to 5 ms of delay; agents jump, declare "
+      "three times the acceleration and use it, declare the old one again, are removed and added";
+  return {{"agents", "changes-lock-step",
+           promise + "; the same events, bit for bit, as on a perfect network", ChangesInLockStep,
+           fault},
+          {"agents", "changes-wall-clock", promise + ", within the bound on clocks",
+           ChangesOnTheWallClock, fault + "; clocks off by up to 0.9 of 20 ms"}};
+}
+
+}  // namespace collision::faults
