@@ -40,6 +40,7 @@ void AgentRegistry::Introduce(Simulator* simulator, const v1::AgentDescription& 
   Agent* agent = agents.Add(slot, {wire.generation(), wire.revision(), declaration});
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, slot);
   simulator->refusals().Accept(v1::TOPIC_AGENT_STATES, slot);
+  agent->description_sequence = wire.sequence();
   shapes_.Refer(simulator, slot, ShapeHashOf(wire), agent);
   told_[simulator->id()].try_emplace(slot);
 }
@@ -50,6 +51,7 @@ void AgentRegistry::Revise(Simulator* simulator, const v1::AgentDescription& wir
   if (wire.revision() <= agent->revision()) return;
   simulator->agents().Revise(wire.slot(), wire.revision(), declaration);
   simulator->refusals().Accept(v1::TOPIC_AGENT_DESCRIPTION, wire.slot());
+  agent->description_sequence = wire.sequence();
   shapes_.Refer(simulator, wire.slot(), ShapeHashOf(wire), agent);
   if (!agent->admitted()) return;
   const detection::AgentId id = simulator->IdOf(wire.slot(), agent->generation());
@@ -135,14 +137,6 @@ bool AgentRegistry::IsDescribed(const Simulator& simulator, std::uint32_t slot,
          one->second.description->generation() == generation;
 }
 
-// Whether the agent in the slot is removed now. In lock-step no clock waits for the last states of
-// one that is: whether they have come depends on the network, so they do not count.
-bool AgentRegistry::Ends(const Simulator& simulator, std::uint32_t slot, const Told& told) {
-  const Agent* agent = simulator.agents().Find(slot);
-  if (agent == nullptr || told.removed) return told.removed;
-  return told.description && told.description->generation() != agent->generation();
-}
-
 void AgentRegistry::Enact(Simulator* simulator) {
   const auto all = told_.find(simulator->id());
   if (all == told_.end() || simulator->time().is_other_kind()) return;
@@ -150,7 +144,7 @@ void AgentRegistry::Enact(Simulator* simulator) {
   const std::map<std::uint32_t, Told> told = std::move(all->second);
   told_.erase(all);
   for (const auto& [slot, one] : told) {
-    if (!world_.simulated() || !Ends(*simulator, slot, one)) EnactState(simulator, slot);
+    EnactState(simulator, slot);
     if (one.description) Introduce(simulator, *one.description, one.declaration);
     if (one.removed) RemoveNow(simulator, slot);
     if (one.description) EnactState(simulator, slot);
@@ -205,10 +199,24 @@ void AgentRegistry::CountAccepted(Simulator* simulator) {
   simulator->CountState();
 }
 
-void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot) {
+void AgentRegistry::Remove(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence) {
   const Agent* agent = simulator->agents().Find(slot);
+  const bool late = sequence != 0 && sequence < DescriptionSequence(*simulator, slot);
+  if (late) return;
   if (agent == nullptr || !agent->admitted()) return RemoveNow(simulator, slot);
   told_[simulator->id()][slot].removed = true;
+}
+
+std::uint64_t AgentRegistry::DescriptionSequence(const Simulator& simulator,
+                                                 std::uint32_t slot) const {
+  const auto all = told_.find(simulator.id());
+  if (all != told_.end()) {
+    const auto one = all->second.find(slot);
+    if (one != all->second.end() && one->second.description)
+      return one->second.description->sequence();
+  }
+  const Agent* agent = simulator.agents().Find(slot);
+  return agent != nullptr ? agent->description_sequence : 0;
 }
 
 void AgentRegistry::RemoveNow(Simulator* simulator, std::uint32_t slot) {

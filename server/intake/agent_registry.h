@@ -51,7 +51,9 @@ class AgentRegistry {
   void TakeState(Simulator* simulator, const v1::AgentStates& chunk, const v1::AgentState& wire);
 
   /// The owner gives up the agent in `slot`, or the generation of the state that waits there.
-  void Remove(Simulator* simulator, std::uint32_t slot);
+  /// `sequence` is that of its descriptions; if the slot was described later, a copy came late, and
+  /// nothing happens. 0: it does not say.
+  void Remove(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence);
 
   /// What was told of the agents of a simulator takes effect.
   void Enact(Simulator* simulator);
@@ -89,8 +91,9 @@ class AgentRegistry {
   void Revise(Simulator* simulator, const v1::AgentDescription& wire,
               const detection::AgentDeclaration& declaration);
   bool IsDescribed(const Simulator& simulator, std::uint32_t slot, std::uint32_t generation) const;
+  /// Of the newest description of the agent in the slot, in force or not; 0: there is none.
+  std::uint64_t DescriptionSequence(const Simulator& simulator, std::uint32_t slot) const;
   void RemoveNow(Simulator* simulator, std::uint32_t slot);
-  static bool Ends(const Simulator& simulator, std::uint32_t slot, const Told& told);
   void EnactState(Simulator* simulator, std::uint32_t slot);
   void Update(Simulator* simulator, std::uint32_t slot, std::uint64_t sequence,
               const motion::MotionState& state);

@@ -157,7 +157,7 @@ void Intake::TakeRemoval(const v1::Input& input) {
   const bool is_owners = removal.incarnation() == simulator->incarnation();
   if (!MayRemove(*simulator, input, is_owners, NotItsOwn(removal))) return;
   simulator->time().RecordDescriptions(removal.sequence());
-  agents_.Remove(simulator, removal.slot());
+  agents_.Remove(simulator, removal.slot(), removal.sequence());
 }
 
 void Intake::TakeLiveliness(const v1::Input& input) {

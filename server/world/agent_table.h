@@ -30,6 +30,7 @@ class Agent {
   detection::AgentDeclaration declaration;  ///< With its shape once that is visible.
   std::string shape_hash = {};              ///< Of the shape that it refers to; empty: the ball.
   bool room_refused = false;                ///< Its owner got REJECTED_TOO_MANY_AGENTS.
+  std::uint64_t description_sequence = 0;   ///< Of the description in force.
 
   std::uint32_t generation() const { return generation_; }
   std::uint32_t revision() const { return revision_; }

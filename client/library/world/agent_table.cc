@@ -98,11 +98,16 @@ v1::AgentRemoval AgentTable::RemovalOf(std::uint32_t slot) const {
 
 std::vector<std::uint32_t> AgentTable::FreeRemoved() {
   std::vector<std::uint32_t> thinned;  // Chunks.
-  for (const std::uint32_t index : std::exchange(removed_slots_, {})) {
+  for (const std::uint32_t index : std::exchange(leaving_slots_, {})) {
     thinned.push_back(index / policy_.chunk_size);
     Free(index);
   }
   return thinned;
+}
+
+void AgentTable::EndRound() {
+  leaving_slots_.insert(leaving_slots_.end(), removed_slots_.begin(), removed_slots_.end());
+  removed_slots_.clear();
 }
 
 void AgentTable::Free(std::uint32_t slot) {
@@ -121,7 +126,7 @@ void AgentTable::Free(std::uint32_t slot) {
 
 std::vector<v1::AgentRemoval> AgentTable::Removals() const {
   std::vector<v1::AgentRemoval> removals;
-  for (const auto* slots : {&free_slots_, &removed_slots_}) {
+  for (const auto* slots : {&free_slots_, &removed_slots_, &leaving_slots_}) {
     for (const std::uint32_t slot : *slots) removals.push_back(RemovalOf(slot));
   }
   return removals;
@@ -179,7 +184,8 @@ std::vector<AgentId> AgentTable::ForgetSent() {
 
 std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {
   std::vector<std::uint32_t> chunks;
-  if (clock_ns > taken_ns_) chunks = FreeRemoved();
+  if (policy_.wall_clock && clock_ns > taken_ns_) EndRound();
+  chunks = FreeRemoved();
   taken_ns_ = clock_ns;
   // In the order of the chunks, so that the last one that is written has the highest sequence: it
   // arrives last, and a clock that names it counts when all have come.

@@ -53,9 +53,13 @@ class AgentTable {
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
   /// of all its agents. Where an agent was removed, its last state stays in its chunk, and its slot
-  /// unused, until the clock has moved on: the service is to see it. To be written in this order:
-  /// the highest sequence comes last, so that the service has all when it has that one.
+  /// unused, until the clock has moved on, in lock-step until EndRound(): the service is to see it.
+  /// To be written in this order: the highest sequence comes last, so that the service has all when
+  /// it has that one.
   std::vector<v1::AgentStates> TakeDue(std::int64_t clock_ns);
+
+  /// Lock-step: the service has granted more time, so it has all that the last clock named.
+  void EndRound();
 
   /// The clock sample that follows everything sent so far. With a wall clock it tells no more than
   /// the stamp of a jump on its way: it might overtake the jump, if that is overwritten in one
@@ -107,7 +111,8 @@ class AgentTable {
   std::vector<Slot> slots_;
   std::vector<std::uint32_t> free_slots_;     ///< A heap, the lowest on top.
   std::vector<std::uint32_t> staged_slots_;   ///< Of agents with a staged state.
-  std::vector<std::uint32_t> removed_slots_;  ///< Their last states were sent at this clock.
+  std::vector<std::uint32_t> removed_slots_;  ///< Their last states are still to be seen.
+  std::vector<std::uint32_t> leaving_slots_;  ///< Lock-step: those were seen.
   std::vector<std::uint32_t> jumped_slots_;   ///< With a jump on its way, or so they were.
   std::int64_t clock_ns_ = std::numeric_limits<std::int64_t>::min();  ///< Of the last sample ...
   std::int64_t told_ns_ = std::numeric_limits<std::int64_t>::min();   ///< ... and what it told.

@@ -55,8 +55,8 @@ class AgentRegistryTest : public testing::Test {
     registry.TakeState(alpha, Chunk("alpha"), state);
     registry.Enact(alpha);
   }
-  void Remove(std::uint32_t slot) {
-    registry.Remove(alpha, slot);
+  void Remove(std::uint32_t slot, std::uint64_t sequence = 0) {
+    registry.Remove(alpha, slot, sequence);
     registry.Enact(alpha);
   }
   /// The agent of slot 0 is there, with its state at 0 s.
@@ -277,6 +277,25 @@ TEST_F(AgentRegistryTest, ARemovedAgentLeavesTheDetectorAndAWaitingStateItsSlot)
   Remove(1);
   EXPECT_EQ(alpha->agents().Waiting(1), nullptr);
   EXPECT_EQ(counters().removed, 1u) << "no agent";
+}
+
+TEST_F(AgentRegistryTest, ACopyOfARemovalThatComesLateDoesNotRemoveTheNextAgentOfTheSlot) {
+  Join();
+  Remove(0, 2);
+  EXPECT_EQ(detector.agents(), 0u);
+  v1::AgentDescription next = Description("alpha", 0);
+  next.set_generation(2);
+  next.set_sequence(3);
+  Describe(next);
+  Remove(0, 2);
+  v1::AgentState state = State(0, 1, 2);
+  state.set_generation(2);
+  Take(state);
+  EXPECT_EQ(detector.agents(), 1u);
+  Remove(0, 2);
+  EXPECT_EQ(detector.agents(), 1u);
+  Remove(0, 4);
+  EXPECT_EQ(detector.agents(), 0u);
 }
 
 TEST_F(AgentRegistryTest, RemovalOfAllKeepsStatesThatWaitForADescription) {

@@ -22,6 +22,8 @@ TEST(AgentTable, AJumpSurvivesALaterStagedState) {
   EXPECT_TRUE(sent.discontinuity());
 }
 
+// Lock-step: a removed agent's last states stand until the round is over, which may take several
+// steps, and the clock that ends it names them.
 TEST(AgentTable, AClockNamesOnlyStatesThatStand) {
   AgentTable table("simulator", 1, 1, 1, {});
   const AgentId first = table.Add({.name = "first"}, {.stamp_ns = 0});
@@ -30,12 +32,28 @@ TEST(AgentTable, AClockNamesOnlyStatesThatStand) {
   EXPECT_EQ(table.Clock(0, 0, true).states_sequence(), 2u);
   table.Remove(second);
   EXPECT_EQ(table.Clock(0, 0, true).states_sequence(), 2u) << "it stays in its chunk for now";
-  table.TakeDue(1);
-  EXPECT_EQ(table.Clock(1, 0, true).states_sequence(), 1u);
+  EXPECT_TRUE(table.TakeDue(1).empty());
+  EXPECT_EQ(table.Clock(1, 0, true).states_sequence(), 2u);
+  table.EndRound();
+  ASSERT_EQ(table.TakeDue(2).size(), 1u);
+  EXPECT_EQ(table.SentStates().at(0).states_size(), 1);
+  EXPECT_EQ(table.Clock(2, 0, true).states_sequence(), 1u);
   table.Remove(first);
-  table.TakeDue(2);
-  EXPECT_EQ(table.Clock(2, 0, true).states_sequence(), 0u);
+  table.EndRound();
+  table.TakeDue(3);
+  EXPECT_EQ(table.Clock(3, 0, true).states_sequence(), 0u);
   EXPECT_EQ(table.stated(), 0u);
+}
+
+TEST(AgentTable, OnTheWallClockARemovedAgentsStatesStandUntilTheClockMovesOn) {
+  AgentTable table("simulator", 1, 1, 1, {.wall_clock = true});
+  const AgentId only = table.Add({.name = "only"}, {.stamp_ns = 0});
+  table.TakeDue(0);
+  table.Remove(only);
+  table.TakeDue(0);
+  EXPECT_EQ(table.Clock(0, 0, false).states_sequence(), 1u);
+  table.TakeDue(1);
+  EXPECT_EQ(table.Clock(1, 0, false).states_sequence(), 0u);
 }
 
 // Goal:   of all descriptions and removals the newest has the sequence that the clock names.
