@@ -141,8 +141,9 @@ class World {
   std::uint64_t events_lost() const;
 
   /// Calls back when the clearance of an agent of this simulator was lowered, with the newest
-  /// cause, and when earlier promises to it are void (Clearance::void_from_ns; INT64_MIN, with
-  /// CAUSE_SKEW: all, since a clock was set). The service repeats each until it has arrived.
+  /// cause, and when earlier promises to it are void (Clearance::void_from_ns; INT64_MIN: all, with
+  /// CAUSE_SKEW since a clock was set, with CAUSE_NONE since the service has ended the run). The
+  /// service repeats each until it has arrived.
   /// Callbacks as for OnEvent().
   void OnClearanceLowered(std::function<void(const AgentId&, const Clearance&)> callback);
   void OnVoid(std::function<void(const AgentId&, const Clearance&)> callback);
@@ -158,9 +159,10 @@ class World {
   /// 10 s. Those of its own agents may be among them.
   std::uint64_t contacts_missed() const;
 
-  /// Lock-step: calls back when the simulators that the world's time waits for change, with all
-  /// their names; empty: it waits for none. It waits for one that has died, or that was granted
-  /// time and does not move (`clock.waiting_after_s` of the service). Rules as for OnEvent().
+  /// Lock-step: calls back when that changes for which the world's time waits, with all names;
+  /// empty: nothing. It waits for a simulator that has died, or that was granted time and does not
+  /// move (`clock.waiting_after_s` of the service), and for shapes ("shape 1a2b3c4d", from their
+  /// hashes) that are sent or whose trees are built. Rules as for OnEvent().
   void OnWaiting(std::function<void(const std::vector<std::string>&)> callback);
 
   /// What has been set and sent so far.
@@ -170,6 +172,11 @@ class World {
   /// until that has ended, and then takes over by itself, with a new run if need be: its agents
   /// have other ids then. Empty: it does not wait.
   std::string waits_for_name() const;
+
+  /// Why nothing counts any more that this simulator sends: an operator has evicted it, or has
+  /// restarted the world's time. Its promises are void. Only another World comes back. Empty: none
+  /// has.
+  std::string ended_because() const;
 
   /// What the service refuses of this simulator now, as it last said: the first 16.
   std::vector<Rejection> standing_refusals() const;

@@ -138,7 +138,7 @@ FIELDS(StandingRefusal,
 
 FIELDS(SimulatorReport,
        VALUE(simulator_id) MESSAGE(stamp) VALUE(now_ns) VALUE(run) VALUE(incarnation) TEXT(name)
-       VALUE(alive) VALUE(descriptions_sequence) VALUE(states_sequence) VALUE(agents)
+       VALUE(alive) VALUE(ended) VALUE(descriptions_sequence) VALUE(states_sequence) VALUE(agents)
        VALUE(agents_stated) VALUE(refused) LIST(refusals, wire::kReportRefusalsMax))
 
 FIELDS(SimulatorStatus,

@@ -107,9 +107,13 @@ void Intake::TakeClock(const v1::Input& input) {
   if (simulator == nullptr) return;
   sender_clocks_.Take(simulator, wire);
   SimulatorTime& time = simulator->time();
-  const bool asks = wire.lock_step() && wire.clock_ns() == Instant::Always().nanoseconds();
-  if (asks && world_.simulated()) {
-    world_.Join(simulator, wire.next_ns() == Instant::Never().nanoseconds());
+  const bool tells_none = wire.clock_ns() == Instant::Always().nanoseconds();
+  if (tells_none && wire.lock_step() == world_.simulated()) {
+    if (world_.simulated()) {
+      world_.Join(simulator, wire.next_ns() == Instant::Never().nanoseconds());
+    } else {
+      time.TellPresence(wire.descriptions_sequence(), wire.agents());
+    }
     return simulator->refusals().Accept(v1::TOPIC_SIMULATOR_CLOCK, 0);
   }
   const Decoded<Instant> decoded = DecodeClock(wire, world_.RulesForClock(*simulator));

@@ -57,7 +57,7 @@ class Publisher {
 
  private:
   v1::ServiceStamp NextStamp();
-  void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk);
+  void PublishChunk(const World& world, Simulator* to, std::uint32_t chunk, Instant as_of);
 
   const ServiceClaim& claim_;
   const StateDemand demand_;

@@ -18,7 +18,21 @@ v1::StandingRefusal Encode(const Refusal& refusal) {
   return wire;
 }
 
-v1::SimulatorReport ReportOf(const Simulator& simulator, Instant now) {
+v1::RunEnd EndOf(const World& world, const Simulator& simulator) {
+  const auto cause = world.ended_runs().Find(simulator.id(), simulator.run());
+  if (!cause) return v1::RUN_GOES_ON;
+  switch (*cause) {
+    case EndCause::kSilent:
+      return v1::RUN_SILENT;
+    case EndCause::kEvicted:
+      return v1::RUN_EVICTED;
+    case EndCause::kRestarted:
+      return v1::RUN_RESTARTED;
+  }
+  return v1::RUN_GOES_ON;
+}
+
+v1::SimulatorReport ReportOf(const Simulator& simulator, v1::RunEnd ended, Instant now) {
   v1::SimulatorReport report;
   report.set_simulator_id(simulator.id());
   report.set_now_ns(now.nanoseconds());
@@ -26,6 +40,7 @@ v1::SimulatorReport ReportOf(const Simulator& simulator, Instant now) {
   report.set_incarnation(simulator.incarnation());
   report.set_name(simulator.name());
   report.set_alive(simulator.alive());
+  report.set_ended(ended);
   report.set_descriptions_sequence(simulator.time().descriptions_arrived());
   report.set_states_sequence(simulator.time().states_seen());
   report.set_agents(static_cast<std::uint32_t>(simulator.agents().size()));
@@ -40,10 +55,11 @@ v1::SimulatorReport ReportOf(const Simulator& simulator, Instant now) {
 
 }  // namespace
 
-Reports::Content Reports::ContentOf(const Simulator& simulator) {
+Reports::Content Reports::ContentOf(const Simulator& simulator, v1::RunEnd ended) {
   return {simulator.run(),
           simulator.incarnation(),
           simulator.alive(),
+          ended,
           simulator.time().descriptions_arrived(),
           simulator.time().states_seen(),
           simulator.agents().size(),
@@ -57,7 +73,8 @@ std::vector<v1::SimulatorReport> Reports::TakeDue(const World& world) {
   std::erase_if(told_,
                 [&world](const auto& told) { return !world.simulators().contains(told.first); });
   for (const auto& [id, simulator] : world.simulators()) {
-    const Content content = ContentOf(simulator);
+    const v1::RunEnd ended = EndOf(world, simulator);
+    const Content content = ContentOf(simulator, ended);
     const auto [told, first] = told_.try_emplace(id);
     if (!first) {
       if (told->second.content == content) continue;
@@ -68,7 +85,7 @@ std::vector<v1::SimulatorReport> Reports::TakeDue(const World& world) {
       }
     }
     told->second = {content, world.monotonic_ns()};
-    due.push_back(ReportOf(simulator, world.now()));
+    due.push_back(ReportOf(simulator, ended, world.now()));
   }
   return due;
 }

@@ -28,14 +28,14 @@ class Reports {
 
  private:
   /// Everything that a report says, as numbers.
-  using Content = std::tuple<std::uint32_t, std::uint32_t, bool, std::uint64_t, std::uint64_t,
-                             std::size_t, std::size_t, std::uint64_t>;
+  using Content = std::tuple<std::uint32_t, std::uint32_t, bool, v1::RunEnd, std::uint64_t,
+                             std::uint64_t, std::size_t, std::size_t, std::uint64_t>;
   struct Told {
     Content content;
     std::int64_t at_ns = 0;
   };
 
-  static Content ContentOf(const Simulator& simulator);
+  static Content ContentOf(const Simulator& simulator, v1::RunEnd ended);
 
   std::map<std::uint64_t, Told> told_;  ///< By simulator.
   std::optional<std::int64_t> next_ns_;

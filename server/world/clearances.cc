@@ -20,7 +20,9 @@ void Clearances::Forget(std::uint32_t slot) {
   MarkChanged(slot);
 }
 
-void Clearances::Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns) {
+void Clearances::Publish(std::uint32_t chunk, std::uint64_t sequence, std::int64_t now_ns,
+                         Instant as_of) {
+  as_of_[chunk] = as_of;
   if (lowerings_.acknowledged() >= lowerings_.published()) waiting_since_ns_ = now_ns;
   lowerings_.Publish(chunk, sequence);
 }
@@ -32,8 +34,7 @@ void Clearances::Acknowledge(std::uint64_t sequence, std::int64_t now_ns) {
   if (lowerings_.acknowledged() >= lowerings_.published()) return;
   if (now_ns - waiting_since_ns_ < kRepeatAfterNs) return;
   waiting_since_ns_ = now_ns;
-  for (const auto& [slot, clearance] : clearances_) MarkChanged(slot);
-  MarkGrantChanged();
+  repeats_ = true;
 }
 
 void Clearances::Validate() const {
@@ -47,5 +48,9 @@ void Clearances::Validate() const {
 }
 
 std::set<std::uint32_t> Clearances::TakeChanged() { return std::exchange(changed_, {}); }
+
+std::map<std::uint32_t, Instant> Clearances::TakeRepeated() {
+  return std::exchange(repeats_, false) ? as_of_ : std::map<std::uint32_t, Instant>();
+}
 
 }  // namespace collision::server

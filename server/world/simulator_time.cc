@@ -25,6 +25,11 @@ void SimulatorTime::Join(Instant at, bool finishes) {
   joined_ = awaits_own_clock_ = true;
 }
 
+void SimulatorTime::TellPresence(std::uint64_t descriptions_sequence, std::uint32_t agents) {
+  offered_.descriptions_sequence = descriptions_sequence;
+  offered_.agents = agents;
+}
+
 void SimulatorTime::Offer(const PendingClock& offered) {
   awaits_own_clock_ = false;
   offered_ = offered;

@@ -43,6 +43,10 @@ class SimulatorTime {
   /// Up to this sequence every description and removal has arrived.
   std::uint64_t descriptions_arrived() const { return descriptions_arrived_; }
 
+  /// A clock that tells no time yet has arrived: that the simulator is there, and what it has
+  /// described.
+  void TellPresence(std::uint64_t descriptions_sequence, std::uint32_t agents);
+
   /// Takes a clock that has arrived; Take() brings it into force.
   void Offer(const PendingClock& offered);
 

@@ -166,7 +166,7 @@ std::vector<v1::AgentStates> AgentTable::SentStates() const {
   return chunks;
 }
 
-std::vector<AgentId> AgentTable::ForgetSent() {
+std::vector<AgentId> AgentTable::ForgetPromises() {
   std::vector<AgentId> voided;
   for (std::uint32_t index = 0; index < slots_.size(); ++index) {
     Slot& slot = slots_[index];
@@ -174,12 +174,16 @@ std::vector<AgentId> AgentTable::ForgetSent() {
     if (slot.occupied && promised) {
       voided.push_back({simulator_id_, run_, index, slot.description.generation()});
     }
-    slot.states.ForgetSent();
+    slot.states.SetClearance({}, 0, std::numeric_limits<std::int64_t>::max());
   }
+  return voided;
+}
+
+void AgentTable::ForgetSent() {
+  for (Slot& slot : slots_) slot.states.ForgetSent();
   stated_ = 0;
   standing_sequence_ = 0;
   taken_ns_ = clock_ns_ = told_ns_ = std::numeric_limits<std::int64_t>::min();
-  return voided;
 }
 
 std::vector<v1::AgentStates> AgentTable::TakeDue(std::int64_t clock_ns) {

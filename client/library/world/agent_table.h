@@ -47,9 +47,12 @@ class AgentTable {
   std::vector<v1::AgentRemoval> Removals() const;
   std::vector<v1::AgentStates> SentStates() const;
 
-  /// The service has forgotten all states: each agent's next one is sent, whatever its stamp, and
-  /// no promise stands until then. Returns the agents that had one.
-  std::vector<AgentId> ForgetSent();
+  /// No promise stands that was made before. Returns the agents that had one.
+  std::vector<AgentId> ForgetPromises();
+
+  /// The service has forgotten all states, and what it promised: each agent's next one is sent,
+  /// whatever its stamp.
+  void ForgetSent();
 
   /// Sends the staged states that are due: the chunks that changed, each with the last sent states
   /// of all its agents. Where an agent was removed, its last state stays in its chunk, and its slot

@@ -45,6 +45,7 @@ void Arrival::Hear(const v1::SimulatorReport& report, Time now) {
     due_ |= waits();  // What it wrote meanwhile was refused.
     other_.reset();
     own_ = report;
+    if (report.ended() == v1::RUN_SILENT) return TakeRunAfter(run_);
     const bool behind = IsBehind();
     if (behind && !reached_) return;
     if (!behind) resend_after_ = kResendAfter;
@@ -60,11 +61,16 @@ void Arrival::HearOfOther(const v1::SimulatorReport& report) {
   own_.reset();
   reached_ = false;
   if (report.alive()) return;
-  if (report.run() >= run_ && report.run() < std::numeric_limits<std::uint32_t>::max()) {
-    run_ = report.run() + 1;
-    due_ = true;
-  }
+  if (report.run() >= run_) TakeRunAfter(report.run());
   due_ |= waited;
+}
+
+void Arrival::TakeRunAfter(std::uint32_t run) {
+  if (run == std::numeric_limits<std::uint32_t>::max()) return;
+  run_ = run + 1;
+  due_ = true;
+  reached_ = false;
+  own_.reset();
 }
 
 bool Arrival::TakeDue(Time now) {
@@ -88,6 +94,18 @@ std::string OtherText(const std::string& simulator, const Arrival& arrival) {
   return "another program named \"" + simulator + "\" is alive and has the name, in run " +
          std::to_string(arrival.other()->run()) +
          "; this one waits until it has ended: end it, or choose another name";
+}
+
+std::string EndText(const std::string& simulator, const Arrival& arrival) {
+  switch (arrival.ended()) {
+    case v1::RUN_EVICTED:
+      return "an operator has evicted \"" + simulator + "\": start it again to come back";
+    case v1::RUN_RESTARTED:
+      return "an operator has restarted the world's time: start \"" + simulator +
+             "\" again to be in it";
+    default:
+      return "";
+  }
 }
 
 }  // namespace collision::client

@@ -25,6 +25,9 @@ inline constexpr std::chrono::seconds kResendAfterMax(8);
 /// already, and everything is due. So the run is a number that the service knows best, and a host
 /// whose clock is behind takes its turn like any other.
 ///
+/// **Its end.** The service may have ended this program's run. If that was because it had not heard
+/// of it, the program takes the next run; if an operator did it, nothing more counts.
+///
 /// Book-keeping only: neither clock nor network. One thread.
 class Arrival {
  public:
@@ -55,6 +58,9 @@ class Arrival {
   /// The report that names the other program; nullopt: the name is this one's, or nobody's.
   const std::optional<v1::SimulatorReport>& other() const { return other_; }
 
+  /// An operator has ended this program's run; RUN_GOES_ON: none has.
+  v1::RunEnd ended() const { return own_ ? own_->ended() : v1::RUN_GOES_ON; }
+
   /// What the service has of this program; nullopt: it has not said.
   const std::optional<v1::SimulatorReport>& own() const { return own_; }
 
@@ -70,6 +76,7 @@ class Arrival {
   bool IsBehind() const;
   void Await(const Written& written, Time now);
   void HearOfOther(const v1::SimulatorReport& report);
+  void TakeRunAfter(std::uint32_t run);
 
   std::uint32_t run_;
   std::uint32_t incarnation_;
@@ -85,5 +92,8 @@ class Arrival {
 /// A sentence for people: another program has the name, or had it in the last of all runs; empty if
 /// it is free.
 std::string OtherText(const std::string& simulator, const Arrival& arrival);
+
+/// A sentence for people: an operator has ended this program's run; empty: none has.
+std::string EndText(const std::string& simulator, const Arrival& arrival);
 
 }  // namespace collision::client

@@ -14,8 +14,8 @@ void WaitingList::Take(const v1::ServiceStatus& status) {
     for (std::size_t begin = 0; begin < text.size();) {
       const std::size_t end = std::min(text.find(", ", begin), text.size());
       const std::string name = text.substr(begin, end - begin);
-      // What is no name tells how many do not fit: "+7 more".
-      if (wire::IsName(name)) names_.push_back(name);
+      // How many do not fit is no name: "+7 more". A shape is "shape 1a2b3c4d".
+      if (wire::IsName(name) || name.starts_with("shape ")) names_.push_back(name);
       begin = end + 2;
     }
   }

@@ -29,9 +29,14 @@ class Raised {
 void World::Implementation::BeginEpoch() {
   filter_ = {};
   clock_published_ = false;
-  for (const AgentId& id : agents_.ForgetSent()) {
+  Void(agents_.ForgetPromises(), v1::CAUSE_SKEW);
+  agents_.ForgetSent();
+}
+
+void World::Implementation::Void(const std::vector<AgentId>& agents, v1::ClearanceCause cause) {
+  for (const AgentId& id : agents) {
     Clearance none;
-    none.cause = v1::ClearanceCause_Name(v1::CAUSE_SKEW);
+    none.cause = v1::ClearanceCause_Name(cause);
     none.void_from_ns = kBeforeAll;
     if (on_lowered_ || on_void_) lowered_.emplace_back(id, none);
   }
@@ -187,10 +192,12 @@ void World::Implementation::Handle(const v1::CollisionEvent& event) {
 void World::Implementation::Handle(const v1::SimulatorReport& report, Arrival::Time now) {
   if (report.simulator_id() != simulator_id_) return;
   arrival_.Hear(report, now);
-  if (arrival_.run() == run_) return;
+  const bool goes_on = arrival_.run() == run_ && arrival_.ended() == v1::RUN_GOES_ON;
+  if (goes_on) return;
   run_ = arrival_.run();
   agents_.SetRun(run_);
   shapes_.SetRun(run_);
+  Void(agents_.ForgetPromises(), v1::CAUSE_NONE);
 }
 
 std::vector<Rejection> World::Implementation::standing_refusals() const {

@@ -290,7 +290,12 @@ void World::Implementation::RepeatClock() {
 }
 
 void World::Implementation::Tend() {
-  if (!clock_published_ || closed_) return;
+  if (closed_) return;
+  if (!clock_published_) {
+    // That it is there, and how far its clock is off.
+    if (!lock_step_ && agents_.size() > 0 && IsQuiet()) WriteClock(kBeforeAll);
+    return;
+  }
   const bool again = MustReintroduce();
   if (again) Reintroduce();
   // A clock that has been reached is told with what comes next; until then the last one stands.

@@ -78,6 +78,7 @@ class World::Implementation {
   std::uint64_t contacts_missed() const { return contacts_.missed(); }
   std::uint32_t run() const { return run_; }
   std::string waits_for_name() const { return OtherText(name_, arrival_); }
+  std::string ended_because() const { return EndText(name_, arrival_); }
   std::vector<Rejection> standing_refusals() const;
   const Traffic& traffic() const { return agents_.traffic(); }
 
@@ -120,6 +121,7 @@ class World::Implementation {
 
   /// Wall clock: the service's clock was set, and it has forgotten all states.
   void BeginEpoch();
+  void Void(const std::vector<AgentId>& agents, v1::ClearanceCause cause);
 
   /// Waits for an arrival, and repeats meanwhile what is due.
   void Listen(std::chrono::nanoseconds timeout);

@@ -54,7 +54,7 @@ class Pace {
   /// Publishes the states with stamps up to `clock_ns` and moves the clock there; delivers events
   /// and prints refusals meanwhile. False: the program was asked to stop. Throws std::runtime_error
   /// if the service grants no time for 120 s and names nobody whom it waits for; RefusedError if it
-  /// refused the agents, or if its clock is of the other kind.
+  /// refused the agents, if an operator ended the run, or if its clock is of the other kind.
   bool AdvanceTo(std::int64_t clock_ns);
 
   /// The loop of a simulator that steps `rate_hz` times a second. `step` computes the motion from

@@ -55,6 +55,36 @@ void Parted(const Setting& setting, Outcome* outcome) {
   ExpectContacts(4, outcome);
 }
 
+/// The service goes on without the one that is parted from it, and removes it as silent.
+void PartedOnTheWallClock(const Setting& setting, Outcome* outcome) {
+  constexpr std::int64_t kFrom = 3 * kSecond, kBack = 3 * kSecond;
+  const std::int64_t times_ns[] = {kSecond / 2, 7 * kSecond, 25 * kSecond};
+  constexpr Way kWays[] = {Way::kBoth, Way::kToService};
+  for (int i = 0; i < setting.Many(6, 60); ++i) {
+    const auto seed = static_cast<std::uint64_t>(i + 1);
+    const std::int64_t time_ns = times_ns[i % 3];
+    Fleet fleet = WallFleet(seed);
+    fleet.config.mutable_clock()->set_remove_silent_after_s(3);
+    fleet.agents = 3;  // Whoever is silent may be anywhere, and all others are held against it.
+    fleet.end_ns = kFrom + time_ns + kBack + 6 * kSecond;
+    const auto scene = MakeScene(fleet);
+    Fly(
+        fleet, scene.get(),
+        [&] { scene->When(kFrom, [&] { Part(scene.get(), kWays[i / 3 % 2], time_ns); }); },
+        outcome);
+    JudgeOptions options = WallJudge();
+    options.unserved.emplace_back(kFrom, kFrom + time_ns + kBack);
+    options.lowered = true;
+    Report(scene->Judged(options), seed, outcome);
+    ExpectAllHeard(scene->monitor(), seed, outcome);
+    outcome->Add("runs_of_it", static_cast<double>(scene->simulator(1).runs().size()));
+    outcome->Add("voided", static_cast<double>(scene->simulator(1).voided()));
+  }
+  outcome->Expect(outcome->Get("runs_of_it") > outcome->Get("runs"),
+                  "nobody was removed as silent");
+  ExpectContacts(1, outcome);
+}
+
 }  // namespace
 
 std::vector<Case> NetworkCases() {
@@ -68,7 +98,13 @@ std::vector<Case> NetworkCases() {
            "the same, and the service takes 1 to 4 messages in a step"},
           {"network", "parted", events, Parted,
            "the same, and a simulator and the service are parted, both ways or one way, for 0.5, 5 "
-           "or 30 s: leases are 2 s, of a participant 20 s"}};
+           "or 30 s: leases are 2 s, of a participant 20 s"},
+          {"network", "parted-wall-clock",
+           "no contact late or unheard but while they are parted and for 3 s, no promise covers "
+           "one; it comes back by itself",
+           PartedOnTheWallClock,
+           "the same on the wall clock, for 0.5, 7 or 25 s: the service removes who is silent for "
+           "3 s"}};
 }
 
 }  // namespace collision::faults

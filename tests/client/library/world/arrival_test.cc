@@ -98,6 +98,39 @@ TEST_F(ArrivalTest, AStreamThatIsReportedLateIsNotSentAgain) {
   EXPECT_TRUE(due);
 }
 
+TEST_F(ArrivalTest, ARunThatEndedInSilenceIsFollowedByTheNextOne) {
+  Write(5, 9, 5);
+  Report(5, 9, 5);
+  v1::SimulatorReport report;
+  report.set_run(kRun);
+  report.set_incarnation(kOwn);
+  report.set_ended(v1::RUN_SILENT);
+  arrival_.Hear(report, now_);
+  EXPECT_EQ(arrival_.run(), kRun + 1);
+  EXPECT_EQ(arrival_.ended(), v1::RUN_GOES_ON);
+  EXPECT_TRUE(DueAfter(milliseconds(0)));
+  EXPECT_TRUE(arrival_.with_shapes());
+  arrival_.Hear(report, now_);  // Once more, and late.
+  EXPECT_EQ(arrival_.run(), kRun + 1);
+  Report(5, 9, 5);
+  EXPECT_FALSE(DueAfter(seconds(100)));
+}
+
+TEST_F(ArrivalTest, ARunThatAnOperatorEndedStaysSo) {
+  for (const v1::RunEnd end : {v1::RUN_EVICTED, v1::RUN_RESTARTED}) {
+    Report(5, 9, 5);
+    EXPECT_EQ(EndText("alpha", arrival_), "");
+    v1::SimulatorReport report;
+    report.set_run(kRun);
+    report.set_incarnation(kOwn);
+    report.set_ended(end);
+    arrival_.Hear(report, now_);
+    EXPECT_EQ(arrival_.run(), kRun);
+    EXPECT_EQ(arrival_.ended(), end);
+    EXPECT_NE(EndText("alpha", arrival_), "");
+  }
+}
+
 TEST_F(ArrivalTest, AServiceThatMissesAShapeOrADescriptionGetsAll) {
   Write(5, 9, 5);
   v1::SimulatorReport report;

@@ -221,11 +221,11 @@ TEST_F(EventsTest, NoCallbackRunsAfterTheWorldHasEnded) {
   world->OnEvent([&](const Event&) {
     ++called;
     world.reset();
+    network_->written.clear();
     EXPECT_NO_THROW(ball.SetState({.position_error_m = -1}));
   });
   Arrive(OwnEvent(1, 1, 1));
   Arrive(OwnEvent(1, 2, 2));
-  network_->written.clear();
   EXPECT_EQ(world->AdvanceTo(5, hours(1)), Advance::kTimeout);
   EXPECT_EQ(called, 1);
   EXPECT_TRUE(network_->written.empty());

@@ -29,8 +29,8 @@ v1::ServiceStatus StatusOf(const std::string& waiting_for) {
 TEST(WaitingList, ReadsNamesAndNothingElse) {
   WaitingList list;
   EXPECT_FALSE(list.TakeChange());
-  list.Take(StatusOf("alpha, beta-2, +7 more"));
-  EXPECT_EQ(list.names(), (Names{"alpha", "beta-2"}));
+  list.Take(StatusOf("alpha, beta-2, shape 1a2b3c4d, +7 more"));
+  EXPECT_EQ(list.names(), (Names{"alpha", "beta-2", "shape 1a2b3c4d"}));
   EXPECT_TRUE(list.TakeChange());
   EXPECT_FALSE(list.TakeChange());
   for (const char* odd : {",", ", ", "+1 more", "a b", ", , "}) {

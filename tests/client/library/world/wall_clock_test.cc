@@ -3,7 +3,9 @@
 // Method: a network and a clock under the test's control.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include "tests/client/fake_transport.h"
 
@@ -191,6 +193,47 @@ TEST_F(WallClockTest, TheClockGoesOnWhenTheAgentThatJumpedIsRemoved) {
   now_ns_ += kSecond;
   world_.Publish(now_ns_);
   EXPECT_EQ(LastClock().clock_ns(), now_ns_);
+}
+
+TEST_F(WallClockTest, BeforeItsFirstClockItTellsThatItIsThere) {
+  world_.Poll();
+  ASSERT_EQ(network_->Clocks().size(), 1u);
+  EXPECT_EQ(LastClock().clock_ns(), std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(LastClock().agents(), 1u);
+  EXPECT_EQ(LastClock().sent_ns(), now_ns_);
+  world_.Poll();
+  EXPECT_EQ(network_->Clocks().size(), 1u) << "every half a second";
+  Tell();
+  EXPECT_EQ(LastClock().clock_ns(), now_ns_);
+}
+
+TEST_F(LockStepTest, InLockStepItAsksNothingBeforeItsFirstClock) {
+  world_.Poll();
+  EXPECT_TRUE(network_->Clocks().empty());
+}
+
+TEST_F(WallClockTest, WhenItsRunEndedInSilenceNoPromiseStandsAndEverythingIsSentInTheNext) {
+  std::vector<AgentId> voided;
+  world_.OnVoid([&](const AgentId& id, const Clearance& clearance) {
+    EXPECT_EQ(clearance.void_from_ns, std::numeric_limits<std::int64_t>::min());
+    voided.push_back(id);
+  });
+  Tell();
+  Hear(now_ns_);
+  Acknowledge(1);
+  v1::SimulatorReport& report = *network_->arriving.emplace_back().mutable_simulator_report();
+  report.set_simulator_id(SimulatorId(kSimulator));
+  report.set_run(kRun);
+  report.set_incarnation(LastClock().incarnation());
+  report.set_ended(v1::RUN_SILENT);
+  Stamp(1, report.mutable_stamp());
+  network_->alive = true;
+  const std::size_t states = StatesSent();
+  world_.Poll();
+  EXPECT_EQ(voided, std::vector<AgentId>{agent_.id()});
+  EXPECT_EQ(agent_.id().run, kRun + 1);
+  EXPECT_EQ(LastClock().run(), kRun + 1);
+  EXPECT_GT(StatesSent(), states);
 }
 
 TEST_F(LockStepTest, InLockStepTimeThatGoesBackIsStillAnError) {
