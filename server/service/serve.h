@@ -16,6 +16,10 @@
 
 namespace collision::server {
 
+/// The end of the line about a journal that ends the service.
+inline constexpr char kGoOnInstead[] =
+    "; or go on without what it cannot keep: on_state_failure: GO_ON";
+
 /// What a service may have beside its bus; all may be null.
 struct ServiceParts {
   RecordingWriter* recorder = nullptr;
