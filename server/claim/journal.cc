@@ -171,7 +171,10 @@ void Journal::Read() {
     AddDamage(file_bytes,
               fmt::format("the file ends here, {} records too early", 1 + rows_ - found));
   }
-  rows_ = std::max<std::size_t>(found, 1) - 1;
+  const std::size_t rows_found = std::max<std::size_t>(found, 1) - 1;
+  rows_ = std::min(rows_, rows_found);
+  CountBeyond();
+  rows_ = std::max(rows_, std::min(rows_found, simulators_max_));
   std::vector<bool> taken(1 + simulators_max_);
   for (const auto& [id, record] : record_of_) taken[record] = true;
   for (std::size_t record = simulators_max_; record > 0; --record) {
@@ -197,6 +200,22 @@ void Journal::ReadRecord(std::size_t record, const std::string& bytes) {
   if (row.name_length == 0 || row.name_length > wire::kNameMax) return;
   simulators_[row.id] = SimulatorOf(row);
   record_of_[row.id] = record;
+}
+
+void Journal::CountBeyond() {
+  std::size_t simulators = 0;
+  for (std::size_t record = 1 + simulators_max_; record <= rows_; ++record) {
+    std::string bytes(kRecordBytes, '\0');
+    const auto place = static_cast<off_t>(record * kRecordBytes);
+    if (pread(file_, bytes.data(), bytes.size(), place) != static_cast<ssize_t>(bytes.size()))
+      break;
+    if (Fits(record, bytes) && FromPayload<Row>(bytes).name_length == 0) continue;
+    spoilt_.push_back(record);
+    ++simulators;
+  }
+  if (simulators == 0) return;
+  AddDamage((1 + simulators_max_) * kRecordBytes,
+            fmt::format("simulators beyond simulators_max, which was larger: {}", simulators));
 }
 
 void Journal::AddDamage(std::size_t byte, const std::string& what) {

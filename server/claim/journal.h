@@ -26,9 +26,10 @@ class JournalInUse : public std::runtime_error {
 /// machine that loses its power may lose what its page cache holds: the last seconds, or one record
 /// that does not fit its checksum. It is of the machine that wrote it (little-endian).
 ///
-/// **Damage.** What does not fit its checksum, and what is missing at the end, is left out and told
-/// by damage(); nothing else is lost. A journal is given its name only once its head is on the
-/// medium, so an empty file is a damaged one. The next SetTerm() frees the damaged records.
+/// **Damage.** What does not fit its checksum, what is missing at the end, and simulators beyond
+/// `simulators_max` are left out and told by damage(); nothing else is lost. A journal is given its
+/// name only once its head is on the medium, so an empty file is a damaged one. The next SetTerm()
+/// frees the records that were left out.
 ///
 /// **Failure.** A write that fails (a full disk, a medium gone read-only) is told by error(), and
 /// nothing more is written. One thread.
@@ -69,6 +70,7 @@ class Journal {
   void Begin();
   void Read();
   void ReadRecord(std::size_t record, const std::string& bytes);
+  void CountBeyond();
   void AddDamage(std::size_t byte, const std::string& what);
   bool Write(std::size_t record, const std::string& payload);
   bool WriteHead();

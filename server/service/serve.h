@@ -18,7 +18,7 @@ namespace collision::server {
 
 /// The end of the line about a journal that ends the service.
 inline constexpr char kGoOnInstead[] =
-    "; or go on without what it cannot keep: on_state_failure: GO_ON";
+    " (on_state_failure is END; GO_ON serves without what is lost)";
 
 /// What a service may have beside its bus; all may be null.
 struct ServiceParts {

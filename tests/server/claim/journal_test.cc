@@ -247,6 +247,27 @@ TEST_F(JournalTest, DamageIsOverOnceItsServiceServes) {
   EXPECT_TRUE(journal.simulators().contains(7));
 }
 
+// Goal:   with a smaller simulators_max none is lost in silence, nor comes back years later.
+TEST_F(JournalTest, SimulatorsBeyondASmallerMaximumAreToldOnce) {
+  {
+    Journal journal = Open();
+    journal.SetTerm(3, 4);
+    for (std::uint64_t id = 0; id < 3; ++id) journal.Put(Simulator(id, 10));
+    journal.Remove(2);
+  }
+  EXPECT_TRUE(Journal(folder_, "lab", 7, 2).damage().empty()) << "the third record is free";
+  {
+    Journal smaller(folder_, "lab", 7, 1);
+    EXPECT_EQ(smaller.simulators().size(), 1u);
+    ASSERT_EQ(smaller.damage().size(), 1u);
+    EXPECT_EQ(smaller.damage()[0],
+              path() + ": byte 256: simulators beyond simulators_max, which was larger: 1");
+    smaller.SetTerm(4, 5);
+  }
+  EXPECT_TRUE(Open().damage().empty());
+  EXPECT_EQ(Open().simulators().size(), 1u);
+}
+
 // Goal:   a journal whose first write fails leaves no empty file, which would count as damaged, and
 //         what a process left that was killed while it began one harms no later one.
 TEST_F(JournalTest, AnEmptyFileIsNeverLeftByABeginning) {
